@@ -1,0 +1,44 @@
+# Needs make, a C compiler and Python 3.11 or later; everything else goes into .venv.
+
+PYTHON ?= python3
+BIN := .venv/bin
+READY := .venv/.ready
+PART ?= imt30
+OUT ?= out
+
+.PHONY: help demo test lint generate fmus bench
+
+help:
+	@echo "make demo      the whole loop on a built-in recording; report under $(OUT)/demo"
+	@echo "make test      all tests"
+	@echo "make lint      style"
+	@echo "make generate  docs/effects.md and fmu_src/generated from the definitions"
+	@echo "make fmus      the FMUs of PART ($(PART)) under $(OUT)/fmus"
+	@echo "make bench     speed against named peers"
+
+# The stamp is older than pyproject.toml exactly when what must be installed may have changed.
+$(READY): pyproject.toml
+	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or later is needed: make PYTHON=python3.12")'
+	test -x $(BIN)/python || $(PYTHON) -m venv .venv
+	$(BIN)/python -m pip install --quiet --editable '.[test]'
+	touch $@
+
+demo: $(READY)
+	$(BIN)/pyimu demo
+
+test: $(READY)
+	$(BIN)/python -m pytest
+
+lint: $(READY)
+	$(BIN)/python -m ruff --version 2>/dev/null || $(BIN)/python -m pip install --quiet ruff
+	$(BIN)/python -m ruff check pyimu tests
+
+generate: $(READY)
+	$(BIN)/python -c 'from pathlib import Path; from pyimu.catalogue import documentation; Path("docs/effects.md").write_text(documentation(), encoding="utf-8", newline="\n")'
+	$(BIN)/python -m pyimu.fmu.generate
+
+fmus: $(READY)
+	$(BIN)/pyimu build $(PART) --out $(OUT)/fmus
+
+bench: $(READY)
+	for b in benchmarks/*.py; do $(BIN)/python "$$b" || exit 1; done

@@ -1,0 +1,411 @@
+/* FMI 3.0 co-simulation over a block: signatures and types, nothing else. */
+#include <fmi3Functions.h>
+
+#include <stdlib.h>
+
+#include "block.h"
+
+typedef struct {
+    Block *block;
+    fmi3LogMessageCallback log;
+    fmi3InstanceEnvironment environment;
+} Instance;
+
+static Block *block_of(fmi3Instance instance) {
+    return instance ? ((Instance *) instance)->block : NULL;
+}
+
+static fmi3Status status(bool done) {
+    return done ? fmi3OK : fmi3Error;
+}
+
+static void write_log(void *owner, bool is_error, const char *category, const char *message) {
+    const Instance *instance = owner;
+    instance->log(instance->environment, is_error ? fmi3Error : fmi3OK, category, message);
+}
+
+const char *fmi3GetVersion(void) {
+    return fmi3Version;
+}
+
+/* ---- life --------------------------------------------------------------------------------------------------------- */
+
+fmi3Instance fmi3InstantiateCoSimulation(fmi3String instanceName, fmi3String instantiationToken, fmi3String resourcePath,
+                                         fmi3Boolean visible, fmi3Boolean loggingOn, fmi3Boolean eventModeUsed,
+                                         fmi3Boolean earlyReturnAllowed, const fmi3ValueReference requiredIntermediateVariables[],
+                                         size_t nRequiredIntermediateVariables, fmi3InstanceEnvironment instanceEnvironment,
+                                         fmi3LogMessageCallback logMessage, fmi3IntermediateUpdateCallback intermediateUpdate) {
+    (void) instanceName, (void) resourcePath, (void) visible, (void) earlyReturnAllowed;
+    (void) requiredIntermediateVariables, (void) nRequiredIntermediateVariables, (void) intermediateUpdate;
+    Instance *instance = calloc(1, sizeof *instance);
+    if (!instance) {
+        return NULL;
+    }
+    instance->log = logMessage;
+    instance->environment = instanceEnvironment;
+    BlockLog log = {logMessage ? write_log : NULL, instance};
+    instance->block = block_create(instantiationToken, log, loggingOn);
+    if (!instance->block || (eventModeUsed && !block_refuse(instance->block, "Event Mode is not offered"))) {
+        fmi3FreeInstance(instance);
+        return NULL;
+    }
+    return instance;
+}
+
+void fmi3FreeInstance(fmi3Instance instance) {
+    block_free(block_of(instance));
+    free(instance);
+}
+
+fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean loggingOn, size_t nCategories, const fmi3String categories[]) {
+    return status(block_log_events(block_of(instance), loggingOn, nCategories, categories));
+}
+
+fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean toleranceDefined, fmi3Float64 tolerance,
+                                       fmi3Float64 startTime, fmi3Boolean stopTimeDefined, fmi3Float64 stopTime) {
+    (void) toleranceDefined, (void) tolerance, (void) stopTimeDefined, (void) stopTime;
+    return status(block_set_start_time(block_of(instance), startTime) && block_enter_initialization(block_of(instance)));
+}
+
+fmi3Status fmi3ExitInitializationMode(fmi3Instance instance) {
+    return status(block_exit_initialization(block_of(instance)));
+}
+
+fmi3Status fmi3Terminate(fmi3Instance instance) {
+    return status(block_terminate(block_of(instance)));
+}
+
+fmi3Status fmi3Reset(fmi3Instance instance) {
+    return status(block_reset(block_of(instance)));
+}
+
+fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoint, fmi3Float64 communicationStepSize,
+                      fmi3Boolean noSetFMUStatePriorToCurrentPoint, fmi3Boolean *eventHandlingNeeded,
+                      fmi3Boolean *terminateSimulation, fmi3Boolean *earlyReturn, fmi3Float64 *lastSuccessfulTime) {
+    (void) noSetFMUStatePriorToCurrentPoint;
+    bool done = block_do_step(block_of(instance), currentCommunicationPoint, communicationStepSize);
+    *eventHandlingNeeded = fmi3False;
+    *terminateSimulation = fmi3False;
+    *earlyReturn = fmi3False;
+    *lastSuccessfulTime = instance ? block_time(block_of(instance)) : currentCommunicationPoint;
+    return status(done);
+}
+
+/* ---- values: every variable is a scalar, so there are as many values as references ----------------------------------- */
+
+static bool counts_agree(fmi3Instance instance, size_t nValueReferences, size_t nValues) {
+    return nValueReferences == nValues
+           || block_refuse(block_of(instance), "%zu variables do not have %zu values", nValueReferences, nValues);
+}
+
+fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
+                          fmi3Float64 values[], size_t nValues) {
+    bool done = counts_agree(instance, nValueReferences, nValues);
+    for (size_t i = 0; i < nValues && done; i++) {
+        done = block_get(block_of(instance), valueReferences[i], KIND_REAL, &values[i]);
+    }
+    return status(done);
+}
+
+fmi3Status fmi3GetInt32(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
+                        fmi3Int32 values[], size_t nValues) {
+    bool done = counts_agree(instance, nValueReferences, nValues);
+    for (size_t i = 0; i < nValues && done; i++) {
+        double number = 0.0;
+        done = block_get(block_of(instance), valueReferences[i], KIND_INTEGER, &number);
+        values[i] = block_integer(number);
+    }
+    return status(done);
+}
+
+fmi3Status fmi3GetBoolean(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
+                          fmi3Boolean values[], size_t nValues) {
+    bool done = counts_agree(instance, nValueReferences, nValues);
+    for (size_t i = 0; i < nValues && done; i++) {
+        double number = 0.0;
+        done = block_get(block_of(instance), valueReferences[i], KIND_BOOLEAN, &number);
+        values[i] = number != 0.0;
+    }
+    return status(done);
+}
+
+fmi3Status fmi3GetUInt64(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
+                         fmi3UInt64 values[], size_t nValues) {
+    bool done = counts_agree(instance, nValueReferences, nValues);
+    for (size_t i = 0; i < nValues && done; i++) {
+        done = block_get_seed(block_of(instance), valueReferences[i], &values[i]);
+    }
+    return status(done);
+}
+
+fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
+                          const fmi3Float64 values[], size_t nValues) {
+    bool done = counts_agree(instance, nValueReferences, nValues);
+    for (size_t i = 0; i < nValues && done; i++) {
+        done = block_set(block_of(instance), valueReferences[i], KIND_REAL, values[i]);
+    }
+    return status(done);
+}
+
+fmi3Status fmi3SetInt32(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
+                        const fmi3Int32 values[], size_t nValues) {
+    bool done = counts_agree(instance, nValueReferences, nValues);
+    for (size_t i = 0; i < nValues && done; i++) {
+        done = block_set(block_of(instance), valueReferences[i], KIND_INTEGER, values[i]);
+    }
+    return status(done);
+}
+
+fmi3Status fmi3SetBoolean(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
+                          const fmi3Boolean values[], size_t nValues) {
+    bool done = counts_agree(instance, nValueReferences, nValues);
+    for (size_t i = 0; i < nValues && done; i++) {
+        done = block_set(block_of(instance), valueReferences[i], KIND_BOOLEAN, values[i]);
+    }
+    return status(done);
+}
+
+fmi3Status fmi3SetUInt64(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
+                         const fmi3UInt64 values[], size_t nValues) {
+    bool done = counts_agree(instance, nValueReferences, nValues);
+    for (size_t i = 0; i < nValues && done; i++) {
+        done = block_set_seed(block_of(instance), valueReferences[i], values[i]);
+    }
+    return status(done);
+}
+
+/* ---- states ------------------------------------------------------------------------------------------------------- */
+
+fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState *FMUState) {
+    return status(block_save(block_of(instance), FMUState));
+}
+
+fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState FMUState) {
+    return status(block_restore(block_of(instance), FMUState));
+}
+
+fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState *FMUState) {
+    (void) instance;
+    block_release(FMUState);
+    return fmi3OK;
+}
+
+fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState FMUState, size_t *size) {
+    (void) instance, (void) FMUState;
+    *size = block_serialized_size();
+    return fmi3OK;
+}
+
+fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState FMUState, fmi3Byte serializedState[], size_t size) {
+    return status(block_serialize(block_of(instance), FMUState, serializedState, size));
+}
+
+fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte serializedState[], size_t size, fmi3FMUState *FMUState) {
+    return status(block_deserialize(block_of(instance), serializedState, size, FMUState));
+}
+
+/* ---- what a block does not offer; its model description says so ----------------------------------------------------- */
+
+#ifdef __GNUC__
+#pragma GCC diagnostic ignored "-Wunused-parameter"
+#endif
+
+static fmi3Status refuse(fmi3Instance instance, const char *function) {
+    return status(block_refuse(block_of(instance), "%s is not offered", function));
+}
+
+/* A type that no variable has: asking for none of them is fine. */
+#define NO_SUCH_VARIABLES(instance, references, n) \
+    return status((n) == 0 || block_refuse_variable(block_of(instance), (references)[0], "is of another type"))
+
+#define TYPE_WITHOUT_VARIABLES(Type) \
+    fmi3Status fmi3Get##Type(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences, \
+                             fmi3##Type values[], size_t nValues) { \
+        NO_SUCH_VARIABLES(instance, valueReferences, nValueReferences); \
+    } \
+    fmi3Status fmi3Set##Type(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences, \
+                             const fmi3##Type values[], size_t nValues) { \
+        NO_SUCH_VARIABLES(instance, valueReferences, nValueReferences); \
+    }
+
+TYPE_WITHOUT_VARIABLES(Float32)
+TYPE_WITHOUT_VARIABLES(Int8)
+TYPE_WITHOUT_VARIABLES(UInt8)
+TYPE_WITHOUT_VARIABLES(Int16)
+TYPE_WITHOUT_VARIABLES(UInt16)
+TYPE_WITHOUT_VARIABLES(UInt32)
+TYPE_WITHOUT_VARIABLES(Int64)
+TYPE_WITHOUT_VARIABLES(String)
+
+fmi3Status fmi3GetBinary(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
+                         size_t valueSizes[], fmi3Binary values[], size_t nValues) {
+    NO_SUCH_VARIABLES(instance, valueReferences, nValueReferences);
+}
+
+fmi3Status fmi3SetBinary(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
+                         const size_t valueSizes[], const fmi3Binary values[], size_t nValues) {
+    NO_SUCH_VARIABLES(instance, valueReferences, nValueReferences);
+}
+
+fmi3Status fmi3GetClock(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
+                        fmi3Clock values[]) {
+    NO_SUCH_VARIABLES(instance, valueReferences, nValueReferences);
+}
+
+fmi3Status fmi3SetClock(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
+                        const fmi3Clock values[]) {
+    NO_SUCH_VARIABLES(instance, valueReferences, nValueReferences);
+}
+
+fmi3Instance fmi3InstantiateModelExchange(fmi3String instanceName, fmi3String instantiationToken, fmi3String resourcePath,
+                                          fmi3Boolean visible, fmi3Boolean loggingOn, fmi3InstanceEnvironment instanceEnvironment,
+                                          fmi3LogMessageCallback logMessage) {
+    return NULL;
+}
+
+fmi3Instance fmi3InstantiateScheduledExecution(fmi3String instanceName, fmi3String instantiationToken, fmi3String resourcePath,
+                                               fmi3Boolean visible, fmi3Boolean loggingOn,
+                                               fmi3InstanceEnvironment instanceEnvironment, fmi3LogMessageCallback logMessage,
+                                               fmi3ClockUpdateCallback clockUpdate, fmi3LockPreemptionCallback lockPreemption,
+                                               fmi3UnlockPreemptionCallback unlockPreemption) {
+    return NULL;
+}
+
+fmi3Status fmi3EnterEventMode(fmi3Instance instance) {
+    return refuse(instance, __func__);
+}
+
+fmi3Status fmi3EnterStepMode(fmi3Instance instance) {
+    return refuse(instance, __func__);
+}
+
+fmi3Status fmi3EnterConfigurationMode(fmi3Instance instance) {
+    return refuse(instance, __func__);
+}
+
+fmi3Status fmi3ExitConfigurationMode(fmi3Instance instance) {
+    return refuse(instance, __func__);
+}
+
+fmi3Status fmi3GetNumberOfVariableDependencies(fmi3Instance instance, fmi3ValueReference valueReference, size_t *nDependencies) {
+    return refuse(instance, __func__);
+}
+
+fmi3Status fmi3GetVariableDependencies(fmi3Instance instance, fmi3ValueReference dependent, size_t elementIndicesOfDependent[],
+                                       fmi3ValueReference independents[], size_t elementIndicesOfIndependents[],
+                                       fmi3DependencyKind dependencyKinds[], size_t nDependencies) {
+    return refuse(instance, __func__);
+}
+
+fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const fmi3ValueReference unknowns[], size_t nUnknowns,
+                                        const fmi3ValueReference knowns[], size_t nKnowns, const fmi3Float64 seed[], size_t nSeed,
+                                        fmi3Float64 sensitivity[], size_t nSensitivity) {
+    return refuse(instance, __func__);
+}
+
+fmi3Status fmi3GetAdjointDerivative(fmi3Instance instance, const fmi3ValueReference unknowns[], size_t nUnknowns,
+                                    const fmi3ValueReference knowns[], size_t nKnowns, const fmi3Float64 seed[], size_t nSeed,
+                                    fmi3Float64 sensitivity[], size_t nSensitivity) {
+    return refuse(instance, __func__);
+}
+
+fmi3Status fmi3GetOutputDerivatives(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
+                                    const fmi3Int32 orders[], fmi3Float64 values[], size_t nValues) {
+    return refuse(instance, __func__);
+}
+
+fmi3Status fmi3GetIntervalDecimal(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
+                                  fmi3Float64 intervals[], fmi3IntervalQualifier qualifiers[]) {
+    return refuse(instance, __func__);
+}
+
+fmi3Status fmi3GetIntervalFraction(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
+                                   fmi3UInt64 counters[], fmi3UInt64 resolutions[], fmi3IntervalQualifier qualifiers[]) {
+    return refuse(instance, __func__);
+}
+
+fmi3Status fmi3GetShiftDecimal(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
+                               fmi3Float64 shifts[]) {
+    return refuse(instance, __func__);
+}
+
+fmi3Status fmi3GetShiftFraction(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
+                                fmi3UInt64 counters[], fmi3UInt64 resolutions[]) {
+    return refuse(instance, __func__);
+}
+
+fmi3Status fmi3SetIntervalDecimal(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
+                                  const fmi3Float64 intervals[]) {
+    return refuse(instance, __func__);
+}
+
+fmi3Status fmi3SetIntervalFraction(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
+                                   const fmi3UInt64 counters[], const fmi3UInt64 resolutions[]) {
+    return refuse(instance, __func__);
+}
+
+fmi3Status fmi3SetShiftDecimal(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
+                               const fmi3Float64 shifts[]) {
+    return refuse(instance, __func__);
+}
+
+fmi3Status fmi3SetShiftFraction(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
+                                const fmi3UInt64 counters[], const fmi3UInt64 resolutions[]) {
+    return refuse(instance, __func__);
+}
+
+fmi3Status fmi3EvaluateDiscreteStates(fmi3Instance instance) {
+    return refuse(instance, __func__);
+}
+
+fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *discreteStatesNeedUpdate,
+                                    fmi3Boolean *terminateSimulation, fmi3Boolean *nominalsOfContinuousStatesChanged,
+                                    fmi3Boolean *valuesOfContinuousStatesChanged, fmi3Boolean *nextEventTimeDefined,
+                                    fmi3Float64 *nextEventTime) {
+    return refuse(instance, __func__);
+}
+
+fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance instance) {
+    return refuse(instance, __func__);
+}
+
+fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance, fmi3Boolean noSetFMUStatePriorToCurrentPoint,
+                                       fmi3Boolean *enterEventMode, fmi3Boolean *terminateSimulation) {
+    return refuse(instance, __func__);
+}
+
+fmi3Status fmi3SetTime(fmi3Instance instance, fmi3Float64 time) {
+    return refuse(instance, __func__);
+}
+
+fmi3Status fmi3SetContinuousStates(fmi3Instance instance, const fmi3Float64 continuousStates[], size_t nContinuousStates) {
+    return refuse(instance, __func__);
+}
+
+fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance instance, fmi3Float64 derivatives[], size_t nContinuousStates) {
+    return refuse(instance, __func__);
+}
+
+fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64 eventIndicators[], size_t nEventIndicators) {
+    return refuse(instance, __func__);
+}
+
+fmi3Status fmi3GetContinuousStates(fmi3Instance instance, fmi3Float64 continuousStates[], size_t nContinuousStates) {
+    return refuse(instance, __func__);
+}
+
+fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance instance, fmi3Float64 nominals[], size_t nContinuousStates) {
+    return refuse(instance, __func__);
+}
+
+fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance instance, size_t *nEventIndicators) {
+    return refuse(instance, __func__);
+}
+
+fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance instance, size_t *nContinuousStates) {
+    return refuse(instance, __func__);
+}
+
+fmi3Status fmi3ActivateModelPartition(fmi3Instance instance, fmi3ValueReference clockReference, fmi3Float64 activationTime) {
+    return refuse(instance, __func__);
+}

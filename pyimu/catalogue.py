@@ -1,0 +1,51 @@
+"""The catalogue of effects as a page of documentation, written from the definitions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import pyimu.effects  # noqa: F401  (fills the catalogue)
+from pyimu.effect import CATALOGUE, STAGES, Effect, Parameter
+
+HEAD = """# The catalogue of effects
+
+Written by `make generate` from the definitions in `pyimu/effects`; do not edit.
+
+Each effect maps an input x to an output y; the effects of a sensor act one after another, by stage: {stages}.
+Every effect is the identity at its start values. w are independent standard normals, one a sample, h is the sample
+period in seconds, f specific force, T temperature. In a unit, `{{y}}` stands for the unit of the sensor's output (rad/s
+or m/s^2) and `{{Y}}` for that of its integral (rad or m/s). The numbers in brackets give the shape; a parameter without
+one is a single number.
+
+"""
+
+COLUMNS = ("name", "term", "stage", "sensors", "equation", "parameters", "invertible", "source")
+
+
+def documentation() -> str:
+    """The page ``docs/effects.md``: a table with one row per effect, in the order in which they act."""
+    effects = sorted(CATALOGUE.values(), key=lambda e: (STAGES.index(e.stage), e.order))
+    lines = [_row(COLUMNS), _row("---" for _ in COLUMNS), *(_row(_cells(e)) for e in effects)]
+    return HEAD.format(stages=", ".join(STAGES)) + "\n".join(lines) + "\n"
+
+
+def _cells(e: Effect) -> tuple[str, ...]:
+    parameters = "; ".join(_parameter(name, q) for name, q in e.parameters.items())
+    return (f"`{e.name}`", e.term, e.stage, ", ".join(e.sensors), f"${e.equation}$", parameters, _invertible(e), e.source)
+
+
+def _parameter(name: str, q: Parameter) -> str:
+    shape = f" ({' x '.join(map(str, q.shape))})" if q.shape else ""
+    start = f", start {q.start:.6g}" if q.start else ""
+    return f"`{name}`{shape} [`{q.unit}`]: {q.description}{start}"
+
+
+def _invertible(e: Effect) -> str:
+    if e.invertible:
+        return "yes"
+    return "no, marks what it lost" if e.lost else "no"
+
+
+def _row(cells: Iterable[str]) -> str:
+    # A bar inside a cell would end it.
+    return "| " + " | ".join(c.replace("|", r"\vert{}") if c.startswith("$") else c.replace("|", r"\|") for c in cells) + " |"

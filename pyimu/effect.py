@@ -1,0 +1,497 @@
+"""One sensor error effect is one symbolic function; this module derives everything else from it.
+
+An effect is written as a function of the sensor's input ``x`` (3,), whose annotated arguments say what else it
+needs::
+
+    @effect(stage="bias", equation=r"y = x + G f", source="IEEE Std 528-2019, g-sensitive drift")
+    def g_sensitivity(x, G: Parameter("{y}/(m/s^2)", (3, 3)), f: Environment("specific_force")):
+        return x + G @ f
+
+``Sensor`` is a chain of such effects, sorted by stage.  Its step is the pure function
+``(s, u, p, w, h) -> (s_next, y)`` of state, input, parameters, standard normals and sample period.
+In a unit, ``{y}`` stands for the unit of the sensor's output and ``{Y}`` for that of its integral, so that gyro
+and accelerometer triads share one definition.
+"""
+
+from __future__ import annotations
+
+import inspect
+import zlib
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property, lru_cache
+from types import MappingProxyType
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from pyimu.block import NoiseChannel, Variable
+
+STAGES = ("dynamics", "gain", "bias", "noise", "output")
+"""The order in which effects act on a sample: input dynamics, gain, bias, noise, output."""
+
+INPUT = "input"
+"""Start of a state that begins as if the first input had always been there."""
+
+NEWTON_STEPS = 6
+"""Iterations of the symbolic inverse; an error of 0.1 squares to below 1e-16 in five."""
+
+
+@dataclass(frozen=True)
+class SensorKind:
+    """A triad: which signal it measures, in which unit, and the unit of that signal's integral."""
+
+    name: str
+    own: str
+    unit: str
+    integral: str
+
+
+KINDS = {"gyro": SensorKind("gyro", "rate", "rad/s", "rad"),
+         "accel": SensorKind("accel", "specific_force", "m/s^2", "m/s")}
+
+SIGNALS: Mapping[str, tuple[str, int]] = MappingProxyType(
+    {"rate": ("rad/s", 3), "specific_force": ("m/s^2", 3), "temperature": ("degC", 1)})
+"""The inputs of every sensor, in the order in which they stand in its input vector ``u``: unit and size."""
+
+N_INPUT = sum(size for _, size in SIGNALS.values())
+
+OWN = {"gyro": slice(0, 3), "accel": slice(3, 6)}
+"""Where a sensor's own signal stands in the input vector."""
+
+
+@dataclass(frozen=True)
+class Scan:
+    """Where to look for a coefficient that no slope at the identity finds: ``points`` values, evenly in logarithm.
+
+    ``low`` and ``high`` count sample periods ("period"), radians a sample ("rate") or shares of the largest input ("range").
+    """
+
+    measure: str
+    low: float
+    high: float
+    points: int = 8
+
+    def values(self, period: float, largest: float) -> np.ndarray:
+        """The grid for a log of this sample period [s] and largest input."""
+        unit = {"period": period, "rate": 1.0 / period, "range": largest}[self.measure]
+        return unit * np.geomspace(self.low, self.high, self.points)
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A coefficient.  ``start`` is where the effect is the identity; matrices may leave out their diagonal.
+
+    ``reference`` marks a coefficient that only fixes an origin (a reference temperature): it is never estimated.
+    ``scan`` says where identification starts its search where the identity has no slope to follow.
+    """
+
+    unit: str
+    shape: tuple[int, ...] = (3,)
+    start: float = 0.0
+    description: str = ""
+    diagonal: bool = True
+    reference: bool = False
+    minimum: float | None = None
+    maximum: float | None = None
+    scan: Scan | None = None
+
+    @cached_property
+    def indices(self) -> tuple[tuple[int, ...], ...]:
+        """Index of every free element, row by row."""
+        return tuple(i for i in np.ndindex(*self.shape) if self.diagonal or i[0] != i[1])
+
+
+@dataclass(frozen=True)
+class State:
+    """Memory of an effect; ``start`` is a number, or ``INPUT`` for the steady state at the first input."""
+
+    unit: str
+    shape: tuple[int, ...] = (3,)
+    start: float | str = 0.0
+
+
+@dataclass(frozen=True)
+class Noise:
+    """Independent standard normals, one draw a sample."""
+
+    size: int = 3
+
+
+@dataclass(frozen=True)
+class Environment:
+    """Another input of the sensor, by its name in ``SIGNALS``."""
+
+    signal: str
+
+
+@dataclass(frozen=True)
+class SamplePeriod:
+    """The sample period in seconds."""
+
+
+@dataclass(frozen=True)
+class Effect:
+    """One error effect and what its definition says about it.
+
+    ``smooth`` is False where the output has steps or corners in ``x`` that no regressor describes; ``invertible`` is
+    False where the input cannot be had back from the output, and ``lost(y, **parameters)`` then marks the samples.
+    """
+
+    name: str
+    stage: str
+    equation: str
+    source: str
+    term: str
+    sensors: tuple[str, ...]
+    function: Callable[..., Any]
+    smooth: bool
+    invertible: bool
+    lost: Callable[..., Any] | None
+    order: int
+    parameters: Mapping[str, Parameter] = field(repr=False)
+    states: Mapping[str, State] = field(repr=False)
+    noises: Mapping[str, Noise] = field(repr=False)
+    environment: Mapping[str, str] = field(repr=False)
+    period: str | None = None
+
+    @property
+    def stochastic(self) -> bool:
+        return bool(self.noises)
+
+    @property
+    def stateful(self) -> bool:
+        return bool(self.states)
+
+    def start(self) -> dict[str, np.ndarray]:
+        """Start values of all parameters: the identity."""
+        return {n: np.full(p.shape, p.start) for n, p in self.parameters.items()}
+
+    def __call__(self, x: ca.SX, p: Mapping, s: Mapping, w: Mapping, u: Mapping, h: ca.SX) -> tuple[ca.SX, dict]:
+        """Output (3,) and following states for input ``x`` (3,); the mappings hold casadi matrices by argument name."""
+        arguments = {**p, **s, **w, **{name: u[signal] for name, signal in self.environment.items()}}
+        if self.period:
+            arguments[self.period] = h
+        result = self.function(x, **arguments)
+        return result if isinstance(result, tuple) else (result, {})
+
+
+CATALOGUE: dict[str, Effect] = {}
+"""Every effect by name, in the order of definition; filled by importing ``pyimu.effects``."""
+
+
+def effect(*, stage: str, equation: str, source: str, term: str, sensors: tuple[str, ...] = ("gyro", "accel"),
+           smooth: bool = True, invertible: bool = True, lost: Callable | None = None) -> Callable[[Callable], Effect]:
+    """Make an ``Effect`` of a function and list it in the catalogue.
+
+    ``term`` is the field's name of it, ``source`` the document that the equation is from (or "no source").
+    Raises ValueError where the name exists already, the stage is unknown or an argument has no annotation.
+    """
+    def define(function: Callable) -> Effect:
+        name = function.__name__
+        if name in CATALOGUE:
+            raise ValueError(f"effect {name} is defined twice")
+        if stage not in STAGES:
+            raise ValueError(f"effect {name}: unknown stage {stage!r}, not one of {', '.join(STAGES)}")
+        made = Effect(name, stage, equation, source, term, sensors, function, smooth, invertible, lost,
+                      len(CATALOGUE), **_arguments(name, function))
+        CATALOGUE[name] = made
+        return made
+    return define
+
+
+def _arguments(name: str, function: Callable) -> dict[str, Any]:
+    """Sort the annotated arguments of an effect's function by what they are."""
+    groups: dict[type, dict] = {Parameter: {}, State: {}, Noise: {}, Environment: {}, SamplePeriod: {}}
+    for argument in list(inspect.signature(function).parameters.values())[1:]:
+        if type(argument.annotation) not in groups:
+            raise ValueError(f"effect {name}: argument {argument.name} needs a Parameter, State, Noise, Environment or SamplePeriod")
+        groups[type(argument.annotation)][argument.name] = argument.annotation
+    return {"parameters": MappingProxyType(groups[Parameter]), "states": MappingProxyType(groups[State]),
+            "noises": MappingProxyType(groups[Noise]),
+            "environment": MappingProxyType({n: e.signal for n, e in groups[Environment].items()}),
+            "period": next(iter(groups[SamplePeriod]), None)}
+
+
+@dataclass(frozen=True)
+class Slot:
+    """Where one coefficient stands: effect, parameter, index in its array, position in the vector ``p``."""
+
+    effect: str
+    parameter: str
+    index: tuple[int, ...]
+    unit: str
+    definition: Parameter
+
+    @property
+    def suffix(self) -> str:
+        return f"[{','.join(str(i + 1) for i in self.index)}]" if self.index else ""
+
+    @property
+    def name(self) -> str:
+        return f"{self.effect}.{self.parameter}{self.suffix}"
+
+
+Values = Mapping[str, Mapping[str, np.ndarray]]
+
+
+@dataclass(frozen=True)
+class Sensor:
+    """A triad with a tuple of effects and the values of their coefficients (SI).
+
+    ``values[effect][parameter]`` is an array of the parameter's shape; the effects are sorted by stage.
+    Raises ValueError for an effect that this kind of sensor does not have, or a value of the wrong shape.
+    """
+
+    kind: str
+    values: Values = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        complete = {}
+        for e in sorted((_lookup(n, self.kind) for n in self.values), key=lambda e: (STAGES.index(e.stage), e.order)):
+            complete[e.name] = MappingProxyType({**e.start(), **{k: _shaped(e, k, v) for k, v in self.values[e.name].items()}})
+        object.__setattr__(self, "values", MappingProxyType(complete))
+
+    def __eq__(self, other: object) -> bool:
+        """Equal kind, effects and coefficients; arrays have no truth value, so the dataclass cannot compare them itself."""
+        if not isinstance(other, Sensor):
+            return NotImplemented
+        return (self.kind, self.slots) == (other.kind, other.slots) and np.array_equal(self.p, other.p)
+
+    def __hash__(self) -> int:
+        return hash((self.kind, self.slots, tuple(self.p)))
+
+    def __reduce__(self):
+        return Sensor, (self.kind, {e: dict(p) for e, p in self.values.items()})
+
+    @property
+    def effects(self) -> tuple[Effect, ...]:
+        return tuple(CATALOGUE[n] for n in self.values)
+
+    @property
+    def output(self) -> SensorKind:
+        return KINDS[self.kind]
+
+    def unit(self, template: str) -> str:
+        """A unit of a definition, with the sensor's own units put in."""
+        return template.replace("{y}", self.output.unit).replace("{Y}", self.output.integral)
+
+    def with_values(self, effect_name: str, **parameters) -> Sensor:
+        """The same sensor with an effect added, or some of its coefficients changed."""
+        values = {e: dict(p) for e, p in self.values.items()}
+        values.setdefault(effect_name, {}).update(parameters)
+        return replace(self, values=values)
+
+    def without(self, *names: str) -> Sensor:
+        return replace(self, values={e: p for e, p in self.values.items() if e not in names})
+
+    @cached_property
+    def slots(self) -> tuple[Slot, ...]:
+        """Every coefficient in the order of the vector ``p``."""
+        return tuple(Slot(e.name, n, i, self.unit(q.unit), q)
+                     for e in self.effects for n, q in e.parameters.items() for i in q.indices)
+
+    @cached_property
+    def p(self) -> np.ndarray:
+        """Values of the coefficients, shape (len(slots),)."""
+        return np.array([self.values[s.effect][s.parameter][s.index] for s in self.slots], dtype=float)
+
+    def with_p(self, p: np.ndarray) -> Sensor:
+        """The same sensor with the coefficients of vector ``p``."""
+        values = {e: {k: np.array(v) for k, v in q.items()} for e, q in self.values.items()}
+        for slot, value in zip(self.slots, p, strict=True):
+            values[slot.effect][slot.parameter][slot.index] = value
+        return replace(self, values=values)
+
+    @cached_property
+    def variables(self) -> tuple[Variable, ...]:
+        """The coefficients as variables of a block, named ``gyro_error.effect.parameter[i,j]``."""
+        return tuple(Variable(f"{self.kind}_error.{s.name}", s.unit, s.definition.description or CATALOGUE[s.effect].term,
+                              float(v), minimum=s.definition.minimum, maximum=s.definition.maximum) for s, v in zip(self.slots, self.p, strict=True))
+
+    @cached_property
+    def noise(self) -> tuple[NoiseChannel, ...]:
+        """Standard normals; a stream's number follows from its name alone, so another effect never shifts it."""
+        names = [f"{self.kind}_error.{e.name}.{n}[{i + 1}]" for e in self.effects for n, w in e.noises.items()
+                 for i in range(w.size)]
+        return tuple(NoiseChannel(n, zlib.crc32(n.encode())) for n in names)
+
+    @cached_property
+    def chain(self) -> Chain:
+        return _chain(self.kind, tuple(self.values))
+
+    @property
+    def step(self) -> ca.Function:
+        """``(s, u, p, w, h) -> (s_next, y)``."""
+        return self.chain.step
+
+    @property
+    def compensation(self) -> ca.Function:
+        """``(s, y, u, p, h) -> (s_next, x, lost)``: the chain solved for its input with all noise zero.
+
+        ``u`` (7,) carries the environment (its own signal is ignored); ``lost`` (3,) is 1 where ``x`` cannot be restored.
+        """
+        return self.chain.compensation
+
+
+def _lookup(name: str, kind: str) -> Effect:
+    if name not in CATALOGUE:
+        raise ValueError(f"unknown effect {name!r}")
+    if kind not in CATALOGUE[name].sensors:
+        raise ValueError(f"effect {name} does not belong to a {kind}")
+    return CATALOGUE[name]
+
+
+def _shaped(e: Effect, parameter: str, value: Any) -> np.ndarray:
+    if parameter not in e.parameters:
+        raise ValueError(f"effect {e.name} has no parameter {parameter!r}, only {', '.join(e.parameters)}")
+    shape = e.parameters[parameter].shape
+    array = np.array(value, dtype=float)
+    if array.ndim == 0 and len(shape) == 1:
+        array = np.full(shape, float(array))
+    if array.shape != shape:
+        raise ValueError(f"{e.name}.{parameter} has shape {array.shape}, not {shape}")
+    array.setflags(write=False)
+    return array
+
+
+@lru_cache(maxsize=128)
+def _chain(kind: str, effects: tuple[str, ...]) -> Chain:
+    return Chain(Sensor(kind, {name: {} for name in effects}))
+
+
+class Chain:
+    """The casadi functions of one sensor structure (which effects, not which values)."""
+
+    def __init__(self, sensor: Sensor) -> None:
+        self.sensor = sensor
+        self.effects = sensor.effects
+        self.u = ca.SX.sym("u", N_INPUT)
+        self.h = ca.SX.sym("h")
+        self.p = ca.SX.sym("p", len(sensor.slots))
+        self.w = ca.SX.sym("w", len(sensor.noise))
+        self.signals = _split_signals(self.u)
+        self.x = self.signals[sensor.output.own]
+        self.parameters = self._split_parameters()
+        self.noises = self._split_noise()
+        self.states, self.s = self._split_states()
+        self.waits = any(q.start == INPUT for e in self.effects for q in e.states.values())
+
+    def _split_parameters(self) -> dict[str, dict[str, ca.SX]]:
+        """Put the vector ``p`` into the matrices of the definitions; rows first, here and nowhere else."""
+        slots = iter(ca.vertsplit(self.p)) if len(self.sensor.slots) else iter(())
+        out: dict[str, dict[str, ca.SX]] = {}
+        for e in self.effects:
+            out[e.name] = {}
+            for name, q in e.parameters.items():
+                matrix = ca.SX.zeros(*(q.shape or (1,)))
+                for index in q.indices:
+                    matrix[index or 0] = next(slots)
+                out[e.name][name] = matrix
+        return out
+
+    def _split_noise(self) -> dict[str, dict[str, ca.SX]]:
+        out, at = {}, 0
+        for e in self.effects:
+            out[e.name] = {}
+            for name, w in e.noises.items():
+                out[e.name][name] = self.w[at:at + w.size]
+                at += w.size
+        return out
+
+    def _split_states(self) -> tuple[dict[str, dict[str, ca.SX]], ca.SX]:
+        symbols = {e.name: {n: ca.SX.sym(n, *q.shape) for n, q in e.states.items()} for e in self.effects}
+        flat = [ca.vec(v) for group in symbols.values() for v in group.values()]
+        return symbols, ca.vertcat(*flat) if flat else ca.SX.zeros(0, 1)
+
+    def _current(self, e: Effect, x: ca.SX, started: ca.SX | None) -> dict[str, ca.SX]:
+        """States of an effect, those that wait for the first input filled with it."""
+        out = {}
+        for name, q in e.states.items():
+            s = self.states[e.name][name]
+            if q.start == INPUT:
+                steady = ca.repmat(x.T, q.shape[0], 1) if len(q.shape) == 2 else x
+                s = ca.if_else(started, s, steady)
+            out[name] = s
+        return out
+
+    @cached_property
+    def step(self) -> ca.Function:
+        started = ca.SX.sym("started") if self.waits else None
+        x, following = self.x, []
+        for e in self.effects:
+            x, update = e(x, self.parameters[e.name], self._current(e, x, started), self.noises[e.name], self.signals, self.h)
+            following += [ca.vec(ca.densify(update[n])) for n in e.states]
+        flag, one = ([started], [ca.SX(1)]) if self.waits else ([], [])
+        return ca.Function(f"{self.sensor.kind}_step", [ca.vertcat(*flag, self.s), self.u, self.p, self.w, self.h],
+                           [ca.vertcat(*one, *following), ca.densify(x)], ["s", "u", "p", "w", "h"], ["s_next", "y"])
+
+    @cached_property
+    def start(self) -> np.ndarray:
+        """State before the first sample, as ``step`` takes it."""
+        values = [np.full(int(np.prod(q.shape)), 0.0 if q.start == INPUT else q.start)
+                  for e in self.effects for q in e.states.values()]
+        return np.concatenate([np.zeros(int(self.waits)), *values])
+
+    @cached_property
+    def compensation(self) -> ca.Function:
+        started = ca.SX.sym("started") if self.waits else None
+        measured = ca.SX.sym("y", 3)
+        x, lost, following = measured, ca.SX.zeros(3), {}
+        for e in reversed(self.effects):
+            if e.lost is not None:
+                lost = ca.fmax(lost, e.lost(x, **self.parameters[e.name]))
+            if e.invertible:
+                x = self._invert(e, x, started)
+            following[e.name] = self._advance(e, x, started)
+        ordered = [following[e.name] for e in self.effects]
+        flag, one = ([started], [ca.SX(1)]) if self.waits else ([], [])
+        return ca.Function(f"{self.sensor.kind}_compensation",
+                           [ca.vertcat(*flag, self.s), measured, self.u, self.p, self.h],
+                           [ca.vertcat(*one, *ordered), ca.densify(x), ca.densify(lost)],
+                           ["s", "y", "u", "p", "h"], ["s_next", "x", "lost"])
+
+    def _call(self, e: Effect, x: ca.SX, started: ca.SX | None) -> tuple[ca.SX, dict]:
+        silent = {n: ca.SX.zeros(w.size) for n, w in e.noises.items()}
+        return e(x, self.parameters[e.name], self._current(e, x, started), silent, self.signals, self.h)
+
+    def _advance(self, e: Effect, x: ca.SX, started: ca.SX | None) -> ca.SX:
+        _, update = self._call(e, x, started)
+        return ca.vertcat(*[ca.vec(ca.densify(update[n])) for n in e.states])
+
+    def _invert(self, e: Effect, y: ca.SX, started: ca.SX | None) -> ca.SX:
+        """Solve ``e(x) = y`` for x: one linear solve where the effect is affine in x, else Newton from ``x = y``."""
+        x = ca.SX.sym("x", 3)
+        out, _ = self._call(e, x, started)
+        slope = ca.jacobian(out, x)
+        if ca.is_equal(slope, ca.SX.eye(3), 1):
+            return y - ca.substitute(out, x, ca.SX.zeros(3))
+        improved = x - _solve(slope, out - y)
+        guess = y
+        for _ in range(1 if not ca.depends_on(slope, x) else NEWTON_STEPS):
+            guess = ca.substitute(improved, x, guess)
+        return guess
+
+
+def _solve(a: ca.SX, b: ca.SX) -> ca.SX:
+    """a^-1 b of a 3 x 3 system by the adjugate, elementwise where ``a`` is diagonal."""
+    if a.sparsity().is_diag():
+        return b / ca.diag(a)
+    r = [ca.densify(a[i, :]).T for i in range(3)]
+    c = [ca.cross(r[1], r[2]), ca.cross(r[2], r[0]), ca.cross(r[0], r[1])]
+    return ca.horzcat(*c) @ b / ca.dot(r[0], c[0])
+
+
+def _split_signals(u: ca.SX) -> dict[str, ca.SX]:
+    out, at = {}, 0
+    for name, (_, size) in SIGNALS.items():
+        out[name] = u[at:at + size]
+        at += size
+    return out
+
+
+def candidates(kind: str, present: Iterable[str]) -> tuple[Effect, ...]:
+    """Effects of the catalogue that a sensor of this kind could have and ``present`` does not name."""
+    have = set(present)
+    return tuple(e for e in CATALOGUE.values() if kind in e.sensors and e.name not in have)

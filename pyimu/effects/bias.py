@@ -1,0 +1,8 @@
+"""Bias that belongs to one power-on."""
+
+from pyimu.effect import Parameter, effect
+
+
+@effect(stage="bias", term="turn-on bias", equation=r"y = x + b_0", source="IEEE Std 528-2019, turn-on bias repeatability")
+def turn_on_bias(x, b0: Parameter("{y}", description="turn-on bias, a new draw at each power-on")):
+    return x + b0

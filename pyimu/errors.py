@@ -1,0 +1,36 @@
+"""What can be wrong with what a user gave: errors, which end the work, and findings, which go along with the result."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+
+class UserError(ValueError):
+    """What a user gave cannot be used.
+
+    The message is one line that says what is wrong, where (file, row, column or key) and what would be right; the
+    command line prints it and ends with exit status 2.
+    """
+
+    def __init__(self, message: str) -> None:
+        super().__init__(" ".join(str(message).split()))
+
+
+@dataclass(frozen=True)
+class Finding:
+    """Something that was seen in a recording and that its user should know.
+
+    ``column`` is a column's name without unit (``gyro_x``), or empty where all rows are meant; ``count`` how many
+    samples, rows or events; ``detail`` numbers in SI, and texts.
+    """
+
+    kind: str
+    column: str = ""
+    count: int = 1
+    detail: Mapping[str, Any] = field(default_factory=dict)
+
+    def as_dict(self) -> dict[str, Any]:
+        """The finding as plain types, for JSON."""
+        return {"kind": self.kind, "column": self.column, "count": int(self.count), "detail": dict(self.detail)}

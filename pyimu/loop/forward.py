@@ -1,0 +1,191 @@
+"""Forward selection for one sensor: screen, fit the best few in full, ask the held-out data, add, and look again."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pyimu.effect import Sensor
+from pyimu.loop.candidates import equivalent, with_start
+from pyimu.loop.regression import Fit, LogState, begin, fit, in_band, reference_input, residual
+from pyimu.loop.response import predict
+from pyimu.loop.score import held_state, log_likelihood
+from pyimu.loop.select import PENALTY, Screened, Screening, fitted_dispersion, keys_of, screen
+from pyimu.loop.trial import Trial
+
+SET_WIDTH = 6.0
+"""Log-likelihood [nat] within which another effect explains the data as well as the best."""
+
+MOST_EFFECTS = 8
+MOST_REFINED = 4
+
+
+@dataclass(frozen=True)
+class Step:
+    """One effect that was added: the coefficients it brought, its evidence, and who could stand in for it.
+
+    ``declared`` says that the effect was in the model already and only its declared values were set free.
+    """
+
+    effect: str
+    keys: frozenset
+    gain: float
+    gate: float
+    alternatives: tuple[str, ...]
+    dispersion: float
+    declared: bool = False
+
+
+@dataclass(frozen=True)
+class Refused:
+    """An effect that passed the gate but not the held-out data."""
+
+    effect: str
+    gain: float
+    reason: str
+
+
+@dataclass(frozen=True)
+class Investigation:
+    """What the loop found for one sensor: the model before and after, and the way between."""
+
+    before: Fit
+    after: Fit
+    steps: tuple[Step, ...]
+    refused: tuple[Refused, ...]
+    first: Screening
+    last: Screening
+    held: tuple[Trial, ...]
+
+
+@dataclass(frozen=True)
+class Refined:
+    """A candidate fitted in full; ``gain`` [nat] over the model without it, corrected for scatter and penalised."""
+
+    screened: Screened
+    fit: Fit
+    gain: float
+
+
+def investigate(sensor: Sensor, free: frozenset, trials: list[Trial], held: list[Trial],
+                say: Callable[[str], None] = lambda text: None) -> Investigation:
+    """Find what ``sensor``, with coefficients ``free``, lacks to explain ``trials``, confirmed on ``held``."""
+    say(f"{sensor.kind}: fitting the model as declared")
+    before = after = fit(begin(sensor, free, trials))
+    steps: list[Step] = []
+    refused: dict[str, Refused] = {}
+    first = last = screen(before, sensor.values)
+    while len(steps) < MOST_EFFECTS:
+        say(f"{sensor.kind}: {len(steps)} added, trying {len(last.candidates)} candidates")
+        options = [c for c in last.above() if c.effect not in refused]
+        chosen, names = _choose(after, options)
+        if chosen is None or chosen.gain <= last.gate:
+            break
+        if not improves(after, chosen.fit, held):
+            refused[chosen.screened.effect] = Refused(chosen.screened.effect, chosen.gain, "does not lower the error on held-out data")
+            continue
+        name = chosen.screened.effect
+        steps.append(Step(name, keys_of(chosen.screened), chosen.gain, last.gate, names, chosen.screened.dispersion,
+                          name in before.sensor.values))
+        after = without_lost(chosen.fit) if name == "saturation" else chosen.fit
+        last = screen(after, sensor.values)
+    after, steps = _backward(before, after, steps)
+    return Investigation(before, after, tuple(steps), tuple(refused.values()), first, last, tuple(held))
+
+
+def _choose(current: Fit, options: list[Screened]) -> tuple[Refined | None, tuple[str, ...]]:
+    """The candidate that explains most once fitted in full, and the names of those that explain as much."""
+    if not options:
+        return None, ()
+    limit = options[0].gain - max(SET_WIDTH, 0.5 * options[0].gain)
+    refined = sorted((refine(current, c) for c in options[:MOST_REFINED] if c.gain >= limit), key=lambda r: -r.gain)
+    best = refined[0]
+    derived = any(t.band_hz is not None for t in current.trials)
+    for other in refined[1:]:
+        # Of one class take the one with fewer coefficients unless the data speak clearly for the other; a reference
+        # that ends below the band in which the two differ cannot speak at all.
+        if (other.screened.effect in equivalent(best.screened.effect) and (derived or best.gain - other.gain < SET_WIDTH)
+                and len(keys_of(other.screened)) < len(keys_of(best.screened))):
+            best = other
+    close = [r.screened.effect for r in refined if r is not best and best.gain - r.gain <= SET_WIDTH]
+    twins = [c.effect for c in options if c.effect in equivalent(best.screened.effect)]
+    return best, tuple(dict.fromkeys(close + twins))
+
+
+def refine(current: Fit, c: Screened) -> Refined:
+    """Fit a candidate in full beside everything that is free already."""
+    sensor = with_start(current.sensor, c.values, c.effect)
+    fitted = fit(replace(current, sensor=sensor, free=current.free | keys_of(c)).with_noise())
+    fitted = on_plateau(fitted) if c.effect == "saturation" else fitted
+    spread = fitted_dispersion(fitted, keys_of(c)) if c.values else c.dispersion
+    gain = (fitted.log_likelihood - current.log_likelihood) / spread - PENALTY * len(keys_of(c))
+    return Refined(replace(c, dispersion=spread), fitted, gain)
+
+
+def improves(old: Fit, new: Fit, held: list[Trial]) -> bool:
+    """True where held-out rows are likelier under the new model, both judged with the new model's noise.
+
+    Held-out data in which the two models hardly differ cannot speak against the new one.
+    """
+    gained, difference = 0.0, 0.0
+    for trial in held:
+        (state_old, rest), (state_new, _) = held_state(old, trial), held_state(new, trial)
+        r_old, r_new = (in_band(rest, residual(f.sensor, rest, s)) for f, s in ((old, state_old), (new, state_new)))
+        judged = [log_likelihood(new, rest, r) for r in (r_new, r_old)]
+        gained += judged[0] - judged[1]
+        difference += log_likelihood(new, rest, np.zeros_like(r_new)) - log_likelihood(new, rest, r_new - r_old)
+    return gained > 0.0 or difference < 0.5
+
+
+def on_plateau(fitted: Fit) -> Fit:
+    """Put each limit where the raw samples sit while the model's input is well beyond it, and fit the rest again.
+
+    In the band of a derived reference the edges of a clipped stretch are smeared; the samples themselves show the limit.
+    """
+    limit = np.array(fitted.sensor.values["saturation"]["limit"])
+    open_sensor = fitted.sensor.without("saturation")
+    for i in np.flatnonzero(limit):
+        beyond = [_plateau(open_sensor, t, fitted.states[t.name], int(i), limit[i]) for t in fitted.trials]
+        sides = [np.concatenate([b[side] for b in beyond]) for side in (0, 1)]
+        levels = [np.median(s) for s in sides if len(s) >= 5]
+        if levels:
+            limit[i] = max(levels)
+    sensor = fitted.sensor.with_values("saturation", limit=limit)
+    free = frozenset(k for k in fitted.free if k[1] != "saturation")
+    again = fit(replace(fitted, sensor=sensor, free=free).with_noise())
+    return replace(again, std={**fitted.std, **again.std})
+
+
+def without_lost(fitted: Fit) -> Fit:
+    """Leave out the samples that sit at a limit: they carry no noise and no slope, and would bend what is looked for next."""
+    limit = fitted.sensor.values["saturation"]["limit"]
+    open_sensor = fitted.sensor.without("saturation")
+    margin = np.array([4 * np.sqrt(fitted.noise[i].r) if i in fitted.noise else 0.0 for i in range(3)])
+    trials = []
+    for t in fitted.trials:
+        # Judged by the model, not by the noisy sample: choosing by the sample would keep one half of the noise.
+        x = predict(open_sensor, reference_input(t, fitted.states[t.name]), t.segments, t.h)
+        trials.append(replace(t, left_out=((limit > 0) & (np.abs(x) > limit - margin)).any(axis=1)))
+    return fit(replace(fitted, trials=tuple(trials)).with_noise())
+
+
+def _plateau(sensor: Sensor, trial: Trial, state: LogState, axis: int, limit: float) -> tuple[np.ndarray, np.ndarray]:
+    """Magnitudes of the samples, positive and negative side, taken while the unlimited model is 10 % beyond the limit."""
+    x = predict(sensor, reference_input(trial, state), trial.segments, trial.h)[:, axis]
+    inside = np.zeros(len(x), dtype=bool)
+    for a, b in trial.segments:
+        inside[a:b] = True
+    return tuple(np.abs(trial.y[inside & (sign * x > 1.1 * limit) & (sign * trial.y[:, axis] > 0.8 * limit), axis]) for sign in (1, -1))
+
+
+def _backward(before: Fit, after: Fit, steps: list[Step]) -> tuple[Fit, list[Step]]:
+    """Drop what later additions made superfluous; a limit never is, the samples at it having been left out since."""
+    for step in [s for s in steps[:-1] if not s.declared and s.effect != "saturation"]:
+        rest = [s for s in steps if s is not step]
+        kept = after.free - step.keys
+        without = fit(replace(after, sensor=after.sensor.without(step.effect), free=kept).with_noise())
+        if (after.log_likelihood - without.log_likelihood) / step.dispersion - PENALTY * len(step.keys) <= step.gate:
+            after, steps = without, rest
+    return after, steps

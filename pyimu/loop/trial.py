@@ -1,0 +1,144 @@
+"""One log as one sensor's regression sees it: what was measured, what the reference says went in, which rows count."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pyimu.effect import N_INPUT, OWN
+from pyimu.errors import Finding
+from pyimu.loop.band import Band
+from pyimu.recording import Recording
+from pyimu.reference import reference_rate
+
+HEAD = 30.0
+"""Seconds at the start of a held-out log from which what belongs to the log is estimated."""
+
+
+@dataclass(frozen=True)
+class Trial:
+    """Rows of one log for one sensor.
+
+    ``y`` (n, 3) measured, ``u`` (n, 7) reference inputs (zero where nobody knows them), ``known`` the signals that are
+    really known, ``axes`` those that the reference covers, ``segments`` the stretches without gap.  ``reference`` is
+    "rate", "attitude", "force" or "static"; ``free_rotation`` says that the reference's mounting is not known.
+    ``parent`` names the fitted trial that has the same power-on, if any; ``left_out`` (n,) marks samples that carry no
+    information (at the limit), heeded where no band mixes them with their neighbours.
+    """
+
+    name: str
+    kind: str
+    h: float
+    time: np.ndarray
+    y: np.ndarray
+    u: np.ndarray
+    segments: list[tuple[int, int]]
+    known: frozenset[str]
+    reference: str
+    band_hz: float | None = None
+    axes: tuple[int, ...] = (0, 1, 2)
+    free_rotation: bool = False
+    parent: str | None = None
+    left_out: np.ndarray | None = None
+    findings: tuple[Finding, ...] = ()
+
+    @property
+    def band(self) -> Band:
+        return Band() if self.band_hz is None else Band.below(self.band_hz, 1.0 / self.h)
+
+    @property
+    def row_segments(self) -> list[tuple[int, int]]:
+        """Stretches of rows that regression draws on: the segments, less what is left out."""
+        if self.left_out is None or self.band_hz is not None:
+            return self.segments
+        return [(a + i, a + j) for a, b in self.segments for i, j in runs(~self.left_out[a:b])]
+
+    @property
+    def count(self) -> int:
+        return sum(b - a for a, b in self.segments)
+
+    def part(self, start: int, stop: int, **changes) -> Trial:
+        """Rows start to stop as a trial of their own."""
+        inside = [(max(a, start) - start, min(b, stop) - start) for a, b in self.segments if b > start and a < stop]
+        flags = None if self.left_out is None else self.left_out[start:stop]
+        return replace(self, time=self.time[start:stop], y=self.y[start:stop], u=self.u[start:stop], segments=inside,
+                       left_out=flags, **changes)
+
+    def split(self, held_out: float) -> tuple[Trial, Trial]:
+        """The rows to fit and the last ``held_out`` of them to judge by."""
+        at = int(round(len(self.time) * (1.0 - held_out)))
+        return self.part(0, at), self.part(at, len(self.time), parent=self.name)
+
+    def head(self) -> tuple[Trial, Trial]:
+        """The first ``HEAD`` seconds, and the rest."""
+        at = int(np.searchsorted(self.time, self.time[0] + HEAD))
+        return self.part(0, at), self.part(at, len(self.time))
+
+
+def gyro_trial(recording: Recording, latitude: float | None = None) -> Trial | None:
+    """The gyro of a recording against its reference rate; None where the log has no gyro."""
+    if recording.gyro is None:
+        return None
+    reference = reference_rate(recording, latitude=latitude)
+    if reference.kind == "none":
+        return None
+    axes = tuple(i for i in range(3) if np.isfinite(reference.rate[:, i]).any())
+    u, known = _environment(recording)
+    u[:, OWN["gyro"]] = np.where(np.isfinite(reference.rate), reference.rate, 0.0)
+    valid = np.isfinite(recording.gyro).all(axis=1) & np.isfinite(reference.rate[:, list(axes)]).all(axis=1)
+    return _trial(recording, "gyro", recording.gyro, u, valid, known | {"rate"}, reference.kind,
+                  band_hz=reference.band_hz, axes=axes, free_rotation=reference.kind == "attitude" and len(axes) == 3,
+                  findings=reference.findings)
+
+
+def accel_trial(recording: Recording, static: bool) -> Trial | None:
+    """The accelerometer against a reference force, or against its own mean where the log is ``static``; else None."""
+    if recording.accel is None or (recording.ref_force is None and not static):
+        return None
+    u, known = _environment(recording)
+    force = recording.ref_force
+    if force is None:
+        force = np.broadcast_to(np.nanmean(recording.accel, axis=0), recording.accel.shape)
+    u[:, OWN["accel"]] = np.where(np.isfinite(force), force, 0.0)
+    if recording.ref_rate is not None:
+        u[:, OWN["gyro"]] = np.nan_to_num(recording.ref_rate)
+        known = known | {"rate"}
+    valid = np.isfinite(recording.accel).all(axis=1) & np.isfinite(force).all(axis=1)
+    return _trial(recording, "accel", recording.accel, u, valid, known | {"specific_force"},
+                  "static" if recording.ref_force is None else "force")
+
+
+def _environment(recording: Recording) -> tuple[np.ndarray, frozenset[str]]:
+    """Inputs (n, 7) that are not the sensor's own: measured or reference force, temperature; and which are known."""
+    u, known = np.zeros((len(recording.time), N_INPUT)), set()
+    force = recording.accel if recording.ref_force is None else recording.ref_force
+    if force is not None:
+        u[:, OWN["accel"]] = _filled(recording.time, force)
+        known.add("specific_force")
+    if recording.temperature is not None and np.isfinite(recording.temperature).any():
+        u[:, 6] = _filled(recording.time, recording.temperature[:, None])[:, 0]
+        known.add("temperature")
+    return u, frozenset(known)
+
+
+def _filled(time: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Missing cells of a slow or measured environment, drawn straight from neighbour to neighbour."""
+    out = np.array(values)
+    for column in out.T:
+        good = np.isfinite(column)
+        if good.any() and not good.all():
+            column[~good] = np.interp(time[~good], time[good], column[good])
+    return np.nan_to_num(out)
+
+
+def _trial(recording: Recording, kind: str, y: np.ndarray, u: np.ndarray, valid: np.ndarray, known: frozenset[str],
+           reference: str, **more) -> Trial:
+    segments = [(a + i, a + j) for a, b in recording.segments for i, j in runs(valid[a:b])]
+    return Trial(recording.name, kind, recording.sample_period, recording.time, np.nan_to_num(y), u, segments, known, reference, **more)
+
+
+def runs(flags: np.ndarray) -> list[tuple[int, int]]:
+    """Stretches (start, stop) of true flags."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], flags.astype(np.int8), [0]])))
+    return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))

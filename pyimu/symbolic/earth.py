@@ -1,0 +1,17 @@
+"""The Earth's rotation in the world frame."""
+
+from __future__ import annotations
+
+import casadi as ca
+
+EARTH_RATE = 7.292115e-5
+"""rad/s, WGS 84."""
+
+
+def earth_rate(latitude, magnitude: float = EARTH_RATE):
+    """Rate of the east-north-up frame against inertial space (3,) rad/s at ``latitude`` rad.
+
+    Hidalgo 2012, eq. of the Earth rotation vector, printed there in north-west-up axes: [cos, 0, sin] of the latitude;
+    Groves 2013, eq. 2.123, in north-east-down.
+    """
+    return magnitude * ca.vertcat(0, ca.cos(latitude), ca.sin(latitude))

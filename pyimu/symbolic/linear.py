@@ -1,0 +1,51 @@
+"""Symmetric matrices without branches: Cholesky's factor and what a filter does with it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import casadi as ca
+
+FLOOR = 1e-30
+"""Least square of a pivot of ``cholesky``: a singular matrix gets a tiny pivot instead of NaN."""
+
+
+def symmetric(size: int, entry: Callable):
+    """The matrix (size, size) with ``entry(i, j)``, i <= j, on both sides of the diagonal: symmetric to the last bit."""
+    upper = {(i, j): entry(i, j) for i in range(size) for j in range(i, size)}
+    return ca.vertcat(*[ca.horzcat(*[upper[min(i, j), max(i, j)] for j in range(size)]) for i in range(size)])
+
+
+def pack(matrix):
+    """The upper triangle of a symmetric matrix, row by row, as a column."""
+    size = matrix.shape[0]
+    return ca.vertcat(*[matrix[i, j] for i in range(size) for j in range(i, size)])
+
+
+def unpack(column, size: int):
+    """The symmetric matrix (size, size) of which ``column`` is the upper triangle."""
+    at = {(i, j): k for k, (i, j) in enumerate((i, j) for i in range(size) for j in range(i, size))}
+    return symmetric(size, lambda i, j: column[at[i, j]])
+
+
+def cholesky(matrix):
+    """Lower triangular L with L L^T = ``matrix``, a symmetric definite matrix (Golub and Van Loan 2013, section 4.2).
+
+    The zeros above the diagonal are structural, so that what is computed from a column skips them.
+    """
+    size = matrix.shape[0]
+    lower = type(matrix)(size, size)
+    for j in range(size):
+        pivot = matrix[j, j] - sum((lower[j, k] * lower[j, k] for k in range(j)), 0)
+        lower[j, j] = ca.sqrt(ca.fmax(pivot, FLOOR))
+        for i in range(j + 1, size):
+            lower[i, j] = (matrix[i, j] - sum((lower[i, k] * lower[j, k] for k in range(j)), 0)) / lower[j, j]
+    return lower
+
+
+def forward(lower, b):
+    """L^-1 b for lower triangular L (n, n) and b (n, m)."""
+    rows: list = []
+    for i in range(lower.shape[0]):
+        rows.append((b[i, :] - sum((lower[i, k] * rows[k] for k in range(i)), 0)) / lower[i, i])
+    return ca.vertcat(*rows)

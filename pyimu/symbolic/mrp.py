@@ -1,0 +1,26 @@
+"""Generalised Rodrigues parameters: a small rotation as three numbers, p = f r / (a + w) for the quaternion (w, r).
+
+``a`` = ``f`` = 1 are the modified Rodrigues parameters, ``a`` = 0, ``f`` = 1 the Gibbs vector.  With ``f`` = 2 (a + 1) the
+vector p is the rotation vector in rad to second order, which is what a covariance in rad^2 wants.
+"""
+
+from __future__ import annotations
+
+import casadi as ca
+
+A = 1.0
+"""With a = 1 the singularity is a whole turn away."""
+
+F = 2 * (A + 1)
+
+
+def from_quaternion(q, a: float = A, f: float = F):
+    """p (3,) of the unit quaternion ``q`` (Hidalgo 2012, eq. of the delta quaternion; Crassidis and Markley 2003, eq. 16)."""
+    return f * q[1:4] / (a + q[0])
+
+
+def to_quaternion(p, a: float = A, f: float = F):
+    """The unit quaternion (4,) of ``p`` (Crassidis and Markley 2003, eqs. 21); the inverse of ``from_quaternion``."""
+    square = ca.dot(p, p)
+    w = (f * ca.sqrt(f * f + (1 - a * a) * square) - a * square) / (f * f + square)
+    return ca.vertcat(w, (a + w) / f * p)

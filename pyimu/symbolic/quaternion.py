@@ -1,0 +1,95 @@
+"""Unit quaternions (4,), Hamilton, scalar first, that turn body axes into world axes: ``v_n = q v_b q*``."""
+
+from __future__ import annotations
+
+import casadi as ca
+
+SMALL = 1e-3
+"""Square of the half angle in rad^2 below which series stand for sine and cosine; their first neglected terms are 3e-18."""
+
+
+def product(a, b):
+    """``a`` after ``b``, (4,): the rotation by ``b`` first (Hamilton's rules i j = k)."""
+    av, bv = a[1:4], b[1:4]
+    return ca.vertcat(a[0] * b[0] - ca.dot(av, bv), a[0] * bv + b[0] * av + ca.cross(av, bv))
+
+
+def conjugate(q):
+    """The inverse of a unit quaternion, (4,)."""
+    return ca.vertcat(q[0], -q[1:4])
+
+
+def normalized(q):
+    """``q`` at unit length; one Newton step would do after a product, but the root is exact for any length."""
+    return q / ca.sqrt(ca.dot(q, q))
+
+
+def rotate(q, v):
+    """The vector ``v`` (3,) of the body in world axes: v + 2 w (r x v) + 2 r x (r x v) for q = (w, r)."""
+    t = 2 * ca.cross(q[1:4], v)
+    return v + q[0] * t + ca.cross(q[1:4], t)
+
+
+def to_matrix(q):
+    """``R_nb`` (3, 3) with v_n = R_nb v_b; its columns are the rotated axes (Markley and Crassidis 2014, eq. 2.125)."""
+    w, x, y, z = (q[i] for i in range(4))
+    return ca.vertcat(ca.horzcat(1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
+                      ca.horzcat(2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
+                      ca.horzcat(2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)))
+
+
+def exponential(angle):
+    """The rotation by the vector ``angle`` (3,) rad: (cos(|a|/2), sin(|a|/2) a/|a|), smooth at zero.
+
+    Sine and cosine are even functions of the length, so both are written in its square: no root is taken, and no
+    quotient 0/0 formed, where their derivatives would not exist.
+    """
+    square = ca.dot(angle, angle) / 4
+    return ca.vertcat(_cosine(square), _sinc(square) / 2 * angle)
+
+
+def step(q, rate, h):
+    """Attitude after ``h`` s at the constant body rate ``rate`` (3,) rad/s: q exp(rate h / 2).
+
+    The closed form of q' = q (0, rate)/2; Hidalgo 2012, eq. of the discrete kinematics (there vector first).
+    """
+    return product(q, exponential(rate * h))
+
+
+def _sinc(square):
+    """sin(x)/x of ``square`` = x^2."""
+    series = 1 - square / 6 * (1 - square / 20 * (1 - square / 42))
+    root = _root(square)
+    return ca.if_else(square < SMALL, series, ca.sin(root) / root)
+
+
+def _cosine(square):
+    """cos(x) of ``square`` = x^2."""
+    series = 1 - square / 2 * (1 - square / 12 * (1 - square / 30 * (1 - square / 56)))
+    return ca.if_else(square < SMALL, series, ca.cos(_root(square)))
+
+
+def _root(square):
+    """The root where it is used; where the series is, a harmless one, lest 0 times an infinite slope spoil a derivative."""
+    return ca.sqrt(ca.if_else(square < SMALL, 1, square))
+
+
+def from_euler(roll, pitch, yaw):
+    """Rz(yaw) Ry(pitch) Rx(roll), angles in rad; yaw counter-clockwise from east, nose up is negative pitch (REP 103)."""
+    def about(axis: int, angle):
+        parts = [ca.cos(angle / 2), 0, 0, 0]
+        parts[axis] = ca.sin(angle / 2)
+        return ca.vertcat(*parts)
+    return product(about(3, yaw), product(about(2, pitch), about(1, roll)))
+
+
+def to_euler(q):
+    """(roll, pitch, yaw) in rad, (3,); the inverse of ``from_euler`` for |pitch| < pi/2.
+
+    Pitch is an arc tangent and not an arc sine, so that it keeps its digits close to +-pi/2 and needs no clamp.
+    """
+    w, x, y, z = (q[i] for i in range(4))
+    forward_east, forward_north = 1 - 2 * (y * y + z * z), 2 * (x * y + w * z)
+    level = ca.sqrt(forward_east * forward_east + forward_north * forward_north)
+    return ca.vertcat(ca.atan2(2 * (y * z + w * x), 1 - 2 * (x * x + y * y)), ca.atan2(2 * (w * y - x * z), level),
+                      ca.atan2(forward_north, forward_east))

@@ -1,0 +1,232 @@
+"""Units: a closed table of atoms and a small strict grammar over it.
+
+A general unit parser reads ``g`` as gram and knows no ``deg/sqrt(h)``; here ``g`` is standard gravity, and a spelling
+that is not in the table is an error that names the nearest one that is::
+
+    product = power (("*" | "/") power)*         read from left to right: deg/h/sqrt(h) = deg/(h sqrt(h))
+    power   = factor ["^" integer]
+    factor  = atom | "sqrt" "(" product ")" | "(" product ")"
+
+The radian is kept as a dimension of its own, so that a column in 1/s is not taken for a rate.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+from difflib import get_close_matches
+from fractions import Fraction
+from functools import lru_cache
+
+import numpy as np
+
+from pyimu.errors import UserError
+
+STANDARD_GRAVITY = 9.80665
+"""m/s^2, exact by definition (3rd CGPM, 1901)."""
+
+ZERO_CELSIUS = 273.15
+"""K, exact by definition."""
+
+BASES = ("rad", "s", "m", "K", "V", "T")
+"""The base units, in the order of the exponents in ``Unit.dimension``."""
+
+_DEG = math.pi / 180
+
+_ATOMS: dict[str, tuple[float, dict[str, int]]] = {
+    "1": (1.0, {}), "ppm": (1e-6, {}), "%": (1e-2, {}),
+    "rad": (1.0, {"rad": 1}), "mrad": (1e-3, {"rad": 1}), "urad": (1e-6, {"rad": 1}),
+    "deg": (_DEG, {"rad": 1}), "arcsec": (_DEG / 3600, {"rad": 1}),
+    "s": (1.0, {"s": 1}), "ms": (1e-3, {"s": 1}), "us": (1e-6, {"s": 1}), "ns": (1e-9, {"s": 1}),
+    "min": (60.0, {"s": 1}), "h": (3600.0, {"s": 1}),
+    "Hz": (1.0, {"s": -1}), "kHz": (1e3, {"s": -1}),
+    "m": (1.0, {"m": 1}), "mm": (1e-3, {"m": 1}), "cm": (1e-2, {"m": 1}), "km": (1e3, {"m": 1}),
+    "g": (STANDARD_GRAVITY, {"m": 1, "s": -2}), "mg": (1e-3 * STANDARD_GRAVITY, {"m": 1, "s": -2}),
+    "ug": (1e-6 * STANDARD_GRAVITY, {"m": 1, "s": -2}),
+    "K": (1.0, {"K": 1}), "degC": (1.0, {"K": 1}),
+    "V": (1.0, {"V": 1}), "mV": (1e-3, {"V": 1}),
+    "T": (1.0, {"T": 1}), "mT": (1e-3, {"T": 1}), "uT": (1e-6, {"T": 1}), "nT": (1e-9, {"T": 1}), "gauss": (1e-4, {"T": 1}),
+}
+
+ATOMS = tuple(_ATOMS)
+"""Every spelling that the table knows."""
+
+_HINTS = {"°": "deg", "º": "deg", "degree": "deg", "degrees": "deg", "dps": "deg/s", "radian": "rad", "radians": "rad",
+          "sec": "s", "second": "s", "seconds": "s", "µs": "us", "μs": "us", "hr": "h", "hour": "h", "hours": "h",
+          "µg": "ug", "μg": "ug", "µT": "uT", "μT": "uT", "G": "gauss (field) or g (gravity)", "meter": "m", "metre": "m",
+          "°C": "degC", "C": "degC", "celsius": "degC", "kelvin": "K", "volt": "V"}
+"""What common spellings outside the table are called in it; only for error messages."""
+
+_TOKEN = re.compile(r"\s*(?:(?P<operator>[*/^()])|(?P<integer>[-+]?\d+)|(?P<word>[^\s*/^()\d+-][^\s*/^()]*))")
+
+
+class UnitError(UserError):
+    """A unit that is not in the table, is malformed, or has the wrong dimension."""
+
+
+@dataclass(frozen=True)
+class Unit:
+    """A unit: ``factor`` times the SI unit of ``dimension``, the exponents of ``BASES``; ``text`` as it was spelled."""
+
+    factor: float
+    dimension: tuple[Fraction, ...]
+    text: str
+
+    def __str__(self) -> str:
+        return self.text
+
+
+_Value = tuple[float, tuple[Fraction, ...]]
+
+
+@lru_cache(maxsize=1024)
+def parse(text: str) -> Unit:
+    """The unit that ``text`` spells, such as ``"deg/h/sqrt(h)"`` or ``"rad/s/(m/s^2)"``.
+
+    Raises UnitError for an atom outside the table, naming the nearest one, and for text that is no unit.
+    """
+    if not isinstance(text, str):
+        raise UnitError(f"a unit must be text such as 'deg/s', not {text!r}")
+    reader = _Reader(text)
+    factor, dimension = reader.product()
+    reader.end()
+    return Unit(factor, dimension, text.strip())
+
+
+def same_dimension(a: str | Unit, b: str | Unit) -> bool:
+    """Whether a value in ``a`` can be converted to ``b``.  Raises UnitError for an unknown unit."""
+    return _unit(a).dimension == _unit(b).dimension
+
+
+def convert(values, source: str | Unit, target: str | Unit):
+    """``values`` given in ``source``, expressed in ``target``: a float for a scalar, else an array of the same shape.
+
+    Temperatures convert as differences; for readings of a thermometer see ``to_degc``.  Raises UnitError where the
+    dimensions differ.
+    """
+    source, target = _unit(source), _unit(target)
+    if source.dimension != target.dimension:
+        raise UnitError(f"'{source}' cannot be converted to '{target}': {_describe(source)} is not {_describe(target)}")
+    scaled = np.asarray(values, dtype=float) * (source.factor / target.factor)
+    return float(scaled) if scaled.ndim == 0 else scaled
+
+
+def to_degc(values, unit: str | Unit):
+    """Temperatures read in ``unit`` (``K`` or ``degC``) as degC, a float for a scalar.  Raises UnitError for another unit."""
+    unit = _unit(unit)
+    if unit.text not in ("K", "degC"):
+        raise UnitError(f"a temperature must be in degC or K, not '{unit}'")
+    shifted = np.asarray(values, dtype=float) - (ZERO_CELSIUS if unit.text == "K" else 0.0)
+    return float(shifted) if shifted.ndim == 0 else shifted
+
+
+def nearest(name: str, names: Iterable[str], cutoff: float = 0.7) -> str | None:
+    """The member of ``names`` that ``name`` was probably meant to be, upper and lower case alike, or None."""
+    folded: dict[str, str] = {}
+    for candidate in names:
+        folded.setdefault(candidate.casefold(), candidate)
+    match = get_close_matches(str(name).casefold(), folded, n=1, cutoff=cutoff)
+    return folded[match[0]] if match else None
+
+
+def did_you_mean(name: str, names: Iterable[str], cutoff: float = 0.7) -> str:
+    """``", did you mean NEAREST?"`` to end an error message with, empty where nothing is near."""
+    near = nearest(name, names, cutoff)
+    return f", did you mean {near}?" if near else ""
+
+
+def _unit(unit: str | Unit) -> Unit:
+    return unit if isinstance(unit, Unit) else parse(unit)
+
+
+def _describe(unit: Unit) -> str:
+    """The dimension in SI: ``rad s^-1``."""
+    parts = [base if e == 1 else f"{base}^{e}" for base, e in zip(BASES, unit.dimension) if e]
+    return " ".join(parts) or "a pure number"
+
+
+class _Reader:
+    """Recursive descent over the grammar in the module's docstring; each method returns (factor, dimension)."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.tokens = self._tokens()
+        self.position = 0
+
+    def _tokens(self) -> list[str]:
+        tokens, start, text = [], 0, self.text.rstrip()
+        while start < len(text):
+            match = _TOKEN.match(text, start)
+            if not match:
+                raise self.error(f"unexpected '{text[start:].strip()}'")
+            tokens.append(match.group().strip())
+            start = match.end()
+        return tokens
+
+    def error(self, reason: str) -> UnitError:
+        return UnitError(f"'{self.text}' is not a unit: {reason}")
+
+    def peek(self) -> str:
+        return self.tokens[self.position] if self.position < len(self.tokens) else ""
+
+    def take(self) -> str:
+        token = self.peek()
+        self.position += 1
+        return token
+
+    def expect(self, token: str) -> None:
+        if self.take() != token:
+            raise self.error(f"a '{token}' is missing")
+
+    def end(self) -> None:
+        if self.peek():
+            raise self.error(f"unexpected '{self.peek()}'")
+
+    def product(self) -> _Value:
+        factor, dimension = self.power()
+        while self.peek() in ("*", "/"):
+            sign = 1 if self.take() == "*" else -1
+            f, d = self.power()
+            factor = factor * f if sign > 0 else factor / f
+            dimension = tuple(a + sign * b for a, b in zip(dimension, d))
+        return factor, dimension
+
+    def power(self) -> _Value:
+        factor, dimension = self.factor()
+        if self.peek() != "^":
+            return factor, dimension
+        self.take()
+        text = self.take()
+        if not re.fullmatch(r"[-+]?\d{1,2}", text):
+            raise self.error(f"a power must be an integer below 100, not '{text}'")
+        return factor ** int(text), tuple(e * int(text) for e in dimension)
+
+    def factor(self) -> _Value:
+        token = self.take()
+        if token == "(":
+            return self._bracketed()
+        if token == "sqrt":
+            self.expect("(")
+            factor, dimension = self._bracketed()
+            return math.sqrt(factor), tuple(e / 2 for e in dimension)
+        return self._atom(token)
+
+    def _bracketed(self) -> _Value:
+        value = self.product()
+        self.expect(")")
+        return value
+
+    def _atom(self, token: str) -> _Value:
+        if token not in _ATOMS:
+            raise self.error(self._unknown(token))
+        factor, exponents = _ATOMS[token]
+        return factor, tuple(Fraction(exponents.get(base, 0)) for base in BASES)
+
+    @staticmethod
+    def _unknown(token: str) -> str:
+        if not token or token in "*/^()":
+            return "a unit is missing" + (f" before '{token}'" if token else " at its end")
+        meant = _HINTS.get(token) or _HINTS.get(token.casefold()) or nearest(token, ATOMS, cutoff=0.5)
+        return f"unknown '{token}'" + (f", did you mean {meant}?" if meant else f"; known are {', '.join(ATOMS)}")

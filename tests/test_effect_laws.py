@@ -1,0 +1,213 @@
+"""Laws that every effect of the catalogue keeps; a new effect is tested by being listed."""
+
+from pathlib import Path
+
+import casadi as ca
+import numpy as np
+import pytest
+from catalogue_cases import CASES, H, as_part, everything, excited, motion, outputs, own, run, size, with_excited
+
+from pyimu import units
+from pyimu.effect import CATALOGUE, KINDS, SIGNALS, Sensor
+from pyimu.imu import Part
+from pyimu.noise import normals
+from pyimu.partfile import load_part, save_part
+
+every_effect = pytest.mark.parametrize("name, kind", CASES)
+every_name = pytest.mark.parametrize("name", CATALOGUE)
+
+
+def draws(sensor: Sensor, n: int, first: int = 1) -> np.ndarray:
+    return normals(5, [c.number for c in sensor.noise], first, n)
+
+
+@every_name
+def test_an_effect_says_what_it_is_and_where_it_is_from(name):
+    e = CATALOGUE[name]
+    assert e.equation.strip() and e.source.strip() and e.term.strip() and e.sensors
+    assert set(e.sensors) <= set(KINDS) and set(e.environment.values()) <= set(SIGNALS)
+    for n, q in e.parameters.items():
+        assert q.description, f"{name}.{n} has no description"
+        assert q.minimum is None or q.start >= q.minimum
+        for kind in e.sensors:
+            units.parse(Sensor(kind).unit(q.unit))
+    assert e.lost is None or not e.invertible, f"{name} restores every sample, so it loses none"
+
+
+@every_effect
+def test_identity_at_start_values(name, kind):
+    """Output equals input bit for bit, with the noise on."""
+    sensor, u = Sensor(kind, {name: {}}), motion(200)
+    np.testing.assert_array_equal(run(sensor, u, draws(sensor, 200)), u[:, own(kind)])
+
+
+@every_effect
+def test_away_from_start_values_the_output_changes(name, kind):
+    sensor, u = excited(name, kind), motion(200)
+    change = np.abs(run(sensor, u, draws(sensor, 200)) - u[:, own(kind)]).max(0)
+    assert np.all(change > 1e-6 * np.abs(u[:, own(kind)]).max())
+
+
+@every_effect
+def test_an_effect_at_identity_changes_no_other(name, kind):
+    """Neither the bits of the effects that are there, nor the noise they draw."""
+    base = Sensor(kind)
+    for other in ("angle_random_walk", "rate_random_walk", "scale_factor", "thermal_bias"):
+        base = base if other == name else with_excited(base, other)
+    more, u = base.with_values(name), motion(200)
+    np.testing.assert_array_equal(run(more, u, draws(more, 200)), run(base, u, draws(base, 200)))
+
+
+@every_effect
+def test_sensors_of_a_part_do_not_touch_each_other(name, kind):
+    other = "accel" if kind == "gyro" else "gyro"
+    neighbour, u = excited("angle_random_walk", other), motion(100)
+    alone = run(neighbour, u, draws(neighbour, 100))
+    together = as_part(excited(name, kind), neighbour)
+    w = normals(5, [c.number for c in together.block.noise], 1, 100)
+    np.testing.assert_array_equal(together.block.run(u, w=w)[0][:, outputs(other)], alone)
+
+
+@every_effect
+def test_half_run_plus_half_run_is_the_whole_run(name, kind):
+    sensor, u = excited(name, kind), motion(300)
+    block, w = as_part(sensor).block, draws(sensor, 300)
+    whole, last = block.run(u, w=w)
+    first, state = block.run(u[:137], w=w[:137])
+    second, end = block.run(u[137:], w=draws(sensor, 163, first=138), state=state)
+    np.testing.assert_array_equal(np.vstack([first, second]), whole)
+    np.testing.assert_array_equal(end, last)
+
+
+def scale(unit: str) -> float:
+    """What a value in this unit is multiplied by in other base units.
+
+    Powers of four, whose roots are exact too: nothing is rounded.  The radian stays the number one, which it is in SI:
+    a small angle multiplies a rate, and wn h counts radians a sample.
+    """
+    factors = {"rad": 1.0, "s": 4.0, "m": 16.0, "K": 1 / 64, "V": 256.0, "T": 1 / 1024}
+    return float(np.prod([factors[base] ** float(e) for base, e in zip(units.BASES, units.parse(unit).dimension)]))
+
+
+@every_effect
+def test_units_balance(name, kind):
+    """In other units of metre, second and kelvin the same equation gives the same output: no unit is declared wrongly."""
+    sensor, u = excited(name, kind), motion(200)
+    other_p = sensor.p * [scale(s.unit) for s in sensor.slots]
+    other_u = u * np.concatenate([np.full(width, scale(unit)) for unit, width in SIGNALS.values()])
+    part, w = as_part(sensor), draws(sensor, 200)
+    y, _ = part.block.run(u, w=w)
+    other_y, _ = part.block.run(other_u, p=other_p, w=w, sample_period=H * scale("s"))
+    np.testing.assert_array_equal(other_y[:, outputs(kind)], y[:, outputs(kind)] * scale(KINDS[kind].unit))
+
+
+def has_corners(sensor: Sensor) -> bool:
+    """Whether the output of one step has a corner or a jump in the sensor's own input.
+
+    Under a grid four times finer second differences of a smooth function fall sixteenfold, at a corner fourfold, at a
+    jump not at all.
+    """
+    step, state = sensor.step, sensor.chain.start
+    for row in motion(40):
+        state, _ = step(state, row, sensor.p, np.zeros(len(sensor.noise)), H)
+
+    def bend(points: int) -> np.ndarray:
+        grid = np.linspace(-1.03, 1.01, points)
+        u = np.tile(motion(41)[-1], (points, 1))
+        u[:, own(sensor.kind)] = grid[:, None] * np.abs(motion(40)[:, own(sensor.kind)]).max()
+        y = np.array(step.map(points)(state, u.T, sensor.p, np.zeros(len(sensor.noise)), H)[1])
+        return np.abs(np.diff(y, 2)).max() / np.abs(u).max()
+
+    coarse, fine = bend(1001), bend(4001)
+    return bool(fine > coarse / 8 and coarse > 1e-9)
+
+
+def is_affine_in_coefficients(sensor: Sensor) -> bool:
+    """Whether a step is affine in the coefficients that are estimated, so that its slopes are regressors as they are."""
+    s, u, p, w, h = (ca.SX.sym(n, *sensor.step.size_in(i)) for i, n in enumerate("supwh"))
+    free = [i for i, slot in enumerate(sensor.slots) if not slot.definition.reference]
+    slope = ca.jacobian(sensor.step(s, u, p, w, h)[1], p)[:, free]
+    return not ca.depends_on(slope, p[free]) if free else True
+
+
+@every_effect
+def test_smooth_says_whether_there_are_corners_that_no_regressor_describes(name, kind):
+    sensor, e = excited(name, kind), CATALOGUE[name]
+    hidden = has_corners(sensor) and not is_affine_in_coefficients(sensor)
+    assert hidden == (not e.smooth)
+
+
+@every_effect
+def test_identification_finds_a_slope_or_is_told_where_to_look(name, kind):
+    """At the identity the output answers to each coefficient, or the effect has a scan; rounding alone has neither."""
+    sensor, e = Sensor(kind, {name: {}}), CATALOGUE[name]
+    if e.stochastic or not e.smooth or any(q.scan for q in e.parameters.values()):
+        return
+    u = motion(60)
+    for i, slot in enumerate(sensor.slots):
+        if slot.definition.reference:
+            continue
+        moved = sensor.p.copy()
+        moved[i] += 1e-6 * size(slot.unit)
+        assert np.any(run(sensor.with_p(moved), u) != u[:, own(kind)]), f"{slot.name} has no slope and no scan"
+
+
+def compensate(sensor: Sensor, y: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Restored input (n, 3) and marks of lost samples (n, 3); the sensor's own signal is hidden from the inputs."""
+    hidden = u.copy()
+    hidden[:, own(sensor.kind)] = np.nan
+    x, lost, state = np.empty_like(y), np.empty_like(y), sensor.chain.start
+    for k in range(len(y)):
+        state, a, b = sensor.compensation(state, y[k], hidden[k], sensor.p, H)
+        x[k], lost[k] = np.array(a)[:, 0], np.array(b)[:, 0]
+    return x, lost
+
+
+@every_effect
+def test_compensation_restores_the_input(name, kind):
+    """Exactly for an invertible effect; where another one can mark what it lost, all that is not marked."""
+    sensor, u, e = excited(name, kind), motion(150), CATALOGUE[name]
+    truth = u[:, own(kind)]
+    x, lost = compensate(sensor, run(sensor, u), u)
+    if not e.invertible and e.lost is None:
+        assert not lost.any()
+        return
+    assert e.invertible != bool(lost.any())
+    np.testing.assert_allclose(x[lost == 0], truth[lost == 0], rtol=1e-12, atol=1e-12 * np.abs(truth).max())
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_compensation_undoes_the_whole_chain(kind):
+    sensor, u = everything(kind, share=0.01), motion(150)
+    sensor = sensor.without(*[e.name for e in sensor.effects if not e.invertible])
+    x, _ = compensate(sensor, run(sensor, u), u)
+    np.testing.assert_allclose(x, u[:, own(kind)], rtol=1e-12, atol=1e-12 * np.abs(u[:, own(kind)]).max())
+
+
+@every_effect
+def test_saturated_samples_stay_marked_behind_the_effect(name, kind):
+    """What the range of the sensor cut off is lost, whatever else its chain does."""
+    sensor, u = with_excited(excited("saturation", kind, 0.5), name, 0.5 if name == "saturation" else 0.01), motion(100)
+    if name == "quantization":
+        pytest.skip("rounding follows the range and moves the limit to the next step")
+    y = run(sensor, u)
+    _, lost = compensate(sensor, y, u)
+    limit = sensor.values["saturation"]["limit"]
+    np.testing.assert_array_equal(lost == 1, np.abs(y) >= limit)
+    assert lost.any()
+
+
+@every_effect
+def test_values_survive_the_part_file(name, kind, tmp_path: Path):
+    made = as_part(excited(name, kind))
+    read = load_part(save_part(made, tmp_path / "part.toml"))
+    assert isinstance(read, Part) and read == made
+    np.testing.assert_array_equal(read.sensor(kind).p, made.sensor(kind).p)
+
+
+@every_effect
+def test_names_of_coefficients_and_noise_are_unique(name, kind):
+    block = as_part(excited(name, kind), everything("accel" if kind == "gyro" else "gyro")).block
+    names = [v.name for v in (*block.inputs, *block.parameters, *block.outputs)]
+    assert len(set(names)) == len(names)
+    assert len({c.number for c in block.noise}) == len(block.noise)
