@@ -34,7 +34,8 @@ def shaping_filter(sensor: Sensor, effect: str, axis: int, sample_period: float)
     chain, h = alone.chain, ca.DM(sample_period)
     s, w = chain.step.sx_in(0), chain.step.sx_in(3)
     s_next, y = chain.step(s, ca.DM.zeros(chain.step.size_in(1)), alone.p, w, h)
-    matrices = ca.Function("linear", [s, w], [ca.jacobian(s_next, s), ca.jacobian(s_next, w), ca.jacobian(y, s), ca.jacobian(y, w)])
+    jacobians = [ca.jacobian(of, by) for of in (s_next, y) for by in (s, w)]
+    matrices = ca.Function("linear", [s, w], jacobians)
     a, b, c, d = (np.array(ca.densify(m)) for m in matrices(ca.DM(chain.start), 0))
     b, c, d = b[:, [axis]], c[[axis], :], d[[axis]][:, [axis]]
     keep = _reached(a, b[:, 0]) & _reached(a.T, c[0])

@@ -16,7 +16,7 @@ RATE = 976.0
 CHANNELS = (7, 2**32 - 5)
 
 
-def toy(name="Toy", sample_period=1 / RATE, unit="rad/s", noise_floor="rad/sqrt(s)") -> Block:
+def toy(name="Toy", sample_period=1 / RATE, unit="rad/s") -> Block:
     """Nonlinear, with state, noise, a matrix that is not symmetric, and variables of every kind."""
     s, u, p = ca.SX.sym("s", 3), ca.SX.sym("u", 4), ca.SX.sym("p", 8)
     w, h = ca.SX.sym("w", 2), ca.SX.sym("h")
@@ -34,8 +34,9 @@ def toy(name="Toy", sample_period=1 / RATE, unit="rad/s", noise_floor="rad/sqrt(
         name=name, description="One of everything & more", step=step, initial=initial,
         inputs=(Variable("rate", unit), Variable("temperature", "degC", start=25.0),
                 Variable("counting", start=1.0, kind="boolean"), Variable("gear", start=1.0, kind="integer", minimum=-9)),
-        parameters=matrix + (Variable("noise.N", noise_floor, start=0.03, minimum=0.0), Variable("noise.K", "rad/s/sqrt(s)", start=0.01),
-                             Variable("b0", "rad/s", start=-0.125), Variable("doubled", kind="boolean", start=0.0)),
+        parameters=matrix + (Variable("noise.N", "rad/sqrt(s)", start=0.03, minimum=0.0),
+                             Variable("noise.K", "rad/s/sqrt(s)", start=0.01), Variable("b0", "rad/s", start=-0.125),
+                             Variable("doubled", kind="boolean", start=0.0)),
         outputs=(Variable("y[1]", "rad/s"), Variable("y[2]", "1"), Variable("positive", kind="boolean"),
                  Variable("ticks", kind="integer")),
         noise=tuple(NoiseChannel(f"w{n}", n) for n in CHANNELS), sample_period=sample_period)
@@ -67,10 +68,10 @@ class Unit:
 
     def _instantiate(self):
         if self.version == 3:
-            self.fmu.instantiate(loggingOn=self.log_events, logMessage=lambda env, status, category, text: self._keep(category, text))
+            self.fmu.instantiate(loggingOn=self.log_events, logMessage=lambda env, status, *message: self._keep(*message))
             return
         self.callbacks = fmi2.fmi2CallbackFunctions()
-        self.callbacks.logger = fmi2.fmi2CallbackLoggerTYPE(lambda env, name, status, category, text: self._keep(category, text))
+        self.callbacks.logger = fmi2.fmi2CallbackLoggerTYPE(lambda env, name, status, *message: self._keep(*message))
         addLoggerProxy(byref(self.callbacks))
         self.fmu.instantiate(callbacks=self.callbacks, loggingOn=self.log_events)
 

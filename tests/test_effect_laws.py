@@ -8,7 +8,7 @@ import pytest
 from catalogue_cases import CASES, H, as_part, everything, excited, motion, outputs, own, run, size, with_excited
 
 from pyimu import units
-from pyimu.effect import CATALOGUE, KINDS, SIGNALS, Sensor
+from pyimu.effect import CATALOGUE, KINDS, SIGNALS, Parameter, Sensor, effect
 from pyimu.imu import Part
 from pyimu.noise import normals
 from pyimu.partfile import load_part, save_part
@@ -180,6 +180,23 @@ def test_compensation_restores_the_input(name, kind):
 def test_compensation_undoes_the_whole_chain(kind):
     sensor, u = everything(kind, share=0.01), motion(150)
     sensor = sensor.without(*[e.name for e in sensor.effects if not e.invertible])
+    x, _ = compensate(sensor, run(sensor, u), u)
+    np.testing.assert_allclose(x, u[:, own(kind)], rtol=1e-12, atol=1e-12 * np.abs(u[:, own(kind)]).max())
+
+
+@pytest.fixture
+def bent():
+    """An effect that is quadratic in x and couples the axes, in the catalogue for one test."""
+    @effect(stage="gain", equation="y = x + c x_j x_k", source="made up", term="made up")
+    def bent_for_a_test(x, c: Parameter("1/{y}", description="made up")):
+        return x + c * ca.vertcat(x[1] * x[2], x[2] * x[0], x[0] * x[1])
+    yield bent_for_a_test
+    del CATALOGUE["bent_for_a_test"]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_compensation_of_a_nonlinear_effect_converges(bent, kind):
+    sensor, u = excited(bent.name, kind, share=0.015), motion(150)
     x, _ = compensate(sensor, run(sensor, u), u)
     np.testing.assert_allclose(x, u[:, own(kind)], rtol=1e-12, atol=1e-12 * np.abs(u[:, own(kind)]).max())
 

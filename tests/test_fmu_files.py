@@ -5,6 +5,7 @@ import shutil
 import subprocess
 import zipfile
 from dataclasses import replace
+from importlib.util import find_spec
 from io import BytesIO
 from pathlib import Path
 
@@ -19,7 +20,7 @@ from lxml import etree
 
 from pyimu.block import Block, NoiseChannel, Variable
 from pyimu.errors import UserError
-from pyimu.fmu import build_fmu, build_fmus, host_platform, simulate, source_folder, texts, write_generated
+from pyimu.fmu import PLATFORMS, build_fmu, build_fmus, host_platform, simulate, source_folder, texts, write_generated
 from pyimu.fmu.build import FLAGS, header_folder, icon
 from pyimu.noise import normals
 
@@ -46,6 +47,11 @@ def unzipped(path, folder):
     with zipfile.ZipFile(path) as archive:
         archive.extractall(folder)
     return folder
+
+
+def told(*command):
+    """What a command prints."""
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout
 
 
 # ---- the model description ---------------------------------------------------------------------------------------------
@@ -184,15 +190,13 @@ def test_every_function_is_exported(path):
 @pytest.mark.skipif(shutil.which("nm") is None, reason="needs nm")
 def test_nothing_else_is_exported(path, tmp_path):
     (library,) = unzipped(path, tmp_path).glob("binaries/*/Toy.so")
-    lines = subprocess.run(["nm", "-D", "--defined-only", library], capture_output=True, text=True, check=True).stdout.splitlines()
-    assert {line.split()[-1] for line in lines} == declared(int(path.name[-5]))
+    assert {line.split()[-1] for line in told("nm", "-D", "--defined-only", library).splitlines()} == declared(int(path.name[-5]))
 
 
 @pytest.mark.skipif(shutil.which("readelf") is None, reason="needs readelf")
 def test_only_libc_and_libm_are_needed(path, tmp_path):
     (library,) = unzipped(path, tmp_path).glob("binaries/*/Toy.so")
-    dynamic = subprocess.run(["readelf", "-d", library], capture_output=True, text=True, check=True).stdout
-    assert set(re.findall(r"\(NEEDED\).*\[(lib[a-z]+)", dynamic)) <= {"libc", "libm"}
+    assert set(re.findall(r"\(NEEDED\).*\[(lib[a-z]+)", told("readelf", "-d", library))) <= {"libc", "libm"}
 
 
 @pytest.mark.skipif(shutil.which("gcc") is None, reason="needs gcc")
@@ -203,8 +207,8 @@ def test_sources_compile_without_a_warning_and_hold_no_variables(path, tmp_path)
         generated = ["-Wno-unused-parameter"] if file.name == "step.c" else []
         subprocess.run(["gcc", *FLAGS, "-Wall", "-Wextra", "-Werror", *generated, "-I", header_folder(), "-c", file.name],
                        cwd=sources, check=True)
-        sizes = subprocess.run(["size", "-A", file.with_suffix(".o").name], cwd=sources, capture_output=True, text=True, check=True)
-        assert re.findall(r"^\.(?:data|bss)\s+(\d+)", sizes.stdout, re.M) == ["0", "0"]
+        sizes = told("size", "-A", file.with_suffix(".o"))
+        assert re.findall(r"^\.(?:data|bss)\s+(\d+)", sizes, re.M) == ["0", "0"]
 
 
 # ---- blocks at the edge ------------------------------------------------------------------------------------------------
@@ -256,7 +260,8 @@ def test_infinite_and_missing_start_values(tmp_path):
             assert unit.get("p") == np.inf
 
 
-@pytest.mark.parametrize("changes, words", (({"name": "a b"}, "C identifier"), ({"outputs": 2}, "more than one variable is called y")))
+@pytest.mark.parametrize("changes, words", (({"name": "a b"}, "C identifier"),
+                                            ({"outputs": 2}, "more than one variable is called y")))
 def test_blocks_that_cannot_become_an_fmu(changes, words):
     with pytest.raises(ValueError, match=words):
         texts(gain(**changes))
@@ -279,7 +284,7 @@ def test_functions_need_two_names():
 # ---- compilers ---------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("compiler, words", (("no-such-compiler", "no-such-compiler.*CC"), ("false", "could not compile")))
+@pytest.mark.parametrize("compiler, words", (("no-such-compiler", "no-such-compiler.*CC"), ("false", "could not make block.c")))
 def test_compilers_that_fail(monkeypatch, tmp_path, compiler, words):
     monkeypatch.setenv("CC", compiler)
     with pytest.raises(UserError, match=words) as caught:
@@ -299,6 +304,21 @@ def test_first_error_of_the_compiler_is_shown(tmp_path):
 def test_unknown_version_and_platform(tmp_path, arguments, words):
     with pytest.raises(UserError, match=words):
         build_fmu(BLOCK, tmp_path, **arguments)
+
+
+def test_cross_compiling_says_what_it_needs(monkeypatch, tmp_path):
+    monkeypatch.setattr("pyimu.fmu.build.find_spec", lambda name: None)
+    with pytest.raises(UserError, match="pip install ziglang"):
+        build_fmu(BLOCK, tmp_path, platform="all")
+
+
+@pytest.mark.skipif(find_spec("ziglang") is None, reason="needs ziglang")
+def test_all_platforms(tmp_path):
+    two, three = build_fmus(BLOCK, tmp_path, platform="all")
+    libraries = [{n for n in zipfile.ZipFile(fmu).namelist() if n.startswith("binaries/")} for fmu in (two, three)]
+    assert libraries[1] == {f"binaries/{p.name}/Toy{p.suffix}" for p in PLATFORMS.values()}
+    assert libraries[0] == {"binaries/linux64/Toy.so", "binaries/aarch64-linux/Toy.so", "binaries/win64/Toy.dll",
+                            "binaries/darwin64/Toy.dylib", "binaries/aarch64-darwin/Toy.dylib"}
 
 
 def test_the_c_sources_are_found():

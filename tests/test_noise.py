@@ -27,8 +27,8 @@ class Compiled:
 
     def __init__(self, folder, *flags):
         file = folder / "noise.so"
-        subprocess.run(["cc", "-O3", "-ffp-contract=off", "-shared", "-fPIC", *flags, source_folder() / "noise.c", "-o", file, "-lm"],
-                       check=True)
+        flags = ("-O3", "-ffp-contract=off", "-shared", "-fPIC", *flags)
+        subprocess.run(["cc", *flags, source_folder() / "noise.c", "-o", file, "-lm"], check=True)
         self.library = ctypes.CDLL(str(file))
         self.library.noise_normal.argtypes, self.library.noise_normal.restype = [c_uint64], c_double
         self.library.noise_at.argtypes = [ctypes.c_void_p, c_uint64, c_uint64, c_int64]

@@ -6,6 +6,8 @@ the lowest frequencies, its differences are white.  Family-wise one false alarm 
 axes and versions.
 """
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 from scipy.stats import chi2, norm
@@ -43,7 +45,7 @@ def periodogram_two_sided(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return np.fft.rfftfreq(len(x), H), np.abs(np.fft.rfft(x)) ** 2 * H / len(x)
 
 
-def assert_inside_band(x: np.ndarray, density: callable, tests: int) -> float:
+def assert_inside_band(x: np.ndarray, density: Callable, tests: int) -> float:
     """Every octave of x against density(f); gives the relative half width of the tightest band."""
     f, power = periodogram_two_sided(x)
     bands = octaves(len(x))
@@ -52,7 +54,8 @@ def assert_inside_band(x: np.ndarray, density: callable, tests: int) -> float:
         m = band.stop - band.start
         low, high = chi2.ppf([alpha / 2, 1 - alpha / 2], 2 * m) / (2 * m)
         ratio = np.mean(power[band] / density(f[band]))
-        assert low <= ratio <= high, f"{f[band.start]:.4g} to {f[band.stop]:.4g} Hz: {ratio:.4f} is not in {low:.4f} to {high:.4f}"
+        where = f"{f[band.start]:.4g} to {f[band.stop]:.4g} Hz"
+        assert low <= ratio <= high, f"{where}: {ratio:.4f} of the theory is not in {low:.4f} to {high:.4f}"
         narrowest = min(narrowest, (high - low) / 2)
     return narrowest
 

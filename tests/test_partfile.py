@@ -23,9 +23,11 @@ def read(body):
 def test_imt30_is_hidalgo_tables_1_2_and_4():
     p = part("imt30")
     assert "imt30" in part_names() and p.name == "imt30" and p.sample_rate == 976.0
-    np.testing.assert_allclose(p.gyro.values["thermal_bias"]["kT"], np.array([0.020, 0.056, 0.050]) * DEG, rtol=1e-14)
-    np.testing.assert_allclose(p.gyro.values["angle_random_walk"]["N"], np.array([0.20764, 0.23858, 0.20489]) * DEG / 60, rtol=1e-14)
-    np.testing.assert_allclose(p.gyro.values["rate_random_walk"]["K"], np.array([32.8, 49.6, 64.2]) * DEG / 3600 / 60, rtol=1e-14)
+    tables = {("thermal_bias", "kT"): np.array([0.020, 0.056, 0.050]) * DEG,
+              ("angle_random_walk", "N"): np.array([0.20764, 0.23858, 0.20489]) * DEG / 60,
+              ("rate_random_walk", "K"): np.array([32.8, 49.6, 64.2]) * DEG / 3600 / 60}
+    for (effect, parameter), want in tables.items():
+        np.testing.assert_allclose(p.gyro.values[effect][parameter], want, rtol=1e-14)
     assert set(p.gyro.values) == {"thermal_bias", "angle_random_walk", "rate_random_walk"} and not p.accel.values
 
 
@@ -44,7 +46,8 @@ def test_a_number_stands_for_all_axes_and_a_matrix_may_be_flat():
              'misalignment.m = {value = [[0,1,2],[3,0,4],[5,6,0]], unit = "mrad"}')
     np.testing.assert_array_equal(p.gyro.values["scale_factor"]["s"], [0.01] * 3)
     np.testing.assert_array_equal(p.gyro.values["g_sensitivity"]["G"], np.arange(1.0, 10).reshape(3, 3))
-    np.testing.assert_allclose(p.gyro.values["misalignment"]["m"], [[0, 1e-3, 2e-3], [3e-3, 0, 4e-3], [5e-3, 6e-3, 0]], rtol=1e-15)
+    m = p.gyro.values["misalignment"]["m"]
+    np.testing.assert_allclose(m, [[0, 1e-3, 2e-3], [3e-3, 0, 4e-3], [5e-3, 6e-3, 0]], rtol=1e-15)
 
 
 def test_a_reference_temperature_is_a_reading_and_not_a_difference():
@@ -82,16 +85,20 @@ ERRORS = {
     '[accel.turn_on_bias]\nb0 = {value = 3}': 'accel.turn_on_bias.b0: has no unit, write {value = ..., unit = "m/s^2"}',
     '[gyro.angle_random_walk]\nN = {value = 3, unit = "deg/s"}':
         "gyro.angle_random_walk.N.unit: 'deg/s' cannot be converted to 'rad/sqrt(s)'",
-    '[gyro.turn_on_bias]\nb0 = {value = 3, unit = "dps"}': "gyro.turn_on_bias.b0.unit: 'dps' is not a unit: unknown 'dps', did you mean deg/s?",
+    '[gyro.turn_on_bias]\nb0 = {value = 3, unit = "dps"}':
+        "gyro.turn_on_bias.b0.unit: 'dps' is not a unit: unknown 'dps', did you mean deg/s?",
     '[gyro.turn_on_bias]\nb0 = {value = "estimate", unit = "dps"}': "gyro.turn_on_bias.b0.unit: 'dps' is not a unit",
-    '[gyro.thermal_bias]\nT0 = {value = 3, unit = "rad"}': "gyro.thermal_bias.T0.unit: a temperature must be in degC or K, not 'rad'",
+    '[gyro.thermal_bias]\nT0 = {value = 3, unit = "rad"}':
+        "gyro.thermal_bias.T0.unit: a temperature must be in degC or K, not 'rad'",
     '[gyro.thermal_bias]\nT0 = "estimate"': 'gyro.thermal_bias.T0: only fixes an origin and cannot be "estimate"',
     '[gyro.scale_factor]\ns = [1, 2]': "gyro.scale_factor.s: holds 2 numbers, expected 3 numbers",
     '[gyro.scale_factor]\ns = []': "gyro.scale_factor.s: holds 0 numbers, expected 3 numbers",
     '[gyro.lag]\nzeta = [1.0]': "gyro.lag.zeta: holds 1 numbers, expected one number",
     '[gyro.misalignment]\nm = {value = 1, unit = "rad"}': "gyro.misalignment.m: holds one number, expected a 3 x 3 matrix",
-    '[gyro.misalignment]\nm = {value = [[1, 2], [3]], unit = "rad"}': "gyro.misalignment.m: holds rows of unequal length, expected a 3 x 3 matrix",
-    '[gyro.misalignment]\nm = {value = [1, 2, 3, 4, 5, 6, 7, 8, 9], unit = "rad"}': "gyro.misalignment.m: has no diagonal elements, write 0 there",
+    '[gyro.misalignment]\nm = {value = [[1, 2], [3]], unit = "rad"}':
+        "gyro.misalignment.m: holds rows of unequal length, expected a 3 x 3 matrix",
+    '[gyro.misalignment]\nm = {value = [1, 2, 3, 4, 5, 6, 7, 8, 9], unit = "rad"}':
+        "gyro.misalignment.m: has no diagonal elements, write 0 there",
     '[gyro.scale_factor]\ns = "3 %"': "gyro.scale_factor.s: must be a number, not '3 %'",
     '[gyro.scale_factor]\ns = [1, true, 3]': "gyro.scale_factor.s: must be a number, not True",
     '[gyro.scale_factor]\ns = [1, nan, 3]': "gyro.scale_factor.s: must be finite",
@@ -101,7 +108,8 @@ ERRORS = {
     '[gyro.scale_factor]\ns = {value = 1, unit = 3}': "gyro.scale_factor.s.unit: must be text, not 3",
     '[gyro.scale_factor]\ns = {value = 1, sourc = "x"}': "gyro.scale_factor.s.sourc: unknown key; did you mean source?",
     '[gyro.scale_factor]\ns = {value = 1, start = 2}': 'gyro.scale_factor.s.start: goes only with value = "estimate"',
-    '[gyro.scale_factor]\ns = {value = 1, density = "one-sided"}': "gyro.scale_factor.s.density: goes only with angle_random_walk.N",
+    '[gyro.scale_factor]\ns = {value = 1, density = "one-sided"}':
+        "gyro.scale_factor.s.density: goes only with angle_random_walk.N",
     '[gyro.angle_random_walk]\nN = {value = 1, unit = "deg/sqrt(h)", density = "half"}':
         "gyro.angle_random_walk.N.density: must be \"one-sided\" or \"two-sided\", not 'half'",
     '[gyro.angle_random_walk]\nN = {value = [1, -1, 1], unit = "deg/sqrt(h)"}':
@@ -170,7 +178,8 @@ def test_any_part_reads_back_equal(v, choice, one_sided, text, estimate):
     notes = {("gyro", *k): {"unit": UNITS[k][c % len(UNITS[k])], "source": text} for k, c in zip(keys, choice)}
     if one_sided:
         notes["gyro", "angle_random_walk", "N"]["density"] = "one-sided"
-    gyro = Sensor("gyro", {"turn_on_bias": {"b0": v[:3]}, "angle_random_walk": {"N": v[3:6]}, "thermal_bias": {"T0": v[6], "kT": -v[7]}})
+    gyro = Sensor("gyro", {"turn_on_bias": {"b0": v[:3]}, "angle_random_walk": {"N": v[3:6]},
+                           "thermal_bias": {"T0": v[6], "kT": -v[7]}})
     leave = frozenset({("gyro", "thermal_bias", "kT")}) if estimate else frozenset()
     made = Part("x" + text, 1 / 0.3, gyro=gyro, notes=notes, estimate=leave, description=text)
     assert parse_part(format_part(made)) == made

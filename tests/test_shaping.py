@@ -51,7 +51,7 @@ def test_hidalgo_table_3_allan_of_a_continuous_density(tau):
 
 
 def test_hidalgo_table_3_allan_of_flicker():
-    """B^2 / (2 pi f) up to f0: for tau far above 1 / f0 the floor (2 ln 2 / pi) B^2; what f0 cuts off is of order 1 / (f0 tau)^2."""
+    """B^2 / (2 pi f) up to f0: far above 1 / f0 the floor (2 ln 2 / pi) B^2, less a share of order 1 / (f0 tau)^2."""
     f0, tau = 10.0, 50.0
     flicker = allan_deviation(lambda f: np.where(f <= f0, 1 / (2 * np.pi * f), 0.0), tau)
     np.testing.assert_allclose(flicker ** 2, 2 * np.log(2) / np.pi, rtol=1 / (f0 * tau) ** 2)

@@ -116,7 +116,7 @@ def _compile(name: str, generated: dict[str, str], versions: Iterable[int], plat
     include = ["-I", ".", "-I", str(header_folder())]
     for file in files:
         if file.endswith(".c"):
-            _run([*compiler, *FLAGS, *include, "-c", file], work)
+            _run([*compiler, *FLAGS, *include, "-c", file, "-o", _object(file)], work, file)
     layers = {LAYER[v] for v in versions}
     shared = [_object(f) for f in files if f.endswith(".c") and f not in layers]
     return {v: _link(name, [*shared, _object(LAYER[v])], platform, compiler, work) for v in versions}
@@ -129,17 +129,17 @@ def _object(source: str) -> str:
 def _link(name: str, objects: list[str], platform: Platform, compiler: list[str], work: Path) -> bytes:
     library = name + platform.suffix
     install_name = [f"-Wl,-install_name,@rpath/{library}"] if platform.suffix == ".dylib" else []
-    _run([*compiler, "-shared", "-s", *install_name, "-o", library, *objects, "-lm"], work)
+    _run([*compiler, "-shared", "-s", *install_name, "-o", library, *objects, "-lm"], work, library)
     return (work / library).read_bytes()
 
 
-def _run(command: list[str], folder: Path) -> None:
-    """Run a compiler.  Raises UserError with its first error, or else its first line."""
+def _run(command: list[str], folder: Path, what: str) -> None:
+    """Compile or link ``what``.  Raises UserError with the compiler's first error, or else its first line."""
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, errors="replace")
     if done.returncode:
         lines = done.stderr.splitlines() or [f"exit status {done.returncode}"]
         reason = next((line for line in lines if "error" in line), lines[0])
-        raise UserError(f"'{' '.join(command[:1])}' could not compile {command[-1]}: {reason}")
+        raise UserError(f"the C compiler '{command[0]}' could not make {what}: {reason}")
 
 
 def _source_files(generated: dict[str, str], versions: Iterable[int]) -> dict[str, bytes]:

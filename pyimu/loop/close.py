@@ -11,14 +11,15 @@ import numpy as np
 from pyimu.effect import CATALOGUE, Sensor
 from pyimu.errors import UserError
 from pyimu.imu import Part
+from pyimu.loop.attitude_error import attitude_error
 from pyimu.loop.candidates import absent
 from pyimu.loop.forward import Investigation, Step, investigate
-from pyimu.loop.leftover import NoiseFigure, comb_gain, drift, lack_of_fit, noise_figures, rest_noise, rounding
+from pyimu.loop.leftover import NoiseFigure, comb_gain, drift, lack_of_fit, noise_figures, rounding
 from pyimu.loop.regression import Fit, slot_key
 from pyimu.loop.result import Added, Changed, Closed, Errors, LogEntry, Visibility, added_of
 from pyimu.loop.score import Tally, floor, held_state, tally
 from pyimu.loop.select import PENALTY
-from pyimu.loop.trial import Trial, accel_trial, gyro_trial
+from pyimu.loop.trial import Trial, accel_trial, gyro_trial, rest_noise
 from pyimu.loop.whiten import RandomWalk
 from pyimu.partfile import part as find_part
 from pyimu.quality import inspect
@@ -160,9 +161,11 @@ def _conclude(start: Part, declared: Part | None, logs, others, found: dict[str,
     say("error on held-out data")
     errors, entries, likelihood = _scores(found, logs, others)
     verdict, reason = _verdict(added, changed, unexplained, drifts, found)
+    say("attitude against the reference")
+    attitude = _attitude(before, after, found.get("gyro"), logs, others)
     refused = tuple((k, r) for k, inv in found.items() for r in inv.refused)
     return Closed(verdict, reason, before, replace(after, estimate=frozenset()), tuple(added), tuple(changed), unexplained, drifts,
-                  tuple(v for k, inv in found.items() for v in _observability(k, inv)), errors, likelihood, None, quality, entries,
+                  tuple(v for k, inv in found.items() for v in _observability(k, inv)), errors, likelihood, attitude, quality, entries,
                   refused, found, {k: inv.after.trials[0].band_hz for k, inv in found.items()}, "holdout" if others else "last 30 %")
 
 
@@ -254,6 +257,20 @@ def _scores(found: dict[str, Investigation], logs, others) -> tuple[dict[str, Er
         entries.append(LogEntry(r.path.name if r.path else r.name, len(r.time), max((len(t.time) for t in held), default=0),
                                 by_log[r.name], {k: s for k, s in states.items() if s}))
     return errors, tuple(entries), likelihood
+
+
+def _attitude(before: Part, after: Part, inv: Investigation | None, logs, others) -> tuple[float, float] | None:
+    """RMS error [rad] of the attitude filter with the model before and after, over the held-out rows that ``ref_q`` covers."""
+    squares, rows = np.zeros(2), 0
+    for r in others or logs:
+        held = None if inv is None or r.ref_q is None or r.accel is None else next((t for t in inv.held if t.name == r.name), None)
+        if held is None:
+            continue
+        mounting = np.array(_state_entry(inv, r.name)["rotation"])
+        pair = [attitude_error(r, p, mounting, len(r.time) - len(held.time)) for p in (before, after)]
+        squares += [np.sum(e.total ** 2) for e in pair]
+        rows += len(pair[0].total)
+    return tuple(np.sqrt(squares / rows).tolist()) if rows else None
 
 
 def _state_entry(inv: Investigation, name: str) -> dict | None:

@@ -19,7 +19,7 @@ SET_WIDTH = 6.0
 """Log-likelihood [nat] within which another effect explains the data as well as the best."""
 
 MOST_EFFECTS = 8
-MOST_REFINED = 4
+MOST_REFINED = 5
 
 
 @dataclass(frozen=True)
@@ -67,6 +67,7 @@ class Refined:
     screened: Screened
     fit: Fit
     gain: float
+    dispersion: float
 
 
 def investigate(sensor: Sensor, free: frozenset, trials: list[Trial], held: list[Trial],
@@ -80,14 +81,14 @@ def investigate(sensor: Sensor, free: frozenset, trials: list[Trial], held: list
     while len(steps) < MOST_EFFECTS:
         say(f"{sensor.kind}: {len(steps)} added, trying {len(last.candidates)} candidates")
         options = [c for c in last.above() if c.effect not in refused]
-        chosen, names = _choose(after, options)
-        if chosen is None or chosen.gain <= last.gate:
+        chosen, names = _choose(after, options, last.gate)
+        if chosen is None:
             break
         if not improves(after, chosen.fit, held):
             refused[chosen.screened.effect] = Refused(chosen.screened.effect, chosen.gain, "does not lower the error on held-out data")
             continue
         name = chosen.screened.effect
-        steps.append(Step(name, keys_of(chosen.screened), chosen.gain, last.gate, names, chosen.screened.dispersion,
+        steps.append(Step(name, keys_of(chosen.screened), chosen.gain, last.gate, names, chosen.dispersion,
                           name in before.sensor.values))
         after = without_lost(chosen.fit) if name == "saturation" else chosen.fit
         last = screen(after, sensor.values)
@@ -95,12 +96,12 @@ def investigate(sensor: Sensor, free: frozenset, trials: list[Trial], held: list
     return Investigation(before, after, tuple(steps), tuple(refused.values()), first, last, tuple(held))
 
 
-def _choose(current: Fit, options: list[Screened]) -> tuple[Refined | None, tuple[str, ...]]:
+def _choose(current: Fit, options: list[Screened], gate: float) -> tuple[Refined | None, tuple[str, ...]]:
     """The candidate that explains most once fitted in full, and the names of those that explain as much."""
-    if not options:
+    refined = sorted((refine(current, c) for c in options[:MOST_REFINED]), key=lambda r: -r.gain)
+    refined = [r for r in refined if r.gain > gate]
+    if not refined:
         return None, ()
-    limit = options[0].gain - max(SET_WIDTH, 0.5 * options[0].gain)
-    refined = sorted((refine(current, c) for c in options[:MOST_REFINED] if c.gain >= limit), key=lambda r: -r.gain)
     best = refined[0]
     derived = any(t.band_hz is not None for t in current.trials)
     for other in refined[1:]:
@@ -115,13 +116,17 @@ def _choose(current: Fit, options: list[Screened]) -> tuple[Refined | None, tupl
 
 
 def refine(current: Fit, c: Screened) -> Refined:
-    """Fit a candidate in full beside everything that is free already."""
+    """Fit a candidate in full beside everything that is free already.
+
+    Its gain is taken with the noise fitted anew, which a missing effect had disguised, and corrected for the scatter
+    of the scores at the fitted values.
+    """
     sensor = with_start(current.sensor, c.values, c.effect)
     fitted = fit(replace(current, sensor=sensor, free=current.free | keys_of(c)).with_noise())
+    spread = fitted_dispersion(fitted, keys_of(c))
     fitted = on_plateau(fitted) if c.effect == "saturation" else fitted
-    spread = fitted_dispersion(fitted, keys_of(c)) if c.values else c.dispersion
     gain = (fitted.log_likelihood - current.log_likelihood) / spread - PENALTY * len(keys_of(c))
-    return Refined(replace(c, dispersion=spread), fitted, gain)
+    return Refined(c, fitted, gain, spread)
 
 
 def improves(old: Fit, new: Fit, held: list[Trial]) -> bool:

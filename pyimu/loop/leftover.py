@@ -130,18 +130,6 @@ def drift(fit: Fit, declared_k: np.ndarray) -> dict[int, float]:
     return found
 
 
-def rest_noise(trial: Trial) -> np.ndarray:
-    """Standard deviation (3,) of the white noise of the samples, from differences over the quietest second-long stretches."""
-    length = max(8, round(1.0 / trial.h))
-    pieces = [trial.y[k:k + length] for a, b in trial.segments for k in range(a, b - length + 1, length)]
-    if not pieces:
-        return np.full(3, np.nan)
-    # Differencing takes slow motion out; a quarter of the stretches is rest enough, and their median is not picked by luck.
-    spreads = np.array([np.std(np.diff(p, axis=0), axis=0) / np.sqrt(2) for p in pieces])
-    quiet = np.argsort(spreads.sum(axis=1))[: max(1, len(pieces) // 4)]
-    return np.sqrt(np.mean(spreads[quiet] ** 2, axis=0))
-
-
 def rounding(trials: tuple[Trial, ...], white: np.ndarray) -> dict[int, float]:
     """Steps q by axis on which every raw sample lies and which matter against white noise of standard deviation (3,)."""
     found = {}

@@ -16,7 +16,7 @@ from scipy.spatial.transform import Rotation
 
 from pyimu.effect import CATALOGUE, OWN, Parameter, Sensor, Slot
 from pyimu.loop.response import dynamics, predict, tail, tail_of, through_dynamics
-from pyimu.loop.trial import Trial
+from pyimu.loop.trial import Trial, rest_noise
 from pyimu.loop.whiten import Autoregressive, RandomWalk
 
 Key = tuple
@@ -298,6 +298,7 @@ def fit(start: Fit, rounds: int = 3, steps: int = 6) -> Fit:
         start = gauss_newton(start, steps).with_noise()
         if np.allclose(before, start.sensor.p, rtol=1e-4, atol=1e-9):
             break
+    start = without_attenuation(start)
     normal = normal_equations(start.linearise(), start.noise)
     covariance = solve(normal.gram, np.eye(len(normal.keys)))
     std = {k: float(np.sqrt(max(covariance[i, i], 0.0))) for i, k in enumerate(normal.keys)}
@@ -316,6 +317,44 @@ def gauss_newton(start: Fit, steps: int) -> Fit:
             break
         start, normal = moved, normal_equations(moved.linearise(), moved.noise)
     return start
+
+
+def without_attenuation(fitted: Fit) -> Fit:
+    """Take out the bias that noise of a derived reference puts into coefficients (errors in variables).
+
+    With an error e on the input, residual and regressor hold -e and (d column/dx) e: their product has a mean, which
+    pulls a scale factor down.  In whitened rows the residual has unit variance, so the sum of the products is the number
+    of rows times the mean of d column/dx times the reference's share of that variance (Fuller 1987, section 1.2).
+    """
+    if all(t.band_hz is None for t in fitted.trials):
+        return fitted
+    normal = normal_equations(fitted.linearise(), fitted.noise)
+    pull = np.zeros(len(normal.keys))
+    rest = tail(fitted.sensor)
+    response = tail_of(rest.kind, tuple(rest.values))
+    shares = _reference_shares(fitted)
+    for t in fitted.trials:
+        bend = response.mean_bend(reference_input(t, fitted.states[t.name]), rest.p)
+        rows = len(band_time(t))
+        for e, (axis, slot) in enumerate(zip(response.axis, response.slot, strict=True)):
+            key = slot_key(rest.slots[slot])
+            if key in normal.position and int(axis) in t.axes:
+                pull[normal.position[key]] += rows * bend[e] * shares[int(axis)]
+    return _step(fitted, normal.keys, solve(normal.gram, pull)).with_noise()
+
+
+def _reference_shares(fitted: Fit, seed: int = 1) -> dict[int, float]:
+    """Share of each axis's whitened residual that is not the sensor's own noise: one less what that noise, simulated, leaves."""
+    t = max(fitted.trials, key=lambda t: t.count)
+    rng, shape = np.random.default_rng(seed), (len(t.time), 3)
+    values = fitted.sensor.values
+    declared = {n: values[e][n] for e, n in (("angle_random_walk", "N"), ("rate_random_walk", "K")) if e in values and np.any(values[e][n])}
+    white = declared["N"] / np.sqrt(t.h) if "N" in declared else rest_noise(t)
+    noise = np.nan_to_num(white) * rng.standard_normal(shape)
+    noise += np.cumsum(declared.get("K", np.zeros(3)) * np.sqrt(t.h) * rng.standard_normal(shape), axis=0)
+    seen = in_band(t, noise)
+    return {i: max(0.0, 1.0 - float(np.mean(n.whiten(seen[:, i:i + 1], band_time(t), band_segments(t)) ** 2)))
+            for i, n in fitted.noise.items()}
 
 
 def power(fit: Fit) -> float:

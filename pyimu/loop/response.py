@@ -86,6 +86,8 @@ class Tail:
         outputs = ca.vertcat(y, ca.vec(ca.densify(ca.jacobian(y, chain.x)).T), *jp.nonzeros())
         self.function = ca.Function("tail", [chain.u, chain.p], [ca.densify(outputs)])
         self.output = ca.Function("output", [chain.u, chain.p], [ca.densify(y)])
+        bends = [ca.jacobian(entry, chain.x[int(i)]) for entry, i in zip(jp.nonzeros(), self.axis, strict=True)]
+        self.bend = ca.Function("bend", [chain.u, chain.p], [ca.densify(ca.vertcat(ca.SX(0, 1), *bends))])
 
     def __call__(self, u: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """For inputs (n, 7): output (n, 3), its slope against the own input (n, 3, 3), and dy/dp (n, entries).
@@ -94,6 +96,11 @@ class Tail:
         """
         flat = over_rows(self.function, u, p)
         return flat[:, :3], flat[:, 3:12].reshape(-1, 3, 3), flat[:, 12:]
+
+
+    def mean_bend(self, u: np.ndarray, p: np.ndarray) -> np.ndarray:
+        """Mean over the rows (n, 7) of d(entry)/dx of its own axis, (entries,): how a regressor follows an error of the input."""
+        return over_rows(self.bend, u, p).mean(axis=0)
 
 
 @lru_cache(maxsize=32)

@@ -24,13 +24,12 @@ VISIBLE = 6.0
 
 @dataclass(frozen=True)
 class Screened:
-    """Gain of one effect, the groups that take part, the scanned values to start from, the scatter correction."""
+    """Gain of one effect before any correction, the groups that take part, the scanned values to start from."""
 
     effect: str
     gain: float
     groups: tuple[Group, ...]
     values: dict[tuple, float]
-    dispersion: float
     smallest_visible: float
     inseparable_from: tuple[str, ...] = ()
 
@@ -119,22 +118,18 @@ def _gate(projected: Projected, all_groups: list[Group], rng: np.random.Generato
 
 
 def _screened(effect: str, gs: list[Group], projected: Projected) -> Screened:
-    picked, gain, values, worst = [], 0.0, {}, 1.0
+    picked, gain, values = [], 0.0, {}
     smallest = np.inf
     for g in gs:
         options = [(c, float(_gains(projected.score[None], c, projected.gram)[0])) for c in g.choices]
-        choice, raw = max(options, key=lambda o: o[1])
-        # A scan's grid misses the true value, and the miss looks like scatter: a scan is corrected once it is fitted.
-        spread = dispersion(projected, choice.columns) if choice.value is None else 1.0
-        corrected = (raw + PENALTY * len(choice.columns)) / spread - PENALTY * len(choice.columns)
+        choice, best = max(options, key=lambda o: o[1])
         smallest = min(smallest, _smallest(projected, g))
-        if corrected > 0:
+        if best > 0:
             picked.append(g)
-            gain += corrected
-            worst = max(worst, spread)
+            gain += best
             if choice.value is not None:
                 values[g.keys[0][3]] = choice.value
-    return Screened(effect, gain, tuple(picked), values, worst, smallest)
+    return Screened(effect, gain, tuple(picked), values, smallest)
 
 
 def _smallest(projected: Projected, g: Group) -> float:
@@ -162,7 +157,7 @@ def dispersion(projected: Projected, columns: Sequence[int]) -> float:
 
 
 def fitted_dispersion(fit: Fit, keys: Iterable[Key]) -> float:
-    """The same correction for coefficients that are fitted already, from the slopes at their values."""
+    """The correction for coefficients that are fitted, from the slopes at their values and the noise beside them."""
     normal = normal_equations(fit.linearise(), fit.noise)
     wanted = [normal.position[k] for k in keys if k in normal.position]
     if not wanted:

@@ -142,3 +142,15 @@ def runs(flags: np.ndarray) -> list[tuple[int, int]]:
     """Stretches (start, stop) of true flags."""
     edges = np.flatnonzero(np.diff(np.concatenate([[0], flags.astype(np.int8), [0]])))
     return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))
+
+
+def rest_noise(trial: Trial) -> np.ndarray:
+    """Standard deviation (3,) of the white noise of the samples, from differences over the quietest second-long stretches."""
+    length = max(8, round(1.0 / trial.h))
+    pieces = [trial.y[k:k + length] for a, b in trial.segments for k in range(a, b - length + 1, length)]
+    if not pieces:
+        return np.full(3, np.nan)
+    # Differencing takes slow motion out; a quarter of the stretches is rest enough, and their median is not picked by luck.
+    spreads = np.array([np.std(np.diff(p, axis=0), axis=0) / np.sqrt(2) for p in pieces])
+    quiet = np.argsort(spreads.sum(axis=1))[: max(1, len(pieces) // 4)]
+    return np.sqrt(np.mean(spreads[quiet] ** 2, axis=0))

@@ -16,7 +16,8 @@ from scipy.signal import lfilter
 
 Segments = list[tuple[int, int]]
 
-AR_ORDER = 8
+AR_ORDER = 32
+"""Longest memory of an autoregression; a fiftieth of the rows where there are few."""
 
 
 @njit(cache=True)
@@ -99,6 +100,7 @@ class Autoregressive:
     @classmethod
     def fit(cls, residuals: list[tuple[np.ndarray, np.ndarray, Segments]], order: int = AR_ORDER) -> Autoregressive:
         """Least squares over all segments that are long enough."""
+        order = max(2, min(order, sum(len(v) for v, _, _ in residuals) // 50))
         pieces = [v[a:b] for v, _, segments in residuals for a, b in segments if b - a > 3 * order]
         if not pieces:
             everything = np.concatenate([v for v, _, _ in residuals])

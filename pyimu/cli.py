@@ -1,0 +1,125 @@
+"""The command line: each command a thin layer over the function of the same name."""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated, Optional
+
+import typer
+
+from pyimu.errors import UserError
+
+app = typer.Typer(add_completion=False, no_args_is_help=True, rich_markup_mode=None, pretty_exceptions_enable=False,
+                  help="MEMS inertial sensors, from a measured log to FMI co-simulation units and back.")
+
+Out = Annotated[Path, typer.Option("--out", help="Folder for what is written; made if it is missing.")]
+
+
+def main() -> None:
+    """Entry point: an error that the user can mend ends with one line on stderr and exit status 2."""
+    try:
+        code = app(standalone_mode=False)
+    except UserError as error:
+        code = _refuse(str(error))
+    except (KeyboardInterrupt, typer.Abort):
+        code = _refuse("interrupted; earlier results are as they were", 130)
+    except Exception as error:  # the command line parser's own errors know how to say themselves in a line
+        if not hasattr(error, "format_message"):
+            raise
+        code = _refuse(f"{error.format_message()} (pyimu --help shows the commands)")
+    sys.exit(code if isinstance(code, int) else 0)
+
+
+def _refuse(text: str, code: int = 2) -> int:
+    print(f"pyimu: {' '.join(text.split())}", file=sys.stderr)
+    return code
+
+
+@app.callback()
+def _top(version: Annotated[bool, typer.Option("--version", help="Print the version and leave.")] = False) -> None:
+    if version:
+        from pyimu import __version__
+        print(__version__)
+        raise typer.Exit
+
+
+@app.command()
+def demo(out: Out = Path("out/demo")) -> None:
+    """Example: pyimu demo
+
+    The whole loop on a built-in recording: a rover with an IMT30 whose gyros have a scale factor error that no data sheet
+    declares. Finds it, adds it, and shows the heading error before and after.
+    """
+    from pyimu.rover.demo import run_demo
+    with progress("simulating the rover") as say:
+        shown = run_demo(out, say)
+    print(shown.report())
+    print(f"report: {out / 'report.html'}")
+
+
+@app.command("close")
+def close_command(
+        logs: Annotated[list[Path], typer.Argument(metavar="LOG...", help="Recordings: CSV, CSV.gz or Parquet.", show_default=False)],
+        out: Annotated[Path, typer.Option("--out", help="Folder for report.html, report.json, model.toml and the FMUs.")] = Path("out/close"),
+        part: Annotated[Optional[str], typer.Option("--part", help="Built-in part or a TOML file; without it all is estimated.")] = None,
+        holdout: Annotated[Optional[list[Path]], typer.Option("--holdout", help="Log to judge by; else the last 30 % of each.")] = None,
+        columns: Annotated[Optional[Path], typer.Option("--columns", help="TOML that renames a foreign log's columns.")] = None,
+        latitude: Annotated[Optional[float], typer.Option("--latitude", help="Degrees; adds the Earth's rate to a derived reference.")] = None,
+) -> None:
+    """Example: pyimu close rover.csv --part imt30 --out out/rover
+
+    Compare a sensor's model with measured logs, find the effects that it lacks, add them, and report the error before and
+    after on data that was not fitted, with the model as a part file and as FMUs.
+    """
+    from pyimu.loop.close import close
+    from pyimu.loop.deliver import deliver
+    from pyimu.recording import read_recording
+    if latitude is not None and not abs(latitude) <= 90:
+        raise UserError(f"--latitude {latitude:g}: must lie between -90 and 90 deg")
+    with progress("reading") as say:
+        recordings, judges = ([read_recording(p, columns) for p in paths] for paths in (logs, holdout or []))
+        closed = close(recordings, part, judges or None, latitude=None if latitude is None else math.radians(latitude), say=say)
+        deliver(closed, out, say)
+    print(closed.report())
+    print(f"report: {out / 'report.html'}")
+
+
+@app.command()
+def build(
+        part: Annotated[str, typer.Argument(help="Built-in part or a TOML file.", show_default=False)],
+        out: Out = Path("out/fmus"),
+        fmu: Annotated[str, typer.Option("--fmu", help="Which, separated by commas: sensor, ukf.")] = "sensor,ukf",
+        fmi: Annotated[str, typer.Option("--fmi", help="FMI versions, separated by commas: 2, 3.")] = "2,3",
+        platform: Annotated[str, typer.Option("--platform", help="host, all (needs ziglang), or one platform by name.")] = "host",
+) -> None:
+    """Example: pyimu build imt30 --out out/fmus
+
+    Build the FMI co-simulation units of a part: the sensor with its errors, and the attitude filter that goes with it.
+    """
+    from pyimu.fmu.package import build as build_part
+    versions = [v.strip() for v in fmi.split(",")]
+    if not all(v in ("2", "3") for v in versions):
+        raise UserError(f"--fmi {fmi}: unknown; known are 2, 3 and 2,3")
+    with progress(f"compiling {part}"):
+        paths = build_part(part, out, [f.strip() for f in fmu.split(",")], [int(v) for v in versions], platform)
+    for path in paths:
+        print(path)
+
+
+@contextmanager
+def progress(text: str) -> Iterator[Callable[[str], None]]:
+    """A moving bar on a terminal, nothing elsewhere; gives the function that says what is being done."""
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+    with Progress(TextColumn("{task.description}"), BarColumn(bar_width=20), TimeElapsedColumn(), console=Console(stderr=True),
+                  transient=True, disable=not sys.stderr.isatty()) as bar:
+        task = bar.add_task(text, total=None)
+        yield lambda now: bar.update(task, description=now)
+
+
+if __name__ == "__main__":
+    main()

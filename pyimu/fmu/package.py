@@ -1,0 +1,35 @@
+"""FMUs of a part: the sensor, and the attitude filter that goes with it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from pyimu.attitude import attitude_ukf
+from pyimu.block import Block
+from pyimu.errors import UserError
+from pyimu.fmu.build import build_fmus
+from pyimu.imu import Part
+from pyimu.partfile import part as find_part
+
+BLOCKS: dict[str, Callable[[Part], Block]] = {"sensor": lambda part: part.block, "ukf": attitude_ukf}
+"""What ``--fmu`` names."""
+
+
+def build(part: Part | str | Path, out: Path | str, fmu: Sequence[str] = ("sensor", "ukf"), fmi: Sequence[int] = (2, 3),
+          platform: str = "host") -> list[Path]:
+    """Build the FMUs of a part into ``out``; gives their paths.
+
+    ``fmu`` names blocks ("sensor", "ukf"), ``fmi`` versions (2, 3), ``platform`` the machine ("host", "all", or one by name).
+    Raises UserError for an unknown name, a part that cannot be read, or a compiler that is missing.
+    """
+    unknown = [f for f in fmu if f not in BLOCKS]
+    if unknown:
+        raise UserError(f"--fmu {unknown[0]}: unknown; known are {', '.join(BLOCKS)}")
+    wrong = [v for v in fmi if v not in (2, 3)]
+    if wrong:
+        raise UserError(f"--fmi {wrong[0]}: unknown; known are 2 and 3")
+    found = find_part(part) if isinstance(part, (str, Path)) else part
+    folder = Path(out)
+    folder.mkdir(parents=True, exist_ok=True)
+    return [path for name in fmu for path in build_fmus(BLOCKS[name](found), folder, tuple(fmi), platform)]

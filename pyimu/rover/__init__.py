@@ -1,0 +1,1 @@
+"""Rover drives: the motion, and the built-in recording of the demo."""
