@@ -13,8 +13,8 @@ import typer
 
 from pyimu.errors import UserError
 
-app = typer.Typer(add_completion=False, no_args_is_help=True, rich_markup_mode=None, pretty_exceptions_enable=False,
-                  help="MEMS inertial sensors, from a measured log to FMI co-simulation units and back.")
+app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False,
+                  help="Example: pyimu demo\n\nMEMS inertial sensors, from a measured log to FMI co-simulation units and back.")
 
 Out = Annotated[Path, typer.Option("--out", help="Folder for what is written; made if it is missing.")]
 
@@ -22,7 +22,7 @@ Out = Annotated[Path, typer.Option("--out", help="Folder for what is written; ma
 def main() -> None:
     """Entry point: an error that the user can mend ends with one line on stderr and exit status 2."""
     try:
-        code = app(standalone_mode=False)
+        code = app(prog_name="pyimu", standalone_mode=False)
     except UserError as error:
         code = _refuse(str(error))
     except (KeyboardInterrupt, typer.Abort):
@@ -30,7 +30,8 @@ def main() -> None:
     except Exception as error:  # the command line parser's own errors know how to say themselves in a line
         if not hasattr(error, "format_message"):
             raise
-        code = _refuse(f"{error.format_message()} (pyimu --help shows the commands)")
+        command = getattr(getattr(error, "ctx", None), "command_path", None) or "pyimu"
+        code = _refuse(f"{error.format_message()} ({command} --help shows what is possible)")
     sys.exit(code if isinstance(code, int) else 0)
 
 
@@ -39,15 +40,18 @@ def _refuse(text: str, code: int = 2) -> int:
     return code
 
 
-@app.callback()
-def _top(version: Annotated[bool, typer.Option("--version", help="Print the version and leave.")] = False) -> None:
+@app.callback(invoke_without_command=True)
+def _top(context: typer.Context,
+         version: Annotated[bool, typer.Option("--version", help="Print the version and leave.")] = False) -> None:
     if version:
         from pyimu import __version__
         print(__version__)
         raise typer.Exit
+    if context.invoked_subcommand is None:
+        print(context.get_help())
 
 
-@app.command()
+@app.command(short_help="The whole loop on a built-in recording.")
 def demo(out: Out = Path("out/demo")) -> None:
     """Example: pyimu demo
 
@@ -61,9 +65,9 @@ def demo(out: Out = Path("out/demo")) -> None:
     print(f"report: {out / 'report.html'}")
 
 
-@app.command("close")
+@app.command("close", short_help="Find what a sensor's model lacks to explain measured logs.")
 def close_command(
-        logs: Annotated[list[Path], typer.Argument(metavar="LOG...", help="Recordings: CSV, CSV.gz or Parquet.", show_default=False)],
+        logs: Annotated[list[Path], typer.Argument(metavar="LOG", help="Recordings: CSV, CSV.gz or Parquet.", show_default=False)],
         out: Annotated[Path, typer.Option("--out", help="Folder for report.html, report.json, model.toml and the FMUs.")] = Path("out/close"),
         part: Annotated[Optional[str], typer.Option("--part", help="Built-in part or a TOML file; without it all is estimated.")] = None,
         holdout: Annotated[Optional[list[Path]], typer.Option("--holdout", help="Log to judge by; else the last 30 % of each.")] = None,
@@ -76,10 +80,11 @@ def close_command(
     after on data that was not fitted, with the model as a part file and as FMUs.
     """
     from pyimu.loop.close import close
-    from pyimu.loop.deliver import deliver
+    from pyimu.loop.deliver import check_delivery, deliver
     from pyimu.recording import read_recording
     if latitude is not None and not abs(latitude) <= 90:
         raise UserError(f"--latitude {latitude:g}: must lie between -90 and 90 deg")
+    check_delivery(out)
     with progress("reading") as say:
         recordings, judges = ([read_recording(p, columns) for p in paths] for paths in (logs, holdout or []))
         closed = close(recordings, part, judges or None, latitude=None if latitude is None else math.radians(latitude), say=say)
@@ -88,7 +93,7 @@ def close_command(
     print(f"report: {out / 'report.html'}")
 
 
-@app.command()
+@app.command(short_help="Build the co-simulation units of a part.")
 def build(
         part: Annotated[str, typer.Argument(help="Built-in part or a TOML file.", show_default=False)],
         out: Out = Path("out/fmus"),

@@ -74,6 +74,6 @@ def outputs(kind: str) -> slice:
     return slice(first, first + 3)
 
 
-def run(sensor: Sensor, u: np.ndarray, w: np.ndarray | None = None) -> np.ndarray:
-    """Output (n, 3) of one sensor for inputs (n, nu) and normals (n, nw)."""
-    return as_part(sensor).block.run(u, w=w)[0][:, outputs(sensor.kind)]
+def run(sensor: Sensor, u: np.ndarray, w: np.ndarray | None = None, h: float | None = None) -> np.ndarray:
+    """Output (n, 3) of one sensor for inputs (n, nu) and normals (n, nw), ``h`` s apart."""
+    return as_part(sensor).block.run(u, w=w, sample_period=h)[0][:, outputs(sensor.kind)]

@@ -188,7 +188,7 @@ def test_compensation_undoes_the_whole_chain(kind):
 def bent():
     """An effect that is quadratic in x and couples the axes, in the catalogue for one test."""
     @effect(stage="gain", equation="y = x + c x_j x_k", source="made up", term="made up")
-    def bent_for_a_test(x, c: Parameter("1/{y}", description="made up")):
+    def bent_for_a_test(x, c: Parameter("1/({y})", description="made up")):
         return x + c * ca.vertcat(x[1] * x[2], x[2] * x[0], x[0] * x[1])
     yield bent_for_a_test
     del CATALOGUE["bent_for_a_test"]

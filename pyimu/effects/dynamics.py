@@ -10,16 +10,34 @@ MEMORY = 32
 
 @effect(stage="dynamics", term="bandwidth, second-order lag",
         equation=r"y = \frac{\omega_n^2}{s^2 + 2 \zeta \omega_n s + \omega_n^2} x", invertible=False,
-        source="no source for the coefficients; second-order low-pass of a gyro's read-out, discretised by the trapezoidal rule")
+        source="no source for the coefficients; second-order low-pass of a read-out: its poles exactly, its gain to second order in s")
 def lag(x, wn: Parameter("rad/s", (), minimum=0.0, scan=Scan("rate", 0.06, 4.0, 10),
                          description="natural frequency; 0 switches the lag off"),
         zeta: Parameter("1", (), 0.7071067811865476, minimum=0.1, maximum=2.0, description="damping ratio"),
         x1: State("{y}", start=INPUT), x2: State("{y}", start=INPUT),
         y1: State("{y}", start=INPUT), y2: State("{y}", start=INPUT), h: SamplePeriod()):
-    c = 2 / (wn * h)
-    a0, a1, a2 = c * c + 2 * zeta * c + 1, 2 - 2 * c * c, c * c - 2 * zeta * c + 1
-    y = ca.if_else(wn > 0, (x + 2 * x1 + x2 - a1 * y1 - a2 * y2) / a0, x)
+    b, a = _second_order(wn * h, zeta)
+    y = ca.if_else(wn > 0, b[0] * x + b[1] * x1 + b[2] * x2 - a[0] * y1 - a[1] * y2, x)
     return y, {"x1": x, "x2": x1, "y1": y, "y2": y1}
+
+
+def _second_order(angle: ca.SX, zeta: ca.SX) -> tuple[tuple, tuple]:
+    """Coefficients (b0, b1, b2), (a1, a2) of the sampled low-pass; ``angle`` is natural frequency times sample period.
+
+    The poles are exp(s h) of the continuous ones.  The zeros follow from B(e^(s h)) = A(e^(s h)) G(s) up to s^2, which
+    sets gain, delay and curvature at low frequency; the bilinear rule would ring where the lag is short against h.
+    """
+    root = ca.sqrt(ca.fabs(zeta * zeta - 1)) * angle
+    oscillating = 2 * ca.exp(-zeta * angle) * ca.cos(root)
+    creeping = ca.exp(root - zeta * angle) + ca.exp(-root - zeta * angle)
+    a1, a2 = -ca.if_else(zeta < 1, oscillating, creeping), ca.exp(-2 * zeta * angle)
+    g1, g2 = -2 * zeta / angle, (4 * zeta * zeta - 1) / (angle * angle)
+    total, first, second = 1 + a1 + a2, a1 + 2 * a2, a1 + 4 * a2
+    first_b = first - total * g1
+    second_b = second - 2 * first * g1 + 2 * total * g2
+    b2 = (second_b - first_b) / 2
+    b1 = first_b - 2 * b2
+    return (total - b1 - b2, b1, b2), (a1, a2)
 
 
 @effect(stage="dynamics", term="time delay, timestamp offset", equation=r"y(t) = x(t - t_d)", invertible=False,

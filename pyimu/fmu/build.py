@@ -72,7 +72,7 @@ def build_fmus(block: Block, out_dir: Path | str, versions: Sequence[int] = (2, 
 def _platforms(name: str) -> list[tuple[Platform, list[str]]]:
     """Each platform that ``name`` means, with the command that compiles for it."""
     if name == "host":
-        return [(PLATFORMS[host_platform()], _host_compiler())]
+        return [(PLATFORMS[host_platform()], host_compiler())]
     if name != "all" and name not in PLATFORMS:
         raise UserError(f"platform '{name}' is not one of host, all, {', '.join(PLATFORMS)}")
     if find_spec("ziglang") is None:
@@ -90,7 +90,8 @@ def host_platform() -> str:
     return name
 
 
-def _host_compiler() -> list[str]:
+def host_compiler() -> list[str]:
+    """The command that compiles for this machine: ``CC``, else ``cc``.  Raises UserError where there is none."""
     command = shlex.split(os.environ.get("CC", "")) or ["cc"]
     if shutil.which(command[0]) is None:
         raise UserError(f"no C compiler: '{command[0]}' was not found; install one or name it in the environment variable CC")

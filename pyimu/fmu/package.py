@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
@@ -21,7 +22,7 @@ def build(part: Part | str | Path, out: Path | str, fmu: Sequence[str] = ("senso
     """Build the FMUs of a part into ``out``; gives their paths.
 
     ``fmu`` names blocks ("sensor", "ukf"), ``fmi`` versions (2, 3), ``platform`` the machine ("host", "all", or one by name).
-    Raises UserError for an unknown name, a part that cannot be read, or a compiler that is missing.
+    Raises UserError for an unknown name, a part that cannot be read, a folder that cannot be made, or a missing compiler.
     """
     unknown = [f for f in fmu if f not in BLOCKS]
     if unknown:
@@ -30,6 +31,14 @@ def build(part: Part | str | Path, out: Path | str, fmu: Sequence[str] = ("senso
     if wrong:
         raise UserError(f"--fmi {wrong[0]}: unknown; known are 2 and 3")
     found = find_part(part) if isinstance(part, (str, Path)) else part
-    folder = Path(out)
-    folder.mkdir(parents=True, exist_ok=True)
-    return [path for name in fmu for path in build_fmus(BLOCKS[name](found), folder, tuple(fmi), platform)]
+    check_folder(out)
+    return [path for name in fmu for path in build_fmus(BLOCKS[name](found), out, tuple(fmi), platform)]
+
+
+def check_folder(out: Path | str) -> None:
+    """Raise UserError where the folder ``out`` is none or cannot be made, before work is done that would then be lost."""
+    out = Path(out)
+    there = next(p for p in (out, *out.absolute().parents) if p.exists())
+    reason = f"{there} is a file" if not there.is_dir() else "" if os.access(there, os.W_OK) else f"{there} may not be written to"
+    if reason:
+        raise UserError(f"{out}: cannot write there, {reason}; give another folder with --out")

@@ -32,6 +32,11 @@ class Group:
     keys: tuple[Key, ...]
     choices: tuple[Choice, ...]
 
+    @property
+    def measure(self) -> str | None:
+        """What the scan of this group counts in, None where there is none."""
+        return next((p.scan.measure for p in CATALOGUE[self.effect].parameters.values() if p.scan and self.choices[0].value), None)
+
 
 def absent(fit: Fit) -> list[Effect]:
     """Deterministic effects that the model lacks and whose inputs every log knows."""

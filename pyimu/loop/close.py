@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from pyimu.effect import CATALOGUE, Sensor
-from pyimu.errors import UserError
+from pyimu.errors import Finding, UserError
 from pyimu.imu import Part
 from pyimu.loop.attitude_error import attitude_error
 from pyimu.loop.candidates import absent
@@ -56,11 +56,11 @@ def close(recordings: Sequence[Log] | Log, part: Part | str | Path | None = None
     start = declared or Part("estimated", logs[0].sample_rate, Sensor("gyro", {n: {} for n in STRUCTURE}),
                              Sensor("accel", {n: {} for n in STRUCTURE}))
     say("quality of the raw samples")
-    quality = [f for r in [*logs, *others] for f in (*r.findings, *inspect(r))]
+    quality = [_of(r.name, f) for r in [*logs, *others] for f in (*r.findings, *inspect(r))]
     found: dict[str, Investigation] = {}
     for kind, make in (("gyro", gyro_trial), ("accel", accel_trial)):
         trials, held = _trials(kind, make, logs, others, latitude)
-        quality += [f for t in (*trials, *held) for f in t.findings if f not in quality]
+        quality += list({t.name: _of(t.name, f) for t in (*trials, *held) for f in t.findings}.values())
         if trials:
             sensor = start.sensor(kind)
             found[kind] = investigate(sensor, _free(start, declared is None, sensor, trials), trials, held, say)
@@ -68,6 +68,11 @@ def close(recordings: Sequence[Log] | Log, part: Part | str | Path | None = None
         raise UserError(f"{logs[0].name}: nothing to compare: the log has no reference (ref_rate, ref_q, ref_heading or ref_force) "
                         "and moves; a log without reference must stand still")
     return _conclude(start, declared, logs, others, found, tuple(quality), say)
+
+
+def _of(name: str, finding: Finding) -> Finding:
+    """A finding that says which log it is about."""
+    return replace(finding, detail={"recording": name, **finding.detail})
 
 
 def _many(value) -> list:
@@ -131,6 +136,9 @@ def _free(start: Part, everything: bool, sensor: Sensor, trials: list[Trial]) ->
     """Keys of the coefficients to estimate: all of the structure, or those that the part leaves to the data."""
     names = [s for s in sensor.slots if not CATALOGUE[s.effect].stochastic and s.effect != "turn_on_bias" and not s.definition.reference]
     wanted = {slot_key(s) for s in names if everything or (sensor.kind, s.effect, s.parameter) in start.estimate}
+    if all(t.free_rotation for t in trials):
+        # A turn of the whole triad is the mounting's; what misalignment has of its own is three angles, not six.
+        wanted = {k for k in wanted if k[1] != "misalignment" or k[3][0] < k[3][1]}
     moving = any(t.reference != "static" for t in trials)
     for s in names:
         needs_motion = CATALOGUE[s.effect].stage in ("dynamics", "gain")

@@ -9,9 +9,16 @@ from collections.abc import Callable
 from pathlib import Path
 
 from pyimu.errors import UserError
-from pyimu.fmu.build import build_fmus
+from pyimu.fmu.build import build_fmus, host_compiler
+from pyimu.fmu.package import check_folder
 from pyimu.loop.report import write_report
 from pyimu.loop.result import Closed
+
+
+def check_delivery(out: Path | str) -> None:
+    """Raise UserError now for what would else end ``deliver`` after all the work: a folder that is none, no compiler."""
+    check_folder(out)
+    host_compiler()
 
 
 def deliver(closed: Closed, out: Path | str, say: Callable[[str], None] = lambda text: None) -> Path:

@@ -149,18 +149,23 @@ def on_plateau(fitted: Fit) -> Fit:
 
     In the band of a derived reference the edges of a clipped stretch are smeared; the samples themselves show the limit.
     """
-    limit = np.array(fitted.sensor.values["saturation"]["limit"])
+    limit, std = np.array(fitted.sensor.values["saturation"]["limit"]), {}
     open_sensor = fitted.sensor.without("saturation")
     for i in np.flatnonzero(limit):
         beyond = [_plateau(open_sensor, t, fitted.states[t.name], int(i), limit[i]) for t in fitted.trials]
         sides = [np.concatenate([b[side] for b in beyond]) for side in (0, 1)]
-        levels = [np.median(s) for s in sides if len(s) >= 5]
+        levels = [(float(np.median(s)), _median_std(s)) for s in sides if len(s) >= 5]
         if levels:
-            limit[i] = max(levels)
+            limit[i], std[("slot", "saturation", "limit", (int(i),))] = max(levels)
     sensor = fitted.sensor.with_values("saturation", limit=limit)
     free = frozenset(k for k in fitted.free if k[1] != "saturation")
-    again = fit(replace(fitted, sensor=sensor, free=free).with_noise())
-    return replace(again, std={**fitted.std, **again.std})
+    return fit(replace(fitted, sensor=sensor, free=free, std={**fitted.std, **std}).with_noise())
+
+
+def _median_std(values: np.ndarray) -> float:
+    """Standard error of a median from the scatter about it, sqrt(pi/2) that of a mean."""
+    scatter = 1.4826 * float(np.median(np.abs(values - np.median(values))))
+    return np.sqrt(np.pi / 2 / len(values)) * scatter
 
 
 def without_lost(fitted: Fit) -> Fit:

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.stats import chi2
 
 from pyimu.effect import N_INPUT
-from pyimu.loop.regression import Fit, normal_equations
+from pyimu.loop.regression import Fit, Linear, normal_equations
 from pyimu.loop.select import Projected, dispersion
 from pyimu.loop.trial import Trial
 from pyimu.loop.whiten import RandomWalk
@@ -92,28 +92,25 @@ def noise_figures(fit: Fit) -> dict[int, NoiseFigure] | None:
     """White noise and random walk of each axis as the residual shows them; None where the reference was differentiated."""
     if any(not isinstance(n, RandomWalk) for n in fit.noise.values()):
         return None
-    h = fit.trials[0].h
-    out = {}
-    for i, n in fit.noise.items():
-        rows = sum(t.count for t in fit.trials)
-        out[i] = NoiseFigure(np.sqrt(n.r * h), np.sqrt(n.r * h / (2 * rows)), np.sqrt(n.k2), _k_std(fit, i, n))
-    return out
+    h, rows, residuals = fit.trials[0].h, sum(t.count for t in fit.trials), fit.residuals()
+    return {i: NoiseFigure(np.sqrt(n.r * h), np.sqrt(n.r * h / (2 * rows)), np.sqrt(n.k2), _k_std(residuals, i, n))
+            for i, n in fit.noise.items()}
 
 
-def _k_std(fit: Fit, axis: int, noise: RandomWalk) -> float:
+def _k_std(residuals: list[Linear], axis: int, noise: RandomWalk) -> float:
     """Standard error of K from the curvature of the likelihood in log K; infinite where it is flat."""
     if noise.k2 == 0.0:
         return np.inf
     step = 0.2
-    low, mid, high = (axis_likelihood(fit, axis, RandomWalk(noise.r, noise.k2 * np.exp(2 * d))) for d in (-step, 0.0, step))
+    low, mid, high = (axis_likelihood(residuals, axis, RandomWalk(noise.r, noise.k2 * np.exp(2 * d))) for d in (-step, 0.0, step))
     curvature = (2 * mid - low - high) / step ** 2
     return float(np.sqrt(noise.k2 / curvature)) if curvature > 0 else np.inf
 
 
-def axis_likelihood(fit: Fit, axis: int, noise: RandomWalk) -> float:
-    """Log-likelihood [nat] of one axis of the fitted residual under another noise."""
+def axis_likelihood(residuals: list[Linear], axis: int, noise: RandomWalk) -> float:
+    """Log-likelihood [nat] of one axis of the residuals under a noise."""
     total = 0.0
-    for one in fit.linearise():
+    for one in residuals:
         white = noise.whiten(one.residual[:, axis:axis + 1], one.time, one.segments)
         total -= 0.5 * (float(np.sum(white ** 2)) + noise.log_det(one.time, one.segments))
     return total
@@ -121,10 +118,10 @@ def axis_likelihood(fit: Fit, axis: int, noise: RandomWalk) -> float:
 
 def drift(fit: Fit, declared_k: np.ndarray) -> dict[int, float]:
     """Axes on which the random walk is larger than declared beyond chance, and the gain [nat] of letting it be."""
-    found = {}
+    found, residuals = {}, fit.residuals()
     for i, n in fit.noise.items():
         if isinstance(n, RandomWalk) and n.k2 > declared_k[i] ** 2:
-            gain = axis_likelihood(fit, i, n) - axis_likelihood(fit, i, RandomWalk(n.r, float(declared_k[i] ** 2)))
+            gain = axis_likelihood(residuals, i, n) - axis_likelihood(residuals, i, RandomWalk(n.r, float(declared_k[i] ** 2)))
             if gain > DRIFT_GATE:
                 found[i] = gain
     return found

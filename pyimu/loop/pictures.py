@@ -105,8 +105,8 @@ def _svg(figure: Figure) -> str:
 
 
 def _legend(figure: Figure, panel: Axes, columns: int) -> None:
-    figure.legend(*panel.get_legend_handles_labels(), loc="outside upper left", ncols=columns, borderaxespad=0.1, handlelength=1.4,
-                  columnspacing=1.1, fontsize=8.5)
+    figure.legend(*panel.get_legend_handles_labels(), loc="outside upper left", ncols=columns, borderaxespad=0.1,
+                  handlelength=1.4, columnspacing=1.1, fontsize=8.5)
 
 
 def _plain_logarithm(axis: Axis) -> None:
@@ -200,7 +200,7 @@ class Driver:
 
 
 def against_input(a: Added, inv: Investigation, found: Sequence[Trace], most: int = 3) -> list[tuple[str, str]]:
-    """Pictures ``(axis, svg)`` of the residual against the added effect's own input, without it and with it, on at most ``most`` axes.
+    """Pictures ``(axis, svg)``, at most ``most``, of the residual without and with an added effect against its input.
 
     All rows are shown, fitted and held out: what drives an effect may not move enough in the last part of a log.
     """
@@ -270,6 +270,8 @@ def _driver(source: tuple[str, int], axis: int, sensor: Sensor, t: Trace) -> Dri
 def _cloud(drivers: Sequence[Driver], both: Sequence[Trace], i: int, si: str, effect: str) -> str:
     """Residual of one axis against its driver: a light cloud, binned medians with quartiles on it."""
     x = np.concatenate([d.values for d in drivers])
+    # A limit acts on the outermost samples, which are what a picture of anything else leaves out.
+    span = np.quantile(x, [0.0, 1.0] if CATALOGUE[effect].stage == "output" else [0.001, 0.999])
     unit = unit_for(_scale([t.before[:, i:i + 1] for t in both]), si)
     with matplotlib.rc_context(STYLE):
         figure, (panel,) = _figure(4.4, 2.9)
@@ -277,9 +279,9 @@ def _cloud(drivers: Sequence[Driver], both: Sequence[Trace], i: int, si: str, ef
         for name, colour, label in (("before", BEFORE, f"without {effect}"), ("after", AFTER, f"with {effect}")):
             y = in_unit(np.concatenate([getattr(t, name)[:, i] for t in both]), si, unit)
             _points(panel, x, y, colour)
-            quartiles = _medians(panel, x, y, colour, label, 0.0 if name == "before" else 0.2)
+            quartiles = _medians(panel, x, y, np.linspace(*span, LEVELS + 1), colour, label, 0.0 if name == "before" else 0.2)
             seen += [np.quantile(y, [0.002, 0.998]), quartiles.ravel()]
-        _limits(panel.set_xlim, np.quantile(x, [0.001, 0.999]))
+        _limits(panel.set_xlim, span)
         _limits(panel.set_ylim, np.concatenate(seen))
         panel.locator_params(axis="x", nbins=6)
         panel.set(xlabel=drivers[0].label, ylabel=f"residual {'xyz'[i]} [{pretty(unit)}]")
@@ -289,13 +291,12 @@ def _cloud(drivers: Sequence[Driver], both: Sequence[Trace], i: int, si: str, ef
 
 def _points(panel: Axes, x: np.ndarray, y: np.ndarray, colour: str) -> None:
     pick = np.linspace(0, len(x) - 1, min(CLOUD, len(x))).astype(int)
-    panel.plot(x[pick], y[pick], ".", ms=2.8, mew=0, color=colour, alpha=0.5 if len(x) < 1000 else 0.38, rasterized=True, zorder=2)
+    alpha = 0.5 if len(x) < 1000 else 0.38
+    panel.plot(x[pick], y[pick], ".", ms=2.8, mew=0, color=colour, alpha=alpha, rasterized=True, zorder=2)
 
 
-def _medians(panel: Axes, x: np.ndarray, y: np.ndarray, colour: str, label: str, shift: float) -> np.ndarray:
-    """Draw, and give, median and quartiles (k, 3) of ``y`` in bins of ``x``; ``shift`` [bins] keeps two series apart."""
-    low, high = np.quantile(x, [0.001, 0.999])
-    edges = np.linspace(low, high, LEVELS + 1)
+def _medians(panel: Axes, x: np.ndarray, y: np.ndarray, edges: np.ndarray, colour: str, label: str, shift: float) -> np.ndarray:
+    """Draw, and give, median and quartiles (k, 3) of ``y`` in bins of ``x``; ``shift`` [bins] parts two series."""
     place = np.searchsorted(edges, x) - 1
     rows = [(k, np.quantile(y[place == k], [0.25, 0.5, 0.75])) for k in range(LEVELS) if np.sum(place == k) >= LEAST_IN_BIN]
     if not rows:
@@ -343,7 +344,8 @@ def screening(first: Screening, last: Screening, added: Sequence[str]) -> str:
         for k, c in enumerate(rows):
             colour = AFTER if c.effect in added else BEFORE if c.gain > gate else GREY
             panel.barh(k, max(c.gain, left) - left, left=left, height=0.62, color=colour)
-            panel.annotate(number(c.gain) if c.gain > left else "nothing", (max(c.gain, gate), k), xytext=(7, 0), color=INK,
+            clear = max(c.gain, gate, remaining.get(c.effect, 0.0))
+            panel.annotate(number(c.gain) if c.gain > left else "nothing", (clear, k), xytext=(7, 0), color=INK,
                            textcoords="offset points", va="center", fontsize=8.5)
             if c.effect in remaining and last is not first:
                 panel.plot(max(remaining[c.effect], left), k, "D", ms=4.5, mfc="none", mec=INK, mew=1.0, clip_on=False, zorder=5)
@@ -370,23 +372,23 @@ def _screening_legend(figure: Figure, panel: Axes, looked_again: bool) -> None:
 
 def spectrum(inv: Investigation, found: Sequence[Trace]) -> str | None:
     """One-sided amplitude density of the residual before and after, over all axes, and of the noise alone."""
-    densities = [_density(found, name) for name in ("before", "after")]
+    densities = [density(found, name) for name in ("before", "after")]
     if any(d is None for d in densities):
         return None
     kind = inv.after.sensor.kind
-    unit = "deg/s" if kind == "gyro" else "mg"
+    si, unit = inv.after.sensor.output.unit, "deg/s" if kind == "gyro" else "mg"
     trial = found[0].trial
     with matplotlib.rc_context(STYLE):
         figure, (panel,) = _figure(5.4, 3.0)
         for (f, p), colour, label in zip(densities, (BEFORE, AFTER), ("before", "after"), strict=True):
-            panel.loglog(f, in_unit(np.sqrt(p), inv.after.sensor.output.unit, unit), color=colour, lw=1.5, label=label)
+            panel.loglog(f, in_unit(np.sqrt(p), si, unit), color=colour, lw=1.5, label=label)
         f = densities[0][0]
         noise = np.sqrt(noise_density(floor_noise(inv.after), trial, f))
-        panel.loglog(f, in_unit(noise, inv.after.sensor.output.unit, unit), color=FLOOR, lw=1.5, ls=(0, (5, 2)), label="the noise alone")
+        panel.loglog(f, in_unit(noise, si, unit), color=FLOOR, lw=1.5, ls=(0, (5, 2)), label="the noise alone")
         if trial.band_hz is not None:
             panel.axvline(trial.band_hz, color=INK, lw=0.8, ls=(0, (1, 2)))
-            panel.annotate("band", (trial.band_hz, 0.02), xycoords=("data", "axes fraction"), xytext=(-3, 0), textcoords="offset points",
-                           ha="right", fontsize=8.5)
+            panel.annotate("band", (trial.band_hz, 0.02), xycoords=("data", "axes fraction"), xytext=(-3, 0),
+                           textcoords="offset points", ha="right", fontsize=8.5)
         panel.set(xlabel="frequency [Hz]", ylabel=f"density, one-sided [{unit}/√Hz]")
         for axis in (panel.xaxis, panel.yaxis):
             _plain_logarithm(axis)
@@ -394,7 +396,7 @@ def spectrum(inv: Investigation, found: Sequence[Trace]) -> str | None:
         return _svg(figure)
 
 
-def _density(found: Sequence[Trace], name: str) -> tuple[np.ndarray, np.ndarray] | None:
+def density(found: Sequence[Trace], name: str) -> tuple[np.ndarray, np.ndarray] | None:
     """One-sided PSD, the mean of the axes, averaged over all stretches that are long enough."""
     pieces = [(t, getattr(t, name)[a:b][:, list(t.trial.axes)]) for t in found for a, b in t.segments]
     longest = max((len(p) for _, p in pieces), default=0)

@@ -254,18 +254,27 @@ class Fit:
             wanted |= slot_keys(sensor, name)
         return [linearise(sensor, t, self.states[t.name], wanted, extra) for t in self.trials]
 
+    def residuals(self) -> list[Linear]:
+        """All trials' residuals in their band, without columns."""
+        return [bare(t, in_band(t, residual(self.sensor, t, self.states[t.name]))) for t in self.trials]
+
     def with_noise(self) -> Fit:
         """The same model with the noise fitted to its present residual."""
-        return replace(self, noise=fit_noise(self.trials, [in_band(t, residual(self.sensor, t, self.states[t.name]))
-                                                           for t in self.trials]))
+        return replace(self, noise=fit_noise(self.trials, self.residuals()))
 
 
-def fit_noise(trials: tuple[Trial, ...], residuals: list[np.ndarray]) -> Noise:
+def bare(trial: Trial, r: np.ndarray) -> Linear:
+    """A residual (m, 3) of a trial, in its band, with no columns beside it."""
+    return Linear(band_time(trial), band_segments(trial), r, {i: [] for i in trial.axes},
+                  {i: np.zeros((len(r), 0)) for i in trial.axes})
+
+
+def fit_noise(trials: tuple[Trial, ...], residuals: list[Linear]) -> Noise:
     """Noise model of each axis, one for all logs: the whitening follows what the reference is."""
     derived = any(t.reference in ("attitude", "heading") for t in trials)
     made = {}
     for i in sorted({i for t in trials for i in t.axes}):
-        parts = [(r[:, i], band_time(t), band_segments(t)) for t, r in zip(trials, residuals, strict=True) if i in t.axes]
+        parts = [(one.residual[:, i], one.time, one.segments) for one in residuals if i in one.keys]
         made[i] = (Autoregressive if derived else RandomWalk).fit(parts)
     return made
 
@@ -301,7 +310,8 @@ def fit(start: Fit, rounds: int = 3, steps: int = 6) -> Fit:
     start = without_attenuation(start)
     normal = normal_equations(start.linearise(), start.noise)
     covariance = solve(normal.gram, np.eye(len(normal.keys)))
-    std = {k: float(np.sqrt(max(covariance[i, i], 0.0))) for i, k in enumerate(normal.keys)}
+    # A coefficient that was set by other means than regression keeps the standard error it came with.
+    std = {**start.std, **{k: float(np.sqrt(max(covariance[i, i], 0.0))) for i, k in enumerate(normal.keys)}}
     return replace(start, log_likelihood=normal.log_likelihood, std=std)
 
 
@@ -359,12 +369,8 @@ def _reference_shares(fitted: Fit, seed: int = 1) -> dict[int, float]:
 
 def power(fit: Fit) -> float:
     """Sum of squares of the whitened residual: what ``normal_equations`` calls power, without its columns."""
-    total = 0.0
-    for t in fit.trials:
-        r = in_band(t, residual(fit.sensor, t, fit.states[t.name]))
-        for i in t.axes:
-            total += float(np.sum(fit.noise[i].whiten(r[:, i:i + 1], band_time(t), band_segments(t)) ** 2))
-    return total
+    return sum(float(np.sum(fit.noise[i].whiten(one.residual[:, i:i + 1], one.time, one.segments) ** 2))
+               for one in fit.residuals() for i in one.keys)
 
 
 def _step(start: Fit, keys: list[Key], change: np.ndarray) -> Fit:

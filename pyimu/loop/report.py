@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup, escape
+from scipy.spatial.transform import Rotation
 
 from pyimu.effect import CATALOGUE
 from pyimu.errors import Finding, UserError
@@ -24,13 +25,10 @@ from pyimu.loop.forward import Investigation
 from pyimu.loop.result import Added, Changed, Closed, Errors, Visibility
 from pyimu.loop.score import WINDOW
 from pyimu.loop.shown import MISSING, in_unit, number, pretty, quantity, si_quantity, unit_for, with_error
-from pyimu.loop.words import QUANTITIES, SENSORS, dependence, headline, plain_equation, si_of
+from pyimu.loop.words import FEW, QUANTITIES, SENSORS, dependence, headline, plain_equation, si_of
 from pyimu.partfile import save_part
 
 MODEL = "model.toml"
-
-FEW = 2
-"""Up to so many added effects are shown on every axis, more on their strongest only."""
 
 
 def write_report(closed: Closed, out: str | os.PathLike, fmus: tuple[str, ...] = ()) -> Path:
@@ -96,8 +94,10 @@ def _contents(closed: Closed, fmus: tuple[str, ...]) -> dict[str, Any]:
     return {
         "verdict": closed.verdict, "headline": headline(closed), "about": _about(closed),
         "over_time": [_over_time(closed, kind, found[kind]) for kind in found],
-        "errors": _errors(closed), "error_notes": _error_notes(closed), "by_log": _by_log(closed), "log_states": _log_states(closed),
-        "added": [_added(closed, a, found[a.sensor]) for a in closed.added], "refused": _refused(closed), "changed": _changed(closed),
+        "errors": _errors(closed), "error_notes": _error_notes(closed), "by_log": _by_log(closed),
+        "log_states": _log_states(closed),
+        "added": [_added(closed, a, found[a.sensor]) for a in closed.added],
+        "refused": _refused(closed), "changed": _changed(closed),
         "remains": _remains(closed), "screenings": [_screening(closed, k, inv) for k, inv in closed.investigations.items()
                                                     if inv.first.candidates],
         "observability": _observability(closed.observability),
@@ -146,17 +146,19 @@ def _band(closed: Closed, kind: str) -> str:
 
 def _screening(closed: Closed, kind: str, inv: Investigation) -> Picture:
     added = [a.effect for a in closed.added if a.sensor == kind]
-    caption = (f"{SENSORS[kind].capitalize()}: how much each absent effect would explain. Bars: the first look, before anything was added. "
+    caption = (f"{SENSORS[kind].capitalize()}: how much each absent effect would explain. "
+               "Bars: the first look, before anything was added. "
                f"Gate {number(inv.first.gate)} nat: chance alone passes it once in a hundred.")
     if inv.last is not inv.first:
         caption += f" Diamonds: what remains to be explained after the last addition (gate {number(inv.last.gate)} nat)."
-    return Picture(Markup(pictures.screening(inv.first, inv.last, added)), caption, f"gain of each candidate effect of the {SENSORS[kind]}")
+    svg = Markup(pictures.screening(inv.first, inv.last, added))
+    return Picture(svg, caption, f"gain of each candidate effect of the {SENSORS[kind]}")
 
 
 def _spectrum(closed: Closed, kind: str, inv: Investigation, found: list[pictures.Trace]) -> Picture | None:
     svg = pictures.spectrum(inv, found)
-    caption = (f"{SENSORS[kind].capitalize()} residual: root of the one-sided power spectral density, mean of the axes (Welch, Hann window)"
-               f"{_band(closed, kind)}. Dashed: what the noise model alone would leave.")
+    caption = (f"{SENSORS[kind].capitalize()} residual: root of the one-sided power spectral density, mean of the axes "
+               f"(Welch, Hann window){_band(closed, kind)}. Dashed: what the noise model alone would leave.")
     return None if svg is None else Picture(Markup(svg), caption, f"spectrum of the {SENSORS[kind]} residual before and after")
 
 
@@ -172,7 +174,8 @@ def _errors(closed: Closed) -> Table:
     for name, pair, si in (("log-likelihood [nat/sample]", closed.log_likelihood, ""), ("attitude", closed.attitude, "rad")):
         if pair is not None:
             cells = tuple(_both(v, si) if si else number(v, 5) for v in pair)
-            table.rows.append((_words(name), *cells, number(pair[1] / pair[0], 2) if si else f"{pair[1] - pair[0]:+.3g}", MISSING))
+            change = number(pair[1] / pair[0], 2) if si else f"{pair[1] - pair[0]:+.3g}"
+            table.rows.append((_words(name), *cells, change, MISSING))
     return table
 
 
@@ -203,8 +206,8 @@ def _error_notes(closed: Closed) -> list[str]:
              "The floor is what the noise model alone leaves of the same number."]
     for kind, band in closed.band_hz.items():
         if band is not None:
-            notes.append(f"The {SENSORS[kind]}'s reference was derived from an attitude and is trusted below {number(band)} Hz. Measurement "
-                         "and reference go through the same filter, and every number here is of that band.")
+            notes.append(f"The {SENSORS[kind]}'s reference was derived from an attitude and is trusted below {number(band)} Hz. "
+                         "Measurement and reference go through the same filter, and every number here is of that band.")
     return notes
 
 
@@ -222,7 +225,7 @@ def _by_log(closed: Closed) -> Table:
 
 
 def _log_states(closed: Closed) -> Table:
-    table = Table(("recording", "sensor", "bias x", "bias y", "bias z", "mounting rotation", "further"))
+    table = Table(("recording", "sensor", "bias x", "bias y", "bias z", "mounting rotation", ""))
     for r in closed.recordings:
         for kind, state in r.log_state.items():
             if state:
@@ -230,7 +233,8 @@ def _log_states(closed: Closed) -> Table:
                 bias = [_both(b, si, unit_for(state["bias"], si)) for b in state["bias"]]
                 rest = {k: v for k, v in state.items() if k not in ("bias", "rotation")}
                 further = ", ".join(f"{k.replace('_', ' ')} {number(v) if isinstance(v, float) else v}" for k, v in rest.items())
-                table.rows.append((_words(r.file), SENSORS[kind], *bias, _turn(state.get("rotation")), _words(further or MISSING)))
+                turn = _turn(state.get("rotation"))
+                table.rows.append((_words(r.file), SENSORS[kind], *bias, turn, _words(further)))
     return table
 
 
@@ -238,8 +242,7 @@ def _turn(rotation: list | None) -> Any:
     """Angle of a rotation matrix; none where it is the identity."""
     if rotation is None:
         return MISSING
-    turn = np.asarray(rotation)
-    angle = float(np.arctan2(np.linalg.norm([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]]), np.trace(turn) - 1))
+    angle = float(Rotation.from_matrix(rotation).magnitude())
     return _both(angle, "rad") if angle else "none"
 
 
@@ -250,8 +253,9 @@ def _added(closed: Closed, a: Added, found: list[pictures.Trace]) -> dict[str, A
     e = CATALOGUE[a.effect]
     others = f" The data allow as well: {', '.join(a.alternatives)}." if a.alternatives else ""
     evidence = f"Gain {number(a.gain, 4)} nat, gate {number(a.gate)} nat.{others}"
-    return {"name": a.effect, "term": e.term, "sensor": SENSORS[a.sensor], "equation": plain_equation(e.equation), "source": e.source,
-            "parameters": _parameters(a), "evidence": evidence, "note": a.note, "pictures": _effect_pictures(closed, a, found)}
+    return {"name": a.effect, "term": e.term, "sensor": SENSORS[a.sensor], "equation": plain_equation(e.equation),
+            "source": e.source, "parameters": _parameters(a), "evidence": evidence, "note": a.note,
+            "pictures": _effect_pictures(closed, a, found)}
 
 
 def _effect_pictures(closed: Closed, a: Added, found: list[pictures.Trace]) -> list[Picture]:
@@ -308,7 +312,7 @@ def _changed_rows(c: Changed) -> list[tuple]:
 def _remains(closed: Closed) -> list[str]:
     """What no effect of the catalogue explains."""
     lines = [f"No effect of the catalogue describes that {dependence(closed)}."] if closed.unexplained else []
-    return lines + [f"The {SENSORS[s]} wanders more than declared on {'xyz'[i]}: letting the random walk be larger gains {number(g)} nat."
+    return lines + [f"The {SENSORS[s]} wanders more than declared on {'xyz'[i]}: a larger random walk gains {number(g)} nat."
                     for s, axes in closed.drift.items() for i, g in axes.items()]
 
 
@@ -343,4 +347,8 @@ def _detail(f: Finding) -> str:
 
 def _files(fmus: tuple[str, ...]) -> Table:
     rows = [("report.json", "everything of this page as data"), (MODEL, "the model with what was added")]
-    return Table(("file", "what it is"), rows + [(f, "the sensor as a co-simulation unit") for f in fmus])
+    return Table(("file", "what it is"), rows + [(f, _unit_of(f)) for f in fmus])
+
+
+def _unit_of(name: str) -> str:
+    return f"the sensor {'as it was' if name.startswith('before/') else 'with what was added'}, as a co-simulation unit"

@@ -11,8 +11,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pyimu.loop.regression import (Fit, Linear, LogState, band_segments, band_time, in_band, linearise, normal_equations,
-                                   residual, solve)
+from pyimu.loop.regression import Fit, LogState, band_segments, bare, in_band, linearise, normal_equations, residual, solve
 from pyimu.loop.trial import Trial
 from pyimu.loop.whiten import RandomWalk
 
@@ -101,9 +100,7 @@ def tally(fit: Fit, trial: Trial) -> Tally:
 
 def log_likelihood(fit: Fit, trial: Trial, r: np.ndarray) -> float:
     """Gaussian log-likelihood [nat] of a residual under the model's noise, summed over axes."""
-    nothing = {i: np.zeros((len(r), 0)) for i in trial.axes}
-    one = Linear(band_time(trial), band_segments(trial), r, {i: [] for i in trial.axes}, nothing)
-    normal = normal_equations([one], fit.noise)
+    normal = normal_equations([bare(trial, r)], fit.noise)
     return normal.log_likelihood - 0.5 * normal.rows * np.log(2 * np.pi)
 
 

@@ -119,25 +119,36 @@ def _gate(projected: Projected, all_groups: list[Group], rng: np.random.Generato
 
 def _screened(effect: str, gs: list[Group], projected: Projected) -> Screened:
     picked, gain, values = [], 0.0, {}
-    smallest = np.inf
+    visible = [v for v in (_smallest(projected, g) for g in gs) if v is not None]
     for g in gs:
         options = [(c, float(_gains(projected.score[None], c, projected.gram)[0])) for c in g.choices]
         choice, best = max(options, key=lambda o: o[1])
-        smallest = min(smallest, _smallest(projected, g))
         if best > 0:
             picked.append(g)
             gain += best
             if choice.value is not None:
                 values[g.keys[0][3]] = choice.value
-    return Screened(effect, gain, tuple(picked), values, smallest)
+    nearest = max if gs[0].measure in ("rate", "range") else min
+    return Screened(effect, gain, tuple(picked), values, nearest(visible, default=np.inf))
 
 
-def _smallest(projected: Projected, g: Group) -> float:
-    """Smallest coefficient of a group that would stand out; for a scan, the smallest value on its grid that would."""
-    seen = [(c.value, np.diag(projected.gram)[list(c.columns)].max()) for c in g.choices]
-    if seen[0][0] is None:
-        return VISIBLE / np.sqrt(seen[0][1]) if seen[0][1] > 0 else np.inf
-    return min((v / max(1.0, np.sqrt(power) / VISIBLE) for v, power in seen if power > 0), default=np.inf)
+def _smallest(projected: Projected, g: Group) -> float | None:
+    """The coefficient of a group nearest to the identity that would stand out, None where none would.
+
+    A scanned delay does more, a natural frequency or a limit less, the larger it is; the first two do so in proportion
+    near the identity, so the grid's nearest value gives the answer.
+    """
+    seen = sorted((c.value or 0.0, float(np.diag(projected.gram)[list(c.columns)].max())) for c in g.choices)
+    seen = [(v, np.sqrt(power) / VISIBLE) for v, power in seen if power > 0]
+    if not seen:
+        return None
+    if g.measure is None:
+        return 1.0 / seen[0][1]
+    if g.measure == "period":
+        return seen[0][0] / seen[0][1]
+    if g.measure == "rate":
+        return seen[-1][0] * seen[-1][1]
+    return max((v for v, ratio in seen if ratio > 1), default=None)
 
 
 def dispersion(projected: Projected, columns: Sequence[int]) -> float:

@@ -47,7 +47,7 @@ def unit_for(values: object, si: str) -> str:
     """The unit in which people would say the largest of ``values`` (SI); the SI unit itself where the table has none."""
     if si == CORNER:
         return "Hz"
-    largest = np.nanmax(np.abs(_finite_or_nan(values)), initial=0.0)
+    largest = np.max(np.nan_to_num(np.abs(_finite_or_nan(values))), initial=0.0)
     for unit, least in SHOWN.get(si, ()):
         if largest == 0.0 or convert(largest, si, unit) >= least:
             return unit
@@ -95,7 +95,9 @@ def number(value: object, digits: int = 3) -> str:
 
 
 def quantity(value: object, si: str, digits: int = 3) -> str:
-    """A value (SI) as people say it, unit included."""
+    """A value (SI) as people say it, unit included; a dash where there is none."""
+    if value is None or not math.isfinite(value):
+        return MISSING
     unit = unit_for(value, si)
     return f"{number(float(in_unit(value, si, unit)), digits)} {pretty(unit)}".rstrip()
 
@@ -110,9 +112,10 @@ def with_error(value: float, std: float) -> str:
     """``value`` and its standard error to two figures of the error; the value alone where there is none."""
     if not math.isfinite(std) or std <= 0.0:
         return number(value, 4)
+    size = math.floor(math.log10(max(abs(value), std)))
+    if not -3 <= size < 6:
+        return f"({with_error(value / 10.0 ** size, std / 10.0 ** size)})×10{str(size).translate(SCRIPTS)}"
     places = 1 - math.floor(math.log10(std))
-    if places > 9 or std >= 1e6:
-        return f"{number(value, 4)} ± {number(std, 2)}"
     return f"{round(value, places):.{max(0, places)}f} ± {round(std, places):.{max(0, places)}f}"
 
 

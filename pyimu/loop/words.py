@@ -7,7 +7,6 @@ import re
 import numpy as np
 from markupsafe import Markup, escape
 
-from pyimu.effect import CATALOGUE
 from pyimu.loop.result import Added, Closed, Errors
 from pyimu.loop.shown import CORNER, FREQUENCIES, in_unit, joined, number, pretty, quantity, unit_for
 
@@ -23,13 +22,18 @@ DOES = {
 }
 """What a sensor does that has an effect, in a few words; other effects are said by their term alone."""
 
-SAID = {"saturation": "saturation at", "time_delay": "a time delay of", "lag": "a second-order lag at", "quantization": "rounding to"}
+FEW = 2
+"""Up to so many effects of a sensor are said with their coefficients; more only by name, or nobody reads to the end."""
+
+SAID = {"saturation": "saturation at", "time_delay": "a time delay of", "lag": "a second-order lag at",
+        "quantization": "rounding to"}
 """How an effect is said before its coefficient, where its name and "of" would not be English."""
 
 
 def headline(closed: Closed) -> str:
     """The verdict as a person would say it."""
-    return {"named": _named, "unexplained": _unexplained, "drift": _drift, "clean": _clean}.get(closed.verdict, _undecidable)(closed)
+    sentences = {"named": _named, "unexplained": _unexplained, "drift": _drift, "clean": _clean}
+    return sentences.get(closed.verdict, _undecidable)(closed)
 
 
 def _named(closed: Closed) -> str:
@@ -37,14 +41,18 @@ def _named(closed: Closed) -> str:
     for kind in dict.fromkeys(a.sensor for a in closed.added):
         added = [a for a in closed.added if a.sensor == kind]
         does = joined(list(dict.fromkeys(DOES[a.effect] for a in added if a.effect in DOES)))
-        what = ", and ".join(missing(a) for a in added)
+        what = ", and ".join(map(missing, added)) if len(added) <= FEW else joined([a.effect.replace("_", " ") for a in added])
         subject = f"The {SENSORS[kind]} {does}: {what}" if does else f"The {SENSORS[kind]}: {what}"
-        parts.append(f"{subject}{', were' if len(added) > 1 else ' was'} missing from the model.")
+        parts.append(f"{subject}{_were(len(added))} missing from the model.")
         if kind in closed.errors:
             parts.append(fall(kind, closed.errors[kind]))
     if closed.unexplained:
         parts.append(f"Something is still unexplained: {dependence(closed)}.")
     return " ".join(parts)
+
+
+def _were(count: int) -> str:
+    return " was" if count == 1 else ", were" if count <= FEW else " were"
 
 
 def _unexplained(closed: Closed) -> str:
@@ -57,8 +65,9 @@ def _drift(closed: Closed) -> str:
 
 
 def _clean(closed: Closed) -> str:
-    amount = f" {len(closed.changed)} declared value{'s' * (len(closed.changed) > 1)} should be corrected (see below)." if closed.changed else ""
-    return f"Nothing is missing: what the model leaves looks like noise.{_level(closed)}{amount}"
+    count = len(closed.changed)
+    correct = f" {count} declared value{'s' * (count > 1)} should be corrected (see below)." if count else ""
+    return f"Nothing is missing: what the model leaves looks like noise.{_level(closed)}{correct}"
 
 
 def _undecidable(closed: Closed) -> str:
@@ -73,8 +82,8 @@ def _level(closed: Closed) -> str:
 
 def dependence(closed: Closed) -> str:
     """On what the residual still depends."""
-    return joined([f"the {SENSORS[u.sensor]} residual on {u.axis} depends on {joined([_input(d) for d in u.depends_on])} (p = {number(u.p_value, 1)})"
-                   for u in closed.unexplained])
+    return joined([f"the {SENSORS[u.sensor]} residual on {u.axis} depends on {joined([_input(d) for d in u.depends_on])} "
+                   f"(p = {number(u.p_value, 1)})" for u in closed.unexplained])
 
 
 def _input(name: str) -> str:
@@ -117,14 +126,18 @@ def coefficient(value: np.ndarray, si: str) -> str:
         return f"{number(float(shown.flat[0]))} {pretty(unit)}".rstrip()
     if value.ndim == 1:
         on = np.flatnonzero(value)
-        return f"{joined([number(float(shown[i])) for i in on])} {pretty(unit)} on {joined(['xyz'[i] for i in on])}".replace("  ", " ")
+        numbers = f"{joined([number(float(shown[i])) for i in on])} {pretty(unit)}".rstrip()
+        return f"{numbers} on {joined(['xyz'[i] for i in on])}"
     i, j = np.unravel_index(np.nanargmax(np.abs(shown)), shown.shape)
     return f"up to {number(float(abs(shown[i, j])))} {pretty(unit)} ({'xyz'[i]} from {'xyz'[j]})"
 
 
-SYMBOLS = {"omega": "ω", "zeta": "ζ", "tau": "τ", "sigma": "σ", "beta": "β", "alpha": "α", "lambda": "λ", "Omega": "Ω", "theta": "θ",
-           "cdot": "·", "times": "×", "odot": "∘", "circ": "∘", "lfloor": "⌊", "rfloor": "⌋", "le": "≤", "ge": "≥", "pm": "±", "pi": "π",
-           "Delta": "Δ", "phi": "φ", "mu": "µ", "in": "∈", "to": "→", "infty": "∞", "sum": "∑", "int": "∫", "approx": "≈"}
+SYMBOLS = {
+    "alpha": "α", "beta": "β", "zeta": "ζ", "theta": "θ", "lambda": "λ", "mu": "µ", "pi": "π", "sigma": "σ",
+    "tau": "τ", "phi": "φ",
+    "omega": "ω", "Delta": "Δ", "Omega": "Ω", "cdot": "·", "times": "×", "odot": "∘", "circ": "∘", "pm": "±", "le": "≤",
+    "ge": "≥", "lfloor": "⌊", "rfloor": "⌋", "in": "∈", "to": "→", "infty": "∞", "sum": "∑", "int": "∫", "approx": "≈",
+}
 
 GROUP = r"\{([^{}]*)\}"
 

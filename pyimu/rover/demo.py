@@ -18,7 +18,7 @@ from scipy.spatial.transform import Rotation
 from pyimu.imu import Part, simulate
 from pyimu.loop.attitude_error import AttitudeError, attitude_error
 from pyimu.loop.close import close
-from pyimu.loop.deliver import deliver
+from pyimu.loop.deliver import check_delivery, deliver
 from pyimu.loop.result import Closed
 from pyimu.partfile import part
 from pyimu.recording import Recording, read_recording
@@ -89,6 +89,7 @@ class Demo:
 def run_demo(out: Path | str, say: Callable[[str], None] = lambda text: None) -> Demo:
     """Make the recording, close the loop on it with the paper's tables alone, and write everything to ``out``."""
     out = Path(out)
+    check_delivery(out)
     say("simulating the rover")
     rover = recording()
     out.mkdir(parents=True, exist_ok=True)

@@ -1,0 +1,301 @@
+/* How to prefix internal symbols */
+#ifdef CASADI_CODEGEN_PREFIX
+  #define CASADI_NAMESPACE_CONCAT(NS, ID) _CASADI_NAMESPACE_CONCAT(NS, ID)
+  #define _CASADI_NAMESPACE_CONCAT(NS, ID) NS ## ID
+  #define CASADI_PREFIX(ID) CASADI_NAMESPACE_CONCAT(CODEGEN_PREFIX, ID)
+#else
+  #define CASADI_PREFIX(ID) ImuSensor_ ## ID
+#endif
+
+#include <math.h>
+
+#ifndef casadi_real
+#define casadi_real double
+#endif
+
+#ifndef casadi_int
+#define casadi_int long long int
+#endif
+
+/* Add prefix to internal symbols */
+#define casadi_f0 CASADI_PREFIX(f0)
+#define casadi_f1 CASADI_PREFIX(f1)
+#define casadi_s0 CASADI_PREFIX(s0)
+#define casadi_s1 CASADI_PREFIX(s1)
+#define casadi_s2 CASADI_PREFIX(s2)
+#define casadi_s3 CASADI_PREFIX(s3)
+#define casadi_s4 CASADI_PREFIX(s4)
+
+/* Symbol visibility in DLLs */
+#ifndef CASADI_SYMBOL_EXPORT
+  #if defined(_WIN32) || defined(__WIN32__) || defined(__CYGWIN__)
+    #if defined(STATIC_LINKED)
+      #define CASADI_SYMBOL_EXPORT
+    #else
+      #define CASADI_SYMBOL_EXPORT __declspec(dllexport)
+    #endif
+  #elif defined(__GNUC__) && defined(GCC_HASCLASSVISIBILITY)
+    #define CASADI_SYMBOL_EXPORT __attribute__ ((visibility ("default")))
+  #else
+    #define CASADI_SYMBOL_EXPORT
+  #endif
+#endif
+
+/* Configuration this file was compiled with */
+CASADI_SYMBOL_EXPORT void ImuSensor_casadi_version(int* major, int* minor, int* patch) {
+  *major = 3;
+  *minor = 8;
+  *patch = 2;
+}
+CASADI_SYMBOL_EXPORT int ImuSensor_casadi_int_size(void) { return (int) sizeof(casadi_int); }
+CASADI_SYMBOL_EXPORT int ImuSensor_casadi_real_size(void) { return (int) sizeof(casadi_real); }
+
+static const casadi_int casadi_s0[3] = {3, 1, 1};
+static const casadi_int casadi_s1[3] = {7, 1, 1};
+static const casadi_int casadi_s2[3] = {10, 1, 1};
+static const casadi_int casadi_s3[3] = {6, 1, 1};
+static const casadi_int casadi_s4[3] = {1, 1, 1};
+
+/* step:(s[3],u[7],p[10],w[6],h)->(s_next[3],y[6]) */
+static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
+  casadi_real a0, a1, a2, a3, a4, a5, a6, a7;
+  a0=arg[0]? arg[0][0] : 0;
+  a1=arg[2]? arg[2][7] : 0;
+  a2=arg[4]? arg[4][0] : 0;
+  a3=sqrt(a2);
+  a1=(a1*a3);
+  a4=arg[3]? arg[3][3] : 0;
+  a1=(a1*a4);
+  a1=(a0+a1);
+  if (res[0]!=0) res[0][0]=a1;
+  a1=arg[0]? arg[0][1] : 0;
+  a4=arg[2]? arg[2][8] : 0;
+  a4=(a4*a3);
+  a5=arg[3]? arg[3][4] : 0;
+  a4=(a4*a5);
+  a4=(a1+a4);
+  if (res[0]!=0) res[0][1]=a4;
+  a4=arg[0]? arg[0][2] : 0;
+  a5=arg[2]? arg[2][9] : 0;
+  a5=(a5*a3);
+  a3=arg[3]? arg[3][5] : 0;
+  a5=(a5*a3);
+  a5=(a4+a5);
+  if (res[0]!=0) res[0][2]=a5;
+  a5=arg[1]? arg[1][0] : 0;
+  a3=arg[2]? arg[2][0] : 0;
+  a6=arg[1]? arg[1][6] : 0;
+  a7=arg[2]? arg[2][3] : 0;
+  a6=(a6-a7);
+  a3=(a3*a6);
+  a5=(a5+a3);
+  a3=arg[2]? arg[2][4] : 0;
+  a7=arg[3]? arg[3][0] : 0;
+  a3=(a3*a7);
+  a2=sqrt(a2);
+  a3=(a3/a2);
+  a5=(a5+a3);
+  a5=(a5+a0);
+  if (res[1]!=0) res[1][0]=a5;
+  a5=arg[1]? arg[1][1] : 0;
+  a0=arg[2]? arg[2][1] : 0;
+  a0=(a0*a6);
+  a5=(a5+a0);
+  a0=arg[2]? arg[2][5] : 0;
+  a3=arg[3]? arg[3][1] : 0;
+  a0=(a0*a3);
+  a0=(a0/a2);
+  a5=(a5+a0);
+  a5=(a5+a1);
+  if (res[1]!=0) res[1][1]=a5;
+  a5=arg[1]? arg[1][2] : 0;
+  a1=arg[2]? arg[2][2] : 0;
+  a1=(a1*a6);
+  a5=(a5+a1);
+  a1=arg[2]? arg[2][6] : 0;
+  a6=arg[3]? arg[3][2] : 0;
+  a1=(a1*a6);
+  a1=(a1/a2);
+  a5=(a5+a1);
+  a5=(a5+a4);
+  if (res[1]!=0) res[1][2]=a5;
+  a5=arg[1]? arg[1][3] : 0;
+  if (res[1]!=0) res[1][3]=a5;
+  a5=arg[1]? arg[1][4] : 0;
+  if (res[1]!=0) res[1][4]=a5;
+  a5=arg[1]? arg[1][5] : 0;
+  if (res[1]!=0) res[1][5]=a5;
+  return 0;
+}
+
+CASADI_SYMBOL_EXPORT int step(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem){
+  return casadi_f0(arg, res, iw, w, mem);
+}
+
+CASADI_SYMBOL_EXPORT int step_checkout(void) {
+  return 0;
+}
+
+CASADI_SYMBOL_EXPORT void step_release(int mem) {
+}
+
+CASADI_SYMBOL_EXPORT void step_incref(void) {
+}
+
+CASADI_SYMBOL_EXPORT void step_decref(void) {
+}
+
+CASADI_SYMBOL_EXPORT casadi_int step_n_in(void) { return 5;}
+
+CASADI_SYMBOL_EXPORT casadi_int step_n_out(void) { return 2;}
+
+CASADI_SYMBOL_EXPORT casadi_real step_default_in(casadi_int i) {
+  switch (i) {
+    default: return 0;
+  }
+}
+
+CASADI_SYMBOL_EXPORT const char* step_name_in(casadi_int i) {
+  switch (i) {
+    case 0: return "s";
+    case 1: return "u";
+    case 2: return "p";
+    case 3: return "w";
+    case 4: return "h";
+    default: return 0;
+  }
+}
+
+CASADI_SYMBOL_EXPORT const char* step_name_out(casadi_int i) {
+  switch (i) {
+    case 0: return "s_next";
+    case 1: return "y";
+    default: return 0;
+  }
+}
+
+CASADI_SYMBOL_EXPORT const casadi_int* step_sparsity_in(casadi_int i) {
+  switch (i) {
+    case 0: return casadi_s0;
+    case 1: return casadi_s1;
+    case 2: return casadi_s2;
+    case 3: return casadi_s3;
+    case 4: return casadi_s4;
+    default: return 0;
+  }
+}
+
+CASADI_SYMBOL_EXPORT const casadi_int* step_sparsity_out(casadi_int i) {
+  switch (i) {
+    case 0: return casadi_s0;
+    case 1: return casadi_s3;
+    default: return 0;
+  }
+}
+
+CASADI_SYMBOL_EXPORT int step_work(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
+  if (sz_arg) *sz_arg = 5;
+  if (sz_res) *sz_res = 2;
+  if (sz_iw) *sz_iw = 0;
+  if (sz_w) *sz_w = 0;
+  return 0;
+}
+
+CASADI_SYMBOL_EXPORT int step_work_bytes(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
+  if (sz_arg) *sz_arg = 5*sizeof(const casadi_real*);
+  if (sz_res) *sz_res = 2*sizeof(casadi_real*);
+  if (sz_iw) *sz_iw = 0*sizeof(casadi_int);
+  if (sz_w) *sz_w = 0*sizeof(casadi_real);
+  return 0;
+}
+
+/* initial:(p[10])->(s[3],y[6]) */
+static int casadi_f1(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
+  casadi_real a0;
+  a0=0.;
+  if (res[0]!=0) res[0][0]=a0;
+  if (res[0]!=0) res[0][1]=a0;
+  if (res[0]!=0) res[0][2]=a0;
+  if (res[1]!=0) res[1][0]=a0;
+  if (res[1]!=0) res[1][1]=a0;
+  if (res[1]!=0) res[1][2]=a0;
+  if (res[1]!=0) res[1][3]=a0;
+  if (res[1]!=0) res[1][4]=a0;
+  if (res[1]!=0) res[1][5]=a0;
+  return 0;
+}
+
+CASADI_SYMBOL_EXPORT int initial(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem){
+  return casadi_f1(arg, res, iw, w, mem);
+}
+
+CASADI_SYMBOL_EXPORT int initial_checkout(void) {
+  return 0;
+}
+
+CASADI_SYMBOL_EXPORT void initial_release(int mem) {
+}
+
+CASADI_SYMBOL_EXPORT void initial_incref(void) {
+}
+
+CASADI_SYMBOL_EXPORT void initial_decref(void) {
+}
+
+CASADI_SYMBOL_EXPORT casadi_int initial_n_in(void) { return 1;}
+
+CASADI_SYMBOL_EXPORT casadi_int initial_n_out(void) { return 2;}
+
+CASADI_SYMBOL_EXPORT casadi_real initial_default_in(casadi_int i) {
+  switch (i) {
+    default: return 0;
+  }
+}
+
+CASADI_SYMBOL_EXPORT const char* initial_name_in(casadi_int i) {
+  switch (i) {
+    case 0: return "p";
+    default: return 0;
+  }
+}
+
+CASADI_SYMBOL_EXPORT const char* initial_name_out(casadi_int i) {
+  switch (i) {
+    case 0: return "s";
+    case 1: return "y";
+    default: return 0;
+  }
+}
+
+CASADI_SYMBOL_EXPORT const casadi_int* initial_sparsity_in(casadi_int i) {
+  switch (i) {
+    case 0: return casadi_s2;
+    default: return 0;
+  }
+}
+
+CASADI_SYMBOL_EXPORT const casadi_int* initial_sparsity_out(casadi_int i) {
+  switch (i) {
+    case 0: return casadi_s0;
+    case 1: return casadi_s3;
+    default: return 0;
+  }
+}
+
+CASADI_SYMBOL_EXPORT int initial_work(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
+  if (sz_arg) *sz_arg = 1;
+  if (sz_res) *sz_res = 2;
+  if (sz_iw) *sz_iw = 0;
+  if (sz_w) *sz_w = 0;
+  return 0;
+}
+
+CASADI_SYMBOL_EXPORT int initial_work_bytes(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
+  if (sz_arg) *sz_arg = 1*sizeof(const casadi_real*);
+  if (sz_res) *sz_res = 2*sizeof(casadi_real*);
+  if (sz_iw) *sz_iw = 0*sizeof(casadi_int);
+  if (sz_w) *sz_w = 0*sizeof(casadi_real);
+  return 0;
+}
+
+
