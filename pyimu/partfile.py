@@ -261,11 +261,16 @@ class _Reader:
         if scale.density == "one-sided" and "quoted" not in entry:
             self.notes[key]["quoted"] = f"{_format_array(figures)} {scale.unit}, one-sided"
         values = scale.to_si(figures)
-        if q.minimum is not None and np.any(values < q.minimum):
-            raise self.error(where, f"must not be below {q.minimum:g}, not {_format_array(figures)}")
+        self._in_range(where, values, q, f"not {_format_array(figures)}" + (f" {scale.unit}" if scale.unit != "1" else ""))
         if not q.diagonal and np.any(np.diag(values)):
             raise self.error(where, "has no diagonal elements, write 0 there")
         return values
+
+    def _in_range(self, where: str, values: np.ndarray, q: Parameter, found: str) -> None:
+        if q.minimum is not None and np.any(values < q.minimum):
+            raise self.error(where, f"must not be below {q.minimum:g}, {found}")
+        if q.maximum is not None and np.any(values > q.maximum):
+            raise self.error(where, f"must not be above {q.maximum:g}, {found}")
 
     @staticmethod
     def _si(key: Key, q: Parameter) -> str:

@@ -113,7 +113,8 @@ ERRORS = {
     '[gyro.angle_random_walk]\nN = {value = 1, unit = "deg/sqrt(h)", density = "half"}':
         "gyro.angle_random_walk.N.density: must be \"one-sided\" or \"two-sided\", not 'half'",
     '[gyro.angle_random_walk]\nN = {value = [1, -1, 1], unit = "deg/sqrt(h)"}':
-        "gyro.angle_random_walk.N: must not be below 0, not [1, -1, 1]",
+        "gyro.angle_random_walk.N: must not be below 0, not [1, -1, 1] deg/sqrt(h)",
+    '[gyro.lag]\nzeta = 3': "gyro.lag.zeta: must not be above 2, not 3",
     '[gyro.scale_factor]\ns = one': "cannot be read as TOML: Invalid value (at line 4, column 5)",
 }
 

@@ -8,12 +8,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pyimu.effect import Sensor
-from pyimu.loop.candidates import equivalent, with_start
-from pyimu.loop.regression import Fit, LogState, begin, fit, in_band, reference_input, residual
+from pyimu.loop.candidates import Group, equivalent, with_start
+from pyimu.loop.regression import Fit, LogState, Normal, begin, fit, in_band, normal_equations, reference_input, residual
 from pyimu.loop.response import predict
 from pyimu.loop.score import held_state, log_likelihood
-from pyimu.loop.select import PENALTY, Screened, Screening, fitted_dispersion, keys_of, screen
-from pyimu.loop.trial import Trial
+from pyimu.loop.select import PENALTY, Screened, Screening, fitted_dispersion, fitted_gain, keys_of, screen
+from pyimu.loop.trial import Trial, rest_noise
 
 SET_WIDTH = 6.0
 """Log-likelihood [nat] within which another effect explains the data as well as the best."""
@@ -116,17 +116,41 @@ def _choose(current: Fit, options: list[Screened], gate: float) -> tuple[Refined
 
 
 def refine(current: Fit, c: Screened) -> Refined:
-    """Fit a candidate in full beside everything that is free already.
+    """Fit a candidate in full beside everything that is free already, less the axes that turn out not to need it.
 
     Its gain is taken with the noise fitted anew, which a missing effect had disguised, and corrected for the scatter
     of the scores at the fitted values.
     """
     sensor = with_start(current.sensor, c.values, c.effect)
     fitted = fit(replace(current, sensor=sensor, free=current.free | keys_of(c)).with_noise())
-    spread = fitted_dispersion(fitted, keys_of(c))
+    normal = normal_equations(fitted.linearise(), fitted.noise)
+    needed = tuple(g for g in c.groups if _needed(fitted, normal, g, c.effect in current.sensor.values))
+    if needed and len(needed) < len(c.groups):
+        return refine(current, replace(c, groups=needed, values={k: v for k, v in c.values.items() if k in {g.keys[0][3] for g in needed}}))
+    spread = fitted_dispersion(normal, keys_of(c))
     fitted = on_plateau(fitted) if c.effect == "saturation" else fitted
     gain = (fitted.log_likelihood - current.log_likelihood) / spread - PENALTY * len(keys_of(c))
-    return Refined(c, fitted, gain, spread)
+    return Refined(c, fitted, gain if needed else -np.inf, spread)
+
+
+def _needed(fitted: Fit, normal: Normal, group: Group, declared: bool) -> bool:
+    """True where the part of an effect that a group stands for explains something once all is fitted together."""
+    if group.effect == "saturation":
+        return respects_limit(fitted, group.keys[0][3][0])
+    return declared or group.measure is not None or fitted_gain(normal, fitted.sensor, group.keys) > 0
+
+
+def respects_limit(fitted: Fit, axis: int) -> bool:
+    """True where the samples really stop at the limit of an axis while the model's input is beyond it."""
+    limit = float(fitted.sensor.values["saturation"]["limit"][axis])
+    open_sensor, beyond, over = fitted.sensor.without("saturation"), 0, 0
+    for t in fitted.trials:
+        x = predict(open_sensor, reference_input(t, fitted.states[t.name]), t.segments, t.h)[:, axis]
+        outside = np.concatenate([np.abs(x[a:b]) > 1.02 * limit for a, b in t.segments])
+        y = np.concatenate([np.abs(t.y[a:b, axis]) for a, b in t.segments])
+        beyond += int(outside.sum())
+        over += int((outside & (y > 1.02 * limit + 4 * rest_noise(t)[axis])).sum())
+    return beyond >= 5 and over < 0.2 * beyond
 
 
 def improves(old: Fit, new: Fit, held: list[Trial]) -> bool:

