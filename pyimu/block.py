@@ -14,6 +14,8 @@ from typing import Literal
 import casadi as ca
 import numpy as np
 
+from pyimu.native import compiled
+
 Kind = Literal["real", "boolean", "integer"]
 
 
@@ -88,7 +90,8 @@ class Block:
         w = np.zeros((n, len(self.noise))) if w is None else np.ascontiguousarray(w, dtype=float)
         s = np.array(self.initial(p)[0], dtype=float).ravel() if state is None else np.array(state, dtype=float)
         y = np.empty((n, len(self.outputs)))
-        return y, step_through(self.step, s, u, p, w, h, y)
+        go = compiled(self.step, n) or step_through
+        return y, go(self.step, s, u, p, w, h, y)
 
 
 def step_through(step: ca.Function, s: np.ndarray, u: np.ndarray, p: np.ndarray, w: np.ndarray, h: np.ndarray,

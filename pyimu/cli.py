@@ -62,7 +62,7 @@ def demo(out: Out = Path("out/demo")) -> None:
     with progress("simulating the rover") as say:
         shown = run_demo(out, say)
     print(shown.report())
-    print(f"report: {out / 'report.html'}")
+    print(f"report: {out / 'report.html'}, picture: {out / 'heading.png'}")
 
 
 @app.command("close", short_help="Find what a sensor's model lacks to explain measured logs.")

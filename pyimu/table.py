@@ -114,7 +114,7 @@ class ParquetTable:
 def open_table(path: Path) -> CsvTable | ParquetTable:
     """The table in ``path``, by its suffix.  Raises UserError for a file that is missing or none of these."""
     if not path.is_file():
-        raise UserError(f"{path}: no such file")
+        raise UserError(f"{path}: {'a folder, give the files in it' if path.is_dir() else 'no such file'}")
     return _by_suffix(path, {".csv": CsvTable, ".csv.gz": CsvTable, ".parquet": ParquetTable}).open(path)
 
 

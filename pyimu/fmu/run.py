@@ -20,6 +20,7 @@ def simulate(fmu_path: Path | str, inputs: np.ndarray, *, sample_period: float, 
     Columns are in the order of the FMU's inputs and outputs.  Row 0 is the start value and row k the answer to row
     k - 1 of the inputs; with ``samples_per_step`` of m, to row m (k - 1), held over the m samples of the step.
     ``start_values`` maps names of parameters to values, ``seed`` among them; ``sample_period`` [s] is set, too.
+    A row of NaN reaches the row before it as well: fmpy weighs the next row by zero, and zero times NaN is NaN.
 
     Raises ValueError where the inputs have the wrong shape, fmpy's exceptions where the FMU refuses.
     """

@@ -15,7 +15,7 @@ from pyimu.loop.attitude_error import attitude_error
 from pyimu.loop.candidates import absent
 from pyimu.loop.forward import Investigation, Step, investigate
 from pyimu.loop.leftover import NoiseFigure, comb_gain, drift, lack_of_fit, noise_figures, rounding
-from pyimu.loop.regression import Fit, slot_key
+from pyimu.loop.regression import Fit, own_noise, slot_key
 from pyimu.loop.result import Added, Changed, Closed, Errors, LogEntry, Visibility, added_of
 from pyimu.loop.score import Tally, floor, held_state, tally
 from pyimu.loop.select import PENALTY
@@ -51,7 +51,8 @@ def close(recordings: Sequence[Log] | Log, part: Part | str | Path | None = None
     """
     logs = [_read(r) for r in _many(recordings)]
     others = [_read(r) for r in _many(holdout)] if holdout is not None else []
-    _refuse_same_names([*logs, *others])
+    distinct = _distinct([*logs, *others])
+    logs, others = distinct[:len(logs)], distinct[len(logs):]
     declared = find_part(part) if isinstance(part, (str, Path)) else part
     start = declared or Part("estimated", logs[0].sample_rate, Sensor("gyro", {n: {} for n in STRUCTURE}),
                              Sensor("accel", {n: {} for n in STRUCTURE}))
@@ -86,11 +87,19 @@ def _read(log: Log) -> Recording:
     return recording
 
 
-def _refuse_same_names(logs: list[Recording]) -> None:
+def _distinct(logs: list[Recording]) -> list[Recording]:
+    """Logs under names that tell them apart: files of one name in different folders go by folder and name."""
+    paths = [r.path for r in logs if r.path]
+    for path in paths:
+        if sum(p.resolve() == path.resolve() for p in paths) > 1:
+            raise UserError(f"{path}: given twice; a log can be fitted or held out, once")
     names = [r.name for r in logs]
+    out = [replace(r, name=f"{r.path.parent.name}/{r.name}") if names.count(r.name) > 1 and r.path else r for r in logs]
+    names = [r.name for r in out]
     for name in names:
         if names.count(name) > 1:
-            raise UserError(f"{name}: given twice; a log can be fitted or held out, once")
+            raise UserError(f"{name}: two logs have this name; give each its own")
+    return out
 
 
 def has_reference(recording: Recording) -> bool:
@@ -293,11 +302,8 @@ def _state_entry(inv: Investigation, name: str) -> dict | None:
 
 
 def floor_noise(fit: Fit) -> dict[int, RandomWalk]:
-    """Noise at the sample rate for the floor: as fitted, or the quiet stretches' white noise where the reference is derived."""
-    if all(isinstance(n, RandomWalk) for n in fit.noise.values()):
-        return dict(fit.noise)
-    white = np.mean([rest_noise(t) for t in fit.trials], axis=0)
-    return {i: RandomWalk(float(white[i] ** 2), 0.0) for i in fit.noise}
+    """Noise at the sample rate for the floor: as fitted, or the sensor's own where the reference is derived."""
+    return dict(fit.noise) if all(isinstance(n, RandomWalk) for n in fit.noise.values()) else own_noise(fit)
 
 
 def _observability(kind: str, inv: Investigation) -> list[Visibility]:

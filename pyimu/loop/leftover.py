@@ -13,7 +13,7 @@ from pyimu.effect import N_INPUT
 from pyimu.loop.regression import Fit, Linear, normal_equations
 from pyimu.loop.select import Projected, dispersion
 from pyimu.loop.trial import Trial
-from pyimu.loop.whiten import RandomWalk
+from pyimu.loop.whiten import RandomWalk, power_less_bias
 from pyimu.quality import quantization_step
 
 INPUT_NAMES = ("rate_x", "rate_y", "rate_z", "specific_force_x", "specific_force_y", "specific_force_z", "temperature")
@@ -108,11 +108,11 @@ def _k_std(residuals: list[Linear], axis: int, noise: RandomWalk) -> float:
 
 
 def axis_likelihood(residuals: list[Linear], axis: int, noise: RandomWalk) -> float:
-    """Log-likelihood [nat] of one axis of the residuals under a noise."""
+    """Log-likelihood [nat] of one axis of the residuals under a noise, with the bias of each log that suits it best."""
     total = 0.0
     for one in residuals:
-        white = noise.whiten(one.residual[:, axis:axis + 1], one.time, one.segments)
-        total -= 0.5 * (float(np.sum(white ** 2)) + noise.log_det(one.time, one.segments))
+        white = noise.whiten(np.column_stack([one.residual[:, axis], np.ones(len(one.time))]), one.time, one.segments)
+        total -= 0.5 * (power_less_bias(white) + noise.log_det(one.time, one.segments))
     return total
 
 

@@ -353,16 +353,28 @@ def without_attenuation(fitted: Fit) -> Fit:
     return _step(fitted, normal.keys, solve(normal.gram, pull)).with_noise()
 
 
+def own_noise(fitted: Fit) -> dict[int, RandomWalk]:
+    """The sensor's own noise at the sample rate: as declared, else its white part as its quiet stretches show it."""
+    values, h = fitted.sensor.values, fitted.trials[0].h
+    declared = {n: values[e][n] for e, n in (("angle_random_walk", "N"), ("rate_random_walk", "K")) if e in values and np.any(values[e][n])}
+    white = declared["N"] / np.sqrt(h) if "N" in declared else np.mean([rest_noise(t) for t in fitted.trials], axis=0)
+    walk = declared.get("K", np.zeros(3))
+    return {i: RandomWalk(float(white[i] ** 2), float(walk[i] ** 2)) for i in fitted.noise}
+
+
+def simulated(noise: dict[int, RandomWalk], time: np.ndarray, rng: np.random.Generator) -> np.ndarray:
+    """White noise and random walk (n, 3) at the sample rate."""
+    out = np.zeros((len(time), 3))
+    steps = np.sqrt(np.maximum(np.diff(time, prepend=time[:1]), 0.0))
+    for i, n in noise.items():
+        out[:, i] = np.sqrt(n.r) * rng.standard_normal(len(time)) + np.cumsum(np.sqrt(n.k2) * steps * rng.standard_normal(len(time)))
+    return out
+
+
 def _reference_shares(fitted: Fit, seed: int = 1) -> dict[int, float]:
     """Share of each axis's whitened residual that is not the sensor's own noise: one less what that noise, simulated, leaves."""
     t = max(fitted.trials, key=lambda t: t.count)
-    rng, shape = np.random.default_rng(seed), (len(t.time), 3)
-    values = fitted.sensor.values
-    declared = {n: values[e][n] for e, n in (("angle_random_walk", "N"), ("rate_random_walk", "K")) if e in values and np.any(values[e][n])}
-    white = declared["N"] / np.sqrt(t.h) if "N" in declared else rest_noise(t)
-    noise = np.nan_to_num(white) * rng.standard_normal(shape)
-    noise += np.cumsum(declared.get("K", np.zeros(3)) * np.sqrt(t.h) * rng.standard_normal(shape), axis=0)
-    seen = in_band(t, noise)
+    seen = in_band(t, simulated(own_noise(fitted), t.time, np.random.default_rng(seed)))
     return {i: max(0.0, 1.0 - float(np.mean(n.whiten(seen[:, i:i + 1], band_time(t), band_segments(t)) ** 2)))
             for i, n in fitted.noise.items()}
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pyimu.loop.regression import Fit, LogState, band_segments, bare, in_band, linearise, normal_equations, residual, solve
+from pyimu.loop.regression import Fit, LogState, band_segments, bare, in_band, linearise, normal_equations, residual, simulated, solve
 from pyimu.loop.trial import Trial
 from pyimu.loop.whiten import RandomWalk
 
@@ -126,18 +126,8 @@ def floor(noise: dict[int, RandomWalk], fit: Fit, trial: Trial, seed: int = 1) -
     head, rest = (parent, trial) if parent is not None else trial.head()
     total = Tally()
     for _ in range(FLOOR_DRAWS):
-        draw = _noise(noise, np.concatenate([head.time, rest.time]), rng)
+        draw = simulated(noise, np.concatenate([head.time, rest.time]), rng)
         first, last = draw[:len(head.time)], draw[len(head.time):]
         bias = in_band(head, first).mean(axis=0) if head.count else np.zeros(3)
         total = total + _sums(rest, in_band(rest, last - bias))
     return total
-
-
-def _noise(noise: dict[int, RandomWalk], time: np.ndarray, rng: np.random.Generator) -> np.ndarray:
-    """White noise and random walk (n, 3) at the sample rate."""
-    out = np.zeros((len(time), 3))
-    steps = np.sqrt(np.maximum(np.diff(time, prepend=time[:1]), 0.0))
-    for i, n in noise.items():
-        out[:, i] = np.sqrt(n.r) * rng.standard_normal(len(time)) + np.cumsum(np.sqrt(n.k2) * steps * rng.standard_normal(len(time)))
-    return out
-

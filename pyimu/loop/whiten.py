@@ -41,6 +41,12 @@ def _innovations(values, steps, r, k2, out):
     return total
 
 
+def power_less_bias(white: np.ndarray) -> float:
+    """Sum of squares of a whitened residual, column 0, less what a constant, column 1 of (m, 2), takes of it."""
+    residual, constant = white.T
+    return float(residual @ residual - (residual @ constant) ** 2 / (constant @ constant))
+
+
 @dataclass(frozen=True)
 class RandomWalk:
     """White noise of variance ``r`` a sample and a random walk that grows by ``k2`` a second."""
@@ -61,15 +67,18 @@ class RandomWalk:
 
     @classmethod
     def fit(cls, residuals: list[tuple[np.ndarray, np.ndarray, Segments]]) -> RandomWalk:
-        """Maximum likelihood over residuals ``(values (m,), time (m,), segments)`` that share the noise."""
-        parts = [(np.ascontiguousarray(v[:, None]), np.diff(t, prepend=t[:1]), np.empty((len(v), 1))) for v, t, _ in residuals]
+        """Maximum likelihood over residuals ``(values (m,), time (m,), segments)`` that share the noise.
+
+        The bias of each log goes with the noise: one that fitted a larger random walk would keep that walk alive.
+        """
+        parts = [(np.column_stack([v, np.ones(len(v))]), np.diff(t, prepend=t[:1]), np.empty((len(v), 2))) for v, t, _ in residuals]
         count = sum(len(v) for v, _, _ in parts)
         step = float(np.median(np.concatenate([d[1:] for _, d, _ in parts])))
 
         def concentrated(log_ratio: float) -> tuple[float, float]:
             k2 = np.exp(log_ratio) / step
             logs = sum(_innovations(v, d, 1.0, k2, out) for v, d, out in parts)
-            power = sum(float(np.sum(out ** 2)) for _, _, out in parts) / count
+            power = sum(power_less_bias(out) for _, _, out in parts) / count
             return 0.5 * logs + 0.5 * count * np.log(power), power
 
         best = minimize_scalar(lambda x: concentrated(x)[0], bounds=(-40.0, 8.0), method="bounded", options={"xatol": 0.02})

@@ -7,11 +7,13 @@ was scale factor.  This recording is simulated from the paper's tables with a sc
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from matplotlib.figure import Figure
 from scipy.ndimage import gaussian_filter1d
 from scipy.spatial.transform import Rotation
 
@@ -19,7 +21,9 @@ from pyimu.imu import Part, simulate
 from pyimu.loop.attitude_error import AttitudeError, attitude_error
 from pyimu.loop.close import close
 from pyimu.loop.deliver import check_delivery, deliver
+from pyimu.loop.regression import band_time, in_band, residual
 from pyimu.loop.result import Closed
+from pyimu.loop.score import held_state
 from pyimu.partfile import part
 from pyimu.recording import Recording, read_recording
 from pyimu.rover.trajectory import Motion, ackermann, drive, stop, straight, turn_on_spot
@@ -99,4 +103,27 @@ def run_demo(out: Path | str, say: Callable[[str], None] = lambda text: None) ->
     entry, held = closed.recordings[0].log_state["gyro"], closed.recordings[0].held_out
     pair = [attitude_error(log, p, np.array(entry["rotation"]), len(log.time) - held) for p in (closed.before, closed.after)]
     deliver(closed, out, say)
-    return Demo(closed, *pair)
+    shown = Demo(closed, *pair)
+    draw_before_and_after(shown, out / "heading.png")
+    return shown
+
+
+def draw_before_and_after(shown: Demo, path: Path) -> None:
+    """Rate residual about the vertical and heading error on the held-out rows, before and after, as a PNG."""
+    inv = shown.closed.investigations["gyro"]
+    figure = Figure(figsize=(8.4, 3.0), layout="constrained", dpi=150)
+    left, right = figure.subplots(1, 2)
+    for name, colour, model, error in (("before", "#e69f00", inv.before, shown.before), ("after", "#0072b2", inv.after, shown.after)):
+        for trial in inv.held:
+            state, rest = held_state(model, trial)
+            r = in_band(rest, residual(model.sensor, rest, state))[:, 2]
+            left.plot(band_time(rest), np.rad2deg(r), color=colour, lw=0.8, label=name)
+        right.plot(error.time, np.rad2deg(error.heading), color=colour, lw=1.4, label=name)
+    left.set(xlabel="time [s]", ylabel="rate residual, z [deg/s]", title="gyro less model, held-out rows")
+    right.set(xlabel="time [s]", ylabel="heading error [deg]", title="attitude filter, held-out rows")
+    for panel in (left, right):
+        panel.grid(alpha=0.3)
+        panel.legend(frameon=False)
+    work = path.with_name(f".{path.name}")
+    figure.savefig(work, format="png")
+    os.replace(work, path)
