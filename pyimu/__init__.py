@@ -29,7 +29,7 @@ _HOME = {
 }
 _MODULES = ("attitude", "fmu", "symbolic", "shaping")
 
-__all__ = [*_HOME, *_MODULES, "__version__"]
+__all__ = [*_HOME, *_MODULES, "__version__"]  # noqa: PLE0604  (names from the tables above)
 
 
 def __getattr__(name: str):

@@ -95,7 +95,7 @@ class Block:
 
 
 def step_through(step: ca.Function, s: np.ndarray, u: np.ndarray, p: np.ndarray, w: np.ndarray, h: np.ndarray,
-         y: np.ndarray) -> np.ndarray:
+                 y: np.ndarray) -> np.ndarray:
     """Fill ``y`` row by row through casadi's buffer interface; the arrays are bound once, so a step allocates nothing."""
     buffer, evaluate = step.buffer()
     row_u, row_w = np.zeros(u.shape[1]), np.zeros(w.shape[1])

@@ -7,7 +7,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, Optional
+from typing import Annotated
 
 import typer
 
@@ -69,10 +69,10 @@ def demo(out: Out = Path("out/demo")) -> None:
 def close_command(
         logs: Annotated[list[Path], typer.Argument(metavar="LOG", help="Recordings: CSV, CSV.gz or Parquet.", show_default=False)],
         out: Annotated[Path, typer.Option("--out", help="Folder for report.html, report.json, model.toml and the FMUs.")] = Path("out/close"),
-        part: Annotated[Optional[str], typer.Option("--part", help="Built-in part or a TOML file; without it all is estimated.")] = None,
-        holdout: Annotated[Optional[list[Path]], typer.Option("--holdout", help="Log to judge by; else the last 30 % of each.")] = None,
-        columns: Annotated[Optional[Path], typer.Option("--columns", help="TOML that renames a foreign log's columns.")] = None,
-        latitude: Annotated[Optional[float], typer.Option("--latitude", help="Degrees; adds the Earth's rate to a derived reference.")] = None,
+        part: Annotated[str | None, typer.Option("--part", help="Built-in part or a TOML file; without it all is estimated.")] = None,
+        holdout: Annotated[list[Path] | None, typer.Option("--holdout", help="Log to judge by; else the last 30 % of each.")] = None,
+        columns: Annotated[Path | None, typer.Option("--columns", help="TOML that renames a foreign log's columns.")] = None,
+        latitude: Annotated[float | None, typer.Option("--latitude", help="Degrees; adds the Earth's rate to a derived reference.")] = None,
 ) -> None:
     """Example: pyimu close rover.csv --part imt30 --out out/rover
 

@@ -13,6 +13,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -117,7 +118,7 @@ class Recording:
         """Index ranges (start, stop) without gap."""
         breaks = np.flatnonzero(np.diff(self.time) > GAP * self.sample_period) + 1 if len(self) > 1 else []
         edges = [0, *map(int, breaks), len(self)]
-        return list(zip(edges[:-1], edges[1:]))
+        return list(pairwise(edges))
 
     def slice(self, start: int | None = None, stop: int | None = None) -> Recording:
         """The samples start <= k < stop, as a recording; findings stay those of the whole log."""

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
-from test_attitude_ukf import EARTH, GRAVITY, H, N, Drive, drive, error, inputs, measured, part, rover_rate
+from test_attitude_ukf import EARTH, GRAVITY, Drive, H, N, drive, error, inputs, measured, part, rover_rate
 
 from pyimu.attitude import attitude_ukf, run
 from pyimu.errors import UserError

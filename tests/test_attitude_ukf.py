@@ -358,7 +358,7 @@ def test_saturated_gyro_is_marked_and_widens_the_covariance():
 
 def test_start_values_show_the_given_attitude(block):
     q0 = Rotation.from_euler("ZYX", [0.3, -0.2, 3.0])
-    state, y = block.initial(parameters(block, q0=2 * q0.as_quat(scalar_first=True), bias0=[1e-3, 2e-3, 3e-3]))
+    _, y = block.initial(parameters(block, q0=2 * q0.as_quat(scalar_first=True), bias0=[1e-3, 2e-3, 3e-3]))
     y = np.array(y).T
     assert np.abs(error(output(block, y, "q"), q0)).max() < 1e-15
     np.testing.assert_allclose([output(block, y, n)[0] for n in ("yaw", "pitch", "roll")], [0.3, -0.2, 3.0], atol=1e-14)

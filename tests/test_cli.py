@@ -85,7 +85,7 @@ def pyimu(monkeypatch, capsys):
 
 def in_a_process(*words):
     command = [sys.executable, "-m", "pyimu.cli", *map(str, words)]
-    return subprocess.run(command, capture_output=True, text=True, timeout=120)
+    return subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
 
 
 def contents(folder):
@@ -417,7 +417,7 @@ def test_help_is_quick():
     """Nothing heavy is loaded to show the help: it would take seconds."""
     code = "import sys, pyimu.cli; sys.argv = ['pyimu', '--help']\ntry: pyimu.cli.main()\nexcept SystemExit: pass\n" \
            "print(*{'casadi', 'scipy', 'matplotlib', 'numba', 'fmpy'} & set(sys.modules), file=sys.stderr)"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False)
     assert "Example" in done.stdout and done.stderr == "\n"
 
 

@@ -208,7 +208,7 @@ def test_sources_compile_without_a_warning_and_hold_no_variables(path, tmp_path)
         subprocess.run(["gcc", *FLAGS, "-Wall", "-Wextra", "-Werror", *generated, "-I", header_folder(), "-c", file.name],
                        cwd=sources, check=True)
         sizes = told("size", "-A", file.with_suffix(".o"))
-        assert re.findall(r"^\.(?:data|bss)\s+(\d+)", sizes, re.M) == ["0", "0"]
+        assert re.findall(r"^\.(?:data|bss)\s+(\d+)", sizes, re.MULTILINE) == ["0", "0"]
 
 
 # ---- blocks at the edge ------------------------------------------------------------------------------------------------

@@ -5,6 +5,7 @@ import subprocess
 import sys
 from ctypes import c_double, c_int, c_void_p
 from fractions import Fraction
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -136,7 +137,7 @@ def ticking(path, start_time=0.0, period=PERIOD):
 def walk(unit, times):
     """Step through communication points; gives ``ticks`` at each but the first."""
     counts = []
-    for t, following in zip(times, times[1:]):
+    for t, following in pairwise(times):
         unit.step(t, following - t)
         counts.append(unit.get("ticks"))
     return np.array(counts)

@@ -7,6 +7,7 @@ axes and versions.
 """
 
 from collections.abc import Callable
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -37,7 +38,7 @@ def outputs(tmp_path_factory):
 def octaves(n: int) -> list[slice]:
     """Bins of the periodogram of n samples, by octaves from the first to below Nyquist, at most."""
     edges = 2 ** np.arange(int(np.log2(n)))
-    return [slice(a, b) for a, b in zip(edges[:-1], edges[1:])]
+    return [slice(a, b) for a, b in pairwise(edges)]
 
 
 def periodogram_two_sided(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -225,4 +225,4 @@ def test_broad_gyro_step(name):
 
 
 def test_morpinet_axes_point_down():
-    assert set(f.kind for f in inspect(real("morpinet_rccar_n"))) == {"gravity_down"}
+    assert {f.kind for f in inspect(real("morpinet_rccar_n"))} == {"gravity_down"}

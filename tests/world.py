@@ -86,11 +86,7 @@ def lambda_of(world: World, kind: str, change, structure: bool = False) -> float
     for i in range(3):
         r, q = n[i] ** 2 / world.h, k[i] ** 2 * world.h
         p = (q + np.sqrt(q * q + 4 * q * r)) / 2
-        gain = p / (p + r)
-
-        def white(v):
-            return lfilter([1, -1], [1, -(1 - gain)], v, axis=0) / np.sqrt(p + r)
-        columns, target = white(base), white(difference[:, i])
+        columns, target = (lfilter([1, -1], [1, -r / (p + r)], v, axis=0) / np.sqrt(p + r) for v in (base, difference[:, i]))
         left = target - columns @ np.linalg.lstsq(columns, target, rcond=None)[0]
         total += left @ left
     return float(np.sqrt(total))
@@ -103,7 +99,6 @@ def last(function):
 
 def changes(world: World, kind: str) -> dict:
     """One undeclared effect each: name in the catalogue -> size -> change of the clean signal."""
-    x = world.rate if kind == "gyro" else world.force
     f, temp, h = world.force, world.temperature, world.h
     spread = np.array([1.0, -0.7, 0.5])
 

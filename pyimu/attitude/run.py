@@ -73,8 +73,8 @@ class AttitudeResult:
         bias, bias_std = np.degrees(self.gyro_bias[-1]), np.degrees(self.std[-1, 3:])
         updated = self.nis[self.nis > 0]
         lines = [f"{self.name}: {len(self.time)} samples, {duration:.1f} s, starts {start}",
-                 f"  last attitude   roll {roll:.2f}, pitch {pitch:.2f}, yaw {yaw:.2f} deg; "
-                 f"std {', '.join(f'{s:.2f}' for s in np.degrees(self.std[-1, :3]))} deg (body x, y, z)",
+                 (f"  last attitude   roll {roll:.2f}, pitch {pitch:.2f}, yaw {yaw:.2f} deg; "
+                  f"std {', '.join(f'{s:.2f}' for s in np.degrees(self.std[-1, :3]))} deg (body x, y, z)"),
                  "  last gyro bias  " + ", ".join(f"{b:.4f} +- {s:.4f}" for b, s in zip(bias, bias_std)) + " deg/s",
                  f"  quasi-static    {np.mean(self.quasi_static):.1%} of the samples"
                  + (f", mean NIS {updated.mean():.3g} (3 degrees of freedom)" if len(updated) else "")]

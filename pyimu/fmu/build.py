@@ -136,7 +136,7 @@ def _link(name: str, objects: list[str], platform: Platform, compiler: list[str]
 
 def _run(command: list[str], folder: Path, what: str) -> None:
     """Compile or link ``what``.  Raises UserError with the compiler's first error, or else its first line."""
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, errors="replace")
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, errors="replace", check=False)
     if done.returncode:
         lines = done.stderr.splitlines() or [f"exit status {done.returncode}"]
         reason = next((line for line in lines if "error" in line), lines[0])

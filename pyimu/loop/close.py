@@ -313,7 +313,7 @@ def _observability(kind: str, inv: Investigation) -> list[Visibility]:
     for e in CATALOGUE.values():
         if kind not in e.sensors or e.name in inv.before.sensor.values or e.stochastic or e.name == "turn_on_bias":
             continue
-        name, p = next((n, p) for n, p in e.parameters.items() if not p.reference)
+        p = next(p for p in e.parameters.values() if not p.reference)
         unit = inv.before.sensor.unit(p.unit)
         if e.name in seen and np.isfinite(seen[e.name].smallest_visible):
             out.append(Visibility(kind, e.name, seen[e.name].smallest_visible, unit, seen[e.name].inseparable_from))

@@ -21,6 +21,9 @@ SET_WIDTH = 6.0
 MOST_EFFECTS = 8
 MOST_REFINED = 5
 
+LEAST_SHARE = 0.1
+"""Share of the best gain at first look below which a candidate is not fitted in full: noise fitted anew reorders, but not so far."""
+
 
 @dataclass(frozen=True)
 class Step:
@@ -98,7 +101,8 @@ def investigate(sensor: Sensor, free: frozenset, trials: list[Trial], held: list
 
 def _choose(current: Fit, options: list[Screened], gate: float) -> tuple[Refined | None, tuple[str, ...]]:
     """The candidate that explains most once fitted in full, and the names of those that explain as much."""
-    refined = sorted((refine(current, c) for c in options[:MOST_REFINED]), key=lambda r: -r.gain)
+    worth = [c for c in options[:MOST_REFINED] if c.gain > LEAST_SHARE * options[0].gain]
+    refined = sorted((refine(current, c) for c in worth), key=lambda r: -r.gain)
     refined = [r for r in refined if r.gain > gate]
     if not refined:
         return None, ()

@@ -202,8 +202,8 @@ def _compared(values: list, si: str, unit: str) -> tuple:
 
 
 def _error_notes(closed: Closed) -> list[str]:
-    notes = [f"Held out: {'the logs named for it' if closed.held_out == 'holdout' else closed.held_out + ' of each log'}. "
-             "The floor is what the noise model alone leaves of the same number."]
+    notes = [(f"Held out: {'the logs named for it' if closed.held_out == 'holdout' else closed.held_out + ' of each log'}. "
+              "The floor is what the noise model alone leaves of the same number.")]
     for kind, band in closed.band_hz.items():
         if band is not None:
             notes.append(f"The {SENSORS[kind]}'s reference was derived from an attitude and is trusted below {number(band)} Hz. "

@@ -6,7 +6,7 @@ no memory once the noise is off, so casadi evaluates it, and its Jacobian, over 
 
 from __future__ import annotations
 
-from functools import lru_cache
+from functools import cache, lru_cache
 
 import casadi as ca
 import numpy as np
@@ -30,7 +30,7 @@ def tail(sensor: Sensor) -> Sensor:
                                 if e.stage != "dynamics" and not is_step(e.name, sensor.kind)})
 
 
-@lru_cache(maxsize=None)
+@cache
 def is_step(name: str, kind: str) -> bool:
     """True for an effect whose slope is zero almost everywhere: a staircase."""
     one = Sensor(kind, {name: {}})
@@ -96,7 +96,6 @@ class Tail:
         """
         flat = over_rows(self.function, u, p)
         return flat[:, :3], flat[:, 3:12].reshape(-1, 3, 3), flat[:, 12:]
-
 
     def mean_bend(self, u: np.ndarray, p: np.ndarray) -> np.ndarray:
         """Mean over the rows (n, 7) of d(entry)/dx of its own axis, (entries,): how a regressor follows an error of the input."""

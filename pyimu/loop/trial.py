@@ -67,7 +67,7 @@ class Trial:
 
     def split(self, held_out: float) -> tuple[Trial, Trial]:
         """The rows to fit and the last ``held_out`` of them to judge by."""
-        at = int(round(len(self.time) * (1.0 - held_out)))
+        at = round(len(self.time) * (1.0 - held_out))
         return self.part(0, at), self.part(at, len(self.time), parent=self.name)
 
     def head(self) -> tuple[Trial, Trial]:
