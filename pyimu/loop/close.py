@@ -31,6 +31,12 @@ HELD_OUT = 0.3
 BAND_SHARE = 0.75
 """Share of the band in which gyro and derived reference agree that is used: at its edge a tenth of the power is noise."""
 
+FAR = 1.5
+"""Ratio of the held-out error to its floor from which on the verdict says so."""
+
+SHORT = 500
+"""Fitted rows below which finding nothing says nothing."""
+
 SHORTEST = 64
 """Rows of a log below which nothing can be said of it."""
 
@@ -50,6 +56,8 @@ def close(recordings: Sequence[Log] | Log, part: Part | str | Path | None = None
     that cannot be read, are too short, or do not excite what the part asks to be estimated.
     """
     logs = [_read(r) for r in _many(recordings)]
+    if not logs:
+        raise UserError("no log given: name at least one recording")
     others = [_read(r) for r in _many(holdout)] if holdout is not None else []
     distinct = _distinct([*logs, *others])
     logs, others = distinct[:len(logs)], distinct[len(logs):]
@@ -137,7 +145,7 @@ def _trials(kind: str, make: Callable, logs: list[Recording], others: list[Recor
         fitted, apart = ([replace(t, band_hz=band) for t in ts] for ts in (fitted, apart))
     if others:
         return fitted, apart
-    halves = [t.split(HELD_OUT) for t in fitted]
+    halves = [(a, b) for a, b in (t.split(HELD_OUT) for t in fitted) if a.count >= SHORTEST // 2]
     return [a for a, _ in halves], [b for _, b in halves if b.count]
 
 
@@ -172,12 +180,13 @@ def _conclude(start: Part, declared: Part | None, logs, others, found: dict[str,
         added += added_of(kind, sensor, inv) + steps
         changed += [_released(start.sensor(kind), inv.after, s) for s in inv.steps if s.declared]
         if declared is not None and figures:
-            changed += [] if steps else _changed(start.sensor(kind), figures)
+            changed += [] if steps else _changed(start, kind, figures)
             drifts |= {} if steps else _drift(kind, inv.after, start.sensor(kind))
     unexplained = tuple(u for u in (lack_of_fit(inv.after) for inv in found.values()) if u)
     say("error on held-out data")
     errors, entries, likelihood = _scores(found, logs, others)
     verdict, reason = _verdict(added, changed, unexplained, drifts, found)
+    reason += "".join(_far_from_floor(k, e) for k, e in errors.items() if not found[k].after.trials[0].band_hz)
     say("attitude against the reference")
     attitude = _attitude(before, after, found.get("gyro"), logs, others)
     refused = tuple((k, r) for k, inv in found.items() for r in inv.refused)
@@ -217,11 +226,11 @@ def _rounding(kind: str, inv: Investigation, declared: Part | None) -> list[Adde
                   "every raw sample lies on a comb of these steps")]
 
 
-def _changed(declared: Sensor, figures: dict[int, NoiseFigure]) -> list[Changed]:
-    """Declared noise that the data contradict at four standard errors and 2 %."""
-    out = []
+def _changed(start: Part, kind: str, figures: dict[int, NoiseFigure]) -> list[Changed]:
+    """Declared noise that the data contradict at four standard errors and 2 %; rounding, where it is declared, adds its own."""
+    out, declared = [], start.sensor(kind)
     for effect, name in (("angle_random_walk", "N"), ("rate_random_walk", "K")):
-        if effect not in declared.values:
+        if effect not in declared.values or "quantization" in declared.values or (kind, effect, name) in start.estimate:
             continue
         had = declared.values[effect][name]
         fitted, std = (np.array([getattr(figures[i], name + tail) if i in figures else np.nan for i in range(3)]) for tail in ("", "_std"))
@@ -325,6 +334,13 @@ def _observability(kind: str, inv: Investigation) -> list[Visibility]:
     return out
 
 
+def _far_from_floor(kind: str, e: Errors) -> str:
+    """What must be added to any verdict where the noise does not account for what is left."""
+    if e.floor is None or not e.after.total > FAR * e.floor.total:
+        return ""
+    return f"; the {kind} residual that is left is {e.after.total / e.floor.total:.1f} times what its noise accounts for"
+
+
 def _verdict(added: list, changed: list, unexplained: tuple, drifts: dict, found: dict[str, Investigation]) -> tuple[str, str]:
     if added:
         return "named", ", ".join(f"{a.sensor} {a.effect}" for a in added)
@@ -335,6 +351,8 @@ def _verdict(added: list, changed: list, unexplained: tuple, drifts: dict, found
         return "drift", "more random walk than declared: an input that nobody logged"
     if not any(np.isfinite(c.smallest_visible) for inv in found.values() for c in inv.first.candidates):
         return "undecidable", "no motion and no temperature: these logs could not show any effect that is missing"
+    if max(sum(t.count for t in inv.after.trials) for inv in found.values()) < SHORT:
+        return "undecidable", f"fewer than {SHORT} rows were there to fit: too short to miss an effect in"
     return "clean", "nothing is missing" + ("; declared values that the data contradict are listed as changed" if changed else "")
 
 

@@ -77,7 +77,10 @@ def investigate(sensor: Sensor, free: frozenset, trials: list[Trial], held: list
                 say: Callable[[str], None] = lambda text: None) -> Investigation:
     """Find what ``sensor``, with coefficients ``free``, lacks to explain ``trials``, confirmed on ``held``."""
     say(f"{sensor.kind}: fitting the model as declared")
-    before = after = fit(begin(sensor, free, trials))
+    before = fit(begin(sensor, free, trials))
+    if "saturation" in sensor.values and np.any(sensor.values["saturation"]["limit"]):
+        before = without_lost(before)
+    after = before
     steps: list[Step] = []
     refused: dict[str, Refused] = {}
     first = last = screen(before, sensor.values)
@@ -150,8 +153,8 @@ def respects_limit(fitted: Fit, axis: int) -> bool:
     open_sensor, beyond, over = fitted.sensor.without("saturation"), 0, 0
     for t in fitted.trials:
         x = predict(open_sensor, reference_input(t, fitted.states[t.name]), t.segments, t.h)[:, axis]
-        outside = np.concatenate([np.abs(x[a:b]) > 1.02 * limit for a, b in t.segments])
-        y = np.concatenate([np.abs(t.y[a:b, axis]) for a, b in t.segments])
+        outside = np.concatenate([np.abs(x[a:b]) > 1.02 * limit for a, b in t.row_segments])
+        y = np.concatenate([np.abs(t.y[a:b, axis]) for a, b in t.row_segments])
         beyond += int(outside.sum())
         over += int((outside & (y > 1.02 * limit + 4 * rest_noise(t)[axis])).sum())
     return beyond >= 5 and over < 0.2 * beyond
@@ -205,7 +208,8 @@ def without_lost(fitted: Fit) -> Fit:
     for t in fitted.trials:
         # Judged by the model, not by the noisy sample: choosing by the sample would keep one half of the noise.
         x = predict(open_sensor, reference_input(t, fitted.states[t.name]), t.segments, t.h)
-        trials.append(replace(t, left_out=((limit > 0) & (np.abs(x) > limit - margin)).any(axis=1)))
+        lost = ((limit > 0) & (np.abs(x) > limit - margin)).any(axis=1)
+        trials.append(replace(t, left_out=lost if t.left_out is None else lost | t.left_out))
     return fit(replace(fitted, trials=tuple(trials)).with_noise())
 
 
@@ -213,7 +217,7 @@ def _plateau(sensor: Sensor, trial: Trial, state: LogState, axis: int, limit: fl
     """Magnitudes of the samples, positive and negative side, taken while the unlimited model is 10 % beyond the limit."""
     x = predict(sensor, reference_input(trial, state), trial.segments, trial.h)[:, axis]
     inside = np.zeros(len(x), dtype=bool)
-    for a, b in trial.segments:
+    for a, b in trial.row_segments:
         inside[a:b] = True
     return tuple(np.abs(trial.y[inside & (sign * x > 1.1 * limit) & (sign * trial.y[:, axis] > 0.8 * limit), axis]) for sign in (1, -1))
 

@@ -131,7 +131,7 @@ def rounding(trials: tuple[Trial, ...], white: np.ndarray) -> dict[int, float]:
     """Steps q by axis on which every raw sample lies and which matter against white noise of standard deviation (3,)."""
     found = {}
     for i in range(3):
-        steps = [quantization_step(np.concatenate([t.y[a:b, i] for a, b in t.segments])) for t in trials if t.count]
+        steps = [quantization_step(np.concatenate([t.y[a:b, i] for a, b in t.row_segments])) for t in trials if t.count]
         if steps and all(s is not None for s in steps) and np.isfinite(white[i]):
             q = float(np.median(steps))
             if q ** 2 / 12 > SHARE * white[i] ** 2:
@@ -146,7 +146,7 @@ def comb_gain(trials: tuple[Trial, ...], steps: dict[int, float]) -> float:
     """
     total = 0.0
     for i, q in steps.items():
-        values = np.concatenate([t.y[a:b, i] for t in trials for a, b in t.segments])
+        values = np.concatenate([t.y[a:b, i] for t in trials for a, b in t.row_segments])
         offsets = (values - values[0]) / q
         miss = max(float(np.abs(offsets - np.round(offsets)).max()) * q, 1e-6 * q)
         total += len(values) * np.log(q / (2 * miss))

@@ -9,8 +9,12 @@ import numpy as np
 from pyimu.effect import N_INPUT, OWN
 from pyimu.errors import Finding
 from pyimu.loop.band import Band
+from pyimu.quality import spikes
 from pyimu.recording import Recording
 from pyimu.reference import reference_rate
+
+SETTLE = 32
+"""Rows at the start of a stretch that are not counted: nobody knows what a lag or delay remembers from before it."""
 
 HEAD = 30.0
 """Seconds at the start of a held-out log from which what belongs to the log is estimated."""
@@ -23,8 +27,8 @@ class Trial:
     ``y`` (n, 3) measured, ``u`` (n, 7) reference inputs (zero where nobody knows them), ``known`` the signals that are
     really known, ``axes`` those that the reference covers, ``segments`` the stretches without gap.  ``reference`` is
     "rate", "attitude", "force" or "static"; ``free_rotation`` says that the reference's mounting is not known.
-    ``parent`` names the fitted trial that has the same power-on, if any; ``left_out`` (n,) marks samples that carry no
-    information (at the limit), heeded where no band mixes them with their neighbours.
+    ``parent`` names the fitted trial that has the same power-on, if any; ``left_out`` (n,) marks samples that are missing
+    or carry no information (spikes, repeats, at a limit), heeded where no band mixes them with their neighbours.
     """
 
     name: str
@@ -49,14 +53,15 @@ class Trial:
 
     @property
     def row_segments(self) -> list[tuple[int, int]]:
-        """Stretches of rows that regression draws on: the segments, less what is left out."""
+        """Stretches of rows that regression draws on: the segments once settled, less what is left out."""
+        settled = [(a + (0 if self.reference == "static" else min(SETTLE, (b - a) // 4)), b) for a, b in self.segments]
         if self.left_out is None or self.band_hz is not None:
-            return self.segments
-        return [(a + i, a + j) for a, b in self.segments for i, j in runs(~self.left_out[a:b])]
+            return settled
+        return [(a + i, a + j) for a, b in settled for i, j in runs(~self.left_out[a:b])]
 
     @property
     def count(self) -> int:
-        return sum(b - a for a, b in self.segments)
+        return sum(b - a for a, b in self.row_segments)
 
     def part(self, start: int, stop: int, **changes) -> Trial:
         """Rows start to stop as a trial of their own."""
@@ -66,13 +71,15 @@ class Trial:
                        left_out=flags, **changes)
 
     def split(self, held_out: float) -> tuple[Trial, Trial]:
-        """The rows to fit and the last ``held_out`` of them to judge by."""
-        at = round(len(self.time) * (1.0 - held_out))
+        """The rows to fit and the last ``held_out`` of those that a reference covers to judge by."""
+        rows = np.concatenate([np.arange(a, b) for a, b in self.row_segments] or [np.arange(0)])
+        at = int(rows[round(len(rows) * (1.0 - held_out))]) if len(rows) > 1 else len(self.time)
         return self.part(0, at), self.part(at, len(self.time), parent=self.name)
 
     def head(self) -> tuple[Trial, Trial]:
-        """The first ``HEAD`` seconds, and the rest."""
+        """The first ``HEAD`` seconds, at most half of the log, and the rest."""
         at = int(np.searchsorted(self.time, self.time[0] + HEAD))
+        at = min(at, len(self.time) // 2)
         return self.part(0, at), self.part(at, len(self.time))
 
 
@@ -83,11 +90,11 @@ def gyro_trial(recording: Recording, latitude: float | None = None) -> Trial | N
     reference = reference_rate(recording, latitude=latitude)
     if reference.kind == "none":
         return None
-    axes = tuple(i for i in range(3) if np.isfinite(reference.rate[:, i]).any())
+    axes = tuple(i for i in range(3) if np.isfinite(reference.rate[:, i]).any() and np.isfinite(recording.gyro[:, i]).any())
     u, known = _environment(recording)
     u[:, OWN["gyro"]] = np.where(np.isfinite(reference.rate), reference.rate, 0.0)
-    valid = np.isfinite(recording.gyro).all(axis=1) & np.isfinite(reference.rate[:, list(axes)]).all(axis=1)
-    return _trial(recording, "gyro", recording.gyro, u, valid, known | {"rate"}, reference.kind,
+    covered = np.isfinite(reference.rate[:, list(axes)]).all(axis=1)
+    return _trial(recording, "gyro", recording.gyro, u, covered, known | {"rate"}, reference.kind,
                   band_hz=reference.band_hz, axes=axes, free_rotation=reference.kind == "attitude" and len(axes) == 3,
                   findings=reference.findings)
 
@@ -104,9 +111,9 @@ def accel_trial(recording: Recording, static: bool) -> Trial | None:
     if recording.ref_rate is not None:
         u[:, OWN["gyro"]] = np.nan_to_num(recording.ref_rate)
         known = known | {"rate"}
-    valid = np.isfinite(recording.accel).all(axis=1) & np.isfinite(force).all(axis=1)
-    return _trial(recording, "accel", recording.accel, u, valid, known | {"specific_force"},
-                  "static" if recording.ref_force is None else "force")
+    axes = tuple(i for i in range(3) if np.isfinite(recording.accel[:, i]).any())
+    return _trial(recording, "accel", recording.accel, u, np.isfinite(force[:, list(axes)]).all(axis=1), known | {"specific_force"},
+                  "static" if recording.ref_force is None else "force", axes=axes)
 
 
 def _environment(recording: Recording) -> tuple[np.ndarray, frozenset[str]]:
@@ -132,10 +139,27 @@ def _filled(time: np.ndarray, values: np.ndarray) -> np.ndarray:
     return np.nan_to_num(out)
 
 
-def _trial(recording: Recording, kind: str, y: np.ndarray, u: np.ndarray, valid: np.ndarray, known: frozenset[str],
-           reference: str, **more) -> Trial:
-    segments = [(a + i, a + j) for a, b in recording.segments for i, j in runs(valid[a:b])]
-    return Trial(recording.name, kind, recording.sample_period, recording.time, np.nan_to_num(y), u, segments, known, reference, **more)
+def _trial(recording: Recording, kind: str, y: np.ndarray, u: np.ndarray, covered: np.ndarray, known: frozenset[str],
+           reference: str, *, axes: tuple[int, ...], band_hz: float | None = None, findings: tuple[Finding, ...] = (), **more) -> Trial | None:
+    """A trial of the rows that the reference covers; a bad sample is left out, or ends a stretch where a band would spread it."""
+    if not axes:
+        return None
+    own = y[:, list(axes)]
+    repeats = repeated(own)
+    bad = ~np.isfinite(own).all(axis=1) | repeats | spikes(np.nan_to_num(own)).any(axis=1)
+    inside = covered if band_hz is None else covered & ~bad
+    segments = [(a + i, a + j) for a, b in recording.segments for i, j in runs(inside[a:b])]
+    if repeats.any():
+        findings += (Finding("repeated_samples", kind, int(repeats.sum())),)
+    return Trial(recording.name, kind, recording.sample_period, recording.time, np.nan_to_num(y), u, segments, known, reference,
+                 axes=axes, band_hz=band_hz, findings=findings, left_out=bad, **more)
+
+
+def repeated(values: np.ndarray) -> np.ndarray:
+    """Rows (n,) that repeat the row before on every axis, where the values are fine enough for that not to happen by itself."""
+    same = np.concatenate([[False], (np.diff(values, axis=0) == 0).all(axis=1)])
+    by_axis = [np.mean(np.diff(column) == 0) for column in values.T]
+    return same if 0 < same.mean() < 0.2 and same.mean() > 10 * np.prod(by_axis) else np.zeros(len(values), dtype=bool)
 
 
 def runs(flags: np.ndarray) -> list[tuple[int, int]]:
@@ -150,7 +174,7 @@ def rest_noise(trial: Trial) -> np.ndarray:
     Third differences take out motion up to a tenth of the sample rate; those of white noise have 20 times its variance.
     """
     length = max(8, round(1.0 / trial.h))
-    pieces = [trial.y[k:k + length] for a, b in trial.segments for k in range(a, b - length + 1, length)]
+    pieces = [trial.y[k:k + length] for a, b in trial.row_segments for k in range(a, b - length + 1, length)]
     if not pieces:
         return np.full(3, np.nan)
     spreads = np.sqrt(np.mean(np.diff(np.array(pieces), n=3, axis=1) ** 2, axis=1) / 20)

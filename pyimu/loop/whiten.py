@@ -16,6 +16,9 @@ from scipy.signal import lfilter
 
 Segments = list[tuple[int, int]]
 
+LEAST_VARIANCE = 1e-22
+"""Of a residual that is nothing but rounding, so that exact data have a likelihood too."""
+
 AR_ORDER = 32
 """Longest memory of an autoregression; a fiftieth of the rows where there are few."""
 
@@ -78,7 +81,7 @@ class RandomWalk:
         def concentrated(log_ratio: float) -> tuple[float, float]:
             k2 = np.exp(log_ratio) / step
             logs = sum(_innovations(v, d, 1.0, k2, out) for v, d, out in parts)
-            power = sum(power_less_bias(out) for _, _, out in parts) / count
+            power = max(sum(power_less_bias(out) for _, _, out in parts) / count, LEAST_VARIANCE)
             return 0.5 * logs + 0.5 * count * np.log(power), power
 
         best = minimize_scalar(lambda x: concentrated(x)[0], bounds=(-40.0, 8.0), method="bounded", options={"xatol": 0.02})
@@ -115,10 +118,10 @@ class Autoregressive:
         pieces = [v[a:b] for v, _, segments in residuals for a, b in segments if b - a > 3 * order]
         if not pieces:
             everything = np.concatenate([v for v, _, _ in residuals])
-            return cls((), float(np.mean(everything ** 2)))
+            return cls((), max(float(np.mean(everything ** 2)), LEAST_VARIANCE))
         past = np.concatenate([np.lib.stride_tricks.sliding_window_view(v, order)[:-1, ::-1] for v in pieces])
         now = np.concatenate([v[order:] for v in pieces])
         # Normal equations: an SVD of the same rows takes ten times longer, and the noise floor keeps them regular.
         gram = past.T @ past
         coefficients = np.linalg.solve(gram + 1e-12 * np.trace(gram) * np.eye(order), past.T @ now)
-        return cls(tuple(coefficients), float(np.mean((now - past @ coefficients) ** 2)))
+        return cls(tuple(coefficients), max(float(np.mean((now - past @ coefficients) ** 2)), LEAST_VARIANCE))
