@@ -134,7 +134,7 @@ def _from_attitude(recording: Recording, latitude: np.ndarray | float | None) ->
     def spline(nodes: np.ndarray):
         return RotationSpline(recording.time[nodes], Rotation.from_quat(q[nodes], scalar_first=True))
 
-    track = _Track(recording.time, np.flatnonzero(np.all(np.isfinite(q), axis=1)), steps)
+    track = _Track(recording.time, _fresh(q), steps)
     rate = np.full((len(recording), 3), np.nan)
     for nodes in track.stretches:
         rows, curve = np.arange(nodes[0], nodes[-1] + 1), spline(nodes)
@@ -147,7 +147,7 @@ def _from_attitude(recording: Recording, latitude: np.ndarray | float | None) ->
 
 def _from_heading(recording: Recording, latitude: np.ndarray | float | None) -> Reference:
     heading = recording.ref_heading
-    known = np.flatnonzero(np.isfinite(heading))
+    known = _fresh(heading[:, None])
     unwrapped = np.full(len(recording), np.nan)
     unwrapped[known] = np.unwrap(heading[known])
     track = _Track(recording.time, known, lambda nodes: np.diff(unwrapped[nodes])[:, None])
@@ -158,6 +158,22 @@ def _from_heading(recording: Recording, latitude: np.ndarray | float | None) -> 
     if latitude is not None:
         rate[:, 2] += EARTH_RATE * np.sin(latitude)
     return _derived(recording, rate, "heading", track, latitude is not None)
+
+
+def _fresh(values: np.ndarray) -> np.ndarray:
+    """Rows of a reference (n, k) that are known and new.
+
+    A slow reference that is held between its own samples repeats most rows in runs of one length; its repeats are no
+    samples.  One that stands still for a while, or is known at every row, is left as it is.
+    """
+    known = np.flatnonzero(np.all(np.isfinite(values), axis=1))
+    if len(known) < 8:
+        return known
+    new = np.concatenate([[True], np.any(np.diff(values[known], axis=0) != 0, axis=1)])
+    lengths = np.diff(np.flatnonzero(np.append(new, True)))
+    usual = np.median(lengths)
+    held = usual >= 2 and np.mean(np.abs(lengths - usual) <= 1) > 0.8
+    return known[new] if held else known
 
 
 def _derived(recording: Recording, rate: np.ndarray, kind, track: _Track, earth_rate: bool) -> Reference:

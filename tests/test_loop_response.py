@@ -45,7 +45,9 @@ def test_predict_is_the_block_sample_by_sample(kind):
 
 @pytest.mark.parametrize(("name", "kind"), [(n, k) for n, k in CASES if not is_step(n, k)])
 def test_predict_of_one_effect_is_the_block(name, kind):
-    assert_follows_the_block(excited(name, kind), motion(1500, seed=2))
+    sensor = excited(name, kind)
+    # At the usual small share a lag takes minutes; one that dies away within the segment is the test here.
+    assert_follows_the_block(sensor.with_values("lag", wn=20.0) if name == "lag" else sensor, motion(1500, seed=2))
 
 
 def test_dynamics_and_tail_share_the_chain_between_them():

@@ -13,6 +13,7 @@ import tempfile
 import zipfile
 import zlib
 from collections.abc import Iterable, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
@@ -115,11 +116,11 @@ def _compile(name: str, generated: dict[str, str], versions: Iterable[int], plat
     for file, content in files.items():
         (work / file).write_bytes(content)
     include = ["-I", ".", "-I", str(header_folder())]
-    for file in files:
-        if file.endswith(".c"):
-            _run([*compiler, *FLAGS, *include, "-c", file, "-o", _object(file)], work, file)
+    sources = [f for f in files if f.endswith(".c")]
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        list(pool.map(lambda file: _run([*compiler, *FLAGS, *include, "-c", file, "-o", _object(file)], work, file), sources))
     layers = {LAYER[v] for v in versions}
-    shared = [_object(f) for f in files if f.endswith(".c") and f not in layers]
+    shared = [_object(f) for f in sources if f not in layers]
     return {v: _link(name, [*shared, _object(LAYER[v])], platform, compiler, work) for v in versions}
 
 

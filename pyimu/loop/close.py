@@ -14,7 +14,7 @@ from pyimu.imu import Part
 from pyimu.loop.attitude_error import attitude_error
 from pyimu.loop.candidates import absent
 from pyimu.loop.forward import Investigation, Step, investigate
-from pyimu.loop.leftover import NoiseFigure, comb_gain, drift, lack_of_fit, noise_figures, rounding
+from pyimu.loop.leftover import NoiseFigure, axis_likelihood, comb_gain, drift, lack_of_fit, noise_figures, rounding
 from pyimu.loop.regression import Fit, own_noise, slot_key
 from pyimu.loop.result import Added, Changed, Closed, Errors, LogEntry, Visibility, added_of
 from pyimu.loop.score import Tally, floor, held_state, tally
@@ -33,6 +33,9 @@ BAND_SHARE = 0.75
 
 FAR = 1.5
 """Ratio of the held-out error to its floor from which on the verdict says so."""
+
+CONTRADICTION = 4.0
+"""Standard errors by which data must differ from a declared noise to contradict it."""
 
 SHORT = 500
 """Fitted rows below which finding nothing says nothing."""
@@ -74,6 +77,8 @@ def close(recordings: Sequence[Log] | Log, part: Part | str | Path | None = None
             sensor = start.sensor(kind)
             found[kind] = investigate(sensor, _free(start, declared is None, sensor, trials), trials, held, say)
     if not found:
+        if any(has_reference(r) for r in logs):
+            raise UserError(f"{logs[0].name}: too short to say anything: fewer than {SHORTEST} rows that sensor and reference both cover")
         raise UserError(f"{logs[0].name}: nothing to compare: the log has no reference (ref_rate, ref_q, ref_heading or ref_force) "
                         "and moves; a log without reference must stand still")
     return _conclude(start, declared, logs, others, found, tuple(quality), say)
@@ -180,7 +185,7 @@ def _conclude(start: Part, declared: Part | None, logs, others, found: dict[str,
         added += added_of(kind, sensor, inv) + steps
         changed += [_released(start.sensor(kind), inv.after, s) for s in inv.steps if s.declared]
         if declared is not None and figures:
-            changed += [] if steps else _changed(start, kind, figures)
+            changed += [] if steps else _changed(start, kind, inv.after, figures)
             drifts |= {} if steps else _drift(kind, inv.after, start.sensor(kind))
     unexplained = tuple(u for u in (lack_of_fit(inv.after) for inv in found.values()) if u)
     say("error on held-out data")
@@ -226,18 +231,32 @@ def _rounding(kind: str, inv: Investigation, declared: Part | None) -> list[Adde
                   "every raw sample lies on a comb of these steps")]
 
 
-def _changed(start: Part, kind: str, figures: dict[int, NoiseFigure]) -> list[Changed]:
-    """Declared noise that the data contradict at four standard errors and 2 %; rounding, where it is declared, adds its own."""
+def _changed(start: Part, kind: str, fit: Fit, figures: dict[int, NoiseFigure]) -> list[Changed]:
+    """Declared noise that the data contradict as clearly as four standard errors, and by 2 %.
+
+    Rounding adds to the noise, so where it is declared nothing is said.
+    """
     out, declared = [], start.sensor(kind)
     for effect, name in (("angle_random_walk", "N"), ("rate_random_walk", "K")):
         if effect not in declared.values or "quantization" in declared.values or (kind, effect, name) in start.estimate:
             continue
         had = declared.values[effect][name]
         fitted, std = (np.array([getattr(figures[i], name + tail) if i in figures else np.nan for i in range(3)]) for tail in ("", "_std"))
+        # The likelihood of a random walk is too skew for a standard error to judge by.
+        surprise = _walk_surprise(fit, had) if name == "K" else np.abs(fitted - had) / std
         with np.errstate(invalid="ignore"):
-            off = (np.abs(fitted - had) > 4 * std) & (np.abs(fitted - had) > 0.02 * had)
+            off = (surprise > CONTRADICTION) & (np.abs(fitted - had) > 0.02 * had)
         if off.any():
             out.append(Changed(declared.kind, effect, name, np.array(had), fitted, std, declared.unit(CATALOGUE[effect].parameters[name].unit)))
+    return out
+
+
+def _walk_surprise(fit: Fit, declared: np.ndarray) -> np.ndarray:
+    """How many standard errors, by the drop of the log-likelihood, a declared random walk is off on each axis (3,)."""
+    residuals, out = fit.residuals(), np.full(3, np.nan)
+    for i, n in fit.noise.items():
+        drop = axis_likelihood(residuals, i, n) - axis_likelihood(residuals, i, RandomWalk(n.r, float(declared[i] ** 2)))
+        out[i] = np.sqrt(2 * max(drop, 0.0))
     return out
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pyimu.effect import Sensor
-from pyimu.loop.candidates import Group, equivalent, with_start
+from pyimu.loop.candidates import Group, equivalent, is_off, with_start
 from pyimu.loop.regression import Fit, LogState, Normal, begin, fit, in_band, normal_equations, reference_input, residual
 from pyimu.loop.response import predict
 from pyimu.loop.score import held_state, log_likelihood
@@ -17,6 +17,9 @@ from pyimu.loop.trial import Trial, rest_noise
 
 SET_WIDTH = 6.0
 """Log-likelihood [nat] within which another effect explains the data as well as the best."""
+
+LEAST_BESIDE_DYNAMICS = 0.01
+"""Share of the held-out RMS error by which an effect must lower it where a lag or delay is in the model."""
 
 MOST_EFFECTS = 8
 MOST_REFINED = 5
@@ -163,15 +166,21 @@ def respects_limit(fitted: Fit, axis: int) -> bool:
 def improves(old: Fit, new: Fit, held: list[Trial]) -> bool:
     """True where held-out rows are likelier under the new model, both judged with the new model's noise.
 
-    Held-out data in which the two models hardly differ cannot speak against the new one.
+    Held-out data in which the two models hardly differ cannot speak against the new one.  Beside a lag or delay an
+    effect must also lower the error by ``LEAST_BESIDE_DYNAMICS``: sampled dynamics are right to third order in the
+    sample period only, and what they miss looks like a little of every other effect.
     """
-    gained, difference = 0.0, 0.0
+    gained, difference, squares = 0.0, 0.0, np.zeros(2)
     for trial in held:
         (state_old, rest), (state_new, _) = held_state(old, trial), held_state(new, trial)
         r_old, r_new = (in_band(rest, residual(f.sensor, rest, s)) for f, s in ((old, state_old), (new, state_new)))
         judged = [log_likelihood(new, rest, r) for r in (r_new, r_old)]
         gained += judged[0] - judged[1]
         difference += log_likelihood(new, rest, np.zeros_like(r_new)) - log_likelihood(new, rest, r_new - r_old)
+        squares += [np.sum(r_old ** 2), np.sum(r_new ** 2)]
+    if any(e.stage == "dynamics" and not is_off(old.sensor, e.name) for e in old.sensor.effects):
+        if squares[1] > (1 - LEAST_BESIDE_DYNAMICS) ** 2 * squares[0] > 0:
+            return False
     return gained > 0.0 or difference < 0.5
 
 
