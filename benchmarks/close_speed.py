@@ -8,7 +8,7 @@ from pathlib import Path
 from statistics import median
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
-from world import changes, drive, recording  # noqa: E402
+from world import changes, drive, recording
 
 BUDGET = 15.0
 RUNS = 3

@@ -9,9 +9,9 @@ from pathlib import Path
 from scipy.stats import binomtest
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
-from world import drive, recording  # noqa: E402
+from world import drive, recording
 
-import pyimu  # noqa: E402
+import pyimu
 
 
 def main(count: int) -> None:

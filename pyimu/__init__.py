@@ -18,9 +18,9 @@ from importlib import import_module
 
 __version__ = "0.1.0"
 
-_HOME = {
+_HOME = {  # a Sensor comes by way of imu, which fills the catalogue that its effects are looked up in
     "Effect": "effect", "Environment": "effect", "Noise": "effect", "Parameter": "effect", "SamplePeriod": "effect",
-    "Sensor": "effect", "State": "effect", "effect": "effect",
+    "Sensor": "imu", "State": "effect", "effect": "effect",
     "Part": "imu", "simulate": "imu",
     "Recording": "recording", "read_recording": "recording",
     "part": "partfile", "part_names": "partfile", "load_part": "partfile", "save_part": "partfile",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -12,6 +13,9 @@ from typing import Annotated
 import typer
 
 from pyimu.errors import UserError
+
+# The matrices here are small: BLAS threads would wait for each other longer than they compute.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False,
                   help="Example: pyimu demo\n\nMEMS inertial sensors, from a measured log to FMI co-simulation units and back.")

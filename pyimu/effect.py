@@ -160,10 +160,6 @@ class Effect:
     def stochastic(self) -> bool:
         return bool(self.noises)
 
-    @property
-    def stateful(self) -> bool:
-        return bool(self.states)
-
     def start(self) -> dict[str, np.ndarray]:
         """Start values of all parameters: the identity."""
         return {n: np.full(p.shape, p.start) for n, p in self.parameters.items()}
@@ -216,7 +212,7 @@ def _arguments(name: str, function: Callable) -> dict[str, Any]:
 
 @dataclass(frozen=True)
 class Slot:
-    """Where one coefficient stands: effect, parameter, index in its array, position in the vector ``p``."""
+    """Where one coefficient stands: effect, parameter, index in its array."""
 
     effect: str
     parameter: str

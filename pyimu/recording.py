@@ -21,11 +21,10 @@ import numpy as np
 from pyimu.columns import GROUPS, Header, column_names
 from pyimu.errors import Finding, UserError
 from pyimu.foreign import ForeignMap, read_map
-from pyimu.reference import Reference, reference_rate
 from pyimu.table import CsvTable, ParquetTable, open_table, write_table
 from pyimu.units import did_you_mean
 
-__all__ = ["GROUPS", "Finding", "Recording", "Reference", "column_names", "read_recording", "reference_rate"]
+__all__ = ["GROUPS", "Finding", "Recording", "column_names", "read_recording"]
 
 GAP = 1.5
 """A step of the time above so many sample periods is a gap."""

@@ -172,7 +172,7 @@ def _fresh(values: np.ndarray) -> np.ndarray:
     new = np.concatenate([[True], np.any(np.diff(values[known], axis=0) != 0, axis=1)])
     lengths = np.diff(np.flatnonzero(np.append(new, True)))
     usual = np.median(lengths)
-    held = usual >= 2 and np.mean(np.abs(lengths - usual) <= 1) > 0.8
+    held = len(lengths) >= 8 and usual >= 2 and np.mean(np.abs(lengths - usual) <= 1) > 0.8
     return known[new] if held else known
 
 
@@ -237,7 +237,7 @@ class _Track:
     def _healthy(self, nodes: np.ndarray, spike: np.ndarray, step: np.ndarray) -> np.ndarray:
         """Mask of the nodes that no fault touches; ``spike`` (m - 3,), ``step`` (m - 2,)."""
         good, time = np.ones(len(nodes), bool), self.time[nodes]
-        for first, last in self._faults(time, time[1:-2][spike], time[1:-1][step]):
+        for first, last in self._faults(time[1:-2][spike], time[1:-1][step]):
             good &= (time < first - MARGIN) | (time > last + MARGIN)
         edges = np.flatnonzero(np.diff(np.concatenate(([False], good, [False])).astype(int)))
         for start, stop in zip(edges[::2], edges[1::2]):
@@ -246,7 +246,7 @@ class _Track:
         return good
 
     @staticmethod
-    def _faults(time: np.ndarray, spikes: np.ndarray, steps: np.ndarray) -> list[tuple[float, float]]:
+    def _faults(spikes: np.ndarray, steps: np.ndarray) -> list[tuple[float, float]]:
         """Intervals that spikes, and steps of the rate close to them, span."""
         events = np.union1d(spikes, steps)
         groups = np.split(events, np.flatnonzero(np.diff(events) > REACQUIRE) + 1)

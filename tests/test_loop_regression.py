@@ -24,7 +24,7 @@ def keys_of(sensor: Sensor, *names: str) -> frozenset:
 
 
 def gyro(s=0.0, m=0.0) -> Sensor:
-    return Sensor("gyro", {"scale_factor": {"s": np.full(3, s) if np.isscalar(s) else s}, "misalignment": {"m": m * (1 - np.eye(3))}})
+    return Sensor("gyro", {"scale_factor": {"s": s}, "misalignment": {"m": m * (1 - np.eye(3))}})
 
 
 TRUE_S, TRUE_M = np.array([0.02, -0.01, 0.015]), 0.01 * np.array([[0.0, 1.0, -0.5], [0.3, 0.0, 0.8], [-0.6, 0.2, 0.0]])
@@ -71,7 +71,8 @@ def test_normal_equations_give_the_dense_generalised_least_squares_answer():
     expected = np.linalg.lstsq(white @ x, white @ y, rcond=None)[0]
     np.testing.assert_allclose(solve(normal.gram, normal.score), expected, rtol=1e-7, atol=1e-9 * np.abs(expected).max())
     np.testing.assert_allclose(normal.power, np.sum((white @ y) ** 2), rtol=1e-10)
-    np.testing.assert_allclose(normal.log_likelihood, -0.5 * (np.sum((white @ y) ** 2) + np.linalg.slogdet(covariance)[1]), rtol=1e-10)
+    likelihood = -0.5 * (np.sum((white @ y) ** 2) + np.linalg.slogdet(covariance)[1])
+    np.testing.assert_allclose(normal.log_likelihood, likelihood, rtol=1e-10)
 
 
 def dense(linears: list[Linear], keys: list, model: dict) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -96,10 +97,9 @@ def test_blocks_add_up_to_the_whole():
     assert normal.rows == 3 * sum(t.count for t in started.trials)
     apart = [normal_equations([one], started.noise) for one in linears]
     shared = [k for k in normal.keys if k[0] == "slot"]
-    for whole, parts in (("score", [a.score for a in apart]), ("gram", [np.diag(a.gram) for a in apart])):
-        total = sum(p[[a.position[k] for k in shared]] for a, p in zip(apart, parts, strict=True))
-        have = getattr(normal, whole)
-        np.testing.assert_allclose((have if whole == "score" else np.diag(have))[[normal.position[k] for k in shared]], total, rtol=1e-9)
+    for take in (lambda n: n.score, lambda n: np.diag(n.gram)):
+        total = sum(take(a)[[a.position[k] for k in shared]] for a in apart)
+        np.testing.assert_allclose(take(normal)[[normal.position[k] for k in shared]], total, rtol=1e-9)
     np.testing.assert_allclose(power(started), normal.power, rtol=1e-10)
 
 
@@ -163,7 +163,8 @@ def scale_factors() -> np.ndarray:
     """Estimates less truth (draws, 3)."""
     sensor = Sensor("gyro", {"scale_factor": {}, "angle_random_walk": {"N": 1e-3 * np.sqrt(0.02)}})
     keys = keys_of(sensor, "scale_factor")
-    return np.array([fit(begin(sensor, keys, [seen_by_attitude(s)])).sensor.values["scale_factor"]["s"] - TRUE_S for s in range(20)])
+    fits = [fit(begin(sensor, keys, [seen_by_attitude(s)])) for s in range(20)]
+    return np.array([f.sensor.values["scale_factor"]["s"] - TRUE_S for f in fits])
 
 
 def offset(errors: np.ndarray) -> np.ndarray:

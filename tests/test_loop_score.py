@@ -74,7 +74,7 @@ def test_floor_of_white_noise_is_the_textbook_one(halves):
 
 
 def test_true_model_reaches_the_floor(halves):
-    fit, first, second = halves
+    fit, _, second = halves
     scores = []
     for seed in range(20):
         one, two = log(seed=seed).split(0.4)
@@ -162,7 +162,7 @@ def test_tallies_add_up_and_axes_without_rows_have_no_number():
 
 
 def test_log_likelihood_is_the_dense_gaussian_one(halves):
-    fit, first, second = halves
+    fit, _, second = halves
     state = held_state(fit, second)[0]
     at = rows(second)
     since = second.time[at] - second.time[at[0]]
@@ -173,6 +173,6 @@ def test_log_likelihood_is_the_dense_gaussian_one(halves):
 
 
 def test_bias_of_a_state_is_what_the_score_takes_off(halves):
-    fit, first, second = halves
+    fit, _, second = halves
     found = held_state(replace(fit, states={"log": LogState(np.full(3, 99.0))}), second)[0]
     np.testing.assert_allclose(found.bias, held_state(fit, second)[0].bias, rtol=1e-12)

@@ -15,8 +15,8 @@ from hypothesis.extra.numpy import arrays
 from scipy.spatial.transform import Rotation
 
 from pyimu.errors import Finding, UserError
-from pyimu.recording import GROUPS, Recording, column_names, read_recording, reference_rate
-from pyimu.reference import EARTH_RATE, earth_rate_in_body
+from pyimu.recording import GROUPS, Recording, column_names, read_recording
+from pyimu.reference import EARTH_RATE, earth_rate_in_body, reference_rate
 
 DATA = Path(__file__).parents[2] / "shared" / "data"
 
@@ -119,7 +119,7 @@ def test_refused_in_one_line_that_names_the_place(write, text, says):
 
 
 def test_file_that_is_none(tmp_path, write):
-    for path, says in ((tmp_path / "no.csv", "no such file"), (tmp_path, "no such file"), (write("x", "log.txt"), "must end in"),
+    for path, says in ((tmp_path / "no.csv", "no such file"), (tmp_path, "a folder"), (write("x", "log.txt"), "must end in"),
                        (write("x", "log.parquet"), "cannot be read as Parquet")):
         with pytest.raises(UserError, match=says):
             read_recording(path)
@@ -378,6 +378,14 @@ def test_reference_on_every_second_and_third_row_in_turn():
     reference = reference_rate(Recording.from_arrays(time=TIME, gyro=RATE, ref_q=np.where(seen[:, None], ATTITUDE, np.nan)))
     assert reference.segments == [(0, np.flatnonzero(seen)[-1] + 1)]
     assert reference.band_hz <= 0.25 / 0.025 * 1.001
+
+
+def test_reference_that_is_held_between_its_own_samples_is_not_a_staircase():
+    held = ATTITUDE[np.arange(len(TIME)) // 5 * 5]
+    reference = reference_rate(Recording.from_arrays(time=TIME, gyro=RATE, ref_q=held))
+    empty = np.where((np.arange(len(TIME)) % 5 == 0)[:, None], ATTITUDE, np.nan)
+    slow = reference_rate(Recording.from_arrays(time=TIME, gyro=RATE, ref_q=empty))
+    np.testing.assert_allclose(reference.rate, slow.rate, atol=1e-12)
 
 
 def test_earth_rate_is_added_where_the_latitude_is_known():

@@ -176,9 +176,9 @@ def _conclude(start: Part, declared: Part | None, logs, others, found: dict[str,
     for kind, inv in found.items():
         say(f"{kind}: what is left")
         figures = noise_figures(inv.after)
-        steps = _rounding(kind, inv, declared)
-        before = before.with_sensor(_finished(start, declared, inv.before))
-        sensor = _finished(start, declared, inv.after)
+        steps = _rounding(kind, inv)
+        before = before.with_sensor(_finished(declared, inv.before))
+        sensor = _finished(declared, inv.after)
         for a in steps:
             sensor = sensor.with_values(a.effect, **{n: v for n, (v, _, _) in a.parameters.items()})
         after = after.with_sensor(sensor)
@@ -200,7 +200,7 @@ def _conclude(start: Part, declared: Part | None, logs, others, found: dict[str,
                   refused, found, {k: inv.after.trials[0].band_hz for k, inv in found.items()}, "holdout" if others else "last 30 %")
 
 
-def _finished(start: Part, declared: Part | None, fit: Fit) -> Sensor:
+def _finished(declared: Part | None, fit: Fit) -> Sensor:
     """The fitted sensor with what no regressor carries: bias, and for an undeclared part the noise found."""
     sensor = fit.sensor
     if declared is not None:
@@ -215,7 +215,7 @@ def _finished(start: Part, declared: Part | None, fit: Fit) -> Sensor:
     return sensor.with_values("turn_on_bias", b0=bias).with_values("angle_random_walk", N=n).with_values("rate_random_walk", K=k)
 
 
-def _rounding(kind: str, inv: Investigation, declared: Part | None) -> list[Added]:
+def _rounding(kind: str, inv: Investigation) -> list[Added]:
     """Rounding as an added effect where its steps are seen in the raw samples and weigh against the noise."""
     sensor = inv.after.sensor
     if "quantization" in sensor.values or not all(isinstance(n, RandomWalk) for n in inv.after.noise.values()):

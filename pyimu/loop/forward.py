@@ -101,7 +101,7 @@ def investigate(sensor: Sensor, free: frozenset, trials: list[Trial], held: list
                           name in before.sensor.values))
         after = without_lost(chosen.fit) if name == "saturation" else chosen.fit
         last = screen(after, sensor.values)
-    after, steps = _backward(before, after, steps)
+    after, steps = _backward(after, steps)
     return Investigation(before, after, tuple(steps), tuple(refused.values()), first, last, tuple(held))
 
 
@@ -178,9 +178,9 @@ def improves(old: Fit, new: Fit, held: list[Trial]) -> bool:
         gained += judged[0] - judged[1]
         difference += log_likelihood(new, rest, np.zeros_like(r_new)) - log_likelihood(new, rest, r_new - r_old)
         squares += [np.sum(r_old ** 2), np.sum(r_new ** 2)]
-    if any(e.stage == "dynamics" and not is_off(old.sensor, e.name) for e in old.sensor.effects):
-        if squares[1] > (1 - LEAST_BESIDE_DYNAMICS) ** 2 * squares[0] > 0:
-            return False
+    dynamic = any(e.stage == "dynamics" and not is_off(old.sensor, e.name) for e in old.sensor.effects)
+    if dynamic and squares[1] > (1 - LEAST_BESIDE_DYNAMICS) ** 2 * squares[0] > 0:
+        return False
     return gained > 0.0 or difference < 0.5
 
 
@@ -231,7 +231,7 @@ def _plateau(sensor: Sensor, trial: Trial, state: LogState, axis: int, limit: fl
     return tuple(np.abs(trial.y[inside & (sign * x > 1.1 * limit) & (sign * trial.y[:, axis] > 0.8 * limit), axis]) for sign in (1, -1))
 
 
-def _backward(before: Fit, after: Fit, steps: list[Step]) -> tuple[Fit, list[Step]]:
+def _backward(after: Fit, steps: list[Step]) -> tuple[Fit, list[Step]]:
     """Drop what later additions made superfluous; a limit never is, the samples at it having been left out since."""
     for step in [s for s in steps[:-1] if not s.declared and s.effect != "saturation"]:
         rest = [s for s in steps if s is not step]

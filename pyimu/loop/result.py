@@ -204,11 +204,11 @@ def added_of(kind: str, sensor: Sensor, investigation: Investigation) -> list[Ad
                 if key[0] == "slot" and key[1] == step.effect and key[2] == name:
                     std[key[3]] = value * math.sqrt(step.dispersion)
             parameters[name] = (sensor.values[step.effect][name], std, sensor.unit(p.unit))
-        out.append(Added(kind, step.effect, step.alternatives, parameters, step.gain, step.gate, _note(step.effect, parameters, step.alternatives)))
+        out.append(Added(kind, step.effect, step.alternatives, parameters, step.gain, step.gate, _note(step.effect, parameters)))
     return out
 
 
-def _note(effect: str, parameters: dict, alternatives: tuple[str, ...]) -> str:
+def _note(effect: str, parameters: dict) -> str:
     """What must be said of classes that no log separates."""
     if effect not in ("time_delay", "lag"):
         return ""

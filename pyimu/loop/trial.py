@@ -26,7 +26,7 @@ class Trial:
 
     ``y`` (n, 3) measured, ``u`` (n, 7) reference inputs (zero where nobody knows them), ``known`` the signals that are
     really known, ``axes`` those that the reference covers, ``segments`` the stretches without gap.  ``reference`` is
-    "rate", "attitude", "force" or "static"; ``free_rotation`` says that the reference's mounting is not known.
+    "rate", "attitude", "heading", "force" or "static"; ``free_rotation`` says that the reference's mounting is not known.
     ``parent`` names the fitted trial that has the same power-on, if any; ``left_out`` (n,) marks samples that are missing
     or carry no information (spikes, repeats, at a limit), heeded where no band mixes them with their neighbours.
     """
