@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.signal import upfirdn
-from scipy.signal.windows import hann
 
 OVERSAMPLING = 2.5
 
@@ -16,7 +16,7 @@ class Band:
     """A Hann-weighted moving average of ``taps`` samples, kept every ``stride`` samples.
 
     ``Band()`` is no filter at all.  The window's length follows from the -3 dB frequency: a Hann window of L samples
-    falls to 1/sqrt(2) at 0.72 of the sample rate over L.  Rows are kept at ``OVERSAMPLING`` times that frequency and no
+    falls to 1/sqrt(2) at 0.7203 of the sample rate over L.  Rows are kept at ``OVERSAMPLING`` times that frequency and no
     faster: whitening weighs every frequency up to half the row rate alike, and beyond the band there is nothing to trust.
     """
 
@@ -26,10 +26,12 @@ class Band:
     @classmethod
     def below(cls, band_hz: float, sample_rate: float) -> Band:
         """Band up to ``band_hz`` (-3 dB) at ``sample_rate``, both in Hz."""
-        length = 2 * round(0.36 * sample_rate / band_hz) + 1
-        if length < 3:
+        support = 0.7203 * sample_rate / band_hz
+        half = math.ceil(support / 2) - 1
+        if half < 1:
             return cls()
-        window = hann(length + 2)[1:-1]
+        # A support of no whole number of samples keeps the frequency where it was asked for.
+        window = 1 + np.cos(2 * np.pi * np.arange(-half, half + 1) / support)
         return cls(tuple(window / window.sum()), max(1, round(sample_rate / (OVERSAMPLING * band_hz))))
 
     @property

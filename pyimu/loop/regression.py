@@ -220,11 +220,24 @@ def normal_equations(linears: list[Linear], noise: Noise) -> Normal:
     return Normal(keys, gram, score, power, rows, log_det)
 
 
-def solve(gram: np.ndarray, right: np.ndarray) -> np.ndarray:
-    """Least-norm solution of normal equations; directions that the data do not show stay where they are."""
+def _scaled(gram: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Scale of each column, eigenvalues and eigenvectors of the scaled matrix, and which directions the data show."""
     scale = np.sqrt(np.maximum(np.diag(gram), 1e-300))
     values, vectors = np.linalg.eigh(gram / np.outer(scale, scale))
-    keep = values > 1e-9 * max(values.max(initial=0.0), 1e-300)
+    return scale, values, vectors, values > 1e-9 * max(values.max(initial=0.0), 1e-300)
+
+
+def variances(gram: np.ndarray) -> np.ndarray:
+    """Variances (P,) of the solution; infinite for a coefficient that a direction which the data do not show takes part in."""
+    scale, values, vectors, keep = _scaled(gram)
+    shown = np.sum(vectors[:, keep] ** 2 / values[keep], axis=1) / scale ** 2
+    hidden = np.sum(vectors[:, ~keep] ** 2, axis=1)
+    return np.where(hidden > 1e-6, np.inf, shown)
+
+
+def solve(gram: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """Least-norm solution of normal equations; directions that the data do not show stay where they are."""
+    scale, values, vectors, keep = _scaled(gram)
     turned = vectors[:, keep].T @ (right / (scale if right.ndim == 1 else scale[:, None]))
     inverse = values[keep] if right.ndim == 1 else values[keep][:, None]
     answer = vectors[:, keep] @ (turned / inverse)
@@ -309,9 +322,9 @@ def fit(start: Fit, rounds: int = 3, steps: int = 6) -> Fit:
             break
     start = without_attenuation(start)
     normal = normal_equations(start.linearise(), start.noise)
-    covariance = solve(normal.gram, np.eye(len(normal.keys)))
+    variance = variances(normal.gram)
     # A coefficient that was set by other means than regression keeps the standard error it came with.
-    std = {**start.std, **{k: float(np.sqrt(max(covariance[i, i], 0.0))) for i, k in enumerate(normal.keys)}}
+    std = {**start.std, **{k: float(np.sqrt(variance[i])) for i, k in enumerate(normal.keys)}}
     return replace(start, log_likelihood=normal.log_likelihood, std=std)
 
 

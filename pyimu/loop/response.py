@@ -70,7 +70,8 @@ def through_dynamics(sensor: Sensor, x: np.ndarray, segments: list[tuple[int, in
     for a, b in segments:
         origin = x[a]
         moved = oaconvolve(x[a:b] - origin, response[: b - a], axes=0)[: b - a]
-        out[a:b] = moved + origin * response.sum(axis=0)
+        # Dynamics pass a constant as it is; a response that was cut off before it had died away must not change the level.
+        out[a:b] = moved + origin
     return out
 
 

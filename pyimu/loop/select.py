@@ -200,7 +200,9 @@ def _with_twins(found: tuple[Screened, ...], by_effect: dict[str, list[Group]], 
 
 
 def _space(gs: list[Group], projected: Projected) -> list[int]:
-    return [c for g in gs for choice in g.choices[:1] for c in choice.columns if projected.gram[c, c] > 0]
+    """Columns of an effect near its identity: of a scan the value that does least."""
+    least = [g.choices[-1] if g.measure in ("rate", "range") else g.choices[0] for g in gs]
+    return [c for choice in least for c in choice.columns if projected.gram[c, c] > 0]
 
 
 def _alike(a: list[int], b: list[int], gram: np.ndarray, limit: float = 0.98) -> bool:

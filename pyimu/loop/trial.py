@@ -72,7 +72,7 @@ class Trial:
 
     def split(self, held_out: float) -> tuple[Trial, Trial]:
         """The rows to fit and the last ``held_out`` of those that a reference covers to judge by."""
-        rows = np.concatenate([np.arange(a, b) for a, b in self.row_segments] or [np.arange(0)])
+        rows = np.concatenate([np.arange(a, b) for a, b in self.segments] or [np.arange(0)])
         at = int(rows[round(len(rows) * (1.0 - held_out))]) if len(rows) > 1 else len(self.time)
         return self.part(0, at), self.part(at, len(self.time), parent=self.name)
 

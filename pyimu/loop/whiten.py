@@ -118,7 +118,7 @@ class Autoregressive:
         pieces = [v[a:b] for v, _, segments in residuals for a, b in segments if b - a > 3 * order]
         if not pieces:
             everything = np.concatenate([v for v, _, _ in residuals])
-            return cls((), max(float(np.mean(everything ** 2)), LEAST_VARIANCE))
+            return cls((), max(float(np.var(everything)), LEAST_VARIANCE))
         past = np.concatenate([np.lib.stride_tricks.sliding_window_view(v, order)[:-1, ::-1] for v in pieces])
         now = np.concatenate([v[order:] for v in pieces])
         # Normal equations: an SVD of the same rows takes ten times longer, and the noise floor keeps them regular.
