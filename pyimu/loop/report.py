@@ -99,7 +99,7 @@ def _contents(closed: Closed, fmus: tuple[str, ...]) -> dict[str, Any]:
         "added": [_added(closed, a, found[a.sensor]) for a in closed.added],
         "refused": _refused(closed), "changed": _changed(closed),
         "remains": _remains(closed), "screenings": [_screening(closed, k, inv) for k, inv in closed.investigations.items()
-                                                    if inv.first.candidates],
+                                                    if inv.first.candidates and 0 < inv.first.gate < np.inf],
         "observability": _observability(closed.observability),
         "spectra": [p for k, inv in closed.investigations.items() if (p := _spectrum(closed, k, inv, found[k]))],
         "quality": _quality(closed.quality), "files": _files(fmus)}

@@ -93,6 +93,9 @@ def gyro_trial(recording: Recording, latitude: float | None = None) -> Trial | N
     axes = tuple(i for i in range(3) if np.isfinite(reference.rate[:, i]).any() and np.isfinite(recording.gyro[:, i]).any())
     u, known = _environment(recording)
     u[:, OWN["gyro"]] = np.where(np.isfinite(reference.rate), reference.rate, 0.0)
+    if reference.kind == "static":
+        # What an accelerometer at rest shows beside its mean is its own noise, not a force.
+        u[:, OWN["accel"]] = u[:, OWN["accel"]].mean(axis=0)
     covered = np.isfinite(reference.rate[:, list(axes)]).all(axis=1)
     return _trial(recording, "gyro", recording.gyro, u, covered, known | {"rate"}, reference.kind,
                   band_hz=reference.band_hz, axes=axes, free_rotation=reference.kind == "attitude" and len(axes) == 3,
