@@ -72,7 +72,7 @@ def close(recordings: Sequence[Log] | Log, part: Part | str | Path | None = None
     found: dict[str, Investigation] = {}
     for kind, make in (("gyro", gyro_trial), ("accel", accel_trial)):
         trials, held = _trials(kind, make, logs, others, latitude)
-        quality += list({t.name: _of(t.name, f) for t in (*trials, *held) for f in t.findings}.values())
+        quality += list({(t.name, f.kind): _of(t.name, f) for t in (*trials, *held) for f in t.findings}.values())
         if trials:
             sensor = start.sensor(kind)
             found[kind] = investigate(sensor, _free(start, declared is None, sensor, trials), trials, held, say)
