@@ -282,6 +282,11 @@ class Sensor:
     def without(self, *names: str) -> Sensor:
         return replace(self, values={e: p for e, p in self.values.items() if e not in names})
 
+    def is_off(self, name: str) -> bool:
+        """True for an effect that must be scanned for and stands where it does nothing: no slope leads away from there."""
+        found = [(n, p) for n, p in CATALOGUE[name].parameters.items() if p.scan]
+        return bool(found) and all(np.all(self.values[name][n] == p.start) for n, p in found)
+
     @cached_property
     def slots(self) -> tuple[Slot, ...]:
         """Every coefficient in the order of the vector ``p``."""

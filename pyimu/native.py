@@ -39,6 +39,12 @@ void run(long n, double *s, const double *u, const double *p, const double *w, c
 """
 
 
+def compiler_command() -> list[str]:
+    """The command that compiles for this machine: ``CC``, else ``cc``; empty where it is not to be found."""
+    command = shlex.split(os.environ.get("CC", "")) or ["cc"]
+    return command if shutil.which(command[0]) else []
+
+
 def compiled(step: ca.Function, rows: int) -> Callable | None:
     """A stand-in for ``block.step_through`` on this step, or None where it would not pay or nothing can compile it."""
     if rows * step.n_instructions() < WORTHWHILE:
@@ -57,8 +63,8 @@ def _source(step: ca.Function) -> str:
 @lru_cache(maxsize=16)
 def _load(source: str) -> ctypes._CFuncPtr | None:
     """Compile and load; the library's file is gone once it is loaded."""
-    compiler = shlex.split(os.environ.get("CC", "")) or ["cc"]
-    if shutil.which(compiler[0]) is None:
+    compiler = compiler_command()
+    if not compiler:
         return None
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "step.c"

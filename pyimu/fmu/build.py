@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import os
 import platform as host
-import shlex
-import shutil
 import struct
 import subprocess
 import sys
@@ -21,6 +19,7 @@ from pathlib import Path
 from pyimu.block import Block
 from pyimu.errors import UserError
 from pyimu.fmu.sources import CORE, LAYER, source_folder, template_folder, texts
+from pyimu.native import compiler_command
 
 FLAGS = ("-std=c11", "-O3", "-ffp-contract=off", "-fPIC", "-fvisibility=hidden", "-DCASADI_SYMBOL_EXPORT=")
 """Without contracted multiply-adds and without -ffast-math, C gives the bits that casadi's virtual machine gives."""
@@ -93,9 +92,10 @@ def host_platform() -> str:
 
 def host_compiler() -> list[str]:
     """The command that compiles for this machine: ``CC``, else ``cc``.  Raises UserError where there is none."""
-    command = shlex.split(os.environ.get("CC", "")) or ["cc"]
-    if shutil.which(command[0]) is None:
-        raise UserError(f"no C compiler: '{command[0]}' was not found; install one or name it in the environment variable CC")
+    command = compiler_command()
+    if not command:
+        wanted = os.environ.get("CC") or "cc"
+        raise UserError(f"no C compiler: '{wanted}' was not found; install one or name it in the environment variable CC")
     return command
 
 

@@ -41,22 +41,16 @@ class Group:
 def absent(fit: Fit) -> list[Effect]:
     """Deterministic effects that the model lacks and whose inputs every log knows."""
     known = frozenset.intersection(*(t.known for t in fit.trials))
-    present = {name for name in fit.sensor.values if not is_off(fit.sensor, name)}
+    present = {name for name in fit.sensor.values if not fit.sensor.is_off(name)}
     twins = set().union(*(equivalent(name) for name in present))
     return [e for e in candidates(fit.sensor.kind, present | twins) if not e.stochastic and e.name != "turn_on_bias"
             and not is_step(e.name, fit.sensor.kind) and set(e.environment.values()) <= known]
 
 
-def is_off(sensor: Sensor, name: str) -> bool:
-    """True for an effect that must be scanned for and stands where it does nothing: no slope leads away from there."""
-    found = [(n, p) for n, p in CATALOGUE[name].parameters.items() if p.scan]
-    return bool(found) and all(np.all(sensor.values[name][n] == p.start) for n, p in found)
-
-
 def contestable(fit: Fit, declared: Iterable[str]) -> list[Effect]:
     """Deterministic effects of ``declared`` whose coefficients are still held: the data may contradict them."""
     names = set(declared)
-    return [e for e in fit.sensor.effects if e.name in names and not is_off(fit.sensor, e.name) and not e.stochastic and e.name != "turn_on_bias"
+    return [e for e in fit.sensor.effects if e.name in names and not fit.sensor.is_off(e.name) and not e.stochastic and e.name != "turn_on_bias"
             and not is_step(e.name, fit.sensor.kind) and not slot_keys(fit.sensor, e.name) & fit.free]
 
 
@@ -90,7 +84,7 @@ def groups(normal: Normal, sensor: Sensor, effects: Iterable[Effect]) -> list[Gr
     """What selection chooses among, from the columns that are there (a column that no log excites is not)."""
     out = []
     for e in effects:
-        new = e.name not in sensor.values or is_off(sensor, e.name)
+        new = e.name not in sensor.values or sensor.is_off(e.name)
         out += _scan_groups(normal, sensor, e) if scanned(e) and new else _linear_groups(normal, sensor, e)
     return out
 
@@ -122,7 +116,7 @@ def with_start(sensor: Sensor, group_values: dict[tuple, float], effect: str) ->
 
     An effect that is there already keeps its values.
     """
-    if effect in sensor.values and not is_off(sensor, effect):
+    if effect in sensor.values and not sensor.is_off(effect):
         return sensor
     e = CATALOGUE[effect]
     name = next((n for n, p in e.parameters.items() if p.scan), None)

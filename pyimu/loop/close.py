@@ -14,7 +14,7 @@ from pyimu.imu import Part
 from pyimu.loop.attitude_error import attitude_error
 from pyimu.loop.candidates import absent
 from pyimu.loop.forward import Investigation, Step, investigate
-from pyimu.loop.leftover import NoiseFigure, axis_likelihood, comb_gain, drift, lack_of_fit, noise_figures, rounding
+from pyimu.loop.leftover import NoiseFigure, comb_gain, drift, lack_of_fit, noise_figures, rounding, walk_gain
 from pyimu.loop.regression import Fit, own_noise, slot_key
 from pyimu.loop.result import Added, Changed, Closed, Errors, LogEntry, Visibility, added_of
 from pyimu.loop.score import Tally, floor, held_state, tally
@@ -243,20 +243,11 @@ def _changed(start: Part, kind: str, fit: Fit, figures: dict[int, NoiseFigure]) 
         had = declared.values[effect][name]
         fitted, std = (np.array([getattr(figures[i], name + tail) if i in figures else np.nan for i in range(3)]) for tail in ("", "_std"))
         # The likelihood of a random walk is too skew for a standard error to judge by.
-        surprise = _walk_surprise(fit, had) if name == "K" else np.abs(fitted - had) / std
+        surprise = np.sqrt(2 * np.maximum(walk_gain(fit, had), 0.0)) if name == "K" else np.abs(fitted - had) / std
         with np.errstate(invalid="ignore"):
             off = (surprise > CONTRADICTION) & (np.abs(fitted - had) > 0.02 * had)
         if off.any():
             out.append(Changed(declared.kind, effect, name, np.array(had), fitted, std, declared.unit(CATALOGUE[effect].parameters[name].unit)))
-    return out
-
-
-def _walk_surprise(fit: Fit, declared: np.ndarray) -> np.ndarray:
-    """How many standard errors, by the drop of the log-likelihood, a declared random walk is off on each axis (3,)."""
-    residuals, out = fit.residuals(), np.full(3, np.nan)
-    for i, n in fit.noise.items():
-        drop = axis_likelihood(residuals, i, n) - axis_likelihood(residuals, i, RandomWalk(n.r, float(declared[i] ** 2)))
-        out[i] = np.sqrt(2 * max(drop, 0.0))
     return out
 
 

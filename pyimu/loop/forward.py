@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pyimu.effect import Sensor
-from pyimu.loop.candidates import Group, equivalent, is_off, with_start
+from pyimu.loop.candidates import Group, equivalent, with_start
 from pyimu.loop.regression import Fit, LogState, Normal, begin, fit, in_band, normal_equations, reference_input, residual
 from pyimu.loop.response import predict
 from pyimu.loop.score import held_state, log_likelihood
@@ -178,7 +178,7 @@ def improves(old: Fit, new: Fit, held: list[Trial]) -> bool:
         gained += judged[0] - judged[1]
         difference += log_likelihood(new, rest, np.zeros_like(r_new)) - log_likelihood(new, rest, r_new - r_old)
         squares += [np.sum(r_old ** 2), np.sum(r_new ** 2)]
-    dynamic = any(e.stage == "dynamics" and not is_off(old.sensor, e.name) for e in old.sensor.effects)
+    dynamic = any(e.stage == "dynamics" and not old.sensor.is_off(e.name) for e in old.sensor.effects)
     if dynamic and squares[1] > (1 - LEAST_BESIDE_DYNAMICS) ** 2 * squares[0] > 0:
         return False
     return gained > 0.0 or difference < 0.5

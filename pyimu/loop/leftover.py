@@ -116,15 +116,18 @@ def axis_likelihood(residuals: list[Linear], axis: int, noise: RandomWalk) -> fl
     return total
 
 
+def walk_gain(fit: Fit, declared: np.ndarray) -> np.ndarray:
+    """Log-likelihood [nat] by which the fitted random walk beats the declared one on each axis, (3,)."""
+    residuals, out = fit.residuals(), np.full(3, np.nan)
+    for i, n in fit.noise.items():
+        out[i] = axis_likelihood(residuals, i, n) - axis_likelihood(residuals, i, RandomWalk(n.r, float(declared[i] ** 2)))
+    return out
+
+
 def drift(fit: Fit, declared_k: np.ndarray) -> dict[int, float]:
     """Axes on which the random walk is larger than declared beyond chance, and the gain [nat] of letting it be."""
-    found, residuals = {}, fit.residuals()
-    for i, n in fit.noise.items():
-        if isinstance(n, RandomWalk) and n.k2 > declared_k[i] ** 2:
-            gain = axis_likelihood(residuals, i, n) - axis_likelihood(residuals, i, RandomWalk(n.r, float(declared_k[i] ** 2)))
-            if gain > DRIFT_GATE:
-                found[i] = gain
-    return found
+    gain = walk_gain(fit, declared_k)
+    return {i: float(gain[i]) for i, n in fit.noise.items() if n.k2 > declared_k[i] ** 2 and gain[i] > DRIFT_GATE}
 
 
 def rounding(trials: tuple[Trial, ...], white: np.ndarray) -> dict[int, float]:

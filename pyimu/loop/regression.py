@@ -35,6 +35,13 @@ class LogState:
     bias: np.ndarray = field(default_factory=lambda: np.zeros(3))
     rotation: np.ndarray = field(default_factory=lambda: np.eye(3))
 
+    def moved(self, key: Key, change: float) -> LogState:
+        """The state with the coefficient of a "bias" or "rotation" column changed."""
+        unit = np.eye(3)[key[2]]
+        if key[0] == "bias":
+            return replace(self, bias=self.bias + change * unit)
+        return replace(self, rotation=Rotation.from_rotvec(change * unit).as_matrix() @ self.rotation)
+
 
 @dataclass(frozen=True)
 class Linear:
@@ -148,16 +155,12 @@ def _dynamics_columns(out: Columns, sensor: Sensor, trial: Trial, u: np.ndarray,
     """Slopes against the coefficients of dynamics that are switched on, by central differences."""
     chain = dynamics(sensor)
     for s, value in zip(chain.slots, chain.p, strict=True):
-        if slot_key(s) not in wanted or not _switched_on(sensor, s.effect):
+        if slot_key(s) not in wanted or sensor.is_off(s.effect):
             continue
         step = 1e-3 * max(abs(value), 1e-3 * trial.h)
         high, low = (predict(_moved(sensor, s, value + d), u, trial.segments, trial.h) for d in (step, -step))
         for i in range(3):
             out.add(slot_key(s), i, (high[:, i] - low[:, i]) / (2 * step))
-
-
-def _switched_on(sensor: Sensor, effect: str) -> bool:
-    return any(np.any(sensor.values[effect][n] != p.start) for n, p in CATALOGUE[effect].parameters.items() if p.scan)
 
 
 def _moved(sensor: Sensor, slot, value: float) -> Sensor:
@@ -406,13 +409,8 @@ def _step(start: Fit, keys: list[Key], change: np.ndarray) -> Fit:
         if key[0] == "slot":
             _, effect, parameter, index = key
             values[effect][parameter][index] = _bounded(CATALOGUE[effect].parameters[parameter], values[effect][parameter][index], d)
-        elif key[0] == "bias":
-            bias = np.array(states[key[1]].bias)
-            bias[key[2]] += d
-            states[key[1]] = replace(states[key[1]], bias=bias)
-        elif key[0] == "rotation":
-            turn = Rotation.from_rotvec(d * np.eye(3)[key[2]]).as_matrix()
-            states[key[1]] = replace(states[key[1]], rotation=turn @ states[key[1]].rotation)
+        elif key[0] in ("bias", "rotation"):
+            states[key[1]] = states[key[1]].moved(key, d)
     return replace(start, sensor=Sensor(start.sensor.kind, values), states=states)
 
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from pyimu.loop.regression import Fit, LogState, band_segments, bare, in_band, linearise, normal_equations, residual, simulated, solve
 from pyimu.loop.trial import Trial
@@ -80,15 +79,9 @@ def _head_state(fit: Fit, head: Trial) -> LogState:
         if not normal.keys:
             return state
         prior = np.diag([ROTATION_PRIOR ** -2 if k[0] == "rotation" else 0.0 for k in normal.keys])
-        state = _moved(state, normal.keys, solve(normal.gram + prior, normal.score))
+        for key, change in zip(normal.keys, solve(normal.gram + prior, normal.score), strict=True):
+            state = state.moved(key, change)
     return state
-
-
-def _moved(state: LogState, keys: list, change: np.ndarray) -> LogState:
-    bias, turn = np.array(state.bias), np.zeros(3)
-    for key, d in zip(keys, change, strict=True):
-        (bias if key[0] == "bias" else turn)[key[2]] += d
-    return LogState(bias, Rotation.from_rotvec(turn).as_matrix() @ state.rotation)
 
 
 def tally(fit: Fit, trial: Trial) -> Tally:
