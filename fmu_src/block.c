@@ -1,4 +1,4 @@
-#include "block.h"
+#include "block_core.h"
 
 #include <float.h>
 #include <math.h>
@@ -6,38 +6,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "model_table.h"
-#include "noise.h"
-
-#define ROOM(n) ((n) > 0 ? (n) : 1) /* C has no arrays of length zero */
-
-typedef enum { INSTANTIATED, INITIALIZATION, STEPPING, TERMINATED, N_PHASES } Phase;
-
-/* Everything that decides what follows, and nothing derived: this is what saving a state copies.  All members are
-   eight bytes long, so there is no padding and equal states are equal bytes. */
-struct BlockState {
-    uint64_t phase;
-    uint64_t seed;
-    int64_t sample;  /* the last sample made; sample k belongs to time k * sample_period */
-    uint64_t steps;  /* communication steps so far */
-    double values[N_VARIABLES];
-    double state[ROOM(N_STATES)];
-};
-
-struct Block {
-    struct BlockState now;
-    NoiseCache noise[ROOM(N_NOISE)];
-    double normals[ROOM(N_NOISE)];
-    double next_state[ROOM(N_STATES)];
-    const double *arg[ROOM(WORK_ARG)];
-    double *res[ROOM(WORK_RES)];
-    long long iw[ROOM(WORK_IW)];
-    double w[ROOM(WORK_W)];
-    bool outputs_stale; /* a start value has changed since the outputs before the first sample were computed */
-    bool log_events;
-    BlockLog log;
-};
 
 int MODEL_STEP(const double **arg, double **res, long long *iw, double *w, int memory);
 int MODEL_INITIAL(const double **arg, double **res, long long *iw, double *w, int memory);
@@ -98,18 +66,13 @@ bool block_log_events(Block *block, bool on, size_t n, const char *const categor
 
 /* ---- which call is legal when ------------------------------------------------------------------------------------ */
 
-#define IN(phase) (1u << (phase))
-#define BEFORE_STEPPING (IN(INSTANTIATED) | IN(INITIALIZATION))
-#define ALIVE (BEFORE_STEPPING | IN(STEPPING))
-#define ALWAYS (ALIVE | IN(TERMINATED))
-
-typedef enum { START_TIME, ENTER_INITIALIZATION, EXIT_INITIALIZATION, DO_STEP, TERMINATE, RESET, GET, SAVE, RESTORE } Call;
-
 static const struct {
     const char *name;
     unsigned phases;
 } calls[] = {
     [START_TIME] = {"setting the start time", IN(INSTANTIATED)},
+    [ENTER_CONFIGURATION] = {"entering configuration", IN(INSTANTIATED)},
+    [EXIT_CONFIGURATION] = {"leaving configuration", IN(CONFIGURATION)},
     [ENTER_INITIALIZATION] = {"entering initialization", IN(INSTANTIATED)},
     [EXIT_INITIALIZATION] = {"leaving initialization", IN(INITIALIZATION)},
     [DO_STEP] = {"a step", IN(STEPPING)},
@@ -120,41 +83,60 @@ static const struct {
     [RESTORE] = {"restoring a state", ALWAYS},
 };
 
-static const unsigned settable[] = {
-    [ROLE_TIME] = 0,
-    [ROLE_INPUT] = ALIVE,
-    [ROLE_TUNABLE] = ALIVE,
-    [ROLE_FIXED] = BEFORE_STEPPING,
-    [ROLE_OUTPUT] = 0,
-};
+static const char *const phase_names[] = {"instantiated", "in configuration", "in initialization", "stepping", "terminated"};
 
-static const char *const phase_names[] = {"instantiated", "in initialization", "stepping", "terminated"};
+const char *block_phase_name(const Block *block) {
+    return phase_names[block->now->phase];
+}
 
-static bool allowed(Block *block, Call call) {
+bool block_allowed(Block *block, Call call) {
     if (!block) {
         return false;
     }
-    if (calls[call].phases & IN(block->now.phase)) {
+    if (calls[call].phases & IN(block->now->phase)) {
         return true;
     }
-    return block_refuse(block, "%s: %s is not allowed while %s", MODEL_NAME, calls[call].name, phase_names[block->now.phase]);
+    return block_refuse(block, "%s: %s is not allowed while %s", MODEL_NAME, calls[call].name, block_phase_name(block));
 }
 
 /* ---- life --------------------------------------------------------------------------------------------------------- */
 
-static void set_start_values(Block *block) {
-    memset(&block->now, 0, sizeof block->now);
-    for (size_t i = 0; i < N_VARIABLES; i++) {
-        block->now.values[i] = variables[i].start;
+size_t block_size_of(uint64_t rows) {
+    return sizeof(struct BlockState) + (size_t) rows * (N_INPUTS + N_OUTPUTS) * sizeof(double);
+}
+
+struct BlockState *block_new_rows(uint64_t rows) {
+    struct BlockState *state = calloc(1, block_size_of(rows));
+    if (state) {
+        state->rows = rows;
+        for (uint64_t row = 0; row < rows; row++) {
+            memcpy(block_inputs(state, row), input_starts, N_INPUTS * sizeof(double));
+        }
     }
-    block->now.seed = MODEL_SEED;
-    block->outputs_stale = true;
+    return state;
+}
+
+static struct BlockState *new_state(void) {
+    struct BlockState *state = block_new_rows(START_ROWS);
+    if (state) {
+        memcpy(state->parameters, parameter_starts, N_PARAMETERS * sizeof(double));
+        state->sample_period = MODEL_SAMPLE_PERIOD;
+        state->seed = MODEL_SEED;
+    }
+    return state;
 }
 
 static void forget_noise(Block *block) {
     for (size_t i = 0; i < N_NOISE; i++) {
         noise_forget(&block->noise[i]);
     }
+}
+
+void block_take(Block *block, struct BlockState *state) {
+    free(block->now);
+    block->now = state;
+    block->outputs_stale = state->phase < STEPPING;
+    forget_noise(block); /* it may have been another seed's */
 }
 
 Block *block_create(const char *token, BlockLog log, bool log_events) {
@@ -169,74 +151,110 @@ Block *block_create(const char *token, BlockLog log, bool log_events) {
         free(block);
         return NULL;
     }
-    set_start_values(block);
-    forget_noise(block);
+    struct BlockState *state = new_state();
+    if (!state) {
+        block_refuse(block, "%s: no memory for %d rows", MODEL_NAME, START_ROWS);
+        free(block);
+        return NULL;
+    }
+    block_take(block, state);
     return block;
 }
 
 void block_free(Block *block) {
-    free(block);
+    if (block) {
+        free(block->now);
+        free(block);
+    }
 }
 
 bool block_reset(Block *block) {
-    if (!allowed(block, RESET)) {
+    if (!block_allowed(block, RESET)) {
         return false;
     }
-    set_start_values(block);
-    forget_noise(block);
+    struct BlockState *state = new_state();
+    if (!state) {
+        return block_refuse(block, "%s: no memory for %d rows", MODEL_NAME, START_ROWS);
+    }
+    block_take(block, state);
+    return true;
+}
+
+bool block_enter_configuration(Block *block) {
+    if (!block_allowed(block, ENTER_CONFIGURATION)) {
+        return false;
+    }
+    if (!IN_BLOCKS) {
+        return block_refuse(block, "%s has nothing to configure", MODEL_NAME);
+    }
+    block->now->phase = CONFIGURATION;
+    return true;
+}
+
+bool block_exit_configuration(Block *block) {
+    if (!block_allowed(block, EXIT_CONFIGURATION)) {
+        return false;
+    }
+    block->now->phase = INSTANTIATED;
     return true;
 }
 
 bool block_set_start_time(Block *block, double start_time) {
-    if (!allowed(block, START_TIME)) {
+    if (!block_allowed(block, START_TIME)) {
         return false;
     }
     if (!isfinite(start_time)) {
         return block_refuse(block, "%s: the start time %g is not a time", MODEL_NAME, start_time);
     }
-    block->now.values[TIME] = start_time;
+    block->now->time = start_time;
     return true;
 }
 
 bool block_enter_initialization(Block *block) {
-    if (!allowed(block, ENTER_INITIALIZATION)) {
+    if (!block_allowed(block, ENTER_INITIALIZATION)) {
         return false;
     }
-    block->now.phase = INITIALIZATION;
+    block->now->phase = INITIALIZATION;
     return true;
 }
 
 bool block_terminate(Block *block) {
-    if (!allowed(block, TERMINATE)) {
+    if (!block_allowed(block, TERMINATE)) {
         return false;
     }
-    block->now.phase = TERMINATED;
-    tell(block, "%s: terminated at %.17g s after sample %lld", MODEL_NAME, block->now.values[TIME],
-         (long long) block->now.sample);
+    block->now->phase = TERMINATED;
+    tell(block, "%s: terminated at %.17g s after sample %lld", MODEL_NAME, block->now->time,
+         (long long) block->now->sample);
     return true;
 }
 
 /* ---- the model's two functions ------------------------------------------------------------------------------------ */
 
-/* Outputs before the first sample, and the state from which it is made. */
-static bool evaluate_initial(Block *block) {
-    block->arg[0] = &block->now.values[FIRST_PARAMETER];
-    block->res[0] = block->now.state;
-    block->res[1] = &block->now.values[FIRST_OUTPUT];
-    block->outputs_stale = false;
-    return MODEL_INITIAL(block->arg, block->res, block->iw, block->w, 0) == 0;
+/* The rows from the first one that was not made, all as the last one made; where none was, as the last sample before. */
+static void hold_outputs(struct BlockState *now, uint64_t made) {
+    const double *last = block_outputs(now, made > 0 ? made - 1 : now->rows - 1);
+    for (uint64_t row = made; row < now->rows; row++) {
+        memmove(block_outputs(now, row), last, N_OUTPUTS * sizeof(double));
+    }
 }
 
-static bool evaluate_step(Block *block, int64_t sample) {
-    struct BlockState *now = &block->now;
-    for (size_t i = 0; i < N_NOISE; i++) {
-        block->normals[i] = noise_at(&block->noise[i], now->seed, noise_channels[i], sample);
-    }
-    const double *arguments[] = {now->state, &now->values[FIRST_INPUT], &now->values[FIRST_PARAMETER], block->normals,
-                                 &now->values[SAMPLE_PERIOD]};
+bool block_evaluate_initial(Block *block) {
+    struct BlockState *now = block->now;
+    block->arg[0] = now->parameters;
+    block->res[0] = now->state;
+    block->res[1] = block_outputs(now, 0);
+    block->outputs_stale = false;
+    bool done = MODEL_INITIAL(block->arg, block->res, block->iw, block->w, 0) == 0;
+    hold_outputs(now, 1);
+    return done;
+}
+
+static bool evaluate_step(Block *block, int64_t sample, uint64_t row, const double *normals) {
+    struct BlockState *now = block->now;
+    const double *arguments[] = {now->state, block_inputs(now, row), now->parameters, normals, &now->sample_period};
     memcpy(block->arg, arguments, sizeof arguments);
     block->res[0] = block->next_state;
-    block->res[1] = &now->values[FIRST_OUTPUT];
+    block->res[1] = block_outputs(now, row);
     if (MODEL_STEP(block->arg, block->res, block->iw, block->w, 0) != 0) {
         return false;
     }
@@ -245,237 +263,108 @@ static bool evaluate_step(Block *block, int64_t sample) {
     return true;
 }
 
+/* The noise of the samples from `first` on, at most to `last`; gives how many.  One sample alone takes a word out of the
+   four in its cache; many take all four at once. */
+static size_t draw(Block *block, int64_t first, int64_t last) {
+    size_t most = DRAWN - ((uint64_t) first & 3);
+    size_t n = (uint64_t) (last - first) < most ? (size_t) (last - first) + 1 : most;
+    if (n > 1) {
+        noise_fill(block->normals, block->now->seed, noise_channels, N_NOISE, first, n);
+        return n;
+    }
+    for (size_t i = 0; i < N_NOISE; i++) {
+        block->normals[i] = noise_at(&block->noise[i], block->now->seed, noise_channels[i], first);
+    }
+    return n;
+}
+
+/* In the block form sample i of a step belongs to row i; else there is one row, which all of them share. */
+static bool make_samples(Block *block, int64_t last) {
+    const int64_t before = block->now->sample;
+    bool done = true;
+    while (done && block->now->sample < last) {
+        const int64_t first = block->now->sample + 1;
+        const size_t n = draw(block, first, last);
+        for (size_t i = 0; i < n && done; i++) {
+            const int64_t sample = first + (int64_t) i;
+            const uint64_t row = IN_BLOCKS ? (uint64_t) (sample - before - 1) : 0;
+            done = evaluate_step(block, sample, row, block->normals + i * N_NOISE)
+                   || block_refuse(block, "%s: sample %lld cannot be evaluated", MODEL_NAME, (long long) sample);
+        }
+    }
+    if (IN_BLOCKS) {
+        hold_outputs(block->now, (uint64_t) (block->now->sample - before));
+    }
+    return done;
+}
+
 /* ---- time --------------------------------------------------------------------------------------------------------- */
 
 /* How far, in sample periods, a communication point may fall short of a sample's time and still mean it.  Masters that
    count nanoseconds are off by up to 1 ns, at 10 kHz 1e-5 periods; those that add up their steps by at most one rounding
    of the time per step. */
 static double slack(const struct BlockState *now, double time) {
-    return 1e-5 + (double) (now->steps + 1) * DBL_EPSILON * fabs(time) / now->values[SAMPLE_PERIOD];
+    return 1e-5 + (double) (now->steps + 1) * DBL_EPSILON * fabs(time) / now->sample_period;
 }
 
 /* The last sample at or before a time, from the time itself: nothing is added up, so nothing drifts. */
 static double last_sample(const struct BlockState *now, double time) {
-    return floor(time / now->values[SAMPLE_PERIOD] + fmin(slack(now, time), 0.01));
+    return floor(time / now->sample_period + fmin(slack(now, time), 0.01));
 }
 
 bool block_exit_initialization(Block *block) {
-    if (!allowed(block, EXIT_INITIALIZATION)) {
+    if (!block_allowed(block, EXIT_INITIALIZATION)) {
         return false;
     }
-    struct BlockState *now = &block->now;
-    if (!evaluate_initial(block)) {
+    struct BlockState *now = block->now;
+    if (!block_evaluate_initial(block)) {
         return block_refuse(block, "%s: its initial state cannot be evaluated", MODEL_NAME);
     }
-    double sample = last_sample(now, now->values[TIME]);
+    double sample = last_sample(now, now->time);
     if (!(fabs(sample) < 0x1p53)) {
-        return block_refuse(block, "%s: %g s is too far from zero to count samples", MODEL_NAME, now->values[TIME]);
+        return block_refuse(block, "%s: %g s is too far from zero to count samples", MODEL_NAME, now->time);
     }
     now->sample = (int64_t) sample;
     now->phase = STEPPING;
     forget_noise(block);
-    tell(block, "%s: initialized at %.17g s, sample period %.17g s, seed %llu", MODEL_NAME, now->values[TIME],
-         now->values[SAMPLE_PERIOD], (unsigned long long) now->seed);
+    tell(block, "%s: initialized at %.17g s, sample period %.17g s, seed %llu", MODEL_NAME, now->time,
+         now->sample_period, (unsigned long long) now->seed);
     return true;
 }
 
 static bool step_fits(Block *block, double time, double step) {
-    const struct BlockState *now = &block->now;
+    const struct BlockState *now = block->now;
     if (!(step > 0.0) || !isfinite(time + step)) {
         return block_refuse(block, "%s: a step of %g s from %g s is not possible", MODEL_NAME, step, time);
     }
-    if (!(fabs(time - now->values[TIME]) < 0.5 * now->values[SAMPLE_PERIOD])) {
+    if (!(fabs(time - now->time) < 0.5 * now->sample_period)) {
         return block_refuse(block, "%s: a step from %.17g s, but the last one ended at %.17g s", MODEL_NAME, time,
-                            now->values[TIME]);
+                            now->time);
     }
     if (!(fabs(last_sample(now, time + step)) < 0x1p53)) {
         return block_refuse(block, "%s: %g s is too far from zero to count samples", MODEL_NAME, time + step);
+    }
+    double samples = last_sample(now, time + step) - (double) now->sample;
+    if (IN_BLOCKS && samples > (double) now->rows) {
+        return block_refuse(block, "%s: a step of %.17g s has %.0f samples, a block %llu", MODEL_NAME, step, samples,
+                            (unsigned long long) now->rows);
     }
     return true;
 }
 
 bool block_do_step(Block *block, double time, double step) {
-    if (!allowed(block, DO_STEP) || !step_fits(block, time, step)) {
+    if (!block_allowed(block, DO_STEP) || !step_fits(block, time, step)) {
         return false;
     }
-    struct BlockState *now = &block->now;
-    int64_t last = (int64_t) last_sample(now, time + step);
-    for (int64_t sample = now->sample + 1; sample <= last; sample++) {
-        if (!evaluate_step(block, sample)) {
-            return block_refuse(block, "%s: sample %lld cannot be evaluated", MODEL_NAME, (long long) sample);
-        }
+    struct BlockState *now = block->now;
+    if (!make_samples(block, (int64_t) last_sample(now, time + step))) {
+        return false;
     }
-    now->values[TIME] = time + step;
+    now->time = time + step;
     now->steps++;
     return true;
 }
 
 double block_time(const Block *block) {
-    return block->now.values[TIME];
-}
-
-/* ---- values ------------------------------------------------------------------------------------------------------- */
-
-int32_t block_integer(double value) {
-    return isnan(value) ? 0 : (int32_t) rint(fmin(fmax(value, INT32_MIN), INT32_MAX));
-}
-
-bool block_is_seed(uint32_t reference) {
-    return reference < N_VARIABLES && variables[reference].kind == KIND_SEED;
-}
-
-static bool known(Block *block, uint32_t reference, Kind kind) {
-    if (reference < N_VARIABLES && variables[reference].kind == kind) {
-        return true;
-    }
-    return block_refuse_variable(block, reference, "is of another type");
-}
-
-static bool may_set(Block *block, uint32_t reference, Kind kind) {
-    if (!block || !known(block, reference, kind)) {
-        return false;
-    }
-    unsigned phases = settable[variables[reference].role];
-    if (phases & IN(block->now.phase)) {
-        return true;
-    }
-    return block_refuse_variable(block, reference, phases ? "cannot be set any more" : "cannot be set");
-}
-
-/* Before the first sample the outputs follow from the parameters, so they are computed when somebody looks. */
-static bool may_get(Block *block, uint32_t reference, Kind kind) {
-    if (!allowed(block, GET) || !known(block, reference, kind)) {
-        return false;
-    }
-    if (block->outputs_stale && variables[reference].role == ROLE_OUTPUT && !evaluate_initial(block)) {
-        return block_refuse_variable(block, reference, "cannot be evaluated");
-    }
-    return true;
-}
-
-bool block_get(Block *block, uint32_t reference, Kind kind, double *value) {
-    if (!may_get(block, reference, kind)) {
-        return false;
-    }
-    *value = block->now.values[reference];
-    return true;
-}
-
-bool block_set(Block *block, uint32_t reference, Kind kind, double value) {
-    if (!may_set(block, reference, kind)) {
-        return false;
-    }
-    if (reference == SAMPLE_PERIOD && !(value > 0.0 && isfinite(value))) {
-        return block_refuse_variable(block, reference, "must be positive and finite");
-    }
-    block->now.values[reference] = value;
-    block->outputs_stale = block->now.phase < STEPPING;
-    return true;
-}
-
-bool block_get_seed(Block *block, uint32_t reference, uint64_t *seed) {
-    if (!may_get(block, reference, KIND_SEED)) {
-        return false;
-    }
-    *seed = block->now.seed;
-    return true;
-}
-
-bool block_set_seed(Block *block, uint32_t reference, uint64_t seed) {
-    if (!may_set(block, reference, KIND_SEED)) {
-        return false;
-    }
-    block->now.seed = seed;
-    return true;
-}
-
-/* ---- saved states ------------------------------------------------------------------------------------------------- */
-
-typedef struct {
-    char magic[8];
-    uint64_t model;
-    uint64_t check;
-} Seal;
-
-/* FNV-1a (Fowler, Noll, Vo), 64 bits: tells a damaged or foreign state, not a forged one. */
-static uint64_t digest(const void *data, size_t size) {
-    const unsigned char *bytes = data;
-    uint64_t hash = UINT64_C(0xcbf29ce484222325);
-    for (size_t i = 0; i < size; i++) {
-        hash = (hash ^ bytes[i]) * UINT64_C(0x100000001b3);
-    }
-    return hash;
-}
-
-static Seal seal_of(const BlockState *state) {
-    Seal seal = {{'b', 'l', 'o', 'c', 'k', ' ', '1', 0}, digest(MODEL_TOKEN, strlen(MODEL_TOKEN)), digest(state, sizeof *state)};
-    return seal;
-}
-
-bool block_save(Block *block, void **state) {
-    if (!allowed(block, SAVE) || !state) {
-        return false;
-    }
-    if (!*state && !(*state = malloc(sizeof(BlockState)))) {
-        return block_refuse(block, "%s: no memory for a state", MODEL_NAME);
-    }
-    memcpy(*state, &block->now, sizeof(BlockState));
-    return true;
-}
-
-bool block_restore(Block *block, const void *state) {
-    if (!allowed(block, RESTORE)) {
-        return false;
-    }
-    if (!state) {
-        return block_refuse(block, "%s: there is no state to restore", MODEL_NAME);
-    }
-    memcpy(&block->now, state, sizeof(BlockState));
-    block->outputs_stale = block->now.phase < STEPPING;
-    forget_noise(block); /* it may have been another seed's */
-    return true;
-}
-
-void block_release(void **state) {
-    if (state) {
-        free(*state);
-        *state = NULL;
-    }
-}
-
-size_t block_serialized_size(void) {
-    return sizeof(Seal) + sizeof(BlockState);
-}
-
-bool block_serialize(Block *block, const void *state, uint8_t *bytes, size_t size) {
-    if (!allowed(block, SAVE)) {
-        return false;
-    }
-    if (!state || !bytes || size < block_serialized_size()) {
-        return block_refuse(block, "%s: a serialized state needs %zu bytes", MODEL_NAME, block_serialized_size());
-    }
-    Seal seal = seal_of(state);
-    memcpy(bytes, &seal, sizeof seal);
-    memcpy(bytes + sizeof seal, state, sizeof(BlockState));
-    return true;
-}
-
-bool block_deserialize(Block *block, const uint8_t *bytes, size_t size, void **state) {
-    if (!allowed(block, RESTORE) || !state) {
-        return false;
-    }
-    if (!bytes || size != block_serialized_size()) {
-        return block_refuse(block, "%s: %zu bytes are no state, which has %zu", MODEL_NAME, size, block_serialized_size());
-    }
-    BlockState read;
-    memcpy(&read, bytes + sizeof(Seal), sizeof read);
-    Seal seal = seal_of(&read);
-    if (memcmp(bytes, &seal, sizeof seal) != 0 || read.phase >= N_PHASES) {
-        return block_refuse(block, "%s: the bytes are another model's state, or damaged", MODEL_NAME);
-    }
-    if (!(*state = malloc(sizeof read))) {
-        return block_refuse(block, "%s: no memory for a state", MODEL_NAME);
-    }
-    memcpy(*state, &read, sizeof read);
-    return true;
+    return block->now->time;
 }

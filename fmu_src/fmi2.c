@@ -102,33 +102,31 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real currentCommunicationPoint, fmi2R
 
 /* ---- values ------------------------------------------------------------------------------------------------------- */
 
+/* FMI 2 has no unsigned type, so that a seed is an Integer like others. */
 static bool get_integer(Block *block, fmi2ValueReference reference, fmi2Integer *value) {
-    if (!block_is_seed(reference)) {
-        double number = 0.0;
-        bool done = block_get(block, reference, KIND_INTEGER, &number);
-        *value = block_integer(number);
-        return done;
+    if (!block_is_unsigned(reference)) {
+        return block_get_integers(block, reference, value);
     }
     uint64_t seed = 0;
-    bool done = block_get_seed(block, reference, &seed);
+    bool done = block_get_unsigned(block, reference, &seed);
     *value = (fmi2Integer) seed;
     return done;
 }
 
 static bool set_integer(Block *block, fmi2ValueReference reference, fmi2Integer value) {
-    if (!block_is_seed(reference)) {
-        return block_set(block, reference, KIND_INTEGER, value);
+    if (!block_is_unsigned(reference)) {
+        return block_set_integers(block, reference, &value);
     }
     if (value < 0) {
         return block_refuse_variable(block, reference, "must not be negative");
     }
-    return block_set_seed(block, reference, (uint64_t) value);
+    return block_set_unsigned(block, reference, (uint64_t) value);
 }
 
 fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2Real value[]) {
     bool done = true;
     for (size_t i = 0; i < nvr && done; i++) {
-        done = block_get(block_of(c), vr[i], KIND_REAL, &value[i]);
+        done = block_get_reals(block_of(c), vr[i], &value[i]);
     }
     return status(done);
 }
@@ -144,9 +142,9 @@ fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t
 fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2Boolean value[]) {
     bool done = true;
     for (size_t i = 0; i < nvr && done; i++) {
-        double number = 0.0;
-        done = block_get(block_of(c), vr[i], KIND_BOOLEAN, &number);
-        value[i] = number != 0.0 ? fmi2True : fmi2False;
+        bool answer = false;
+        done = block_get_booleans(block_of(c), vr[i], &answer);
+        value[i] = answer ? fmi2True : fmi2False;
     }
     return status(done);
 }
@@ -154,7 +152,7 @@ fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t
 fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Real value[]) {
     bool done = true;
     for (size_t i = 0; i < nvr && done; i++) {
-        done = block_set(block_of(c), vr[i], KIND_REAL, value[i]);
+        done = block_set_reals(block_of(c), vr[i], &value[i]);
     }
     return status(done);
 }
@@ -170,7 +168,7 @@ fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t
 fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Boolean value[]) {
     bool done = true;
     for (size_t i = 0; i < nvr && done; i++) {
-        done = block_set(block_of(c), vr[i], KIND_BOOLEAN, value[i] != fmi2False);
+        done = block_set_booleans(block_of(c), vr[i], &(bool) {value[i] != fmi2False});
     }
     return status(done);
 }
@@ -207,9 +205,7 @@ fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *FMUstate) {
 }
 
 fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate FMUstate, size_t *size) {
-    (void) c, (void) FMUstate;
-    *size = block_serialized_size();
-    return fmi2OK;
+    return status(block_serialized_size(block_of(c), FMUstate, size));
 }
 
 fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate FMUstate, fmi2Byte serializedState[], size_t size) {

@@ -61,6 +61,14 @@ fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean loggingOn, siz
     return status(block_log_events(block_of(instance), loggingOn, nCategories, categories));
 }
 
+fmi3Status fmi3EnterConfigurationMode(fmi3Instance instance) {
+    return status(block_enter_configuration(block_of(instance)));
+}
+
+fmi3Status fmi3ExitConfigurationMode(fmi3Instance instance) {
+    return status(block_exit_configuration(block_of(instance)));
+}
+
 fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean toleranceDefined, fmi3Float64 tolerance,
                                        fmi3Float64 startTime, fmi3Boolean stopTimeDefined, fmi3Float64 stopTime) {
     (void) toleranceDefined, (void) tolerance, (void) stopTimeDefined, (void) stopTime;
@@ -91,88 +99,55 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoi
     return status(done);
 }
 
-/* ---- values: every variable is a scalar, so there are as many values as references ----------------------------------- */
+/* ---- values: those of an array row by row, those of several variables one after the other --------------------------- */
 
-static bool counts_agree(fmi3Instance instance, size_t nValueReferences, size_t nValues) {
-    return nValueReferences == nValues
-           || block_refuse(block_of(instance), "%zu variables do not have %zu values", nValueReferences, nValues);
-}
-
-fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
-                          fmi3Float64 values[], size_t nValues) {
-    bool done = counts_agree(instance, nValueReferences, nValues);
-    for (size_t i = 0; i < nValues && done; i++) {
-        done = block_get(block_of(instance), valueReferences[i], KIND_REAL, &values[i]);
+/* Whether there is room for as many values as the variables have. */
+static bool counts_agree(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences, size_t nValues) {
+    size_t all = 0;
+    for (size_t i = 0; i < nValueReferences; i++) {
+        size_t count = 0;
+        if (!block_count(block_of(instance), valueReferences[i], &count)) {
+            return false;
+        }
+        all += count;
     }
-    return status(done);
+    return all == nValues || block_refuse(block_of(instance), "the variables have %zu values, not %zu", all, nValues);
 }
 
-fmi3Status fmi3GetInt32(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
-                        fmi3Int32 values[], size_t nValues) {
-    bool done = counts_agree(instance, nValueReferences, nValues);
-    for (size_t i = 0; i < nValues && done; i++) {
-        double number = 0.0;
-        done = block_get(block_of(instance), valueReferences[i], KIND_INTEGER, &number);
-        values[i] = block_integer(number);
-    }
-    return status(done);
+static size_t count_of(fmi3Instance instance, fmi3ValueReference valueReference) {
+    size_t count = 0;
+    block_count(block_of(instance), valueReference, &count);
+    return count;
 }
 
-fmi3Status fmi3GetBoolean(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
-                          fmi3Boolean values[], size_t nValues) {
-    bool done = counts_agree(instance, nValueReferences, nValues);
-    for (size_t i = 0; i < nValues && done; i++) {
-        double number = 0.0;
-        done = block_get(block_of(instance), valueReferences[i], KIND_BOOLEAN, &number);
-        values[i] = number != 0.0;
+#define TYPE_OF_VARIABLES(Type, get, set) \
+    fmi3Status fmi3Get##Type(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences, \
+                             fmi3##Type values[], size_t nValues) { \
+        bool done = counts_agree(instance, valueReferences, nValueReferences, nValues); \
+        for (size_t i = 0; i < nValueReferences && done; i++) { \
+            done = get(block_of(instance), valueReferences[i], values); \
+            values += count_of(instance, valueReferences[i]); \
+        } \
+        return status(done); \
+    } \
+    fmi3Status fmi3Set##Type(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences, \
+                             const fmi3##Type values[], size_t nValues) { \
+        bool done = counts_agree(instance, valueReferences, nValueReferences, nValues); \
+        for (size_t i = 0; i < nValueReferences && done; i++) { \
+            done = set(block_of(instance), valueReferences[i], values); \
+            values += count_of(instance, valueReferences[i]); \
+        } \
+        return status(done); \
     }
-    return status(done);
+
+static bool set_unsigned(Block *block, fmi3ValueReference valueReference, const fmi3UInt64 *value) {
+    return block_set_unsigned(block, valueReference, *value);
 }
 
-fmi3Status fmi3GetUInt64(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
-                         fmi3UInt64 values[], size_t nValues) {
-    bool done = counts_agree(instance, nValueReferences, nValues);
-    for (size_t i = 0; i < nValues && done; i++) {
-        done = block_get_seed(block_of(instance), valueReferences[i], &values[i]);
-    }
-    return status(done);
-}
-
-fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
-                          const fmi3Float64 values[], size_t nValues) {
-    bool done = counts_agree(instance, nValueReferences, nValues);
-    for (size_t i = 0; i < nValues && done; i++) {
-        done = block_set(block_of(instance), valueReferences[i], KIND_REAL, values[i]);
-    }
-    return status(done);
-}
-
-fmi3Status fmi3SetInt32(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
-                        const fmi3Int32 values[], size_t nValues) {
-    bool done = counts_agree(instance, nValueReferences, nValues);
-    for (size_t i = 0; i < nValues && done; i++) {
-        done = block_set(block_of(instance), valueReferences[i], KIND_INTEGER, values[i]);
-    }
-    return status(done);
-}
-
-fmi3Status fmi3SetBoolean(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
-                          const fmi3Boolean values[], size_t nValues) {
-    bool done = counts_agree(instance, nValueReferences, nValues);
-    for (size_t i = 0; i < nValues && done; i++) {
-        done = block_set(block_of(instance), valueReferences[i], KIND_BOOLEAN, values[i]);
-    }
-    return status(done);
-}
-
-fmi3Status fmi3SetUInt64(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
-                         const fmi3UInt64 values[], size_t nValues) {
-    bool done = counts_agree(instance, nValueReferences, nValues);
-    for (size_t i = 0; i < nValues && done; i++) {
-        done = block_set_seed(block_of(instance), valueReferences[i], values[i]);
-    }
-    return status(done);
-}
+TYPE_OF_VARIABLES(Float64, block_get_reals, block_set_reals)
+TYPE_OF_VARIABLES(Int32, block_get_integers, block_set_integers)
+TYPE_OF_VARIABLES(Boolean, block_get_booleans, block_set_booleans)
+TYPE_OF_VARIABLES(UInt64, block_get_unsigned, set_unsigned)
 
 /* ---- states ------------------------------------------------------------------------------------------------------- */
 
@@ -191,9 +166,7 @@ fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState *FMUState) {
 }
 
 fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState FMUState, size_t *size) {
-    (void) instance, (void) FMUState;
-    *size = block_serialized_size();
-    return fmi3OK;
+    return status(block_serialized_size(block_of(instance), FMUState, size));
 }
 
 fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState FMUState, fmi3Byte serializedState[], size_t size) {
@@ -276,14 +249,6 @@ fmi3Status fmi3EnterEventMode(fmi3Instance instance) {
 }
 
 fmi3Status fmi3EnterStepMode(fmi3Instance instance) {
-    return refuse(instance, __func__);
-}
-
-fmi3Status fmi3EnterConfigurationMode(fmi3Instance instance) {
-    return refuse(instance, __func__);
-}
-
-fmi3Status fmi3ExitConfigurationMode(fmi3Instance instance) {
     return refuse(instance, __func__);
 }
 

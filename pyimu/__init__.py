@@ -21,7 +21,7 @@ __version__ = "0.1.0"
 _HOME = {  # a Sensor comes by way of imu, which fills the catalogue that its effects are looked up in
     "Effect": "effect", "Environment": "effect", "Noise": "effect", "Parameter": "effect", "SamplePeriod": "effect",
     "Sensor": "imu", "State": "effect", "effect": "effect",
-    "Part": "imu", "simulate": "imu",
+    "Part": "imu", "simulate": "simulation",
     "Recording": "recording", "read_recording": "recording",
     "part": "partfile", "part_names": "partfile", "load_part": "partfile", "save_part": "partfile",
     "close": "loop.close", "write_report": "loop.report",

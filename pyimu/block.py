@@ -14,9 +14,13 @@ from typing import Literal
 import casadi as ca
 import numpy as np
 
+from pyimu.errors import UserError
 from pyimu.native import compiled
 
 Kind = Literal["real", "boolean", "integer"]
+
+CHUNK = 4096
+"""Samples whose normals are made at a time where the virtual machine does the work."""
 
 
 @dataclass(frozen=True)
@@ -75,28 +79,84 @@ class Block:
         """Start values of the parameters, shape (np,)."""
         return np.array([v.start for v in self.parameters], dtype=float)
 
-    def run(self, u: np.ndarray, *, p: np.ndarray | None = None, w: np.ndarray | None = None,
-            state: np.ndarray | None = None, sample_period: float | None = None) -> tuple[np.ndarray, np.ndarray]:
-        """Step through a whole log: inputs (n, nu), normals (n, nw) or none; gives outputs (n, ny) and the last state.
+    def run(self, u: np.ndarray, *, p: np.ndarray | None = None, w: np.ndarray | None = None, seed: int | None = None,
+            first_sample: int = 1, state: np.ndarray | None = None, sample_period: float | None = None) -> tuple[np.ndarray, np.ndarray]:
+        """Step through a whole log: inputs (n, nu); gives outputs (n, ny) and the last state.
 
-        Row k of the output is the answer to row k of the input.
+        Row k of the output is the answer to row k of the input.  Its noise is that of the FMU's sample ``first_sample`` + k
+        under ``seed``, or row k of the normals ``w`` (n, nw); with neither there is none.
         """
         u = np.ascontiguousarray(u, dtype=float)
-        n = len(u)
-        if u.shape != (n, len(self.inputs)):
-            raise ValueError(f"block {self.name}: inputs have shape {u.shape}, not (n, {len(self.inputs)})")
-        p = np.ascontiguousarray(self.start if p is None else p, dtype=float)
-        h = np.array([self.sample_period if sample_period is None else sample_period])
-        w = np.zeros((n, len(self.noise))) if w is None else np.ascontiguousarray(w, dtype=float)
-        s = np.array(self.initial(p)[0], dtype=float).ravel() if state is None else np.array(state, dtype=float)
-        y = np.empty((n, len(self.outputs)))
-        go = compiled(self.step, n) or step_through
-        return y, go(self.step, s, u, p, w, h, y)
+        run = Run(self, len(u), p=p, seed=seed, first_sample=first_sample, state=state, sample_period=sample_period)
+        return run.advance(u, w), run.state
+
+
+class Run:
+    """A run under way: what does not change from call to call, the state, and the number of the next sample.
+
+    ``rows`` is how many samples are to come in all, by which is decided whether compiling pays; the rest is as for
+    ``Block.run``.  Memory beyond the arrays does not grow with the length of the run.
+    """
+
+    def __init__(self, block: Block, rows: int, *, p: np.ndarray | None = None, seed: int | None = None, first_sample: int = 1,
+                 state: np.ndarray | None = None, sample_period: float | None = None) -> None:
+        if seed is not None and not 0 <= int(seed) < 2**64:
+            raise UserError(f"seed {seed} is not in 0 to 2^64 - 1")
+        self.block, self.sample = block, int(first_sample)
+        self.seed = int(seed) if seed is not None and block.noise else None
+        self.p = _vector(block, "parameters", block.start if p is None else p, len(block.parameters))
+        self.state = _vector(block, "state", block.initial(self.p)[0] if state is None else state, block.n_state)
+        self.h = np.array([block.sample_period if sample_period is None else sample_period], dtype=float)
+        self.channels = np.array([c.number for c in block.noise], dtype=np.uint64)
+        self._native = compiled(block.step, rows)
+
+    def advance(self, u: np.ndarray, w: np.ndarray | None = None, y: np.ndarray | None = None) -> np.ndarray:
+        """Outputs (n, ny), in ``y`` where that is given, to the next inputs (n, nu), under normals ``w`` (n, nw) where these are given."""
+        n, block = len(u), self.block
+        u = _rows(block, "inputs", u, n, len(block.inputs))
+        w = None if w is None else _rows(block, "normals", w, n, len(block.noise))
+        y = np.empty((n, len(block.outputs))) if y is None else y
+        if self._native is not None:
+            drawn = self.channels if self.seed is not None else None
+            self._native(self.state, u, self.p, self.h, y, w, drawn, self.seed or 0, self.sample)
+        else:
+            for k in range(0, n, CHUNK):
+                rows = slice(k, min(k + CHUNK, n))
+                step_through(block.step, self.state, u[rows], self.p, self._normals(rows, w), self.h, y[rows])
+        self.sample += n
+        return y
+
+    def _normals(self, rows: slice, w: np.ndarray | None) -> np.ndarray:
+        if w is not None:
+            return w[rows]
+        n = rows.stop - rows.start
+        if self.seed is None:
+            return np.broadcast_to(np.zeros(len(self.channels)), (n, len(self.channels)))
+        from pyimu.noise import normals  # loads numba, which takes a while and which compiled runs do without
+        return normals(self.seed, self.channels, self.sample + rows.start, n)
+
+
+def _vector(block: Block, what: str, values, size: int) -> np.ndarray:
+    """A copy, as the state is overwritten."""
+    array = np.array(values, dtype=float).ravel()
+    if len(array) != size:
+        raise ValueError(f"block {block.name}: {what} has {len(array)} numbers, not {size}")
+    return array
+
+
+def _rows(block: Block, what: str, values: np.ndarray, n: int, width: int) -> np.ndarray:
+    array = np.ascontiguousarray(values, dtype=float)
+    if array.shape != (n, width):
+        raise ValueError(f"block {block.name}: {what} have shape {array.shape}, not ({n}, {width})")
+    return array
 
 
 def step_through(step: ca.Function, s: np.ndarray, u: np.ndarray, p: np.ndarray, w: np.ndarray, h: np.ndarray,
-                 y: np.ndarray) -> np.ndarray:
-    """Fill ``y`` row by row through casadi's buffer interface; the arrays are bound once, so a step allocates nothing."""
+                 y: np.ndarray) -> None:
+    """Fill ``y`` row by row and leave the last state in ``s``, by casadi's virtual machine.
+
+    Its buffer interface has the arrays bound once, so that a step allocates nothing.
+    """
     buffer, evaluate = step.buffer()
     row_u, row_w = np.zeros(u.shape[1]), np.zeros(w.shape[1])
     following, row_y = np.zeros_like(s), np.zeros(y.shape[1])
@@ -110,5 +170,3 @@ def step_through(step: ca.Function, s: np.ndarray, u: np.ndarray, p: np.ndarray,
         evaluate()
         s[:] = following
         y[k] = row_y
-    return s
-

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 import pyimu.effects  # noqa: F401  (fills the catalogue)
 from pyimu.effect import CATALOGUE, STAGES, Effect, Parameter
+from pyimu.typical import CLASSES, documents, magnitudes
 
 HEAD = """# The catalogue of effects
 
@@ -19,6 +20,13 @@ one is a single number.
 
 """
 
+SIZES = """## How large they are
+
+One realistic size of each effect in a tactical and in a consumer MEMS part, not a specification of any. In brackets the document
+(below) and the place in it, or "no source" and the reasoning of a guess.
+
+"""
+
 COLUMNS = ("name", "term", "stage", "sensors", "equation", "parameters", "invertible", "source")
 
 
@@ -26,7 +34,19 @@ def documentation() -> str:
     """The page ``docs/effects.md``: a table with one row per effect, in the order in which they act."""
     effects = sorted(CATALOGUE.values(), key=lambda e: (STAGES.index(e.stage), e.order))
     lines = [_row(COLUMNS), _row("---" for _ in COLUMNS), *(_row(_cells(e)) for e in effects)]
-    return HEAD.format(stages=", ".join(STAGES)) + "\n".join(lines) + "\n"
+    return HEAD.format(stages=", ".join(STAGES)) + "\n".join(lines) + "\n\n" + _sizes(effects)
+
+
+def _sizes(effects: Iterable[Effect]) -> str:
+    """How large each effect is in a tactical and in a consumer part, and the documents that say so."""
+    lines = [_row(("name", "sensor", "coefficient", *CLASSES)), _row("---" for _ in range(3 + len(CLASSES)))]
+    for e in effects:
+        for kind in e.sensors:
+            found = magnitudes(e.name, kind)
+            figures = [f"{m.value:g} {m.unit if m.unit != '1' else ''}".strip() + f" ({m.source})" for m in (found[c] for c in CLASSES)]
+            lines.append(_row((f"`{e.name}`", kind, f"`{found[CLASSES[0]].parameter}`", *figures)))
+    keys = [f"- {key}: {text}" for key, text in documents().items()]
+    return SIZES + "\n".join(lines) + "\n\nDocuments:\n\n" + "\n".join(keys) + "\n"
 
 
 def _cells(e: Effect) -> tuple[str, ...]:

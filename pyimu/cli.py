@@ -102,7 +102,7 @@ def build(
         part: Annotated[str, typer.Argument(help="Built-in part or a TOML file.", show_default=False)],
         out: Out = Path("out/fmus"),
         fmu: Annotated[str, typer.Option("--fmu", help="Which, separated by commas: sensor, ukf.")] = "sensor,ukf",
-        fmi: Annotated[str, typer.Option("--fmi", help="FMI versions, separated by commas: 2, 3.")] = "2,3",
+        fmi: Annotated[str, typer.Option("--fmi", help="Which forms, separated by commas: 2, 3, block (FMI 3, many samples a step).")] = "2,3,block",
         platform: Annotated[str, typer.Option("--platform", help="host, all (needs ziglang), or one platform by name.")] = "host",
 ) -> None:
     """Example: pyimu build imt30 --out out/fmus
@@ -110,13 +110,49 @@ def build(
     Build the FMI co-simulation units of a part: the sensor with its errors, and the attitude filter that goes with it.
     """
     from pyimu.fmu.package import build as build_part
-    versions = [v.strip() for v in fmi.split(",")]
-    if not all(v in ("2", "3") for v in versions):
-        raise UserError(f"--fmi {fmi}: unknown; known are 2, 3 and 2,3")
+    forms = {"2": 2, "3": 3, "block": "block"}
+    names = [name.strip() for name in fmi.split(",")]
+    if not all(name in forms for name in names):
+        raise UserError(f"--fmi {fmi}: unknown; known are {', '.join(forms)}, separated by commas")
     with progress(f"compiling {part}"):
-        paths = build_part(part, out, [f.strip() for f in fmu.split(",")], [int(v) for v in versions], platform)
+        paths = build_part(part, out, [f.strip() for f in fmu.split(",")], [forms[name] for name in names], platform)
     for path in paths:
         print(path)
+
+
+@app.command(short_help="The built-in parts, or one part with the source of each figure.")
+def parts(name: Annotated[str | None, typer.Argument(metavar="PART", help="Built-in part or a TOML file; without it all are listed.",
+                                                     show_default=False)] = None) -> None:
+    """Example: pyimu parts mpu6050
+
+    List the built-in parts with their noise and range, or print one part: every coefficient, the figure as its data sheet
+    quotes it, and the source. N is the root of the two-sided density; a dash stands where the part has no figure.
+    """
+    from pyimu.parts_table import detail, listing, terminal_width
+    print(detail(name, terminal_width()) if name is not None else listing(width=terminal_width()))
+
+
+@app.command("derive", short_help="The symbolic results, and what each was checked against.")
+def derive_command(
+        out: Annotated[Path | None, typer.Option("--out", help="Folder for derivations.txt, .tex and .md; else they are only printed.")] = None,
+) -> None:
+    """Example: pyimu derive --out out/derivations
+
+    Print the symbolic results that the package computes with: kinematics, attitude error, Earth rate, transition matrix and
+    process noise. Each comes as text and LaTeX, with what it was checked against and the difference that was found just now.
+    """
+    from pyimu.fmu.package import check_folder
+    from pyimu.symbolic.derivations import derive
+    from pyimu.symbolic.derivations.files import write
+    if out is not None:
+        check_folder(out)
+    with progress("deriving") as say:
+        derived = derive(say)
+    print(derived.report(), end="")
+    for path in write(derived, out) if out is not None else []:
+        print(path)
+    if not derived.passed:
+        raise typer.Exit(1)
 
 
 @contextmanager

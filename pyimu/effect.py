@@ -21,15 +21,19 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from types import MappingProxyType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import casadi as ca
 import numpy as np
 
 from pyimu.block import NoiseChannel, Variable
+from pyimu.signals import COLUMNS, N_INPUT
 
-STAGES = ("dynamics", "gain", "bias", "noise", "output")
-"""The order in which effects act on a sample: input dynamics, gain, bias, noise, output."""
+if TYPE_CHECKING:
+    from pyimu.recording import Recording
+
+STAGES = ("motion", "dynamics", "gain", "bias", "noise", "output")
+"""The order in which effects act on a sample: the motion that reaches the element, its dynamics, gain, bias, noise, output."""
 
 INPUT = "input"
 """Start of a state that begins as if the first input had always been there."""
@@ -40,25 +44,23 @@ NEWTON_STEPS = 6
 
 @dataclass(frozen=True)
 class SensorKind:
-    """A triad: which signal it measures, in which unit, and the unit of that signal's integral."""
+    """A triad: which signal it measures, that signal's rate, its unit, and the unit of its integral."""
 
     name: str
     own: str
+    own_rate: str
     unit: str
     integral: str
 
 
-KINDS = {"gyro": SensorKind("gyro", "rate", "rad/s", "rad"),
-         "accel": SensorKind("accel", "specific_force", "m/s^2", "m/s")}
+KINDS = {"gyro": SensorKind("gyro", "rate", "angular_acceleration", "rad/s", "rad"),
+         "accel": SensorKind("accel", "specific_force", "jerk", "m/s^2", "m/s")}
 
-SIGNALS: Mapping[str, tuple[str, int]] = MappingProxyType(
-    {"rate": ("rad/s", 3), "specific_force": ("m/s^2", 3), "temperature": ("degC", 1)})
-"""The inputs of every sensor, in the order in which they stand in its input vector ``u``: unit and size."""
-
-N_INPUT = sum(size for _, size in SIGNALS.values())
-
-OWN = {"gyro": slice(0, 3), "accel": slice(3, 6)}
+OWN = {kind: COLUMNS[k.own] for kind, k in KINDS.items()}
 """Where a sensor's own signal stands in the input vector."""
+
+OWN_RATE = "own_rate"
+"""Name of the rate of the sensor's own signal among an effect's environment: angular acceleration or jerk."""
 
 
 @dataclass(frozen=True)
@@ -83,7 +85,8 @@ class Scan:
 class Parameter:
     """A coefficient.  ``start`` is where the effect is the identity; matrices may leave out their diagonal.
 
-    ``reference`` marks a coefficient that only fixes an origin (a reference temperature): it is never estimated.
+    ``reference`` marks a coefficient that only fixes an origin (a reference temperature): it is never estimated.  ``form``
+    marks one that shapes an effect whose size others give (a time constant, an instant): it acts only where they do.  ``known`` is the one value, beside zero, that it can have.
     ``scan`` says where identification starts its search where the identity has no slope to follow.
     """
 
@@ -93,6 +96,8 @@ class Parameter:
     description: str = ""
     diagonal: bool = True
     reference: bool = False
+    form: bool = False
+    known: float | None = None
     minimum: float | None = None
     maximum: float | None = None
     scan: Scan | None = None
@@ -105,7 +110,8 @@ class Parameter:
 
 @dataclass(frozen=True)
 class State:
-    """Memory of an effect; ``start`` is a number, or ``INPUT`` for the steady state at the first input."""
+    """Memory of an effect; ``start`` is a number, ``INPUT`` for the steady state at the first input of the effect, or the
+    name of one of the effect's environment arguments for that signal's first value."""
 
     unit: str
     shape: tuple[int, ...] = (3,)
@@ -121,7 +127,10 @@ class Noise:
 
 @dataclass(frozen=True)
 class Environment:
-    """Another input of the sensor, by its name in ``SIGNALS``."""
+    """A signal beside the effect's own input, by its name in ``SIGNALS``, or ``OWN_RATE``.
+
+    The signal that the sensor itself measures means the effect's own input: a sensor knows it through nothing else.
+    """
 
     signal: str
 
@@ -136,7 +145,8 @@ class Effect:
     """One error effect and what its definition says about it.
 
     ``smooth`` is False where the output has steps or corners in ``x`` that no regressor describes; ``invertible`` is
-    False where the input cannot be had back from the output, and ``lost(y, **parameters)`` then marks the samples.
+    False where the input cannot be had back from every output: ``lost(y, **parameters)`` then marks the samples, and
+    ``restore(y, **parameters)`` gives the input of the others where it is not the output itself.
     """
 
     name: str
@@ -149,6 +159,7 @@ class Effect:
     smooth: bool
     invertible: bool
     lost: Callable[..., Any] | None
+    restore: Callable[..., Any] | None
     order: int
     parameters: Mapping[str, Parameter] = field(repr=False)
     states: Mapping[str, State] = field(repr=False)
@@ -159,6 +170,16 @@ class Effect:
     @property
     def stochastic(self) -> bool:
         return bool(self.noises)
+
+    @property
+    def remembers(self) -> bool:
+        """True where the output without noise depends on what was before, and not as a linear filter of the input does."""
+        return bool(self.states) and not self.stochastic and self.stage != "dynamics"
+
+    def signals(self, kind: str) -> frozenset[str]:
+        """Names in ``SIGNALS`` of what the effect needs beside the signal that a sensor of this kind measures."""
+        named = (KINDS[kind].own_rate if s == OWN_RATE else s for s in self.environment.values())
+        return frozenset(named) - {KINDS[kind].own}
 
     def start(self) -> dict[str, np.ndarray]:
         """Start values of all parameters: the identity."""
@@ -178,7 +199,8 @@ CATALOGUE: dict[str, Effect] = {}
 
 
 def effect(*, stage: str, equation: str, source: str, term: str, sensors: tuple[str, ...] = ("gyro", "accel"),
-           smooth: bool = True, invertible: bool = True, lost: Callable | None = None) -> Callable[[Callable], Effect]:
+           smooth: bool = True, invertible: bool = True, lost: Callable | None = None,
+           restore: Callable | None = None) -> Callable[[Callable], Effect]:
     """Make an ``Effect`` of a function and list it in the catalogue.
 
     ``term`` is the field's name of it, ``source`` the document that the equation is from (or "no source").
@@ -191,7 +213,7 @@ def effect(*, stage: str, equation: str, source: str, term: str, sensors: tuple[
         if stage not in STAGES:
             raise ValueError(f"effect {name}: unknown stage {stage!r}, not one of {', '.join(STAGES)}")
         made = Effect(name, stage, equation, source, term, sensors, function, smooth, invertible, lost,
-                      len(CATALOGUE), **_arguments(name, function))
+                      restore, len(CATALOGUE), **_arguments(name, function))
         CATALOGUE[name] = made
         return made
     return define
@@ -266,6 +288,11 @@ class Sensor:
         return tuple(CATALOGUE[n] for n in self.values)
 
     @property
+    def signals(self) -> frozenset[str]:
+        """Names in ``SIGNALS`` of what the sensor's effects need beside the signal that it measures."""
+        return frozenset().union(*(e.signals(self.kind) for e in self.effects))
+
+    @property
     def output(self) -> SensorKind:
         return KINDS[self.kind]
 
@@ -322,6 +349,11 @@ class Sensor:
     def chain(self) -> Chain:
         return _chain(self.kind, tuple(self.values))
 
+    def simulate(self, recording: Recording, *, seed: int | None = 0) -> Recording:
+        """The recording as this sensor would have measured it; see ``pyimu.simulation.simulate_recording``."""
+        from pyimu.simulation import simulate_recording  # which needs this module
+        return simulate_recording(self, recording, seed=seed)
+
     @property
     def step(self) -> ca.Function:
         """``(s, u, p, w, h) -> (s_next, y)``."""
@@ -331,7 +363,7 @@ class Sensor:
     def compensation(self) -> ca.Function:
         """``(s, y, u, p, h) -> (s_next, x, lost)``: the chain solved for its input with all noise zero.
 
-        ``u`` (7,) carries the environment (its own signal is ignored); ``lost`` (3,) is 1 where ``x`` cannot be restored.
+        ``u`` (N_INPUT,) carries the environment (its own signal is ignored); ``lost`` (3,) is 1 where ``x`` cannot be restored.
         """
         return self.chain.compensation
 
@@ -372,12 +404,13 @@ class Chain:
         self.h = ca.SX.sym("h")
         self.p = ca.SX.sym("p", len(sensor.slots))
         self.w = ca.SX.sym("w", len(sensor.noise))
-        self.signals = _split_signals(self.u)
+        self.signals = {name: self.u[at] for name, at in COLUMNS.items()}
+        self.signals[OWN_RATE] = self.signals[sensor.output.own_rate]
         self.x = self.signals[sensor.output.own]
         self.parameters = self._split_parameters()
         self.noises = self._split_noise()
         self.states, self.s = self._split_states()
-        self.waits = any(q.start == INPUT for e in self.effects for q in e.states.values())
+        self.waits = any(isinstance(q.start, str) for e in self.effects for q in e.states.values())
 
     def _split_parameters(self) -> dict[str, dict[str, ca.SX]]:
         """Put the vector ``p`` into the matrices of the definitions; rows first, here and nowhere else."""
@@ -411,8 +444,9 @@ class Chain:
         out = {}
         for name, q in e.states.items():
             s = self.states[e.name][name]
-            if q.start == INPUT:
-                steady = ca.repmat(x.T, q.shape[0], 1) if len(q.shape) == 2 else x
+            if isinstance(q.start, str):
+                first = x if q.start == INPUT else self.signals[e.environment[q.start]]
+                steady = ca.repmat(first.T, q.shape[0], 1) if len(q.shape) == 2 else first
                 s = ca.if_else(started, s, steady)
             out[name] = s
         return out
@@ -422,7 +456,7 @@ class Chain:
         started = ca.SX.sym("started") if self.waits else None
         x, following = self.x, []
         for e in self.effects:
-            x, update = e(x, self.parameters[e.name], self._current(e, x, started), self.noises[e.name], self.signals, self.h)
+            x, update = self._apply(e, x, self.noises[e.name], started)
             following += [ca.vec(ca.densify(update[n])) for n in e.states]
         flag, one = ([started], [ca.SX(1)]) if self.waits else ([], [])
         return ca.Function(f"{self.sensor.kind}_step", [ca.vertcat(*flag, self.s), self.u, self.p, self.w, self.h],
@@ -431,7 +465,7 @@ class Chain:
     @cached_property
     def start(self) -> np.ndarray:
         """State before the first sample, as ``step`` takes it."""
-        values = [np.full(int(np.prod(q.shape)), 0.0 if q.start == INPUT else q.start)
+        values = [np.full(int(np.prod(q.shape)), 0.0 if isinstance(q.start, str) else q.start)
                   for e in self.effects for q in e.states.values()]
         return np.concatenate([np.zeros(int(self.waits)), *values])
 
@@ -445,6 +479,8 @@ class Chain:
                 lost = ca.fmax(lost, e.lost(x, **self.parameters[e.name]))
             if e.invertible:
                 x = self._invert(e, x, started)
+            elif e.restore is not None:
+                x = e.restore(x, **self.parameters[e.name])
             following[e.name] = self._advance(e, x, started)
         ordered = [following[e.name] for e in self.effects]
         flag, one = ([started], [ca.SX(1)]) if self.waits else ([], [])
@@ -453,9 +489,13 @@ class Chain:
                            [ca.vertcat(*one, *ordered), ca.densify(x), ca.densify(lost)],
                            ["s", "y", "u", "p", "h"], ["s_next", "x", "lost"])
 
+    def _apply(self, e: Effect, x: ca.SX, w: Mapping, started: ca.SX | None) -> tuple[ca.SX, dict]:
+        signals = {**self.signals, self.sensor.output.own: x}
+        return e(x, self.parameters[e.name], self._current(e, x, started), w, signals, self.h)
+
     def _call(self, e: Effect, x: ca.SX, started: ca.SX | None) -> tuple[ca.SX, dict]:
         silent = {n: ca.SX.zeros(w.size) for n, w in e.noises.items()}
-        return e(x, self.parameters[e.name], self._current(e, x, started), silent, self.signals, self.h)
+        return self._apply(e, x, silent, started)
 
     def _advance(self, e: Effect, x: ca.SX, started: ca.SX | None) -> ca.SX:
         _, update = self._call(e, x, started)
@@ -482,14 +522,6 @@ def _solve(a: ca.SX, b: ca.SX) -> ca.SX:
     r = [ca.densify(a[i, :]).T for i in range(3)]
     c = [ca.cross(r[1], r[2]), ca.cross(r[2], r[0]), ca.cross(r[0], r[1])]
     return ca.horzcat(*c) @ b / ca.dot(r[0], c[0])
-
-
-def _split_signals(u: ca.SX) -> dict[str, ca.SX]:
-    out, at = {}, 0
-    for name, (_, size) in SIGNALS.items():
-        out[name] = u[at:at + size]
-        at += size
-    return out
 
 
 def candidates(kind: str, present: Iterable[str]) -> tuple[Effect, ...]:

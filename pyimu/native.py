@@ -1,40 +1,77 @@
-"""A block's step compiled for this machine: the same C as in its FMU, so the same bits as casadi's virtual machine.
+"""A block's step compiled for this machine, with the loop over the samples and the noise around it.
 
-Worth its half second of compiling for long runs of large steps only; without a compiler there is none, and the virtual
-machine does the work.
+It is the C of the block's FMU, step and noise alike, so the bits are those of the FMU and of casadi's virtual machine.
+Compiling takes 0.05 to 2 s.  A library is therefore kept between processes in the user's cache folder, and a step is compiled
+only once that pays; without a compiler it never is, and the virtual machine does the work.
 """
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
+import hashlib
 import os
+import platform
 import shlex
 import shutil
+import stat
 import subprocess
+import sys
 import tempfile
 from collections.abc import Callable
-from functools import lru_cache
+from functools import cache, lru_cache
 from pathlib import Path
 
 import casadi as ca
 import numpy as np
 
-FLAGS = ("-std=c11", "-O1", "-ffp-contract=off", "-fPIC", "-shared", "-w", "-DCASADI_SYMBOL_EXPORT=static")
-"""Without contracted multiply-adds, as in the FMUs; -O1 because more costs longer to compile than a log takes to run.
-Static, because a libc has a function ``step`` of its own that would answer in place of ours."""
+FLAGS = ("-std=c11", "-O3", "-ffp-contract=off", "-fPIC", "-shared", "-fvisibility=hidden", "-w", "-DCASADI_SYMBOL_EXPORT=static")
+"""Those of the FMUs, without contracted multiply-adds.  The step is static, because a libc has a function ``step`` of its
+own that would answer in place of ours."""
 
-WORTHWHILE = 1.5e8
-"""Instructions of a run, a second or so of the virtual machine, from which on compiling pays."""
+LOOKED_FOR = 2_000
+"""Samples of a step in one process, some milliseconds of the virtual machine, from which on the cache is searched."""
+
+WORTHWHILE = 50_000
+"""Samples of a step in one process from which on it is compiled.
+
+The virtual machine takes 0.6 us and 2 to 4 ns an instruction for a sample, the compiler 40 ms and 0.2 to 0.4 ms an
+instruction: whatever the step, a compiler's time is that of about 100,000 samples.  Half of it, as others will find the library."""
+
+KEPT = 64
+"""Libraries in the cache folder; beyond that the ones that were used longest ago go."""
 
 LOOP = """
-void run(long n, double *s, const double *u, const double *p, const double *w, const double *h, double *next, double *y,
-         const double **arg, double **res, casadi_int *iw, double *work) {
-  for (long k = 0; k < n; ++k) {
-    arg[0] = s; arg[1] = u + k * NU; arg[2] = p; arg[3] = w + k * NW; arg[4] = h;
-    res[0] = next; res[1] = y + k * NY;
-    STEP(arg, res, iw, work, 0);
-    for (int i = 0; i < NS; ++i) s[i] = next[i];
+#include <stdint.h>
+#include "noise.h"
+
+#ifdef _WIN32
+#define EXPORT __declspec(dllexport)
+#else
+#define EXPORT __attribute__((visibility("default")))
+#endif
+
+enum { ROWS = 128 }; /* whose normals are drawn at a time, and stay in the processor's cache */
+
+/* The state is in s before and after; the normals are w, or where that is NULL drawn, or where channels is NULL too, zero.
+   Gives how many samples could be made. */
+EXPORT int64_t run(int64_t n, double *s, const double *u, const double *p, const double *h, double *y, const double *w,
+                   const uint64_t *channels, uint64_t seed, int64_t first, casadi_int *iw, double *work) {
+  const double *arg[SZ_ARG];
+  double *res[SZ_RES], next[NS + 1], normals[ROWS * NW + 1], *now = s, *following = next;
+  int64_t k = 0;
+  for (int64_t i = 0; i < ROWS * NW; ++i) normals[i] = 0.0;
+  for (; k < n; ++k) {
+    if (NW && !w && channels && k % ROWS == 0) noise_fill(normals, seed, channels, NW, first + k, n - k < ROWS ? n - k : ROWS);
+    arg[0] = now; arg[1] = u + k * NU; arg[2] = p; arg[3] = w ? w + k * NW : normals + k % ROWS * NW; arg[4] = h;
+    res[0] = following; res[1] = y + k * NY;
+    if (STEP(arg, res, iw, work, 0)) break;
+    double *made = following;
+    following = now;
+    now = made;
   }
+  for (int i = 0; i < NS && now != s; ++i) s[i] = now[i];
+  return k;
 }
 """
 
@@ -45,42 +82,162 @@ def compiler_command() -> list[str]:
     return command if shutil.which(command[0]) else []
 
 
+def source_folder() -> Path:
+    """The hand-written C: ``fmu_src`` beside the package in a checkout, inside it in an installed wheel."""
+    package = Path(__file__).resolve().parent
+    for folder in (package / "fmu_src", package.parent / "fmu_src"):
+        if (folder / "noise.c").is_file():
+            return folder
+    raise FileNotFoundError(f"the C sources fmu_src are neither in {package} nor beside it")
+
+
+def cache_folder() -> Path | None:
+    """Where libraries are kept: ``PYIMU_CACHE`` (empty: nowhere), else ``pyimu`` in the user's cache folder of the platform."""
+    given = os.environ.get("PYIMU_CACHE")
+    if given is not None:
+        return Path(given) if given else None
+    home = Path(os.path.expanduser("~"))
+    usual = {"win32": home / "AppData" / "Local", "darwin": home / "Library" / "Caches"}.get(sys.platform, home / ".cache")
+    named = Path(os.environ.get({"win32": "LOCALAPPDATA", "darwin": ""}.get(sys.platform, "XDG_CACHE_HOME"), ""))
+    base = named if named.is_absolute() else usual
+    return base / "pyimu" if base.is_absolute() else None
+
+
 def compiled(step: ca.Function, rows: int) -> Callable | None:
-    """A stand-in for ``block.step_through`` on this step, or None where it would not pay or nothing can compile it."""
-    if rows * step.n_instructions() < WORTHWHILE:
-        return None
-    run = _load(_source(step))
-    return None if run is None else _bind(run, step)
+    """``run(s, u, p, h, y, w, channels, seed, first)``, which fills ``y``, for ``rows`` more samples of this step, or None where none
+    is at hand and compiling would not pay or cannot be done."""
+    return _machine_code(step).after(rows)
+
+
+@lru_cache(maxsize=64)
+def _machine_code(step: ca.Function) -> _MachineCode:
+    return _MachineCode(step)
+
+
+class _MachineCode:
+    """What is known of the machine code of one step: how many samples it has been asked for, and the library once there is one."""
+
+    def __init__(self, step: ca.Function) -> None:
+        self.step, self.rows, self.call, self.tried = step, 0, None, 0
+
+    def after(self, rows: int) -> Callable | None:
+        """Look for the library, and later compile it, at most once each."""
+        self.rows += rows
+        reached = (self.rows >= LOOKED_FOR) + (self.rows >= WORTHWHILE)
+        if self.call is None and reached > self.tried:
+            library = _library(_source(self.step), reached == 2)
+            self.tried, self.call = reached, library and _bind(library, self.step)
+        return self.call
 
 
 def _source(step: ca.Function) -> str:
+    """The step in C, as casadi writes it, and the loop around it."""
     generator = ca.CodeGenerator("step.c")
     generator.add(step)
-    sizes = {"NS": step.numel_in(0), "NU": step.numel_in(1), "NW": step.numel_in(3), "NY": step.numel_out(1), "STEP": step.name()}
+    sizes = {"NS": step.numel_in(0), "NU": step.numel_in(1), "NW": step.numel_in(3), "NY": step.numel_out(1),
+             "SZ_ARG": step.sz_arg(), "SZ_RES": step.sz_res(), "STEP": step.name()}
     return generator.dump() + "".join(f"#define {name} {value}\n" for name, value in sizes.items()) + LOOP
 
 
-@lru_cache(maxsize=16)
-def _load(source: str) -> ctypes._CFuncPtr | None:
-    """Compile and load; the library's file is gone once it is loaded."""
+def _bind(library: ctypes.CDLL, step: ca.Function) -> Callable:
+    address = [ctypes.c_void_p] * 7
+    call = library.run
+    call.argtypes = [ctypes.c_int64, *address, ctypes.c_uint64, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p]
+    call.restype = ctypes.c_int64
+    iw_size, work_size = step.sz_iw() + 1, step.sz_w() + 1
+
+    def run(s, u, p, h, y, w, channels, seed, first) -> None:
+        iw, work = np.zeros(iw_size, dtype=np.int64), np.zeros(work_size)
+        given = [None if a is None else a.ctypes.data for a in (s, u, p, h, y, w, channels)]
+        done = call(len(u), *given, seed, first, iw.ctypes.data, work.ctypes.data)
+        if done < len(u):
+            raise RuntimeError(f"{step.name()}: row {done} cannot be evaluated")
+    return run
+
+
+# ---- the library: in this process, in the cache folder, or compiled --------------------------------------------------------
+
+_loaded: dict[str, ctypes.CDLL] = {}
+
+
+def _library(source: str, compile_it: bool) -> ctypes.CDLL | None:
     compiler = compiler_command()
     if not compiler:
         return None
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "step.c"
-        path.write_text(source, encoding="utf-8")
-        library = Path(folder) / "step.so"
-        done = subprocess.run([*compiler, *FLAGS, str(path), "-o", str(library), "-lm"], capture_output=True, check=False)
-        if done.returncode:
+    key = _key(source, tuple(compiler))
+    if key not in _loaded:
+        library = _from_cache(key) or (_compile(source, compiler, key) if compile_it else None)
+        if library is None:
             return None
-        return ctypes.CDLL(str(library)).run
+        _loaded[key] = library
+    return _loaded[key]
 
 
-def _bind(run: ctypes._CFuncPtr, step: ca.Function) -> Callable:
-    def step_through(_, s, u, p, w, h, y):
-        arg, res = np.zeros(step.sz_arg() + 8, dtype=np.uintp), np.zeros(step.sz_res() + 8, dtype=np.uintp)
-        iw, work, following = np.zeros(step.sz_iw() + 8, dtype=np.int64), np.zeros(step.sz_w() + 8), np.zeros_like(s)
-        pointers = [a.ctypes.data_as(ctypes.c_void_p) for a in (s, u, p, w, h, following, y, arg, res, iw, work)]
-        run(ctypes.c_long(len(u)), *pointers)
-        return s
-    return step_through
+def _key(source: str, compiler: tuple[str, ...]) -> str:
+    """Whatever the library's bytes follow from, as a name."""
+    hand_written = [path.read_bytes() for path in sorted(source_folder().glob("noise*"))]
+    texts = [source, *FLAGS, *compiler, _version(compiler), sys.platform, platform.machine()]
+    return hashlib.sha256(b"\0".join([*(t.encode() for t in texts), *hand_written])).hexdigest()[:32]
+
+
+@cache
+def _version(compiler: tuple[str, ...]) -> str:
+    return subprocess.run([*compiler, "--version"], capture_output=True, text=True, errors="replace", check=False).stdout
+
+
+def _compile(source: str, compiler: list[str], key: str) -> ctypes.CDLL | None:
+    """Compile in a temporary folder, keep a copy in the cache and load; the library's own file is gone once it is loaded."""
+    with tempfile.TemporaryDirectory(prefix="pyimu-", ignore_cleanup_errors=True) as folder:
+        path, library, hand_written = Path(folder, "run.c"), Path(folder, "run.so"), source_folder()
+        path.write_text(source, encoding="utf-8")
+        files = [str(path), str(hand_written / "noise.c"), "-I", str(hand_written)]
+        if subprocess.run([*compiler, *FLAGS, *files, "-o", str(library), "-lm"], capture_output=True, check=False).returncode:
+            return None
+        with contextlib.suppress(OSError):  # no cache, or none that can be written: compiled again next time
+            _keep(key, library.read_bytes())
+        return ctypes.CDLL(str(library))
+
+
+def _digest(data: bytes) -> str:
+    return hashlib.sha256(data).hexdigest()[:32]
+
+
+def _from_cache(key: str) -> ctypes.CDLL | None:
+    """A library of the cache, if it is whole: its name tells the digest of its bytes, as a truncated one could end the process."""
+    with contextlib.suppress(OSError):
+        for path in _files(f"{key}.*"):
+            if path.suffixes[0] == f".{_digest(path.read_bytes())}":
+                with contextlib.suppress(OSError):
+                    library = ctypes.CDLL(str(path))
+                    os.utime(path)
+                    return library
+    return None
+
+
+def _keep(key: str, data: bytes) -> None:
+    """Write a library to the cache under a temporary name and rename it, so that nobody loads half of it."""
+    folder = cache_folder()
+    if folder is None:
+        return
+    folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+    handle, temporary = tempfile.mkstemp(dir=folder, suffix=".tmp")
+    try:
+        with os.fdopen(handle, "wb") as file:
+            file.write(data)
+        os.replace(temporary, folder / f"{key}.{_digest(data)}.so")
+    except BaseException:
+        os.unlink(temporary)
+        raise
+    for old in sorted(_files("*.*"), key=lambda path: path.stat().st_mtime)[:-KEPT]:
+        old.unlink(missing_ok=True)
+
+
+def _files(pattern: str) -> list[Path]:
+    """Libraries in the cache folder; none where others may write to it, as what is in it is run."""
+    folder = cache_folder()
+    if folder is None or not folder.is_dir():
+        return []
+    about = folder.stat()
+    if hasattr(os, "getuid") and (about.st_uid != os.getuid() or about.st_mode & (stat.S_IWGRP | stat.S_IWOTH)):
+        return []
+    return list(folder.glob(f"{pattern}.so"))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import casadi as ca
 import numpy as np
 
-_UNARY = {ca.OP_ASSIGN: np.positive, ca.OP_NEG: np.negative, ca.OP_EXP: np.exp, ca.OP_LOG: np.log, ca.OP_SQRT: np.sqrt,
+_UNARY = {ca.OP_ASSIGN: np.positive, ca.OP_NEG: np.negative, ca.OP_EXP: np.exp, ca.OP_EXPM1: np.expm1, ca.OP_LOG: np.log, ca.OP_SQRT: np.sqrt,
           ca.OP_SQ: np.square, ca.OP_TWICE: lambda a: a + a, ca.OP_SIN: np.sin, ca.OP_COS: np.cos, ca.OP_TAN: np.tan,
           ca.OP_ASIN: np.arcsin, ca.OP_ACOS: np.arccos, ca.OP_ATAN: np.arctan, ca.OP_SINH: np.sinh, ca.OP_COSH: np.cosh,
           ca.OP_TANH: np.tanh, ca.OP_NOT: lambda a: (a == 0).astype(float), ca.OP_FLOOR: np.floor, ca.OP_CEIL: np.ceil,

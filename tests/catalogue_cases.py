@@ -1,16 +1,26 @@
 """Sensors and motions that excite any effect of the catalogue, made from its definition alone."""
 
+import casadi as ca
 import numpy as np
 
+import pyimu.effects  # noqa: F401  (fills the catalogue)
 from pyimu import units
-from pyimu.effect import CATALOGUE, KINDS, SIGNALS, Sensor
+from pyimu.block import Block, Variable
+from pyimu.effect import CATALOGUE, KINDS, Sensor
 from pyimu.imu import Part
+from pyimu.signals import COLUMNS, SIGNALS, inputs_for
 
 H = 0.01
 """Sample period [s]."""
 
 NATURAL = {"rad": 1.0, "s": 0.3, "m": 1.0, "K": 10.0, "V": 1.0, "T": 1e-4}
 """The size of each base unit in the motion below; a coefficient is a small share of what its unit makes of these."""
+
+LARGE = {"earth_rate": 1.0, "transport_rate": 1.0, "coning": 1e4, "sculling": 1e4, "saturation": 0.25, "ageing": 1.0, "sampling_jitter": 0.1}
+"""Shares for effects whose coefficients are not small numbers of the natural size."""
+
+FORMS = {"tau": 1.3, "f0": 0.7, "f_low": 0.01, "f_high": 20.0, "width": 3.0, "phase": 0.4, "t0": 1.1}
+"""Form coefficients that show an effect within the few seconds of a test."""
 
 CASES = [(name, kind) for name, e in CATALOGUE.items() for kind in e.sensors]
 
@@ -27,11 +37,15 @@ def excited(name: str, kind: str, share: float = 0.05) -> Sensor:
 
 def with_excited(sensor: Sensor, name: str, share: float = 0.05) -> Sensor:
     added = sensor.with_values(name)
-    p = added.p.copy()
-    for i, slot in enumerate(s for s in added.slots):
-        if slot.effect == name:
+    p, share = added.p.copy(), share * LARGE.get(name, 0.05) / 0.05
+    for i, slot in enumerate(added.slots):
+        if slot.effect != name:
+            continue
+        if slot.definition.form:
+            p[i] = FORMS[slot.parameter] * (1 + 0.17 * (slot.index[0] if slot.index else 0))
+        else:
             sign = 1 if slot.definition.minimum is not None else (-1) ** i
-            p[i] += sign * share * (1 + 0.17 * i) * size(slot.unit)
+            p[i] += sign * share * (1 + 0.17 * (i % 9)) * size(slot.unit)
     return added.with_p(p)
 
 
@@ -49,23 +63,25 @@ def as_part(*sensors: Sensor) -> Part:
 
 
 def motion(n: int, seed: int = 0) -> np.ndarray:
-    """Inputs (n, size of all signals) on all axes and both signs, smooth in time, with every signal of its own course."""
+    """All signals (n, N_INPUT), on all axes and both signs, smooth in time, each of its own course; time runs."""
     rng, t, columns = np.random.default_rng(seed), H * np.arange(n), []
-    for unit, width in SIGNALS.values():
-        for _ in range(width):
+    for signal in SIGNALS.values():
+        for _ in range(signal.size):
             f, phase = rng.uniform(0.2, 3.0, 3), rng.uniform(0, 2 * np.pi, 3)
-            columns.append(size(unit) * (0.3 + np.sin(2 * np.pi * np.outer(t, f) + phase).sum(1)))
-    return np.column_stack(columns)
+            columns.append(size(signal.unit) * (0.09 + 0.3 * np.sin(2 * np.pi * np.outer(t, f) + phase).sum(1)))
+    u = np.column_stack(columns)
+    u[:, COLUMNS["time"]] = (t + H)[:, None]
+    return u
+
+
+def inputs(u: np.ndarray, part: Part) -> np.ndarray:
+    """Of all signals (n, N_INPUT) those that the block of a part takes."""
+    return np.hstack([u[:, COLUMNS[name]] for name in inputs_for(part.signals)])
 
 
 def own(kind: str) -> slice:
-    """Columns of a sensor's own signal in the inputs."""
-    at = 0
-    for signal, (_, width) in SIGNALS.items():
-        if signal == KINDS[kind].own:
-            return slice(at, at + width)
-        at += width
-    raise KeyError(kind)
+    """Columns of a sensor's own signal among all signals."""
+    return COLUMNS[KINDS[kind].own]
 
 
 def outputs(kind: str) -> slice:
@@ -74,6 +90,15 @@ def outputs(kind: str) -> slice:
     return slice(first, first + 3)
 
 
+def alone(sensor: Sensor) -> Block:
+    """A sensor as a block of its own that takes every signal as an input, the derived ones too."""
+    names = tuple(Variable(f"u[{i}]") for i in range(sensor.chain.u.numel()))
+    p = ca.SX.sym("p", len(sensor.slots))
+    initial = ca.Function("initial", [p], [ca.SX(ca.DM(sensor.chain.start)), ca.SX.zeros(3)])
+    return Block("alone", "", sensor.step, initial, names, sensor.variables, tuple(Variable(f"y[{i}]") for i in range(3)),
+                 sensor.noise, H)
+
+
 def run(sensor: Sensor, u: np.ndarray, w: np.ndarray | None = None, h: float | None = None) -> np.ndarray:
-    """Output (n, 3) of one sensor for inputs (n, nu) and normals (n, nw), ``h`` s apart."""
-    return as_part(sensor).block.run(u, w=w, sample_period=h)[0][:, outputs(sensor.kind)]
+    """Output (n, 3) of one sensor for all signals (n, N_INPUT) and normals (n, nw), ``h`` s apart."""
+    return alone(sensor).run(u, w=w, sample_period=h)[0]

@@ -1,4 +1,4 @@
-"""A block that has one of everything, and an FMU instance of either version under one set of names."""
+"""A block that has one of everything, and an FMU instance of any form under one set of names."""
 
 import shutil
 from ctypes import byref
@@ -11,6 +11,7 @@ from fmpy import extract, fmi2, fmi3, read_model_description
 from fmpy.logging import addLoggerProxy
 
 from pyimu.block import Block, NoiseChannel, Variable
+from pyimu.fmu.arrays import split_name
 
 RATE = 976.0
 CHANNELS = (7, 2**32 - 5)
@@ -50,10 +51,15 @@ def drive(n: int, seed: int = 3) -> np.ndarray:
 
 @dataclass
 class Unit:
-    """One instance of an FMU, its variables by name, its messages kept."""
+    """One instance of an FMU, its variables by name, its messages kept.
+
+    The block form has ``rows`` of inputs and outputs; ``set`` puts a value into all of them and ``get`` looks at the last, so
+    that in steps of no more samples it behaves as the scalar forms do.
+    """
 
     path: Path
     log_events: bool = False
+    rows: int = 8
     messages: list = field(default_factory=list)
 
     def __post_init__(self):
@@ -61,6 +67,7 @@ class Unit:
         self.version = int(self.description.fmiVersion[0])
         self.folder = extract(str(self.path))
         self.variables = {v.name: v for v in self.description.modelVariables}
+        self.form = "block" if "block_size" in self.variables else self.version
         kind = fmi2.FMU2Slave if self.version == 2 else fmi3.FMU3Slave
         self.fmu = kind(guid=self.description.guid, unzipDirectory=str(self.folder), instanceName="toy",
                         modelIdentifier=self.description.coSimulation.modelIdentifier)
@@ -69,11 +76,22 @@ class Unit:
     def _instantiate(self):
         if self.version == 3:
             self.fmu.instantiate(loggingOn=self.log_events, logMessage=lambda env, status, *message: self._keep(*message))
+            self._configure()
             return
         self.callbacks = fmi2.fmi2CallbackFunctions()
         self.callbacks.logger = fmi2.fmi2CallbackLoggerTYPE(lambda env, name, status, *message: self._keep(*message))
         addLoggerProxy(byref(self.callbacks))
         self.fmu.instantiate(callbacks=self.callbacks, loggingOn=self.log_events)
+
+    def _configure(self):
+        if self.form == "block":
+            self.fmu.enterConfigurationMode()
+            self.set("block_size", self.rows)
+            self.fmu.exitConfigurationMode()
+
+    def reset(self):
+        self.fmu.reset()
+        self._configure()
 
     def _keep(self, category, text):
         self.messages.append((category.decode(), text.decode()))
@@ -98,18 +116,45 @@ class Unit:
         return self
 
     def set(self, name, value):
-        v = self.variables[name]
-        getattr(self.fmu, f"set{v.type}")([v.valueReference], [value])
+        """A variable, all rows of it; or one element of an array."""
+        if name in self.variables:
+            self.set_array(name, np.broadcast_to(value, self.shape(name)))
+            return
+        base, index = split_name(name)
+        array = self.get_array(base)
+        array[(..., *(i - 1 for i in index))] = value
+        self.set_array(base, array)
 
     def get(self, name):
+        """A variable, of rows the last; or one element of an array."""
+        if name not in self.variables:
+            base, index = split_name(name)
+            return self.get(base)[tuple(i - 1 for i in index)]
+        array = self.get_array(name)
+        return array[-1] if self.has_rows(name) else array[()]
+
+    def has_rows(self, name):
+        return self.form == "block" and self.variables[name].causality in ("input", "output")
+
+    def shape(self, name):
+        shape = tuple(self.variables[name].shape or ())
+        return (self.rows, *shape[1:]) if self.has_rows(name) else shape
+
+    def set_array(self, name, array):
         v = self.variables[name]
-        return getattr(self.fmu, f"get{v.type}")([v.valueReference])[0]
+        getattr(self.fmu, f"set{v.type}")([v.valueReference], np.ravel(array).tolist())
+
+    def get_array(self, name):
+        v = self.variables[name]
+        many = {} if self.version == 2 else {"nValues": int(np.prod(self.shape(name), dtype=int))}
+        return np.array(getattr(self.fmu, f"get{v.type}")([v.valueReference], **many)).reshape(self.shape(name))
 
     def step(self, time, size):
         self.fmu.doStep(currentCommunicationPoint=time, communicationStepSize=size)
 
     def outputs(self):
-        return [float(self.get(v.name)) for v in self.description.modelVariables if v.causality == "output"]
+        values = [self.get(v.name) for v in self.description.modelVariables if v.causality == "output"]
+        return [float(x) for value in values for x in np.ravel(value)]
 
     def run(self, inputs, first=0, period=1 / RATE):
         """One step a row of inputs (n, nu), from sample ``first``; gives outputs (n, ny)."""

@@ -13,7 +13,8 @@ from scipy.stats import chi2
 from pyimu.attitude.ukf import UNKNOWN_LATITUDE, attitude_ukf
 from pyimu.attitude.unscented import LARGEST_STD
 from pyimu.effect import Sensor
-from pyimu.imu import Part, simulate
+from pyimu.imu import Part
+from pyimu.simulation import simulate
 
 GRAVITY = 9.80665
 H = 0.01

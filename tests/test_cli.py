@@ -388,7 +388,7 @@ def test_log_at_rest_is_undecidable(here, pyimu):
 def test_build_lists_what_it_made(here, pyimu):
     code, out, err = pyimu("build", "imt30", "--out", "fmus")
     assert (code, err) == (0, "")
-    assert out.split() == [f"fmus/{n}.fmi{v}.fmu" for n in ("ImuSensor", "AttitudeUkf") for v in (2, 3)]
+    assert out.split() == [f"fmus/{n}.{form}.fmu" for n in ("ImuSensor", "AttitudeUkf") for form in ("fmi2", "fmi3", "block")]
     assert all(Path(line).read_bytes()[:2] == b"PK" for line in out.split())
 
 

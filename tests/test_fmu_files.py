@@ -20,7 +20,7 @@ from lxml import etree
 
 from pyimu.block import Block, NoiseChannel, Variable
 from pyimu.errors import UserError
-from pyimu.fmu import PLATFORMS, build_fmu, build_fmus, host_platform, simulate, source_folder, texts, write_generated
+from pyimu.fmu import FORMS, PLATFORMS, build_fmu, build_fmus, host_platform, simulate, simulate_blocks, source_folder, texts, write_generated
 from pyimu.fmu.build import FLAGS, header_folder, icon
 from pyimu.noise import normals
 
@@ -30,17 +30,26 @@ SCHEMAS = Path(fmpy.__file__).parent / "schema"
 
 @pytest.fixture(scope="session")
 def toys(tmp_path_factory):
-    return dict(zip((2, 3), build_fmus(BLOCK, tmp_path_factory.mktemp("toys"))))
+    return dict(zip(FORMS, build_fmus(BLOCK, tmp_path_factory.mktemp("toys"), FORMS)))
 
 
-@pytest.fixture(params=(2, 3), ids=("fmi2", "fmi3"))
+@pytest.fixture(params=FORMS, ids=("fmi2", "fmi3", "block"))
 def path(request, toys):
     return toys[request.param]
 
 
-@pytest.fixture
-def description(path):
-    return read_model_description(str(path))
+@pytest.fixture(params=(2, 3), ids=("fmi2", "fmi3"))
+def description(request, toys):
+    """Of a scalar form."""
+    return read_model_description(str(toys[request.param]))
+
+
+def form_of(path):
+    return "block" if ".block." in path.name else int(path.name[-5])
+
+
+def version_of(path):
+    return 2 if form_of(path) == 2 else 3
 
 
 def unzipped(path, folder):
@@ -61,10 +70,11 @@ def test_fmpy_finds_nothing(path):
     assert validate_fmu(str(path)) == []
 
 
+@pytest.mark.parametrize("form", (3, "block"))
 @pytest.mark.parametrize("name, schema", (("sources/buildDescription.xml", "fmi3BuildDescription.xsd"),
                                           ("terminalsAndIcons/terminalsAndIcons.xml", "fmi3TerminalsAndIcons.xsd")))
-def test_fmi_3_files_follow_their_schema(toys, name, schema):
-    with zipfile.ZipFile(toys[3]) as archive:
+def test_fmi_3_files_follow_their_schema(toys, form, name, schema):
+    with zipfile.ZipFile(toys[form]) as archive:
         document = etree.parse(BytesIO(archive.read(name)))
     etree.XMLSchema(etree.parse(str(SCHEMAS / "fmi3" / schema))).assertValid(document)
 
@@ -110,10 +120,10 @@ def test_model_structure(description):
     assert initial == {"y[1]": ["b0"], "y[2]": ["M[1,2]", "M[2,1]"], "positive": ["b0"], "ticks": []}
 
 
-def test_documentation_lists_every_variable(toys):
-    with zipfile.ZipFile(toys[2]) as archive:
+def test_documentation_lists_every_variable(path):
+    with zipfile.ZipFile(path) as archive:
         page = archive.read("documentation/index.html").decode()
-    assert all(f"<code>{v.name}</code>" in page for v in BLOCK.inputs + BLOCK.parameters + BLOCK.outputs)
+    assert all(f"<code>{v.name}</code>" in page for v in read_model_description(str(path)).modelVariables)
     assert "gain &lt;1&gt;" in page
     assert re.search(r"<code>ticks</code></td><td><code>counting</code> <code>gear</code></td>", page)
 
@@ -126,33 +136,37 @@ def test_contents(path):
         names = archive.namelist()
         dates = {info.date_time for info in archive.infolist()}
     assert names == sorted(names) and len(dates) == 1
-    sources = {"block.c", "block.h", "noise.c", "noise.h", "model_table.h", "step.c"}
+    sources = {"block.c", "block.h", "block_core.h", "block_saved.c", "block_values.c", "noise.c", "noise.h", "model_table.h", "step.c"}
     common = {"modelDescription.xml", "documentation/index.html", "documentation/licenses/license.txt"}
     two = {"sources/fmi2.c", "model.png", "binaries/linux64/Toy.so"}
     three = {"sources/fmi3.c", "sources/buildDescription.xml", "terminalsAndIcons/terminalsAndIcons.xml",
              "terminalsAndIcons/icon.png", "binaries/x86_64-linux/Toy.so"}
     if host_platform() == "x86_64-linux":
-        assert set(names) == common | {f"sources/{f}" for f in sources} | (two if "fmi2" in path.name else three)
+        assert set(names) == common | {f"sources/{f}" for f in sources} | (two if form_of(path) == 2 else three)
 
 
 def test_same_block_same_bytes(path, tmp_path):
-    again = build_fmu(toy(), tmp_path, int(path.name[-5]))
+    again = build_fmu(toy(), tmp_path, form_of(path))
     assert again.read_bytes() == path.read_bytes()
 
 
+def tokens(block):
+    """Those of the table of scalars and of the table in blocks."""
+    files = texts(block)
+    return tuple(re.search(r'MODEL_TOKEN "(.*)"', files[table])[1] for table in ("model_table.h", "model_table.block.h"))
+
+
 def test_token_follows_the_content():
-    def token(block):
-        return re.search(r'MODEL_TOKEN "(.*)"', texts(block)["model_table.h"])[1]
     others = [toy(), toy(name="Other"), toy(sample_period=0.01), toy(unit="deg/s"), replace(BLOCK, description="")]
-    tokens = [token(b) for b in others]
-    assert len(set(tokens)) == len(tokens) and tokens[0] == token(BLOCK)
+    all_tokens = [token for b in others for token in tokens(b)]
+    assert len(set(all_tokens)) == len(all_tokens) and tokens(others[0]) == tokens(BLOCK)
 
 
-def test_one_token_in_all_files():
-    files = texts(BLOCK)
-    token = re.search(r'MODEL_TOKEN "(.*)"', files["model_table.h"])[1]
-    assert f'guid="{token}"' in files["modelDescription.fmi2.xml"]
-    assert f'instantiationToken="{token}"' in files["modelDescription.fmi3.xml"]
+def test_one_token_in_all_files_of_a_table():
+    files, (scalars, blocks) = texts(BLOCK), tokens(BLOCK)
+    assert f'guid="{scalars}"' in files["modelDescription.fmi2.xml"]
+    assert f'instantiationToken="{scalars}"' in files["modelDescription.fmi3.xml"]
+    assert f'instantiationToken="{blocks}"' in files["modelDescription.block.xml"]
 
 
 def test_no_half_written_fmu_stays(tmp_path):
@@ -190,7 +204,7 @@ def test_every_function_is_exported(path):
 @pytest.mark.skipif(shutil.which("nm") is None, reason="needs nm")
 def test_nothing_else_is_exported(path, tmp_path):
     (library,) = unzipped(path, tmp_path).glob("binaries/*/Toy.so")
-    assert {line.split()[-1] for line in told("nm", "-D", "--defined-only", library).splitlines()} == declared(int(path.name[-5]))
+    assert {line.split()[-1] for line in told("nm", "-D", "--defined-only", library).splitlines()} == declared(version_of(path))
 
 
 @pytest.mark.skipif(shutil.which("readelf") is None, reason="needs readelf")
@@ -214,21 +228,21 @@ def test_sources_compile_without_a_warning_and_hold_no_variables(path, tmp_path)
 # ---- blocks at the edge ------------------------------------------------------------------------------------------------
 
 
-def gain(outputs=1, inputs=1, parameters=1, **changes):
-    """A block without state and noise: y = p u, or less."""
+def gain(outputs=1, inputs=1, parameters=1, sample="u", **changes):
+    """A block without state and noise: y = p u, or less; ``sample`` is what u is called."""
     u, p = ca.SX.sym("u", inputs), ca.SX.sym("p", parameters)
     y = ca.vertcat(*[(u[0] if inputs else 1) * (p[0] if parameters else 2)] * outputs)
     step = ca.Function("step", [ca.SX.sym("s", 0), u, p, ca.SX.sym("w", 0), ca.SX.sym("h")], [ca.SX.zeros(0), ca.densify(y)])
     initial = ca.Function("initial", [p], [ca.SX.zeros(0), ca.SX.zeros(outputs)])
-    block = Block("Gain", "", step, initial, (Variable("u"),) * inputs, (Variable("p", start=3.0),) * parameters,
+    block = Block("Gain", "", step, initial, (Variable(sample),) * inputs, (Variable("p", start=3.0),) * parameters,
                   (Variable("y"),) * outputs, (), 0.1)
     return replace(block, **changes)
 
 
-@pytest.mark.parametrize("version", (2, 3))
+@pytest.mark.parametrize("form", FORMS)
 @pytest.mark.parametrize("missing", ("nothing", "inputs", "parameters", "outputs"))
-def test_blocks_may_lack_anything(tmp_path, version, missing):
-    fmu = build_fmu(gain(**({} if missing == "nothing" else {missing: 0})), tmp_path, version)
+def test_blocks_may_lack_anything(tmp_path, form, missing):
+    fmu = build_fmu(gain(**({} if missing == "nothing" else {missing: 0})), tmp_path, form)
     assert validate_fmu(str(fmu)) == []
     with Unit(fmu).start() as unit:
         unit.step(0.0, 0.1)
@@ -246,22 +260,23 @@ def test_matrix_expressions_equal_python(tmp_path):
              for n, starts in (("u", [0, 0]), ("A", [2, 0.5, -0.25, 3]), ("y", [0, 0]))]
     block = Block("Solve", "", step, initial, *names, (NoiseChannel("w", 1),), 0.01)
     inputs = drive(200)[:, :2]
-    for fmu in build_fmus(block, tmp_path):
-        outputs = simulate(fmu, inputs, sample_period=0.01)
+    for fmu, run in zip(build_fmus(block, tmp_path, FORMS), (simulate, simulate, simulate_blocks)):
+        outputs = run(fmu, inputs, sample_period=0.01)
         np.testing.assert_array_equal(outputs[1:], block.run(inputs, w=normals(0, [1], 1, 200))[0])
 
 
 def test_infinite_and_missing_start_values(tmp_path):
     block = gain(parameters=1)
     block = replace(block, parameters=(replace(block.parameters[0], start=np.inf),))
-    for fmu in build_fmus(block, tmp_path):
+    for fmu in build_fmus(block, tmp_path, FORMS):
         assert validate_fmu(str(fmu)) == []
         with Unit(fmu) as unit:
             assert unit.get("p") == np.inf
 
 
 @pytest.mark.parametrize("changes, words", (({"name": "a b"}, "C identifier"),
-                                            ({"outputs": 2}, "more than one variable is called y")))
+                                            ({"outputs": 2}, "more than one variable is called y"),
+                                            ({"sample": "block_size"}, "more than one variable is called block_size")))
 def test_blocks_that_cannot_become_an_fmu(changes, words):
     with pytest.raises(ValueError, match=words):
         texts(gain(**changes))
@@ -300,7 +315,7 @@ def test_first_error_of_the_compiler_is_shown(tmp_path):
         build_fmu(replace(block, initial=broken), tmp_path)
 
 
-@pytest.mark.parametrize("arguments, words", (({"version": 1}, "FMI version 1"), ({"platform": "vax"}, "platform 'vax'")))
+@pytest.mark.parametrize("arguments, words", (({"form": 1}, "FMI version 1"), ({"platform": "vax"}, "platform 'vax'")))
 def test_unknown_version_and_platform(tmp_path, arguments, words):
     with pytest.raises(UserError, match=words):
         build_fmu(BLOCK, tmp_path, **arguments)
@@ -314,9 +329,9 @@ def test_cross_compiling_says_what_it_needs(monkeypatch, tmp_path):
 
 @pytest.mark.skipif(find_spec("ziglang") is None, reason="needs ziglang")
 def test_all_platforms(tmp_path):
-    two, three = build_fmus(BLOCK, tmp_path, platform="all")
-    libraries = [{n for n in zipfile.ZipFile(fmu).namelist() if n.startswith("binaries/")} for fmu in (two, three)]
-    assert libraries[1] == {f"binaries/{p.name}/Toy{p.suffix}" for p in PLATFORMS.values()}
+    fmus = build_fmus(BLOCK, tmp_path, FORMS, platform="all")
+    libraries = [{n for n in zipfile.ZipFile(fmu).namelist() if n.startswith("binaries/")} for fmu in fmus]
+    assert libraries[1] == libraries[2] == {f"binaries/{p.name}/Toy{p.suffix}" for p in PLATFORMS.values()}
     assert libraries[0] == {"binaries/linux64/Toy.so", "binaries/aarch64-linux/Toy.so", "binaries/win64/Toy.dll",
                             "binaries/darwin64/Toy.dylib", "binaries/aarch64-darwin/Toy.dylib"}
 

@@ -1,4 +1,4 @@
-"""FMUs of a block that has one of everything: samples, states and refusals, the same for both versions of FMI."""
+"""FMUs of a block that has one of everything: samples, states and refusals, the same for every form."""
 
 import math
 import subprocess
@@ -16,7 +16,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numba import njit
 
-from pyimu.fmu import build_fmus, simulate
+from pyimu.fmu import FORMS, build_fmus, simulate_blocks
+from pyimu.fmu import simulate as simulate_scalars
 from pyimu.noise import normals
 
 BLOCK = toy()
@@ -26,13 +27,18 @@ SILENT = {"noise.N": 0.0, "noise.K": 0.0}
 
 @pytest.fixture(scope="session")
 def toys(tmp_path_factory):
-    """The toy in both versions: version to path."""
-    return dict(zip((2, 3), build_fmus(BLOCK, tmp_path_factory.mktemp("toys"))))
+    """The toy in every form: form to path."""
+    return dict(zip(FORMS, build_fmus(BLOCK, tmp_path_factory.mktemp("toys"), FORMS)))
 
 
-@pytest.fixture(params=(2, 3), ids=("fmi2", "fmi3"))
+@pytest.fixture(params=FORMS, ids=("fmi2", "fmi3", "block"))
 def path(request, toys):
     return toys[request.param]
+
+
+def simulate(path, inputs, **options):
+    """Outputs (n + 1, ny) of any form."""
+    return (simulate_blocks if path.name.endswith(".block.fmu") else simulate_scalars)(path, inputs, **options)
 
 
 def parameters(**values):
@@ -87,10 +93,11 @@ def test_other_sample_period(path):
     np.testing.assert_array_equal(outputs[1:], BLOCK.run(inputs, w=w, sample_period=period)[0])
 
 
-@pytest.mark.parametrize("held", (2, 7))
-def test_samples_do_not_depend_on_the_step(path, held):
+@pytest.mark.parametrize("held", (2, 7, 200))
+@pytest.mark.parametrize("version", (2, 3))
+def test_samples_do_not_depend_on_the_step(toys, version, held):
     inputs = np.repeat(drive(60), held, axis=0)
-    outputs = simulate(path, inputs, sample_period=PERIOD, samples_per_step=held, start_values={"seed": 4})
+    outputs = simulate_scalars(toys[version], inputs, sample_period=PERIOD, samples_per_step=held, start_values={"seed": 4})
     np.testing.assert_array_equal(outputs[1:], truth(inputs, 4)[held - 1::held])
 
 
@@ -260,7 +267,7 @@ def test_damaged_state_is_refused(path, tmp_path, damage):
         if damage != "foreign":
             refused(unit, lambda: unit.from_bytes(bad), "state")
             return
-        other = build_fmus(toy(unit="deg/s"), tmp_path, (unit.version,))[0]
+        other = build_fmus(toy(unit="deg/s"), tmp_path, (unit.form,))[0]
         with Unit(other).start() as stranger:
             refused(stranger, lambda: stranger.from_bytes(bad), "another model")
 
@@ -295,7 +302,7 @@ def test_reset_starts_over(path):
     inputs = drive(20)
     with Unit(path).start(seed=3, b0=1.0) as unit:
         unit.run(inputs)
-        unit.fmu.reset()
+        unit.reset()
         assert unit.get("b0") == -0.125 and unit.get("seed") == 0
         unit.start(seed=5)
         np.testing.assert_array_equal(unit.run(inputs), truth(inputs, 5))
@@ -323,8 +330,8 @@ def test_outputs_before_the_first_sample_follow_the_parameters(path):
 
 def test_time_is_the_communication_point(path):
     with Unit(path).start(start_time=2.0) as unit:
-        unit.step(2.0, 0.75)
-        assert unit.get("time") == 2.75
+        unit.step(2.0, 0.0075)
+        assert unit.get("time") == 2.0075
 
 
 def test_an_integer_output_saturates(toys):
@@ -366,19 +373,19 @@ def test_outputs_and_time_cannot_be_set(path, name):
 @pytest.mark.parametrize("name", ("sample_period", "seed"))
 def test_fixed_parameters_cannot_be_set_any_more(path, name):
     with Unit(path).start() as unit:
-        refused(unit, lambda: unit.set(name, 1), name, "any more")
+        refused(unit, lambda: unit.set(name, 1), name, "cannot be set while stepping")
 
 
 def test_unknown_references_and_other_types(path):
     with Unit(path) as unit:
         real = "Real" if unit.version == 2 else "Float64"
         get, put = getattr(unit.fmu, f"get{real}"), getattr(unit.fmu, f"set{real}")
-        gear = unit.variables["gear"].valueReference
+        doubled = unit.variables["doubled"].valueReference
         refused(unit, lambda: get([1000]), "1000")
         refused(unit, lambda: put([4294967295], [0.0]), "4294967295")
-        refused(unit, lambda: get([gear]), "gear", "type")
-        refused(unit, lambda: put([gear], [1.0]), "gear", "type")
-        refused(unit, lambda: unit.fmu.getString([gear]), "gear")
+        refused(unit, lambda: get([doubled]), "doubled", "type")
+        refused(unit, lambda: put([doubled], [1.0]), "doubled", "type")
+        refused(unit, lambda: unit.fmu.getString([doubled]), "doubled")
 
 
 LEGAL = {"setup": "i", "enter": "i", "exit": "n", "step": "s", "terminate": "s", "reset": "inst", "get": "inst",
@@ -404,7 +411,7 @@ def test_each_call_in_each_phase(path, call, phase):
         # FMI 3 sets up the experiment as it enters initialization.
         setup = unit.fmu.setupExperiment if unit.version == 2 else unit.fmu.enterInitializationMode
         do = {"setup": lambda: setup(startTime=0.0), "enter": unit.fmu.enterInitializationMode,
-              "exit": unit.fmu.exitInitializationMode, "step": lambda: unit.step(0.0, 1.0), "terminate": unit.fmu.terminate,
+              "exit": unit.fmu.exitInitializationMode, "step": lambda: unit.step(0.0, PERIOD), "terminate": unit.fmu.terminate,
               "reset": unit.fmu.reset, "get": unit.outputs, "set input": lambda: unit.set("rate", 1.0),
               "set parameter": lambda: unit.set("b0", 1.0), "set fixed": lambda: unit.set("seed", 1), "save": unit.save,
               "restore": lambda: unit.restore(state)}[call]

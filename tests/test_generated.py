@@ -12,11 +12,10 @@ from fmpy.validation import validate_fmu
 from fmu_toy import Unit
 
 from pyimu.attitude import attitude_ukf
-from pyimu.fmu import build_fmus, simulate
+from pyimu.fmu import FORMS, build_fmus, simulate, simulate_blocks
 from pyimu.fmu.generate import generate, generated_folder, reference_blocks
 from pyimu.partfile import part
 
-VERSIONS = (2, 3)
 SHOWN = 40
 """Lines of a difference that a failure shows."""
 
@@ -68,7 +67,7 @@ def test_difference_is_shown_line_by_line():
 
 def test_generated_twice_is_the_same_to_the_byte(tmp_path):
     first, again = ([p.read_bytes() for p in generate(tmp_path / name)] for name in ("first", "again"))
-    assert first == again and len(first) == 6 * len(reference_blocks())
+    assert first == again and len(first) == 9 * len(reference_blocks())
 
 
 # ---- the attitude filter as FMU ----------------------------------------------------------------------------------------
@@ -80,11 +79,11 @@ PERIOD = BLOCK.sample_period
 
 @pytest.fixture(scope="module")
 def fmus(tmp_path_factory):
-    """Version to path of AttitudeUkf."""
-    return dict(zip(VERSIONS, build_fmus(BLOCK, tmp_path_factory.mktemp("ukf"), VERSIONS)))
+    """Form to path of AttitudeUkf."""
+    return dict(zip(FORMS, build_fmus(BLOCK, tmp_path_factory.mktemp("ukf"), FORMS)))
 
 
-@pytest.fixture(params=VERSIONS, ids=("fmi2", "fmi3"))
+@pytest.fixture(params=(2, 3), ids=("fmi2", "fmi3"))
 def path(request, fmus):
     return fmus[request.param]
 
@@ -159,3 +158,25 @@ def test_missing_inputs_give_the_bits_of_python(path):
     want, _ = BLOCK.run(u)
     np.testing.assert_array_equal(y, want)
     assert np.isfinite(want).all() and want[:, -1].max() == 1
+
+
+# ---- in blocks ---------------------------------------------------------------------------------------------------------
+
+
+def test_fmpy_finds_nothing_wrong_with_the_block_form(fmus):
+    assert validate_fmu(str(fmus["block"])) == []
+
+
+def test_arrays_of_the_block_form(fmus):
+    """``std`` and ``std0`` are angles and rates, which no FMI array can be at once."""
+    shapes = {v.name: v.shape for v in read_model_description(str(fmus["block"])).modelVariables}
+    size = round(1 / PERIOD)
+    assert shapes["gyro"] == (size, 3) and shapes["q"] == (size, 4) and shapes["stationary"] == shapes["std[4]"] == (size,)
+    assert shapes["q0"] == (4,) and shapes["std0[6]"] == () and shapes["gyro_error.angle_random_walk.N"] == (3,)
+
+
+def test_blocks_of_the_filter_give_the_bits_of_its_samples(fmus):
+    u = rover(700)
+    given = {"q0[1]": 0.6, "q0[4]": 0.8, "std0[6]": 1e-3}
+    y = simulate_blocks(fmus["block"], u, start_values=given, block_size=300)
+    np.testing.assert_array_equal(y, simulate(fmus[3], u, sample_period=PERIOD, start_values=given))

@@ -75,6 +75,6 @@ def test_installed_package_builds_fmus(installed, tmp_path):
     assert len(places) == 2 and all(p.is_relative_to(installed) for p in places), said.stdout + said.stderr
     done = isolated(installed, tmp_path, "-m", "pyimu.cli", "build", "imt30", "--out", "x")
     assert (done.returncode, done.stderr) == (0, "")
-    assert done.stdout.split() == [f"x/{n}.fmi{v}.fmu" for n in ("ImuSensor", "AttitudeUkf") for v in (2, 3)]
+    assert done.stdout.split() == [f"x/{n}.{form}.fmu" for n in ("ImuSensor", "AttitudeUkf") for form in ("fmi2", "fmi3", "block")]
     for made in build("imt30", tmp_path / "checkout"):
         assert (tmp_path / "x" / made.name).read_bytes() == made.read_bytes(), f"{made.name} differs from the checkout's"

@@ -11,8 +11,10 @@ from pyimu.errors import UserError
 from pyimu.imu import Part
 from pyimu.recording import Recording
 
-GYRO = ("thermal_bias", "thermal_bias_quadratic", "scale_factor_asymmetry", "time_delay", "lag", "saturation", "quantization", "g_sensitivity")
-ACCEL = tuple(n for n in GYRO if n != "g_sensitivity")
+BOTH = ("thermal_bias", "thermal_bias_quadratic", "thermal_bias_cubic", "temperature_rate", "thermal_scale_factor", "scale_factor_asymmetry",
+        "scale_factor_nonlinearity", "scale_factor_cubic", "time_delay", "lag", "saturation", "quantization")
+GYRO = (*BOTH, "g_sensitivity", "g2_sensitivity", "scale_factor_g_sensitivity", "anisoinertia", "angular_acceleration")
+ACCEL = (*BOTH, "size_effect", "vibropendulous")
 STRUCTURE = ("scale_factor", "misalignment")
 
 
@@ -119,10 +121,10 @@ def test_input_that_nobody_logged_is_drift(world):
 
 
 def test_dependence_that_no_effect_describes_is_unexplained(world):
-    product = 2e-4 * world.rate[:, :1] * world.rate[:, 1:2] * np.array([0.0, 0.0, 1.0])
+    product = 2e-4 * (world.temperature - 25.0)[:, None] * world.rate[:, :1] * np.array([0.0, 0.0, 1.0])
     closed = pyimu.close(recording(world, gyro_change=lambda v: v + product, seed=10))
     assert closed.verdict == "unexplained", closed.report()
-    assert (closed.unexplained[0].axis, set(closed.unexplained[0].depends_on)) == ("z", {"rate_x", "rate_y"})
+    assert (closed.unexplained[0].axis, set(closed.unexplained[0].depends_on)) == ("z", {"rate_x", "temperature"})
 
 
 def test_attitude_reference_with_a_turned_mounting_finds_a_delay():

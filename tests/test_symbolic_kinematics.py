@@ -9,6 +9,7 @@ from scipy.linalg import expm
 from scipy.spatial.transform import Rotation
 
 from pyimu.symbolic import earth, linear, mrp, noise, quaternion
+from pyimu.symbolic.derivations.independent import van_loan
 
 ROUNDING = 1e-14
 angles = st.floats(-3.0, 3.0)
@@ -121,13 +122,6 @@ def test_earth_rate_is_the_polar_axis_turned_into_east_north_up(latitude):
     up, east = np.array([np.cos(latitude), 0, np.sin(latitude)]), np.array([0, 1.0, 0])
     axes = np.array([east, np.cross(up, east), up])
     np.testing.assert_allclose(np.array(earth.earth_rate(latitude)).ravel(), axes @ [0, 0, 7.292115e-5], atol=1e-20)
-
-
-def van_loan(a: np.ndarray, q: np.ndarray, h: float) -> np.ndarray:
-    """Discrete covariance of x' = a x + white noise of density q (Van Loan 1978)."""
-    size = len(a)
-    e = expm(np.block([[-a, q], [np.zeros_like(a), a.T]]) * h)
-    return e[size:, size:].T @ e[:size, size:]
 
 
 @pytest.mark.parametrize("h", [1e-3, 0.7])

@@ -119,7 +119,31 @@ def changes(world: World, kind: str) -> dict:
         "saturation": lambda s: last(lambda v: np.clip(v, -s, s)),
         "quantization": lambda s: last(lambda v: np.round(v / s) * s),
     }
+    rising, steady = np.gradient(temp, h), np.roll(spread, 1)
+    table |= {
+        "scale_factor_nonlinearity": lambda s: lambda v: v + s * spread * v ** 2,
+        "scale_factor_cubic": lambda s: lambda v: v + s * spread * v ** 3,
+        "thermal_scale_factor": lambda s: lambda v: v * (1 + s * spread * (temp - 25)[:, None]),
+        "thermal_bias_cubic": lambda s: lambda v: v + s * spread * ((temp - 25) ** 3)[:, None],
+        "temperature_rate": lambda s: lambda v: v + s * spread * rising[:, None],
+    }
+    if kind == "accel":
+        turned = np.gradient(world.rate, h, axis=0)
+        arms = np.array([[1.0, 0.3, -0.5], [-0.7, 0.2, 1.0], [0.4, -1.0, 0.6]])
+
+        def lever(s):
+            felt = [np.cross(turned, s * r) + np.cross(world.rate, np.cross(world.rate, s * r)) for r in arms]
+            return lambda v: v + np.column_stack([felt[i][:, i] for i in range(3)])
+        table["size_effect"] = lever
+        table["vibropendulous"] = lambda s: lambda v: v + s * v * (np.roll(v, 1, axis=1) * steady)
     if kind == "gyro":
+        turned = np.gradient(world.rate, h, axis=0)
+        table |= {
+            "anisoinertia": lambda s: lambda v: v + s * spread * np.roll(v, 1, axis=1) * np.roll(v, 2, axis=1),
+            "scale_factor_g_sensitivity": lambda s: lambda v: v + s * v * np.roll(f, 1, axis=1) * spread,
+            "g2_sensitivity": lambda s: lambda v: v + s * np.column_stack([f[:, 0] * f[:, 1], f[:, 2] ** 2, f[:, 1] * f[:, 2]]),
+            "angular_acceleration": lambda s: lambda v: v + s * np.roll(turned, 1, axis=1) * spread,
+        }
         matrix = np.array([[1.0, 0.2, 0.0], [-0.4, 0.5, 0.3], [0.1, 0.0, -0.8]])
         table["g_sensitivity"] = lambda s: lambda v: v + f @ (s * matrix).T
     return table

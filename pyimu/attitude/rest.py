@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pyimu.imu import STANDARD_GRAVITY
+from pyimu.units import STANDARD_GRAVITY
 
 WINDOWS = (30.0, 10.0, 5.0, 2.0, 1.0, 0.5)
 """s; lengths that are tried, the longest first."""

@@ -16,6 +16,7 @@ from pyimu.effect import Sensor
 from pyimu.errors import UserError
 from pyimu.imu import Part
 from pyimu.recording import Recording
+from pyimu.signals import COLUMNS, START
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.earth import earth_rate
 
@@ -187,11 +188,12 @@ def _compensated(part: Part, rest: Rest, recording: Recording) -> tuple[np.ndarr
     """Mean rate and specific force (3,) of the rest without the part's own errors."""
     temperature = np.broadcast_to(_temperature(recording, part), len(recording.time))[rest.rows]
     temperature = np.nanmean(temperature) if np.isfinite(temperature).any() else 25.0
-    h, around = recording.sample_period, np.concatenate([rest.rate, rest.force, [temperature]])
+    h, around = recording.sample_period, START.copy()
+    around[COLUMNS["rate"]], around[COLUMNS["specific_force"]], around[COLUMNS["temperature"]] = rest.rate, rest.force, temperature
     force = part.accel.compensation(part.accel.chain.start, rest.force, around, part.accel.p, h)[1]
-    around[3:6] = np.array(force).ravel()
+    around[COLUMNS["specific_force"]] = np.array(force).ravel()
     rate = part.gyro.compensation(part.gyro.chain.start, rest.rate, around, part.gyro.p, h)[1]
-    return np.array(rate).ravel(), around[3:6]
+    return np.array(rate).ravel(), np.array(force).ravel()
 
 
 def _initial_yaw(recording: Recording, heading0: float | None) -> tuple[float, float]:

@@ -19,11 +19,13 @@ from pyimu.attitude.quasi_static import QuasiStatic, follow, is_quasi_static
 from pyimu.attitude.unscented import LARGEST_STD, Estimate, N, bounded, correct, measure, propagate
 from pyimu.block import Block, Variable
 from pyimu.effect import Sensor
-from pyimu.imu import STANDARD_GRAVITY, Part
+from pyimu.imu import Part
+from pyimu.signals import vector
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.earth import earth_rate
 from pyimu.symbolic.linear import pack, unpack
 from pyimu.symbolic.noise import process_noise
+from pyimu.units import STANDARD_GRAVITY
 
 STATUS = {1: "an input was not finite or absurd, and its last good value was held", 2: "a sample was at a sensor's limit"}
 """Bits of the output ``status``; 0 is well."""
@@ -264,9 +266,9 @@ def _all(flags):
 
 def _compensate(part: Part, memory: _Memory, raw: _Raw, finite, settings: _Settings, h):
     """The sensors' models solved for their inputs; the gyro's may need the specific force, so the accelerometer goes first."""
-    around = ca.vertcat(raw.gyro, raw.accel, raw.temperature)
+    around = vector({"rate": raw.gyro, "specific_force": raw.accel, "temperature": raw.temperature})
     accel_state, force, accel_lost = part.accel.compensation(memory.accel_state, raw.accel, around, settings.accel, h)
-    around = ca.vertcat(raw.gyro, force, raw.temperature)
+    around = vector({"rate": raw.gyro, "specific_force": force, "temperature": raw.temperature})
     gyro_state, rate, gyro_lost = part.gyro.compensation(memory.gyro_state, raw.gyro, around, settings.gyro, h)
     healthy = ca.logic_and(finite[:3], gyro_lost < 0.5), ca.logic_and(finite[3:6], accel_lost < 0.5)
     at_limit = ca.fmax(ca.mmax(gyro_lost), ca.mmax(accel_lost)) > 0.5

@@ -4,6 +4,6 @@ from pyimu.effect import Parameter, effect
 
 
 @effect(stage="gain", term="misalignment, nonorthogonality", equation=r"y = x + M x,\; \mathrm{diag}\, M = 0",
-        source="Hidalgo 2012, eq. of the compensated rate (matrix M); IEEE Std 528-2019, input axis misalignment")
+        source="Hidalgo 2012, section 3.2, matrix M; Groves 2013, eqs. 4.16 and 4.17, M_a and M_g")
 def misalignment(x, m: Parameter("rad", (3, 3), diagonal=False, description="small angle: part of axis j seen by axis i")):
     return x + m @ x

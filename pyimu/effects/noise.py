@@ -1,19 +1,72 @@
-"""Random walks.  Coefficients are roots of two-sided densities."""
+"""Noise.  Coefficients are roots of two-sided densities; processes with a stationary state start in it."""
 
 import casadi as ca
 
-from pyimu.effect import Noise, Parameter, SamplePeriod, State, effect
+from pyimu.effect import Environment, Noise, Parameter, SamplePeriod, State, effect
+
+POLES = 6
+"""Gauss-Markov processes that make up ``bias_instability``, evenly in the logarithm from ``f_low`` to ``f_high``."""
+
+END_WEIGHT = 1.125
+"""Weight of the first and the last of them, which stands in for the processes beyond.  With a decade from one to the
+next, f S(f) keeps to B^2 / 2 pi within 0.25 dB from ``f_low`` to ``f_high``."""
 
 
 @effect(stage="noise", term="angle (velocity) random walk", equation=r"y = x + N w / \sqrt{h}",
-        source="IEEE Std 952-2020, angle random walk; Hidalgo 2012, table 3")
+        source="Hidalgo 2012, section 3.2 and table 3; IEEE Std 528-2001, 2.10")
 def angle_random_walk(x, N: Parameter("{Y}/sqrt(s)", minimum=0.0, description="root of the two-sided white noise density"),
                       w: Noise(), h: SamplePeriod()):
     return x + N * w / ca.sqrt(h)
 
 
 @effect(stage="noise", term="rate (acceleration) random walk", equation=r"y = x + b,\; \dot b = K w",
-        source="Hidalgo 2012, eq. 5 and table 3; IEEE Std 952-2020, rate random walk")
+        source="Hidalgo 2012, section 3.2 and table 3")
 def rate_random_walk(x, K: Parameter("{y}/sqrt(s)", minimum=0.0, description="root of the two-sided density of the bias's derivative"),
                      b: State("{y}"), w: Noise(), h: SamplePeriod()):
     return x + b, {"b": b + K * ca.sqrt(h) * w}
+
+
+def _gauss_markov(b, variance, angle, w, started):
+    """Next value of a Gauss-Markov process, ``angle`` sample periods over its time constant on; its first is a stationary draw."""
+    kept, fresh = ca.exp(-angle), ca.sqrt(-variance * ca.expm1(-2 * angle))
+    return ca.if_else(started, kept * b + fresh * w, ca.sqrt(variance) * w)
+
+
+@effect(stage="noise", term="exponentially correlated (Gauss-Markov) noise", equation=r"y = x + b,\; \dot b = -b / \tau + q w",
+        source="first-order Gauss-Markov process, exponentially correlated noise of IEEE Std 952; its text was not checked")
+def gauss_markov(x, q: Parameter("{y}/sqrt(s)", minimum=0.0, description="root of the two-sided density of the noise that drives it"),
+                 tau: Parameter("s", (3,), 100.0, "correlation time", form=True, minimum=1e-6),
+                 b: State("{y}"), started: State("1", ()), w: Noise(), h: SamplePeriod()):
+    b = _gauss_markov(b, q ** 2 * tau / 2, h / tau, w, started)
+    return x + b, {"b": b, "started": 1}
+
+
+@effect(stage="noise", term="bias instability, flicker noise",
+        equation=r"y = x + \sum_k b_k,\; S(f) \approx \frac{B^2}{2 \pi f}",
+        source="Hidalgo 2012, table 3 for the density; no source for this sum of Gauss-Markov processes, one a decade")
+def bias_instability(x, B: Parameter("{y}", minimum=0.0, description="coefficient of the 1/f noise; the Allan deviation's floor is 0.664 B"),
+                     f_low: Parameter("Hz", (), 1e-5, "lower end of the band in which the density is 1/f", form=True, minimum=1e-12),
+                     f_high: Parameter("Hz", (), 1.0, "upper end of that band", form=True, minimum=1e-12),
+                     b: State("{y}", (POLES, 3)), started: State("1", ()), w: Noise(3 * POLES), h: SamplePeriod()):
+    spacing = ca.log(f_high / f_low) / (POLES - 1)
+    draws, following = ca.reshape(w, 3, POLES).T, []
+    for k in range(POLES):
+        weight = END_WEIGHT if k in (0, POLES - 1) else 1.0
+        variance = weight * spacing / ca.pi * B ** 2
+        angle = 2 * ca.pi * f_low * ca.exp(k * spacing) * h
+        following.append(_gauss_markov(b[k, :].T, variance, angle, draws[k, :].T, started))
+    return x + sum(following), {"b": ca.horzcat(*following).T, "started": 1}
+
+
+@effect(stage="noise", term="rate-dependent noise, scale factor noise", equation=r"y = x + k x w / \sqrt{h}",
+        source="no source; white noise whose root density grows with the input")
+def rate_dependent_noise(x, k: Parameter("sqrt(s)", minimum=0.0, description="root of the two-sided density of the relative error"),
+                         w: Noise(), h: SamplePeriod()):
+    return x + k * x * w / ca.sqrt(h)
+
+
+@effect(stage="bias", term="sinusoidal noise, vibration line", equation=r"y = x + A \sin(2 \pi f_0 t + \varphi)",
+        source="sinusoidal noise of IEEE Std 952; its text was not checked")
+def vibration_line(x, A: Parameter("{y}", description="amplitude"), f0: Parameter("Hz", (), 20.0, "frequency", form=True, minimum=0.0),
+                   phase: Parameter("rad", description="phase at power-on", form=True), t: Environment("time")):
+    return x + A * ca.sin(2 * ca.pi * f0 * t + phase)

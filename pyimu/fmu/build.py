@@ -10,7 +10,7 @@ import sys
 import tempfile
 import zipfile
 import zlib
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from importlib.util import find_spec
@@ -18,11 +18,16 @@ from pathlib import Path
 
 from pyimu.block import Block
 from pyimu.errors import UserError
-from pyimu.fmu.sources import CORE, LAYER, source_folder, template_folder, texts
-from pyimu.native import compiler_command
+from pyimu.fmu.sources import CORE, DESCRIPTION, LAYER, PAGE, TABLE, Form, template_folder, texts
+from pyimu.native import compiler_command, source_folder
 
 FLAGS = ("-std=c11", "-O3", "-ffp-contract=off", "-fPIC", "-fvisibility=hidden", "-DCASADI_SYMBOL_EXPORT=")
 """Without contracted multiply-adds and without -ffast-math, C gives the bits that casadi's virtual machine gives."""
+
+SCALAR_FORMS: tuple[Form, ...] = (2, 3)
+
+FORMS: tuple[Form, ...] = (2, 3, "block")
+"""Every form of an FMU, in the order in which they are built."""
 
 _ZIP_TIME = (1980, 1, 1, 0, 0, 0)
 
@@ -46,27 +51,35 @@ PLATFORMS = {p.name: p for p in (
 )}
 
 
-def build_fmu(block: Block, out_dir: Path | str, version: int = 2, platform: str = "host") -> Path:
-    """Write ``NAME.fmi2.fmu`` or ``NAME.fmi3.fmu`` to ``out_dir``; see ``build_fmus``."""
-    return build_fmus(block, out_dir, (version,), platform)[0]
+def build_fmu(block: Block, out_dir: Path | str, form: Form = 2, platform: str = "host") -> Path:
+    """Write one form of the FMU to ``out_dir``; see ``build_fmus``."""
+    return build_fmus(block, out_dir, (form,), platform)[0]
 
 
-def build_fmus(block: Block, out_dir: Path | str, versions: Sequence[int] = (2, 3), platform: str = "host") -> list[Path]:
-    """Write the block as FMI 2.0 and 3.0 co-simulation units; gives their paths, in the order of ``versions``.
+def build_fmus(block: Block, out_dir: Path | str, forms: Sequence[Form] = SCALAR_FORMS, platform: str = "host") -> list[Path]:
+    """Write the block as co-simulation units; gives their paths, in the order of ``forms``.
 
+    A form is 2 or 3, the version of FMI of a unit with scalars, written to ``NAME.fmi2.fmu`` and ``NAME.fmi3.fmu``; or
+    "block", an FMI 3.0 unit that takes a block of samples per step, in arrays, written to ``NAME.block.fmu``.
     ``platform`` is ``"host"``, which takes the compiler named in ``CC`` or ``cc``; one of ``PLATFORMS`` or ``"all"``,
-    which take the compiler of the package ``ziglang``.  What does not depend on the version is compiled once.
+    which take the compiler of the package ``ziglang``.  What does not depend on the form is compiled once.
 
-    Raises UserError for an unknown version or platform, a missing compiler, and C that does not compile.
+    Raises UserError for an unknown form or platform, a missing compiler, and C that does not compile.
     """
-    unknown = sorted(set(versions) - set(LAYER))
-    if unknown:
-        raise UserError(f"FMI version {unknown[0]} is not one of {', '.join(map(str, LAYER))}")
+    for form in forms:
+        if form not in LAYER:
+            raise UserError(f"FMI version {form} is not one of {', '.join(map(str, LAYER))}")
     platforms = _platforms(platform)
     generated = texts(block)
     with tempfile.TemporaryDirectory(prefix="pyimu-") as work:
-        libraries = {p: _compile(block.name, generated, versions, p, compiler, Path(work, p.name)) for p, compiler in platforms}
-    return [_write(block.name, _contents(generated, v) | _binaries(block.name, v, libraries), v, Path(out_dir)) for v in versions]
+        libraries = {p: _compile(block.name, generated, forms, p, compiler, Path(work, p.name)) for p, compiler in platforms}
+    return [_write(_contents(generated, form) | _binaries(block.name, form, libraries), Path(out_dir) / file_name(block.name, form))
+            for form in forms]
+
+
+def file_name(name: str, form: Form) -> str:
+    """What the FMU of the block ``name`` is called in this form."""
+    return f"{name}.{form if form == 'block' else f'fmi{form}'}.fmu"
 
 
 def _platforms(name: str) -> list[tuple[Platform, list[str]]]:
@@ -108,24 +121,40 @@ def header_folder() -> Path:
     return folder
 
 
-def _compile(name: str, generated: dict[str, str], versions: Iterable[int], platform: Platform, compiler: list[str],
-             work: Path) -> dict[int, bytes]:
-    """The shared library of each version, in bytes."""
-    work.mkdir(parents=True)
-    files = _source_files(generated, versions)
-    for file, content in files.items():
-        (work / file).write_bytes(content)
-    include = ["-I", ".", "-I", str(header_folder())]
-    sources = [f for f in files if f.endswith(".c")]
+def _compile(name: str, generated: dict[str, str], forms: Sequence[Form], platform: Platform, compiler: list[str],
+             work: Path) -> dict[Form, bytes]:
+    """The shared library of each form, in bytes."""
+    for form in forms:
+        _write_sources(_source_files(generated, form), work, work / _table_folder(form))
+    objects = {form: _objects(form) for form in forms}
+    jobs = {target: job for of_form in objects.values() for target, job in of_form.items()}
+
+    def make(target: str) -> None:
+        source, folder = jobs[target]
+        _run([*compiler, *FLAGS, "-I", folder, "-I", ".", "-I", str(header_folder()), "-c", source, "-o", target], work, source)
+
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        list(pool.map(lambda file: _run([*compiler, *FLAGS, *include, "-c", file, "-o", _object(file)], work, file), sources))
-    layers = {LAYER[v] for v in versions}
-    shared = [_object(f) for f in sources if f not in layers]
-    return {v: _link(name, [*shared, _object(LAYER[v])], platform, compiler, work) for v in versions}
+        list(pool.map(make, jobs))
+    return {form: _link(name, list(objects[form]), platform, compiler, work) for form in forms}
 
 
-def _object(source: str) -> str:
-    return source.removesuffix(".c") + ".o"
+def _objects(form: Form) -> dict[str, tuple[str, str]]:
+    """Each object file of a form to its source and the folder of its table of variables, which is read by ``block*.c`` alone."""
+    sources = [*(file for file in CORE if file.endswith(".c")), LAYER[form], "step.c"]
+    folder = _table_folder(form)
+    return {f"{f'{folder}_' if file.startswith('block') else ''}{file.removesuffix('.c')}.o": (file, folder) for file in sources}
+
+
+def _table_folder(form: Form) -> str:
+    return TABLE[form].removesuffix(".h")
+
+
+def _write_sources(files: dict[str, bytes], work: Path, table_folder: Path) -> None:
+    """The table of variables by itself, as the other files are those of every form."""
+    table_folder.mkdir(parents=True, exist_ok=True)
+    for file, content in files.items():
+        folder = table_folder if file == "model_table.h" else work
+        (folder / file).write_bytes(content)
 
 
 def _link(name: str, objects: list[str], platform: Platform, compiler: list[str], work: Path) -> bytes:
@@ -144,17 +173,16 @@ def _run(command: list[str], folder: Path, what: str) -> None:
         raise UserError(f"the C compiler '{command[0]}' could not make {what}: {reason}")
 
 
-def _source_files(generated: dict[str, str], versions: Iterable[int]) -> dict[str, bytes]:
+def _source_files(generated: dict[str, str], form: Form) -> dict[str, bytes]:
     folder = source_folder()
-    files = {file: (folder / file).read_bytes() for file in (*CORE, *(LAYER[v] for v in versions))}
-    return files | {file: generated[file].encode() for file in ("step.c", "model_table.h")}
+    files = {file: (folder / file).read_bytes() for file in (*CORE, LAYER[form])}
+    return files | {"step.c": generated["step.c"].encode(), "model_table.h": generated[TABLE[form]].encode()}
 
 
-def _write(name: str, entries: dict[str, bytes], version: int, out_dir: Path) -> Path:
+def _write(entries: dict[str, bytes], target: Path) -> Path:
     """Zip to a temporary file beside the target and rename, so that nobody ever reads half an FMU."""
-    out_dir.mkdir(parents=True, exist_ok=True)
-    target = out_dir / f"{name}.fmi{version}.fmu"
-    handle, temporary = tempfile.mkstemp(dir=out_dir, prefix=f".{name}.", suffix=".tmp")
+    target.parent.mkdir(parents=True, exist_ok=True)
+    handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.", suffix=".tmp")
     try:
         with os.fdopen(handle, "wb") as file:
             _zip(file, entries)
@@ -166,28 +194,28 @@ def _write(name: str, entries: dict[str, bytes], version: int, out_dir: Path) ->
     return target
 
 
-def _contents(generated: dict[str, str], version: int) -> dict[str, bytes]:
+def _contents(generated: dict[str, str], form: Form) -> dict[str, bytes]:
     """What an FMU holds beside its libraries: path in the archive to bytes."""
     static = {name: (template_folder() / name).read_bytes() for name in ("license.txt", "terminalsAndIcons.xml")}
-    entries = {"modelDescription.xml": generated[f"modelDescription.fmi{version}.xml"].encode(),
-               "documentation/index.html": generated["index.html"].encode(),
+    entries = {"modelDescription.xml": generated[DESCRIPTION[form]].encode(),
+               "documentation/index.html": generated[PAGE[form]].encode(),
                "documentation/licenses/license.txt": static["license.txt"]}
-    entries |= {f"sources/{file}": data for file, data in _source_files(generated, (version,)).items()}
-    if version == 2:
+    entries |= {f"sources/{file}": data for file, data in _source_files(generated, form).items()}
+    if form == 2:
         return entries | {"model.png": icon()}
     return entries | {"sources/buildDescription.xml": generated["buildDescription.xml"].encode(),
                       "terminalsAndIcons/terminalsAndIcons.xml": static["terminalsAndIcons.xml"],
                       "terminalsAndIcons/icon.png": icon()}
 
 
-def _binaries(name: str, version: int, libraries: dict[Platform, dict[int, bytes]]) -> dict[str, bytes]:
+def _binaries(name: str, form: Form, libraries: dict[Platform, dict[Form, bytes]]) -> dict[str, bytes]:
     """The libraries by their path in the archive."""
     folders: dict[str, Platform] = {}
     for p in libraries:
         # FMI 2 names folders by system and word size only: the first processor takes it, others get FMI 3's name.
-        folder = p.fmi2 if version == 2 and p.fmi2 not in folders else p.name
+        folder = p.fmi2 if form == 2 and p.fmi2 not in folders else p.name
         folders[folder] = p
-    return {f"binaries/{folder}/{name}{p.suffix}": libraries[p][version] for folder, p in folders.items()}
+    return {f"binaries/{folder}/{name}{p.suffix}": libraries[p][form] for folder, p in folders.items()}
 
 
 def _zip(file, entries: dict[str, bytes]) -> None:

@@ -1,7 +1,8 @@
 """The generated texts of the reference blocks, checked in: ``python -m pyimu.fmu.generate``, or ``make generate``.
 
 An FMU never reads them, it is built from texts made anew.  They are there to be read, to show in a review what a change of
-a definition does to the C, and for who compiles the C without Python; a test proves that they are fresh.
+a definition does to the C, and for who compiles the C without Python; a test proves that they are fresh.  The block form
+differs from the scalar ones in its table of variables, ``model_table.block.h``, which in its FMU is ``model_table.h``.
 """
 
 from __future__ import annotations
@@ -10,7 +11,8 @@ from pathlib import Path
 
 from pyimu.attitude import attitude_ukf
 from pyimu.block import Block
-from pyimu.fmu.sources import source_folder, write_generated
+from pyimu.fmu.sources import write_generated
+from pyimu.native import source_folder
 from pyimu.partfile import part
 
 REFERENCE = "imt30"

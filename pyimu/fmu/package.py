@@ -9,7 +9,8 @@ from pathlib import Path
 from pyimu.attitude import attitude_ukf
 from pyimu.block import Block
 from pyimu.errors import UserError
-from pyimu.fmu.build import build_fmus
+from pyimu.fmu.build import FORMS, build_fmus
+from pyimu.fmu.sources import Form
 from pyimu.imu import Part
 from pyimu.partfile import part as find_part
 
@@ -17,19 +18,19 @@ BLOCKS: dict[str, Callable[[Part], Block]] = {"sensor": lambda part: part.block,
 """What ``--fmu`` names."""
 
 
-def build(part: Part | str | Path, out: Path | str, fmu: Sequence[str] = ("sensor", "ukf"), fmi: Sequence[int] = (2, 3),
+def build(part: Part | str | Path, out: Path | str, fmu: Sequence[str] = ("sensor", "ukf"), fmi: Sequence[Form] = FORMS,
           platform: str = "host") -> list[Path]:
     """Build the FMUs of a part into ``out``; gives their paths.
 
-    ``fmu`` names blocks ("sensor", "ukf"), ``fmi`` versions (2, 3), ``platform`` the machine ("host", "all", or one by name).
+    ``fmu`` names blocks ("sensor", "ukf"), ``fmi`` forms (2, 3, "block"), ``platform`` the machine ("host", "all", or one by name).
     Raises UserError for an unknown name, a part that cannot be read, a folder that cannot be made, or a missing compiler.
     """
     unknown = [f for f in fmu if f not in BLOCKS]
     if unknown:
         raise UserError(f"--fmu {unknown[0]}: unknown; known are {', '.join(BLOCKS)}")
-    wrong = [v for v in fmi if v not in (2, 3)]
+    wrong = [form for form in fmi if form not in FORMS]
     if wrong:
-        raise UserError(f"--fmi {wrong[0]}: unknown; known are 2 and 3")
+        raise UserError(f"--fmi {wrong[0]}: unknown; known are {', '.join(map(str, FORMS))}")
     found = find_part(part) if isinstance(part, (str, Path)) else part
     check_folder(out)
     return [path for name in fmu for path in build_fmus(BLOCKS[name](found), out, tuple(fmi), platform)]

@@ -12,8 +12,9 @@ from pyimu.loop.regression import Fit, Key, Normal, slot_keys
 from pyimu.loop.response import is_step, predict
 from pyimu.loop.trial import Trial
 
-INSEPARABLE = ({"time_delay", "lag"},)
-"""Effects of one class: told apart only under motion near a third of the bandwidth, so always named together."""
+INSEPARABLE = ({"time_delay", "lag"}, {"rate_ramp", "ageing"})
+"""Effects of one class, always named together: lag and delay differ only under motion near a third of the bandwidth, age
+and time since power-on only from one power-on to the next."""
 
 
 @dataclass(frozen=True)
@@ -39,19 +40,24 @@ class Group:
 
 
 def absent(fit: Fit) -> list[Effect]:
-    """Deterministic effects that the model lacks and whose inputs every log knows."""
+    """Deterministic effects that the model lacks, whose inputs every log knows and whose coefficients have slopes or a scan."""
     known = frozenset.intersection(*(t.known for t in fit.trials))
     present = {name for name in fit.sensor.values if not fit.sensor.is_off(name)}
     twins = set().union(*(equivalent(name) for name in present))
-    return [e for e in candidates(fit.sensor.kind, present | twins) if not e.stochastic and e.name != "turn_on_bias"
-            and not is_step(e.name, fit.sensor.kind) and set(e.environment.values()) <= known]
+    return [e for e in candidates(fit.sensor.kind, present | twins) if e.name != "turn_on_bias" and has_columns(e, fit.sensor.kind)
+            and e.signals(fit.sensor.kind) <= known]
+
+
+def has_columns(e: Effect, kind: str) -> bool:
+    """Whether regression can find an effect: no noise, no memory beyond a filter's, no staircase, no form that nothing scans for."""
+    return not (e.stochastic or e.remembers or is_step(e.name, kind) or any(p.form and not p.scan for p in e.parameters.values()))
 
 
 def contestable(fit: Fit, declared: Iterable[str]) -> list[Effect]:
     """Deterministic effects of ``declared`` whose coefficients are still held: the data may contradict them."""
     names = set(declared)
-    return [e for e in fit.sensor.effects if e.name in names and not fit.sensor.is_off(e.name) and not e.stochastic and e.name != "turn_on_bias"
-            and not is_step(e.name, fit.sensor.kind) and not slot_keys(fit.sensor, e.name) & fit.free]
+    return [e for e in fit.sensor.effects if e.name in names and not fit.sensor.is_off(e.name) and e.name != "turn_on_bias"
+            and has_columns(e, fit.sensor.kind) and not slot_keys(fit.sensor, e.name) & fit.free]
 
 
 def scanned(effect: Effect) -> Parameter | None:

@@ -12,7 +12,7 @@ from pyimu.effect import CATALOGUE, Sensor
 from pyimu.errors import Finding, UserError
 from pyimu.imu import Part
 from pyimu.loop.attitude_error import attitude_error
-from pyimu.loop.candidates import absent
+from pyimu.loop.candidates import absent, has_columns
 from pyimu.loop.forward import Investigation, Step, investigate
 from pyimu.loop.leftover import NoiseFigure, comb_gain, drift, lack_of_fit, noise_figures, rounding, walk_gain
 from pyimu.loop.regression import Fit, own_noise, slot_key
@@ -330,7 +330,8 @@ def _observability(kind: str, inv: Investigation) -> list[Visibility]:
     seen = {c.effect: c for c in inv.first.candidates}
     out = []
     for e in CATALOGUE.values():
-        if kind not in e.sensors or e.name in inv.before.sensor.values or e.stochastic or e.name == "turn_on_bias":
+        if (kind not in e.sensors or e.name in inv.before.sensor.values or e.name == "turn_on_bias"
+                or not (has_columns(e, kind) or e.name == "quantization")):
             continue
         p = next(p for p in e.parameters.values() if not p.reference)
         unit = inv.before.sensor.unit(p.unit)
@@ -339,7 +340,7 @@ def _observability(kind: str, inv: Investigation) -> list[Visibility]:
         else:
             known = {s.name for s in absent(inv.before)}
             why = "looked for in the raw samples" if e.name == "quantization" else (
-                "no motion excites it" if e.name in known else f"the log lacks {', '.join(sorted(set(e.environment.values())))}")
+                "no motion excites it" if e.name in known else f"the log lacks {', '.join(sorted(e.signals(kind) - inv.before.trials[0].known))}")
             out.append(Visibility(kind, e.name, None, unit, (), why))
     return out
 
@@ -359,8 +360,10 @@ def _verdict(added: list, changed: list, unexplained: tuple, drifts: dict, found
         return "unexplained", f"{u.sensor} {u.axis} depends on {' x '.join(u.depends_on)}"
     if drifts:
         return "drift", "more random walk than declared: an input that nobody logged"
-    if not any(np.isfinite(c.smallest_visible) for inv in found.values() for c in inv.first.candidates):
-        return "undecidable", "no motion and no temperature: these logs could not show any effect that is missing"
+    # What only time drives shows in any log; it says nothing about the effects that people ask for.
+    if not any(np.isfinite(c.smallest_visible) for kind, inv in found.items() for c in inv.first.candidates
+               if "time" not in CATALOGUE[c.effect].signals(kind)):
+        return "undecidable", "no motion and no temperature: these logs could show little of what may be missing"
     if max(sum(t.count for t in inv.after.trials) for inv in found.values()) < SHORT:
         return "undecidable", f"fewer than {SHORT} rows were there to fit: too short to miss an effect in"
     return "clean", "nothing is missing" + ("; declared values that the data contradict are listed as changed" if changed else "")

@@ -9,7 +9,6 @@ from itertools import combinations_with_replacement
 import numpy as np
 from scipy.stats import chi2
 
-from pyimu.effect import N_INPUT
 from pyimu.loop.regression import Fit, Linear, normal_equations
 from pyimu.loop.select import Projected, dispersion
 from pyimu.loop.trial import Trial
@@ -18,6 +17,7 @@ from pyimu.quality import quantization_step
 
 INPUT_NAMES = ("rate_x", "rate_y", "rate_z", "specific_force_x", "specific_force_y", "specific_force_z", "temperature")
 SIGNAL_OF = ("rate",) * 3 + ("specific_force",) * 3 + ("temperature",)
+"""The first columns of the input vector: what a residual that nothing explains is tried against."""
 
 UNEXPLAINED = 1e-3
 """Family-wise p-value below which a dependence on inputs is reported."""
@@ -65,12 +65,13 @@ def _products(trials: tuple[Trial, ...]) -> Callable:
     """Column maker: products of two inputs and cubes of one, each input freed of its mean and scaled over all logs."""
     known = frozenset.intersection(*(t.known for t in trials))
     together = np.concatenate([t.u for t in trials])
+    together = together[:, :len(SIGNAL_OF)]
     mean, scale = together.mean(axis=0), together.std(axis=0)
-    usable = [j for j in range(N_INPUT) if SIGNAL_OF[j] in known and scale[j] > 1e-9 * (1 + abs(mean[j]))]
+    usable = [j for j in range(len(SIGNAL_OF)) if SIGNAL_OF[j] in known and scale[j] > 1e-9 * (1 + abs(mean[j]))]
     terms = [*combinations_with_replacement(usable, 2), *((j, j, j) for j in usable)]
 
     def add_all(trial: Trial, u: np.ndarray, y: np.ndarray, add: Callable) -> None:
-        z = (trial.u - mean) / np.where(scale > 0, scale, 1.0)
+        z = (trial.u[:, :len(SIGNAL_OF)] - mean) / np.where(scale > 0, scale, 1.0)
         for term in terms:
             values = np.prod(z[:, list(term)], axis=1)
             for i in range(3):

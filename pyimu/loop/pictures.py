@@ -15,7 +15,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from scipy.signal import welch
 
-from pyimu.effect import CATALOGUE, OWN, Sensor
+from pyimu.effect import CATALOGUE, KINDS, Sensor
+from pyimu.imu import AXES
 from pyimu.loop.close import floor_noise
 from pyimu.loop.forward import Investigation
 from pyimu.loop.regression import Fit, LogState, band_segments, band_time, in_band, reference_input, residual
@@ -25,6 +26,7 @@ from pyimu.loop.select import Screening
 from pyimu.loop.shown import in_unit, number, pretty, unit_for
 from pyimu.loop.trial import Trial
 from pyimu.loop.whiten import RandomWalk
+from pyimu.signals import COLUMNS, SIGNALS
 
 INK, BEFORE, AFTER, FLOOR, GREY = "#010203", "#e69f00", "#0072b2", "#009e73", "#808487"
 """Okabe-Ito, so that the two series differ for every eye; grey for what does not matter."""
@@ -222,49 +224,44 @@ def against_input(a: Added, inv: Investigation, found: Sequence[Trace], most: in
 
 def _source(a: Added, i: int, both: Sequence[Trace]) -> tuple[str, int]:
     """Which signal drives an effect on axis ``i``, and which component of it."""
-    e = CATALOGUE[a.effect]
-    signal = next(iter(e.environment.values()), None)
+    e, kind = CATALOGUE[a.effect], both[0].trial.kind
+    signal = next(iter(sorted(e.signals(kind))), None)
     matrix = next((v for v, _, _ in a.parameters.values() if np.ndim(v) == 2), None)
     if e.stage == "dynamics":
         return "change", i
-    if e.stage == "gain" and signal:
+    if signal and (e.stage in ("motion", "gain") or len(e.signals(kind)) > 1):
         return "contribution", i
-    if signal == "temperature":
-        return "temperature", 0
-    if matrix is not None:
-        kind = both[0].trial.kind
-        columns = OWN[kind] if signal is None else {"rate": OWN["gyro"], "specific_force": OWN["accel"]}[signal]
-        spread = np.std(np.concatenate([t.trial.u[:, columns] for t in both]), axis=0)
+    width = SIGNALS[signal or KINDS[kind].own].size
+    if matrix is not None and matrix.shape[1] == width:
+        spread = np.std(np.concatenate([t.trial.u[:, COLUMNS[signal or KINDS[kind].own]] for t in both]), axis=0)
         return signal or "own", int(np.argmax(np.abs(matrix[i]) * spread))
     if signal:
-        return signal, i
+        return signal, i if width == 3 else 0
     return ("time", 0) if e.stage == "bias" else ("own", i)
-
-
-NAMES = {"rate": "rate", "specific_force": "specific force"}
-UNITS = {"rate": "rad/s", "specific_force": "m/s^2"}
 
 
 def _driver(source: tuple[str, int], axis: int, sensor: Sensor, t: Trace) -> Driver:
     """The values of a signal in a log's band, in the unit that people use."""
     signal, component = source
     rest, own = t.trial, sensor.output.own
-    u = reference_input(rest, t.state)
-    if signal == "temperature":
-        return Driver(in_band(rest, u[:, 6:7])[:, 0], "temperature [°C]")
     if signal == "time":
         return Driver((t.time - rest.time[0]) / 60, "time [min]")
     if signal == "contribution":
         unit = "deg/s" if rest.kind == "gyro" else "mg"
         return Driver(in_unit((t.before - t.after)[:, axis], sensor.output.unit, unit), f"what the effect adds [{unit}]")
-    name, block = (own, OWN[rest.kind]) if signal in ("own", "change") else (signal, OWN["gyro" if signal == "rate" else "accel"])
-    values = u[:, block][:, component:component + 1]
-    unit = {"rate": "deg/s", "specific_force": "g"}[name]
-    values = in_unit(values, UNITS[name], unit)
+    u = reference_input(rest, t.state)
+    name = own if signal in ("own", "change") else signal
+    values, si = u[:, COLUMNS[name]][:, component:component + 1], SIGNALS[name].unit
+    unit = UNITS.get(name) or unit_for(values, si)
+    values = values if unit == si else in_unit(values, si, unit)
+    label = f"{name.replace('_', ' ')}{f' {AXES[component]}' if SIGNALS[name].size == 3 else ''}"
     if signal == "change":
-        values, unit = np.gradient(values, rest.h, axis=0), unit + ("^2" if name == "rate" else "/s")
-        return Driver(in_band(rest, values)[:, 0], f"change of {NAMES[name]} {'xyz'[component]} [{pretty(unit)}]")
-    return Driver(in_band(rest, values)[:, 0], f"{NAMES[name]} {'xyz'[component]} [{pretty(unit)}]")
+        values, unit, label = np.gradient(values, rest.h, axis=0), f"{unit}/s".replace("deg/s/s", "deg/s^2"), f"change of {label}"
+    return Driver(in_band(rest, values)[:, 0], f"{label} [{pretty(unit)}]")
+
+
+UNITS = {"rate": "deg/s", "specific_force": "g", "temperature": "degC"}
+"""Units that people expect on the axis of a signal, whatever its size."""
 
 
 def _cloud(drivers: Sequence[Driver], both: Sequence[Trace], i: int, si: str, effect: str) -> str:

@@ -15,7 +15,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from pyimu.effect import CATALOGUE, OWN, Parameter, Sensor, Slot
-from pyimu.loop.response import dynamics, predict, tail, tail_of, through_dynamics
+from pyimu.loop.response import dynamics, felt, motion, predict, remembers, tail, tail_of, through_dynamics
 from pyimu.loop.trial import Trial, rest_noise
 from pyimu.loop.whiten import Autoregressive, RandomWalk
 
@@ -55,7 +55,7 @@ class Linear:
 
 
 def reference_input(trial: Trial, state: LogState) -> np.ndarray:
-    """Inputs (n, 7) with the reference turned into the sensor's axes."""
+    """Inputs (n, N_INPUT) with the reference turned into the sensor's axes."""
     u = np.array(trial.u)
     u[:, OWN[trial.kind]] = u[:, OWN[trial.kind]] @ state.rotation.T
     return u
@@ -122,17 +122,19 @@ def linearise(sensor: Sensor, trial: Trial, state: LogState, wanted: Iterable[Ke
     wanted = frozenset(wanted)
     u = reference_input(trial, state)
     own = OWN[trial.kind]
-    moved = np.array(u)
-    moved[:, own] = through_dynamics(sensor, u[:, own], trial.segments, trial.h)
+    moved = felt(sensor, u, trial.segments, trial.h)
     rest = tail(sensor)
     response = tail_of(rest.kind, tuple(rest.values))
-    y, slope, entries = response(moved, rest.p)
+    y, slope, entries = response(moved, rest.p, trial.h)
+    if remembers(sensor):
+        y = predict(sensor, u, trial.segments, trial.h)
     out = Columns(trial)
     for e, (axis, slot) in enumerate(zip(response.axis, response.slot, strict=True)):
         s = rest.slots[slot]
         if slot_key(s) in wanted:
             out.add(slot_key(s), int(axis), entries[:, e])
     _log_columns(out, trial, moved[:, own], slope)
+    _motion_columns(out, sensor, trial, u, slope, wanted)
     _dynamics_columns(out, sensor, trial, u, wanted)
     for function in extra:
         function(trial, u, y, out.add)
@@ -149,6 +151,24 @@ def _log_columns(out: Columns, trial: Trial, x: np.ndarray, slope: np.ndarray) -
             turned = np.einsum("nij,nj->ni", slope, np.cross(np.eye(3)[k], x))
             for i in range(3):
                 out.add(("rotation", trial.name, k), i, turned[:, i])
+
+
+def _motion_columns(out: Columns, sensor: Sensor, trial: Trial, u: np.ndarray, slope: np.ndarray, wanted: frozenset[Key]) -> None:
+    """Slopes against the coefficients of what comes before the dynamics: through these, and through what follows."""
+    chain = motion(sensor)
+    if not any(slot_key(s) in wanted for s in chain.slots):
+        return
+    before = tail_of(chain.kind, tuple(chain.values))
+    entries = before(u, chain.p, trial.h)[2]
+    for number, s in enumerate(chain.slots):
+        of_slot = np.flatnonzero(before.slot == number)
+        if slot_key(s) not in wanted or not len(of_slot):
+            continue
+        change = np.zeros((len(u), 3))
+        change[:, before.axis[of_slot]] = entries[:, of_slot]
+        change = np.einsum("nij,nj->ni", slope, through_dynamics(sensor, change, trial.segments, trial.h))
+        for i in range(3):
+            out.add(slot_key(s), i, change[:, i])
 
 
 def _dynamics_columns(out: Columns, sensor: Sensor, trial: Trial, u: np.ndarray, wanted: frozenset[Key]) -> None:
@@ -360,7 +380,7 @@ def without_attenuation(fitted: Fit) -> Fit:
     response = tail_of(rest.kind, tuple(rest.values))
     shares = _reference_shares(fitted)
     for t in fitted.trials:
-        bend = response.mean_bend(reference_input(t, fitted.states[t.name]), rest.p)
+        bend = response.mean_bend(reference_input(t, fitted.states[t.name]), rest.p, t.h)
         rows = len(band_time(t))
         for e, (axis, slot) in enumerate(zip(response.axis, response.slot, strict=True)):
             key = slot_key(rest.slots[slot])

@@ -1,7 +1,8 @@
 """What a sensor answers to a whole log at once, and how the answer changes with each coefficient.
 
-The dynamics of a chain are linear and time-invariant, so they act by their impulse response; what follows them has
-no memory once the noise is off, so casadi evaluates it, and its Jacobian, over all samples together.
+The dynamics of a chain are linear and time-invariant, so they act by their impulse response; what comes before and what
+follows has no memory once the noise is off, so casadi evaluates it, and its Jacobian, over all samples together.  A chain
+with an effect that remembers in another way is stepped through.
 """
 
 from __future__ import annotations
@@ -19,15 +20,25 @@ from pyimu.vectorise import over_rows
 LONGEST_RESPONSE = 1 << 14
 
 
+def remembers(sensor: Sensor) -> bool:
+    """Whether some effect's memory is more than a filter's (rounding left out)."""
+    return any(e.remembers and not is_step(e.name, sensor.kind) for e in sensor.effects)
+
+
+def motion(sensor: Sensor) -> Sensor:
+    """The part of the chain that lies before the dynamics."""
+    return Sensor(sensor.kind, {e.name: sensor.values[e.name] for e in sensor.effects if e.stage == "motion"})
+
+
 def dynamics(sensor: Sensor) -> Sensor:
-    """The part of the chain that lies before everything without memory."""
+    """The part of the chain that filters."""
     return Sensor(sensor.kind, {e.name: sensor.values[e.name] for e in sensor.effects if e.stage == "dynamics"})
 
 
 def tail(sensor: Sensor) -> Sensor:
     """What follows the dynamics, less the effects whose output has no slope (rounding acts as noise here)."""
     return Sensor(sensor.kind, {e.name: sensor.values[e.name] for e in sensor.effects
-                                if e.stage != "dynamics" and not is_step(e.name, sensor.kind)})
+                                if e.stage not in ("motion", "dynamics") and not is_step(e.name, sensor.kind)})
 
 
 @cache
@@ -36,8 +47,9 @@ def is_step(name: str, kind: str) -> bool:
     one = Sensor(kind, {name: {}})
     x = one.chain.x
     y = one.step(one.chain.start, one.chain.u, one.chain.p, np.zeros(len(one.noise)), 1.0)[1]
-    identity = ca.Function("slope", [one.chain.u, one.chain.p], [ca.jacobian(y, x)])
-    return float(ca.norm_fro(identity(np.full(N_INPUT, 0.3), one.p + 1.0))) == 0.0
+    slope = ca.Function("slope", [one.chain.u, one.chain.p], [ca.jacobian(y, x)])
+    # Inside and outside of a threshold or limit of one.
+    return all(float(ca.norm_fro(slope(np.full(N_INPUT, v), one.p + 1.0))) == 0.0 for v in (0.3, 30.3))
 
 
 def impulse_response(sensor: Sensor, h: float) -> np.ndarray:
@@ -52,7 +64,7 @@ def impulse_response(sensor: Sensor, h: float) -> np.ndarray:
         if not total:
             u[0, OWN[sensor.kind]] = 1.0
         y = np.empty((64, 3))
-        state = step_through(chain.step, state, u, sensor.p, np.zeros((64, 0)), np.array([h]), y)
+        step_through(chain.step, state, u, sensor.p, np.zeros((64, 0)), np.array([h]), y)
         parts.append(y)
         total += 64
         if np.abs(y).max() < 1e-13 and np.abs(state[chain.waits:]).max(initial=0) < 1e-13:
@@ -75,32 +87,47 @@ def through_dynamics(sensor: Sensor, x: np.ndarray, segments: list[tuple[int, in
     return out
 
 
+def felt(sensor: Sensor, u: np.ndarray, segments: list[tuple[int, int]], h: float) -> np.ndarray:
+    """Inputs (n, N_INPUT) with the sensor's own signal as it comes out of the dynamics."""
+    own, before = OWN[sensor.kind], motion(sensor)
+    out = np.array(u)
+    if before.effects:
+        out[:, own] = tail_of(before.kind, tuple(before.values)).output(u, before.p, h)
+    out[:, own] = through_dynamics(sensor, out[:, own], segments, h)
+    return out
+
+
 class Tail:
-    """The memoryless rest of a chain with its Jacobians, for one structure (which effects, not which values)."""
+    """A memoryless part of a chain with its Jacobians, for one structure (which effects, not which values)."""
 
     def __init__(self, sensor: Sensor) -> None:
-        self.sensor = tail(sensor)
+        self.sensor = sensor
         chain = self.sensor.chain
-        y = chain.step(chain.start, chain.u, chain.p, np.zeros(len(self.sensor.noise)), 1.0)[1]
+        y = chain.step(chain.start, chain.u, chain.p, np.zeros(len(self.sensor.noise)), chain.h)[1]
+        fixed = ca.vertcat(chain.p, chain.h)
         jp = ca.jacobian(y, chain.p)
         self.axis, self.slot = (np.array(i, dtype=int) for i in jp.sparsity().get_triplet())
         outputs = ca.vertcat(y, ca.vec(ca.densify(ca.jacobian(y, chain.x)).T), *jp.nonzeros())
-        self.function = ca.Function("tail", [chain.u, chain.p], [ca.densify(outputs)])
-        self.output = ca.Function("output", [chain.u, chain.p], [ca.densify(y)])
+        self._all = ca.Function("tail", [chain.u, fixed], [ca.densify(outputs)])
+        self._output = ca.Function("output", [chain.u, fixed], [ca.densify(y)])
         bends = [ca.jacobian(entry, chain.x[int(i)]) for entry, i in zip(jp.nonzeros(), self.axis, strict=True)]
-        self.bend = ca.Function("bend", [chain.u, chain.p], [ca.densify(ca.vertcat(ca.SX(0, 1), *bends))])
+        self._bend = ca.Function("bend", [chain.u, fixed], [ca.densify(ca.vertcat(ca.SX(0, 1), *bends))])
 
-    def __call__(self, u: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """For inputs (n, 7): output (n, 3), its slope against the own input (n, 3, 3), and dy/dp (n, entries).
+    def __call__(self, u: np.ndarray, p: np.ndarray, h: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """For inputs (n, N_INPUT): output (n, 3), its slope against the own input (n, 3, 3), and dy/dp (n, entries).
 
         Entry e of dy/dp belongs to output axis ``self.axis[e]`` and to coefficient ``self.slot[e]``.
         """
-        flat = over_rows(self.function, u, p)
+        flat = over_rows(self._all, u, np.append(p, h))
         return flat[:, :3], flat[:, 3:12].reshape(-1, 3, 3), flat[:, 12:]
 
-    def mean_bend(self, u: np.ndarray, p: np.ndarray) -> np.ndarray:
-        """Mean over the rows (n, 7) of d(entry)/dx of its own axis, (entries,): how a regressor follows an error of the input."""
-        return over_rows(self.bend, u, p).mean(axis=0)
+    def output(self, u: np.ndarray, p: np.ndarray, h: float) -> np.ndarray:
+        """Output (n, 3) alone."""
+        return over_rows(self._output, u, np.append(p, h))
+
+    def mean_bend(self, u: np.ndarray, p: np.ndarray, h: float) -> np.ndarray:
+        """Mean over the rows (n, N_INPUT) of d(entry)/dx of its own axis, (entries,): how a regressor follows an error of the input."""
+        return over_rows(self._bend, u, np.append(p, h)).mean(axis=0)
 
 
 @lru_cache(maxsize=32)
@@ -111,8 +138,16 @@ def tail_of(kind: str, effects: tuple[str, ...]) -> Tail:
 
 def predict(sensor: Sensor, u: np.ndarray, segments: list[tuple[int, int]], h: float) -> np.ndarray:
     """Noise-free answer (n, 3) of a sensor to a log (rounding left out)."""
-    moved = np.array(u)
-    own = OWN[sensor.kind]
-    moved[:, own] = through_dynamics(sensor, u[:, own], segments, h)
+    if remembers(sensor):
+        return _stepped(sensor.without(*[e.name for e in sensor.effects if is_step(e.name, sensor.kind)]), u, segments, h)
     rest = tail(sensor)
-    return over_rows(tail_of(rest.kind, tuple(rest.values)).output, moved, rest.p)
+    return tail_of(rest.kind, tuple(rest.values)).output(felt(sensor, u, segments, h), rest.p, h)
+
+
+def _stepped(sensor: Sensor, u: np.ndarray, segments: list[tuple[int, int]], h: float) -> np.ndarray:
+    """Answer (n, 3) sample by sample, each segment from the start; outside of segments the input itself."""
+    out = np.array(u[:, OWN[sensor.kind]])
+    for a, b in segments:
+        w = np.zeros((b - a, len(sensor.noise)))
+        step_through(sensor.step, sensor.chain.start.copy(), u[a:b], sensor.p, w, np.array([h]), out[a:b])
+    return out

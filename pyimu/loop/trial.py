@@ -4,17 +4,24 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+import casadi as ca
 import numpy as np
+from scipy.ndimage import uniform_filter1d
 
-from pyimu.effect import N_INPUT, OWN
+from pyimu.block import step_through
+from pyimu.effect import OWN
 from pyimu.errors import Finding
 from pyimu.loop.band import Band
 from pyimu.quality import spikes
 from pyimu.recording import Recording
 from pyimu.reference import reference_rate
+from pyimu.signals import COLUMNS, SIGNALS, START
 
 SETTLE = 32
 """Rows at the start of a stretch that are not counted: nobody knows what a lag or delay remembers from before it."""
+
+SLOW = 30.0
+"""Seconds over which a logged temperature is averaged before its rate is taken: thermometers have coarse steps."""
 
 HEAD = 30.0
 """Seconds at the start of a held-out log from which what belongs to the log is estimated."""
@@ -24,7 +31,7 @@ HEAD = 30.0
 class Trial:
     """Rows of one log for one sensor.
 
-    ``y`` (n, 3) measured, ``u`` (n, 7) reference inputs (zero where nobody knows them), ``known`` the signals that are
+    ``y`` (n, 3) measured, ``u`` (n, N_INPUT) reference inputs (at their start values where nobody knows them), ``known`` the signals that are
     really known, ``axes`` those that the reference covers, ``segments`` the stretches without gap.  ``reference`` is
     "rate", "attitude", "heading", "force" or "static"; ``free_rotation`` says that the reference's mounting is not known.
     ``parent`` names the fitted trial that has the same power-on, if any; ``left_out`` (n,) marks samples that are missing
@@ -93,11 +100,13 @@ def gyro_trial(recording: Recording, latitude: float | None = None) -> Trial | N
     axes = tuple(i for i in range(3) if np.isfinite(reference.rate[:, i]).any() and np.isfinite(recording.gyro[:, i]).any())
     u, known = _environment(recording)
     u[:, OWN["gyro"]] = np.where(np.isfinite(reference.rate), reference.rate, 0.0)
+    known = known | {"rate"} | _slope(u, recording, "rate", "angular_acceleration")
     if reference.kind == "static":
         # What an accelerometer at rest shows beside its mean is its own noise, not a force.
         u[:, OWN["accel"]] = u[:, OWN["accel"]].mean(axis=0)
+        u[:, COLUMNS["vibration"]] = 0.0
     covered = np.isfinite(reference.rate[:, list(axes)]).all(axis=1)
-    return _trial(recording, "gyro", recording.gyro, u, covered, known | {"rate"}, reference.kind,
+    return _trial(recording, "gyro", recording.gyro, u, covered, known, reference.kind,
                   band_hz=reference.band_hz, axes=axes, free_rotation=reference.kind == "attitude" and len(axes) == 3,
                   findings=reference.findings)
 
@@ -113,23 +122,57 @@ def accel_trial(recording: Recording, static: bool) -> Trial | None:
     u[:, OWN["accel"]] = np.where(np.isfinite(force), force, 0.0)
     if recording.ref_rate is not None:
         u[:, OWN["gyro"]] = np.nan_to_num(recording.ref_rate)
-        known = known | {"rate"}
+        known = known | {"rate"} | _slope(u, recording, "rate", "angular_acceleration")
+    if recording.ref_force is None:
+        u[:, COLUMNS["vibration"]] = 0.0
+    else:
+        known = known | _slope(u, recording, "specific_force", "jerk")
     axes = tuple(i for i in range(3) if np.isfinite(recording.accel[:, i]).any())
     return _trial(recording, "accel", recording.accel, u, np.isfinite(force[:, list(axes)]).all(axis=1), known | {"specific_force"},
                   "static" if recording.ref_force is None else "force", axes=axes)
 
 
 def _environment(recording: Recording) -> tuple[np.ndarray, frozenset[str]]:
-    """Inputs (n, 7) that are not the sensor's own: measured or reference force, temperature; and which are known."""
-    u, known = np.zeros((len(recording.time), N_INPUT)), set()
+    """Inputs (n, N_INPUT) that are not the sensor's own, and which of them are known; the others stand at their start values."""
+    u, known = np.tile(START, (len(recording.time), 1)), {"time"}
+    u[:, OWN["accel"]] = 0.0
+    u[:, COLUMNS["time"]] = (recording.time - recording.time[0])[:, None]
     force = recording.accel if recording.ref_force is None else recording.ref_force
     if force is not None:
         u[:, OWN["accel"]] = _filled(recording.time, force)
-        known.add("specific_force")
-    if recording.temperature is not None and np.isfinite(recording.temperature).any():
-        u[:, 6] = _filled(recording.time, recording.temperature[:, None])[:, 0]
-        known.add("temperature")
+        u[:, COLUMNS["vibration"]] = _vibration(u[:, OWN["accel"]], recording)
+        known |= {"specific_force", "vibration"}
+    for name in ("temperature", "supply", "mag"):
+        values = getattr(recording, name)
+        if values is not None and np.isfinite(values).any():
+            u[:, COLUMNS[name]] = _filled(recording.time, values.reshape(len(values), -1))
+            known.add(name)
+    if "temperature" in known:
+        known |= _slope(u, recording, "temperature", "temperature_rate", over=SLOW)
     return u, frozenset(known)
+
+
+def _slope(u: np.ndarray, recording: Recording, signal: str, into: str, over: float = 0.0) -> set[str]:
+    """Fill the rate of a signal in, stretch by stretch: between neighbours on both sides, of means over ``over`` seconds."""
+    values, rows = u[:, COLUMNS[signal]], max(1, round(over / recording.sample_period))
+    for a, b in recording.segments:
+        if b - a > 1:
+            piece = uniform_filter1d(values[a:b], min(rows, b - a), axis=0, mode="nearest") if rows > 1 else values[a:b]
+            u[a:b, COLUMNS[into]] = np.gradient(piece, recording.time[a:b], axis=0)
+    return {into}
+
+
+def _vibration(force: np.ndarray, recording: Recording) -> np.ndarray:
+    """Mean square (n, 3) of the force's vibration, as a simulated part would see it."""
+    now, memory, h = ca.SX.sym("now", 3), ca.SX.sym("memory", SIGNALS["vibration"].memory), ca.SX.sym("h")
+    started = ca.SX.sym("started")
+    value, after = SIGNALS["vibration"].advance(memory, started, h, now)
+    step = ca.Function("vibration", [ca.vertcat(started, memory), now, ca.SX(0, 1), ca.SX(0, 1), h], [ca.vertcat(1, after), value])
+    out, none = np.zeros_like(force), np.zeros(0)
+    for a, b in recording.segments:
+        start = np.zeros(1 + SIGNALS["vibration"].memory)
+        step_through(step, start, np.ascontiguousarray(force[a:b]), none, np.zeros((b - a, 0)), np.array([recording.sample_period]), out[a:b])
+    return out
 
 
 def _filled(time: np.ndarray, values: np.ndarray) -> np.ndarray:

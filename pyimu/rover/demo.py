@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 from scipy.ndimage import gaussian_filter1d
 from scipy.spatial.transform import Rotation
 
-from pyimu.imu import Part, simulate
+from pyimu.imu import Part
 from pyimu.loop.attitude_error import AttitudeError, attitude_error
 from pyimu.loop.close import close
 from pyimu.loop.deliver import check_delivery, deliver
@@ -27,6 +27,7 @@ from pyimu.loop.score import held_state
 from pyimu.partfile import part
 from pyimu.recording import Recording, read_recording
 from pyimu.rover.trajectory import Motion, ackermann, drive, stop, straight, turn_on_spot
+from pyimu.simulation import simulate
 
 SAMPLE_RATE = 50.0
 """Hz; the paper samples at 976 Hz and filters at 10 Hz."""

@@ -13,8 +13,8 @@ import numpy as np
 from scipy.ndimage import gaussian_filter1d
 from scipy.spatial.transform import Rotation, RotationSpline
 
-from pyimu.imu import STANDARD_GRAVITY
 from pyimu.symbolic.earth import EARTH_RATE
+from pyimu.units import STANDARD_GRAVITY
 
 TURN_RATE = 0.02
 """rad/s; turn on the spot."""

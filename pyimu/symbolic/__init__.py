@@ -4,6 +4,6 @@ Every function takes and returns casadi matrices of one kind, symbolic (``SX``) 
 Quaternions are Hamilton, scalar first, body to world (``q_nb``); the world is east-north-up, the body forward-left-up.
 """
 
-from pyimu.symbolic import earth, linear, mrp, noise, quaternion
+from pyimu.symbolic import earth, linear, mrp, noise, quaternion, series
 
-__all__ = ["earth", "linear", "mrp", "noise", "quaternion"]
+__all__ = ["earth", "linear", "mrp", "noise", "quaternion", "series"]

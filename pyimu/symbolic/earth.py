@@ -7,6 +7,9 @@ import casadi as ca
 EARTH_RATE = 7.292115e-5
 """rad/s, WGS 84."""
 
+EARTH_RADIUS = 6371008.8
+"""m; mean radius of the Earth (IUGG)."""
+
 
 def earth_rate(latitude, magnitude: float = EARTH_RATE):
     """Rate of the east-north-up frame against inertial space (3,) rad/s at ``latitude`` rad.
@@ -15,3 +18,12 @@ def earth_rate(latitude, magnitude: float = EARTH_RATE):
     Groves 2013, eq. 2.123, in north-east-down.
     """
     return magnitude * ca.vertcat(0, ca.cos(latitude), ca.sin(latitude))
+
+
+def transport_rate(latitude, velocity, radius: float = EARTH_RADIUS):
+    """Rate of the east-north-up frame against the Earth (3,) rad/s of a body that moves at ``velocity`` (3,) m/s, east-north-up.
+
+    Groves 2013, eq. 5.44, for a sphere and in east-north-up axes.
+    """
+    east, north = velocity[0] / radius, velocity[1] / radius
+    return ca.vertcat(-north, east, east * ca.tan(latitude))

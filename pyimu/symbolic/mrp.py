@@ -24,3 +24,19 @@ def to_quaternion(p, a: float = A, f: float = F):
     square = ca.dot(p, p)
     w = (f * ca.sqrt(f * f + (1 - a * a) * square) - a * square) / (f * f + square)
     return ca.vertcat(w, (a + w) / f * p)
+
+
+def share(a: float = A, f: float = F):
+    """What a small rotation vector is multiplied by to give p: f / (2 (a + 1)); 1 at the package's own scaling, 1/4 at f = a = 1."""
+    return f / (2 * (a + 1))
+
+
+def error_derivative(p, rate, rate_error, a: float = A, f: float = F):
+    """p' of the attitude error p (3,) in body axes, truth = estimate p, while the estimate turns at ``rate`` (3,) rad/s.
+
+    ``rate_error`` is the true rate less ``rate``.  Exact for an error of any size; to first order
+    p' = -rate x p + share(a, f) rate_error (Crassidis and Markley 2003, section III, has the linear part).  With rates
+    against inertial space it holds in any turning frame, since a known Earth rate turns truth and estimate alike.
+    """
+    w = to_quaternion(p, a, f)[0]
+    return -ca.cross(rate, p) + (f * w / (a + w) * rate_error + ca.cross(p, rate_error) + p * ca.dot(p, rate_error) / f) / 2

@@ -48,6 +48,21 @@ def exponential(angle):
     return ca.vertcat(_cosine(square), _sinc(square) / 2 * angle)
 
 
+def derivative(q, rate):
+    """q' of a body that turns at ``rate`` (3,) rad/s in body axes: q (0, rate) / 2 (Hidalgo 2012, section 4.1, there vector first)."""
+    return product(q, ca.vertcat(0, rate)) / 2
+
+
+def step_matrix(rate, h):
+    """Omega (4, 4) with ``step(q, rate, h)`` = Omega q: the product with the turn of ``h`` s from the right as a matrix.
+
+    Hidalgo 2012, section 4.2, Omega of the angular velocity, its rows and columns put scalar first.
+    """
+    turn = exponential(rate * h)
+    c, v = turn[0], turn[1:4]
+    return ca.vertcat(ca.horzcat(c, -v.T), ca.horzcat(v, c * type(v).eye(3) - ca.skew(v)))
+
+
 def step(q, rate, h):
     """Attitude after ``h`` s at the constant body rate ``rate`` (3,) rad/s: q exp(rate h / 2).
 

@@ -7,10 +7,11 @@
 #include "block.h"
 
 #define MODEL_NAME "ImuSensor"
-#define MODEL_TOKEN "{ac87dd89-e758-1d36-c337-8f79c8f8c443}"
+#define MODEL_TOKEN "{7463453d-f4a1-f249-b107-b045bdcb099a}"
 #define MODEL_STEP step
 #define MODEL_INITIAL initial
 #define MODEL_SEED UINT64_C(0)
+#define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
 enum {
     N_INPUTS = 7,
@@ -24,44 +25,46 @@ enum {
 /* Room that the generated functions need. */
 enum { WORK_ARG = 5, WORK_RES = 2, WORK_IW = 0, WORK_W = 8 };
 
-/* Places in the table of variables, which are value references. */
-enum {
-    TIME = 0,
-    FIRST_INPUT = TIME + 1,
-    FIRST_PARAMETER = FIRST_INPUT + N_INPUTS,
-    FIRST_OUTPUT = FIRST_PARAMETER + N_PARAMETERS,
-    SAMPLE_PERIOD = FIRST_OUTPUT + N_OUTPUTS,
-    SEED = SAMPLE_PERIOD + 1
-};
+/* Rows of inputs and outputs. */
+enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
 
 static const BlockVariable variables[] = {
-    {"time", KIND_REAL, ROLE_TIME, 0.0},
-    {"rate[1]", KIND_REAL, ROLE_INPUT, 0.0},
-    {"rate[2]", KIND_REAL, ROLE_INPUT, 0.0},
-    {"rate[3]", KIND_REAL, ROLE_INPUT, 0.0},
-    {"specific_force[1]", KIND_REAL, ROLE_INPUT, 0.0},
-    {"specific_force[2]", KIND_REAL, ROLE_INPUT, 0.0},
-    {"specific_force[3]", KIND_REAL, ROLE_INPUT, 9.80665},
-    {"temperature", KIND_REAL, ROLE_INPUT, 25.0},
-    {"gyro_error.thermal_bias.kT[1]", KIND_REAL, ROLE_TUNABLE, 0.00034906585039886593},
-    {"gyro_error.thermal_bias.kT[2]", KIND_REAL, ROLE_TUNABLE, 0.0009773843811168245},
-    {"gyro_error.thermal_bias.kT[3]", KIND_REAL, ROLE_TUNABLE, 0.0008726646259971648},
-    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 25.0},
-    {"gyro_error.angle_random_walk.N[1]", KIND_REAL, ROLE_TUNABLE, 6.0400027647350424e-05},
-    {"gyro_error.angle_random_walk.N[2]", KIND_REAL, ROLE_TUNABLE, 6.940010882346785e-05},
-    {"gyro_error.angle_random_walk.N[3]", KIND_REAL, ROLE_TUNABLE, 5.960008507351969e-05},
-    {"gyro_error.rate_random_walk.K[1]", KIND_REAL, ROLE_TUNABLE, 2.6503147900654633e-06},
-    {"gyro_error.rate_random_walk.K[2]", KIND_REAL, ROLE_TUNABLE, 4.007793097172164e-06},
-    {"gyro_error.rate_random_walk.K[3]", KIND_REAL, ROLE_TUNABLE, 5.187506387872035e-06},
-    {"gyro[1]", KIND_REAL, ROLE_OUTPUT, 0.0},
-    {"gyro[2]", KIND_REAL, ROLE_OUTPUT, 0.0},
-    {"gyro[3]", KIND_REAL, ROLE_OUTPUT, 0.0},
-    {"accel[1]", KIND_REAL, ROLE_OUTPUT, 0.0},
-    {"accel[2]", KIND_REAL, ROLE_OUTPUT, 0.0},
-    {"accel[3]", KIND_REAL, ROLE_OUTPUT, 0.0},
-    {"sample_period", KIND_REAL, ROLE_FIXED, 0.0010245901639344263},
-    {"seed", KIND_SEED, ROLE_FIXED, 0.0},
+    {"time", KIND_REAL, ROLE_TIME, 0, 1},
+    {"rate[1]", KIND_REAL, ROLE_INPUT, 0, 1},
+    {"rate[2]", KIND_REAL, ROLE_INPUT, 1, 1},
+    {"rate[3]", KIND_REAL, ROLE_INPUT, 2, 1},
+    {"specific_force[1]", KIND_REAL, ROLE_INPUT, 3, 1},
+    {"specific_force[2]", KIND_REAL, ROLE_INPUT, 4, 1},
+    {"specific_force[3]", KIND_REAL, ROLE_INPUT, 5, 1},
+    {"temperature", KIND_REAL, ROLE_INPUT, 6, 1},
+    {"gyro_error.thermal_bias.kT[1]", KIND_REAL, ROLE_TUNABLE, 0, 1},
+    {"gyro_error.thermal_bias.kT[2]", KIND_REAL, ROLE_TUNABLE, 1, 1},
+    {"gyro_error.thermal_bias.kT[3]", KIND_REAL, ROLE_TUNABLE, 2, 1},
+    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 3, 1},
+    {"gyro_error.angle_random_walk.N[1]", KIND_REAL, ROLE_TUNABLE, 4, 1},
+    {"gyro_error.angle_random_walk.N[2]", KIND_REAL, ROLE_TUNABLE, 5, 1},
+    {"gyro_error.angle_random_walk.N[3]", KIND_REAL, ROLE_TUNABLE, 6, 1},
+    {"gyro_error.rate_random_walk.K[1]", KIND_REAL, ROLE_TUNABLE, 7, 1},
+    {"gyro_error.rate_random_walk.K[2]", KIND_REAL, ROLE_TUNABLE, 8, 1},
+    {"gyro_error.rate_random_walk.K[3]", KIND_REAL, ROLE_TUNABLE, 9, 1},
+    {"gyro[1]", KIND_REAL, ROLE_OUTPUT, 0, 1},
+    {"gyro[2]", KIND_REAL, ROLE_OUTPUT, 1, 1},
+    {"gyro[3]", KIND_REAL, ROLE_OUTPUT, 2, 1},
+    {"accel[1]", KIND_REAL, ROLE_OUTPUT, 3, 1},
+    {"accel[2]", KIND_REAL, ROLE_OUTPUT, 4, 1},
+    {"accel[3]", KIND_REAL, ROLE_OUTPUT, 5, 1},
+    {"sample_period", KIND_REAL, ROLE_FIXED, 0, 1},
+    {"seed", KIND_UNSIGNED, ROLE_FIXED, 1, 1},
 };
+
+/* Value references that mean something to every block. */
+enum {
+    SAMPLE_PERIOD = 24,
+    SEED = 25
+};
+
+static const double input_starts[] = {0.0, 0.0, 0.0, 0.0, 0.0, 9.80665, 25.0};
+static const double parameter_starts[] = {0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
 
 /* The noise stream of each channel. */
 static const uint64_t noise_channels[] = {

@@ -11,6 +11,7 @@
 #define MODEL_STEP {{ step }}
 #define MODEL_INITIAL {{ initial }}
 #define MODEL_SEED UINT64_C({{ seed }})
+#define MODEL_SAMPLE_PERIOD {{ sample_period | c_number }}
 
 enum {
     N_INPUTS = {{ sizes.inputs }},
@@ -24,21 +25,25 @@ enum {
 /* Room that the generated functions need. */
 enum { WORK_ARG = {{ work.arg }}, WORK_RES = {{ work.res }}, WORK_IW = {{ work.iw }}, WORK_W = {{ work.w }} };
 
-/* Places in the table of variables, which are value references. */
-enum {
-    TIME = 0,
-    FIRST_INPUT = TIME + 1,
-    FIRST_PARAMETER = FIRST_INPUT + N_INPUTS,
-    FIRST_OUTPUT = FIRST_PARAMETER + N_PARAMETERS,
-    SAMPLE_PERIOD = FIRST_OUTPUT + N_OUTPUTS,
-    SEED = SAMPLE_PERIOD + 1
-};
+/* Rows of inputs and outputs. */
+enum { IN_BLOCKS = {{ 1 if block_size else 0 }}, START_ROWS = {{ block_size or 1 }}, MAX_ROWS = {{ max_block_size if block_size else 1 }} };
 
 static const BlockVariable variables[] = {
 {% for v in variables %}
-    {{ "{" }}{{ v.name | c_string }}, KIND_{{ v.kind | upper }}, ROLE_{{ v.role | upper }}, {{ v.start | c_number }}},
+    {{ "{" }}{{ v.name | c_string }}, KIND_{{ v.kind | upper }}, ROLE_{{ v.role | upper }}, {{ v.first }}, {{ v.count }}},
 {% endfor %}
 };
+
+/* Value references that mean something to every block. */
+enum {
+{% for v in variables if v.role == "fixed" %}
+    {{ v.name | upper }} = {{ v.reference }}{{ "," if not loop.last }}
+{% endfor %}
+};
+
+{% for what, starts in (("input", input_starts), ("parameter", parameter_starts)) %}
+static const double {{ what }}_starts[] = {{ "{" }}{{ starts | map("c_number") | join(", ") or "0" }}};
+{% endfor %}
 
 /* The noise stream of each channel{{ "" if noise else "; there is none" }}. */
 static const uint64_t noise_channels[] = {

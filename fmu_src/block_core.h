@@ -1,0 +1,75 @@
+/* What the files of the core share: the state of a block, the phases of its life, and its rows. */
+#ifndef BLOCK_CORE_H
+#define BLOCK_CORE_H
+
+#include "block.h"
+#include "model_table.h"
+#include "noise.h"
+
+#define ROOM(n) ((n) > 0 ? (n) : 1) /* C has no arrays of length zero */
+#define DRAWN 64 /* samples whose noise is drawn at a time, a multiple of the four that come together */
+
+typedef enum { INSTANTIATED, CONFIGURATION, INITIALIZATION, STEPPING, TERMINATED, N_PHASES } Phase;
+
+/* Everything that decides what follows, and nothing derived but the outputs: this is what saving a state copies.  All
+   members are eight bytes long, so there is no padding and equal states are equal bytes. */
+struct BlockState {
+    uint64_t phase;
+    uint64_t seed;
+    uint64_t rows;  /* of inputs and of outputs: block_size in the block form, else one */
+    int64_t sample; /* the last sample made; sample k belongs to time k * sample_period */
+    uint64_t steps; /* communication steps so far */
+    double time;
+    double sample_period;
+    double parameters[ROOM(N_PARAMETERS)];
+    double state[ROOM(N_STATES)];
+    double table[]; /* the rows of the inputs, then those of the outputs; the last row of these is the last sample's */
+};
+
+struct Block {
+    struct BlockState *now;
+    NoiseCache noise[ROOM(N_NOISE)];
+    double normals[DRAWN * ROOM(N_NOISE)];
+    double next_state[ROOM(N_STATES)];
+    const double *arg[ROOM(WORK_ARG)];
+    double *res[ROOM(WORK_RES)];
+    long long iw[ROOM(WORK_IW)];
+    double w[ROOM(WORK_W)];
+    bool outputs_stale; /* a start value has changed since the outputs before the first sample were computed */
+    bool log_events;
+    BlockLog log;
+};
+
+#define IN(phase) (1u << (phase))
+#define BEFORE_STEPPING (IN(INSTANTIATED) | IN(INITIALIZATION))
+#define ALIVE (BEFORE_STEPPING | IN(STEPPING))
+#define ALWAYS (ALIVE | IN(CONFIGURATION) | IN(TERMINATED))
+
+typedef enum {
+    START_TIME, ENTER_CONFIGURATION, EXIT_CONFIGURATION, ENTER_INITIALIZATION, EXIT_INITIALIZATION, DO_STEP, TERMINATE, RESET,
+    GET, SAVE, RESTORE
+} Call;
+
+/* Which call is legal when is a table in block.c; a call that is not legal now is refused. */
+bool block_allowed(Block *block, Call call);
+const char *block_phase_name(const Block *block);
+
+/* The size of a state with so many rows, and one with all rows at their start values and the rest zero; NULL where memory is short. */
+size_t block_size_of(uint64_t rows);
+struct BlockState *block_new_rows(uint64_t rows);
+
+/* Another state in place of the present one, which is freed. */
+void block_take(Block *block, struct BlockState *state);
+
+/* Outputs before the first sample, and the state from which it is made. */
+bool block_evaluate_initial(Block *block);
+
+static inline double *block_inputs(struct BlockState *state, uint64_t row) {
+    return state->table + row * N_INPUTS;
+}
+
+static inline double *block_outputs(struct BlockState *state, uint64_t row) {
+    return state->table + state->rows * N_INPUTS + row * N_OUTPUTS;
+}
+
+#endif

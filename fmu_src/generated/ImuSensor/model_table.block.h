@@ -1,0 +1,66 @@
+/* Generated from the block ImuSensor; do not edit. */
+#ifndef MODEL_TABLE_H
+#define MODEL_TABLE_H
+
+#include <math.h>
+
+#include "block.h"
+
+#define MODEL_NAME "ImuSensor"
+#define MODEL_TOKEN "{77febf16-8999-76c1-4509-6f722eb2a850}"
+#define MODEL_STEP step
+#define MODEL_INITIAL initial
+#define MODEL_SEED UINT64_C(0)
+#define MODEL_SAMPLE_PERIOD 0.0010245901639344263
+
+enum {
+    N_INPUTS = 7,
+    N_PARAMETERS = 10,
+    N_OUTPUTS = 6,
+    N_STATES = 3,
+    N_NOISE = 6,
+    N_VARIABLES = 13
+};
+
+/* Room that the generated functions need. */
+enum { WORK_ARG = 5, WORK_RES = 2, WORK_IW = 0, WORK_W = 8 };
+
+/* Rows of inputs and outputs. */
+enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };
+
+static const BlockVariable variables[] = {
+    {"time", KIND_REAL, ROLE_TIME, 0, 1},
+    {"rate", KIND_REAL, ROLE_INPUT, 0, 3},
+    {"specific_force", KIND_REAL, ROLE_INPUT, 3, 3},
+    {"temperature", KIND_REAL, ROLE_INPUT, 6, 1},
+    {"gyro_error.thermal_bias.kT", KIND_REAL, ROLE_TUNABLE, 0, 3},
+    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 3, 1},
+    {"gyro_error.angle_random_walk.N", KIND_REAL, ROLE_TUNABLE, 4, 3},
+    {"gyro_error.rate_random_walk.K", KIND_REAL, ROLE_TUNABLE, 7, 3},
+    {"gyro", KIND_REAL, ROLE_OUTPUT, 0, 3},
+    {"accel", KIND_REAL, ROLE_OUTPUT, 3, 3},
+    {"sample_period", KIND_REAL, ROLE_FIXED, 0, 1},
+    {"seed", KIND_UNSIGNED, ROLE_FIXED, 1, 1},
+    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1},
+};
+
+/* Value references that mean something to every block. */
+enum {
+    SAMPLE_PERIOD = 10,
+    SEED = 11
+};
+
+static const double input_starts[] = {0.0, 0.0, 0.0, 0.0, 0.0, 9.80665, 25.0};
+static const double parameter_starts[] = {0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
+
+/* The noise stream of each channel. */
+static const uint64_t noise_channels[] = {
+    UINT64_C(2090672062), /* gyro_error.angle_random_walk.w[1] */
+    UINT64_C(1471171709), /* gyro_error.angle_random_walk.w[2] */
+    UINT64_C(1319861564), /* gyro_error.angle_random_walk.w[3] */
+    UINT64_C(269997735), /* gyro_error.rate_random_walk.w[1] */
+    UINT64_C(993690980), /* gyro_error.rate_random_walk.w[2] */
+    UINT64_C(572634149), /* gyro_error.rate_random_walk.w[3] */
+};
+
+#endif

@@ -1,0 +1,195 @@
+"""The table of an FMU's variables: what its C, its descriptions and its documentation say of each, from one place."""
+
+from __future__ import annotations
+
+import math
+import textwrap
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from itertools import accumulate
+
+import casadi as ca
+
+from pyimu.block import Block, Variable
+from pyimu.fmu.arrays import Array, description, grouped, scalars
+
+DEFAULT_SEED = 0
+
+MAX_BLOCK_SIZE = 2**24
+"""Samples in a block at most: 4 h at 976 Hz are 14 million."""
+
+_CAUSALITY = {"time": {"causality": "independent", "variability": "continuous"},
+              "input": {"causality": "input", "variability": "continuous"},
+              "tunable": {"causality": "parameter", "variability": "tunable", "initial": "exact"},
+              "fixed": {"causality": "parameter", "variability": "fixed", "initial": "exact"},
+              "structural": {"causality": "structuralParameter", "variability": "fixed", "initial": "exact"},
+              "output": {"causality": "output", "variability": "discrete", "initial": "calculated"}}
+
+_TYPES = {"real": ("Real", "Float64"), "boolean": ("Boolean", "Boolean"), "integer": ("Integer", "Int32"),
+          "unsigned": ("Integer", "UInt64")}
+
+_ROLE_TEXTS = {"time": "independent", "input": "input", "tunable": "parameter, tunable", "fixed": "parameter, fixed",
+               "output": "output", "structural": "structural parameter"}
+
+_LINE = 150
+"""Characters in a line of a list of start values, about."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One row of the table of variables; ``reference`` is its place there and its value reference.
+
+    Its elements are columns of the block's inputs, parameters or outputs, from column ``first`` on.  ``rows`` is None but for
+    the inputs and outputs of the block form, which have so many at start.
+    """
+
+    reference: int
+    role: str
+    kind: str
+    array: Array
+    first: int = 0
+    rows: int | None = None
+    rows_reference: int | None = None
+    """Value reference of the parameter that says how many rows there are."""
+    initial_dependencies: tuple[int, ...] = ()
+    """Value references of the parameters that an output's value before the first sample follows from."""
+    sample_dependencies: tuple[str, ...] = ()
+    """Names of the inputs that an output's value at a sample follows from."""
+    causality: dict[str, str] = field(init=False)
+
+    def __post_init__(self) -> None:
+        causality = dict(_CAUSALITY[self.role])
+        # A block of samples is no signal that an importer might interpolate.
+        if self.role == "input" and (self.kind != "real" or self.rows is not None):
+            causality["variability"] = "discrete"
+        object.__setattr__(self, "causality", causality)
+
+    @property
+    def name(self) -> str:
+        return self.array.name
+
+    @property
+    def variable(self) -> Variable:
+        """The first element, which stands for all in unit, kind and bounds."""
+        return self.array.elements[0]
+
+    @property
+    def count(self) -> int:
+        return len(self.array.elements)
+
+    @property
+    def description(self) -> str:
+        return description(self.array)
+
+    @property
+    def unit(self) -> str | None:
+        return self.variable.unit if self.kind == "real" else None
+
+    @property
+    def role_text(self) -> str:
+        return _ROLE_TEXTS[self.role]
+
+    @property
+    def kind_text(self) -> str:
+        return "integer" if self.kind == "unsigned" else self.kind
+
+    @property
+    def dimensions(self) -> list[dict[str, int]]:
+        """The XML attributes of each dimension of an array, rows first."""
+        rows = [] if self.rows is None else [{"valueReference": self.rows_reference}]
+        return rows + [{"start": size} for size in self.array.shape]
+
+    @property
+    def shape_text(self) -> str:
+        sizes = (["block_size"] if self.rows is not None else []) + [str(size) for size in self.array.shape]
+        return f"[{', '.join(sizes)}]" if sizes else ""
+
+    @property
+    def start(self) -> str | None:
+        """The start values of one row; one value where all are the same."""
+        if self.role in ("time", "output"):
+            return None
+        values = [self._text(v.start) for v in self.array.elements]
+        return values[0] if len(set(values)) == 1 else " ".join(values)
+
+    @property
+    def bounds(self) -> dict[str, str]:
+        v = self.variable
+        bounds = {} if self.kind == "boolean" else {"min": v.minimum, "max": v.maximum}
+        return {name: self._text(value) for name, value in bounds.items() if value is not None}
+
+    @property
+    def attributes(self) -> dict[str, str]:
+        """The XML attributes of the variable's type: unit, bounds, start value.
+
+        An array's start is a list of all its elements, row by row, or one value that all of them have.
+        """
+        start = self.start
+        if start is not None and " " in start:
+            start = textwrap.fill(" ".join([start] * (self.rows or 1)), _LINE, break_long_words=False, break_on_hyphens=False)
+        return ({"unit": self.unit} if self.unit else {}) | self.bounds | ({} if start is None else {"start": start})
+
+    def _text(self, value: float) -> str:
+        if self.kind == "boolean":
+            return "true" if value else "false"
+        return xml_number(value) if self.kind == "real" else str(int(value))
+
+    def type(self, version: int) -> str:
+        return _TYPES[self.kind][version - 2]
+
+
+def default_block_size(block: Block) -> int:
+    """Samples in a block unless another size is set: a second of them, so that a step of the FMU is a second."""
+    return min(max(round(1 / block.sample_period), 1), MAX_BLOCK_SIZE)
+
+
+def entries(block: Block, in_blocks: bool) -> list[Entry]:
+    """The table of variables: time, inputs, parameters, outputs, sample period, seed; in blocks, their size."""
+    time = Variable("time", "s", "simulation time")
+    period = Variable("sample_period", "s", "time between two samples", start=block.sample_period, minimum=0.0)
+    seed = Variable("seed", "1", "seed of the noise: other seeds, independent noise", start=DEFAULT_SEED, minimum=0.0)
+    size = Variable("block_size", "1", "rows of inputs and outputs: most samples in a step, row i for sample i of the step",
+                    start=default_block_size(block), minimum=1, maximum=MAX_BLOCK_SIZE)
+    group = grouped if in_blocks else scalars
+    roles = [("time", scalars([time])), ("input", group(block.inputs)), ("tunable", group(block.parameters)),
+             ("output", group(block.outputs)), ("fixed", scalars([period, seed])), ("structural", scalars([size] * in_blocks))]
+    rows = [(role, array, first) for role, arrays in roles for array, first in _with_columns(arrays)]
+    of_parameter = [i for i, (role, array, _) in enumerate(rows) if role == "tunable" for _ in array.elements]
+    of_input = [array.name for role, array, _ in rows if role == "input" for _ in array.elements]
+    initial, sample = _dependencies(block.initial, 1, 0), _dependencies(block.step, 1, 1)
+    table = []
+    for reference, (role, array, first) in enumerate(rows):
+        columns = range(first, first + len(array.elements)) if role == "output" else ()
+        kind = "unsigned" if array.elements[0] in (seed, size) else array.elements[0].kind
+        in_rows = in_blocks and role in ("input", "output")
+        table.append(Entry(
+            reference, role, kind, array, first,
+            rows=default_block_size(block) if in_rows else None, rows_reference=len(rows) - 1 if in_rows else None,
+            initial_dependencies=_unique(of_parameter[i] for column in columns for i in initial.get(column, ())),
+            sample_dependencies=_unique(of_input[i] for column in columns for i in sample.get(column, ()))))
+    return table
+
+
+def _with_columns(arrays: list[Array]) -> Iterable[tuple[Array, int]]:
+    """Each array with its first column."""
+    return zip(arrays, accumulate((len(a.elements) for a in arrays), initial=0))
+
+
+def _unique(items: Iterable) -> tuple:
+    """Each item once, where it comes first."""
+    return tuple(dict.fromkeys(items))
+
+
+def _dependencies(function: ca.Function, output: int, argument: int) -> dict[int, list[int]]:
+    """Row of the output to the sorted rows of the argument that it depends on."""
+    depends: dict[int, list[int]] = {}
+    if function.numel_out(output) and function.numel_in(argument):
+        for row, column in sorted(zip(*function.jac_sparsity(output, argument).get_triplet())):
+            depends.setdefault(row, []).append(column)
+    return depends
+
+
+def xml_number(x: float) -> str:
+    """The shortest decimal that reads back as the same double, with XML's names for what is no number."""
+    x = float(x)
+    return repr(x) if math.isfinite(x) else "NaN" if math.isnan(x) else "INF" if x > 0 else "-INF"
