@@ -12,7 +12,7 @@ help:
 	@echo "make demo      the whole loop on a built-in recording; report under $(OUT)/demo"
 	@echo "make test      all tests"
 	@echo "make lint      style"
-	@echo "make generate  docs/effects.md and fmu_src/generated from the definitions"
+	@echo "make generate  docs/effects.md, docs/noise.md and fmu_src/generated from the definitions"
 	@echo "make fmus      the FMUs of PART ($(PART)) under $(OUT)/fmus"
 	@echo "make bench     speed against named peers"
 
@@ -35,6 +35,7 @@ lint: $(READY)
 
 generate: $(READY)
 	$(BIN)/python -c 'from pathlib import Path; from pyimu.catalogue import documentation; Path("docs/effects.md").write_text(documentation(), encoding="utf-8", newline="\n")'
+	$(BIN)/python -m pyimu.noise_page
 	$(BIN)/python -m pyimu.fmu.generate
 
 fmus: $(READY)

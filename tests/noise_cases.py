@@ -10,7 +10,7 @@ import numpy as np
 from numba import njit
 
 from pyimu.effect import CATALOGUE
-from pyimu.effects.noise import END_WEIGHT, POLES
+from pyimu.effects.noise import POLES, end_weight
 from pyimu.shaping import NOISE_LIKE
 
 Values = Mapping[str, float]
@@ -81,7 +81,7 @@ def flicker(B: float, f_low: float, f_high: float) -> Law:
     """Gauss-Markov processes with corners evenly in logarithm; variance B^2 / pi a unit of log frequency makes B^2 / (2 pi f)."""
     corners = np.geomspace(f_low, f_high, POLES)
     weights = np.ones(POLES)
-    weights[[0, -1]] = END_WEIGHT
+    weights[[0, -1]] = end_weight(np.log(corners[1] / corners[0]))
     return markov(weights * B ** 2 / np.pi * np.log(f_high / f_low) / (POLES - 1), 1 / (2 * np.pi * corners))
 
 

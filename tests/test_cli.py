@@ -401,7 +401,7 @@ def test_build_one(here, pyimu):
 # ---- help --------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("command", ([], ["demo"], ["close"], ["build"]), ids=lambda c: " ".join(c) or "pyimu")
+@pytest.mark.parametrize("command", ([], ["demo"], ["close"], ["build"], ["parts"], ["derive"]), ids=lambda c: " ".join(c) or "pyimu")
 def test_help_opens_with_an_example(pyimu, command):
     code, out, err = pyimu(*command, "--help")
     paragraphs = [p.strip() for p in out.split("\n\n")]

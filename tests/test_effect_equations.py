@@ -124,7 +124,9 @@ def gauss_markov(x, p, m, w):
 def bias_instability(x, p, m, w):
     """Six processes from f_low to f_high; each adds s^2 / (pi f_k) / (1 + (f / f_k)^2) to the density."""
     corners = np.geomspace(p["f_low"], p["f_high"], 6)
-    weight = np.array([1.125, 1, 1, 1, 1, 1.125]) * np.log(corners[1] / corners[0]) / np.pi
+    spacing = np.log(corners[1] / corners[0])
+    end = 0.535 + 1.363 / spacing
+    weight = np.array([end, 1, 1, 1, 1, end]) * spacing / np.pi
     return x + sum(stationary(np.exp(-2 * np.pi * f * H), p["B"] * np.sqrt(c), w[:, 3 * k:3 * k + 3])
                    for k, (f, c) in enumerate(zip(corners, weight)))
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from catalogue_cases import H, as_part, everything, inputs, motion
 from fmpy.validation import validate_fmu
+from fmu_toy import Unit
 
 from pyimu.effect import CATALOGUE
 from pyimu.fmu import build_fmus, simulate, simulate_blocks
@@ -86,6 +87,26 @@ def without_effects(part_):
     for sensor in (part_.gyro, part_.accel):
         part_ = part_.with_sensor(type(sensor)(sensor.kind, {e.name: {} for e in sensor.effects}))
     return part_.block.parameters
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_serialized_restored_and_continued_equals_never_stopped(full, fmus, version):
+    """Another instance takes over half way, with every effect and all noise at work; one in between is not disturbed."""
+    u, half = inputs(motion(200), full), 100
+    whole = simulate(fmus[version], u, sample_period=H, start_values={"seed": 3})[1:]
+    with Unit(fmus[version]) as first, Unit(fmus[version]) as second, Unit(fmus[version]) as other:
+        first.start(sample_period=H, seed=3), other.start(sample_period=H, seed=4)
+        begun = first.run(u[:half], period=H)
+        other.run(u[:37], period=H)
+        state = first.save()
+        data = first.to_bytes(state)
+        second.start(sample_period=H, seed=9)
+        second.restore(second.from_bytes(data))
+        other.run(u[37:60], first=37, period=H)
+        continued = second.run(u[half:], first=half, period=H)
+        again = first.run(u[half:], first=half, period=H)
+    np.testing.assert_array_equal(np.vstack([begun, continued]), whole)
+    np.testing.assert_array_equal(again, continued)
 
 
 @pytest.mark.parametrize("version", VERSIONS)

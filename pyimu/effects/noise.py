@@ -7,9 +7,13 @@ from pyimu.effect import Environment, Noise, Parameter, SamplePeriod, State, eff
 POLES = 6
 """Gauss-Markov processes that make up ``bias_instability``, evenly in the logarithm from ``f_low`` to ``f_high``."""
 
-END_WEIGHT = 1.125
-"""Weight of the first and the last of them, which stands in for the processes beyond.  With a decade from one to the
-next, f S(f) keeps to B^2 / 2 pi within 0.25 dB from ``f_low`` to ``f_high``."""
+
+def end_weight(spacing):
+    """Weight of the first and the last of them, which stand in for those beyond, at their spacing in the natural logarithm.
+
+    Fitted: f S(f) keeps to B^2 / 2 pi within 0.25 dB from ``f_low`` to ``f_high`` where these are two to five decades apart.
+    """
+    return 0.535 + 1.363 / spacing
 
 
 @effect(stage="noise", term="angle (velocity) random walk", equation=r"y = x + N w / \sqrt{h}",
@@ -41,20 +45,23 @@ def gauss_markov(x, q: Parameter("{y}/sqrt(s)", minimum=0.0, description="root o
     return x + b, {"b": b, "started": 1}
 
 
+def flicker_processes(B, f_low, f_high):
+    """Variance and rate [rad/s] of each Gauss-Markov process of ``bias_instability``, slowest first."""
+    spacing = ca.log(f_high / f_low) / (POLES - 1)
+    weights = [end_weight(spacing) if k in (0, POLES - 1) else 1.0 for k in range(POLES)]
+    return [(weight * spacing / ca.pi * B ** 2, 2 * ca.pi * f_low * ca.exp(k * spacing)) for k, weight in enumerate(weights)]
+
+
 @effect(stage="noise", term="bias instability, flicker noise",
         equation=r"y = x + \sum_k b_k,\; S(f) \approx \frac{B^2}{2 \pi f}",
         source="Hidalgo 2012, table 3 for the density; no source for this sum of Gauss-Markov processes, one a decade")
 def bias_instability(x, B: Parameter("{y}", minimum=0.0, description="coefficient of the 1/f noise; the Allan deviation's floor is 0.664 B"),
                      f_low: Parameter("Hz", (), 1e-5, "lower end of the band in which the density is 1/f", form=True, minimum=1e-12),
-                     f_high: Parameter("Hz", (), 1.0, "upper end of that band", form=True, minimum=1e-12),
+                     f_high: Parameter("Hz", (), 1.0, "upper end of that band, two to five decades above", form=True, minimum=1e-12),
                      b: State("{y}", (POLES, 3)), started: State("1", ()), w: Noise(3 * POLES), h: SamplePeriod()):
-    spacing = ca.log(f_high / f_low) / (POLES - 1)
-    draws, following = ca.reshape(w, 3, POLES).T, []
-    for k in range(POLES):
-        weight = END_WEIGHT if k in (0, POLES - 1) else 1.0
-        variance = weight * spacing / ca.pi * B ** 2
-        angle = 2 * ca.pi * f_low * ca.exp(k * spacing) * h
-        following.append(_gauss_markov(b[k, :].T, variance, angle, draws[k, :].T, started))
+    draws = ca.reshape(w, 3, POLES).T
+    following = [_gauss_markov(b[k, :].T, variance, rate * h, draws[k, :].T, started)
+                 for k, (variance, rate) in enumerate(flicker_processes(B, f_low, f_high))]
     return x + sum(following), {"b": ca.horzcat(*following).T, "started": 1}
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.linalg import expm
 from scipy.optimize import brentq
 
-from pyimu.effects.noise import END_WEIGHT, POLES
+from pyimu.effects.noise import POLES, end_weight
 from pyimu.errors import UserError
 from pyimu.symbolic.derivations.independent import van_loan
 
@@ -33,7 +33,7 @@ def flicker(B: float, f_low: float, f_high: float) -> control.StateSpace:
     2 D a_k / pi, because int 2 a / (pi (a^2 + w^2)) d(ln a) = 1 / w; and B^2 / (2 pi f) = B^2 / w.
     """
     spacing = np.log(f_high / f_low) / (POLES - 1)
-    weights = np.r_[END_WEIGHT, np.ones(POLES - 2), END_WEIGHT]
+    weights = np.r_[end_weight(spacing), np.ones(POLES - 2), end_weight(spacing)]
     rates = 2 * np.pi * np.geomspace(f_low, f_high, POLES)
     return processes(B * np.sqrt(2 * weights * spacing * rates / np.pi), rates)
 
