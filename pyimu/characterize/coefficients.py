@@ -24,18 +24,21 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import cho_factor, cho_solve, cholesky, solve_triangular
+from scipy.linalg import cho_factor, cho_solve
 from scipy.optimize import nnls
-from scipy.stats import chi2, norm
+from scipy.stats import chi2, gamma, norm
 
 from pyimu.characterize.moments import TERMS, AllanMoments, design, moments
 from pyimu.errors import UserError
 from pyimu.shaping import flicker_floor
 
-NEEDED = 3.5
-"""Standard errors of its square from which a term counts as needed."""
+CHANCE = 1e-3
+"""A term is needed where noise without it would look as if it had as much of it with at most this probability."""
 
-ROUNDS, CLOSE = 100, 1e-8
+RAMP = TERMS.index("R")
+"""The terms before it are noise."""
+
+ROUNDS, CLOSE = 40, 1e-6
 """Repetitions at most, and the relative change that ends them."""
 
 
@@ -117,7 +120,7 @@ def _si(h: float) -> np.ndarray:
 def _report(problem: _Problem, chosen: list[int], si: np.ndarray, h: float, level: float) -> NoiseFit:
     kept = problem.needed(chosen)
     squares = problem.fit(kept)
-    covariance = problem.linear(kept, squares)[1]
+    covariance = problem.covariance(kept, squares)
     stds = dict(zip(kept, np.sqrt(np.diag(covariance)), strict=True))
     found = {}
     for i in chosen:
@@ -144,31 +147,36 @@ class _Problem:
 
     def fit(self, kept: Sequence[int]) -> np.ndarray:
         """Squares of the terms ``kept``, none negative, zero of the others, under the weights that they themselves make."""
-        root = np.diag(self.measured / np.sqrt(1 + 1 / self.moments.m))
+        root = np.diag(self.measured * np.sqrt(self.moments.m))
         squares = np.zeros(len(TERMS))
         for _ in range(ROUNDS):
             before = squares
             squares = self._non_negative(kept, root)
-            if np.all(np.abs(squares - before) <= CLOSE * (squares + before)):
+            if np.all(np.abs(squares - before) <= CLOSE * (squares + before)) or not np.any(squares[:RAMP]):
                 break
-            root = cholesky(self.moments.covariance(squares), lower=True)
+            root = np.linalg.cholesky(self.moments.covariance(squares))
         return squares
 
     def _non_negative(self, kept: Sequence[int], root: np.ndarray) -> np.ndarray:
         """Least squares under the covariance root root^T."""
-        x = solve_triangular(root, self.moments.design[:, kept], lower=True)
-        size = np.linalg.norm(x, axis=0)
+        # Not a triangular solve: libraries share even such small ones among processors, and wait for them a hundred times longer.
+        white = np.linalg.solve(root, np.column_stack([self.moments.design[:, kept], self.measured]))
+        size = np.linalg.norm(white[:, :-1], axis=0)
         squares = np.zeros(len(TERMS))
-        squares[kept] = nnls(x / size, solve_triangular(root, self.measured, lower=True))[0] / size
+        squares[kept] = nnls(white[:, :-1] / size, white[:, -1])[0] / size
         return squares
 
-    def linear(self, kept: Sequence[int], squares: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Estimates (k,) of the terms ``kept``, of any sign, and their covariance (k, k), under the weights of given squares."""
-        x, factor = self.moments.design[:, kept], cho_factor(self.moments.covariance(squares), lower=True)
-        weighted = cho_solve(factor, x)
-        size = 1 / np.sqrt(np.sum(weighted * x, axis=0))
-        covariance = np.linalg.inv(weighted.T @ x * np.outer(size, size)) * np.outer(size, size)
-        return covariance @ (weighted.T @ self.measured), covariance
+    def functionals(self, terms: Sequence[int], squares: np.ndarray) -> np.ndarray:
+        """Rows (k, t) whose products with Allan variances are the estimates, of any sign, of ``terms`` under the weights of given squares."""
+        x = self.moments.design[:, terms]
+        weighted = cho_solve(cho_factor(self.moments.covariance(squares), lower=True), x).T
+        size = 1 / np.sqrt(np.sum(weighted.T * x, axis=0))
+        return size[:, None] * np.linalg.solve(weighted @ x * np.outer(size, size), size[:, None] * weighted)
+
+    def covariance(self, kept: Sequence[int], squares: np.ndarray) -> np.ndarray:
+        """Of the estimates (k, k) of the terms ``kept``, which have these squares."""
+        rows = self.functionals(kept, squares)
+        return rows @ self.moments.covariance(squares) @ rows.T
 
     def misfit(self, squares: np.ndarray) -> float:
         left = self.measured - self.moments.design @ squares
@@ -178,25 +186,53 @@ class _Problem:
         """Those of the terms that are left when, one after the other, the least needed has gone."""
         kept = list(chosen)
         while len(kept) > 1:
-            scores = [self._score(i, [j for j in kept if j != i]) for i in kept]
-            if min(scores) >= NEEDED:
+            squares = self.fit(kept)
+            chances = [self._chance(i, kept, squares) for i in kept]
+            if max(chances) <= CHANCE:
                 break
-            kept.pop(int(np.argmin(scores)))
+            kept.pop(int(np.argmax(chances)))
         return kept
 
-    def _score(self, i: int, others: Sequence[int]) -> float:
-        """Standard errors from zero of the square of term i when it is added to a noise of the others."""
-        estimates, covariance = self.linear([i, *others], self.fit(others))
-        return estimates[0] / np.sqrt(covariance[0, 0])
+    def _chance(self, i: int, kept: Sequence[int], squares: np.ndarray) -> float:
+        """Probability, at most, that noise of the other terms gives term i an estimate as large as it has.
+
+        Once under the weights of that noise, which are the sharpest for a small term but put a random walk into the
+        longest cluster alone; and once under those of the fit ``squares`` of all ``kept``.
+        """
+        others = self.fit([j for j in kept if j != i])
+        if not np.any(others[:RAMP]):
+            return 0.0
+        chances = [self._tail(i, others, others)]
+        if squares[i] > 0:
+            chances.append(self._tail(i, squares, others))
+        return len(chances) * min(chances)
+
+    def _tail(self, i: int, weights: np.ndarray, others: np.ndarray) -> float:
+        row = self.functionals([i, *(j for j in np.flatnonzero(weights) if j != i)], weights)[0]
+        std, shape = self._spread(row, others)
+        excess = row @ (self.measured - self.moments.design @ others) / std
+        return float(gamma.sf(shape + excess * np.sqrt(shape), shape))
+
+    def _spread(self, row: np.ndarray, squares: np.ndarray) -> tuple[float, float]:
+        """Standard deviation of the product of ``row`` with the Allan variances, and the shape of a gamma distribution as skew.
+
+        Its skewness is taken for the mean of those of the Allan variances, in proportion to what they contribute to its variance.
+        """
+        covariance = self.moments.covariance(squares)
+        shares = row * (covariance @ row)
+        variance = np.sum(shares)
+        skewness = np.abs(shares) / variance @ (2 * np.sqrt(np.diag(covariance)) / (self.moments.design @ squares))
+        return float(np.sqrt(variance)), float(4 / skewness ** 2)
 
     def bound(self, i: int, kept: Sequence[int], squares: np.ndarray, level: float) -> float:
-        """Square of term i, added to those ``kept``, of which its estimate lies the quantile of ``level`` below."""
-        terms = [i, *kept]
-        estimate = max(self.linear(terms, squares)[0][0], 0.0)
-        bound, squares = estimate, squares.copy()
+        """Square of term i, added to those ``kept``, below which its estimate lies with the probability 1 - ``level`` as far as it does."""
+        bound, squares = 0.0, squares.copy()
         for _ in range(ROUNDS):
             squares[i], before = bound, bound
-            bound = estimate + norm.ppf(level) * np.sqrt(self.linear(terms, squares)[1][0, 0])
+            row = self.functionals([i, *kept], squares)[0]
+            std, _ = self._spread(row, squares)
+            bound = max(row @ self.measured, 0.0) + std * norm.ppf(level)
+            bound = max(bound, before)
             if bound - before <= CLOSE * bound:
                 return bound
         return np.inf
@@ -223,7 +259,8 @@ N_AT, K_AT = 1.0, 3.0
 """Cluster times [s] at which a line of slope -1/2 has the height N and one of slope +1/2 the height K."""
 
 CLEAR, FEW = 4.0, 10.0
-"""The line of slope +1/2 is laid through cluster times from so many times that of the floor to such a part of the record."""
+"""The line of slope +1/2 is laid through cluster times of so many times that of the floor and more; no cluster is read that
+fits into the record less often than this."""
 
 
 @dataclass(frozen=True)
@@ -239,16 +276,17 @@ def read_coefficients(tau: np.ndarray, deviation: np.ndarray) -> Reading:
     """Read Allan deviations (t,) at cluster times (t,) s, rising, that reach half the record, as Hidalgo 2012, section 2.2, does.
 
     N is the height at 1 s (between cluster times along the line that joins them), K that at 3 s of the line of slope +1/2
-    through the long cluster times, B the lowest point over 0.664.  Which times are long is not said there: here those in
-    which white noise is at most a sixteenth of the variance, and which fit into the record ten times.
+    through the long cluster times, B the lowest point over 0.664.  Which times are long is not said there: here those from
+    ``CLEAR`` times that of the lowest point on, where white noise is a sixteenth of the random walk's variance.
 
     Raises ValueError where 1 s is not among the cluster times.
     """
     tau, deviation = np.asarray(tau, dtype=float), np.asarray(deviation, dtype=float)
     if not tau[0] <= N_AT <= tau[-1]:
         raise ValueError(f"N is read at {N_AT:g} s, which is not between the cluster times {tau[0]:g} and {tau[-1]:g} s")
-    lowest = int(np.argmin(deviation))
-    rising = (tau >= CLEAR * tau[lowest]) & (tau <= 2 * tau[-1] / FEW)
+    legible = tau <= max(2 * tau[-1] / FEW, tau[0])
+    lowest = int(np.argmin(deviation[legible]))
+    rising = legible & (tau >= CLEAR * tau[lowest])
     K = np.exp(np.mean(np.log(deviation[rising] * np.sqrt(K_AT / tau[rising])))) if rising.any() else np.nan
     N = np.exp(np.interp(np.log(N_AT), np.log(tau), np.log(deviation)))
     return Reading(float(N), float(K), float(deviation[lowest] / flicker_floor(1.0)))
