@@ -5,14 +5,21 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from pyimu import units
 from pyimu.errors import Finding, UserError
 
+if TYPE_CHECKING:
+    from pyimu.counts import Scale
+
 ORIGIN = 1e6
 """s; a first time beyond it is a clock of its own (Unix time), and is subtracted."""
+
+COUNT = ("count", "counts", "lsb", "raw", "digit", "digits", "adc")
+"""Spellings of the unit of a converter's raw numbers, whose size a column map must give."""
 
 XYZ = ("x", "y", "z")
 
@@ -45,26 +52,63 @@ def column_names(group: str) -> tuple[str, ...]:
     return tuple(f"{group}_{suffix}" for suffix in suffixes) or (group,)
 
 
-_UNITS = {"time": "s", **{name: unit for group, (_, unit) in GROUPS.items() for name in column_names(group)}}
+_GROUP = {name: group for group in GROUPS for name in column_names(group)} | {"time": "time"}
+_UNITS = {"time": "s", **{name: GROUPS[group][1] for name, group in _GROUP.items() if group in GROUPS}}
+
+
+def group_of(name: str) -> str:
+    """The group of a column: ``"gyro"`` for ``"gyro_x"``."""
+    return _GROUP[name]
+
+
+def check_unit(place: str, name: str, text: Any) -> units.Unit:
+    """The unit ``text`` of the column ``name``.  Raises UnitError that begins with ``place`` where it is none, or does not fit."""
+    try:
+        unit = units.parse(text)
+    except units.UnitError as error:
+        raise units.UnitError(f"{place}: {error}") from None
+    right = _UNITS[name]
+    fits = unit.text in ("K", "degC") if right == "degC" else units.same_dimension(unit, right)
+    if not fits:
+        raise units.UnitError(f"{place} cannot be in '{unit}', expected a unit like '{right}'")
+    return unit
 
 
 class Header:
     """The columns of a file that have a meaning: ``names`` without unit, ``positions`` in the file, ``units``.
 
-    Raises UserError for a column that stands twice, has no, an unknown or the wrong unit, or a name close to a known one;
-    for an incomplete group, no time, and neither gyro nor accelerometer.  A column with another name is left out, and
+    ``scale`` gives the size of a count by column; a ``crowded`` file holds much that is not looked at.  Raises UserError for a
+    column that stands twice, has no, an unknown or the wrong unit, is in counts of unknown size, or has a name close to a known
+    one; for an incomplete group, no time, and neither gyro nor accelerometer.  A column with another name is left out, and
     listed in ``findings``.
     """
 
-    def __init__(self, path: Path, header: Sequence[str]) -> None:
+    def __init__(self, path: Path, header: Sequence[str], scale: Mapping[str, Scale] = MappingProxyType({}), crowded: bool = False) -> None:
         self.path = path
         self.names: list[str] = []
         self.positions: list[int] = []
         self.units: list[units.Unit] = []
         self.findings: list[Finding] = []
+        self._crowded = crowded
+        self._scale = scale
+        self._counted: set[str] = set()
         for position, cell in enumerate(header):
             self._add(position, cell)
-        self._check()
+        self._check(header)
+
+    @property
+    def time(self) -> int:
+        """The position of the time in the file."""
+        return self.positions[self.names.index("time")]
+
+    @property
+    def stated(self) -> list[str]:
+        """The columns whose unit the file states, those not in counts."""
+        return [name for name in self.names if name not in self._counted]
+
+    @property
+    def groups(self) -> tuple[str, ...]:
+        return tuple(group for group in GROUPS if column_names(group)[0] in self.names)
 
     def _add(self, position: int, cell: str) -> None:
         name, _, rest = cell.partition("[")
@@ -81,25 +125,34 @@ class Header:
         self.units.append(self._unit(name, unit[:-1]))
 
     def _unit(self, name: str, text: str) -> units.Unit:
-        try:
-            unit = units.parse(text)
-        except units.UnitError as error:
-            raise units.UnitError(f"{self.path}: column {name}: {error}") from None
-        right = _UNITS[name]
-        fits = unit.text in ("K", "degC") if right == "degC" else units.same_dimension(unit, right)
-        if not fits:
-            raise units.UnitError(f"{self.path}: column {name} cannot be in '{unit}', expected a unit like '{right}'")
+        if text.strip().casefold() in COUNT:
+            self._counted.add(name)
+            return self._size(name)
+        unit = check_unit(f"{self.path}: column {name}", name, text)
+        if name in self._scale:
+            raise UserError(f"{self.path}: column {name} is in '{unit}', but [scale] in the column map is for columns in counts; "
+                            f"write '{name} [count]', or leave its scale out")
         return unit
 
+    def _size(self, name: str) -> units.Unit:
+        if name not in self._scale:
+            group = group_of(name)
+            raise UserError(f"{self.path}: column {name} is in counts, and nobody said how large one is; say it in a column map (TOML) "
+                            f"as [scale] {group} = {{value = ..., unit = \"{_UNITS[name]}\"}}")
+        return self._scale[name].unit
+
     def _unknown(self, name: str, cell: str) -> None:
+        if self._crowded:
+            return
         near = units.did_you_mean(name, _UNITS, cutoff=0.8)
         if near:
             raise UserError(f"{self.path}: unknown column '{name}'{near}")
         self.findings.append(Finding("unused_column", name, 1, {"header": cell}))
 
-    def _check(self) -> None:
+    def _check(self, header: Sequence[str]) -> None:
         if "time" not in self.names:
-            raise UserError(f"{self.path}: not a recording, the header has no 'time [s]' column")
+            has = f"; name its columns in a column map (TOML), it has {_some(header)}" if self._crowded else ""
+            raise UserError(f"{self.path}: not a recording, the header has no 'time [s]' column{has}")
         for group in GROUPS:
             missing = [name for name in column_names(group) if name not in self.names]
             if missing and len(missing) < len(column_names(group)):
@@ -107,21 +160,35 @@ class Header:
         if "gyro_x" not in self.names and "accel_x" not in self.names:
             raise UserError(f"{self.path}: neither gyro_x, gyro_y, gyro_z nor accel_x, accel_y, accel_z is there")
 
-    def convert(self, columns: Sequence[np.ndarray], findings: list[Finding]) -> dict[str, np.ndarray]:
-        """The columns (n,) in SI by name; infinite values become missing ones, and a clock's origin is subtracted."""
-        return {name: self._origin(column, unit, findings) if name == "time" else _si(name, column, unit)
+    def origin(self, first: float | np.integer, findings: list[Finding]) -> float | np.integer:
+        """What to take from the file's times, in its unit: the ``first`` where that is a clock of its own, else 0."""
+        seconds = float(first) * self.seconds
+        if not ORIGIN < abs(seconds) < np.inf:
+            return 0
+        findings.append(Finding("time_origin", "time", 1, {"origin": seconds}))
+        return first
+
+    def convert(self, columns: Sequence[np.ndarray], origin: float | np.integer) -> dict[str, np.ndarray]:
+        """The columns (n,) in SI by name; infinite values become missing ones.
+
+        ``origin`` is subtracted from the time in the file's unit, so that an integer clock is not rounded.
+        """
+        return {name: (column - origin) * self.seconds if name == "time" else self._si(name, column, unit)
                 for name, column, unit in zip(self.names, columns, self.units)}
 
-    @staticmethod
-    def _origin(column: np.ndarray, unit: units.Unit, findings: list[Finding]) -> np.ndarray:
-        """The time in s, less its first value where that is large; subtracted in the file's unit, without rounding."""
-        origin = float(column[0]) * unit.factor if len(column) else 0.0
-        if not ORIGIN < abs(origin) < np.inf:
-            return column * unit.factor
-        findings.append(Finding("time_origin", "time", 1, {"origin": origin}))
-        return (column - column[0]) * unit.factor
+    @property
+    def seconds(self) -> float:
+        """s in one of the file's units of time."""
+        factor = self.units[self.names.index("time")].factor
+        return factor * self._scale["time"].value if "time" in self._counted else factor
+
+    def _si(self, name: str, column: np.ndarray, unit: units.Unit) -> np.ndarray:
+        if name in self._counted:
+            column = column * self._scale[name].value + self._scale[name].offset
+        values = units.to_degc(column, unit) if _UNITS[name] == "degC" else units.convert(column, unit, _UNITS[name])
+        return np.where(np.isfinite(values), values, np.nan)
 
 
-def _si(name: str, column: np.ndarray, unit: units.Unit) -> np.ndarray:
-    values = units.to_degc(column, unit) if _UNITS[name] == "degC" else units.convert(column, unit, _UNITS[name])
-    return np.where(np.isfinite(values), values, np.nan)
+def _some(names: Sequence[str], most: int = 8) -> str:
+    """The first of ``names``, for a message."""
+    return (", ".join(names[:most]) or "none of numbers") + (f" and {len(names) - most} more" if len(names) > most else "")

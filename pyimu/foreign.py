@@ -1,4 +1,4 @@
-"""Foreign logs: a TOML file that renames a log's columns and declares its axes."""
+"""Foreign logs: a TOML file that renames a log's columns, declares its axes and gives the size of raw counts."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from pyimu.counts import Scale, read_scales
 from pyimu.errors import UserError
 from pyimu.units import did_you_mean
 
@@ -29,6 +30,8 @@ class ForeignMap:
 
     path: Path | None = None
     columns: Mapping[str, str] = field(default_factory=dict)
+    scale: Mapping[str, Scale] = field(default_factory=dict)
+    topics: Mapping[str, str] = field(default_factory=dict)
     body: np.ndarray | None = None
     world: str = "enu"
     q: str = "nb"
@@ -40,10 +43,10 @@ class ForeignMap:
         return [self.columns.get(cell, cell) for cell in header]
 
     def turn(self, groups: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
-        """The groups in forward-left-up and east-north-up axes."""
+        """The groups in forward-left-up and east-north-up axes; a sample's result does not depend on those beside it."""
         turned = dict(groups)
         if self.body is not None:
-            turned |= {g: groups[g] @ self.body.T for g in _AXES if g in groups}
+            turned |= {g: _rotated(self.body, groups[g]) for g in _AXES if g in groups}
         if self.world == "ned":
             turned |= {g: math.pi / 2 - groups[g] for g in ("heading", "ref_heading") if g in groups}
         if "ref_q" in groups and (self.body is not None or self.world == "ned" or self.q == "bn"):
@@ -60,6 +63,12 @@ class ForeignMap:
         return turned
 
 
+def _rotated(rotation: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """R v for each row of ``v`` (n, 3), in the same order of operations for any n; a matrix product promises no order."""
+    x, y, z = v.T
+    return np.column_stack([a * x + b * y + c * z for a, b, c in rotation])
+
+
 def read_map(path: Path) -> ForeignMap:
     try:
         data = tomllib.loads(path.read_text(encoding="utf-8"))
@@ -67,14 +76,24 @@ def read_map(path: Path) -> ForeignMap:
         raise UserError(f"{path}: no such file") from None
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         raise UserError(f"{path}: cannot be read as TOML ({error})") from None
-    _known_keys(path, "", data, ("columns", "frame"))
-    columns, frame = data.get("columns", {}), data.get("frame", {})
+    _known_keys(path, "", data, ("columns", "frame", "scale", "topics"))
+    frame = data.get("frame", {})
     _known_keys(path, "frame.", frame, ("body", "world", "q", "R"))
-    for name, target in columns.items():
+    topics = _texts(path, "topics", data, "/imu/data")
+    _known_keys(path, "topics.", topics, ("imu", "temperature"))
+    return ForeignMap(path, _texts(path, "columns", data, "gyro_x [deg/s]"), read_scales(path, data.get("scale", {})), topics,
+                      _body(path, frame), world=_choice(path, frame, "world", ("enu", "ned")), q=_choice(path, frame, "q", ("nb", "bn")))
+
+
+def _texts(path: Path, key: str, data: Mapping[str, Any], example: str) -> Mapping[str, str]:
+    """The table ``key``, of texts."""
+    table = data.get(key, {})
+    if not isinstance(table, dict):
+        raise UserError(f"{path}: key {key} must be a table")
+    for name, target in table.items():
         if not isinstance(target, str):
-            raise UserError(f"{path}: key columns.\"{name}\" must be text such as \"gyro_x [deg/s]\"")
-    return ForeignMap(path, columns, _body(path, frame), world=_choice(path, frame, "world", ("enu", "ned")),
-                      q=_choice(path, frame, "q", ("nb", "bn")))
+            raise UserError(f"{path}: key {key}.\"{name}\" must be text such as \"{example}\"")
+    return table
 
 
 def _known_keys(path: Path, prefix: str, table: Any, known: Sequence[str]) -> None:

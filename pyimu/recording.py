@@ -1,36 +1,31 @@
-"""Recordings: a log of an inertial sensor and what is known of the truth, read from CSV or Parquet.
+"""Recordings: a log of an inertial sensor and what is known of the truth, read whole or in pieces.
 
-One row is a sample; a header cell is a name and its unit, ``gyro_x [deg/s]``.  ``GROUPS`` lists every column that has a
-meaning.  Inside, all is SI and radians (temperature degC), axes are forward-left-up and east-north-up, and a missing
-value is NaN.
+Formats: CSV (also .gz), Parquet, MAT, HDF5, ROS bags and MCAP.  One row is a sample; a header cell is a name and its unit,
+``gyro_x [deg/s]``.  ``GROUPS`` lists every column that has a meaning.  Inside, all is SI and radians (temperature degC), axes
+are forward-left-up and east-north-up, and a missing value is NaN.
 """
 
 from __future__ import annotations
 
-import math
 import os
-import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
-from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 
-from pyimu.columns import GROUPS, Header, column_names
+from pyimu.clock import Cadence, Clock, cadence_of, segments
+from pyimu.columns import GROUPS, column_names
 from pyimu.errors import Finding, UserError
-from pyimu.foreign import ForeignMap, read_map
-from pyimu.table import CsvTable, ParquetTable, open_table, write_table
+from pyimu.rows import Rows, Source
+from pyimu.table import stem, write_table
 from pyimu.units import did_you_mean
 
-__all__ = ["GROUPS", "Finding", "Recording", "column_names", "read_recording"]
+__all__ = ["GROUPS", "Finding", "Log", "Recording", "column_names", "join", "open_log", "read_recording"]
 
-GAP = 1.5
-"""A step of the time above so many sample periods is a gap."""
-
-NORM_TOLERANCE = 1e-2
-"""How far the norm of a reference quaternion may be from one before it is reported."""
+HEAD = 1 << 16
+"""Rows at the start of a log from which its sample period is taken before the rest is read."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,7 +37,9 @@ class Recording:
     quaternion, scalar first, body to world), ``ref_heading`` [rad] (counter-clockwise from east), ``ref_force``
     [m/s^2], ``ref_north``, ``ref_east``, ``ref_up`` [m], ``ref_velocity`` (n, 3) east, north, up [m/s], ``latitude``
     [rad], and the marks ``moving`` and ``stationary`` (0 or 1).  Further sensors: ``heading`` and ``heading_std`` [rad],
-    ``supply`` [V], ``mag`` [T].  ``frame_declared`` says that the log's axes were stated, not assumed.
+    ``supply`` [V], ``mag`` [T].  ``frame_declared`` says that the log's axes were stated, not assumed.  ``period`` [s] is the
+    sample period, and ``longest`` [s] the longest step that is no gap, where they are known otherwise than from ``time``: of a
+    piece of a log they are the log's.
     """
 
     name: str
@@ -68,6 +65,8 @@ class Recording:
     path: Path | None = None
     findings: tuple[Finding, ...] = ()
     frame_declared: bool = False
+    period: float | None = None
+    longest: float | None = None
 
     @classmethod
     def from_arrays(cls, name: str = "recording", *, time, **groups) -> Recording:
@@ -98,14 +97,16 @@ class Recording:
         return {group: getattr(self, group) for group in GROUPS if getattr(self, group) is not None}
 
     @cached_property
+    def cadence(self) -> Cadence:
+        """The sample period, and the longest step of the time that is no gap."""
+        if self.period is None:
+            return cadence_of(self.time)
+        return Cadence.of_period(self.period) if self.longest is None else Cadence(self.period, self.longest)
+
+    @property
     def sample_period(self) -> float:
-        """s; the median step of the time, refined by the mean of the steps that are no gap (a file's times are rounded)."""
-        step = np.diff(self.time)
-        if not len(step):
-            return math.nan
-        median = float(np.median(step))
-        regular = step[np.abs(step - median) < (GAP - 1) * median]
-        return float(regular.mean()) if len(regular) > 0.9 * len(step) else median
+        """s; the median step of the time, refined by the mean of the steps that are no gap."""
+        return self.cadence.period
 
     @property
     def sample_rate(self) -> float:
@@ -114,10 +115,8 @@ class Recording:
 
     @cached_property
     def segments(self) -> list[tuple[int, int]]:
-        """Index ranges (start, stop) without gap."""
-        breaks = np.flatnonzero(np.diff(self.time) > GAP * self.sample_period) + 1 if len(self) > 1 else []
-        edges = [0, *map(int, breaks), len(self)]
-        return list(pairwise(edges))
+        """Index ranges (start, stop) without gap: no step above 1.5 sample periods, but for times too coarse to tell."""
+        return segments(self.time, self.cadence.longest)
 
     def slice(self, start: int | None = None, stop: int | None = None) -> Recording:
         """The samples start <= k < stop, as a recording; findings stay those of the whole log."""
@@ -149,108 +148,158 @@ def _shaped(name: str, group: str, values, n: int) -> np.ndarray:
     return array
 
 
-def read_recording(path: str | os.PathLike, columns: str | os.PathLike | None = None) -> Recording:
-    """The recording in ``path`` (.csv, .csv.gz or .parquet).
+def join(pieces: Sequence[Recording]) -> Recording:
+    """Consecutive pieces of one log as one recording.  Raises ValueError for no piece."""
+    if not pieces:
+        raise ValueError("no pieces to join")
+    if len(pieces) == 1:
+        return pieces[0]
+    groups = {group: np.concatenate([getattr(piece, group) for piece in pieces]) for group in pieces[0].groups}
+    return replace(pieces[0], time=np.concatenate([piece.time for piece in pieces]), **groups)
 
-    ``columns`` is a TOML file for a foreign log; it renames columns and declares axes::
+
+class Log:
+    """A log in a file, opened to be read in pieces: ``name``, ``path``; see ``open_log``."""
+
+    def __init__(self, source: Source) -> None:
+        self._source = source
+        self.path: Path = source.header.path
+        self.name = stem(self.path)
+        self.findings: tuple[Finding, ...] = ()
+        """What was seen in reading; complete once all of it was read."""
+
+    def __repr__(self) -> str:
+        return f"Log({self.name!r}: {self.count or 'unknown number of'} rows, {self.sample_rate:.6g} Hz, {', '.join(self.groups)})"
+
+    @property
+    def groups(self) -> tuple[str, ...]:
+        """Names of the groups that the log holds, in the order of ``GROUPS``."""
+        return self._source.header.groups
+
+    @property
+    def count(self) -> int | None:
+        """Rows in the file, before repeats are dropped; None where only reading tells."""
+        return self._source.table.count(self._source.header.time)
+
+    @property
+    def frame_declared(self) -> bool:
+        """Whether the log's axes were stated."""
+        return self._source.foreign.body is not None
+
+    @cached_property
+    def cadence(self) -> Cadence:
+        """That of the first 65,536 samples."""
+        times, known = [], 0
+        for piece, _ in self._batches(Rows(self._source)):
+            times.append(piece.time)
+            known += len(piece)
+            if known >= HEAD:
+                break
+        return cadence_of(np.concatenate(times)[:HEAD])
+
+    @property
+    def sample_period(self) -> float:
+        """s; that of the first 65,536 samples."""
+        return self.cadence.period
+
+    @property
+    def sample_rate(self) -> float:
+        """Hz."""
+        return 1 / self.sample_period
+
+    def pieces(self, rows: int = 1_000_000) -> Iterator[tuple[Recording, float]]:
+        """Consecutive pieces of ``rows`` samples, the last one shorter, and the share of the file read so far: 1 with the last.
+
+        Joined they are what ``read_recording`` gives, for any ``rows``; the times run on from piece to piece.  A gap is a step
+        above ``cadence.longest``, 1.5 of ``sample_period``; each piece carries both.  Findings are the log's, not the pieces'.  Each call
+        reads from the start; it can be left at any time.  Raises UserError as ``read_recording`` does, as far as it has read.
+        """
+        if rows < 1:
+            raise ValueError(f"pieces of {rows} rows")
+        passing, clock = Rows(self._source), Clock(self.cadence)
+        for piece, share in _cut(self._batches(passing), rows):
+            clock.add(piece.time)
+            self.findings = (*passing.findings, *clock.findings())
+            yield replace(piece, period=self.cadence.period, longest=self.cadence.longest), share
+
+    def stretches(self, rows: int = 1_000_000) -> Iterator[tuple[int, Recording, float]]:
+        """As ``pieces``, cut at the gaps too: (segment, piece, share).
+
+        ``segment`` counts the ranges of the log without gap from 0; consecutive pieces of one segment join without gap.
+        """
+        segment, before = 0, None
+        for piece, share in self.pieces(rows):
+            for start, stop in piece.segments:
+                part = piece.slice(start, stop)
+                segment += before is not None and bool(part.time[0] - before > self.cadence.longest)
+                before = part.time[-1]
+                yield segment, part, share
+
+    def read(self) -> Recording:
+        """The whole log; its sample period is that of all its samples."""
+        passing = Rows(self._source)
+        whole = join([piece for piece, _ in self._batches(passing)])
+        clock = Clock(whole.cadence)
+        clock.add(whole.time)
+        self.findings = (*passing.findings, *clock.findings())
+        return replace(whole, findings=self.findings)
+
+    def _batches(self, passing: Rows) -> Iterator[tuple[Recording, float]]:
+        for time, groups, share in passing.batches():
+            yield Recording(self.name, time, **groups, path=self.path, frame_declared=self.frame_declared), share
+
+
+def _cut(batches: Iterable[tuple[Recording, float]], rows: int) -> Iterator[tuple[Recording, float]]:
+    """``batches`` in pieces of exactly ``rows`` samples, the last one shorter; nothing is given out before it is known not to be the last."""
+    held: list[Recording] = []
+    waiting, share = 0, 0.0
+    for batch, share in batches:
+        while waiting + len(batch) > rows:
+            cut = rows - waiting
+            yield join([*held, batch.slice(0, cut)]), share
+            batch, held, waiting = batch.slice(cut), [], 0
+        held.append(batch)
+        waiting += len(batch)
+    if waiting:
+        yield join(held), 1.0
+
+
+def open_log(path: str | os.PathLike, columns: str | os.PathLike | None = None) -> Log:
+    """The log in ``path``, of any format and any length, opened to be read in pieces of bounded memory::
+
+        log = open_log("day.parquet")
+        for piece, share in log.pieces():
+            ...                             # a Recording of a million samples; share of the file, 0 to 1
+        log.findings
+
+    ``columns`` is that of ``read_recording``.  The first 65,536 rows are read at once, for the sample period.  Raises UserError
+    as ``read_recording`` does.
+    """
+    log = Log(Source.open(Path(path), None if columns is None else Path(columns)))
+    _ = log.cadence  # so that what is wrong at the start of a file is said at once
+    return log
+
+
+def read_recording(path: str | os.PathLike, columns: str | os.PathLike | None = None) -> Recording:
+    """The recording in ``path``: .csv, .csv.gz, .parquet, .mat, .h5, .hdf5, .bag, .db3, .mcap, or the folder of a bag of ROS 2.
+
+    ``columns`` is a TOML file for a foreign log; it renames columns, declares axes, gives the size of raw counts, and picks the
+    topics of a bag::
 
         [columns]
         "GyrX" = "gyro_x [deg/s]"
+        "log/acc[0]" = "accel_x [count]"    # MAT and HDF5: the path of an array, and its column or field
         [frame]
         body = "frd"     # "flu", or a 3 x 3 rotation R with v_flu = R v_log (also as the key R)
         world = "ned"    # "enu"; in ned a heading is a compass heading
         q = "bn"         # world to body; "nb" is body to world
+        [scale]
+        accel = {value = 0.061, unit = "mg"}    # of one count; also an offset, in the same unit
+        [topics]
+        imu = "/imu/data"                       # of sensor_msgs/Imu; also temperature
 
-    Raises UserError, one line with file, row (as a spreadsheet counts, the header is row 1) and column, for what cannot
-    be used; what can is listed in ``Recording.findings``.
+    A bag's messages are in SI by their definition; every other file must state its units.  Raises UserError, one line with
+    file, row (as a spreadsheet counts, the header is row 1) and column, for what cannot be used; what can is listed in
+    ``Recording.findings``.
     """
-    path = Path(path)
-    foreign = read_map(Path(columns)) if columns is not None else ForeignMap()
-    table = open_table(path)
-    header = Header(path, foreign.rename(path, table.header))
-    findings = list(header.findings)
-    values = header.convert(table.read(header.positions, header.positions[header.names.index("time")]), findings)
-    time, values = _clean_time(table, values, findings)
-    groups = _grouped(values, findings)
-    _report_missing(groups, findings)
-    return Recording(_stem(path), time, **foreign.turn(groups), path=path, findings=tuple(findings),
-                     frame_declared=foreign.body is not None)
-
-
-def _stem(path: Path) -> str:
-    return re.sub(r"(?i)(\.csv(\.gz)?|\.parquet)$", "", path.name)
-
-
-# Rows: the order of the time, repeats, gaps, missing values
-
-
-def _clean_time(table: CsvTable | ParquetTable, values: dict[str, np.ndarray], findings: list[Finding],
-                ) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-    """Time (n,) that increases strictly, and the other columns at the rows that were kept."""
-    time = values.pop("time")
-    missing = np.flatnonzero(~np.isfinite(time))
-    if len(missing):
-        raise UserError(f"{table.path}: row {table.row(missing[0])}: the time is missing")
-    back = np.flatnonzero(np.diff(time) < 0)
-    if len(back):
-        before, after = time[back[0]], time[back[0] + 1]
-        place = f"{table.path}: row {table.row(back[0] + 1)}"
-        raise UserError(f"{place}: the time runs backwards, {after:.9g} s follows {before:.9g} s")
-    keep = _not_repeated(time, values, findings)
-    if keep.sum() < 3:
-        raise UserError(f"{table.path}: {keep.sum()} rows of data, a recording needs at least 3")
-    time = time[keep]
-    _report_gaps(time, findings)
-    return time, {name: column[keep] for name, column in values.items()}
-
-
-def _not_repeated(time: np.ndarray, values: Mapping[str, np.ndarray], findings: list[Finding]) -> np.ndarray:
-    """Mask of the rows that are the first with their time."""
-    keep = np.concatenate(([True], np.diff(time) > 0)) if len(time) else np.zeros(0, bool)
-    again = np.flatnonzero(~keep)
-    if len(again):
-        same = np.all([_equal(v[again], v[again - 1]) for v in values.values()], axis=0)
-        for kind, rows in (("repeated_rows", again[same]), ("repeated_time", again[~same])):
-            if len(rows):
-                findings.append(Finding(kind, "time", len(rows), {"first": float(time[rows[0]])}))
-    return keep
-
-
-def _equal(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    return (a == b) | (np.isnan(a) & np.isnan(b))
-
-
-def _report_gaps(time: np.ndarray, findings: list[Finding]) -> None:
-    step = np.diff(time)
-    gaps = step[step > GAP * np.median(step)]
-    if len(gaps):
-        findings.append(Finding("gaps", "time", len(gaps), {"longest": float(gaps.max()), "total": float(gaps.sum())}))
-
-
-def _grouped(values: Mapping[str, np.ndarray], findings: list[Finding]) -> dict[str, np.ndarray]:
-    groups = {}
-    for group, (suffixes, _) in GROUPS.items():
-        names = column_names(group)
-        if names[0] in values:
-            groups[group] = np.column_stack([values[name] for name in names]) if suffixes else values[names[0]]
-    if "ref_q" in groups:
-        groups["ref_q"] = _normalised(groups["ref_q"], findings)
-    return groups
-
-
-def _normalised(q: np.ndarray, findings: list[Finding]) -> np.ndarray:
-    """Unit quaternions; a norm far from one is reported, and one below a half (zeros for "not seen") is missing."""
-    norm = np.linalg.norm(q, axis=1)
-    odd = np.abs(norm - 1) > NORM_TOLERANCE
-    if odd.any():
-        detail = {"largest": float(norm[odd].max()), "least": float(norm[odd].min())}
-        findings.append(Finding("reference_norm", "ref_q", int(odd.sum()), detail))
-    return q / np.where(norm < 0.5, np.nan, norm)[:, None]
-
-
-def _report_missing(groups: Mapping[str, np.ndarray], findings: list[Finding]) -> None:
-    for group in ("gyro", "accel"):
-        if group in groups:
-            for name, count in zip(column_names(group), np.isnan(groups[group]).sum(axis=0)):
-                if count:
-                    findings.append(Finding("missing_cells", name, int(count)))
+    return Log(Source.open(Path(path), None if columns is None else Path(columns))).read()
