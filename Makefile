@@ -42,4 +42,5 @@ fmus: $(READY)
 	$(BIN)/pyimu build $(PART) --out $(OUT)/fmus
 
 bench: $(READY)
+	$(BIN)/python -m pip install --quiet --editable '.[bench]'
 	for b in benchmarks/*.py; do $(BIN)/python "$$b" || exit 1; done

@@ -9,6 +9,9 @@
 
 int MODEL_STEP(const double **arg, double **res, long long *iw, double *w, int memory);
 int MODEL_INITIAL(const double **arg, double **res, long long *iw, double *w, int memory);
+#ifdef MODEL_LIMITS
+int MODEL_LIMITS(const double **arg, double **res, long long *iw, double *w, int memory);
+#endif
 
 /* ---- messages --------------------------------------------------------------------------------------------------- */
 
@@ -249,8 +252,43 @@ bool block_evaluate_initial(Block *block) {
     return done;
 }
 
+/* What the parameters must keep together, and with the sample period. */
+static bool within_limits(Block *block) {
+#ifdef MODEL_LIMITS
+    double broken[N_LIMITS];
+    block->arg[0] = block->now->parameters;
+    block->arg[1] = &block->now->sample_period;
+    block->res[0] = broken;
+    if (MODEL_LIMITS(block->arg, block->res, block->iw, block->w, 0) != 0) {
+        return block_refuse(block, "%s: its limits cannot be evaluated", MODEL_NAME);
+    }
+    for (size_t i = 0; i < N_LIMITS; i++) {
+        if (broken[i] != 0.0) {
+            return block_refuse(block, "%s: %s", MODEL_NAME, limit_texts[i]);
+        }
+    }
+#else
+    (void) block;
+#endif
+    return true;
+}
+
+/* An output that is a whole number says how the model fares, as a filter's status does: each change of it is told. */
+static void tell_changes(const Block *block, const double *before, const double *after) {
+    for (size_t i = 0; i < N_VARIABLES; i++) {
+        const BlockVariable *v = &variables[i];
+        if (v->role == ROLE_OUTPUT && v->kind == KIND_INTEGER && before[v->first] != after[v->first]) {
+            tell(block, "%s: %s is %g after sample %lld", MODEL_NAME, v->name, after[v->first], (long long) block->now->sample);
+        }
+    }
+}
+
 static bool evaluate_step(Block *block, int64_t sample, uint64_t row, const double *normals) {
     struct BlockState *now = block->now;
+    double before[N_OUTPUTS];
+    if (block->log_events) {
+        memcpy(before, block_outputs(now, row > 0 ? row - 1 : now->rows - 1), sizeof before);
+    }
     const double *arguments[] = {now->state, block_inputs(now, row), now->parameters, normals, &now->sample_period};
     memcpy(block->arg, arguments, sizeof arguments);
     block->res[0] = block->next_state;
@@ -260,6 +298,9 @@ static bool evaluate_step(Block *block, int64_t sample, uint64_t row, const doub
     }
     memcpy(now->state, block->next_state, sizeof now->state);
     now->sample = sample;
+    if (block->log_events) {
+        tell_changes(block, before, block_outputs(now, row));
+    }
     return true;
 }
 
@@ -317,6 +358,9 @@ bool block_exit_initialization(Block *block) {
         return false;
     }
     struct BlockState *now = block->now;
+    if (!within_limits(block)) {
+        return false;
+    }
     if (!block_evaluate_initial(block)) {
         return block_refuse(block, "%s: its initial state cannot be evaluated", MODEL_NAME);
     }

@@ -19,13 +19,14 @@ typedef enum { KIND_REAL, KIND_BOOLEAN, KIND_INTEGER, KIND_UNSIGNED } Kind;
 typedef enum { ROLE_TIME, ROLE_INPUT, ROLE_TUNABLE, ROLE_FIXED, ROLE_OUTPUT, ROLE_STRUCTURAL } Role;
 
 /* One variable; its value reference is its place in the table.  It has `count` columns among the inputs, parameters or
-   outputs, from column `first` on; a matrix has its elements row by row. */
+   outputs, from column `first` on; a matrix has its elements row by row.  Without bounds these are infinite. */
 typedef struct {
     const char *name;
     Kind kind;
     Role role;
     size_t first;
     size_t count;
+    double minimum, maximum;
 } BlockVariable;
 
 /* Where messages go: the environment's logger, called through the FMI version's own signature. */

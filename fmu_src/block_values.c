@@ -134,6 +134,16 @@ bool block_get_unsigned(Block *block, uint32_t reference, uint64_t *value) {
     return true;
 }
 
+/* A parameter keeps its bounds, and is a number where it has any.  Inputs are the model's affair, sample by sample. */
+static bool is_bounded(const BlockVariable *v) {
+    return v->role == ROLE_TUNABLE && (isfinite(v->minimum) || isfinite(v->maximum));
+}
+
+static bool in_bounds(Block *block, const BlockVariable *v, double value) {
+    return (value >= v->minimum && value <= v->maximum)
+           || block_refuse(block, "%s: variable %s must lie in %g to %g, not %g", MODEL_NAME, v->name, v->minimum, v->maximum, value);
+}
+
 bool block_set_reals(Block *block, uint32_t reference, const double values[]) {
     if (!may_set(block, reference, KIND_REAL)) {
         return false;
@@ -142,6 +152,12 @@ bool block_set_reals(Block *block, uint32_t reference, const double values[]) {
         return block_refuse_variable(block, reference, "must be positive and finite");
     }
     View v = view(block, reference);
+    const BlockVariable *variable = &variables[reference];
+    for (size_t i = 0; is_bounded(variable) && i < v.rows * v.columns; i++) {
+        if (!in_bounds(block, variable, values[i])) {
+            return false;
+        }
+    }
     EACH_VALUE(v, value) { *value = *values++; }
     block->outputs_stale = block->now->phase < STEPPING;
     return true;
@@ -152,6 +168,12 @@ bool block_set_integers(Block *block, uint32_t reference, const int32_t values[]
         return false;
     }
     View v = view(block, reference);
+    const BlockVariable *variable = &variables[reference];
+    for (size_t i = 0; is_bounded(variable) && i < v.rows * v.columns; i++) {
+        if (!in_bounds(block, variable, values[i])) {
+            return false;
+        }
+    }
     EACH_VALUE(v, value) { *value = *values++; }
     block->outputs_stale = block->now->phase < STEPPING;
     return true;

@@ -7,6 +7,7 @@ depend on who calls it and a restored state replays exactly.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
@@ -45,12 +46,47 @@ class NoiseChannel:
 
 
 @dataclass(frozen=True)
+class Limits:
+    """What parameters must keep together, and with the sample period: ``broken(p, h)`` (n,) is not 0 where they break ``texts[i]``.
+
+    What one parameter must keep by itself are the bounds of its ``Variable``.
+    """
+
+    texts: tuple[str, ...]
+    broken: ca.Function
+
+    def check(self, p: np.ndarray, h: float, name: str) -> None:
+        """Raise UserError, which starts with ``name``, for the first limit that is broken."""
+        for text, broken in zip(self.texts, np.array(self.broken(p, h)).ravel(), strict=True):
+            if broken:
+                raise UserError(f"{name}: {text}")
+
+
+def sample_period_of(seconds: float, what: str) -> float:
+    """A sample period [s] as a float.  Raises UserError, which starts with ``what``, for one that is no positive, finite number."""
+    try:
+        h = float(seconds)
+    except (TypeError, ValueError):
+        h = math.nan
+    if not (h > 0.0 and math.isfinite(h)):
+        raise UserError(f"{what}: the sample period must be a positive and finite number of seconds, not {seconds!r}")
+    return h
+
+
+def seed_of(seed: int, bits: int = 64) -> int:
+    """A seed as an int.  Raises UserError for one that is no integer from 0 to 2^bits - 1."""
+    if isinstance(seed, bool) or not isinstance(seed, (int, np.integer)) or not 0 <= int(seed) < 2**bits:
+        raise UserError(f"seed {seed!r} is not an integer in 0 to 2^{bits} - 1")
+    return int(seed)
+
+
+@dataclass(frozen=True)
 class Block:
     """A sampled system ``(s, u, p, w, h) -> (s_next, y)`` with named scalars.
 
     ``step`` maps state (ns,), input (nu,), parameter (np,), standard normals (nw,) and sample period (1,)
     to the next state and the output (ny,).  ``initial`` maps the parameters to the state before the first
-    sample and to the outputs shown before it.
+    sample and to the outputs shown before it.  Where the parameters break ``limits`` no run begins.
     """
 
     name: str
@@ -62,6 +98,7 @@ class Block:
     outputs: tuple[Variable, ...]
     noise: tuple[NoiseChannel, ...]
     sample_period: float
+    limits: Limits | None = None
 
     def __post_init__(self) -> None:
         want = (len(self.inputs), len(self.parameters), len(self.noise), 1)
@@ -96,17 +133,22 @@ class Run:
 
     ``rows`` is how many samples are to come in all, by which is decided whether compiling pays; the rest is as for
     ``Block.run``.  Memory beyond the arrays does not grow with the length of the run.
+
+    Raises UserError for a seed that is no integer of 64 bits, a sample period that is not positive and finite, and parameters
+    that break the block's limits.
     """
 
     def __init__(self, block: Block, rows: int, *, p: np.ndarray | None = None, seed: int | None = None, first_sample: int = 1,
                  state: np.ndarray | None = None, sample_period: float | None = None) -> None:
-        if seed is not None and not 0 <= int(seed) < 2**64:
-            raise UserError(f"seed {seed} is not in 0 to 2^64 - 1")
+        seed = None if seed is None else seed_of(seed)
+        h = sample_period_of(block.sample_period if sample_period is None else sample_period, f"block {block.name}")
         self.block, self.sample = block, int(first_sample)
-        self.seed = int(seed) if seed is not None and block.noise else None
+        self.seed = seed if block.noise else None
         self.p = _vector(block, "parameters", block.start if p is None else p, len(block.parameters))
         self.state = _vector(block, "state", block.initial(self.p)[0] if state is None else state, block.n_state)
-        self.h = np.array([block.sample_period if sample_period is None else sample_period], dtype=float)
+        if block.limits:
+            block.limits.check(self.p, h, f"block {block.name}")
+        self.h = np.array([h])
         self.channels = np.array([c.number for c in block.noise], dtype=np.uint64)
         self._native = compiled(block.step, rows)
 

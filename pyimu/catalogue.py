@@ -6,7 +6,8 @@ from collections.abc import Iterable
 
 import pyimu.effects  # noqa: F401  (fills the catalogue)
 from pyimu.effect import CATALOGUE, STAGES, Effect, Parameter
-from pyimu.typical import CLASSES, documents, magnitudes
+from pyimu.signals import EVERY_SAMPLE, LONGEST_HOLD
+from pyimu.typical import CLASSES, Magnitude, documents, magnitudes
 
 HEAD = """# The catalogue of effects
 
@@ -17,6 +18,14 @@ Every effect is the identity at its start values. w are independent standard nor
 period in seconds, f specific force, T temperature. In a unit, `{{y}}` stands for the unit of the sensor's output (rad/s
 or m/s^2) and `{{Y}}` for that of its integral (rad or m/s). The numbers in brackets give the shape; a parameter without
 one is a single number.
+
+An effect that {every_sample} follows from the difference of successive inputs, which is zero while they are held: a master of the
+co-simulation unit makes steps of one sample then, or takes the block form. The rate of the temperature, which a master may refresh
+as seldom as once in {longest:g} s, follows from its last two different values.
+
+"Invertible" says what compensation makes of an effect: its input again ("yes", of a noise effect with its noise zero), marks on the
+samples that say nothing of it ("no, marked"), or neither, so that what the effect did stays in ("no, left in"). An input that is NaN
+gives NaN; a memory keeps what it held.
 
 """
 
@@ -34,7 +43,7 @@ def documentation() -> str:
     """The page ``docs/effects.md``: a table with one row per effect, in the order in which they act."""
     effects = sorted(CATALOGUE.values(), key=lambda e: (STAGES.index(e.stage), e.order))
     lines = [_row(COLUMNS), _row("---" for _ in COLUMNS), *(_row(_cells(e)) for e in effects)]
-    return HEAD.format(stages=", ".join(STAGES)) + "\n".join(lines) + "\n\n" + _sizes(effects)
+    return HEAD.format(stages=", ".join(STAGES), every_sample=EVERY_SAMPLE, longest=LONGEST_HOLD) + "\n".join(lines) + "\n\n" + _sizes(effects)
 
 
 def _sizes(effects: Iterable[Effect]) -> str:
@@ -43,15 +52,26 @@ def _sizes(effects: Iterable[Effect]) -> str:
     for e in effects:
         for kind in e.sensors:
             found = magnitudes(e.name, kind)
-            figures = [f"{m.value:g} {m.unit if m.unit != '1' else ''}".strip() + f" ({m.source})" for m in (found[c] for c in CLASSES)]
+            figures = [_size(found[c]) for c in CLASSES]
             lines.append(_row((f"`{e.name}`", kind, f"`{found[CLASSES[0]].parameter}`", *figures)))
     keys = [f"- {key}: {text}" for key, text in documents().items()]
     return SIZES + "\n".join(lines) + "\n\nDocuments:\n\n" + "\n".join(keys) + "\n"
 
 
+def _size(m: Magnitude) -> str:
+    """A figure with what it goes with: "2.68 deg/h/sqrt(h) with tau = 1000 s (its source)"."""
+    beside = ", ".join(f"{name} = {_figure(*figure)}" for name, figure in m.beside.items())
+    return _figure(m.value, m.unit) + (f" with {beside}" if beside else "") + f" ({m.source})"
+
+
+def _figure(value: float, unit: str) -> str:
+    return f"{value:g} {unit if unit != '1' else ''}".strip()
+
+
 def _cells(e: Effect) -> tuple[str, ...]:
     parameters = "; ".join(_parameter(name, q) for name, q in e.parameters.items())
-    return (f"`{e.name}`", e.term, e.stage, ", ".join(e.sensors), f"${e.equation}$", parameters, _invertible(e), e.source)
+    term = f"{e.term}; {EVERY_SAMPLE}" if e.differences else e.term
+    return (f"`{e.name}`", term, e.stage, ", ".join(e.sensors), f"${e.equation}$", parameters, _invertible(e), e.source)
 
 
 def _parameter(name: str, q: Parameter) -> str:
@@ -62,8 +82,8 @@ def _parameter(name: str, q: Parameter) -> str:
 
 def _invertible(e: Effect) -> str:
     if e.invertible:
-        return "yes"
-    return "no, marks what it lost" if e.lost else "no"
+        return "yes, with its noise zero" if e.stochastic else "yes"
+    return "no, left in" if e.left_in else "no, marked"
 
 
 def _row(cells: Iterable[str]) -> str:

@@ -26,8 +26,10 @@ from typing import TYPE_CHECKING, Any
 import casadi as ca
 import numpy as np
 
-from pyimu.block import NoiseChannel, Variable
-from pyimu.signals import COLUMNS, N_INPUT
+from pyimu import units
+from pyimu.block import Limits, NoiseChannel, Variable
+from pyimu.errors import UserError
+from pyimu.signals import COLUMNS, EVERY_SAMPLE, N_INPUT, SIGNALS, is_number, kept
 
 if TYPE_CHECKING:
     from pyimu.recording import Recording
@@ -51,6 +53,10 @@ class SensorKind:
     own_rate: str
     unit: str
     integral: str
+
+    def units(self, template: str) -> str:
+        """A unit of a definition, with the triad's own units put in."""
+        return template.replace("{y}", self.unit).replace("{Y}", self.integral)
 
 
 KINDS = {"gyro": SensorKind("gyro", "rate", "angular_acceleration", "rad/s", "rad"),
@@ -107,6 +113,16 @@ class Parameter:
         """Index of every free element, row by row."""
         return tuple(i for i in np.ndindex(*self.shape) if self.diagonal or i[0] != i[1])
 
+    def fault(self, values: np.ndarray) -> str:
+        """What is wrong with values of the parameter's shape in its SI unit, as "must not be below 0"; empty where nothing is."""
+        if not np.all(np.isfinite(values)):
+            return "must be finite"
+        if self.minimum is not None and np.any(values < self.minimum):
+            return f"must not be below {self.minimum:g}"
+        if self.maximum is not None and np.any(values > self.maximum):
+            return f"must not be above {self.maximum:g}"
+        return "must have zeros on its diagonal" if not self.diagonal and np.any(np.diag(values)) else ""
+
 
 @dataclass(frozen=True)
 class State:
@@ -145,8 +161,10 @@ class Effect:
     """One error effect and what its definition says about it.
 
     ``smooth`` is False where the output has steps or corners in ``x`` that no regressor describes; ``invertible`` is
-    False where the input cannot be had back from every output: ``lost(y, **parameters)`` then marks the samples, and
-    ``restore(y, **parameters)`` gives the input of the others where it is not the output itself.
+    False where the input cannot be had back from every output: ``lost(y, **parameters)`` then marks the samples that say
+    nothing of it, and ``restore(y, **parameters)`` gives the input of the others where it is not the output itself; one
+    without marks is left in.  ``limits`` are what several parameters, or one and the sample period, must keep: a text, and
+    ``broken(h, **parameters)``.
     """
 
     name: str
@@ -160,6 +178,7 @@ class Effect:
     invertible: bool
     lost: Callable[..., Any] | None
     restore: Callable[..., Any] | None
+    limits: Mapping[str, Callable[..., Any]]
     order: int
     parameters: Mapping[str, Parameter] = field(repr=False)
     states: Mapping[str, State] = field(repr=False)
@@ -175,6 +194,16 @@ class Effect:
     def remembers(self) -> bool:
         """True where the output without noise depends on what was before, and not as a linear filter of the input does."""
         return bool(self.states) and not self.stochastic and self.stage != "dynamics"
+
+    @property
+    def left_in(self) -> bool:
+        """True where compensation neither solves the effect for its input nor marks samples: what it does stays in."""
+        return not self.invertible and self.lost is None
+
+    @property
+    def differences(self) -> bool:
+        """True where the effect follows from the difference of successive inputs, and is zero where they are held."""
+        return any(s == OWN_RATE or SIGNALS[s].difference for s in self.environment.values())
 
     def signals(self, kind: str) -> frozenset[str]:
         """Names in ``SIGNALS`` of what the effect needs beside the signal that a sensor of this kind measures."""
@@ -199,21 +228,24 @@ CATALOGUE: dict[str, Effect] = {}
 
 
 def effect(*, stage: str, equation: str, source: str, term: str, sensors: tuple[str, ...] = ("gyro", "accel"),
-           smooth: bool = True, invertible: bool = True, lost: Callable | None = None,
-           restore: Callable | None = None) -> Callable[[Callable], Effect]:
+           smooth: bool = True, invertible: bool = True, lost: Callable | None = None, restore: Callable | None = None,
+           limits: Mapping[str, Callable] = MappingProxyType({})) -> Callable[[Callable], Effect]:
     """Make an ``Effect`` of a function and list it in the catalogue.
 
     ``term`` is the field's name of it, ``source`` the document that the equation is from (or "no source").
-    Raises ValueError where the name exists already, the stage is unknown or an argument has no annotation.
+    Raises ValueError where the name exists already, the stage is unknown or an argument has no annotation, and UserError,
+    which is one, where a kind of sensor, a signal or a unit does not exist.
     """
     def define(function: Callable) -> Effect:
         name = function.__name__
-        if name in CATALOGUE:
+        if name in _filled():
             raise ValueError(f"effect {name} is defined twice")
         if stage not in STAGES:
             raise ValueError(f"effect {name}: unknown stage {stage!r}, not one of {', '.join(STAGES)}")
+        for kind in sensors:
+            _known(name, "sensor", kind, KINDS)
         made = Effect(name, stage, equation, source, term, sensors, function, smooth, invertible, lost,
-                      restore, len(CATALOGUE), **_arguments(name, function))
+                      restore, MappingProxyType(dict(limits)), len(CATALOGUE), **_arguments(name, function))
         CATALOGUE[name] = made
         return made
     return define
@@ -226,10 +258,27 @@ def _arguments(name: str, function: Callable) -> dict[str, Any]:
         if type(argument.annotation) not in groups:
             raise ValueError(f"effect {name}: argument {argument.name} needs a Parameter, State, Noise, Environment or SamplePeriod")
         groups[type(argument.annotation)][argument.name] = argument.annotation
+        _checked(name, argument.name, argument.annotation)
     return {"parameters": MappingProxyType(groups[Parameter]), "states": MappingProxyType(groups[State]),
             "noises": MappingProxyType(groups[Noise]),
             "environment": MappingProxyType({n: e.signal for n, e in groups[Environment].items()}),
             "period": next(iter(groups[SamplePeriod]), None)}
+
+
+def _checked(name: str, argument: str, annotation: Any) -> None:
+    """Refuse a signal or a unit that does not exist where the effect is made, not where it is first used."""
+    if isinstance(annotation, Environment):
+        _known(name, "signal", annotation.signal, (*SIGNALS, OWN_RATE))
+    if isinstance(annotation, (Parameter, State)):
+        try:
+            units.parse(KINDS["gyro"].units(annotation.unit))
+        except units.UnitError as error:
+            raise UserError(f"effect {name}: {argument}: {error}") from None
+
+
+def _known(name: str, what: str, found: str, known: Iterable[str]) -> None:
+    if found not in known:
+        raise UserError(f"effect {name}: unknown {what} '{found}'{units.did_you_mean(found, known)}; known are {', '.join(known)}")
 
 
 @dataclass(frozen=True)
@@ -259,16 +308,19 @@ class Sensor:
     """A triad with a tuple of effects and the values of their coefficients (SI).
 
     ``values[effect][parameter]`` is an array of the parameter's shape; the effects are sorted by stage.
-    Raises ValueError for an effect that this kind of sensor does not have, or a value of the wrong shape.
+    Raises UserError for an effect that this kind of sensor does not have, and a value of the wrong shape, not finite, outside
+    its bounds or on a diagonal that the parameter does not have.
     """
 
     kind: str
     values: Values = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        if self.kind not in KINDS:
+            raise UserError(f"unknown sensor '{self.kind}'{units.did_you_mean(self.kind, KINDS)}; known are {', '.join(KINDS)}")
         complete = {}
         for e in sorted((_lookup(n, self.kind) for n in self.values), key=lambda e: (STAGES.index(e.stage), e.order)):
-            complete[e.name] = MappingProxyType({**e.start(), **{k: _shaped(e, k, v) for k, v in self.values[e.name].items()}})
+            complete[e.name] = MappingProxyType({**e.start(), **{k: _shaped(self.kind, e, k, v) for k, v in self.values[e.name].items()}})
         object.__setattr__(self, "values", MappingProxyType(complete))
 
     def __eq__(self, other: object) -> bool:
@@ -296,9 +348,14 @@ class Sensor:
     def output(self) -> SensorKind:
         return KINDS[self.kind]
 
+    def check(self, sample_period: float, name: str) -> None:
+        """Raise UserError, which starts with ``name``, for coefficients that do not go with each other or with the sample period [s]."""
+        if any(e.limits for e in self.effects):
+            self.chain.limits.check(self.p, sample_period, name)
+
     def unit(self, template: str) -> str:
         """A unit of a definition, with the sensor's own units put in."""
-        return template.replace("{y}", self.output.unit).replace("{Y}", self.output.integral)
+        return self.output.units(template)
 
     def with_values(self, effect_name: str, **parameters) -> Sensor:
         """The same sensor with an effect added, or some of its coefficients changed."""
@@ -313,6 +370,16 @@ class Sensor:
         """True for an effect that must be scanned for and stands where it does nothing: no slope leads away from there."""
         found = [(n, p) for n, p in CATALOGUE[name].parameters.items() if p.scan]
         return bool(found) and all(np.all(self.values[name][n] == p.start) for n, p in found)
+
+    def acts(self, name: str) -> bool:
+        """True for an effect that is not at the identity; coefficients that only shape one, or fix its origin, do not count."""
+        sizes = [(n, p) for n, p in CATALOGUE[name].parameters.items() if not (p.form or p.reference)]
+        return not self.is_off(name) and any(np.any(self.values[name][n] != p.start) for n, p in sizes)
+
+    @property
+    def left_in(self) -> tuple[str, ...]:
+        """Names of the effects that act and that ``compensation`` leaves in: it neither solves them nor marks samples."""
+        return tuple(e.name for e in self.effects if e.left_in and self.acts(e.name))
 
     @cached_property
     def slots(self) -> tuple[Slot, ...]:
@@ -335,8 +402,8 @@ class Sensor:
     @cached_property
     def variables(self) -> tuple[Variable, ...]:
         """The coefficients as variables of a block, named ``gyro_error.effect.parameter[i,j]``."""
-        return tuple(Variable(f"{self.kind}_error.{s.name}", s.unit, s.definition.description or CATALOGUE[s.effect].term,
-                              float(v), minimum=s.definition.minimum, maximum=s.definition.maximum) for s, v in zip(self.slots, self.p, strict=True))
+        return tuple(Variable(f"{self.kind}_error.{s.name}", s.unit, _described(s), float(v), minimum=s.definition.minimum,
+                              maximum=s.definition.maximum) for s, v in zip(self.slots, self.p, strict=True))
 
     @cached_property
     def noise(self) -> tuple[NoiseChannel, ...]:
@@ -363,30 +430,55 @@ class Sensor:
     def compensation(self) -> ca.Function:
         """``(s, y, u, p, h) -> (s_next, x, lost)``: the chain solved for its input with all noise zero.
 
-        ``u`` (N_INPUT,) carries the environment (its own signal is ignored); ``lost`` (3,) is 1 where ``x`` cannot be restored.
+        ``u`` (N_INPUT,) carries the environment (its own signal is ignored); ``lost`` (3,) is 1 where this sample says nothing
+        of ``x``, as beyond the range or within a dead zone.  The effects in ``left_in`` (lag, delay, rounding) are not undone
+        and mark nothing: with them ``x`` is the input behind the part's bandwidth, late by its delay, to within its rounding.
         """
         return self.chain.compensation
 
 
+def _described(slot: Slot) -> str:
+    e, text = CATALOGUE[slot.effect], slot.definition.description
+    return f"{text or e.term}; {EVERY_SAMPLE}" if e.differences else text or e.term
+
+
+def _filled() -> Mapping[str, Effect]:
+    """The catalogue with its own effects in it, whoever imported this module first."""
+    import pyimu.effects  # noqa: F401  (which needs this module)
+    return CATALOGUE
+
+
 def _lookup(name: str, kind: str) -> Effect:
-    if name not in CATALOGUE:
-        raise ValueError(f"unknown effect {name!r}")
+    if name not in CATALOGUE and name not in _filled():
+        raise UserError(f"unknown effect '{name}'{units.did_you_mean(name, CATALOGUE)}")
     if kind not in CATALOGUE[name].sensors:
-        raise ValueError(f"effect {name} does not belong to a {kind}")
+        raise UserError(f"effect {name} does not belong to a {kind}")
     return CATALOGUE[name]
 
 
-def _shaped(e: Effect, parameter: str, value: Any) -> np.ndarray:
+def _shaped(kind: str, e: Effect, parameter: str, value: Any) -> np.ndarray:
     if parameter not in e.parameters:
-        raise ValueError(f"effect {e.name} has no parameter {parameter!r}, only {', '.join(e.parameters)}")
-    shape = e.parameters[parameter].shape
-    array = np.array(value, dtype=float)
-    if array.ndim == 0 and len(shape) == 1:
-        array = np.full(shape, float(array))
-    if array.shape != shape:
-        raise ValueError(f"{e.name}.{parameter} has shape {array.shape}, not {shape}")
+        raise UserError(f"effect {e.name} has no parameter '{parameter}'{units.did_you_mean(parameter, e.parameters)}; "
+                        f"it has {', '.join(e.parameters)}")
+    definition, where = e.parameters[parameter], f"{kind} {e.name}.{parameter}"
+    try:
+        array = np.array(value, dtype=float)
+    except (TypeError, ValueError):
+        raise UserError(f"{where} must be numbers of shape {definition.shape}, not {value!r}") from None
+    if array.ndim == 0 and len(definition.shape) == 1:
+        array = np.full(definition.shape, float(array))
+    if array.shape != definition.shape:
+        raise UserError(f"{where} has shape {array.shape}, not {definition.shape}")
+    _refuse(kind, e, parameter, array)
     array.setflags(write=False)
     return array
+
+
+def _refuse(kind: str, e: Effect, parameter: str, array: np.ndarray) -> None:
+    fault = e.parameters[parameter].fault(array)
+    if fault:
+        found = f", not {array.tolist()} {KINDS[kind].units(e.parameters[parameter].unit)}" if array.ndim < 2 else ""
+        raise UserError(f"{kind} {e.name}.{parameter} {fault}{found}")
 
 
 @lru_cache(maxsize=128)
@@ -440,14 +532,16 @@ class Chain:
         return symbols, ca.vertcat(*flat) if flat else ca.SX.zeros(0, 1)
 
     def _current(self, e: Effect, x: ca.SX, started: ca.SX | None) -> dict[str, ca.SX]:
-        """States of an effect, those that wait for the first input filled with it."""
+        """States of an effect, those that wait for the first input filled with it; one that is NaN still waits for its first."""
         out = {}
         for name, q in e.states.items():
             s = self.states[e.name][name]
             if isinstance(q.start, str):
                 first = x if q.start == INPUT else self.signals[e.environment[q.start]]
                 steady = ca.repmat(first.T, q.shape[0], 1) if len(q.shape) == 2 else first
-                s = ca.if_else(started, s, steady)
+                # All rows are filled together, so that the newest one, which is the first, speaks for all.
+                begun = ca.logic_and(started, is_number(s[0, :] if len(q.shape) == 2 else s))
+                s = ca.if_else(ca.repmat(begun, q.shape[0], 1) if len(q.shape) == 2 else begun, s, steady)
             out[name] = s
         return out
 
@@ -456,8 +550,8 @@ class Chain:
         started = ca.SX.sym("started") if self.waits else None
         x, following = self.x, []
         for e in self.effects:
-            x, update = self._apply(e, x, self.noises[e.name], started)
-            following += [ca.vec(ca.densify(update[n])) for n in e.states]
+            x, after = self._apply(e, x, self.noises[e.name], started)
+            following.append(after)
         flag, one = ([started], [ca.SX(1)]) if self.waits else ([], [])
         return ca.Function(f"{self.sensor.kind}_step", [ca.vertcat(*flag, self.s), self.u, self.p, self.w, self.h],
                            [ca.vertcat(*one, *following), ca.densify(x)], ["s", "u", "p", "w", "h"], ["s_next", "y"])
@@ -481,7 +575,7 @@ class Chain:
                 x = self._invert(e, x, started)
             elif e.restore is not None:
                 x = e.restore(x, **self.parameters[e.name])
-            following[e.name] = self._advance(e, x, started)
+            following[e.name] = self._call(e, x, started)[1]
         ordered = [following[e.name] for e in self.effects]
         flag, one = ([started], [ca.SX(1)]) if self.waits else ([], [])
         return ca.Function(f"{self.sensor.kind}_compensation",
@@ -489,17 +583,39 @@ class Chain:
                            [ca.vertcat(*one, *ordered), ca.densify(x), ca.densify(lost)],
                            ["s", "y", "u", "p", "h"], ["s_next", "x", "lost"])
 
-    def _apply(self, e: Effect, x: ca.SX, w: Mapping, started: ca.SX | None) -> tuple[ca.SX, dict]:
-        signals = {**self.signals, self.sensor.output.own: x}
-        return e(x, self.parameters[e.name], self._current(e, x, started), w, signals, self.h)
+    def _apply(self, e: Effect, x: ca.SX, w: Mapping, started: ca.SX | None) -> tuple[ca.SX, ca.SX]:
+        """Output of an effect and its following states in one column.
 
-    def _call(self, e: Effect, x: ca.SX, started: ca.SX | None) -> tuple[ca.SX, dict]:
+        A state that follows from inputs keeps its value where it would become NaN: the output shows that an input is missing,
+        the memory has never heard of it.
+        """
+        states = self._current(e, x, started)
+        y, update = e(x, self.parameters[e.name], states, w, {**self.signals, self.sensor.output.own: x}, self.h)
+        before, after = ([ca.vec(ca.densify(ca.SX(group[n]))) for n in e.states] for group in (states, update))
+        pairs = zip(ca.vertsplit(ca.vertcat(*before)), ca.vertsplit(ca.vertcat(*after)), self._fed(e), strict=True) if e.states else ()
+        return y, ca.vertcat(ca.SX(0, 1), *[kept(now, then) if fed else now for then, now, fed in pairs])
+
+    def _call(self, e: Effect, x: ca.SX, started: ca.SX | None) -> tuple[ca.SX, ca.SX]:
         silent = {n: ca.SX.zeros(w.size) for n, w in e.noises.items()}
         return self._apply(e, x, silent, started)
 
-    def _advance(self, e: Effect, x: ca.SX, started: ca.SX | None) -> ca.SX:
-        _, update = self._call(e, x, started)
-        return ca.vertcat(*[ca.vec(ca.densify(update[n])) for n in e.states])
+    def _fed(self, e: Effect) -> list[bool]:
+        """Which numbers of an effect's states follow from inputs of this sample; the others, from noise and older states, are numbers."""
+        x = ca.SX.sym("x", 3)
+        _, update = e(x, self.parameters[e.name], self.states[e.name], self.noises[e.name], {**self.signals, self.sensor.output.own: x}, self.h)
+        column = ca.vertcat(*[ca.vec(ca.densify(ca.SX(update[n]))) for n in e.states])
+        rows = set(ca.jacobian_sparsity(column, ca.vertcat(x, self.u)).row())
+        return [i in rows for i in range(column.numel())]
+
+    @cached_property
+    def limits(self) -> Limits | None:
+        """What the coefficients must keep together, and with the sample period; None where there is nothing of the kind."""
+        found = [(f"{self.sensor.kind} {e.name}: {text}", broken(self.h, **self.parameters[e.name]))
+                 for e in self.effects for text, broken in e.limits.items()]
+        if not found:
+            return None
+        flags = ca.Function("limits", [self.p, self.h], [ca.densify(ca.vertcat(*[flag for _, flag in found]))], ["p", "h"], ["broken"])
+        return Limits(tuple(text for text, _ in found), flags)
 
     def _invert(self, e: Effect, y: ca.SX, started: ca.SX | None) -> ca.SX:
         """Solve ``e(x) = y`` for x: one linear solve where the effect is affine in x, else Newton from ``x = y``."""
@@ -527,4 +643,4 @@ def _solve(a: ca.SX, b: ca.SX) -> ca.SX:
 def candidates(kind: str, present: Iterable[str]) -> tuple[Effect, ...]:
     """Effects of the catalogue that a sensor of this kind could have and ``present`` does not name."""
     have = set(present)
-    return tuple(e for e in CATALOGUE.values() if kind in e.sensors and e.name not in have)
+    return tuple(e for e in _filled().values() if kind in e.sensors and e.name not in have)

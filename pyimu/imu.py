@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -11,9 +12,10 @@ import casadi as ca
 import numpy as np
 
 import pyimu.effects  # noqa: F401  (fills the catalogue)
-from pyimu.block import Block, Variable
+from pyimu.block import Block, Limits, Variable
 from pyimu.effect import Sensor
-from pyimu.signals import SIGNALS, Derived, inputs_for, vector
+from pyimu.errors import UserError
+from pyimu.signals import EVERY_SAMPLE, SIGNALS, Derived, inputs_for, vector
 
 if TYPE_CHECKING:
     from pyimu.recording import Recording
@@ -27,6 +29,9 @@ class Part:
 
     ``estimate`` names the coefficients ``(sensor, effect, parameter)`` that the part leaves to the data;
     ``notes`` keeps what the file says beside a value: its source, the figure as quoted.
+
+    Raises UserError for a sample rate that is not positive and finite, and for coefficients outside their bounds or that do not
+    go with each other or with the sample rate, as a delay of more sample periods than it can remember.
     """
 
     name: str
@@ -36,6 +41,13 @@ class Part:
     estimate: frozenset[tuple[str, str, str]] = frozenset()
     notes: dict[tuple[str, str, str], dict[str, str]] = field(default_factory=dict, compare=False)
     description: str = ""
+
+    def __post_init__(self) -> None:
+        period = _inverse(self.sample_rate)
+        if not 0.0 < period < math.inf:
+            raise UserError(f"part {self.name}: the sample rate must be a positive and finite number of Hz, not {self.sample_rate!r}")
+        for sensor in (self.gyro, self.accel):
+            sensor.check(period, f"part {self.name}")
 
     @property
     def sample_period(self) -> float:
@@ -63,6 +75,14 @@ class Part:
         return _imu_sensor(self)
 
 
+def _inverse(rate: float) -> float:
+    """1 / rate, NaN where there is none."""
+    try:
+        return 1.0 / rate
+    except (TypeError, ValueError, ZeroDivisionError, OverflowError):
+        return math.nan
+
+
 def input_variables(names: Iterable[str]) -> tuple[Variable, ...]:
     """Inputs of a block by their names in ``SIGNALS``; unconnected, they mean a part at rest, level, in its reference state."""
     return tuple(Variable(f"{name}[{i + 1}]" if SIGNALS[name].size > 1 else name, SIGNALS[name].unit, SIGNALS[name].text, start)
@@ -86,9 +106,27 @@ def _imu_sensor(part: Part) -> Block:
     start = np.concatenate([np.zeros(derived.size), *[sensor.chain.start for sensor in sensors]])
     all_p = ca.SX.sym("p", p[0].numel() + p[1].numel())
     initial = ca.Function("initial", [all_p], [ca.SX(ca.DM(start)), ca.SX.zeros(6)], ["p"], ["s", "y"])
-    return Block(name="ImuSensor", description=part.description or f"Inertial measurement unit {part.name}",
+    return Block(name="ImuSensor", description=_description(part), limits=_limits(part),
                  step=step, initial=initial, inputs=input_variables(names),
                  parameters=part.gyro.variables + part.accel.variables,
                  outputs=tuple(Variable(f"{c.kind}[{i + 1}]", c.output.unit, f"measured {c.output.own.replace('_', ' ')}, axis {AXES[i]}")
                                for c in sensors for i in range(3)),
                  noise=part.gyro.noise + part.accel.noise, sample_period=part.sample_period)
+
+
+def _description(part: Part) -> str:
+    """What the part says of itself, and which of its effects a step of more than one sample would leave out."""
+    text = part.description or f"Inertial measurement unit {part.name}"
+    names = sorted({e.name for s in (part.gyro, part.accel) for e in s.effects if e.differences})
+    return f"{text.rstrip('.')}. {EVERY_SAMPLE[0].upper()}{EVERY_SAMPLE[1:]}, for {', '.join(names)}" if names else text
+
+
+def _limits(part: Part) -> Limits | None:
+    """Those of both sensors, on the parameters of the block."""
+    h, p = ca.SX.sym("h"), [ca.SX.sym("p", len(s.slots)) for s in (part.gyro, part.accel)]
+    found = [(s.chain.limits, values) for s, values in zip((part.gyro, part.accel), p, strict=True) if s.chain.limits]
+    if not found:
+        return None
+    broken = ca.Function("limits", [ca.vertcat(*p), h], [ca.densify(ca.vertcat(*[limits.broken(values, h) for limits, values in found]))],
+                         ["p", "h"], ["broken"])
+    return Limits(tuple(text for limits, _ in found for text in limits.texts), broken)

@@ -32,8 +32,13 @@ $1 / (2 h)$ the density is $|H(j 2 \\pi f)|^2$ of the transfer function. `pyimu.
 a sensor's own coefficients:
 
 ```python
+import numpy as np, pyimu
 from pyimu.shaping import describe
-model = describe(part.gyro, "angle_random_walk", 0, part.sample_period)
+
+part = pyimu.part("stim300")
+h = part.sample_period
+f, tau = np.geomspace(1e-4, 0.5 / h), h * 2 ** np.arange(20)
+model = describe(part.gyro, "bias_instability", 0, h)
 model.poles, model.psd_two_sided(f), model.allan_deviation(tau), model.stationary_covariance, model.bode(f), model.discrete(h)
 ```
 
@@ -99,7 +104,8 @@ ENTRIES = (
           r"\frac{q^2 \tau_c^2}{1 + (2 \pi f \tau_c)^2},\quad a = e^{-h / \tau_c}",
           r"q \tau_c \sqrt{\tfrac{1}{\tau} \left[1 - \tfrac{\tau_c}{2 \tau} \left(3 - 4 e^{-\tau / \tau_c} + e^{-2 \tau / \tau_c}\right)\right]}",
           "The closed form is the continuous one (IEEE Std 952-2020, annex C); samples lie above, in the variance by at most "
-          "$\\left(h / (\\sqrt{{2}}\\, \\tau) + h / (\\sqrt{{12}}\\, \\tau_c)\\right)^2$ of it.", form={"tau": 10.0}),
+          "$\\left(h / (\\sqrt{{2}}\\, \\tau) + h / (\\sqrt{{12}}\\, \\tau_c)\\right)^2$ of it. The coefficient `tau` is the correlation time "
+          "$\\tau_c$; $\\tau$ alone is the cluster time.", form={"tau": 10.0}),
     Entry("rate_dependent_noise", r"k\, |x|", "none", "k^2 x^2", r"\frac{k |x|}{\sqrt\tau}",
           "White noise as large as the rate is fast; the picture is at 100 deg/s.", at=100 * pi / 180),
     Entry("sampling_jitter", r"s_j |\dot x| \sqrt{h}", "none", r"s_j^2\, \dot x^2\, h", r"s_j |\dot x| \sqrt{\frac{h}{\tau}}",

@@ -70,6 +70,8 @@ def part(name_or_path: str | os.PathLike | Part) -> Part:
     """
     if isinstance(name_or_path, Part):
         return name_or_path
+    if not isinstance(name_or_path, (str, os.PathLike)):
+        raise UserError(f"a part is a Part, the name of one or a TOML file, not {str(name_or_path)[:40]!r}")
     name, path = str(name_or_path), Path(name_or_path)
     if name in part_names():
         text = files("pyimu").joinpath("parts", f"{name}.toml").read_text(encoding="utf-8")
@@ -170,8 +172,11 @@ class _Reader:
     def part(self, data: Mapping[str, Any]) -> Part:
         self._known("", data, _TOP_KEYS)
         sensors = {kind: self._sensor(kind, data.get(kind, {})) for kind in KINDS}
-        return Part(name=self._required_text(data, "name"), sample_rate=self._sample_rate(data), **sensors,
-                    estimate=frozenset(self.estimate), notes=self.notes, description=self._optional_text("", data, "description"))
+        name, rate, description = self._required_text(data, "name"), self._sample_rate(data), self._optional_text("", data, "description")
+        try:
+            return Part(name, rate, **sensors, estimate=frozenset(self.estimate), notes=self.notes, description=description)
+        except UserError as error:  # what only the whole part shows
+            raise UserError(f"{self.file}: {error}") from None
 
     def _known(self, where: str, table: Mapping[str, Any], known: tuple[str, ...]) -> None:
         for key in table:
@@ -261,16 +266,10 @@ class _Reader:
         if scale.density == "one-sided" and "quoted" not in entry:
             self.notes[key]["quoted"] = f"{_format_array(figures)} {scale.unit}, one-sided"
         values = scale.to_si(figures)
-        self._in_range(where, values, q, f"not {_format_array(figures)}" + (f" {scale.unit}" if scale.unit != "1" else ""))
-        if not q.diagonal and np.any(np.diag(values)):
-            raise self.error(where, "has no diagonal elements, write 0 there")
+        fault = q.fault(values)
+        if fault:
+            raise self.error(where, f"{fault}, not {_format_array(figures)}" + (f" {scale.unit}" if scale.unit != "1" else ""))
         return values
-
-    def _in_range(self, where: str, values: np.ndarray, q: Parameter, found: str) -> None:
-        if q.minimum is not None and np.any(values < q.minimum):
-            raise self.error(where, f"must not be below {q.minimum:g}, {found}")
-        if q.maximum is not None and np.any(values > q.maximum):
-            raise self.error(where, f"must not be above {q.maximum:g}, {found}")
 
     @staticmethod
     def _si(key: Key, q: Parameter) -> str:
@@ -282,6 +281,9 @@ class _Reader:
         density = entry.get("density", "two-sided")
         if density not in DENSITIES:
             raise self.error(f"{where}.density", f"must be \"one-sided\" or \"two-sided\", not {density!r}")
+        if "density" in entry and not _is_density(entry.get("unit")):
+            raise self.error(f"{where}.density", f"goes only with a unit per sqrt(Hz), not with {entry.get('unit')}: "
+                             "a random walk's figure is N itself")
         if "unit" not in entry and si != "1":
             raise self.error(where, f"has no unit, write {{value = ..., unit = \"{si}\"}}")
         unit = entry.get("unit", "1")
@@ -313,6 +315,11 @@ class _Reader:
             if not abs(item) <= sys.float_info.max:
                 raise self.error(where, "must be finite")
         return np.array(items, dtype=float)
+
+
+def _is_density(unit: Any) -> bool:
+    """Whether a figure in this unit is the root of a density, which can be one-sided; a random walk in deg/sqrt(h) is two-sided by definition."""
+    return isinstance(unit, str) and "Hz" in unit
 
 
 def _shape(value: Any) -> tuple[int, ...] | None:
@@ -360,7 +367,8 @@ def _format_entry(part: Part, sensor: Sensor, e: Effect, name: str) -> str:
 
 def _with_unit(values: np.ndarray, si: str, note: Mapping[str, str]) -> dict[str, str]:
     """The value of an entry with its unit: as quoted where that gives back the same SI value to the last bit."""
-    scale = _Scale(note.get("unit", si), si, note.get("density", "two-sided"))
+    unit = note.get("unit", si)
+    scale = _Scale(unit, si, note.get("density", "two-sided") if _is_density(unit) else "two-sided")
     figures = _figures(values, scale)
     if figures is None:
         scale = _Scale(si, si)

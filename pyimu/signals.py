@@ -19,13 +19,31 @@ from pyimu.units import STANDARD_GRAVITY
 VIBRATION_TIME = 1.0
 """s; time constant of the mean that parts vibration from motion, and of the mean square of what is left."""
 
+LONGEST_HOLD = 60.0
+"""s; a slow signal that has rested for longer changes as if it had rested so long: read less than once a minute a thermometer
+misses the changes for which data sheets state a sensitivity (some K/min), and a step after a night's rest is no slope of a night."""
+
+EVERY_SAMPLE = "wants new inputs at every sample"
+"""What is said of an effect that follows from the difference of successive inputs, wherever it is described."""
+
+
+def is_number(x: ca.SX) -> ca.SX:
+    """1 where an element is not NaN.  A comparison of ``x`` with itself would be simplified away."""
+    return ca.fabs(x) <= ca.inf
+
+
+def kept(after: ca.SX, before: ca.SX) -> ca.SX:
+    """A memory's following value, where that is NaN the one before: one missing input must not stay for ever."""
+    return ca.if_else(is_number(after), after, before)
+
 
 @dataclass(frozen=True)
 class Signal:
     """One signal: its unit, its value where nobody sets it, and for a derived one the inputs ``of`` which it follows.
 
     ``memory`` counts the numbers kept from sample to sample; ``advance(memory, started, h, *inputs)`` gives the value and
-    the memory that follows, ``started`` being false at the first sample.
+    the memory that follows, ``started`` being false at the first sample.  ``difference`` says that the value is the difference
+    of two successive inputs: it is zero at a sample whose inputs are held from the one before.
     """
 
     unit: str
@@ -34,6 +52,7 @@ class Signal:
     of: tuple[str, ...] = ()
     memory: int = 0
     advance: Callable | None = None
+    difference: bool = False
 
     @property
     def size(self) -> int:
@@ -50,16 +69,36 @@ def _count(count, started, h):
 
 
 def _difference(before, started, h, now):
+    """NaN at a sample that is NaN and at the one after it: neither has a difference."""
     return (now - ca.if_else(started, before, now)) / h, now
 
 
+def _slow_difference(memory, started, h, now):
+    """Slope of a signal that may be refreshed less often than there are samples: between its last two different values.
+
+    A change after n samples of rest is a slope over n sample periods (at most ``LONGEST_HOLD``), which is held for the n samples
+    until the next change is due and released then: its integral is the change, late by the n samples.  With a new value at every
+    sample it is the plain difference.  NaN at a sample that is NaN, which counts as one of rest.
+    """
+    before, rested, slope, left = ca.vertsplit(memory)
+    begun = ca.logic_and(started, is_number(before))
+    before, since = ca.if_else(begun, before, now), rested + 1
+    changed = ca.logic_and(is_number(now), now != before)
+    n = ca.fmin(since, ca.fmax(1, ca.floor(LONGEST_HOLD / h)))
+    slope = ca.if_else(changed, (now - before) / (n * h), ca.if_else(left > 0, slope, 0))
+    following = (ca.if_else(changed, now, before), ca.if_else(ca.logic_or(changed, ca.logic_not(begun)), 0, since), slope,
+                 ca.fmax(ca.if_else(changed, n, left) - 1, 0))
+    return ca.if_else(is_number(now), slope, now), ca.vertcat(*following)
+
+
 def _mean_square(memory, started, h, now):
-    """Mean square of what is faster than ``VIBRATION_TIME``, by two exponential means."""
+    """Mean square of what is faster than ``VIBRATION_TIME``, by two exponential means, which leave out a sample that is NaN."""
     n, gain = now.numel(), 1 - ca.exp(-h / VIBRATION_TIME)
-    mean = ca.if_else(started, memory[:n], now)
-    mean = mean + gain * (now - mean)
-    square = memory[n:] + gain * ((now - mean) ** 2 - memory[n:])
-    return square, ca.vertcat(mean, square)
+    begun = ca.logic_and(started, is_number(memory[:n]))
+    before = ca.vertcat(ca.if_else(begun, memory[:n], now), memory[n:])
+    mean = before[:n] + gain * (now - before[:n])
+    square = before[n:] + gain * ((now - mean) ** 2 - before[n:])
+    return square, kept(ca.vertcat(mean, square), before)
 
 
 def _to_body(attitude, v):
@@ -87,9 +126,9 @@ SIGNALS: Mapping[str, Signal] = MappingProxyType({
     "latitude": Signal("rad", (0.0,), "geographic latitude"),
     "velocity": Signal("m/s", _ZERO, "velocity over the ground, east-north-up"),
     "time": Signal("s", (0.0,), "time since power-on", (), 1, _count),
-    "temperature_rate": Signal("K/s", (0.0,), "rate of the temperature", ("temperature",), 1, _difference),
-    "angular_acceleration": Signal("rad/s^2", _ZERO, "rate of the angular rate, body axes", ("rate",), 3, _difference),
-    "jerk": Signal("m/s^3", _ZERO, "rate of the specific force, body axes", ("specific_force",), 3, _difference),
+    "temperature_rate": Signal("K/s", (0.0,), "rate of the temperature", ("temperature",), 4, _slow_difference),
+    "angular_acceleration": Signal("rad/s^2", _ZERO, "rate of the angular rate, body axes", ("rate",), 3, _difference, True),
+    "jerk": Signal("m/s^3", _ZERO, "rate of the specific force, body axes", ("specific_force",), 3, _difference, True),
     "vibration": Signal("(m/s^2)^2", _ZERO, "mean square of the specific force's vibration, body axes", ("specific_force",), 6, _mean_square),
     "earth_rate": Signal("rad/s", _ZERO, "the Earth's rotation, body axes", ("attitude", "latitude"), 0, _earth),
     "transport_rate": Signal("rad/s", _ZERO, "rotation of east-north-up along the way over the Earth, body axes",
@@ -153,7 +192,7 @@ class Derived:
         following, values, at = [ca.SX(1)], {}, 1
         for name in self.names:
             signal = SIGNALS[name]
-            value, after = signal.advance(state[at:at + signal.memory], state[0], h, *(inputs[n] for n in signal.of))
+            value, after = signal.advance(state[at:at + signal.memory, 0], state[0], h, *(inputs[n] for n in signal.of))
             values[name] = value
             following.append(after)
             at += signal.memory

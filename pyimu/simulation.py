@@ -6,6 +6,7 @@ measurements.  Sample 1 of the noise belongs to the first row, as in an FMU that
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import lru_cache
@@ -18,6 +19,7 @@ from pyimu.columns import column_names
 from pyimu.effect import Sensor
 from pyimu.errors import Finding, UserError
 from pyimu.imu import Part
+from pyimu.partfile import part as find_part
 from pyimu.recording import Recording
 from pyimu.reference import reference_rate
 from pyimu.signals import SIGNALS, inputs_for, inputs_of
@@ -43,16 +45,19 @@ MEASURED = {"rate": "gyro", "specific_force": "accel"}
 # ---- arrays ---------------------------------------------------------------------------------------------------------------
 
 
-def simulate(part: Part, rate: np.ndarray, specific_force: np.ndarray, temperature: np.ndarray | float = 25.0, *,
+def simulate(part: Part | str | os.PathLike, rate: np.ndarray, specific_force: np.ndarray, temperature: np.ndarray | float = 25.0, *,
              seed: int | None = 0, sample_period: float | None = None, **others: np.ndarray | float) -> tuple[np.ndarray, np.ndarray]:
     """Measured rate and specific force, each (n, 3), of a part that moves as given (rad/s, m/s^2, degC).
 
+    The part may be a name or a file (see ``pyimu.part``).
     ``others`` are inputs by their names in ``SIGNALS`` that the part's effects need: ``supply`` (n,) V, ``mag`` (n, 3) T and so
     on; one that they do not need is ignored.  Any input but the rate may be a constant.
 
-    Row k draws the noise that the FMU draws for its sample k + 1 under the same seed; ``seed=None`` is noise off.  Raises
-    UserError for an input that is unknown, missing or of a wrong shape.
+    Row k draws the noise that the FMU draws for its sample k + 1 under the same seed; ``seed=None`` is noise off.  A row that
+    is NaN gives NaN; the sensors' memories hold their last values through it.  Raises UserError for an input that is unknown,
+    missing, no number or of a wrong shape, and for a part, a seed or a sample period that is none.
     """
+    part = find_part(part)
     given = {"rate": rate, "specific_force": specific_force, "temperature": temperature, **others}
     names = inputs_for(part.signals)
     for name in others:
@@ -63,8 +68,22 @@ def simulate(part: Part, rate: np.ndarray, specific_force: np.ndarray, temperatu
     if missing:
         raise UserError(f"part {part.name} has effects of {', '.join(missing)}: give them as arguments of these names")
     h = part.sample_period if sample_period is None else sample_period
-    y = _measure(part.block, {name: given[name] for name in names}, len(rate), {}, seed, h)
+    arrays = {name: _numbers(name, given[name]) for name in names}
+    if arrays["rate"].ndim != 2:
+        raise UserError(f"rate has shape {arrays['rate'].shape}, expected (n, 3)")
+    y = _measure(part.block, arrays, len(arrays["rate"]), {}, seed, h)
     return y["gyro"], y["accel"]
+
+
+def _numbers(name: str, values: np.ndarray | float) -> np.ndarray:
+    """An input as an array, its kind of number as it is.  Raises UserError for what is no array of real numbers."""
+    try:
+        array = np.asarray(values)
+    except ValueError:
+        raise UserError(f"{name}: its rows are of unequal length") from None
+    if array.dtype.kind not in "fiub":
+        raise UserError(f"{name} must be an array of real numbers, not {array.dtype} as in {str(values)[:40]!r}")
+    return array
 
 
 def _measure(block: Block, given: Mapping[str, np.ndarray | float], n: int, missing: Mapping[int, int], seed: int | None,

@@ -62,6 +62,16 @@ def test_given_attitude_is_where_the_run_starts():
     assert np.linalg.norm(error(result.q[:1], q0)) < 0.01
 
 
+def test_given_bias_and_standard_deviations_are_where_the_run_starts():
+    recording = recorded(drive(np.zeros((500, 3))))
+    bias, std = np.array([1e-3, -2e-3, 3e-3]), np.array([0.3, 0.2, 0.1, 1e-6, 1e-6, 1e-6])
+    result = run(recording, part(k=0), bias0=bias, std0=std)
+    np.testing.assert_allclose(result.gyro_bias[0], bias, atol=1e-9)
+    np.testing.assert_allclose(result.std[0, 3:], std[3:], rtol=1e-3)
+    assert result.std[0, 0] <= 0.3 and result.std[0, 2] == pytest.approx(0.1, rel=1e-3)
+    assert [result.parameters[f"std0[{i}]"] for i in range(1, 7)] == std.tolist()
+
+
 def test_gap_widens_the_covariance_and_keeps_the_rows():
     world = drive(rover_rate(3000, still=1000))
     whole = recorded(world)
@@ -112,6 +122,10 @@ def test_what_cannot_be_used_is_refused_with_its_reason():
         run(recording, part(), latitude=52.0)
     with pytest.raises(UserError, match="q0 is"):
         run(recording, part(), q0=np.zeros(4))
+    with pytest.raises(UserError, match="bias0 is .* expected 3 finite numbers"):
+        run(recording, part(), bias0=[0.1, np.nan, 0.0])
+    with pytest.raises(UserError, match="std0 is .* expected 6 finite numbers"):
+        run(recording, part(), std0=np.ones(3))
     with pytest.raises(UserError, match="unknown setting 'gravty'"):
         run(recording, part(), settings={"gravty": 9.8})
     with pytest.raises(UserError, match="no gyro"):

@@ -464,8 +464,8 @@ def test_a_scalar_form_is_refused(toys):
 
 def test_what_the_fmu_says_stands_in_the_exception(path):
     with pytest.raises(FMICallException) as caught:
-        simulate_blocks(path, drive(3), sample_period=-1.0)
-    assert any("must be positive" in note for note in caught.value.__notes__)
+        simulate_blocks(path, drive(3), start_values={"noise.N": -1.0})
+    assert any("noise.N must lie in 0 to inf, not -1" in note for note in caught.value.__notes__)
 
 
 # ---- a sensor ----------------------------------------------------------------------------------------------------------

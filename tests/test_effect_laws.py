@@ -1,5 +1,7 @@
 """Laws that every effect of the catalogue keeps; a new effect is tested by being listed."""
 
+import subprocess
+import sys
 from pathlib import Path
 
 import casadi as ca
@@ -8,11 +10,12 @@ import pytest
 from catalogue_cases import CASES, H, alone, as_part, everything, excited, inputs, motion, outputs, own, run, size, with_excited
 
 from pyimu import units
-from pyimu.effect import CATALOGUE, KINDS, OWN_RATE, Parameter, Sensor, effect
+from pyimu.effect import CATALOGUE, KINDS, OWN_RATE, Environment, Parameter, Sensor, State, candidates, effect
+from pyimu.errors import UserError
 from pyimu.imu import Part
 from pyimu.noise import normals
 from pyimu.partfile import load_part, save_part
-from pyimu.signals import SIGNALS
+from pyimu.signals import COLUMNS, SIGNALS, inputs_of
 
 every_effect = pytest.mark.parametrize("name, kind", CASES)
 every_name = pytest.mark.parametrize("name", CATALOGUE)
@@ -166,16 +169,158 @@ def compensate(sensor: Sensor, y: np.ndarray, u: np.ndarray) -> tuple[np.ndarray
 
 
 @every_effect
-def test_compensation_restores_the_input(name, kind):
-    """Exactly for an invertible effect; where another one can mark what it lost, all that is not marked."""
+def test_compensation_restores_the_input_marks_it_as_lost_or_says_that_the_effect_is_left_in(name, kind):
+    """One of the three: exact for an invertible effect, and for another one all that is not marked, unless the sensor names it."""
     sensor, u, e = excited(name, kind), motion(150), CATALOGUE[name]
     truth = u[:, own(kind)]
     x, lost = compensate(sensor, run(sensor, u), u)
-    if not e.invertible and e.lost is None:
-        assert not lost.any()
+    assert [e.invertible, bool(lost.any()), sensor.left_in == (name,)].count(True) == 1
+    if sensor.left_in:
+        assert np.abs(x - truth).max() > 1e-6 * np.abs(truth).max()
+    else:
+        np.testing.assert_allclose(x[lost == 0], truth[lost == 0], rtol=1e-12, atol=1e-12 * np.abs(truth).max())
+
+
+@every_effect
+def test_nothing_is_left_in_of_an_effect_that_does_nothing(name, kind):
+    sensor = Sensor(kind, {name: {}})
+    assert not sensor.left_in and not sensor.acts(name) and excited(name, kind).acts(name)
+
+
+@every_effect
+@pytest.mark.parametrize("at", [0, 60])
+def test_what_is_not_a_number_stays_none_and_is_forgotten(name, kind, at):
+    """NaN in on one axis is NaN out on it; a difference of neighbours knows nothing of the next sample either; then it is over."""
+    part, u = as_part(excited(name, kind)), motion(150)
+    u[at, own(kind).start + 1] = np.nan
+    w = normals(5, [c.number for c in part.block.noise], 1, len(u))
+    y = part.block.run(inputs(u, part), w=w)[0][:, outputs(kind)]
+    assert np.isnan(y[at, 1])
+    assert np.isfinite(np.delete(y, [at, at + 1], axis=0)).all()
+    assert np.isfinite(y[at + 1]).all() or CATALOGUE[name].differences
+    if not CATALOGUE[name].states:
         return
-    assert e.invertible != bool(lost.any())
-    np.testing.assert_allclose(x[lost == 0], truth[lost == 0], rtol=1e-12, atol=1e-12 * np.abs(truth).max())
+    # Behind it the memory goes on as if the last input had been held, which is what it starts from where there was none; a sum has nothing to add.
+    held = u.copy()
+    held[at, own(kind)] = 0.0 if name == "angle_quantization" else held[max(at - 1, 1), own(kind)]
+    np.testing.assert_allclose(y[at + 1:, 1], part.block.run(inputs(held, part), w=w)[0][at + 1:, outputs(kind)][:, 1], rtol=1e-12, atol=1e-12)
+
+
+@every_effect
+def test_an_unknown_environment_is_an_unknown_output_and_is_forgotten(name, kind):
+    part = as_part(excited(name, kind))
+    for signal in inputs_of(CATALOGUE[name].signals(kind)):
+        u = motion(150)
+        u[60, COLUMNS[signal].start] = np.nan
+        w = normals(5, [c.number for c in part.block.noise], 1, len(u))
+        y = part.block.run(inputs(u, part), w=w)[0][:, outputs(kind)]
+        assert np.isnan(y[60]).any(), signal
+        assert np.isfinite(np.delete(y, [60, 61], axis=0)).all(), signal
+
+
+REFUSED = [("scale_factor", {"s": np.nan}, "gyro scale_factor.s must be finite, not "), ("turn_on_bias", {"b0": [0, np.inf, 0]}, "must be finite"),
+           ("angle_random_walk", {"N": -1.0}, "must not be below 0, not "), ("lag", {"wn": 10.0, "zeta": 3.0}, "must not be above 2, not 3.0 1"),
+           ("misalignment", {"m": np.eye(3)}, "must have zeros on its diagonal"), ("turn_on_bias", {"b0": "a"}, "must be numbers of shape"),
+           ("turn_on_bias", {"b0": [1.0, 2.0]}, "has shape"), ("turn_on_bias", {"bias": 1.0}, "has no parameter 'bias'; it has b0"),
+           ("g_sensitivty", {}, "unknown effect 'g_sensitivty', did you mean g_sensitivity"), ("size_effect", {}, "does not belong to a gyro")]
+
+
+@pytest.mark.parametrize("name, values, message", REFUSED)
+def test_what_is_no_coefficient_makes_no_sensor(name, values, message):
+    """What a part file must not say cannot be made in Python either."""
+    with pytest.raises(UserError, match=message):
+        Sensor("gyro", {name: values})
+
+
+def test_who_differentiates_at_a_bound_may_step_across_it_and_no_part_does():
+    lag = Sensor("gyro", {"lag": {"wn": 10.0, "zeta": 0.1}})
+    across = lag.with_values("lag", zeta=0.1 * (1 - 1e-3))
+    assert as_part(lag).gyro == lag
+    with pytest.raises(UserError, match="^part test: gyro lag.zeta must not be below 0.1, not 0.0999 1$"):
+        as_part(across)
+
+
+def test_there_are_two_kinds_of_sensors():
+    with pytest.raises(UserError, match="unknown sensor 'gyros', did you mean gyro"):
+        Sensor("gyros")
+
+
+@every_effect
+def test_coefficients_at_their_bounds_are_allowed(name, kind):
+    for n, q in CATALOGUE[name].parameters.items():
+        for bound in (q.minimum, q.maximum, q.start):
+            if bound is not None and q.diagonal:
+                Sensor(kind, {name: {n: np.full(q.shape, bound)}})
+
+
+BEYOND = [("time_delay", {"td": 30.5 * H}, "gyro time_delay: td must not be above 30 sample periods"),
+          *(("bias_instability", {"B": 1e-3, "f_low": low, "f_high": high}, "gyro bias_instability: f_high must lie 2 to 5 decades above f_low")
+            for low, high in ((1e-6, 1.0), (1e-3, 1e-2), (1.0, 1.0), (1.0, 0.1)))]
+
+
+@pytest.mark.parametrize("name, values, message", BEYOND)
+def test_what_coefficients_must_keep_together_makes_no_part(name, values, message):
+    sensor = Sensor("gyro", {name: values})
+    with pytest.raises(UserError, match=f"^part test: {message}$"):
+        as_part(sensor)
+    fine = as_part(Sensor("gyro", {name: {}}))
+    p = sensor.p
+    with pytest.raises(UserError, match=f"^block ImuSensor: {message}$"):
+        fine.block.run(np.zeros((3, len(fine.block.inputs))), p=p)
+
+
+@pytest.mark.parametrize("name, values", [("time_delay", {"td": 30 * H}), ("bias_instability", {"B": 1e-3, "f_low": 1e-3, "f_high": 0.1}),
+                                          ("bias_instability", {"B": 1e-3, "f_low": 1e-4, "f_high": 10.0})])
+def test_the_last_values_that_go_together_are_allowed(name, values):
+    assert as_part(Sensor("gyro", {name: values})).gyro.acts(name)
+
+
+def test_a_delay_that_fits_the_part_may_be_too_long_for_a_run():
+    part = as_part(Sensor("gyro", {"time_delay": {"td": 30 * H}}))
+    with pytest.raises(UserError, match="td must not be above 30 sample periods"):
+        part.block.run(np.zeros((3, 7)), sample_period=0.9 * H)
+
+
+@pytest.mark.parametrize("f_low, f_high", [(1.0, 1.0), (1.0, 0.1), (1e-9, 1.0)])
+def test_flicker_of_a_band_that_is_none_is_still_a_number(f_low, f_high):
+    """As a running unit may be given it: the band ends where flicker does."""
+    sensor = Sensor("gyro", {"bias_instability": {"B": 1e-3, "f_low": f_low, "f_high": f_high}})
+    nearest = f_low * np.clip(f_high / f_low, 1e2, 1e5)
+    want = Sensor("gyro", {"bias_instability": {"B": 1e-3, "f_low": f_low, "f_high": nearest}})
+    y, same = (run(s, motion(50), draws(s, 50)) for s in (sensor, want))
+    assert np.isfinite(y).all()
+    np.testing.assert_allclose(y, same, rtol=1e-12)
+
+
+def defined(**arguments):
+    """An attempt to define an effect whose arguments, after x, have these annotations."""
+    def made_up(x, a):
+        return x
+    made_up.__annotations__ = arguments
+    return effect(stage="bias", equation="y = x", source="made up", term="made up")(made_up)
+
+
+@pytest.mark.parametrize("annotation, message", [
+    (Environment("presure"), "effect made_up: unknown signal 'presure'; known are rate, "),
+    (Environment("temprature"), "effect made_up: unknown signal 'temprature', did you mean temperature"),
+    (Parameter("furlong"), "effect made_up: a: 'furlong' is not a unit"), (Parameter("{y}*sec"), "did you mean s"),
+    (State("deg/dy"), "effect made_up: a: 'deg/dy' is not a unit")])
+def test_a_signal_or_a_unit_that_does_not_exist_makes_no_effect(annotation, message):
+    with pytest.raises(UserError, match=message):
+        defined(a=annotation)
+    assert "made_up" not in CATALOGUE
+
+
+def test_a_sensor_of_a_kind_that_does_not_exist_makes_no_effect():
+    with pytest.raises(UserError, match="unknown sensor 'gyrro', did you mean gyro"):
+        effect(stage="bias", equation="y = x", source="made up", term="made up", sensors=("gyrro",))(lambda x: x)
+
+
+def test_the_catalogue_is_there_whoever_asks_first():
+    """In a fresh process, as this one has imported all of it."""
+    code = "from pyimu.effect import Sensor, candidates; print(Sensor('gyro', {'scale_factor': {}}).p, len(candidates('gyro', ())))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["[0.", "0.", "0.]", str(len(candidates("gyro", ())))]
 
 
 @pytest.mark.parametrize("kind", KINDS)

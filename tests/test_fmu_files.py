@@ -3,6 +3,7 @@
 import re
 import shutil
 import subprocess
+import tempfile
 import zipfile
 from dataclasses import replace
 from importlib.util import find_spec
@@ -22,6 +23,9 @@ from pyimu.block import Block, NoiseChannel, Variable
 from pyimu.errors import UserError
 from pyimu.fmu import FORMS, PLATFORMS, build_fmu, build_fmus, host_platform, simulate, simulate_blocks, source_folder, texts, write_generated
 from pyimu.fmu.build import FLAGS, header_folder, icon
+from pyimu.fmu.package import check_folder
+from pyimu.fmu.sources import DESCRIPTION, PAGE
+from pyimu.imu import Part, Sensor
 from pyimu.noise import normals
 
 BLOCK = toy()
@@ -292,7 +296,7 @@ def test_sparse_blocks_are_refused():
 def test_functions_need_two_names():
     block = gain()
     again = ca.Function("step", [ca.SX.sym("p")], [ca.SX.zeros(0), ca.SX.zeros(1)])
-    with pytest.raises(ValueError, match="both called step"):
+    with pytest.raises(ValueError, match="names of their own, not step, step"):
         texts(replace(block, initial=again))
 
 
@@ -313,6 +317,33 @@ def test_first_error_of_the_compiler_is_shown(tmp_path):
     broken = ca.Function("block_free", [ca.SX.sym("p")], [ca.SX.zeros(0), ca.SX.zeros(1)])
     with pytest.raises(UserError, match="error.*block_free"):
         build_fmu(replace(block, initial=broken), tmp_path)
+
+
+def test_a_folder_that_cannot_be_made_is_named(tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(UserError, match=r"file/x/Toy.fmi2.fmu: cannot be written \(Not a directory\)"):
+        build_fmu(BLOCK, tmp_path / "file" / "x")
+
+
+def test_a_folder_that_cannot_be_written_to_is_named_before_the_work(tmp_path, monkeypatch):
+    """Nothing is left behind where it can; where it cannot, as in /proc, permissions would have said otherwise to root."""
+    check_folder(tmp_path / "new" / "folder")
+    assert not list(tmp_path.iterdir())
+
+    def refuse(**_):
+        raise FileNotFoundError(2, "No such file or directory")
+    monkeypatch.setattr(tempfile, "TemporaryDirectory", refuse)
+    with pytest.raises(UserError, match="new: cannot write there, No such file or directory; give another folder"):
+        check_folder(tmp_path / "new")
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_the_page_says_what_wants_new_inputs_at_every_sample(form):
+    """Of a part that has something of the kind, and where a step can hold inputs for more than a sample."""
+    jitter = Part("p", 100.0, Sensor("gyro", {"sampling_jitter": {}})).block
+    assert ("make steps of one" in texts(jitter)[PAGE[form]]) == (form != "block")
+    assert "make steps of one" not in texts(Part("p", 100.0).block)[PAGE[form]]
+    assert all("ants new inputs at every sample" in texts(jitter)[file] for file in (PAGE[form], DESCRIPTION[form]))
 
 
 @pytest.mark.parametrize("arguments, words", (({"form": 1}, "FMI version 1"), ({"platform": "vax"}, "platform 'vax'")))

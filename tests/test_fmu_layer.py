@@ -16,6 +16,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numba import njit
 
+from pyimu.errors import UserError
 from pyimu.fmu import FORMS, build_fmus, simulate_blocks
 from pyimu.fmu import simulate as simulate_scalars
 from pyimu.noise import normals
@@ -357,6 +358,38 @@ def test_sample_period_must_be_positive(path, period):
     with Unit(path) as unit:
         refused(unit, lambda: unit.set("sample_period", period), "sample_period", "positive")
         assert unit.get("sample_period") == PERIOD
+
+
+@pytest.mark.parametrize("value", (-1e-9, -math.inf, math.nan))
+def test_a_parameter_keeps_its_bounds(path, value):
+    """Before and during a run; what was there stays."""
+    with Unit(path) as unit:
+        refused(unit, lambda: unit.set("noise.N", value), "noise.N must lie in 0 to inf, not")
+        unit.start(**{"noise.N": 0.0})
+        refused(unit, lambda: unit.set("noise.N", value), "noise.N must lie in 0 to inf, not")
+        assert unit.get("noise.N") == 0.0
+
+
+@pytest.mark.parametrize("value", (-1.0, math.inf, math.nan))
+def test_a_parameter_without_bounds_may_be_anything(path, value):
+    with Unit(path) as unit:
+        unit.set("noise.K", value)
+        np.testing.assert_equal(unit.get("noise.K"), value)
+
+
+BAD = ({"sed": 1}, "no parameter sed, did you mean seed"), ({"rate": 1.0}, "no parameter rate"), ({"y[1]": 1.0}, r"no parameter y\[1\]"), \
+    *(({"seed": seed}, f"seed {seed!r} is not an integer in 0 to") for seed in (-1, 1.5, "1", None, 2**64))
+
+
+@pytest.mark.parametrize("values, message", BAD)
+def test_start_values_that_are_none_are_refused(path, values, message):
+    with pytest.raises(UserError, match=message):
+        simulate(path, drive(3), sample_period=PERIOD, start_values=values)
+
+
+def test_a_seed_that_the_version_has_no_number_for_is_refused(toys):
+    with pytest.raises(UserError, match=r"not an integer in 0 to 2\^31 - 1"):
+        simulate_scalars(toys[2], drive(3), sample_period=PERIOD, start_values={"seed": 2**31})
 
 
 def test_negative_seed_is_refused(toys):

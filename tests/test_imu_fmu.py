@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from catalogue_cases import H, as_part, everything, inputs, motion
+from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
 from fmu_toy import Unit
 
@@ -71,6 +72,16 @@ def test_the_same_seed_gives_the_same_bits(full, fmus, form, seed):
     np.testing.assert_array_equal(y[1:], in_python(full, u, seed))
 
 
+def test_missing_inputs_are_as_missing_as_in_python(full, fmus):
+    """To the bit what Python makes of them, with every effect at work; and once they are there again, it is over."""
+    u, rng = motion(300), np.random.default_rng(7)
+    rows = rng.choice(np.arange(200), 12, replace=False)
+    u[rows, rng.integers(0, 7, len(rows))] = np.nan
+    y = simulate_blocks(fmus["block"], inputs(u, full), sample_period=H, start_values={"seed": 3})[1:]
+    np.testing.assert_array_equal(y, in_python(full, u, 3))
+    assert np.isnan(y[rows]).any(axis=1).all() and np.isfinite(y[202:]).all()
+
+
 @pytest.mark.parametrize("version", VERSIONS)
 def test_a_matrix_stands_in_the_fmu_row_by_row(full, fmus, version):
     """G[1,2] alone: the x axis of the gyro answers to the y axis of the force, and nothing else moves."""
@@ -107,6 +118,17 @@ def test_serialized_restored_and_continued_equals_never_stopped(full, fmus, vers
         again = first.run(u[half:], first=half, period=H)
     np.testing.assert_array_equal(np.vstack([begun, continued]), whole)
     np.testing.assert_array_equal(again, continued)
+
+
+@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize("values, message", [({"gyro_error.time_delay.td": 30.5 * H}, "gyro time_delay: td must not be above 30 sample periods"),
+                                             ({"accel_error.bias_instability.f_high": 1e4}, "accel bias_instability: f_high must lie 2 to 5")])
+def test_parameters_that_do_not_go_together_end_the_initialization(fmus, form, values, message):
+    """With a line in the log, as the Python of the same part refuses them."""
+    with Unit(fmus[form]) as unit:
+        with pytest.raises(FMICallException, match="ExitInitializationMode"):
+            unit.start(sample_period=H, **values)
+        assert [text for category, text in unit.messages if category == "logStatusError" and message in text]
 
 
 @pytest.mark.parametrize("version", VERSIONS)

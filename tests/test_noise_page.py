@@ -1,5 +1,7 @@
 """The page of noises is what the definitions give, leaves no noise out, and its pictures are there."""
 
+import subprocess
+import sys
 from difflib import unified_diff
 from pathlib import Path
 
@@ -24,6 +26,18 @@ def test_checked_in_page_is_fresh():
     have, want = (DOCS / "noise.md").read_text(encoding="utf-8"), documentation()
     lines = list(unified_diff(have.splitlines(), want.splitlines(), "checked in", "generated", n=0, lineterm=""))
     assert not lines, "docs/noise.md is not what the definitions give: make generate\n" + "\n".join(lines[:20])
+
+
+def test_the_example_runs_as_it_stands():
+    code = documentation().partition("```python\n")[2].partition("```")[0]
+    subprocess.run([sys.executable, "-W", "error", "-c", code], check=True)
+
+
+def test_one_letter_has_one_meaning():
+    """In the section of correlated noise the cluster time and the correlation time stand beside each other."""
+    section = documentation().partition("`gauss_markov`")[2]
+    equation = next(line for line in section.splitlines() if line.startswith("| equation"))
+    assert "tau_c" in equation and "tau " not in equation.replace("tau_c", "")
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -64,6 +64,13 @@ def test_a_one_sided_density_is_divided_by_the_root_of_two_and_kept_as_quoted():
     assert one.notes["gyro", "angle_random_walk", "N"]["quoted"] == "[0.005, 0.005, 0.005] deg/s/sqrt(Hz), one-sided"
 
 
+def test_a_density_is_written_only_where_its_unit_is_one():
+    """A note from elsewhere may name a density beside a random walk's unit; what is written must read back."""
+    walk = Sensor("gyro", {"angle_random_walk": {"N": 1e-3}})
+    made = Part("a", 100.0, walk, notes={("gyro", "angle_random_walk", "N"): {"unit": "deg/sqrt(h)", "density": "one-sided"}})
+    assert "density" not in format_part(made) and parse_part(format_part(made)) == made
+
+
 def test_estimate_leaves_coefficients_to_the_data():
     p = read('[gyro]\nthermal_bias = "estimate"\nscale_factor.s = "estimate"\n'
              'lag = {wn = {value = "estimate", start = 50, unit = "Hz*rad"}}')
@@ -98,7 +105,7 @@ ERRORS = {
     '[gyro.misalignment]\nm = {value = [[1, 2], [3]], unit = "rad"}':
         "gyro.misalignment.m: holds rows of unequal length, expected a 3 x 3 matrix",
     '[gyro.misalignment]\nm = {value = [1, 2, 3, 4, 5, 6, 7, 8, 9], unit = "rad"}':
-        "gyro.misalignment.m: has no diagonal elements, write 0 there",
+        "gyro.misalignment.m: must have zeros on its diagonal, not [[1, 2, 3], [4, 5, 6], [7, 8, 9]] rad",
     '[gyro.scale_factor]\ns = "3 %"': "gyro.scale_factor.s: must be a number, not '3 %'",
     '[gyro.scale_factor]\ns = [1, true, 3]': "gyro.scale_factor.s: must be a number, not True",
     '[gyro.scale_factor]\ns = [1, nan, 3]': "gyro.scale_factor.s: must be finite",
@@ -112,6 +119,12 @@ ERRORS = {
         "gyro.scale_factor.s.density: goes only with angle_random_walk.N",
     '[gyro.angle_random_walk]\nN = {value = 1, unit = "deg/sqrt(h)", density = "half"}':
         "gyro.angle_random_walk.N.density: must be \"one-sided\" or \"two-sided\", not 'half'",
+    **{f'[gyro.angle_random_walk]\nN = {{value = 1, unit = "{unit}", density = "{density}"}}':
+       f"gyro.angle_random_walk.N.density: goes only with a unit per sqrt(Hz), not with {unit}"
+       for unit in ("deg/sqrt(h)", "rad/sqrt(s)") for density in ("one-sided", "two-sided")},
+    '[gyro.time_delay]\ntd = {value = 301, unit = "ms"}': "part a: gyro time_delay: td must not be above 30 sample periods",
+    '[accel.bias_instability]\nB = {value = 1, unit = "mg"}\nf_high = {value = 2, unit = "Hz"}':
+        "part a: accel bias_instability: f_high must lie 2 to 5 decades above f_low",
     '[gyro.angle_random_walk]\nN = {value = [1, -1, 1], unit = "deg/sqrt(h)"}':
         "gyro.angle_random_walk.N: must not be below 0, not [1, -1, 1] deg/sqrt(h)",
     '[gyro.lag]\nzeta = 3': "gyro.lag.zeta: must not be above 2, not 3",

@@ -89,10 +89,45 @@ def test_constants_stand_for_arrays():
 
 @pytest.mark.parametrize(("given", "message"), [
     ({"rate": np.zeros((N, 2))}, "rate has shape"), ({"temperature": np.zeros(3)}, "temperature has shape"),
-    ({"suply": 3.3}, "unknown input 'suply', did you mean supply"), ({"jerk": np.zeros(3)}, "unknown input 'jerk'")])
+    ({"suply": 3.3}, "unknown input 'suply', did you mean supply"), ({"jerk": np.zeros(3)}, "unknown input 'jerk'"),
+    ({"rate": 0.0}, r"rate has shape \(\), expected \(n, 3\)"), ({"rate": None}, "rate must be an array of real numbers"),
+    ({"rate": np.zeros(N)}, "rate has shape"), ({"rate": [[1, 2, 3], [4]]}, "rate: its rows are of unequal length"),
+    ({"specific_force": np.zeros((N, 3), complex)}, "real numbers, not complex"), ({"temperature": "warm"}, "temperature must be .* 'warm'"),
+    ({"part": "imt31"}, "did you mean imt30"), ({"part": 3}, "a part is a Part, the name of one or a TOML file, not '3'"),
+    *(({"seed": seed}, f"seed {seed!r} is not an integer in 0 to") for seed in (-1, 2**64, 1.5, "a", np.nan, True)),
+    *(({"sample_period": h}, "the sample period must be a positive and finite number of seconds, not") for h in (0.0, -0.01, np.nan, np.inf, "h"))])
 def test_wrong_input_is_refused(given, message):
-    with pytest.raises(UserError, match=message):
-        simulate(PART, **{"rate": np.zeros((N, 3)), "specific_force": np.zeros((N, 3)), **given})
+    with pytest.raises(UserError, match=message) as caught:
+        simulate(**{"part": PART, "rate": np.zeros((N, 3)), "specific_force": np.zeros((N, 3)), **given})
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("rate", [0, -100.0, np.nan, np.inf, 1e-320, "100", None])
+def test_a_part_without_a_sample_rate_is_refused(rate):
+    with pytest.raises(UserError, match="part test: the sample rate must be a positive and finite number of Hz, not"):
+        Part("test", rate)
+
+
+def test_a_name_stands_for_a_part():
+    motion_ = np.zeros((20, 3)), np.zeros((20, 3))
+    np.testing.assert_array_equal(simulate("imt30", *motion_, seed=1), simulate(pyimu.part("imt30"), *motion_, seed=1))
+
+
+@pytest.mark.parametrize("name", pyimu.part_names())
+def test_an_unknown_motion_is_an_unknown_measurement(name):
+    """Of every built-in part, with their ranges and filters: what is not known is not full scale, and is over when it is over."""
+    rate, force = 0.01 * np.ones((60, 3)), np.tile([0.1, 0.2, 9.8], (60, 1))
+    rate[20, 1] = force[30, 2] = np.nan
+    gyro, accel = simulate(name, rate, force, seed=1)
+    np.testing.assert_array_equal(np.argwhere(np.isnan(gyro)), [[20, 1]])
+    np.testing.assert_array_equal(np.argwhere(np.isnan(accel)), [[30, 2]])
+
+
+def test_saturation_cuts_off_at_either_end():
+    part = Part("test", 100.0, Sensor("gyro", {"saturation": {"limit": [1.0, 2.0, 0.0]}}))
+    rate = np.array([[-3.0, -3.0, -3.0], [1.0, -2.0, 0.0], [1.0 + 1e-15, np.inf, np.inf], [np.nan, np.nan, np.nan], [0.5, 3.0, -9.0]])
+    want = [[-1.0, -2.0, -3.0], [1.0, -2.0, 0.0], [1.0, 2.0, np.inf], [np.nan] * 3, [0.5, 2.0, -9.0]]
+    np.testing.assert_array_equal(simulate(part, rate, np.zeros(3))[0], want)
 
 
 def test_missing_input_is_refused():

@@ -67,7 +67,8 @@ def test_a_sensor_can_be_built_of_each_magnitude(name, kind):
     for m in magnitudes(name, kind).values():
         start = CATALOGUE[name].start()
         for parameter, value in {m.parameter: m.si, **m.beside_si}.items():
-            start[parameter] = start[parameter] * 0 + value
+            for index in CATALOGUE[name].parameters[parameter].indices:
+                start[parameter][index] = value
         assert (Sensor(kind, {name: start}).p == value).any()
 
 

@@ -1,6 +1,7 @@
 """Attitude from a gyro and an accelerometer: the unscented filter as a block, and its run over a recording."""
 
 from pyimu.attitude.run import AttitudeResult, run
-from pyimu.attitude.ukf import STATUS, attitude_ukf
+from pyimu.attitude.ukf import attitude_ukf
+from pyimu.attitude.variables import STATUS
 
 __all__ = ["STATUS", "AttitudeResult", "attitude_ukf", "run"]

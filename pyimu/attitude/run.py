@@ -3,43 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 
-import casadi as ca
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from pyimu.attitude.alignment import initial_values
+from pyimu.attitude.columns import CHUNK, NOMINAL_RATE_NOISE, Columns, latitude_of, nominal_part, settings_of
 from pyimu.attitude.rest import Rest, find_rest
-from pyimu.attitude.ukf import STATUS, UNKNOWN_LATITUDE, attitude_ukf
-from pyimu.block import Block
-from pyimu.effect import Sensor
+from pyimu.attitude.ukf import attitude_ukf
+from pyimu.attitude.variables import STATUS
+from pyimu.block import Block, Run
 from pyimu.errors import UserError
 from pyimu.imu import Part
 from pyimu.recording import Recording
-from pyimu.signals import COLUMNS, START
-from pyimu.symbolic import quaternion
-from pyimu.symbolic.earth import earth_rate
-
-TILT_STD = 0.01
-"""rad; of an attitude levelled at rest: an accelerometer's turn-on bias of 10 mg."""
-
-MOVING_TILT_STD = 0.3
-"""rad; of an attitude levelled while moving."""
-
-YAW_STD = 1e-3
-"""rad; yaw starts at the given heading, or defines where it is zero."""
-
-HEADING_STD = 0.035
-"""rad; of a recorded heading that comes without a standard deviation."""
-
-BIAS_STD = 0.01
-"""rad/s; of the bias of a gyro that was not seen at rest."""
-
-NOMINAL_K = 2e-5
-"""rad/s/sqrt(s); rate random walk that is taken for a sensor of which nothing is known, 4 deg/h/sqrt(s)."""
-
-LONGEST_GAP = 60.0
-"""s; a gap in the recording counts at most as that long, by when the attitude is lost anyway."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +26,7 @@ class AttitudeResult:
 
     ``time`` (n,) s; ``q`` (n, 4), body to world, scalar first; ``gyro_bias`` (n, 3) rad/s; ``std`` (n, 6), of the attitude
     error in body axes in rad and of the bias in rad/s; ``quasi_static`` (n,) bool; ``nis`` (n,), 0 without a gravity
-    update; ``status`` (n,) int, bits of ``pyimu.attitude.STATUS``.
+    update; ``status`` (n,) int, bits of ``pyimu.attitude.STATUS``.  ``parameters`` are the values with which ``AttitudeUkf`` says the same.
     """
 
     name: str
@@ -60,6 +38,7 @@ class AttitudeResult:
     nis: np.ndarray = field(repr=False)
     status: np.ndarray = field(repr=False)
     rest: Rest | None = None
+    parameters: Mapping[str, float] = field(default_factory=dict, repr=False)
 
     @property
     def euler(self) -> np.ndarray:
@@ -87,136 +66,42 @@ class AttitudeResult:
 
 
 def run(recording: Recording, part: Part | None = None, *, latitude: float | None = None, q0: np.ndarray | None = None,
-        heading0: float | None = None, settings: Mapping[str, float] | None = None) -> AttitudeResult:
+        heading0: float | None = None, bias0: np.ndarray | None = None, std0: np.ndarray | None = None,
+        settings: Mapping[str, float] | None = None) -> AttitudeResult:
     """The attitude of a recording, by the filter of ``part`` (without one: of its noise at rest alone).
 
     ``latitude`` [rad] (else the recording's, else no Earth rate is subtracted), ``q0`` (4,) and ``heading0`` [rad] the attitude
-    or the yaw of the first sample; otherwise tilt and bias come from the first seconds at rest, and yaw from the first
+    or the yaw of the first sample, ``bias0`` (3,) [rad/s] the gyro bias, ``std0`` (6,) the standard deviations of attitude in
+    body axes [rad] and bias [rad/s]; what is not given comes from the first seconds at rest, and yaw from the first
     recorded heading, or is zero.  ``settings`` are values of other parameters of the block, by name.  Raises UserError
-    for a recording without gyro, a latitude beyond pi/2, a quaternion without length or an unknown setting.
+    for a recording without gyro, a latitude beyond pi/2, a quaternion without length, other than so many numbers, or an
+    unknown setting.
     """
     if recording.gyro is None:
         raise UserError(f"{recording.name}: no gyro, an attitude needs gyro_x, gyro_y, gyro_z")
-    latitude = _latitude(recording, latitude)
+    latitude = latitude_of(recording, latitude)
     rest = find_rest(recording)
-    part = nominal_part(recording, rest) if part is None else part
+    nominal, part = part is None, nominal_part(recording, rest) if part is None else part
     block = attitude_ukf(part)
-    values = _initial_values(recording, part, rest, latitude, q0, heading0)
+    values = {**settings_of(recording, rest), **initial_values(recording, part, rest, latitude, q0, heading0)}
+    values |= _numbered("bias0", bias0, 3) | _numbered("std0", std0, 6)
+    if nominal:
+        values["rate_noise"] = NOMINAL_RATE_NOISE
     p = _parameters(block, {**values, **(settings or {})})
-    rows = _grid(recording)
-    u = np.full((rows[-1] + 1, len(block.inputs)), np.nan)
-    u[:, [7, 8, 9, 10]] = 0
-    u[rows] = _inputs(recording, _temperature(recording, part))
-    y, _ = block.run(u, p=p, sample_period=recording.sample_period)
-    return _result(recording, block, y[rows], rest)
+    columns = Columns(recording, part, [v.name for v in block.inputs])
+    steps = Run(block, columns.rows[-1] + 1, p=p, sample_period=recording.sample_period)
+    return AttitudeResult(getattr(recording, "name", "recording"), recording.time, **_outputs(block, columns, steps), rest=rest,
+                          parameters={v.name: value for v, value in zip(block.parameters, p.tolist(), strict=True)})
 
 
-def nominal_part(recording: Recording, rest: Rest) -> Part:
-    """A part that knows of its sensors only the white noise that they show at rest."""
-    n_gyro, n_accel = (s * np.sqrt(recording.sample_period) for s in (rest.rate_std, rest.force_std))
-    gyro = Sensor("gyro", {"angle_random_walk": {"N": n_gyro}, "rate_random_walk": {"K": NOMINAL_K}})
-    return Part("nominal", 1 / recording.sample_period, gyro, Sensor("accel", {"angle_random_walk": {"N": n_accel}}))
-
-
-def _latitude(recording: Recording, latitude: float | None) -> float:
-    if latitude is None:
-        column = getattr(recording, "latitude", None)
-        known = column is not None and np.isfinite(column).any()
-        return float(np.nanmedian(column)) if known else UNKNOWN_LATITUDE
-    if not abs(latitude) <= np.pi / 2:
-        raise UserError(f"latitude is {latitude} rad, expected -pi/2 to pi/2")
-    return float(latitude)
-
-
-def _temperature(recording: Recording, part: Part) -> np.ndarray | float:
-    """The recorded temperature, else the one at which the part has no thermal bias."""
-    if recording.temperature is not None:
-        return recording.temperature
-    return float(part.gyro.values.get("thermal_bias", {}).get("T0", 25.0))
-
-
-def _inputs(recording: Recording, temperature) -> np.ndarray:
-    """The block's inputs (n, 11)."""
-    n = len(recording.time)
-    accel = np.full((n, 3), np.nan) if recording.accel is None else recording.accel
-    heading, std = _recorded_heading(recording)
-    valid = np.isfinite(heading) & np.isfinite(std)
-    stationary = getattr(recording, "stationary", None)
-    stationary = np.zeros(n) if stationary is None else np.nan_to_num(stationary)
-    return np.column_stack([recording.gyro, accel, np.broadcast_to(temperature, n), np.where(valid, heading, 0),
-                            np.where(valid, std ** 2, 0), valid, stationary])
-
-
-def _recorded_heading(recording: Recording) -> tuple[np.ndarray, np.ndarray]:
-    """Heading and its standard deviation (n,) rad, NaN where there is none."""
-    n = len(recording.time)
-    if getattr(recording, "heading", None) is None:
-        return np.full(n, np.nan), np.full(n, np.nan)
-    std = getattr(recording, "heading_std", None)
-    return recording.heading, np.full(n, HEADING_STD) if std is None else std
-
-
-def _grid(recording: Recording) -> np.ndarray:
-    """Sample number (n,) of each row on a regular grid: a gap becomes missing samples, over which the filter widens."""
-    steps = np.diff(recording.time) / recording.sample_period
-    longest = max(1, round(LONGEST_GAP / recording.sample_period))
-    # Only a gap counts: jitter of the time stamps neither drops nor adds a sample.
-    counts = np.where(steps > 1.5, np.minimum(np.round(steps), longest), 1).astype(int)
-    return np.concatenate([[0], np.cumsum(counts)])
-
-
-# The start
-
-
-def _initial_values(recording: Recording, part: Part, rest: Rest, latitude: float, q0,
-                    heading0: float | None) -> dict[str, float]:
-    """Start values of the filter, by parameter name."""
-    rate, force = _compensated(part, rest, recording)
-    yaw, yaw_std = _initial_yaw(recording, heading0)
-    attitude = _levelled(force, yaw) if q0 is None else _given(q0)
-    tilt_std = TILT_STD if rest.seen or q0 is not None else MOVING_TILT_STD
-    axes = attitude.inv().as_matrix()
-    attitude_std = np.sqrt(axes ** 2 @ np.array([tilt_std, tilt_std, yaw_std]) ** 2)
-    earth = np.array(earth_rate(ca.DM(latitude))).ravel() if abs(latitude) <= np.pi / 2 else np.zeros(3)
-    bias = rate - attitude.inv().apply(earth) if rest.seen else np.zeros(3)
-    bias_std = np.hypot(rest.rate_mean_std, 0 if np.any(earth) else 7.3e-5) if rest.seen else np.full(3, BIAS_STD)
-    named = {"q0": attitude.as_quat(scalar_first=True), "bias0": bias, "std0": np.concatenate([attitude_std, bias_std])}
-    return {"latitude": latitude, **{f"{n}[{i + 1}]": float(v) for n, array in named.items() for i, v in enumerate(array)}}
-
-
-def _compensated(part: Part, rest: Rest, recording: Recording) -> tuple[np.ndarray, np.ndarray]:
-    """Mean rate and specific force (3,) of the rest without the part's own errors."""
-    temperature = np.broadcast_to(_temperature(recording, part), len(recording.time))[rest.rows]
-    temperature = np.nanmean(temperature) if np.isfinite(temperature).any() else 25.0
-    h, around = recording.sample_period, START.copy()
-    around[COLUMNS["rate"]], around[COLUMNS["specific_force"]], around[COLUMNS["temperature"]] = rest.rate, rest.force, temperature
-    force = part.accel.compensation(part.accel.chain.start, rest.force, around, part.accel.p, h)[1]
-    around[COLUMNS["specific_force"]] = np.array(force).ravel()
-    rate = part.gyro.compensation(part.gyro.chain.start, rest.rate, around, part.gyro.p, h)[1]
-    return np.array(rate).ravel(), np.array(force).ravel()
-
-
-def _initial_yaw(recording: Recording, heading0: float | None) -> tuple[float, float]:
-    """Yaw of the first sample and its standard deviation in rad."""
-    heading, std = _recorded_heading(recording)
-    known = np.flatnonzero(np.isfinite(heading) & np.isfinite(std))
-    if heading0 is None and len(known):
-        return float(heading[known[0]]), max(float(std[known[0]]), YAW_STD)
-    return (0.0 if heading0 is None else float(heading0)), YAW_STD
-
-
-def _levelled(force: np.ndarray, yaw: float) -> Rotation:
-    """The attitude in which gravity is the only force: roll and pitch from its direction (Groves 2013, eqs. 5.101)."""
-    roll, pitch = np.arctan2(force[1], force[2]), np.arctan2(-force[0], np.hypot(force[1], force[2]))
-    q = quaternion.from_euler(ca.DM(roll), ca.DM(pitch), ca.DM(yaw))
-    return Rotation.from_quat(np.array(q).ravel(), scalar_first=True)
-
-
-def _given(q0) -> Rotation:
-    q0 = np.asarray(q0, dtype=float)
-    if q0.shape != (4,) or not np.linalg.norm(q0) > 0:
-        raise UserError(f"q0 is {q0.tolist()}, expected four numbers (w, x, y, z) that are not all zero")
-    return Rotation.from_quat(q0, scalar_first=True)
+def _numbered(name: str, values, size: int) -> dict[str, float]:
+    """A given vector as parameters; nothing where it is not given."""
+    if values is None:
+        return {}
+    array = np.asarray(values, dtype=float)
+    if array.shape != (size,) or not np.isfinite(array).all():
+        raise UserError(f"{name} is {array.tolist()}, expected {size} finite numbers")
+    return {f"{name}[{i + 1}]": float(v) for i, v in enumerate(array)}
 
 
 def _parameters(block: Block, values: Mapping[str, float]) -> np.ndarray:
@@ -229,11 +114,32 @@ def _parameters(block: Block, values: Mapping[str, float]) -> np.ndarray:
     return p
 
 
-def _result(recording: Recording, block: Block, y: np.ndarray, rest: Rest) -> AttitudeResult:
-    at = {v.name: i for i, v in enumerate(block.outputs)}
+OUTPUTS = {"q": (4, float), "gyro_bias": (3, float), "std": (6, float), "quasi_static": (0, bool), "nis": (0, float), "status": (0, np.uint8)}
+"""Of the block's outputs those that a result keeps, how many numbers each has (0: one, without an axis), and their type."""
 
-    def group(name: str) -> np.ndarray:
-        return y[:, at[f"{name}[1]"]:][:, :sum(key.startswith(f"{name}[") for key in at)]
 
-    return AttitudeResult(getattr(recording, "name", "recording"), recording.time, group("q"), group("gyro_bias"), group("std"),
-                          y[:, at["quasi_static"]] > 0.5, y[:, at["nis"]], y[:, at["status"]].astype(int), rest)
+def _outputs(block: Block, columns: Columns, steps: Run) -> dict[str, np.ndarray]:
+    """The outputs at the recording's rows.
+
+    A second thread puts away what has been made, as memory that is touched for the first time can cost more than the filter.
+    """
+    names = [v.name for v in block.outputs]
+    at = {n: names.index(f"{n}[1]" if size else n) for n, (size, _) in OUTPUTS.items()}
+    out = {n: np.empty((len(columns.rows), size) if size else len(columns.rows), dtype=kind) for n, (size, kind) in OUTPUTS.items()}
+
+    def keep(y: np.ndarray, rows: slice, where: np.ndarray) -> None:
+        found = y if len(where) == len(y) else y[where]
+        for n, (size, _) in OUTPUTS.items():
+            out[n][rows] = found[:, at[n]:at[n] + size] if size else found[:, at[n]]
+
+    with ThreadPoolExecutor(1) as second:
+        buffers, kept = [np.empty((min(CHUNK, columns.rows[-1] + 1), len(names))) for _ in range(2)], None
+        for u, rows, where in columns.pieces():
+            buffers.reverse()
+            y = buffers[0][:len(u)]
+            steps.advance(u, y=y)
+            if kept is not None:
+                kept.result()
+            kept = second.submit(keep, y, rows, where)
+        kept.result()
+    return out

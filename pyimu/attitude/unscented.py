@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import pi, tan
 
 import casadi as ca
 
@@ -23,6 +24,10 @@ SPREAD = 1.0
 
 LARGEST_STD = mrp.F / (N + SPREAD) ** 0.5
 """rad; a sigma point on an axis with this standard deviation is half a turn away, beyond which an angle says nothing."""
+
+LARGEST_TILT_STD = mrp.F * tan(pi / 8) / (N + SPREAD) ** 0.5
+"""rad; a sigma point of a tilt with this standard deviation is a quarter turn away.  Beyond, gravity falls again, and at half a turn
+its slope is lost."""
 
 
 @dataclass(frozen=True)
@@ -94,28 +99,58 @@ def bounded(covariance):
     return symmetric(N, lambda i, j: covariance[i, j] * shrink[i] * shrink[j] + (refill[i] if i == j else 0))
 
 
+def bounded_tilt(x: Estimate) -> Estimate:
+    """The estimate with the standard deviations of its tilt, about east and north, held at ``LARGEST_TILT_STD``: what gravity can set right."""
+    world = quaternion.to_matrix(x.q)
+    axes = ca.SX.eye(3)
+    for i in range(2):
+        std = ca.sqrt(ca.dot(world[i, :], (x.covariance[:3, :3] @ world[i, :].T).T))
+        axes -= (1 - ca.fmin(1, LARGEST_TILT_STD / ca.fmax(std, LARGEST_TILT_STD / 2))) * world[i, :].T @ world[i, :]
+    whole = ca.diagcat(axes, ca.SX.eye(3))
+    covariance = whole @ x.covariance @ whole.T
+    return Estimate(x.q, x.bias, symmetric(N, lambda i, j: covariance[i, j]))
+
+
 def measure(x: Estimate, function: Callable):
     """Predicted measurement (m,), its covariance (m, m) and its covariance with the error state (6, m).
 
-    ``function(error)`` is the measurement for the true attitude ``q error`` with the quaternion ``error``.
+    ``function(p)`` is the measurement for the attitude error ``p`` (3,).
     """
     sigma = sigma_points(x.covariance)
-    values = [function(mrp.to_quaternion(point[:3])) for point in sigma.points]
+    values = [function(point[:3]) for point in sigma.points]
     mean = sigma.mean(values)
     deviations = [v - mean for v in values]
     return mean, sigma.variance(deviations), sigma.covariance(sigma.points, deviations)
 
 
-def correct(x: Estimate, innovation, variance, cross, valid) -> tuple[Estimate, ca.SX]:
-    """The estimate after a measurement, unchanged where ``valid`` is false, and the normalised innovation squared.
+def correct(x: Estimate, innovation, variance, cross, up, limit: float | None = None) -> tuple[Estimate, ca.SX, ca.SX]:
+    """The estimate after a measurement, its normalised innovation squared, and how it was weighed, 1 up to ``limit``.
 
-    ``variance`` (m, m) of the innovation (m,), ``cross`` (6, m) its covariance with the error state.  With L the root
-    of the variance, gain times innovation is (L^-1 cross^T)^T (L^-1 innovation), and K S K^T a sum of squares.
+    ``variance`` (m, m) of the innovation (m,), ``cross`` (6, m) its covariance with the error state, ``up`` as for ``moved``.  With L the root
+    of the variance, gain times innovation is (L^-1 cross^T)^T (L^-1 innovation), and K S K^T a sum of squares.  Beyond ``limit``
+    the gain is that share smaller which brings the innovation back to it, and the covariance falls by no more than that.
     """
     root = cholesky(variance)
-    whitened = ca.if_else(valid, forward(root, innovation), 0)
-    gain = ca.if_else(valid, forward(root, cross.T), 0).T
-    change = gain @ whitened
-    covariance = symmetric(N, lambda i, j: x.covariance[i, j] - ca.dot(gain[i, :], gain[j, :]))
-    q = quaternion.normalized(quaternion.product(x.q, mrp.to_quaternion(change[:3])))
-    return Estimate(q, x.bias + change[3:], covariance), ca.dot(whitened, whitened)
+    whitened, gain = forward(root, innovation), forward(root, cross.T).T
+    nis = ca.dot(whitened, whitened)
+    weight = 1 if limit is None else ca.fmin(1, limit / ca.fmax(nis, limit))
+    change = weight * (gain @ whitened)
+    covariance = symmetric(N, lambda i, j: x.covariance[i, j] - weight * ca.dot(gain[i, :], gain[j, :]))
+    after = moved(Estimate(x.q, x.bias, covariance), change, up)
+    return Estimate(quaternion.normalized(after.q), after.bias, after.covariance), nis, weight
+
+
+def moved(x: Estimate, change, up) -> Estimate:
+    """The estimate with ``change`` (6,) of its errors added to it, ``up`` (3,) the vertical in its body axes before that.
+
+    What nobody measures is the angle about the vertical, and it must stay so: the covariance is turned with the estimated
+    vertical, from old body axes to new.  Left where it was, the large uncertainty of a heading would lie askew by the tilt's
+    correction, and gravity would seem to tell of it.  A turn about the vertical leaves tilts and bias in body axes as they are.
+    """
+    turn = change[:3] - ca.dot(up, change[:3]) * up
+    axes = quaternion.to_matrix(mrp.to_quaternion(turn)).T
+    half, cross = axes @ x.covariance[:3, :3], axes @ x.covariance[:3, 3:]
+    own = {(i, j): ca.dot(half[i, :], axes[j, :]) for i in range(3) for j in range(i, 3)}
+    both = {(i, j + 3): cross[i, j] for i in range(3) for j in range(3)}
+    covariance = symmetric(N, lambda i, j: (own | both).get((i, j), x.covariance[i, j]))
+    return Estimate(quaternion.product(x.q, mrp.to_quaternion(change[:3])), x.bias + change[3:], covariance)

@@ -5,7 +5,8 @@ from pyimu.effect import OWN_RATE, Environment, Noise, Parameter, effect
 
 @effect(stage="gain", term="clock skew", equation=r"y = x + \epsilon t \dot x",
         source="no source; first order in the time by which the clock is off, short against the motion")
-def clock_skew(x, eps: Parameter("1", (), description="relative error of the clock's rate"), t: Environment("time"), slope: Environment(OWN_RATE)):
+def clock_skew(x, eps: Parameter("1", (), description="relative error of the clock's rate; eps t must stay short against the motion"),
+               t: Environment("time"), slope: Environment(OWN_RATE)):
     return x + eps * t * slope
 
 

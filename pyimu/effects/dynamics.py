@@ -2,10 +2,17 @@
 
 import casadi as ca
 
-from pyimu.effect import INPUT, Parameter, SamplePeriod, Scan, State, effect
+from pyimu.effect import INPUT, Parameter, SamplePeriod, Scan, State, effect, is_number, kept
 
 MEMORY = 32
-"""Samples that ``time_delay`` remembers; it reaches back ``MEMORY - 2`` sample periods."""
+"""Samples that ``time_delay`` remembers."""
+
+LONGEST_DELAY = MEMORY - 2
+"""Sample periods that it reaches back: the cubic needs a sample on either side."""
+
+
+def _too_long(h, td):
+    return td > LONGEST_DELAY * h * (1 + 1e-9)  # a delay that was worked out from a rate may be rounded
 
 
 @effect(stage="dynamics", term="bandwidth, second-order lag",
@@ -17,8 +24,9 @@ def lag(x, wn: Parameter("rad/s", (), minimum=0.0, scan=Scan("rate", 0.06, 4.0, 
         x1: State("{y}", start=INPUT), x2: State("{y}", start=INPUT),
         y1: State("{y}", start=INPUT), y2: State("{y}", start=INPUT), h: SamplePeriod()):
     b, a = _second_order(wn * h, zeta)
-    y = ca.if_else(wn > 0, b[0] * x + b[1] * x1 + b[2] * x2 - a[0] * y1 - a[1] * y2, x)
-    return y, {"x1": x, "x2": x1, "y1": y, "y2": y1}
+    felt = kept(x, x1)  # behind a missing input the filter swings on as if the last one had been held
+    y = ca.if_else(wn > 0, b[0] * felt + b[1] * x1 + b[2] * x2 - a[0] * y1 - a[1] * y2, felt)
+    return ca.if_else(is_number(x), y, x), {"x1": felt, "x2": x1, "y1": y, "y2": y1}
 
 
 def _second_order(angle: ca.SX, zeta: ca.SX) -> tuple[tuple, tuple]:
@@ -41,14 +49,15 @@ def _second_order(angle: ca.SX, zeta: ca.SX) -> tuple[tuple, tuple]:
 
 
 @effect(stage="dynamics", term="time delay, timestamp offset", equation=r"y(t) = x(t - t_d)", invertible=False,
+        limits={f"td must not be above {LONGEST_DELAY} sample periods": _too_long},
         source="no source for the coefficient; third-order Lagrange interpolation between samples")
 def time_delay(x, td: Parameter("s", (), minimum=0.0, scan=Scan("period", 0.3, 28.0, 10),
-                                description="delay of the output behind the motion"),
+                                description=f"delay of the output behind the motion, at most {LONGEST_DELAY} sample periods"),
                past: State("{y}", (MEMORY, 3), start=INPUT), h: SamplePeriod()):
     samples = ca.vertcat(x.T, past)
-    delay = ca.fmin(ca.fmax(td / h, 0), MEMORY - 2)
+    delay = ca.fmin(ca.fmax(td / h, 0), LONGEST_DELAY)
     weights = ca.vertcat(*[_lagrange(j, delay) for j in range(MEMORY + 1)])
-    return (weights.T @ samples).T, {"past": samples[:-1, :]}
+    return ca.if_else(td > 0, (weights.T @ samples).T, x), {"past": samples[:-1, :]}
 
 
 def _lagrange(j: int, delay: ca.SX) -> ca.SX:

@@ -37,7 +37,8 @@ def _at_limit(y, limit):
         lost=_at_limit, source="no source; clipping at the ends of the input range")
 def saturation(x, limit: Parameter("{y}", minimum=0.0, scan=Scan("range", 0.3, 0.98, 12),
                                    description="largest output; 0 switches the limit off")):
-    return ca.if_else(limit > 0, ca.fmax(-limit, ca.fmin(limit, x)), x)
+    # Not by fmin and fmax, which would make full scale of an input that is NaN.
+    return ca.if_else(ca.logic_and(limit > 0, ca.fabs(x) > limit), ca.sign(x) * limit, x)
 
 
 @effect(stage="output", term="resolution, quantization", equation=r"y = q \lfloor x / q + 1/2 \rfloor", smooth=False,

@@ -21,7 +21,10 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi3 import FMU3Slave
 from fmpy.model_description import ModelDescription, ModelVariable, read_model_description
 
+from pyimu.errors import UserError
 from pyimu.fmu.arrays import split_name
+from pyimu.fmu.run import special
+from pyimu.units import did_you_mean
 
 _TYPES = {"Float64": (np.float64, ctypes.c_double), "Int32": (np.int32, ctypes.c_int32), "Boolean": (np.bool_, ctypes.c_bool),
           "UInt64": (np.uint64, ctypes.c_uint64)}
@@ -37,8 +40,8 @@ def simulate_blocks(fmu_path: Path | str, inputs: np.ndarray, *, sample_period: 
     form (``G[1,2]``).  Without a ``sample_period`` [s] or a ``block_size`` the FMU's own holds.  ``progress`` is called after
     each block with the number of samples made and that of all.
 
-    Raises ValueError where the FMU has no blocks, a start value has no parameter, or the inputs have the wrong shape; fmpy's
-    exceptions, with the FMU's message as a note, where the FMU refuses.
+    Raises ValueError where the FMU has no blocks or the inputs have the wrong shape, UserError, which is one, for a start value
+    that has no parameter, and for a seed or a sample period that is none; fmpy's exceptions, with the FMU's message as a note, where the FMU refuses.
     """
     inputs = np.atleast_2d(inputs)
     with _opened(fmu_path, sample_period, start_values, start_time, block_size) as unit:
@@ -188,15 +191,15 @@ def _parameters(description: ModelDescription, given: Mapping[str, Any]) -> dict
     """The parameters that ``given`` names, each whole: where it names an element, the others have their start values."""
     parameters = {v.name: v for v in description.modelVariables if v.causality == "parameter"}
     values: dict[str, np.ndarray] = {}
-    for name, value in given.items():
+    for name, value in special(given).items():
         base, index = (name, ()) if name in parameters else split_name(name)
         if base not in parameters or len(index) not in (0, len(parameters[base].shape)):
-            raise ValueError(f"{description.modelName} has no parameter {name}")
+            raise UserError(f"{description.modelName} has no parameter {name}{did_you_mean(base, parameters)}")
         array = values.setdefault(base, _start(parameters[base]))
         if not index and np.shape(value) != array.shape:
-            raise ValueError(f"{name} of {description.modelName} has shape {np.shape(value)}, not {array.shape}")
+            raise UserError(f"{name} of {description.modelName} has shape {np.shape(value)}, not {array.shape}")
         if any(not 1 <= i <= size for i, size in zip(index, array.shape)):
-            raise ValueError(f"{description.modelName} has no parameter {name}")
+            raise UserError(f"{description.modelName} has no parameter {name}")
         array[tuple(i - 1 for i in index) if index else ...] = value
     return values
 

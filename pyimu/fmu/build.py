@@ -64,7 +64,8 @@ def build_fmus(block: Block, out_dir: Path | str, forms: Sequence[Form] = SCALAR
     ``platform`` is ``"host"``, which takes the compiler named in ``CC`` or ``cc``; one of ``PLATFORMS`` or ``"all"``,
     which take the compiler of the package ``ziglang``.  What does not depend on the form is compiled once.
 
-    Raises UserError for an unknown form or platform, a missing compiler, and C that does not compile.
+    Raises UserError for an unknown form or platform, a missing compiler, C that does not compile, and a folder that cannot be
+    written to.
     """
     for form in forms:
         if form not in LAYER:
@@ -181,16 +182,19 @@ def _source_files(generated: dict[str, str], form: Form) -> dict[str, bytes]:
 
 def _write(entries: dict[str, bytes], target: Path) -> Path:
     """Zip to a temporary file beside the target and rename, so that nobody ever reads half an FMU."""
-    target.parent.mkdir(parents=True, exist_ok=True)
-    handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.", suffix=".tmp")
     try:
-        with os.fdopen(handle, "wb") as file:
-            _zip(file, entries)
-        os.chmod(temporary, 0o644)
-        os.replace(temporary, target)
-    except BaseException:
-        os.unlink(temporary)
-        raise
+        target.parent.mkdir(parents=True, exist_ok=True)
+        handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.", suffix=".tmp")
+        try:
+            with os.fdopen(handle, "wb") as file:
+                _zip(file, entries)
+            os.chmod(temporary, 0o644)
+            os.replace(temporary, target)
+        except BaseException:
+            os.unlink(temporary)
+            raise
+    except OSError as error:
+        raise UserError(f"{target}: cannot be written ({error.strerror or error})") from None
     return target
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import os
+import tempfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
@@ -39,7 +39,13 @@ def build(part: Part | str | Path, out: Path | str, fmu: Sequence[str] = ("senso
 def check_folder(out: Path | str) -> None:
     """Raise UserError where the folder ``out`` is none or cannot be made, before work is done that would then be lost."""
     out = Path(out)
-    there = next(p for p in (out, *out.absolute().parents) if p.exists())
-    reason = f"{there} is a file" if not there.is_dir() else "" if os.access(there, os.W_OK) else f"{there} may not be written to"
+    try:
+        there = next(p for p in (out, *out.absolute().parents) if p.exists())
+        reason = "" if there.is_dir() else f"{there} is a file"
+        if not reason:
+            # Not by asking for permissions, which root has also where there is nothing to write to, as in /proc.
+            tempfile.TemporaryDirectory(dir=there, prefix=".").cleanup()
+    except OSError as error:
+        reason = f"{error.strerror or error}"
     if reason:
         raise UserError(f"{out}: cannot write there, {reason}; give another folder with --out")

@@ -10,6 +10,10 @@ import fmpy
 import numpy as np
 from fmpy.model_description import ModelDescription, read_model_description
 
+from pyimu.block import sample_period_of, seed_of
+from pyimu.errors import UserError
+from pyimu.units import did_you_mean
+
 _DTYPES = {"Boolean": np.bool_, "Integer": np.int32, "Int32": np.int32}
 
 
@@ -22,9 +26,11 @@ def simulate(fmu_path: Path | str, inputs: np.ndarray, *, sample_period: float, 
     ``start_values`` maps names of parameters to values, ``seed`` among them; ``sample_period`` [s] is set, too.
     A row of NaN reaches the row before it as well: fmpy weighs the next row by zero, and zero times NaN is NaN.
 
-    Raises ValueError where the inputs have the wrong shape, fmpy's exceptions where the FMU refuses.
+    Raises ValueError where the inputs have the wrong shape, UserError, which is one, for a start value that has no parameter, and
+    for a seed or a sample period that is none; fmpy's exceptions where the FMU refuses.
     """
     description = read_model_description(str(fmu_path), validate=False)
+    values = checked(description, {**(start_values or {}), "sample_period": sample_period})
     step = samples_per_step * sample_period
     held = np.atleast_2d(inputs)[::samples_per_step]
     # fmpy's own expression for its communication points: at equal times it does not interpolate between the rows.
@@ -32,9 +38,28 @@ def simulate(fmu_path: Path | str, inputs: np.ndarray, *, sample_period: float, 
     signals = _signals(description, times, np.vstack([held, held[-1:]]))
     result = fmpy.simulate_fmu(str(fmu_path), validate=False, start_time=start_time, stop_time=times[-1],
                                step_size=step, output_interval=step, input=signals,
-                               start_values={"sample_period": sample_period, **(start_values or {})})
+                               start_values=values)
     columns = [result[v.name] for v in description.modelVariables if v.causality == "output"]
     return np.column_stack(columns).astype(float)
+
+
+def checked(description: ModelDescription, start_values: Mapping[str, Any]) -> dict[str, Any]:
+    """The start values, each the name of a parameter of a scalar form.  Raises UserError for a name, a seed or a period that is none."""
+    parameters = {v.name: v.type for v in description.modelVariables if v.causality == "parameter"}
+    for name in start_values:
+        if name not in parameters:
+            raise UserError(f"{description.modelName} has no parameter {name}{did_you_mean(name, parameters)}")
+    return special(start_values, 31 if parameters.get("seed") == "Integer" else 64)
+
+
+def special(start_values: Mapping[str, Any], seed_bits: int = 64) -> dict[str, Any]:
+    """The start values with seed and sample period, where they are among them, as what they must be.  Raises UserError."""
+    values = dict(start_values)
+    if "seed" in values:
+        values["seed"] = seed_of(values["seed"], seed_bits)
+    if "sample_period" in values:
+        values["sample_period"] = sample_period_of(values["sample_period"], "sample_period")
+    return values
 
 
 def _signals(description: ModelDescription, times: np.ndarray, inputs: np.ndarray) -> np.ndarray:

@@ -23,6 +23,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from pyimu.block import Block
 from pyimu.fmu.variables import DEFAULT_SEED, MAX_BLOCK_SIZE, Entry, default_block_size, entries, xml_number
+from pyimu.signals import EVERY_SAMPLE
 from pyimu.units import BASES, ZERO_CELSIUS, parse
 
 CORE = ("block.c", "block.h", "block_core.h", "block_saved.c", "block_values.c", "noise.c", "noise.h")
@@ -83,9 +84,10 @@ def _check(block: Block) -> None:
     twice = sorted({n for n in names if names.count(n) > 1})
     if twice:
         raise ValueError(f"block {block.name}: more than one variable is called {', '.join(twice)}")
-    if block.step.name() == block.initial.name():
-        raise ValueError(f"block {block.name}: step and initial are both called {block.step.name()}")
-    for function in (block.step, block.initial):
+    called = [f.name() for f in _functions(block)]
+    if len(set(called)) < len(called):
+        raise ValueError(f"block {block.name}: step, initial and limits need names of their own, not {', '.join(called)}")
+    for function in _functions(block):
         sparsities = [function.sparsity_in(i) for i in range(function.n_in())]
         sparsities += [function.sparsity_out(i) for i in range(function.n_out())]
         if not all(s.is_dense() for s in sparsities):
@@ -94,12 +96,13 @@ def _check(block: Block) -> None:
 
 def _context(block: Block, in_blocks: bool) -> dict:
     variables = entries(block, in_blocks)
-    functions = (block.step, block.initial)
+    functions = _functions(block)
     sources = {form: sorted([*(f for f in CORE if f.endswith(".c")), layer, "step.c"]) for form, layer in LAYER.items()}
     size = default_block_size(block) if in_blocks else None
     return {
         "name": block.name, "description": block.description, "step": block.step.name(), "initial": block.initial.name(),
-        "sample_period": block.sample_period, "seed": DEFAULT_SEED, "noise": block.noise, "variables": variables,
+        "limits": block.limits, "every_sample": EVERY_SAMPLE,
+        "differences": any(EVERY_SAMPLE in v.description for v in block.parameters), "sample_period": block.sample_period, "seed": DEFAULT_SEED, "noise": block.noise, "variables": variables,
         "outputs": [e for e in variables if e.role == "output"], "units": _units(variables), "sources": sources,
         "log_categories": _LOG_CATEGORIES, "block_size": size, "max_block_size": MAX_BLOCK_SIZE,
         "step_size": block.sample_period * (size or 1),
@@ -133,11 +136,15 @@ def _base_unit(name: str) -> dict[str, str] | None:
 
 
 def _step_source(block: Block) -> str:
-    """The block's two functions in C, as casadi writes them; casadi's own integer type is kept, as its loader needs it."""
+    """The block's functions in C, as casadi writes them; casadi's own integer type is kept, as its loader needs it."""
     generator = ca.CodeGenerator(block.name)
-    generator.add(block.step)
-    generator.add(block.initial)
+    for function in _functions(block):
+        generator.add(function)
     return generator.dump()
+
+
+def _functions(block: Block) -> tuple[ca.Function, ...]:
+    return (block.step, block.initial, *((block.limits.broken,) if block.limits else ()))
 
 
 def _token(contents: Iterable[str]) -> str:

@@ -78,6 +78,14 @@ class Entry:
         return len(self.array.elements)
 
     @property
+    def minimum(self) -> float:
+        return -math.inf if self.variable.minimum is None else self.variable.minimum
+
+    @property
+    def maximum(self) -> float:
+        return math.inf if self.variable.maximum is None else self.variable.maximum
+
+    @property
     def description(self) -> str:
         return description(self.array)
 

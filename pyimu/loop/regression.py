@@ -15,6 +15,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from pyimu.effect import CATALOGUE, OWN, Parameter, Sensor, Slot
+from pyimu.errors import UserError
 from pyimu.loop.response import dynamics, felt, motion, predict, remembers, tail, tail_of, through_dynamics
 from pyimu.loop.trial import Trial, rest_noise
 from pyimu.loop.whiten import Autoregressive, RandomWalk
@@ -172,15 +173,16 @@ def _motion_columns(out: Columns, sensor: Sensor, trial: Trial, u: np.ndarray, s
 
 
 def _dynamics_columns(out: Columns, sensor: Sensor, trial: Trial, u: np.ndarray, wanted: frozenset[Key]) -> None:
-    """Slopes against the coefficients of dynamics that are switched on, by central differences."""
+    """Slopes against the coefficients of dynamics that are switched on, by central differences, one-sided at a bound."""
     chain = dynamics(sensor)
     for s, value in zip(chain.slots, chain.p, strict=True):
         if slot_key(s) not in wanted or sensor.is_off(s.effect):
             continue
         step = 1e-3 * max(abs(value), 1e-3 * trial.h)
-        high, low = (predict(_moved(sensor, s, value + d), u, trial.segments, trial.h) for d in (step, -step))
+        ends = _clipped(s.definition, value + step), _clipped(s.definition, value - step)
+        high, low = (predict(_moved(sensor, s, v), u, trial.segments, trial.h) for v in ends)
         for i in range(3):
-            out.add(slot_key(s), i, (high[:, i] - low[:, i]) / (2 * step))
+            out.add(slot_key(s), i, (high[:, i] - low[:, i]) / (ends[0] - ends[1]))
 
 
 def _moved(sensor: Sensor, slot, value: float) -> Sensor:
@@ -431,7 +433,24 @@ def _step(start: Fit, keys: list[Key], change: np.ndarray) -> Fit:
             values[effect][parameter][index] = _bounded(CATALOGUE[effect].parameters[parameter], values[effect][parameter][index], d)
         elif key[0] in ("bias", "rotation"):
             states[key[1]] = states[key[1]].moved(key, d)
-    return replace(start, sensor=Sensor(start.sensor.kind, values), states=states)
+    return replace(start, sensor=_possible(Sensor(start.sensor.kind, values), start), states=states)
+
+
+def _possible(sensor: Sensor, start: Fit) -> Sensor:
+    """The sensor, with the coefficients of ``start`` where no part of the trials' sample periods can have new ones together."""
+    for effect in (e for e in sensor.effects if e.limits):
+        alone = Sensor(sensor.kind, {effect.name: sensor.values[effect.name]})
+        try:
+            for h in {t.h for t in start.trials}:
+                alone.check(h, "step")
+        except UserError:
+            sensor = sensor.with_values(effect.name, **start.sensor.values[effect.name])
+    return sensor
+
+
+def _clipped(definition: Parameter, value: float) -> float:
+    least, most = (bound if bound is not None else unbounded for bound, unbounded in ((definition.minimum, -np.inf), (definition.maximum, np.inf)))
+    return min(max(value, least), most)
 
 
 def _bounded(definition: Parameter, value: float, change: float) -> float:

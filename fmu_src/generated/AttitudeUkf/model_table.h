@@ -7,103 +7,111 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN "{601fcbe9-3203-af5b-2442-7d2682e067c1}"
+#define MODEL_TOKEN "{ca7f1c30-2961-9167-0d81-b26872d04579}"
 #define MODEL_STEP step
 #define MODEL_INITIAL initial
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
 enum {
-    N_INPUTS = 11,
-    N_PARAMETERS = 32,
+    N_INPUTS = 12,
+    N_PARAMETERS = 39,
     N_OUTPUTS = 19,
-    N_STATES = 43,
+    N_STATES = 117,
     N_NOISE = 0,
-    N_VARIABLES = 65
+    N_VARIABLES = 73
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 5, WORK_RES = 2, WORK_IW = 0, WORK_W = 238 };
+enum { WORK_ARG = 38, WORK_RES = 16, WORK_IW = 0, WORK_W = 1035 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
 
 static const BlockVariable variables[] = {
-    {"time", KIND_REAL, ROLE_TIME, 0, 1},
-    {"gyro[1]", KIND_REAL, ROLE_INPUT, 0, 1},
-    {"gyro[2]", KIND_REAL, ROLE_INPUT, 1, 1},
-    {"gyro[3]", KIND_REAL, ROLE_INPUT, 2, 1},
-    {"accel[1]", KIND_REAL, ROLE_INPUT, 3, 1},
-    {"accel[2]", KIND_REAL, ROLE_INPUT, 4, 1},
-    {"accel[3]", KIND_REAL, ROLE_INPUT, 5, 1},
-    {"temperature", KIND_REAL, ROLE_INPUT, 6, 1},
-    {"heading", KIND_REAL, ROLE_INPUT, 7, 1},
-    {"heading_variance", KIND_REAL, ROLE_INPUT, 8, 1},
-    {"heading_valid", KIND_BOOLEAN, ROLE_INPUT, 9, 1},
-    {"stationary", KIND_BOOLEAN, ROLE_INPUT, 10, 1},
-    {"latitude", KIND_REAL, ROLE_TUNABLE, 0, 1},
-    {"q0[1]", KIND_REAL, ROLE_TUNABLE, 1, 1},
-    {"q0[2]", KIND_REAL, ROLE_TUNABLE, 2, 1},
-    {"q0[3]", KIND_REAL, ROLE_TUNABLE, 3, 1},
-    {"q0[4]", KIND_REAL, ROLE_TUNABLE, 4, 1},
-    {"bias0[1]", KIND_REAL, ROLE_TUNABLE, 5, 1},
-    {"bias0[2]", KIND_REAL, ROLE_TUNABLE, 6, 1},
-    {"bias0[3]", KIND_REAL, ROLE_TUNABLE, 7, 1},
-    {"std0[1]", KIND_REAL, ROLE_TUNABLE, 8, 1},
-    {"std0[2]", KIND_REAL, ROLE_TUNABLE, 9, 1},
-    {"std0[3]", KIND_REAL, ROLE_TUNABLE, 10, 1},
-    {"std0[4]", KIND_REAL, ROLE_TUNABLE, 11, 1},
-    {"std0[5]", KIND_REAL, ROLE_TUNABLE, 12, 1},
-    {"std0[6]", KIND_REAL, ROLE_TUNABLE, 13, 1},
-    {"gravity", KIND_REAL, ROLE_TUNABLE, 14, 1},
-    {"accel_std", KIND_REAL, ROLE_TUNABLE, 15, 1},
-    {"accel_correlation_time", KIND_REAL, ROLE_TUNABLE, 16, 1},
-    {"gravity_walk", KIND_REAL, ROLE_TUNABLE, 17, 1},
-    {"gravity_tolerance", KIND_REAL, ROLE_TUNABLE, 18, 1},
-    {"motion_tolerance", KIND_REAL, ROLE_TUNABLE, 19, 1},
-    {"stationary_std", KIND_REAL, ROLE_TUNABLE, 20, 1},
-    {"lost_rate_std", KIND_REAL, ROLE_TUNABLE, 21, 1},
-    {"gyro_error.thermal_bias.kT[1]", KIND_REAL, ROLE_TUNABLE, 22, 1},
-    {"gyro_error.thermal_bias.kT[2]", KIND_REAL, ROLE_TUNABLE, 23, 1},
-    {"gyro_error.thermal_bias.kT[3]", KIND_REAL, ROLE_TUNABLE, 24, 1},
-    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 25, 1},
-    {"gyro_error.angle_random_walk.N[1]", KIND_REAL, ROLE_TUNABLE, 26, 1},
-    {"gyro_error.angle_random_walk.N[2]", KIND_REAL, ROLE_TUNABLE, 27, 1},
-    {"gyro_error.angle_random_walk.N[3]", KIND_REAL, ROLE_TUNABLE, 28, 1},
-    {"gyro_error.rate_random_walk.K[1]", KIND_REAL, ROLE_TUNABLE, 29, 1},
-    {"gyro_error.rate_random_walk.K[2]", KIND_REAL, ROLE_TUNABLE, 30, 1},
-    {"gyro_error.rate_random_walk.K[3]", KIND_REAL, ROLE_TUNABLE, 31, 1},
-    {"q[1]", KIND_REAL, ROLE_OUTPUT, 0, 1},
-    {"q[2]", KIND_REAL, ROLE_OUTPUT, 1, 1},
-    {"q[3]", KIND_REAL, ROLE_OUTPUT, 2, 1},
-    {"q[4]", KIND_REAL, ROLE_OUTPUT, 3, 1},
-    {"roll", KIND_REAL, ROLE_OUTPUT, 4, 1},
-    {"pitch", KIND_REAL, ROLE_OUTPUT, 5, 1},
-    {"yaw", KIND_REAL, ROLE_OUTPUT, 6, 1},
-    {"gyro_bias[1]", KIND_REAL, ROLE_OUTPUT, 7, 1},
-    {"gyro_bias[2]", KIND_REAL, ROLE_OUTPUT, 8, 1},
-    {"gyro_bias[3]", KIND_REAL, ROLE_OUTPUT, 9, 1},
-    {"std[1]", KIND_REAL, ROLE_OUTPUT, 10, 1},
-    {"std[2]", KIND_REAL, ROLE_OUTPUT, 11, 1},
-    {"std[3]", KIND_REAL, ROLE_OUTPUT, 12, 1},
-    {"std[4]", KIND_REAL, ROLE_OUTPUT, 13, 1},
-    {"std[5]", KIND_REAL, ROLE_OUTPUT, 14, 1},
-    {"std[6]", KIND_REAL, ROLE_OUTPUT, 15, 1},
-    {"quasi_static", KIND_BOOLEAN, ROLE_OUTPUT, 16, 1},
-    {"nis", KIND_REAL, ROLE_OUTPUT, 17, 1},
-    {"status", KIND_INTEGER, ROLE_OUTPUT, 18, 1},
-    {"sample_period", KIND_REAL, ROLE_FIXED, 0, 1},
-    {"seed", KIND_UNSIGNED, ROLE_FIXED, 1, 1},
+    {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
+    {"gyro[1]", KIND_REAL, ROLE_INPUT, 0, 1, -INFINITY, INFINITY},
+    {"gyro[2]", KIND_REAL, ROLE_INPUT, 1, 1, -INFINITY, INFINITY},
+    {"gyro[3]", KIND_REAL, ROLE_INPUT, 2, 1, -INFINITY, INFINITY},
+    {"accel[1]", KIND_REAL, ROLE_INPUT, 3, 1, -INFINITY, INFINITY},
+    {"accel[2]", KIND_REAL, ROLE_INPUT, 4, 1, -INFINITY, INFINITY},
+    {"accel[3]", KIND_REAL, ROLE_INPUT, 5, 1, -INFINITY, INFINITY},
+    {"temperature", KIND_REAL, ROLE_INPUT, 6, 1, -INFINITY, INFINITY},
+    {"heading", KIND_REAL, ROLE_INPUT, 7, 1, -INFINITY, INFINITY},
+    {"heading_variance", KIND_REAL, ROLE_INPUT, 8, 1, -INFINITY, INFINITY},
+    {"heading_valid", KIND_BOOLEAN, ROLE_INPUT, 9, 1, -INFINITY, INFINITY},
+    {"heading_age", KIND_REAL, ROLE_INPUT, 10, 1, -INFINITY, INFINITY},
+    {"stationary", KIND_BOOLEAN, ROLE_INPUT, 11, 1, -INFINITY, INFINITY},
+    {"latitude", KIND_REAL, ROLE_TUNABLE, 0, 1, -INFINITY, INFINITY},
+    {"q0[1]", KIND_REAL, ROLE_TUNABLE, 1, 1, -1000000.0, 1000000.0},
+    {"q0[2]", KIND_REAL, ROLE_TUNABLE, 2, 1, -1000000.0, 1000000.0},
+    {"q0[3]", KIND_REAL, ROLE_TUNABLE, 3, 1, -1000000.0, 1000000.0},
+    {"q0[4]", KIND_REAL, ROLE_TUNABLE, 4, 1, -1000000.0, 1000000.0},
+    {"bias0[1]", KIND_REAL, ROLE_TUNABLE, 5, 1, -1000000.0, 1000000.0},
+    {"bias0[2]", KIND_REAL, ROLE_TUNABLE, 6, 1, -1000000.0, 1000000.0},
+    {"bias0[3]", KIND_REAL, ROLE_TUNABLE, 7, 1, -1000000.0, 1000000.0},
+    {"std0[1]", KIND_REAL, ROLE_TUNABLE, 8, 1, 0.0, 1000000.0},
+    {"std0[2]", KIND_REAL, ROLE_TUNABLE, 9, 1, 0.0, 1000000.0},
+    {"std0[3]", KIND_REAL, ROLE_TUNABLE, 10, 1, 0.0, 1000000.0},
+    {"std0[4]", KIND_REAL, ROLE_TUNABLE, 11, 1, 0.0, 1000000.0},
+    {"std0[5]", KIND_REAL, ROLE_TUNABLE, 12, 1, 0.0, 1000000.0},
+    {"std0[6]", KIND_REAL, ROLE_TUNABLE, 13, 1, 0.0, 1000000.0},
+    {"gravity", KIND_REAL, ROLE_TUNABLE, 14, 1, 0.0, INFINITY},
+    {"accel_std", KIND_REAL, ROLE_TUNABLE, 15, 1, 0.0, INFINITY},
+    {"accel_correlation_time", KIND_REAL, ROLE_TUNABLE, 16, 1, 0.0, INFINITY},
+    {"gravity_walk", KIND_REAL, ROLE_TUNABLE, 17, 1, 0.0, INFINITY},
+    {"gravity_tolerance", KIND_REAL, ROLE_TUNABLE, 18, 1, 0.0, INFINITY},
+    {"motion_tolerance", KIND_REAL, ROLE_TUNABLE, 19, 1, 0.0, INFINITY},
+    {"steady_tolerance", KIND_REAL, ROLE_TUNABLE, 20, 1, 0.0, INFINITY},
+    {"mean_time", KIND_REAL, ROLE_TUNABLE, 21, 1, 0.0, INFINITY},
+    {"motion_time", KIND_REAL, ROLE_TUNABLE, 22, 1, 0.0, INFINITY},
+    {"mean_tolerance", KIND_REAL, ROLE_TUNABLE, 23, 1, 0.0, INFINITY},
+    {"rate_noise", KIND_REAL, ROLE_TUNABLE, 24, 1, 0.0, INFINITY},
+    {"stationary_std", KIND_REAL, ROLE_TUNABLE, 25, 1, 0.0, INFINITY},
+    {"lost_rate_std", KIND_REAL, ROLE_TUNABLE, 26, 1, 0.0, INFINITY},
+    {"stuck_time", KIND_REAL, ROLE_TUNABLE, 27, 1, 0.0, INFINITY},
+    {"heading_memory", KIND_REAL, ROLE_TUNABLE, 28, 1, 0.0, INFINITY},
+    {"gyro_error.thermal_bias.kT[1]", KIND_REAL, ROLE_TUNABLE, 29, 1, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.kT[2]", KIND_REAL, ROLE_TUNABLE, 30, 1, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.kT[3]", KIND_REAL, ROLE_TUNABLE, 31, 1, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 32, 1, -INFINITY, INFINITY},
+    {"gyro_error.angle_random_walk.N[1]", KIND_REAL, ROLE_TUNABLE, 33, 1, 0.0, INFINITY},
+    {"gyro_error.angle_random_walk.N[2]", KIND_REAL, ROLE_TUNABLE, 34, 1, 0.0, INFINITY},
+    {"gyro_error.angle_random_walk.N[3]", KIND_REAL, ROLE_TUNABLE, 35, 1, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K[1]", KIND_REAL, ROLE_TUNABLE, 36, 1, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K[2]", KIND_REAL, ROLE_TUNABLE, 37, 1, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K[3]", KIND_REAL, ROLE_TUNABLE, 38, 1, 0.0, INFINITY},
+    {"q[1]", KIND_REAL, ROLE_OUTPUT, 0, 1, -INFINITY, INFINITY},
+    {"q[2]", KIND_REAL, ROLE_OUTPUT, 1, 1, -INFINITY, INFINITY},
+    {"q[3]", KIND_REAL, ROLE_OUTPUT, 2, 1, -INFINITY, INFINITY},
+    {"q[4]", KIND_REAL, ROLE_OUTPUT, 3, 1, -INFINITY, INFINITY},
+    {"roll", KIND_REAL, ROLE_OUTPUT, 4, 1, -INFINITY, INFINITY},
+    {"pitch", KIND_REAL, ROLE_OUTPUT, 5, 1, -INFINITY, INFINITY},
+    {"yaw", KIND_REAL, ROLE_OUTPUT, 6, 1, -INFINITY, INFINITY},
+    {"gyro_bias[1]", KIND_REAL, ROLE_OUTPUT, 7, 1, -INFINITY, INFINITY},
+    {"gyro_bias[2]", KIND_REAL, ROLE_OUTPUT, 8, 1, -INFINITY, INFINITY},
+    {"gyro_bias[3]", KIND_REAL, ROLE_OUTPUT, 9, 1, -INFINITY, INFINITY},
+    {"std[1]", KIND_REAL, ROLE_OUTPUT, 10, 1, -INFINITY, INFINITY},
+    {"std[2]", KIND_REAL, ROLE_OUTPUT, 11, 1, -INFINITY, INFINITY},
+    {"std[3]", KIND_REAL, ROLE_OUTPUT, 12, 1, -INFINITY, INFINITY},
+    {"std[4]", KIND_REAL, ROLE_OUTPUT, 13, 1, -INFINITY, INFINITY},
+    {"std[5]", KIND_REAL, ROLE_OUTPUT, 14, 1, -INFINITY, INFINITY},
+    {"std[6]", KIND_REAL, ROLE_OUTPUT, 15, 1, -INFINITY, INFINITY},
+    {"quasi_static", KIND_BOOLEAN, ROLE_OUTPUT, 16, 1, -INFINITY, INFINITY},
+    {"nis", KIND_REAL, ROLE_OUTPUT, 17, 1, -INFINITY, INFINITY},
+    {"status", KIND_INTEGER, ROLE_OUTPUT, 18, 1, -INFINITY, INFINITY},
+    {"sample_period", KIND_REAL, ROLE_FIXED, 0, 1, 0.0, INFINITY},
+    {"seed", KIND_UNSIGNED, ROLE_FIXED, 1, 1, 0.0, INFINITY},
 };
 
 /* Value references that mean something to every block. */
 enum {
-    SAMPLE_PERIOD = 63,
-    SEED = 64
+    SAMPLE_PERIOD = 71,
+    SEED = 72
 };
 
-static const double input_starts[] = {0.0, 0.0, 0.0, 0.0, 0.0, 9.80665, 25.0, 0.0, 0.0, 0.0, 0.0};
-static const double parameter_starts[] = {10.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.1, 0.1, 0.1, 0.01, 0.01, 0.01, 9.80665, 0.1, 0.5, 0.2, 0.25, 1.0, 1e-05, 1.0, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
+static const double input_starts[] = {0.0, 0.0, 0.0, 0.0, 0.0, 9.80665, 25.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+static const double parameter_starts[] = {10.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.1, 0.1, 0.1, 0.01, 0.01, 0.01, 9.80665, 0.1, 0.5, 0.2, 0.25, 1.0, 0.3, 1.0, 0.06, 0.1, 0.0, 1e-05, 1.0, 0.0, 0.5, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
 
 /* The noise stream of each channel; there is none. */
 static const uint64_t noise_channels[] = {

@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "ImuSensor"
-#define MODEL_TOKEN "{77febf16-8999-76c1-4509-6f722eb2a850}"
+#define MODEL_TOKEN "{671959b9-0f94-98dc-72bf-fbe1f5717ea7}"
 #define MODEL_STEP step
 #define MODEL_INITIAL initial
 #define MODEL_SEED UINT64_C(0)
@@ -29,19 +29,19 @@ enum { WORK_ARG = 5, WORK_RES = 2, WORK_IW = 0, WORK_W = 8 };
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };
 
 static const BlockVariable variables[] = {
-    {"time", KIND_REAL, ROLE_TIME, 0, 1},
-    {"rate", KIND_REAL, ROLE_INPUT, 0, 3},
-    {"specific_force", KIND_REAL, ROLE_INPUT, 3, 3},
-    {"temperature", KIND_REAL, ROLE_INPUT, 6, 1},
-    {"gyro_error.thermal_bias.kT", KIND_REAL, ROLE_TUNABLE, 0, 3},
-    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 3, 1},
-    {"gyro_error.angle_random_walk.N", KIND_REAL, ROLE_TUNABLE, 4, 3},
-    {"gyro_error.rate_random_walk.K", KIND_REAL, ROLE_TUNABLE, 7, 3},
-    {"gyro", KIND_REAL, ROLE_OUTPUT, 0, 3},
-    {"accel", KIND_REAL, ROLE_OUTPUT, 3, 3},
-    {"sample_period", KIND_REAL, ROLE_FIXED, 0, 1},
-    {"seed", KIND_UNSIGNED, ROLE_FIXED, 1, 1},
-    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1},
+    {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
+    {"rate", KIND_REAL, ROLE_INPUT, 0, 3, -INFINITY, INFINITY},
+    {"specific_force", KIND_REAL, ROLE_INPUT, 3, 3, -INFINITY, INFINITY},
+    {"temperature", KIND_REAL, ROLE_INPUT, 6, 1, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.kT", KIND_REAL, ROLE_TUNABLE, 0, 3, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 3, 1, -INFINITY, INFINITY},
+    {"gyro_error.angle_random_walk.N", KIND_REAL, ROLE_TUNABLE, 4, 3, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K", KIND_REAL, ROLE_TUNABLE, 7, 3, 0.0, INFINITY},
+    {"gyro", KIND_REAL, ROLE_OUTPUT, 0, 3, -INFINITY, INFINITY},
+    {"accel", KIND_REAL, ROLE_OUTPUT, 3, 3, -INFINITY, INFINITY},
+    {"sample_period", KIND_REAL, ROLE_FIXED, 0, 1, 0.0, INFINITY},
+    {"seed", KIND_UNSIGNED, ROLE_FIXED, 1, 1, 0.0, INFINITY},
+    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 16777216.0},
 };
 
 /* Value references that mean something to every block. */

@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "ImuSensor"
-#define MODEL_TOKEN "{7463453d-f4a1-f249-b107-b045bdcb099a}"
+#define MODEL_TOKEN "{aec08849-c585-8316-6d4c-24cd35e51f03}"
 #define MODEL_STEP step
 #define MODEL_INITIAL initial
 #define MODEL_SEED UINT64_C(0)
@@ -29,32 +29,32 @@ enum { WORK_ARG = 5, WORK_RES = 2, WORK_IW = 0, WORK_W = 8 };
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
 
 static const BlockVariable variables[] = {
-    {"time", KIND_REAL, ROLE_TIME, 0, 1},
-    {"rate[1]", KIND_REAL, ROLE_INPUT, 0, 1},
-    {"rate[2]", KIND_REAL, ROLE_INPUT, 1, 1},
-    {"rate[3]", KIND_REAL, ROLE_INPUT, 2, 1},
-    {"specific_force[1]", KIND_REAL, ROLE_INPUT, 3, 1},
-    {"specific_force[2]", KIND_REAL, ROLE_INPUT, 4, 1},
-    {"specific_force[3]", KIND_REAL, ROLE_INPUT, 5, 1},
-    {"temperature", KIND_REAL, ROLE_INPUT, 6, 1},
-    {"gyro_error.thermal_bias.kT[1]", KIND_REAL, ROLE_TUNABLE, 0, 1},
-    {"gyro_error.thermal_bias.kT[2]", KIND_REAL, ROLE_TUNABLE, 1, 1},
-    {"gyro_error.thermal_bias.kT[3]", KIND_REAL, ROLE_TUNABLE, 2, 1},
-    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 3, 1},
-    {"gyro_error.angle_random_walk.N[1]", KIND_REAL, ROLE_TUNABLE, 4, 1},
-    {"gyro_error.angle_random_walk.N[2]", KIND_REAL, ROLE_TUNABLE, 5, 1},
-    {"gyro_error.angle_random_walk.N[3]", KIND_REAL, ROLE_TUNABLE, 6, 1},
-    {"gyro_error.rate_random_walk.K[1]", KIND_REAL, ROLE_TUNABLE, 7, 1},
-    {"gyro_error.rate_random_walk.K[2]", KIND_REAL, ROLE_TUNABLE, 8, 1},
-    {"gyro_error.rate_random_walk.K[3]", KIND_REAL, ROLE_TUNABLE, 9, 1},
-    {"gyro[1]", KIND_REAL, ROLE_OUTPUT, 0, 1},
-    {"gyro[2]", KIND_REAL, ROLE_OUTPUT, 1, 1},
-    {"gyro[3]", KIND_REAL, ROLE_OUTPUT, 2, 1},
-    {"accel[1]", KIND_REAL, ROLE_OUTPUT, 3, 1},
-    {"accel[2]", KIND_REAL, ROLE_OUTPUT, 4, 1},
-    {"accel[3]", KIND_REAL, ROLE_OUTPUT, 5, 1},
-    {"sample_period", KIND_REAL, ROLE_FIXED, 0, 1},
-    {"seed", KIND_UNSIGNED, ROLE_FIXED, 1, 1},
+    {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
+    {"rate[1]", KIND_REAL, ROLE_INPUT, 0, 1, -INFINITY, INFINITY},
+    {"rate[2]", KIND_REAL, ROLE_INPUT, 1, 1, -INFINITY, INFINITY},
+    {"rate[3]", KIND_REAL, ROLE_INPUT, 2, 1, -INFINITY, INFINITY},
+    {"specific_force[1]", KIND_REAL, ROLE_INPUT, 3, 1, -INFINITY, INFINITY},
+    {"specific_force[2]", KIND_REAL, ROLE_INPUT, 4, 1, -INFINITY, INFINITY},
+    {"specific_force[3]", KIND_REAL, ROLE_INPUT, 5, 1, -INFINITY, INFINITY},
+    {"temperature", KIND_REAL, ROLE_INPUT, 6, 1, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.kT[1]", KIND_REAL, ROLE_TUNABLE, 0, 1, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.kT[2]", KIND_REAL, ROLE_TUNABLE, 1, 1, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.kT[3]", KIND_REAL, ROLE_TUNABLE, 2, 1, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 3, 1, -INFINITY, INFINITY},
+    {"gyro_error.angle_random_walk.N[1]", KIND_REAL, ROLE_TUNABLE, 4, 1, 0.0, INFINITY},
+    {"gyro_error.angle_random_walk.N[2]", KIND_REAL, ROLE_TUNABLE, 5, 1, 0.0, INFINITY},
+    {"gyro_error.angle_random_walk.N[3]", KIND_REAL, ROLE_TUNABLE, 6, 1, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K[1]", KIND_REAL, ROLE_TUNABLE, 7, 1, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K[2]", KIND_REAL, ROLE_TUNABLE, 8, 1, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K[3]", KIND_REAL, ROLE_TUNABLE, 9, 1, 0.0, INFINITY},
+    {"gyro[1]", KIND_REAL, ROLE_OUTPUT, 0, 1, -INFINITY, INFINITY},
+    {"gyro[2]", KIND_REAL, ROLE_OUTPUT, 1, 1, -INFINITY, INFINITY},
+    {"gyro[3]", KIND_REAL, ROLE_OUTPUT, 2, 1, -INFINITY, INFINITY},
+    {"accel[1]", KIND_REAL, ROLE_OUTPUT, 3, 1, -INFINITY, INFINITY},
+    {"accel[2]", KIND_REAL, ROLE_OUTPUT, 4, 1, -INFINITY, INFINITY},
+    {"accel[3]", KIND_REAL, ROLE_OUTPUT, 5, 1, -INFINITY, INFINITY},
+    {"sample_period", KIND_REAL, ROLE_FIXED, 0, 1, 0.0, INFINITY},
+    {"seed", KIND_UNSIGNED, ROLE_FIXED, 1, 1, 0.0, INFINITY},
 };
 
 /* Value references that mean something to every block. */

@@ -10,6 +10,9 @@
 #define MODEL_TOKEN "{{ token }}"
 #define MODEL_STEP {{ step }}
 #define MODEL_INITIAL {{ initial }}
+{% if limits %}
+#define MODEL_LIMITS {{ limits.broken.name() }}
+{% endif %}
 #define MODEL_SEED UINT64_C({{ seed }})
 #define MODEL_SAMPLE_PERIOD {{ sample_period | c_number }}
 
@@ -30,7 +33,7 @@ enum { IN_BLOCKS = {{ 1 if block_size else 0 }}, START_ROWS = {{ block_size or 1
 
 static const BlockVariable variables[] = {
 {% for v in variables %}
-    {{ "{" }}{{ v.name | c_string }}, KIND_{{ v.kind | upper }}, ROLE_{{ v.role | upper }}, {{ v.first }}, {{ v.count }}},
+    {{ "{" }}{{ v.name | c_string }}, KIND_{{ v.kind | upper }}, ROLE_{{ v.role | upper }}, {{ v.first }}, {{ v.count }}, {{ v.minimum | c_number }}, {{ v.maximum | c_number }}},
 {% endfor %}
 };
 
@@ -45,6 +48,17 @@ enum {
 static const double {{ what }}_starts[] = {{ "{" }}{{ starts | map("c_number") | join(", ") or "0" }}};
 {% endfor %}
 
+{% if limits %}
+/* What the parameters must keep together, and with the sample period. */
+enum { N_LIMITS = {{ limits.texts | length }} };
+
+static const char *const limit_texts[] = {
+{% for text in limits.texts %}
+    {{ text | c_string }},
+{% endfor %}
+};
+
+{% endif %}
 /* The noise stream of each channel{{ "" if noise else "; there is none" }}. */
 static const uint64_t noise_channels[] = {
 {% for channel in noise %}
