@@ -32,7 +32,8 @@ from scipy.stats import t as student
 
 from pyimu import units
 from pyimu.characterize import log_clusters, octave_clusters, overlapping_deviation
-from pyimu.characterize.coefficients import Coefficient, NoiseFit, Reading, crossing, fit_coefficients, mean_coefficient, read_coefficients
+from pyimu.characterize.coefficients import Coefficient, NoiseFit, fit_coefficients, mean_coefficient
+from pyimu.characterize.readings import Reading, crossing, read_coefficients
 from pyimu.errors import UserError
 from pyimu.fmu import build_fmu, stream_blocks
 from pyimu.imu import AXES, Part

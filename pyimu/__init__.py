@@ -22,12 +22,13 @@ _HOME = {  # a Sensor comes by way of imu, which fills the catalogue that its ef
     "Effect": "effect", "Environment": "effect", "Noise": "effect", "Parameter": "effect", "SamplePeriod": "effect",
     "Sensor": "imu", "State": "effect", "effect": "effect",
     "Part": "imu", "simulate": "simulation",
-    "Recording": "recording", "read_recording": "recording",
+    "Recording": "recording", "read_recording": "recording", "open_log": "recording",
     "part": "partfile", "part_names": "partfile", "load_part": "partfile", "save_part": "partfile",
     "close": "loop.close", "write_report": "loop.report",
+    "write_characterization": "characterize.report",
     "build": "fmu.package", "UserError": "errors",
 }
-_MODULES = ("attitude", "fmu", "symbolic", "shaping")
+_MODULES = ("attitude", "characterize", "fmu", "symbolic", "shaping")
 
 __all__ = [*_HOME, *_MODULES, "__version__"]  # noqa: PLE0604  (names from the tables above)
 

@@ -23,14 +23,20 @@ app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions
 Out = Annotated[Path, typer.Option("--out", help="Folder for what is written; made if it is missing.")]
 
 
+INTERRUPTED = 130
+"""Exit status of a run that was broken off from the keyboard."""
+
+
 def main() -> None:
     """Entry point: an error that the user can mend ends with one line on stderr and exit status 2."""
     try:
         code = app(prog_name="pyimu", standalone_mode=False)
+        if code == INTERRUPTED:  # the parser's own way to say it
+            raise KeyboardInterrupt
     except UserError as error:
         code = _refuse(str(error))
     except (KeyboardInterrupt, typer.Abort):
-        code = _refuse("interrupted; earlier results are as they were", 130)
+        code = _refuse("interrupted; earlier results are as they were", INTERRUPTED)
     except Exception as error:  # the command line parser's own errors know how to say themselves in a line
         if not hasattr(error, "format_message"):
             raise
@@ -69,9 +75,34 @@ def demo(out: Out = Path("out/demo")) -> None:
     print(f"report: {out / 'report.html'}, picture: {out / 'heading.png'}")
 
 
+@app.command("characterize", short_help="Noise, temperature effect and quality of a sensor at rest.")
+def characterize_command(
+        logs: Annotated[list[Path], typer.Argument(metavar="LOG", help="Recordings of one part at rest; of any length.", show_default=False)],
+        out: Annotated[Path, typer.Option("--out", help="Folder for report.html, report.json and part.toml.")] = Path("out/characterize"),
+        columns: Annotated[Path | None, typer.Option("--columns", help="TOML that renames a foreign log's columns.")] = None,
+        level: Annotated[float, typer.Option("--level", help="Probability of the intervals.")] = 0.95,
+) -> None:
+    """Example: pyimu characterize static.csv --out out/static
+
+    Allan deviation, spectrum, temperature effect and quality of the samples of a sensor at rest: its noise coefficients with
+    intervals, the pictures of a data sheet, and a part file for pyimu build and pyimu close. Several logs of one part give
+    means and their spread. The samples wait in temporary files (TMPDIR says where), so that a log may be larger than memory.
+    """
+    from pyimu.characterize.report import check_delivery, write_characterization
+    from pyimu.characterize.run import characterize
+    from pyimu.recording import open_log
+    check_delivery(out)
+    with progress("reading") as say:
+        found = characterize([open_log(path, columns) for path in logs], level, say)
+        say("drawing the report")
+        page = write_characterization(found, out)
+    print(found.report())
+    print(f"report: {page}, part: {page.with_name('part.toml')}")
+
+
 @app.command("close", short_help="Find what a sensor's model lacks to explain measured logs.")
 def close_command(
-        logs: Annotated[list[Path], typer.Argument(metavar="LOG", help="Recordings: CSV, CSV.gz or Parquet.", show_default=False)],
+        logs: Annotated[list[Path], typer.Argument(metavar="LOG", help="Recordings: CSV(.gz), Parquet, MAT, HDF5, ROS bag or MCAP.", show_default=False)],
         out: Annotated[Path, typer.Option("--out", help="Folder for report.html, report.json, model.toml and the FMUs.")] = Path("out/close"),
         part: Annotated[str | None, typer.Option("--part", help="Built-in part or a TOML file; without it all is estimated.")] = None,
         holdout: Annotated[list[Path] | None, typer.Option("--holdout", help="Log to judge by; else the last 30 % of each.")] = None,
@@ -156,14 +187,15 @@ def derive_command(
 
 
 @contextmanager
-def progress(text: str) -> Iterator[Callable[[str], None]]:
-    """A moving bar on a terminal, nothing elsewhere; gives the function that says what is being done."""
+def progress(text: str) -> Iterator[Callable[..., None]]:
+    """A moving bar on a terminal, nothing elsewhere; gives the function that says what is being done, and which share of it."""
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
     with Progress(TextColumn("{task.description}"), BarColumn(bar_width=20), TimeElapsedColumn(), console=Console(stderr=True),
                   transient=True, disable=not sys.stderr.isatty()) as bar:
         task = bar.add_task(text, total=None)
-        yield lambda now: bar.update(task, description=now)
+        # A task that is complete stops its clock.
+        yield lambda now, share=None: bar.update(task, description=now, completed=0.999 * (share or 0.0), total=share and 1.0)
 
 
 if __name__ == "__main__":

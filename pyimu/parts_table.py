@@ -14,8 +14,8 @@ from collections.abc import Iterable
 import numpy as np
 
 from pyimu.imu import Part
-from pyimu.loop.shown import CORNER, FREQUENCIES, in_unit, number, unit_for
 from pyimu.partfile import RATE_KEY, part, part_names
+from pyimu.shown import CORNER, FREQUENCIES, in_unit, number, unit_for
 
 ABSENT = "-"
 """Printed where a part says nothing."""

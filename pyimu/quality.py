@@ -362,7 +362,7 @@ def wraps(values: np.ndarray) -> tuple[np.ndarray, float]:
     change = np.diff(values)
     size, rows = np.abs(change), np.zeros(0, int)
     reach = np.nanmax(values) - np.nanmin(values)
-    if len(values) < 4 * BLOCK or not 0 < np.nanmedian(size) < SMOOTH * reach:
+    if len(values) < 4 * BLOCK or not np.isfinite(size).any() or not 0 < np.nanmedian(size) < SMOOTH * reach:
         return rows, 0.0
     jumps = np.flatnonzero(size[1:-1] > WRAP * reach) + 1
     jumps = jumps[np.maximum(size[jumps - 1], size[jumps + 1]) < (1 - WRAP) * reach]

@@ -9,14 +9,9 @@ import pytest
 from scipy.stats import binom, norm
 
 from pyimu.characterize import allan_laws, octave_clusters, overlapping_deviation
-from pyimu.characterize.coefficients import (
-    Coefficient,
-    crossing,
-    fit_coefficients,
-    mean_coefficient,
-    read_coefficients,
-)
+from pyimu.characterize.coefficients import Coefficient, fit_coefficients, mean_coefficient
 from pyimu.characterize.moments import TERMS, design, moments
+from pyimu.characterize.readings import crossing, read_coefficients
 from pyimu.errors import UserError
 from pyimu.fmu import simulate_blocks
 from pyimu.loop.whiten import RandomWalk

@@ -21,12 +21,12 @@ from pyimu.loop.leftover import Unexplained
 from pyimu.loop.report import write_report
 from pyimu.loop.response import is_step
 from pyimu.loop.result import Added
-from pyimu.loop.shown import CORNER, SHOWN, number, pretty, quantity, with_error
 from pyimu.loop.trial import Trial
 from pyimu.loop.whiten import RandomWalk
 from pyimu.loop.words import headline, plain_equation
 from pyimu.partfile import part
 from pyimu.recording import Recording
+from pyimu.shown import CORNER, SHOWN, number, pretty, quantity, with_error
 from pyimu.units import same_dimension
 
 FILES = ("report.html", "report.json", "model.toml")
@@ -144,7 +144,7 @@ DRIVEN = [n for n, e in CATALOGUE.items() if not e.stochastic and "gyro" in e.se
 def test_each_effect_has_a_picture_of_what_drives_it(closed, name):
     inv = closed.investigations["gyro"]
     values = {n: p.scan.values(0.04, 0.7)[4] if p.scan else p.start + 0.01 for n, p in CATALOGUE[name].parameters.items()}
-    values = {n: np.full(p.shape, values[n]) for n, p in CATALOGUE[name].parameters.items()}
+    values = {n: np.full(p.shape, values[n]) * (1 if p.diagonal else 1 - np.eye(3)) for n, p in CATALOGUE[name].parameters.items()}
     after = replace(inv.after, sensor=inv.after.sensor.with_values(name, **values))
     added = Added("gyro", name, (), {n: (v, v, "1") for n, v in values.items()}, 1.0, 1.0)
     shown = pictures.against_input(added, replace(inv, after=after), pictures.traces(inv), most=1)

@@ -10,7 +10,7 @@ each over all the terms that the record has (Riley, NIST SP 1065, 2008, sections
 952-2020, annex C; Hidalgo 2012 divides the first by n - 2m and leaves out its last term).  The sample period does not
 enter: deviations are in the unit of the rates.
 
-Memory beside the data: S of one column, as much as that column in double precision.  Time: the differences are made a
+Memory beside the data: S of one column, as much as that column in double precision, in memory or in a mapped file.  Time: the differences are made a
 tile at a time for all cluster sizes, so that short clusters find their sums in the cache; processors share the tiles.
 
 Error: a column's mean is taken off first, and S is summed with compensation (Neumaier, Z. angew. Math. Mech. 54 (1974),
@@ -50,25 +50,26 @@ def log_clusters(n: int, points: int = 100, order: int = 2) -> np.ndarray:
     return np.array(sizes, dtype=int)
 
 
-def overlapping_deviation(rates: np.ndarray, clusters: np.ndarray) -> np.ndarray:
+def overlapping_deviation(rates: np.ndarray, clusters: np.ndarray, store: np.ndarray | None = None) -> np.ndarray:
     """Overlapping Allan deviation, shape (t,) or (t, c), of ``rates`` (n,) or (n, c) for cluster sizes (t,) in samples.
 
+    ``store`` (n + 1,) or more is memory to work in, where there should be no more of it: a mapped file, for a very long record.
     Raises ValueError for a cluster size that is no whole number from 1 to n / 2, UserError where a rate is not finite.
     """
-    return _deviation(rates, clusters, 2, 0, _allan_sums)
+    return _deviation(rates, clusters, 2, 0, _allan_sums, store)
 
 
-def hadamard_deviation(rates: np.ndarray, clusters: np.ndarray) -> np.ndarray:
+def hadamard_deviation(rates: np.ndarray, clusters: np.ndarray, store: np.ndarray | None = None) -> np.ndarray:
     """Overlapping Hadamard deviation, which no rate ramp reaches; arguments and errors as above, sizes up to n / 3."""
-    return _deviation(rates, clusters, 3, 0, _hadamard_sums)
+    return _deviation(rates, clusters, 3, 0, _hadamard_sums, store)
 
 
-def modified_deviation(rates: np.ndarray, clusters: np.ndarray) -> np.ndarray:
+def modified_deviation(rates: np.ndarray, clusters: np.ndarray, store: np.ndarray | None = None) -> np.ndarray:
     """Modified Allan deviation, which tells quantization from flicker of the angle; as above, sizes up to (n + 1) / 3."""
-    return _deviation(rates, clusters, 3, 1, _modified_sums)
+    return _deviation(rates, clusters, 3, 1, _modified_sums, store)
 
 
-def _deviation(rates: np.ndarray, clusters: np.ndarray, order: int, spare: int, sums: Callable) -> np.ndarray:
+def _deviation(rates: np.ndarray, clusters: np.ndarray, order: int, spare: int, sums: Callable, store: np.ndarray | None) -> np.ndarray:
     rates, m = np.asarray(rates), np.atleast_1d(clusters)
     if rates.ndim not in (1, 2):
         raise ValueError(f"rates have shape {rates.shape}, neither (n,) nor (n, c)")
@@ -78,7 +79,8 @@ def _deviation(rates: np.ndarray, clusters: np.ndarray, order: int, spare: int, 
     m = m.astype(np.int64)
     columns = rates[:, None] if rates.ndim == 1 else rates
     # One store for all columns: fresh memory costs as much as what is done with it.
-    variance, store = np.empty((len(m), columns.shape[1])), np.empty(len(rates) + 1)
+    variance = np.empty((len(m), columns.shape[1]))
+    store = np.empty(len(rates) + 1) if store is None else store[:len(rates) + 1]
     for c in range(columns.shape[1]):
         variance[:, c] = sums(_cumulative(columns[:, c], c, store), m)
     return np.sqrt(variance).reshape(m.shape + rates.shape[1:])

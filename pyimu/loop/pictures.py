@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-import io
-import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.axis import Axis
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from scipy.signal import welch
 
 from pyimu.effect import CATALOGUE, KINDS, Sensor
+from pyimu.figures import AFTER, BEFORE, FLOOR, GREY, INK, STYLE, envelope, legend, new_figure, plain_logarithm, svg_of
 from pyimu.imu import AXES
 from pyimu.loop.close import floor_noise
 from pyimu.loop.forward import Investigation
@@ -23,25 +20,10 @@ from pyimu.loop.regression import Fit, LogState, band_segments, band_time, in_ba
 from pyimu.loop.result import Added
 from pyimu.loop.score import held_state
 from pyimu.loop.select import Screening
-from pyimu.loop.shown import in_unit, number, pretty, unit_for
 from pyimu.loop.trial import Trial
 from pyimu.loop.whiten import RandomWalk
+from pyimu.shown import in_unit, number, pretty, unit_for
 from pyimu.signals import COLUMNS, SIGNALS
-
-INK, BEFORE, AFTER, FLOOR, GREY = "#010203", "#e69f00", "#0072b2", "#009e73", "#808487"
-"""Okabe-Ito, so that the two series differ for every eye; grey for what does not matter."""
-
-VARIABLES = {INK: "var(--ink)", BEFORE: "var(--before)", AFTER: "var(--after)", FLOOR: "var(--floor)", GREY: "var(--grey)"}
-
-STYLE = {
-    "svg.fonttype": "none", "svg.hashsalt": "pyimu", "font.family": "sans-serif", "font.size": 9.5, "axes.linewidth": 0.7,
-    "text.color": INK, "axes.edgecolor": INK, "axes.labelcolor": INK, "xtick.color": INK, "ytick.color": INK,
-    "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.color": GREY, "grid.alpha": 0.25,
-    "grid.linewidth": 0.5, "legend.frameon": False, "figure.facecolor": "none", "axes.facecolor": "none",
-}
-
-BINS = 420
-"""Columns of a time series; each shows the smallest and the largest sample that falls into it, so that spikes survive."""
 
 CLOUD = 3000
 """Points of a cloud, evenly picked."""
@@ -85,40 +67,6 @@ def _state(fit: Fit, trial: Trial) -> tuple[LogState, Trial]:
     return replace(state, bias=in_band(whole, residual(fit.sensor, whole, state)).mean(axis=0)), whole
 
 
-def _figure(width: float, height: float, rows: int = 1) -> tuple[Figure, list[Axes]]:
-    figure = Figure(figsize=(width, height), layout="constrained")
-    axes = figure.subplots(rows, 1, sharex=True, squeeze=False)[:, 0]
-    return figure, list(axes)
-
-
-def _svg(figure: Figure) -> str:
-    """The figure as an SVG element that can stand in a page: no prolog, no metadata, no repeated identifiers."""
-    buffer = io.StringIO()
-    figure.savefig(buffer, format="svg", dpi=144, metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
-    text = buffer.getvalue()
-    text = text[text.index("<svg"):]
-    text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.DOTALL)
-    text = re.sub(r' id="[A-Za-z0-9]+_\d+"| xmlns(:xlink)?="[^"]*"', "", text)
-    text = re.sub(r'(<svg[^>]*?) width="[^"]*"', r"\1", re.sub(r'(<svg[^>]*?) height="[^"]*"', r"\1", text, count=1), count=1)
-    text = re.sub(r"\n\s*", "\n", text)
-    for colour, variable in VARIABLES.items():
-        text = text.replace(colour, variable)
-    return text
-
-
-def _legend(figure: Figure, panel: Axes, columns: int) -> None:
-    figure.legend(*panel.get_legend_handles_labels(), loc="outside upper left", ncols=columns, borderaxespad=0.1,
-                  handlelength=1.4, columnspacing=1.1, fontsize=8.5)
-
-
-def _plain_logarithm(axis: Axis) -> None:
-    """Numbers without powers; 1, 2, 5 where less than two decades are seen, else decades."""
-    low, high = axis.get_view_interval()
-    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if high < 100 * low else (1.0,)))
-    axis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}"))
-    axis.set_minor_formatter(NullFormatter())
-
-
 # Residual over time
 
 
@@ -127,7 +75,7 @@ def over_time(found: Sequence[Trace], floor: np.ndarray | None, si: str) -> str:
     with matplotlib.rc_context(STYLE):
         axes_shown = sorted({i for t in found for i in t.trial.axes})
         unit = unit_for(_scale([t.before for t in found]), si)
-        figure, panels = _figure(5.4, 0.9 + 1.35 * len(axes_shown), len(axes_shown))
+        figure, panels = new_figure(5.4, 0.9 + 1.35 * len(axes_shown), len(axes_shown))
         clock, ends = _running_time(found)
         factor, label = _time_unit(clock[-1][-1] if len(clock) and len(clock[-1]) else 1.0)
         for i, panel in zip(axes_shown, panels, strict=True):
@@ -143,8 +91,8 @@ def over_time(found: Sequence[Trace], floor: np.ndarray | None, si: str) -> str:
             limit = max(map(abs, panel.get_ylim()))
             panel.set_ylim(-limit, limit)
         panels[-1].set_xlabel(f"time on the held-out rows [{label}]")
-        _legend(figure, panels[0], 3)
-        return _svg(figure)
+        legend(figure, panels[0], 3)
+        return svg_of(figure)
 
 
 def _scale(residuals: Sequence[np.ndarray]) -> float:
@@ -174,20 +122,6 @@ def _time_panel(panel: Axes, found: Sequence[Trace], clock: list[np.ndarray], i:
         values = in_unit(np.concatenate([getattr(t, name)[:, i] for t in found]), si, unit)
         at, low, high = envelope(times, values)
         panel.fill_between(at, low, high, color=colour, lw=0.6, label=name, zorder=2)
-
-
-def envelope(time: np.ndarray, values: np.ndarray, bins: int = BINS) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Smallest and largest value in each of ``bins`` stretches of time; NaN where a stretch has no sample."""
-    if len(time) <= bins:
-        return time, values, values
-    edges = np.linspace(time[0], time[-1], bins + 1)
-    place = np.clip(np.searchsorted(edges, time, side="right") - 1, 0, bins - 1)
-    low, high = np.full(bins, np.inf), np.full(bins, -np.inf)
-    np.minimum.at(low, place, values)
-    np.maximum.at(high, place, values)
-    empty = low > high
-    low[empty] = high[empty] = np.nan
-    return 0.5 * (edges[1:] + edges[:-1]), low, high
 
 
 # Residual against what drives it
@@ -271,7 +205,7 @@ def _cloud(drivers: Sequence[Driver], both: Sequence[Trace], i: int, si: str, ef
     span = np.quantile(x, [0.0, 1.0] if CATALOGUE[effect].stage == "output" else [0.001, 0.999])
     unit = unit_for(_scale([t.before[:, i:i + 1] for t in both]), si)
     with matplotlib.rc_context(STYLE):
-        figure, (panel,) = _figure(4.4, 2.9)
+        figure, (panel,) = new_figure(4.4, 2.9)
         seen = []
         for name, colour, label in (("before", BEFORE, f"without {effect}"), ("after", AFTER, f"with {effect}")):
             y = in_unit(np.concatenate([getattr(t, name)[:, i] for t in both]), si, unit)
@@ -282,8 +216,8 @@ def _cloud(drivers: Sequence[Driver], both: Sequence[Trace], i: int, si: str, ef
         _limits(panel.set_ylim, np.concatenate(seen))
         panel.locator_params(axis="x", nbins=6)
         panel.set(xlabel=drivers[0].label, ylabel=f"residual {'xyz'[i]} [{pretty(unit)}]")
-        _legend(figure, panel, 2)
-        return _svg(figure)
+        legend(figure, panel, 2)
+        return svg_of(figure)
 
 
 def _points(panel: Axes, x: np.ndarray, y: np.ndarray, colour: str) -> None:
@@ -320,10 +254,10 @@ def comb(a: Added, found: Sequence[Trace]) -> list[tuple[str, str]]:
         y = np.concatenate([t.trial.y[s:e, i] for t in found for s, e in t.trial.segments])
         share = (y - y[0]) / q[i] + 0.5
         with matplotlib.rc_context(STYLE):
-            figure, (panel,) = _figure(4.4, 2.4)
+            figure, (panel,) = new_figure(4.4, 2.4)
             panel.hist(share % 1.0 - 0.5, bins=41, range=(-0.5, 0.5), color=AFTER, weights=np.full(len(y), 100.0 / len(y)))
             panel.set(xlabel=f"sample {'xyz'[i]}, distance to the nearest multiple [steps]", ylabel="samples [%]")
-            pictures.append(("xyz"[i], _svg(figure)))
+            pictures.append(("xyz"[i], svg_of(figure)))
     return pictures
 
 
@@ -337,7 +271,7 @@ def screening(first: Screening, last: Screening, added: Sequence[str]) -> str:
     gate = first.gate if np.isfinite(first.gate) else 1.0
     left = 0.3 * min(1.0, gate)
     with matplotlib.rc_context(STYLE):
-        figure, (panel,) = _figure(5.4, 1.0 + 0.27 * len(rows))
+        figure, (panel,) = new_figure(5.4, 1.0 + 0.27 * len(rows))
         for k, c in enumerate(rows):
             colour = AFTER if c.effect in added else BEFORE if c.gain > gate else GREY
             panel.barh(k, max(c.gain, left) - left, left=left, height=0.62, color=colour)
@@ -349,10 +283,10 @@ def screening(first: Screening, last: Screening, added: Sequence[str]) -> str:
         panel.axvline(gate, color=INK, lw=1.0, ls=(0, (4, 2)))
         panel.set_yticks(range(len(rows)), [c.effect for c in rows])
         panel.set(xscale="log", xlim=(left, 6 * max([gate, *(c.gain for c in rows)])), xlabel="gain in log-likelihood [nat]")
-        _plain_logarithm(panel.xaxis)
+        plain_logarithm(panel.xaxis)
         panel.grid(axis="y", visible=False)
         _screening_legend(figure, panel, last is not first)
-        return _svg(figure)
+        return svg_of(figure)
 
 
 def _screening_legend(figure: Figure, panel: Axes, looked_again: bool) -> None:
@@ -361,7 +295,7 @@ def _screening_legend(figure: Figure, panel: Axes, looked_again: bool) -> None:
     panel.plot([], [], color=INK, lw=1.0, ls=(0, (4, 2)), label="gate (1 % by chance)")
     if looked_again:
         panel.plot([], [], "D", ms=4.5, mfc="none", mec=INK, label="at the last look")
-    _legend(figure, panel, 3)
+    legend(figure, panel, 3)
 
 
 # Spectrum
@@ -376,7 +310,7 @@ def spectrum(inv: Investigation, found: Sequence[Trace]) -> str | None:
     si, unit = inv.after.sensor.output.unit, "deg/s" if kind == "gyro" else "mg"
     trial = found[0].trial
     with matplotlib.rc_context(STYLE):
-        figure, (panel,) = _figure(5.4, 3.0)
+        figure, (panel,) = new_figure(5.4, 3.0)
         for (f, p), colour, label in zip(densities, (BEFORE, AFTER), ("before", "after"), strict=True):
             panel.loglog(f, in_unit(np.sqrt(p), si, unit), color=colour, lw=1.5, label=label)
         f = densities[0][0]
@@ -388,9 +322,9 @@ def spectrum(inv: Investigation, found: Sequence[Trace]) -> str | None:
                            textcoords="offset points", ha="right", fontsize=8.5)
         panel.set(xlabel="frequency [Hz]", ylabel=f"density, one-sided [{unit}/√Hz]")
         for axis in (panel.xaxis, panel.yaxis):
-            _plain_logarithm(axis)
-        _legend(figure, panel, 3)
-        return _svg(figure)
+            plain_logarithm(axis)
+        legend(figure, panel, 3)
+        return svg_of(figure)
 
 
 def density(found: Sequence[Trace], name: str) -> tuple[np.ndarray, np.ndarray] | None:

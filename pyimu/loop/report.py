@@ -4,29 +4,23 @@ from __future__ import annotations
 
 import json
 import os
-import shutil
-import uuid
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass, field
-from functools import lru_cache
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from jinja2 import Environment, PackageLoader, StrictUndefined
-from markupsafe import Markup, escape
+from markupsafe import Markup
 from scipy.spatial.transform import Rotation
 
 from pyimu.effect import CATALOGUE
-from pyimu.errors import Finding, UserError
 from pyimu.loop import pictures
 from pyimu.loop.forward import Investigation
 from pyimu.loop.result import Added, Changed, Closed, Errors, Visibility
 from pyimu.loop.score import WINDOW
-from pyimu.loop.shown import MISSING, in_unit, number, pretty, quantity, si_quantity, unit_for, with_error
 from pyimu.loop.words import FEW, QUANTITIES, SENSORS, dependence, headline, plain_equation, si_of
+from pyimu.page import Picture, Table, both, prose, quality_table, staged, templates
 from pyimu.partfile import save_part
+from pyimu.shown import MISSING, in_unit, number, pretty, si_quantity, unit_for, with_error
 
 MODEL = "model.toml"
 
@@ -38,55 +32,16 @@ def write_report(closed: Closed, out: str | os.PathLike, fmus: tuple[str, ...] =
     earlier ones only once all are written.  Raises UserError where the folder cannot be written.
     """
     out = Path(out)
-    with _staged(out) as stage:
+    with staged(out) as stage:
         (stage / "report.html").write_text(page(closed, fmus), encoding="utf-8")
         (stage / "report.json").write_text(json.dumps(closed.as_dict(MODEL, fmus), indent=2) + "\n", encoding="utf-8")
         save_part(closed.after, stage / MODEL)
     return out / "report.html"
 
 
-@contextmanager
-def _staged(out: Path) -> Iterator[Path]:
-    """A folder beside the results whose files take their places once the block has ended well."""
-    stage = out / f".report.{uuid.uuid4().hex}"
-    try:
-        stage.mkdir(parents=True)
-        yield stage
-        for file in sorted(stage.iterdir()):
-            os.replace(file, out / file.name)
-    except OSError as error:
-        raise UserError(f"{out}: the report cannot be written ({error.strerror or error})") from None
-    finally:
-        shutil.rmtree(stage, ignore_errors=True)
-
-
-@dataclass(frozen=True)
-class Table:
-    """Head and rows of cells."""
-
-    head: tuple[str, ...]
-    rows: list[tuple] = field(default_factory=list)
-
-
-@dataclass(frozen=True)
-class Picture:
-    """An SVG, the line under it, and what it shows for who cannot see it."""
-
-    svg: Markup
-    caption: str
-    alt: str
-    small: bool = False
-
-
-@lru_cache(maxsize=1)
-def _templates() -> Environment:
-    return Environment(loader=PackageLoader("pyimu.loop", "templates"), autoescape=True, undefined=StrictUndefined,
-                       trim_blocks=True, lstrip_blocks=True)
-
-
 def page(closed: Closed, fmus: tuple[str, ...] = ()) -> str:
     """The report as one HTML page that needs nothing beside it."""
-    return _templates().get_template("report.html").render(**_contents(closed, fmus))
+    return templates("pyimu.loop").get_template("report.html").render(**_contents(closed, fmus))
 
 
 def _contents(closed: Closed, fmus: tuple[str, ...]) -> dict[str, Any]:
@@ -102,27 +57,12 @@ def _contents(closed: Closed, fmus: tuple[str, ...]) -> dict[str, Any]:
                                                     if inv.first.candidates and 0 < inv.first.gate < np.inf],
         "observability": _observability(closed.observability),
         "spectra": [p for k, inv in closed.investigations.items() if (p := _spectrum(closed, k, inv, found[k]))],
-        "quality": _quality(closed.quality), "files": _files(fmus)}
+        "quality": quality_table(closed.quality), "files": _files(fmus)}
 
 
 def _about(closed: Closed) -> str:
     count = len(closed.recordings)
     return f"{count} recording{'s' * (count != 1)}, part {closed.before.name}"
-
-
-def _words(text: str) -> Markup:
-    """A cell of prose, which may break into lines."""
-    return Markup('<span class="words">{}</span>').format(text)
-
-
-def _both(value: Any, si: str, unit: str | None = None) -> Markup:
-    """A cell with a value in the people's unit and in SI."""
-    if value is None or not np.isfinite(value):
-        return Markup(MISSING)
-    unit = unit or unit_for(value, si)
-    shown = f"{number(float(in_unit(value, si, unit)))} {pretty(unit)}".rstrip()
-    plain = si_quantity(value, si)
-    return escape(shown) if plain == shown else Markup("{}<small>{}</small>").format(shown, plain)
 
 
 # Pictures with their captions
@@ -173,9 +113,9 @@ def _errors(closed: Closed) -> Table:
             table.rows.extend(_error_rows(f"angle in {WINDOW:g} s", e, "rad", "angle", "angle_per_axis"))
     for name, pair, si in (("log-likelihood [nat/sample]", closed.log_likelihood, ""), ("attitude", closed.attitude, "rad")):
         if pair is not None:
-            cells = tuple(_both(v, si) if si else number(v, 5) for v in pair)
+            cells = tuple(both(v, si) if si else number(v, 5) for v in pair)
             change = number(pair[1] / pair[0], 2) if si else f"{pair[1] - pair[0]:+.3g}"
-            table.rows.append((_words(name), *cells, change, MISSING))
+            table.rows.append((prose(name), *cells, change, MISSING))
     return table
 
 
@@ -198,7 +138,7 @@ def _compared(values: list, si: str, unit: str) -> tuple:
     """Before, after, ratio, floor."""
     before, after, floor = values
     ratio = number(after / before, 2) if before else MISSING
-    return _both(before, si, unit), _both(after, si, unit), ratio, _both(floor, si, unit)
+    return both(before, si, unit), both(after, si, unit), ratio, both(floor, si, unit)
 
 
 def _error_notes(closed: Closed) -> list[str]:
@@ -214,7 +154,7 @@ def _error_notes(closed: Closed) -> list[str]:
 def _by_log(closed: Closed) -> Table:
     table = Table(("recording", "samples", "held out", "sensor", "before", "after", "ratio", "floor"))
     for r in closed.recordings:
-        head = (_words(r.file), f"{r.samples}", f"{r.held_out}")
+        head = (prose(r.file), f"{r.samples}", f"{r.held_out}")
         for kind, e in r.errors.items():
             values = [e.before.total, e.after.total, None if e.floor is None else e.floor.total]
             table.rows.append((*head, SENSORS[kind], *_compared(values, e.unit, unit_for(values[0], e.unit))))
@@ -230,11 +170,11 @@ def _log_states(closed: Closed) -> Table:
         for kind, state in r.log_state.items():
             if state:
                 si = closed.after.sensor(kind).output.unit
-                bias = [_both(b, si, unit_for(state["bias"], si)) for b in state["bias"]]
+                bias = [both(b, si, unit_for(state["bias"], si)) for b in state["bias"]]
                 rest = {k: v for k, v in state.items() if k not in ("bias", "rotation")}
                 further = ", ".join(f"{k.replace('_', ' ')} {number(v) if isinstance(v, float) else v}" for k, v in rest.items())
                 turn = _turn(state.get("rotation"))
-                table.rows.append((_words(r.file), SENSORS[kind], *bias, turn, _words(further)))
+                table.rows.append((prose(r.file), SENSORS[kind], *bias, turn, prose(further)))
     return table
 
 
@@ -243,7 +183,7 @@ def _turn(rotation: list | None) -> Any:
     if rotation is None:
         return MISSING
     angle = float(Rotation.from_matrix(rotation).magnitude())
-    return _both(angle, "rad") if angle else "none"
+    return both(angle, "rad") if angle else "none"
 
 
 # Effects
@@ -286,7 +226,7 @@ def _axes(index: tuple[int, ...]) -> str:
 
 def _refused(closed: Closed) -> Table:
     return Table(("sensor", "effect", "gain [nat]", "why"),
-                 [(SENSORS[s], r.effect, number(r.gain), _words(r.reason)) for s, r in closed.refused])
+                 [(SENSORS[s], r.effect, number(r.gain), prose(r.reason)) for s, r in closed.refused])
 
 
 def _changed(closed: Closed) -> Table:
@@ -320,29 +260,12 @@ def _observability(entries: Iterable[Visibility]) -> Table:
     table = Table(("sensor", "effect", "smallest visible", "looks like, in these logs", "not visible because"))
     for v in entries:
         first = next(iter(CATALOGUE[v.effect].parameters), "") if v.effect in CATALOGUE else ""
-        seen = MISSING if v.smallest_visible is None else _both(v.smallest_visible, si_of(v.effect, first, v.unit))
-        table.rows.append((SENSORS[v.sensor], v.effect, seen, _words(", ".join(v.inseparable_from) or MISSING), _words(v.reason)))
+        seen = MISSING if v.smallest_visible is None else both(v.smallest_visible, si_of(v.effect, first, v.unit))
+        table.rows.append((SENSORS[v.sensor], v.effect, seen, prose(", ".join(v.inseparable_from) or MISSING), prose(v.reason)))
     return table
 
 
 # Quality and files
-
-
-def _quality(findings: Iterable[Finding]) -> Table:
-    return Table(("finding", "column", "count", "detail"),
-                 [(f.kind.replace("_", " "), f.column or "all", f"{f.count}", _words(_detail(f))) for f in findings])
-
-
-def _detail(f: Finding) -> str:
-    """The finding's numbers; those of a gyro or accelerometer column with their unit."""
-    si = {"gyro": "rad/s", "accel": "m/s^2"}.get(f.column.partition("_")[0])
-    parts = []
-    for name, value in f.detail.items():
-        text = value if isinstance(value, str) else number(float(value), 4) if np.ndim(value) == 0 else str(value)
-        if si and name in ("level", "step", "largest", "value"):
-            text = quantity(float(value), si)
-        parts.append(f"{name.replace('_', ' ')} {text}")
-    return ", ".join(parts)
 
 
 def _files(fmus: tuple[str, ...]) -> Table:

@@ -8,7 +8,7 @@ import numpy as np
 from markupsafe import Markup, escape
 
 from pyimu.loop.result import Added, Closed, Errors
-from pyimu.loop.shown import CORNER, FREQUENCIES, in_unit, joined, number, pretty, quantity, unit_for
+from pyimu.shown import CORNER, FREQUENCIES, in_unit, joined, number, pretty, quantity, unit_for
 
 SENSORS = {"gyro": "gyro", "accel": "accelerometer"}
 QUANTITIES = {"gyro": "rate", "accel": "specific force"}

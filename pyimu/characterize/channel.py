@@ -1,0 +1,106 @@
+"""One channel of one log: Allan, modified and Hadamard deviations over its stretches, and the coefficients of its noise."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from scipy.stats import chi2
+
+from pyimu.characterize.allan import hadamard_deviation, log_clusters, modified_deviation, octave_clusters, overlapping_deviation
+from pyimu.characterize.blocks import Blocks
+from pyimu.characterize.lines import Line
+from pyimu.characterize.noise_fit import ChannelFit, fit_noise
+from pyimu.characterize.pooled import longest, pooled_deviation
+from pyimu.characterize.samples import CHUNK, Samples
+from pyimu.characterize.store import Store
+from pyimu.characterize.thermal import ThermalFit
+
+POINTS = 100
+"""Cluster times of a curve, evenly in the logarithm; those an octave apart come on top of it."""
+
+LEAST = 64
+"""Samples without gap from which on a channel is characterised: six clusters an octave apart for five terms."""
+
+
+@dataclass(frozen=True)
+class Curve:
+    """Deviations (t,) in the unit of the samples at cluster times ``tau`` (t,) s."""
+
+    tau: np.ndarray
+    deviation: np.ndarray
+
+
+@dataclass(frozen=True)
+class AllanCurve(Curve):
+    """Overlapping Allan deviations; ``freedom`` (t,) equivalent degrees of freedom, ``low`` and ``high`` (t,) the limits of the true one."""
+
+    freedom: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+
+
+@dataclass(frozen=True)
+class Noise:
+    """What a channel's clusters say: curves of the samples less their temperature effect, where there is one, and the fit.
+
+    ``raw`` is the Allan deviation of the samples as they are, None where nothing was taken off.
+    """
+
+    allan: AllanCurve
+    modified: Curve
+    hadamard: Curve
+    raw: Curve | None
+    fit: ChannelFit
+
+
+def noise_of(samples: Samples, axis: int, thermal: ThermalFit | None, lines: Sequence[Line], level: float, store: Store,
+             say: Callable[[str], None] = lambda text: None) -> Noise:
+    """Curves and fit of one axis; ``thermal`` is taken off where it has a coefficient.  Raises UserError where there is no noise."""
+    column, raw, used = samples.columns[axis], None, longest(samples.stretches)
+    lengths = [b - a for a, b in used]
+    room = store.room("sums", max(lengths) + 1)
+    m = np.union1d(octave_clusters(max(lengths)), log_clusters(max(lengths), POINTS))
+    if thermal is not None and thermal.order and samples.blocks is not None:
+        say("without temperature")
+        raw = Curve(m * samples.h, _pooled(column, used, m, overlapping_deviation, 2, room))
+        column = _compensated(samples, axis, thermal, store.room("compensated", len(samples)))
+    say("Allan deviation")
+    deviation = _pooled(column, used, m, overlapping_deviation, 2, room)
+    octaves = np.isin(m, octave_clusters(max(lengths)))
+    sines = [(v.frequency, max(v.frequency_std, v.width), v.amplitude) for v in lines]
+    fit = fit_noise(m[octaves], deviation[octaves], lengths, samples.h, level, sines)
+    say("Hadamard deviation")
+    hadamard = _curve(column, used, m, hadamard_deviation, samples.h, room)
+    say("modified deviation")
+    modified = _curve(column, used, m, modified_deviation, samples.h, room)
+    return Noise(_with_limits(m, deviation, fit, lengths, samples.h, level), modified, hadamard, raw, fit)
+
+
+def _pooled(column: np.ndarray, used: Sequence[tuple[int, int]], m: np.ndarray, deviation: Callable, order: int, room: np.ndarray) -> np.ndarray:
+    return pooled_deviation([column[a:b] for a, b in used], m, partial(deviation, store=room), order)
+
+
+def _curve(column: np.ndarray, used: Sequence[tuple[int, int]], m: np.ndarray, deviation: Callable, h: float, room: np.ndarray) -> Curve:
+    """Of one of the deviations that need three clusters in a stretch; they are drawn, and every other cluster time is enough for that."""
+    m = m[3 * m <= max(b - a for a, b in used)][::2]
+    return Curve(m * h, _pooled(column, used, m, deviation, 3, room))
+
+
+def _with_limits(m: np.ndarray, deviation: np.ndarray, fit: ChannelFit, lengths: Sequence[int], h: float, level: float) -> AllanCurve:
+    """Limits from a chi-square of the degrees of freedom that the fitted noise gives the estimate at each cluster time."""
+    freedom, side = fit.freedom(m, lengths), (1 - level) / 2
+    low, high = (deviation * np.sqrt(freedom / chi2.isf(tail, freedom)) for tail in (side, 1 - side))
+    return AllanCurve(m * h, deviation, freedom, low, high)
+
+
+def _compensated(samples: Samples, axis: int, thermal: ThermalFit, out: np.ndarray) -> np.ndarray:
+    """The column less its bias at the temperature of the moment, that of the means of blocks and in between."""
+    blocks: Blocks = samples.blocks
+    for a in range(0, len(samples), CHUNK):
+        rows = slice(a, a + CHUNK)
+        temperature = np.interp(samples.time[rows], blocks.time, blocks.temperature)
+        out[rows] = samples.columns[axis][rows] - thermal.at(temperature)
+    return out
