@@ -22,7 +22,7 @@ from pyimu.rows import Rows, Source
 from pyimu.table import stem, write_table
 from pyimu.units import did_you_mean
 
-__all__ = ["GROUPS", "Finding", "Log", "Recording", "column_names", "join", "open_log", "read_recording"]
+__all__ = ["GROUPS", "Finding", "Log", "Recording", "column_names", "filled", "join", "open_log", "read_recording"]
 
 HEAD = 1 << 16
 """Rows at the start of a log from which its sample period is taken before the rest is read."""
@@ -146,6 +146,16 @@ def _shaped(name: str, group: str, values, n: int) -> np.ndarray:
     if array.shape != shape:
         raise UserError(f"{name}: {group} has shape {array.shape}, expected {shape}")
     return array
+
+
+def filled(time: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """``values`` (n, ...) with missing cells drawn straight from neighbour to neighbour, column by column; one without any number stays missing."""
+    out = np.array(values, dtype=float)
+    for column in out.reshape(len(out), -1).T:
+        known = np.isfinite(column)
+        if known.any() and not known.all():
+            column[~known] = np.interp(time[~known], time[known], column[known])
+    return out
 
 
 def join(pieces: Sequence[Recording]) -> Recording:

@@ -20,7 +20,7 @@ from pyimu.effect import Sensor
 from pyimu.errors import Finding, UserError
 from pyimu.imu import Part
 from pyimu.partfile import part as find_part
-from pyimu.recording import Recording
+from pyimu.recording import Recording, filled
 from pyimu.reference import reference_rate
 from pyimu.signals import SIGNALS, inputs_for, inputs_of
 from pyimu.units import did_you_mean
@@ -244,13 +244,12 @@ class _Truth:
         values, time = self.values[name], self.recording.time
         if _whole(values):
             return values
+        if name != "attitude":
+            return filled(time, values)
         out = np.array(values, dtype=float)
-        for column in out.reshape(len(out), -1).T:
+        for column in out.T:
             known = np.flatnonzero(np.isfinite(column))
-            if name == "attitude":
-                column[:] = column[known[np.maximum(np.searchsorted(known, np.arange(len(column)), "right") - 1, 0)]]
-            else:
-                column[:] = np.interp(time, time[known], column[known])
+            column[:] = column[known[np.maximum(np.searchsorted(known, np.arange(len(column)), "right") - 1, 0)]]
         return out
 
     def unknown(self, name: str) -> np.ndarray | None:

@@ -29,8 +29,6 @@ LEAST_STUCK_SAMPLES, STUCK_RUNS = 20, 5
 LONGEST_GAP = 60.0
 """s; a gap in the recording counts at most as that long, by when the attitude is lost anyway."""
 
-
-
 HEADING_STD = 0.035
 """rad; of a recorded heading that comes without a standard deviation."""
 
@@ -45,24 +43,8 @@ def nominal_part(recording: Recording, rest: Rest) -> Part:
     return Part("nominal", 1 / recording.sample_period, gyro, Sensor("accel", {"angle_random_walk": {"N": n_accel}}))
 
 
-def _latitude(recording: Recording, latitude: float | None) -> float:
-    if latitude is None:
-        column = getattr(recording, "latitude", None)
-        known = column is not None and np.isfinite(column).any()
-        return float(np.nanmedian(column)) if known else UNKNOWN_LATITUDE
-    if not abs(latitude) <= np.pi / 2:
-        raise UserError(f"latitude is {latitude} rad, expected -pi/2 to pi/2")
-    return float(latitude)
-
-
-def _temperature(recording: Recording, part: Part) -> np.ndarray | float:
-    """The recorded temperature, else the one at which the part has no thermal bias."""
-    if recording.temperature is not None:
-        return recording.temperature
-    return float(part.gyro.values.get("thermal_bias", {}).get("T0", 25.0))
-
-
 def latitude_of(recording: Recording, latitude: float | None) -> float:
+    """``latitude`` [rad], else the recording's, else ``UNKNOWN_LATITUDE``.  Raises UserError beyond pi/2."""
     if latitude is None:
         column = getattr(recording, "latitude", None)
         known = column is not None and np.isfinite(column).any()

@@ -28,30 +28,22 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import chi2, norm
 
+from pyimu.characterize.estimate import Estimate
 from pyimu.characterize.least_squares import RAMP, Problem
 from pyimu.characterize.moments import TERMS, design, moments
 from pyimu.errors import UserError
 
 
 @dataclass(frozen=True)
-class Coefficient:
+class Coefficient(Estimate):
     """One coefficient in SI units: estimate, standard error and interval; where it is not needed a bound from above.
 
     A coefficient that is not needed has the value zero, no standard error (nan), and the interval from zero to its bound.
     """
 
-    value: float
-    std: float
-    low: float
-    high: float
-
     @property
     def needed(self) -> bool:
         return self.value > 0
-
-    def holds(self, value: float) -> bool:
-        """Whether the interval contains it."""
-        return self.low <= value <= self.high
 
 
 @dataclass(frozen=True)

@@ -29,6 +29,7 @@ from numba import njit
 from scipy.stats import f as f_law
 
 from pyimu.characterize.blocks import Blocks
+from pyimu.characterize.estimate import Estimate
 from pyimu.characterize.thermometer import smoothed
 from pyimu.characterize.walk import Regression, regress
 from pyimu.errors import UserError
@@ -52,20 +53,6 @@ PLAYS = (0.02, 0.05, 0.1, 0.2)
 
 BOTH_WAYS = 0.25
 """Share of the range that both branches must cover for a loop to be looked for."""
-
-
-@dataclass(frozen=True)
-class Estimate:
-    """A value with its standard error and interval."""
-
-    value: float
-    std: float
-    low: float
-    high: float
-
-    def holds(self, value: float) -> bool:
-        """Whether the interval contains it."""
-        return self.low <= value <= self.high
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from pyimu.effect import OWN
 from pyimu.errors import Finding
 from pyimu.loop.band import Band
 from pyimu.quality import spikes
-from pyimu.recording import Recording
+from pyimu.recording import Recording, filled
 from pyimu.reference import reference_rate
 from pyimu.signals import COLUMNS, SIGNALS, START
 
@@ -139,13 +139,13 @@ def _environment(recording: Recording) -> tuple[np.ndarray, frozenset[str]]:
     u[:, COLUMNS["time"]] = (recording.time - recording.time[0])[:, None]
     force = recording.accel if recording.ref_force is None else recording.ref_force
     if force is not None:
-        u[:, OWN["accel"]] = _filled(recording.time, force)
+        u[:, OWN["accel"]] = np.nan_to_num(filled(recording.time, force))
         u[:, COLUMNS["vibration"]] = _vibration(u[:, OWN["accel"]], recording)
         known |= {"specific_force", "vibration"}
     for name in ("temperature", "supply", "mag"):
         values = getattr(recording, name)
         if values is not None and np.isfinite(values).any():
-            u[:, COLUMNS[name]] = _filled(recording.time, values.reshape(len(values), -1))
+            u[:, COLUMNS[name]] = np.nan_to_num(filled(recording.time, values.reshape(len(values), -1)))
             known.add(name)
     if "temperature" in known:
         known |= _slope(u, recording, "temperature", "temperature_rate", over=SLOW)
@@ -173,16 +173,6 @@ def _vibration(force: np.ndarray, recording: Recording) -> np.ndarray:
         start = np.zeros(1 + SIGNALS["vibration"].memory)
         step_through(step, start, np.ascontiguousarray(force[a:b]), none, np.zeros((b - a, 0)), np.array([recording.sample_period]), out[a:b])
     return out
-
-
-def _filled(time: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Missing cells of a slow or measured environment, drawn straight from neighbour to neighbour."""
-    out = np.array(values)
-    for column in out.T:
-        good = np.isfinite(column)
-        if good.any() and not good.all():
-            column[~good] = np.interp(time[~good], time[good], column[good])
-    return np.nan_to_num(out)
 
 
 def _trial(recording: Recording, kind: str, y: np.ndarray, u: np.ndarray, covered: np.ndarray, known: frozenset[str],
