@@ -17,8 +17,8 @@ from scipy.stats import chi2
 
 from pyimu.attitude import attitude_ukf
 from pyimu.block import Run
-from pyimu.effect import Sensor
 from pyimu.imu import Part
+from pyimu.sensor import Sensor
 
 H, GRAVITY, LATITUDE = 0.01, 9.80665, 0.8
 EARTH = 7.292115e-5 * np.array([0, np.cos(LATITUDE), np.sin(LATITUDE)])

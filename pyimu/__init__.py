@@ -18,9 +18,9 @@ from importlib import import_module
 
 __version__ = "0.1.0"
 
-_HOME = {  # a Sensor comes by way of imu, which fills the catalogue that its effects are looked up in
+_HOME = {
     "Effect": "effect", "Environment": "effect", "Noise": "effect", "Parameter": "effect", "SamplePeriod": "effect",
-    "Sensor": "imu", "State": "effect", "effect": "effect",
+    "Sensor": "sensor", "State": "effect",
     "Part": "imu", "simulate": "simulation",
     "Recording": "recording", "read_recording": "recording", "open_log": "recording",
     "part": "partfile", "part_names": "partfile", "load_part": "partfile", "save_part": "partfile",
@@ -28,7 +28,7 @@ _HOME = {  # a Sensor comes by way of imu, which fills the catalogue that its ef
     "write_characterization": "characterize.report",
     "build": "fmu.package", "UserError": "errors",
 }
-_MODULES = ("attitude", "characterize", "fmu", "symbolic", "shaping")
+_MODULES = ("attitude", "characterize", "effect", "fmu", "symbolic", "shaping")
 
 __all__ = [*_HOME, *_MODULES, "__version__"]  # noqa: PLE0604  (names from the tables above)
 

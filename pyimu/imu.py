@@ -11,10 +11,9 @@ from typing import TYPE_CHECKING
 import casadi as ca
 import numpy as np
 
-import pyimu.effects  # noqa: F401  (fills the catalogue)
 from pyimu.block import Block, Limits, Variable
-from pyimu.effect import Sensor
 from pyimu.errors import UserError
+from pyimu.sensor import Sensor
 from pyimu.signals import EVERY_SAMPLE, SIGNALS, Derived, inputs_for, vector
 
 if TYPE_CHECKING:

@@ -13,7 +13,8 @@ from pathlib import Path
 import numpy as np
 
 import pyimu.effects  # noqa: F401  (fills the catalogue)
-from pyimu.effect import CATALOGUE, Sensor
+from pyimu.effect import CATALOGUE
+from pyimu.sensor import Sensor
 from pyimu.shaping import NoiseModel, describe
 from pyimu.typical import magnitudes
 

@@ -17,10 +17,11 @@ from scipy.stats import chi2
 
 from pyimu import units
 from pyimu.characterize import allan_band, log_clusters, octave_clusters, overlapping_deviation
-from pyimu.effect import CATALOGUE, Sensor
+from pyimu.effect import CATALOGUE
 from pyimu.fmu import build_fmu, simulate
 from pyimu.imu import Part
 from pyimu.noise_page import AXIS, ENTRIES, SAMPLE_PERIOD, SAMPLES, Entry
+from pyimu.sensor import Sensor
 from pyimu.shaping import flicker_floor, gauss_markov_deviation, psd_two_sided, random_walk_deviation
 
 SEED = 2012

@@ -36,9 +36,10 @@ from typing import Any
 import numpy as np
 
 from pyimu import units
-from pyimu.effect import CATALOGUE, KINDS, Effect, Parameter, Sensor
+from pyimu.effect import CATALOGUE, KINDS, Effect, Parameter
 from pyimu.errors import UserError
 from pyimu.imu import Part
+from pyimu.sensor import Sensor
 
 ESTIMATE = "estimate"
 """The value that leaves a coefficient to the data."""

@@ -16,12 +16,12 @@ import numpy as np
 
 from pyimu.block import Block, Run
 from pyimu.columns import column_names
-from pyimu.effect import Sensor
 from pyimu.errors import Finding, UserError
 from pyimu.imu import Part
 from pyimu.partfile import part as find_part
 from pyimu.recording import Recording, filled
 from pyimu.reference import reference_rate
+from pyimu.sensor import Sensor
 from pyimu.signals import SIGNALS, inputs_for, inputs_of
 from pyimu.units import did_you_mean
 

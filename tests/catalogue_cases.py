@@ -6,8 +6,9 @@ import numpy as np
 import pyimu.effects  # noqa: F401  (fills the catalogue)
 from pyimu import units
 from pyimu.block import Block, Variable
-from pyimu.effect import CATALOGUE, KINDS, Sensor
+from pyimu.effect import CATALOGUE, KINDS
 from pyimu.imu import Part
+from pyimu.sensor import Sensor
 from pyimu.signals import COLUMNS, SIGNALS, inputs_for
 
 H = 0.01

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 import pyimu.effects  # noqa: F401  (fills the catalogue)
-from pyimu.effect import N_INPUT, OWN
+from pyimu.effect import OWN
 from pyimu.loop.trial import Trial
+from pyimu.signals import N_INPUT
 
 STATE_NAMES = frozenset({"rate", "specific_force", "temperature"})
 

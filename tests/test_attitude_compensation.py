@@ -6,8 +6,9 @@ from catalogue_cases import CASES, everything, excited
 from test_attitude_ukf import H, drive, error, output, parameters, rover_rate
 
 from pyimu.attitude import attitude_ukf
-from pyimu.effect import CATALOGUE, Sensor
+from pyimu.effect import CATALOGUE
 from pyimu.imu import Part
+from pyimu.sensor import Sensor
 
 N = 1000
 WORLD_ALONE = ("earth_rate", "transport_rate")

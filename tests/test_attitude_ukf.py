@@ -13,8 +13,8 @@ from scipy.stats import chi2
 from pyimu.attitude.ukf import attitude_ukf
 from pyimu.attitude.unscented import LARGEST_STD
 from pyimu.attitude.variables import UNKNOWN_LATITUDE
-from pyimu.effect import Sensor
 from pyimu.imu import Part
+from pyimu.sensor import Sensor
 from pyimu.simulation import simulate
 
 GRAVITY = 9.80665

@@ -8,10 +8,11 @@ from catalogue_cases import CASES, H, as_part, excited, inputs, motion, outputs,
 from scipy.signal import lfilter, lfilter_zi
 from scipy.spatial.transform import Rotation
 
-from pyimu.effect import CATALOGUE, KINDS, Sensor
+from pyimu.effect import CATALOGUE, KINDS
 from pyimu.effects.dynamics import MEMORY
 from pyimu.fmu import build_fmus, simulate
 from pyimu.noise import normals
+from pyimu.sensor import Sensor
 from pyimu.signals import COLUMNS, N_INPUT
 
 ROUNDING = 1e-11

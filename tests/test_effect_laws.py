@@ -10,11 +10,12 @@ import pytest
 from catalogue_cases import CASES, H, alone, as_part, everything, excited, inputs, motion, outputs, own, run, size, with_excited
 
 from pyimu import units
-from pyimu.effect import CATALOGUE, KINDS, OWN_RATE, Environment, Parameter, Sensor, State, candidates, effect
+from pyimu.effect import CATALOGUE, KINDS, OWN_RATE, Environment, Parameter, State, effect
 from pyimu.errors import UserError
 from pyimu.imu import Part
 from pyimu.noise import normals
 from pyimu.partfile import load_part, save_part
+from pyimu.sensor import Sensor, candidates
 from pyimu.signals import COLUMNS, SIGNALS, inputs_of
 
 every_effect = pytest.mark.parametrize("name, kind", CASES)
@@ -310,7 +311,7 @@ def test_a_sensor_of_a_kind_that_does_not_exist_makes_no_effect():
 
 def test_the_catalogue_is_there_whoever_asks_first():
     """In a fresh process, as this one has imported all of it."""
-    code = "from pyimu.effect import Sensor, candidates; print(Sensor('gyro', {'scale_factor': {}}).p, len(candidates('gyro', ())))"
+    code = "from pyimu.sensor import Sensor, candidates; print(Sensor('gyro', {'scale_factor': {}}).p, len(candidates('gyro', ())))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.split() == ["[0.", "0.", "0.]", str(len(candidates("gyro", ())))]
 

@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 from catalogue_cases import CASES, H, as_part, excited, inputs, motion, outputs
 
-from pyimu.effect import CATALOGUE, Sensor
+from pyimu.effect import CATALOGUE
 from pyimu.fmu import build_fmus, simulate
 from pyimu.imu import Part
+from pyimu.sensor import Sensor
 from pyimu.signals import COLUMNS, EVERY_SAMPLE, LONGEST_HOLD
 
 PERIOD = 2.0 ** -7

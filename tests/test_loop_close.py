@@ -6,10 +6,10 @@ from scipy.stats import binom
 from world import K_ACCEL, K_GYRO, N_ACCEL, N_GYRO, best_possible, changes, drive, lambda_of, noise, recording, size_for
 
 import pyimu
-from pyimu.effect import Sensor
 from pyimu.errors import UserError
 from pyimu.imu import Part
 from pyimu.recording import Recording
+from pyimu.sensor import Sensor
 
 BOTH = ("thermal_bias", "thermal_bias_quadratic", "thermal_bias_cubic", "temperature_rate", "thermal_scale_factor", "scale_factor_asymmetry",
         "scale_factor_nonlinearity", "scale_factor_cubic", "time_delay", "lag", "saturation", "quantization")

@@ -7,11 +7,11 @@ from scipy.linalg import block_diag
 from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
-from pyimu.effect import Sensor
 from pyimu.loop import regression
 from pyimu.loop.regression import Linear, LogState, begin, fit, linearise, normal_equations, power, slot_keys, solve
 from pyimu.loop.trial import SETTLE
 from pyimu.loop.whiten import Autoregressive, RandomWalk
+from pyimu.sensor import Sensor
 
 H = 0.04
 R, K2 = 1e-4, 4e-6

@@ -7,9 +7,11 @@ from catalogue_cases import CASES, H, everything, excited, motion, own, run
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pyimu.effect import CATALOGUE, N_INPUT, Sensor
+from pyimu.effect import CATALOGUE
 from pyimu.loop.response import dynamics, impulse_response, is_step, predict, tail, tail_of
 from pyimu.loop.response import motion as before_dynamics
+from pyimu.sensor import Sensor
+from pyimu.signals import N_INPUT
 from pyimu.vectorise import over_rows
 
 SEGMENTS = [(0, 700), (700, 705), (730, 1500)]

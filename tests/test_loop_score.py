@@ -8,11 +8,11 @@ from loop_cases import inputs, noise, trial
 from scipy.spatial.transform import Rotation
 from scipy.stats import norm
 
-from pyimu.effect import Sensor
 from pyimu.loop.regression import Fit, LogState, begin
 from pyimu.loop.score import FLOOR_DRAWS, WINDOW, Tally, _sums, floor, held_state, tally
 from pyimu.loop.trial import HEAD, Trial
 from pyimu.loop.whiten import RandomWalk
+from pyimu.sensor import Sensor
 
 H = 0.1
 R, K2 = 4e-4, 3e-5

@@ -5,7 +5,6 @@ import pytest
 from loop_cases import inputs, noise, trial
 from scipy.stats import betabinom, chi2
 
-from pyimu.effect import Sensor
 from pyimu.loop.candidates import Choice, Group
 from pyimu.loop.regression import Normal, begin, fit
 from pyimu.loop.select import (
@@ -22,6 +21,7 @@ from pyimu.loop.select import (
     fitted_gain,
     screen,
 )
+from pyimu.sensor import Sensor
 
 ALARM = 1e-4
 ROWS, BLOCKS = 4000, 80

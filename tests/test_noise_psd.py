@@ -17,9 +17,10 @@ from noise_cases import CASES, FORMS, NOISES, Case, triads
 from scipy.stats import chi2, norm
 
 from pyimu.characterize import allan_band, allan_laws, octave_clusters, overlapping_deviation
-from pyimu.effect import CATALOGUE, Sensor
+from pyimu.effect import CATALOGUE
 from pyimu.fmu import build_fmus, simulate
 from pyimu.imu import Part
+from pyimu.sensor import Sensor
 from pyimu.shaping import allan_deviation, describe
 
 SAMPLES = 2 ** 16

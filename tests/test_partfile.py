@@ -7,10 +7,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pyimu.effect import CATALOGUE, Sensor
+from pyimu.effect import CATALOGUE
 from pyimu.errors import UserError
 from pyimu.imu import Part
 from pyimu.partfile import RATE_KEY, format_part, load_part, parse_part, part, part_names, save_part
+from pyimu.sensor import Sensor
 
 HEAD = 'name = "a"\nsample_rate = {value = 100.0, unit = "Hz"}\n'
 DEG = np.pi / 180

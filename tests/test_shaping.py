@@ -8,9 +8,10 @@ import pytest
 from scipy.stats import chi2
 
 from pyimu.characterize import allan_band, allan_laws, octave_clusters, overlapping_deviation
-from pyimu.effect import CATALOGUE, OWN, Sensor
+from pyimu.effect import CATALOGUE, OWN
 from pyimu.errors import UserError
 from pyimu.imu import Part
+from pyimu.sensor import Sensor
 from pyimu.shaping import (
     NOISE_LIKE,
     allan_deviation,

@@ -10,11 +10,11 @@ from scipy.spatial.transform import Rotation
 
 import pyimu
 from pyimu import native, simulation
-from pyimu.effect import Sensor
 from pyimu.errors import Finding, UserError
 from pyimu.imu import Part
 from pyimu.noise import normals
 from pyimu.recording import Recording
+from pyimu.sensor import Sensor
 from pyimu.signals import SIGNALS
 from pyimu.simulation import simulate, simulate_recording
 

@@ -11,8 +11,9 @@ from pyimu.characterize.blocks import BlockAccumulator, Blocks, block_means
 from pyimu.characterize.thermal import CHANCE, _gain, fit_thermal
 from pyimu.characterize.thermometer import smoothed
 from pyimu.characterize.walk import _fill_gram, regress
-from pyimu.effect import CATALOGUE, Sensor
+from pyimu.effect import CATALOGUE
 from pyimu.errors import UserError
+from pyimu.sensor import Sensor
 
 DATA = Path(__file__).parents[2] / "shared" / "data"
 

@@ -6,8 +6,9 @@ import re
 import pytest
 
 import pyimu.effects  # noqa: F401
-from pyimu.effect import CATALOGUE, KINDS, Sensor
+from pyimu.effect import CATALOGUE, KINDS
 from pyimu.errors import UserError
+from pyimu.sensor import Sensor
 from pyimu.typical import CLASSES, NO_SOURCE, _table, documents, magnitudes
 from pyimu.units import convert, same_dimension
 

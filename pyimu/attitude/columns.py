@@ -8,10 +8,10 @@ import numpy as np
 
 from pyimu.attitude.rest import Rest
 from pyimu.attitude.variables import EXTRA_INPUTS, UNKNOWN_LATITUDE
-from pyimu.effect import Sensor
 from pyimu.errors import UserError
 from pyimu.imu import Part
 from pyimu.recording import Recording
+from pyimu.sensor import Sensor
 from pyimu.signals import SIGNALS
 
 NOMINAL_K = 2e-5

@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 import casadi as ca
 
 from pyimu.attitude.variables import EXTRA_INPUTS
-from pyimu.effect import Sensor
 from pyimu.effects.noise import flicker_processes
 from pyimu.imu import Part, input_variables
+from pyimu.sensor import Sensor
 from pyimu.signals import SIGNALS, Derived, vector
 
 TRUE = ("rate", "specific_force")

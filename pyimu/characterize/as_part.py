@@ -8,8 +8,9 @@ import numpy as np
 
 from pyimu.characterize.result import SAMPLE, SI, Characterization
 from pyimu.characterize.words import PEOPLE, duration, span
-from pyimu.effect import CATALOGUE, Sensor
+from pyimu.effect import CATALOGUE
 from pyimu.imu import AXES, Part
+from pyimu.sensor import Sensor
 from pyimu.shown import number
 from pyimu.units import convert
 

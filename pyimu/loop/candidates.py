@@ -7,10 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pyimu.effect import CATALOGUE, Effect, Parameter, Sensor, candidates
+from pyimu.effect import CATALOGUE, Effect, Parameter
 from pyimu.loop.regression import Fit, Key, Normal, slot_keys
 from pyimu.loop.response import is_step, predict
 from pyimu.loop.trial import Trial
+from pyimu.sensor import Sensor, candidates
 
 INSEPARABLE = ({"time_delay", "lag"}, {"rate_ramp", "ageing"})
 """Effects of one class, always named together: lag and delay differ only under motion near a third of the bandwidth, age

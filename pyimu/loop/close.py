@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from pyimu.effect import CATALOGUE, Sensor
+from pyimu.effect import CATALOGUE
 from pyimu.errors import Finding, UserError
 from pyimu.imu import Part
 from pyimu.loop.attitude_error import attitude_error
@@ -24,6 +24,7 @@ from pyimu.loop.whiten import RandomWalk
 from pyimu.partfile import part as find_part
 from pyimu.quality import inspect
 from pyimu.recording import Recording, read_recording
+from pyimu.sensor import Sensor
 
 HELD_OUT = 0.3
 """Share of each log, its end, that is held out where no log is named for it."""

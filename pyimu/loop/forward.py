@@ -7,13 +7,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pyimu.effect import Sensor
 from pyimu.loop.candidates import Group, equivalent, with_start
 from pyimu.loop.regression import Fit, LogState, Normal, begin, fit, in_band, normal_equations, reference_input, residual
 from pyimu.loop.response import predict
 from pyimu.loop.score import held_state, log_likelihood
 from pyimu.loop.select import PENALTY, Screened, Screening, fitted_dispersion, fitted_gain, keys_of, screen
 from pyimu.loop.trial import Trial, rest_noise
+from pyimu.sensor import Sensor
 
 SET_WIDTH = 6.0
 """Log-likelihood [nat] within which another effect explains the data as well as the best."""

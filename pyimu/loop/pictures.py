@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from scipy.signal import welch
 
-from pyimu.effect import CATALOGUE, KINDS, Sensor
+from pyimu.effect import CATALOGUE, KINDS
 from pyimu.figures import AFTER, BEFORE, FLOOR, GREY, INK, STYLE, envelope, legend, new_figure, plain_logarithm, svg_of
 from pyimu.imu import AXES
 from pyimu.loop.close import floor_noise
@@ -22,6 +22,7 @@ from pyimu.loop.score import held_state
 from pyimu.loop.select import Screening
 from pyimu.loop.trial import Trial
 from pyimu.loop.whiten import RandomWalk
+from pyimu.sensor import Sensor
 from pyimu.shown import in_unit, number, pretty, unit_for
 from pyimu.signals import COLUMNS, SIGNALS
 

@@ -14,11 +14,12 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pyimu.effect import CATALOGUE, OWN, Parameter, Sensor, Slot
+from pyimu.effect import CATALOGUE, OWN, Parameter
 from pyimu.errors import UserError
 from pyimu.loop.response import dynamics, felt, motion, predict, remembers, tail, tail_of, through_dynamics
 from pyimu.loop.trial import Trial, rest_noise
 from pyimu.loop.whiten import Autoregressive, RandomWalk
+from pyimu.sensor import Sensor, Slot
 
 Key = tuple
 """Name of a column: ("slot", effect, parameter, index), ("bias", trial, axis), ("rotation", trial, axis) or ("scan", ...)."""

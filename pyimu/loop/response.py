@@ -14,7 +14,9 @@ import numpy as np
 from scipy.signal import oaconvolve
 
 from pyimu.block import step_through
-from pyimu.effect import N_INPUT, OWN, Sensor
+from pyimu.effect import OWN
+from pyimu.sensor import Sensor
+from pyimu.signals import N_INPUT
 from pyimu.vectorise import over_rows
 
 LONGEST_RESPONSE = 1 << 14

@@ -8,11 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from pyimu.effect import CATALOGUE, Sensor
+from pyimu.effect import CATALOGUE
 from pyimu.imu import Part
 from pyimu.loop.forward import Investigation, Refused
 from pyimu.loop.leftover import Unexplained
 from pyimu.loop.score import Tally
+from pyimu.sensor import Sensor
 
 
 @dataclass(frozen=True)

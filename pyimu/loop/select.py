@@ -12,9 +12,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pyimu.effect import Sensor
 from pyimu.loop.candidates import Choice, Group, absent, contestable, groups, scan_columns, scanned
 from pyimu.loop.regression import Fit, Key, Normal, normal_equations, solve
+from pyimu.sensor import Sensor
 
 PENALTY = 3.0
 FALSE_ALARM = 0.01

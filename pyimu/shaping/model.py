@@ -8,8 +8,9 @@ from dataclasses import dataclass, field
 import control
 import numpy as np
 
-from pyimu.effect import CATALOGUE, OWN, Sensor
+from pyimu.effect import CATALOGUE, OWN
 from pyimu.errors import UserError
+from pyimu.sensor import Sensor
 from pyimu.shaping import closed
 from pyimu.shaping.allan import allan_deviation, clusters
 from pyimu.shaping.continuous import CONTINUOUS, discretise, transfer_function, white

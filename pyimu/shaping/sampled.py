@@ -6,8 +6,10 @@ import casadi as ca
 import control
 import numpy as np
 
-from pyimu.effect import OWN, Chain, Sensor
+from pyimu.chain import Chain
+from pyimu.effect import OWN
 from pyimu.errors import UserError
+from pyimu.sensor import Sensor
 from pyimu.signals import COLUMNS, START
 
 

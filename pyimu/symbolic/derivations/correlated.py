@@ -6,7 +6,7 @@ import casadi as ca
 import numpy as np
 
 import pyimu.effects  # noqa: F401  (fills the catalogue)
-from pyimu.effect import Sensor
+from pyimu.sensor import Sensor
 from pyimu.symbolic import noise
 from pyimu.symbolic.derivations.independent import in_standard_deviations, van_loan, vectors
 from pyimu.symbolic.derivations.kinematics import CASES
