@@ -3,25 +3,33 @@
 from __future__ import annotations
 
 import math
+from copy import copy
 from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 
 from pyimu.errors import Finding
+from pyimu.gaps import GapFinder, gap_rows
 
 GAP = 1.5
-"""A step of the time above so many sample periods is a gap, but for what rounding does to it."""
+"""A step of the time above so many sample periods is a gap, but for late stamps (``gaps``) and what rounding does to it."""
 
 WINDOW = 512
 """Steps of a window in which the rate is measured."""
 
-OTHER_RATE = 0.1
-"""A window whose period is off by more than this part is at another rate.  The median of 512 steps that scatter by half a
-period (one standard deviation) is off by 0.028 of the period (1.25 / sqrt(512) of the scatter), a third of that."""
+OTHER_RATE = 0.005
+"""A window whose period is off by more than this part is at another rate, where times scatter so little that this can be told."""
+
+PARTS, SIGMAS = 16, 6.0
+"""The period of a window is known to the scatter of that of its parts, over the root of their number.  Six standard deviations lie
+between a window and the log's rate by chance once in 5e8 windows."""
 
 COARSE = 0.49
 """Times rounded to more than this part of the period have steps of two lengths, too far apart to be one by their size."""
+
+MOSTLY = 0.9
+"""The share of the steps that must be whole periods for their mean to be taken, not their median."""
 
 LEAST_ROUNDED = 32
 """So many steps of the rarer length tell rounded times from lost samples."""
@@ -29,7 +37,7 @@ LEAST_ROUNDED = 32
 
 @dataclass(frozen=True)
 class Cadence:
-    """``period`` between samples [s]; a step of the time above ``longest`` [s] is a gap."""
+    """``period`` between samples [s]; a step of the time above ``longest`` [s] is a gap if the stamps stay late after it."""
 
     period: float
     longest: float
@@ -40,7 +48,7 @@ class Cadence:
 
 
 def cadence_of(time: np.ndarray) -> Cadence:
-    """That of the times (n,): the median step, refined by the mean of the steps that are no gap (a file's times are rounded)."""
+    """That of the times (n,): the time between gaps over its steps; of two rates that of most windows."""
     step = np.diff(time)
     if not len(step):
         return Cadence.of_period(math.nan)
@@ -51,7 +59,22 @@ def cadence_of(time: np.ndarray) -> Cadence:
         period = float(step[step <= longest].mean())
         return Cadence(period, max(longest, GAP * period))
     regular = step[np.abs(step - median) < (GAP - 1) * median]
-    return Cadence.of_period(float(regular.mean()) if len(regular) > 0.9 * len(step) else median)
+    rough = Cadence.of_period(float(regular.mean()) if len(regular) > MOSTLY * len(step) else median)
+    kept = np.ones(len(step), bool)
+    kept[gap_rows(time, rough.period, rough.longest) - 1] = False
+    # What is late by chance catches up: without it the steps that are left are short.
+    return Cadence.of_period(_typical(step[kept])) if kept.sum() > MOSTLY * len(step) else rough
+
+
+def _typical(step: np.ndarray) -> float:
+    """The mean step [s], but of two rates that of most windows."""
+    mean, count = float(step.mean()), len(step) // WINDOW
+    if count < 2:
+        return mean
+    windows = np.sort(step[:count * WINDOW].reshape(count, WINDOW).mean(axis=1))
+    # The middle one alone may lie across the change of the rate.
+    near = max((np.abs(windows / windows[k * (count - 1) // 4] - 1) < OTHER_RATE for k in (1, 2, 3)), key=np.count_nonzero)
+    return mean if near.all() else float(windows[near].mean())
 
 
 def period_of(time: np.ndarray) -> float:
@@ -76,9 +99,9 @@ def _rounding(step: np.ndarray, median: float) -> float:
     return unit if np.var(drift[m:] - drift[:-m]) < unit**2 / 2 else 0.0
 
 
-def segments(time: np.ndarray, longest: float) -> list[tuple[int, int]]:
-    """Index ranges (start, stop) of ``time`` (n,) without a step above ``longest`` [s]."""
-    edges = [0, *map(int, np.flatnonzero(np.diff(time) > longest) + 1), len(time)]
+def segments(gaps: np.ndarray, count: int) -> list[tuple[int, int]]:
+    """Index ranges (start, stop) of ``count`` rows without one of the ``gaps`` (m,), the rows that follow a gap, inside."""
+    edges = [0, *map(int, gaps[gaps > 0]), count]
     return list(pairwise(edges))
 
 
@@ -87,49 +110,68 @@ class Clock:
 
     def __init__(self, cadence: Cadence) -> None:
         self.cadence = cadence
+        self._finder = GapFinder(cadence.period, cadence.longest)
         self._gaps, self._longest, self._total = 0, 0.0, 0.0
-        self._times = np.empty(0)
-        self._others: list[float] = []
-        self._first = math.nan
+        self._times, self._first = np.empty(0), 0
+        self._after = np.empty(0, dtype=np.int64)
+        self._variance, self._windows = 0.0, 0
+        self._others: list[tuple[float, float]] = []
 
     def add(self, time: np.ndarray) -> None:
         """``time`` (n,) follows what was added before."""
-        known = len(self._times)
-        times = np.concatenate((self._times, time))
-        step = np.diff(times[max(known - 1, 0):])
-        self._count_gaps(step[step > self.cadence.longest])
-        whole = max(len(times) - 1, 0) // WINDOW
-        for k in self._suspects(times[:whole * WINDOW + 1]):
-            window = times[k * WINDOW:(k + 1) * WINDOW + 1]
-            self._compare(window[0], period_of(window))
-        self._times = times[whole * WINDOW:]
+        self._times = np.concatenate((self._times, time))
+        self._look(*self._finder.add(time))
 
-    def _count_gaps(self, gaps: np.ndarray) -> None:
-        self._gaps += len(gaps)
-        for gap in gaps.tolist():  # one by one, for the sum of rounded numbers depends on its order
-            self._longest, self._total = max(self._longest, gap), self._total + gap
+    def _look(self, rows: np.ndarray, steps: np.ndarray) -> None:
+        """Go on to where the gaps are known, among them those before ``rows`` (m,)."""
+        self._gaps += len(rows)
+        for gap in steps.tolist():  # one by one, for the sum of rounded numbers depends on its order
+            self._longest, self._total = max(self._longest, gap), self._total + gap - self.cadence.period
+        self._after = np.append(self._after, rows)
+        whole = max(self._finder.settled - self._first - 1, 0) // WINDOW
+        if not whole:
+            return
+        kept = np.ones(whole * WINDOW, bool)
+        places = self._after - self._first - 1
+        kept[places[places < len(kept)]] = False
+        self._windows_of(self._times[:whole * WINDOW + 1], kept.reshape(whole, WINDOW))
+        self._after, self._times = self._after[places >= len(kept)], self._times[whole * WINDOW:].copy()
+        self._first += whole * WINDOW
 
-    def _suspects(self, times: np.ndarray) -> list[int]:
-        """The windows whose median step is off."""
-        if len(times) <= WINDOW:
-            return []
-        median = np.median(np.diff(times).reshape(-1, WINDOW), axis=1)
-        return np.flatnonzero(self._is_other(median)).tolist()
+    def _windows_of(self, times: np.ndarray, kept: np.ndarray) -> None:
+        """Windows whose steps are (m, WINDOW), those ``kept`` without gap."""
+        step = np.where(kept, np.diff(times).reshape(kept.shape), 0.0)
+        parts, count = (v.reshape(len(kept), PARTS, -1).sum(axis=2) for v in (step, kept))
+        whole = count.sum(axis=1)
+        period = np.where(2 * whole > WINDOW, step.sum(axis=1) / np.maximum(whole, 1), np.nan)
+        rate = np.where(count > 0, parts / np.maximum(count, 1), period[:, None])
+        for k, (value, variance) in enumerate(zip(period.tolist(), (rate.var(axis=1) / (PARTS - 1)).tolist())):
+            if not math.isnan(value):
+                self._variance, self._windows = self._variance + variance, self._windows + 1
+            if not self._off(value) <= OTHER_RATE:
+                # At another rate the log's period does not tell late stamps from gaps.
+                self._others.append((float(times[k * WINDOW]), period_of(times[k * WINDOW:(k + 1) * WINDOW + 1])))
 
-    def _compare(self, start: float, period: float) -> None:
-        if self._is_other(period):
-            self._first = start if not self._others else self._first
-            self._others.append(period)
-
-    def _is_other(self, period):
-        return np.abs(period - self.cadence.period) > OTHER_RATE * self.cadence.period
+    def _off(self, period: float) -> float:
+        return abs(period / self.cadence.period - 1)
 
     def findings(self) -> list[Finding]:
-        """``gaps``; and ``two_rates``: how many samples have another rate than the log, the typical one of these, since when."""
+        """``gaps``: the ``longest`` step and the ``total`` time lost [s]; and ``two_rates``: how many samples have another rate than
+        the log, the typical one of these, since when.
+        """
+        done = copy(self)  # more may be added, and tell of the last rows
+        done._finder, done._others = copy(self._finder), self._others.copy()
+        done._look(*done._finder.end())
+        return done._found()
+
+    def _found(self) -> list[Finding]:
         found = []
         if self._gaps:
             found.append(Finding("gaps", "time", self._gaps, {"longest": self._longest, "total": self._total}))
-        if self._others:
-            detail = {"rate": 1 / self.cadence.period, "other_rate": 1 / float(np.median(self._others)), "first": float(self._first)}
-            found.append(Finding("two_rates", "time", len(self._others) * WINDOW, detail))
+        least = SIGMAS * math.sqrt(self._variance / max(self._windows, 1)) / self.cadence.period
+        others = [(start, period) for start, period in self._others if self._off(period) > max(OTHER_RATE, least)]
+        if others:
+            other = sorted(period for _, period in others)[len(others) // 2]
+            detail = {"rate": 1 / self.cadence.period, "other_rate": 1 / other, "first": others[0][0]}
+            found.append(Finding("two_rates", "time", len(others) * WINDOW, detail))
         return found

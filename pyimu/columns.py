@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
@@ -77,19 +78,22 @@ def check_unit(place: str, name: str, text: Any) -> units.Unit:
 class Header:
     """The columns of a file that have a meaning: ``names`` without unit, ``positions`` in the file, ``units``.
 
-    ``scale`` gives the size of a count by column; a ``crowded`` file holds much that is not looked at.  Raises UserError for a
+    ``scale`` gives the size of a count by column; a ``crowded`` file holds much that is not looked at, and
+    ``skipped`` says what in it has no columns of numbers.  Raises UserError for a
     column that stands twice, has no, an unknown or the wrong unit, is in counts of unknown size, or has a name close to a known
     one; for an incomplete group, no time, and neither gyro nor accelerometer.  A column with another name is left out, and
     listed in ``findings``.
     """
 
-    def __init__(self, path: Path, header: Sequence[str], scale: Mapping[str, Scale] = MappingProxyType({}), crowded: bool = False) -> None:
+    def __init__(self, path: Path, header: Sequence[str], scale: Mapping[str, Scale] = MappingProxyType({}), crowded: bool = False,
+                 skipped: Sequence[str] = ()) -> None:
         self.path = path
         self.names: list[str] = []
         self.positions: list[int] = []
         self.units: list[units.Unit] = []
         self.findings: list[Finding] = []
         self._crowded = crowded
+        self._skipped = skipped
         self._scale = scale
         self._counted: set[str] = set()
         for position, cell in enumerate(header):
@@ -151,14 +155,21 @@ class Header:
 
     def _check(self, header: Sequence[str]) -> None:
         if "time" not in self.names:
-            has = f"; name its columns in a column map (TOML), it has {_some(header)}" if self._crowded else ""
-            raise UserError(f"{self.path}: not a recording, the header has no 'time [s]' column{has}")
+            raise UserError(f"{self.path}: not a recording, the header has no 'time [s]' column{self._way(header)}")
         for group in GROUPS:
             missing = [name for name in column_names(group) if name not in self.names]
             if missing and len(missing) < len(column_names(group)):
                 raise UserError(f"{self.path}: column {missing[0]} is missing, {group} needs {', '.join(column_names(group))}")
         if "gyro_x" not in self.names and "accel_x" not in self.names:
             raise UserError(f"{self.path}: neither gyro_x, gyro_y, gyro_z nor accel_x, accel_y, accel_z is there")
+
+    def _way(self, header: Sequence[str]) -> str:
+        """How to read the file all the same."""
+        skipped = f"; without columns of numbers are {_some(self._skipped)}" if self._skipped else ""
+        if not any(cell.strip("/[] ") for cell in header):
+            return skipped
+        return (f"; name its columns in a column map (TOML), it has {_some(header)}{skipped}; "
+                f"give the map as --columns map.toml, with [columns] and a line for each, \"{_time_like(header)}\" = \"time [s]\"")
 
     def origin(self, first: float | np.integer, findings: list[Finding]) -> float | np.integer:
         """What to take from the file's times, in its unit: the ``first`` where that is a clock of its own, else 0."""
@@ -187,6 +198,12 @@ class Header:
             column = column * self._scale[name].value + self._scale[name].offset
         values = units.to_degc(column, unit) if _UNITS[name] == "degC" else units.convert(column, unit, _UNITS[name])
         return np.where(np.isfinite(values), values, np.nan)
+
+
+def _time_like(names: Sequence[str]) -> str:
+    """The first of ``names`` that may be a time's, else the first."""
+    last = {name: re.findall(r"[^/\[\]]+", name.casefold())[-1].strip() for name in names if name.strip("/[] ")}
+    return next((name for name, end in last.items() if end == "t" or "time" in end or "stamp" in end), next(iter(last)))
 
 
 def _some(names: Sequence[str], most: int = 8) -> str:

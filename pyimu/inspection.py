@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
-
 from pyimu.errors import Finding
 from pyimu.quality import inspect
-from pyimu.recording import Recording, join
+from pyimu.recording import Recording, copied, join
 from pyimu.tally import Tally
 
 BLOCK_ROWS = 1 << 18
@@ -41,7 +39,7 @@ class Inspector:
         while len(whole) >= 1.5 * BLOCK_ROWS:
             self._inspect(whole.slice(0, BLOCK_ROWS))
             whole = whole.slice(BLOCK_ROWS)
-        self._held, self._waiting = [_copied(whole)], len(whole)
+        self._held, self._waiting = [copied(whole)], len(whole)
 
     def findings(self) -> tuple[Finding, ...]:
         """What was found in all that was added; nothing can be added after."""
@@ -77,8 +75,3 @@ def _moved(finding: Finding, rows: int) -> Finding:
     if "first_row" not in finding.detail:
         return finding
     return replace(finding, detail={**finding.detail, "first_row": finding.detail["first_row"] + rows})
-
-
-def _copied(piece: Recording) -> Recording:
-    """A piece that does not keep alive the arrays which it was cut from."""
-    return replace(piece, time=piece.time.copy(), **{group: np.copy(values) for group, values in piece.groups.items()})

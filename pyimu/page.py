@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import shutil
 import uuid
@@ -19,6 +20,9 @@ from markupsafe import Markup, escape
 from pyimu.errors import Finding, UserError
 from pyimu.shown import MISSING, in_unit, number, pretty, quantity, si_quantity, unit_for
 
+SAMPLE = ("level", "step", "least", "largest", "value", "amplitude", "span", "accel_x", "accel_y", "accel_z")
+"""Details of findings that have the unit of the column."""
+
 SECONDS, SECONDS_OF_TIME = ("time_constant", "period"), ("longest", "total", "rms", "first", "origin")
 """Details of findings that are times; the latter those of the column ``time`` only."""
 
@@ -30,12 +34,20 @@ def staged(out: Path) -> Iterator[Path]:
     try:
         stage.mkdir(parents=True)
         yield stage
-        for file in sorted(stage.iterdir()):
+        _check_places(out, files := sorted(stage.iterdir()))
+        for file in files:
             os.replace(file, out / file.name)
     except OSError as error:
         raise UserError(f"{out}: the report cannot be written ({error.strerror or error})") from None
     finally:
         shutil.rmtree(stage, ignore_errors=True)
+
+
+def _check_places(out: Path, files: list[Path]) -> None:
+    """Raises OSError where a file cannot take its place, before the first one has."""
+    for file in files:
+        if (out / file.name).is_dir() and not (out / file.name).is_symlink():
+            raise IsADirectoryError(errno.EISDIR, f"{file.name} is a folder there")
 
 
 @dataclass(frozen=True)
@@ -89,8 +101,10 @@ def detail(f: Finding) -> str:
     parts = []
     for name, value in f.detail.items():
         text = f"{value:,}" if isinstance(value, int) else str(value) if np.ndim(value) or isinstance(value, str) else number(float(value), 4)
-        if sample and name in ("level", "step", "largest", "value", "amplitude"):
+        if sample and name in SAMPLE:
             text = quantity(float(value), sample)
+        elif name == "share":
+            text = quantity(float(value), "1")
         elif name in ("rate", "other_rate"):
             text = f"{value:.6g} Hz"
         elif name in SECONDS or (f.column == "time" and name in SECONDS_OF_TIME):

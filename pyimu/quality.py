@@ -102,8 +102,10 @@ def _column(name: str, values: np.ndarray) -> Iterator[Finding]:
     if known.min() == known.max():
         yield Finding("constant_channel", name, len(known), {"value": float(known[0])})
         return
-    yield from _wrapped(name, values)
-    yield from _clipping(name, values)
+    wrapped = list(_wrapped(name, values))
+    yield from wrapped
+    if not wrapped:  # the edge of a word is no level at which a sensor is clipped
+        yield from _clipping(name, values)
     yield from _stuck(name, values)
     yield from _held(name, values)
     step = quantization_step(values)
@@ -384,9 +386,8 @@ def _wrapped(name: str, values: np.ndarray) -> Iterator[Finding]:
 
 
 def _jitter(recording: Recording) -> Iterator[Finding]:
-    step = np.diff(recording.time)
     period = recording.sample_period
-    step = step[step <= recording.cadence.longest]
+    step = np.concatenate([np.diff(recording.time[a:b]) for a, b in recording.segments])
     rms = float(np.sqrt(np.mean((step - step.mean()) ** 2))) if len(step) else 0.0
     if rms > JITTER * period:
         yield Finding("jitter", "time", len(step), {"rms": rms, "period": period})

@@ -11,6 +11,7 @@ import os
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +19,7 @@ import numpy as np
 from pyimu.clock import Cadence, Clock, cadence_of, segments
 from pyimu.columns import GROUPS, column_names
 from pyimu.errors import Finding, UserError
+from pyimu.gaps import GapFinder, gap_rows
 from pyimu.rows import Rows, Source
 from pyimu.table import stem, write_table
 from pyimu.units import did_you_mean
@@ -38,8 +40,8 @@ class Recording:
     [m/s^2], ``ref_north``, ``ref_east``, ``ref_up`` [m], ``ref_velocity`` (n, 3) east, north, up [m/s], ``latitude``
     [rad], and the marks ``moving`` and ``stationary`` (0 or 1).  Further sensors: ``heading`` and ``heading_std`` [rad],
     ``supply`` [V], ``mag`` [T].  ``frame_declared`` says that the log's axes were stated, not assumed.  ``period`` [s] is the
-    sample period, and ``longest`` [s] the longest step that is no gap, where they are known otherwise than from ``time``: of a
-    piece of a log they are the log's.
+    sample period, ``longest`` [s] the step above which there may be a gap, and ``gaps`` (m,) the rows that follow one, where they are
+    known otherwise than from ``time``: of a piece of a log they are the log's.
     """
 
     name: str
@@ -67,6 +69,7 @@ class Recording:
     frame_declared: bool = False
     period: float | None = None
     longest: float | None = None
+    gaps: np.ndarray | None = None
 
     @classmethod
     def from_arrays(cls, name: str = "recording", *, time, **groups) -> Recording:
@@ -98,14 +101,14 @@ class Recording:
 
     @cached_property
     def cadence(self) -> Cadence:
-        """The sample period, and the longest step of the time that is no gap."""
+        """The sample period, and the step of the time above which there may be a gap."""
         if self.period is None:
             return cadence_of(self.time)
         return Cadence.of_period(self.period) if self.longest is None else Cadence(self.period, self.longest)
 
     @property
     def sample_period(self) -> float:
-        """s; the median step of the time, refined by the mean of the steps that are no gap."""
+        """s; the time between gaps over its steps."""
         return self.cadence.period
 
     @property
@@ -115,13 +118,16 @@ class Recording:
 
     @cached_property
     def segments(self) -> list[tuple[int, int]]:
-        """Index ranges (start, stop) without gap: no step above 1.5 sample periods, but for times too coarse to tell."""
-        return segments(self.time, self.cadence.longest)
+        """Index ranges (start, stop) without gap: no step above 1.5 sample periods after which the stamps stay late."""
+        gaps = gap_rows(self.time, self.cadence.period, self.cadence.longest) if self.gaps is None else self.gaps
+        return segments(gaps, len(self))
 
     def slice(self, start: int | None = None, stop: int | None = None) -> Recording:
         """The samples start <= k < stop, as a recording; findings stay those of the whole log."""
         rows = slice(start, stop)
-        return replace(self, time=self.time[rows], **{name: values[rows] for name, values in self.groups.items()})
+        first, last, _ = rows.indices(len(self))
+        gaps = None if self.gaps is None else self.gaps[(self.gaps >= first) & (self.gaps < last)] - first
+        return replace(self, time=self.time[rows], gaps=gaps, **{name: values[rows] for name, values in self.groups.items()})
 
     def write(self, path: str | os.PathLike) -> Path:
         """Writes the recording to ``path`` (.csv, .csv.gz or .parquet), exactly, in SI.
@@ -165,7 +171,19 @@ def join(pieces: Sequence[Recording]) -> Recording:
     if len(pieces) == 1:
         return pieces[0]
     groups = {group: np.concatenate([getattr(piece, group) for piece in pieces]) for group in pieces[0].groups}
-    return replace(pieces[0], time=np.concatenate([piece.time for piece in pieces]), **groups)
+    return replace(pieces[0], time=np.concatenate([piece.time for piece in pieces]), gaps=_joined_gaps(pieces), **groups)
+
+
+def _joined_gaps(pieces: Sequence[Recording]) -> np.ndarray | None:
+    """The rows that follow a gap, None where a piece does not know its own."""
+    starts = np.cumsum([0, *map(len, pieces)])
+    known = [piece.gaps + start for piece, start in zip(pieces, starts) if piece.gaps is not None]
+    return np.concatenate(known) if len(known) == len(pieces) else None
+
+
+def copied(piece: Recording) -> Recording:
+    """A piece that does not keep alive the arrays which it was cut from."""
+    return replace(piece, time=piece.time.copy(), **{group: np.copy(values) for group, values in piece.groups.items()})
 
 
 class Log:
@@ -220,30 +238,28 @@ class Log:
     def pieces(self, rows: int = 1_000_000) -> Iterator[tuple[Recording, float]]:
         """Consecutive pieces of ``rows`` samples, the last one shorter, and the share of the file read so far: 1 with the last.
 
-        Joined they are what ``read_recording`` gives, for any ``rows``; the times run on from piece to piece.  A gap is a step
-        above ``cadence.longest``, 1.5 of ``sample_period``; each piece carries both.  Findings are the log's, not the pieces'.  Each call
+        Joined they are what ``read_recording`` gives, for any ``rows``; the times run on from piece to piece.  Each
+        piece carries the log's ``period`` and its own ``gaps``, by ``sample_period``.  Findings are the log's, not the pieces'.  Each call
         reads from the start; it can be left at any time.  Raises UserError as ``read_recording`` does, as far as it has read.
         """
         if rows < 1:
             raise ValueError(f"pieces of {rows} rows")
         passing, clock = Rows(self._source), Clock(self.cadence)
-        for piece, share in _cut(self._batches(passing), rows):
+        for piece, share in _cut(_marked(self._batches(passing), self.cadence), rows):
             clock.add(piece.time)
             self.findings = (*passing.findings, *clock.findings())
-            yield replace(piece, period=self.cadence.period, longest=self.cadence.longest), share
+            yield piece, share
 
     def stretches(self, rows: int = 1_000_000) -> Iterator[tuple[int, Recording, float]]:
         """As ``pieces``, cut at the gaps too: (segment, piece, share).
 
         ``segment`` counts the ranges of the log without gap from 0; consecutive pieces of one segment join without gap.
         """
-        segment, before = 0, None
+        segment = 0
         for piece, share in self.pieces(rows):
             for start, stop in piece.segments:
-                part = piece.slice(start, stop)
-                segment += before is not None and bool(part.time[0] - before > self.cadence.longest)
-                before = part.time[-1]
-                yield segment, part, share
+                segment += bool(np.isin(start, piece.gaps))
+                yield segment, piece.slice(start, stop), share
 
     def read(self) -> Recording:
         """The whole log; its sample period is that of all its samples."""
@@ -257,6 +273,22 @@ class Log:
     def _batches(self, passing: Rows) -> Iterator[tuple[Recording, float]]:
         for time, groups, share in passing.batches():
             yield Recording(self.name, time, **groups, path=self.path, frame_declared=self.frame_declared), share
+
+
+def _marked(batches: Iterable[tuple[Recording, float]], cadence: Cadence) -> Iterator[tuple[Recording, float]]:
+    """``batches`` with the log's cadence and their gaps; the last rows of one wait for the next, which tells whether a stamp stays late."""
+    finder = GapFinder(cadence.period, cadence.longest)
+    held: list[Recording] = []
+    gaps, given = np.empty(0, dtype=np.int64), 0
+    for batch, share in chain(batches, [(None, 1.0)]):
+        rows, _ = finder.end() if batch is None else finder.add(batch.time)
+        gaps, held = np.append(gaps, rows), held + ([] if batch is None else [batch])
+        while held and given < finder.settled:
+            part, rest = held[0].slice(0, finder.settled - given), held[0].slice(finder.settled - given)
+            held = ([copied(rest)] if len(rest) else []) + held[1:]
+            own = gaps[gaps < given + len(part)]
+            yield replace(part, period=cadence.period, longest=cadence.longest, gaps=own - given), share
+            gaps, given = gaps[len(own):], given + len(part)
 
 
 def _cut(batches: Iterable[tuple[Recording, float]], rows: int) -> Iterator[tuple[Recording, float]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -25,6 +25,9 @@ LEAST_ROWS = 3
 COUNTER_BITS = (16, 24, 32)
 """Widths of the counters of time that wrap."""
 
+COARSE_STAMPS = 0.01
+"""Above this share of rows with the time of the row before, the stamps are coarser than the sample period."""
+
 KINDS = ("time_origin", "repeated_rows", "repeated_time", "reference_norm", "missing_cells", "counts")
 """The order of the findings, behind those of the file's format and header."""
 
@@ -44,7 +47,7 @@ class Source:
         """Raises UserError for a file or a map that cannot be used."""
         foreign = read_map(columns) if columns is not None else ForeignMap()
         table = open_table(path, foreign.topics)
-        return cls(table, Header(path, foreign.rename(path, table.header), foreign.scale, table.crowded), foreign)
+        return cls(table, Header(path, foreign.rename(path, table.header), foreign.scale, table.crowded, table.skipped), foreign)
 
 
 class Rows:
@@ -57,6 +60,7 @@ class Rows:
         header = source.header
         self._raw = RawCounts(header.stated, [header.units[header.names.index(name)] for name in header.stated])
         self._seen = 0
+        self._single = True
         self._before: Values | None = None
 
     @property
@@ -66,7 +70,15 @@ class Rows:
         def rank(finding: Finding) -> tuple[int, int]:
             known = finding.kind in KINDS
             return (KINDS.index(finding.kind) if known else -1), (names.index(finding.column) if known and finding.column in names else 0)
-        return tuple(sorted(self._tally.findings(), key=rank))
+        return tuple(sorted(map(self._coarse, self._tally.findings()), key=rank))
+
+    def _coarse(self, finding: Finding) -> Finding:
+        """``finding``, with the share of rows and the reason where it is of stamps that are coarser than the sample period."""
+        share = finding.count / max(self._seen, 1)
+        if finding.kind != "repeated_time" or share <= COARSE_STAMPS:
+            return finding
+        stamps = "coarser than the sample period" + (", as numbers of 32 bits are" if self._single else "")
+        return replace(finding, detail={**finding.detail, "share": share, "stamps": stamps})
 
     def batches(self) -> Iterator[tuple[np.ndarray, Values, float]]:
         """Time (n,) that increases strictly, from batch to batch too; the groups by name; and the share of the file read so far.
@@ -81,6 +93,8 @@ class Rows:
                 found: list[Finding] = []
                 origin = header.origin(columns[header.positions.index(header.time)][0], found)
                 self._tally.add(found)
+            long = columns[header.positions.index(header.time)]
+            self._single = self._single and _is_single(long)
             self._raw.add(dict(zip(header.names, columns)))
             time, values = self._ordered(header.convert(columns, origin))
             self.kept += len(time)
@@ -154,6 +168,12 @@ class Rows:
             detail = {"largest": float(norm[odd].max()), "least": float(norm[odd].min())}
             self._tally.add([Finding("reference_norm", "ref_q", int(odd.sum()), detail)])
         return q / np.where(norm < 0.5, np.nan, norm)[:, None]
+
+
+def _is_single(time: np.ndarray) -> bool:
+    """Whether all of ``time`` (n,) are numbers of 32 bits."""
+    with np.errstate(over="ignore"):
+        return time.dtype.kind == "f" and bool(np.all(time == time.astype(np.float32)))
 
 
 def _equal(a: np.ndarray, b: np.ndarray) -> np.ndarray:

@@ -1,11 +1,13 @@
 """The sensors' errors are undone in the filter, whatever the effect: an attitude as of sensors without errors."""
 
+import casadi as ca
 import numpy as np
 import pytest
 from catalogue_cases import CASES, everything, excited
 from test_attitude_ukf import H, drive, error, output, parameters, rover_rate
 
 from pyimu.attitude import attitude_ukf
+from pyimu.attitude.compensation import noise_of
 from pyimu.effect import CATALOGUE
 from pyimu.imu import Part
 from pyimu.sensor import Sensor
@@ -61,6 +63,18 @@ def test_declared_effect_is_undone(name, kind, world):
     assert off(part, measured, world) < 1e-7
     if kind == "gyro":
         assert off(part_of("gyro", Sensor("gyro")), measured, world) > 1e-5, "the effect is large enough to be seen"
+
+
+def test_rounding_counts_as_white_noise_and_what_is_not_undone_is_said():
+    """A step q leaves q^2/12 in a sample; the FMU's description names what stays in."""
+    sensor = Sensor("gyro", {"angle_random_walk": {"N": 1e-3}, "quantization": {"q": 0.02}, "lag": {"wn": 60.0, "zeta": 0.7}})
+    noise = noise_of(sensor, ca.SX(ca.DM(sensor.p)), H)
+    np.testing.assert_allclose(np.array(ca.evalf(noise.white)).ravel() ** 2, 1e-3 ** 2 + 0.02 ** 2 * H / 12, rtol=1e-12)
+    blocks = [attitude_ukf(part_of("gyro", s)) for s in (sensor, Sensor("gyro", {"angle_random_walk": {"N": 1e-3}}))]
+    u = np.tile([v.start for v in blocks[0].inputs], (200, 1))
+    grown = [output(b, b.run(u, p=parameters(b, std0=np.full(6, 1e-9)))[0], "std")[-1, 2] ** 2 for b in blocks]
+    np.testing.assert_allclose(grown[0] - grown[1], 0.02 ** 2 * H / 12 * 200 * H, rtol=1e-3)
+    assert "lag of the gyro" in blocks[0].description and "lag" not in blocks[1].description
 
 
 def test_filter_of_a_part_with_every_effect_at_once_stays_finite(world):

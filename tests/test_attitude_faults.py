@@ -14,7 +14,7 @@ import pytest
 from fmu_toy import Unit
 from scipy.spatial.transform import Rotation
 from test_attitude_forms import closed
-from test_attitude_ukf import GRAVITY, N_ACCEL, H, N, error, inputs, output, parameters, part, rover_rate
+from test_attitude_ukf import GRAVITY, N_ACCEL, H, N, covariance_of, error, inputs, output, parameters, part, rover_rate
 
 from pyimu.attitude import attitude_ukf
 from pyimu.fmu import build_fmus
@@ -134,17 +134,60 @@ def test_sample_that_is_missing_now_and_then_does_no_harm(plain):
     recovered(block, y, truth)
 
 
-def test_start_upside_down_with_a_wrong_attitude_is_set_right_and_said():
+def upside_down(rate: float, seconds: float, seed: int = 0) -> tuple[np.ndarray, float]:
+    """Inputs (n, 12) of a body that lies upside down, and the sample period."""
+    rng, h, n = np.random.default_rng(seed), 1 / rate, round(seconds * rate)
+    accel = np.array([0, 0, -GRAVITY]) + N_ACCEL / np.sqrt(h) * rng.standard_normal((n, 3))
+    return inputs(n, accel=accel, gyro=N / np.sqrt(h) * rng.standard_normal((n, 3))), h
+
+
+@pytest.mark.parametrize("rate", [100, 976, 2000, 4250])
+def test_start_upside_down_with_a_wrong_attitude_is_set_right_and_said(rate):
     """Gravity contradicts the start values for some seconds; the bias keeps clear of what they were off by."""
-    block, truth = attitude_ukf(part()), Rotation.from_rotvec([np.pi, 0, 0])
-    rng = np.random.default_rng(0)
-    accel = truth.apply([0, 0, GRAVITY], inverse=True) + N_ACCEL / np.sqrt(H) * rng.standard_normal((2000, 3))
-    y, _ = block.run(inputs(2000, accel=accel, gyro=N / np.sqrt(H) * rng.standard_normal((2000, 3))))
+    block, (u, h) = attitude_ukf(part()), upside_down(rate, 12)
+    y, _ = block.run(u, sample_period=h)
     up = Rotation.from_quat(output(block, y, "q"), scalar_first=True).apply([0, 0, 1], inverse=True)
-    assert up[0, 2] > 0.99 and (up[1000:, 2] < -0.999).all()
+    assert up[0, 2] > 0.99 and (up[10 * rate:, 2] < -0.999).all()
     status = output(block, y, "status").astype(int)
-    assert (status[:100] & 8).any() and not status[1000:].any()
+    assert (status[:rate] & 8).any() and not status[10 * rate:].any()
     assert np.abs(output(block, y, "gyro_bias")[-1]).max() < 5 * output(block, y, "std")[-1, 3:].max()
+
+
+def test_rate_of_more_than_half_a_turn_in_a_period_is_a_lost_axis():
+    """Of such a sample nobody knows the turn: its axis widens by the unknown rate, and it is said."""
+    block, n = attitude_ukf(part()), 6
+    u = inputs(n, gyro=np.array([0.0, 0.0, 3.0]), accel=np.full(3, 50.0))
+    u[3:, 2] = 3.3
+    y, _ = block.run(u, p=parameters(block, std0=np.full(6, 1e-6), lost_rate_std=0.1), sample_period=1.0)
+    std = output(block, y, "std")
+    np.testing.assert_array_equal(output(block, y, "status"), [0, 0, 0, 2, 2, 2])
+    np.testing.assert_allclose(np.sqrt(std[3:, 2] ** 2 - std[2, 2] ** 2), 0.1 * np.array([1, 2, 3]), rtol=1e-2)
+
+
+@pytest.mark.parametrize("form", ["marginal", "reference"])
+@pytest.mark.parametrize("bias", [30.0, 3e4, 1e6])
+def test_absurd_bias_is_bounded_and_makes_no_number_that_is_none(form, bias):
+    block = attitude_ukf(part(), form)
+    y, state = block.run(inputs(300), p=parameters(block, bias0=[bias, -bias, bias]))
+    assert np.isfinite(y).all() and np.isfinite(state).all()
+    limits = {v.name: (v.minimum, v.maximum) for v in block.parameters}
+    assert limits["bias0[1]"] == (-100, 100)
+
+
+def test_covariance_stays_definite_under_fast_turns_of_an_unknown_bias_and_long_periods():
+    """A bias unknown by more than a turn in a period: the worst that start values within their bounds can ask for."""
+    block, n = attitude_ukf(part()), 40
+    for seed in range(400):
+        rng = np.random.default_rng(seed)
+        rate = 10 ** rng.uniform(-4, 1) * rng.standard_normal((n, 3))
+        u = inputs(n, gyro=rate, accel=[0, 0, GRAVITY] + 10 ** rng.uniform(-4, 1) * rng.standard_normal((n, 3)))
+        std0 = np.concatenate([10 ** rng.uniform(-9, 1, 3), 10 ** rng.uniform(-1, 1, 3)])
+        p = parameters(block, q0=rng.standard_normal(4), bias0=rng.standard_normal(3), std0=std0)
+        y, state = block.run(u, p=p, sample_period=10 ** rng.uniform(-1, 0.5))
+        assert np.isfinite(state).all() and not (output(block, y, "status").astype(int) & 128).any()
+        covariance = covariance_of(state)
+        scale = np.sqrt(np.diag(covariance))
+        assert np.linalg.eigvalsh(covariance / np.outer(scale, scale)).min() > -1e-9
 
 
 def test_sensors_whose_errors_cannot_be_undone_do_not_poison_the_state():

@@ -1,11 +1,16 @@
 """The attitude filter over recordings: how it starts, gaps and missing columns, and what it refuses."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 from test_attitude_ukf import EARTH, GRAVITY, Drive, H, N, drive, error, inputs, measured, part, rover_rate
 
+import pyimu
 from pyimu.attitude import attitude_ukf, run
+from pyimu.attitude.columns import Columns
+from pyimu.attitude.rest import find_rest
 from pyimu.errors import UserError
 from pyimu.recording import Recording
 
@@ -44,7 +49,7 @@ def test_without_a_part_the_noise_at_rest_stands_for_it():
 def test_earth_rate_is_not_taken_for_bias_at_a_known_latitude():
     world = drive(np.zeros((3000, 3)), latitude=0.9)
     recording = Recording.from_arrays(time=H * np.arange(3000), gyro=world.inertial, accel=world.force)
-    np.testing.assert_allclose(run(recording, part(), latitude=0.9).gyro_bias, 0, atol=1e-4 * EARTH)
+    np.testing.assert_allclose(run(recording, part(), latitude=0.9, heading0=0.0).gyro_bias, 0, atol=1e-4 * EARTH)
     unknown = run(recording, part()).gyro_bias
     np.testing.assert_allclose(unknown[-1], EARTH * np.array([0, np.cos(0.9), np.sin(0.9)]), atol=1e-6)
 
@@ -81,6 +86,42 @@ def test_gap_widens_the_covariance_and_keeps_the_rows():
     assert len(result.time) == len(result.q) == len(keep)
     assert result.std[1500, 2] > 0.9 and result.std[1499, 2] < 0.1
     assert tilt_error(result, world.attitude[keep])[-1] < 0.02
+
+
+def with_gap(world: Drive, seconds: float, seed: int = 0, **more) -> Recording:
+    """The recording with its second half ``seconds`` later."""
+    whole = recorded(world, seed, **more)
+    half = len(whole.time) // 2
+    return replace(whole, time=whole.time + seconds * (np.arange(len(whole.time)) >= half))
+
+
+@pytest.mark.parametrize("seconds", [0.02, 59.0, 7200.0])
+def test_bias_walks_on_over_a_gap_of_any_length_and_its_end_is_marked(seconds):
+    k, n = 1e-4, 2000
+    result = run(with_gap(drive(np.zeros((n, 3))), seconds, stationary=np.ones(n)), part(k=k))
+    before, after = result.std[n // 2 - 1, 3:] ** 2, result.std[n // 2, 3:] ** 2
+    # The row after the gap tells a little of the bias, as a sample of white noise does.
+    expected = before + k ** 2 * (seconds + H)
+    np.testing.assert_allclose(after, 1 / (1 / expected + H / N ** 2), rtol=1e-3)
+    np.testing.assert_array_equal(np.flatnonzero(result.status), [n // 2])
+
+
+def test_times_that_are_rounded_have_no_gaps():
+    """At 976 Hz and whole milliseconds a step is one of them or two."""
+    time = np.round(np.arange(5000) * 1.0246e-3, 3)
+    recording = Recording.from_arrays(time=time, gyro=np.zeros((5000, 3)), accel=np.tile([0, 0, GRAVITY], (5000, 1)))
+    result = run(recording, "imt30")
+    assert not result.status.any() and np.all(np.diff(result.std[:, 2]) >= 0)
+
+
+def test_pieces_are_cut_at_long_gaps_alone():
+    recording = with_gap(drive(np.zeros((100, 3))), 600.0)
+    columns = Columns(recording, part(), [v.name for v in attitude_ukf(part()).inputs])
+    pieces = [(len(u), rows, left_out) for u, rows, _, left_out in columns.pieces()]
+    missing = round(60 / H)  # the step over the gap is a sample longer than what it leaves out
+    assert [size for size, _, _ in pieces] == [50 + missing - 1, 50]
+    assert [rows for _, rows, _ in pieces] == [slice(0, 50), slice(50, 100)]
+    assert [left_out for _, _, left_out in pieces] == pytest.approx([0.0, 600.0 + H - 60.0])
 
 
 def test_recording_without_accelerometer_is_integrated():
@@ -128,5 +169,58 @@ def test_what_cannot_be_used_is_refused_with_its_reason():
         run(recording, part(), std0=np.ones(3))
     with pytest.raises(UserError, match="unknown setting 'gravty'"):
         run(recording, part(), settings={"gravty": 9.8})
+    for given, reason in (({"q0": [np.inf, 0, 0, 0]}, "q0 is .* expected four finite numbers"), ({"q0": "level"}, "q0 is level"),
+                          ({"heading0": np.nan}, "heading0 is 'nan'"), ({"latitude": "45"}, "latitude is '45'"),
+                          ({"latitude": np.nan}, "latitude is 'nan'"), ({"bias0": "none"}, "bias0 is none"),
+                          ({"std0": -np.ones(6)}, r"std0\[1\] is -1 rad, expected 0"), ({"settings": {"gravity": np.nan}}, "gravity is 'nan'"),
+                          ({"settings": {"accel_std": -1}}, "accel_std is -1 m/s"), ({"settings": {"accel_std": "a"}}, "accel_std is 'a'")):
+        with pytest.raises(UserError, match=reason):
+            run(recording, part(), **given)
+    with pytest.raises(UserError, match="column latitude is 45.0 rad"):
+        run(recorded(drive(np.zeros((200, 3))), latitude=np.full(200, 45.0)), part())
+    with pytest.raises(UserError, match="one sample"):
+        run(recording.slice(0, 1), part())
+    with pytest.raises(UserError, match="imt31: no built-in part"):
+        run(recording, "imt31")
     with pytest.raises(UserError, match="no gyro"):
         run(Recording.from_arrays(time=np.arange(5.0), accel=np.full((5, 3), GRAVITY)), part())
+
+
+def test_a_part_is_taken_by_its_name():
+    recording = recorded(drive(np.zeros((200, 3))))
+    np.testing.assert_array_equal(run(recording, "imt30").q, run(recording, pyimu.part("imt30")).q)
+
+
+# ---- what the samples say of the sensors ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("declared", [True, False])
+def test_a_gyro_that_rests_on_a_coarse_step_is_not_called_stuck(declared):
+    """At the edge of a step its samples change, in the middle they do not: drift takes it from one to the other."""
+    q, n = 0.005, 6000
+    rng = np.random.default_rng(0)
+    drift = np.where(np.arange(n) < 3500, q / 2, q)[:, None]
+    gyro = q * np.round((drift + q / 8 * rng.standard_normal((n, 3))) / q)
+    recording = recorded(drive(np.zeros((n, 3))))
+    coarse = Recording.from_arrays(time=recording.time, gyro=gyro, accel=recording.accel)
+    assert find_rest(coarse).seen and len(np.unique(gyro[:3000])) > 1
+    result = run(coarse, part(q / 8 * np.sqrt(H), **({"quantization": {"q": q}} if declared else {})))
+    assert not np.any(result.status & 4)
+
+
+def test_a_gyro_that_stops_is_called_stuck():
+    recording = recorded(drive(np.zeros((4000, 3))))
+    recording.gyro[3200:] = recording.gyro[3200]
+    assert np.all(run(recording, part()).status[3400:] & 4)
+
+
+def test_without_a_part_samples_at_the_level_where_they_pile_up_are_at_a_limit():
+    limit, t = 3.0, H * np.arange(6000)[:, None]
+    world = drive(np.where(t < 31, 0, [4.0, 0.5, 0.5] * np.sin(3 * (t - 31))))
+    recording = recorded(world)
+    free = run(recording)
+    recording.gyro[:, 0] = np.clip(recording.gyro[:, 0], -limit, limit)
+    result = run(recording)
+    beyond = np.abs(recording.gyro[:, 0]) >= limit
+    assert not np.any(free.status & 2) and beyond.sum() > 500
+    np.testing.assert_array_equal(result.status & 2 > 0, np.abs(recording.gyro[:, 0]) >= limit)

@@ -13,10 +13,13 @@ from pyimu import Recording, UserError, part
 from pyimu.characterize import overlapping_deviation
 from pyimu.characterize.evidence import Comb, Excerpt, Timeline
 from pyimu.characterize.report import page
+from pyimu.characterize.rest import motion
 from pyimu.characterize.run import characterize
 from pyimu.characterize.samples import Collector, Samples
 from pyimu.characterize.store import Store
 from pyimu.characterize.warm_up import find_warm_up
+from pyimu.characterize.words import frequency
+from pyimu.errors import Finding
 from pyimu.recording import open_log
 
 H = 0.01
@@ -70,6 +73,16 @@ def test_coefficients_come_back(found, axis):
     assert abs(accel.value - np.sqrt(100 * N ** 2 + STEP ** 2 * H / 12)) <= norm.isf(ALPHA / 2) * accel.std
 
 
+def test_a_strong_walk_is_needed_and_comes_back():
+    """White noise and walk cross at 2 s of 328 s."""
+    strong = N
+    gyro = draw(11)[0] + strong * np.sqrt(H) * np.cumsum(np.random.default_rng(12).standard_normal((ROWS, 3)), axis=0)
+    c = pyimu.characterize(recording(gyro=gyro, accel=None))
+    true = np.hypot(strong, K)
+    for walk in (c.coefficients[f"gyro_{axis}", "K"].mean for axis in "xyz"):
+        assert walk.needed and abs(walk.value ** 2 - true ** 2) <= norm.isf(ALPHA / 6) * 2 * walk.value * walk.std
+
+
 def test_deviations_are_those_of_the_samples(found):
     """At some hundred cluster times from one sample to half the record; a sum, but for its order."""
     gyro, _ = draw(1)
@@ -95,6 +108,8 @@ def test_several_logs_have_means_and_spread(several):
         s = several.coefficients[f"gyro_{axis}", "N"]
         assert (s.mean.value, s.spread, s.logs) == (pytest.approx(np.mean(each)), pytest.approx(np.std(each, ddof=1)), 3)
         assert s.mean.low < s.mean.value < s.mean.high and s.mean.std < 0.7 * several.logs[0].sensors["gyro"].channels[0].coefficient("N").std
+    # A curve of its own colour and name for each.
+    assert all(f"{name}</text>" in page(several) for name in ("test_0", "test_1", "test_2"))
     assert "Log by log" in page(several) and "test_2" in page(several) and "±" in several.report()
 
 
@@ -116,7 +131,7 @@ def test_a_line_is_found_and_leaves_the_coefficients_alone():
     assert z.lines[0].amplitude == pytest.approx(0.02, rel=0.02)
     white = z.coefficient("N")
     assert abs(white.value - N) <= norm.isf(ALPHA / 2) * white.std
-    assert "20.00 Hz" in c.report()
+    assert f"gyro_z has lines at {frequency(z.lines[0])} Hz" in c.report()
 
 
 # Temperature, warm-up, motion
@@ -139,6 +154,43 @@ def test_temperature_is_found_and_taken_off(warm):
     assert x.coefficient("N").holds(N) or abs(x.coefficient("N").value - N) <= norm.isf(ALPHA / 2) * x.coefficient("N").std
 
 
+@pytest.fixture(scope="module")
+def looped():
+    """A day at 1 Hz, two cycles of 40 K, and on x a play of 2 K whose loop opens by 4e-5 rad/s: 40 times what the walk makes in an hour."""
+    rng, n, half, kh = np.random.default_rng(13), 43_200, 2.0, -1e-5
+    temperature = 20 + 20 * np.sin(2 * np.pi * np.arange(n) / 21_600)
+    played, out = temperature[0], np.empty(n)
+    for i, t in enumerate(temperature):
+        played = out[i] = max(t - half, min(t + half, played))
+    gyro = N * rng.standard_normal((n, 3)) / 2 + 1e-8 * np.cumsum(rng.standard_normal((n, 3)), axis=0)
+    gyro[:, 0] += kh * (out - temperature)
+    return pyimu.characterize(Recording.from_arrays("looped", time=np.arange(float(n)), gyro=gyro, temperature=temperature))
+
+
+def test_a_loop_is_taken_off_and_goes_into_the_part(looped):
+    x, y, _ = looped.logs[0].sensors["gyro"].channels
+    h = x.thermal.hysteresis
+    assert h.warranted and not y.thermal.warranted and x.taken_off == "temperature"
+    # What is left of the loop is no walk: half a cycle's deviation is that of a channel that had none.
+    quarter = np.argmin(np.abs(x.noise.allan.tau - 5400))
+    assert x.noise.raw.deviation[quarter] > 5 * x.noise.allan.deviation[quarter]
+    assert x.noise.allan.deviation[quarter] < 3 * y.noise.allan.deviation[quarter] and x.coefficient("K").high < 2e-7
+    values = looped.part().gyro.values["thermal_hysteresis"]
+    assert values["kh"][0] == pytest.approx(h.kh, rel=1e-4) and values["kh"][1] == 0 and values["width"] == pytest.approx(h.width, rel=1e-4)
+    assert abs(-2 * values["kh"][0] * values["width"] - 4e-5) < 5 * h.opening.std
+    data = looped.as_dict()["logs"][0]["sensors"]["gyro"]["channels"]["gyro_x"]["thermal"]["hysteresis"]
+    assert (data["kh"], data["width"], data["unit"], data["kh_unit"]) == (h.kh, h.width, "rad/s", "rad/s/K")
+    assert "rising less falling" in looped.report() and "a loop of ±" in looped.report()
+
+
+def test_the_picture_of_temperature_has_the_curve_on_the_level_of_the_log(looped):
+    """The residual's mean is zero about it, and the words do not call chance what an interval excludes."""
+    for ch in looped.logs[0].channels:
+        t = ch.thermal
+        assert np.mean(t.bias - t.at(t.temperature) - t.level) == pytest.approx(0, abs=1e-12 + 1e-9 * np.ptp(t.bias))
+    assert "which chance explains" not in page(looped)
+
+
 def test_the_part_has_the_thermal_bias(warm):
     values = warm.part().gyro.values
     assert values["thermal_bias"]["kT"][0] == pytest.approx(1e-3, rel=0.02) and values["thermal_bias"]["kT"][1] == 0
@@ -153,7 +205,19 @@ def test_warm_up_is_told_from_a_walk():
     decay = 20.0 * np.exp(-np.arange(n) / 2000)
     for x in records[:5]:
         w = find_warm_up(x + decay, H)
-        assert abs(w.amplitude - 20.0) <= 5 * w.std + 2.0 and 10.0 < w.tau < 40.0
+        assert abs(w.amplitude - 20.0) <= 5 * w.std + 2.0 and w.tau == pytest.approx(20.0, rel=0.1)
+
+
+def test_a_warm_up_is_taken_off_and_said(tmp_path):
+    """A hundred times the noise of a second: neither a walk nor a ramp is needed for it, and the part says that it was there."""
+    gyro = draw(14)[0]
+    gyro[:, 0] += 0.02 * np.exp(-H * np.arange(ROWS) / 20)
+    c = pyimu.characterize(recording(gyro=gyro, accel=None))
+    x, y, _ = c.logs[0].sensors["gyro"].channels
+    assert (x.taken_off, y.taken_off) == ("warm-up", "") and x.warm_up.tau == pytest.approx(20.0, rel=0.1)
+    assert x.noise.raw is not None and abs(x.coefficient("N").value - N) <= norm.isf(ALPHA / 2) * x.coefficient("N").std
+    assert x.coefficient("K").high < 10 * K and not x.coefficient("R").needed
+    assert "gyro_x: a warm-up was taken off" in c.report() and "a warm-up was taken off" in c.part().description
 
 
 def test_a_moving_log_is_called_one():
@@ -163,6 +227,33 @@ def test_a_moving_log_is_called_one():
     assert [f.column for f in c.findings if f.kind == "motion"] == ["gyro_y"]
     assert "not at rest: gyro_y" in c.report() and "not at rest: gyro_y" in page(c)
     assert not [f for f in pyimu.characterize(recording(rows=4096)).findings if f.kind == "motion"]
+
+
+def test_faults_that_reach_the_coefficients_are_named():
+    """At the top of the page and in the part; slight ones are findings only."""
+    gyro, accel = draw(15, 8192)
+    gyro[:, 0] = np.clip(gyro[:, 0], -1.5e-3, 1.5e-3)
+    gyro[[1000, 5000], 1] += 5.0
+    gyro[3000:3300, 2] = gyro[3000, 2]
+    accel[:, 0] = np.round(accel[:, 0] / 0.1) * 0.1
+    accel[4000, 1] += 0.5
+    c = pyimu.characterize(recording(rows=8192, gyro=gyro, accel=accel))
+    assert {("clipping", "gyro_x"), ("spikes", "gyro_y"), ("stuck_samples", "gyro_z"), ("quantization_step", "accel_x"),
+            ("quantization_step", "accel_y")} <= {(f.kind, f.column) for f in c.findings}
+    for said in (c.report(), page(c), c.part().description):
+        for text in ("gyro_x: clipped samples", "gyro_y: the spikes are in N", "gyro_z: stuck samples", "accel_x: steps as coarse as the noise"):
+            assert text in said, text
+        assert "accel_y: " not in said.replace("accel_y: no effect", "").partition("Temperature")[0]
+    # Clipped on both sides, shown on both.
+    assert {column for kind, column in c.logs[0].evidence if kind == "clipping"} == {"gyro_x low", "gyro_x high"}
+
+
+def test_a_wrapped_column_does_not_move():
+    gyro = draw(16, 4096)[0]
+    gyro[:, 0] = 1e-4 * ((np.round(gyro[:, 0] / 1e-4 + 0.05 * np.arange(4096)).astype(int) * 400 + 2 ** 15) % 2 ** 16 - 2 ** 15)
+    stretches = [(0, 4096)]
+    s = Samples("gyro", H, H * np.arange(4096), list(gyro.T), stretches, np.empty(0), None)
+    assert [f.column for f in motion(s)] == ["gyro_x"] and motion(s, {"gyro_x"}) == []
 
 
 # Pieces, gaps, stretches
@@ -213,6 +304,25 @@ def test_a_sensor_in_every_second_row_has_half_the_rate():
     c = pyimu.characterize(recording(rows=8000, gyro=gyro, accel=accel))
     sensors = c.logs[0].sensors
     assert (sensors["gyro"].h, sensors["accel"].h) == (pytest.approx(H), pytest.approx(2 * H)) and sensors["accel"].stretches == 1
+
+
+@pytest.mark.parametrize("late", (False, True))
+def test_an_empty_axis_is_named_and_the_others_are_characterised(late, monkeypatch):
+    from pyimu.characterize import run
+    monkeypatch.setattr(run, "CHUNK", 1000)
+    gyro = draw(17, 4096)[0]
+    gyro[:1000 if late else 4096, 1] = np.nan
+    c = pyimu.characterize(recording(rows=4096, gyro=gyro, accel=None))
+    x, y, z = c.logs[0].sensors["gyro"].channels
+    assert x.noise is not None and z.noise is not None and y.noise is None
+    reason = "its first 1,000 cells are empty" if late else "all its cells are empty"
+    assert reason in y.reason and f"gyro_y is left out: {reason}" in c.report() and ("no_samples", "gyro_y") in {(f.kind, f.column) for f in c.findings}
+    assert np.isnan(y.mean) and c.part().gyro.values["turn_on_bias"]["b0"][1] == 0 and "gyro_y" in page(c)
+
+
+def test_a_sensor_without_samples_is_named():
+    c = pyimu.characterize(recording(rows=4096, accel=np.full((4096, 3), np.nan)))
+    assert {f.column for f in c.findings if f.kind == "no_samples"} == {"accel_x", "accel_y", "accel_z"} and "no samples" in c.report()
 
 
 def test_rows_and_samples():
@@ -269,6 +379,21 @@ def test_the_data_are_those_of_the_result(found):
     assert len(channel["allan"]["tau"]) == len(channel["allan"]["high"]) == len(found.logs[0].sensors["gyro"].channels[0].noise.allan.tau)
     assert data["part"]["accel_z"]["N"]["unit"] == "m/s/sqrt(s)" and data["logs"][0]["rows"] == ROWS
     assert {f["kind"] for f in data["logs"][0]["quality"]} == {"quantization_step"}
+    sensor = data["logs"][0]["sensors"]["gyro"]
+    assert sensor["lines_from"] < 1 and 40 < sensor["lines_to"] < 50
+    assert f"to {sensor['lines_to']:.4g} Hz; half the sample rate is 50 Hz" in page(found)
+
+
+def test_lines_have_as_many_figures_as_they_are_known_to():
+    gyro = draw(18)[0]
+    gyro[:, 0] += 0.02 * np.sin(2 * np.pi * 20.123456 * H * np.arange(ROWS))
+    c = pyimu.characterize(recording(gyro=gyro, accel=None))
+    line, = c.logs[0].sensors["gyro"].channels[0].lines
+    shown = frequency(line)
+    assert abs(float(shown) - line.frequency) <= line.frequency_std / 2 and 10 ** -len(shown.partition(".")[2]) > line.frequency_std / 100
+    assert f"{shown} ±" in page(c) and f"{shown} Hz" in c.report()
+    data, = c.as_dict()["logs"][0]["sensors"]["gyro"]["channels"]["gyro_x"]["lines"]
+    assert (data["width"], data["ratio"], data["unit"]) == (0.0, line.ratio, "rad/s")
 
 
 def test_findings_are_shown(found):
@@ -306,5 +431,8 @@ def test_errors_say_what_is_wrong():
             pyimu.characterize(log)
     with pytest.raises(UserError, match="level 95: must lie between 0 and 1"):
         pyimu.characterize(recording(rows=200), level=95)
+    coarse = replace(recording(rows=200), findings=(Finding("repeated_time", "time", 3),))
+    with pytest.raises(UserError, match="3 of 203 rows have the time of the row before: .* float32"):
+        pyimu.characterize(coarse)
     with pytest.raises(UserError, match="no log"):
         pyimu.characterize([])

@@ -76,6 +76,27 @@ def test_several_logs_go_together(pyimu, tmp_path):
     assert code == 0 and "Means over 2 logs" in out and 'name = "test"' in (tmp_path / "out" / "part.toml").read_text()
 
 
+def test_a_file_is_given_once_and_equal_names_are_told_apart(pyimu, tmp_path):
+    log = write(tmp_path)
+    code, _, err = pyimu("characterize", log, tmp_path / "." / "rest.csv", "--out", "out")
+    assert code == 2 and not (tmp_path / "out").exists()
+    one_line(err, "rest.csv", "given twice")
+    for k in ("a", "b"):
+        (tmp_path / k).mkdir()
+        write(tmp_path / k, gyro=gyro(ord(k)))
+    code, out, _ = pyimu("characterize", "a/rest.csv", "b/rest.csv", log, "--out", "out")
+    assert code == 0 and "a/rest: 4,000 rows" in out and "b/rest: 4,000 rows" in out
+
+
+def test_coarse_time_stamps(pyimu, tmp_path):
+    import pandas as pd
+    columns = {"time [s]": (1e5 + H * np.arange(ROWS)).astype(np.float32)} | {f"gyro_{a} [rad/s]": v for a, v in zip("xyz", gyro().T, strict=True)}
+    pd.DataFrame(columns | {"time [s]": np.floor(columns["time [s]"] * 50) / 50}).to_csv(tmp_path / "coarse.csv", index=False)
+    code, _, err = pyimu("characterize", "coarse.csv", "--out", "out")
+    assert code == 2 and not (tmp_path / "out").exists()
+    one_line(err, "coarse:", "time of the row before", "float32")
+
+
 def test_a_foreign_log_goes_through_a_column_map(pyimu, tmp_path):
     rows = "\n".join(f"{k * H},{a},{b},{c}" for k, (a, b, c) in enumerate(np.rint(gyro() / 1e-5).astype(int)))
     (tmp_path / "raw.csv").write_text(f"t,gx,gy,gz\n{rows}\n")

@@ -171,6 +171,19 @@ def test_the_bound_of_a_term_too_small_to_see_holds(R):
     assert sum(c.holds(R) for c in found) >= binom.ppf(ALPHA, logs, 0.95)
 
 
+def test_a_term_that_another_may_replace_has_a_bound():
+    """Flicker, or a walk of a short log: no interval of a value reaches zero, and the curve keeps what it was fitted with."""
+    rng, found = np.random.default_rng(22), []
+    for _ in range(40):
+        f = fit(draw(rng, WHITE, WALK / 8))
+        found.append(f)
+        assert all(f[t].low > 0 for t in f.needed)
+        for t in f.replaceable:
+            assert f[t].value == f[t].low == 0 and np.isnan(f[t].std) and f[t].high >= f.estimates[t] > 0
+            assert np.all(f.deviation(CLUSTERS * H) ** 2 >= design(CLUSTERS)[:, TERMS.index(t)] * f.squares[TERMS.index(t)])
+    assert any(f.replaceable for f in found)
+
+
 def test_every_term_comes_back():
     """Five terms at once, a log whose moments are the theory: the fit leaves nothing, whatever the units."""
     n = 2 ** 20
@@ -202,9 +215,12 @@ def test_errors_name_what_is_wrong():
 
 def test_the_mean_of_independent_logs():
     mean, spread = mean_coefficient([Coefficient(v, 0.2, v - 0.4, v + 0.4) for v in (9.0, 10.0, 11.0, 10.0)])
-    assert (mean.value, mean.std, spread) == (10.0, pytest.approx(0.1), pytest.approx(np.sqrt(2 / 3)))
+    # They scatter more than their standard errors say: Student's interval, of three degrees of freedom.
+    assert (mean.value, mean.std, spread) == (10.0, pytest.approx(np.sqrt(2 / 3) / 2), pytest.approx(np.sqrt(2 / 3)))
+    assert mean.low == pytest.approx(10 - 3.1824 * mean.std, rel=1e-4) and mean.high == pytest.approx(10 + 3.1824 * mean.std, rel=1e-4)
+    mean, _ = mean_coefficient([Coefficient(v, 0.2, v - 0.4, v + 0.4) for v in (9.98, 10.0, 10.02, 10.0)])
     # The chi-square's interval of a hundredth is the normal's to a few hundredths of itself.
-    assert mean.low == pytest.approx(10 - 0.196, abs=0.01) and mean.high == pytest.approx(10 + 0.196, abs=0.01)
+    assert mean.std == pytest.approx(0.1) and mean.low == pytest.approx(10 - 0.196, abs=0.01) and mean.high == pytest.approx(10 + 0.196, abs=0.01)
     bound, spread = mean_coefficient([Coefficient(1.0, 0.1, 0.8, 1.2), Coefficient(0.0, np.nan, 0.0, 0.7)])
     assert not bound.needed and (bound.low, bound.high) == (0.0, 1.2) and np.isnan(spread)
 

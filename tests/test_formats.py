@@ -164,6 +164,39 @@ def test_hdf5_records_and_recording_names(tmp_path):
     assert np.array_equal(read_recording(tmp_path / "named.h5").gyro, recording.gyro)
 
 
+def test_fields_of_several_numbers_are_columns(tmp_path):
+    h5py = pytest.importorskip("h5py")
+    table = np.zeros(20, dtype=[("t", "u8"), ("gyr", "f4", (3,))])
+    table["t"], table["gyr"] = np.arange(20) * 10, np.arange(60).reshape(20, 3)
+    with h5py.File(tmp_path / "log.h5", "w") as file:
+        file["imu"] = table
+    lines = ['"imu[t]" = "time [ms]"', *(f'"imu[gyr][{k}]" = "gyro_{a} [rad/s]"' for k, a in enumerate("xyz"))]
+    recording = read_recording(tmp_path / "log.h5", put(tmp_path / "m.toml", "[columns]\n" + "\n".join(lines)))
+    assert np.array_equal(recording.gyro, table["gyr"])
+
+
+def test_arrays_without_columns_are_named_with_the_reason(tmp_path, refused):
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(tmp_path / "log.h5", "w") as file:
+        file["table"] = np.zeros(20, dtype=[("t", "f8"), ("name", "S4"), ("cov", "f8", (3, 3))])
+        file["frames"], file["word"] = np.zeros((20, 4, 4)), "left"
+        file["words"] = np.array([b"a", b"b"])
+    refused(tmp_path / "log.h5", "it has table[t]; without columns of numbers are frames (3 axes), table[name] (texts), table[cov] (3 axes), words (")
+
+
+@pytest.mark.parametrize("value, says", [
+    (np.array([(1.0, 2.0)] * 5, dtype=[("t", "O"), ("gx", "O")]), "log (5 structures, save one whose fields are arrays)"),
+    (np.array([np.zeros(3), np.zeros(4)], dtype=object), "log (cells, save arrays)")])
+def test_mat_of_structures_or_cells_says_so(value, says, tmp_path, refused):
+    savemat(tmp_path / "log.mat", {"log": value})
+    refused(tmp_path / "log.mat", f"the header has no 'time [s]' column; without columns of numbers are {says}")
+
+
+def test_foreign_csv_is_shown_the_way_to_a_map(tmp_path, refused):
+    path = put(tmp_path / "log.csv", "gx,gy,gz,t\n0,0,0,0\n")
+    refused(path, 'it has gx, gy, gz, t; give the map as --columns map.toml, with [columns] and a line for each, "t" = "time [s]"')
+
+
 # Bags
 
 

@@ -5,7 +5,7 @@ import pytest
 
 from pyimu.errors import Finding
 from pyimu.inspection import BLOCK_ROWS, Inspector
-from pyimu.quality import held_rows, inspect, wraps
+from pyimu.quality import clipped, held_rows, inspect, wraps
 from pyimu.recording import Recording
 
 
@@ -69,6 +69,15 @@ def test_integers_that_wrapped(bits, reach):
     assert span == pytest.approx(2 * half * step, rel=0.02)
     recording = Recording.from_arrays(time=t, gyro=np.column_stack([wrapped * step] * 3))
     assert {f.column for f in inspect(recording) if f.kind == "wrapped"} == {"gyro_x", "gyro_y", "gyro_z"}
+
+
+def test_the_edge_of_a_word_is_no_clipping():
+    t = np.arange(20_000) * 0.01
+    values = (2.2 * np.sin(np.pi * t) + 1) % 2 - 1
+    values[15_000:15_100] = 0.99999  # stays at the edge: a plateau
+    assert clipped(values).sum() >= 100
+    found = inspect(Recording.from_arrays(time=t, gyro=np.column_stack([values] * 3)))
+    assert {f.kind for f in found if f.column == "gyro_x"} & {"wrapped", "clipping"} == {"wrapped"}
 
 
 @pytest.mark.parametrize("sigma", [0, 1e-3, 1e-2, 0.1])

@@ -117,6 +117,18 @@ def test_frequency_and_amplitude_have_no_bias_and_the_stated_errors(kind):
     assert np.all((low / 1.44 < (z ** 2).mean(axis=0)) & ((z ** 2).mean(axis=0) < high))
 
 
+@pytest.mark.parametrize("bins", [3, 4, 8])
+def test_lines_up_to_three_bins_below_nyquist(bins):
+    """As mains hum in a log at twice its frequency: found in every record, frequency and amplitude with the stated errors."""
+    rng, f, errors, runs = np.random.default_rng(24), 50 - bins / (512 * H), [], 60
+    for _ in range(runs):
+        found = [v for v in lines(noise(rng, "white") + sine(0.6, f, rng.uniform(0, 2 * np.pi))) if abs(v.frequency - f) < 0.3]
+        errors += [((v.frequency - f) / v.frequency_std, (v.amplitude - 0.6) / v.amplitude_std) for v in found]
+    z = np.array(errors)
+    assert len(z) == runs and np.all(np.abs(z.mean(axis=0)) < norm.isf(FALSE_ALARM / 12) / np.sqrt(runs) + 0.2)
+    assert np.all((z ** 2).mean(axis=0) < 1.2 * chi2.isf(FALSE_ALARM / 6, runs) / runs)
+
+
 def test_a_line_of_millions_of_times_the_noise_is_one_line():
     rng = np.random.default_rng(6)
     found = lines(noise(rng, "white", 20_000) + sine(500.0, 23.4567, n=20_000))

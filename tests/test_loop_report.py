@@ -13,7 +13,7 @@ from numpy.testing import assert_allclose
 
 import pyimu.effects  # noqa: F401  (fills the catalogue)
 from pyimu.effect import CATALOGUE
-from pyimu.errors import UserError
+from pyimu.errors import Finding, UserError
 from pyimu.loop import pictures, report
 from pyimu.loop.band import Band
 from pyimu.loop.close import close
@@ -24,6 +24,7 @@ from pyimu.loop.result import Added
 from pyimu.loop.trial import Trial
 from pyimu.loop.whiten import RandomWalk
 from pyimu.loop.words import headline, plain_equation
+from pyimu.page import detail, staged
 from pyimu.partfile import part
 from pyimu.recording import Recording
 from pyimu.shown import CORNER, SHOWN, number, pretty, quantity, with_error
@@ -68,6 +69,25 @@ def test_page_says_what_the_json_says(closed, folder):
 
 def test_model_file_is_the_model_found(closed, folder):
     assert_allclose(part(folder / "model.toml").sensor("gyro").p, closed.after.sensor("gyro").p, rtol=1e-9)
+
+
+@pytest.mark.parametrize("finding, says", [
+    (Finding("gravity_down", "accel_z", 1, {"accel_z": -9.80665}), "accel z -1.00 g"),
+    (Finding("wrapped", "gyro_x", 2, {"span": np.radians(500)}), "span 500 deg/s"),
+    (Finding("counts", "gyro_x", 2, {"unit": "deg/s", "least": np.radians(-438), "largest": np.radians(24600)}),
+     "unit deg/s, least -438 deg/s, largest 24600 deg/s"),
+    (Finding("repeated_time", "time", 2, {"first": 2.0, "share": 0.36}), "first 2.000 s, share 36.0 %")])
+def test_details_of_findings_have_units(finding, says):
+    assert detail(finding) == says
+
+
+def test_nothing_is_replaced_where_one_file_cannot_be(tmp_path):
+    (tmp_path / "a.txt").write_text("old")
+    (tmp_path / "b.txt").mkdir()
+    with pytest.raises(UserError, match="cannot be written .b.txt is a folder there"), staged(tmp_path) as stage:
+        (stage / "a.txt").write_text("new")
+        (stage / "b.txt").write_text("new")
+    assert (tmp_path / "a.txt").read_text() == "old" and sorted(p.name for p in tmp_path.iterdir()) == ["a.txt", "b.txt"]
 
 
 def test_page_needs_nothing_beside_it(folder):

@@ -126,7 +126,7 @@ def test_intervals_and_bounds_hold_at_least_as_often_as_they_say(coverage, name)
 
 def test_what_an_interval_reaches_for_another_term_stays_in_the_mean():
     """The limit of the mean is as far below the plain one as those of the logs are; one log is its own mean."""
-    plain = [Coefficient(v, 0.2, *_plain(v, 0.2, 0.95)) for v in (9.0, 11.0)]
+    plain = [Coefficient(v, 0.2, *_plain(v, 0.2, 0.95)) for v in (9.99, 10.01)]
     reaching = [replace(c, low=c.low - 1.0) for c in plain]
     (a, _), (b, _) = mean_coefficient(plain), mean_coefficient(reaching)
     assert b.low == pytest.approx(a.low - 1.0) and b.high == pytest.approx(a.high)

@@ -130,6 +130,25 @@ def test_stretches_are_the_segments(rows, tmp_path):
     assert gaps.count == 2 and gaps.detail["longest"] == pytest.approx(29.51)
 
 
+@pytest.mark.parametrize("rows", [1, 7, 100, 1000, 10_000])
+def test_pieces_know_the_gaps_that_late_stamps_hide(rows, tmp_path):
+    """Stamps with a latency, 1 sample in 100 lost: segments and quality are those of the whole, though pieces end beside late stamps."""
+    n = 3000
+    rng = np.random.default_rng(7)
+    time = (0.01 * (np.arange(n) + np.minimum(rng.exponential(0.2, n), 0.9)))[rng.random(n) > 0.01]
+    path = tmp_path / "log.csv"
+    path.write_text(text_of(np.column_stack([time, rng.standard_normal((len(time), 11))])))
+    whole, log = read_recording(path), open_log(path)
+    pieces = [piece for piece, _ in log.pieces(rows)]
+    late = np.count_nonzero(np.diff(whole.time) > whole.cadence.longest) - len(whole.segments) + 1
+    assert late > 50 and same(join(pieces), whole) and log.findings == whole.findings
+    assert join(pieces).segments == whole.segments and join(pieces).slice(5, -5).segments == whole.slice(0, len(whole)).slice(5, -5).segments
+    lengths = {}
+    for segment, piece, _ in log.stretches(rows):
+        lengths[segment] = lengths.get(segment, 0) + len(piece)
+    assert list(lengths.values()) == [b - a for a, b in whole.segments] and len(lengths) > 10
+
+
 # Errors and interruption
 
 

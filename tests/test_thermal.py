@@ -1,5 +1,6 @@
 """Bias against temperature in noise that walks: intervals that cover, orders and loops that chance does not make."""
 
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +10,7 @@ from scipy.stats import binom
 import pyimu
 from pyimu.characterize.blocks import BlockAccumulator, Blocks, block_means
 from pyimu.characterize.thermal import CHANCE, _gain, fit_thermal
-from pyimu.characterize.thermometer import smoothed
+from pyimu.characterize.thermometer import smoothed, without_steps
 from pyimu.characterize.walk import _fill_gram, regress
 from pyimu.effect import CATALOGUE
 from pyimu.errors import UserError
@@ -211,6 +212,34 @@ def test_a_poor_thermometer_does_not_make_the_coefficient_smaller(fault):
     values = np.array([c.value for c in got])
     assert abs(values.mean() - kT) < 3.3 * values.std() / np.sqrt(runs) + 0.01 * kT
     assert sum(c.holds(kT) for c in got) >= binom.ppf(FALSE_ALARM, runs, 0.95)
+
+
+def stairs(step: float, resolution: float, blocks_each: int = 40, ramp: int = 4) -> np.ndarray:
+    """Plateaus up and down, with short ramps between them, as a coarse thermometer reads them."""
+    levels = step * np.array([0, 1, 2, 3, 2, 1, 0])
+    each = [np.append(np.linspace(a, b, ramp, endpoint=False), np.full(blocks_each, b)) for a, b in pairwise(levels)]
+    return 25 + np.round(np.concatenate([np.full(blocks_each, levels[0]), *each]) / resolution) * resolution
+
+
+@pytest.mark.parametrize("step, resolution", [(10.0, 0.1), (10.0, 0.5), (5.0, 5.0)])
+def test_the_plateaus_of_a_chamber_stay_plateaus(step, resolution):
+    """Nothing but rounding is smoothed away, and the coefficient is held as often as it says."""
+    temperature, rng, kT, runs = stairs(step, resolution), np.random.default_rng(23), 0.5, 60
+    assert np.abs(without_steps(temperature) - temperature).max() <= resolution / 2
+    held = 0
+    for _ in range(runs):
+        m = len(temperature)
+        values = kT * (temperature - 25) + walk_means(rng, m, 0.01) + N / np.sqrt(BLOCK) * rng.standard_normal(m)
+        held += fit_thermal(blocks(temperature, values), order=1).coefficients["kT"].holds(kT)
+    assert held >= binom.ppf(FALSE_ALARM, runs, 0.95)
+
+
+def test_steps_of_the_thermometer_itself_become_straight():
+    """Within a quarter of a step of the truth where that goes one way, steps in the middle of a block included; ends apart."""
+    truth = 25 + 8 * np.sin(np.linspace(-1.2, 1.2, 4000))
+    read = (np.round(2 * truth) / 2).reshape(400, 10).mean(axis=1)
+    off = (without_steps(read) - truth.reshape(400, 10).mean(axis=1))[30:-30]
+    assert np.abs(off).max() <= 0.125 and np.abs(read - truth.reshape(400, 10).mean(axis=1)).max() > 0.2
 
 
 def test_smoothing_leaves_a_good_thermometer_alone():

@@ -123,10 +123,16 @@ def coefficient(sensor: Sensor, p, effect: str, parameter: str):
     return ca.vertcat(*[p[i] for i in at]) if at else ca.SX.zeros(3)
 
 
-def noise_of(sensor: Sensor, p) -> Noise:
-    """White noise, random walk and rate-dependent noise of a triad, with what stands for its correlated noise."""
+def noise_of(sensor: Sensor, p, h=0.0) -> Noise:
+    """White noise, random walk and rate-dependent noise of a triad, with what stands for its correlated noise and its rounding.
+
+    A step q is in each sample of period ``h`` s (0: no rounding) an error of variance q^2/12 (Widrow and Kollar 2008, section 5.3), white where the
+    other noise is at least of the order of q; below that, rounding is a bias of up to q/2, which the random walk has to follow.
+    """
     noise = Noise(*(coefficient(sensor, p, *name) for name in (
         ("angle_random_walk", "N"), ("rate_random_walk", "K"), ("rate_dependent_noise", "k"))))
+    if "quantization" in sensor.values:
+        noise = replace(noise, white=ca.sqrt(noise.white ** 2 + coefficient(sensor, p, "quantization", "q") ** 2 * h / 12))
     for variance, tau in correlated(sensor, p):
         white, walk = _as_random_walk(variance, tau)
         noise = replace(noise, white=ca.sqrt(noise.white ** 2 + white), walk=ca.sqrt(noise.walk ** 2 + walk))

@@ -1,7 +1,8 @@
-"""A heading that arrives late: the ring of past yaws, and where in it a sample of some age stands.
+"""A heading that arrives late: the rings of past yaws and of their noise, and where in them a sample of some age stands.
 
-The ring keeps the yaw of past samples less what headings have corrected since the start: with the present correction it is the yaw
-that the filter now believes the body had then.
+The first ring keeps the yaw of past samples less what headings have corrected since the start: with the present correction it is the
+yaw that the filter now believes the body had then.  The second keeps the variance that the gyro's noise and losses have added about the
+vertical since the start: the difference to now is what they have added since.
 """
 
 from __future__ import annotations
@@ -65,14 +66,21 @@ def place(age, index, within, each):
 
 
 def picked(state: ca.MX, first: int, age: ca.MX, index: ca.MX, within: ca.MX, each: ca.MX) -> ca.MX:
-    """Two neighbouring yaws of the ring that begins at number ``first`` of ``state``, and the share of the second, for ``between``."""
+    """Two neighbouring yaws of the ring that begins at number ``first`` of ``state``, the share of the second, and what the second
+    ring, which follows, has for the two."""
     one, two, share = place(age, index, within, each)
-    return ca.vertcat(state.nz[first + one], state.nz[first + two], share)
+    return ca.vertcat(state.nz[first + one], state.nz[first + two], share, state.nz[first + SLOTS + one], state.nz[first + SLOTS + two])
 
 
 def between(neighbours):
     """The yaw between two by a line, and whether there was one."""
-    one, two, share = ca.vertsplit(neighbours)
+    one, two, share, _, _ = ca.vertsplit(neighbours)
     # A share of zero must not let in what is not there yet.
     there = ca.logic_and(one < NEVER, ca.logic_or(share == 0, two < NEVER))
     return one + ca.if_else(share > 0, share * wrapped(two - one), 0), there
+
+
+def grown_between(neighbours):
+    """Of the second ring what ``between`` gives of the first."""
+    _, _, share, one, two = ca.vertsplit(neighbours)
+    return one + ca.if_else(share > 0, share * (two - one), 0)

@@ -19,6 +19,10 @@ from pyimu.symbolic.linear import FLOOR, symmetric
 SCALE = N + SPREAD
 """A sigma point is the root of this many times the covariance."""
 
+LARGEST_TURN = 7.0
+"""rad in a sample, more than half a turn about each axis; beyond, where only an absurd bias leads, it counts as none, as the series of
+``turn`` would not end."""
+
 TERMS = 7
 """Of the series of sine and cosine; at half a turn about each axis they leave out 2e-16 of an eighth of the angle."""
 
@@ -65,10 +69,11 @@ def propagate(x: Estimate, rate, earth, moving, noise, h) -> tuple[Estimate, ca.
     ``rate`` (3,) rad/s is the compensated rate, ``earth`` (3,) the Earth's in body axes, ``moving`` 0 or 1 whether it turns
     at all; ``noise`` is the added variance of attitude, of attitude and bias together, and of bias, (3,) each.  With
     R the turn and G = -h J the error becomes R^T p + G b + R^T p x G b / 2: the mean is that of the last term.  The quaternion
-    has unit length to the square of that mean.
+    keeps its length however large that is, as the updates that follow take a vertical of unit length for granted.
     """
     step = h * moving
     angle = (rate - x.bias - earth) * step
+    angle *= ca.sumsqr(angle) <= LARGEST_TURN ** 2
     centre, k = turn(angle)
     own = quaternion.to_matrix(quaternion.product(centre, ca.vertcat(1, earth * step / 2))).T
     g = -step * mean_jacobian(angle, k)
@@ -84,7 +89,7 @@ def propagate(x: Estimate, rate, earth, moving, noise, h) -> tuple[Estimate, ca.
              **{(i + 3, i + 3): bias[i] for i in range(3)}}
     covariance = symmetric(N, lambda i, j: upper[i, j] + added[i, j] if (i, j) in added else upper[i, j])
     mean = ca.vertcat(mixed[1, 2] - mixed[2, 1], mixed[2, 0] - mixed[0, 2], mixed[0, 1] - mixed[1, 0]) / 2
-    q = quaternion.product(quaternion.product(x.q, centre), ca.vertcat(1, mean / 2))
+    q = quaternion.product(quaternion.product(x.q, centre), mrp.to_quaternion(mean))
     return Estimate(q, x.bias, covariance), own
 
 
@@ -130,18 +135,19 @@ def measure_gravity(x: Estimate, axes, magnitude):
     return gravity + shift, variance, sum(c @ a.T for c, a in cross)
 
 
-def correct(x: Estimate, innovation, variance, cross, up, limit) -> tuple[Estimate, ca.SX, ca.SX]:
+def correct(x: Estimate, innovation, variance, judged, cross, up, limit) -> tuple[Estimate, ca.SX, ca.SX]:
     """The estimate after a measurement of three, its normalised innovation squared, and how it was weighed, 1 up to ``limit``.
 
-    ``variance`` (3, 3) of the innovation (3,), ``cross`` (6, 3) its covariance with the error state, ``up`` (3,) as for
-    ``unscented.moved``.  Beyond ``limit`` the gain
-    is that share smaller which brings the innovation back to it, and the covariance falls by no more than that.
+    ``variance`` (3, 3) of the innovation (3,) weighs it and ``judged`` (3, 3) normalises it, ``cross`` (6, 3) is its covariance
+    with the error state, ``up`` (3,) as for ``unscented.moved``.  Beyond ``limit`` the gain is that share smaller which brings
+    the innovation back to it, and the covariance falls by no more than that.
     """
     pivots, lower = factors(variance, 3)
     inverse = [1 / p for p in pivots]
     white = _solved(lower, [innovation[i] for i in range(3)])
     gain = _solved(lower, [cross[:, i] for i in range(3)])
-    nis = sum(w * w * d for w, d in zip(white, inverse, strict=True))
+    own_pivots, own_lower = factors(judged, 3)
+    nis = sum(w * w / d for w, d in zip(_solved(own_lower, [innovation[i] for i in range(3)]), own_pivots, strict=True))
     weight = ca.if_else(nis > limit, limit / nis, 1)
     scaled = [g * (d * weight) for g, d in zip(gain, inverse, strict=True)]
     change = sum(g * w for g, w in zip(scaled, white, strict=True))

@@ -12,16 +12,17 @@ from pyimu.attitude.memory import ESTIMATE, REPORTED, Memory, n_memory
 from pyimu.attitude.quasi_static import average, follow, is_near, is_quasi_static, mean_variance, where
 from pyimu.attitude.sample import Sample, look_closely, raw_of, read
 from pyimu.attitude.settings import Settings
-from pyimu.attitude.unscented import LARGEST_TILT_STD, Estimate
+from pyimu.attitude.unscented import LARGEST_STD, LARGEST_TILT_STD, Estimate
 from pyimu.attitude.variables import INPUTS, LEAST_ACCEL_STD, LEAST_K, LEAST_N
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.noise import process_noise
 
 OPTIONS = {"cse": True}
 
-FLAGS = 8
+FLAGS = 9
 """Which updates are needed, 0: none, 1: gravity's, 2: others; whether gravity corrects, whether the body is quasi-static, whether its
-attitude may be lost, whether a heading and a zero rate correct; whether an input was missing; the other bits of the status."""
+attitude may be lost, whether a heading and a zero rate correct; whether an input was missing; the other bits of the status; and in rad^2
+the variance that was added about the vertical since the start."""
 
 
 @dataclass(frozen=True)
@@ -75,14 +76,16 @@ def _predicted(name: str, compensation: Compensation, symbols: Given, reading, s
     u, h = symbols.u, symbols.h
     memory, settings = Memory.unpack(symbols.estimate, symbols.memory, compensation), Settings.of(compensation, symbols.p)
     stationary, heading = (u[i] > 0.5 for i in (STATIONARY, HEADING_VALID))
-    x, turned = _turn(memory, sample, stationary, settings, form, h)
+    noise = _added(memory, sample, 1 - stationary, settings, h)
+    x, turned = _turn(memory, sample, stationary, settings, noise, form, h)
+    grown = memory.grown + _about_the_vertical(x, noise[0])
     quasi, mean, gravity, use, quasi_static = _gravity(memory, sample, turned, settings, h)
     still = stationary if sample.gyro_lost is False else ca.logic_and(stationary, ca.logic_not(ca.mmax(sample.gyro_lost)))
     lost = sum((x.covariance[i, i] > LARGEST_TILT_STD ** 2 for i in range(3)), 0) > 0
     place = late_heading.following(memory.place[0], memory.place[1], settings.scalar["heading_memory"], h)
-    after = Memory(x, quasi, mean, sample.held, sample.lost_for, sample.same_for, sample.sensors, ca.vertcat(*place))
+    after = Memory(x, quasi, mean, sample.held, sample.lost_for, sample.same_for, sample.sensors, grown, ca.vertcat(*place))
     which = use + (lost + heading + still > 0) * (2 - use)
-    flags = ca.vertcat(which, use, quasi_static, lost, heading, still, sample.missing, 2 * sample.at_limit + 4 * sample.stuck)
+    flags = ca.vertcat(which, use, quasi_static, lost, heading, still, sample.missing, 2 * sample.at_limit + 4 * sample.stuck, grown)
     column = ca.vertcat(Memory.pack_estimate(x), symbols.estimate[ESTIMATE - 1], ca.SX.zeros(REPORTED))
     return ca.Function(name, [*symbols.all, reading], [column, after.pack_memory(), sample.rate, gravity, ca.densify(flags)], OPTIONS)
 
@@ -97,13 +100,13 @@ STATIONARY, HEADING_VALID = _position("stationary"), _position("heading_valid")
 # ---- propagation -------------------------------------------------------------------------------------------------------
 
 
-def _turn(memory: Memory, sample: Sample, stationary, settings: Settings, form: str, h) -> tuple[Estimate, ca.SX]:
+def _turn(memory: Memory, sample: Sample, stationary, settings: Settings, noise, form: str, h) -> tuple[Estimate, ca.SX]:
     """Propagation, and the turn (3, 3) in inertial space from old body axes to new.
 
     A stationary body keeps its attitude: its gyro then measures the bias, and must not be used twice.
     """
     moving = 1 - stationary  # casadi would draw a choice into every product
-    x, noise = memory.estimate, _added(memory, sample, moving, settings, h)
+    x = memory.estimate
     earth = quaternion.rotate(quaternion.conjugate(x.q), settings.earth)
     if form == "marginal":
         return marginal.propagate(x, sample.rate, earth, moving, noise, h)
@@ -127,6 +130,14 @@ def _added(memory: Memory, sample: Sample, moving, settings: Settings, h):
     if sample.gyro_lost is not False:
         turned = turned + ca.if_else(sample.gyro_lost, _lost_variance(memory.lost_for, settings, h), 0)
     return least + still + moving * (turned - still), moving * ca.diag(noise[:3, 3:]), ca.diag(noise[3:, 3:]) + LEAST_K ** 2 * h
+
+
+def _about_the_vertical(x: Estimate, added):
+    """Of a variance (3,) that a sample adds to the attitude the part about the vertical, and no more than an angle can have."""
+    q = x.q
+    up = ca.vertcat(2 * (q[1] * q[3] - q[0] * q[2]), 2 * (q[2] * q[3] + q[0] * q[1]), 1 - 2 * (q[1] * q[1] + q[2] * q[2]))
+    variance, most = ca.dot(up * up, added), LARGEST_STD ** 2
+    return ca.if_else(variance < most, variance, most)
 
 
 def _lost_variance(lost_for, settings: Settings, h):
@@ -160,5 +171,8 @@ def _gravity(memory: Memory, sample: Sample, turned, settings: Settings, h):
     in_motion = mean_variance(mean.scatter + at["accel_std"] ** 2, at["mean_time"] + h, at["motion_time"], h) + white
     force = mean.force + steady * (sample.force - mean.force)
     variance = in_motion + steady * (noise - in_motion)
+    lasting = at["mean_time"] + steady * (at["accel_correlation_time"] - at["mean_time"])
     use = where(valid, 1 - (1 - steady) * (1 - followed))
-    return quasi, mean, ca.vertcat(force, variance, gravity, h), use, where(valid, steady)
+    # Of one sample, the acceleration has its own variance, however long it lasts: by that a sample can contradict the attitude.
+    judged = variance - (1 - 1 / (1 + 2 * lasting * per_sample)) * (variance - white)
+    return quasi, mean, ca.vertcat(force, variance, gravity, h, judged), use, where(valid, steady)

@@ -75,12 +75,13 @@ def look_closely(compensation: Compensation, memory: Memory, u, settings: Settin
     if compensation.start:
         sensors = ca.if_else(ca.fabs(sensors) <= LARGEST_KEPT, sensors, ca.DM(compensation.start))
     same_for, stuck = _stuck(held, good, memory, settings, h)
-    lost = _any_of(ca.logic_not(good[:3]), stuck[0], ca.logic_not(rate_good), gyro_lost > 0.5)
-    unusable = _any_of(ca.logic_not(good[3:6]), stuck[1], ca.logic_not(force_good), accel_lost > 0.5)
     fastest = _fastest(h)
+    beyond = ca.fabs(rate) > fastest
+    lost = _any_of(ca.logic_not(good[:3]), stuck[0], ca.logic_not(rate_good), gyro_lost > 0.5, beyond)
+    unusable = _any_of(ca.logic_not(good[3:6]), stuck[1], ca.logic_not(force_good), accel_lost > 0.5)
     return Sample(held, ca.fmin(ca.fmax(rate, -fastest), fastest), force, sensors, same_for,
                   ca.if_else(lost, memory.lost_for + h, 0), lost, ca.logic_not(ca.mmax(unusable)), ca.logic_not(ca.mmin(good)),
-                  ca.fmax(ca.mmax(gyro_lost), ca.mmax(accel_lost)) > 0.5, ca.fmax(stuck[0], stuck[1]))
+                  ca.logic_or(ca.fmax(ca.mmax(gyro_lost), ca.mmax(accel_lost)) > 0.5, ca.mmax(beyond)), ca.fmax(stuck[0], stuck[1]))
 
 
 def _fastest(h):

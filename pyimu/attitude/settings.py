@@ -39,4 +39,4 @@ class Settings:
         left = 1 - coefficient(part.gyro, gyro, "earth_rate", "k")[0]
         # North and up at a latitude are those at the equator, turned about east: cheaper than a sine and a cosine of the libm.
         earth = quaternion.rotate(marginal.turn(ca.vertcat(latitude, 0, 0))[0], earth_rate(ca.SX(0)))
-        return cls(scalar, left * known * earth, latitude, known, gyro, accel, noise_of(part.gyro, gyro), noise_of(part.accel, accel))
+        return cls(scalar, left * known * earth, latitude, known, gyro, accel, *(noise_of(sensor, own, 1 / part.sample_rate) for sensor, own in ((part.gyro, gyro), (part.accel, accel))))

@@ -123,16 +123,18 @@ def measure(x: Estimate, function: Callable):
     return mean, sigma.variance(deviations), sigma.covariance(sigma.points, deviations)
 
 
-def correct(x: Estimate, innovation, variance, cross, up, limit: float | None = None) -> tuple[Estimate, ca.SX, ca.SX]:
+def correct(x: Estimate, innovation, variance, cross, up, limit: float | None = None, judged=None) -> tuple[Estimate, ca.SX, ca.SX]:
     """The estimate after a measurement, its normalised innovation squared, and how it was weighed, 1 up to ``limit``.
 
     ``variance`` (m, m) of the innovation (m,), ``cross`` (6, m) its covariance with the error state, ``up`` as for ``moved``.  With L the root
     of the variance, gain times innovation is (L^-1 cross^T)^T (L^-1 innovation), and K S K^T a sum of squares.  Beyond ``limit``
-    the gain is that share smaller which brings the innovation back to it, and the covariance falls by no more than that.
+    the gain is that share smaller which brings the innovation back to it, and the covariance falls by no more than that; the
+    innovation is normalised by ``judged`` (m, m) where that is given.
     """
     root = cholesky(variance)
     whitened, gain = forward(root, innovation), forward(root, cross.T).T
-    nis = ca.dot(whitened, whitened)
+    own = whitened if judged is None else forward(cholesky(judged), innovation)
+    nis = ca.dot(own, own)
     weight = 1 if limit is None else ca.fmin(1, limit / ca.fmax(nis, limit))
     change = weight * (gain @ whitened)
     covariance = symmetric(N, lambda i, j: x.covariance[i, j] - weight * ca.dot(gain[i, :], gain[j, :]))

@@ -8,11 +8,14 @@ from dataclasses import replace
 from pyimu.block import Variable
 from pyimu.units import STANDARD_GRAVITY
 
-STATUS = {1: "an input was not finite or absurd, and its last good value was held",
-          2: "a sample was at a sensor's limit",
+STATUS = {1: "an input was not finite or absurd and its last good value was held, or a heading's variance was not above zero",
+          2: "a sample was at a sensor's limit, or said of more than half a turn in a sample period",
           4: "a sensor is stuck, its samples have not changed for stuck_time",
           8: "gravity contradicted the attitude, and was weighed less",
-          16: "a heading was older than heading_memory, or than the run, and not used"}
+          16: "a heading was older than heading_memory, or than the run, and not used",
+          32: "a heading was not used, as the tilt was contradicted or not known, or as more is known already than when it was true",
+          64: "a heading contradicted the attitude, and was weighed less",
+          128: "a variance was not above zero, and its std is shown as 0"}
 """Bits of the output ``status``; 0 is well."""
 
 UNKNOWN_LATITUDE = 10.0
@@ -20,6 +23,9 @@ UNKNOWN_LATITUDE = 10.0
 
 ABSURD = 1e6
 """SI; an input larger than this is treated like one that is not finite, since its square might not be."""
+
+LARGEST_BIAS = 100.0
+"""rad/s; the largest gyro bias before the first sample."""
 
 LEAST_N = 1e-9
 """rad/sqrt(s); the least angle random walk of the process noise.  Together with ``LEAST_K`` it keeps the covariance
@@ -48,9 +54,10 @@ INPUTS = (
     *array("accel", "m/s^2", "measured specific force, body axes", (0.0, 0.0, STANDARD_GRAVITY)),
     Variable("temperature", "degC", "temperature of the part", 25.0),
     Variable("heading", "rad", "heading, counter-clockwise from east"),
-    Variable("heading_variance", "rad^2", "variance of the heading"),
+    Variable("heading_variance", "rad^2", "variance of the heading, above zero"),
     Variable("heading_valid", "1", "use the heading of this sample", kind="boolean"),
-    Variable("heading_age", "s", "time since the heading was true, counted in whole samples; at most heading_memory"),
+    Variable("heading_age", "s", "time since the heading was true, counted in whole samples; at most heading_memory. An age of some tenths of a "
+             "second takes no heading more precise than about 1e-3 rad many times a second: what is left out then adds up, and std is too small"),
     Variable("stationary", "1", "the body does not turn against the Earth", kind="boolean"),
 )
 """Those of every part; ``EXTRA_INPUTS`` follow where the part needs them."""
@@ -63,14 +70,15 @@ OUTPUTS = (
     *array("std", "rad", "standard deviation of the attitude error, body axes"),
     *(Variable(f"std[{i}]", "rad/s", "standard deviation of the gyro bias") for i in (4, 5, 6)),
     Variable("quasi_static", "1", "the accelerometer is used as an inclinometer", kind="boolean"),
-    Variable("nis", "1", "normalised innovation squared of this sample's quasi-static update, 3 degrees of freedom; 0 without one"),
+    Variable("nis", "1", "normalised innovation squared of this sample's quasi-static update, 0 without one; chi-squared of 3 degrees of freedom, "
+             "white where accel_std is 0, else correlated over accel_correlation_time and less on a body that accelerates less than accel_std"),
     Variable("status", "1", "; ".join(f"{bit}: {text}" for bit, text in STATUS.items()), kind="integer"),
 )
 
 
-def _bounded(variables: Iterable[Variable], minimum: float) -> tuple[Variable, ...]:
+def _bounded(variables: Iterable[Variable], minimum: float, maximum: float = ABSURD) -> tuple[Variable, ...]:
     """The same with bounds, so that what is no number is refused."""
-    return tuple(replace(v, minimum=minimum, maximum=ABSURD) for v in variables)
+    return tuple(replace(v, minimum=minimum, maximum=maximum) for v in variables)
 
 
 def _setting(name: str, unit: str, text: str, start: float) -> Variable:
@@ -79,7 +87,9 @@ def _setting(name: str, unit: str, text: str, start: float) -> Variable:
 
 SETTINGS = (
     _setting("gravity", "m/s^2", "magnitude of gravity", STANDARD_GRAVITY),
-    _setting("accel_std", "m/s^2", "standard deviation of the acceleration that passes as quasi-static", 0.1),
+    _setting("accel_std", "m/s^2", "standard deviation of the acceleration that passes as quasi-static. Not in it, and in no std of the attitude: "
+             "a force that lasts much longer than accel_correlation_time, as in a long turn of a vehicle or by a constant error of the "
+             "accelerometer, tilts the attitude by its share of gravity", 0.1),
     _setting("accel_correlation_time", "s", "correlation time of that acceleration; 0 is white from sample to sample", 0.5),
     _setting("gravity_walk", "m/s^2/sqrt(s)", "random walk of the magnitude in the quasi-static estimator", 0.2),
     _setting("gravity_tolerance", "m/s^2", "quasi-static: largest difference of the estimated magnitude and gravity", 0.25),
@@ -100,7 +110,7 @@ SETTINGS = (
 OWN_PARAMETERS = (
     Variable("latitude", "rad", "latitude; a value outside -pi/2 to pi/2 is unknown: no Earth rate", UNKNOWN_LATITUDE),
     *_bounded(array("q0", "1", "attitude before the first sample", (1.0, 0.0, 0.0, 0.0)), -ABSURD),
-    *_bounded(array("bias0", "rad/s", "gyro bias before the first sample"), -ABSURD),
+    *_bounded(array("bias0", "rad/s", "gyro bias before the first sample"), -LARGEST_BIAS, LARGEST_BIAS),
     *_bounded(array("std0", "rad", "standard deviation of the attitude before the first sample", (0.1, 0.1, 0.1)), 0.0),
     *_bounded((Variable(f"std0[{i}]", "rad/s", "standard deviation of the bias before the first sample", 0.01) for i in (4, 5, 6)), 0.0),
     *SETTINGS)

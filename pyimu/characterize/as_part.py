@@ -7,11 +7,12 @@ from collections.abc import Iterator
 import numpy as np
 
 from pyimu.characterize.result import SAMPLE, SI, Characterization
-from pyimu.characterize.words import PEOPLE, duration, span
+from pyimu.characterize.thermal import ThermalFit
+from pyimu.characterize.words import COARSE, PEOPLE, doubts, duration, rounding_share, span
 from pyimu.effect import CATALOGUE
 from pyimu.imu import AXES, Part
 from pyimu.sensor import Sensor
-from pyimu.shown import number
+from pyimu.shown import number, quantity
 from pyimu.units import convert
 
 EFFECTS = {"N": ("angle_random_walk", "N"), "B": ("bias_instability", "B"), "K": ("rate_random_walk", "K"), "Q": ("angle_quantization", "q")}
@@ -19,9 +20,6 @@ EFFECTS = {"N": ("angle_random_walk", "N"), "B": ("bias_instability", "B"), "K":
 
 FLICKER_REACH = 10.0
 """Flicker is simulated up to so many times the frequency at which it crosses the white noise, and down to a tenth of one over the log."""
-
-COARSE = 0.5
-"""Rounding is an effect of its own where it makes at most this share of the white noise."""
 
 
 DIGITS, EXACT = 5, 10
@@ -43,9 +41,11 @@ def part_of(c: Characterization, name: str) -> Part:
             values[kind].setdefault(effect, {})[parameter] = _tidy(value, parameter, si, unit)
             notes[kind, effect, parameter] = {k: v for k, v in (("unit", unit), ("source", source)) if v}
     rate = 1 / min(s.h for log in c.logs for s in log.sensors.values())
+    rest = "not at rest" if any(f.kind == "motion" for f in c.findings) else "at rest"
+    said = "".join(f" {text}" for log in c.logs for text in doubts(log))
     logs = ", ".join(f"{log.name} ({duration(log.duration)})" for log in c.logs)
     return Part(name, rate, Sensor("gyro", values["gyro"]), Sensor("accel", values["accel"]), notes=notes,
-                description=f"Characterised by pyimu from {logs}; at rest. N is the root of the two-sided density.")
+                description=f"Characterised by pyimu from {logs}; {rest}. N is the root of the two-sided density.{said}")
 
 
 def _tidy(value: np.ndarray, parameter: str, si: str, unit: str) -> np.ndarray:
@@ -92,13 +92,13 @@ def _h(c: Characterization, kind: str) -> float:
 
 
 def _rounding(c: Characterization, kind: str) -> np.ndarray | None:
-    """The steps (3,) of the samples, zero where there is none; None where no axis has one, or where it is most of the noise."""
+    """The steps (3,) of the samples, zero where there is none; None where no axis has one, or where it is more than ``COARSE`` of the noise."""
     steps = np.zeros(3)
     for f in c.findings:
         if f.kind == "quantization_step" and f.column.startswith(kind):
             steps[AXES.index(f.column[-1])] = f.detail["step"]
     white = [c.coefficients.get((f"{kind}_{axis}", "N")) for axis in AXES]
-    share = [q ** 2 * _h(c, kind) / 12 / s.mean.value ** 2 if s is not None and s.mean.needed else np.inf
+    share = [rounding_share(q, s.mean.value if s is not None else 0.0, _h(c, kind))
              for q, s in zip(steps, white, strict=True) if q]
     return steps if share and max(share) <= COARSE else None
 
@@ -136,6 +136,21 @@ def _thermal(c: Characterization, kind: str) -> Iterator[Entry]:
             shown = {"rad/s/K": "deg/s/K", "m/s^2/K": "mg/K"}.get(unit, unit)
             yield effect, name, value, shown, "this characterisation, " + ", ".join(said)
             yield effect, "T0", np.array(T0), "degC", ""
+    yield from _hysteresis(fits, kind)
+
+
+def _hysteresis(fits: list[list[ThermalFit]], kind: str) -> Iterator[Entry]:
+    """Loops that are warranted in at least half of the logs; of one width, as a sensor has in the catalogue, that keeps each one's opening."""
+    loops = [[t.hysteresis for t in found if t.hysteresis is not None and t.hysteresis.warranted] for found in fits]
+    kept = [own if own and 2 * len(own) >= len(found) else [] for own, found in zip(loops, fits, strict=True)]
+    if not any(kept):
+        return
+    width = float(np.median([h.width for own in kept for h in own]))
+    opening = np.array([np.mean([h.opening.value for h in own]) if own else 0.0 for own in kept])
+    unit = {"gyro": "deg/h/K", "accel": "mg/K"}[kind]
+    said = ", ".join(f"{AXES[i]} opens by {quantity(opening[i], SAMPLE[kind])}" for i, own in enumerate(kept) if own)
+    yield "thermal_hysteresis", "kh", -opening / (2 * width), unit, f"this characterisation, {said}"
+    yield "thermal_hysteresis", "width", np.array(width), "K", "of the widths that were tried the most significant"
 
 
 def _bias(c: Characterization, kind: str) -> Iterator[Entry]:
@@ -143,7 +158,9 @@ def _bias(c: Characterization, kind: str) -> Iterator[Entry]:
         return
     by_log = [[ch.thermal.coefficients["b0"].value if ch.thermal is not None and ch.thermal.order else ch.mean
                for ch in c.channel(f"{kind}_{axis}")] for axis in AXES]
+    # An axis without samples has none.
+    by_log = [[v for v in b if np.isfinite(v)] or [0.0] for b in by_log]
     value = np.array([np.mean(b) for b in by_log])
-    spread = [np.std(b, ddof=1) for b in by_log] if len(by_log[0]) > 1 else []
+    spread = [np.std(b, ddof=1) for b in by_log] if min(map(len, by_log)) > 1 else []
     said = f"; standard deviations of the logs {', '.join(number(convert(s, 'rad/s', 'deg/s')) for s in spread)} deg/s" if spread else ""
     yield "turn_on_bias", "b0", value, "deg/s", f"mean of the logs, the Earth's rate included; a new draw at each power-on{said}"

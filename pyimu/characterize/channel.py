@@ -10,13 +10,13 @@ import numpy as np
 from scipy.stats import chi2
 
 from pyimu.characterize.allan import hadamard_deviation, log_clusters, modified_deviation, octave_clusters, overlapping_deviation
-from pyimu.characterize.blocks import Blocks
 from pyimu.characterize.lines import Line
 from pyimu.characterize.noise_fit import ChannelFit, fit_noise
 from pyimu.characterize.pooled import longest, pooled_deviation
 from pyimu.characterize.samples import CHUNK, Samples
 from pyimu.characterize.store import Store
 from pyimu.characterize.thermal import ThermalFit
+from pyimu.characterize.warm_up import WarmUp, find_warm_up
 
 POINTS = 100
 """Cluster times of a curve, evenly in the logarithm; those an octave apart come on top of it."""
@@ -44,7 +44,7 @@ class AllanCurve(Curve):
 
 @dataclass(frozen=True)
 class Noise:
-    """What a channel's clusters say: curves of the samples less their temperature effect, where there is one, and the fit.
+    """What a channel's clusters say: curves of the samples less what temperature and warm-up make of them, and the fit.
 
     ``raw`` is the Allan deviation of the samples as they are, None where nothing was taken off.
     """
@@ -56,17 +56,16 @@ class Noise:
     fit: ChannelFit
 
 
-def noise_of(samples: Samples, axis: int, thermal: ThermalFit | None, lines: Sequence[Line], level: float, store: Store,
+def noise_of(samples: Samples, axis: int, compensated: np.ndarray | None, lines: Sequence[Line], level: float, store: Store,
              say: Callable[[str], None] = lambda text: None) -> Noise:
-    """Curves and fit of one axis; ``thermal`` is taken off where it has a coefficient.  Raises UserError where there is no noise."""
+    """Curves and fit of one axis, or of it ``compensated`` (n,).  Raises UserError where there is no noise."""
     column, raw, used = samples.columns[axis], None, longest(samples.stretches)
     lengths = [b - a for a, b in used]
     room = store.room("sums", max(lengths) + 1)
     m = np.union1d(octave_clusters(max(lengths)), log_clusters(max(lengths), POINTS))
-    if thermal is not None and thermal.order and samples.blocks is not None:
-        say("without temperature")
-        raw = Curve(m * samples.h, _pooled(column, used, m, overlapping_deviation, 2, room))
-        column = _compensated(samples, axis, thermal, store.room("compensated", len(samples)))
+    if compensated is not None:
+        say("as measured")
+        raw, column = Curve(m * samples.h, _pooled(column, used, m, overlapping_deviation, 2, room)), compensated
     say("Allan deviation")
     deviation = _pooled(column, used, m, overlapping_deviation, 2, room)
     octaves = np.isin(m, octave_clusters(max(lengths)))
@@ -96,11 +95,27 @@ def _with_limits(m: np.ndarray, deviation: np.ndarray, fit: ChannelFit, lengths:
     return AllanCurve(m * h, deviation, freedom, low, high)
 
 
-def _compensated(samples: Samples, axis: int, thermal: ThermalFit, out: np.ndarray) -> np.ndarray:
-    """The column less its bias at the temperature of the moment, that of the means of blocks and in between."""
-    blocks: Blocks = samples.blocks
+def compensated(samples: Samples, axis: int, thermal: ThermalFit | None, store: Store) -> tuple[np.ndarray | None, WarmUp | None]:
+    """The column less what temperature and warm-up make of its bias, None where that is nothing; and the warm-up."""
+    column = None
+    if thermal is not None and thermal.warranted:
+        column = _less(samples, samples.columns[axis], thermal.effect, store.room("compensated", len(samples)))
+    start, stop = samples.stretches[0]
+    # In the first stretch, if it is a good part of the log.  A warm-up by the temperature that was logged is an effect of temperature.
+    if 2 * (stop - start) <= len(samples):
+        return column, None
+    before = samples.columns[axis] if column is None else column
+    warm_up = find_warm_up(before[start:stop], samples.h)
+    if warm_up is not None:
+        first = samples.time[start]
+        out = store.room("compensated", len(samples)) if column is None else column
+        column = _less(samples, before, lambda time: warm_up.effect(time - first), out)
+    return column, warm_up
+
+
+def _less(samples: Samples, column: np.ndarray, effect: Callable[[np.ndarray], np.ndarray], out: np.ndarray) -> np.ndarray:
+    """The column less an effect at the times of the samples, in ``out``, which may be the column."""
     for a in range(0, len(samples), CHUNK):
         rows = slice(a, a + CHUNK)
-        temperature = np.interp(samples.time[rows], blocks.time, blocks.temperature)
-        out[rows] = samples.columns[axis][rows] - thermal.at(temperature)
+        out[rows] = column[rows] - effect(samples.time[rows])
     return out

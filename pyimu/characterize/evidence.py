@@ -61,7 +61,7 @@ Evidence = Excerpt | Comb | Steps | Timeline
 
 
 def evidence(findings: Iterable[Finding], sensors: Mapping[str, Samples]) -> dict[tuple[str, str], Evidence]:
-    """By kind and column of the findings that can be shown."""
+    """By kind and column of the findings that can be shown; of clipping by column and side, ``gyro_x low``."""
     shown = {}
     for f in findings:
         kind, _, axis = f.column.partition("_")
@@ -72,7 +72,8 @@ def evidence(findings: Iterable[Finding], sensors: Mapping[str, Samples]) -> dic
         else:
             found = None
         if found is not None:
-            shown[f.kind, f.column] = found
+            # A column may be clipped on either side.
+            shown[f.kind, f"{f.column} {f.detail['side']}" if f.kind == "clipping" else f.column] = found
     return shown
 
 

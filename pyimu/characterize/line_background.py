@@ -32,8 +32,9 @@ WIDEST, NARROWEST = 64, 16
 COARSEST = 1024
 """A window of that many samples has bins as wide as the widest groups of a longer one."""
 
-HIGHEST = 16
-"""Widths below Nyquist that are not searched."""
+HIGHEST, HIGHEST_GROUP = 2, 16
+"""Widths below Nyquist that are not searched: bins, in which a line meets its own mirror image; and groups, of which a density that falls
+to zero there makes bands."""
 
 OUTLIER = 1e-4
 """What noise makes more rarely than this does not count for the curve."""
@@ -79,14 +80,15 @@ class Scale:
 
 
 def scales(level: Level, column: int, lowest: int) -> list[Scale]:
-    """The level bin by bin, and in groups; none is searched within ``lowest`` of its own widths of zero and ``HIGHEST`` of Nyquist."""
+    """The level bin by bin, and in groups; none is searched within ``lowest`` of its own widths of zero, nor near Nyquist."""
     stop, out, bins = int(BAND * level.length) if level.decimated else level.length // 2, [], 1
     while bins == 1 or level.length // bins >= COARSEST:
         count = (stop - FIRST_BIN) // bins
         # Counted from above, where a level has no neighbours to spare.
         k = np.arange(stop - count * bins, stop).reshape(count, bins)
         middle = k.mean(axis=1)
-        searched = (middle >= max(level.first, lowest * bins)) & (middle < min(level.last, level.length / 2 - HIGHEST * bins))
+        highest = level.length / 2 - (HIGHEST if bins == 1 else HIGHEST_GROUP) * bins
+        searched = (middle >= max(level.first, lowest * bins)) & (middle < min(level.last, highest))
         out.append(Scale(level, bins, middle, level.density[k, column].mean(axis=1), searched))
         bins *= 4
     return out

@@ -5,8 +5,9 @@ line is that of its highest bin times the number of bins looked at in all column
 other, so that noise without lines gives a line somewhat more rarely than the level says).  A strong line hides what it leaks
 into: bins where it shows as much as noise scatters are not looked at again.
 
-Lines are looked for from bin ``LOWEST`` of the longest windows on, where slow drifts end, to as many below half the sample rate,
-where a density may fall to zero.  A resonance is a line too, a broad one: nothing in a spectrum tells it from a disturbance.
+Lines are looked for from bin ``LOWEST`` of the longest windows on, where slow drifts end, to three bins below half the sample rate;
+broad ones end earlier there, where a density may fall to zero.  A resonance is a line too, a broad one: nothing in a spectrum tells
+it from a disturbance.
 
 Frequencies are those in the record, in which one above half the sample rate has been folded; what the lines have to do with
 each other is in ``line_relations``.  Noise in bursts has bins that depend on each other, and may look like lines.
@@ -82,6 +83,14 @@ def find_lines(spectrum: SpectrumAccumulator, level: float = 1e-3) -> list[Line]
         own = _of_column(views, c, level, family)
         found += [replace(line, relation=r) for line, r in zip(own, relations(own, 1 / spectrum.h), strict=True)]
     return found
+
+
+def searched_range(spectrum: SpectrumAccumulator) -> tuple[float, float]:
+    """Hz from which and up to which lines are looked for; nan where there is no spectrum."""
+    levels = spectrum.levels()
+    looked = [s.frequency[s.searched] for i, a in enumerate(levels) for s in scales(a, 0, LOWEST if i == len(levels) - 1 else 0)]
+    found = [f for f in looked if len(f)]
+    return (float(min(f[0] for f in found)), float(max(f[-1] for f in found))) if found else (np.nan, np.nan)
 
 
 @dataclass

@@ -96,8 +96,8 @@ class ChannelFit:
 
     @property
     def squares(self) -> np.ndarray:
-        """Squares (5,) of the coefficients for a sample period of one."""
-        return np.array([self.fit[t].value for t in TERMS]) ** 2 / si_factors(self.fit.sample_period)
+        """Squares (5,) of the fitted terms for a sample period of one."""
+        return self.fit.squares
 
     def freedom(self, m: np.ndarray, lengths: Sequence[int]) -> np.ndarray:
         """Equivalent degrees of freedom (t,) of the Allan variances of such noise at cluster sizes ``m``."""
@@ -106,7 +106,7 @@ class ChannelFit:
     def psd_two_sided(self, f: np.ndarray) -> np.ndarray:
         """Two-sided density of the samples at ``f`` > 0 in Hz, unit^2/Hz: Q, N, B and K (Hidalgo 2012, table 3); no ramp, no free term."""
         f, h = np.asarray(f, dtype=float), self.fit.sample_period
-        Q, N, B, K = (self.fit[t].value for t in "QNBK")
+        Q, N, B, K = (self.fit.estimates.get(t, 0.0) for t in "QNBK")
         slope = 2 * np.sin(np.pi * np.minimum(f * h, 0.5)) / h
         return N ** 2 + B ** 2 / (2 * np.pi * f) + (K / slope) ** 2 + (Q * slope) ** 2 * h
 
@@ -235,7 +235,7 @@ def _with_error(candidate: _Candidate) -> _Candidate:
 
 def _strengths(problem: Problem, fit: NoiseFit, unit: float) -> np.ndarray:
     """The best estimates (k,) of what was left free, given the coefficients."""
-    squares = np.array([fit[t].value for t in TERMS]) ** 2 / (si_factors(fit.sample_period) * unit)
+    squares = fit.squares / unit
     root = np.linalg.cholesky(problem.moments.covariance(squares))
     left = np.linalg.solve(root, np.column_stack([problem.nuisance, problem.measured - problem.moments.design @ squares]))
     return np.linalg.lstsq(left[:, :-1], left[:, -1], rcond=None)[0]

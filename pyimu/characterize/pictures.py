@@ -9,7 +9,6 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from pyimu.characterize.channel import Curve, Noise
-from pyimu.characterize.coefficients import si_factors
 from pyimu.characterize.evidence import LEVELS, STEPS, Comb, Evidence, Excerpt, Steps, Timeline
 from pyimu.characterize.moments import TERMS, design
 from pyimu.characterize.noise_fit import ChannelFit
@@ -25,6 +24,9 @@ PANEL = 2.15
 
 WIDTH = 5.4
 
+LOGS = (AFTER, FLOOR, "#cc79a7", "#d55e00", "#56b4e9", "#9467bd")
+"""Colours of several logs, of Okabe-Ito as far as they go beside that of the fit."""
+
 TERM_AT = {"Q": 0.0, "N": 0.12, "B": 0.5, "K": 0.85, "R": 1.0}
 """Where along its line a term's letter stands."""
 
@@ -34,9 +36,13 @@ def allan(c: Characterization, kind: str) -> str:
     with matplotlib.rc_context(STYLE):
         figure, panels = new_figure(WIDTH, 0.7 + PANEL * 3, 3)
         for axis, panel in zip(AXES, panels, strict=True):
-            channels = [ch for ch in c.channel(f"{kind}_{axis}") if ch.noise]
-            for k, ch in enumerate(channels):
-                _measured(panel, ch.noise, kind, "" if len(channels) > 1 else f"its {100 * c.level:g} % interval", first=k == 0)
+            named = [(log.name, k, ch) for k, log in enumerate(c.logs) for ch in log.channels if ch.name == f"{kind}_{axis}" and ch.noise]
+            channels = [ch for _, _, ch in named]
+            for name, k, ch in named:
+                if len(c.logs) == 1:
+                    _measured(panel, ch.noise, kind, f"its {100 * c.level:g} % interval")
+                else:
+                    _one_of(panel, ch.noise, kind, name, k, len(c.logs))
             if channels:
                 _model(panel, channels[0].noise, kind, len(channels))
             panel.set(ylabel=f"{axis} [{pretty(UNIT[kind])}]")
@@ -51,14 +57,19 @@ def _scaled(values: np.ndarray, kind: str) -> np.ndarray:
     return in_unit(values, SAMPLE[kind], UNIT[kind])
 
 
-def _measured(panel: Axes, noise: Noise, kind: str, interval: str, first: bool) -> None:
+def _one_of(panel: Axes, noise: Noise, kind: str, name: str, k: int, logs: int) -> None:
+    """One of several logs: in a colour and with a name of its own, as long as there are colours."""
+    colour, label = (LOGS[k], name) if logs <= len(LOGS) else (AFTER, None if k else "measured")
+    panel.plot(noise.allan.tau, _scaled(noise.allan.deviation, kind), color=colour, lw=1.1, alpha=0.85, label=label)
+
+
+def _measured(panel: Axes, noise: Noise, kind: str, interval: str) -> None:
     a = noise.allan
     if noise.raw is not None:
-        panel.plot(noise.raw.tau, _scaled(noise.raw.deviation, kind), color=GREY, lw=1.0, label="with temperature" if first else None)
-    if interval:
-        panel.fill_between(a.tau, _scaled(a.low, kind), _scaled(a.high, kind), color=AFTER, alpha=0.22, lw=0, label=interval)
-    panel.plot(a.tau, _scaled(a.deviation, kind), color=AFTER, lw=1.5 if interval else 0.9, alpha=1.0 if interval else 0.75,
-               label="measured" if first else None)
+        panel.plot(noise.raw.tau, _scaled(noise.raw.deviation, kind), color=GREY, lw=1.0, label="as measured")
+    panel.fill_between(a.tau, _scaled(a.low, kind), _scaled(a.high, kind), color=AFTER, alpha=0.22, lw=0, label=interval)
+    name = "measured" if noise.raw is None else "compensated"
+    panel.plot(a.tau, _scaled(a.deviation, kind), color=AFTER, lw=1.5, label=name)
 
 
 def _model(panel: Axes, noise: Noise, kind: str, logs: int) -> None:
@@ -73,10 +84,9 @@ def _model(panel: Axes, noise: Noise, kind: str, logs: int) -> None:
 
 
 def terms(fit: ChannelFit, tau: np.ndarray) -> Iterator[tuple[str, np.ndarray]]:
-    """The Allan deviation (t,) of each needed term by itself."""
-    h = fit.fit.sample_period
-    each = np.sqrt(design(tau / h) * (np.array([fit[t].value ** 2 for t in TERMS]) / si_factors(h)))
-    return ((t, each[:, i]) for i, t in enumerate(TERMS) if fit[t].needed)
+    """The Allan deviation (t,) of each term of the fit by itself."""
+    each = np.sqrt(design(tau / fit.fit.sample_period) * fit.squares)
+    return ((t, each[:, i]) for i, t in enumerate(TERMS) if t in fit.fit.estimates)
 
 
 def _legible(panel: Axes, curves: Sequence[Curve], kind: str) -> None:
@@ -171,7 +181,8 @@ def thermal(ch: Channel) -> str:
                                alpha=0.6, rasterized=True)
                     panel.plot([], [], "o", ms=5, mew=0, color=colour, label=name)
             line = np.linspace(t.temperature.min(), t.temperature.max(), 100)
-            fitted = t.at(line) - offset if panel is panels[0] else np.zeros(100)
+            # On the level of the whole log, about which the residual is drawn.
+            fitted = t.at(line) + t.level - offset if panel is panels[0] else np.zeros(100)
             panel.plot(line, in_unit(fitted, SAMPLE[ch.kind], unit), color=INK, lw=1.3, label="fit" if t.order else "mean")
         panels[0].set_ylabel(f"bias {ch.name[-1]} [{pretty(unit)}]")
         panels[1].set_ylabel(f"left over [{pretty(unit)}]")
@@ -194,7 +205,7 @@ def over_time(log: LogResult, kind: str) -> str:
             panel.fill_between((o.time - start) / factor, *(in_unit(v, SAMPLE[kind], unit) for v in (o.low, o.high)), color=AFTER, alpha=0.25, lw=0,
                                label="samples")
             panel.plot((o.time - start) / factor, in_unit(o.mean, SAMPLE[kind], unit), color=AFTER, lw=1.2, label="mean")
-            if ch.warm_up is not None and ch.noise.raw is None:
+            if ch.warm_up is not None and not (ch.thermal is not None and ch.thermal.warranted):
                 w = ch.warm_up
                 panel.plot(w.time / factor, in_unit(w.fitted, SAMPLE[kind], unit), color=BEFORE, lw=1.5, label="warm-up")
             panel.set_ylabel(f"{ch.name[-1]} [{pretty(unit)}]")

@@ -14,19 +14,23 @@ from pyimu.characterize import pictures
 from pyimu.characterize.coefficients import Coefficient
 from pyimu.characterize.evidence import Comb, Excerpt, Steps, Timeline
 from pyimu.characterize.moments import TERMS
-from pyimu.characterize.result import SAMPLE, SI, Channel, Characterization, LogResult, Summary, floor, read_instability
+from pyimu.characterize.result import SAMPLE, SI, Characterization, LogResult, Summary, floor, read_instability
 from pyimu.characterize.words import (
     FURTHER,
     PEOPLE,
+    READING_ORDER,
     SENSORS,
     TERM_NAMES,
     about,
     digits,
     doubts,
     fit_notes,
+    frequency,
     grouped,
     headline,
+    loop_sentence,
     reason_lines,
+    searched,
     span,
     spectrum_note,
     split,
@@ -35,10 +39,9 @@ from pyimu.characterize.words import (
 from pyimu.imu import AXES
 from pyimu.page import Picture, Table, prose, staged, templates
 from pyimu.partfile import save_part
-from pyimu.shown import MISSING, SCRIPTS, in_unit, number, pretty, quantity, unit_for
+from pyimu.shown import MISSING, SCRIPTS, in_unit, number, pretty, unit_for
 
 PART = "part.toml"
-READING_ORDER = "NBKQR"
 
 
 def write_characterization(c: Characterization, out: str | os.PathLike) -> Path:
@@ -82,7 +85,8 @@ def _contents(c: Characterization) -> dict[str, Any]:
 def _sensor(c: Characterization, kind: str) -> dict[str, Any]:
     name, several = SENSORS[kind], len(c.logs) > 1
     if not any(ch.noise for axis in AXES for ch in c.channel(f"{kind}_{axis}")):
-        return {"name": name, "allan": None, "coefficients": Table(("",)), "notes": [], "others": None, "spectra": [], "lines": Table(("",))}
+        return {"name": name, "allan": None, "coefficients": Table(("",)), "notes": [], "others": None, "spectra": [], "lines": Table(("",)),
+                "searched": []}
     caption = (f"{name.capitalize()}: overlapping Allan deviation, measured and fitted; dotted, each term of the fit by itself." +
                (f" {len(c.logs)} logs." if several else " The interval is that of the degrees of freedom which the fitted noise leaves."))
     others = (f"{name.capitalize()}: the modified deviation tells quantization from white noise, the Hadamard deviation does not see a ramp." +
@@ -90,7 +94,8 @@ def _sensor(c: Characterization, kind: str) -> dict[str, Any]:
     return {"name": name, "allan": Picture(Markup(pictures.allan(c, kind)), caption, f"Allan deviation of the {name}"),
             "coefficients": _coefficients(c, kind), "notes": _notes(c, kind),
             "others": Picture(Markup(pictures.other_deviations(c, kind)), others, f"further deviations of the {name}"),
-            "spectra": [p for log in c.logs if kind in log.sensors and (p := _spectrum(log, kind, several))], "lines": _lines(c, kind)}
+            "spectra": [p for log in c.logs if kind in log.sensors and (p := _spectrum(log, kind, several))], "lines": _lines(c, kind),
+            "searched": list(dict.fromkeys(searched(log.sensors[kind]) for log in c.logs if kind in log.sensors))}
 
 
 def _coefficients(c: Characterization, kind: str) -> Table:
@@ -165,8 +170,8 @@ def _notes(c: Characterization, kind: str) -> list[str]:
 def _spectrum(log: LogResult, kind: str, several: bool) -> Picture | None:
     svg = pictures.spectrum(log.sensors[kind])
     where = f" Log {log.name}." if several else ""
-    taken_off = any(ch.noise and ch.noise.raw for ch in log.sensors[kind].channels)
-    warm = " The samples are as measured, the noise is that without temperature." if taken_off else ""
+    taken_off = " and ".join(n for n in ("temperature", "warm-up") if any(n in ch.taken_off for ch in log.sensors[kind].channels))
+    warm = f" The samples are as measured, the noise is that without {taken_off}." if taken_off else ""
     caption = (f"{SENSORS[kind].capitalize()}: root of the one-sided power spectral density (Welch, Hann window, averaged in logarithm) and "
                f"the noise fitted to the Allan deviation, also one-sided: white noise N lies at √2 N.{warm}{where}")
     return None if svg is None else Picture(Markup(svg), caption, f"spectrum of the {SENSORS[kind]}")
@@ -182,7 +187,7 @@ def _lines(c: Characterization, kind: str) -> Table:
                 unit = unit_for(v.amplitude, SAMPLE[kind])
                 std = number(float(in_unit(v.amplitude_std, SAMPLE[kind], unit)), 2)
                 amplitude = f"{_plain(v.amplitude, SAMPLE[kind], unit)} ± {std} {pretty(unit)}"
-                table.rows.append((prose(name), f"{number(v.frequency, 6)}{wide}", amplitude, f"{number(v.ratio)} times",
+                table.rows.append((prose(name), f"{frequency(v)} ± {number(v.frequency_std, 2)}{wide}", amplitude, f"{number(v.ratio)} times",
                                    f"< {number(max(v.p_value, 1e-12), 1)}", prose(v.relation.text if v.relation else "")))
     return table
 
@@ -194,17 +199,13 @@ def _thermal(c: Characterization) -> list[dict[str, Any]]:
     for log in c.logs:
         for ch in log.channels:
             if ch.thermal is not None:
-                caption = f"{ch.name}{f', {log.name}' if len(c.logs) > 1 else ''}: {thermal_sentence(ch)}. {_loop(ch)}"
+                caption = f"{ch.name}{f', {log.name}' if len(c.logs) > 1 else ''}: {thermal_sentence(ch)}. {_sentence(loop_sentence(ch))}"
                 entries.append({"picture": Picture(Markup(pictures.thermal(ch)), caption, f"bias of {ch.name} against temperature", small=True)})
     return entries
 
 
-def _loop(ch: Channel) -> str:
-    h = ch.thermal.hysteresis
-    if h is None:
-        return f"Hysteresis: {ch.thermal.no_hysteresis}." if ch.thermal.no_hysteresis else ""
-    value, low, high = (quantity(v, SAMPLE[ch.kind]) for v in (h.opening.value, h.opening.low, h.opening.high))
-    return f"Rising less falling: {value} ({low} to {high}){'' if h.warranted else ', which chance explains'}."
+def _sentence(text: str) -> str:
+    return f"{text[:1].upper()}{text[1:]}." if text else ""
 
 
 def _thermal_reasons(c: Characterization) -> list[str]:
@@ -212,7 +213,9 @@ def _thermal_reasons(c: Characterization) -> list[str]:
     reasons: dict[str, list[str]] = {}
     for reason, who in found:
         reasons.setdefault(reason, []).append(who)
-    return [f"{reason[:1].upper()}{reason[1:]}." if len(reasons) == 1 else f"{', '.join(who)}: {reason}." for reason, who in reasons.items()]
+    # Of all channels alike.
+    alone = len(reasons) == 1 and len(found) == sum(1 for log in c.logs for _ in log.channels)
+    return [_sentence(reason) if alone else f"{', '.join(who)}: {reason}." for reason, who in reasons.items()]
 
 
 # Quality
@@ -236,7 +239,8 @@ def _evidence(c: Characterization) -> list[Picture]:
         for (kind, column), shown in log.evidence.items():
             where = f", {log.name}" if len(c.logs) > 1 else ""
             caption = f"{kind.replace('_', ' ')}, {column}{where}: {SHOWS[type(shown)]}."
-            made.append(Picture(Markup(pictures.finding(shown, column)), caption.capitalize() if not where else caption, caption, small=True))
+            svg = Markup(pictures.finding(shown, column.partition(" ")[0]))
+            made.append(Picture(svg, caption.capitalize() if not where else caption, caption, small=True))
     return made
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 
 import numpy as np
 
@@ -19,11 +19,16 @@ RARE = 0.005
 """Share of the seconds up to which it is a jolt, and not motion."""
 
 
-def motion(samples: Samples) -> list[Finding]:
-    """``motion`` for each column that moves in more than a few seconds; ``count`` seconds of it, the first of them in ``first_row``."""
+def motion(samples: Samples, wrapped: Container[str] = ()) -> list[Finding]:
+    """``motion`` for each column that moves in more than a few seconds; ``count`` seconds of it, the first of them in ``first_row``.
+
+    Columns ``wrapped`` are left out: they jump without a motion.
+    """
     length = max(round(SECONDS / samples.h), 1)
     found = []
     for axis, column in zip(AXES, samples.columns, strict=True):
+        if f"{samples.kind}_{axis}" in wrapped:
+            continue
         changes = list(_changes(samples, column, length))
         steps = np.concatenate([c for c, _ in changes]) if changes else np.empty(0)
         rows = np.concatenate([r for _, r in changes]) if changes else np.empty(0, dtype=int)

@@ -16,7 +16,7 @@ from pyimu.characterize.evidence import Evidence
 from pyimu.characterize.lines import Line
 from pyimu.characterize.moments import TERMS
 from pyimu.characterize.psd import Psd
-from pyimu.characterize.thermal import ThermalFit
+from pyimu.characterize.thermal import NAMES, ThermalFit
 from pyimu.characterize.warm_up import WarmUp
 from pyimu.errors import Finding
 from pyimu.imu import Part
@@ -57,6 +57,12 @@ class Channel:
     warm_up: WarmUp | None
 
     @property
+    def taken_off(self) -> str:
+        """What the noise is without: ``temperature``, ``warm-up``, both or nothing."""
+        warranted = self.thermal is not None and self.thermal.warranted and self.noise is not None
+        return " and ".join(n for n, there in (("temperature", warranted), ("warm-up", self.warm_up is not None)) if there)
+
+    @property
     def kind(self) -> str:
         return self.name.partition("_")[0]
 
@@ -67,7 +73,10 @@ class Channel:
 
 @dataclass(frozen=True)
 class SensorResult:
-    """One sensor in one log: ``h`` s, ``samples`` of it, ``stretches`` without gap and how many ``used`` for the deviations, one-sided ``psd``."""
+    """One sensor in one log: ``h`` s, ``samples`` of it, ``stretches`` without gap and how many ``used`` for the deviations, one-sided ``psd``.
+
+    ``searched`` [Hz]: from where to where lines were looked for.
+    """
 
     kind: str
     h: float
@@ -77,6 +86,7 @@ class SensorResult:
     longest: int
     psd: Psd
     channels: tuple[Channel, ...]
+    searched: tuple[float, float] = (math.nan, math.nan)
 
 
 @dataclass(frozen=True)
@@ -153,11 +163,15 @@ class Characterization:
         ``pyimu close``), ``sensors``}; ``part``: {channel: {letter: coefficient + ``spread`` over the logs, null for one}}.
 
         ``sensors``: {``gyro`` and ``accel``: {``sample_period`` [s], ``samples``, ``stretches``, ``stretches_used``, ``psd``: {``frequency`` [Hz],
-        ``density`` by channel, one-sided}, ``channels``}}, and ``channels``: {``gyro_x`` ...: {``unit``, ``mean``, ``coefficients``,
+        ``density`` by channel, one-sided}, ``lines_from`` and ``lines_to`` [Hz], between which lines were looked
+        for, ``channels``}}, and ``channels``: {``gyro_x`` ...: {``unit``, ``mean``, ``coefficients``,
         ``allan``: {``tau`` [s], ``deviation``, ``low``, ``high``, ``freedom``}, ``modified`` and ``hadamard``: {``tau``, ``deviation``},
-        ``fit``: {``shortest`` tau [s], ``model_error``, ``misfit``, ``freedom``, ``terms`` and their ``covariance``},
-        ``floor``: {``deviation``, ``tau``}, ``lines``: [{``frequency``, ``frequency_std``, ``amplitude``, ``amplitude_std``, ``p_value``, ``relation``}],
-        ``thermal``, ``warm_up``, ``reason``}}.
+        ``fit``: {``shortest`` tau [s], ``model_error``, ``misfit``, ``freedom``, ``terms`` of the curve, their ``estimates`` and ``covariance``},
+        ``floor``: {``deviation``, ``tau``}, ``lines``: [{``frequency``, ``frequency_std`` and ``width`` [Hz], ``amplitude``,
+        ``amplitude_std``, ``unit``, ``ratio`` to the background, ``p_value``, ``relation``}], ``thermal`` and its ``hysteresis`` with
+        ``kh`` and ``width`` [K]
+        of the catalogue's effect,
+        ``warm_up``, ``reason``}}.
 
         A coefficient is {``value``, ``std``, ``low``, ``high``, ``unit``, ``needed``}; one that is not needed has the value null and the
         interval from 0 to its upper bound.  What is not a number is null.
@@ -191,6 +205,7 @@ def _sensor(s: SensorResult) -> dict[str, Any]:
     density = {c.name: s.psd.density[:, i] for i, c in enumerate(s.channels)} if len(s.psd.frequency) else {}
     return {"sample_period": s.h, "samples": s.samples, "stretches": s.stretches, "stretches_used": s.used,
             "psd": {"frequency": s.psd.frequency, "density": density, "averages": s.psd.averages, "sides": 1, "unit": f"({SAMPLE[s.kind]})^2/Hz"},
+            "lines_from": s.searched[0], "lines_to": s.searched[1],
             "channels": {c.name: _channel(c) for c in s.channels}}
 
 
@@ -203,11 +218,14 @@ def _channel(c: Channel) -> dict[str, Any]:
                 "allan": _curve(n.allan) | {"low": n.allan.low, "high": n.allan.high, "freedom": n.allan.freedom},
                 "modified": _curve(n.modified), "hadamard": _curve(n.hadamard), "as_measured": n.raw and _curve(n.raw),
                 "fit": {"shortest": fit.shortest, "model_error": fit.model_error, "misfit": fit.fit.misfit, "freedom": fit.fit.freedom,
-                        "terms": fit.fit.needed, "covariance": fit.fit.covariance},
+                        "terms": "".join(fit.fit.estimates), "estimates": dict(fit.fit.estimates),
+                        "covariance": fit.fit.covariance},
                 "floor": dict(zip(("deviation", "tau"), floor(n), strict=True))}
-    lines = [{"frequency": v.frequency, "frequency_std": v.frequency_std, "amplitude": v.amplitude, "amplitude_std": v.amplitude_std,
-              "p_value": v.p_value, "relation": v.relation.text if v.relation else None} for v in c.lines]
-    warm_up = c.warm_up and {"amplitude": c.warm_up.amplitude, "std": c.warm_up.std, "time_constant": c.warm_up.tau, "p_value": c.warm_up.p_value}
+    lines = [{"frequency": v.frequency, "frequency_std": v.frequency_std, "width": v.width, "amplitude": v.amplitude,
+              "amplitude_std": v.amplitude_std, "unit": SAMPLE[c.kind], "ratio": v.ratio, "p_value": v.p_value,
+              "relation": v.relation.text if v.relation else None} for v in c.lines]
+    warm_up = c.warm_up and {"amplitude": c.warm_up.amplitude, "std": c.warm_up.std, "time_constant": c.warm_up.tau, "p_value": c.warm_up.p_value,
+                             "unit": SAMPLE[c.kind]}
     return out | {"lines": lines, "thermal": _thermal(c), "warm_up": warm_up}
 
 
@@ -217,9 +235,12 @@ def _thermal(c: Channel) -> dict[str, Any] | None:
         return None
     h = t.hysteresis
     loop = h and {"opening": h.opening.value, "std": h.opening.std, "low": h.opening.low, "high": h.opening.high, "p_value": h.p_value,
-                  "warranted": h.warranted}
-    return {"order": t.order, "T0": t.T0, "bound": t.bound, "p_value": t.p_value, "hysteresis": loop, "hysteresis_reason": t.no_hysteresis,
-            "coefficients": {n: {"value": v.value, "std": v.std, "low": v.low, "high": v.high} for n, v in t.coefficients.items()}}
+                  "warranted": h.warranted, "kh": h.kh, "width": h.width, "unit": SAMPLE[c.kind], "kh_unit": f"{SAMPLE[c.kind]}/K", "width_unit": "K"}
+    powers = {n: "" if i == 0 else "/K" if i == 1 else f"/K^{i}" for i, n in enumerate(NAMES)}
+    return {"order": t.order, "T0": t.T0, "unit": SAMPLE[c.kind], "bound": t.bound, "p_value": t.p_value, "hysteresis": loop,
+            "hysteresis_reason": t.no_hysteresis,
+            "coefficients": {n: {"value": v.value, "std": v.std, "low": v.low, "high": v.high, "unit": SAMPLE[c.kind] + powers[n]}
+                             for n, v in t.coefficients.items()}}
 
 
 def _curve(c: Curve) -> dict[str, Any]:

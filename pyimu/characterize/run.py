@@ -14,9 +14,9 @@ from pathlib import Path
 
 import numpy as np
 
-from pyimu.characterize.channel import LEAST, noise_of
+from pyimu.characterize.channel import LEAST, compensated, noise_of
 from pyimu.characterize.evidence import evidence
-from pyimu.characterize.lines import Line, find_lines
+from pyimu.characterize.lines import Line, find_lines, searched_range
 from pyimu.characterize.pooled import longest
 from pyimu.characterize.psd import SpectrumAccumulator, window_length
 from pyimu.characterize.rest import motion
@@ -24,7 +24,6 @@ from pyimu.characterize.result import Channel, Characterization, LogResult, Over
 from pyimu.characterize.samples import CHUNK, KINDS, Collector, Samples
 from pyimu.characterize.store import Store
 from pyimu.characterize.thermal import ThermalFit, fit_thermal
-from pyimu.characterize.warm_up import WarmUp, find_warm_up
 from pyimu.clock import Clock
 from pyimu.errors import Finding, UserError
 from pyimu.figures import BINS
@@ -35,6 +34,9 @@ from pyimu.shown import joined
 
 TWO_RATES = 0.01
 """Share of a log at another rate beyond which it cannot be characterised as one."""
+
+REPEATED = 0.01
+"""Share of rows without a time of their own beyond which the times are too coarse."""
 
 Say = Callable[[str, float | None], None]
 Source = Recording | Log | str | os.PathLike
@@ -54,10 +56,28 @@ def characterize(recording: Source | Sequence[Source], level: float = 0.95, say:
     sources = [recording] if isinstance(recording, (Recording, Log, str, os.PathLike)) else list(recording)
     if not sources:
         raise UserError("no log to characterise")
+    opened = [open_log(Path(s)) if isinstance(s, (str, os.PathLike)) else s for s in sources]
     logs: list[LogResult] = []
-    for source in sources:
-        logs.append(_log(source, level, _origin(logs), say))
+    for source, name in zip(opened, _names(opened), strict=True):
+        logs.append(_log(source, name, level, _origin(logs), say))
     return Characterization(tuple(logs), level)
+
+
+def _names(sources: Sequence[Recording | Log]) -> list[str]:
+    """The logs' names, equal ones with the folder, or their place, before them.  Raises UserError for a file that is given twice."""
+    paths = [s.path.resolve() if isinstance(s, Log) else None for s in sources]
+    again = next((p for i, p in enumerate(paths) if p is not None and p in paths[:i]), None)
+    if again is not None:
+        raise UserError(f"{again}: given twice; logs that go together must be independent, give each file once")
+    names = [s.name for s in sources]
+    while twice := {n for n in names if names.count(n) > 1}:
+        at = [i for i, n in enumerate(names) if n in twice]
+        depth = [names[i].count("/") + 1 for i in at]
+        if any(paths[i] is None or len(paths[i].parts) <= d + 1 for i, d in zip(at, depth, strict=True)):
+            return [f"{i + 1}: {n}" if n in twice else n for i, n in enumerate(names)]
+        for i, d in zip(at, depth, strict=True):
+            names[i] = f"{paths[i].parts[-d - 1]}/{names[i]}"
+    return names
 
 
 def _origin(logs: Sequence[LogResult]) -> float | None:
@@ -65,19 +85,18 @@ def _origin(logs: Sequence[LogResult]) -> float | None:
     return next((c.thermal.T0 for log in logs for c in log.channels if c.thermal is not None), None)
 
 
-def _log(source: Source, level: float, T0: float | None, say: Say) -> LogResult:
-    source = open_log(Path(source)) if isinstance(source, (str, os.PathLike)) else source
+def _log(source: Recording | Log, name: str, level: float, T0: float | None, say: Say) -> LogResult:
     with Store() as store:
         sensors, rows, duration, findings = _read(source, store, say)
-        _check_rates(source.name, findings, rows)
-        findings = (*findings, *(f for s in sensors.values() for f in motion(s)))
+        _check_times(name, findings, rows)
         wrapped = {f.column for f in findings if f.kind == "wrapped"}
-        results = {k: _sensor(source.name, s, wrapped, level, T0, store, say) for k, s in sensors.items()}
+        findings = (*findings, *(f for s in sensors.values() for f in motion(s, wrapped)))
+        results = {k: _sensor(name, s, wrapped, level, T0, store, say) for k, s in sensors.items()}
         if not any(c.noise for r in results.values() for c in r.channels):
-            raise UserError(_nothing(source.name, results))
+            raise UserError(_nothing(name, results))
         warm = tuple(Finding("warm_up", c.name, round(3 * c.warm_up.tau / r.h), {"amplitude": c.warm_up.amplitude, "time_constant": c.warm_up.tau})
                      for r in results.values() for c in r.channels if c.warm_up)
-        return LogResult(source.name, rows, duration, results, (*findings, *warm), evidence(findings, sensors))
+        return LogResult(name, rows, duration, results, (*findings, *warm), evidence(findings, sensors))
 
 
 def _read(source: Recording | Log, store: Store, say: Say) -> tuple[dict[str, Samples], int, float, tuple[Finding, ...]]:
@@ -92,9 +111,11 @@ def _read(source: Recording | Log, store: Store, say: Say) -> tuple[dict[str, Sa
             collector.add(piece)
         first, last, rows = piece.time[0] if rows == 0 else first, piece.time[-1], rows + len(piece)
     found = {k: s for k, c in collectors.items() if (s := c.result()) is not None}
+    lost = [Finding("no_samples", f"{k}_{axis}", rows) for k, c in collectors.items() for i, axis in enumerate(AXES)
+            if k not in found or i in found[k].absent]
     # A recording that was not read knows nothing of its times.
     of_times = [f for f in clock.findings() if f.kind not in {known.kind for known in source.findings}]
-    return found, rows, float(last - first), (*source.findings, *of_times, *inspector.findings())
+    return found, rows, float(last - first), (*source.findings, *of_times, *inspector.findings(), *lost)
 
 
 def _pieces(source: Recording | Log) -> Iterator[tuple[Recording, float]]:
@@ -111,8 +132,11 @@ def _of(whole: Recording, piece: Recording) -> Recording:
     return replace(piece, period=whole.cadence.period, longest=whole.cadence.longest)
 
 
-def _check_rates(name: str, findings: Iterable[Finding], rows: int) -> None:
+def _check_times(name: str, findings: Iterable[Finding], rows: int) -> None:
     for f in findings:
+        if f.kind == "repeated_time" and f.count > REPEATED * (rows + f.count):
+            raise UserError(f"{name}: {f.count:,} of {rows + f.count:,} rows have the time of the row before: the time stamps are too coarse, "
+                            "as of float32 or a slow clock; write them in float64 or integers, with at least two steps a sample")
         if f.kind == "two_rates" and f.count > TWO_RATES * rows:
             d = f.detail
             raise UserError(f"{name}: two sample rates, {d['rate']:.6g} Hz and, from {d['first']:.6g} s on, {d['other_rate']:.6g} Hz; "
@@ -135,12 +159,15 @@ def _sensor(name: str, samples: Samples, wrapped: set[str], level: float, T0: fl
         reason = _reason(samples, axis, column in wrapped)
         channels.append(_channel(f"{name}: {column}", column, samples, axis, reason, own, level, T0, store, say))
     used = len(longest(samples.stretches))
-    return SensorResult(samples.kind, samples.h, len(samples), len(samples.stretches), used, samples.longest, spectrum.result(), tuple(channels))
+    return SensorResult(samples.kind, samples.h, len(samples), len(samples.stretches), used, samples.longest, spectrum.result(), tuple(channels),
+                        searched_range(spectrum))
 
 
 def _reason(samples: Samples, axis: int, wrapped: bool) -> str:
     """Why a channel cannot be characterised; empty where it can."""
     column = samples.columns[axis]
+    if axis in samples.absent:
+        return samples.absent[axis]
     if samples.longest < LEAST:
         return f"{samples.longest} samples without gap are too few, at least {LEAST} are needed"
     if np.all(column == column[0]):
@@ -166,13 +193,13 @@ def _channel(label: str, name: str, samples: Samples, axis: int, reason: str, li
     thermal, thermal_reason = (None, reason) if reason else _thermal(samples, axis, level, T0)
     if not reason:
         try:
-            noise = noise_of(samples, axis, thermal, lines, level, store, lambda text: say(f"{label}: {text}", None))
+            say(f"{label}: temperature and warm-up", None)
+            rest, warm_up = compensated(samples, axis, thermal, store)
+            noise = noise_of(samples, axis, rest, lines, level, store, lambda text: say(f"{label}: {text}", None))
         except UserError as error:
-            reason = str(error)
-    if noise is not None:
-        # A warm-up by the temperature that was logged is an effect of temperature.
-        warm_up = _warm_up(samples, column if noise.raw is None else store.column("compensated"))
-    return Channel(name, float(np.mean(column)), _overview(samples, axis), noise, reason, lines, thermal, thermal_reason, warm_up)
+            reason, warm_up = str(error), None
+    mean = np.nan if axis in samples.absent else float(np.mean(column))
+    return Channel(name, mean, _overview(samples, axis), noise, reason, lines, thermal, thermal_reason, warm_up)
 
 
 def _thermal(samples: Samples, axis: int, level: float, T0: float | None) -> tuple[ThermalFit | None, str]:
@@ -184,14 +211,10 @@ def _thermal(samples: Samples, axis: int, level: float, T0: float | None) -> tup
         return None, str(error)
 
 
-def _warm_up(samples: Samples, column: np.ndarray) -> WarmUp | None:
-    """In the first stretch, if it is a good part of the log."""
-    start, stop = samples.stretches[0]
-    return find_warm_up(column[start:stop], samples.h) if 2 * (stop - start) > len(samples) else None
-
-
 def _overview(samples: Samples, axis: int) -> Overview:
     edges = np.unique(np.linspace(0, len(samples), min(BINS, len(samples)) + 1).astype(int))
     column, spans = samples.columns[axis], list(itertools.pairwise(edges))
+    if axis in samples.absent:
+        column = np.full(len(samples), np.nan)
     low, mean, high = (np.array([f(column[a:b]) for a, b in spans]) for f in (np.min, np.mean, np.max))
     return Overview(np.array([samples.time[(a + b) // 2] for a, b in spans]), low, mean, high)

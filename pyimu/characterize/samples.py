@@ -1,18 +1,20 @@
 """The samples of a log by sensor: rows that are complete, the stretches without gap in which they lie, and what accompanies them.
 
-A gap is a step of the time above 1.5 sample periods (``clock``).  A row in which a cell of the sensor is missing is no sample of it, so that a
+A gap is a step of the time above 1.5 sample periods after which the stamps stay late (``gaps``).  A row in which a cell of the sensor is missing is no sample of it, so that a
 sensor that is logged in every second row has half the log's rate, and a lost sample is a gap.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from pyimu.characterize.blocks import BlockAccumulator, Blocks
 from pyimu.characterize.store import Store
 from pyimu.clock import Cadence, cadence_of
+from pyimu.gaps import GapFinder
 from pyimu.imu import AXES
 from pyimu.recording import Recording
 
@@ -27,7 +29,10 @@ CHUNK = 1 << 20
 
 @dataclass
 class Samples:
-    """One sensor's samples: ``columns`` (3 arrays (n,)) in SI, ``time`` (n,) s, sample period ``h`` s, ``stretches`` (start, stop) without gap."""
+    """One sensor's samples: ``columns`` (3 arrays (n,)) in SI, ``time`` (n,) s, sample period ``h`` s, ``stretches`` (start, stop) without gap.
+
+    ``absent`` axes, by index and with the reason, have no samples: their columns are zero.
+    """
 
     kind: str
     h: float
@@ -36,6 +41,7 @@ class Samples:
     stretches: list[tuple[int, int]]
     missing: np.ndarray
     blocks: Blocks | None
+    absent: Mapping[int, str] = field(default_factory=dict)
 
     def place(self, row: int) -> int:
         """The sample that row ``row`` of the log is."""
@@ -60,14 +66,16 @@ class Collector:
     def __init__(self, kind: str, store: Store) -> None:
         self.kind, self.store = kind, store
         self.cadence: Cadence | None = None
-        self._starts: list[np.ndarray] = []
-        self._rows, self._count, self._last = 0, 0, -np.inf
+        self._gaps: GapFinder | None = None
+        self._starts: list[np.ndarray] = [np.zeros(1, dtype=int)]
+        self._rows, self._count = 0, 0
         self._blocks: BlockAccumulator | None = None
         self._warm = (-np.inf, np.nan)
+        self._seen, self._late = np.zeros(3, dtype=bool), {}
 
     def add(self, piece: Recording) -> None:
         """The next piece of the log."""
-        values = getattr(piece, self.kind)
+        values = self._present(getattr(piece, self.kind))
         whole = np.isfinite(values).all(axis=1)
         self.store.append(f"{self.kind}_missing", np.flatnonzero(~whole) + self._rows)
         self._rows += len(piece)
@@ -76,14 +84,22 @@ class Collector:
             return
         if self.cadence is None:
             self.cadence = _cadence(piece, time)
-        breaks = np.flatnonzero(np.diff(time, prepend=self._last) > self.cadence.longest)
-        self._starts.append(breaks + self._count)
-        self._count, self._last = self._count + len(time), time[-1]
+            self._gaps = GapFinder(self.cadence.period, self.cadence.longest)
+        self._starts.append(self._gaps.add(time)[0])
+        self._count += len(time)
         self.store.append(f"{self.kind}_time", time)
         for axis, column in zip(AXES, rows.T, strict=True):
             self.store.append(f"{self.kind}_{axis}", column)
         if piece.temperature is not None:
             self._warmth(time, self._temperature(piece)[whole], rows)
+
+    def _present(self, values: np.ndarray) -> np.ndarray:
+        """The values (k, 3), zero on axes that have had none so far, so that these do not take the other axes along."""
+        there = np.isfinite(values).any(axis=0)
+        self._late |= {i: self._rows for i in np.flatnonzero(there & ~self._seen).tolist() if self._count}
+        self._seen |= there
+        empty = ~self._seen
+        return values if not self._seen.any() or not empty.any() else np.where(empty, 0.0, values)
 
     def _warmth(self, time: np.ndarray, temperature: np.ndarray, rows: np.ndarray) -> None:
         if self._blocks is None:
@@ -103,12 +119,16 @@ class Collector:
         """What came; None where nothing did."""
         if not self._count:
             return None
-        edges = np.append(np.concatenate(self._starts), self._count).astype(int)
+        edges = np.concatenate([*self._starts, self._gaps.end()[0], [self._count]])
         stretches = list(zip(edges[:-1].tolist(), edges[1:].tolist(), strict=True))
         columns = [self.store.column(f"{self.kind}_{axis}") for axis in AXES]
         blocks = self._blocks.result() if self._blocks else None
         return Samples(self.kind, self.cadence.period, self.store.column(f"{self.kind}_time"), columns, stretches,
-                       self.store.column(f"{self.kind}_missing"), blocks)
+                       self.store.column(f"{self.kind}_missing"), blocks, self._absent())
+
+    def _absent(self) -> dict[int, str]:
+        late = {i: f"its first {rows:,} cells are empty, give it from there on" for i, rows in self._late.items()}
+        return late | {i: "all its cells are empty" for i in np.flatnonzero(~self._seen).tolist()}
 
 
 def _cadence(piece: Recording, time: np.ndarray) -> Cadence:

@@ -82,7 +82,8 @@ class ThermalFit:
     ``p_value`` is that of no effect of temperature at all; with ``order`` 0 ``bound`` is the largest abs(k_T) that the data allow,
     else it is nan.  ``N`` [unit sqrt(s)] and ``K`` [unit/sqrt(s)] are the noise of the block means.  ``hysteresis`` is None where
     ``no_hysteresis`` says why none could be looked for.  Arrays (m,) for the picture: ``residual`` is ``bias`` less ``fitted``,
-    ``temperature`` is without the thermometer's noise, ``branch`` 1 where it rises, -1 where it falls, 0 on a turn.
+    ``temperature`` is without the thermometer's noise, ``branch`` 1 where it rises, -1 where it falls, 0 on a turn, ``loop`` what the
+    hysteresis adds to the polynomial, zero where it is not warranted.
     """
 
     order: int
@@ -99,6 +100,16 @@ class ThermalFit:
     temperature: np.ndarray
     bias: np.ndarray
     branch: np.ndarray
+    loop: np.ndarray
+
+    @property
+    def warranted(self) -> bool:
+        """Whether temperature has an effect at all."""
+        return self.order > 0 or (self.hysteresis is not None and self.hysteresis.warranted)
+
+    def effect(self, time: np.ndarray) -> np.ndarray:
+        """What temperature makes of the bias (n,) at times (n,) s of the log: the polynomial, and the loop where it is warranted."""
+        return self.at(np.interp(time, self.time, self.temperature)) + np.interp(time, self.time, self.loop)
 
     def at(self, temperature: np.ndarray) -> np.ndarray:
         """The polynomial at temperatures in degC."""
@@ -106,9 +117,13 @@ class ThermalFit:
 
     @property
     def fitted(self) -> np.ndarray:
-        """The polynomial (m,) on the level of the whole log: b0 is that of its start, from where the walk goes on."""
-        curve = self.at(self.temperature)
-        return curve + np.mean(self.bias - curve)
+        """The polynomial (m,) on the level of the whole log."""
+        return self.at(self.temperature) + self.level
+
+    @property
+    def level(self) -> float:
+        """Of the whole log above b0, which is that of its start, from where the walk goes on."""
+        return float(np.mean(self.bias - self.at(self.temperature)))
 
     @property
     def residual(self) -> np.ndarray:
@@ -117,7 +132,9 @@ class ThermalFit:
     def parameters(self) -> dict[tuple[str, str], float]:
         """Values of the catalogue's effects that are warranted, by (effect, parameter)."""
         out = {CATALOGUE[n]: c.value for n, c in self.coefficients.items() if n in CATALOGUE}
-        return out | {(effect, "T0"): self.T0 for effect, _ in out}
+        out |= {(effect, "T0"): self.T0 for effect, _ in out}
+        h = self.hysteresis
+        return out | ({("thermal_hysteresis", "kh"): h.kh, ("thermal_hysteresis", "width"): h.width} if h is not None and h.warranted else {})
 
 
 def fit_thermal(blocks: Blocks, column: int = 0, level: float = 0.95, T0: float | None = None, order: int | None = None) -> ThermalFit:
@@ -151,8 +168,10 @@ def fit_thermal(blocks: Blocks, column: int = 0, level: float = 0.95, T0: float 
         bound = max(abs(slope.low), abs(slope.high))
     covariance = fit.covariance[:chosen + 1, :chosen + 1] * np.outer(scale, scale)
     branch = np.trunc(_play(temperature, PLAYS[1] * span)).astype(int)
+    warranted = loop is not None and loop.warranted
+    looped = loop.opening.value / 2 * _play(temperature, loop.width) if warranted else np.zeros(len(temperature))
     return ThermalFit(chosen, T0, dict(zip(NAMES, estimates, strict=False)), covariance, float(bound), p_value, fit.N, fit.K, loop, why,
-                      blocks.time, temperature, values, branch)
+                      blocks.time, temperature, values, branch, looped)
 
 
 def _check(blocks: Blocks) -> None:

@@ -23,6 +23,12 @@ STIFFNESS = np.logspace(-4, 9, 40)
 STANDS = 0.5
 """A thermometer whose mean changes in fewer than that share of the blocks shows its own steps."""
 
+COARSEST = 1.0
+"""K; the step of a coarse thermometer.  A larger one is a change of the temperature itself."""
+
+ONE_STEP = 1.5
+"""A change of up to so many of the thermometer's steps is one of them; a larger one is a ramp or a jump between plateaus."""
+
 
 def smoothed(blocks: Blocks) -> np.ndarray:
     """What is expected of the temperature (m,) at each block, given all of them."""
@@ -33,11 +39,29 @@ def smoothed(blocks: Blocks) -> np.ndarray:
 
 
 def without_steps(temperature: np.ndarray) -> np.ndarray:
-    """Straight from each change to the next, where a coarse thermometer stands still for long between its steps."""
-    changes = np.flatnonzero(np.diff(temperature))
-    if not 1 < len(changes) < STANDS * len(temperature):
+    """Straight from each of its own steps to the next, where a coarse thermometer stands still for long between them.
+
+    Larger changes, as between the plateaus of a chamber, stay as they were read, and so do the ends.
+    """
+    change = np.flatnonzero(np.diff(temperature))
+    if not 1 < len(change) < STANDS * len(temperature):
         return temperature
-    return np.interp(np.arange(len(temperature)), changes + 0.5, (temperature[changes] + temperature[changes + 1]) / 2)
+    # A step in the middle of a block is a change from either side of it.
+    runs = np.split(change, np.flatnonzero(np.diff(change) > 1) + 1)
+    first, last = np.array([r[0] for r in runs]), np.array([r[-1] + 1 for r in runs])
+    size = np.abs(temperature[last] - temperature[first])
+    step = np.min(size, where=size > 1e-6 * np.ptp(temperature), initial=np.inf)
+    if step > COARSEST:
+        return temperature
+    known = np.ones(len(temperature), dtype=bool)
+    known[1:-1] = False
+    for a, b in zip(first[size > ONE_STEP * step], last[size > ONE_STEP * step], strict=True):
+        known[a:b + 1] = True
+    own = size <= ONE_STEP * step
+    at = np.append(np.flatnonzero(known), (first[own] + last[own]) / 2)
+    level = np.append(temperature[known], (temperature[first[own]] + temperature[last[own]]) / 2)
+    order = np.argsort(at, kind="stable")
+    return np.interp(np.arange(len(temperature)), at[order], level[order])
 
 
 def _fit(y: np.ndarray, w: np.ndarray, step: np.ndarray, order: int, stiffness: float) -> tuple[float, np.ndarray]:

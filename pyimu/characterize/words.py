@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 import numpy as np
 
 from pyimu.characterize.coefficients import Coefficient
-from pyimu.characterize.moments import TERMS
+from pyimu.characterize.lines import Line
 from pyimu.characterize.result import SAMPLE, SI, Channel, Characterization, LogResult, SensorResult, Summary, floor
 from pyimu.errors import Finding
 from pyimu.imu import AXES
@@ -15,6 +15,9 @@ from pyimu.page import detail
 from pyimu.shown import MISSING, in_unit, number, pretty, quantity, unit_for
 
 SENSORS = {"gyro": "gyro", "accel": "accelerometer"}
+
+READING_ORDER = "NBKQR"
+"""Terms as people read them."""
 
 TERM_NAMES = {
     "gyro": {"Q": "angle quantization", "N": "angle random walk", "B": "bias instability", "K": "rate random walk", "R": "rate ramp"},
@@ -47,6 +50,20 @@ def about(log: LogResult) -> str:
     return f"{log.rows:,} rows, {duration(log.duration)}, {sensors}"
 
 
+def frequency(v: Line) -> str:
+    """As many figures as show two of the standard error."""
+    figures = int(np.clip(np.ceil(np.log10(v.frequency / max(v.frequency_std, 1e-9 * v.frequency))) + 1, 2, 8))
+    return number(v.frequency, figures)
+
+
+def searched(s: SensorResult) -> str:
+    """Where lines were looked for."""
+    low, high = s.searched
+    if not np.isfinite(low):
+        return f"The {SENSORS[s.kind]} has too few samples without gap for lines to be looked for."
+    return f"Lines of the {SENSORS[s.kind]} were looked for from {number(low, 2)} to {number(high, 4)} Hz; half the sample rate is {0.5 / s.h:.6g} Hz."
+
+
 def split(log: LogResult) -> Iterator[str]:
     """What was done with a log that has gaps, a sentence for each sensor."""
     for k, s in log.sensors.items():
@@ -57,7 +74,7 @@ def split(log: LogResult) -> Iterator[str]:
 
 
 def doubts(log: LogResult) -> Iterator[str]:
-    """What to say of a log that holds raw counts, or is not at rest."""
+    """What to say of a log that holds raw counts, is not at rest, or has faults that reach the coefficients."""
     counts, moving = ([f.column for f in log.findings if f.kind == kind] for kind in ("counts", "motion"))
     if counts:
         yield (f"{log.name}: {', '.join(counts)} hold whole numbers, as counts of a converter do, in a unit that no sensor is that coarse in: "
@@ -65,6 +82,47 @@ def doubts(log: LogResult) -> Iterator[str]:
     elif moving:
         yield (f"{log.name}: not at rest: {', '.join(moving)} change more from one second to the next than noise does, "
                "so that the coefficients are also those of the motion. Give a log at rest, or the part of it that is.")
+    for kind, text in FAULTS.items():
+        columns = list(dict.fromkeys(f.column for f in log.findings if f.kind == kind and _matters(log, f)))
+        if columns:
+            yield f"{log.name}: {', '.join(columns)}: {text}."
+    for text in dict.fromkeys(ch.taken_off for ch in log.channels if "warm-up" in ch.taken_off):
+        columns = [ch.name for ch in log.channels if ch.taken_off == text]
+        yield f"{log.name}: {', '.join(columns)}: a warm-up was taken off; what its exponential leaves is in B, K and R."
+
+
+FAULTS = {"clipping": "clipped samples: what lies beyond the limit is missing, so that N is too small and the bias is off",
+          "spikes": "the spikes are in N and Q, which are too large",
+          "stuck_samples": "stuck samples hold one value for long, so that N, B and K are off",
+          "held_samples": "each value stands in several rows, so that Q and N at short clusters are those of the log and not of the sensor",
+          "quantization_step": "steps as coarse as the noise: N, B and K are also those of the rounding, and not of the sensor alone"}
+"""What findings do to the coefficients."""
+
+COARSE = 0.5
+"""Share of the white noise that rounding makes, from which on it is no noise of the sensor that is seen."""
+
+NOTICED = 0.01
+"""Share of the white noise below which spikes and stuck samples do not matter."""
+
+
+def rounding_share(step: float, N: float, h: float) -> float:
+    """Of the white noise N of samples every h s, what rounding to steps makes; infinite where there is no N."""
+    return step ** 2 * h / 12 / N ** 2 if N else np.inf
+
+
+def _matters(log: LogResult, f: Finding) -> bool:
+    """Whether a finding reaches the coefficients of its channel, if it has any."""
+    ch = next((ch for ch in log.channels if ch.name == f.column and ch.noise is not None), None)
+    if ch is None:
+        return False
+    # Where none is needed, as much as there may be.
+    s, N = log.sensors[ch.kind], ch.noise.fit.fit.estimates.get("N", 0.0) or ch.noise.fit["N"].high
+    if f.kind == "quantization_step":
+        return rounding_share(f.detail["step"], N, s.h) > COARSE
+    if f.kind == "spikes":
+        return f.count * f.detail["largest"] ** 2 * s.h > NOTICED * N ** 2 * s.samples
+    # As a jump of the bias by one standard deviation, for as long as it lasts.
+    return f.kind != "stuck_samples" or f.detail["longest"] ** 2 > NOTICED * s.samples
 
 
 def span(c: Coefficient, si: str, unit: str) -> str:
@@ -119,11 +177,14 @@ def fit_notes(ch: Channel) -> str:
         notes.append(f"fitted from {number(fit.shortest)} s on: shorter clusters are not of the five kinds (filter, vibration)")
     elif len(fit.free) > len(fit.lines):
         notes.append("a term of 1/τ² of either sign allowed for (filter), so that quantization only has a bound")
+    for term in fit.fit.replaceable:
+        shown = quantity(fit.fit.estimates[term], SI[ch.kind][term])
+        notes.append(f"{term} has a bound only, because another term may be in its place; the curve of the fit takes {shown} of it")
     if fit.model_error:
         notes.append(f"the five terms describe the variances only to {number(100 * fit.model_error, 2)} %, and the intervals are as wide "
                      "as that asks")
-    if ch.noise.raw is not None:
-        notes.append("the effect of temperature was taken off first")
+    if ch.taken_off:
+        notes.append(f"the effect of {ch.taken_off} was taken off first")
     return "; ".join(notes)
 
 
@@ -133,7 +194,7 @@ def spectrum_note(s: SensorResult, i: int) -> str:
     if ch.noise is None or not len(f):
         return ""
     model = 2 * ch.noise.fit.psd_two_sided(f)
-    white = (2 * ch.noise.fit["N"].value ** 2 > 0.9 * model) & (f < BAND / s.h)
+    white = (2 * ch.noise.fit.fit.estimates.get("N", 0.0) ** 2 > 0.9 * model) & (f < BAND / s.h)
     for line in ch.lines:
         white &= np.abs(f - line.frequency) > 0.1 * line.frequency + 3 * line.width
     if np.count_nonzero(white) < 5:
@@ -165,12 +226,10 @@ def terminal(c: Characterization) -> str:
 
 def _rows(c: Characterization, kind: str) -> list[tuple[str, ...]]:
     rows = [(SENSORS[kind], "", *AXES)]
-    for term in reversed(TERMS):
+    for term in READING_ORDER:
         summaries = [c.coefficients.get((f"{kind}_{axis}", term)) for axis in AXES]
         if any(summaries):
             rows.append((f"  {term} {TERM_NAMES[kind][term]}", PEOPLE[kind][term], *(_cell(s, kind, term) for s in summaries)))
-    order = {t: i for i, t in enumerate("NBKQR")}
-    rows[1:] = sorted(rows[1:], key=lambda r: order[r[0].strip()[0]])
     floors = [[floor(ch.noise) for ch in c.channel(f"{kind}_{axis}") if ch.noise] for axis in AXES]
     unit = PEOPLE[kind]["B"]
     cells = [f"{number(float(in_unit(np.mean([v for v, _ in f]), SAMPLE[kind], unit)))} at {number(f[0][1])} s" if f else MISSING for f in floors]
@@ -194,13 +253,27 @@ def _line_words(log: LogResult) -> Iterator[str]:
         if ch.lines:
             top = sorted(ch.lines, key=lambda v: -v.amplitude)[:4]
             more = f" and {len(ch.lines) - len(top)} more" if len(ch.lines) > len(top) else ""
-            yield f"{ch.name} has lines at {', '.join(f'{number(v.frequency, 4)} Hz ({quantity(v.amplitude, SAMPLE[ch.kind])})' for v in top)}{more}"
+            yield f"{ch.name} has lines at {', '.join(f'{frequency(v)} Hz ({quantity(v.amplitude, SAMPLE[ch.kind])})' for v in top)}{more}"
 
 
 def _thermal_words(log: LogResult) -> Iterator[str]:
     for ch in log.channels:
         if ch.thermal is not None:
-            yield f"{ch.name}: {thermal_sentence(ch)}"
+            h = ch.thermal.hysteresis
+            yield f"{ch.name}: {thermal_sentence(ch)}{'; ' + loop_sentence(ch) if h is not None and h.warranted else ''}"
+
+
+def loop_sentence(ch: Channel) -> str:
+    """What rising and falling temperature make different, or why that cannot be said."""
+    h = ch.thermal.hysteresis
+    if h is None:
+        return f"hysteresis: {ch.thermal.no_hysteresis}" if ch.thermal.no_hysteresis else ""
+    unit = unit_for(h.opening.value, SAMPLE[ch.kind])
+    value, low, high = (number(float(in_unit(v, SAMPLE[ch.kind], unit))) for v in (h.opening.value, h.opening.low, h.opening.high))
+    text = f"rising less falling {value} ({low} to {high}) {pretty(unit)}"
+    if h.warranted:
+        return f"{text}: a loop of ±{number(h.width, 2)} K"
+    return f"{text}, which is not taken for a loop: of as many widths as were tried chance gives one so with probability {number(h.p_value, 1)}"
 
 
 def thermal_sentence(ch: Channel) -> str:

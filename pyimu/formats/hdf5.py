@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from pyimu.errors import UserError
-from pyimu.formats.datasets import Column, DatasetTable, columns_of
+from pyimu.formats.datasets import Column, DatasetTable, columns_of, skipped
 from pyimu.formats.table import need
 
 CACHE = 1 << 25
@@ -21,17 +21,17 @@ NUMERIC = ("double", "single", "logical", *(f"{sign}int{bits}" for sign in ("", 
 class Hdf5Table(DatasetTable):
     """An HDF5 file; ``extra`` is the extra of the package that its reader is asked under."""
 
-    def __init__(self, path: Path, columns: list[Column], extra: str) -> None:
-        super().__init__(path, columns)
+    def __init__(self, path: Path, columns: list[Column], extra: str, skipped: Sequence[str] = ()) -> None:
+        super().__init__(path, columns, skipped)
         self.extra = extra
 
     @classmethod
     def open(cls, path: Path, extra: str = "hdf5") -> Hdf5Table:
         """Raises UserError for a file that is none, and where h5py is not installed."""
         with _file(path, extra) as file:
-            columns: list[Column] = []
-            file.visititems(lambda name, item: columns.extend(_columns(name, item)))
-            return cls(path, columns, extra)
+            arrays: list[tuple] = []
+            file.visititems(lambda name, item: arrays.extend(_array(name, item)))
+            return cls(path, [c for array in arrays for c in columns_of(*array)], extra, [s for array in arrays for s in skipped(*array)])
 
     @contextmanager
     def opened(self) -> Iterator[Any]:
@@ -49,8 +49,9 @@ def _file(path: Path, extra: str) -> Iterator[Any]:
         raise UserError(f"{path}: cannot be read as HDF5 ({str(error).splitlines()[0]})") from None
 
 
-def _columns(name: str, item: Any) -> list[Column]:
+def _array(name: str, item: Any) -> list[tuple]:
+    """(name, shape, type) of an ``item`` that may be of numbers, or nothing."""
     kind = item.attrs.get("MATLAB_class", b"double")
-    if not hasattr(item, "dtype") or not item.shape or bytes(kind).decode() not in NUMERIC:
+    if not hasattr(item, "dtype") or not item.shape or (bytes(kind).decode() not in NUMERIC and item.dtype.kind != "O"):
         return []
-    return columns_of(name, item.shape, item.dtype)
+    return [(name, item.shape, item.dtype)]

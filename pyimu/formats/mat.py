@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import Any
@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from pyimu.errors import UserError
-from pyimu.formats.datasets import Column, DatasetTable, columns_of
+from pyimu.formats.datasets import DatasetTable, columns_of, skipped
 from pyimu.formats.hdf5 import Hdf5Table
 
 WHOLE = 2 << 30
@@ -22,8 +22,8 @@ _HDF5 = b"\x89HDF\r\n\x1a\n"
 class MatTable(DatasetTable):
     """A MAT file of version 4 to 7.2, in memory."""
 
-    def __init__(self, path: Path, columns: list[Column], arrays: Mapping[str, np.ndarray]) -> None:
-        super().__init__(path, columns)
+    def __init__(self, path: Path, arrays: Mapping[str, np.ndarray], skipped: Sequence[str] = ()) -> None:
+        super().__init__(path, [c for name, array in arrays.items() for c in columns_of(name, array.shape, array.dtype)], skipped)
         self.arrays = arrays
 
     @classmethod
@@ -34,8 +34,9 @@ class MatTable(DatasetTable):
         if path.stat().st_size > WHOLE:
             raise UserError(f"{path}: MAT files before version 7.3 are read whole and may have {WHOLE >> 30} GiB, "
                             f"this has {path.stat().st_size / 2**30:.1f}; save it with -v7.3")
-        arrays = dict(_arrays("", _load(path)))
-        return cls(path, [c for name, array in arrays.items() for c in columns_of(name, array.shape, array.dtype)], arrays)
+        items = dict(_items("", _load(path)))
+        return cls(path, {name: item for name, item in items.items() if isinstance(item, np.ndarray)},
+                   [said for name, item in items.items() for said in _skipped(name, item)])
 
     def opened(self) -> AbstractContextManager[Mapping[str, np.ndarray]]:
         return nullcontext(self.arrays)
@@ -56,9 +57,18 @@ def _load(path: Path) -> dict[str, Any]:
         raise UserError(f"{path}: cannot be read as MAT ({str(error).partition(chr(10))[0]})") from None
 
 
-def _arrays(folder: str, items: Mapping[str, Any]) -> Iterator[tuple[str, np.ndarray]]:
+def _items(folder: str, items: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
     for name, item in items.items():
         if isinstance(item, Mapping):
-            yield from _arrays(f"{folder}{name}/", item)
-        elif isinstance(item, np.ndarray) and not name.startswith("__"):
+            yield from _items(f"{folder}{name}/", item)
+        elif isinstance(item, (np.ndarray, list)) and not name.startswith("__"):
             yield folder + name, item
+
+
+def _skipped(name: str, item: Any) -> list[str]:
+    """What of an ``item`` has no columns: arrays of structures come as lists, cells as lists or arrays of objects."""
+    if isinstance(item, list) and item and isinstance(item[0], Mapping):
+        return [f"{name} ({len(item)} structures, save one whose fields are arrays)"]
+    if isinstance(item, list) or item.dtype.kind == "O":
+        return [f"{name} (cells, save arrays)"]
+    return skipped(name, item.shape, item.dtype)

@@ -20,13 +20,14 @@ class Table(ABC):
     """A file with columns of numbers: ``header`` their names, ``findings`` what its reader had to decide.
 
     ``crowded`` says that a file may hold much else, so that only the columns that a map names, or whose names are a
-    recording's own, are looked at.
+    recording's own, are looked at; ``skipped`` says what in it has no columns of numbers, and why.
     """
 
     path: Path
     header: list[str]
     findings: tuple[Finding, ...] = ()
     crowded = False
+    skipped: tuple[str, ...] = ()
 
     @abstractmethod
     def batches(self, positions: Sequence[int], long: int) -> Iterator[tuple[Columns, float]]:

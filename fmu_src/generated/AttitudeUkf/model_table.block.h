@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN "{4fdef906-5128-c476-86fa-ba942d1e2c89}"
+#define MODEL_TOKEN "{d850a592-1eef-fbca-f380-f0b8af02a046}"
 #define MODEL_STEP step
 #define MODEL_INITIAL initial
 #define MODEL_SEED UINT64_C(0)
@@ -17,13 +17,13 @@ enum {
     N_INPUTS = 12,
     N_PARAMETERS = 39,
     N_OUTPUTS = 19,
-    N_STATES = 117,
+    N_STATES = 182,
     N_NOISE = 0,
     N_VARIABLES = 54
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 38, WORK_RES = 16, WORK_IW = 0, WORK_W = 1035 };
+enum { WORK_ARG = 44, WORK_RES = 17, WORK_IW = 0, WORK_W = 1370 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };
@@ -40,7 +40,7 @@ static const BlockVariable variables[] = {
     {"stationary", KIND_BOOLEAN, ROLE_INPUT, 11, 1, -INFINITY, INFINITY},
     {"latitude", KIND_REAL, ROLE_TUNABLE, 0, 1, -INFINITY, INFINITY},
     {"q0", KIND_REAL, ROLE_TUNABLE, 1, 4, -1000000.0, 1000000.0},
-    {"bias0", KIND_REAL, ROLE_TUNABLE, 5, 3, -1000000.0, 1000000.0},
+    {"bias0", KIND_REAL, ROLE_TUNABLE, 5, 3, -100.0, 100.0},
     {"std0[1]", KIND_REAL, ROLE_TUNABLE, 8, 1, 0.0, 1000000.0},
     {"std0[2]", KIND_REAL, ROLE_TUNABLE, 9, 1, 0.0, 1000000.0},
     {"std0[3]", KIND_REAL, ROLE_TUNABLE, 10, 1, 0.0, 1000000.0},

@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN "{ca7f1c30-2961-9167-0d81-b26872d04579}"
+#define MODEL_TOKEN "{e84bbd5f-24a3-0b89-6c5b-d7e1d7cabc01}"
 #define MODEL_STEP step
 #define MODEL_INITIAL initial
 #define MODEL_SEED UINT64_C(0)
@@ -17,13 +17,13 @@ enum {
     N_INPUTS = 12,
     N_PARAMETERS = 39,
     N_OUTPUTS = 19,
-    N_STATES = 117,
+    N_STATES = 182,
     N_NOISE = 0,
     N_VARIABLES = 73
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 38, WORK_RES = 16, WORK_IW = 0, WORK_W = 1035 };
+enum { WORK_ARG = 44, WORK_RES = 17, WORK_IW = 0, WORK_W = 1370 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
@@ -47,9 +47,9 @@ static const BlockVariable variables[] = {
     {"q0[2]", KIND_REAL, ROLE_TUNABLE, 2, 1, -1000000.0, 1000000.0},
     {"q0[3]", KIND_REAL, ROLE_TUNABLE, 3, 1, -1000000.0, 1000000.0},
     {"q0[4]", KIND_REAL, ROLE_TUNABLE, 4, 1, -1000000.0, 1000000.0},
-    {"bias0[1]", KIND_REAL, ROLE_TUNABLE, 5, 1, -1000000.0, 1000000.0},
-    {"bias0[2]", KIND_REAL, ROLE_TUNABLE, 6, 1, -1000000.0, 1000000.0},
-    {"bias0[3]", KIND_REAL, ROLE_TUNABLE, 7, 1, -1000000.0, 1000000.0},
+    {"bias0[1]", KIND_REAL, ROLE_TUNABLE, 5, 1, -100.0, 100.0},
+    {"bias0[2]", KIND_REAL, ROLE_TUNABLE, 6, 1, -100.0, 100.0},
+    {"bias0[3]", KIND_REAL, ROLE_TUNABLE, 7, 1, -100.0, 100.0},
     {"std0[1]", KIND_REAL, ROLE_TUNABLE, 8, 1, 0.0, 1000000.0},
     {"std0[2]", KIND_REAL, ROLE_TUNABLE, 9, 1, 0.0, 1000000.0},
     {"std0[3]", KIND_REAL, ROLE_TUNABLE, 10, 1, 0.0, 1000000.0},

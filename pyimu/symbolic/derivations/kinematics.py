@@ -7,11 +7,15 @@ import numpy as np
 from scipy.linalg import expm
 from scipy.spatial.transform import Rotation
 
+from pyimu.attitude import marginal
 from pyimu.symbolic import mrp, quaternion
 from pyimu.symbolic.derivations.independent import largest, rotations, scalar_first, vectors
 from pyimu.symbolic.derivations.model import EPS, Check, Derivation, Equation, call
 
 CASES = 100
+SMALL_TURN = 0.3
+"""rad; the first term that the series of ``marginal.mean_jacobian`` leaves out is then below rounding, |a|^12/13!."""
+
 ROUNDING = 200 * EPS
 """A hundred operations on numbers of order one, rounded once each, and those of scipy."""
 
@@ -53,25 +57,43 @@ TURN = (Equation("w", "norm(omega)"), Equation("c", "cos(w*h/2)"),
 STEP = Equation("Omega", "blocks([c, -T(psi)], [psi, c*I_3 - skew(psi)])")
 
 
+def _mean_turn(angle: np.ndarray) -> np.ndarray:
+    """Integral over s from 0 to 1 of the matrix (3, 3) of the turn by -s ``angle``, out of one matrix exponential (Van Loan 1978)."""
+    whole = np.zeros((6, 6))
+    whole[:3, :3], whole[:3, 3:] = np.cross(np.eye(3), angle).T, np.eye(3)
+    return expm(whole)[:3, 3:]
+
+
 def _check_step(d: Derivation) -> list[Check]:
     printed = d.function(("Omega", "q_next"), ("omega", "h", "q"))
     library = _library(lambda q, rate, h: quaternion.step(q, rate, h), ("q", 4), ("rate", 3), ("h", 1))
     library_matrix = _library(quaternion.step_matrix, ("rate", 3), ("h", 1))
     generator = KINEMATICS.function(("q_dot",), ("q_s", "q_v", "omega"))
-    rng, exact, scipys, same, small = np.random.default_rng(2), [], [], [], []
+    product = _library(lambda q, angle: quaternion.product(q, quaternion.exponential(angle)), ("q", 4), ("angle", 3))
+    turn = _library(lambda q, angle: quaternion.product(q, marginal.turn(angle)[0]), ("q", 4), ("angle", 3))
+    jacobian = _library(lambda angle: marginal.mean_jacobian(angle, marginal.turn(angle)[1]), ("angle", 3))
+    rng, exact, scipys, same, small, fast, mean = np.random.default_rng(2), [], [], [], [], [], []
     for r, rate in zip(rotations(rng, CASES), vectors(rng, CASES, 1e-2, 30.0)):
         h, q = rng.uniform(1e-3, 0.1), scalar_first(r)
         ours, after = call(printed, rate, h, q)
         linear = np.column_stack([call(generator, e[0], e[1:], rate)[0] for e in np.eye(4)])
         exact.append((ours, expm(linear * h)))
         scipys.append((after, _same_sign(scalar_first(r * Rotation.from_rotvec(rate * h)), q)))
-        same += [(ours, call(library_matrix, rate, h)[0]), (after, call(library, q, rate, h)[0])]
+        same += [(ours, call(library_matrix, rate, h)[0]), (after, call(library, q, rate, h)[0]), (after, call(product, q, rate * h)[0])]
+        angle = rng.uniform(-np.pi, np.pi, 3)
+        fast.append((call(turn, q, angle)[0], call(product, q, angle)[0]))
+        angle *= SMALL_TURN / max(SMALL_TURN, np.linalg.norm(angle))
+        mean.append((call(jacobian, angle)[0], _mean_turn(angle)))
         tiny = rate * 10.0 ** rng.uniform(-16, -2)
         small.append((call(library_matrix, tiny, h)[0] @ q, _same_sign(scalar_first(r * Rotation.from_rotvec(tiny * h)), q)))
     zero = call(library_matrix, np.zeros(3), 0.1)[0]
     return [Check("the matrix exponential of the continuous kinematics", CASES, largest(exact), ROUNDING),
             Check("the rotation of scipy by `omega*h`", CASES, largest(scipys), ROUNDING),
-            Check("quaternion.step and quaternion.step_matrix, which the filter computes with", 2 * CASES, largest(same), ROUNDING),
+            Check("quaternion.step and quaternion.step_matrix; the product with quaternion.exponential, which the filter of 13 points turns by",
+                  3 * CASES, largest(same), ROUNDING),
+            Check("marginal.turn, which the filter turns by: the same by series, up to half a turn about each axis", CASES, largest(fast), ROUNDING),
+            Check(f"marginal.mean_jacobian, by which a bias turns it: the integral of the turn's matrix, for turns of up to {SMALL_TURN:g} rad in a step",
+                  CASES, largest(mean), ROUNDING),
             Check("the same at rates down to 1e-18 rad/s and at zero, where the series stand in", CASES + 1,
                   largest([*small, (zero, np.eye(4))]), ROUNDING)]
 
