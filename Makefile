@@ -34,8 +34,8 @@ lint: $(READY)
 	$(BIN)/python -m ruff check pyimu tests
 
 generate: $(READY)
-	$(BIN)/python -c 'from pathlib import Path; from pyimu.catalogue import documentation; Path("docs/effects.md").write_text(documentation(), encoding="utf-8", newline="\n")'
-	$(BIN)/python -m pyimu.noise_page
+	$(BIN)/python docs/build/effects_page.py
+	$(BIN)/python docs/build/noise_page.py
 	$(BIN)/python -m pyimu.fmu.generate
 
 fmus: $(READY)

@@ -1,4 +1,5 @@
-"""Overlapping Allan deviation of 14 million samples at 100 cluster sizes, time and peak memory against allantools' ``oadev`` on the same data.
+"""Overlapping Allan deviation of 14 million samples at 100 cluster sizes, time and peak memory
+against allantools' ``oadev`` on the same data.
 
 ``python benchmarks/allan_speed.py [samples]``; needs allantools, which the package itself does not.
 """
@@ -11,8 +12,8 @@ from statistics import median
 
 import numpy as np
 
-from pyimu.characterize import log_clusters, overlapping_deviation
-from pyimu.characterize.allan import processors
+from pyimu.characterization.allan import log_clusters, overlapping_deviation
+from pyimu.characterization.allan.deviation import processors
 
 SAMPLES = 14_000_000
 RUNS = 5
@@ -27,14 +28,21 @@ def main(samples: int = SAMPLES) -> None:
     # First: a child process starts from its parent's largest resident size.
     memory = peak_above_the_data(samples)
     rates, m = data(samples), log_clusters(samples)
-    # Compiled (or read from the cache of compiled code) before the clock starts, as the peer's code is.
+    # Compiled (or read from the cache of compiled code) before the clock starts, as the peer's code
+    # is.
     overlapping_deviation(rates[:1000], [1])
     ours, (got, *_) = timed(lambda: overlapping_deviation(rates, m), RUNS)
-    peer, ((taus, theirs, _, _), *_) = timed(lambda: allantools.oadev(rates, rate=1.0, data_type="freq", taus=m.astype(float)), 1)
+    peer, ((taus, theirs, _, _), *_) = timed(
+        lambda: allantools.oadev(rates, rate=1.0, data_type="freq", taus=m.astype(float)), 1
+    )
     worst = np.abs(got[np.searchsorted(m, np.rint(taus))] / theirs - 1).max()
-    print(f"{samples} samples, {len(m)} cluster sizes, {processors()} processors: {ours:.3f} s (median of {RUNS}), "
-          f"allantools {peer:.2f} s: {peer / ours:.1f} times faster; largest relative difference {worst:.1e}")
-    print(f"peak memory above the data: {memory:.2f} of the data ({rates.nbytes / 2 ** 20:.0f} MiB)")
+    print(
+        f"{samples} samples, {len(m)} cluster sizes, {processors()} processors: {ours:.3f} s "
+        f"(median of {RUNS}), "
+        f"allantools {peer:.2f} s: {peer / ours:.1f} times faster; largest relative difference "
+        f"{worst:.1e}"
+    )
+    print(f"peak memory above the data: {memory:.2f} of the data ({rates.nbytes / 2**20:.0f} MiB)")
 
 
 def data(samples: int) -> np.ndarray:
@@ -56,8 +64,15 @@ def timed(work, runs: int) -> tuple[float, list]:
 
 
 def peak_above_the_data(samples: int) -> float:
-    """Growth of a fresh process' largest resident size over the call, as a share of the data; all code has run before."""
-    run = subprocess.run([sys.executable, __file__, "--peak", str(samples)], check=True, capture_output=True, text=True)
+    """Growth of a fresh process' largest resident size over the call, as a share of the data; all
+    code has run before.
+    """
+    run = subprocess.run(
+        [sys.executable, __file__, "--peak", str(samples)],
+        check=True,
+        capture_output=True,
+        text=True,
+    )
     return float(run.stdout)
 
 

@@ -1,16 +1,19 @@
-"""Inclination error of the attitude filter on measured recordings with a known attitude, beside vqf's on the same samples.
+"""Inclination error of the attitude filter on measured recordings with a known attitude, beside
+vqf's on the same samples.
 
-``python benchmarks/attitude_real.py [--data FOLDER]``; the folder (else the environment's ``PYIMU_DATA``, else ``../shared/data``
-beside the checkout) holds recordings of the BROAD data set (Laidig, Caruso, Cereatti and Seel 2021) in this package's format.
-Needs vqf, which the package itself does not.  Both filters see gyro and accelerometer alone and run with their defaults: ours
-finds the noise of the part in the rest that a recording starts with, where its samples are clipped, and what else it needs are
-constants of the package.  Those were chosen on these very recordings: the figures show what the filter can do, not what it will
-do on others.
-Scored are the rows of the phase ``moving`` for which there is a reference, RMS in degrees, as in the data set's paper.
+``python benchmarks/attitude_real.py [--data FOLDER]``; the folder (else the environment's
+``PYIMU_DATA``, else ``../shared/data`` beside the checkout) holds recordings of the BROAD data set
+(Laidig, Caruso, Cereatti and Seel 2021) in this package's format. Needs vqf, which the package
+itself does not. Both filters see gyro and accelerometer alone and run with their defaults: ours
+finds the noise of the part in the rest that a recording starts with, where its samples are clipped,
+and what else it needs are constants of the package. Those were chosen on these very recordings:
+the figures show what the filter can do, not what it will do on others. Scored are the rows of the
+phase ``moving`` for which there is a reference, RMS in degrees, as in the data set's paper.
 
-Three recordings of another part follow, a wand swung by hand (RepoIMU, Szczesna et al. 2016).  Two of them drive an axis of its gyro
-to the limit, the first one over and over: by how much it turned meanwhile nobody knows, and both filters lose the attitude.  The
-reference has an unknown mounting rotation, fitted for each filter to the nine tenths of the rows that agree best.
+Three recordings of another part follow, a wand swung by hand (RepoIMU, Szczesna et al. 2016). Two
+of them drive an axis of its gyro to the limit, the first one over and over: by how much it turned
+meanwhile nobody knows, and both filters lose the attitude. The reference has an unknown mounting
+rotation, fitted for each filter to the nine tenths of the rows that agree best.
 """
 
 import os
@@ -23,10 +26,19 @@ from scipy.spatial.transform import Rotation
 import pyimu
 from pyimu.attitude import run
 
-SCORED = ("broad_02_undisturbed_slow_rotation_B", "broad_07_undisturbed_fast_rotation_B", "broad_26_disturbed_phone_vibration_A")
-FURTHER = ("repoimu_tstick_test05_trial1", "repoimu_tstick_test07_trial1", "repoimu_tstick_test06_trial1")
+SCORED = (
+    "broad_02_undisturbed_slow_rotation_B",
+    "broad_07_undisturbed_fast_rotation_B",
+    "broad_26_disturbed_phone_vibration_A",
+)
+FURTHER = (
+    "repoimu_tstick_test05_trial1",
+    "repoimu_tstick_test07_trial1",
+    "repoimu_tstick_test06_trial1",
+)
 SKIPPED = 5.0
-"""s; the start of a further recording, in which the filters settle; of its end a twentieth, where one has spikes in its reference."""
+"""s; the start of a further recording, in which the filters settle; of its end a twentieth, where
+one has spikes in its reference."""
 
 FITS = 3
 """Rounds in which a mounting is fitted."""
@@ -41,24 +53,40 @@ def main() -> None:
     paths = [folder() / f"{name}.csv.gz" for name in (*SCORED, *FURTHER)]
     missing = [p.name for p in paths if not p.exists()]
     if missing:
-        print(f"{', '.join(missing)} not in {paths[0].parent}: --data FOLDER says where the recordings are")
+        print(
+            f"{', '.join(missing)} not in {paths[0].parent}: --data FOLDER says where the "
+            "recordings are"
+        )
         return
-    print(f"{'inclination error, RMS [deg]':42s}{'pyimu':>8s}{'vqf':>8s}{'ratio':>8s}{'95 %: pyimu':>13s}{'vqf':>8s}{'gate open':>11s}")
+    print(
+        f"{'inclination error, RMS [deg]':42s}{'pyimu':>8s}{'vqf':>8s}{'ratio':>8s}"
+        f"{'95 %: pyimu':>13s}{'vqf':>8s}{'gate open':>11s}"
+    )
     for path in paths:
         log = pyimu.read_recording(path)
         scored = np.isfinite(log.ref_q).all(axis=1) & _phase(log)
         ours = run(log)
-        theirs = VQF(log.sample_period).updateBatch(np.ascontiguousarray(log.gyro), np.ascontiguousarray(log.accel))["quat6D"]
-        errors = [inclination(q[scored], log.ref_q[scored], mounted=log.moving is None) for q in (ours.q, theirs)]
-        rms, most = [np.sqrt(np.mean(e ** 2)) for e in errors], [np.percentile(e, 95) for e in errors]
-        print(f"{path.name.split('.')[0]:42s}{rms[0]:8.3f}{rms[1]:8.3f}{rms[0] / rms[1]:8.3f}{most[0]:13.3f}{most[1]:8.3f}"
-              f"{np.mean(ours.quasi_static[scored]):10.0%} {verdict(rms)}")
+        theirs = VQF(log.sample_period).updateBatch(
+            np.ascontiguousarray(log.gyro), np.ascontiguousarray(log.accel)
+        )["quat6D"]
+        errors = [
+            inclination(q[scored], log.ref_q[scored], mounted=log.moving is None)
+            for q in (ours.q, theirs)
+        ]
+        rms, most = [np.sqrt(np.mean(e**2)) for e in errors], [np.percentile(e, 95) for e in errors]
+        print(
+            f"{path.name.split('.')[0]:42s}{rms[0]:8.3f}{rms[1]:8.3f}{rms[0] / rms[1]:8.3f}"
+            f"{most[0]:13.3f}{most[1]:8.3f}"
+            f"{np.mean(ours.quasi_static[scored]):10.0%} {verdict(rms)}"
+        )
 
 
 def _phase(log) -> np.ndarray:
     if log.moving is not None:
         return log.moving > 0.5
-    return (log.time > log.time[0] + SKIPPED) & (log.time < log.time[0] + 0.95 * (log.time[-1] - log.time[0]))
+    return (log.time > log.time[0] + SKIPPED) & (
+        log.time < log.time[0] + 0.95 * (log.time[-1] - log.time[0])
+    )
 
 
 def verdict(rms: list[float]) -> str:
@@ -72,17 +100,27 @@ def folder() -> Path:
 
 
 def inclination(q: np.ndarray, reference: np.ndarray, mounted: bool = False) -> np.ndarray:
-    """Angle (n,) in degrees between the vertical of ``q`` (n, 4) and that of the reference: no heading is in it.
+    """Angle (n,) in degrees between the vertical of ``q`` (n, 4) and that of the reference: no
+    heading is in it.
 
-    ``mounted``: the reference's body axes are turned against the sensor's, by a rotation that is fitted first.
+    ``mounted``: the reference's body axes are turned against the sensor's, by a rotation that is
+    fitted first.
     """
-    up, true_up = (Rotation.from_quat(v, scalar_first=True).apply([0, 0, 1], inverse=True) for v in (q, reference))
+    up, true_up = (
+        Rotation.from_quat(v, scalar_first=True).apply([0, 0, 1], inverse=True)
+        for v in (q, reference)
+    )
     kept = np.ones(len(up), dtype=bool)
     for _ in range(FITS if mounted else 0):
         turned = Rotation.align_vectors(up[kept], true_up[kept])[0].apply(true_up)
         off = np.linalg.norm(up - turned, axis=1)
         kept = off < np.percentile(off, 90)
-    return np.degrees(2 * np.arcsin(np.minimum(1, np.linalg.norm(up - (turned if mounted else true_up), axis=1) / 2)))
+    return np.degrees(
+        2
+        * np.arcsin(
+            np.minimum(1, np.linalg.norm(up - (turned if mounted else true_up), axis=1) / 2)
+        )
+    )
 
 
 if __name__ == "__main__":

@@ -1,7 +1,9 @@
-"""Samples a second of the sensor's FMU: its block form, its scalar form, and the same C in a plain loop: ``python benchmarks/block_fmu.py``.
+"""Samples a second of the sensor's FMU: its block form, its scalar form, and the same C in a plain
+loop: ``python benchmarks/block_fmu.py``.
 
-The plain loop calls the functions of the scalar FMU from compiled code, a sample at a time: it has no Python in it, but as many
-calls as samples.  The block form is run by ``simulate_blocks``, with all that starting an FMU takes.
+The plain loop calls the functions of the scalar FMU from compiled code, a sample at a time: it has
+no Python in it, but as many calls as samples. The block form is run by ``simulate_blocks``, with
+all that starting an FMU takes.
 """
 
 import tempfile
@@ -17,7 +19,7 @@ from fmpy.fmi2 import FMU2Slave
 from numba import njit
 
 from pyimu.fmu import FORMS, build_fmus, simulate, simulate_blocks, stream_blocks
-from pyimu.partfile import part
+from pyimu.model.part_file import part
 
 RUNS = 5
 SIZES = (1, 10, 100, 976, 10_000)
@@ -31,13 +33,20 @@ def main() -> None:
         paths = dict(zip(FORMS, build_fmus(block, folder, FORMS)))
         loop = _plain_loop(paths[2], period)
         rates = {"plain loop in C": _rate(loop, _motion(300_000, len(columns)))}
-        rates["scalar form through fmpy"] = _rate(lambda u: simulate(paths[3], u, sample_period=period), _motion(10_000, len(columns)))
+        rates["scalar form through fmpy"] = _rate(
+            lambda u: simulate(paths[3], u, sample_period=period), _motion(10_000, len(columns))
+        )
         for size in SIZES:
             rows = _motion(min(2000 * size, 976_000), len(columns))
-            rates[f"block form, {size} samples a call"] = _rate(lambda u, size=size: simulate_blocks(paths["block"], u, block_size=size), rows)
+            rates[f"block form, {size} samples a call"] = _rate(
+                lambda u, size=size: simulate_blocks(paths["block"], u, block_size=size), rows
+            )
         for name, rate in rates.items():
-            print(f"{name:34s} {rate / 1e6:8.3f} M samples/s, {rate / rates['scalar form through fmpy']:7.1f} times the scalar form, "
-                  f"{rate / rates['plain loop in C']:5.2f} of the plain loop")
+            print(
+                f"{name:34s} {rate / 1e6:8.3f} M samples/s, "
+                f"{rate / rates['scalar form through fmpy']:7.1f} times the scalar form, "
+                f"{rate / rates['plain loop in C']:5.2f} of the plain loop"
+            )
         _stream(paths["block"], period, len(columns))
 
 
@@ -62,24 +71,39 @@ def _stream(path: Path, period: float, columns: int) -> None:
     chunks = n // len(chunk)
     start = time.perf_counter()
     made = sum(len(y) for y in stream_blocks(path, (chunk for _ in range(chunks))))
-    print(f"a log of {made * period / 3600:.1f} h, {made / 1e6:.1f} M samples, in chunks of {len(chunk)}: {time.perf_counter() - start:.1f} s")
+    print(
+        f"a log of {made * period / 3600:.1f} h, {made / 1e6:.1f} M samples, in chunks of "
+        f"{len(chunk)}: {time.perf_counter() - start:.1f} s"
+    )
 
 
 def _plain_loop(path: Path, period: float) -> Callable[[np.ndarray], np.ndarray]:
     """Runs the FMI 2 form from compiled code: set, step, get, sample by sample."""
     description = fmpy.read_model_description(str(path))
     unzipped = fmpy.extract(str(path), path.with_suffix(".unzipped"))
-    of = {c: np.array([v.valueReference for v in description.modelVariables if v.causality == c], dtype=np.uint32) for c in ("input", "output")}
+    of = {
+        c: np.array(
+            [v.valueReference for v in description.modelVariables if v.causality == c],
+            dtype=np.uint32,
+        )
+        for c in ("input", "output")
+    }
 
     def run(inputs: np.ndarray) -> np.ndarray:
-        fmu = FMU2Slave(guid=description.guid, unzipDirectory=unzipped, instanceName="loop",
-                        modelIdentifier=description.coSimulation.modelIdentifier)
+        fmu = FMU2Slave(
+            guid=description.guid,
+            unzipDirectory=unzipped,
+            instanceName="loop",
+            modelIdentifier=description.coSimulation.modelIdentifier,
+        )
         fmu.instantiate()
         fmu.setupExperiment()
         fmu.enterInitializationMode()
         fmu.exitInitializationMode()
         outputs = np.empty((len(inputs), len(of["output"])))
-        status = _loop(*_functions(fmu.dll), fmu.component, of["input"], of["output"], inputs, outputs, period)
+        status = _loop(
+            *_functions(fmu.dll), fmu.component, of["input"], of["output"], inputs, outputs, period
+        )
         fmu.terminate()
         fmu.freeInstance()
         if status:
@@ -93,7 +117,9 @@ def _functions(dll) -> tuple:
     """Set, step and get, typed for compiled code."""
     transfer = [c_void_p, c_void_p, c_size_t, c_void_p]
     functions = dll.fmi2SetReal, dll.fmi2DoStep, dll.fmi2GetReal
-    for function, arguments in zip(functions, (transfer, [c_void_p, c_double, c_double, c_int], transfer)):
+    for function, arguments in zip(
+        functions, (transfer, [c_void_p, c_double, c_double, c_int], transfer)
+    ):
         function.argtypes, function.restype = arguments, c_int
     return functions
 

@@ -1,8 +1,10 @@
-"""Time and peak memory of ``pyimu characterize`` on a log of 14 million rows of six channels and a temperature, four hours at 976 Hz.
+"""Time and peak memory of ``pyimu characterize`` on a log of 14 million rows of six channels and a
+temperature, four hours at 976 Hz.
 
-``python benchmarks/characterize_speed.py [rows] [.parquet|.csv]``.  The Allan deviation alone, against allantools, is in ``allan_speed.py``.
-The log is made in a temporary folder.  Peak memory is that of the process' own pages (RssAnon of Linux); the temporary files that
-hold the samples are mapped, and their pages go back to the system when it needs them: they are in the second figure.
+``python benchmarks/characterize_speed.py [rows] [.parquet|.csv]``. The Allan deviation alone,
+against allantools, is in ``allan_speed.py``. The log is made in a temporary folder. Peak memory is
+that of the process' own pages (RssAnon of Linux); the temporary files that hold the samples are
+mapped, and their pages go back to the system when it needs them: they are in the second figure.
 """
 
 import subprocess
@@ -16,18 +18,42 @@ import pyarrow as pa
 from pyarrow import csv, parquet
 
 ROWS, RATE, PIECE = 14_000_000, 976.0, 1_000_000
-COLUMNS = ["time [s]", *(f"{s}_{a} [{u}]" for s, u in (("gyro", "rad/s"), ("accel", "m/s^2")) for a in "xyz"), "temperature [degC]"]
+COLUMNS = [
+    "time [s]",
+    *(f"{s}_{a} [{u}]" for s, u in (("gyro", "rad/s"), ("accel", "m/s^2")) for a in "xyz"),
+    "temperature [degC]",
+]
 POLL = 0.05
 
 
 def main(rows: int = ROWS, suffix: str = ".parquet") -> None:
-    with tempfile.TemporaryDirectory(dir="/var/tmp" if Path("/var/tmp").is_dir() else None) as folder:
+    with tempfile.TemporaryDirectory(
+        dir="/var/tmp" if Path("/var/tmp").is_dir() else None
+    ) as folder:
         log = write_log(Path(folder), rows, suffix)
         size = rows * len(COLUMNS) * 8
-        seconds, own, all_pages = timed([sys.executable, "-m", "pyimu.cli", "characterize", str(log), "--out", str(Path(folder) / "out")])
-        print(f"{rows} rows of {len(COLUMNS)} columns, {log.stat().st_size / 2**20:.0f} MiB as {suffix}, {size / 2**20:.0f} MiB as numbers")
-        print(f"pyimu characterize: {seconds:.1f} s, {rows / seconds / 1e6:.2f} million rows a second")
-        print(f"peak memory: {own / 2**20:.0f} MiB of its own, {own / size:.2f} of the numbers; with mapped files {all_pages / 2**20:.0f} MiB")
+        seconds, own, all_pages = timed(
+            [
+                sys.executable,
+                "-m",
+                "pyimu.cli",
+                "characterize",
+                str(log),
+                "--out",
+                str(Path(folder) / "out"),
+            ]
+        )
+        print(
+            f"{rows} rows of {len(COLUMNS)} columns, {log.stat().st_size / 2**20:.0f} MiB as "
+            f"{suffix}, {size / 2**20:.0f} MiB as numbers"
+        )
+        print(
+            f"pyimu characterize: {seconds:.1f} s, {rows / seconds / 1e6:.2f} million rows a second"
+        )
+        print(
+            f"peak memory: {own / 2**20:.0f} MiB of its own, {own / size:.2f} of the numbers; with "
+            f"mapped files {all_pages / 2**20:.0f} MiB"
+        )
 
 
 def write_log(folder: Path, rows: int, suffix: str) -> Path:
@@ -40,7 +66,11 @@ def write_log(folder: Path, rows: int, suffix: str) -> Path:
             time_s = (first + np.arange(count)) / RATE
             walk = last + np.cumsum(1e-7 * rng.standard_normal((count, 6)), axis=0)
             last = walk[-1]
-            values = walk + np.repeat([1e-3, 1e-2], 3) * rng.standard_normal((count, 6)) + [0, 0, 0, 0, 0, 9.80665]
+            values = (
+                walk
+                + np.repeat([1e-3, 1e-2], 3) * rng.standard_normal((count, 6))
+                + [0, 0, 0, 0, 0, 9.80665]
+            )
             columns = [time_s, *values.T, 25 + 5 * np.sin(2 * np.pi * time_s / 7200)]
             writer.write(pa.table(dict(zip(COLUMNS, map(pa.array, columns), strict=True))))
     return path

@@ -1,6 +1,8 @@
-"""How often an effect is blamed on logs with nothing missing: ``python benchmarks/false_alarms.py [logs]``.
+"""How often an effect is blamed on logs with nothing missing:
+``python benchmarks/false_alarms.py [logs]``.
 
-Each log has a gyro and an accelerometer, so each has two chances; the gate allows each one in a hundred.
+Each log has a gyro and an accelerometer, so each has two chances; the gate allows each one in a
+hundred.
 """
 
 import sys
@@ -8,7 +10,7 @@ from pathlib import Path
 
 from scipy.stats import binomtest
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
 from world import drive, recording
 
 import pyimu
@@ -22,7 +24,10 @@ def main(count: int) -> None:
         refused += len({kind for kind, _ in closed.refused})
     for what, n in (("blamed", blamed), ("past the gate, refused by the held-out data", refused)):
         low, high = binomtest(n, 2 * count).proportion_ci(0.95)
-        print(f"{what}: {n} of {2 * count} clean sensors, {n / 2 / count:.2%} (95 %: {low:.2%} to {high:.2%})")
+        print(
+            f"{what}: {n} of {2 * count} clean sensors, {n / 2 / count:.2%} (95 %: {low:.2%} to "
+            f"{high:.2%})"
+        )
 
 
 if __name__ == "__main__":

@@ -1,8 +1,10 @@
-"""The attitude filter's speed: a step against vqf and filterpy on the same log, and a four-hour log from Python.
+"""The attitude filter's speed: a step against vqf and filterpy on the same log, and a four-hour log
+from Python.
 
-``python benchmarks/filter_speed.py [samples]``; needs vqf and filterpy, which the package itself does not.  The filter is the
-FMU's C (gcc -O3, no fast-math, no contracted multiply-adds), run by ``Block.run``; vqf its C++ through its Python package, in
-one batch.  They run by turns, and of each the fastest round counts, which is the one that others on the machine disturbed least.
+``python benchmarks/filter_speed.py [samples]``; needs vqf and filterpy, which the package itself
+does not. The filter is the FMU's C (gcc -O3, no fast-math, no contracted multiply-adds), run by
+``Block.run``; vqf its C++ through its Python package, in one batch. They run by turns, and of each
+the fastest round counts, which is the one that others on the machine disturbed least.
 """
 
 import sys
@@ -14,7 +16,7 @@ import numpy as np
 
 import pyimu
 from pyimu.attitude import attitude_ukf
-from pyimu.native import FLAGS, compiler_command
+from pyimu.block.compiled import FLAGS, compiler_command
 
 SAMPLES = 400_000
 ROUNDS = 15
@@ -34,22 +36,33 @@ def main(samples: int = SAMPLES, hours: int = FOUR_HOURS) -> None:
     step = block.step
     rows = drive(samples)
     gyro, accel = (np.ascontiguousarray(rows[:, at]) for at in (slice(0, 3), slice(3, 6)))
-    ways = {"propagate": settings(block, update=False), "propagate, gravity update": settings(block, update=True)}
-    print(f"{samples} samples, fastest of {ROUNDS} rounds; {' '.join([*compiler_command(), *FLAGS])}")
+    ways = {
+        "propagate": settings(block, update=False),
+        "propagate, gravity update": settings(block, update=True),
+    }
+    print(
+        f"{samples} samples, fastest of {ROUNDS} rounds; {' '.join([*compiler_command(), *FLAGS])}"
+    )
     rounds = [measure(block, rows, gyro, accel, ways, VQF) for _ in range(ROUNDS + 1)][1:]
     best = {name: min(r[name] for r in rounds) for name in rounds[0]}
     print(f"{'vqf, batch':28s}{best['vqf']:8.0f} ns a step")
     for (name, p), goal in zip(ways.items(), (1.0, 2.0), strict=True):
         share = share_updated(block, rows, p)
-        print(f"{name:28s}{best[name]:8.0f} ns a step, {best[name] / best['vqf']:.2f} of vqf (goal at most {goal:g}; "
-              f"median of the rounds' ratios {median(r[name] / r['vqf'] for r in rounds):.2f}); updated in {share:.0%} of the steps")
+        print(
+            f"{name:28s}{best[name]:8.0f} ns a step, {best[name] / best['vqf']:.2f} of vqf (goal "
+            f"at most {goal:g}; "
+            f"median of the rounds' ratios {median(r[name] / r['vqf'] for r in rounds):.2f}); "
+            f"updated in {share:.0%} of the steps"
+        )
     against_filterpy(best["propagate, gravity update"])
     print(f"instructions of casadi's functions: {instructions(step)}")
     four_hours(block, ways["propagate, gravity update"], hours)
 
 
 def drive(n: int) -> np.ndarray:
-    """Inputs (n, 12) of a slow motion about all axes at 976 Hz, with white noise; no heading, never called stationary."""
+    """Inputs (n, 12) of a slow motion about all axes at 976 Hz, with white noise; no heading, never
+    called stationary.
+    """
     rng, t = np.random.default_rng(1), np.arange(n) / 976.0
     u = np.zeros((n, 12))
     for i, (size, omega) in enumerate(((0.3, 0.5), (0.2, 0.7), (0.4, 0.3))):
@@ -61,9 +74,11 @@ def drive(n: int) -> np.ndarray:
 
 
 def settings(block, update: bool) -> np.ndarray:
-    """Parameters with a gravity update at each step, or at none: by tolerances that all pass, or that none does.
+    """Parameters with a gravity update at each step, or at none: by tolerances that all pass, or
+    that none does.
 
-    The bias is known well enough for the attitude not to be lost within the log, which would be bounded at each step.
+    The bias is known well enough for the attitude not to be lost within the log, which would be
+    bounded at each step.
     """
     at, p = {v.name: i for i, v in enumerate(block.parameters)}, block.start.copy()
     for name in ("gravity_tolerance", "motion_tolerance", "steady_tolerance"):
@@ -94,16 +109,26 @@ def clock(call) -> float:
 
 
 def against_filterpy(ours: float) -> None:
-    """filterpy's filter of six states and three measurements: with this filter's models, and with models that do nothing."""
+    """filterpy's filter of six states and three measurements: with this filter's models, and with
+    models that do nothing.
+    """
     try:
         from filterpy.kalman import MerweScaledSigmaPoints, UnscentedKalmanFilter
     except ImportError:
         print("filterpy, the slow peer, is not installed: pip install filterpy")
         return
-    for title, fx, hx in (("these models in numpy", turned_error, gravity_seen), ("models that do nothing", lambda x, dt: x, lambda x: x[:3])):
+    for title, fx, hx in (
+        ("these models in numpy", turned_error, gravity_seen),
+        ("models that do nothing", lambda x, dt: x, lambda x: x[:3]),
+    ):
         points = MerweScaledSigmaPoints(6, 0.1, 2.0, -3.0)
         peer = UnscentedKalmanFilter(dim_x=6, dim_z=3, dt=1 / 976, fx=fx, hx=hx, points=points)
-        peer.P, peer.Q, peer.R, z = np.eye(6) * 1e-4, np.eye(6) * 1e-9, np.eye(3), np.array([0, 0, GRAVITY])
+        peer.P, peer.Q, peer.R, z = (
+            np.eye(6) * 1e-4,
+            np.eye(6) * 1e-9,
+            np.eye(3),
+            np.array([0, 0, GRAVITY]),
+        )
 
         def steps(peer=peer, z=z):
             for _ in range(FILTERPY_STEPS):
@@ -111,13 +136,21 @@ def against_filterpy(ours: float) -> None:
                 peer.update(z)
 
         theirs = min(clock(steps) for _ in range(5)) / FILTERPY_STEPS * 1e9
-        print(f"{'filterpy':28s}{theirs:8.0f} ns a step with {title}: {theirs / ours:.0f} times ours with its update"
-              + (" (goal at least 1000)" if fx is turned_error else ""))
+        print(
+            f"{'filterpy':28s}{theirs:8.0f} ns a step with {title}: {theirs / ours:.0f} times ours "
+            "with its update" + (" (goal at least 1000)" if fx is turned_error else "")
+        )
 
 
 def product(a, b):
-    return np.array([a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3], a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
-                     a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1], a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0]])
+    return np.array(
+        [
+            a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
+            a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+            a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
+            a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0],
+        ]
+    )
 
 
 def from_rodrigues(p):
@@ -131,8 +164,12 @@ def exponential(angle):
 
 
 def turned_error(x, h):
-    """A sigma point of attitude error and bias after a turn, as ``pyimu.attitude.unscented.propagate`` has it."""
-    left = product(product(exponential(-RATE * h), from_rodrigues(x[:3])), exponential((RATE - x[3:]) * h))
+    """A sigma point of attitude error and bias after a turn, as
+    ``pyimu.attitude.unscented.propagate`` has it.
+    """
+    left = product(
+        product(exponential(-RATE * h), from_rodrigues(x[:3])), exponential((RATE - x[3:]) * h)
+    )
     return np.concatenate([4 * left[1:] / (1 + left[0]), x[3:]])
 
 
@@ -143,7 +180,9 @@ def gravity_seen(x):
 
 
 def instructions(step: ca.Function) -> str:
-    """Instructions of the functions that the step calls: always a reading, one of the rows, and one of the updates."""
+    """Instructions of the functions that the step calls: always a reading, one of the rows, and one
+    of the updates.
+    """
     counted = {f.name(): f.n_instructions() for f in step.find_functions() if f.is_a("SXFunction")}
     return ", ".join(f"{name} {n}" for name, n in counted.items())
 
@@ -152,12 +191,22 @@ def four_hours(block, p: np.ndarray, n: int) -> None:
     """The whole of ``pyimu.attitude.run``, alignment included, on a recording in memory."""
     chunk, times = drive(min(n, 976_000)), -(-n // 976_000)
     gyro, accel = (np.tile(chunk[:, at], (times, 1))[:n] for at in (slice(0, 3), slice(3, 6)))
-    log = pyimu.Recording.from_arrays(time=np.arange(n) / 976.0, gyro=gyro, accel=accel, temperature=np.full(n, 25.0))
-    settings = {v.name: value for v, value in zip(block.parameters, p, strict=True) if "tolerance" in v.name}
+    log = pyimu.Recording.from_arrays(
+        time=np.arange(n) / 976.0, gyro=gyro, accel=accel, temperature=np.full(n, 25.0)
+    )
+    settings = {
+        v.name: value for v, value in zip(block.parameters, p, strict=True) if "tolerance" in v.name
+    }
     found, busy = [], time.process_time()
-    seconds = clock(lambda: found.append(pyimu.attitude.run(log, pyimu.part("imt30"), settings=settings)))
-    print(f"{n} samples at 976 Hz ({n / 976 / 3600:.2g} h) by pyimu.attitude.run: {seconds:.1f} s (goal 10 s for {FOUR_HOURS}), "
-          f"{time.process_time() - busy:.1f} s of processors, an update in {np.mean(found[0].nis > 0):.0%} of the steps")
+    seconds = clock(
+        lambda: found.append(pyimu.attitude.run(log, pyimu.part("imt30"), settings=settings))
+    )
+    print(
+        f"{n} samples at 976 Hz ({n / 976 / 3600:.2g} h) by pyimu.attitude.run: {seconds:.1f} s "
+        f"(goal 10 s for {FOUR_HOURS}), "
+        f"{time.process_time() - busy:.1f} s of processors, an update in "
+        f"{np.mean(found[0].nis > 0):.0%} of the steps"
+    )
 
 
 if __name__ == "__main__":

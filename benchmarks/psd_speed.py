@@ -1,7 +1,9 @@
-"""One-sided density of 14 million samples, time and peak memory against ``scipy.signal.welch`` on the same data with the same window.
+"""One-sided density of 14 million samples, time and peak memory against ``scipy.signal.welch`` on
+the same data with the same window.
 
-``python benchmarks/psd_speed.py [samples]``.  Ours takes the record in pieces, and gives besides scipy's density those of its
-slower levels; scipy's is timed as it is called by default, and without taking a mean off each window, which is faster.
+``python benchmarks/psd_speed.py [samples]``. Ours takes the record in pieces, and gives besides
+scipy's density those of its slower levels; scipy's is timed as it is called by default, and without
+taking a mean off each window, which is faster.
 """
 
 import resource
@@ -13,8 +15,8 @@ from statistics import median
 import numpy as np
 from scipy.signal import welch
 
-from pyimu.characterize.lines import find_lines
-from pyimu.characterize.psd import SpectrumAccumulator
+from pyimu.characterization.spectrum.lines import find_lines
+from pyimu.characterization.spectrum.psd import SpectrumAccumulator
 
 SAMPLES = 14_000_000
 H = 1 / 976
@@ -25,30 +27,50 @@ RUNS = 5
 
 def main(samples: int = SAMPLES) -> None:
     # First: a child process starts from its parent's largest resident size.
-    print("peak memory beside a piece of a million samples: "
-          + ", ".join(f"{n / 1e6:g} million samples {peak(n):.1f} MiB" for n in (samples // 4, samples)))
+    print(
+        "peak memory beside a piece of a million samples: "
+        + ", ".join(
+            f"{n / 1e6:g} million samples {peak(n):.1f} MiB" for n in (samples // 4, samples)
+        )
+    )
     x = np.random.default_rng(1).standard_normal(samples)
     ours(x[:1_000_000], LENGTHS[0])
     for length in LENGTHS:
         compare(x, length)
     spectrum = ours(x, LENGTHS[-1])
-    print(f"search for lines: {timed(lambda: find_lines(spectrum)):.2f} s, {len(find_lines(spectrum))} found in white noise")
+    print(
+        f"search for lines: {timed(lambda: find_lines(spectrum)):.2f} s, "
+        f"{len(find_lines(spectrum))} found in white noise"
+    )
+
 
 def compare(x: np.ndarray, length: int) -> None:
     # By turns, so that whatever else the machine does falls on all alike.
-    seconds = np.array([[timed(lambda: ours(x, length)), timed(lambda: welch(x, 1 / H, nperseg=length, detrend=False)),
-                         timed(lambda: welch(x, 1 / H, nperseg=length))] for _ in range(RUNS)])
+    seconds = np.array(
+        [
+            [
+                timed(lambda: ours(x, length)),
+                timed(lambda: welch(x, 1 / H, nperseg=length, detrend=False)),
+                timed(lambda: welch(x, 1 / H, nperseg=length)),
+            ]
+            for _ in range(RUNS)
+        ]
+    )
     own, bare, default = (median(column) for column in seconds.T)
     got = ours(x, length).levels()[0].density[2:-1, 0]
     want = welch(x, 1 / H, nperseg=length, detrend=False)[1][2:-1]
-    print(f"{len(x)} samples, windows of {length}: {own:.3f} s (median of {RUNS}), scipy {bare:.3f} s without detrending ({bare / own:.2f} times "
-          f"ours), {default:.3f} s by default ({default / own:.2f}); largest relative difference {np.abs(got / want - 1).max():.1e}")
+    print(
+        f"{len(x)} samples, windows of {length}: {own:.3f} s (median of {RUNS}), scipy {bare:.3f} "
+        f"s without detrending ({bare / own:.2f} times "
+        f"ours), {default:.3f} s by default ({default / own:.2f}); largest relative difference "
+        f"{np.abs(got / want - 1).max():.1e}"
+    )
 
 
 def ours(x: np.ndarray, length: int) -> SpectrumAccumulator:
     spectrum = SpectrumAccumulator(H, length)
     for a in range(0, len(x), PIECE):
-        spectrum.add(x[a:a + PIECE])
+        spectrum.add(x[a : a + PIECE])
     spectrum.result()
     return spectrum
 
@@ -60,8 +82,15 @@ def timed(work) -> float:
 
 
 def peak(samples: int) -> float:
-    """MiB by which a fresh process' largest resident size grows while it takes that many samples, a piece at a time."""
-    run = subprocess.run([sys.executable, __file__, "--peak", str(samples)], check=True, capture_output=True, text=True)
+    """MiB by which a fresh process' largest resident size grows while it takes that many samples, a
+    piece at a time.
+    """
+    run = subprocess.run(
+        [sys.executable, __file__, "--peak", str(samples)],
+        check=True,
+        capture_output=True,
+        text=True,
+    )
     return float(run.stdout)
 
 

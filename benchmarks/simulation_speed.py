@@ -1,9 +1,10 @@
-"""Time a sample of a four-hour log of the IMT30 in Python, as a share of what its FMU takes in a plain C loop:
-``python benchmarks/simulation_speed.py [samples]``.
+"""Time a sample of a four-hour log of the IMT30 in Python, as a share of what its FMU takes in a
+plain C loop: ``python benchmarks/simulation_speed.py [samples]``.
 
-The C loop does what an importer must: set the inputs, step, get the outputs.  Beside it stands what no importer can do: one
-step over the whole log with inputs held, which is the model and its noise alone.  In Python the same log goes through
-``pyimu.simulate`` from arrays to arrays, and through ``Block.run``.  Each round times all of them one after the other.
+The C loop does what an importer must: set the inputs, step, get the outputs. Beside it stands what
+no importer can do: one step over the whole log with inputs held, which is the model and its noise
+alone. In Python the same log goes through ``pyimu.simulate`` from arrays to arrays, and through
+``Block.run``. Each round times all of them one after the other.
 """
 
 import ctypes
@@ -21,7 +22,7 @@ from fmpy import read_model_description
 
 import pyimu
 from pyimu.fmu.build import FLAGS, build_fmu, header_folder, host_compiler
-from pyimu.simulation import simulate
+from pyimu.model.simulate import simulate
 
 SAMPLES = 4 * 3600 * 976
 ROUNDS = 5
@@ -32,22 +33,27 @@ DRIVER = r"""
 #include <stdlib.h>
 #include "fmi2Functions.h"
 
-static void say_nothing(fmi2ComponentEnvironment e, fmi2String i, fmi2Status s, fmi2String c, fmi2String m, ...) {}
+static void say_nothing(fmi2ComponentEnvironment e, fmi2String i, fmi2Status s, fmi2String c,
+                        fmi2String m, ...) {}
 static const fmi2CallbackFunctions callbacks = {say_nothing, calloc, free, NULL, NULL};
 
 static fmi2Component start(const char *token, fmi2ValueReference seed_vr, int seed) {
-    fmi2Component c = fmi2Instantiate("x", fmi2CoSimulation, token, "", &callbacks, fmi2False, fmi2False);
-    if (!c || fmi2SetupExperiment(c, fmi2False, 0, 0, fmi2False, 0) || fmi2EnterInitializationMode(c)
-        || fmi2SetInteger(c, &seed_vr, 1, &seed) || fmi2ExitInitializationMode(c)) abort();
+    fmi2Component c = fmi2Instantiate("x", fmi2CoSimulation, token, "", &callbacks, fmi2False,
+                                      fmi2False);
+    if (!c || fmi2SetupExperiment(c, fmi2False, 0, 0, fmi2False, 0)
+        || fmi2EnterInitializationMode(c) || fmi2SetInteger(c, &seed_vr, 1, &seed)
+        || fmi2ExitInitializationMode(c)) abort();
     return c;
 }
 
 __attribute__((visibility("default")))
-void each(const char *token, fmi2ValueReference seed_vr, int seed, int64_t n, double h, const fmi2ValueReference *inputs, int nu,
-          const double *u, const fmi2ValueReference *outputs, int ny, double *y) {
+void each(const char *token, fmi2ValueReference seed_vr, int seed, int64_t n, double h,
+          const fmi2ValueReference *inputs, int nu, const double *u,
+          const fmi2ValueReference *outputs, int ny, double *y) {
     fmi2Component c = start(token, seed_vr, seed);
     for (int64_t k = 0; k < n; k++)
-        if (fmi2SetReal(c, inputs, nu, u + k * nu) || fmi2DoStep(c, k * h, h, fmi2True) || fmi2GetReal(c, outputs, ny, y + k * ny)) abort();
+        if (fmi2SetReal(c, inputs, nu, u + k * nu) || fmi2DoStep(c, k * h, h, fmi2True)
+            || fmi2GetReal(c, outputs, ny, y + k * ny)) abort();
     fmi2FreeInstance(c);
 }
 
@@ -70,21 +76,56 @@ class PlainC:
             (binary,) = [name for name in archive.namelist() if name.startswith("binaries/")]
             library = archive.extract(binary, folder)
         (folder / "driver.c").write_text(DRIVER)
-        command = [*host_compiler(), *FLAGS, "-shared", "-w", "-I", header_folder(), folder / "driver.c", library, "-o", folder / "driver.so"]
+        command = [
+            *host_compiler(),
+            *FLAGS,
+            "-shared",
+            "-w",
+            "-I",
+            header_folder(),
+            folder / "driver.c",
+            library,
+            "-o",
+            folder / "driver.so",
+        ]
         subprocess.run(command, check=True)
-        self.calls, self.token, self.h = ctypes.CDLL(str(folder / "driver.so")), about.guid.encode(), part.sample_period
+        self.calls, self.token, self.h = (
+            ctypes.CDLL(str(folder / "driver.so")),
+            about.guid.encode(),
+            part.sample_period,
+        )
         vr = {v.name: v.valueReference for v in about.modelVariables}
-        self.seed, self.inputs, self.outputs = (np.array([vr[n] for n in names], dtype=np.uint32) for names in (
-            ["seed"], [v.name for v in part.block.inputs], [v.name for v in part.block.outputs]))
+        self.seed, self.inputs, self.outputs = (
+            np.array([vr[n] for n in names], dtype=np.uint32)
+            for names in (
+                ["seed"],
+                [v.name for v in part.block.inputs],
+                [v.name for v in part.block.outputs],
+            )
+        )
 
     def _start(self, n: int, seed: int) -> tuple:
-        return self.token, ctypes.c_uint(self.seed[0]), ctypes.c_int(seed), ctypes.c_int64(n), ctypes.c_double(self.h)
+        return (
+            self.token,
+            ctypes.c_uint(self.seed[0]),
+            ctypes.c_int(seed),
+            ctypes.c_int64(n),
+            ctypes.c_double(self.h),
+        )
 
     def each(self, u: np.ndarray, y: np.ndarray, seed: int) -> None:
         def pointer(a):
             return ctypes.c_void_p(a.ctypes.data)
-        self.calls.each(*self._start(len(u), seed), pointer(self.inputs), len(self.inputs), pointer(u), pointer(self.outputs),
-                        len(self.outputs), pointer(y))
+
+        self.calls.each(
+            *self._start(len(u), seed),
+            pointer(self.inputs),
+            len(self.inputs),
+            pointer(u),
+            pointer(self.outputs),
+            len(self.outputs),
+            pointer(y),
+        )
 
     def held(self, n: int, seed: int) -> None:
         self.calls.held(*self._start(n, seed))
@@ -112,17 +153,33 @@ def inputs(n: int) -> np.ndarray:
     return np.column_stack([*waves, 25 + 10 * (1 - np.exp(-t / 600))])
 
 
-def measure(title: str, part, seed: int | None, in_c: PlainC, u: np.ndarray, given: list[np.ndarray]) -> None:
-    """Every way makes its own outputs, and nothing is kept: pages that nobody has used yet can cost more than the simulation."""
+def measure(
+    title: str, part, seed: int | None, in_c: PlainC, u: np.ndarray, given: list[np.ndarray]
+) -> None:
+    """Every way makes its own outputs, and nothing is kept: pages that nobody has used yet can cost
+    more than the simulation.
+    """
     n = len(u)
-    ways = {"C, each sample": lambda: in_c.each(u, np.empty((n, 6)), seed or 0), "C, inputs held": lambda: in_c.held(n, seed or 0),
-            "simulate": lambda: simulate(part, *given, seed=seed), "Block.run": lambda: part.block.run(u, seed=seed)}
+    ways = {
+        "C, each sample": lambda: in_c.each(u, np.empty((n, 6)), seed or 0),
+        "C, inputs held": lambda: in_c.held(n, seed or 0),
+        "simulate": lambda: simulate(part, *given, seed=seed),
+        "Block.run": lambda: part.block.run(u, seed=seed),
+    }
     same = same_bits(part, seed, in_c, u, given)
     rounds = [{name: clock(way) / n * 1e9 for name, way in ways.items()} for _ in range(ROUNDS)]
-    print(f"\n{title}: " + ", ".join(f"{name} {median(r[name] for r in rounds):.1f}" for name in ways))
+    print(
+        f"\n{title}: " + ", ".join(f"{name} {median(r[name] for r in rounds):.1f}" for name in ways)
+    )
     for python_way in ("simulate", "Block.run"):
-        ratios = [median(r[python_way] / r[c_way] for r in rounds) for c_way in ("C, each sample", "C, inputs held")]
-        print(f"  {python_way}: {ratios[0]:.2f} of the C loop (goal at most {GOAL:g}), {ratios[1]:.2f} of the model and its noise alone")
+        ratios = [
+            median(r[python_way] / r[c_way] for r in rounds)
+            for c_way in ("C, each sample", "C, inputs held")
+        ]
+        print(
+            f"  {python_way}: {ratios[0]:.2f} of the C loop (goal at most {GOAL:g}), "
+            f"{ratios[1]:.2f} of the model and its noise alone"
+        )
     print(f"  Python's bits are {'' if same else 'NOT '}the C loop's")
 
 
@@ -130,7 +187,10 @@ def same_bits(part, seed: int | None, in_c: PlainC, u: np.ndarray, given: list[n
     y = np.empty((len(u), 6))
     in_c.each(u, y, seed or 0)
     measured = simulate(part, *given, seed=seed)
-    return all(np.array_equal(m, y[:, at]) for m, at in zip(measured, (slice(0, 3), slice(3, 6)), strict=True))
+    return all(
+        np.array_equal(m, y[:, at])
+        for m, at in zip(measured, (slice(0, 3), slice(3, 6)), strict=True)
+    )
 
 
 def clock(call) -> float:
@@ -144,7 +204,10 @@ def beyond(part, given: list[np.ndarray]) -> None:
     measured = simulate(part, *given, seed=1)
     peak = tracemalloc.get_traced_memory()[1] - sum(m.nbytes for m in measured)
     tracemalloc.stop()
-    print(f"\npeak memory beyond inputs and outputs ({(sum(m.nbytes for m in (*given, *measured))) / 2**20:.0f} MiB): {peak / 2**20:.2f} MiB")
+    print(
+        "\npeak memory beyond inputs and outputs "
+        f"({(sum(m.nbytes for m in (*given, *measured))) / 2**20:.0f} MiB): {peak / 2**20:.2f} MiB"
+    )
 
 
 if __name__ == "__main__":

@@ -1,10 +1,12 @@
-"""A real sensor at rest: does the fitted noise describe the log?  Its Allan deviation against a simulated band of the fit.
+"""A real sensor at rest: does the fitted noise describe the log? Its Allan deviation against a
+simulated band of the fit.
 
-    python examples/adis16405_static.py static.csv            any log at rest; written for an ADIS16405 of 2.8 h
+    python examples/adis16405_static.py static.csv    any log at rest; written for one of 2.8 h
 
-The log goes through ``pyimu.characterize``.  For each gyro axis logs of the fitted noise are simulated in means over a second, and the
-band is laid so that 99 % of them are inside it at all cluster times at once; the table says whether the measured deviation is, and the
-root mean square of the logarithm of the ratio of measured to fitted.
+The log goes through ``pyimu.characterize``. For each gyro axis logs of the fitted noise are
+simulated in means over a second, and the band is laid so that 99 % of them are inside it at all
+cluster times at once; the table says whether the measured deviation is, and the root mean square of
+the logarithm of the ratio of measured to fitted.
 """
 
 from __future__ import annotations
@@ -22,8 +24,8 @@ from scipy.signal import fftconvolve
 
 import pyimu
 from pyimu import units
-from pyimu.characterize import overlapping_deviation
-from pyimu.characterize.noise_fit import ChannelFit
+from pyimu.characterization.allan import overlapping_deviation
+from pyimu.characterization.noise.fit import ChannelFit
 from pyimu.errors import UserError
 
 SECOND = 1.0
@@ -36,14 +38,27 @@ PAST = 4
 """Records that flicker remembers."""
 
 
-def simulated(rng: np.random.Generator, fit: ChannelFit, n: int, response: np.ndarray) -> np.ndarray:
+def simulated(
+    rng: np.random.Generator, fit: ChannelFit, n: int, response: np.ndarray
+) -> np.ndarray:
     """Means over a second (n,) of noise with the fitted N, B and K.
 
-    Flicker is half an integration of white noise (Kasdin, Proc. IEEE 83 (1995), 802-827), of which ``response`` is the impulse response.
+    Flicker is half an integration of white noise (Kasdin, Proc. IEEE 83 (1995), 802-827), of which
+    ``response`` is the impulse response.
     """
     N, B, K = (fit[t].value for t in "NBK")
-    x = N / np.sqrt(SECOND) * rng.standard_normal(n) + K * np.sqrt(SECOND) * np.cumsum(rng.standard_normal(n))
-    return x + B * fftconvolve(rng.standard_normal(len(response)), response)[len(response) - n:len(response)] if B else x
+    x = N / np.sqrt(SECOND) * rng.standard_normal(n) + K * np.sqrt(SECOND) * np.cumsum(
+        rng.standard_normal(n)
+    )
+    return (
+        x
+        + B
+        * fftconvolve(rng.standard_normal(len(response)), response)[
+            len(response) - n : len(response)
+        ]
+        if B
+        else x
+    )
 
 
 def half_integral(n: int) -> np.ndarray:
@@ -53,7 +68,9 @@ def half_integral(n: int) -> np.ndarray:
 
 
 def band(deviations: np.ndarray, probability: float) -> tuple[np.ndarray, np.ndarray]:
-    """Limits (t,) at equal ranks of simulated ``deviations`` (s, t), the narrowest that hold whole rows with the probability."""
+    """Limits (t,) at equal ranks of simulated ``deviations`` (s, t), the narrowest that hold whole
+    rows with the probability.
+    """
     ranks = np.argsort(np.argsort(deviations, axis=0), axis=0)
     outermost = np.minimum(ranks, len(ranks) - 1 - ranks).min(axis=1)
     rank = int(np.quantile(outermost, 1 - probability))
@@ -68,35 +85,66 @@ def compare(log: Path, shortest: float, longest: float, logs: int) -> Table:
         raise UserError(f"{log}: no gyro in it")
     n = int(result.duration / SECOND)
     m = np.unique(np.geomspace(shortest, min(longest, n / 4), POINTS).astype(int))
-    out = Table(title=f"{result.name}: gyro, {m[0]:g} to {m[-1]:g} s, 99 % simultaneous band of {logs} simulated logs", title_justify="left")
-    for heading in ("axis", "N [deg/s/√Hz]", "B [deg/h]", "K [deg/s/√s]", "inside", "nearest edge", "RMS log ratio"):
+    out = Table(
+        title=(
+            f"{result.name}: gyro, {m[0]:g} to {m[-1]:g} s, 99 % simultaneous band of {logs} "
+            "simulated logs"
+        ),
+        title_justify="left",
+    )
+    for heading in (
+        "axis",
+        "N [deg/s/√Hz]",
+        "B [deg/h]",
+        "K [deg/s/√s]",
+        "inside",
+        "nearest edge",
+        "RMS log ratio",
+    ):
         out.add_column(heading, justify="left" if heading == "axis" else "right")
     rng, response = np.random.default_rng(405), half_integral(next_fast_len((PAST + 1) * n))
     for channel in result.sensors["gyro"].channels:
         fit, curve = channel.noise.fit, channel.noise.allan
-        draws = np.array([overlapping_deviation(simulated(rng, fit, n, response), m) for _ in range(logs)])
+        draws = np.array(
+            [overlapping_deviation(simulated(rng, fit, n, response), m) for _ in range(logs)]
+        )
         low, high = band(draws, 0.99)
         measured = np.exp(np.interp(np.log(m * SECOND), np.log(curve.tau), np.log(curve.deviation)))
         fitted = np.sqrt(fit.variance(m * SECOND))
         margin = min(np.min(measured / low), np.min(high / measured))
         ratio = np.exp(np.sqrt(np.mean(np.log(measured / fitted) ** 2)))
-        out.add_row(channel.name[-1], *(shown(fit, t, u) for t, u in (("N", "deg/s/sqrt(Hz)"), ("B", "deg/h"), ("K", "deg/s/sqrt(s)"))),
-                    "yes" if margin >= 1 else "no", f"{margin:.2f} times", f"{ratio:.3f}")
+        out.add_row(
+            channel.name[-1],
+            *(
+                shown(fit, t, u)
+                for t, u in (("N", "deg/s/sqrt(Hz)"), ("B", "deg/h"), ("K", "deg/s/sqrt(s)"))
+            ),
+            "yes" if margin >= 1 else "no",
+            f"{margin:.2f} times",
+            f"{ratio:.3f}",
+        )
     return out
 
 
 def shown(fit: ChannelFit, term: str, unit: str) -> str:
     """A coefficient with its interval, or its bound."""
     si = {"N": "rad/sqrt(s)", "B": "rad/s", "K": "rad/s/sqrt(s)"}[term]
-    value, low, high = (f"{float(units.convert(v, si, unit)):.3g}" for v in (fit[term].value, fit[term].low, fit[term].high))
+    value, low, high = (
+        f"{float(units.convert(v, si, unit)):.3g}"
+        for v in (fit[term].value, fit[term].low, fit[term].high)
+    )
     return f"{value} ({low} to {high})" if fit[term].needed else f"< {high}"
 
 
-def main(log: Annotated[Path, typer.Argument(help="A log at rest.")],
-         shortest: Annotated[float, typer.Option(help="Shortest cluster time, s.")] = 30.0,
-         longest: Annotated[float, typer.Option(help="Longest cluster time, s.")] = 1500.0,
-         logs: Annotated[int, typer.Option(min=200, help="Simulated logs.")] = 2000) -> None:
-    """Characterise a log at rest and hold its Allan deviation against a simulated band of the fitted noise."""
+def main(
+    log: Annotated[Path, typer.Argument(help="A log at rest.")],
+    shortest: Annotated[float, typer.Option(help="Shortest cluster time, s.")] = 30.0,
+    longest: Annotated[float, typer.Option(help="Longest cluster time, s.")] = 1500.0,
+    logs: Annotated[int, typer.Option(min=200, help="Simulated logs.")] = 2000,
+) -> None:
+    """Characterise a log at rest and hold its Allan deviation against a simulated band of the
+    fitted noise.
+    """
     Console(width=None if sys.stdout.isatty() else 150).print(compare(log, shortest, longest, logs))
 
 

@@ -1,11 +1,13 @@
-"""The five static tests of the IMT30 gyros again, simulated and characterised: Tables 2, 4 and 5 of Hidalgo 2012 beside what came back.
+"""The five static tests of the IMT30 gyros again, simulated and characterised: Tables 2, 4 and 5 of
+Hidalgo 2012 beside what came back.
 
-    python examples/imt30_static.py                                  five tests of four hours at 976 Hz, 70 million samples of three axes
-    python examples/imt30_static.py --hours 0.2 --tests 2 --out look   a quick look
+    python examples/imt30_static.py        five tests of four hours, 70 million samples
+    python examples/imt30_static.py --hours 0.2 --tests 2 --out look
 
-The sensor is the FMU of the part ``imt30`` (the paper's Tables 1, 2 and 4; no flicker) in its block form, at rest and at its
-reference temperature; test k has the seed k.  One test is in memory at a time.  N and K come from a weighted fit of
-all five terms to the Allan deviation, so that what is printed has an interval; B from the floor of the deviation, as the paper reads it.
+The sensor is the FMU of the part ``imt30`` (the paper's Tables 1, 2 and 4; no flicker) in its block
+form, at rest and at its reference temperature; test k has the seed k. One test is in memory at a
+time. N and K come from a weighted fit of all five terms to the Allan deviation, so that what is
+printed has an interval; B from the floor of the deviation, as the paper reads it.
 """
 
 from __future__ import annotations
@@ -31,18 +33,25 @@ from rich.table import Table
 from scipy.stats import t as student
 
 from pyimu import units
-from pyimu.characterize import log_clusters, octave_clusters, overlapping_deviation
-from pyimu.characterize.coefficients import Coefficient, NoiseFit, fit_coefficients, mean_coefficient
-from pyimu.characterize.readings import Reading, crossing, read_coefficients
+from pyimu.characterization.allan import log_clusters, octave_clusters, overlapping_deviation
+from pyimu.characterization.allan.readings import Reading, crossing, read_coefficients
+from pyimu.characterization.noise.coefficients import (
+    Coefficient,
+    NoiseFit,
+    fit_coefficients,
+    mean_coefficient,
+)
 from pyimu.errors import UserError
 from pyimu.fmu import build_fmu, stream_blocks
-from pyimu.imu import AXES, Part
-from pyimu.partfile import part
+from pyimu.model.part import AXES, Part
+from pyimu.model.part_file import part
 from pyimu.shaping import flicker_floor, random_walk_deviation, white_deviation
 
-PAPER = {"N": ((0.20764, 0.23858, 0.20489), "deg/sqrt(h)", "Table 2, angle random walk"),
-         "K": ((32.8, 49.6, 64.2), "deg/h/sqrt(h)", "Table 4, rate random walk"),
-         "B": ((3.8, 5.9, 5.3), "deg/h", "Table 5, bias instability")}
+PAPER = {
+    "N": ((0.20764, 0.23858, 0.20489), "deg/sqrt(h)", "Table 2, angle random walk"),
+    "K": ((32.8, 49.6, 64.2), "deg/h/sqrt(h)", "Table 4, rate random walk"),
+    "B": ((3.8, 5.9, 5.3), "deg/h", "Table 5, bias instability"),
+}
 """Hidalgo et al., Sensors 12 (2012), 2219-2235: mean values of five tests of gyros x, y, z."""
 
 SI = {"N": "rad/sqrt(s)", "K": "rad/s/sqrt(s)", "B": "rad/s"}
@@ -61,7 +70,9 @@ BLUE, ORANGE, GREY = "#0072b2", "#d55e00", "#808487"
 
 @dataclass(frozen=True)
 class Test:
-    """What one static test says: cluster times (t,) s, Allan deviations (t, 3) rad/s, and per axis the fit and the reading."""
+    """What one static test says: cluster times (t,) s, Allan deviations (t, 3) rad/s, and per axis
+    the fit and the reading.
+    """
 
     tau: np.ndarray
     deviation: np.ndarray
@@ -75,13 +86,17 @@ def paper(term: str) -> np.ndarray:
     return units.convert(values, unit, SI[term])
 
 
-def static_log(fmu: Path, imt30: Part, samples: int, seed: int, made: Callable[[int], None]) -> np.ndarray:
-    """Gyro rates (samples, 3) rad/s of the sensor at rest, from the block form of its FMU; ``made`` hears of each chunk."""
+def static_log(
+    fmu: Path, imt30: Part, samples: int, seed: int, made: Callable[[int], None]
+) -> np.ndarray:
+    """Gyro rates (samples, 3) rad/s of the sensor at rest, from the block form of its FMU; ``made``
+    hears of each chunk.
+    """
     rest = np.tile([v.start for v in imt30.block.inputs], (min(CHUNK, samples), 1))
-    chunks = (rest[:min(CHUNK, samples - first)] for first in range(0, samples, CHUNK))
+    chunks = (rest[: min(CHUNK, samples - first)] for first in range(0, samples, CHUNK))
     rates, row = np.empty((samples, 3)), 0
     for answer in stream_blocks(fmu, chunks, start_values={"seed": seed}):
-        rates[row:row + len(answer)] = answer[:, :3]
+        rates[row : row + len(answer)] = answer[:, :3]
         row += len(answer)
         made(len(answer))
     return rates
@@ -94,8 +109,12 @@ def characterise(rates: np.ndarray, h: float) -> Test:
     m = np.union1d(octaves, log_clusters(n, POINTS))
     deviation = overlapping_deviation(rates, m)
     at_octaves = deviation[np.isin(m, octaves)]
-    return Test(m * h, deviation, tuple(fit_coefficients(octaves, column, n, h, level=LEVEL) for column in at_octaves.T),
-                tuple(read_coefficients(m * h, column) for column in deviation.T))
+    return Test(
+        m * h,
+        deviation,
+        tuple(fit_coefficients(octaves, column, n, h, level=LEVEL) for column in at_octaves.T),
+        tuple(read_coefficients(m * h, column) for column in deviation.T),
+    )
 
 
 def simulate_tests(hours: float, count: int) -> Iterator[Test]:
@@ -107,57 +126,112 @@ def simulate_tests(hours: float, count: int) -> Iterator[Test]:
         fmu = build_fmu(imt30.block, folder, "block")
         for k in range(1, count + 1):
             # The log has no name here, or the next one would be made beside it.
-            yield characterise(static_log(fmu, imt30, samples, k, partial(say, now=f"test {k} of {count}")), imt30.sample_period)
+            yield characterise(
+                static_log(fmu, imt30, samples, k, partial(say, now=f"test {k} of {count}")),
+                imt30.sample_period,
+            )
 
 
 @contextmanager
 def progress(total: int) -> Iterator[Callable[..., None]]:
-    """A bar of samples on a terminal, nothing elsewhere; gives the function that is told of samples made and what is being done."""
-    columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn(), TextColumn("left"), TimeRemainingColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty()) as bar:
+    """A bar of samples on a terminal, nothing elsewhere; gives the function that is told of samples
+    made and what is being done.
+    """
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        TimeElapsedColumn(),
+        TextColumn("left"),
+        TimeRemainingColumn(),
+    )
+    with Progress(
+        *columns, console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty()
+    ) as bar:
         task = bar.add_task("", total=total)
         yield lambda made, now: bar.update(task, advance=made, description=now)
 
 
 # Tables
 
+
 def fitted_table(term: str, tests: list[Test]) -> Table:
-    """Table 2 or 4 of the paper beside mean, interval and spread of the fits, and the mean of what is read off the plots."""
+    """Table 2 or 4 of the paper beside mean, interval and spread of the fits, and the mean of what
+    is read off the plots.
+    """
     values, unit, title = PAPER[term]
     table = Table(title=f"{title}, {term} in {unit}", title_justify="left")
-    for heading in ("axis", "paper", f"mean of {len(tests)}", "95 % interval", "holds paper's", "spread of tests", "spread by the fits", "read by eye"):
+    for heading in (
+        "axis",
+        "paper",
+        f"mean of {len(tests)}",
+        "95 % interval",
+        "holds paper's",
+        "spread of tests",
+        "spread by the fits",
+        "read by eye",
+    ):
         table.add_column(heading, justify="left" if heading == "axis" else "right")
     for axis, value in enumerate(values):
         per_test = [t.fits[axis][term] for t in tests]
         mean, spread = mean_coefficient(per_test, LEVEL)
-        predicted = np.sqrt(np.mean([c.std ** 2 for c in per_test]))
+        predicted = np.sqrt(np.mean([c.std**2 for c in per_test]))
         read = np.mean([getattr(t.readings[axis], term) for t in tests])
-        table.add_row(AXES[axis], f"{value:g}", *shown(mean, term), says(mean.holds(paper(term)[axis])),
-                      *(number(x, term) for x in (spread, predicted, read)))
+        table.add_row(
+            AXES[axis],
+            f"{value:g}",
+            *shown(mean, term),
+            says(mean.holds(paper(term)[axis])),
+            *(number(x, term) for x in (spread, predicted, read)),
+        )
     return table
 
 
 def floor_table(tests: list[Test]) -> Table:
-    """Table 5: the floor over 0.664 as the paper has it, as N and K of Tables 2 and 4 make it, and as read off the simulated plots."""
+    """Table 5: the floor over 0.664 as the paper has it, as N and K of Tables 2 and 4 make it, and
+    as read off the simulated plots.
+    """
     values, unit, title = PAPER["B"]
-    table = Table(title=f"{title}, B in {unit}: floor / {flicker_floor(1.0):.3f}", title_justify="left")
-    for heading in ("axis", "paper", "crossing of N and K", f"read, mean of {len(tests)}", "95 % interval", "holds paper's", "holds the crossing",
-                    "spread of tests", "B of the joint fit"):
+    table = Table(
+        title=f"{title}, B in {unit}: floor / {flicker_floor(1.0):.3f}", title_justify="left"
+    )
+    for heading in (
+        "axis",
+        "paper",
+        "crossing of N and K",
+        f"read, mean of {len(tests)}",
+        "95 % interval",
+        "holds paper's",
+        "holds the crossing",
+        "spread of tests",
+        "B of the joint fit",
+    ):
         table.add_column(heading, justify="left" if heading == "axis" else "right")
     theory = crossing(paper("N"), paper("K"))
     for axis, value in enumerate(values):
         mean, spread = read_floor([t.readings[axis].B for t in tests])
         joint, _ = mean_coefficient([t.fits[axis]["B"] for t in tests], LEVEL)
-        table.add_row(AXES[axis], f"{value:g}", number(theory[axis], "B"), *shown(mean, "B"), says(mean.holds(paper("B")[axis])),
-                      says(mean.holds(theory[axis])), number(spread, "B"), shown(joint, "B")[0])
+        table.add_row(
+            AXES[axis],
+            f"{value:g}",
+            number(theory[axis], "B"),
+            *shown(mean, "B"),
+            says(mean.holds(paper("B")[axis])),
+            says(mean.holds(theory[axis])),
+            number(spread, "B"),
+            shown(joint, "B")[0],
+        )
     return table
 
 
 def read_floor(values: list[float]) -> tuple[Coefficient, float]:
-    """Mean, Student's interval and standard deviation of readings, whose errors only the tests themselves tell; nan from a single one."""
+    """Mean, Student's interval and standard deviation of readings, whose errors only the tests
+    themselves tell; nan from a single one.
+    """
     count, mean = len(values), float(np.mean(values))
     spread = float(np.std(values, ddof=1)) if count > 1 else np.nan
-    half = student.isf((1 - LEVEL) / 2, count - 1) * spread / np.sqrt(count) if count > 1 else np.nan
+    half = (
+        student.isf((1 - LEVEL) / 2, count - 1) * spread / np.sqrt(count) if count > 1 else np.nan
+    )
     return Coefficient(mean, spread / np.sqrt(count), mean - half, mean + half), spread
 
 
@@ -165,7 +239,9 @@ def shown(c: Coefficient, term: str) -> tuple[str, str]:
     """A coefficient and its interval in the paper's unit, or its bound."""
     if not c.needed:
         return f"< {number(c.high, term)}", "not needed"
-    return number(c.value, term), f"{number(c.low, term)} to {number(c.high, term)}" if np.isfinite(c.low) else "-"
+    return number(c.value, term), f"{number(c.low, term)} to {number(c.high, term)}" if np.isfinite(
+        c.low
+    ) else "-"
 
 
 def number(value: float, term: str) -> str:
@@ -179,9 +255,14 @@ def says(yes: bool) -> str:
 
 # The picture
 
+
 def draw(tests: list[Test], path: Path) -> None:
-    """Allan deviation of every test, axis by axis, with the paper's N and K, the mean fit and the paper's floor."""
-    with matplotlib.rc_context({"font.size": 9, "axes.grid": True, "grid.alpha": 0.25, "legend.frameon": False}):
+    """Allan deviation of every test, axis by axis, with the paper's N and K, the mean fit and the
+    paper's floor.
+    """
+    with matplotlib.rc_context(
+        {"font.size": 9, "axes.grid": True, "grid.alpha": 0.25, "legend.frameon": False}
+    ):
         figure = Figure(figsize=(11, 4), layout="constrained")
         panels = figure.subplots(1, 3, sharex=True, sharey=True)
         for axis, panel in enumerate(panels):
@@ -197,22 +278,41 @@ def _draw_axis(panel: Axes, axis: int, tests: list[Test]) -> None:
     per_hour = units.parse("deg/h").factor
     tau = tests[0].tau
     for k, test in enumerate(tests):
-        panel.plot(tau, test.deviation[:, axis] / per_hour, color=BLUE, lw=0.8, alpha=0.6, label=None if k else "simulated tests")
-    theory = np.hypot(white_deviation(paper("N")[axis], tau), random_walk_deviation(paper("K")[axis], tau))
+        panel.plot(
+            tau,
+            test.deviation[:, axis] / per_hour,
+            color=BLUE,
+            lw=0.8,
+            alpha=0.6,
+            label=None if k else "simulated tests",
+        )
+    theory = np.hypot(
+        white_deviation(paper("N")[axis], tau), random_walk_deviation(paper("K")[axis], tau)
+    )
     fitted = np.sqrt(np.mean([t.fits[axis].deviation(tau) ** 2 for t in tests], axis=0))
     panel.plot(tau, theory / per_hour, color="black", lw=1.3, label="N and K of the paper")
-    panel.plot(tau, fitted / per_hour, color=ORANGE, lw=1.3, ls="--", label="fit, mean of the tests")
-    panel.axhline(flicker_floor(PAPER["B"][0][axis]), color=GREY, lw=1, ls=":", label="0.664 B of the paper")
+    panel.plot(
+        tau, fitted / per_hour, color=ORANGE, lw=1.3, ls="--", label="fit, mean of the tests"
+    )
+    panel.axhline(
+        flicker_floor(PAPER["B"][0][axis]), color=GREY, lw=1, ls=":", label="0.664 B of the paper"
+    )
     panel.set(xscale="log", yscale="log", xlabel="cluster time τ [s]", title=f"gyro {AXES[axis]}")
 
 
-def main(hours: Annotated[float, typer.Option(help="Length of a test.")] = 4.0,
-         tests: Annotated[int, typer.Option(min=1, help="Number of tests.")] = 5,
-         out: Annotated[Path, typer.Option(help="Folder for the picture.")] = Path("out/imt30")) -> None:
-    """Simulate the paper's static tests of the IMT30, characterise them and print Tables 2, 4 and 5 beside what came back."""
+def main(
+    hours: Annotated[float, typer.Option(help="Length of a test.")] = 4.0,
+    tests: Annotated[int, typer.Option(min=1, help="Number of tests.")] = 5,
+    out: Annotated[Path, typer.Option(help="Folder for the picture.")] = Path("out/imt30"),
+) -> None:
+    """Simulate the paper's static tests of the IMT30, characterise them and print Tables 2, 4 and 5
+    beside what came back.
+    """
     started = time.perf_counter()
     if hours * 3600 < SHORTEST:
-        raise UserError(f"--hours {hours:g} is {hours * 3600:g} s; a test takes at least {SHORTEST:g} s")
+        raise UserError(
+            f"--hours {hours:g} is {hours * 3600:g} s; a test takes at least {SHORTEST:g} s"
+        )
     done = list(simulate_tests(hours, tests))
     out.mkdir(parents=True, exist_ok=True)
     picture = out / "imt30_allan.png"
@@ -222,9 +322,17 @@ def main(hours: Annotated[float, typer.Option(help="Length of a test.")] = 4.0,
         console.print(table)
     needed = sorted({t for test in done for fit in test.fits for t in fit.needed})
     samples = tests * round(hours * 3600 * part("imt30").sample_rate)
-    console.print(f"One {LEVEL:.0%} interval in twenty misses what it is of.  B of the joint fit is a bound: these logs have no flicker.", highlight=False)
-    console.print(f"Terms that a log needs: {', '.join(needed)}.  {tests} x {hours:g} h, {samples / 1e6:.1f} million samples of three axes: "
-                  f"{time.perf_counter() - started:.0f} s.  Picture: {picture}", highlight=False)
+    console.print(
+        f"One {LEVEL:.0%} interval in twenty misses what it is of.  B of the joint fit is a bound: "
+        "these logs have no flicker.",
+        highlight=False,
+    )
+    console.print(
+        f"Terms that a log needs: {', '.join(needed)}.  {tests} x {hours:g} h, {samples / 1e6:.1f} "
+        "million samples of three axes: "
+        f"{time.perf_counter() - started:.0f} s.  Picture: {picture}",
+        highlight=False,
+    )
 
 
 if __name__ == "__main__":

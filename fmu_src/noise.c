@@ -50,7 +50,7 @@ void philox4x64(const uint64_t key[2], const uint64_t counter[4], uint64_t words
    Marsaglia and Tsang 2000, section 2, for f(x) = exp(-x^2 / 2): 256 layers of equal area cover the half of the bell.
    Layer i reaches from 0 to EDGE[i] and from height f(EDGE[i]) to f(EDGE[i + 1]); left of EDGE[i + 1] it lies all under
    the bell, right of it is its wedge.  Layer 0 is the base: the rectangle to EDGE[1] and the tail beyond, as wide as a
-   rectangle of their area.  The rows are printed by `python -m pyimu.noise`, which computes them. */
+   rectangle of their area.  The rows are printed by `python -m pyimu.block.normals`, which computes them. */
 
 static const double EDGE[257] = {
     0x1.f493b7815d982p+1, 0x1.d3bb48209ad33p+1, 0x1.b981f3878fdb0p+1, 0x1.a8fdc78947759p+1,

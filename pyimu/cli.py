@@ -17,10 +17,19 @@ from pyimu.errors import UserError
 # The matrices here are small: BLAS threads would wait for each other longer than they compute.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False,
-                  help="Example: pyimu demo\n\nMEMS inertial sensors, from a measured log to FMI co-simulation units and back.")
+app = typer.Typer(
+    add_completion=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    help=(
+        "Example: pyimu demo\n\nMEMS inertial sensors, from a measured log to FMI co-simulation "
+        "units and back."
+    ),
+)
 
-Out = Annotated[Path, typer.Option("--out", help="Folder for what is written; made if it is missing.")]
+Out = Annotated[
+    Path, typer.Option("--out", help="Folder for what is written; made if it is missing.")
+]
 
 
 INTERRUPTED = 130
@@ -28,7 +37,9 @@ INTERRUPTED = 130
 
 
 def main() -> None:
-    """Entry point: an error that the user can mend ends with one line on stderr and exit status 2."""
+    """Entry point: an error that the user can mend ends with one line on stderr and exit status
+    2.
+    """
     try:
         code = app(prog_name="pyimu", standalone_mode=False)
         if code == INTERRUPTED:  # the parser's own way to say it
@@ -37,7 +48,9 @@ def main() -> None:
         code = _refuse(str(error))
     except (KeyboardInterrupt, typer.Abort):
         code = _refuse("interrupted; earlier results are as they were", INTERRUPTED)
-    except Exception as error:  # the command line parser's own errors know how to say themselves in a line
+    except (
+        Exception
+    ) as error:  # the command line parser's own errors know how to say themselves in a line
         if not hasattr(error, "format_message"):
             raise
         command = getattr(getattr(error, "ctx", None), "command_path", None) or "pyimu"
@@ -51,10 +64,15 @@ def _refuse(text: str, code: int = 2) -> int:
 
 
 @app.callback(invoke_without_command=True)
-def _top(context: typer.Context,
-         version: Annotated[bool, typer.Option("--version", help="Print the version and leave.")] = False) -> None:
+def _top(
+    context: typer.Context,
+    version: Annotated[
+        bool, typer.Option("--version", help="Print the version and leave.")
+    ] = False,
+) -> None:
     if version:
         from pyimu import __version__
+
         print(__version__)
         raise typer.Exit
     if context.invoked_subcommand is None:
@@ -65,32 +83,47 @@ def _top(context: typer.Context,
 def demo(out: Out = Path("out/demo")) -> None:
     """Example: pyimu demo
 
-    The whole loop on a built-in recording: a rover with an IMT30 whose gyros have a scale factor error that no data sheet
-    declares. Finds it, adds it, and shows the heading error before and after.
+    The whole loop on a built-in recording: a rover with an IMT30 whose gyros have a scale factor
+    error that no data sheet declares. Finds it, adds it, and shows the heading error before and
+    after.
     """
     from pyimu.rover.demo import run_demo
+
     with progress("simulating the rover") as say:
         shown = run_demo(out, say)
     print(shown.report())
     print(f"report: {out / 'report.html'}, picture: {out / 'heading.png'}")
 
 
-@app.command("characterize", short_help="Noise, temperature effect and quality of a sensor at rest.")
+@app.command(
+    "characterize", short_help="Noise, temperature effect and quality of a sensor at rest."
+)
 def characterize_command(
-        logs: Annotated[list[Path], typer.Argument(metavar="LOG", help="Recordings of one part at rest; of any length.", show_default=False)],
-        out: Annotated[Path, typer.Option("--out", help="Folder for report.html, report.json and part.toml.")] = Path("out/characterize"),
-        columns: Annotated[Path | None, typer.Option("--columns", help="TOML that renames a foreign log's columns.")] = None,
-        level: Annotated[float, typer.Option("--level", help="Probability of the intervals.")] = 0.95,
+    logs: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="LOG", help="Recordings of one part at rest; of any length.", show_default=False
+        ),
+    ],
+    out: Annotated[
+        Path, typer.Option("--out", help="Folder for report.html, report.json and part.toml.")
+    ] = Path("out/characterize"),
+    columns: Annotated[
+        Path | None, typer.Option("--columns", help="TOML that renames a foreign log's columns.")
+    ] = None,
+    level: Annotated[float, typer.Option("--level", help="Probability of the intervals.")] = 0.95,
 ) -> None:
     """Example: pyimu characterize static.csv --out out/static
 
-    Allan deviation, spectrum, temperature effect and quality of the samples of a sensor at rest: its noise coefficients with
-    intervals, the pictures of a data sheet, and a part file for pyimu build and pyimu close. Several logs of one part give
-    means and their spread. The samples wait in temporary files (TMPDIR says where), so that a log may be larger than memory.
+    Allan deviation, spectrum, temperature effect and quality of the samples of a sensor at rest:
+    its noise coefficients with intervals, the pictures of a data sheet, and a part file for pyimu
+    build and pyimu close. Several logs of one part give means and their spread. The samples wait in
+    temporary files (TMPDIR says where), so that a log may be larger than memory.
     """
-    from pyimu.characterize.report import check_delivery, write_characterization
-    from pyimu.characterize.run import characterize
-    from pyimu.recording import open_log
+    from pyimu.characterization.report.page import check_delivery, write_characterization
+    from pyimu.characterization.run import characterize
+    from pyimu.recording.log import open_log
+
     check_delivery(out)
     with progress("reading") as say:
         found = characterize([open_log(path, columns) for path in logs], level, say)
@@ -102,27 +135,58 @@ def characterize_command(
 
 @app.command("close", short_help="Find what a sensor's model lacks to explain measured logs.")
 def close_command(
-        logs: Annotated[list[Path], typer.Argument(metavar="LOG", help="Recordings: CSV(.gz), Parquet, MAT, HDF5, ROS bag or MCAP.", show_default=False)],
-        out: Annotated[Path, typer.Option("--out", help="Folder for report.html, report.json, model.toml and the FMUs.")] = Path("out/close"),
-        part: Annotated[str | None, typer.Option("--part", help="Built-in part or a TOML file; without it all is estimated.")] = None,
-        holdout: Annotated[list[Path] | None, typer.Option("--holdout", help="Log to judge by; else the last 30 % of each.")] = None,
-        columns: Annotated[Path | None, typer.Option("--columns", help="TOML that renames a foreign log's columns.")] = None,
-        latitude: Annotated[float | None, typer.Option("--latitude", help="Degrees; adds the Earth's rate to a derived reference.")] = None,
+    logs: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="LOG",
+            help="Recordings: CSV(.gz), Parquet, MAT, HDF5, ROS bag or MCAP.",
+            show_default=False,
+        ),
+    ],
+    out: Annotated[
+        Path,
+        typer.Option("--out", help="Folder for report.html, report.json, model.toml and the FMUs."),
+    ] = Path("out/close"),
+    part: Annotated[
+        str | None,
+        typer.Option("--part", help="Built-in part or a TOML file; without it all is estimated."),
+    ] = None,
+    holdout: Annotated[
+        list[Path] | None,
+        typer.Option("--holdout", help="Log to judge by; else the last 30 % of each."),
+    ] = None,
+    columns: Annotated[
+        Path | None, typer.Option("--columns", help="TOML that renames a foreign log's columns.")
+    ] = None,
+    latitude: Annotated[
+        float | None,
+        typer.Option("--latitude", help="Degrees; adds the Earth's rate to a derived reference."),
+    ] = None,
 ) -> None:
     """Example: pyimu close rover.csv --part imt30 --out out/rover
 
-    Compare a sensor's model with measured logs, find the effects that it lacks, add them, and report the error before and
-    after on data that was not fitted, with the model as a part file and as FMUs.
+    Compare a sensor's model with measured logs, find the effects that it lacks, add them, and
+    report the error before and after on data that was not fitted, with the model as a part file and
+    as FMUs.
     """
-    from pyimu.loop.close import close
-    from pyimu.loop.deliver import check_delivery, deliver
-    from pyimu.recording import read_recording
+    from pyimu.identification.close import close
+    from pyimu.identification.report.deliver import check_delivery, deliver
+    from pyimu.recording.log import read_recording
+
     if latitude is not None and not abs(latitude) <= 90:
         raise UserError(f"--latitude {latitude:g}: must lie between -90 and 90 deg")
     check_delivery(out)
     with progress("reading") as say:
-        recordings, judges = ([read_recording(p, columns) for p in paths] for paths in (logs, holdout or []))
-        closed = close(recordings, part, judges or None, latitude=None if latitude is None else math.radians(latitude), say=say)
+        recordings, judges = (
+            [read_recording(p, columns) for p in paths] for paths in (logs, holdout or [])
+        )
+        closed = close(
+            recordings,
+            part,
+            judges or None,
+            latitude=None if latitude is None else math.radians(latitude),
+            say=say,
+        )
         deliver(closed, out, say)
     print(closed.report())
     print(f"report: {out / 'report.html'}")
@@ -130,51 +194,86 @@ def close_command(
 
 @app.command(short_help="Build the co-simulation units of a part.")
 def build(
-        part: Annotated[str, typer.Argument(help="Built-in part or a TOML file.", show_default=False)],
-        out: Out = Path("out/fmus"),
-        fmu: Annotated[str, typer.Option("--fmu", help="Which, separated by commas: sensor, ukf.")] = "sensor,ukf",
-        fmi: Annotated[str, typer.Option("--fmi", help="Which forms, separated by commas: 2, 3, block (FMI 3, many samples a step).")] = "2,3,block",
-        platform: Annotated[str, typer.Option("--platform", help="host, all (needs ziglang), or one platform by name.")] = "host",
+    part: Annotated[str, typer.Argument(help="Built-in part or a TOML file.", show_default=False)],
+    out: Out = Path("out/fmus"),
+    fmu: Annotated[
+        str, typer.Option("--fmu", help="Which, separated by commas: sensor, ukf.")
+    ] = "sensor,ukf",
+    fmi: Annotated[
+        str,
+        typer.Option(
+            "--fmi",
+            help="Which forms, separated by commas: 2, 3, block (FMI 3, many samples a step).",
+        ),
+    ] = "2,3,block",
+    platform: Annotated[
+        str, typer.Option("--platform", help="host, all (needs ziglang), or one platform by name.")
+    ] = "host",
 ) -> None:
     """Example: pyimu build imt30 --out out/fmus
 
-    Build the FMI co-simulation units of a part: the sensor with its errors, and the attitude filter that goes with it.
+    Build the FMI co-simulation units of a part: the sensor with its errors, and the attitude filter
+    that goes with it.
     """
     from pyimu.fmu.package import build as build_part
+
     forms = {"2": 2, "3": 3, "block": "block"}
     names = [name.strip() for name in fmi.split(",")]
     if not all(name in forms for name in names):
         raise UserError(f"--fmi {fmi}: unknown; known are {', '.join(forms)}, separated by commas")
     with progress(f"compiling {part}"):
-        paths = build_part(part, out, [f.strip() for f in fmu.split(",")], [forms[name] for name in names], platform)
+        paths = build_part(
+            part,
+            out,
+            [f.strip() for f in fmu.split(",")],
+            [forms[name] for name in names],
+            platform,
+        )
     for path in paths:
         print(path)
 
 
 @app.command(short_help="The built-in parts, or one part with the source of each figure.")
-def parts(name: Annotated[str | None, typer.Argument(metavar="PART", help="Built-in part or a TOML file; without it all are listed.",
-                                                     show_default=False)] = None) -> None:
+def parts(
+    name: Annotated[
+        str | None,
+        typer.Argument(
+            metavar="PART",
+            help="Built-in part or a TOML file; without it all are listed.",
+            show_default=False,
+        ),
+    ] = None,
+) -> None:
     """Example: pyimu parts mpu6050
 
-    List the built-in parts with their noise and range, or print one part: every coefficient, the figure as its data sheet
-    quotes it, and the source. N is the root of the two-sided density; a dash stands where the part has no figure.
+    List the built-in parts with their noise and range, or print one part: every coefficient, the
+    figure as its data sheet quotes it, and the source. N is the root of the two-sided density; a
+    dash stands where the part has no figure.
     """
-    from pyimu.parts_table import detail, listing, terminal_width
+    from pyimu.report.parts_table import detail, listing, terminal_width
+
     print(detail(name, terminal_width()) if name is not None else listing(width=terminal_width()))
 
 
 @app.command("derive", short_help="The symbolic results, and what each was checked against.")
 def derive_command(
-        out: Annotated[Path | None, typer.Option("--out", help="Folder for derivations.txt, .tex and .md; else they are only printed.")] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            "--out", help="Folder for derivations.txt, .tex and .md; else they are only printed."
+        ),
+    ] = None,
 ) -> None:
     """Example: pyimu derive --out out/derivations
 
-    Print the symbolic results that the package computes with: kinematics, attitude error, Earth rate, transition matrix and
-    process noise. Each comes as text and LaTeX, with what it was checked against and the difference that was found just now.
+    Print the symbolic results that the package computes with: kinematics, attitude error, Earth
+    rate, transition matrix and process noise. Each comes as text and LaTeX, with what it was
+    checked against and the difference that was found just now.
     """
+    from pyimu.derivations import derive
+    from pyimu.derivations.files import write
     from pyimu.fmu.package import check_folder
-    from pyimu.symbolic.derivations import derive
-    from pyimu.symbolic.derivations.files import write
+
     if out is not None:
         check_folder(out)
     with progress("deriving") as say:
@@ -188,14 +287,25 @@ def derive_command(
 
 @contextmanager
 def progress(text: str) -> Iterator[Callable[..., None]]:
-    """A moving bar on a terminal, nothing elsewhere; gives the function that says what is being done, and which share of it."""
+    """A moving bar on a terminal, nothing elsewhere; gives the function that says what is being
+    done, and which share of it.
+    """
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
-    with Progress(TextColumn("{task.description}"), BarColumn(bar_width=20), TimeElapsedColumn(), console=Console(stderr=True),
-                  transient=True, disable=not sys.stderr.isatty()) as bar:
+
+    with Progress(
+        TextColumn("{task.description}"),
+        BarColumn(bar_width=20),
+        TimeElapsedColumn(),
+        console=Console(stderr=True),
+        transient=True,
+        disable=not sys.stderr.isatty(),
+    ) as bar:
         task = bar.add_task(text, total=None)
         # A task that is complete stops its clock.
-        yield lambda now, share=None: bar.update(task, description=now, completed=0.999 * (share or 0.0), total=share and 1.0)
+        yield lambda now, share=None: bar.update(
+            task, description=now, completed=0.999 * (share or 0.0), total=share and 1.0
+        )
 
 
 if __name__ == "__main__":

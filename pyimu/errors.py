@@ -1,4 +1,6 @@
-"""What can be wrong with what a user gave: errors, which end the work, and findings, which go along with the result."""
+"""What can be wrong with what a user gave: errors, which end the work, and findings, which go along
+with the result.
+"""
 
 from __future__ import annotations
 
@@ -10,8 +12,8 @@ from typing import Any
 class UserError(ValueError):
     """What a user gave cannot be used.
 
-    The message is one line that says what is wrong, where (file, row, column or key) and what would be right; the
-    command line prints it and ends with exit status 2.
+    The message is one line that says what is wrong, where (file, row, column or key) and what would
+    be right; the command line prints it and ends with exit status 2.
     """
 
     def __init__(self, message: str) -> None:
@@ -22,8 +24,8 @@ class UserError(ValueError):
 class Finding:
     """Something that was seen in a recording and that its user should know.
 
-    ``column`` is a column's name without unit (``gyro_x``), or empty where all rows are meant; ``count`` how many
-    samples, rows or events; ``detail`` numbers in SI, and texts.
+    ``column`` is a column's name without unit (``gyro_x``), or empty where all rows are meant;
+    ``count`` how many samples, rows or events; ``detail`` numbers in SI, and texts.
     """
 
     kind: str
@@ -33,4 +35,9 @@ class Finding:
 
     def as_dict(self) -> dict[str, Any]:
         """The finding as plain types, for JSON."""
-        return {"kind": self.kind, "column": self.column, "count": int(self.count), "detail": dict(self.detail)}
+        return {
+            "kind": self.kind,
+            "column": self.column,
+            "count": int(self.count),
+            "detail": dict(self.detail),
+        }

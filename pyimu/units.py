@@ -1,9 +1,9 @@
 """Units: a closed table of atoms and a small strict grammar over it.
 
-A general unit parser reads ``g`` as gram and knows no ``deg/sqrt(h)``; here ``g`` is standard gravity, and a spelling
-that is not in the table is an error that names the nearest one that is::
+A general unit parser reads ``g`` as gram and knows no ``deg/sqrt(h)``; here ``g`` is standard
+gravity, and a spelling that is not in the table is an error that names the nearest one that is::
 
-    product = power (("*" | "/") power)*         read from left to right: deg/h/sqrt(h) = deg/(h sqrt(h))
+    product = power (("*" | "/") power)*         left to right: deg/h/sqrt(h) = deg/(h sqrt(h))
     power   = factor ["^" integer]
     factor  = atom | "sqrt" "(" product ")" | "(" product ")"
 
@@ -36,30 +36,77 @@ BASES = ("rad", "s", "m", "K", "V", "T")
 _DEG = math.pi / 180
 
 _ATOMS: dict[str, tuple[float, dict[str, int]]] = {
-    "1": (1.0, {}), "ppm": (1e-6, {}), "%": (1e-2, {}),
-    "rad": (1.0, {"rad": 1}), "mrad": (1e-3, {"rad": 1}), "urad": (1e-6, {"rad": 1}),
-    "deg": (_DEG, {"rad": 1}), "arcsec": (_DEG / 3600, {"rad": 1}),
-    "s": (1.0, {"s": 1}), "ms": (1e-3, {"s": 1}), "us": (1e-6, {"s": 1}), "ns": (1e-9, {"s": 1}),
-    "min": (60.0, {"s": 1}), "h": (3600.0, {"s": 1}),
-    "Hz": (1.0, {"s": -1}), "kHz": (1e3, {"s": -1}),
-    "m": (1.0, {"m": 1}), "mm": (1e-3, {"m": 1}), "cm": (1e-2, {"m": 1}), "km": (1e3, {"m": 1}),
-    "g": (STANDARD_GRAVITY, {"m": 1, "s": -2}), "mg": (1e-3 * STANDARD_GRAVITY, {"m": 1, "s": -2}),
+    "1": (1.0, {}),
+    "ppm": (1e-6, {}),
+    "%": (1e-2, {}),
+    "rad": (1.0, {"rad": 1}),
+    "mrad": (1e-3, {"rad": 1}),
+    "urad": (1e-6, {"rad": 1}),
+    "deg": (_DEG, {"rad": 1}),
+    "arcsec": (_DEG / 3600, {"rad": 1}),
+    "s": (1.0, {"s": 1}),
+    "ms": (1e-3, {"s": 1}),
+    "us": (1e-6, {"s": 1}),
+    "ns": (1e-9, {"s": 1}),
+    "min": (60.0, {"s": 1}),
+    "h": (3600.0, {"s": 1}),
+    "Hz": (1.0, {"s": -1}),
+    "kHz": (1e3, {"s": -1}),
+    "m": (1.0, {"m": 1}),
+    "mm": (1e-3, {"m": 1}),
+    "cm": (1e-2, {"m": 1}),
+    "km": (1e3, {"m": 1}),
+    "g": (STANDARD_GRAVITY, {"m": 1, "s": -2}),
+    "mg": (1e-3 * STANDARD_GRAVITY, {"m": 1, "s": -2}),
     "ug": (1e-6 * STANDARD_GRAVITY, {"m": 1, "s": -2}),
-    "K": (1.0, {"K": 1}), "degC": (1.0, {"K": 1}),
-    "V": (1.0, {"V": 1}), "mV": (1e-3, {"V": 1}),
-    "T": (1.0, {"T": 1}), "mT": (1e-3, {"T": 1}), "uT": (1e-6, {"T": 1}), "nT": (1e-9, {"T": 1}), "gauss": (1e-4, {"T": 1}),
+    "K": (1.0, {"K": 1}),
+    "degC": (1.0, {"K": 1}),
+    "V": (1.0, {"V": 1}),
+    "mV": (1e-3, {"V": 1}),
+    "T": (1.0, {"T": 1}),
+    "mT": (1e-3, {"T": 1}),
+    "uT": (1e-6, {"T": 1}),
+    "nT": (1e-9, {"T": 1}),
+    "gauss": (1e-4, {"T": 1}),
 }
 
 ATOMS = tuple(_ATOMS)
 """Every spelling that the table knows."""
 
-_HINTS = {"°": "deg", "º": "deg", "degree": "deg", "degrees": "deg", "dps": "deg/s", "radian": "rad", "radians": "rad",
-          "sec": "s", "second": "s", "seconds": "s", "µs": "us", "μs": "us", "hr": "h", "hour": "h", "hours": "h",
-          "µg": "ug", "μg": "ug", "µT": "uT", "μT": "uT", "G": "gauss (field) or g (gravity)", "meter": "m", "metre": "m",
-          "°C": "degC", "C": "degC", "celsius": "degC", "kelvin": "K", "volt": "V"}
+_HINTS = {
+    "°": "deg",
+    "º": "deg",
+    "degree": "deg",
+    "degrees": "deg",
+    "dps": "deg/s",
+    "radian": "rad",
+    "radians": "rad",
+    "sec": "s",
+    "second": "s",
+    "seconds": "s",
+    "µs": "us",
+    "μs": "us",
+    "hr": "h",
+    "hour": "h",
+    "hours": "h",
+    "µg": "ug",
+    "μg": "ug",
+    "µT": "uT",
+    "μT": "uT",
+    "G": "gauss (field) or g (gravity)",
+    "meter": "m",
+    "metre": "m",
+    "°C": "degC",
+    "C": "degC",
+    "celsius": "degC",
+    "kelvin": "K",
+    "volt": "V",
+}
 """What common spellings outside the table are called in it; only for error messages."""
 
-_TOKEN = re.compile(r"\s*(?:(?P<operator>[*/^()])|(?P<integer>[-+]?\d+)|(?P<word>[^\s*/^()\d+-][^\s*/^()]*))")
+_TOKEN = re.compile(
+    r"\s*(?:(?P<operator>[*/^()])|(?P<integer>[-+]?\d+)|(?P<word>[^\s*/^()\d+-][^\s*/^()]*))"
+)
 
 
 class UnitError(UserError):
@@ -68,7 +115,9 @@ class UnitError(UserError):
 
 @dataclass(frozen=True)
 class Unit:
-    """A unit: ``factor`` times the SI unit of ``dimension``, the exponents of ``BASES``; ``text`` as it was spelled."""
+    """A unit: ``factor`` times the SI unit of ``dimension``, the exponents of ``BASES``; ``text``
+    as it was spelled.
+    """
 
     factor: float
     dimension: tuple[Fraction, ...]
@@ -85,7 +134,8 @@ _Value = tuple[float, tuple[Fraction, ...]]
 def parse(text: str) -> Unit:
     """The unit that ``text`` spells, such as ``"deg/h/sqrt(h)"`` or ``"rad/s/(m/s^2)"``.
 
-    Raises UnitError for an atom outside the table, naming the nearest one, and for text that is no unit.
+    Raises UnitError for an atom outside the table, naming the nearest one, and for text that is no
+    unit.
     """
     if not isinstance(text, str):
         raise UnitError(f"a unit must be text such as 'deg/s', not {text!r}")
@@ -96,25 +146,31 @@ def parse(text: str) -> Unit:
 
 
 def same_dimension(a: str | Unit, b: str | Unit) -> bool:
-    """Whether a value in ``a`` can be converted to ``b``.  Raises UnitError for an unknown unit."""
+    """Whether a value in ``a`` can be converted to ``b``. Raises UnitError for an unknown unit."""
     return _unit(a).dimension == _unit(b).dimension
 
 
 def convert(values, source: str | Unit, target: str | Unit):
-    """``values`` given in ``source``, expressed in ``target``: a float for a scalar, else an array of the same shape.
+    """``values`` given in ``source``, expressed in ``target``: a float for a scalar, else an array
+    of the same shape.
 
-    Temperatures convert as differences; for readings of a thermometer see ``to_degc``.  Raises UnitError where the
-    dimensions differ.
+    Temperatures convert as differences; for readings of a thermometer see ``to_degc``. Raises
+    UnitError where the dimensions differ.
     """
     source, target = _unit(source), _unit(target)
     if source.dimension != target.dimension:
-        raise UnitError(f"'{source}' cannot be converted to '{target}': {_describe(source)} is not {_describe(target)}")
+        raise UnitError(
+            f"'{source}' cannot be converted to '{target}': {_describe(source)} is not "
+            f"{_describe(target)}"
+        )
     scaled = np.asarray(values, dtype=float) * (source.factor / target.factor)
     return float(scaled) if scaled.ndim == 0 else scaled
 
 
 def to_degc(values, unit: str | Unit):
-    """Temperatures read in ``unit`` (``K`` or ``degC``) as degC, a float for a scalar.  Raises UnitError for another unit."""
+    """Temperatures read in ``unit`` (``K`` or ``degC``) as degC, a float for a scalar. Raises
+    UnitError for another unit.
+    """
     unit = _unit(unit)
     if unit.text not in ("K", "degC"):
         raise UnitError(f"a temperature must be in degC or K, not '{unit}'")
@@ -123,7 +179,9 @@ def to_degc(values, unit: str | Unit):
 
 
 def nearest(name: str, names: Iterable[str], cutoff: float = 0.7) -> str | None:
-    """The member of ``names`` that ``name`` was probably meant to be, upper and lower case alike, or None."""
+    """The member of ``names`` that ``name`` was probably meant to be, upper and lower case alike,
+    or None.
+    """
     folded: dict[str, str] = {}
     for candidate in names:
         folded.setdefault(candidate.casefold(), candidate)
@@ -148,7 +206,9 @@ def _describe(unit: Unit) -> str:
 
 
 class _Reader:
-    """Recursive descent over the grammar in the module's docstring; each method returns (factor, dimension)."""
+    """Recursive descent over the grammar in the module's docstring; each method returns (factor,
+    dimension).
+    """
 
     def __init__(self, text: str) -> None:
         self.text = text
@@ -228,5 +288,9 @@ class _Reader:
     def _unknown(token: str) -> str:
         if not token or token in "*/^()":
             return "a unit is missing" + (f" before '{token}'" if token else " at its end")
-        meant = _HINTS.get(token) or _HINTS.get(token.casefold()) or nearest(token, ATOMS, cutoff=0.5)
-        return f"unknown '{token}'" + (f", did you mean {meant}?" if meant else f"; known are {', '.join(ATOMS)}")
+        meant = (
+            _HINTS.get(token) or _HINTS.get(token.casefold()) or nearest(token, ATOMS, cutoff=0.5)
+        )
+        return f"unknown '{token}'" + (
+            f", did you mean {meant}?" if meant else f"; known are {', '.join(ATOMS)}"
+        )

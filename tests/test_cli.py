@@ -1,4 +1,6 @@
-"""The command line: good runs deliver what they say, bad input ends in one line that helps, and costs no earlier result."""
+"""The command line: good runs deliver what they say, bad input ends in one line that helps, and
+costs no earlier result.
+"""
 
 import json
 import subprocess
@@ -24,17 +26,19 @@ name = "plain"
 sample_rate = {{value = {RATE}, unit = "Hz"}}
 
 [gyro.angle_random_walk]
-N = {{value = {NOISE / RATE ** 0.5!r}, unit = "rad/sqrt(s)"}}
+N = {{value = {NOISE / RATE**0.5!r}, unit = "rad/sqrt(s)"}}
 """
 
 FMUS = ["ImuSensor.fmi2.fmu", "ImuSensor.fmi3.fmu"]
 
 
-# ---- logs, parts, and running ------------------------------------------------------------------------------------------
+# Logs, parts, and running
 
 
 def motion(seed):
-    """A reference rate (n, 3) rad/s in which each axis turns at its own frequency, and white noise of a gyro (n, 3)."""
+    """A reference rate (n, 3) rad/s in which each axis turns at its own frequency, and white noise
+    of a gyro (n, 3).
+    """
     time = np.arange(ROWS) / RATE
     rate = np.column_stack([0.5 * np.sin(2 * np.pi * f * time + seed) for f in (0.11, 0.17, 0.23)])
     return time, rate, NOISE * np.random.default_rng(seed).standard_normal((ROWS, 3))
@@ -43,13 +47,17 @@ def motion(seed):
 def write_log(folder, name, seed=2, moves=True, reference=True):
     time, rate, noise = motion(seed)
     gyro = (1 + SCALE) * rate * moves + noise
-    log = Recording.from_arrays(name=name, time=time, gyro=gyro, ref_rate=rate if reference else None)
+    log = Recording.from_arrays(
+        name=name, time=time, gyro=gyro, ref_rate=rate if reference else None
+    )
     return log.write(folder / f"{name}.csv")
 
 
 @pytest.fixture(scope="module")
 def logs(tmp_path_factory):
-    """A folder with good logs (rover, second), one at rest, one that moves without reference, and a part."""
+    """A folder with good logs (rover, second), one at rest, one that moves without reference, and a
+    part.
+    """
     folder = tmp_path_factory.mktemp("logs")
     write_log(folder, "rover")
     write_log(folder, "second", seed=3)
@@ -61,7 +69,9 @@ def logs(tmp_path_factory):
 
 @pytest.fixture
 def here(logs, tmp_path, monkeypatch):
-    """The folder that a test runs in, with earlier results in ``out`` and the logs under their names."""
+    """The folder that a test runs in, with earlier results in ``out`` and the logs under their
+    names.
+    """
     for file in logs.iterdir():
         (tmp_path / file.name).symlink_to(file)
     results = tmp_path / "out"
@@ -75,11 +85,13 @@ def here(logs, tmp_path, monkeypatch):
 @pytest.fixture
 def pyimu(monkeypatch, capsys):
     """Run the command line in this process; gives exit status, stdout and stderr."""
+
     def run(*words):
         monkeypatch.setattr(sys, "argv", ["pyimu", *map(str, words)])
         with pytest.raises(SystemExit) as end:
             main()
         return (end.value.code, *capsys.readouterr())
+
     return run
 
 
@@ -99,16 +111,24 @@ def assert_one_line(text, *words):
 
 
 def refused(pyimu, command, *words):
-    """The command ends in one line on stderr that holds the words, exit status 2, and leaves ``out`` as it was."""
+    """The command ends in one line on stderr that holds the words, exit status 2, and leaves
+    ``out`` as it was.
+    """
     before = contents(Path("out"))
     code, out, err = pyimu(*command)
     assert (code, out) == (2, ""), (code, out, err)
     assert_one_line(err, *words)
     assert contents(Path("out")) == before
-    assert {p.name for p in Path("out").iterdir()} == {"before", "report.html", "report.json", "model.toml", *FMUS}
+    assert {p.name for p in Path("out").iterdir()} == {
+        "before",
+        "report.html",
+        "report.json",
+        "model.toml",
+        *FMUS,
+    }
 
 
-# ---- bad logs ----------------------------------------------------------------------------------------------------------
+# Bad logs
 
 
 def cells(change):
@@ -122,43 +142,73 @@ def header(old, new):
 
 def with_cell(row, column, text):
     """A rewrite that puts ``text`` where a spreadsheet says ``row`` and ``column``, both from 1."""
+
     def change(rows):
         rows[row - 1][column - 1] = text
         return rows
+
     return cells(change)
 
 
 BAD_LOGS = {
-    "gyro_y is missing": (cells(lambda rows: [r[:2] + r[3:] for r in rows]), ["gyro_y is missing", "gyro_x, gyro_y, gyro_z"]),
+    "gyro_y is missing": (
+        cells(lambda rows: [r[:2] + r[3:] for r in rows]),
+        ["gyro_y is missing", "gyro_x, gyro_y, gyro_z"],
+    ),
     "no time": (cells(lambda rows: [r[1:] for r in rows]), ["no 'time [s]' column"]),
     "no gyro, no accel": (header("gyro_", "gy"), ["neither gyro_x", "accel_x"]),
     "misspelt column": (header("gyro_z", "gyroz"), ["'gyroz'", "did you mean gyro_z"]),
-    "unknown unit": (header("gyro_x [rad/s]", "gyro_x [rad/z]"), ["column gyro_x", "'rad/z' is not a unit"]),
-    "wrong dimension": (header("gyro_x [rad/s]", "gyro_x [m]"), ["column gyro_x", "'m'", "expected a unit like 'rad/s'"]),
-    "no unit": (header("gyro_x [rad/s]", "gyro_x"), ["column gyro_x has no unit", "gyro_x [rad/s]"]),
-    "text in a number": (with_cell(11, 2, "about 3"), ["row 11", "column gyro_x", "'about 3' is not a number"]),
-    "time runs backwards": (lambda lines: [*lines[:10], lines[11], lines[10], *lines[12:]],
-                            ["row 12", "time runs backwards", "0.18 s follows 0.2 s"]),
+    "unknown unit": (
+        header("gyro_x [rad/s]", "gyro_x [rad/z]"),
+        ["column gyro_x", "'rad/z' is not a unit"],
+    ),
+    "wrong dimension": (
+        header("gyro_x [rad/s]", "gyro_x [m]"),
+        ["column gyro_x", "'m'", "expected a unit like 'rad/s'"],
+    ),
+    "no unit": (
+        header("gyro_x [rad/s]", "gyro_x"),
+        ["column gyro_x has no unit", "gyro_x [rad/s]"],
+    ),
+    "text in a number": (
+        with_cell(11, 2, "about 3"),
+        ["row 11", "column gyro_x", "'about 3' is not a number"],
+    ),
+    "time runs backwards": (
+        lambda lines: [*lines[:10], lines[11], lines[10], *lines[12:]],
+        ["row 12", "time runs backwards", "0.18 s follows 0.2 s"],
+    ),
     "time is missing": (with_cell(8, 1, ""), ["row 8", "time is missing"]),
-    "a row too long": (lambda lines: [*lines[:5], lines[5] + ",1", *lines[6:]], ["row 6", "8 cells, expected 7"]),
+    "a row too long": (
+        lambda lines: [*lines[:5], lines[5] + ",1", *lines[6:]],
+        ["row 6", "8 cells, expected 7"],
+    ),
     "too short": (lambda lines: lines[:30], ["too short", "29 rows, at least 64"]),
     "no rows": (lambda lines: lines[:1], ["0 rows of data"]),
     "empty file": (lambda lines: [], ["no 'time [s]' column"]),
-    "semicolons": (lambda lines: [line.replace(",", ";") for line in lines], ["row 1", "separated by commas"]),
+    "semicolons": (
+        lambda lines: [line.replace(",", ";") for line in lines],
+        ["row 1", "separated by commas"],
+    ),
 }
 
 
 @pytest.mark.parametrize("case", BAD_LOGS)
 def test_bad_log(here, pyimu, case):
     change, words = BAD_LOGS[case]
-    (here / "bad.csv").write_text("\n".join([*change((here / "rover.csv").read_text().splitlines()), ""]))
+    (here / "bad.csv").write_text(
+        "\n".join([*change((here / "rover.csv").read_text().splitlines()), ""])
+    )
     refused(pyimu, ["close", "bad.csv", "--part", "plain.toml", "--out", "out"], "bad", *words)
 
 
 BAD_COMMANDS = {
     "missing file": (["nothing.csv"], ["nothing.csv", "no such file"]),
     "other suffix": (["plain.toml"], ["plain.toml", ".csv, .csv.gz, .parquet"]),
-    "no reference": (["moving.csv"], ["moving", "no reference", "ref_rate, ref_q, ref_heading or ref_force", "must stand still"]),
+    "no reference": (
+        ["moving.csv"],
+        ["moving", "no reference", "ref_rate, ref_q, ref_heading or ref_force", "must stand still"],
+    ),
     "same log twice": (["rover.csv", "rover.csv"], ["rover", "given twice"]),
     "fitted and held out": (["rover.csv", "--holdout", "rover.csv"], ["rover", "given twice"]),
     "missing holdout": (["rover.csv", "--holdout", "nothing.csv"], ["nothing.csv", "no such file"]),
@@ -180,24 +230,46 @@ def test_bad_close(here, pyimu, case):
 
 def test_columns_of_another_log(here, pyimu):
     Path("map.toml").write_text('[columns]\n"GyrX" = "gyro_x [deg/s]"\n')
-    refused(pyimu, ["close", "rover.csv", "--columns", "map.toml", "--out", "out"], "map.toml", "GyrX", "no such column")
+    refused(
+        pyimu,
+        ["close", "rover.csv", "--columns", "map.toml", "--out", "out"],
+        "map.toml",
+        "GyrX",
+        "no such column",
+    )
 
 
-# ---- bad parts ---------------------------------------------------------------------------------------------------------
+# Bad parts
 
 
 BAD_PARTS = {
-    "effect": (PART.replace("random", "randm"), ["gyro.angle_randm_walk", "unknown effect", "mean angle_random_walk"]),
-    "parameter": (PART.replace("N =", "n ="), ["gyro.angle_random_walk.n", "unknown parameter", "mean N"]),
-    "unit": (PART.replace("rad/sqrt(s)", "rad/sqrt(z)"), ["gyro.angle_random_walk.N.unit", "not a unit", "rad/sqrt(s)"]),
-    "dimension": (PART.replace("rad/sqrt(s)", "m/s"), ["gyro.angle_random_walk.N.unit", "'m/s'", "like rad/sqrt(s)"]),
+    "effect": (
+        PART.replace("random", "randm"),
+        ["gyro.angle_randm_walk", "unknown effect", "mean angle_random_walk"],
+    ),
+    "parameter": (
+        PART.replace("N =", "n ="),
+        ["gyro.angle_random_walk.n", "unknown parameter", "mean N"],
+    ),
+    "unit": (
+        PART.replace("rad/sqrt(s)", "rad/sqrt(z)"),
+        ["gyro.angle_random_walk.N.unit", "not a unit", "rad/sqrt(s)"],
+    ),
+    "dimension": (
+        PART.replace("rad/sqrt(s)", "m/s"),
+        ["gyro.angle_random_walk.N.unit", "'m/s'", "like rad/sqrt(s)"],
+    ),
     "syntax": (PART + "[gyro.scale_factor\n", ["TOML", "line 6"]),
     "no rate": (PART.replace("sample_rate", "#"), ["sample_rate", "is missing", 'unit = "Hz"']),
 }
 
 
 @pytest.mark.parametrize("case", BAD_PARTS)
-@pytest.mark.parametrize("command", (["close", "rover.csv", "--part", "bad.toml"], ["build", "bad.toml"]), ids=("close", "build"))
+@pytest.mark.parametrize(
+    "command",
+    (["close", "rover.csv", "--part", "bad.toml"], ["build", "bad.toml"]),
+    ids=("close", "build"),
+)
 def test_bad_part(here, pyimu, case, command):
     text, words = BAD_PARTS[case]
     Path("bad.toml").write_text(text)
@@ -206,11 +278,17 @@ def test_bad_part(here, pyimu, case, command):
 
 def test_log_at_rest_cannot_give_what_needs_motion(here, pyimu):
     Path("asks.toml").write_text(PART + '\n[gyro.scale_factor]\ns = "estimate"\n')
-    refused(pyimu, ["close", "rest.csv", "--part", "asks.toml", "--out", "out"], "rest", "no motion", "gyro.scale_factor.s",
-            "give a log that moves")
+    refused(
+        pyimu,
+        ["close", "rest.csv", "--part", "asks.toml", "--out", "out"],
+        "rest",
+        "no motion",
+        "gyro.scale_factor.s",
+        "give a log that moves",
+    )
 
 
-# ---- bad places and tools ----------------------------------------------------------------------------------------------
+# Bad places and tools
 
 
 COMMANDS = (["close", "rover.csv", "--part", "plain.toml"], ["build", "imt30"], ["demo"])
@@ -261,14 +339,18 @@ def test_bad_input_in_a_process(here):
     assert_one_line(done.stderr, "nothing.csv", "no such file")
 
 
-# ---- good runs ---------------------------------------------------------------------------------------------------------
+# Good runs
 
 
 @pytest.fixture(scope="module")
 def closed(logs, tmp_path_factory):
-    """``pyimu close`` of the log whose scale factor nobody declared, in a process of its own: what it said, its folder."""
+    """``pyimu close`` of the log whose scale factor nobody declared, in a process of its own: what
+    it said, its folder.
+    """
     out = tmp_path_factory.mktemp("closed") / "new" / "folder"
-    return in_a_process("close", logs / "rover.csv", "--part", logs / "plain.toml", "--out", out), out
+    return in_a_process(
+        "close", logs / "rover.csv", "--part", logs / "plain.toml", "--out", out
+    ), out
 
 
 def test_close_delivers(closed):
@@ -277,7 +359,13 @@ def test_close_delivers(closed):
     assert done.stdout.startswith("verdict: named (gyro scale_factor)")
     assert done.stdout.endswith(f"report: {out / 'report.html'}\n")
     made = {p.as_posix() for p in contents(out)}
-    assert made == {"report.html", "report.json", "model.toml", *FMUS, *(f"before/{f}" for f in FMUS)}
+    assert made == {
+        "report.html",
+        "report.json",
+        "model.toml",
+        *FMUS,
+        *(f"before/{f}" for f in FMUS),
+    }
 
 
 def listed(report, names):
@@ -287,8 +375,9 @@ def listed(report, names):
 def test_report_keeps_its_contract(closed):
     report = json.loads((closed[1] / "report.json").read_text())
     assert report["verdict"] == "named" and report["unexplained"] is None
-    assert listed(report, ("added", "changed", "observability", "quality", "recordings", "fmus")) == dict.fromkeys(
-        ("added", "changed", "observability", "quality", "recordings", "fmus"), list)
+    assert listed(
+        report, ("added", "changed", "observability", "quality", "recordings", "fmus")
+    ) == dict.fromkeys(("added", "changed", "observability", "quality", "recordings", "fmus"), list)
     assert report["model"] == "model.toml" and set(FMUS) <= set(report["fmus"])
     (added,) = report["added"]
     assert (added["sensor"], added["effect"], added["alternatives"]) == ("gyro", "scale_factor", [])
@@ -308,9 +397,13 @@ def test_report_gives_the_error_before_after_and_floor(closed):
     units = {"rate": "rad/s", "angle": "rad"}
     for name, unit in units.items():
         e = error[name]
-        assert e["unit"] == unit and [len(e["per_axis"][when]) for when in ("before", "after", "floor")] == [3, 3, 3]
+        assert e["unit"] == unit and [
+            len(e["per_axis"][when]) for when in ("before", "after", "floor")
+        ] == [3, 3, 3]
         assert e["after"] < 0.5 * e["before"]
-    assert error["rate"]["after"] == pytest.approx(NOISE, rel=0.05) and error["rate"]["floor"] == pytest.approx(NOISE, rel=0.05)
+    assert error["rate"]["after"] == pytest.approx(NOISE, rel=0.05) and error["rate"][
+        "floor"
+    ] == pytest.approx(NOISE, rel=0.05)
     assert error["angle"]["window"] > 0
     likelihood = error["log_likelihood"]
     assert likelihood["unit"] == "nat/sample" and likelihood["after"] > likelihood["before"]
@@ -320,44 +413,60 @@ def test_report_gives_the_error_before_after_and_floor(closed):
 def test_report_needs_nothing_from_elsewhere(closed):
     page = (closed[1] / "report.html").read_text()
     assert page.lower().startswith("<!doctype html>") and "scale factor" in page
-    assert "src=\"http" not in page and "href=\"http" not in page
+    assert 'src="http' not in page and 'href="http' not in page
 
 
 def six_sigma():
-    """Of a scale factor: white noise of ``NOISE`` over the sine of amplitude 0.5 in the fitted 70 % of the rows."""
+    """Of a scale factor: white noise of ``NOISE`` over the sine of amplitude 0.5 in the fitted 70 %
+    of the rows.
+    """
     return 6 * NOISE / (0.5 * np.sqrt(0.7 * ROWS / 2))
 
 
 def test_model_holds_the_scale_factor(closed):
     model = part(closed[1] / "model.toml")
     np.testing.assert_allclose(model.gyro.values["scale_factor"]["s"], SCALE, atol=six_sigma())
-    np.testing.assert_array_equal(model.gyro.values["angle_random_walk"]["N"], np.full(3, NOISE / RATE ** 0.5))
+    np.testing.assert_array_equal(
+        model.gyro.values["angle_random_walk"]["N"], np.full(3, NOISE / RATE**0.5)
+    )
     assert model.sample_rate == RATE and not model.estimate
 
 
 @pytest.mark.parametrize("name", FMUS)
 def test_fmus_show_the_scale_factor(closed, name):
-    """Noise off, output over input is 1 + s in the new units, and 1 in those of the part as it was declared."""
+    """Noise off, output over input is 1 + s in the new units, and 1 in those of the part as it was
+    declared.
+    """
     silent = {f"gyro_error.angle_random_walk.N[{i}]": 0.0 for i in (1, 2, 3)}
     inputs = np.column_stack([motion(0)[1][:50], np.zeros((50, 3)), np.full(50, 25.0)])
-    for folder, ratio in (("", 1 + part(closed[1] / "model.toml").gyro.values["scale_factor"]["s"]), ("before", np.ones(3))):
+    for folder, ratio in (
+        ("", 1 + part(closed[1] / "model.toml").gyro.values["scale_factor"]["s"]),
+        ("before", np.ones(3)),
+    ):
         y = simulate(closed[1] / folder / name, inputs, sample_period=1 / RATE, start_values=silent)
         np.testing.assert_allclose(y[1:, :3], ratio * inputs[:, :3], rtol=1e-14)
 
 
 def test_fmus_draw_noise_as_declared(closed):
-    """White noise of a sample has the standard deviation N / sqrt(h); of 3 x 2000 its estimate is good to 4/sqrt(12000)."""
+    """White noise of a sample has the standard deviation N / sqrt(h); of 3 x 2000 its estimate is
+    good to 4/sqrt(12000).
+    """
     with Unit(closed[1] / FMUS[0]).start() as unit:
         y = unit.run(np.zeros((2000, 7)), period=1 / RATE)[:, :3]
     assert y.std() == pytest.approx(NOISE, rel=4 / np.sqrt(2 * y.size))
 
 
 def test_holdout(here, pyimu):
-    code, out, err = pyimu("close", "rover.csv", "--part", "plain.toml", "--holdout", "second.csv", "--out", "out")
+    code, out, err = pyimu(
+        "close", "rover.csv", "--part", "plain.toml", "--holdout", "second.csv", "--out", "out"
+    )
     assert (code, err) == (0, "") and "gyro residual on holdout" in out
     report = json.loads(Path("out/report.json").read_text())
     assert report["error"]["data"] == "holdout"
-    assert [(r["file"], r["rate"] is None) for r in report["recordings"]] == [("rover.csv", True), ("second.csv", False)]
+    assert [(r["file"], r["rate"] is None) for r in report["recordings"]] == [
+        ("rover.csv", True),
+        ("second.csv", False),
+    ]
     assert contents(Path("out"))[Path("before/ImuSensor.fmi2.fmu")][:2] == b"PK"
 
 
@@ -365,30 +474,54 @@ def test_columns_and_latitude(here, pyimu):
     """A log with other names, units and axes (forward, right, down) gives the same scale factor."""
     table = np.genfromtxt("rover.csv", delimiter=",", skip_header=1)
     turned = table * [1e3, *np.tile(np.rad2deg([1, -1, -1]), 2)]
-    np.savetxt("foreign.csv", turned, delimiter=",", header="ms,GyrX,GyrY,GyrZ,RefX,RefY,RefZ", comments="", fmt="%.12g")
-    names = {"ms": "time [ms]"} | {f"{a}{axis}": f"{b}_{axis.lower()} [deg/s]" for a, b in (("Gyr", "gyro"), ("Ref", "ref_rate"))
-                                   for axis in "XYZ"}
-    Path("map.toml").write_text("[columns]\n" + "".join(f'{k} = "{v}"\n' for k, v in names.items()) + '[frame]\nbody = "frd"\n')
+    np.savetxt(
+        "foreign.csv",
+        turned,
+        delimiter=",",
+        header="ms,GyrX,GyrY,GyrZ,RefX,RefY,RefZ",
+        comments="",
+        fmt="%.12g",
+    )
+    names = {"ms": "time [ms]"} | {
+        f"{a}{axis}": f"{b}_{axis.lower()} [deg/s]"
+        for a, b in (("Gyr", "gyro"), ("Ref", "ref_rate"))
+        for axis in "XYZ"
+    }
+    Path("map.toml").write_text(
+        "[columns]\n"
+        + "".join(f'{k} = "{v}"\n' for k, v in names.items())
+        + '[frame]\nbody = "frd"\n'
+    )
     options = ["--part", "plain.toml", "--columns", "map.toml", "--latitude", "52.2"]
     code, _, err = pyimu("close", "foreign.csv", *options, "--out", "out")
     assert (code, err) == (0, "")
-    np.testing.assert_allclose(part("out/model.toml").gyro.values["scale_factor"]["s"], SCALE, atol=six_sigma())
+    np.testing.assert_allclose(
+        part("out/model.toml").gyro.values["scale_factor"]["s"], SCALE, atol=six_sigma()
+    )
 
 
 def test_log_at_rest_is_undecidable(here, pyimu):
     code, out, err = pyimu("close", "rest.csv", "--out", "out")
     assert (code, err) == (0, "") and out.startswith("verdict: undecidable (no motion")
     report = json.loads(Path("out/report.json").read_text())
-    assert report["verdict"] == "undecidable" and "no motion" in report["reason"] and report["added"] == []
+    assert (
+        report["verdict"] == "undecidable"
+        and "no motion" in report["reason"]
+        and report["added"] == []
+    )
     found = part("out/model.toml").gyro.values["angle_random_walk"]["N"]
     # Rows of three axes: the standard error of a standard deviation is 1 / sqrt(2 n) of it.
-    np.testing.assert_allclose(found, NOISE / RATE ** 0.5, rtol=5 / np.sqrt(2 * 0.7 * ROWS))
+    np.testing.assert_allclose(found, NOISE / RATE**0.5, rtol=5 / np.sqrt(2 * 0.7 * ROWS))
 
 
 def test_build_lists_what_it_made(here, pyimu):
     code, out, err = pyimu("build", "imt30", "--out", "fmus")
     assert (code, err) == (0, "")
-    assert out.split() == [f"fmus/{n}.{form}.fmu" for n in ("ImuSensor", "AttitudeUkf") for form in ("fmi2", "fmi3", "block")]
+    assert out.split() == [
+        f"fmus/{n}.{form}.fmu"
+        for n in ("ImuSensor", "AttitudeUkf")
+        for form in ("fmi2", "fmi3", "block")
+    ]
     assert all(Path(line).read_bytes()[:2] == b"PK" for line in out.split())
 
 
@@ -398,10 +531,14 @@ def test_build_one(here, pyimu):
     assert [p.name for p in Path("fmus").iterdir()] == ["ImuSensor.fmi3.fmu"]
 
 
-# ---- help --------------------------------------------------------------------------------------------------------------
+# Help
 
 
-@pytest.mark.parametrize("command", ([], ["demo"], ["close"], ["build"], ["parts"], ["derive"]), ids=lambda c: " ".join(c) or "pyimu")
+@pytest.mark.parametrize(
+    "command",
+    ([], ["demo"], ["close"], ["build"], ["parts"], ["derive"]),
+    ids=lambda c: " ".join(c) or "pyimu",
+)
 def test_help_opens_with_an_example(pyimu, command):
     code, out, err = pyimu(*command, "--help")
     paragraphs = [p.strip() for p in out.split("\n\n")]
@@ -415,9 +552,15 @@ def test_no_command_shows_the_help(pyimu):
 
 def test_help_is_quick():
     """Nothing heavy is loaded to show the help: it would take seconds."""
-    code = "import sys, pyimu.cli; sys.argv = ['pyimu', '--help']\ntry: pyimu.cli.main()\nexcept SystemExit: pass\n" \
-           "print(*{'casadi', 'scipy', 'matplotlib', 'numba', 'fmpy'} & set(sys.modules), file=sys.stderr)"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False)
+    code = (
+        "import sys, pyimu.cli; sys.argv = ['pyimu', '--help']\ntry: pyimu.cli.main()\nexcept "
+        "SystemExit: pass\n"
+        "print(*{'casadi', 'scipy', 'matplotlib', 'numba', 'fmpy'} & set(sys.modules), "
+        "file=sys.stderr)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False
+    )
     assert "Example" in done.stdout and done.stderr == "\n"
 
 

@@ -1,4 +1,6 @@
-"""The package works from an installed wheel, away from its checkout: sources, templates and parts travel inside."""
+"""The package works from an installed wheel, away from its checkout: sources, templates and parts
+travel inside.
+"""
 
 import os
 import subprocess
@@ -7,10 +9,9 @@ import zipfile
 from pathlib import Path
 
 import pytest
+from places import CHECKOUT
 
 from pyimu.fmu.package import build
-
-CHECKOUT = Path(__file__).resolve().parents[1]
 
 
 def pip(*words):
@@ -19,7 +20,9 @@ def pip(*words):
 
 
 def build_options():
-    """Take the installed build backend where there is one; else pip gets it, which needs a network."""
+    """Take the installed build backend where there is one; else pip gets it, which needs a
+    network.
+    """
     try:
         import hatchling  # noqa: F401
     except ImportError:
@@ -49,32 +52,57 @@ def installed(wheel, tmp_path_factory):
 
 def files_of(folder, *patterns):
     """Paths of the files below a folder of the checkout, relative to the checkout."""
-    return {p.relative_to(CHECKOUT).as_posix() for pattern in patterns for p in (CHECKOUT / folder).rglob(pattern) if p.is_file()}
+    return {
+        p.relative_to(CHECKOUT).as_posix()
+        for pattern in patterns
+        for p in (CHECKOUT / folder).rglob(pattern)
+        if p.is_file()
+    }
 
 
 def test_wheel_holds_what_the_package_reads(wheel):
     with zipfile.ZipFile(wheel) as archive:
         names = set(archive.namelist())
-    want = files_of("pyimu", "*.py", "*.toml") | files_of("pyimu/fmu/templates", "*") | files_of("pyimu/loop/templates", "*")
+    want = (
+        files_of("pyimu", "*.py", "*.toml")
+        | files_of("pyimu/fmu/templates", "*")
+        | files_of("pyimu/loop/templates", "*")
+    )
     want |= {f"pyimu/{name}" for name in files_of("fmu_src", "*.c", "*.h")}
-    assert {"pyimu/parts/imt30.toml", "pyimu/fmu/templates/model_table.h", "pyimu/fmu_src/block.c"} <= want
+    assert {
+        "pyimu/model/parts/imt30.toml",
+        "pyimu/fmu/templates/model_table.h",
+        "pyimu/fmu_src/block.c",
+    } <= want
     assert want <= names
     assert not [n for n in names if n.startswith(("tests/", "benchmarks/", "fmu_src/"))]
 
 
 def isolated(installed, cwd, *words):
-    environment = {k: v for k, v in os.environ.items() if k != "PYTHONPATH"} | {"PYTHONPATH": str(installed)}
+    environment = {k: v for k, v in os.environ.items() if k != "PYTHONPATH"} | {
+        "PYTHONPATH": str(installed)
+    }
     command = [sys.executable, *map(str, words)]
-    return subprocess.run(command, cwd=cwd, env=environment, capture_output=True, text=True, timeout=120, check=False)
+    return subprocess.run(
+        command, cwd=cwd, env=environment, capture_output=True, text=True, timeout=120, check=False
+    )
 
 
 def test_installed_package_builds_fmus(installed, tmp_path):
     ask = "import pyimu, pyimu.fmu as f; print(pyimu.__file__, f.source_folder(), sep='\\n')"
     said = isolated(installed, tmp_path, "-c", ask)
     places = [Path(line) for line in said.stdout.split("\n") if line]
-    assert len(places) == 2 and all(p.is_relative_to(installed) for p in places), said.stdout + said.stderr
+    assert len(places) == 2 and all(p.is_relative_to(installed) for p in places), (
+        said.stdout + said.stderr
+    )
     done = isolated(installed, tmp_path, "-m", "pyimu.cli", "build", "imt30", "--out", "x")
     assert (done.returncode, done.stderr) == (0, "")
-    assert done.stdout.split() == [f"x/{n}.{form}.fmu" for n in ("ImuSensor", "AttitudeUkf") for form in ("fmi2", "fmi3", "block")]
+    assert done.stdout.split() == [
+        f"x/{n}.{form}.fmu"
+        for n in ("ImuSensor", "AttitudeUkf")
+        for form in ("fmi2", "fmi3", "block")
+    ]
     for made in build("imt30", tmp_path / "checkout"):
-        assert (tmp_path / "x" / made.name).read_bytes() == made.read_bytes(), f"{made.name} differs from the checkout's"
+        assert (tmp_path / "x" / made.name).read_bytes() == made.read_bytes(), (
+            f"{made.name} differs from the checkout's"
+        )

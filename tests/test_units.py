@@ -1,4 +1,6 @@
-"""The unit table against pint, which does the arithmetic, and the grammar against what it must refuse."""
+"""The unit table against pint, which does the arithmetic, and the grammar against what it must
+refuse.
+"""
 
 import math
 import re
@@ -14,16 +16,39 @@ from pyimu import units
 from pyimu.units import UnitError, convert, nearest, parse, same_dimension, to_degc
 
 REGISTRY = pint.UnitRegistry()
-PINT_NAMES = {"1": "dimensionless", "%": "percent", "g": "standard_gravity", "mg": "millistandard_gravity",
-              "ug": "microstandard_gravity", "degC": "delta_degC", "K": "kelvin", "h": "hour", "min": "minute", "T": "tesla",
-              "mT": "millitesla", "uT": "microtesla", "nT": "nanotesla", "arcsec": "arcsecond"}
+PINT_NAMES = {
+    "1": "dimensionless",
+    "%": "percent",
+    "g": "standard_gravity",
+    "mg": "millistandard_gravity",
+    "ug": "microstandard_gravity",
+    "degC": "delta_degC",
+    "K": "kelvin",
+    "h": "hour",
+    "min": "minute",
+    "T": "tesla",
+    "mT": "millitesla",
+    "uT": "microtesla",
+    "nT": "nanotesla",
+    "arcsec": "arcsecond",
+}
 SI = {"rad": "rad", "s": "s", "m": "m", "K": "kelvin", "V": "volt", "T": "tesla"}
 
-COMPOUNDS = {"deg/sqrt(h)": {"rad": 1, "s": -1 / 2}, "deg/h/sqrt(h)": {"rad": 1, "s": -3 / 2},
-             "deg/s/sqrt(Hz)": {"rad": 1, "s": -1 / 2}, "rad/s/(m/s^2)": {"rad": 1, "m": -1, "s": 1},
-             "ug/sqrt(Hz)": {"m": 1, "s": -3 / 2}, "mg/K": {"m": 1, "s": -2, "K": -1},
-             "deg/h/g": {"rad": 1, "m": -1, "s": 1}, "m/s/sqrt(s)": {"m": 1, "s": -3 / 2}, "1/sqrt(Hz)": {"s": 1 / 2},
-             "rad/s/(m/s^2)^2": {"rad": 1, "m": -2, "s": 3}, "s^-1": {"s": -1}, "%/K": {"K": -1}, "uT * m": {"T": 1, "m": 1}}
+COMPOUNDS = {
+    "deg/sqrt(h)": {"rad": 1, "s": -1 / 2},
+    "deg/h/sqrt(h)": {"rad": 1, "s": -3 / 2},
+    "deg/s/sqrt(Hz)": {"rad": 1, "s": -1 / 2},
+    "rad/s/(m/s^2)": {"rad": 1, "m": -1, "s": 1},
+    "ug/sqrt(Hz)": {"m": 1, "s": -3 / 2},
+    "mg/K": {"m": 1, "s": -2, "K": -1},
+    "deg/h/g": {"rad": 1, "m": -1, "s": 1},
+    "m/s/sqrt(s)": {"m": 1, "s": -3 / 2},
+    "1/sqrt(Hz)": {"s": 1 / 2},
+    "rad/s/(m/s^2)^2": {"rad": 1, "m": -2, "s": 3},
+    "s^-1": {"s": -1},
+    "%/K": {"K": -1},
+    "uT * m": {"T": 1, "m": 1},
+}
 
 
 def by_pint(text):
@@ -49,7 +74,9 @@ def test_compound_factor_is_that_of_pint(text):
 
 @pytest.mark.parametrize("text", COMPOUNDS)
 def test_compound_dimension(text):
-    assert parse(text).dimension == tuple(Fraction(COMPOUNDS[text].get(base, 0)) for base in units.BASES)
+    assert parse(text).dimension == tuple(
+        Fraction(COMPOUNDS[text].get(base, 0)) for base in units.BASES
+    )
 
 
 def expressions():
@@ -57,14 +84,18 @@ def expressions():
     atom = st.sampled_from(units.ATOMS)
     power = st.builds("{}^{}".format, atom, st.integers(-3, 3))
     leaf = atom | power | st.builds("sqrt({})".format, atom)
-    return st.recursive(leaf, lambda e: st.builds("({}){}({})".format, e, st.sampled_from("*/"), e), max_leaves=5)
+    return st.recursive(
+        leaf, lambda e: st.builds("({}){}({})".format, e, st.sampled_from("*/"), e), max_leaves=5
+    )
 
 
 @given(expressions(), st.floats(-1e3, 1e3))
 def test_round_trip_through_si(text, value):
     unit = parse(text)
     si = units.Unit(1.0, unit.dimension, "SI")
-    assert convert(convert(value, unit, si), si, unit) == pytest.approx(value, rel=1e-12, abs=1e-300)
+    assert convert(convert(value, unit, si), si, unit) == pytest.approx(
+        value, rel=1e-12, abs=1e-300
+    )
 
 
 @given(expressions(), expressions())
@@ -72,7 +103,9 @@ def test_product_and_quotient(a, b):
     product, quotient = parse(f"({a})*({b})"), parse(f"({a})/({b})")
     assert product.factor == pytest.approx(parse(a).factor * parse(b).factor, rel=1e-12)
     assert product.dimension == tuple(x + y for x, y in zip(parse(a).dimension, parse(b).dimension))
-    assert quotient.dimension == tuple(x - y for x, y in zip(parse(a).dimension, parse(b).dimension))
+    assert quotient.dimension == tuple(
+        x - y for x, y in zip(parse(a).dimension, parse(b).dimension)
+    )
 
 
 @given(expressions())
@@ -89,13 +122,30 @@ def test_any_text_is_a_unit_or_a_unit_error(text):
         assert "\n" not in str(error)
 
 
-@pytest.mark.parametrize("text, says", [
-    ("", "a unit is missing"), ("deg/", "a unit is missing"), ("deg s", "unexpected 's'"), ("m//s", "missing before '/'"),
-    ("sqrt h", "'(' is missing"), ("(rad", "')' is missing"), ("rad)", "unexpected ')'"), ("rad^0.5", "not a unit"),
-    ("rad^s", "a power must be an integer"), ("2*s", "unknown '2'"), ("dps", "did you mean deg/s"),
-    ("deg/sec", "did you mean s?"), ("gram", "unknown 'gram'"), ("°/s", "did you mean deg?"), ("G", "gauss"),
-    ("RAD", "did you mean rad"), ("hz", "did you mean Hz"),
-    ("degg/s", "did you mean deg"), ("foo", "known are")])
+@pytest.mark.parametrize(
+    "text, says",
+    [
+        ("", "a unit is missing"),
+        ("deg/", "a unit is missing"),
+        ("deg s", "unexpected 's'"),
+        ("m//s", "missing before '/'"),
+        ("sqrt h", "'(' is missing"),
+        ("(rad", "')' is missing"),
+        ("rad)", "unexpected ')'"),
+        ("rad^0.5", "not a unit"),
+        ("rad^s", "a power must be an integer"),
+        ("2*s", "unknown '2'"),
+        ("dps", "did you mean deg/s"),
+        ("deg/sec", "did you mean s?"),
+        ("gram", "unknown 'gram'"),
+        ("°/s", "did you mean deg?"),
+        ("G", "gauss"),
+        ("RAD", "did you mean rad"),
+        ("hz", "did you mean Hz"),
+        ("degg/s", "did you mean deg"),
+        ("foo", "known are"),
+    ],
+)
 def test_refused_with_reason(text, says):
     with pytest.raises(UnitError, match=re.escape(says)):
         parse(text)
@@ -111,12 +161,16 @@ def test_g_is_standard_gravity():
 
 
 def test_angle_random_walk_of_one_degree_per_root_hour():
-    assert convert(1.0, "deg/sqrt(h)", "rad/sqrt(s)") == pytest.approx(math.pi / 180 / 60, rel=1e-15)
+    assert convert(1.0, "deg/sqrt(h)", "rad/sqrt(s)") == pytest.approx(
+        math.pi / 180 / 60, rel=1e-15
+    )
 
 
 def test_rate_is_not_a_frequency():
     assert not same_dimension("rad/s", "1/s")
-    with pytest.raises(UnitError, match=r"'1/s' cannot be converted to 'rad/s': s\^-1 is not rad s\^-1"):
+    with pytest.raises(
+        UnitError, match=r"'1/s' cannot be converted to 'rad/s': s\^-1 is not rad s\^-1"
+    ):
         convert(1.0, "1/s", "rad/s")
 
 

@@ -1,4 +1,6 @@
-"""Attitude from a gyro and an accelerometer: the unscented filter as a block, and its run over a recording."""
+"""Attitude from a gyro and an accelerometer: the unscented filter as a block, and its run over a
+recording.
+"""
 
 from pyimu.attitude.run import AttitudeResult, run
 from pyimu.attitude.ukf import attitude_ukf

@@ -1,4 +1,6 @@
-"""The attitude, the bias and their uncertainty before the first sample of a recording: from its first seconds at rest."""
+"""The attitude, the bias and their uncertainty before the first sample of a recording: from its
+first seconds at rest.
+"""
 
 from __future__ import annotations
 
@@ -16,9 +18,9 @@ from pyimu.attitude.rest import Rest
 from pyimu.attitude.unscented import LARGEST_STD
 from pyimu.attitude.variables import ABSURD, EXTRA_INPUTS
 from pyimu.errors import UserError
-from pyimu.imu import Part
-from pyimu.recording import Recording
-from pyimu.signals import SIGNALS
+from pyimu.model.part import Part
+from pyimu.model.signals import SIGNALS
+from pyimu.recording.recording import Recording
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.earth import EARTH_RATE, earth_rate
 from pyimu.units import STANDARD_GRAVITY
@@ -36,100 +38,164 @@ BIAS_STD = 0.01
 """rad/s; of the bias of a gyro that was not seen at rest."""
 
 REUSED = 10.0
-"""What the filter will take from the same rows once more starts with so much larger a standard deviation: a hundredth counts twice."""
+"""What the filter will take from the same rows once more starts with so much larger a standard
+deviation: a hundredth counts twice."""
 
 SEEN_AGAIN = np.sqrt(2)
-"""The same of the bias of a rest that is not declared.  Gravity tells again at most what the rest's mean has told, N^2/T, so that of the
-two together the variance is between 2/3 and 2 times what it should be."""
+"""The same of the bias of a rest that is not declared. Gravity tells again at most what the rest's
+mean has told, N^2/T, so that of the two together the variance is between 2/3 and 2 times what it
+should be."""
 
 
 @dataclass(frozen=True)
 class Yaw:
-    """Yaw of the first sample and its standard deviation in rad; ``known`` where it is a heading, not the zero of the yaw."""
+    """Yaw of the first sample and its standard deviation in rad; ``known`` where it is a heading,
+    not the zero of the yaw.
+    """
 
     angle: float = 0.0
     std: float = YAW_STD
     known: bool = False
 
 
-def initial_values(recording: Recording, part: Part, rest: Rest, latitude: float, q0, yaw: Yaw) -> dict[str, float]:
+def initial_values(
+    recording: Recording, part: Part, rest: Rest, latitude: float, q0, yaw: Yaw
+) -> dict[str, float]:
     """Start values of the filter, by parameter name."""
     rate, force = _compensated(part, rest, recording)
     attitude = _levelled(force, yaw.angle) if q0 is None else given_attitude(q0)
-    tilt_std = TILT_STD if q0 is not None else LARGEST_STD if force is None else TILT_STD if rest.seen else MOVING_TILT_STD
+    tilt_std = (
+        TILT_STD
+        if q0 is not None
+        else LARGEST_STD
+        if force is None
+        else TILT_STD
+        if rest.seen
+        else MOVING_TILT_STD
+    )
     yaw_std = YAW_STD if q0 is not None else _yaw_std(yaw, attitude, tilt_std)
     axes = attitude.inv().as_matrix()
-    attitude_std = np.sqrt(axes ** 2 @ np.array([tilt_std, tilt_std, yaw_std]) ** 2)
+    attitude_std = np.sqrt(axes**2 @ np.array([tilt_std, tilt_std, yaw_std]) ** 2)
     bias, bias_std = np.zeros(3), np.full(3, BIAS_STD)
     if rest.seen:
-        earth = _earth(latitude, oriented=force is not None or q0 is not None, headed=yaw.known or q0 is not None)
+        earth = _earth(
+            latitude,
+            oriented=force is not None or q0 is not None,
+            headed=yaw.known or q0 is not None,
+        )
         bias, bias_std = _bias(rate, part, rest, attitude, *earth, levelled=force is not None)
-    named = {"q0": attitude.as_quat(scalar_first=True), "bias0": bias, "std0": np.concatenate([attitude_std, bias_std])}
-    return {"latitude": latitude, **{f"{n}[{i + 1}]": float(v) for n, array in named.items() for i, v in enumerate(array)}}
+    named = {
+        "q0": attitude.as_quat(scalar_first=True),
+        "bias0": bias,
+        "std0": np.concatenate([attitude_std, bias_std]),
+    }
+    return {
+        "latitude": latitude,
+        **{f"{n}[{i + 1}]": float(v) for n, array in named.items() for i, v in enumerate(array)},
+    }
 
 
 def given_attitude(q0) -> Rotation:
-    """``q0`` as an attitude.  Raises UserError for what is none."""
+    """``q0`` as an attitude. Raises UserError for what is none."""
     try:
         numbers = np.asarray(q0, dtype=float)
     except (TypeError, ValueError):
         numbers = np.zeros(0)
     if numbers.shape != (4,) or not np.isfinite(numbers).all() or not np.linalg.norm(numbers) > 0:
-        raise UserError(f"q0 is {str(q0)[:60]}, expected four finite numbers (w, x, y, z) that are not all zero")
+        raise UserError(
+            f"q0 is {str(q0)[:60]}, expected four finite numbers (w, x, y, z) that are not all zero"
+        )
     return Rotation.from_quat(numbers, scalar_first=True)
 
 
-# ---- bias --------------------------------------------------------------------------------------------------------------
+# Bias
 
 
-def _bias(rate: np.ndarray, part: Part, rest: Rest, attitude: Rotation, earth: np.ndarray, unknown: np.ndarray,
-          levelled: bool) -> tuple[np.ndarray, np.ndarray]:
+def _bias(
+    rate: np.ndarray,
+    part: Part,
+    rest: Rest,
+    attitude: Rotation,
+    earth: np.ndarray,
+    unknown: np.ndarray,
+    levelled: bool,
+) -> tuple[np.ndarray, np.ndarray]:
     """Bias (3,) of a gyro at rest in rad/s, and its standard deviation.
 
-    ``earth`` (3,) is what is known of the Earth's rate, ``unknown`` (3,) the standard deviation of what is not, in world axes.
-    A body that turns steadily about the vertical shows the same as one at rest whose gyro has that bias: unless the rest is
-    declared, the standard deviation of that axis is no less than half the mean rate, so that a turn, the rarer of the two, is two of
-    them away.  Where no gravity shows that the body stays ``levelled``, that holds for each axis.
+    ``earth`` (3,) is what is known of the Earth's rate, ``unknown`` (3,) the standard deviation of
+    what is not, in world axes. A body that turns steadily about the vertical shows the same as one
+    at rest whose gyro has that bias: unless the rest is declared, the standard deviation of that
+    axis is no less than half the mean rate, so that a turn, the rarer of the two, is two of them
+    away. Where no gravity shows that the body stays ``levelled``, that holds for each axis.
     """
     axes = attitude.inv().as_matrix()
     bias = rate - axes @ earth
-    variance = mean_bias_std(part, rest) ** 2 + axes ** 2 @ unknown ** 2
-    # The zero-rate updates of a declared rest find the same bias in the same rows; else gravity does, as far as it is that good.
+    variance = mean_bias_std(part, rest) ** 2 + axes**2 @ unknown**2
+    # The zero-rate updates of a declared rest find the same bias in the same rows; else gravity
+    # does, as far as it is that good.
     if rest.declared:
         return bias, REUSED * np.sqrt(variance)
     turning = (axes[:, 2] * (axes[:, 2] @ bias) / 2) ** 2 if levelled else (bias / 2) ** 2
-    return bias, np.sqrt(SEEN_AGAIN ** 2 * variance + turning)
+    return bias, np.sqrt(SEEN_AGAIN**2 * variance + turning)
 
 
 def _earth(latitude: float, oriented: bool, headed: bool) -> tuple[np.ndarray, np.ndarray]:
-    """What is known of the Earth's rate (3,) in the world frame of the start, rad/s, and the standard deviation of what is not.
+    """What is known of the Earth's rate (3,) in the world frame of the start, rad/s, and the
+    standard deviation of what is not.
 
     Without a heading its horizontal part has no direction.
     """
     if not (abs(latitude) <= np.pi / 2 and oriented):
         return np.zeros(3), np.full(3, EARTH_RATE)
     earth = np.array(earth_rate(ca.DM(latitude))).ravel()
-    return (earth, np.zeros(3)) if headed else (earth * [0, 0, 1], np.array([1, 1, 0]) * np.hypot(*earth[:2]))
+    return (
+        (earth, np.zeros(3))
+        if headed
+        else (earth * [0, 0, 1], np.array([1, 1, 0]) * np.hypot(*earth[:2]))
+    )
 
 
 def mean_bias_std(part: Part, rest: Rest) -> np.ndarray:
-    """Standard deviation (3,) of a gyro's mean over a rest of T s as its bias at the rest's start, rad/s: white noise, N^2/T, and
-    what walks meanwhile, K^2 T/3, each with what stands for the part's flicker and Gauss-Markov noise in the filter."""
-    noise, duration = noise_of(part.gyro, ca.SX(ca.DM(part.gyro.p)), 1 / part.sample_rate), max(rest.duration, 1e-9)
+    """Standard deviation (3,) of a gyro's mean over a rest of T s as its bias at the rest's start,
+    rad/s: white noise, N^2/T, and what walks meanwhile, K^2 T/3, each with what stands for the
+    part's flicker and Gauss-Markov noise in the filter.
+    """
+    noise, duration = (
+        noise_of(part.gyro, ca.SX(ca.DM(part.gyro.p)), 1 / part.sample_rate),
+        max(rest.duration, 1e-9),
+    )
     white, walk = (np.array(ca.evalf(v), dtype=float).ravel() for v in (noise.white, noise.walk))
-    return np.sqrt(np.maximum(rest.rate_mean_std, white / np.sqrt(duration)) ** 2 + walk ** 2 * duration / 3)
+    return np.sqrt(
+        np.maximum(rest.rate_mean_std, white / np.sqrt(duration)) ** 2 + walk**2 * duration / 3
+    )
 
 
-def _compensated(part: Part, rest: Rest, recording: Recording) -> tuple[np.ndarray, np.ndarray | None]:
-    """Mean rate and specific force (3,) of the rest without the part's own errors, as after a long time at rest."""
+def _compensated(
+    part: Part, rest: Rest, recording: Recording
+) -> tuple[np.ndarray, np.ndarray | None]:
+    """Mean rate and specific force (3,) of the rest without the part's own errors, as after a long
+    time at rest.
+    """
     force = np.array([0, 0, STANDARD_GRAVITY]) if rest.force is None else rest.force
-    known = {"rate": rest.rate, "specific_force": force, "temperature": _mean(temperature_of(recording, part), rest, 25.0)}
+    known = {
+        "rate": rest.rate,
+        "specific_force": force,
+        "temperature": _mean(temperature_of(recording, part), rest, 25.0),
+    }
     for signal in EXTRA_INPUTS:
         if signal in part.signals:
-            known[signal] = _mean(extra_column(recording, part, signal), rest, SIGNALS[signal].start)
+            known[signal] = _mean(
+                extra_column(recording, part, signal), rest, SIGNALS[signal].start
+            )
     compensation, h = Compensation(part), ca.SX(recording.sample_period)
     values = {n: ca.SX(ca.DM(v)) for n, v in known.items()} | {"latitude_known": ca.SX(0)}
-    _, rate, force, *_ = compensation.apply(ca.SX(ca.DM(compensation.start)), values, ca.SX(ca.DM(part.gyro.p)), ca.SX(ca.DM(part.accel.p)), h)
+    _, rate, force, *_ = compensation.apply(
+        ca.SX(ca.DM(compensation.start)),
+        values,
+        ca.SX(ca.DM(part.gyro.p)),
+        ca.SX(ca.DM(part.accel.p)),
+        h,
+    )
     rate, force = (np.array(ca.evalf(v), dtype=float).ravel() for v in (rate, force))
     return rate, None if rest.force is None else force
 
@@ -143,14 +209,17 @@ def _mean(column, rest: Rest, otherwise) -> np.ndarray:
     return np.atleast_1d(rows.mean(axis=0) if len(rows) else otherwise)
 
 
-# ---- attitude ----------------------------------------------------------------------------------------------------------
+# Attitude
 
 
-def initial_yaw(recording: Recording, rest: Rest, heading0: float | None, turned: Callable[[int], float]) -> Yaw:
+def initial_yaw(
+    recording: Recording, rest: Rest, heading0: float | None, turned: Callable[[int], float]
+) -> Yaw:
     """The yaw to start with: ``heading0``, else the first recorded heading, else where yaw is zero.
 
-    A heading of the rest, or of the first sample, is that of the start.  Before a later one the body has turned by ``turned(row)``
-    rad as the gyro says: the filter starts so that the heading will hardly contradict it, but knows nothing until then.
+    A heading of the rest, or of the first sample, is that of the start. Before a later one the
+    body has turned by ``turned(row)`` rad as the gyro says: the filter starts so that the heading
+    will hardly contradict it, but knows nothing until then.
     """
     if heading0 is not None:
         return Yaw(heading0, YAW_STD, known=True)
@@ -167,10 +236,11 @@ def initial_yaw(recording: Recording, rest: Rest, heading0: float | None, turned
 def _yaw_std(yaw: Yaw, attitude: Rotation, tilt_std: float) -> float:
     """Standard deviation of the attitude about the vertical, rad.
 
-    A tilt error p turns the heading of a pitched body by p tan(pitch), and one of second order has a part about the vertical.
-    Near the vertical the forward axis has no heading, and the filter takes none.
+    A tilt error p turns the heading of a pitched body by p tan(pitch), and one of second order has
+    a part about the vertical. Near the vertical the forward axis has no heading, and the filter
+    takes none.
     """
-    std = np.hypot(yaw.std, tilt_std ** 2 / 2)
+    std = np.hypot(yaw.std, tilt_std**2 / 2)
     if yaw.known:
         east, north, up = attitude.apply([1, 0, 0])
         level = np.hypot(east, north)
@@ -179,7 +249,11 @@ def _yaw_std(yaw: Yaw, attitude: Rotation, tilt_std: float) -> float:
 
 
 def _levelled(force: np.ndarray | None, yaw: float) -> Rotation:
-    """The attitude in which gravity is the only force: roll and pitch from its direction (Groves 2013, eqs. 5.101), else none."""
+    """The attitude in which gravity is the only force: roll and pitch from its direction (Groves
+    2013, eqs. 5.101), else none.
+    """
     x, y, z = (0.0, 0.0, 1.0) if force is None else force
-    q = quaternion.from_euler(ca.DM(np.arctan2(y, z)), ca.DM(np.arctan2(-x, np.hypot(y, z))), ca.DM(yaw))
+    q = quaternion.from_euler(
+        ca.DM(np.arctan2(y, z)), ca.DM(np.arctan2(-x, np.hypot(y, z))), ca.DM(yaw)
+    )
     return Rotation.from_quat(np.array(q).ravel(), scalar_first=True)

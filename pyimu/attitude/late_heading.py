@@ -1,8 +1,10 @@
-"""A heading that arrives late: the rings of past yaws and of their noise, and where in them a sample of some age stands.
+"""A heading that arrives late: the rings of past yaws and of their noise, and where in them a
+sample of some age stands.
 
-The first ring keeps the yaw of past samples less what headings have corrected since the start: with the present correction it is the
-yaw that the filter now believes the body had then.  The second keeps the variance that the gyro's noise and losses have added about the
-vertical since the start: the difference to now is what they have added since.
+The first ring keeps the yaw of past samples less what headings have corrected since the start: with
+the present correction it is the yaw that the filter now believes the body had then. The second
+keeps the variance that the gyro's noise and losses have added about the vertical since the start:
+the difference to now is what they have added since.
 """
 
 from __future__ import annotations
@@ -11,11 +13,12 @@ import casadi as ca
 import numpy as np
 
 SLOTS = 64
-"""Yaws that are kept; SLOTS - 1 spans make up ``heading_memory``, a span being at least a sample."""
+"""Yaws that are kept; SLOTS - 1 spans make up ``heading_memory``, a span being at least a sample.
+"""
 
 NEVER = 1e9
-"""A yaw that was not: before the first sample, or of a body that pointed up or down.  As a place it is past a slot's end, so that the
-first sample starts the first slot."""
+"""A yaw that was not: before the first sample, or of a body that pointed up or down. As a place it
+is past a slot's end, so that the first sample starts the first slot."""
 
 
 ROUNDING = 1e-6
@@ -28,7 +31,8 @@ def samples_per_slot(memory, h):
 
 
 def following(index, within, memory, h):
-    """Slot and place within its span of the sample after that at ``within`` of slot ``index``; a slot keeps its last sample.
+    """Slot and place within its span of the sample after that at ``within`` of slot ``index``; a
+    slot keeps its last sample.
 
     The condition is that of ``samples_per_slot``, without rounding it up.
     """
@@ -52,7 +56,8 @@ def oldest(each):
 
 
 def place(age, index, within, each):
-    """Slots between which the sample lies that is ``age`` >= 1 samples old, and how far towards the second.
+    """Slots between which the sample lies that is ``age`` >= 1 samples old, and how far towards the
+    second.
 
     Slot ``index`` is one sample old and holds sample ``within`` of its span.
     """
@@ -66,10 +71,17 @@ def place(age, index, within, each):
 
 
 def picked(state: ca.MX, first: int, age: ca.MX, index: ca.MX, within: ca.MX, each: ca.MX) -> ca.MX:
-    """Two neighbouring yaws of the ring that begins at number ``first`` of ``state``, the share of the second, and what the second
-    ring, which follows, has for the two."""
+    """Two neighbouring yaws of the ring that begins at number ``first`` of ``state``, the share of
+    the second, and what the second ring, which follows, has for the two.
+    """
     one, two, share = place(age, index, within, each)
-    return ca.vertcat(state.nz[first + one], state.nz[first + two], share, state.nz[first + SLOTS + one], state.nz[first + SLOTS + two])
+    return ca.vertcat(
+        state.nz[first + one],
+        state.nz[first + two],
+        share,
+        state.nz[first + SLOTS + one],
+        state.nz[first + SLOTS + two],
+    )
 
 
 def between(neighbours):

@@ -1,9 +1,11 @@
-"""The unscented filter in its fast, marginalised form: what is linear in the error state takes no sigma points.
+"""The unscented filter in its fast, marginalised form: what is linear in the error state takes no
+sigma points.
 
-The rate's error is bilinear in attitude error and bias, so that the propagated mean and covariance are had in closed form;
-the attitude's sigma points of the 13-point filter cancel against each other to the fourth order of the standard deviations.
-Gravity depends on the tilt alone: two pairs of points are left, whose odd and even parts are written out.  Both give
-what ``pyimu.attitude.unscented`` gives, at a fifth of the arithmetic, and neither branches.
+The rate's error is bilinear in attitude error and bias, so that the propagated mean and covariance
+are had in closed form; the attitude's sigma points of the 13-point filter cancel against each other
+to the fourth order of the standard deviations. Gravity depends on the tilt alone: two pairs of
+points are left, whose odd and even parts are written out. Both give what
+``pyimu.attitude.unscented`` gives, at a fifth of the arithmetic, and neither branches.
 """
 
 from __future__ import annotations
@@ -20,11 +22,12 @@ SCALE = N + SPREAD
 """A sigma point is the root of this many times the covariance."""
 
 LARGEST_TURN = 7.0
-"""rad in a sample, more than half a turn about each axis; beyond, where only an absurd bias leads, it counts as none, as the series of
-``turn`` would not end."""
+"""rad in a sample, more than half a turn about each axis; beyond, where only an absurd bias leads,
+it counts as none, as the series of ``turn`` would not end."""
 
 TERMS = 7
-"""Of the series of sine and cosine; at half a turn about each axis they leave out 2e-16 of an eighth of the angle."""
+"""Of the series of sine and cosine; at half a turn about each axis they leave out 2e-16 of an
+eighth of the angle."""
 
 
 def _series(square, first: int):
@@ -41,7 +44,8 @@ def _horner(square, coefficients: list[float]):
 
 
 def turn(angle):
-    """The quaternion (4,) of the rotation vector ``angle`` (3,) rad, up to half a turn about each axis, and k, its vector part over ``angle``.
+    """The quaternion (4,) of the rotation vector ``angle`` (3,) rad, up to half a turn about each
+    axis, and k, its vector part over ``angle``.
 
     A quarter of the angle by series, doubled twice: (w, k a) squared is (2 w^2 - 1, 2 w k a).
     """
@@ -53,9 +57,10 @@ def turn(angle):
 
 
 def mean_jacobian(angle, k):
-    """J (3, 3) with exp(a - d) = exp(a) exp(-J d) for small d: I - (1 - cos a)/a^2 [a] + (a - sin a)/a^3 [a]^2.
+    """J (3, 3) with exp(a - d) = exp(a) exp(-J d) for small d: I - (1 - cos a)/a^2 [a] + (a - sin
+    a)/a^3 [a]^2.
 
-    Sola 2017, eq. 183.  ``k`` is that of ``turn``.
+    Sola 2017, eq. 183. ``k`` is that of ``turn``.
     """
     square = ca.dot(angle, angle)
     b, c = 2 * k * k, _horner(square, [1 / factorial(3 + 2 * i) for i in range(5)])
@@ -64,16 +69,18 @@ def mean_jacobian(angle, k):
 
 
 def propagate(x: Estimate, rate, earth, moving, noise, h) -> tuple[Estimate, ca.SX]:
-    """The estimate one period ``h`` s later, and the matrix (3, 3) of its turn in inertial space from the old body axes to the new.
+    """The estimate one period ``h`` s later, and the matrix (3, 3) of its turn in inertial space
+    from the old body axes to the new.
 
-    ``rate`` (3,) rad/s is the compensated rate, ``earth`` (3,) the Earth's in body axes, ``moving`` 0 or 1 whether it turns
-    at all; ``noise`` is the added variance of attitude, of attitude and bias together, and of bias, (3,) each.  With
-    R the turn and G = -h J the error becomes R^T p + G b + R^T p x G b / 2: the mean is that of the last term.  The quaternion
-    keeps its length however large that is, as the updates that follow take a vertical of unit length for granted.
+    ``rate`` (3,) rad/s is the compensated rate, ``earth`` (3,) the Earth's in body axes, ``moving``
+    0 or 1 whether it turns at all; ``noise`` is the added variance of attitude, of attitude and
+    bias together, and of bias, (3,) each. With R the turn and G = -h J the error becomes R^T p + G
+    b + R^T p x G b / 2: the mean is that of the last term. The quaternion keeps its length however
+    large that is, as the updates that follow take a vertical of unit length for granted.
     """
     step = h * moving
     angle = (rate - x.bias - earth) * step
-    angle *= ca.sumsqr(angle) <= LARGEST_TURN ** 2
+    angle *= ca.sumsqr(angle) <= LARGEST_TURN**2
     centre, k = turn(angle)
     own = quaternion.to_matrix(quaternion.product(centre, ca.vertcat(1, earth * step / 2))).T
     g = -step * mean_jacobian(angle, k)
@@ -82,39 +89,61 @@ def propagate(x: Estimate, rate, earth, moving, noise, h) -> tuple[Estimate, ca.
     mixed, both = (turned + leaked / 2) @ g.T, turned + leaked
     half = own @ pp
     attitude, cross, bias = noise
-    upper = {**{(i, j): ca.dot(half[i, :], own[j, :]) + mixed[i, j] + mixed[j, i] for i in range(3) for j in range(i, 3)},
-             **{(i, j + 3): both[i, j] for i in range(3) for j in range(3)},
-             **{(i + 3, j + 3): bb[i, j] for i in range(3) for j in range(i, 3)}}
-    added = {**{(i, i): attitude[i] for i in range(3)}, **{(i, i + 3): cross[i] for i in range(3)},
-             **{(i + 3, i + 3): bias[i] for i in range(3)}}
-    covariance = symmetric(N, lambda i, j: upper[i, j] + added[i, j] if (i, j) in added else upper[i, j])
-    mean = ca.vertcat(mixed[1, 2] - mixed[2, 1], mixed[2, 0] - mixed[0, 2], mixed[0, 1] - mixed[1, 0]) / 2
+    upper = {
+        **{
+            (i, j): ca.dot(half[i, :], own[j, :]) + mixed[i, j] + mixed[j, i]
+            for i in range(3)
+            for j in range(i, 3)
+        },
+        **{(i, j + 3): both[i, j] for i in range(3) for j in range(3)},
+        **{(i + 3, j + 3): bb[i, j] for i in range(3) for j in range(i, 3)},
+    }
+    added = {
+        **{(i, i): attitude[i] for i in range(3)},
+        **{(i, i + 3): cross[i] for i in range(3)},
+        **{(i + 3, i + 3): bias[i] for i in range(3)},
+    }
+    covariance = symmetric(
+        N, lambda i, j: upper[i, j] + added[i, j] if (i, j) in added else upper[i, j]
+    )
+    mean = (
+        ca.vertcat(mixed[1, 2] - mixed[2, 1], mixed[2, 0] - mixed[0, 2], mixed[0, 1] - mixed[1, 0])
+        / 2
+    )
     q = quaternion.product(quaternion.product(x.q, centre), mrp.to_quaternion(mean))
     return Estimate(q, x.bias, covariance), own
 
 
 def factors(matrix, columns: int):
-    """D and the columns of unit L with L D L^T the part of a symmetric ``matrix`` that its first ``columns`` account for.
+    """D and the columns of unit L with L D L^T the part of a symmetric ``matrix`` that its first
+    ``columns`` account for.
 
     The pivots D take no root (Golub and Van Loan 2013, section 4.1.2).
     """
     size, pivots, lower = matrix.shape[0], [], []
     for j in range(columns):
         # A pivot below zero is one of rounding: its size is as good, and takes no choice.
-        pivot = ca.fabs(matrix[j, j] - sum((lower[k][j] ** 2 * pivots[k] for k in range(j)), 0)) + FLOOR
+        pivot = (
+            ca.fabs(matrix[j, j] - sum((lower[k][j] ** 2 * pivots[k] for k in range(j)), 0)) + FLOOR
+        )
         inverse = 1 / pivot
-        rest = [(matrix[i, j] - sum((lower[k][i] * (lower[k][j] * pivots[k]) for k in range(j)), 0)) * inverse for i in range(j + 1, size)]
+        rest = [
+            (matrix[i, j] - sum((lower[k][i] * (lower[k][j] * pivots[k]) for k in range(j)), 0))
+            * inverse
+            for i in range(j + 1, size)
+        ]
         pivots.append(pivot)
         lower.append(ca.vertcat(*[0] * j, 1, *rest))
     return pivots, lower
 
 
 def measure_gravity(x: Estimate, axes, magnitude):
-    """Predicted force (3,), its covariance (3, 3) and its covariance with the error state (6, 3), for gravity of ``magnitude``.
+    """Predicted force (3,), its covariance (3, 3) and its covariance with the error state (6, 3),
+    for gravity of ``magnitude``.
 
-    ``axes`` (3, 3) has east, north and up in body axes for its rows.  Gravity depends on the tilt alone, the error's part along
-    east and north: two pairs of points are left.  A pair +-p of Rodrigues parameters turns g by an odd part along p x g and
-    an even one along p x (p x g).
+    ``axes`` (3, 3) has east, north and up in body axes for its rows. Gravity depends on the tilt
+    alone, the error's part along east and north: two pairs of points are left. A pair +-p of
+    Rodrigues parameters turns g by an odd part along p x g and an even one along p x (p x g).
     """
     gravity = magnitude * axes[2, :].T
     both = x.covariance[:, :3] @ axes[:2, :].T
@@ -124,34 +153,55 @@ def measure_gravity(x: Estimate, axes, magnitude):
     columns = [both[:, 0], both[:, 1] - lower[0][1] * both[:, 0]]
     odd, even, cross = [], [], []
     for pivot, p, column in zip(pivots, along, columns, strict=True):
-        inverse = 1 / (mrp.F ** 2 + SCALE * pivot * ca.dot(p, p))
+        inverse = 1 / (mrp.F**2 + SCALE * pivot * ca.dot(p, p))
         across = ca.cross(p, gravity)
-        slope = -4 * mrp.F * (2 * mrp.F ** 2 * inverse - 1) * inverse
+        slope = -4 * mrp.F * (2 * mrp.F**2 * inverse - 1) * inverse
         odd.append((slope * slope * pivot, across))
-        even.append(8 * SCALE * mrp.F ** 2 * inverse ** 2 * pivot * ca.cross(p, across))
+        even.append(8 * SCALE * mrp.F**2 * inverse**2 * pivot * ca.cross(p, across))
         cross.append((slope * column, across))
     shift = sum(even) / SCALE
-    variance = symmetric(3, lambda i, j: sum(s * a[i] * a[j] for s, a in odd) + sum(e[i] * e[j] for e in even) / SCALE - shift[i] * shift[j])
+    variance = symmetric(
+        3,
+        lambda i, j: (
+            sum(s * a[i] * a[j] for s, a in odd)
+            + sum(e[i] * e[j] for e in even) / SCALE
+            - shift[i] * shift[j]
+        ),
+    )
     return gravity + shift, variance, sum(c @ a.T for c, a in cross)
 
 
-def correct(x: Estimate, innovation, variance, judged, cross, up, limit) -> tuple[Estimate, ca.SX, ca.SX]:
-    """The estimate after a measurement of three, its normalised innovation squared, and how it was weighed, 1 up to ``limit``.
+def correct(
+    x: Estimate, innovation, variance, judged, cross, up, limit
+) -> tuple[Estimate, ca.SX, ca.SX]:
+    """The estimate after a measurement of three, its normalised innovation squared, and how it was
+    weighed, 1 up to ``limit``.
 
-    ``variance`` (3, 3) of the innovation (3,) weighs it and ``judged`` (3, 3) normalises it, ``cross`` (6, 3) is its covariance
-    with the error state, ``up`` (3,) as for ``unscented.moved``.  Beyond ``limit`` the gain is that share smaller which brings
-    the innovation back to it, and the covariance falls by no more than that.
+    ``variance`` (3, 3) of the innovation (3,) weighs it and ``judged`` (3, 3) normalises it,
+    ``cross`` (6, 3) is its covariance with the error state, ``up`` (3,) as for
+    ``unscented.moved``. Beyond ``limit`` the gain is that share smaller which brings the
+    innovation back to it, and the covariance falls by no more than that.
     """
     pivots, lower = factors(variance, 3)
     inverse = [1 / p for p in pivots]
     white = _solved(lower, [innovation[i] for i in range(3)])
     gain = _solved(lower, [cross[:, i] for i in range(3)])
     own_pivots, own_lower = factors(judged, 3)
-    nis = sum(w * w / d for w, d in zip(_solved(own_lower, [innovation[i] for i in range(3)]), own_pivots, strict=True))
+    nis = sum(
+        w * w / d
+        for w, d in zip(
+            _solved(own_lower, [innovation[i] for i in range(3)]), own_pivots, strict=True
+        )
+    )
     weight = ca.if_else(nis > limit, limit / nis, 1)
     scaled = [g * (d * weight) for g, d in zip(gain, inverse, strict=True)]
     change = sum(g * w for g, w in zip(scaled, white, strict=True))
-    covariance = symmetric(N, lambda i, j: x.covariance[i, j] - sum(g[i] * s[j] for g, s in zip(gain, scaled, strict=True)))
+    covariance = symmetric(
+        N,
+        lambda i, j: (
+            x.covariance[i, j] - sum(g[i] * s[j] for g, s in zip(gain, scaled, strict=True))
+        ),
+    )
     return moved(Estimate(x.q, x.bias, covariance), change, up), nis, weight
 
 

@@ -1,7 +1,8 @@
 """What one row of the inputs says: the sensors' errors undone, and which of it can be trusted.
 
-Nearly every row is ordinary: all finite, inside the sensors' ranges, not the same as ever.  One comparison for all numbers
-together finds that out, so that only the few other rows take the time to be looked at one by one.
+Nearly every row is ordinary: all finite, inside the sensors' ranges, not the same as ever. One
+comparison for all numbers together finds that out, so that only the few other rows take the time to
+be looked at one by one.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from pyimu.attitude.compensation import Compensation
 from pyimu.attitude.memory import Memory
 from pyimu.attitude.settings import Settings
 from pyimu.attitude.variables import ABSURD, INPUTS
-from pyimu.signals import SIGNALS
+from pyimu.model.signals import SIGNALS
 
 LARGEST_KEPT = 1e100
 """Of the sensors' memory; beyond, what has been kept of the sensors is forgotten."""
@@ -22,11 +23,11 @@ LARGEST_KEPT = 1e100
 
 @dataclass(frozen=True)
 class Sample:
-    """A sample without the sensors' own errors, ``held`` as measured; ``gyro_lost`` (3,), and the flags, are True or False
-    where that is known beforehand.
+    """A sample without the sensors' own errors, ``held`` as measured; ``gyro_lost`` (3,), and the
+    flags, are True or False where that is known beforehand.
 
-    ``same_for`` (2,) s, ``sensors`` the compensation's memory, and ``lost_for`` (3,) s follow; ``missing``, ``at_limit`` and
-    ``stuck`` make the status.
+    ``same_for`` (2,) s, ``sensors`` the compensation's memory, and ``lost_for`` (3,) s follow;
+    ``missing``, ``at_limit`` and ``stuck`` make the status.
     """
 
     held: ca.SX
@@ -43,19 +44,34 @@ class Sample:
 
 
 def raw_of(u):
-    """What is measured, of the inputs: gyro (3), accel (3), temperature, and the further signals of the part."""
-    return ca.vertcat(u[:7], u[len(INPUTS):])
+    """What is measured, of the inputs: gyro (3), accel (3), temperature, and the further signals of
+    the part.
+    """
+    return ca.vertcat(u[:7], u[len(INPUTS) :])
 
 
-def read(compensation: Compensation, memory: Memory, u, settings: Settings, h) -> tuple[Sample, ca.SX]:
+def read(
+    compensation: Compensation, memory: Memory, u, settings: Settings, h
+) -> tuple[Sample, ca.SX]:
     """The sample as if it were ordinary, and whether it is."""
     raw, longest = raw_of(u), settings.scalar["stuck_time"]
-    sensors, rate, force, gyro_lost, accel_lost = _compensated(compensation, memory, raw, settings, h)
-    same_for = ca.vertcat(*[(memory.same_for[i] + h) * (ca.sumsqr(raw[rows] - memory.held[rows]) <= 0)
-                            for i, rows in enumerate((slice(0, 3), slice(3, 6)))])
+    sensors, rate, force, gyro_lost, accel_lost = _compensated(
+        compensation, memory, raw, settings, h
+    )
+    same_for = ca.vertcat(
+        *[
+            (memory.same_for[i] + h) * (ca.sumsqr(raw[rows] - memory.held[rows]) <= 0)
+            for i, rows in enumerate((slice(0, 3), slice(3, 6)))
+        ]
+    )
     stuck = (longest > 0) * (same_for[0] + same_for[1] >= longest)
     lost = ca.sum1(gyro_lost) + ca.sum1(accel_lost)
-    ordinary = (ca.sumsqr(raw) <= ABSURD ** 2) * (ca.sumsqr(rate) <= _fastest(h) ** 2) * (ca.sumsqr(force) <= ABSURD ** 2) * (1 - stuck)
+    ordinary = (
+        (ca.sumsqr(raw) <= ABSURD**2)
+        * (ca.sumsqr(rate) <= _fastest(h) ** 2)
+        * (ca.sumsqr(force) <= ABSURD**2)
+        * (1 - stuck)
+    )
     if compensation.start:
         ordinary = ordinary * (ca.sumsqr(sensors) <= LARGEST_KEPT)
     if not lost.is_zero():
@@ -68,8 +84,11 @@ def look_closely(compensation: Compensation, memory: Memory, u, settings: Settin
     raw = raw_of(u)
     good = ca.fabs(raw) <= ABSURD
     held = ca.if_else(good, raw, memory.held)
-    sensors, rate, force, gyro_lost, accel_lost = _compensated(compensation, memory, held, settings, h)
-    # Errors that cannot be undone, of absurd coefficients or at an absurd input, must not get into what is kept.
+    sensors, rate, force, gyro_lost, accel_lost = _compensated(
+        compensation, memory, held, settings, h
+    )
+    # Errors that cannot be undone, of absurd coefficients or at an absurd input, must not get into
+    # what is kept.
     rate_good, force_good = ca.fabs(rate) <= ABSURD, ca.fabs(force) <= ABSURD
     rate, force = ca.if_else(rate_good, rate, 0), ca.if_else(force_good, force, 0)
     if compensation.start:
@@ -77,15 +96,31 @@ def look_closely(compensation: Compensation, memory: Memory, u, settings: Settin
     same_for, stuck = _stuck(held, good, memory, settings, h)
     fastest = _fastest(h)
     beyond = ca.fabs(rate) > fastest
-    lost = _any_of(ca.logic_not(good[:3]), stuck[0], ca.logic_not(rate_good), gyro_lost > 0.5, beyond)
-    unusable = _any_of(ca.logic_not(good[3:6]), stuck[1], ca.logic_not(force_good), accel_lost > 0.5)
-    return Sample(held, ca.fmin(ca.fmax(rate, -fastest), fastest), force, sensors, same_for,
-                  ca.if_else(lost, memory.lost_for + h, 0), lost, ca.logic_not(ca.mmax(unusable)), ca.logic_not(ca.mmin(good)),
-                  ca.logic_or(ca.fmax(ca.mmax(gyro_lost), ca.mmax(accel_lost)) > 0.5, ca.mmax(beyond)), ca.fmax(stuck[0], stuck[1]))
+    lost = _any_of(
+        ca.logic_not(good[:3]), stuck[0], ca.logic_not(rate_good), gyro_lost > 0.5, beyond
+    )
+    unusable = _any_of(
+        ca.logic_not(good[3:6]), stuck[1], ca.logic_not(force_good), accel_lost > 0.5
+    )
+    return Sample(
+        held,
+        ca.fmin(ca.fmax(rate, -fastest), fastest),
+        force,
+        sensors,
+        same_for,
+        ca.if_else(lost, memory.lost_for + h, 0),
+        lost,
+        ca.logic_not(ca.mmax(unusable)),
+        ca.logic_not(ca.mmin(good)),
+        ca.logic_or(ca.fmax(ca.mmax(gyro_lost), ca.mmax(accel_lost)) > 0.5, ca.mmax(beyond)),
+        ca.fmax(stuck[0], stuck[1]),
+    )
 
 
 def _fastest(h):
-    """Nothing is known of a body that turns by more than half a turn about an axis within a sample."""
+    """Nothing is known of a body that turns by more than half a turn about an axis within a
+    sample.
+    """
     return ca.pi / h
 
 
@@ -97,18 +132,31 @@ def _any_of(*flags):
 
 
 def _compensated(compensation: Compensation, memory: Memory, raw, settings: Settings, h):
-    known = {"rate": raw[:3], "specific_force": raw[3:6], "temperature": raw[6], "attitude": memory.estimate.q,
-             "latitude": settings.latitude, "latitude_known": settings.known}
+    known = {
+        "rate": raw[:3],
+        "specific_force": raw[3:6],
+        "temperature": raw[6],
+        "attitude": memory.estimate.q,
+        "latitude": settings.latitude,
+        "latitude_known": settings.known,
+    }
     row = 7
     for name in compensation.extra:
-        known[name] = raw[row:row + SIGNALS[name].size]
+        known[name] = raw[row : row + SIGNALS[name].size]
         row += SIGNALS[name].size
     return compensation.apply(memory.sensors, known, settings.gyro_p, settings.accel_p, h)
 
 
 def _stuck(held, good, memory: Memory, settings: Settings, h):
-    """How long gyro and accelerometer (2,) s have given the same samples, and whether that is too long; a missing one is held, not the same."""
-    same = [ca.logic_and(ca.mmin(good[rows]), ca.sumsqr(held[rows] - memory.held[rows]) <= 0) for rows in (slice(0, 3), slice(3, 6))]
-    same_for = ca.vertcat(*[ca.if_else(flag, memory.same_for[i] + h, 0) for i, flag in enumerate(same)])
+    """How long gyro and accelerometer (2,) s have given the same samples, and whether that is too
+    long; a missing one is held, not the same.
+    """
+    same = [
+        ca.logic_and(ca.mmin(good[rows]), ca.sumsqr(held[rows] - memory.held[rows]) <= 0)
+        for rows in (slice(0, 3), slice(3, 6))
+    ]
+    same_for = ca.vertcat(
+        *[ca.if_else(flag, memory.same_for[i] + h, 0) for i, flag in enumerate(same)]
+    )
     longest = settings.scalar["stuck_time"]
     return same_for, ca.logic_and(longest > 0, same_for >= longest)

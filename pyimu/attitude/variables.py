@@ -1,35 +1,47 @@
-"""The variables of the attitude filter's block: its inputs, outputs and own parameters, and the limits of its input."""
+"""The variables of the attitude filter's block: its inputs, outputs and own parameters, and the
+limits of its input.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
 
-from pyimu.block import Variable
+from pyimu.block.variables import Variable
 from pyimu.units import STANDARD_GRAVITY
 
-STATUS = {1: "an input was not finite or absurd and its last good value was held, or a heading's variance was not above zero",
-          2: "a sample was at a sensor's limit, or said of more than half a turn in a sample period",
-          4: "a sensor is stuck, its samples have not changed for stuck_time",
-          8: "gravity contradicted the attitude, and was weighed less",
-          16: "a heading was older than heading_memory, or than the run, and not used",
-          32: "a heading was not used, as the tilt was contradicted or not known, or as more is known already than when it was true",
-          64: "a heading contradicted the attitude, and was weighed less",
-          128: "a variance was not above zero, and its std is shown as 0"}
+STATUS = {
+    1: (
+        "an input was not finite or absurd and its last good value was held, or a heading's "
+        "variance was not above zero"
+    ),
+    2: "a sample was at a sensor's limit, or said of more than half a turn in a sample period",
+    4: "a sensor is stuck, its samples have not changed for stuck_time",
+    8: "gravity contradicted the attitude, and was weighed less",
+    16: "a heading was older than heading_memory, or than the run, and not used",
+    32: (
+        "a heading was not used, as the tilt was contradicted or not known, or as more is known "
+        "already than when it was true"
+    ),
+    64: "a heading contradicted the attitude, and was weighed less",
+    128: "a variance was not above zero, and its std is shown as 0",
+}
 """Bits of the output ``status``; 0 is well."""
 
 UNKNOWN_LATITUDE = 10.0
-"""rad; like every value outside -pi/2 to pi/2 (NaN too) it stands for "not known", and no Earth rate is subtracted."""
+"""rad; like every value outside -pi/2 to pi/2 (NaN too) it stands for "not known", and no Earth
+rate is subtracted."""
 
 ABSURD = 1e6
-"""SI; an input larger than this is treated like one that is not finite, since its square might not be."""
+"""SI; an input larger than this is treated like one that is not finite, since its square might not
+be."""
 
 LARGEST_BIAS = 100.0
 """rad/s; the largest gyro bias before the first sample."""
 
 LEAST_N = 1e-9
-"""rad/sqrt(s); the least angle random walk of the process noise.  Together with ``LEAST_K`` it keeps the covariance
-definite for a part without noise."""
+"""rad/sqrt(s); the least angle random walk of the process noise. Together with ``LEAST_K`` it
+keeps the covariance definite for a part without noise."""
 
 LEAST_K = 1e-10
 """rad/s/sqrt(s); the least rate random walk of the process noise."""
@@ -44,7 +56,9 @@ EXTRA_INPUTS = ("supply", "mag")
 """Signals that become inputs of the filter where the part's effects depend on them."""
 
 
-def array(name: str, unit: str, text: str, start: Iterable[float] = (0.0, 0.0, 0.0)) -> tuple[Variable, ...]:
+def array(
+    name: str, unit: str, text: str, start: Iterable[float] = (0.0, 0.0, 0.0)
+) -> tuple[Variable, ...]:
     """The scalars of a vector, numbered from one."""
     return tuple(Variable(f"{name}[{i + 1}]", unit, text, float(v)) for i, v in enumerate(start))
 
@@ -56,27 +70,49 @@ INPUTS = (
     Variable("heading", "rad", "heading, counter-clockwise from east"),
     Variable("heading_variance", "rad^2", "variance of the heading, above zero"),
     Variable("heading_valid", "1", "use the heading of this sample", kind="boolean"),
-    Variable("heading_age", "s", "time since the heading was true, counted in whole samples; at most heading_memory. An age of some tenths of a "
-             "second takes no heading more precise than about 1e-3 rad many times a second: what is left out then adds up, and std is too small"),
+    Variable(
+        "heading_age",
+        "s",
+        "time since the heading was true, counted in whole samples; at most heading_memory. An age "
+        "of some tenths of a "
+        "second takes no heading more precise than about 1e-3 rad many times a second: what is "
+        "left out then adds up, and std is too small",
+    ),
     Variable("stationary", "1", "the body does not turn against the Earth", kind="boolean"),
 )
 """Those of every part; ``EXTRA_INPUTS`` follow where the part needs them."""
 
 OUTPUTS = (
-    *array("q", "1", "attitude, body to world (east-north-up), Hamilton, scalar first", (1.0, 0.0, 0.0, 0.0)),
-    Variable("roll", "rad", "roll"), Variable("pitch", "rad", "pitch, nose up is negative"),
+    *array(
+        "q",
+        "1",
+        "attitude, body to world (east-north-up), Hamilton, scalar first",
+        (1.0, 0.0, 0.0, 0.0),
+    ),
+    Variable("roll", "rad", "roll"),
+    Variable("pitch", "rad", "pitch, nose up is negative"),
     Variable("yaw", "rad", "yaw, counter-clockwise from east"),
     *array("gyro_bias", "rad/s", "bias of the compensated rate"),
     *array("std", "rad", "standard deviation of the attitude error, body axes"),
     *(Variable(f"std[{i}]", "rad/s", "standard deviation of the gyro bias") for i in (4, 5, 6)),
     Variable("quasi_static", "1", "the accelerometer is used as an inclinometer", kind="boolean"),
-    Variable("nis", "1", "normalised innovation squared of this sample's quasi-static update, 0 without one; chi-squared of 3 degrees of freedom, "
-             "white where accel_std is 0, else correlated over accel_correlation_time and less on a body that accelerates less than accel_std"),
-    Variable("status", "1", "; ".join(f"{bit}: {text}" for bit, text in STATUS.items()), kind="integer"),
+    Variable(
+        "nis",
+        "1",
+        "normalised innovation squared of this sample's quasi-static update, 0 without one; "
+        "chi-squared of 3 degrees of freedom, "
+        "white where accel_std is 0, else correlated over accel_correlation_time and less on a "
+        "body that accelerates less than accel_std",
+    ),
+    Variable(
+        "status", "1", "; ".join(f"{bit}: {text}" for bit, text in STATUS.items()), kind="integer"
+    ),
 )
 
 
-def _bounded(variables: Iterable[Variable], minimum: float, maximum: float = ABSURD) -> tuple[Variable, ...]:
+def _bounded(
+    variables: Iterable[Variable], minimum: float, maximum: float = ABSURD
+) -> tuple[Variable, ...]:
     """The same with bounds, so that what is no number is refused."""
     return tuple(replace(v, minimum=minimum, maximum=maximum) for v in variables)
 
@@ -87,31 +123,132 @@ def _setting(name: str, unit: str, text: str, start: float) -> Variable:
 
 SETTINGS = (
     _setting("gravity", "m/s^2", "magnitude of gravity", STANDARD_GRAVITY),
-    _setting("accel_std", "m/s^2", "standard deviation of the acceleration that passes as quasi-static. Not in it, and in no std of the attitude: "
-             "a force that lasts much longer than accel_correlation_time, as in a long turn of a vehicle or by a constant error of the "
-             "accelerometer, tilts the attitude by its share of gravity", 0.1),
-    _setting("accel_correlation_time", "s", "correlation time of that acceleration; 0 is white from sample to sample", 0.5),
-    _setting("gravity_walk", "m/s^2/sqrt(s)", "random walk of the magnitude in the quasi-static estimator", 0.2),
-    _setting("gravity_tolerance", "m/s^2", "quasi-static: largest difference of the estimated magnitude and gravity", 0.25),
-    _setting("motion_tolerance", "m/s^2", "quasi-static: largest difference of a sample's magnitude and the estimated one", 1.0),
-    _setting("steady_tolerance", "m/s^2", "quasi-static: largest root mean square of the force against its mean, beside white noise", 0.3),
-    _setting("mean_time", "s", "time constant of the mean force that stands for gravity in motion; 0: no such update", 1.0),
-    _setting("motion_time", "s", "velocity over acceleration of the motion, by which the mean force is weighed", 0.06),
-    _setting("mean_tolerance", "1", "by which share of the force's root mean square against its mean that tolerance is wider for the mean", 0.1),
-    _setting("rate_noise", "sqrt(s)", "root density of the relative error of the rate, which leaks onto all axes", 0.0),
-    _setting("stationary_std", "rad/s", "standard deviation of the rate of a body that is called stationary", 1e-5),
-    _setting("lost_rate_std", "rad/s", "standard deviation of the rate along an axis whose gyro is lost", 1.0),
-    _setting("stuck_time", "s", "equal samples of a triad for so long mean that it is stuck; 0: never", 0.0),
-    _setting("heading_memory", "s", "largest heading_age; beyond 63 samples the course in between is interpolated", 0.5),
+    _setting(
+        "accel_std",
+        "m/s^2",
+        "standard deviation of the acceleration that passes as quasi-static. Not in it, and in no "
+        "std of the attitude: "
+        "a force that lasts much longer than accel_correlation_time, as in a long turn of a "
+        "vehicle or by a constant error of the "
+        "accelerometer, tilts the attitude by its share of gravity",
+        0.1,
+    ),
+    _setting(
+        "accel_correlation_time",
+        "s",
+        "correlation time of that acceleration; 0 is white from sample to sample",
+        0.5,
+    ),
+    _setting(
+        "gravity_walk",
+        "m/s^2/sqrt(s)",
+        "random walk of the magnitude in the quasi-static estimator",
+        0.2,
+    ),
+    _setting(
+        "gravity_tolerance",
+        "m/s^2",
+        "quasi-static: largest difference of the estimated magnitude and gravity",
+        0.25,
+    ),
+    _setting(
+        "motion_tolerance",
+        "m/s^2",
+        "quasi-static: largest difference of a sample's magnitude and the estimated one",
+        1.0,
+    ),
+    _setting(
+        "steady_tolerance",
+        "m/s^2",
+        "quasi-static: largest root mean square of the force against its mean, beside white noise",
+        0.3,
+    ),
+    _setting(
+        "mean_time",
+        "s",
+        "time constant of the mean force that stands for gravity in motion; 0: no such update",
+        1.0,
+    ),
+    _setting(
+        "motion_time",
+        "s",
+        "velocity over acceleration of the motion, by which the mean force is weighed",
+        0.06,
+    ),
+    _setting(
+        "mean_tolerance",
+        "1",
+        "by which share of the force's root mean square against its mean that tolerance is wider "
+        "for the mean",
+        0.1,
+    ),
+    _setting(
+        "rate_noise",
+        "sqrt(s)",
+        "root density of the relative error of the rate, which leaks onto all axes",
+        0.0,
+    ),
+    _setting(
+        "stationary_std",
+        "rad/s",
+        "standard deviation of the rate of a body that is called stationary",
+        1e-5,
+    ),
+    _setting(
+        "lost_rate_std",
+        "rad/s",
+        "standard deviation of the rate along an axis whose gyro is lost",
+        1.0,
+    ),
+    _setting(
+        "stuck_time",
+        "s",
+        "equal samples of a triad for so long mean that it is stuck; 0: never",
+        0.0,
+    ),
+    _setting(
+        "heading_memory",
+        "s",
+        "largest heading_age; beyond 63 samples the course in between is interpolated",
+        0.5,
+    ),
 )
-"""Parameters that are one number, none below zero.  What they say of accelerations was chosen once for all hand-held recordings of
-``benchmarks/attitude_real.py``: a slow vehicle accelerates less, and would do better with less of it."""
+"""Parameters that are one number, none below zero. What they say of accelerations was chosen once
+for all hand-held recordings of ``benchmarks/attitude_real.py``: a slow vehicle accelerates less,
+and would do better with less of it."""
 
 OWN_PARAMETERS = (
-    Variable("latitude", "rad", "latitude; a value outside -pi/2 to pi/2 is unknown: no Earth rate", UNKNOWN_LATITUDE),
+    Variable(
+        "latitude",
+        "rad",
+        "latitude; a value outside -pi/2 to pi/2 is unknown: no Earth rate",
+        UNKNOWN_LATITUDE,
+    ),
     *_bounded(array("q0", "1", "attitude before the first sample", (1.0, 0.0, 0.0, 0.0)), -ABSURD),
-    *_bounded(array("bias0", "rad/s", "gyro bias before the first sample"), -LARGEST_BIAS, LARGEST_BIAS),
-    *_bounded(array("std0", "rad", "standard deviation of the attitude before the first sample", (0.1, 0.1, 0.1)), 0.0),
-    *_bounded((Variable(f"std0[{i}]", "rad/s", "standard deviation of the bias before the first sample", 0.01) for i in (4, 5, 6)), 0.0),
-    *SETTINGS)
+    *_bounded(
+        array("bias0", "rad/s", "gyro bias before the first sample"), -LARGEST_BIAS, LARGEST_BIAS
+    ),
+    *_bounded(
+        array(
+            "std0",
+            "rad",
+            "standard deviation of the attitude before the first sample",
+            (0.1, 0.1, 0.1),
+        ),
+        0.0,
+    ),
+    *_bounded(
+        (
+            Variable(
+                f"std0[{i}]",
+                "rad/s",
+                "standard deviation of the bias before the first sample",
+                0.01,
+            )
+            for i in (4, 5, 6)
+        ),
+        0.0,
+    ),
+    *SETTINGS,
+)
 """Parameters that are the filter's own; the coefficients of the part's sensors follow."""

@@ -1,8 +1,9 @@
 """The scalars of a block, grouped into the arrays that their names say they are.
 
-``G[1,1]`` to ``G[3,3]`` are a matrix ``G``, ``N[1]`` to ``N[3]`` a vector ``N``; a block lists the elements row by row, and
-FMI's arrays are row by row, so nothing is turned.  What is not a whole array of one kind stays as it is: a matrix without its
-diagonal, and a vector whose elements have different units, which an FMI array cannot have.
+``G[1,1]`` to ``G[3,3]`` are a matrix ``G``, ``N[1]`` to ``N[3]`` a vector ``N``; a block lists the
+elements row by row, and FMI's arrays are row by row, so nothing is turned. What is not a whole
+array of one kind stays as it is: a matrix without its diagonal, and a vector whose elements have
+different units, which an FMI array cannot have.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from os.path import commonprefix
 
 import numpy as np
 
-from pyimu.block import Variable
+from pyimu.block.variables import Variable
 
 _ELEMENT = re.compile(r"(?P<base>.+)\[(?P<index>\d+(?:,\d+)*)\]")
 
@@ -30,9 +31,13 @@ class Array:
 
 
 def split_name(name: str) -> tuple[str, tuple[int, ...]]:
-    """The array and the index, which counts from one, that a name like ``G[1,2]`` says; ``(name, ())`` for other names."""
+    """The array and the index, which counts from one, that a name like ``G[1,2]`` says;
+    ``(name, ())`` for other names.
+    """
     found = _ELEMENT.fullmatch(name)
-    return (found["base"], tuple(int(i) for i in found["index"].split(","))) if found else (name, ())
+    return (
+        (found["base"], tuple(int(i) for i in found["index"].split(","))) if found else (name, ())
+    )
 
 
 def scalars(variables: Iterable[Variable]) -> list[Array]:
@@ -45,7 +50,12 @@ def grouped(variables: Sequence[Variable]) -> list[Array]:
     groups: list[list[Variable]] = []
     for v in variables:
         base, index = split_name(v.name)
-        if groups and index and base == split_name(groups[-1][0].name)[0] and split_name(groups[-1][0].name)[1]:
+        if (
+            groups
+            and index
+            and base == split_name(groups[-1][0].name)[0]
+            and split_name(groups[-1][0].name)[1]
+        ):
             groups[-1].append(v)
         else:
             groups.append([v])
@@ -58,13 +68,20 @@ def _as_array(group: Sequence[Variable]) -> list[Array]:
     indices = [split_name(v.name)[1] for v in group]
     shape = indices[-1]
     alike = len({(v.unit, v.kind, v.minimum, v.maximum) for v in group}) == 1
-    if shape and alike and prod(shape) == len(group) and indices == [tuple(i + 1 for i in at) for at in np.ndindex(*shape)]:
+    if (
+        shape
+        and alike
+        and prod(shape) == len(group)
+        and indices == [tuple(i + 1 for i in at) for at in np.ndindex(*shape)]
+    ):
         return [Array(base, tuple(group), shape)]
     return scalars(group)
 
 
 def description(array: Array) -> str:
-    """What the elements' descriptions have in common, as far as its last comma where they differ ("rate, axis x")."""
+    """What the elements' descriptions have in common, as far as its last comma where they differ
+    ("rate, axis x").
+    """
     texts = [v.description for v in array.elements]
     common = commonprefix(texts)
     return common if len(set(texts)) == 1 else common.rpartition(",")[0]

@@ -1,7 +1,8 @@
 """Run the block form of an FMU over long logs, thin over fmpy.
 
-The samples are those of the scalar form, bit for bit.  Sample by sample, most of the time goes into calls; in blocks, into the
-model: buffers are made once, and the calls hand them to the FMU as they are.
+The samples are those of the scalar form, bit for bit. Sample by sample, most of the time goes into
+calls; in blocks, into the model: buffers are made once, and the calls hand them to the FMU as they
+are.
 """
 
 from __future__ import annotations
@@ -26,22 +27,36 @@ from pyimu.fmu.arrays import split_name
 from pyimu.fmu.run import special
 from pyimu.units import did_you_mean
 
-_TYPES = {"Float64": (np.float64, ctypes.c_double), "Int32": (np.int32, ctypes.c_int32), "Boolean": (np.bool_, ctypes.c_bool),
-          "UInt64": (np.uint64, ctypes.c_uint64)}
+_TYPES = {
+    "Float64": (np.float64, ctypes.c_double),
+    "Int32": (np.int32, ctypes.c_int32),
+    "Boolean": (np.bool_, ctypes.c_bool),
+    "UInt64": (np.uint64, ctypes.c_uint64),
+}
 
 
-def simulate_blocks(fmu_path: Path | str, inputs: np.ndarray, *, sample_period: float | None = None,
-                    start_values: Mapping[str, Any] | None = None, start_time: float = 0.0, block_size: int | None = None,
-                    progress: Callable[[int, int], None] | None = None) -> np.ndarray:
-    """Outputs (n + 1, ny) of the block form of an FMU for ``inputs`` (n, nu), to the bit those of ``simulate`` on a scalar form.
+def simulate_blocks(
+    fmu_path: Path | str,
+    inputs: np.ndarray,
+    *,
+    sample_period: float | None = None,
+    start_values: Mapping[str, Any] | None = None,
+    start_time: float = 0.0,
+    block_size: int | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> np.ndarray:
+    """Outputs (n + 1, ny) of the block form of an FMU for ``inputs`` (n, nu), to the bit those of
+    ``simulate`` on a scalar form.
 
-    Columns are in the order of the scalar form's inputs and outputs.  Row 0 is the start value and row k the answer to row
-    k - 1.  ``start_values`` maps names of parameters to values: arrays as a whole (``G``), or their elements as in the scalar
-    form (``G[1,2]``).  Without a ``sample_period`` [s] or a ``block_size`` the FMU's own holds.  ``progress`` is called after
+    Columns are in the order of the scalar form's inputs and outputs. Row 0 is the start value and
+    row k the answer to row k - 1. ``start_values`` maps names of parameters to values: arrays as a
+    whole (``G``), or their elements as in the scalar form (``G[1,2]``). Without a
+    ``sample_period`` [s] or a ``block_size`` the FMU's own holds. ``progress`` is called after
     each block with the number of samples made and that of all.
 
-    Raises ValueError where the FMU has no blocks or the inputs have the wrong shape, UserError, which is one, for a start value
-    that has no parameter, and for a seed or a sample period that is none; fmpy's exceptions, with the FMU's message as a note, where the FMU refuses.
+    Raises ValueError where the FMU has no blocks or the inputs have the wrong shape, UserError,
+    which is one, for a start value that has no parameter, and for a seed or a sample period that is
+    none; fmpy's exceptions, with the FMU's message as a note, where the FMU refuses.
     """
     inputs = np.atleast_2d(inputs)
     with _opened(fmu_path, sample_period, start_values, start_time, block_size) as unit:
@@ -53,13 +68,21 @@ def simulate_blocks(fmu_path: Path | str, inputs: np.ndarray, *, sample_period: 
         return outputs
 
 
-def stream_blocks(fmu_path: Path | str, chunks: Iterable[np.ndarray], *, sample_period: float | None = None,
-                  start_values: Mapping[str, Any] | None = None, start_time: float = 0.0,
-                  block_size: int | None = None) -> Iterator[np.ndarray]:
-    """Outputs (m, ny) to each chunk of inputs (m, nu) in turn, row k the answer to row k; chunks may be of any length.
+def stream_blocks(
+    fmu_path: Path | str,
+    chunks: Iterable[np.ndarray],
+    *,
+    sample_period: float | None = None,
+    start_values: Mapping[str, Any] | None = None,
+    start_time: float = 0.0,
+    block_size: int | None = None,
+) -> Iterator[np.ndarray]:
+    """Outputs (m, ny) to each chunk of inputs (m, nu) in turn, row k the answer to row k; chunks
+    may be of any length.
 
-    For logs that do not fit into memory: a chunk is asked for when the answer to the one before has been taken.  One after the
-    other the answers are what ``simulate_blocks`` gives after its row 0; arguments and errors are those of it.
+    For logs that do not fit into memory: a chunk is asked for when the answer to the one before has
+    been taken. One after the other the answers are what ``simulate_blocks`` gives after its row 0;
+    arguments and errors are those of it.
     """
     with _opened(fmu_path, sample_period, start_values, start_time, block_size) as unit:
         for chunk in chunks:
@@ -72,7 +95,9 @@ def stream_blocks(fmu_path: Path | str, chunks: Iterable[np.ndarray], *, sample_
 
 @dataclass
 class _Unit:
-    """An initialized instance, its inputs and outputs as tables of ``size`` rows, and the number of samples made."""
+    """An initialized instance, its inputs and outputs as tables of ``size`` rows, and the number of
+    samples made.
+    """
 
     fmu: FMU3Slave
     name: str
@@ -84,9 +109,13 @@ class _Unit:
     sample: int = 0
 
     def answer(self, inputs: np.ndarray, outputs: np.ndarray) -> Iterator[int]:
-        """Fill ``outputs`` (n, ny) from ``inputs`` (n, nu) block by block; gives after each how many of the rows are done."""
+        """Fill ``outputs`` (n, ny) from ``inputs`` (n, nu) block by block; gives after each how
+        many of the rows are done.
+        """
         if inputs.ndim != 2 or inputs.shape[1] != self.inputs.columns:
-            raise ValueError(f"inputs of {self.name} have shape {inputs.shape}, not (n, {self.inputs.columns})")
+            raise ValueError(
+                f"inputs of {self.name} have shape {inputs.shape}, not (n, {self.inputs.columns})"
+            )
         for first in range(0, len(inputs), self.size):
             rows = slice(first, min(first + self.size, len(inputs)))
             self._step(inputs[rows], outputs[rows])
@@ -95,14 +124,18 @@ class _Unit:
     def _step(self, inputs: np.ndarray, outputs: np.ndarray) -> None:
         self.inputs.set(inputs)
         # From the number of samples, as a sum of steps would drift.
-        self.fmu.doStep(currentCommunicationPoint=self.start_time + self.sample * self.period,
-                        communicationStepSize=len(inputs) * self.period)
+        self.fmu.doStep(
+            currentCommunicationPoint=self.start_time + self.sample * self.period,
+            communicationStepSize=len(inputs) * self.period,
+        )
         self.outputs.get(outputs)
         self.sample += len(inputs)
 
 
 class _Table:
-    """Variables as the columns of one table, and behind it a buffer for each type, which one call hands to the FMU whole."""
+    """Variables as the columns of one table, and behind it a buffer for each type, which one call
+    hands to the FMU whole.
+    """
 
     def __init__(self, fmu: FMU3Slave, variables: list[ModelVariable], rows: int) -> None:
         counts = [int(np.prod(v.shape[1:])) for v in variables]
@@ -114,15 +147,19 @@ class _Table:
         for kind in dict.fromkeys(v.type for v in variables):
             chosen = [i for i, v in enumerate(variables) if v.type == kind]
             arrays = _carve(rows, [counts[i] for i in chosen], kind)
-            self.parts += [(slice(ends[i] - counts[i], ends[i]), array) for i, array in zip(chosen, arrays)]
+            self.parts += [
+                (slice(ends[i] - counts[i], ends[i]), array) for i, array in zip(chosen, arrays)
+            ]
             arguments = _arguments([variables[i] for i in chosen], arrays[0].base, kind)
             self.setters.append(partial(getattr(fmu, f"fmi3Set{kind}"), fmu.component, *arguments))
             self.getters.append(partial(getattr(fmu, f"fmi3Get{kind}"), fmu.component, *arguments))
 
     def set(self, rows: np.ndarray) -> None:
-        """Set the first rows; those after them, which a shorter step does not read, stay as they were."""
+        """Set the first rows; those after them, which a shorter step does not read, stay as they
+        were.
+        """
         for columns, array in self.parts:
-            array[:len(rows)] = rows[:, columns]
+            array[: len(rows)] = rows[:, columns]
         for call in self.setters:
             call()
 
@@ -131,42 +168,78 @@ class _Table:
         for call in self.getters:
             call()
         for columns, array in self.parts:
-            rows[:, columns] = array[:len(rows)]
+            rows[:, columns] = array[: len(rows)]
 
 
 def _carve(rows: int, counts: list[int], kind: str) -> list[np.ndarray]:
     """Arrays (rows, count), one behind the other in one buffer, which is the ``base`` of each."""
     buffer = np.zeros(rows * sum(counts), dtype=_TYPES[kind][0])
     ends = rows * np.cumsum(counts)
-    return [buffer[end - rows * count:end].reshape(rows, count) for end, count in zip(ends, counts)]
+    return [
+        buffer[end - rows * count : end].reshape(rows, count) for end, count in zip(ends, counts)
+    ]
 
 
 def _arguments(variables: list[ModelVariable], buffer: np.ndarray, kind: str) -> tuple:
-    """Value references, how many, values, how many: what an FMI 3 function for these variables takes after the instance."""
+    """Value references, how many, values, how many: what an FMI 3 function for these variables
+    takes after the instance.
+    """
     references = (ctypes.c_uint * len(variables))(*[v.valueReference for v in variables])
-    return references, len(variables), buffer.ctypes.data_as(ctypes.POINTER(_TYPES[kind][1])), buffer.size
+    return (
+        references,
+        len(variables),
+        buffer.ctypes.data_as(ctypes.POINTER(_TYPES[kind][1])),
+        buffer.size,
+    )
 
 
 @contextmanager
-def _opened(fmu_path: Path | str, sample_period: float | None, start_values: Mapping[str, Any] | None, start_time: float,
-            block_size: int | None) -> Iterator[_Unit]:
+def _opened(
+    fmu_path: Path | str,
+    sample_period: float | None,
+    start_values: Mapping[str, Any] | None,
+    start_time: float,
+    block_size: int | None,
+) -> Iterator[_Unit]:
     """An instance through its initialization; it and its folder are gone afterwards."""
     description = read_model_description(str(fmu_path), validate=False)
     own = {v.name: v for v in description.modelVariables}
     if "block_size" not in own:
         raise ValueError(f"{fmu_path} is not the block form of an FMU: it has no block_size")
-    values = _parameters(description, dict(start_values or {}) | ({} if sample_period is None else {"sample_period": sample_period}))
+    values = _parameters(
+        description,
+        dict(start_values or {})
+        | ({} if sample_period is None else {"sample_period": sample_period}),
+    )
     size = int(own["block_size"].start if block_size is None else block_size)
     folder = fmpy.extract(str(fmu_path))
     messages: list[str] = []
     try:
-        fmu = FMU3Slave(guid=description.guid, unzipDirectory=folder, instanceName=description.modelName,
-                        modelIdentifier=description.coSimulation.modelIdentifier)
-        fmu.instantiate(logMessage=lambda environment, status, category, message: messages.append(message.decode()))
+        fmu = FMU3Slave(
+            guid=description.guid,
+            unzipDirectory=folder,
+            instanceName=description.modelName,
+            modelIdentifier=description.coSimulation.modelIdentifier,
+        )
+        fmu.instantiate(
+            logMessage=lambda environment, status, category, message: messages.append(
+                message.decode()
+            )
+        )
         try:
             _initialize(fmu, own, values, size, start_time)
-            tables = [_Table(fmu, [v for v in description.modelVariables if v.causality == c], size) for c in ("input", "output")]
-            yield _Unit(fmu, description.modelName, *tables, size, fmu.getFloat64([own["sample_period"].valueReference])[0], start_time)
+            tables = [
+                _Table(fmu, [v for v in description.modelVariables if v.causality == c], size)
+                for c in ("input", "output")
+            ]
+            yield _Unit(
+                fmu,
+                description.modelName,
+                *tables,
+                size,
+                fmu.getFloat64([own["sample_period"].valueReference])[0],
+                start_time,
+            )
         except FMICallException as error:
             for message in messages:
                 error.add_note(message)
@@ -177,7 +250,13 @@ def _opened(fmu_path: Path | str, sample_period: float | None, start_values: Map
         shutil.rmtree(folder, ignore_errors=True)
 
 
-def _initialize(fmu: FMU3Slave, own: Mapping[str, ModelVariable], values: Mapping[str, np.ndarray], size: int, start_time: float) -> None:
+def _initialize(
+    fmu: FMU3Slave,
+    own: Mapping[str, ModelVariable],
+    values: Mapping[str, np.ndarray],
+    size: int,
+    start_time: float,
+) -> None:
     fmu.enterConfigurationMode()
     fmu.setUInt64([own["block_size"].valueReference], [size])
     fmu.exitConfigurationMode()
@@ -188,16 +267,22 @@ def _initialize(fmu: FMU3Slave, own: Mapping[str, ModelVariable], values: Mappin
 
 
 def _parameters(description: ModelDescription, given: Mapping[str, Any]) -> dict[str, np.ndarray]:
-    """The parameters that ``given`` names, each whole: where it names an element, the others have their start values."""
+    """The parameters that ``given`` names, each whole: where it names an element, the others have
+    their start values.
+    """
     parameters = {v.name: v for v in description.modelVariables if v.causality == "parameter"}
     values: dict[str, np.ndarray] = {}
     for name, value in special(given).items():
         base, index = (name, ()) if name in parameters else split_name(name)
         if base not in parameters or len(index) not in (0, len(parameters[base].shape)):
-            raise UserError(f"{description.modelName} has no parameter {name}{did_you_mean(base, parameters)}")
+            raise UserError(
+                f"{description.modelName} has no parameter {name}{did_you_mean(base, parameters)}"
+            )
         array = values.setdefault(base, _start(parameters[base]))
         if not index and np.shape(value) != array.shape:
-            raise UserError(f"{name} of {description.modelName} has shape {np.shape(value)}, not {array.shape}")
+            raise UserError(
+                f"{name} of {description.modelName} has shape {np.shape(value)}, not {array.shape}"
+            )
         if any(not 1 <= i <= size for i, size in zip(index, array.shape)):
             raise UserError(f"{description.modelName} has no parameter {name}")
         array[tuple(i - 1 for i in index) if index else ...] = value
@@ -207,5 +292,9 @@ def _parameters(description: ModelDescription, given: Mapping[str, Any]) -> dict
 def _start(variable: ModelVariable) -> np.ndarray:
     """The start value of a parameter in its shape; one value may stand for all elements."""
     read = {"Float64": float, "Boolean": lambda text: text in ("true", "1")}.get(variable.type, int)
-    starts = np.array([read(text) for text in variable.start.split()], dtype=_TYPES[variable.type][0])
-    return np.array(np.broadcast_to(starts.reshape(variable.shape if len(starts) > 1 else ()), variable.shape))
+    starts = np.array(
+        [read(text) for text in variable.start.split()], dtype=_TYPES[variable.type][0]
+    )
+    return np.array(
+        np.broadcast_to(starts.reshape(variable.shape if len(starts) > 1 else ()), variable.shape)
+    )

@@ -1,4 +1,4 @@
-"""Texts to .fmu: compile, collect, zip.  Equal blocks and equal compilers give equal bytes."""
+"""Texts to .fmu: compile, collect, zip. Equal blocks and equal compilers give equal bytes."""
 
 from __future__ import annotations
 
@@ -16,13 +16,21 @@ from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
 
-from pyimu.block import Block
+from pyimu.block.block import Block
+from pyimu.block.compiled import compiler_command, source_folder
 from pyimu.errors import UserError
 from pyimu.fmu.sources import CORE, DESCRIPTION, LAYER, PAGE, TABLE, Form, template_folder, texts
-from pyimu.native import compiler_command, source_folder
 
-FLAGS = ("-std=c11", "-O3", "-ffp-contract=off", "-fPIC", "-fvisibility=hidden", "-DCASADI_SYMBOL_EXPORT=")
-"""Without contracted multiply-adds and without -ffast-math, C gives the bits that casadi's virtual machine gives."""
+FLAGS = (
+    "-std=c11",
+    "-O3",
+    "-ffp-contract=off",
+    "-fPIC",
+    "-fvisibility=hidden",
+    "-DCASADI_SYMBOL_EXPORT=",
+)
+"""Without contracted multiply-adds and without -ffast-math, C gives the bits that casadi's virtual
+machine gives."""
 
 SCALAR_FORMS: tuple[Form, ...] = (2, 3)
 
@@ -34,7 +42,9 @@ _ZIP_TIME = (1980, 1, 1, 0, 0, 0)
 
 @dataclass(frozen=True)
 class Platform:
-    """Where a library runs: its name, which is its folder in FMI 3; its folder in FMI 2; its suffix; zig's name of it."""
+    """Where a library runs: its name, which is its folder in FMI 3; its folder in FMI 2; its
+    suffix; zig's name of it.
+    """
 
     name: str
     fmi2: str
@@ -42,13 +52,16 @@ class Platform:
     zig: str
 
 
-PLATFORMS = {p.name: p for p in (
-    Platform("x86_64-linux", "linux64", ".so", "x86_64-linux-gnu.2.17"),
-    Platform("aarch64-linux", "linux64", ".so", "aarch64-linux-gnu.2.17"),
-    Platform("x86_64-windows", "win64", ".dll", "x86_64-windows-gnu"),
-    Platform("x86_64-darwin", "darwin64", ".dylib", "x86_64-macos.11.0"),
-    Platform("aarch64-darwin", "darwin64", ".dylib", "aarch64-macos.11.0"),
-)}
+PLATFORMS = {
+    p.name: p
+    for p in (
+        Platform("x86_64-linux", "linux64", ".so", "x86_64-linux-gnu.2.17"),
+        Platform("aarch64-linux", "linux64", ".so", "aarch64-linux-gnu.2.17"),
+        Platform("x86_64-windows", "win64", ".dll", "x86_64-windows-gnu"),
+        Platform("x86_64-darwin", "darwin64", ".dylib", "x86_64-macos.11.0"),
+        Platform("aarch64-darwin", "darwin64", ".dylib", "aarch64-macos.11.0"),
+    )
+}
 
 
 def build_fmu(block: Block, out_dir: Path | str, form: Form = 2, platform: str = "host") -> Path:
@@ -56,16 +69,19 @@ def build_fmu(block: Block, out_dir: Path | str, form: Form = 2, platform: str =
     return build_fmus(block, out_dir, (form,), platform)[0]
 
 
-def build_fmus(block: Block, out_dir: Path | str, forms: Sequence[Form] = SCALAR_FORMS, platform: str = "host") -> list[Path]:
+def build_fmus(
+    block: Block, out_dir: Path | str, forms: Sequence[Form] = SCALAR_FORMS, platform: str = "host"
+) -> list[Path]:
     """Write the block as co-simulation units; gives their paths, in the order of ``forms``.
 
-    A form is 2 or 3, the version of FMI of a unit with scalars, written to ``NAME.fmi2.fmu`` and ``NAME.fmi3.fmu``; or
-    "block", an FMI 3.0 unit that takes a block of samples per step, in arrays, written to ``NAME.block.fmu``.
-    ``platform`` is ``"host"``, which takes the compiler named in ``CC`` or ``cc``; one of ``PLATFORMS`` or ``"all"``,
-    which take the compiler of the package ``ziglang``.  What does not depend on the form is compiled once.
+    A form is 2 or 3, the version of FMI of a unit with scalars, written to ``NAME.fmi2.fmu`` and
+    ``NAME.fmi3.fmu``; or "block", an FMI 3.0 unit that takes a block of samples per step, in
+    arrays, written to ``NAME.block.fmu``. ``platform`` is ``"host"``, which takes the compiler
+    named in ``CC`` or ``cc``; one of ``PLATFORMS`` or ``"all"``, which take the compiler of the
+    package ``ziglang``. What does not depend on the form is compiled once.
 
-    Raises UserError for an unknown form or platform, a missing compiler, C that does not compile, and a folder that cannot be
-    written to.
+    Raises UserError for an unknown form or platform, a missing compiler, C that does not compile,
+    and a folder that cannot be written to.
     """
     for form in forms:
         if form not in LAYER:
@@ -73,9 +89,17 @@ def build_fmus(block: Block, out_dir: Path | str, forms: Sequence[Form] = SCALAR
     platforms = _platforms(platform)
     generated = texts(block)
     with tempfile.TemporaryDirectory(prefix="pyimu-") as work:
-        libraries = {p: _compile(block.name, generated, forms, p, compiler, Path(work, p.name)) for p, compiler in platforms}
-    return [_write(_contents(generated, form) | _binaries(block.name, form, libraries), Path(out_dir) / file_name(block.name, form))
-            for form in forms]
+        libraries = {
+            p: _compile(block.name, generated, forms, p, compiler, Path(work, p.name))
+            for p, compiler in platforms
+        }
+    return [
+        _write(
+            _contents(generated, form) | _binaries(block.name, form, libraries),
+            Path(out_dir) / file_name(block.name, form),
+        )
+        for form in forms
+    ]
 
 
 def file_name(name: str, form: Form) -> str:
@@ -90,13 +114,17 @@ def _platforms(name: str) -> list[tuple[Platform, list[str]]]:
     if name != "all" and name not in PLATFORMS:
         raise UserError(f"platform '{name}' is not one of host, all, {', '.join(PLATFORMS)}")
     if find_spec("ziglang") is None:
-        raise UserError(f"compiling for platform '{name}' needs the package ziglang: pip install ziglang")
+        raise UserError(
+            f"compiling for platform '{name}' needs the package ziglang: pip install ziglang"
+        )
     chosen = PLATFORMS.values() if name == "all" else [PLATFORMS[name]]
     return [(p, [sys.executable, "-m", "ziglang", "cc", "-target", p.zig]) for p in chosen]
 
 
 def host_platform() -> str:
-    """The name in ``PLATFORMS`` of the machine that this runs on.  Raises UserError where it has none."""
+    """The name in ``PLATFORMS`` of the machine that this runs on. Raises UserError where it has
+    none.
+    """
     machine = {"AMD64": "x86_64", "arm64": "aarch64"}.get(host.machine(), host.machine())
     name = f"{machine}-{host.system().lower()}"
     if name not in PLATFORMS:
@@ -105,25 +133,38 @@ def host_platform() -> str:
 
 
 def host_compiler() -> list[str]:
-    """The command that compiles for this machine: ``CC``, else ``cc``.  Raises UserError where there is none."""
+    """The command that compiles for this machine: ``CC``, else ``cc``. Raises UserError where
+    there is none.
+    """
     command = compiler_command()
     if not command:
         wanted = os.environ.get("CC") or "cc"
-        raise UserError(f"no C compiler: '{wanted}' was not found; install one or name it in the environment variable CC")
+        raise UserError(
+            f"no C compiler: '{wanted}' was not found; install one or name it in the environment "
+            "variable CC"
+        )
     return command
 
 
 def header_folder() -> Path:
-    """The FMI headers, which fmpy brings along.  Raises UserError where fmpy has none."""
+    """The FMI headers, which fmpy brings along. Raises UserError where fmpy has none."""
     spec = find_spec("fmpy")
     folder = Path(spec.origin).parent / "c-code" if spec and spec.origin else None
     if folder is None or not (folder / "fmi3Functions.h").is_file():
-        raise UserError("the FMI headers are missing: they come with the package fmpy (pip install fmpy)")
+        raise UserError(
+            "the FMI headers are missing: they come with the package fmpy (pip install fmpy)"
+        )
     return folder
 
 
-def _compile(name: str, generated: dict[str, str], forms: Sequence[Form], platform: Platform, compiler: list[str],
-             work: Path) -> dict[Form, bytes]:
+def _compile(
+    name: str,
+    generated: dict[str, str],
+    forms: Sequence[Form],
+    platform: Platform,
+    compiler: list[str],
+    work: Path,
+) -> dict[Form, bytes]:
     """The shared library of each form, in bytes."""
     for form in forms:
         _write_sources(_source_files(generated, form), work, work / _table_folder(form))
@@ -132,7 +173,24 @@ def _compile(name: str, generated: dict[str, str], forms: Sequence[Form], platfo
 
     def make(target: str) -> None:
         source, folder = jobs[target]
-        _run([*compiler, *FLAGS, "-I", folder, "-I", ".", "-I", str(header_folder()), "-c", source, "-o", target], work, source)
+        _run(
+            [
+                *compiler,
+                *FLAGS,
+                "-I",
+                folder,
+                "-I",
+                ".",
+                "-I",
+                str(header_folder()),
+                "-c",
+                source,
+                "-o",
+                target,
+            ],
+            work,
+            source,
+        )
 
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         list(pool.map(make, jobs))
@@ -140,10 +198,18 @@ def _compile(name: str, generated: dict[str, str], forms: Sequence[Form], platfo
 
 
 def _objects(form: Form) -> dict[str, tuple[str, str]]:
-    """Each object file of a form to its source and the folder of its table of variables, which is read by ``block*.c`` alone."""
+    """Each object file of a form to its source and the folder of its table of variables, which is
+    read by ``block*.c`` alone.
+    """
     sources = [*(file for file in CORE if file.endswith(".c")), LAYER[form], "step.c"]
     folder = _table_folder(form)
-    return {f"{f'{folder}_' if file.startswith('block') else ''}{file.removesuffix('.c')}.o": (file, folder) for file in sources}
+    return {
+        f"{f'{folder}_' if file.startswith('block') else ''}{file.removesuffix('.c')}.o": (
+            file,
+            folder,
+        )
+        for file in sources
+    }
 
 
 def _table_folder(form: Form) -> str:
@@ -158,7 +224,9 @@ def _write_sources(files: dict[str, bytes], work: Path, table_folder: Path) -> N
         (folder / file).write_bytes(content)
 
 
-def _link(name: str, objects: list[str], platform: Platform, compiler: list[str], work: Path) -> bytes:
+def _link(
+    name: str, objects: list[str], platform: Platform, compiler: list[str], work: Path
+) -> bytes:
     library = name + platform.suffix
     install_name = [f"-Wl,-install_name,@rpath/{library}"] if platform.suffix == ".dylib" else []
     _run([*compiler, "-shared", "-s", *install_name, "-o", library, *objects, "-lm"], work, library)
@@ -166,8 +234,12 @@ def _link(name: str, objects: list[str], platform: Platform, compiler: list[str]
 
 
 def _run(command: list[str], folder: Path, what: str) -> None:
-    """Compile or link ``what``.  Raises UserError with the compiler's first error, or else its first line."""
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, errors="replace", check=False)
+    """Compile or link ``what``. Raises UserError with the compiler's first error, or else its
+    first line.
+    """
+    done = subprocess.run(
+        command, cwd=folder, capture_output=True, text=True, errors="replace", check=False
+    )
     if done.returncode:
         lines = done.stderr.splitlines() or [f"exit status {done.returncode}"]
         reason = next((line for line in lines if "error" in line), lines[0])
@@ -177,14 +249,21 @@ def _run(command: list[str], folder: Path, what: str) -> None:
 def _source_files(generated: dict[str, str], form: Form) -> dict[str, bytes]:
     folder = source_folder()
     files = {file: (folder / file).read_bytes() for file in (*CORE, LAYER[form])}
-    return files | {"step.c": generated["step.c"].encode(), "model_table.h": generated[TABLE[form]].encode()}
+    return files | {
+        "step.c": generated["step.c"].encode(),
+        "model_table.h": generated[TABLE[form]].encode(),
+    }
 
 
 def _write(entries: dict[str, bytes], target: Path) -> Path:
-    """Zip to a temporary file beside the target and rename, so that nobody ever reads half an FMU."""
+    """Zip to a temporary file beside the target and rename, so that nobody ever reads half an
+    FMU.
+    """
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
-        handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.", suffix=".tmp")
+        handle, temporary = tempfile.mkstemp(
+            dir=target.parent, prefix=f".{target.name}.", suffix=".tmp"
+        )
         try:
             with os.fdopen(handle, "wb") as file:
                 _zip(file, entries)
@@ -200,26 +279,38 @@ def _write(entries: dict[str, bytes], target: Path) -> Path:
 
 def _contents(generated: dict[str, str], form: Form) -> dict[str, bytes]:
     """What an FMU holds beside its libraries: path in the archive to bytes."""
-    static = {name: (template_folder() / name).read_bytes() for name in ("license.txt", "terminalsAndIcons.xml")}
-    entries = {"modelDescription.xml": generated[DESCRIPTION[form]].encode(),
-               "documentation/index.html": generated[PAGE[form]].encode(),
-               "documentation/licenses/license.txt": static["license.txt"]}
+    static = {
+        name: (template_folder() / name).read_bytes()
+        for name in ("license.txt", "terminalsAndIcons.xml")
+    }
+    entries = {
+        "modelDescription.xml": generated[DESCRIPTION[form]].encode(),
+        "documentation/index.html": generated[PAGE[form]].encode(),
+        "documentation/licenses/license.txt": static["license.txt"],
+    }
     entries |= {f"sources/{file}": data for file, data in _source_files(generated, form).items()}
     if form == 2:
         return entries | {"model.png": icon()}
-    return entries | {"sources/buildDescription.xml": generated["buildDescription.xml"].encode(),
-                      "terminalsAndIcons/terminalsAndIcons.xml": static["terminalsAndIcons.xml"],
-                      "terminalsAndIcons/icon.png": icon()}
+    return entries | {
+        "sources/buildDescription.xml": generated["buildDescription.xml"].encode(),
+        "terminalsAndIcons/terminalsAndIcons.xml": static["terminalsAndIcons.xml"],
+        "terminalsAndIcons/icon.png": icon(),
+    }
 
 
-def _binaries(name: str, form: Form, libraries: dict[Platform, dict[Form, bytes]]) -> dict[str, bytes]:
+def _binaries(
+    name: str, form: Form, libraries: dict[Platform, dict[Form, bytes]]
+) -> dict[str, bytes]:
     """The libraries by their path in the archive."""
     folders: dict[str, Platform] = {}
     for p in libraries:
-        # FMI 2 names folders by system and word size only: the first processor takes it, others get FMI 3's name.
+        # FMI 2 names folders by system and word size only: the first processor takes it, others get
+        # FMI 3's name.
         folder = p.fmi2 if form == 2 and p.fmi2 not in folders else p.name
         folders[folder] = p
-    return {f"binaries/{folder}/{name}{p.suffix}": libraries[p][form] for folder, p in folders.items()}
+    return {
+        f"binaries/{folder}/{name}{p.suffix}": libraries[p][form] for folder, p in folders.items()
+    }
 
 
 def _zip(file, entries: dict[str, bytes]) -> None:
@@ -233,14 +324,22 @@ def _zip(file, entries: dict[str, bytes]) -> None:
 
 
 def icon(size: int = 64) -> bytes:
-    """The icon as PNG, ``size`` pixels square: a held staircase on a ramp, which is what a sampled unit gives."""
+    """The icon as PNG, ``size`` pixels square: a held staircase on a ramp, which is what a sampled
+    unit gives.
+    """
+
     def pixel(row: int, column: int) -> int:
         x, y, step = column, size - 1 - row, size // 4
         if min(x, y, size - 1 - x, size - 1 - y) == 0 or abs(y - x // step * step) <= 1:
             return 0
         return 160 if abs(x - y) <= 0 else 255
-    rows = b"".join(b"\0" + bytes(pixel(row, column) for column in range(size)) for row in range(size))
+
+    rows = b"".join(
+        b"\0" + bytes(pixel(row, column) for column in range(size)) for row in range(size)
+    )
     header = struct.pack(">IIBBBBB", size, size, 8, 0, 0, 0, 0)
     chunks = ((b"IHDR", header), (b"IDAT", zlib.compress(rows, 9)), (b"IEND", b""))
     return b"\x89PNG\r\n\x1a\n" + b"".join(
-        struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data)) for kind, data in chunks)
+        struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        for kind, data in chunks
+    )

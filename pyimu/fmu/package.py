@@ -7,23 +7,32 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from pyimu.attitude import attitude_ukf
-from pyimu.block import Block
+from pyimu.block.block import Block
 from pyimu.errors import UserError
 from pyimu.fmu.build import FORMS, build_fmus
 from pyimu.fmu.sources import Form
-from pyimu.imu import Part
-from pyimu.partfile import part as find_part
+from pyimu.model.part import Part
+from pyimu.model.part_file import part as find_part
 
-BLOCKS: dict[str, Callable[[Part], Block]] = {"sensor": lambda part: part.block, "ukf": attitude_ukf}
+BLOCKS: dict[str, Callable[[Part], Block]] = {
+    "sensor": lambda part: part.block,
+    "ukf": attitude_ukf,
+}
 """What ``--fmu`` names."""
 
 
-def build(part: Part | str | Path, out: Path | str, fmu: Sequence[str] = ("sensor", "ukf"), fmi: Sequence[Form] = FORMS,
-          platform: str = "host") -> list[Path]:
+def build(
+    part: Part | str | Path,
+    out: Path | str,
+    fmu: Sequence[str] = ("sensor", "ukf"),
+    fmi: Sequence[Form] = FORMS,
+    platform: str = "host",
+) -> list[Path]:
     """Build the FMUs of a part into ``out``; gives their paths.
 
-    ``fmu`` names blocks ("sensor", "ukf"), ``fmi`` forms (2, 3, "block"), ``platform`` the machine ("host", "all", or one by name).
-    Raises UserError for an unknown name, a part that cannot be read, a folder that cannot be made, or a missing compiler.
+    ``fmu`` names blocks ("sensor", "ukf"), ``fmi`` forms (2, 3, "block"), ``platform`` the machine
+    ("host", "all", or one by name). Raises UserError for an unknown name, a part that cannot be
+    read, a folder that cannot be made, or a missing compiler.
     """
     unknown = [f for f in fmu if f not in BLOCKS]
     if unknown:
@@ -33,17 +42,22 @@ def build(part: Part | str | Path, out: Path | str, fmu: Sequence[str] = ("senso
         raise UserError(f"--fmi {wrong[0]}: unknown; known are {', '.join(map(str, FORMS))}")
     found = find_part(part) if isinstance(part, (str, Path)) else part
     check_folder(out)
-    return [path for name in fmu for path in build_fmus(BLOCKS[name](found), out, tuple(fmi), platform)]
+    return [
+        path for name in fmu for path in build_fmus(BLOCKS[name](found), out, tuple(fmi), platform)
+    ]
 
 
 def check_folder(out: Path | str) -> None:
-    """Raise UserError where the folder ``out`` is none or cannot be made, before work is done that would then be lost."""
+    """Raise UserError where the folder ``out`` is none or cannot be made, before work is done that
+    would then be lost.
+    """
     out = Path(out)
     try:
         there = next(p for p in (out, *out.absolute().parents) if p.exists())
         reason = "" if there.is_dir() else f"{there} is a file"
         if not reason:
-            # Not by asking for permissions, which root has also where there is nothing to write to, as in /proc.
+            # Not by asking for permissions, which root has also where there is nothing to write to,
+            # as in /proc.
             tempfile.TemporaryDirectory(dir=there, prefix=".").cleanup()
     except OSError as error:
         reason = f"{error.strerror or error}"

@@ -1,10 +1,12 @@
 """Block to texts: the generated half of an FMU.
 
-What no model knows is hand-written C in ``fmu_src``; what one model needs is generated here: its functions in C
-(``step.c``), its table of variables (``model_table.h``) and its descriptions.  Equal blocks give equal texts.
+What no model knows is hand-written C in ``fmu_src``; what one model needs is generated here: its
+functions in C (``step.c``), its table of variables (``model_table.h``) and its descriptions. Equal
+blocks give equal texts.
 
-An FMU has three forms: FMI 2 and FMI 3 with scalars, which every importer can connect, and FMI 3 in blocks, whose inputs and
-outputs have a row for each sample of a step, and whose vectors and matrices are arrays.  The functions in C are the same.
+An FMU has three forms: FMI 2 and FMI 3 with scalars, which every importer can connect, and FMI 3 in
+blocks, whose inputs and outputs have a row for each sample of a step, and whose vectors and
+matrices are arrays. The functions in C are the same.
 """
 
 from __future__ import annotations
@@ -21,12 +23,27 @@ from typing import Literal
 import casadi as ca
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-from pyimu.block import Block
-from pyimu.fmu.variables import DEFAULT_SEED, MAX_BLOCK_SIZE, Entry, default_block_size, entries, xml_number
-from pyimu.signals import EVERY_SAMPLE
+from pyimu.block.block import Block
+from pyimu.fmu.variables import (
+    DEFAULT_SEED,
+    MAX_BLOCK_SIZE,
+    Entry,
+    default_block_size,
+    entries,
+    xml_number,
+)
+from pyimu.model.signals import EVERY_SAMPLE
 from pyimu.units import BASES, ZERO_CELSIUS, parse
 
-CORE = ("block.c", "block.h", "block_core.h", "block_saved.c", "block_values.c", "noise.c", "noise.h")
+CORE = (
+    "block.c",
+    "block.h",
+    "block_core.h",
+    "block_saved.c",
+    "block_values.c",
+    "noise.c",
+    "noise.h",
+)
 """Hand-written sources that every FMU shares."""
 
 Form = Literal[2, 3, "block"]
@@ -38,28 +55,49 @@ LAYER: dict[Form, str] = {2: "fmi2.c", 3: "fmi3.c", "block": "fmi3.c"}
 TABLE: dict[Form, str] = {2: "model_table.h", 3: "model_table.h", "block": "model_table.block.h"}
 """The generated table of variables of each form; in its FMU it is called ``model_table.h``."""
 
-DESCRIPTION: dict[Form, str] = {2: "modelDescription.fmi2.xml", 3: "modelDescription.fmi3.xml", "block": "modelDescription.block.xml"}
+DESCRIPTION: dict[Form, str] = {
+    2: "modelDescription.fmi2.xml",
+    3: "modelDescription.fmi3.xml",
+    "block": "modelDescription.block.xml",
+}
 
 PAGE: dict[Form, str] = {2: "index.html", 3: "index.html", "block": "index.block.html"}
 
-_LOG_CATEGORIES = (("logStatusError", "refused calls and values; always told"), ("logEvents", "initialization and termination"))
+_LOG_CATEGORIES = (
+    ("logStatusError", "refused calls and values; always told"),
+    ("logEvents", "initialization and termination"),
+)
 
-_IN_BASE_UNITS = {"rad": {"rad": 1}, "s": {"s": 1}, "m": {"m": 1}, "K": {"K": 1},
-                  "V": {"kg": 1, "m": 2, "s": -3, "A": -1}, "T": {"kg": 1, "s": -2, "A": -1}}
+_IN_BASE_UNITS = {
+    "rad": {"rad": 1},
+    "s": {"s": 1},
+    "m": {"m": 1},
+    "K": {"K": 1},
+    "V": {"kg": 1, "m": 2, "s": -3, "A": -1},
+    "T": {"kg": 1, "s": -2, "A": -1},
+}
 """The bases of ``pyimu.units`` in those of FMI."""
 
 
 def texts(block: Block) -> dict[str, str]:
     """The generated files of ``block``: file name to text.
 
-    Raises ValueError where the block cannot become an FMU: its name is no C identifier, a variable's name is
-    taken twice, its functions are sparse or have one name; UserError where a unit is unknown.
+    Raises ValueError where the block cannot become an FMU: its name is no C identifier, a
+    variable's name is taken twice, its functions are sparse or have one name; UserError where a
+    unit is unknown.
     """
     _check(block)
     step = _step_source(block)
-    # A token stands for the content: what differs in any generated file gets another one, and so does each table.
-    contexts = {table: _context(block, table == TABLE["block"]) for table in sorted(set(TABLE.values()))}
-    blank = [text for table, context in contexts.items() for text in _render(table, context | {"token": ""}).values()]
+    # A token stands for the content: what differs in any generated file gets another one, and so
+    # does each table.
+    contexts = {
+        table: _context(block, table == TABLE["block"]) for table in sorted(set(TABLE.values()))
+    }
+    blank = [
+        text
+        for table, context in contexts.items()
+        for text in _render(table, context | {"token": ""}).values()
+    ]
     files = {"step.c": step}
     for table, context in contexts.items():
         files |= _render(table, context | {"token": _token([table, step, *blank])})
@@ -67,7 +105,9 @@ def texts(block: Block) -> dict[str, str]:
 
 
 def write_generated(block: Block, folder: Path | str) -> list[Path]:
-    """Write the generated files of ``block`` to ``folder``, which is made if needed; gives their paths."""
+    """Write the generated files of ``block`` to ``folder``, which is made if needed; gives their
+    paths.
+    """
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     written = []
@@ -86,35 +126,66 @@ def _check(block: Block) -> None:
         raise ValueError(f"block {block.name}: more than one variable is called {', '.join(twice)}")
     called = [f.name() for f in _functions(block)]
     if len(set(called)) < len(called):
-        raise ValueError(f"block {block.name}: step, initial and limits need names of their own, not {', '.join(called)}")
+        raise ValueError(
+            f"block {block.name}: step, initial and limits need names of their own, not "
+            f"{', '.join(called)}"
+        )
     for function in _functions(block):
         sparsities = [function.sparsity_in(i) for i in range(function.n_in())]
         sparsities += [function.sparsity_out(i) for i in range(function.n_out())]
         if not all(s.is_dense() for s in sparsities):
-            raise ValueError(f"block {block.name}: {function.name()} has a sparse argument or result; densify it")
+            raise ValueError(
+                f"block {block.name}: {function.name()} has a sparse argument or result; densify it"
+            )
 
 
 def _context(block: Block, in_blocks: bool) -> dict:
     variables = entries(block, in_blocks)
     functions = _functions(block)
-    sources = {form: sorted([*(f for f in CORE if f.endswith(".c")), layer, "step.c"]) for form, layer in LAYER.items()}
+    sources = {
+        form: sorted([*(f for f in CORE if f.endswith(".c")), layer, "step.c"])
+        for form, layer in LAYER.items()
+    }
     size = default_block_size(block) if in_blocks else None
     return {
-        "name": block.name, "description": block.description, "step": block.step.name(), "initial": block.initial.name(),
-        "limits": block.limits, "every_sample": EVERY_SAMPLE,
-        "differences": any(EVERY_SAMPLE in v.description for v in block.parameters), "sample_period": block.sample_period, "seed": DEFAULT_SEED, "noise": block.noise, "variables": variables,
-        "outputs": [e for e in variables if e.role == "output"], "units": _units(variables), "sources": sources,
-        "log_categories": _LOG_CATEGORIES, "block_size": size, "max_block_size": MAX_BLOCK_SIZE,
+        "name": block.name,
+        "description": block.description,
+        "step": block.step.name(),
+        "initial": block.initial.name(),
+        "limits": block.limits,
+        "every_sample": EVERY_SAMPLE,
+        "differences": any(EVERY_SAMPLE in v.description for v in block.parameters),
+        "sample_period": block.sample_period,
+        "seed": DEFAULT_SEED,
+        "noise": block.noise,
+        "variables": variables,
+        "outputs": [e for e in variables if e.role == "output"],
+        "units": _units(variables),
+        "sources": sources,
+        "log_categories": _LOG_CATEGORIES,
+        "block_size": size,
+        "max_block_size": MAX_BLOCK_SIZE,
         "step_size": block.sample_period * (size or 1),
-        "input_starts": [v.start for v in block.inputs], "parameter_starts": [v.start for v in block.parameters],
-        "sizes": {"inputs": len(block.inputs), "parameters": len(block.parameters), "outputs": len(block.outputs),
-                  "states": block.n_state, "noise": len(block.noise)},
-        "work": {what: max(getattr(f, f"sz_{what}")() for f in functions) for what in ("arg", "res", "iw", "w")},
+        "input_starts": [v.start for v in block.inputs],
+        "parameter_starts": [v.start for v in block.parameters],
+        "sizes": {
+            "inputs": len(block.inputs),
+            "parameters": len(block.parameters),
+            "outputs": len(block.outputs),
+            "states": block.n_state,
+            "noise": len(block.noise),
+        },
+        "work": {
+            what: max(getattr(f, f"sz_{what}")() for f in functions)
+            for what in ("arg", "res", "iw", "w")
+        },
     }
 
 
 def _units(variables: Iterable[Entry]) -> list[dict]:
-    """The units in use: name, and base unit attributes or None where an exponent is no integer, as FMI cannot say that."""
+    """The units in use: name, and base unit attributes or None where an exponent is no integer, as
+    FMI cannot say that.
+    """
     names = sorted({e.unit for e in variables if e.unit})
     return [{"name": name, "base": _base_unit(name)} for name in names]
 
@@ -136,7 +207,9 @@ def _base_unit(name: str) -> dict[str, str] | None:
 
 
 def _step_source(block: Block) -> str:
-    """The block's functions in C, as casadi writes them; casadi's own integer type is kept, as its loader needs it."""
+    """The block's functions in C, as casadi writes them; casadi's own integer type is kept, as its
+    loader needs it.
+    """
     generator = ca.CodeGenerator(block.name)
     for function in _functions(block):
         generator.add(function)
@@ -153,24 +226,45 @@ def _token(contents: Iterable[str]) -> str:
 
 
 _TEMPLATES: dict[str, dict[str, str]] = {
-    TABLE[2]: {"model_table.h": "model_table.h", "modelDescription.fmi2.xml": "modelDescription.fmi2.xml",
-               "modelDescription.fmi3.xml": "modelDescription.fmi3.xml", "buildDescription.xml": "buildDescription.xml",
-               "index.html": "index.html"},
-    TABLE["block"]: {TABLE["block"]: "model_table.h", DESCRIPTION["block"]: "modelDescription.fmi3.xml", PAGE["block"]: "index.html"},
+    TABLE[2]: {
+        "model_table.h": "model_table.h",
+        "modelDescription.fmi2.xml": "modelDescription.fmi2.xml",
+        "modelDescription.fmi3.xml": "modelDescription.fmi3.xml",
+        "buildDescription.xml": "buildDescription.xml",
+        "index.html": "index.html",
+    },
+    TABLE["block"]: {
+        TABLE["block"]: "model_table.h",
+        DESCRIPTION["block"]: "modelDescription.fmi3.xml",
+        PAGE["block"]: "index.html",
+    },
 }
 """Of each table of variables, the generated files and the templates that they are made from."""
 
 
 def _render(table: str, context: dict) -> dict[str, str]:
-    return {name: _environment().get_template(template).render(context) for name, template in _TEMPLATES[table].items()}
+    return {
+        name: _environment().get_template(template).render(context)
+        for name, template in _TEMPLATES[table].items()
+    }
 
 
 @cache
 def _environment() -> Environment:
-    environment = Environment(loader=FileSystemLoader(template_folder()), undefined=StrictUndefined, trim_blocks=True,
-                              lstrip_blocks=True, keep_trailing_newline=True,
-                              autoescape=lambda name: name is not None and name.endswith(("xml", "html")))
-    environment.filters |= {"xml_number": xml_number, "c_number": _c_number, "c_string": json.dumps, "add_one": lambda n: n + 1}
+    environment = Environment(
+        loader=FileSystemLoader(template_folder()),
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        autoescape=lambda name: name is not None and name.endswith(("xml", "html")),
+    )
+    environment.filters |= {
+        "xml_number": xml_number,
+        "c_number": _c_number,
+        "c_string": json.dumps,
+        "add_one": lambda n: n + 1,
+    }
     return environment
 
 
@@ -180,4 +274,12 @@ def template_folder() -> Path:
 
 def _c_number(x: float) -> str:
     x = float(x)
-    return repr(x) if math.isfinite(x) else "NAN" if math.isnan(x) else "INFINITY" if x > 0 else "-INFINITY"
+    return (
+        repr(x)
+        if math.isfinite(x)
+        else "NAN"
+        if math.isnan(x)
+        else "INFINITY"
+        if x > 0
+        else "-INFINITY"
+    )

@@ -1,4 +1,6 @@
-"""The table of an FMU's variables: what its C, its descriptions and its documentation say of each, from one place."""
+"""The table of an FMU's variables: what its C, its descriptions and its documentation say of each,
+from one place.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +12,8 @@ from itertools import accumulate
 
 import casadi as ca
 
-from pyimu.block import Block, Variable
+from pyimu.block.block import Block
+from pyimu.block.variables import Variable
 from pyimu.fmu.arrays import Array, description, grouped, scalars
 
 DEFAULT_SEED = 0
@@ -18,18 +21,30 @@ DEFAULT_SEED = 0
 MAX_BLOCK_SIZE = 2**24
 """Samples in a block at most: 4 h at 976 Hz are 14 million."""
 
-_CAUSALITY = {"time": {"causality": "independent", "variability": "continuous"},
-              "input": {"causality": "input", "variability": "continuous"},
-              "tunable": {"causality": "parameter", "variability": "tunable", "initial": "exact"},
-              "fixed": {"causality": "parameter", "variability": "fixed", "initial": "exact"},
-              "structural": {"causality": "structuralParameter", "variability": "fixed", "initial": "exact"},
-              "output": {"causality": "output", "variability": "discrete", "initial": "calculated"}}
+_CAUSALITY = {
+    "time": {"causality": "independent", "variability": "continuous"},
+    "input": {"causality": "input", "variability": "continuous"},
+    "tunable": {"causality": "parameter", "variability": "tunable", "initial": "exact"},
+    "fixed": {"causality": "parameter", "variability": "fixed", "initial": "exact"},
+    "structural": {"causality": "structuralParameter", "variability": "fixed", "initial": "exact"},
+    "output": {"causality": "output", "variability": "discrete", "initial": "calculated"},
+}
 
-_TYPES = {"real": ("Real", "Float64"), "boolean": ("Boolean", "Boolean"), "integer": ("Integer", "Int32"),
-          "unsigned": ("Integer", "UInt64")}
+_TYPES = {
+    "real": ("Real", "Float64"),
+    "boolean": ("Boolean", "Boolean"),
+    "integer": ("Integer", "Int32"),
+    "unsigned": ("Integer", "UInt64"),
+}
 
-_ROLE_TEXTS = {"time": "independent", "input": "input", "tunable": "parameter, tunable", "fixed": "parameter, fixed",
-               "output": "output", "structural": "structural parameter"}
+_ROLE_TEXTS = {
+    "time": "independent",
+    "input": "input",
+    "tunable": "parameter, tunable",
+    "fixed": "parameter, fixed",
+    "output": "output",
+    "structural": "structural parameter",
+}
 
 _LINE = 150
 """Characters in a line of a list of start values, about."""
@@ -39,8 +54,9 @@ _LINE = 150
 class Entry:
     """One row of the table of variables; ``reference`` is its place there and its value reference.
 
-    Its elements are columns of the block's inputs, parameters or outputs, from column ``first`` on.  ``rows`` is None but for
-    the inputs and outputs of the block form, which have so many at start.
+    Its elements are columns of the block's inputs, parameters or outputs, from column ``first``
+    on. ``rows`` is None but for the inputs and outputs of the block form, which have so many at
+    start.
     """
 
     reference: int
@@ -52,7 +68,8 @@ class Entry:
     rows_reference: int | None = None
     """Value reference of the parameter that says how many rows there are."""
     initial_dependencies: tuple[int, ...] = ()
-    """Value references of the parameters that an output's value before the first sample follows from."""
+    """Value references of the parameters that an output's value before the first sample follows
+    from."""
     sample_dependencies: tuple[str, ...] = ()
     """Names of the inputs that an output's value at a sample follows from."""
     causality: dict[str, str] = field(init=False)
@@ -109,7 +126,9 @@ class Entry:
 
     @property
     def shape_text(self) -> str:
-        sizes = (["block_size"] if self.rows is not None else []) + [str(size) for size in self.array.shape]
+        sizes = (["block_size"] if self.rows is not None else []) + [
+            str(size) for size in self.array.shape
+        ]
         return f"[{', '.join(sizes)}]" if sizes else ""
 
     @property
@@ -130,12 +149,22 @@ class Entry:
     def attributes(self) -> dict[str, str]:
         """The XML attributes of the variable's type: unit, bounds, start value.
 
-        An array's start is a list of all its elements, row by row, or one value that all of them have.
+        An array's start is a list of all its elements, row by row, or one value that all of them
+        have.
         """
         start = self.start
         if start is not None and " " in start:
-            start = textwrap.fill(" ".join([start] * (self.rows or 1)), _LINE, break_long_words=False, break_on_hyphens=False)
-        return ({"unit": self.unit} if self.unit else {}) | self.bounds | ({} if start is None else {"start": start})
+            start = textwrap.fill(
+                " ".join([start] * (self.rows or 1)),
+                _LINE,
+                break_long_words=False,
+                break_on_hyphens=False,
+            )
+        return (
+            ({"unit": self.unit} if self.unit else {})
+            | self.bounds
+            | ({} if start is None else {"start": start})
+        )
 
     def _text(self, value: float) -> str:
         if self.kind == "boolean":
@@ -147,22 +176,50 @@ class Entry:
 
 
 def default_block_size(block: Block) -> int:
-    """Samples in a block unless another size is set: a second of them, so that a step of the FMU is a second."""
+    """Samples in a block unless another size is set: a second of them, so that a step of the FMU is
+    a second.
+    """
     return min(max(round(1 / block.sample_period), 1), MAX_BLOCK_SIZE)
 
 
 def entries(block: Block, in_blocks: bool) -> list[Entry]:
-    """The table of variables: time, inputs, parameters, outputs, sample period, seed; in blocks, their size."""
+    """The table of variables: time, inputs, parameters, outputs, sample period, seed; in blocks,
+    their size.
+    """
     time = Variable("time", "s", "simulation time")
-    period = Variable("sample_period", "s", "time between two samples", start=block.sample_period, minimum=0.0)
-    seed = Variable("seed", "1", "seed of the noise: other seeds, independent noise", start=DEFAULT_SEED, minimum=0.0)
-    size = Variable("block_size", "1", "rows of inputs and outputs: most samples in a step, row i for sample i of the step",
-                    start=default_block_size(block), minimum=1, maximum=MAX_BLOCK_SIZE)
+    period = Variable(
+        "sample_period", "s", "time between two samples", start=block.sample_period, minimum=0.0
+    )
+    seed = Variable(
+        "seed",
+        "1",
+        "seed of the noise: other seeds, independent noise",
+        start=DEFAULT_SEED,
+        minimum=0.0,
+    )
+    size = Variable(
+        "block_size",
+        "1",
+        "rows of inputs and outputs: most samples in a step, row i for sample i of the step",
+        start=default_block_size(block),
+        minimum=1,
+        maximum=MAX_BLOCK_SIZE,
+    )
     group = grouped if in_blocks else scalars
-    roles = [("time", scalars([time])), ("input", group(block.inputs)), ("tunable", group(block.parameters)),
-             ("output", group(block.outputs)), ("fixed", scalars([period, seed])), ("structural", scalars([size] * in_blocks))]
-    rows = [(role, array, first) for role, arrays in roles for array, first in _with_columns(arrays)]
-    of_parameter = [i for i, (role, array, _) in enumerate(rows) if role == "tunable" for _ in array.elements]
+    roles = [
+        ("time", scalars([time])),
+        ("input", group(block.inputs)),
+        ("tunable", group(block.parameters)),
+        ("output", group(block.outputs)),
+        ("fixed", scalars([period, seed])),
+        ("structural", scalars([size] * in_blocks)),
+    ]
+    rows = [
+        (role, array, first) for role, arrays in roles for array, first in _with_columns(arrays)
+    ]
+    of_parameter = [
+        i for i, (role, array, _) in enumerate(rows) if role == "tunable" for _ in array.elements
+    ]
     of_input = [array.name for role, array, _ in rows if role == "input" for _ in array.elements]
     initial, sample = _dependencies(block.initial, 1, 0), _dependencies(block.step, 1, 1)
     table = []
@@ -170,11 +227,23 @@ def entries(block: Block, in_blocks: bool) -> list[Entry]:
         columns = range(first, first + len(array.elements)) if role == "output" else ()
         kind = "unsigned" if array.elements[0] in (seed, size) else array.elements[0].kind
         in_rows = in_blocks and role in ("input", "output")
-        table.append(Entry(
-            reference, role, kind, array, first,
-            rows=default_block_size(block) if in_rows else None, rows_reference=len(rows) - 1 if in_rows else None,
-            initial_dependencies=_unique(of_parameter[i] for column in columns for i in initial.get(column, ())),
-            sample_dependencies=_unique(of_input[i] for column in columns for i in sample.get(column, ()))))
+        table.append(
+            Entry(
+                reference,
+                role,
+                kind,
+                array,
+                first,
+                rows=default_block_size(block) if in_rows else None,
+                rows_reference=len(rows) - 1 if in_rows else None,
+                initial_dependencies=_unique(
+                    of_parameter[i] for column in columns for i in initial.get(column, ())
+                ),
+                sample_dependencies=_unique(
+                    of_input[i] for column in columns for i in sample.get(column, ())
+                ),
+            )
+        )
     return table
 
 
@@ -198,6 +267,8 @@ def _dependencies(function: ca.Function, output: int, argument: int) -> dict[int
 
 
 def xml_number(x: float) -> str:
-    """The shortest decimal that reads back as the same double, with XML's names for what is no number."""
+    """The shortest decimal that reads back as the same double, with XML's names for what is no
+    number.
+    """
     x = float(x)
     return repr(x) if math.isfinite(x) else "NaN" if math.isnan(x) else "INF" if x > 0 else "-INF"

@@ -1,8 +1,10 @@
-"""The paper's own open case as a recording: an IMT30 on a rover whose gyros have a scale factor that nobody measured.
+"""The paper's own open case as a recording: an IMT30 on a rover whose gyros have a scale factor
+that nobody measured.
 
-Hidalgo 2012, section 6.2, found 6.5 deg of heading error after a half turn on the spot and could not say how much of it
-was scale factor.  This recording is simulated from the paper's tables with a scale factor put in that gives that error;
-``pyimu.close`` is then told the tables and not the scale factor.
+Hidalgo 2012, section 6.2, found 6.5 deg of heading error after a half turn on the spot and could
+not say how much of it was scale factor. This recording is simulated from the paper's tables with a
+scale factor put in that gives that error; ``pyimu.close`` is then told the tables and not the scale
+factor.
 """
 
 from __future__ import annotations
@@ -17,17 +19,18 @@ from matplotlib.figure import Figure
 from scipy.ndimage import gaussian_filter1d
 from scipy.spatial.transform import Rotation
 
-from pyimu.imu import Part
-from pyimu.loop.attitude_error import AttitudeError, attitude_error
-from pyimu.loop.close import close
-from pyimu.loop.deliver import check_delivery, deliver
-from pyimu.loop.regression import band_time, in_band, residual
-from pyimu.loop.result import Closed
-from pyimu.loop.score import held_state
-from pyimu.partfile import part
-from pyimu.recording import Recording, read_recording
+from pyimu.identification.attitude_error import AttitudeError, attitude_error
+from pyimu.identification.close import close
+from pyimu.identification.fit.columns import band_time, in_band, residual
+from pyimu.identification.fit.score import held_state
+from pyimu.identification.report.deliver import check_delivery, deliver
+from pyimu.identification.result import Closed
+from pyimu.model.part import Part
+from pyimu.model.part_file import part
+from pyimu.model.simulate import simulate
+from pyimu.recording.log import read_recording
+from pyimu.recording.recording import Recording
 from pyimu.rover.trajectory import Motion, ackermann, drive, stop, straight, turn_on_spot
-from pyimu.simulation import simulate
 
 SAMPLE_RATE = 50.0
 """Hz; the paper samples at 976 Hz and filters at 10 Hz."""
@@ -49,37 +52,74 @@ def true_part() -> Part:
     """The IMT30 as it really is here: the paper's tables, a scale factor, and an accelerometer."""
     known = part("imt30")
     gyro = known.gyro.with_values("scale_factor", s=UNDECLARED)
-    accel = known.accel.with_values("angle_random_walk", N=5e-4).with_values("turn_on_bias", b0=[0.004, -0.003, 0.002])
-    return Part("imt30 with a scale factor", SAMPLE_RATE, gyro.with_values("turn_on_bias", b0=np.deg2rad([0.05, -0.03, 0.04])), accel)
+    accel = known.accel.with_values("angle_random_walk", N=5e-4).with_values(
+        "turn_on_bias", b0=[0.004, -0.003, 0.002]
+    )
+    return Part(
+        "imt30 with a scale factor",
+        SAMPLE_RATE,
+        gyro.with_values("turn_on_bias", b0=np.deg2rad([0.05, -0.03, 0.04])),
+        accel,
+    )
 
 
 def motion(seed: int = 2012) -> Motion:
-    """Turn on the spot, straight line, Ackermann half circle, and a second turn on the spot, with stops between."""
-    parts = [stop(60.0), *turn_on_spot(), stop(30.0), *straight(2.5), stop(30.0), *ackermann(), stop(30.0), *turn_on_spot(), stop(20.0)]
+    """Turn on the spot, straight line, Ackermann half circle, and a second turn on the spot, with
+    stops between.
+    """
+    parts = [
+        stop(60.0),
+        *turn_on_spot(),
+        stop(30.0),
+        *straight(2.5),
+        stop(30.0),
+        *ackermann(),
+        stop(30.0),
+        *turn_on_spot(),
+        stop(20.0),
+    ]
     return drive(parts, SAMPLE_RATE, LATITUDE, seed)
 
 
 def recording(seed: int = 2012) -> Recording:
-    """The demo's recording: gyro, accelerometer, temperature, optical reference attitude, and when the rover stands."""
+    """The demo's recording: gyro, accelerometer, temperature, optical reference attitude, and when
+    the rover stands.
+    """
     m = motion(seed)
     rng = np.random.default_rng(seed + 1)
     shake = 0.03 * rng.standard_normal(m.force.shape) * (m.standing[:, None] == 0)
-    temperature = 24.0 + 6.0 * (1 - np.exp(-m.time / 500.0)) + 0.8 * np.sin(2 * np.pi * m.time / 420.0)
+    temperature = (
+        24.0 + 6.0 * (1 - np.exp(-m.time / 500.0)) + 0.8 * np.sin(2 * np.pi * m.time / 420.0)
+    )
     gyro, accel = simulate(true_part(), m.rate, m.force + shake, temperature, seed=seed)
-    return Recording.from_arrays(name="rover", time=m.time, gyro=gyro, accel=accel, temperature=temperature,
-                                 ref_q=_seen(m, rng), stationary=m.standing, latitude=np.full(len(m.time), LATITUDE))
+    return Recording.from_arrays(
+        name="rover",
+        time=m.time,
+        gyro=gyro,
+        accel=accel,
+        temperature=temperature,
+        ref_q=_seen(m, rng),
+        stationary=m.standing,
+        latitude=np.full(len(m.time), LATITUDE),
+    )
 
 
 def _seen(m: Motion, rng: np.random.Generator) -> np.ndarray:
-    """The attitude as the optical reference gives it, (n, 4): right to a tenth of a degree, wandering over 20 s."""
+    """The attitude as the optical reference gives it, (n, 4): right to a tenth of a degree,
+    wandering over 20 s.
+    """
     slow = gaussian_filter1d(rng.standard_normal((len(m.time), 3)), 20.0 * SAMPLE_RATE, axis=0)
     error = REFERENCE_WANDER * slow / slow.std() + REFERENCE_NOISE * rng.standard_normal(slow.shape)
-    return (Rotation.from_rotvec(error) * Rotation.from_quat(m.q, scalar_first=True)).as_quat(scalar_first=True)
+    return (Rotation.from_rotvec(error) * Rotation.from_quat(m.q, scalar_first=True)).as_quat(
+        scalar_first=True
+    )
 
 
 @dataclass(frozen=True)
 class Demo:
-    """What the demo found: the closed loop, and the heading error [rad] over the held-out rows before and after."""
+    """What the demo found: the closed loop, and the heading error [rad] over the held-out rows
+    before and after.
+    """
 
     closed: Closed
     before: AttitudeError
@@ -88,11 +128,16 @@ class Demo:
     def report(self) -> str:
         """The headline and what ``close`` says."""
         worst = [np.rad2deg(np.abs(e.heading).max()) for e in (self.before, self.after)]
-        return (f"heading error on the held-out half turns: {worst[0]:.1f} deg before, {worst[1]:.1f} deg after\n" + self.closed.report())
+        return (
+            f"heading error on the held-out half turns: {worst[0]:.1f} deg before, {worst[1]:.1f} "
+            "deg after\n" + self.closed.report()
+        )
 
 
 def run_demo(out: Path | str, say: Callable[[str], None] = lambda text: None) -> Demo:
-    """Make the recording, close the loop on it with the paper's tables alone, and write everything to ``out``."""
+    """Make the recording, close the loop on it with the paper's tables alone, and write everything
+    to ``out``.
+    """
     out = Path(out)
     check_delivery(out)
     say("simulating the rover")
@@ -102,7 +147,10 @@ def run_demo(out: Path | str, say: Callable[[str], None] = lambda text: None) ->
     closed = close(log, "imt30", say=say)
     say("heading before and after")
     entry, held = closed.recordings[0].log_state["gyro"], closed.recordings[0].held_out
-    pair = [attitude_error(log, p, np.array(entry["rotation"]), len(log.time) - held) for p in (closed.before, closed.after)]
+    pair = [
+        attitude_error(log, p, np.array(entry["rotation"]), len(log.time) - held)
+        for p in (closed.before, closed.after)
+    ]
     deliver(closed, out, say)
     shown = Demo(closed, *pair)
     draw_before_and_after(shown, out / "heading.png")
@@ -110,18 +158,27 @@ def run_demo(out: Path | str, say: Callable[[str], None] = lambda text: None) ->
 
 
 def draw_before_and_after(shown: Demo, path: Path) -> None:
-    """Rate residual about the vertical and heading error on the held-out rows, before and after, as a PNG."""
+    """Rate residual about the vertical and heading error on the held-out rows, before and after, as
+    a PNG.
+    """
     inv = shown.closed.investigations["gyro"]
     figure = Figure(figsize=(8.4, 3.0), layout="constrained", dpi=150)
     left, right = figure.subplots(1, 2)
-    for name, colour, model, error in (("before", "#e69f00", inv.before, shown.before), ("after", "#0072b2", inv.after, shown.after)):
+    for name, colour, model, error in (
+        ("before", "#e69f00", inv.before, shown.before),
+        ("after", "#0072b2", inv.after, shown.after),
+    ):
         for trial in inv.held:
             state, rest = held_state(model, trial)
             r = in_band(rest, residual(model.sensor, rest, state))[:, 2]
             left.plot(band_time(rest), np.rad2deg(r), color=colour, lw=0.8, label=name)
         right.plot(error.time, np.rad2deg(error.heading), color=colour, lw=1.4, label=name)
-    left.set(xlabel="time [s]", ylabel="rate residual, z [deg/s]", title="gyro less model, held-out rows")
-    right.set(xlabel="time [s]", ylabel="heading error [deg]", title="attitude filter, held-out rows")
+    left.set(
+        xlabel="time [s]", ylabel="rate residual, z [deg/s]", title="gyro less model, held-out rows"
+    )
+    right.set(
+        xlabel="time [s]", ylabel="heading error [deg]", title="attitude filter, held-out rows"
+    )
     for panel in (left, right):
         panel.grid(alpha=0.3)
         panel.legend(frameon=False)

@@ -1,9 +1,10 @@
 """Noise as a filter on white noise: shaping filters, power spectral densities and Allan deviations.
 
-A stochastic effect is a linear system driven by standard normals.  It is had in two ways, which the tests hold against each
-other: ``shaping_filter`` takes the Jacobians of the effect's own step, so that the spectrum that is drawn is the spectrum
-of what is simulated, its sampling included; ``continuous_filter`` is the field's filter on continuous white noise, which
-``discretise`` samples by Van Loan's method.  ``describe`` puts both together in a ``NoiseModel``::
+A stochastic effect is a linear system driven by standard normals. It is had in two ways, which the
+tests hold against each other: ``shaping_filter`` takes the Jacobians of the effect's own step, so
+that the spectrum that is drawn is the spectrum of what is simulated, its sampling included;
+``continuous_filter`` is the field's filter on continuous white noise, which ``discretise`` samples
+by Van Loan's method. ``describe`` puts both together in a ``NoiseModel``::
 
     model = describe(part.gyro, "gauss_markov", 0, part.sample_period)
     model.poles, model.psd_two_sided(f), model.allan_deviation(tau), model.stationary_covariance
@@ -20,10 +21,30 @@ from pyimu.shaping.closed import (
     random_walk_deviation,
     white_deviation,
 )
-from pyimu.shaping.continuous import continuous_filter, discretise, spectral_factor, transfer_function
+from pyimu.shaping.continuous import (
+    continuous_filter,
+    discretise,
+    spectral_factor,
+    transfer_function,
+)
 from pyimu.shaping.model import NOISE_LIKE, NoiseModel, describe
 from pyimu.shaping.sampled import psd_two_sided, shaping_filter
 
-__all__ = ["NOISE_LIKE", "NoiseModel", "allan_deviation", "angle_quantization_deviation", "continuous_filter", "describe", "discretise",
-           "flicker_floor", "gauss_markov_deviation", "psd_two_sided", "ramp_deviation", "random_walk_deviation", "shaping_filter",
-           "spectral_factor", "transfer_function", "white_deviation"]
+__all__ = [
+    "NOISE_LIKE",
+    "NoiseModel",
+    "allan_deviation",
+    "angle_quantization_deviation",
+    "continuous_filter",
+    "describe",
+    "discretise",
+    "flicker_floor",
+    "gauss_markov_deviation",
+    "psd_two_sided",
+    "ramp_deviation",
+    "random_walk_deviation",
+    "shaping_filter",
+    "spectral_factor",
+    "transfer_function",
+    "white_deviation",
+]

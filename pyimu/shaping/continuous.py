@@ -1,4 +1,6 @@
-"""The field's filters on continuous white noise, written apart from the effects, and their exact discretisation."""
+"""The field's filters on continuous white noise, written apart from the effects, and their exact
+discretisation.
+"""
 
 from __future__ import annotations
 
@@ -10,9 +12,9 @@ import numpy as np
 from scipy.linalg import expm
 from scipy.optimize import brentq
 
-from pyimu.effects.noise import POLES, end_weight
+from pyimu.derivations.independent import van_loan
 from pyimu.errors import UserError
-from pyimu.symbolic.derivations.independent import van_loan
+from pyimu.model.effects.noise import POLES, end_weight
 
 
 def white(gain: float) -> control.StateSpace:
@@ -21,16 +23,20 @@ def white(gain: float) -> control.StateSpace:
 
 
 def processes(strengths: np.ndarray, rates: np.ndarray) -> control.StateSpace:
-    """The sum of b_i' = -rate_i b_i + strength_i w_i, each with its own white noise; a rate of zero is a random walk."""
+    """The sum of b_i' = -rate_i b_i + strength_i w_i, each with its own white noise; a rate of zero
+    is a random walk.
+    """
     m = len(rates)
     return control.ss(-np.diag(rates), np.diag(strengths), np.ones((1, m)), np.zeros((1, m)))
 
 
 def flicker(B: float, f_low: float, f_high: float) -> control.StateSpace:
-    """Gauss-Markov processes with corners evenly in the logarithm from f_low to f_high, whose densities sum to about B^2 / (2 pi f).
+    """Gauss-Markov processes with corners evenly in the logarithm from f_low to f_high, whose
+    densities sum to about B^2 / (2 pi f).
 
-    With corner rates a_k apart by the factor e^D, sum_k g_k^2 / (a_k^2 + w^2) D-spaced approaches 1 / w where g_k^2 =
-    2 D a_k / pi, because int 2 a / (pi (a^2 + w^2)) d(ln a) = 1 / w; and B^2 / (2 pi f) = B^2 / w.
+    With corner rates a_k apart by the factor e^D, sum_k g_k^2 / (a_k^2 + w^2) D-spaced approaches 1
+    / w where g_k^2 = 2 D a_k / pi, because int 2 a / (pi (a^2 + w^2)) d(ln a) = 1 / w; and B^2 / (2
+    pi f) = B^2 / w.
     """
     spacing = np.log(f_high / f_low) / (POLES - 1)
     weights = np.r_[end_weight(spacing), np.ones(POLES - 2), end_weight(spacing)]
@@ -45,48 +51,67 @@ CONTINUOUS: Mapping[str, Callable[[Mapping[str, float], float], control.StateSpa
     "bias_instability": lambda c, x: flicker(c["B"], c["f_low"], c["f_high"]),
     "rate_dependent_noise": lambda c, x: white(c["k"] * abs(x)),
 }
-"""The filter by effect, of one axis's coefficients and its input x.  Noise that belongs to the sample has none."""
+"""The filter by effect, of one axis's coefficients and its input x. Noise that belongs to the
+sample has none."""
 
 
-def continuous_filter(effect: str, coefficients: Mapping[str, float], at: float = 0.0) -> control.StateSpace:
-    """The continuous filter from white noises of density one to the output, for one axis with the input ``at``.
+def continuous_filter(
+    effect: str, coefficients: Mapping[str, float], at: float = 0.0
+) -> control.StateSpace:
+    """The continuous filter from white noises of density one to the output, for one axis with the
+    input ``at``.
 
     Raises UserError for an effect that has none: jitter, quantization and what draws no noise.
     """
     if effect not in CONTINUOUS:
-        raise UserError(f"{effect} has no continuous shaping filter, only {', '.join(CONTINUOUS)} have one")
+        raise UserError(
+            f"{effect} has no continuous shaping filter, only {', '.join(CONTINUOUS)} have one"
+        )
     return CONTINUOUS[effect](coefficients, at)
 
 
 def discretise(system: control.StateSpace, sample_period: float) -> control.StateSpace:
-    """The discrete system driven by standard normals whose samples have the law of the continuous one's, at any step [s].
+    """The discrete system driven by standard normals whose samples have the law of the continuous
+    one's, at any step [s].
 
-    x_k+1 = exp(A h) x_k + v_k with the covariance of v by Van Loan's integral, y_k = C x_k; an input that goes straight to the output
-    is averaged over a sample, D / sqrt(h).  Raises ValueError for an input that does both, which has no such law.
+    x_k+1 = exp(A h) x_k + v_k with the covariance of v by Van Loan's integral, y_k = C x_k; an
+    input that goes straight to the output is averaged over a sample, D / sqrt(h). Raises
+    ValueError for an input that does both, which has no such law.
     """
     straight = np.any(system.D != 0, axis=0)
     if np.any(system.B[:, straight] != 0):
-        raise ValueError("an input drives a state and the output: average the output over the sample first")
+        raise ValueError(
+            "an input drives a state and the output: average the output over the sample first"
+        )
     b = system.B[:, ~straight]
     transition, covariance = _transition(system.A, b @ b.T, sample_period)
     root = covariance_root(covariance)
     straight_gain = system.D[:, straight] / np.sqrt(sample_period)
-    return control.ss(transition, np.hstack([root, np.zeros((system.nstates, straight.sum()))]), system.C,
-                      np.hstack([np.zeros((system.noutputs, root.shape[1])), straight_gain]), sample_period)
+    return control.ss(
+        transition,
+        np.hstack([root, np.zeros((system.nstates, straight.sum()))]),
+        system.C,
+        np.hstack([np.zeros((system.noutputs, root.shape[1])), straight_gain]),
+        sample_period,
+    )
 
 
 def _transition(a: np.ndarray, density: np.ndarray, h: float) -> tuple[np.ndarray, np.ndarray]:
     """exp(a h) and the covariance that white noise of this ``density`` adds in h s.
 
-    Over a part of h that is short against every pole, because Van Loan's exponential grows with exp(|a| h); then doubled.
+    Over a part of h that is short against every pole, because Van Loan's exponential grows with
+    exp(|a| h); then doubled.
     """
     if not len(a):
         return np.zeros((0, 0)), np.zeros((0, 0))
     halvings = max(0, int(np.ceil(np.log2(max(np.linalg.norm(a, 1) * h, 1)))))
-    part = h / 2 ** halvings
+    part = h / 2**halvings
     transition, covariance = expm(a * part), van_loan(a, density, part)
     for _ in range(halvings):
-        transition, covariance = transition @ transition, covariance + transition @ covariance @ transition.T
+        transition, covariance = (
+            transition @ transition,
+            covariance + transition @ covariance @ transition.T,
+        )
     return transition, covariance
 
 
@@ -101,17 +126,20 @@ def covariance_root(q: np.ndarray) -> np.ndarray:
 
 
 def transfer_function(system: control.StateSpace) -> control.TransferFunction:
-    """The transfer function from one white noise of density 1 to the output of a static gain or a sum of ``processes``."""
+    """The transfer function from one white noise of density 1 to the output of a static gain or a
+    sum of ``processes``.
+    """
     if system.nstates == 0:
         return control.tf([float(np.linalg.norm(system.D))], [1.0])
     return spectral_factor(np.diag(system.B), -np.diag(system.A))
 
 
 def spectral_factor(strengths: np.ndarray, rates: np.ndarray) -> control.TransferFunction:
-    """The one minimum-phase filter H with |H|^2 = sum g_i^2 / (a_i^2 + w^2), ``strengths`` g (m,) and ``rates`` a (m,) rising.
+    """The one minimum-phase filter H with |H|^2 = sum g_i^2 / (a_i^2 + w^2), ``strengths`` g (m,)
+    and ``rates`` a (m,) rising.
 
-    Over p = s^2 the density is sum g_i^2 / (a_i^2 - p), which rises from minus to plus infinity between neighbouring a_i^2
-    and so has exactly one zero there.
+    Over p = s^2 the density is sum g_i^2 / (a_i^2 - p), which rises from minus to plus infinity
+    between neighbouring a_i^2 and so has exactly one zero there.
     """
     g2, a = np.asarray(strengths, dtype=float) ** 2, np.asarray(rates, dtype=float)
     if not np.any(g2):
@@ -119,6 +147,13 @@ def spectral_factor(strengths: np.ndarray, rates: np.ndarray) -> control.Transfe
 
     def zero(low: float, high: float) -> float:
         edge = 1e-9 * (high - low)
-        return brentq(lambda z: np.sum(g2 / ((a - z) * (a + z))), low + edge, high - edge, xtol=1e-15 * high, rtol=1e-15)
+        return brentq(
+            lambda z: np.sum(g2 / ((a - z) * (a + z))),
+            low + edge,
+            high - edge,
+            xtol=1e-15 * high,
+            rtol=1e-15,
+        )
+
     zeros = [zero(low, high) for low, high in pairwise(a)]
     return control.zpk(-np.array(zeros), -a, np.sqrt(np.sum(g2)))

@@ -8,9 +8,10 @@ from dataclasses import dataclass, field
 import control
 import numpy as np
 
-from pyimu.effect import CATALOGUE, OWN
 from pyimu.errors import UserError
-from pyimu.sensor import Sensor
+from pyimu.model.catalogue import CATALOGUE
+from pyimu.model.effect import OWN
+from pyimu.model.sensor import Sensor
 from pyimu.shaping import closed
 from pyimu.shaping.allan import allan_deviation, clusters
 from pyimu.shaping.continuous import CONTINUOUS, discretise, transfer_function, white
@@ -26,10 +27,12 @@ Closed = Callable[[np.ndarray], np.ndarray]
 class NoiseModel:
     """The noise of one effect on one axis; ``describe`` makes it.
 
-    ``sampled`` is the discrete filter from standard normals, what the simulation does; ``continuous`` the field's filter
-    from white noises of density 1, None where the noise belongs to the sample and not to time; ``transfer_function`` H(s)
-    the one from a single such noise whose density |H(j 2 pi f)|^2 is that of the samples far below Nyquist.  All three are
-    None for a rate ramp, which is no random process.  ``closed_allan`` is the Allan deviation of the samples in closed form, where there is one.
+    ``sampled`` is the discrete filter from standard normals, what the simulation does;
+    ``continuous`` the field's filter from white noises of density 1, None where the noise belongs
+    to the sample and not to time; ``transfer_function`` H(s) the one from a single such noise whose
+    density |H(j 2 pi f)|^2 is that of the samples far below Nyquist. All three are None for a rate
+    ramp, which is no random process. ``closed_allan`` is the Allan deviation of the samples in
+    closed form, where there is one.
     """
 
     sensor: str
@@ -48,15 +51,26 @@ class NoiseModel:
         """Poles [1/s] of the transfer function (m,), the slowest first; none for white noise."""
         if self.transfer_function is None:
             return np.zeros(0)
-        found = self.continuous.poles() if self.continuous is not None else self.transfer_function.poles()
+        found = (
+            self.continuous.poles()
+            if self.continuous is not None
+            else self.transfer_function.poles()
+        )
         return np.sort(found.real)[::-1] + 0.0
 
     def psd_two_sided(self, f: np.ndarray) -> np.ndarray:
-        """Two-sided density of the samples at ``f`` [Hz], in unit^2/Hz, shape of ``f``; a ramp's is the formal label R^2 / (2 pi f)^3."""
-        return self.label(np.asarray(f, dtype=float)) if self.sampled is None else psd_two_sided(self.sampled, f)
+        """Two-sided density of the samples at ``f`` [Hz], in unit^2/Hz, shape of ``f``; a ramp's is
+        the formal label R^2 / (2 pi f)^3.
+        """
+        return (
+            self.label(np.asarray(f, dtype=float))
+            if self.sampled is None
+            else psd_two_sided(self.sampled, f)
+        )
 
     def allan_deviation(self, tau: np.ndarray) -> np.ndarray:
-        """Allan deviation (n,) of the samples at ``tau`` (n,) s, multiples of the sample period; in closed form or by the integral.
+        """Allan deviation (n,) of the samples at ``tau`` (n,) s, multiples of the sample period; in
+        closed form or by the integral.
 
         Raises ValueError for another tau.
         """
@@ -65,19 +79,30 @@ class NoiseModel:
         return self.closed_allan(clusters(tau, self.sample_period) * self.sample_period)
 
     def bode(self, f: np.ndarray) -> control.FrequencyResponseData:
-        """Response of the transfer function at ``f`` (n,) Hz; ``.magnitude``, ``.phase`` and ``.plot()`` as python-control has them."""
-        return control.frequency_response(self._existing(self.transfer_function, "transfer function"), 2 * np.pi * np.asarray(f, dtype=float))
+        """Response of the transfer function at ``f`` (n,) Hz; ``.magnitude``, ``.phase`` and
+        ``.plot()`` as python-control has them.
+        """
+        return control.frequency_response(
+            self._existing(self.transfer_function, "transfer function"),
+            2 * np.pi * np.asarray(f, dtype=float),
+        )
 
     def discrete(self, sample_period: float | None = None) -> control.StateSpace:
-        """The continuous filter sampled exactly, by Van Loan's method, at this sample period or another [s].
+        """The continuous filter sampled exactly, by Van Loan's method, at this sample period or
+        another [s].
 
         Raises UserError where there is no continuous filter.
         """
-        return discretise(self._existing(self.continuous, "continuous filter"), sample_period or self.sample_period)
+        return discretise(
+            self._existing(self.continuous, "continuous filter"),
+            sample_period or self.sample_period,
+        )
 
     @property
     def stationary_covariance(self) -> np.ndarray | None:
-        """Covariance (m, m) of the filter's states in the long run, P = A P A^T + B B^T; None where it grows for ever."""
+        """Covariance (m, m) of the filter's states in the long run, P = A P A^T + B B^T; None where
+        it grows for ever.
+        """
         if self.sampled is None or np.any(np.abs(self.sampled.poles()) >= 1):
             return None
         a, q = self.sampled.A, self.sampled.B @ self.sampled.B.T
@@ -85,7 +110,9 @@ class NoiseModel:
 
     @property
     def standard_deviation(self) -> float:
-        """Of a sample in the long run, in the output's unit; infinite where the noise grows for ever."""
+        """Of a sample in the long run, in the output's unit; infinite where the noise grows for
+        ever.
+        """
         p = self.stationary_covariance
         if p is None:
             return np.inf
@@ -94,42 +121,79 @@ class NoiseModel:
 
     def _existing(self, system, what: str):
         if system is None:
-            raise UserError(f"{self.sensor}.{self.effect} has no {what}; psd_two_sided and allan_deviation are what is known of its samples")
+            raise UserError(
+                f"{self.sensor}.{self.effect} has no {what}; psd_two_sided and allan_deviation are "
+                "what is known of its samples"
+            )
         return system
 
     def __repr__(self) -> str:
         poles = ", ".join(f"{p:.4g}" for p in self.poles) or "none"
         stds = f"standard deviation {self.standard_deviation:.4g} {self.unit}"
-        return f"NoiseModel({self.sensor}.{self.effect}, axis {'xyz'[self.axis]}, every {self.sample_period:g} s: poles [1/s] {poles}; {stds})"
+        return (
+            f"NoiseModel({self.sensor}.{self.effect}, axis {'xyz'[self.axis]}, every "
+            f"{self.sample_period:g} s: poles [1/s] {poles}; {stds})"
+        )
 
 
-def describe(sensor: Sensor, effect: str, axis: int, sample_period: float, *, at: float | None = None, slope: float = 0.0) -> NoiseModel:
+def describe(
+    sensor: Sensor,
+    effect: str,
+    axis: int,
+    sample_period: float,
+    *,
+    at: float | None = None,
+    slope: float = 0.0,
+) -> NoiseModel:
     """The noise of one effect of a sensor on one axis (0 to 2), sampled every ``sample_period`` s.
 
-    ``at`` and ``slope`` are the axis's own input (at rest and level unless given) and its rate, on which rate-dependent
-    noise and jitter depend.  ``quantization`` counts as the white noise q^2 h / 12, which it is where other noise
-    exceeds q / 2, and ``angle_quantization`` as the difference of independent errors Q = q / sqrt(12), likewise.
+    ``at`` and ``slope`` are the axis's own input (at rest and level unless given) and its rate, on
+    which rate-dependent noise and jitter depend. ``quantization`` counts as the white noise q^2 h
+    / 12, which it is where other noise exceeds q / 2, and ``angle_quantization`` as the difference
+    of independent errors Q = q / sqrt(12), likewise.
 
-    Raises UserError where the sensor lacks the effect, or the effect is neither a noise nor listed in ``NOISE_LIKE``.
+    Raises UserError where the sensor lacks the effect, or the effect is neither a noise nor listed
+    in ``NOISE_LIKE``.
     """
     alone = only(sensor, effect)
     if not CATALOGUE[effect].stochastic and effect not in NOISE_LIKE:
-        raise UserError(f"{sensor.kind}.{effect} draws no noise and is not {' or '.join(NOISE_LIKE)}")
+        raise UserError(
+            f"{sensor.kind}.{effect} draws no noise and is not {' or '.join(NOISE_LIKE)}"
+        )
     c = coefficients(alone, effect, axis)
     x, h = operating_point(sensor, axis, at, slope)[OWN[sensor.kind].start + axis], sample_period
-    sampled = shaping_filter(sensor, effect, axis, h, at=at, slope=slope) if CATALOGUE[effect].stochastic else _noise_like(effect, c, h)
+    sampled = (
+        shaping_filter(sensor, effect, axis, h, at=at, slope=slope)
+        if CATALOGUE[effect].stochastic
+        else _noise_like(effect, c, h)
+    )
     continuous = CONTINUOUS[effect](c, x) if effect in CONTINUOUS else None
-    return NoiseModel(sensor.kind, effect, axis, sensor.output.unit, h, sampled, continuous, _transfer(effect, c, h, sampled, continuous),
-                      _closed(effect, c, h, sampled), (lambda f: c["R"] ** 2 / (2 * np.pi * f) ** 3) if effect == "rate_ramp" else None)
+    return NoiseModel(
+        sensor.kind,
+        effect,
+        axis,
+        sensor.output.unit,
+        h,
+        sampled,
+        continuous,
+        _transfer(effect, c, h, sampled, continuous),
+        _closed(effect, c, h, sampled),
+        (lambda f: c["R"] ** 2 / (2 * np.pi * f) ** 3) if effect == "rate_ramp" else None,
+    )
 
 
 def coefficients(sensor: Sensor, effect: str, axis: int) -> dict[str, float]:
     """An effect's coefficients for one axis; those without axes are everybody's."""
-    return {name: float(value[axis] if value.ndim else value) for name, value in sensor.values[effect].items()}
+    return {
+        name: float(value[axis] if value.ndim else value)
+        for name, value in sensor.values[effect].items()
+    }
 
 
 def _noise_like(effect: str, c: Mapping[str, float], h: float) -> control.StateSpace | None:
-    """What the samples' errors are for rounding: white, or for rounded angles y_k = (e_k-1 - e_k) / h with white e."""
+    """What the samples' errors are for rounding: white, or for rounded angles y_k = (e_k-1 - e_k) /
+    h with white e.
+    """
     if effect == "rate_ramp":
         return None
     std = c["q"] / np.sqrt(12)
@@ -138,8 +202,13 @@ def _noise_like(effect: str, c: Mapping[str, float], h: float) -> control.StateS
     return control.ss([[0.0]], [[std]], [[1 / h]], [[-std / h]], h)
 
 
-def _transfer(effect: str, c: Mapping[str, float], h: float, sampled: control.StateSpace | None,
-              continuous: control.StateSpace | None) -> control.TransferFunction | None:
+def _transfer(
+    effect: str,
+    c: Mapping[str, float],
+    h: float,
+    sampled: control.StateSpace | None,
+    continuous: control.StateSpace | None,
+) -> control.TransferFunction | None:
     if continuous is not None:
         return transfer_function(continuous)
     if sampled is None:
@@ -149,8 +218,12 @@ def _transfer(effect: str, c: Mapping[str, float], h: float, sampled: control.St
     return transfer_function(white(float(np.linalg.norm(sampled.D)) * np.sqrt(h)))
 
 
-def _closed(effect: str, c: Mapping[str, float], h: float, sampled: control.StateSpace | None) -> Closed | None:
-    """The closed forms of table 3 that are exact for samples; a sum of Gauss-Markov processes is left to the integral."""
+def _closed(
+    effect: str, c: Mapping[str, float], h: float, sampled: control.StateSpace | None
+) -> Closed | None:
+    """The closed forms of table 3 that are exact for samples; a sum of Gauss-Markov processes is
+    left to the integral.
+    """
     if effect == "rate_ramp":
         return lambda tau: closed.ramp_deviation(c["R"], tau)
     if effect == "angle_quantization":

@@ -1,4 +1,6 @@
-"""The filter that a simulated effect is: the Jacobians of its step, and the density of what comes out."""
+"""The filter that a simulated effect is: the Jacobians of its step, and the density of what comes
+out.
+"""
 
 from __future__ import annotations
 
@@ -6,23 +8,33 @@ import casadi as ca
 import control
 import numpy as np
 
-from pyimu.chain import Chain
-from pyimu.effect import OWN
 from pyimu.errors import UserError
-from pyimu.sensor import Sensor
-from pyimu.signals import COLUMNS, START
+from pyimu.model.chain import Chain
+from pyimu.model.effect import OWN
+from pyimu.model.sensor import Sensor
+from pyimu.model.signals import COLUMNS, START
 
 
-def shaping_filter(sensor: Sensor, effect: str, axis: int, sample_period: float, *, at: float | None = None,
-                   slope: float = 0.0) -> control.StateSpace:
-    """The discrete system from the standard normals that reach one axis (0 to 2) to that axis's output, for one effect of a sensor.
+def shaping_filter(
+    sensor: Sensor,
+    effect: str,
+    axis: int,
+    sample_period: float,
+    *,
+    at: float | None = None,
+    slope: float = 0.0,
+) -> control.StateSpace:
+    """The discrete system from the standard normals that reach one axis (0 to 2) to that axis's
+    output, for one effect of a sensor.
 
-    Its output is in the sensor's unit (rad/s or m/s^2), its step ``sample_period`` in seconds; it has as many inputs as the
-    effect has normals that reach the axis, in their order.  States that the noise does not reach are left out.
+    Its output is in the sensor's unit (rad/s or m/s^2), its step ``sample_period`` in seconds; it
+    has as many inputs as the effect has normals that reach the axis, in their order. States that
+    the noise does not reach are left out.
 
-    The effect is linearised in the state after its first sample, with the axis's own input at ``at`` (that of a part at
-    rest and level unless given) and growing by ``slope`` a second: exact, since every effect is linear in its noise once it
-    has started.  Raises UserError where the sensor lacks the effect or the effect draws no noise.
+    The effect is linearised in the state after its first sample, with the axis's own input at
+    ``at`` (that of a part at rest and level unless given) and growing by ``slope`` a second: exact,
+    since every effect is linear in its noise once it has started. Raises UserError where the
+    sensor lacks the effect or the effect draws no noise.
     """
     alone = only(sensor, effect)
     if not alone.noise:
@@ -33,18 +45,28 @@ def shaping_filter(sensor: Sensor, effect: str, axis: int, sample_period: float,
     states = _reached(a, b.any(axis=1)) & _reached(a.T, c[0])
     inputs = d[0] | b[states].any(axis=0)
     a, b, c, d = (np.array(ca.densify(m)) for m in linear(state, u, alone.p, 0, sample_period))
-    return control.ss(a[np.ix_(states, states)], b[np.ix_(states, inputs)], c[:, states], d[:, inputs], sample_period)
+    return control.ss(
+        a[np.ix_(states, states)],
+        b[np.ix_(states, inputs)],
+        c[:, states],
+        d[:, inputs],
+        sample_period,
+    )
 
 
 def only(sensor: Sensor, effect: str) -> Sensor:
-    """The sensor with this effect alone.  Raises UserError where it lacks the effect."""
+    """The sensor with this effect alone. Raises UserError where it lacks the effect."""
     if effect not in sensor.values:
-        raise UserError(f"the {sensor.kind} has no effect {effect}, only {', '.join(sensor.values) or 'none'}")
+        raise UserError(
+            f"the {sensor.kind} has no effect {effect}, only {', '.join(sensor.values) or 'none'}"
+        )
     return Sensor(sensor.kind, {effect: sensor.values[effect]})
 
 
 def operating_point(sensor: Sensor, axis: int, at: float | None, slope: float) -> np.ndarray:
-    """Inputs (N_INPUT,) at rest and level, but for one axis of the sensor's own signal and of its rate."""
+    """Inputs (N_INPUT,) at rest and level, but for one axis of the sensor's own signal and of its
+    rate.
+    """
     u = START.copy()
     if at is not None:
         u[OWN[sensor.kind].start + axis] = at
@@ -53,7 +75,9 @@ def operating_point(sensor: Sensor, axis: int, at: float | None, slope: float) -
 
 
 def _linearised(chain: Chain, axis: int) -> tuple[ca.Function, tuple[np.ndarray, ...]]:
-    """A, B, C, D as a function of (s, u, p, w, h), and where each can differ from zero, whatever the coefficients are."""
+    """A, B, C, D as a function of (s, u, p, w, h), and where each can differ from zero, whatever
+    the coefficients are.
+    """
     s, u, p, w, h = (chain.step.sx_in(i) for i in range(5))
     s_next, y = chain.step(s, u, p, w, h)
     jacobians = [ca.jacobian(of, by) for of in (s_next, y[axis]) for by in (s, w)]
@@ -62,7 +86,9 @@ def _linearised(chain: Chain, axis: int) -> tuple[ca.Function, tuple[np.ndarray,
 
 
 def _reached(a: np.ndarray, entered: np.ndarray) -> np.ndarray:
-    """Which states a signal entering at ``entered`` (n,) comes to, shape (n,); for the transposed system, which ones are seen."""
+    """Which states a signal entering at ``entered`` (n,) comes to, shape (n,); for the transposed
+    system, which ones are seen.
+    """
     reached = entered
     for _ in range(len(a)):
         reached = reached | (a @ reached)
@@ -70,10 +96,12 @@ def _reached(a: np.ndarray, entered: np.ndarray) -> np.ndarray:
 
 
 def psd_two_sided(system: control.lti.LTI, f: np.ndarray) -> np.ndarray:
-    """Two-sided density of a system's one output at ``f`` [Hz], the sum over its inputs; shape of ``f``.
+    """Two-sided density of a system's one output at ``f`` [Hz], the sum over its inputs; shape of
+    ``f``.
 
-    In the square of the output's unit per Hz; infinite at a pole.  A discrete system of step h is driven by standard
-    normals and has |H(exp(j 2 pi f h))|^2 h, a continuous one by white noise of density 1 and has |H(j 2 pi f)|^2.
+    In the square of the output's unit per Hz; infinite at a pole. A discrete system of step h is
+    driven by standard normals and has |H(exp(j 2 pi f h))|^2 h, a continuous one by white noise of
+    density 1 and has |H(j 2 pi f)|^2.
     """
     f = np.asarray(f, dtype=float)
     s = 2j * np.pi * f.ravel()

@@ -1,9 +1,12 @@
-"""Attitude kinematics as casadi expressions: the one place where a filter, a simulation and a derivation take them from.
+"""Attitude kinematics as casadi expressions: the one place where a filter, a simulation and a
+derivation take them from.
 
-Every function takes and returns casadi matrices of one kind, symbolic (``SX``) or numeric (``DM``); vectors are columns.
-Quaternions are Hamilton, scalar first, body to world (``q_nb``); the world is east-north-up, the body forward-left-up.
+Every function takes and returns casadi matrices of one kind, symbolic (``SX``) or numeric (``DM``);
+vectors are columns. Quaternions are Hamilton, scalar first, body to world (``q_nb``); the world is
+east-north-up, the body forward-left-up.
 """
 
-from pyimu.symbolic import earth, linear, mrp, noise, quaternion, series
+from pyimu.symbolic import earth, linear, mrp, quaternion, series
+from pyimu.symbolic import process_noise as noise
 
 __all__ = ["earth", "linear", "mrp", "noise", "quaternion", "series"]

@@ -11,9 +11,13 @@ FLOOR = 1e-30
 
 
 def symmetric(size: int, entry: Callable):
-    """The matrix (size, size) with ``entry(i, j)``, i <= j, on both sides of the diagonal: symmetric to the last bit."""
+    """The matrix (size, size) with ``entry(i, j)``, i <= j, on both sides of the diagonal:
+    symmetric to the last bit.
+    """
     upper = {(i, j): entry(i, j) for i in range(size) for j in range(i, size)}
-    return ca.vertcat(*[ca.horzcat(*[upper[min(i, j), max(i, j)] for j in range(size)]) for i in range(size)])
+    return ca.vertcat(
+        *[ca.horzcat(*[upper[min(i, j), max(i, j)] for j in range(size)]) for i in range(size)]
+    )
 
 
 def pack(matrix):
@@ -29,7 +33,8 @@ def unpack(column, size: int):
 
 
 def cholesky(matrix):
-    """Lower triangular L with L L^T = ``matrix``, a symmetric definite matrix (Golub and Van Loan 2013, section 4.2).
+    """Lower triangular L with L L^T = ``matrix``, a symmetric definite matrix (Golub and Van Loan
+    2013, section 4.2).
 
     The zeros above the diagonal are structural, so that what is computed from a column skips them.
     """
@@ -39,7 +44,9 @@ def cholesky(matrix):
         pivot = matrix[j, j] - sum((lower[j, k] * lower[j, k] for k in range(j)), 0)
         lower[j, j] = ca.sqrt(ca.fmax(pivot, FLOOR))
         for i in range(j + 1, size):
-            lower[i, j] = (matrix[i, j] - sum((lower[i, k] * lower[j, k] for k in range(j)), 0)) / lower[j, j]
+            lower[i, j] = (
+                matrix[i, j] - sum((lower[i, k] * lower[j, k] for k in range(j)), 0)
+            ) / lower[j, j]
     return lower
 
 

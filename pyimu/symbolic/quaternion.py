@@ -1,11 +1,14 @@
-"""Unit quaternions (4,), Hamilton, scalar first, that turn body axes into world axes: ``v_n = q v_b q*``."""
+"""Unit quaternions (4,), Hamilton, scalar first, that turn body axes into world axes:
+``v_n = q v_b q*``.
+"""
 
 from __future__ import annotations
 
 import casadi as ca
 
 SMALL = 1e-3
-"""Square of the half angle in rad^2 below which series stand for sine and cosine; their first neglected terms are 3e-18."""
+"""Square of the half angle in rad^2 below which series stand for sine and cosine; their first
+neglected terms are 3e-18."""
 
 
 def product(a, b):
@@ -20,41 +23,53 @@ def conjugate(q):
 
 
 def normalized(q):
-    """``q`` at unit length; one Newton step would do after a product, but the root is exact for any length."""
+    """``q`` at unit length; one Newton step would do after a product, but the root is exact for any
+    length.
+    """
     return q / ca.sqrt(ca.dot(q, q))
 
 
 def rotate(q, v):
-    """The vector ``v`` (3,) of the body in world axes: v + 2 w (r x v) + 2 r x (r x v) for q = (w, r)."""
+    """The vector ``v`` (3,) of the body in world axes: v + 2 w (r x v) + 2 r x (r x v) for q = (w,
+    r).
+    """
     t = 2 * ca.cross(q[1:4], v)
     return v + q[0] * t + ca.cross(q[1:4], t)
 
 
 def to_matrix(q):
-    """``R_nb`` (3, 3) with v_n = R_nb v_b; its columns are the rotated axes (Markley and Crassidis 2014, eq. 2.125)."""
+    """``R_nb`` (3, 3) with v_n = R_nb v_b; its columns are the rotated axes (Markley and Crassidis
+    2014, eq. 2.125).
+    """
     w, x, y, z = (q[i] for i in range(4))
-    return ca.vertcat(ca.horzcat(1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
-                      ca.horzcat(2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
-                      ca.horzcat(2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)))
+    return ca.vertcat(
+        ca.horzcat(1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
+        ca.horzcat(2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
+        ca.horzcat(2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
+    )
 
 
 def exponential(angle):
-    """The rotation by the vector ``angle`` (3,) rad: (cos(|a|/2), sin(|a|/2) a/|a|), smooth at zero.
+    """The rotation by the vector ``angle`` (3,) rad: (cos(|a|/2), sin(|a|/2) a/|a|), smooth at
+    zero.
 
-    Sine and cosine are even functions of the length, so both are written in its square: no root is taken, and no
-    quotient 0/0 formed, where their derivatives would not exist.
+    Sine and cosine are even functions of the length, so both are written in its square: no root is
+    taken, and no quotient 0/0 formed, where their derivatives would not exist.
     """
     square = ca.dot(angle, angle) / 4
     return ca.vertcat(_cosine(square), _sinc(square) / 2 * angle)
 
 
 def derivative(q, rate):
-    """q' of a body that turns at ``rate`` (3,) rad/s in body axes: q (0, rate) / 2 (Hidalgo 2012, section 4.1, there vector first)."""
+    """q' of a body that turns at ``rate`` (3,) rad/s in body axes: q (0, rate) / 2 (Hidalgo 2012,
+    section 4.1, there vector first).
+    """
     return product(q, ca.vertcat(0, rate)) / 2
 
 
 def step_matrix(rate, h):
-    """Omega (4, 4) with ``step(q, rate, h)`` = Omega q: the product with the turn of ``h`` s from the right as a matrix.
+    """Omega (4, 4) with ``step(q, rate, h)`` = Omega q: the product with the turn of ``h`` s from
+    the right as a matrix.
 
     Hidalgo 2012, section 4.2, Omega of the angular velocity, its rows and columns put scalar first.
     """
@@ -66,7 +81,8 @@ def step_matrix(rate, h):
 def step(q, rate, h):
     """Attitude after ``h`` s at the constant body rate ``rate`` (3,) rad/s: q exp(rate h / 2).
 
-    The closed form of q' = q (0, rate)/2; Hidalgo 2012, eq. of the discrete kinematics (there vector first).
+    The closed form of q' = q (0, rate)/2; Hidalgo 2012, eq. of the discrete kinematics (there
+    vector first).
     """
     return product(q, exponential(rate * h))
 
@@ -85,26 +101,36 @@ def _cosine(square):
 
 
 def _root(square):
-    """The root where it is used; where the series is, a harmless one, lest 0 times an infinite slope spoil a derivative."""
+    """The root where it is used; where the series is, a harmless one, lest 0 times an infinite
+    slope spoil a derivative.
+    """
     return ca.sqrt(ca.if_else(square < SMALL, 1, square))
 
 
 def from_euler(roll, pitch, yaw):
-    """Rz(yaw) Ry(pitch) Rx(roll), angles in rad; yaw counter-clockwise from east, nose up is negative pitch (REP 103)."""
+    """Rz(yaw) Ry(pitch) Rx(roll), angles in rad; yaw counter-clockwise from east, nose up is
+    negative pitch (REP 103).
+    """
+
     def about(axis: int, angle):
         parts = [ca.cos(angle / 2), 0, 0, 0]
         parts[axis] = ca.sin(angle / 2)
         return ca.vertcat(*parts)
+
     return product(about(3, yaw), product(about(2, pitch), about(1, roll)))
 
 
 def to_euler(q):
     """(roll, pitch, yaw) in rad, (3,); the inverse of ``from_euler`` for |pitch| < pi/2.
 
-    Pitch is an arc tangent and not an arc sine, so that it keeps its digits close to +-pi/2 and needs no clamp.
+    Pitch is an arc tangent and not an arc sine, so that it keeps its digits close to +-pi/2 and
+    needs no clamp.
     """
     w, x, y, z = (q[i] for i in range(4))
     forward_east, forward_north = 1 - 2 * (y * y + z * z), 2 * (x * y + w * z)
     level = ca.sqrt(forward_east * forward_east + forward_north * forward_north)
-    return ca.vertcat(ca.atan2(2 * (y * z + w * x), 1 - 2 * (x * x + y * y)), ca.atan2(2 * (w * y - x * z), level),
-                      ca.atan2(forward_north, forward_east))
+    return ca.vertcat(
+        ca.atan2(2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
+        ca.atan2(2 * (w * y - x * z), level),
+        ca.atan2(forward_north, forward_east),
+    )

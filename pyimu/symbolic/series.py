@@ -1,4 +1,6 @@
-"""Functions that a discretisation is made of, each smooth at zero: Stumpff's of a turn, and the phi of a decay."""
+"""Functions that a discretisation is made of, each smooth at zero: Stumpff's of a turn, and the phi
+of a decay.
+"""
 
 from __future__ import annotations
 
@@ -7,15 +9,16 @@ from math import factorial
 import casadi as ca
 
 TURN, TURN_TERMS = 4.0, 13
-"""z of ``stumpff``, the square of an angle, below which the series stands for the closed form, whose digits go with powers of
-1/z; and its terms, which leave out less than 1e-17."""
+"""z of ``stumpff``, the square of an angle, below which the series stands for the closed form,
+whose digits go with powers of 1/z; and its terms, which leave out less than 1e-17."""
 
 DECAY, DECAY_TERMS = 1.0, 19
 """The same of ``phi``."""
 
 
 def stumpff(k: int, z):
-    """c_k(z) = 1/k! - z/(k+2)! + z^2/(k+4)! - ... for z >= 0 (Stumpff 1959; Battin 1999, section 4.5).
+    """c_k(z) = 1/k! - z/(k+2)! + z^2/(k+4)! - ... for z >= 0 (Stumpff 1959; Battin 1999, section
+    4.5).
 
     c_0 = cos(x), c_1 = sin(x)/x, c_2 = (1 - cos(x))/x^2 and so on with x^2 = z.
     """
@@ -24,11 +27,14 @@ def stumpff(k: int, z):
     closed = ca.cos(root) if k % 2 == 0 else ca.sin(root) / root
     for i in range(k % 2, k, 2):
         closed = (1 / factorial(i) - closed) / safe
-    return ca.if_else(z < TURN, _series(z, [factorial(k + 2 * i) for i in range(TURN_TERMS)]), closed)
+    return ca.if_else(
+        z < TURN, _series(z, [factorial(k + 2 * i) for i in range(TURN_TERMS)]), closed
+    )
 
 
 def phi(k: int, z):
-    """phi_k(-z) = 1/k! - z/(k+1)! + z^2/(k+2)! - ... for z >= 0 (Hochbruck and Ostermann 2010, eq. 2.10).
+    """phi_k(-z) = 1/k! - z/(k+1)! + z^2/(k+2)! - ... for z >= 0 (Hochbruck and Ostermann 2010, eq.
+    2.10).
 
     phi_0 = exp(-z), phi_1 = (1 - exp(-z))/z and so on.
     """

@@ -1,0 +1,1 @@
+"""A sampled system, and every way to run it."""

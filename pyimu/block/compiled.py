@@ -1,0 +1,273 @@
+"""A block's step compiled for this machine, with the loop over the samples and the noise around it.
+
+It is the C of the block's FMU, step and noise alike, so the bits are those of the FMU and of
+casadi's virtual machine. Compiling takes 0.05 to 2 s. A library is therefore kept between
+processes in the user's cache folder, and a step is compiled only once that pays; without a compiler
+it never is, and the virtual machine does the work.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import hashlib
+import os
+import platform
+import shlex
+import shutil
+import stat
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable
+from functools import cache, lru_cache
+from pathlib import Path
+
+import casadi as ca
+import numpy as np
+
+FLAGS = (
+    "-std=c11",
+    "-O3",
+    "-ffp-contract=off",
+    "-fPIC",
+    "-shared",
+    "-fvisibility=hidden",
+    "-w",
+    "-DCASADI_SYMBOL_EXPORT=static",
+)
+"""Those of the FMUs, without contracted multiply-adds. The step is static, because a libc has a
+function ``step`` of its own that would answer in place of ours."""
+
+HAND_WRITTEN = ("loop.h", "noise.c", "noise.h")
+"""What of the hand-written C a library is made of."""
+
+LOOKED_FOR = 2_000
+"""Samples of a step in one process, some milliseconds of the virtual machine, from which on the
+cache is searched."""
+
+WORTHWHILE = 50_000
+"""Samples of a step in one process from which on it is compiled.
+
+The virtual machine takes 0.6 us and 2 to 4 ns an instruction for a sample, the compiler 40 ms and
+0.2 to 0.4 ms an instruction: whatever the step, a compiler's time is that of about 100,000
+samples. Half of it, as others will find the library."""
+
+KEPT = 64
+"""Libraries in the cache folder; beyond that the ones that were used longest ago go."""
+
+
+def compiler_command() -> list[str]:
+    """The command that compiles for this machine: ``CC``, else ``cc``; empty where it is not to be
+    found.
+    """
+    command = shlex.split(os.environ.get("CC", "")) or ["cc"]
+    return command if shutil.which(command[0]) else []
+
+
+def source_folder() -> Path:
+    """The hand-written C: ``fmu_src`` beside the package in a checkout, inside it in an installed
+    wheel.
+    """
+    package = Path(__file__).resolve().parents[1]
+    for folder in (package / "fmu_src", package.parent / "fmu_src"):
+        if (folder / "noise.c").is_file():
+            return folder
+    raise FileNotFoundError(f"the C sources fmu_src are neither in {package} nor beside it")
+
+
+def cache_folder() -> Path | None:
+    """Where libraries are kept: ``PYIMU_CACHE`` (empty: nowhere), else ``pyimu`` in the user's
+    cache folder of the platform.
+    """
+    given = os.environ.get("PYIMU_CACHE")
+    if given is not None:
+        return Path(given) if given else None
+    home = Path(os.path.expanduser("~"))
+    usual = {"win32": home / "AppData" / "Local", "darwin": home / "Library" / "Caches"}.get(
+        sys.platform, home / ".cache"
+    )
+    named = Path(
+        os.environ.get(
+            {"win32": "LOCALAPPDATA", "darwin": ""}.get(sys.platform, "XDG_CACHE_HOME"), ""
+        )
+    )
+    base = named if named.is_absolute() else usual
+    return base / "pyimu" if base.is_absolute() else None
+
+
+def compiled(step: ca.Function, rows: int) -> Callable | None:
+    """``run(s, u, p, h, y, w, channels, seed, first)``, which fills ``y``, for ``rows`` more
+    samples of this step, or None where none is at hand and compiling would not pay or cannot be
+    done.
+    """
+    return _machine_code(step).after(rows)
+
+
+@lru_cache(maxsize=64)
+def _machine_code(step: ca.Function) -> _MachineCode:
+    return _MachineCode(step)
+
+
+class _MachineCode:
+    """What is known of the machine code of one step: how many samples it has been asked for, and
+    the library once there is one.
+    """
+
+    def __init__(self, step: ca.Function) -> None:
+        self.step, self.rows, self.call, self.tried = step, 0, None, 0
+
+    def after(self, rows: int) -> Callable | None:
+        """Look for the library, and later compile it, at most once each."""
+        self.rows += rows
+        reached = (self.rows >= LOOKED_FOR) + (self.rows >= WORTHWHILE)
+        if self.call is None and reached > self.tried:
+            library = _library(_source(self.step), reached == 2)
+            self.tried, self.call = reached, library and _bind(library, self.step)
+        return self.call
+
+
+def _source(step: ca.Function) -> str:
+    """The step in C, as casadi writes it, and the loop around it."""
+    generator = ca.CodeGenerator("step.c")
+    generator.add(step)
+    sizes = {
+        "NS": step.numel_in(0),
+        "NU": step.numel_in(1),
+        "NW": step.numel_in(3),
+        "NY": step.numel_out(1),
+        "SZ_ARG": step.sz_arg(),
+        "SZ_RES": step.sz_res(),
+        "STEP": step.name(),
+    }
+    return (
+        generator.dump()
+        + "".join(f"#define {name} {value}\n" for name, value in sizes.items())
+        + '#include "loop.h"\n'
+    )
+
+
+def _bind(library: ctypes.CDLL, step: ca.Function) -> Callable:
+    address = [ctypes.c_void_p] * 7
+    call = library.run
+    call.argtypes = [
+        ctypes.c_int64,
+        *address,
+        ctypes.c_uint64,
+        ctypes.c_int64,
+        ctypes.c_void_p,
+        ctypes.c_void_p,
+    ]
+    call.restype = ctypes.c_int64
+    iw_size, work_size = step.sz_iw() + 1, step.sz_w() + 1
+
+    def run(s, u, p, h, y, w, channels, seed, first) -> None:
+        iw, work = np.zeros(iw_size, dtype=np.int64), np.zeros(work_size)
+        given = [None if a is None else a.ctypes.data for a in (s, u, p, h, y, w, channels)]
+        done = call(len(u), *given, seed, first, iw.ctypes.data, work.ctypes.data)
+        if done < len(u):
+            raise RuntimeError(f"{step.name()}: row {done} cannot be evaluated")
+
+    return run
+
+
+# The library: in this process, in the cache folder, or compiled
+
+_loaded: dict[str, ctypes.CDLL] = {}
+
+
+def _library(source: str, compile_it: bool) -> ctypes.CDLL | None:
+    compiler = compiler_command()
+    if not compiler:
+        return None
+    key = _key(source, tuple(compiler))
+    if key not in _loaded:
+        library = _from_cache(key) or (_compile(source, compiler, key) if compile_it else None)
+        if library is None:
+            return None
+        _loaded[key] = library
+    return _loaded[key]
+
+
+def _key(source: str, compiler: tuple[str, ...]) -> str:
+    """Whatever the library's bytes follow from, as a name."""
+    hand_written = [(source_folder() / name).read_bytes() for name in HAND_WRITTEN]
+    texts = [source, *FLAGS, *compiler, _version(compiler), sys.platform, platform.machine()]
+    return _digest(b"\0".join([*(t.encode() for t in texts), *hand_written]))
+
+
+@cache
+def _version(compiler: tuple[str, ...]) -> str:
+    return subprocess.run(
+        [*compiler, "--version"], capture_output=True, text=True, errors="replace", check=False
+    ).stdout
+
+
+def _compile(source: str, compiler: list[str], key: str) -> ctypes.CDLL | None:
+    """Compile in a temporary folder, keep a copy in the cache and load; the library's own file is
+    gone once it is loaded.
+    """
+    with tempfile.TemporaryDirectory(prefix="pyimu-", ignore_cleanup_errors=True) as folder:
+        path, library, hand_written = Path(folder, "run.c"), Path(folder, "run.so"), source_folder()
+        path.write_text(source, encoding="utf-8")
+        files = [str(path), str(hand_written / "noise.c"), "-I", str(hand_written)]
+        if subprocess.run(
+            [*compiler, *FLAGS, *files, "-o", str(library), "-lm"], capture_output=True, check=False
+        ).returncode:
+            return None
+        with contextlib.suppress(
+            OSError
+        ):  # no cache, or none that can be written: compiled again next time
+            _keep(key, library.read_bytes())
+        return ctypes.CDLL(str(library))
+
+
+def _digest(data: bytes) -> str:
+    return hashlib.sha256(data).hexdigest()[:32]
+
+
+def _from_cache(key: str) -> ctypes.CDLL | None:
+    """A library of the cache, if it is whole: its name tells the digest of its bytes, as a
+    truncated one could end the process.
+    """
+    with contextlib.suppress(OSError):
+        for path in _files(f"{key}.*"):
+            if path.suffixes[0] == f".{_digest(path.read_bytes())}":
+                with contextlib.suppress(OSError):
+                    library = ctypes.CDLL(str(path))
+                    os.utime(path)
+                    return library
+    return None
+
+
+def _keep(key: str, data: bytes) -> None:
+    """Write a library to the cache under a temporary name and rename it, so that nobody loads half
+    of it.
+    """
+    folder = cache_folder()
+    if folder is None:
+        return
+    folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+    handle, temporary = tempfile.mkstemp(dir=folder, suffix=".tmp")
+    try:
+        with os.fdopen(handle, "wb") as file:
+            file.write(data)
+        os.replace(temporary, folder / f"{key}.{_digest(data)}.so")
+    except BaseException:
+        os.unlink(temporary)
+        raise
+    for old in sorted(_files("*.*"), key=lambda path: path.stat().st_mtime)[:-KEPT]:
+        old.unlink(missing_ok=True)
+
+
+def _files(pattern: str) -> list[Path]:
+    """Libraries in the cache folder; none where others may write to it, as what is in it is run."""
+    folder = cache_folder()
+    if folder is None or not folder.is_dir():
+        return []
+    about = folder.stat()
+    if hasattr(os, "getuid") and (
+        about.st_uid != os.getuid() or about.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
+    ):
+        return []
+    return list(folder.glob(f"{pattern}.so"))

@@ -1,0 +1,82 @@
+"""The named scalars of a block, its noise channels, and what its parameters must keep."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+import casadi as ca
+import numpy as np
+
+from pyimu.errors import UserError
+
+Kind = Literal["real", "boolean", "integer"]
+
+
+@dataclass(frozen=True)
+class Variable:
+    """One scalar of a block; ``name`` is its FMI name (``gyro_error.g_sensitivity.G[1,2]``),
+    ``unit`` an SI spelling.
+    """
+
+    name: str
+    unit: str = "1"
+    description: str = ""
+    start: float = 0.0
+    kind: Kind = "real"
+    minimum: float | None = None
+    maximum: float | None = None
+
+
+@dataclass(frozen=True)
+class NoiseChannel:
+    """One standard normal input; ``number`` names its stream, whatever else the block holds."""
+
+    name: str
+    number: int
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What parameters must keep together, and with the sample period: ``broken(p, h)`` (n,) is not
+    0 where they break ``texts[i]``.
+
+    What one parameter must keep by itself are the bounds of its ``Variable``.
+    """
+
+    texts: tuple[str, ...]
+    broken: ca.Function
+
+    def check(self, p: np.ndarray, h: float, name: str) -> None:
+        """Raise UserError, which starts with ``name``, for the first limit that is broken."""
+        for text, broken in zip(self.texts, np.array(self.broken(p, h)).ravel(), strict=True):
+            if broken:
+                raise UserError(f"{name}: {text}")
+
+
+def sample_period_of(seconds: float, what: str) -> float:
+    """A sample period [s] as a float. Raises UserError, which starts with ``what``, for one that
+    is no positive, finite number.
+    """
+    try:
+        h = float(seconds)
+    except (TypeError, ValueError):
+        h = math.nan
+    if not (h > 0.0 and math.isfinite(h)):
+        raise UserError(
+            f"{what}: the sample period must be a positive and finite number of seconds, not "
+            f"{seconds!r}"
+        )
+    return h
+
+
+def seed_of(seed: int, bits: int = 64) -> int:
+    """A seed as an int. Raises UserError for one that is no integer from 0 to 2^bits - 1."""
+    if (
+        isinstance(seed, bool)
+        or not isinstance(seed, (int, np.integer))
+        or not 0 <= int(seed) < 2**bits
+    ):
+        raise UserError(f"seed {seed!r} is not an integer in 0 to 2^{bits} - 1")
+    return int(seed)

@@ -1,0 +1,17 @@
+"""Allan deviations of a record, what is expected of them, and how they scatter."""
+
+from pyimu.characterization.allan.deviation import (
+    hadamard_deviation,
+    log_clusters,
+    modified_deviation,
+    octave_clusters,
+    overlapping_deviation,
+)
+
+__all__ = [
+    "hadamard_deviation",
+    "log_clusters",
+    "modified_deviation",
+    "octave_clusters",
+    "overlapping_deviation",
+]

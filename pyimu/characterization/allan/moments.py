@@ -1,0 +1,157 @@
+r"""Mean and covariance of a record's overlapping Allan variances, for noise made of the five terms
+Q, N, B, K, R; in closed form.
+
+The sum of the rates, as a function of the sample, has for each term a generalised covariance G(u)
+of lag u samples:
+
+    Q^2 [u = 0],    -N^2 |u| / 2,    B^2 / (2 pi) u^2 ln|u|,    K^2 (|u|^3 - |u|) / 12
+
+in units in which the sample period is one (an intrinsic random function: Matheron, Adv. Appl.
+Probab. 5 (1973), 439-468); that of flicker is the one of a density B^2 / (2 pi f) at all
+frequencies, the others are exact for samples. The estimate for clusters of m is the mean of
+squares of d_j, second differences of that sum over sqrt(2) m, and the differences for clusters of m
+and m' at places u apart (from centre to centre) have the covariance
+
+    R(u) = second difference by m of the second difference by m' of G, at u, over 2 m m'.
+
+A ramp is no noise: it gives all d the mean R m / sqrt(2). By Isserlis' theorem the estimates
+covary by the mean over all pairs of places of 2 R(u)^2 + 4 (product of the means) R(u). R is
+smooth but at u = 0, m, m' - m, m', m' + m: at these the sum is taken as it is, in between by Gauss
+and Legendre's rule, so that it takes as long for a record of a minute as for one of a day.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import pairwise
+
+import numpy as np
+from scipy.special import xlogy
+
+TERMS = "QNBKR"
+
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
+
+SUMMED = 64
+"""Whole numbers in a row that are summed one by one; for more an integral is the same to (1 /
+SUMMED)^2."""
+
+OCTAVES = 8
+"""Of lags beyond m + m' that are summed; there R of flicker, the only one that is not zero, falls
+with the square of the lag."""
+
+
+@dataclass(frozen=True)
+class AllanMoments:
+    """Moments at cluster sizes ``m`` (t,), from squares of coefficients (5,), those of ``TERMS``,
+    for a sample period of one.
+
+    ``design`` (t, 5) makes the means of them, ``products`` (4, 4, t, t) and ``sums`` (4, t, t) the
+    covariances.
+    """
+
+    m: np.ndarray
+    design: np.ndarray
+    products: np.ndarray
+    sums: np.ndarray
+
+    def covariance(self, squares: np.ndarray) -> np.ndarray:
+        """Covariance (t, t) of the Allan variances where the noise has these squared coefficients
+        (5,).
+        """
+        noise = squares[:4]
+        spread = np.einsum("i,j,ijab->ab", noise, noise, self.products)
+        return 2 * spread + 2 * squares[4] * np.outer(self.m, self.m) * np.einsum(
+            "i,iab->ab", noise, self.sums
+        )
+
+
+def moments(clusters: np.ndarray, n: int) -> AllanMoments:
+    """The moments for a record of ``n`` samples at cluster sizes (t,). Raises ValueError for one
+    that is no whole number from 1 to n / 2.
+    """
+    m = np.atleast_1d(clusters)
+    if np.any(m != np.floor(m)) or np.any(m < 1) or np.any(2 * m > n):
+        raise ValueError(f"cluster sizes must be whole numbers from 1 to {n // 2} for {n} samples")
+    return _moments(tuple(int(k) for k in m), int(n))
+
+
+@lru_cache(maxsize=16)
+def _moments(sizes: tuple[int, ...], n: int) -> AllanMoments:
+    t, m = len(sizes), np.array(sizes, dtype=float)
+    products, sums = np.empty((4, 4, t, t)), np.empty((4, t, t))
+    for a in range(t):
+        for b in range(a, t):
+            u, weight = _lags(min(sizes[a], sizes[b]), max(sizes[a], sizes[b]), n)
+            r = np.array([_cross(second, u, m[a], m[b]) for second in SECOND_DIFFERENCES])
+            products[:, :, a, b] = products[:, :, b, a] = (r * weight) @ r.T
+            sums[:, a, b] = sums[:, b, a] = r @ weight
+    return AllanMoments(m, design(m), products, sums)
+
+
+def design(m: np.ndarray) -> np.ndarray:
+    """Allan variances (t, 5) of the terms, each with a coefficient of one, for clusters of m (t,)
+    samples (Hidalgo 2012, table 3).
+    """
+    flat = np.full(np.shape(m), 2 * np.log(2) / np.pi)
+    return np.column_stack([3 / m**2, 1 / m, flat, m / 3 + 1 / (6 * m), m**2 / 2])
+
+
+def _lags(m: int, wide: int, n: int) -> tuple[np.ndarray, np.ndarray]:
+    """Lags u >= 0 and weights that give the mean over all pairs of places of an even function of u,
+    for clusters m <= wide.
+    """
+    places = (n - 2 * m + 1, n - 2 * wide + 1)
+    reach = sum(places) / 2  # the number of pairs falls to nothing there
+    tail = (m + wide) * 2 ** np.arange(1, OCTAVES + 1)
+    ends = np.unique(np.minimum([0, m, wide - m, wide, m + wide, *tail], np.ceil(reach)))
+    parts = [(ends, np.ones(len(ends))), *(_between(a, b) for a, b in pairwise(ends))]
+    u, weight = (np.concatenate(p) for p in zip(*parts, strict=True))
+    pairs = np.clip(reach - u, 0, min(places))
+    return u, weight * np.where(u > 0, 2, 1) * pairs / np.prod(places, dtype=float)
+
+
+def _between(a: float, b: float) -> tuple[np.ndarray, np.ndarray]:
+    """The whole numbers between a and b, ends left out; where they are many, nodes and weights for
+    the integral from a + 1/2 to b - 1/2.
+    """
+    count = int(b - a) - 1
+    if count <= SUMMED:
+        return np.arange(a + 1, b), np.ones(count)
+    return (a + b) / 2 + count / 2 * NODES, count / 2 * WEIGHTS
+
+
+def _cross(second: Callable, u: np.ndarray, m: float, wide: float) -> np.ndarray:
+    """R at lags u of one term with a coefficient of one."""
+    m, wide = min(m, wide), max(m, wide)
+    return (second(u + wide, m) - 2 * second(u, m) + second(u - wide, m)) / (2 * m * wide)
+
+
+def _quantization(u: np.ndarray, m: float) -> np.ndarray:
+    """Second difference by m of [u = 0]; the three others are of the functions in the module's
+    docstring, less what cancels.
+    """
+    return np.where(np.abs(u) == m, 1.0, 0.0) - np.where(u == 0, 2.0, 0.0)
+
+
+def _white(u: np.ndarray, m: float) -> np.ndarray:
+    return -np.maximum(m - np.abs(u), 0.0)
+
+
+def _flicker(u: np.ndarray, m: float) -> np.ndarray:
+    return (_square_log(u + m) - 2 * _square_log(u) + _square_log(u - m)) / (2 * np.pi)
+
+
+def _square_log(u: np.ndarray) -> np.ndarray:
+    return xlogy(u**2, np.abs(u))
+
+
+def _random_walk(u: np.ndarray, m: float) -> np.ndarray:
+    far = np.abs(u)
+    cube = np.where(far >= m, 6 * far * m**2, 2 * m**3 + 6 * m * u**2 - 2 * far**3)
+    return cube / 12 + _white(u, m) / 6
+
+
+SECOND_DIFFERENCES = (_quantization, _white, _flicker, _random_walk)

@@ -1,0 +1,1 @@
+"""Noise coefficients with their intervals, from Allan deviations."""

@@ -1,0 +1,1 @@
+"""What a characterisation found, for people and as files."""

@@ -1,0 +1,1 @@
+"""Power spectral density and its lines."""

@@ -1,0 +1,100 @@
+"""One level of the cascade that ``psd`` sends a record through: windows are transformed, and every
+fourth filtered sample goes on.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+from numba import njit
+from scipy.fft import rfft
+from scipy.signal import firwin, get_window
+
+DECIMATION = 4
+
+STOP = 120.0
+"""Attenuation in dB of what would fold into a level's band; quantization rises steeply with
+frequency, and folds."""
+
+TAPS = firwin(51, 0.5 / DECIMATION, window=("kaiser", 0.1102 * (STOP - 8.7)), fs=1.0)
+"""Flat to 1e-5 up to 0.16, and at -120 dB from 0.84 of the sample rate that it leaves: a level is
+read no higher than 0.16."""
+
+BATCH = 2**16
+"""Samples of the windows that are transformed at a time, a core's cache being what it is."""
+
+
+class Stage:
+    """One level of the cascade: sums of periodograms, samples that wait for their window, and for
+    the filter.
+    """
+
+    def __init__(self, length: int, columns: int, room: int) -> None:
+        """``room``: samples of a column that wait before they are transformed."""
+        self.length, self.columns, self.windows, self._count = length, columns, 0, 0
+        self.power = np.zeros((columns, length // 2 + 1))
+        self._waiting = np.empty((columns, max(room, length) + length))
+        self.forget()
+
+    def forget(self) -> None:
+        """Start of a segment."""
+        self.transform()
+        self._count, self._past = 0, np.empty((self.columns, 0))
+
+    def take(self, x: np.ndarray) -> np.ndarray:
+        """Adds samples (c, k) and returns those of the next level."""
+        done = 0
+        while done < x.shape[1]:
+            if self._count == self._waiting.shape[1]:
+                self.transform()
+            k = min(x.shape[1] - done, self._waiting.shape[1] - self._count)
+            self._waiting[:, self._count : self._count + k] = x[:, done : done + k]
+            self._count, done = self._count + k, done + k
+        return self._decimated(x)
+
+    def transform(self) -> None:
+        """Adds the windows that are complete."""
+        step = self.length // 2
+        count = self._count // step - 1
+        if count < 1:
+            return
+        at_once, w = max(1, BATCH // self.length), hann(self.length)
+        for row, power in zip(self._waiting, self.power, strict=True):
+            windows = np.lib.stride_tricks.sliding_window_view(row[: self._count], self.length)[
+                ::step
+            ]
+            for a in range(0, count, at_once):
+                x = rfft(windows[a : a + at_once] * w, overwrite_x=True)
+                power += np.einsum("wk,wk->k", x.real, x.real) + np.einsum(
+                    "wk,wk->k", x.imag, x.imag
+                )
+        self.windows += count
+        rest = self._count - count * step
+        self._waiting[:, :rest] = self._waiting[:, count * step : self._count].copy()
+        self._count = rest
+
+    def _decimated(self, x: np.ndarray) -> np.ndarray:
+        """Every fourth output of the filter that draws on this segment alone."""
+        x = np.concatenate([self._past, x], axis=1)
+        out = np.empty((len(x), max(0, (x.shape[1] - len(TAPS)) // DECIMATION + 1)))
+        _fill_filtered(x, out)
+        self._past = x[:, out.shape[1] * DECIMATION :].copy()
+        return out
+
+
+@njit(cache=True, nogil=True, fastmath={"reassoc", "contract"})
+def _fill_filtered(x, out):
+    """The sums may be made in any order, so that the compiler takes several products at a time."""
+    for c in range(len(out)):
+        for k in range(out.shape[1]):
+            total = 0.0
+            for j in range(len(TAPS)):
+                total += TAPS[j] * x[c, k * DECIMATION + j]
+            out[c, k] = total
+
+
+@lru_cache(maxsize=8)
+def hann(length: int) -> np.ndarray:
+    """Hann's window (length,)."""
+    return get_window("hann", length)

@@ -1,0 +1,1 @@
+"""Bias against temperature, and warm-up."""

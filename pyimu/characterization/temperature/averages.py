@@ -1,0 +1,99 @@
+"""Means of a long record over blocks of equal length in time: what is slow in it, in bounded
+memory.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+SHORTEST = 1.0
+"""Seconds of a block at first; they double as the record grows."""
+
+
+@dataclass(frozen=True)
+class Blocks:
+    """Means over the ``count`` (m,) samples, ``h`` s apart, of each block: ``time`` (m,) s,
+    ``temperature`` (m,) degC, ``values`` (m, c).
+    """
+
+    time: np.ndarray
+    temperature: np.ndarray
+    values: np.ndarray
+    count: np.ndarray
+    h: float
+
+    @property
+    def duration(self) -> np.ndarray:
+        """Seconds (m,) that each block's samples stand for."""
+        return self.count * self.h
+
+    @property
+    def gap(self) -> np.ndarray:
+        """Seconds (m,) between the samples of a block and those of the one before; zero for the
+        first.
+        """
+        end, start = self.time + self.duration / 2, self.time - self.duration / 2
+        return np.append(0.0, np.maximum(start[1:] - end[:-1], 0.0))
+
+
+def block_means(
+    time: np.ndarray, temperature: np.ndarray, values: np.ndarray, h: float, target: int = 2000
+) -> Blocks:
+    """Blocks of whole arrays (n,), (n,) and (n, c) or (n,); see ``BlockAccumulator``."""
+    accumulator = BlockAccumulator(h, target)
+    accumulator.add(time, temperature, values)
+    return accumulator.result()
+
+
+class BlockAccumulator:
+    """Block means of a record that comes in pieces, in the order of time; gaps may lie between
+    rows.
+
+    Blocks are 1 s long, or a sample where that is longer, and twice as long whenever they become
+    more than 2 ``target``. Rows with a missing cell are left out.
+    """
+
+    def __init__(self, h: float, target: int = 2000) -> None:
+        self.h, self.target, self.length = float(h), target, max(SHORTEST, float(h))
+        self._start: float | None = None
+        self._index, self._count = np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64)
+        self._sums = np.empty((0, 0))
+
+    def add(self, time: np.ndarray, temperature: np.ndarray, values: np.ndarray) -> None:
+        """The next rows: (k,) s, (k,) degC and (k, c) or (k,)."""
+        rows = np.column_stack([time, temperature, values]).astype(float)
+        rows = rows[np.isfinite(rows).all(axis=1)]
+        if not len(rows):
+            return
+        if self._start is None:
+            # Half a sample before the first, so that samples do not lie on the edges.
+            self._start, self._sums = rows[0, 0] - self.h / 2, np.empty((0, rows.shape[1]))
+        rows[:, 0] -= self._start
+        index = np.floor(rows[:, 0] / self.length).astype(np.int64)
+        self._append(index, np.ones(len(rows), dtype=np.int64), rows)
+        while len(self._index) > 2 * self.target:
+            self.length *= 2
+            halved, count, sums = self._index // 2, self._count, self._sums
+            self._index, self._count, self._sums = self._index[:0], count[:0], sums[:0]
+            self._append(halved, count, sums)
+
+    def _append(self, index: np.ndarray, count: np.ndarray, sums: np.ndarray) -> None:
+        if len(self._index):
+            # The last block may go on.
+            index, count = np.append(self._index[-1], index), np.append(self._count[-1], count)
+            sums = np.concatenate([self._sums[-1:], sums])
+        first = np.flatnonzero(np.diff(index, prepend=index[0] - 1))
+        self._index = np.append(self._index[:-1], index[first])
+        self._count = np.append(self._count[:-1], np.add.reduceat(count, first))
+        self._sums = np.concatenate([self._sums[:-1], np.add.reduceat(sums, first, axis=0)])
+
+    def result(self) -> Blocks:
+        """The means so far; more may be added afterwards."""
+        means = self._sums / self._count[:, None]
+        if self._start is None:
+            return Blocks(np.empty(0), np.empty(0), np.empty((0, 0)), self._count, self.h)
+        return Blocks(
+            means[:, 0] + self._start, means[:, 1], means[:, 2:], self._count.copy(), self.h
+        )

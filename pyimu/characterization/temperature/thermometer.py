@@ -1,0 +1,109 @@
+r"""The temperature that a noisy or coarse thermometer saw.
+
+A regressor's own noise makes its coefficient too small; what is expected of it given all readings
+does not, since that does not correlate with what it misses (Berkson, J. Am. Stat. Assoc. 45 (1950),
+164-180). The readings y of the blocks are taken as white noise over a temperature z that is a
+random walk, or one whose slope is; z minimises
+
+    sum w_i (y_i - z_i)^2 + lambda sum (D z)_i^2
+
+with D the first or second divided differences (Whittaker, Proc. Edinb. Math. Soc. 41 (1923),
+63-75). Order and lambda are the likeliest.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.linalg import cho_solve_banded, cholesky_banded
+
+from pyimu.characterization.temperature.averages import Blocks
+
+STIFFNESS = np.logspace(-4, 9, 40)
+"""Values of lambda, with the time in blocks: from readings that are exact to a straight line."""
+
+STANDS = 0.5
+"""A thermometer whose mean changes in fewer than that share of the blocks shows its own steps."""
+
+COARSEST = 1.0
+"""K; the step of a coarse thermometer. A larger one is a change of the temperature itself."""
+
+ONE_STEP = 1.5
+"""A change of up to so many of the thermometer's steps is one of them; a larger one is a ramp or a
+jump between plateaus."""
+
+
+def smoothed(blocks: Blocks) -> np.ndarray:
+    """What is expected of the temperature (m,) at each block, given all of them."""
+    y, w = without_steps(blocks.temperature), blocks.count / np.median(blocks.count)
+    step = np.diff(blocks.time) / np.median(np.diff(blocks.time))
+    best = min(
+        (_fit(y - y[0], w, step, order, stiffness) for order in (1, 2) for stiffness in STIFFNESS),
+        key=lambda fit: fit[0],
+    )
+    return best[1] + y[0]
+
+
+def without_steps(temperature: np.ndarray) -> np.ndarray:
+    """Straight from each of its own steps to the next, where a coarse thermometer stands still for
+    long between them.
+
+    Larger changes, as between the plateaus of a chamber, stay as they were read, and so do the
+    ends.
+    """
+    change = np.flatnonzero(np.diff(temperature))
+    if not 1 < len(change) < STANDS * len(temperature):
+        return temperature
+    # A step in the middle of a block is a change from either side of it.
+    runs = np.split(change, np.flatnonzero(np.diff(change) > 1) + 1)
+    first, last = np.array([r[0] for r in runs]), np.array([r[-1] + 1 for r in runs])
+    size = np.abs(temperature[last] - temperature[first])
+    step = np.min(size, where=size > 1e-6 * np.ptp(temperature), initial=np.inf)
+    if step > COARSEST:
+        return temperature
+    known = np.ones(len(temperature), dtype=bool)
+    known[1:-1] = False
+    for a, b in zip(first[size > ONE_STEP * step], last[size > ONE_STEP * step], strict=True):
+        known[a : b + 1] = True
+    own = size <= ONE_STEP * step
+    at = np.append(np.flatnonzero(known), (first[own] + last[own]) / 2)
+    level = np.append(temperature[known], (temperature[first[own]] + temperature[last[own]]) / 2)
+    order = np.argsort(at, kind="stable")
+    return np.interp(np.arange(len(temperature)), at[order], level[order])
+
+
+def _fit(
+    y: np.ndarray, w: np.ndarray, step: np.ndarray, order: int, stiffness: float
+) -> tuple[float, np.ndarray]:
+    """Twice the negative logarithm of the likelihood, the noise's variance being the likeliest, and
+    z (m,).
+    """
+    band = stiffness * _squared_differences(step, order)
+    band[-1] += w
+    try:
+        cholesky = cholesky_banded(band)
+    except np.linalg.LinAlgError:
+        # Stiffer than rounding can tell from a straight line, where gaps make steps very unequal.
+        return np.inf, y
+    z = cho_solve_banded((cholesky, False), w * y)
+    # At the minimum the sum of squares and penalties is what y does not share with z.
+    free, squares = len(y) - order, max(float(np.sum(w * y * (y - z))), 1e-300)
+    return float(
+        free * np.log(squares) + 2 * np.sum(np.log(cholesky[-1])) - free * np.log(stiffness)
+    ), z
+
+
+def _squared_differences(step: np.ndarray, order: int) -> np.ndarray:
+    """D'D as the upper band (order + 1, m) that LAPACK takes; the rows of D have unit variance
+    where z is the walk that is meant.
+    """
+    if order == 1:
+        rows = np.array([-1, 1])[:, None] / np.sqrt(step)
+    else:
+        rows = np.array([1 / step[:-1], -1 / step[:-1] - 1 / step[1:], 1 / step[1:]]) / np.sqrt(
+            (step[:-1] + step[1:]) / 2
+        )
+    band, n = np.zeros((order + 1, len(step) + 1)), rows.shape[1]
+    for i in range(order + 1):
+        for j in range(i, order + 1):
+            band[order - (j - i), j : j + n] += rows[i] * rows[j]
+    return band

@@ -1,0 +1,1 @@
+"""The loop: what a model lacks to explain measured logs."""

@@ -1,0 +1,1 @@
+"""Fitting a sensor model to logs: residual, columns, whitening, least squares, score."""

@@ -1,0 +1,86 @@
+"""Errors in variables: what the noise of a derived reference does to coefficients."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from pyimu.identification.fit.columns import band_segments, band_time, in_band, reference_input
+from pyimu.identification.fit.fit import Fit, stepped
+from pyimu.identification.fit.keys import slot_key
+from pyimu.identification.fit.normal import normal_equations, solve
+from pyimu.identification.fit.response import tail, tail_of
+from pyimu.identification.fit.trial import rest_noise
+from pyimu.identification.fit.whiten import RandomWalk
+
+
+def without_attenuation(fitted: Fit) -> Fit:
+    """Take out the bias that noise of a derived reference puts into coefficients (errors in
+    variables).
+
+    With an error e on the input, residual and regressor hold -e and (d column/dx) e: their product
+    has a mean, which pulls a scale factor down. In whitened rows the residual has unit variance,
+    so the sum of the products is the number of rows times the mean of d column/dx times the
+    reference's share of that variance (Fuller 1987, section 1.2).
+    """
+    if all(t.band_hz is None for t in fitted.trials):
+        return fitted
+    normal = normal_equations(fitted.linearise(), fitted.noise)
+    pull = np.zeros(len(normal.keys))
+    rest = tail(fitted.sensor)
+    response = tail_of(rest.kind, tuple(rest.values))
+    shares = _reference_shares(fitted)
+    for t in fitted.trials:
+        bend = response.mean_bend(reference_input(t, fitted.states[t.name]), rest.p, t.h)
+        rows = len(band_time(t))
+        for e, (axis, slot) in enumerate(zip(response.axis, response.slot, strict=True)):
+            key = slot_key(rest.slots[slot])
+            if key in normal.position and int(axis) in t.axes:
+                pull[normal.position[key]] += rows * bend[e] * shares[int(axis)]
+    return stepped(fitted, normal.keys, solve(normal.gram, pull)).with_noise()
+
+
+def own_noise(fitted: Fit) -> dict[int, RandomWalk]:
+    """The sensor's own noise at the sample rate: as declared, else its white part as its quiet
+    stretches show it.
+    """
+    values, h = fitted.sensor.values, fitted.trials[0].h
+    declared = {
+        n: values[e][n]
+        for e, n in (("angle_random_walk", "N"), ("rate_random_walk", "K"))
+        if e in values and np.any(values[e][n])
+    }
+    white = (
+        declared["N"] / np.sqrt(h)
+        if "N" in declared
+        else np.mean([rest_noise(t) for t in fitted.trials], axis=0)
+    )
+    walk = declared.get("K", np.zeros(3))
+    return {i: RandomWalk(float(white[i] ** 2), float(walk[i] ** 2)) for i in fitted.noise}
+
+
+def simulated(
+    noise: dict[int, RandomWalk], time: np.ndarray, rng: np.random.Generator
+) -> np.ndarray:
+    """White noise and random walk (n, 3) at the sample rate."""
+    out = np.zeros((len(time), 3))
+    steps = np.sqrt(np.maximum(np.diff(time, prepend=time[:1]), 0.0))
+    for i, n in noise.items():
+        out[:, i] = np.sqrt(n.r) * rng.standard_normal(len(time)) + np.cumsum(
+            np.sqrt(n.k2) * steps * rng.standard_normal(len(time))
+        )
+    return out
+
+
+def _reference_shares(fitted: Fit, seed: int = 1) -> dict[int, float]:
+    """Share of each axis's whitened residual that is not the sensor's own noise: one less what that
+    noise, simulated, leaves.
+    """
+    t = max(fitted.trials, key=lambda t: t.count)
+    seen = in_band(t, simulated(own_noise(fitted), t.time, np.random.default_rng(seed)))
+    return {
+        i: max(
+            0.0,
+            1.0 - float(np.mean(n.whiten(seen[:, i : i + 1], band_time(t), band_segments(t)) ** 2)),
+        )
+        for i, n in fitted.noise.items()
+    }

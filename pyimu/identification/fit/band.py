@@ -1,0 +1,69 @@
+"""The band in which a derived reference can be trusted: one linear-phase filter for gyro, reference
+and regressors alike.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.signal import upfirdn
+
+OVERSAMPLING = 2.5
+
+
+@dataclass(frozen=True)
+class Band:
+    """A Hann-weighted moving average of ``taps`` samples, kept every ``stride`` samples.
+
+    ``Band()`` is no filter at all. The window's length follows from the -3 dB frequency: a Hann
+    window of L samples falls to 1/sqrt(2) at 0.7203 of the sample rate over L. Rows are kept at
+    ``OVERSAMPLING`` times that frequency and no faster: whitening weighs every frequency up to half
+    the row rate alike, and beyond the band there is nothing to trust.
+    """
+
+    weights: tuple[float, ...] = (1.0,)
+    stride: int = 1
+
+    @classmethod
+    def below(cls, band_hz: float, sample_rate: float) -> Band:
+        """Band up to ``band_hz`` (-3 dB) at ``sample_rate``, both in Hz."""
+        support = 0.7203 * sample_rate / band_hz
+        half = math.ceil(support / 2) - 1
+        if half < 1:
+            return cls()
+        # A support of no whole number of samples keeps the frequency where it was asked for.
+        window = 1 + np.cos(2 * np.pi * np.arange(-half, half + 1) / support)
+        return cls(
+            tuple(window / window.sum()), max(1, round(sample_rate / (OVERSAMPLING * band_hz)))
+        )
+
+    @property
+    def half(self) -> int:
+        """Samples on either side that an output draws on."""
+        return len(self.weights) // 2
+
+    def centres(self, segments: list[tuple[int, int]]) -> np.ndarray:
+        """Indices of the samples that outputs stand for, so that none draws on a sample outside its
+        segment.
+        """
+        parts = [np.arange(a + self.half, b - self.half, self.stride) for a, b in segments]
+        return np.concatenate(parts) if parts else np.arange(0)
+
+    def apply(self, values: np.ndarray, segments: list[tuple[int, int]]) -> np.ndarray:
+        """Filter (n, c) within each segment; gives (m, c), one row for each of ``centres``."""
+        if len(self.weights) == 1:
+            return np.concatenate([values[a:b] for a, b in segments]) if segments else values[:0]
+        parts = [self._one(values[a:b]) for a, b in segments if b - a > 2 * self.half]
+        return np.concatenate(parts) if parts else values[:0]
+
+    def _one(self, values: np.ndarray) -> np.ndarray:
+        rows = len(range(self.half, len(values) - self.half, self.stride))
+        shifted = values[: (rows - 1) * self.stride + len(self.weights)]
+        # upfirdn keeps outputs 0, stride, 2 stride ...; dropping whole strides first puts them on
+        # the centres.
+        lead = (-2 * self.half) % self.stride
+        padded = np.concatenate([np.zeros((lead, values.shape[1])), shifted])
+        first = (2 * self.half + lead) // self.stride
+        return upfirdn(np.array(self.weights), padded, 1, self.stride, axis=0)[first : first + rows]

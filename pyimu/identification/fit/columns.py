@@ -1,0 +1,218 @@
+"""A trial linearised: its residual, and a column for each coefficient."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from pyimu.identification.fit.keys import Key, slot_key
+from pyimu.identification.fit.response import (
+    dynamics,
+    felt,
+    motion,
+    predict,
+    remembers,
+    tail,
+    tail_of,
+    through_dynamics,
+)
+from pyimu.identification.fit.trial import Trial
+from pyimu.model.effect import OWN, Parameter
+from pyimu.model.sensor import Sensor
+
+
+@dataclass(frozen=True)
+class LogState:
+    """What belongs to a log and not to the part: bias (3,) at power-on and mounting rotation (3, 3)
+    of the reference.
+    """
+
+    bias: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    rotation: np.ndarray = field(default_factory=lambda: np.eye(3))
+
+    def moved(self, key: Key, change: float) -> LogState:
+        """The state with the coefficient of a "bias" or "rotation" column changed."""
+        unit = np.eye(3)[key[2]]
+        if key[0] == "bias":
+            return replace(self, bias=self.bias + change * unit)
+        return replace(
+            self, rotation=Rotation.from_rotvec(change * unit).as_matrix() @ self.rotation
+        )
+
+
+@dataclass(frozen=True)
+class Linear:
+    """A trial linearised: residual (m, 3) in its band, and for each axis the columns that act on
+    it.
+    """
+
+    time: np.ndarray
+    segments: list[tuple[int, int]]
+    residual: np.ndarray
+    keys: dict[int, list[Key]]
+    columns: dict[int, np.ndarray]
+
+
+def reference_input(trial: Trial, state: LogState) -> np.ndarray:
+    """Inputs (n, N_INPUT) with the reference turned into the sensor's axes."""
+    u = np.array(trial.u)
+    u[:, OWN[trial.kind]] = u[:, OWN[trial.kind]] @ state.rotation.T
+    return u
+
+
+def residual(sensor: Sensor, trial: Trial, state: LogState) -> np.ndarray:
+    """Measured less model (n, 3), at the sample rate."""
+    return (
+        trial.y
+        - predict(sensor, reference_input(trial, state), trial.segments, trial.h)
+        - state.bias
+    )
+
+
+def in_band(trial: Trial, values: np.ndarray) -> np.ndarray:
+    """Rows (m, c) of values (n, c) as the trial's band shows them."""
+    return trial.band.apply(values, trial.row_segments)
+
+
+def band_segments(trial: Trial) -> list[tuple[int, int]]:
+    """Segments of the rows that ``in_band`` gives."""
+    lengths = [len(trial.band.centres([s])) for s in trial.row_segments]
+    ends = np.cumsum([n for n in lengths if n])
+    return list(zip([0, *ends[:-1].tolist()], ends.tolist(), strict=True)) if len(ends) else []
+
+
+def band_time(trial: Trial) -> np.ndarray:
+    return trial.time[trial.band.centres(trial.row_segments)]
+
+
+class Columns:
+    """Collects columns as (key, axis, values at the sample rate) and filters them all at once."""
+
+    def __init__(self, trial: Trial) -> None:
+        self.trial = trial
+        self.items: list[tuple[Key, int, np.ndarray]] = []
+
+    def add(self, key: Key, axis: int, values: np.ndarray) -> None:
+        if axis in self.trial.axes and np.any(values):
+            self.items.append((key, axis, values))
+
+    def filtered(self) -> tuple[dict[int, list[Key]], dict[int, np.ndarray]]:
+        keys = {i: [k for k, axis, _ in self.items if axis == i] for i in self.trial.axes}
+        columns = {}
+        for i in self.trial.axes:
+            arrays = [v for _, axis, v in self.items if axis == i]
+            stacked = np.column_stack(arrays) if arrays else np.zeros((len(self.trial.time), 0))
+            columns[i] = in_band(self.trial, stacked)
+        return keys, columns
+
+
+def linearise(
+    sensor: Sensor, trial: Trial, state: LogState, wanted: Iterable[Key], extra: Iterable = ()
+) -> Linear:
+    """Residual and columns of a trial.
+
+    ``sensor`` holds the model and any candidates at their identity; ``wanted`` are the keys of the
+    coefficients that get columns; ``extra`` are functions ``(trial, u, y, add)`` that add columns
+    of their own (scans, generic inputs).
+    """
+    wanted = frozenset(wanted)
+    u = reference_input(trial, state)
+    own = OWN[trial.kind]
+    moved = felt(sensor, u, trial.segments, trial.h)
+    rest = tail(sensor)
+    response = tail_of(rest.kind, tuple(rest.values))
+    y, slope, entries = response(moved, rest.p, trial.h)
+    if remembers(sensor):
+        y = predict(sensor, u, trial.segments, trial.h)
+    out = Columns(trial)
+    for e, (axis, slot) in enumerate(zip(response.axis, response.slot, strict=True)):
+        s = rest.slots[slot]
+        if slot_key(s) in wanted:
+            out.add(slot_key(s), int(axis), entries[:, e])
+    _log_columns(out, trial, moved[:, own], slope)
+    _motion_columns(out, sensor, trial, u, slope, wanted)
+    _dynamics_columns(out, sensor, trial, u, wanted)
+    for function in extra:
+        function(trial, u, y, out.add)
+    keys, columns = out.filtered()
+    return Linear(
+        band_time(trial),
+        band_segments(trial),
+        in_band(trial, trial.y - y - state.bias),
+        keys,
+        columns,
+    )
+
+
+def _log_columns(out: Columns, trial: Trial, x: np.ndarray, slope: np.ndarray) -> None:
+    """Bias of each axis; where the mounting is free, a small turn about each axis."""
+    for i in range(3):
+        out.add(("bias", trial.name, i), i, np.ones(len(x)))
+    if trial.free_rotation:
+        for k in range(3):
+            turned = np.einsum("nij,nj->ni", slope, np.cross(np.eye(3)[k], x))
+            for i in range(3):
+                out.add(("rotation", trial.name, k), i, turned[:, i])
+
+
+def _motion_columns(
+    out: Columns,
+    sensor: Sensor,
+    trial: Trial,
+    u: np.ndarray,
+    slope: np.ndarray,
+    wanted: frozenset[Key],
+) -> None:
+    """Slopes against the coefficients of what comes before the dynamics: through these, and through
+    what follows.
+    """
+    chain = motion(sensor)
+    if not any(slot_key(s) in wanted for s in chain.slots):
+        return
+    before = tail_of(chain.kind, tuple(chain.values))
+    entries = before(u, chain.p, trial.h)[2]
+    for number, s in enumerate(chain.slots):
+        of_slot = np.flatnonzero(before.slot == number)
+        if slot_key(s) not in wanted or not len(of_slot):
+            continue
+        change = np.zeros((len(u), 3))
+        change[:, before.axis[of_slot]] = entries[:, of_slot]
+        change = np.einsum(
+            "nij,nj->ni", slope, through_dynamics(sensor, change, trial.segments, trial.h)
+        )
+        for i in range(3):
+            out.add(slot_key(s), i, change[:, i])
+
+
+def _dynamics_columns(
+    out: Columns, sensor: Sensor, trial: Trial, u: np.ndarray, wanted: frozenset[Key]
+) -> None:
+    """Slopes against the coefficients of dynamics that are switched on, by central differences,
+    one-sided at a bound.
+    """
+    chain = dynamics(sensor)
+    for s, value in zip(chain.slots, chain.p, strict=True):
+        if slot_key(s) not in wanted or sensor.is_off(s.effect):
+            continue
+        step = 1e-3 * max(abs(value), 1e-3 * trial.h)
+        ends = _clipped(s.definition, value + step), _clipped(s.definition, value - step)
+        high, low = (predict(_moved(sensor, s, v), u, trial.segments, trial.h) for v in ends)
+        for i in range(3):
+            out.add(slot_key(s), i, (high[:, i] - low[:, i]) / (ends[0] - ends[1]))
+
+
+def _moved(sensor: Sensor, slot, value: float) -> Sensor:
+    array = np.array(sensor.values[slot.effect][slot.parameter])
+    array[slot.index] = value
+    return sensor.with_values(slot.effect, **{slot.parameter: array})
+
+
+def _clipped(definition: Parameter, value: float) -> float:
+    least, most = (
+        bound if bound is not None else unbounded
+        for bound, unbounded in ((definition.minimum, -np.inf), (definition.maximum, np.inf))
+    )
+    return min(max(value, least), most)

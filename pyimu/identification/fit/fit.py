@@ -1,0 +1,184 @@
+"""A model fitted to trials, and the steps of least squares towards it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from pyimu.errors import UserError
+from pyimu.identification.fit.columns import (
+    Linear,
+    LogState,
+    band_segments,
+    band_time,
+    in_band,
+    linearise,
+    residual,
+)
+from pyimu.identification.fit.keys import Key, slot_keys
+from pyimu.identification.fit.normal import Noise, normal_equations, solve
+from pyimu.identification.fit.trial import Trial
+from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
+from pyimu.model.catalogue import CATALOGUE
+from pyimu.model.effect import OWN, Parameter
+from pyimu.model.sensor import Sensor
+
+
+@dataclass(frozen=True)
+class Fit:
+    """A model fitted to trials: values in ``sensor``, per-log states, noise by axis, log-likelihood
+    [nat].
+
+    ``free`` are the keys of the coefficients that are estimated; ``std`` the standard errors by
+    column key.
+    """
+
+    sensor: Sensor
+    free: frozenset[Key]
+    trials: tuple[Trial, ...]
+    states: dict[str, LogState]
+    noise: Noise
+    log_likelihood: float = -np.inf
+    std: Mapping[Key, float] = field(default_factory=dict)
+
+    def linearise(self, candidates: Iterable[str] = (), extra: Iterable = ()) -> list[Linear]:
+        """All trials with columns for the free coefficients, the logs' own, and effects
+        ``candidates`` put in at their identity.
+        """
+        sensor, wanted = self.sensor, self.free
+        for name in candidates:
+            sensor = sensor if name in sensor.values else sensor.with_values(name)
+            wanted |= slot_keys(sensor, name)
+        return [linearise(sensor, t, self.states[t.name], wanted, extra) for t in self.trials]
+
+    def residuals(self) -> list[Linear]:
+        """All trials' residuals in their band, without columns."""
+        return [
+            bare(t, in_band(t, residual(self.sensor, t, self.states[t.name]))) for t in self.trials
+        ]
+
+    def with_noise(self) -> Fit:
+        """The same model with the noise fitted to its present residual."""
+        return replace(self, noise=fit_noise(self.trials, self.residuals()))
+
+
+def bare(trial: Trial, r: np.ndarray) -> Linear:
+    """A residual (m, 3) of a trial, in its band, with no columns beside it."""
+    return Linear(
+        band_time(trial),
+        band_segments(trial),
+        r,
+        {i: [] for i in trial.axes},
+        {i: np.zeros((len(r), 0)) for i in trial.axes},
+    )
+
+
+def fit_noise(trials: tuple[Trial, ...], residuals: list[Linear]) -> Noise:
+    """Noise model of each axis, one for all logs: the whitening follows what the reference is."""
+    derived = any(t.reference in ("attitude", "heading") for t in trials)
+    made = {}
+    for i in sorted({i for t in trials for i in t.axes}):
+        parts = [(one.residual[:, i], one.time, one.segments) for one in residuals if i in one.keys]
+        made[i] = (Autoregressive if derived else RandomWalk).fit(parts)
+    return made
+
+
+def initial_state(sensor: Sensor, trial: Trial) -> LogState:
+    """Mounting by the rotation that turns the reference into the measurement, bias as the mean of
+    what is left.
+    """
+    rotation = np.eye(3)
+    if trial.free_rotation:
+        x, y = (in_band(trial, v) for v in (trial.u[:, OWN[trial.kind]], trial.y))
+        # Turns whose size the two sides tell apart (a clipped sensor, a bad reference) would bend
+        # the estimate.
+        fast = (np.linalg.norm(x, axis=1) > 0.05) & (
+            np.abs(np.linalg.norm(x, axis=1) - np.linalg.norm(y, axis=1))
+            < 0.2 * np.linalg.norm(x, axis=1)
+        )
+        if fast.sum() > 10:
+            rotation = Rotation.align_vectors(y[fast], x[fast])[0].as_matrix()
+    rest = in_band(trial, residual(sensor, trial, LogState(np.zeros(3), rotation)))
+    return LogState(np.median(rest, axis=0) if len(rest) else np.zeros(3), rotation)
+
+
+def begin(sensor: Sensor, free: Iterable[Key], trials: Iterable[Trial]) -> Fit:
+    """A model before its first fit."""
+    trials = tuple(trials)
+    states = {t.name: initial_state(sensor, t) for t in trials}
+    return Fit(sensor, frozenset(free), trials, states, {}).with_noise()
+
+
+def gauss_newton(start: Fit, steps: int) -> Fit:
+    """Least squares of the whitened residual, each step halved until it lowers it."""
+    normal = normal_equations(start.linearise(), start.noise)
+    for _ in range(steps):
+        change = solve(normal.gram, normal.score)
+        if float(change @ normal.score) < 1e-3:
+            break
+        moved = next(
+            (
+                m
+                for m in (stepped(start, normal.keys, change / 2**k) for k in range(8))
+                if power(m) < normal.power
+            ),
+            None,
+        )
+        if moved is None:
+            break
+        start, normal = moved, normal_equations(moved.linearise(), moved.noise)
+    return start
+
+
+def power(fit: Fit) -> float:
+    """Sum of squares of the whitened residual: what ``normal_equations`` calls power, without its
+    columns.
+    """
+    return sum(
+        float(np.sum(fit.noise[i].whiten(one.residual[:, i : i + 1], one.time, one.segments) ** 2))
+        for one in fit.residuals()
+        for i in one.keys
+    )
+
+
+def stepped(start: Fit, keys: list[Key], change: np.ndarray) -> Fit:
+    """Move every coefficient and log state by its share of ``change``."""
+    values = {e: {n: np.array(v) for n, v in p.items()} for e, p in start.sensor.values.items()}
+    states = dict(start.states)
+    for key, d in zip(keys, change, strict=True):
+        if key[0] == "slot":
+            _, effect, parameter, index = key
+            values[effect][parameter][index] = _bounded(
+                CATALOGUE[effect].parameters[parameter], values[effect][parameter][index], d
+            )
+        elif key[0] in ("bias", "rotation"):
+            states[key[1]] = states[key[1]].moved(key, d)
+    return replace(start, sensor=_possible(Sensor(start.sensor.kind, values), start), states=states)
+
+
+def _possible(sensor: Sensor, start: Fit) -> Sensor:
+    """The sensor, with the coefficients of ``start`` where no part of the trials' sample periods
+    can have new ones together.
+    """
+    for effect in (e for e in sensor.effects if e.limits):
+        alone = Sensor(sensor.kind, {effect.name: sensor.values[effect.name]})
+        try:
+            for h in {t.h for t in start.trials}:
+                alone.check(h, "step")
+        except UserError:
+            sensor = sensor.with_values(effect.name, **start.sensor.values[effect.name])
+    return sensor
+
+
+def _bounded(definition: Parameter, value: float, change: float) -> float:
+    """A step across a bound goes half way to it: a bound often means "off", where there is no slope
+    to come back by.
+    """
+    if definition.minimum is not None and value + change <= definition.minimum:
+        return 0.5 * (value + definition.minimum)
+    if definition.maximum is not None and value + change >= definition.maximum:
+        return 0.5 * (value + definition.maximum)
+    return value + change

@@ -1,0 +1,109 @@
+"""Normal equations of whitened rows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from pyimu.identification.fit.columns import Linear
+from pyimu.identification.fit.keys import Key
+from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
+
+BLOCKS = 80
+"""Stretches into which all rows are cut to see how much the scores really scatter."""
+
+
+Noise = dict[int, "RandomWalk | Autoregressive"]
+
+
+@dataclass
+class Normal:
+    """Normal equations in whitened units, whole and by block: ``gram`` (P, P), ``score`` (P,), for
+    named columns.
+    """
+
+    keys: list[Key]
+    block_gram: np.ndarray
+    block_score: np.ndarray
+    power: float
+    rows: int
+    log_det: float
+
+    @cached_property
+    def gram(self) -> np.ndarray:
+        return self.block_gram.sum(axis=0)
+
+    @cached_property
+    def score(self) -> np.ndarray:
+        return self.block_score.sum(axis=0)
+
+    @cached_property
+    def position(self) -> dict[Key, int]:
+        return {k: i for i, k in enumerate(self.keys)}
+
+    @property
+    def log_likelihood(self) -> float:
+        """Gaussian log-likelihood [nat] of the residual as it stands, constant left out."""
+        return -0.5 * (self.power + self.log_det)
+
+
+def normal_equations(linears: list[Linear], noise: Noise) -> Normal:
+    """Whiten residual and columns, axis by axis, and add up what the rows say."""
+    keys = list(dict.fromkeys(k for one in linears for i in one.keys for k in one.keys[i]))
+    position = {k: i for i, k in enumerate(keys)}
+    blocks = [
+        max(2, round(BLOCKS * len(one.time) / max(1, sum(len(o.time) for o in linears))))
+        for one in linears
+    ]
+    gram = np.zeros((sum(blocks), len(keys), len(keys)))
+    score = np.zeros((sum(blocks), len(keys)))
+    power, log_det, rows, first = 0.0, 0.0, 0, 0
+    for one, count in zip(linears, blocks, strict=True):
+        edges = np.linspace(0, len(one.time), count + 1).astype(int)
+        for i, columns in one.columns.items():
+            at = np.array([position[k] for k in one.keys[i]], dtype=int)
+            white = noise[i].whiten(
+                np.column_stack([columns, one.residual[:, i]]), one.time, one.segments
+            )
+            power += float(white[:, -1] @ white[:, -1])
+            log_det += noise[i].log_det(one.time, one.segments)
+            rows += len(white)
+            for b in range(count):
+                part = white[edges[b] : edges[b + 1]]
+                whole = part.T @ part
+                gram[first + b][np.ix_(at, at)] += whole[:-1, :-1]
+                score[first + b][at] += whole[:-1, -1]
+        first += count
+    return Normal(keys, gram, score, power, rows, log_det)
+
+
+def _scaled(gram: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Scale of each column, eigenvalues and eigenvectors of the scaled matrix, and which directions
+    the data show.
+    """
+    scale = np.sqrt(np.maximum(np.diag(gram), 1e-300))
+    values, vectors = np.linalg.eigh(gram / np.outer(scale, scale))
+    return scale, values, vectors, values > 1e-9 * max(values.max(initial=0.0), 1e-300)
+
+
+def variances(gram: np.ndarray) -> np.ndarray:
+    """Variances (P,) of the solution; infinite for a coefficient that a direction which the data do
+    not show takes part in.
+    """
+    scale, values, vectors, keep = _scaled(gram)
+    shown = np.sum(vectors[:, keep] ** 2 / values[keep], axis=1) / scale**2
+    hidden = np.sum(vectors[:, ~keep] ** 2, axis=1)
+    return np.where(hidden > 1e-6, np.inf, shown)
+
+
+def solve(gram: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """Least-norm solution of normal equations; directions that the data do not show stay where they
+    are.
+    """
+    scale, values, vectors, keep = _scaled(gram)
+    turned = vectors[:, keep].T @ (right / (scale if right.ndim == 1 else scale[:, None]))
+    inverse = values[keep] if right.ndim == 1 else values[keep][:, None]
+    answer = vectors[:, keep] @ (turned / inverse)
+    return answer / (scale if right.ndim == 1 else scale[:, None])

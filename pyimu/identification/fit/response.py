@@ -1,0 +1,202 @@
+"""What a sensor answers to a whole log at once, and how the answer changes with each coefficient.
+
+The dynamics of a chain are linear and time-invariant, so they act by their impulse response; what
+comes before and what follows has no memory once the noise is off, so casadi evaluates it, and its
+Jacobian, over all samples together. A chain with an effect that remembers in another way is
+stepped through.
+"""
+
+from __future__ import annotations
+
+from functools import cache, lru_cache
+
+import casadi as ca
+import numpy as np
+from scipy.signal import oaconvolve
+
+from pyimu.block.stepping import step_through
+from pyimu.block.vectorised import over_rows
+from pyimu.model.effect import OWN
+from pyimu.model.sensor import Sensor
+from pyimu.model.signals import N_INPUT
+
+LONGEST_RESPONSE = 1 << 14
+
+
+def remembers(sensor: Sensor) -> bool:
+    """Whether some effect's memory is more than a filter's (rounding left out)."""
+    return any(e.remembers and not is_step(e.name, sensor.kind) for e in sensor.effects)
+
+
+def motion(sensor: Sensor) -> Sensor:
+    """The part of the chain that lies before the dynamics."""
+    return Sensor(
+        sensor.kind, {e.name: sensor.values[e.name] for e in sensor.effects if e.stage == "motion"}
+    )
+
+
+def dynamics(sensor: Sensor) -> Sensor:
+    """The part of the chain that filters."""
+    return Sensor(
+        sensor.kind,
+        {e.name: sensor.values[e.name] for e in sensor.effects if e.stage == "dynamics"},
+    )
+
+
+def tail(sensor: Sensor) -> Sensor:
+    """What follows the dynamics, less the effects whose output has no slope (rounding acts as noise
+    here).
+    """
+    return Sensor(
+        sensor.kind,
+        {
+            e.name: sensor.values[e.name]
+            for e in sensor.effects
+            if e.stage not in ("motion", "dynamics") and not is_step(e.name, sensor.kind)
+        },
+    )
+
+
+@cache
+def is_step(name: str, kind: str) -> bool:
+    """True for an effect whose slope is zero almost everywhere: a staircase."""
+    one = Sensor(kind, {name: {}})
+    x = one.chain.x
+    y = one.step(one.chain.start, one.chain.u, one.chain.p, np.zeros(len(one.noise)), 1.0)[1]
+    slope = ca.Function("slope", [one.chain.u, one.chain.p], [ca.jacobian(y, x)])
+    # Inside and outside of a threshold or limit of one.
+    return all(
+        float(ca.norm_fro(slope(np.full(N_INPUT, v), one.p + 1.0))) == 0.0 for v in (0.3, 30.3)
+    )
+
+
+def impulse_response(sensor: Sensor, h: float) -> np.ndarray:
+    """Response (L, 3) of a chain of dynamics to a unit impulse, until it has died away (or
+    ``LONGEST_RESPONSE`` samples).
+    """
+    chain = sensor.chain
+    state = chain.start.copy()
+    if chain.waits:
+        state[0] = 1.0
+    parts, total = [], 0
+    while total < LONGEST_RESPONSE:
+        u = np.zeros((64, N_INPUT))
+        if not total:
+            u[0, OWN[sensor.kind]] = 1.0
+        y = np.empty((64, 3))
+        step_through(chain.step, state, u, sensor.p, np.zeros((64, 0)), np.array([h]), y)
+        parts.append(y)
+        total += 64
+        if np.abs(y).max() < 1e-13 and np.abs(state[chain.waits :]).max(initial=0) < 1e-13:
+            break
+    return np.concatenate(parts)
+
+
+def through_dynamics(
+    sensor: Sensor, x: np.ndarray, segments: list[tuple[int, int]], h: float
+) -> np.ndarray:
+    """Input (n, 3) after the sensor's dynamics, each segment started at rest on its first
+    sample.
+    """
+    chain = dynamics(sensor)
+    if not chain.effects:
+        return x
+    response = impulse_response(chain, h)
+    out = np.array(x)
+    for a, b in segments:
+        origin = x[a]
+        moved = oaconvolve(x[a:b] - origin, response[: b - a], axes=0)[: b - a]
+        # Dynamics pass a constant as it is; a response that was cut off before it had died away
+        # must not change the level.
+        out[a:b] = moved + origin
+    return out
+
+
+def felt(sensor: Sensor, u: np.ndarray, segments: list[tuple[int, int]], h: float) -> np.ndarray:
+    """Inputs (n, N_INPUT) with the sensor's own signal as it comes out of the dynamics."""
+    own, before = OWN[sensor.kind], motion(sensor)
+    out = np.array(u)
+    if before.effects:
+        out[:, own] = tail_of(before.kind, tuple(before.values)).output(u, before.p, h)
+    out[:, own] = through_dynamics(sensor, out[:, own], segments, h)
+    return out
+
+
+class Tail:
+    """A memoryless part of a chain with its Jacobians, for one structure (which effects, not which
+    values).
+    """
+
+    def __init__(self, sensor: Sensor) -> None:
+        self.sensor = sensor
+        chain = self.sensor.chain
+        y = chain.step(chain.start, chain.u, chain.p, np.zeros(len(self.sensor.noise)), chain.h)[1]
+        fixed = ca.vertcat(chain.p, chain.h)
+        jp = ca.jacobian(y, chain.p)
+        self.axis, self.slot = (np.array(i, dtype=int) for i in jp.sparsity().get_triplet())
+        outputs = ca.vertcat(y, ca.vec(ca.densify(ca.jacobian(y, chain.x)).T), *jp.nonzeros())
+        self._all = ca.Function("tail", [chain.u, fixed], [ca.densify(outputs)])
+        self._output = ca.Function("output", [chain.u, fixed], [ca.densify(y)])
+        bends = [
+            ca.jacobian(entry, chain.x[int(i)])
+            for entry, i in zip(jp.nonzeros(), self.axis, strict=True)
+        ]
+        self._bend = ca.Function(
+            "bend", [chain.u, fixed], [ca.densify(ca.vertcat(ca.SX(0, 1), *bends))]
+        )
+
+    def __call__(
+        self, u: np.ndarray, p: np.ndarray, h: float
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """For inputs (n, N_INPUT): output (n, 3), its slope against the own input (n, 3, 3), and
+        dy/dp (n, entries).
+
+        Entry e of dy/dp belongs to output axis ``self.axis[e]`` and to coefficient
+        ``self.slot[e]``.
+        """
+        flat = over_rows(self._all, u, np.append(p, h))
+        return flat[:, :3], flat[:, 3:12].reshape(-1, 3, 3), flat[:, 12:]
+
+    def output(self, u: np.ndarray, p: np.ndarray, h: float) -> np.ndarray:
+        """Output (n, 3) alone."""
+        return over_rows(self._output, u, np.append(p, h))
+
+    def mean_bend(self, u: np.ndarray, p: np.ndarray, h: float) -> np.ndarray:
+        """Mean over the rows (n, N_INPUT) of d(entry)/dx of its own axis, (entries,): how a
+        regressor follows an error of the input.
+        """
+        return over_rows(self._bend, u, np.append(p, h)).mean(axis=0)
+
+
+@lru_cache(maxsize=32)
+def tail_of(kind: str, effects: tuple[str, ...]) -> Tail:
+    """The ``Tail`` of a structure, built once."""
+    return Tail(Sensor(kind, {name: {} for name in effects}))
+
+
+def predict(sensor: Sensor, u: np.ndarray, segments: list[tuple[int, int]], h: float) -> np.ndarray:
+    """Noise-free answer (n, 3) of a sensor to a log (rounding left out)."""
+    if remembers(sensor):
+        return _stepped(
+            sensor.without(*[e.name for e in sensor.effects if is_step(e.name, sensor.kind)]),
+            u,
+            segments,
+            h,
+        )
+    rest = tail(sensor)
+    return tail_of(rest.kind, tuple(rest.values)).output(felt(sensor, u, segments, h), rest.p, h)
+
+
+def _stepped(
+    sensor: Sensor, u: np.ndarray, segments: list[tuple[int, int]], h: float
+) -> np.ndarray:
+    """Answer (n, 3) sample by sample, each segment from the start; outside of segments the input
+    itself.
+    """
+    out = np.array(u[:, OWN[sensor.kind]])
+    for a, b in segments:
+        w = np.zeros((b - a, len(sensor.noise)))
+        step_through(
+            sensor.step, sensor.chain.start.copy(), u[a:b], sensor.p, w, np.array([h]), out[a:b]
+        )
+    return out

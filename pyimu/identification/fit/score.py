@@ -1,0 +1,138 @@
+"""The error of a model on data that was not fitted, and the floor that the noise alone would leave.
+
+What belongs to a log and not to the part is found the same way for every model: on the first 30 s
+of a held-out log, left out of the score, or, where the held-out rows are the end of a fitted log,
+on that log's fitted rows.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from pyimu.identification.fit.attenuation import simulated
+from pyimu.identification.fit.columns import LogState, band_segments, in_band, linearise, residual
+from pyimu.identification.fit.fit import Fit, bare
+from pyimu.identification.fit.normal import normal_equations, solve
+from pyimu.identification.fit.trial import Trial
+from pyimu.identification.fit.whiten import RandomWalk
+
+WINDOW = 10.0
+"""Seconds over which a rate residual is integrated to an angle."""
+
+ROTATION_PRIOR = 0.05
+"""Standard deviation [rad] of a log's mounting about that of the fitted logs."""
+
+FLOOR_DRAWS = 8
+
+
+@dataclass(frozen=True)
+class Tally:
+    """Sums over held-out rows, by axis: squares of the residual, of its integral over windows, and
+    log-likelihood.
+    """
+
+    squares: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    rows: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    angle_squares: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    windows: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    log_likelihood: float = 0.0
+
+    def __add__(self, other: Tally) -> Tally:
+        return Tally(*(getattr(self, n) + getattr(other, n) for n in self.__dataclass_fields__))
+
+    @property
+    def per_axis(self) -> np.ndarray:
+        """RMS residual of each axis, NaN where no row counts."""
+        return _root(self.squares, self.rows)
+
+    @property
+    def total(self) -> float:
+        return float(_root(self.squares.sum(), self.rows.sum()))
+
+    @property
+    def angle_per_axis(self) -> np.ndarray:
+        return _root(self.angle_squares, self.windows)
+
+    @property
+    def angle(self) -> float:
+        return float(_root(self.angle_squares.sum(), self.windows.sum()))
+
+
+def _root(squares, count):
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.sqrt(np.where(np.asarray(count) > 0, squares / count, np.nan))
+
+
+def held_state(fit: Fit, trial: Trial) -> tuple[LogState, Trial]:
+    """State of a held-out log under a model, and the rows that are left to score."""
+    if trial.parent is not None:
+        parent = next(t for t in fit.trials if t.name == trial.parent)
+        state = replace(fit.states[parent.name], bias=np.zeros(3))
+        return replace(
+            state, bias=in_band(parent, residual(fit.sensor, parent, state)).mean(axis=0)
+        ), trial
+    head, rest = trial.head()
+    return _head_state(fit, head), rest
+
+
+def _head_state(fit: Fit, head: Trial) -> LogState:
+    """Bias and, where it is free, mounting from the first seconds, the mounting drawn towards that
+    of the fitted logs.
+    """
+    first = fit.states[fit.trials[0].name]
+    state = LogState(np.zeros(3), first.rotation if head.free_rotation else np.eye(3))
+    white = {i: RandomWalk(n.r, 0.0) for i, n in fit.noise.items()}
+    for _ in range(2):
+        normal = normal_equations([linearise(fit.sensor, head, state, ())], white)
+        if not normal.keys:
+            return state
+        prior = np.diag([ROTATION_PRIOR**-2 if k[0] == "rotation" else 0.0 for k in normal.keys])
+        for key, change in zip(normal.keys, solve(normal.gram + prior, normal.score), strict=True):
+            state = state.moved(key, change)
+    return state
+
+
+def tally(fit: Fit, trial: Trial) -> Tally:
+    """Score of a fitted model on one held-out trial."""
+    state, rest = held_state(fit, trial)
+    r = in_band(rest, residual(fit.sensor, rest, state))
+    return _sums(rest, r) + Tally(log_likelihood=log_likelihood(fit, rest, r))
+
+
+def log_likelihood(fit: Fit, trial: Trial, r: np.ndarray) -> float:
+    """Gaussian log-likelihood [nat] of a residual under the model's noise, summed over axes."""
+    normal = normal_equations([bare(trial, r)], fit.noise)
+    return normal.log_likelihood - 0.5 * normal.rows * np.log(2 * np.pi)
+
+
+def _sums(trial: Trial, r: np.ndarray) -> Tally:
+    squares, rows = np.zeros(3), np.zeros(3)
+    angle, windows = np.zeros(3), np.zeros(3)
+    step = float(np.median(np.diff(trial.time))) * trial.band.stride
+    length = max(1, round(WINDOW / step))
+    for i in trial.axes:
+        squares[i], rows[i] = np.sum(r[:, i] ** 2), len(r)
+        for a, b in band_segments(trial):
+            whole = (b - a) // length * length
+            sums = r[a : a + whole, i].reshape(-1, length).sum(axis=1) * step
+            angle[i] += np.sum(sums**2)
+            windows[i] += len(sums)
+    return Tally(squares, rows, angle, windows)
+
+
+def floor(noise: dict[int, RandomWalk], fit: Fit, trial: Trial, seed: int = 1) -> Tally:
+    """What the noise model alone leaves of the same number, by simulation through the same band and
+    bias estimate.
+    """
+    rng = np.random.default_rng(seed)
+    parent = next((t for t in fit.trials if t.name == trial.parent), None)
+    head, rest = (parent, trial) if parent is not None else trial.head()
+    total = Tally()
+    for _ in range(FLOOR_DRAWS):
+        draw = simulated(noise, np.concatenate([head.time, rest.time]), rng)
+        first, last = draw[: len(head.time)], draw[len(head.time) :]
+        bias = in_band(head, first).mean(axis=0) if head.count else np.zeros(3)
+        total = total + _sums(rest, in_band(rest, last - bias))
+    return total

@@ -1,0 +1,334 @@
+"""One log as one sensor's regression sees it: what was measured, what the reference says went in,
+which rows count.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import casadi as ca
+import numpy as np
+from scipy.ndimage import uniform_filter1d
+
+from pyimu.block.stepping import step_through
+from pyimu.errors import Finding
+from pyimu.identification.fit.band import Band
+from pyimu.model.effect import OWN
+from pyimu.model.signals import COLUMNS, SIGNALS, START
+from pyimu.recording.quality.spikes import spikes
+from pyimu.recording.recording import Recording, filled
+from pyimu.recording.reference.rate import reference_rate
+
+SETTLE = 32
+"""Rows at the start of a stretch that are not counted: nobody knows what a lag or delay remembers
+from before it."""
+
+SLOW = 30.0
+"""Seconds over which a logged temperature is averaged before its rate is taken: thermometers have
+coarse steps."""
+
+HEAD = 30.0
+"""Seconds at the start of a held-out log from which what belongs to the log is estimated."""
+
+
+@dataclass(frozen=True)
+class Trial:
+    """Rows of one log for one sensor.
+
+    ``y`` (n, 3) measured, ``u`` (n, N_INPUT) reference inputs (at their start values where nobody
+    knows them), ``known`` the signals that are really known, ``axes`` those that the reference
+    covers, ``segments`` the stretches without gap. ``reference`` is "rate", "attitude", "heading",
+    "force" or "static"; ``free_rotation`` says that the reference's mounting is not known.
+    ``parent`` names the fitted trial that has the same power-on, if any; ``left_out`` (n,) marks
+    samples that are missing or carry no information (spikes, repeats, at a limit), heeded where no
+    band mixes them with their neighbours.
+    """
+
+    name: str
+    kind: str
+    h: float
+    time: np.ndarray
+    y: np.ndarray
+    u: np.ndarray
+    segments: list[tuple[int, int]]
+    known: frozenset[str]
+    reference: str
+    band_hz: float | None = None
+    axes: tuple[int, ...] = (0, 1, 2)
+    free_rotation: bool = False
+    parent: str | None = None
+    left_out: np.ndarray | None = None
+    findings: tuple[Finding, ...] = ()
+
+    @property
+    def band(self) -> Band:
+        return Band() if self.band_hz is None else Band.below(self.band_hz, 1.0 / self.h)
+
+    @property
+    def row_segments(self) -> list[tuple[int, int]]:
+        """Stretches of rows that regression draws on: the segments once settled, less what is left
+        out.
+        """
+        settled = [
+            (a + (0 if self.reference == "static" else min(SETTLE, (b - a) // 4)), b)
+            for a, b in self.segments
+        ]
+        if self.left_out is None or self.band_hz is not None:
+            return settled
+        return [(a + i, a + j) for a, b in settled for i, j in runs(~self.left_out[a:b])]
+
+    @property
+    def count(self) -> int:
+        return sum(b - a for a, b in self.row_segments)
+
+    def part(self, start: int, stop: int, **changes) -> Trial:
+        """Rows start to stop as a trial of their own."""
+        inside = [
+            (max(a, start) - start, min(b, stop) - start)
+            for a, b in self.segments
+            if b > start and a < stop
+        ]
+        flags = None if self.left_out is None else self.left_out[start:stop]
+        return replace(
+            self,
+            time=self.time[start:stop],
+            y=self.y[start:stop],
+            u=self.u[start:stop],
+            segments=inside,
+            left_out=flags,
+            **changes,
+        )
+
+    def split(self, held_out: float) -> tuple[Trial, Trial]:
+        """The rows to fit and the last ``held_out`` of those that a reference covers to judge
+        by.
+        """
+        rows = np.concatenate([np.arange(a, b) for a, b in self.segments] or [np.arange(0)])
+        at = int(rows[round(len(rows) * (1.0 - held_out))]) if len(rows) > 1 else len(self.time)
+        return self.part(0, at), self.part(at, len(self.time), parent=self.name)
+
+    def head(self) -> tuple[Trial, Trial]:
+        """The first ``HEAD`` seconds, at most half of the log, and the rest."""
+        at = int(np.searchsorted(self.time, self.time[0] + HEAD))
+        at = min(at, len(self.time) // 2)
+        return self.part(0, at), self.part(at, len(self.time))
+
+
+def gyro_trial(recording: Recording, latitude: float | None = None) -> Trial | None:
+    """The gyro of a recording against its reference rate; None where the log has no gyro."""
+    if recording.gyro is None:
+        return None
+    reference = reference_rate(recording, latitude=latitude)
+    if reference.kind == "none":
+        return None
+    axes = tuple(
+        i
+        for i in range(3)
+        if np.isfinite(reference.rate[:, i]).any() and np.isfinite(recording.gyro[:, i]).any()
+    )
+    u, known = _environment(recording)
+    u[:, OWN["gyro"]] = np.where(np.isfinite(reference.rate), reference.rate, 0.0)
+    known = known | {"rate"} | _slope(u, recording, "rate", "angular_acceleration")
+    if reference.kind == "static":
+        # What an accelerometer at rest shows beside its mean is its own noise, not a force.
+        u[:, OWN["accel"]] = u[:, OWN["accel"]].mean(axis=0)
+        u[:, COLUMNS["vibration"]] = 0.0
+    covered = np.isfinite(reference.rate[:, list(axes)]).all(axis=1)
+    return _trial(
+        recording,
+        "gyro",
+        recording.gyro,
+        u,
+        covered,
+        known,
+        reference.kind,
+        band_hz=reference.band_hz,
+        axes=axes,
+        free_rotation=reference.kind == "attitude" and len(axes) == 3,
+        findings=reference.findings,
+    )
+
+
+def accel_trial(recording: Recording, static: bool) -> Trial | None:
+    """The accelerometer against a reference force, or against its own mean where the log is
+    ``static``; else None.
+    """
+    if recording.accel is None or (recording.ref_force is None and not static):
+        return None
+    u, known = _environment(recording)
+    force = recording.ref_force
+    if force is None:
+        force = np.broadcast_to(np.nanmean(recording.accel, axis=0), recording.accel.shape)
+    u[:, OWN["accel"]] = np.where(np.isfinite(force), force, 0.0)
+    if recording.ref_rate is not None:
+        u[:, OWN["gyro"]] = np.nan_to_num(recording.ref_rate)
+        known = known | {"rate"} | _slope(u, recording, "rate", "angular_acceleration")
+    if recording.ref_force is None:
+        u[:, COLUMNS["vibration"]] = 0.0
+    else:
+        known = known | _slope(u, recording, "specific_force", "jerk")
+    axes = tuple(i for i in range(3) if np.isfinite(recording.accel[:, i]).any())
+    return _trial(
+        recording,
+        "accel",
+        recording.accel,
+        u,
+        np.isfinite(force[:, list(axes)]).all(axis=1),
+        known | {"specific_force"},
+        "static" if recording.ref_force is None else "force",
+        axes=axes,
+    )
+
+
+def _environment(recording: Recording) -> tuple[np.ndarray, frozenset[str]]:
+    """Inputs (n, N_INPUT) that are not the sensor's own, and which of them are known; the others
+    stand at their start values.
+    """
+    u, known = np.tile(START, (len(recording.time), 1)), {"time"}
+    u[:, OWN["accel"]] = 0.0
+    u[:, COLUMNS["time"]] = (recording.time - recording.time[0])[:, None]
+    force = recording.accel if recording.ref_force is None else recording.ref_force
+    if force is not None:
+        u[:, OWN["accel"]] = np.nan_to_num(filled(recording.time, force))
+        u[:, COLUMNS["vibration"]] = _vibration(u[:, OWN["accel"]], recording)
+        known |= {"specific_force", "vibration"}
+    for name in ("temperature", "supply", "mag"):
+        values = getattr(recording, name)
+        if values is not None and np.isfinite(values).any():
+            u[:, COLUMNS[name]] = np.nan_to_num(
+                filled(recording.time, values.reshape(len(values), -1))
+            )
+            known.add(name)
+    if "temperature" in known:
+        known |= _slope(u, recording, "temperature", "temperature_rate", over=SLOW)
+    return u, frozenset(known)
+
+
+def _slope(
+    u: np.ndarray, recording: Recording, signal: str, into: str, over: float = 0.0
+) -> set[str]:
+    """Fill the rate of a signal in, stretch by stretch: between neighbours on both sides, of means
+    over ``over`` seconds.
+    """
+    values, rows = u[:, COLUMNS[signal]], max(1, round(over / recording.sample_period))
+    for a, b in recording.segments:
+        if b - a > 1:
+            piece = (
+                uniform_filter1d(values[a:b], min(rows, b - a), axis=0, mode="nearest")
+                if rows > 1
+                else values[a:b]
+            )
+            u[a:b, COLUMNS[into]] = np.gradient(piece, recording.time[a:b], axis=0)
+    return {into}
+
+
+def _vibration(force: np.ndarray, recording: Recording) -> np.ndarray:
+    """Mean square (n, 3) of the force's vibration, as a simulated part would see it."""
+    now, memory, h = (
+        ca.SX.sym("now", 3),
+        ca.SX.sym("memory", SIGNALS["vibration"].memory),
+        ca.SX.sym("h"),
+    )
+    started = ca.SX.sym("started")
+    value, after = SIGNALS["vibration"].advance(memory, started, h, now)
+    step = ca.Function(
+        "vibration",
+        [ca.vertcat(started, memory), now, ca.SX(0, 1), ca.SX(0, 1), h],
+        [ca.vertcat(1, after), value],
+    )
+    out, none = np.zeros_like(force), np.zeros(0)
+    for a, b in recording.segments:
+        start = np.zeros(1 + SIGNALS["vibration"].memory)
+        step_through(
+            step,
+            start,
+            np.ascontiguousarray(force[a:b]),
+            none,
+            np.zeros((b - a, 0)),
+            np.array([recording.sample_period]),
+            out[a:b],
+        )
+    return out
+
+
+def _trial(
+    recording: Recording,
+    kind: str,
+    y: np.ndarray,
+    u: np.ndarray,
+    covered: np.ndarray,
+    known: frozenset[str],
+    reference: str,
+    *,
+    axes: tuple[int, ...],
+    band_hz: float | None = None,
+    findings: tuple[Finding, ...] = (),
+    **more,
+) -> Trial | None:
+    """A trial of the rows that the reference covers; a bad sample is left out, or ends a stretch
+    where a band would spread it.
+    """
+    if not axes:
+        return None
+    own = y[:, list(axes)]
+    repeats = repeated(own)
+    bad = ~np.isfinite(own).all(axis=1) | repeats | spikes(np.nan_to_num(own)).any(axis=1)
+    inside = covered if band_hz is None else covered & ~bad
+    segments = [(a + i, a + j) for a, b in recording.segments for i, j in runs(inside[a:b])]
+    if repeats.any():
+        findings += (Finding("repeated_samples", kind, int(repeats.sum())),)
+    return Trial(
+        recording.name,
+        kind,
+        recording.sample_period,
+        recording.time,
+        np.nan_to_num(y),
+        u,
+        segments,
+        known,
+        reference,
+        axes=axes,
+        band_hz=band_hz,
+        findings=findings,
+        left_out=bad,
+        **more,
+    )
+
+
+def repeated(values: np.ndarray) -> np.ndarray:
+    """Rows (n,) that repeat the row before on every axis, where the values are fine enough for that
+    not to happen by itself.
+    """
+    same = np.concatenate([[False], (np.diff(values, axis=0) == 0).all(axis=1)])
+    by_axis = [np.mean(np.diff(column) == 0) for column in values.T]
+    return (
+        same
+        if 0 < same.mean() < 0.2 and same.mean() > 10 * np.prod(by_axis)
+        else np.zeros(len(values), dtype=bool)
+    )
+
+
+def runs(flags: np.ndarray) -> list[tuple[int, int]]:
+    """Stretches (start, stop) of true flags."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], flags.astype(np.int8), [0]])))
+    return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))
+
+
+def rest_noise(trial: Trial) -> np.ndarray:
+    """Standard deviation (3,) of the white noise of the samples, from the quietest quarter of
+    second-long stretches.
+
+    Third differences take out motion up to a tenth of the sample rate; those of white noise have 20
+    times its variance.
+    """
+    length = max(8, round(1.0 / trial.h))
+    pieces = [
+        trial.y[k : k + length]
+        for a, b in trial.row_segments
+        for k in range(a, b - length + 1, length)
+    ]
+    if not pieces:
+        return np.full(3, np.nan)
+    spreads = np.sqrt(np.mean(np.diff(np.array(pieces), n=3, axis=1) ** 2, axis=1) / 20)
+    quiet = np.argsort(spreads.sum(axis=1))[: max(1, len(pieces) // 4)]
+    return np.sqrt(np.mean(spreads[quiet] ** 2, axis=0))

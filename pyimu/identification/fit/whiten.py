@@ -1,0 +1,167 @@
+"""Noise models of a residual and the filters that make it, and every regressor, white with unit
+variance.
+
+``RandomWalk``: white noise plus random walk, sampled at any times; its innovations filter is the
+local-level Kalman filter (for equal steps (1 - B)/(1 - (1 - g) B), gain g). ``Autoregressive``:
+for a residual whose reference was differentiated, so that its noise rises with frequency. A
+constant bias is left to an explicit regressor.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numba import njit
+from scipy.optimize import minimize_scalar
+from scipy.signal import lfilter
+
+Segments = list[tuple[int, int]]
+
+LEAST_VARIANCE = 1e-22
+"""Of a residual that is nothing but rounding, so that exact data have a likelihood too."""
+
+AR_ORDER = 32
+"""Longest memory of an autoregression; a fiftieth of the rows where there are few."""
+
+
+@njit(cache=True)
+def _innovations(values, steps, r, k2, out):
+    """Whiten the columns of ``values`` (m, c) into ``out``; returns the sum of log innovation
+    variances.
+    """
+    m, c = values.shape
+    level = np.zeros(c)
+    variance, total = 0.0, 0.0
+    for k in range(m):
+        variance += k2 * steps[k]
+        f = variance + r
+        gain, scale = variance / f, 1.0 / np.sqrt(f)
+        total += np.log(f)
+        for j in range(c):
+            v = values[k, j] - level[j]
+            # A column that has long been zero decays into denormal numbers, a hundred times slower
+            # than any other.
+            moved = level[j] + gain * v
+            level[j] = moved if abs(moved) > 1e-200 else 0.0
+            out[k, j] = v * scale
+        variance = variance * r / f
+    return total
+
+
+def power_less_bias(white: np.ndarray) -> float:
+    """Sum of squares of a whitened residual, column 0, less what a constant, column 1 of (m, 2),
+    takes of it.
+    """
+    residual, constant = white.T
+    return float(residual @ residual - (residual @ constant) ** 2 / (constant @ constant))
+
+
+@dataclass(frozen=True)
+class RandomWalk:
+    """White noise of variance ``r`` a sample and a random walk that grows by ``k2`` a second."""
+
+    r: float
+    k2: float
+
+    def whiten(self, values: np.ndarray, time: np.ndarray, segments: Segments) -> np.ndarray:
+        """Innovations (m, c), unit variance, of columns (m, c) sampled at ``time`` (m,)."""
+        out = np.empty_like(values)
+        _innovations(
+            np.ascontiguousarray(values), np.diff(time, prepend=time[:1]), self.r, self.k2, out
+        )
+        return out
+
+    def log_det(self, time: np.ndarray, segments: Segments) -> float:
+        """Sum of the logarithms of the innovation variances."""
+        nothing = np.zeros((len(time), 0))
+        return float(
+            _innovations(nothing, np.diff(time, prepend=time[:1]), self.r, self.k2, nothing)
+        )
+
+    @classmethod
+    def fit(cls, residuals: list[tuple[np.ndarray, np.ndarray, Segments]]) -> RandomWalk:
+        """Maximum likelihood over residuals ``(values (m,), time (m,), segments)`` that share the
+        noise.
+
+        The bias of each log goes with the noise: one that fitted a larger random walk would keep
+        that walk alive.
+        """
+        parts = [
+            (
+                np.column_stack([v, np.ones(len(v))]),
+                np.diff(t, prepend=t[:1]),
+                np.empty((len(v), 2)),
+            )
+            for v, t, _ in residuals
+        ]
+        count = sum(len(v) for v, _, _ in parts)
+        step = float(np.median(np.concatenate([d[1:] for _, d, _ in parts])))
+
+        def concentrated(log_ratio: float) -> tuple[float, float]:
+            k2 = np.exp(log_ratio) / step
+            logs = sum(_innovations(v, d, 1.0, k2, out) for v, d, out in parts)
+            power = max(sum(power_less_bias(out) for _, _, out in parts) / count, LEAST_VARIANCE)
+            return 0.5 * logs + 0.5 * count * np.log(power), power
+
+        best = minimize_scalar(
+            lambda x: concentrated(x)[0],
+            bounds=(-40.0, 8.0),
+            method="bounded",
+            options={"xatol": 0.02},
+        )
+        low, high = concentrated(-40.0), concentrated(best.x)
+        # A random walk that does not pay for itself is left out: the likelihood is flat towards
+        # zero.
+        ratio, power = (0.0, low[1]) if low[0] <= high[0] + 0.01 else (np.exp(best.x), high[1])
+        return cls(power, power * ratio / step)
+
+
+@dataclass(frozen=True)
+class Autoregressive:
+    """Residual whose prediction from its ``len(coefficients)`` predecessors leaves variance
+    ``r``.
+    """
+
+    coefficients: tuple[float, ...]
+    r: float
+
+    def whiten(self, values: np.ndarray, time: np.ndarray, segments: Segments) -> np.ndarray:
+        """Prediction errors (m, c), unit variance; the first rows of a segment, which lack
+        predecessors, are zero.
+        """
+        out = np.zeros_like(values)
+        taps = np.concatenate([[1.0], -np.array(self.coefficients)])
+        for a, b in segments:
+            out[a:b] = lfilter(taps, [1.0], values[a:b], axis=0) / np.sqrt(self.r)
+            out[a : min(b, a + len(self.coefficients))] = 0.0
+        return out
+
+    def log_det(self, time: np.ndarray, segments: Segments) -> float:
+        """Sum of the logarithms of the prediction error variances."""
+        return sum(max(0, b - a - len(self.coefficients)) for a, b in segments) * float(
+            np.log(self.r)
+        )
+
+    @classmethod
+    def fit(
+        cls, residuals: list[tuple[np.ndarray, np.ndarray, Segments]], order: int = AR_ORDER
+    ) -> Autoregressive:
+        """Least squares over all segments that are long enough."""
+        order = max(2, min(order, sum(len(v) for v, _, _ in residuals) // 50))
+        pieces = [v[a:b] for v, _, segments in residuals for a, b in segments if b - a > 3 * order]
+        if not pieces:
+            everything = np.concatenate([v for v, _, _ in residuals])
+            return cls((), max(float(np.var(everything)), LEAST_VARIANCE))
+        past = np.concatenate(
+            [np.lib.stride_tricks.sliding_window_view(v, order)[:-1, ::-1] for v in pieces]
+        )
+        now = np.concatenate([v[order:] for v in pieces])
+        # Normal equations: an SVD of the same rows takes ten times longer, and the noise floor
+        # keeps them regular.
+        gram = past.T @ past
+        coefficients = np.linalg.solve(gram + 1e-12 * np.trace(gram) * np.eye(order), past.T @ now)
+        return cls(
+            tuple(coefficients),
+            max(float(np.mean((now - past @ coefficients) ** 2)), LEAST_VARIANCE),
+        )

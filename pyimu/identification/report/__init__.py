@@ -1,0 +1,1 @@
+"""What the loop found, for people and as files."""

@@ -1,0 +1,238 @@
+"""What ``close`` found in sentences: the verdict, an effect with its coefficients, an equation
+without LaTeX.
+"""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+from markupsafe import Markup, escape
+
+from pyimu.identification.result import Added, Closed, Errors
+from pyimu.report.numbers import (
+    CORNER,
+    FREQUENCIES,
+    in_unit,
+    joined,
+    number,
+    pretty,
+    quantity,
+    unit_for,
+)
+
+SENSORS = {"gyro": "gyro", "accel": "accelerometer"}
+QUANTITIES = {"gyro": "rate", "accel": "specific force"}
+
+DOES = {
+    "saturation": "clips",
+    "time_delay": "answers late",
+    "lag": "answers late",
+    "quantization": "rounds coarsely",
+    "scale_factor": "has another scale factor",
+    "misalignment": "is not square to its axes",
+    "scale_factor_asymmetry": "scales the two senses differently",
+    "thermal_bias": "drifts with temperature",
+    "thermal_bias_quadratic": "drifts with temperature",
+    "g_sensitivity": "feels acceleration",
+    "g2_sensitivity": "feels acceleration squared",
+    "bias_instability": "flickers",
+    "rate_ramp": "ramps",
+}
+"""What a sensor does that has an effect, in a few words; other effects are said by their term
+alone."""
+
+FEW = 2
+"""Up to so many effects of a sensor are said with their coefficients; more only by name, or nobody
+reads to the end."""
+
+SAID = {
+    "saturation": "saturation at",
+    "time_delay": "a time delay of",
+    "lag": "a second-order lag at",
+    "quantization": "rounding to",
+}
+"""How an effect is said before its coefficient, where its name and "of" would not be English."""
+
+
+def headline(closed: Closed) -> str:
+    """The verdict as a person would say it."""
+    sentences = {"named": _named, "unexplained": _unexplained, "drift": _drift, "clean": _clean}
+    return sentences.get(closed.verdict, _undecidable)(closed)
+
+
+def _named(closed: Closed) -> str:
+    parts = []
+    for kind in dict.fromkeys(a.sensor for a in closed.added):
+        added = [a for a in closed.added if a.sensor == kind]
+        does = joined(list(dict.fromkeys(DOES[a.effect] for a in added if a.effect in DOES)))
+        what = (
+            ", and ".join(map(missing, added))
+            if len(added) <= FEW
+            else joined([a.effect.replace("_", " ") for a in added])
+        )
+        subject = f"The {SENSORS[kind]} {does}: {what}" if does else f"The {SENSORS[kind]}: {what}"
+        parts.append(f"{subject}{_were(len(added))} missing from the model.")
+        if kind in closed.errors:
+            parts.append(fall(kind, closed.errors[kind]))
+    if closed.unexplained:
+        parts.append(f"Something is still unexplained: {dependence(closed)}.")
+    return " ".join(parts)
+
+
+def _were(count: int) -> str:
+    return " was" if count == 1 else ", were" if count <= FEW else " were"
+
+
+def _unexplained(closed: Closed) -> str:
+    return (
+        "Something is missing that no effect of the catalogue describes: "
+        f"{dependence(closed)}.{_level(closed)}"
+    )
+
+
+def _drift(closed: Closed) -> str:
+    where = joined(
+        [
+            f"the {SENSORS[s]} on {joined(['xyz'[i] for i in axes])}"
+            for s, axes in closed.drift.items()
+        ]
+    )
+    return (
+        f"The bias of {where} wanders more than the model declares: it follows an input that "
+        f"nobody logged.{_level(closed)}"
+    )
+
+
+def _clean(closed: Closed) -> str:
+    count = len(closed.changed)
+    correct = (
+        f" {count} declared value{'s' * (count > 1)} should be corrected (see below)."
+        if count
+        else ""
+    )
+    return f"Nothing is missing: what the model leaves looks like noise.{_level(closed)}{correct}"
+
+
+def _undecidable(closed: Closed) -> str:
+    return f"These logs cannot decide it: {closed.reason.rstrip('.') or 'too little to go by'}."
+
+
+def _level(closed: Closed) -> str:
+    said = [
+        f"the {QUANTITIES[k]} residual is {quantity(e.after.total, e.unit)}"
+        for k, e in closed.errors.items()
+        if np.isfinite(e.after.total)
+    ]
+    return f" On held-out data {joined(said)}." if said else ""
+
+
+def dependence(closed: Closed) -> str:
+    """On what the residual still depends."""
+    return joined(
+        [
+            f"the {SENSORS[u.sensor]} residual on {u.axis} depends on "
+            f"{joined([_input(d) for d in u.depends_on])} "
+            f"(p = {number(u.p_value, 1)})"
+            for u in closed.unexplained
+        ]
+    )
+
+
+def _input(name: str) -> str:
+    head, _, axis = name.rpartition("_")
+    return f"{head.replace('_', ' ')} {axis}" if axis in ("x", "y", "z") else name.replace("_", " ")
+
+
+def fall(kind: str, e: Errors) -> str:
+    """Before and after in one sentence."""
+    before, after = e.before.total, e.after.total
+    unit = unit_for(before, e.unit)
+    old, new = (number(float(in_unit(v, e.unit, unit))) for v in (before, after))
+    lead = f"The {QUANTITIES[kind]} residual on held-out data"
+    if not before > 0.0 or not np.isfinite(after):
+        return f"{lead} could not be compared."
+    ratio = after / before
+    if abs(ratio - 1.0) < 0.005:
+        return f"{lead} stays at {new} {pretty(unit)}."
+    return (
+        f"{lead} {'falls' if ratio < 1 else 'rises'} from {old} to {new} {pretty(unit)}, to "
+        f"{number(ratio, 2)} of what it was."
+    )
+
+
+def missing(a: Added) -> str:
+    """An effect by its name, with its coefficients:
+    ``saturation at 421 and 424 deg/s on x and y``.
+    """
+    name, (value, _, si) = next(iter(a.parameters.items()))
+    said = SAID.get(a.effect, f"{a.effect.replace('_', ' ')} of")
+    return f"{said} {coefficient(value, si_of(a.effect, name, si))}"
+
+
+def si_of(effect: str, parameter: str, si: str) -> str:
+    """The SI unit, told apart where rad/s means a frequency and not a rate."""
+    return CORNER if (effect, parameter) in FREQUENCIES else si
+
+
+def coefficient(value: np.ndarray, si: str) -> str:
+    """A coefficient in words: every axis that has one; of a matrix the largest entry."""
+    value = np.asarray(value, dtype=float)
+    unit = unit_for(value, si)
+    shown = in_unit(value, si, unit)
+    if value.ndim == 0 or not np.any(value):
+        return f"{number(float(shown.flat[0]))} {pretty(unit)}".rstrip()
+    if value.ndim == 1:
+        on = np.flatnonzero(value)
+        numbers = f"{joined([number(float(shown[i])) for i in on])} {pretty(unit)}".rstrip()
+        return f"{numbers} on {joined(['xyz'[i] for i in on])}"
+    i, j = np.unravel_index(np.nanargmax(np.abs(shown)), shown.shape)
+    return f"up to {number(float(abs(shown[i, j])))} {pretty(unit)} ({'xyz'[i]} from {'xyz'[j]})"
+
+
+SYMBOLS = {
+    "alpha": "α",
+    "beta": "β",
+    "zeta": "ζ",
+    "theta": "θ",
+    "lambda": "λ",
+    "mu": "µ",
+    "pi": "π",
+    "sigma": "σ",
+    "tau": "τ",
+    "phi": "φ",
+    "omega": "ω",
+    "Delta": "Δ",
+    "Omega": "Ω",
+    "cdot": "·",
+    "times": "×",
+    "odot": "∘",
+    "circ": "∘",
+    "pm": "±",
+    "le": "≤",
+    "ge": "≥",
+    "lfloor": "⌊",
+    "rfloor": "⌋",
+    "in": "∈",
+    "to": "→",
+    "infty": "∞",
+    "sum": "∑",
+    "int": "∫",
+    "approx": "≈",
+}
+
+GROUP = r"\{([^{}]*)\}"
+
+
+def plain_equation(latex: str) -> Markup:
+    """An equation of the catalogue as HTML that needs nothing but sub and sup."""
+    text = str(escape(latex))
+    text = re.sub(r"\\(?:mathrm|text|operatorname|mathbf)" + GROUP, r"\1", text)
+    text = re.sub(r"\\ddot\s*(\w)", "\\1\u0308", re.sub(r"\\dot\s*(\w)", "\\1\u0307", text))
+    text = re.sub(r"\\[,;:! ]|\\q?quad", " ", text)
+    text = re.sub(r"\\([A-Za-z]+)", lambda m: SYMBOLS.get(m[1], "\\" + m[1]), text)
+    text = re.sub(r"_" + GROUP + r"|_(\w)", lambda m: f"<sub>{m[1] or m[2]}</sub>", text)
+    text = re.sub(r"\^" + GROUP + r"|\^(\w)", lambda m: f"<sup>{m[1] or m[2]}</sup>", text)
+    text = re.sub(r"\\sqrt" + GROUP, lambda m: f"√{m[1]}" if len(m[1]) == 1 else f"√({m[1]})", text)
+    text = re.sub(r"\\frac" + GROUP + GROUP, r"\1 / (\2)", text)
+    return Markup(re.sub(r"\\(?:left|right)?|[{}]", "", text))

@@ -1,0 +1,1 @@
+"""Which effects to add: candidates, screening, forward selection, what is left over."""

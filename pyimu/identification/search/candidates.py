@@ -1,0 +1,199 @@
+"""Which effects could explain a residual, and the columns by which each shows itself."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.keys import Key, slot_keys
+from pyimu.identification.fit.normal import Normal
+from pyimu.identification.fit.response import is_step, predict
+from pyimu.identification.fit.trial import Trial
+from pyimu.model.catalogue import CATALOGUE
+from pyimu.model.effect import Effect, Parameter
+from pyimu.model.sensor import Sensor, candidates
+
+INSEPARABLE = ({"time_delay", "lag"}, {"rate_ramp", "ageing"})
+"""Effects of one class, always named together: lag and delay differ only under motion near a third
+of the bandwidth, age and time since power-on only from one power-on to the next."""
+
+
+@dataclass(frozen=True)
+class Choice:
+    """One way for an effect to explain part of the residual: columns, and for a scan the value that
+    it stands for.
+    """
+
+    columns: tuple[int, ...]
+    value: float | None = None
+
+
+@dataclass(frozen=True)
+class Group:
+    """The part of an effect that is let in or left out as one: an axis, or the whole where a
+    coefficient is shared.
+    """
+
+    effect: str
+    keys: tuple[Key, ...]
+    choices: tuple[Choice, ...]
+
+    @property
+    def measure(self) -> str | None:
+        """What the scan of this group counts in, None where there is none."""
+        return next(
+            (
+                p.scan.measure
+                for p in CATALOGUE[self.effect].parameters.values()
+                if p.scan and self.choices[0].value
+            ),
+            None,
+        )
+
+
+def absent(fit: Fit) -> list[Effect]:
+    """Deterministic effects that the model lacks, whose inputs every log knows and whose
+    coefficients have slopes or a scan.
+    """
+    known = frozenset.intersection(*(t.known for t in fit.trials))
+    present = {name for name in fit.sensor.values if not fit.sensor.is_off(name)}
+    twins = set().union(*(equivalent(name) for name in present))
+    return [
+        e
+        for e in candidates(fit.sensor.kind, present | twins)
+        if e.name != "turn_on_bias"
+        and has_columns(e, fit.sensor.kind)
+        and e.signals(fit.sensor.kind) <= known
+    ]
+
+
+def has_columns(e: Effect, kind: str) -> bool:
+    """Whether regression can find an effect: no noise, no memory beyond a filter's, no staircase,
+    no form that nothing scans for.
+    """
+    return not (
+        e.stochastic
+        or e.remembers
+        or is_step(e.name, kind)
+        or any(p.form and not p.scan for p in e.parameters.values())
+    )
+
+
+def contestable(fit: Fit, declared: Iterable[str]) -> list[Effect]:
+    """Deterministic effects of ``declared`` whose coefficients are still held: the data may
+    contradict them.
+    """
+    names = set(declared)
+    return [
+        e
+        for e in fit.sensor.effects
+        if e.name in names
+        and not fit.sensor.is_off(e.name)
+        and e.name != "turn_on_bias"
+        and has_columns(e, fit.sensor.kind)
+        and not slot_keys(fit.sensor, e.name) & fit.free
+    ]
+
+
+def scanned(effect: Effect) -> Parameter | None:
+    """The coefficient of an effect that must be scanned for, if any."""
+    return next((p for p in effect.parameters.values() if p.scan), None)
+
+
+def scan_columns(sensor: Sensor, effects: Iterable[Effect]) -> Callable:
+    """Column maker for ``Fit.linearise``: what each scanned value of each effect would change in
+    the output.
+    """
+    found = [(e, n, p) for e in effects for n, p in e.parameters.items() if p.scan]
+
+    def add_all(trial: Trial, u: np.ndarray, y: np.ndarray, add: Callable) -> None:
+        if trial.reference == "static":
+            return
+        for e, name, p in found:
+            for number, value in enumerate(_grid(p, trial, y)):
+                changed = (
+                    predict(
+                        sensor.with_values(e.name, **{name: np.full(p.shape, value)}),
+                        u,
+                        trial.segments,
+                        trial.h,
+                    )
+                    - y
+                )
+                for i in range(3):
+                    index = (i,) if p.shape else ()
+                    add(("scan", e.name, name, index, number, float(value)), i, changed[:, i])
+
+    return add_all
+
+
+def _grid(p: Parameter, trial: Trial, y: np.ndarray) -> np.ndarray:
+    largest = np.abs(trial.y[:, list(trial.axes)]).max()
+    return p.scan.values(trial.h, float(largest))
+
+
+def groups(normal: Normal, sensor: Sensor, effects: Iterable[Effect]) -> list[Group]:
+    """What selection chooses among, from the columns that are there (a column that no log excites
+    is not).
+    """
+    out = []
+    for e in effects:
+        new = e.name not in sensor.values or sensor.is_off(e.name)
+        out += (
+            _scan_groups(normal, sensor, e)
+            if scanned(e) and new
+            else _linear_groups(normal, sensor, e)
+        )
+    return out
+
+
+def _scan_groups(normal: Normal, sensor: Sensor, e: Effect) -> list[Group]:
+    by_index: dict[tuple, list[Key]] = {}
+    for key in normal.keys:
+        if key[0] == "scan" and key[1] == e.name:
+            by_index.setdefault(key[3], []).append(key)
+    return [
+        Group(
+            e.name,
+            tuple(sorted(k for k in slot_keys(sensor, e.name) if k[3] == index)),
+            tuple(Choice((normal.position[k],), k[5]) for k in keys),
+        )
+        for index, keys in by_index.items()
+    ]
+
+
+def _linear_groups(normal: Normal, sensor: Sensor, e: Effect) -> list[Group]:
+    present = [k for k in normal.keys if k in slot_keys(sensor, e.name)]
+    rows: dict[int, list[Key]] = {}
+    for key in present:
+        rows.setdefault(key[3][0] if key[3] else -1, []).append(key)
+    return [
+        Group(e.name, tuple(keys), (Choice(tuple(normal.position[k] for k in keys)),))
+        for keys in rows.values()
+    ]
+
+
+def equivalent(name: str) -> set[str]:
+    """Effects that no log tells from this one by design."""
+    return set().union(*(group for group in INSEPARABLE if name in group)) - {name}
+
+
+def with_start(sensor: Sensor, group_values: dict[tuple, float], effect: str) -> Sensor:
+    """Sensor with an effect put in, its scanned coefficients at the values given by index, all else
+    at the identity.
+
+    An effect that is there already keeps its values.
+    """
+    if effect in sensor.values and not sensor.is_off(effect):
+        return sensor
+    e = CATALOGUE[effect]
+    name = next((n for n, p in e.parameters.items() if p.scan), None)
+    if name is None:
+        return sensor.with_values(effect)
+    array = np.array(e.start()[name])
+    for index, value in group_values.items():
+        array[index] = value
+    return sensor.with_values(effect, **{name: array})

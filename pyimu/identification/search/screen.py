@@ -1,0 +1,272 @@
+"""Selection: how much each candidate explains, how much chance alone would, and which to take.
+
+The gain of an effect is the log-likelihood [nat] that its best coefficients add, less a penalty for
+each, summed over the axes where that is positive. The gate is the 99 % point of the largest gain
+of all candidates when there is nothing to find, from scores drawn with the covariance that the
+data's own Gram matrix gives them (max-T).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.keys import Key
+from pyimu.identification.fit.normal import Normal, normal_equations, solve
+from pyimu.identification.search.candidates import (
+    Choice,
+    Group,
+    absent,
+    contestable,
+    groups,
+    scan_columns,
+    scanned,
+)
+from pyimu.model.sensor import Sensor
+
+PENALTY = 3.0
+FALSE_ALARM = 0.01
+DRAWS = 4000
+VISIBLE = 6.0
+"""How many standard errors a coefficient must exceed to count as visible in a log."""
+
+
+@dataclass(frozen=True)
+class Screened:
+    """Gain of one effect before any correction, the groups that take part, the scanned values to
+    start from.
+    """
+
+    effect: str
+    gain: float
+    groups: tuple[Group, ...]
+    values: dict[tuple, float]
+    smallest_visible: float
+    inseparable_from: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Screening:
+    candidates: tuple[Screened, ...]
+    gate: float
+
+    def above(self) -> list[Screened]:
+        """Candidates above the gate, best first."""
+        return sorted((c for c in self.candidates if c.gain > self.gate), key=lambda c: -c.gain)
+
+
+@dataclass(frozen=True)
+class Projected:
+    """Candidate columns with everything that the model already explains projected out."""
+
+    gram: np.ndarray
+    score: np.ndarray
+    block_score: np.ndarray
+    block_gram: np.ndarray
+
+    @classmethod
+    def of(cls, normal: Normal, base: list[int], wanted: list[int]) -> Projected:
+        g = normal.gram
+        back = solve(g[np.ix_(base, base)], g[np.ix_(base, wanted)])
+        turn = np.zeros((len(normal.keys), len(wanted)))
+        turn[wanted, np.arange(len(wanted))] = 1.0
+        turn[base] = -back
+        raw = np.diag(g)[wanted]
+        gram = turn.T @ g @ turn
+        # A column that the model explains up to rounding carries nothing; leave it exactly nothing.
+        dead = np.diag(gram) < 1e-9 * raw
+        turn[:, dead] = 0.0
+        gram[dead] = gram[:, dead] = 0.0
+        block_score = normal.block_score @ turn
+        return cls(
+            gram,
+            turn.T @ normal.score,
+            block_score,
+            np.einsum("ki,bkl,lj->bij", turn, normal.block_gram, turn, optimize=True),
+        )
+
+
+def screen(fit: Fit, declared: Iterable[str], seed: int = 1) -> Screening:
+    """Rank every absent effect, and those of ``declared`` whose values could be wrong, by the gain
+    over the fitted model.
+    """
+    new, held = absent(fit), contestable(fit, declared)
+    effects = new + held
+    linear = [e.name for e in new if not scanned(e)] + [e.name for e in held]
+    linears = fit.linearise(linear, [scan_columns(fit.sensor, new)])
+    normal = normal_equations(linears, fit.noise)
+    all_groups = groups(normal, fit.sensor, effects)
+    taken = sorted({c for g in all_groups for choice in g.choices for c in choice.columns})
+    base = [i for i in range(len(normal.keys)) if i not in set(taken)]
+    projected = Projected.of(normal, base, taken)
+    place = {column: i for i, column in enumerate(taken)}
+    moved = [
+        Group(
+            g.effect,
+            g.keys,
+            tuple(
+                Choice(tuple(place[c] for c in choice.columns), choice.value)
+                for choice in g.choices
+            ),
+        )
+        for g in all_groups
+    ]
+    gate = _gate(projected, moved, np.random.default_rng(seed))
+    by_effect = {e.name: [g for g in moved if g.effect == e.name] for e in effects}
+    found = tuple(_screened(name, gs, projected) for name, gs in by_effect.items() if gs)
+    return Screening(tuple(_with_twins(found, by_effect, projected)), gate)
+
+
+def _gains(score: np.ndarray, choice: Choice, gram: np.ndarray) -> np.ndarray:
+    """Gain [nat] of one choice for scores (d, P), the penalty taken off; a scan's amplitude must
+    not be negative.
+    """
+    at = list(choice.columns)
+    s = score[:, at]
+    if not np.any(np.diag(gram)[at]):
+        return np.zeros(len(score))
+    gain = 0.5 * np.einsum("di,id->d", s, solve(gram[np.ix_(at, at)], s.T))
+    if choice.value is not None:
+        gain = np.where(s[:, 0] > 0, gain, 0.0)
+    return gain - PENALTY * len(at)
+
+
+def _gate(projected: Projected, all_groups: list[Group], rng: np.random.Generator) -> float:
+    """The 1 - ``FALSE_ALARM`` point of the largest gain over all effects under nothing to find."""
+    if not all_groups:
+        return np.inf
+    scale = np.sqrt(np.maximum(np.diag(projected.gram), 1e-300))
+    values, vectors = np.linalg.eigh(projected.gram / np.outer(scale, scale))
+    root = vectors * np.sqrt(np.maximum(values, 0.0)) * scale[:, None]
+    draws = rng.standard_normal((DRAWS, len(scale))) @ root.T
+    total: dict[str, np.ndarray] = {}
+    for g in all_groups:
+        best = np.max([_gains(draws, c, projected.gram) for c in g.choices], axis=0)
+        total[g.effect] = total.get(g.effect, 0.0) + np.maximum(best, 0.0)
+    return float(np.quantile(np.max(list(total.values()), axis=0), 1.0 - FALSE_ALARM))
+
+
+def _screened(effect: str, gs: list[Group], projected: Projected) -> Screened:
+    picked, gain, values = [], 0.0, {}
+    visible = [v for v in (_smallest(projected, g) for g in gs) if v is not None]
+    for g in gs:
+        options = [
+            (c, float(_gains(projected.score[None], c, projected.gram)[0])) for c in g.choices
+        ]
+        choice, best = max(options, key=lambda o: o[1])
+        if best > 0:
+            picked.append(g)
+            gain += best
+            if choice.value is not None:
+                values[g.keys[0][3]] = choice.value
+    nearest = max if gs[0].measure in ("rate", "range") else min
+    return Screened(effect, gain, tuple(picked), values, nearest(visible, default=np.inf))
+
+
+def _smallest(projected: Projected, g: Group) -> float | None:
+    """The coefficient of a group nearest to the identity that would stand out, None where none
+    would.
+
+    A scanned delay does more, a natural frequency or a limit less, the larger it is; the first two
+    do so in proportion near the identity, so the grid's nearest value gives the answer.
+    """
+    seen = sorted(
+        (c.value or 0.0, float(np.diag(projected.gram)[list(c.columns)].max())) for c in g.choices
+    )
+    seen = [(v, np.sqrt(power) / VISIBLE) for v, power in seen if power > 0]
+    if not seen:
+        return None
+    if g.measure is None:
+        return 1.0 / seen[0][1]
+    if g.measure == "period":
+        return seen[0][0] / seen[0][1]
+    if g.measure == "rate":
+        return seen[-1][0] * seen[-1][1]
+    return max((v for v, ratio in seen if ratio > 1), default=None)
+
+
+def dispersion(projected: Projected, columns: Sequence[int]) -> float:
+    """How much more the scores scatter from block to block than the noise model says, at least 1.
+
+    A residual whose variance follows the motion, or that is correlated beyond the whitening, makes
+    every gain look larger than it is; the ratio of the empirical to the modelled variance of the
+    score puts that right.
+    """
+    at = list(columns)
+    gram = projected.gram[np.ix_(at, at)]
+    if not np.any(np.diag(gram)):
+        return 1.0
+    estimate = solve(gram, projected.score[at])
+    rest = projected.block_score[:, at] - projected.block_gram[:, at][:, :, at] @ estimate
+    rest = rest - rest.mean(axis=0)
+    return max(1.0, float(np.trace(solve(gram, rest.T @ rest))) / len(at))
+
+
+def fitted_dispersion(normal: Normal, keys: Iterable[Key]) -> float:
+    """The correction for coefficients that are fitted, from the slopes at their values and the
+    noise beside them.
+    """
+    projected = _projected(normal, keys)
+    return 1.0 if projected is None else dispersion(projected, range(len(projected.gram)))
+
+
+def fitted_gain(normal: Normal, sensor: Sensor, keys: Iterable[Key]) -> float:
+    """Gain [nat] of coefficients that are fitted over their being zero, corrected for scatter and
+    penalised.
+    """
+    keys = [k for k in keys if k in normal.position]
+    projected = _projected(normal, keys)
+    if projected is None:
+        return -np.inf
+    value = np.array([sensor.values[k[1]][k[2]][k[3]] for k in keys])
+    return 0.5 * float(value @ projected.gram @ value) / dispersion(
+        projected, range(len(keys))
+    ) - PENALTY * len(keys)
+
+
+def _projected(normal: Normal, keys: Iterable[Key]) -> Projected | None:
+    wanted = [normal.position[k] for k in keys if k in normal.position]
+    return (
+        Projected.of(normal, [i for i in range(len(normal.keys)) if i not in wanted], wanted)
+        if wanted
+        else None
+    )
+
+
+def _with_twins(
+    found: tuple[Screened, ...], by_effect: dict[str, list[Group]], projected: Projected
+) -> list[Screened]:
+    """Note for each effect which others its columns could stand in for."""
+    spaces = {name: _space(gs, projected) for name, gs in by_effect.items() if gs}
+    out = []
+    for one in found:
+        twins = tuple(
+            other
+            for other in spaces
+            if other != one.effect and _alike(spaces[one.effect], spaces[other], projected.gram)
+        )
+        out.append(replace(one, inseparable_from=twins))
+    return out
+
+
+def _space(gs: list[Group], projected: Projected) -> list[int]:
+    """Columns of an effect near its identity: of a scan the value that does least."""
+    least = [g.choices[-1] if g.measure in ("rate", "range") else g.choices[0] for g in gs]
+    return [c for choice in least for c in choice.columns if projected.gram[c, c] > 0]
+
+
+def _alike(a: list[int], b: list[int], gram: np.ndarray, limit: float = 0.98) -> bool:
+    """True where some direction of ``a`` correlates with one of ``b`` above ``limit``."""
+    if not a or not b:
+        return False
+    d = np.sqrt(np.diag(gram))
+    r = gram / np.where(np.outer(d, d) > 0, np.outer(d, d), 1.0)
+    return bool(np.abs(r[np.ix_(a, b)]).max() > limit)
+
+
+def keys_of(screened: Screened) -> frozenset[Key]:
+    """Coefficients that an effect brings in: those of the groups that take part."""
+    return frozenset(k for g in screened.groups for k in g.keys)

@@ -1,0 +1,114 @@
+"""The effects that are known by name: those of the package, and a user's own."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
+from pathlib import Path
+from types import ModuleType
+
+from pyimu.errors import UserError
+from pyimu.model.effect import STAGES, Effect
+from pyimu.model.effects import EFFECTS
+from pyimu.units import did_you_mean
+
+
+class Catalogue(Mapping[str, Effect]):
+    """Effects by name, in the order in which those of one stage act."""
+
+    def __init__(self, effects: Iterable[Effect]) -> None:
+        self._effects: dict[str, Effect] = {}
+        self.add(*effects)
+
+    def __getitem__(self, name: str) -> Effect:
+        return self._effects[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._effects)
+
+    def __len__(self) -> int:
+        return len(self._effects)
+
+    def add(self, *effects: Effect) -> None:
+        """List effects after those that are there. Raises UserError for a name that is taken."""
+        for e in effects:
+            if e.name in self._effects:
+                raise UserError(
+                    f"effect {e.name}: there is one of this name already; give yours another"
+                )
+            self._effects[e.name] = e
+
+    def remove(self, *names: str) -> None:
+        """Forget effects; sensors that have them keep them."""
+        for name in names:
+            del self._effects[name]
+
+    def of(self, kind: str, name: str) -> Effect:
+        """The effect of a sensor of this kind. Raises UserError where it has none of this name."""
+        if name not in self._effects:
+            raise UserError(f"unknown effect '{name}'{did_you_mean(name, self._effects)}")
+        if kind not in self._effects[name].sensors:
+            raise UserError(f"effect {name} does not belong to a {kind}")
+        return self._effects[name]
+
+    def in_order(self, effects: Iterable[Effect]) -> tuple[Effect, ...]:
+        """Effects in the order in which they act: by stage, within one by their place in the
+        catalogue.
+        """
+        places = {name: place for place, name in enumerate(self._effects)}
+        return tuple(sorted(effects, key=lambda e: (STAGES.index(e.stage), places[e.name])))
+
+
+CATALOGUE = Catalogue(EFFECTS)
+"""Every effect that is known by name."""
+
+
+def add_effects(*sources: str | os.PathLike | Effect) -> tuple[Effect, ...]:
+    """Make effects of your own known by their names, to parts, to ``close`` and to every other
+    command::
+
+        pyimu.add_effects("my_effects.py")              # every effect that the file defines
+        pyimu.add_effects(my_effect)                    # one that was defined here
+
+    The file is run as a Python program is. A file or an effect that was added before takes the
+    place of its older self. Gives the effects. Raises UserError for a file that cannot be run or
+    defines none, and for the name of an effect of the package.
+    """
+    found = [e for s in sources for e in ([s] if isinstance(s, Effect) else _effects_of(Path(s)))]
+    CATALOGUE.remove(
+        *{e.name for e in found if e.name in CATALOGUE and CATALOGUE[e.name] not in EFFECTS}
+    )
+    CATALOGUE.add(*found)
+    return tuple(found)
+
+
+def _effects_of(path: Path) -> list[Effect]:
+    module = _run(path)
+    effects = [
+        replace(e, file=str(path.resolve()))
+        for e in vars(module).values()
+        if isinstance(e, Effect) and e not in EFFECTS
+    ]
+    if not effects:
+        raise UserError(
+            f"{path}: defines no effect; write a function decorated with @pyimu.effect.effect(...)"
+        )
+    return effects
+
+
+def _run(path: Path) -> ModuleType:
+    spec = importlib.util.spec_from_file_location(f"pyimu_effects_{path.stem}", path)
+    if path.suffix != ".py" or spec is None or spec.loader is None:
+        raise UserError(f"{path}: is no file of Python, whose name ends in .py")
+    module = importlib.util.module_from_spec(spec)
+    try:
+        spec.loader.exec_module(module)
+    except FileNotFoundError:
+        raise UserError(f"{path}: no such file") from None
+    except Exception as error:  # whatever a user's own program raises
+        raise UserError(
+            f"{path}: {type(error).__name__}: {str(error).partition(chr(10))[0]}"
+        ) from error
+    return module

@@ -1,0 +1,39 @@
+"""A sample that is not taken when its time says."""
+
+from pyimu.model.effect import OWN_RATE, Environment, Noise, Parameter, effect
+
+
+@effect(
+    stage="gain",
+    term="clock skew",
+    equation=r"y = x + \epsilon t \dot x",
+    source="no source; first order in the time by which the clock is off, short against the motion",
+)
+def clock_skew(
+    x,
+    eps: Parameter(
+        "1",
+        (),
+        description="relative error of the clock's rate; eps t must stay short against the motion",
+    ),
+    t: Environment("time"),
+    slope: Environment(OWN_RATE),
+):
+    return x + eps * t * slope
+
+
+@effect(
+    stage="noise",
+    term="sampling jitter",
+    equation=r"y = x + s_j \dot x w",
+    source="no source; first order in the jitter, one draw a sample for all axes",
+)
+def sampling_jitter(
+    x,
+    sj: Parameter(
+        "s", (), minimum=0.0, description="standard deviation of the instant of sampling"
+    ),
+    slope: Environment(OWN_RATE),
+    w: Noise(1),
+):
+    return x + sj * slope * w

@@ -1,0 +1,200 @@
+"""Noise. Coefficients are roots of two-sided densities; processes with a stationary state start in
+it.
+"""
+
+import casadi as ca
+
+from pyimu.model.effect import Environment, Noise, Parameter, SamplePeriod, State, effect
+
+POLES = 6
+"""Gauss-Markov processes that make up ``bias_instability``, evenly in the logarithm from ``f_low``
+to ``f_high``."""
+
+
+DECADES = (2, 5)
+"""From ``f_low`` to ``f_high`` at least and at most; nearer or farther the sum of processes is no
+1/f noise."""
+
+
+def end_weight(spacing):
+    """Weight of the first and the last of them, which stand in for those beyond, at their spacing
+    in the natural logarithm.
+
+    Fitted: f S(f) keeps to B^2 / 2 pi within 0.25 dB from ``f_low`` to ``f_high`` where these are
+    two to five decades apart.
+    """
+    return 0.535 + 1.363 / spacing
+
+
+@effect(
+    stage="noise",
+    term="angle (velocity) random walk",
+    equation=r"y = x + N w / \sqrt{h}",
+    source="Hidalgo 2012, section 3.2 and table 3; IEEE Std 528-2001, 2.10",
+)
+def angle_random_walk(
+    x,
+    N: Parameter(
+        "{Y}/sqrt(s)", minimum=0.0, description="root of the two-sided white noise density"
+    ),
+    w: Noise(),
+    h: SamplePeriod(),
+):
+    return x + N * w / ca.sqrt(h)
+
+
+@effect(
+    stage="noise",
+    term="rate (acceleration) random walk",
+    equation=r"y = x + b,\; \dot b = K w",
+    source="Hidalgo 2012, section 3.2 and table 3",
+)
+def rate_random_walk(
+    x,
+    K: Parameter(
+        "{y}/sqrt(s)",
+        minimum=0.0,
+        description="root of the two-sided density of the bias's derivative",
+    ),
+    b: State("{y}"),
+    w: Noise(),
+    h: SamplePeriod(),
+):
+    return x + b, {"b": b + K * ca.sqrt(h) * w}
+
+
+def _gauss_markov(b, variance, angle, w, started):
+    """Next value of a Gauss-Markov process, ``angle`` sample periods over its time constant on; its
+    first is a stationary draw.
+    """
+    kept, fresh = ca.exp(-angle), ca.sqrt(-variance * ca.expm1(-2 * angle))
+    return ca.if_else(started, kept * b + fresh * w, ca.sqrt(variance) * w)
+
+
+@effect(
+    stage="noise",
+    term="exponentially correlated (Gauss-Markov) noise",
+    equation=r"y = x + b,\; \dot b = -b / \tau_c + q w",
+    source=(
+        "first-order Gauss-Markov process, exponentially correlated noise of IEEE Std 952; its "
+        "text was not checked"
+    ),
+)
+def gauss_markov(
+    x,
+    q: Parameter(
+        "{y}/sqrt(s)",
+        minimum=0.0,
+        description="root of the two-sided density of the noise that drives it",
+    ),
+    tau: Parameter(
+        "s", (3,), 100.0, "correlation time, tau_c of the equation", form=True, minimum=1e-6
+    ),
+    b: State("{y}"),
+    started: State("1", ()),
+    w: Noise(),
+    h: SamplePeriod(),
+):
+    b = _gauss_markov(b, q**2 * tau / 2, h / tau, w, started)
+    return x + b, {"b": b, "started": 1}
+
+
+def _no_flicker(h, B, f_low, f_high):
+    ratio = f_high / f_low
+    return ca.logic_or(ratio < 10 ** DECADES[0] * (1 - 1e-9), ratio > 10 ** DECADES[1] * (1 + 1e-9))
+
+
+def flicker_processes(B, f_low, f_high):
+    """Variance and rate [rad/s] of each Gauss-Markov process of ``bias_instability``, slowest
+    first.
+
+    A band of fewer or more than ``DECADES``, which only a unit that is running can be given, ends
+    where these end.
+    """
+    spacing = ca.log(ca.fmin(ca.fmax(f_high / f_low, 10 ** DECADES[0]), 10 ** DECADES[1])) / (
+        POLES - 1
+    )
+    weights = [end_weight(spacing) if k in (0, POLES - 1) else 1.0 for k in range(POLES)]
+    return [
+        (weight * spacing / ca.pi * B**2, 2 * ca.pi * f_low * ca.exp(k * spacing))
+        for k, weight in enumerate(weights)
+    ]
+
+
+@effect(
+    stage="noise",
+    term="bias instability, flicker noise",
+    equation=r"y = x + \sum_k b_k,\; S(f) \approx \frac{B^2}{2 \pi f}",
+    limits={f"f_high must lie {DECADES[0]} to {DECADES[1]} decades above f_low": _no_flicker},
+    source=(
+        "Hidalgo 2012, table 3 for the density; no source for this sum of Gauss-Markov processes, "
+        "one a decade"
+    ),
+)
+def bias_instability(
+    x,
+    B: Parameter(
+        "{y}",
+        minimum=0.0,
+        description="coefficient of the 1/f noise; the Allan deviation's floor is 0.664 B",
+    ),
+    f_low: Parameter(
+        "Hz",
+        (),
+        1e-5,
+        "lower end of the band in which the density is 1/f",
+        form=True,
+        minimum=1e-12,
+    ),
+    f_high: Parameter(
+        "Hz",
+        (),
+        1.0,
+        f"upper end of that band, {DECADES[0]} to {DECADES[1]} decades above",
+        form=True,
+        minimum=1e-12,
+    ),
+    b: State("{y}", (POLES, 3)),
+    started: State("1", ()),
+    w: Noise(3 * POLES),
+    h: SamplePeriod(),
+):
+    draws = ca.reshape(w, 3, POLES).T
+    following = [
+        _gauss_markov(b[k, :].T, variance, rate * h, draws[k, :].T, started)
+        for k, (variance, rate) in enumerate(flicker_processes(B, f_low, f_high))
+    ]
+    return x + sum(following), {"b": ca.horzcat(*following).T, "started": 1}
+
+
+@effect(
+    stage="noise",
+    term="rate-dependent noise, scale factor noise",
+    equation=r"y = x + k x w / \sqrt{h}",
+    source="no source; white noise whose root density grows with the input",
+)
+def rate_dependent_noise(
+    x,
+    k: Parameter(
+        "sqrt(s)", minimum=0.0, description="root of the two-sided density of the relative error"
+    ),
+    w: Noise(),
+    h: SamplePeriod(),
+):
+    return x + k * x * w / ca.sqrt(h)
+
+
+@effect(
+    stage="bias",
+    term="sinusoidal noise, vibration line",
+    equation=r"y = x + A \sin(2 \pi f_0 t + \varphi)",
+    source="sinusoidal noise of IEEE Std 952; its text was not checked",
+)
+def vibration_line(
+    x,
+    A: Parameter("{y}", description="amplitude"),
+    f0: Parameter("Hz", (), 20.0, "frequency", form=True, minimum=0.0),
+    phase: Parameter("rad", description="phase at power-on", form=True),
+    t: Environment("time"),
+):
+    return x + A * ca.sin(2 * ca.pi * f0 * t + phase)

@@ -1,0 +1,91 @@
+"""The read-out: threshold, resolution and range. All lose information."""
+
+import casadi as ca
+
+from pyimu.model.effect import Parameter, SamplePeriod, Scan, State, effect
+
+
+def _inside(y, d):
+    return ca.if_else(d > 0, y == 0, 0)
+
+
+def _outside(y, d):
+    return y + d * ca.sign(y)
+
+
+@effect(
+    stage="output",
+    term="dead zone, threshold",
+    equation=r"y = x - \max(-d, \min(d, x))",
+    smooth=False,
+    invertible=False,
+    lost=_inside,
+    restore=_outside,
+    source="no source; threshold as mechanical stops and digital filters leave it",
+)
+def dead_zone(x, d: Parameter("{y}", minimum=0.0, description="largest input without output")):
+    return x - ca.fmax(-d, ca.fmin(d, x))
+
+
+@effect(
+    stage="output",
+    term="quantization of angle (velocity) increments",
+    equation=(
+        r"y = q\, (\lfloor \theta_k / q + 1/2 \rfloor - \lfloor \theta_{k-1} / q + 1/2 \rfloor) / "
+        r"h,\; \dot\theta = x"
+    ),
+    smooth=False,
+    invertible=False,
+    source="Hidalgo 2012, table 3, quantization noise with Q = q / sqrt(12)",
+)
+def angle_quantization(
+    x,
+    q: Parameter(
+        "{Y}", minimum=0.0, description="step of the integrated output; 0 switches rounding off"
+    ),
+    left: State("{Y}"),
+    h: SamplePeriod(),
+):
+    due = left + h * x
+    given = q * ca.floor(due / q + 0.5)
+    return ca.if_else(q > 0, given / h, x), {"left": ca.if_else(q > 0, due - given, 0)}
+
+
+def _at_limit(y, limit):
+    return ca.if_else(limit > 0, ca.fabs(y) >= limit, 0)
+
+
+@effect(
+    stage="output",
+    term="input range, saturation",
+    equation=r"y = \max(-L, \min(L, x))",
+    smooth=False,
+    invertible=False,
+    lost=_at_limit,
+    source="no source; clipping at the ends of the input range",
+)
+def saturation(
+    x,
+    limit: Parameter(
+        "{y}",
+        minimum=0.0,
+        scan=Scan("range", 0.3, 0.98, 12),
+        description="largest output; 0 switches the limit off",
+    ),
+):
+    # Not by fmin and fmax, which would make full scale of an input that is NaN.
+    return ca.if_else(ca.logic_and(limit > 0, ca.fabs(x) > limit), ca.sign(x) * limit, x)
+
+
+@effect(
+    stage="output",
+    term="resolution, quantization",
+    equation=r"y = q \lfloor x / q + 1/2 \rfloor",
+    smooth=False,
+    invertible=False,
+    source="no source; rounding of the rate to steps q",
+)
+def quantization(
+    x, q: Parameter("{y}", minimum=0.0, description="step of the output; 0 switches rounding off")
+):
+    return ca.if_else(q > 0, q * ca.floor(x / q + 0.5), x)

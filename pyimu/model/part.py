@@ -1,0 +1,190 @@
+"""The inertial measurement unit: a part as data, and its block."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import casadi as ca
+import numpy as np
+
+from pyimu.block.block import Block
+from pyimu.block.variables import Limits, Variable
+from pyimu.errors import UserError
+from pyimu.model.sensor import Sensor
+from pyimu.model.signals import EVERY_SAMPLE, SIGNALS, Derived, inputs_for, vector
+from pyimu.model.truth import measured_recording
+from pyimu.recording.recording import Recording
+
+AXES = "xyz"
+
+
+@dataclass(frozen=True)
+class Part:
+    """A sensor as data: name, sample rate [Hz], the gyro's and the accelerometer's chain of effects
+    with their values.
+
+    ``estimate`` names the coefficients ``(sensor, effect, parameter)`` that the part leaves to the
+    data; ``notes`` keeps what the file says beside a value: its source, the figure as quoted.
+
+    Raises UserError for a sample rate that is not positive and finite, and for coefficients outside
+    their bounds or that do not go with each other or with the sample rate, as a delay of more
+    sample periods than it can remember.
+    """
+
+    name: str
+    sample_rate: float
+    gyro: Sensor = field(default_factory=lambda: Sensor("gyro"))
+    accel: Sensor = field(default_factory=lambda: Sensor("accel"))
+    estimate: frozenset[tuple[str, str, str]] = frozenset()
+    notes: dict[tuple[str, str, str], dict[str, str]] = field(default_factory=dict, compare=False)
+    description: str = ""
+
+    def __post_init__(self) -> None:
+        period = _inverse(self.sample_rate)
+        if not 0.0 < period < math.inf:
+            raise UserError(
+                f"part {self.name}: the sample rate must be a positive and finite number of Hz, "
+                f"not {self.sample_rate!r}"
+            )
+        for sensor in (self.gyro, self.accel):
+            sensor.check(period, f"part {self.name}")
+
+    @property
+    def sample_period(self) -> float:
+        return 1.0 / self.sample_rate
+
+    def sensor(self, kind: str) -> Sensor:
+        return {"gyro": self.gyro, "accel": self.accel}[kind]
+
+    def with_sensor(self, sensor: Sensor) -> Part:
+        return replace(self, **{sensor.kind: sensor})
+
+    @property
+    def signals(self) -> frozenset[str]:
+        """Names in ``SIGNALS`` of what its effects need beside what the sensors measure."""
+        return self.gyro.signals | self.accel.signals
+
+    def simulate(self, recording: Recording, *, seed: int | None = 0) -> Recording:
+        """The recording as this part would have measured it; see
+        ``pyimu.model.simulate.simulate_recording``.
+        """
+        return measured_recording(
+            self.block, (self.gyro, self.accel), recording, self.sample_period, seed
+        )
+
+    @cached_property
+    def block(self) -> Block:
+        """The part as the block ``ImuSensor``: gyro and accelerometer side by side on the same
+        inputs.
+        """
+        return _imu_sensor(self)
+
+
+def _inverse(rate: float) -> float:
+    """1 / rate, NaN where there is none."""
+    try:
+        return 1.0 / rate
+    except (TypeError, ValueError, ZeroDivisionError, OverflowError):
+        return math.nan
+
+
+def input_variables(names: Iterable[str]) -> tuple[Variable, ...]:
+    """Inputs of a block by their names in ``SIGNALS``; unconnected, they mean a part at rest,
+    level, in its reference state.
+    """
+    return tuple(
+        Variable(
+            f"{name}[{i + 1}]" if SIGNALS[name].size > 1 else name,
+            SIGNALS[name].unit,
+            SIGNALS[name].text,
+            start,
+        )
+        for name in names
+        for i, start in enumerate(SIGNALS[name].start)
+    )
+
+
+def _imu_sensor(part: Part) -> Block:
+    sensors = (part.gyro, part.accel)
+    names, derived = inputs_for(part.signals), Derived.of(part.signals)
+    given, h = {n: ca.SX.sym(n, SIGNALS[n].size) for n in names}, ca.SX.sym("h")
+    memory = ca.SX.sym("memory", derived.size)
+    remembered, made = derived.advance(memory, given, h)
+    u = vector({**given, **made})
+    s, p, w = (
+        [ca.SX.sym(f"{name}_{sensor.kind}", size(sensor)) for sensor in sensors]
+        for name, size in (
+            ("s", lambda c: len(c.chain.start)),
+            ("p", lambda c: len(c.slots)),
+            ("w", lambda c: len(c.noise)),
+        )
+    )
+    results = [sensor.step(s[i], u, p[i], w[i], h) for i, sensor in enumerate(sensors)]
+    step = ca.Function(
+        "step",
+        [ca.vertcat(memory, *s), ca.vertcat(*given.values()), ca.vertcat(*p), ca.vertcat(*w), h],
+        [ca.vertcat(remembered, *[r[0] for r in results]), ca.vertcat(*[r[1] for r in results])],
+        ["s", "u", "p", "w", "h"],
+        ["s_next", "y"],
+    )
+    start = np.concatenate([np.zeros(derived.size), *[sensor.chain.start for sensor in sensors]])
+    all_p = ca.SX.sym("p", p[0].numel() + p[1].numel())
+    initial = ca.Function(
+        "initial", [all_p], [ca.SX(ca.DM(start)), ca.SX.zeros(6)], ["p"], ["s", "y"]
+    )
+    return Block(
+        name="ImuSensor",
+        description=_description(part),
+        limits=_limits(part),
+        step=step,
+        initial=initial,
+        inputs=input_variables(names),
+        parameters=part.gyro.variables + part.accel.variables,
+        outputs=tuple(
+            Variable(
+                f"{c.kind}[{i + 1}]",
+                c.output.unit,
+                f"measured {c.output.own.replace('_', ' ')}, axis {AXES[i]}",
+            )
+            for c in sensors
+            for i in range(3)
+        ),
+        noise=part.gyro.noise + part.accel.noise,
+        sample_period=part.sample_period,
+    )
+
+
+def _description(part: Part) -> str:
+    """What the part says of itself, and which of its effects a step of more than one sample would
+    leave out.
+    """
+    text = part.description or f"Inertial measurement unit {part.name}"
+    names = sorted({e.name for s in (part.gyro, part.accel) for e in s.effects if e.differences})
+    return (
+        f"{text.rstrip('.')}. {EVERY_SAMPLE[0].upper()}{EVERY_SAMPLE[1:]}, for {', '.join(names)}"
+        if names
+        else text
+    )
+
+
+def _limits(part: Part) -> Limits | None:
+    """Those of both sensors, on the parameters of the block."""
+    h, p = ca.SX.sym("h"), [ca.SX.sym("p", len(s.slots)) for s in (part.gyro, part.accel)]
+    found = [
+        (s.chain.limits, values)
+        for s, values in zip((part.gyro, part.accel), p, strict=True)
+        if s.chain.limits
+    ]
+    if not found:
+        return None
+    broken = ca.Function(
+        "limits",
+        [ca.vertcat(*p), h],
+        [ca.densify(ca.vertcat(*[limits.broken(values, h) for limits, values in found]))],
+        ["p", "h"],
+        ["broken"],
+    )
+    return Limits(tuple(text for limits, _ in found for text in limits.texts), broken)

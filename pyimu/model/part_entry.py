@@ -1,0 +1,69 @@
+"""One entry of a part file: how its figures become SI, and how they are written."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from pyimu import units
+
+ESTIMATE = "estimate"
+"""The value that leaves a coefficient to the data."""
+
+
+DENSITIES = {"two-sided": 1.0, "one-sided": math.sqrt(2.0)}
+"""What the root of a density, one-sided or two-sided, is divided by to become the root of the
+two-sided one."""
+
+
+RATE_KEY = ("", "", "sample_rate")
+"""Where ``Part.notes`` keeps what stands beside the sample rate."""
+
+
+NOTE_KEYS = ("unit", "density", "source", "quoted")
+
+
+Key = tuple[str, str, str]
+
+
+@dataclass(frozen=True)
+class FigureScale:
+    """How the figures of one entry become SI: a unit, the kind of density, and whether they are
+    thermometer readings.
+    """
+
+    unit: str
+    si: str
+    density: str = "two-sided"
+
+    def to_si(self, figures: Any) -> np.ndarray:
+        if self.si == "degC":
+            return np.asarray(units.to_degc(figures, self.unit))
+        return np.asarray(units.convert(figures, self.unit, self.si)) / DENSITIES[self.density]
+
+    def guess(self, values: np.ndarray) -> np.ndarray:
+        """Figures whose SI values are ``values`` to within rounding."""
+        if self.si == "degC":
+            return values + (units.ZERO_CELSIUS if self.unit == "K" else 0.0)
+        return np.asarray(units.convert(values * DENSITIES[self.density], self.si, self.unit))
+
+
+def is_density(unit: Any) -> bool:
+    """Whether a figure in this unit is the root of a density, which can be one-sided; a random walk
+    in deg/sqrt(h) is two-sided by definition.
+    """
+    return isinstance(unit, str) and "Hz" in unit
+
+
+def nested(texts: list[str], shape: tuple[int, ...]) -> str:
+    if not shape:
+        return texts[0]
+    rows = np.reshape(np.array(texts, dtype=object), shape)
+    return "[" + ", ".join(nested(list(np.ravel(r)), shape[1:]) for r in rows) + "]"
+
+
+def format_array(figures: np.ndarray) -> str:
+    return nested([f"{v:.12g}" for v in np.ravel(figures)], np.shape(figures))

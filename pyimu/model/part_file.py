@@ -1,0 +1,103 @@
+"""Parts as data: TOML files of coefficients with their units and sources, read to SI and written
+back.
+
+One table per effect, one entry per parameter::
+
+    name = "imt30"
+    sample_rate = {value = 976.0, unit = "Hz"}
+
+    [gyro.angle_random_walk]
+    N = {value = [0.208, 0.239, 0.205], unit = "deg/sqrt(h)", source = "Hidalgo 2012, table 2"}
+
+    [accel.angle_random_walk]
+    N = {value = 60.0, unit = "ug/sqrt(Hz)", density = "one-sided", source = "data sheet, table 1"}
+
+    [gyro]
+    g_sensitivity = "estimate"
+
+A plain number stands for all three axes; a matrix is written as nested lists or row by row. The
+value ``"estimate"`` leaves a coefficient to the data. A ``density`` that is one-sided, as a data
+sheet's is, is divided by sqrt(2). What stands beside a value (unit, source, figure as quoted) is
+kept in ``Part.notes``.
+"""
+
+from __future__ import annotations
+
+import os
+import uuid
+from importlib.resources import files
+from pathlib import Path
+
+from pyimu.errors import UserError
+from pyimu.model.part import Part
+from pyimu.model.part_reader import meant, parse_part
+from pyimu.model.part_writer import format_part
+
+
+def part_names() -> tuple[str, ...]:
+    """Names of the built-in parts."""
+    return tuple(
+        sorted(
+            f.name.removesuffix(".toml")
+            for f in files("pyimu.model").joinpath("parts").iterdir()
+            if f.name.endswith(".toml")
+        )
+    )
+
+
+def part(name_or_path: str | os.PathLike | Part) -> Part:
+    """A built-in part by its name, or the part in a TOML file; a ``Part`` is given back as it is.
+
+    Raises UserError where there is no such part, or the file says something that is no part.
+    """
+    if isinstance(name_or_path, Part):
+        return name_or_path
+    if not isinstance(name_or_path, (str, os.PathLike)):
+        raise UserError(
+            f"a part is a Part, the name of one or a TOML file, not {str(name_or_path)[:40]!r}"
+        )
+    name, path = str(name_or_path), Path(name_or_path)
+    if name in part_names():
+        text = files("pyimu.model").joinpath("parts", f"{name}.toml").read_text(encoding="utf-8")
+        return parse_part(text, f"{name}.toml")
+    if path.suffix == ".toml" or path.exists():
+        return load_part(path)
+    raise UserError(
+        f"{name}: no built-in part ({', '.join(part_names())}) and no TOML file; "
+        f"{meant(name, part_names())}"
+    )
+
+
+def load_part(path: str | os.PathLike) -> Part:
+    """The part in a TOML file. Raises UserError, with file and key, where it cannot be read or
+    says what is no part.
+    """
+    try:
+        text = Path(path).read_text(encoding="utf-8")
+    except FileNotFoundError:
+        raise UserError(f"{path}: no such file") from None
+    except UnicodeDecodeError:
+        raise UserError(f"{path}: is not text in UTF-8") from None
+    except OSError as error:
+        raise UserError(f"{path}: cannot be read ({error.strerror or error})") from None
+    return parse_part(text, str(path))
+
+
+def save_part(part: Part, path: str | os.PathLike) -> Path:
+    """Write a part to a TOML file, which reads back as an equal part; the file is there as a whole
+    or not at all.
+
+    Each value is written in the unit in which its note quotes it, else in SI. Raises UserError
+    where the file cannot be written.
+    """
+    path = Path(path)
+    temporary = path.with_name(f".{path.name}.{uuid.uuid4().hex}")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        temporary.write_text(format_part(part), encoding="utf-8")
+        os.replace(temporary, path)
+    except OSError as error:
+        raise UserError(f"{path}: cannot be written ({error.strerror or error})") from None
+    finally:
+        temporary.unlink(missing_ok=True)
+    return path

@@ -1,0 +1,275 @@
+"""The text of a part file read to a part."""
+
+from __future__ import annotations
+
+import math
+import sys
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from pyimu import units
+from pyimu.errors import UserError
+from pyimu.model.catalogue import CATALOGUE
+from pyimu.model.effect import KINDS, Effect, Parameter
+from pyimu.model.part import Part
+from pyimu.model.part_entry import (
+    DENSITIES,
+    ESTIMATE,
+    NOTE_KEYS,
+    RATE_KEY,
+    FigureScale,
+    Key,
+    format_array,
+    is_density,
+)
+from pyimu.model.sensor import Sensor
+
+_WITH_DENSITY = {("angle_random_walk", "N")}
+
+
+_TOP_KEYS = ("name", "description", "sample_rate", *KINDS)
+
+
+_ENTRY_KEYS = ("value", "start", *NOTE_KEYS)
+
+
+def parse_part(text: str, file: str = "part") -> Part:
+    """The part that TOML ``text`` describes; ``file`` is what errors call it. Raises UserError."""
+    try:
+        data = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise UserError(f"{file}: cannot be read as TOML: {error}") from None
+    return _Reader(file).part(data)
+
+
+@dataclass
+class _Reader:
+    """Reads one file; ``estimate`` and ``notes`` fill up on the way."""
+
+    file: str
+    estimate: set[Key] = field(default_factory=set)
+    notes: dict[Key, dict[str, str]] = field(default_factory=dict)
+
+    def error(self, key: str, reason: str) -> UserError:
+        return UserError(f"{self.file}: {key}: {reason}")
+
+    def part(self, data: Mapping[str, Any]) -> Part:
+        self._known("", data, _TOP_KEYS)
+        sensors = {kind: self._sensor(kind, data.get(kind, {})) for kind in KINDS}
+        name, rate, description = (
+            self._required_text(data, "name"),
+            self._sample_rate(data),
+            self._optional_text("", data, "description"),
+        )
+        try:
+            return Part(
+                name,
+                rate,
+                **sensors,
+                estimate=frozenset(self.estimate),
+                notes=self.notes,
+                description=description,
+            )
+        except UserError as error:  # what only the whole part shows
+            raise UserError(f"{self.file}: {error}") from None
+
+    def _known(self, where: str, table: Mapping[str, Any], known: tuple[str, ...]) -> None:
+        for key in table:
+            if key not in known:
+                raise self.error(f"{where}{key}", f"unknown key; {meant(key, known)}")
+
+    def _required_text(self, data: Mapping[str, Any], key: str) -> str:
+        text = self._optional_text("", data, key)
+        if not text:
+            raise self.error(key, f'is missing, write {key} = "imt30"')
+        return text
+
+    def _optional_text(self, where: str, table: Mapping[str, Any], key: str) -> str:
+        text = table.get(key, "")
+        if not isinstance(text, str):
+            raise self.error(f"{where}{key}", f"must be text, not {text!r}")
+        return text
+
+    def _sample_rate(self, data: Mapping[str, Any]) -> float:
+        entry = data.get("sample_rate")
+        if not isinstance(entry, dict):
+            found = "is missing" if entry is None else f"{entry!r} has no unit"
+            raise self.error(
+                "sample_rate", f'{found}, write sample_rate = {{value = 100.0, unit = "Hz"}}'
+            )
+        self._known("sample_rate.", entry, ("value", "unit", "source"))
+        scale = self._scale("sample_rate", entry, "Hz", False)
+        value = scale.to_si(self._numbers("sample_rate", entry, Parameter("Hz", ())))
+        if value <= 0:
+            raise self.error("sample_rate", f"must be above 0, not {value:g} Hz")
+        self.notes[RATE_KEY] = {
+            k: self._optional_text("sample_rate.", entry, k)
+            for k in ("unit", "source")
+            if k in entry
+        }
+        return float(value)
+
+    def _sensor(self, kind: str, tables: Any) -> Sensor:
+        if not isinstance(tables, dict):
+            raise self.error(
+                kind, f"must be a table with one table per effect, such as [{kind}.turn_on_bias]"
+            )
+        values = {}
+        for name, table in tables.items():
+            e = self._effect(kind, name)
+            values[name] = self._parameters(kind, e, table)
+        return Sensor(kind, values)
+
+    def _effect(self, kind: str, name: str) -> Effect:
+        e = CATALOGUE.get(name)
+        if e is None:
+            raise self.error(f"{kind}.{name}", f"unknown effect; {meant(name, CATALOGUE)}")
+        if kind not in e.sensors:
+            raise self.error(
+                f"{kind}.{name}", f"is an effect of {' and '.join(e.sensors)}, not of {kind}"
+            )
+        return e
+
+    def _parameters(self, kind: str, e: Effect, table: Any) -> dict[str, np.ndarray]:
+        where = f"{kind}.{e.name}"
+        if table == ESTIMATE:
+            self.estimate |= {(kind, e.name, n) for n, q in e.parameters.items() if not q.reference}
+            return {}
+        if not isinstance(table, dict) or not table:
+            raise self.error(
+                where,
+                f'must be "{ESTIMATE}" or a table with {", ".join(e.parameters)}, not {table!r}',
+            )
+        for name in table:
+            if name not in e.parameters:
+                raise self.error(
+                    f"{where}.{name}", f"unknown parameter; {meant(name, e.parameters)}"
+                )
+        return {
+            name: self._value((kind, e.name, name), e.parameters[name], entry)
+            for name, entry in table.items()
+        }
+
+    def _value(self, key: Key, q: Parameter, entry: Any) -> np.ndarray:
+        """The value of one entry in SI, shape ``q.shape``."""
+        where = ".".join(key)
+        if not isinstance(entry, dict):
+            entry = {"value": entry}
+        self._known(f"{where}.", entry, _ENTRY_KEYS)
+        self.notes[key] = {
+            k: self._optional_text(f"{where}.", entry, k) for k in NOTE_KEYS if k in entry
+        }
+        if entry.get("value") == ESTIMATE:
+            return self._estimated(key, q, entry)
+        if "start" in entry:
+            raise self.error(f"{where}.start", f'goes only with value = "{ESTIMATE}"')
+        return self._in_si(key, q, entry)
+
+    def _estimated(self, key: Key, q: Parameter, entry: dict[str, Any]) -> np.ndarray:
+        if q.reference:
+            raise self.error(".".join(key), f'only fixes an origin and cannot be "{ESTIMATE}"')
+        self.estimate.add(key)
+        if "start" not in entry:
+            self._scale(
+                ".".join(key),
+                {"unit": self._si(key, q), **entry},
+                self._si(key, q),
+                key[1:] in _WITH_DENSITY,
+            )
+            return np.full(q.shape, q.start)
+        return self._in_si(key, q, {**entry, "value": entry["start"]})
+
+    def _in_si(self, key: Key, q: Parameter, entry: dict[str, Any]) -> np.ndarray:
+        where = ".".join(key)
+        figures = self._numbers(where, entry, q)
+        scale = self._scale(where, entry, self._si(key, q), key[1:] in _WITH_DENSITY)
+        if scale.density == "one-sided" and "quoted" not in entry:
+            self.notes[key]["quoted"] = f"{format_array(figures)} {scale.unit}, one-sided"
+        values = scale.to_si(figures)
+        fault = q.fault(values)
+        if fault:
+            raise self.error(
+                where,
+                f"{fault}, not {format_array(figures)}"
+                + (f" {scale.unit}" if scale.unit != "1" else ""),
+            )
+        return values
+
+    @staticmethod
+    def _si(key: Key, q: Parameter) -> str:
+        return Sensor(key[0]).unit(q.unit)
+
+    def _scale(
+        self, where: str, entry: Mapping[str, Any], si: str, with_density: bool
+    ) -> FigureScale:
+        if "density" in entry and not with_density:
+            raise self.error(f"{where}.density", "goes only with angle_random_walk.N")
+        density = entry.get("density", "two-sided")
+        if density not in DENSITIES:
+            raise self.error(
+                f"{where}.density", f'must be "one-sided" or "two-sided", not {density!r}'
+            )
+        if "density" in entry and not is_density(entry.get("unit")):
+            raise self.error(
+                f"{where}.density",
+                f"goes only with a unit per sqrt(Hz), not with {entry.get('unit')}: "
+                "a random walk's figure is N itself",
+            )
+        if "unit" not in entry and si != "1":
+            raise self.error(where, f'has no unit, write {{value = ..., unit = "{si}"}}')
+        unit = entry.get("unit", "1")
+        try:
+            units.to_degc(0.0, unit) if si == "degC" else units.convert(0.0, unit, si)
+        except units.UnitError as error:
+            raise self.error(f"{where}.unit", f"{error}; expected a unit like {si}") from None
+        return FigureScale(unit, si, density)
+
+    def _numbers(self, where: str, entry: Mapping[str, Any], q: Parameter) -> np.ndarray:
+        """The figures of an entry in the parameter's shape, finite."""
+        if "value" not in entry:
+            raise self.error(where, 'has no value, write {value = ..., unit = "..."}')
+        flat = self._flat(where, entry["value"])
+        shape = _shape(entry["value"])
+        if shape == () and q.shape == (3,):
+            return np.full(q.shape, flat[0])
+        if shape not in (q.shape, (math.prod(q.shape),) if len(q.shape) == 2 else q.shape):
+            raise self.error(
+                where, f"holds {_describe_shape(shape)}, expected {_describe_shape(q.shape)}"
+            )
+        return np.reshape(flat, q.shape)
+
+    def _flat(self, where: str, value: Any) -> np.ndarray:
+        items = value if isinstance(value, list) else [value]
+        if isinstance(value, list) and any(isinstance(i, list) for i in items):
+            return np.concatenate([self._flat(where, i) for i in items]) if items else np.empty(0)
+        for item in items:
+            if isinstance(item, bool) or not isinstance(item, (int, float)):
+                raise self.error(where, f"must be a number, not {item!r}")
+            if not abs(item) <= sys.float_info.max:
+                raise self.error(where, "must be finite")
+        return np.array(items, dtype=float)
+
+
+def _shape(value: Any) -> tuple[int, ...] | None:
+    """Shape of nested lists, None where rows differ."""
+    try:
+        return np.shape(value)
+    except ValueError:
+        return None
+
+
+def _describe_shape(shape: tuple[int, ...] | None) -> str:
+    if shape is None:
+        return "rows of unequal length"
+    if len(shape) == 2:
+        return f"a {shape[0]} x {shape[1]} matrix"
+    return f"{math.prod(shape)} numbers" if shape else "one number"
+
+
+def meant(name: str, names: Any) -> str:
+    near = units.nearest(name, names)
+    return f"did you mean {near}?" if near else f"known are {', '.join(names)}"

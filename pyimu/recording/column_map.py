@@ -1,0 +1,159 @@
+"""Foreign logs: a TOML file that renames a log's columns, declares its axes and gives the size of
+raw counts.
+"""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from pyimu.errors import UserError
+from pyimu.recording.counts import Scale, read_scales
+from pyimu.units import did_you_mean
+
+_FRD = np.diag([1.0, -1.0, -1.0])
+_NED = np.array([[0.0, 1, 0], [1, 0, 0], [0, 0, -1]])
+_BODY = {"flu": np.eye(3), "frd": _FRD}
+_WORLD = {"enu": np.eye(3), "ned": _NED}
+_AXES = ("gyro", "accel", "mag", "ref_rate", "ref_force")
+"""The groups that are vectors in body axes."""
+
+
+@dataclass(frozen=True)
+class ForeignMap:
+    """What the TOML file given as ``columns`` declares."""
+
+    path: Path | None = None
+    columns: Mapping[str, str] = field(default_factory=dict)
+    scale: Mapping[str, Scale] = field(default_factory=dict)
+    topics: Mapping[str, str] = field(default_factory=dict)
+    body: np.ndarray | None = None
+    world: str = "enu"
+    q: str = "nb"
+
+    def rename(self, path: Path, header: list[str]) -> list[str]:
+        for name in self.columns:
+            if name not in header:
+                raise UserError(
+                    f'{self.path}: key columns."{name}": {path} has no such '
+                    f"column{did_you_mean(name, header)}"
+                )
+        return [self.columns.get(cell, cell) for cell in header]
+
+    def turn(self, groups: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+        """The groups in forward-left-up and east-north-up axes; a sample's result does not depend
+        on those beside it.
+        """
+        turned = dict(groups)
+        if self.body is not None:
+            turned |= {g: _rotated(self.body, groups[g]) for g in _AXES if g in groups}
+        if self.world == "ned":
+            turned |= {
+                g: math.pi / 2 - groups[g] for g in ("heading", "ref_heading") if g in groups
+            }
+        if "ref_q" in groups and (self.body is not None or self.world == "ned" or self.q == "bn"):
+            turned["ref_q"] = self._turned_attitude(groups["ref_q"])
+        return turned
+
+    def _turned_attitude(self, q: np.ndarray) -> np.ndarray:
+        turned, seen = np.full_like(q, np.nan), np.all(np.isfinite(q), axis=1)
+        if seen.any():
+            attitude = Rotation.from_quat(q[seen], scalar_first=True)
+            attitude = attitude.inv() if self.q == "bn" else attitude
+            body = Rotation.from_matrix(np.eye(3) if self.body is None else self.body)
+            turned[seen] = (
+                Rotation.from_matrix(_WORLD[self.world]) * attitude * body.inv()
+            ).as_quat(scalar_first=True)
+        return turned
+
+
+def _rotated(rotation: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """R v for each row of ``v`` (n, 3), in the same order of operations for any n; a matrix product
+    promises no order.
+    """
+    x, y, z = v.T
+    return np.column_stack([a * x + b * y + c * z for a, b, c in rotation])
+
+
+def read_map(path: Path) -> ForeignMap:
+    try:
+        data = tomllib.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise UserError(f"{path}: no such file") from None
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise UserError(f"{path}: cannot be read as TOML ({error})") from None
+    _known_keys(path, "", data, ("columns", "frame", "scale", "topics"))
+    frame = data.get("frame", {})
+    _known_keys(path, "frame.", frame, ("body", "world", "q", "R"))
+    topics = _texts(path, "topics", data, "/imu/data")
+    _known_keys(path, "topics.", topics, ("imu", "temperature"))
+    return ForeignMap(
+        path,
+        _texts(path, "columns", data, "gyro_x [deg/s]"),
+        read_scales(path, data.get("scale", {})),
+        topics,
+        _body(path, frame),
+        world=_choice(path, frame, "world", ("enu", "ned")),
+        q=_choice(path, frame, "q", ("nb", "bn")),
+    )
+
+
+def _texts(path: Path, key: str, data: Mapping[str, Any], example: str) -> Mapping[str, str]:
+    """The table ``key``, of texts."""
+    table = data.get(key, {})
+    if not isinstance(table, dict):
+        raise UserError(f"{path}: key {key} must be a table")
+    for name, target in table.items():
+        if not isinstance(target, str):
+            raise UserError(f'{path}: key {key}."{name}" must be text such as "{example}"')
+    return table
+
+
+def _known_keys(path: Path, prefix: str, table: Any, known: Sequence[str]) -> None:
+    if not isinstance(table, dict):
+        raise UserError(f"{path}: key {prefix.rstrip('.')} must be a table")
+    for key in table:
+        if key not in known:
+            raise UserError(
+                f"{path}: unknown key {prefix}{key}{did_you_mean(key, known)}; known are "
+                f"{', '.join(known)}"
+            )
+
+
+def _choice(path: Path, frame: Mapping[str, Any], key: str, choices: Sequence[str]) -> str:
+    value = frame.get(key, choices[0])
+    if value not in choices:
+        raise UserError(
+            f"{path}: key frame.{key} must be one of {', '.join(choices)}, not {value!r}"
+        )
+    return value
+
+
+def _body(path: Path, frame: Mapping[str, Any]) -> np.ndarray | None:
+    """The rotation from the log's body axes to forward-left-up, None where the file declares
+    none.
+    """
+    if "body" in frame and "R" in frame:
+        raise UserError(f"{path}: keys frame.body and frame.R say the same, keep one")
+    key = "R" if "R" in frame else "body"
+    value = frame.get(key)
+    if value is None or isinstance(value, str):
+        return None if value is None else _BODY[_choice(path, frame, key, tuple(_BODY))]
+    try:
+        matrix = np.array(value, dtype=float)
+    except (TypeError, ValueError):
+        matrix = np.zeros(0)
+    if (
+        matrix.shape != (3, 3)
+        or not np.allclose(matrix @ matrix.T, np.eye(3), atol=1e-6)
+        or np.linalg.det(matrix) < 0
+    ):
+        raise UserError(f'{path}: key frame.{key} must be "flu", "frd" or a 3 x 3 rotation matrix')
+    return matrix

@@ -1,0 +1,74 @@
+"""HDF5 files, MAT files of version 7.3 among them, read in slices by h5py."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from pyimu.errors import UserError
+from pyimu.recording.formats.datasets import Column, DatasetTable, columns_of, skipped
+from pyimu.recording.formats.table import need
+
+CACHE = 1 << 25
+"""Bytes of decompressed chunks kept for each array: a slice may end inside of a chunk, which the
+next slice then needs."""
+
+NUMERIC = (
+    "double",
+    "single",
+    "logical",
+    *(f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)),
+)
+"""MATLAB's classes of numbers; a char array is stored as integers too, and is none."""
+
+
+class Hdf5Table(DatasetTable):
+    """An HDF5 file; ``extra`` is the extra of the package that its reader is asked under."""
+
+    def __init__(
+        self, path: Path, columns: list[Column], extra: str, skipped: Sequence[str] = ()
+    ) -> None:
+        super().__init__(path, columns, skipped)
+        self.extra = extra
+
+    @classmethod
+    def open(cls, path: Path, extra: str = "hdf5") -> Hdf5Table:
+        """Raises UserError for a file that is none, and where h5py is not installed."""
+        with _file(path, extra) as file:
+            arrays: list[tuple] = []
+            file.visititems(lambda name, item: arrays.extend(_array(name, item)))
+            return cls(
+                path,
+                [c for array in arrays for c in columns_of(*array)],
+                extra,
+                [s for array in arrays for s in skipped(*array)],
+            )
+
+    @contextmanager
+    def opened(self) -> Iterator[Any]:
+        with _file(self.path, self.extra) as file:
+            yield file
+
+
+@contextmanager
+def _file(path: Path, extra: str) -> Iterator[Any]:
+    h5py = need("h5py", extra, path)
+    try:
+        with h5py.File(path, "r", rdcc_nbytes=CACHE) as file:
+            yield file
+    except (OSError, RuntimeError) as error:
+        raise UserError(f"{path}: cannot be read as HDF5 ({str(error).splitlines()[0]})") from None
+
+
+def _array(name: str, item: Any) -> list[tuple]:
+    """(name, shape, type) of an ``item`` that may be of numbers, or nothing."""
+    kind = item.attrs.get("MATLAB_class", b"double")
+    if (
+        not hasattr(item, "dtype")
+        or not item.shape
+        or (bytes(kind).decode() not in NUMERIC and item.dtype.kind != "O")
+    ):
+        return []
+    return [(name, item.shape, item.dtype)]

@@ -1,0 +1,99 @@
+"""MAT files: version 7.3 is HDF5, older ones are read whole by scipy."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from pyimu.errors import UserError
+from pyimu.recording.formats.datasets import DatasetTable, columns_of, skipped
+from pyimu.recording.formats.hdf5 import Hdf5Table
+
+WHOLE = 2 << 30
+"""Bytes of the largest MAT file before version 7.3 that is read."""
+
+_HDF5 = b"\x89HDF\r\n\x1a\n"
+
+
+class MatTable(DatasetTable):
+    """A MAT file of version 4 to 7.2, in memory."""
+
+    def __init__(
+        self, path: Path, arrays: Mapping[str, np.ndarray], skipped: Sequence[str] = ()
+    ) -> None:
+        super().__init__(
+            path,
+            [
+                c
+                for name, array in arrays.items()
+                for c in columns_of(name, array.shape, array.dtype)
+            ],
+            skipped,
+        )
+        self.arrays = arrays
+
+    @classmethod
+    def open(cls, path: Path) -> MatTable | Hdf5Table:
+        """Structures are folders, ``log/gyro[0]``. Raises UserError for a file that is none, or
+        too large to be read whole.
+        """
+        if _is_hdf5(path):
+            return Hdf5Table.open(path, "mat")
+        if path.stat().st_size > WHOLE:
+            raise UserError(
+                f"{path}: MAT files before version 7.3 are read whole and may have {WHOLE >> 30} "
+                "GiB, "
+                f"this has {path.stat().st_size / 2**30:.1f}; save it with -v7.3"
+            )
+        items = dict(_items("", _load(path)))
+        return cls(
+            path,
+            {name: item for name, item in items.items() if isinstance(item, np.ndarray)},
+            [said for name, item in items.items() for said in _skipped(name, item)],
+        )
+
+    def opened(self) -> AbstractContextManager[Mapping[str, np.ndarray]]:
+        return nullcontext(self.arrays)
+
+
+def _is_hdf5(path: Path) -> bool:
+    """Whether the signature of HDF5 stands at the start or behind MATLAB's 512 bytes of user
+    block.
+    """
+    with path.open("rb") as file:
+        head = file.read(512 + len(_HDF5))
+    return _HDF5 in (head[: len(_HDF5)], head[512:])
+
+
+def _load(path: Path) -> dict[str, Any]:
+    from scipy.io import loadmat
+
+    try:  # in MATLAB's own types: a double array of whole numbers is stored in bytes
+        return loadmat(path, simplify_cells=True, mat_dtype=True)
+    except Exception as error:  # noqa: BLE001  (scipy's reader of damaged files raises whatever comes its way)
+        raise UserError(
+            f"{path}: cannot be read as MAT ({str(error).partition(chr(10))[0]})"
+        ) from None
+
+
+def _items(folder: str, items: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+    for name, item in items.items():
+        if isinstance(item, Mapping):
+            yield from _items(f"{folder}{name}/", item)
+        elif isinstance(item, (np.ndarray, list)) and not name.startswith("__"):
+            yield folder + name, item
+
+
+def _skipped(name: str, item: Any) -> list[str]:
+    """What of an ``item`` has no columns: arrays of structures come as lists, cells as lists or
+    arrays of objects.
+    """
+    if isinstance(item, list) and item and isinstance(item[0], Mapping):
+        return [f"{name} ({len(item)} structures, save one whose fields are arrays)"]
+    if isinstance(item, list) or item.dtype.kind == "O":
+        return [f"{name} (cells, save arrays)"]
+    return skipped(name, item.shape, item.dtype)

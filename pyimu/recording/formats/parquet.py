@@ -1,0 +1,83 @@
+"""Parquet files, read in pieces of a row group."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import pyarrow as pa
+from pyarrow import parquet
+
+from pyimu.errors import UserError
+from pyimu.recording.formats.table import Columns, Table, as_number
+from pyimu.recording.formats.text import to_numpy
+
+BATCH = 1 << 16
+"""Rows of a piece."""
+
+BUFFER = 1 << 20
+"""Bytes read ahead of each column: without it a row group's columns are held whole, and a file may
+be one row group.
+
+For the same reason nothing is "pre-buffered": what that reads ahead is kept to the end of the file.
+"""
+
+
+@dataclass(frozen=True)
+class ParquetTable(Table):
+    """A Parquet file; ``header`` are its column names, ``rows`` how many it has."""
+
+    path: Path
+    header: list[str]
+    rows: int
+
+    @classmethod
+    def open(cls, path: Path) -> ParquetTable:
+        """Raises UserError for a file that cannot be read."""
+        with _reading(path), parquet.ParquetFile(path) as file:
+            return cls(
+                path, [name.strip() for name in file.schema_arrow.names], file.metadata.num_rows
+            )
+
+    def batches(self, positions: Sequence[int], long: int) -> Iterator[tuple[Columns, float]]:
+        """Raises UserError for a column that holds no numbers."""
+        with (
+            _reading(self.path),
+            parquet.ParquetFile(self.path, buffer_size=BUFFER, pre_buffer=False) as file,
+        ):
+            fields = [file.schema_arrow.field(position) for position in positions]
+            for position, field in zip(positions, fields):
+                self._must_be_numbers(position, field.type)
+            done = 0
+            for batch in file.iter_batches(
+                BATCH, columns=[field.name for field in fields], use_threads=True
+            ):
+                columns = [to_numpy(batch.column(field.name)) for field in fields]
+                done += batch.num_rows
+                yield (
+                    [as_number(c, p == long) for p, c in zip(positions, columns)],
+                    done / self.rows,
+                )
+
+    def count(self, long: int) -> int:
+        return self.rows
+
+    def _must_be_numbers(self, position: int, kind: pa.DataType) -> None:
+        if not any(
+            test(kind) for test in (pa.types.is_floating, pa.types.is_integer, pa.types.is_boolean)
+        ):
+            raise UserError(
+                f"{self.path}: column {self.header[position]} holds {kind}, expected numbers"
+            )
+
+
+@contextmanager
+def _reading(path: Path) -> Iterator[None]:
+    try:
+        yield
+    except (pa.ArrowInvalid, OSError) as error:
+        raise UserError(
+            f"{path}: cannot be read as Parquet ({str(error).splitlines()[0]})"
+        ) from None

@@ -1,0 +1,115 @@
+"""Tables of numbers in files: the reader that fits a file's suffix, and the writer of
+recordings.
+"""
+
+from __future__ import annotations
+
+import gzip
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any, BinaryIO
+
+import numpy as np
+import pyarrow as pa
+from pyarrow import csv as pacsv
+from pyarrow import parquet
+
+from pyimu.errors import UserError
+from pyimu.recording.formats.bag import BagTable
+from pyimu.recording.formats.hdf5 import Hdf5Table
+from pyimu.recording.formats.mat import MatTable
+from pyimu.recording.formats.parquet import ParquetTable
+from pyimu.recording.formats.table import Table
+from pyimu.recording.formats.text import CsvTable
+
+READERS: Mapping[str, Any] = MappingProxyType(
+    {
+        ".csv": CsvTable,
+        ".csv.gz": CsvTable,
+        ".parquet": ParquetTable,
+        ".mat": MatTable,
+        ".h5": Hdf5Table,
+        ".hdf5": Hdf5Table,
+        ".bag": BagTable,
+        ".db3": BagTable,
+        ".mcap": BagTable,
+    }
+)
+"""The reader of each suffix; a folder with a ``metadata.yaml`` is a bag of ROS 2."""
+
+
+def open_table(path: Path, topics: Mapping[str, str] | None = None) -> Table:
+    """The table in ``path``, by its suffix; ``topics`` names a bag's, by the keys "imu" and
+    "temperature".
+
+    Raises UserError for a file that is missing or none of these, and for topics of a file that has
+    none.
+    """
+    if not path.exists():
+        raise UserError(f"{path}: no such file")
+    if path.is_dir() and not (path / "metadata.yaml").is_file():
+        raise UserError(f"{path}: a folder, give the files in it")
+    reader = BagTable if path.is_dir() else _by_suffix(path, READERS)
+    if reader is BagTable:
+        return BagTable.open(path, topics or {})
+    if topics:
+        raise UserError(
+            f"{path}: has no topics, only ROS bags do; leave [topics] out of the column map"
+        )
+    return reader.open(path)
+
+
+def stem(path: Path) -> str:
+    """The file's name without what says its format."""
+    suffix = max((s for s in READERS if path.name.lower().endswith(s)), key=len, default="")
+    return path.name[: len(path.name) - len(suffix)]
+
+
+def write_table(path: Path, columns: Mapping[str, np.ndarray]) -> None:
+    """Writes ``columns`` (name to (n,) array) to ``path``, in the shortest digits that read back
+    the same.
+
+    The file appears whole or not at all. Raises UserError for an unknown suffix or a folder that
+    cannot be written.
+    """
+    writer = _by_suffix(
+        path, {".csv": _write_csv, ".csv.gz": _write_gzip, ".parquet": _write_parquet}
+    )
+    table = pa.table(
+        [pa.array(column, from_pandas=True) for column in columns.values()], names=list(columns)
+    )
+    temporary = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        with temporary.open("wb") as stream:
+            writer(stream, table)
+        os.replace(temporary, path)
+    except OSError as error:
+        raise UserError(f"{path}: cannot be written ({error.strerror or error})") from None
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def _write_csv(stream: BinaryIO, table: pa.Table) -> None:
+    stream.write((",".join(table.column_names) + "\n").encode())
+    body = pa.BufferOutputStream()
+    pacsv.write_csv(table, body, pacsv.WriteOptions(include_header=False))
+    stream.write(body.getvalue())
+
+
+def _write_gzip(stream: BinaryIO, table: pa.Table) -> None:
+    # without name and time, so that equal tables give equal files
+    with gzip.GzipFile(filename="", mode="wb", fileobj=stream, compresslevel=6, mtime=0) as packed:
+        _write_csv(packed, table)
+
+
+def _write_parquet(stream: BinaryIO, table: pa.Table) -> None:
+    parquet.write_table(table, stream)
+
+
+def _by_suffix(path: Path, choices: Mapping[str, Any]) -> Any:
+    for suffix, choice in choices.items():
+        if path.name.lower().endswith(suffix):
+            return choice
+    raise UserError(f"{path}: a recording's name must end in {', '.join(choices)}")

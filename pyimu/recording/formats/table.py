@@ -1,0 +1,72 @@
+"""What every reader gives: named columns of numbers, read in pieces of bounded length."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterator, Sequence
+from importlib import import_module
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+
+from pyimu.errors import Finding, UserError
+
+Columns = list[np.ndarray]
+"""Arrays (n,) of one length: float64, NaN where a value is missing; the time may be of int64."""
+
+
+class Table(ABC):
+    """A file with columns of numbers: ``header`` their names, ``findings`` what its reader had to
+    decide.
+
+    ``crowded`` says that a file may hold much else, so that only the columns that a map names, or
+    whose names are a recording's own, are looked at; ``skipped`` says what in it has no columns of
+    numbers, and why.
+    """
+
+    path: Path
+    header: list[str]
+    findings: tuple[Finding, ...] = ()
+    crowded = False
+    skipped: tuple[str, ...] = ()
+
+    @abstractmethod
+    def batches(self, positions: Sequence[int], long: int) -> Iterator[tuple[Columns, float]]:
+        """The columns at ``positions``, in pieces of the length that suits the file, and the share
+        of the file read so far.
+
+        ``long`` is the position of a column that may stay of integers, so that a clock in ns is not
+        rounded. Raises UserError, with its place, for what is no number.
+        """
+
+    @abstractmethod
+    def count(self, long: int) -> int | None:
+        """How many rows there are, None where only reading tells; ``long`` is the position of the
+        time.
+        """
+
+    def place(self, index: int) -> str:
+        """Where the sample ``index`` stands, for messages."""
+        return f"row {index + 2}"
+
+
+def as_number(column: np.ndarray, may_stay: bool) -> np.ndarray:
+    """A column as float64, or as int64 where it ``may_stay`` of integers and is."""
+    return np.ascontiguousarray(
+        column, dtype=np.int64 if may_stay and column.dtype.kind in "iu" else float
+    )
+
+
+def need(module: str, extra: str, path: Path) -> ModuleType:
+    """The module ``module``. Raises UserError that names the extra of the package which brings
+    it.
+    """
+    try:
+        return import_module(module)
+    except ImportError:
+        library = module.partition(".")[0]
+        raise UserError(
+            f"{path}: needs {library}, which is not installed; install the extra: pip install "
+            f"'pyimu[{extra}]'"
+        ) from None

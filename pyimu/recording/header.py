@@ -1,0 +1,209 @@
+"""The header of a file: its columns that have a meaning, and their units."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from types import MappingProxyType
+
+import numpy as np
+
+from pyimu import units
+from pyimu.errors import Finding, UserError
+from pyimu.recording.columns import GROUPS, UNITS, check_unit, column_names, group_of
+from pyimu.recording.counts import Scale
+
+ORIGIN = 1e6
+"""s; a first time beyond it is a clock of its own (Unix time), and is subtracted."""
+
+
+COUNT = ("count", "counts", "lsb", "raw", "digit", "digits", "adc")
+"""Spellings of the unit of a converter's raw numbers, whose size a column map must give."""
+
+
+class Header:
+    """The columns of a file that have a meaning: ``names`` without unit, ``positions`` in the file,
+    ``units``.
+
+    ``scale`` gives the size of a count by column; a ``crowded`` file holds much that is not looked
+    at, and ``skipped`` says what in it has no columns of numbers. Raises UserError for a column
+    that stands twice, has no, an unknown or the wrong unit, is in counts of unknown size, or has a
+    name close to a known one; for an incomplete group, no time, and neither gyro nor
+    accelerometer. A column with another name is left out, and listed in ``findings``.
+    """
+
+    def __init__(
+        self,
+        path: Path,
+        header: Sequence[str],
+        scale: Mapping[str, Scale] = MappingProxyType({}),
+        crowded: bool = False,
+        skipped: Sequence[str] = (),
+    ) -> None:
+        self.path = path
+        self.names: list[str] = []
+        self.positions: list[int] = []
+        self.units: list[units.Unit] = []
+        self.findings: list[Finding] = []
+        self._crowded = crowded
+        self._skipped = skipped
+        self._scale = scale
+        self._counted: set[str] = set()
+        for position, cell in enumerate(header):
+            self._add(position, cell)
+        self._check(header)
+
+    @property
+    def time(self) -> int:
+        """The position of the time in the file."""
+        return self.positions[self.names.index("time")]
+
+    @property
+    def stated(self) -> list[str]:
+        """The columns whose unit the file states, those not in counts."""
+        return [name for name in self.names if name not in self._counted]
+
+    @property
+    def groups(self) -> tuple[str, ...]:
+        return tuple(group for group in GROUPS if column_names(group)[0] in self.names)
+
+    def _add(self, position: int, cell: str) -> None:
+        name, _, rest = cell.partition("[")
+        name, unit = name.strip(), rest.strip()
+        if name not in UNITS:
+            self._unknown(name, cell)
+            return
+        if name in self.names:
+            raise UserError(f"{self.path}: column {name} stands twice in the header")
+        if not unit.endswith("]"):
+            raise UserError(
+                f"{self.path}: column {name} has no unit, write '{name} [{UNITS[name]}]'"
+            )
+        self.names.append(name)
+        self.positions.append(position)
+        self.units.append(self._unit(name, unit[:-1]))
+
+    def _unit(self, name: str, text: str) -> units.Unit:
+        if text.strip().casefold() in COUNT:
+            self._counted.add(name)
+            return self._size(name)
+        unit = check_unit(f"{self.path}: column {name}", name, text)
+        if name in self._scale:
+            raise UserError(
+                f"{self.path}: column {name} is in '{unit}', but [scale] in the column map is for "
+                "columns in counts; "
+                f"write '{name} [count]', or leave its scale out"
+            )
+        return unit
+
+    def _size(self, name: str) -> units.Unit:
+        if name not in self._scale:
+            group = group_of(name)
+            raise UserError(
+                f"{self.path}: column {name} is in counts, and nobody said how large one is; say "
+                "it in a column map (TOML) "
+                f'as [scale] {group} = {{value = ..., unit = "{UNITS[name]}"}}'
+            )
+        return self._scale[name].unit
+
+    def _unknown(self, name: str, cell: str) -> None:
+        if self._crowded:
+            return
+        near = units.did_you_mean(name, UNITS, cutoff=0.8)
+        if near:
+            raise UserError(f"{self.path}: unknown column '{name}'{near}")
+        self.findings.append(Finding("unused_column", name, 1, {"header": cell}))
+
+    def _check(self, header: Sequence[str]) -> None:
+        if "time" not in self.names:
+            raise UserError(
+                f"{self.path}: not a recording, the header has no 'time [s]' "
+                f"column{self._way(header)}"
+            )
+        for group in GROUPS:
+            missing = [name for name in column_names(group) if name not in self.names]
+            if missing and len(missing) < len(column_names(group)):
+                raise UserError(
+                    f"{self.path}: column {missing[0]} is missing, {group} needs "
+                    f"{', '.join(column_names(group))}"
+                )
+        if "gyro_x" not in self.names and "accel_x" not in self.names:
+            raise UserError(
+                f"{self.path}: neither gyro_x, gyro_y, gyro_z nor accel_x, accel_y, accel_z is "
+                "there"
+            )
+
+    def _way(self, header: Sequence[str]) -> str:
+        """How to read the file all the same."""
+        skipped = (
+            f"; without columns of numbers are {_some(self._skipped)}" if self._skipped else ""
+        )
+        if not any(cell.strip("/[] ") for cell in header):
+            return skipped
+        return (
+            f"; name its columns in a column map (TOML), it has {_some(header)}{skipped}; "
+            "give the map as --columns map.toml, with [columns] and a line for each, "
+            f'"{_time_like(header)}" = "time [s]"'
+        )
+
+    def origin(self, first: float | np.integer, findings: list[Finding]) -> float | np.integer:
+        """What to take from the file's times, in its unit: the ``first`` where that is a clock of
+        its own, else 0.
+        """
+        seconds = float(first) * self.seconds
+        if not ORIGIN < abs(seconds) < np.inf:
+            return 0
+        findings.append(Finding("time_origin", "time", 1, {"origin": seconds}))
+        return first
+
+    def convert(
+        self, columns: Sequence[np.ndarray], origin: float | np.integer
+    ) -> dict[str, np.ndarray]:
+        """The columns (n,) in SI by name; infinite values become missing ones.
+
+        ``origin`` is subtracted from the time in the file's unit, so that an integer clock is not
+        rounded.
+        """
+        return {
+            name: (column - origin) * self.seconds
+            if name == "time"
+            else self._si(name, column, unit)
+            for name, column, unit in zip(self.names, columns, self.units)
+        }
+
+    @property
+    def seconds(self) -> float:
+        """s in one of the file's units of time."""
+        factor = self.units[self.names.index("time")].factor
+        return factor * self._scale["time"].value if "time" in self._counted else factor
+
+    def _si(self, name: str, column: np.ndarray, unit: units.Unit) -> np.ndarray:
+        if name in self._counted:
+            column = column * self._scale[name].value + self._scale[name].offset
+        values = (
+            units.to_degc(column, unit)
+            if UNITS[name] == "degC"
+            else units.convert(column, unit, UNITS[name])
+        )
+        return np.where(np.isfinite(values), values, np.nan)
+
+
+def _time_like(names: Sequence[str]) -> str:
+    """The first of ``names`` that may be a time's, else the first."""
+    last = {
+        name: re.findall(r"[^/\[\]]+", name.casefold())[-1].strip()
+        for name in names
+        if name.strip("/[] ")
+    }
+    return next(
+        (name for name, end in last.items() if end == "t" or "time" in end or "stamp" in end),
+        next(iter(last)),
+    )
+
+
+def _some(names: Sequence[str], most: int = 8) -> str:
+    """The first of ``names``, for a message."""
+    return (", ".join(names[:most]) or "none of numbers") + (
+        f" and {len(names) - most} more" if len(names) > most else ""
+    )

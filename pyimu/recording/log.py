@@ -1,0 +1,211 @@
+"""A log in a file, read whole or in pieces."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from functools import cached_property
+from itertools import chain
+from pathlib import Path
+
+import numpy as np
+
+from pyimu.errors import Finding
+from pyimu.recording.clock import Cadence, Clock, cadence_of
+from pyimu.recording.formats.suffix import stem
+from pyimu.recording.gaps import GapFinder
+from pyimu.recording.recording import Recording, copied, join
+from pyimu.recording.rows import Rows, Source
+
+HEAD = 1 << 16
+"""Rows at the start of a log from which its sample period is taken before the rest is read."""
+
+
+class Log:
+    """A log in a file, opened to be read in pieces: ``name``, ``path``; see ``open_log``."""
+
+    def __init__(self, source: Source) -> None:
+        self._source = source
+        self.path: Path = source.header.path
+        self.name = stem(self.path)
+        self.findings: tuple[Finding, ...] = ()
+        """What was seen in reading; complete once all of it was read."""
+
+    def __repr__(self) -> str:
+        return (
+            f"Log({self.name!r}: {self.count or 'unknown number of'} rows, {self.sample_rate:.6g} "
+            f"Hz, {', '.join(self.groups)})"
+        )
+
+    @property
+    def groups(self) -> tuple[str, ...]:
+        """Names of the groups that the log holds, in the order of ``GROUPS``."""
+        return self._source.header.groups
+
+    @property
+    def count(self) -> int | None:
+        """Rows in the file, before repeats are dropped; None where only reading tells."""
+        return self._source.table.count(self._source.header.time)
+
+    @property
+    def frame_declared(self) -> bool:
+        """Whether the log's axes were stated."""
+        return self._source.foreign.body is not None
+
+    @cached_property
+    def cadence(self) -> Cadence:
+        """That of the first 65,536 samples."""
+        times, known = [], 0
+        for piece, _ in self._batches(Rows(self._source)):
+            times.append(piece.time)
+            known += len(piece)
+            if known >= HEAD:
+                break
+        return cadence_of(np.concatenate(times)[:HEAD])
+
+    @property
+    def sample_period(self) -> float:
+        """s; that of the first 65,536 samples."""
+        return self.cadence.period
+
+    @property
+    def sample_rate(self) -> float:
+        """Hz."""
+        return 1 / self.sample_period
+
+    def pieces(self, rows: int = 1_000_000) -> Iterator[tuple[Recording, float]]:
+        """Consecutive pieces of ``rows`` samples, the last one shorter, and the share of the file
+        read so far: 1 with the last.
+
+        Joined they are what ``read_recording`` gives, for any ``rows``; the times run on from piece
+        to piece. Each piece carries the log's ``period`` and its own ``gaps``, by
+        ``sample_period``. Findings are the log's, not the pieces'. Each call reads from the
+        start; it can be left at any time. Raises UserError as ``read_recording`` does, as far as
+        it has read.
+        """
+        if rows < 1:
+            raise ValueError(f"pieces of {rows} rows")
+        passing, clock = Rows(self._source), Clock(self.cadence)
+        for piece, share in _cut(_marked(self._batches(passing), self.cadence), rows):
+            clock.add(piece.time)
+            self.findings = (*passing.findings, *clock.findings())
+            yield piece, share
+
+    def stretches(self, rows: int = 1_000_000) -> Iterator[tuple[int, Recording, float]]:
+        """As ``pieces``, cut at the gaps too: (segment, piece, share).
+
+        ``segment`` counts the ranges of the log without gap from 0; consecutive pieces of one
+        segment join without gap.
+        """
+        segment = 0
+        for piece, share in self.pieces(rows):
+            for start, stop in piece.segments:
+                segment += bool(np.isin(start, piece.gaps))
+                yield segment, piece.slice(start, stop), share
+
+    def read(self) -> Recording:
+        """The whole log; its sample period is that of all its samples."""
+        passing = Rows(self._source)
+        whole = join([piece for piece, _ in self._batches(passing)])
+        clock = Clock(whole.cadence)
+        clock.add(whole.time)
+        self.findings = (*passing.findings, *clock.findings())
+        return replace(whole, findings=self.findings)
+
+    def _batches(self, passing: Rows) -> Iterator[tuple[Recording, float]]:
+        for time, groups, share in passing.batches():
+            yield (
+                Recording(
+                    self.name, time, **groups, path=self.path, frame_declared=self.frame_declared
+                ),
+                share,
+            )
+
+
+def _marked(
+    batches: Iterable[tuple[Recording, float]], cadence: Cadence
+) -> Iterator[tuple[Recording, float]]:
+    """``batches`` with the log's cadence and their gaps; the last rows of one wait for the next,
+    which tells whether a stamp stays late.
+    """
+    finder = GapFinder(cadence.period, cadence.longest)
+    held: list[Recording] = []
+    gaps, given = np.empty(0, dtype=np.int64), 0
+    for batch, share in chain(batches, [(None, 1.0)]):
+        rows, _ = finder.end() if batch is None else finder.add(batch.time)
+        gaps, held = np.append(gaps, rows), held + ([] if batch is None else [batch])
+        while held and given < finder.settled:
+            part, rest = (
+                held[0].slice(0, finder.settled - given),
+                held[0].slice(finder.settled - given),
+            )
+            held = ([copied(rest)] if len(rest) else []) + held[1:]
+            own = gaps[gaps < given + len(part)]
+            yield (
+                replace(part, period=cadence.period, longest=cadence.longest, gaps=own - given),
+                share,
+            )
+            gaps, given = gaps[len(own) :], given + len(part)
+
+
+def _cut(
+    batches: Iterable[tuple[Recording, float]], rows: int
+) -> Iterator[tuple[Recording, float]]:
+    """``batches`` in pieces of exactly ``rows`` samples, the last one shorter; nothing is given out
+    before it is known not to be the last.
+    """
+    held: list[Recording] = []
+    waiting, share = 0, 0.0
+    for batch, share in batches:
+        while waiting + len(batch) > rows:
+            cut = rows - waiting
+            yield join([*held, batch.slice(0, cut)]), share
+            batch, held, waiting = batch.slice(cut), [], 0
+        held.append(batch)
+        waiting += len(batch)
+    if waiting:
+        yield join(held), 1.0
+
+
+def open_log(path: str | os.PathLike, columns: str | os.PathLike | None = None) -> Log:
+    """The log in ``path``, of any format and any length, opened to be read in pieces of bounded
+    memory::
+
+        log = open_log("day.parquet")
+        for piece, share in log.pieces():
+            ...             # a Recording of a million samples; share of the file, 0 to 1
+        log.findings
+
+    ``columns`` is that of ``read_recording``. The first 65,536 rows are read at once, for the
+    sample period. Raises UserError as ``read_recording`` does.
+    """
+    log = Log(Source.open(Path(path), None if columns is None else Path(columns)))
+    _ = log.cadence  # so that what is wrong at the start of a file is said at once
+    return log
+
+
+def read_recording(path: str | os.PathLike, columns: str | os.PathLike | None = None) -> Recording:
+    """The recording in ``path``: .csv, .csv.gz, .parquet, .mat, .h5, .hdf5, .bag, .db3, .mcap, or
+    the folder of a bag of ROS 2.
+
+    ``columns`` is a TOML file for a foreign log; it renames columns, declares axes, gives the size
+    of raw counts, and picks the topics of a bag::
+
+        [columns]
+        "GyrX" = "gyro_x [deg/s]"
+        "log/acc[0]" = "accel_x [count]"    # MAT, HDF5: path of an array, and its column or field
+        [frame]
+        body = "frd"     # "flu", or a 3 x 3 rotation R with v_flu = R v_log (also as the key R)
+        world = "ned"    # "enu"; in ned a heading is a compass heading
+        q = "bn"         # world to body; "nb" is body to world
+        [scale]
+        accel = {value = 0.061, unit = "mg"}    # of one count; also an offset, in the same unit
+        [topics]
+        imu = "/imu/data"                       # of sensor_msgs/Imu; also temperature
+
+    A bag's messages are in SI by their definition; every other file must state its units. Raises
+    UserError, one line with file, row (as a spreadsheet counts, the header is row 1) and column,
+    for what cannot be used; what can is listed in ``Recording.findings``.
+    """
+    return Log(Source.open(Path(path), None if columns is None else Path(columns))).read()

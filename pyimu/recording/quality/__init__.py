@@ -1,0 +1,1 @@
+"""What the raw samples show, before a model is blamed for its residual."""

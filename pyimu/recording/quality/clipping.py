@@ -1,0 +1,73 @@
+"""Clipped samples."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from pyimu.errors import Finding
+from pyimu.recording.quality.scatter import scatter
+
+PLATEAU = 0.01
+"""Clipped samples lie within this part of the distance from the median to the extreme."""
+
+
+PILE_UP = 4.0
+"""A clipped column has so many times more samples in the plateau than in an equal band below it."""
+
+
+QUIET = 0.25
+"""Inside a plateau the noise is below this part of the noise elsewhere: what is clipped has no
+noise."""
+
+
+LEAST_CLIPPED = 5
+"""Fewer samples in a plateau are never called clipped."""
+
+
+def clipping_level(values: np.ndarray) -> tuple[float | None, float | None]:
+    """(low, high): the levels at which ``values`` (n,) are clipped, None for a side that is not.
+
+    Clipped samples pile up at the extreme, follow each other, and lack the noise of all others.
+    They need not be equal: a correction for temperature or cross-axis sensitivity after the
+    clipping moves them a little, so the level is their median.
+    """
+    plateaus = [_plateau(values, sign) for sign in (-1, 1)]
+    return tuple(None if not p.any() else float(np.median(values[p])) for p in plateaus)
+
+
+def clipped(values: np.ndarray) -> np.ndarray:
+    """Mask (n,) of the samples at a clipping level."""
+    return _plateau(values, -1) | _plateau(values, 1)
+
+
+def clipping_findings(name: str, values: np.ndarray) -> Iterator[Finding]:
+    for sign, side in ((-1, "low"), (1, "high")):
+        plateau = _plateau(values, sign)
+        if plateau.any():
+            yield Finding(
+                "clipping",
+                name,
+                int(plateau.sum()),
+                {"side": side, "level": float(np.median(values[plateau]))},
+            )
+
+
+def _plateau(values: np.ndarray, sign: int) -> np.ndarray:
+    """Mask of the samples clipped on one side, all False where none are."""
+    v, none = sign * values, np.zeros(len(values), bool)
+    if np.count_nonzero(np.isfinite(v)) < LEAST_CLIPPED:
+        return none
+    top = np.nanmax(v)
+    width = PLATEAU * (top - np.nanmedian(v))
+    inside = v >= top - width
+    below = np.count_nonzero((v >= top - 2 * width) & ~inside)
+    count = np.count_nonzero(inside)
+    if width <= 0 or count < LEAST_CLIPPED or count <= PILE_UP * below:
+        return none
+    deep = inside[:-2] & inside[1:-1] & inside[2:]
+    if not deep.any():
+        return none
+    curvature = np.abs(np.diff(v, 2))
+    return inside if np.median(curvature[deep]) < QUIET * scatter(curvature[~deep], 0.25) else none

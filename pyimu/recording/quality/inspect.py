@@ -1,0 +1,121 @@
+"""Quality of the raw samples: what to know of a recording before a model is blamed for its
+residual.
+
+Every test looks at the measured samples alone, needs no reference and no model, and takes its
+threshold from the column itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from pyimu.errors import Finding
+from pyimu.recording.quality.clipping import clipped, clipping_findings
+from pyimu.recording.quality.resolution import quantization_step
+from pyimu.recording.quality.spikes import spikes, widened
+from pyimu.recording.quality.stuck import LEAST_RUN, held_findings, stuck_findings
+from pyimu.recording.quality.wraps import wrap_findings
+from pyimu.recording.recording import Recording
+from pyimu.units import STANDARD_GRAVITY
+
+JITTER = 0.01
+"""RMS deviation of the sample steps from their median, in periods, above which it is reported."""
+
+
+def inspect(recording: Recording) -> tuple[Finding, ...]:
+    """What the raw gyro and accelerometer samples and their times show: see the functions below for
+    the kinds.
+
+    ``constant_channel``, ``wrapped``, ``clipping``, ``stuck_samples``, ``held_samples``,
+    ``spikes``, ``quantization_step`` for each column; ``jitter`` and ``gravity_down`` for the
+    recording.
+    """
+    names, values = _channels(recording)
+    columns = [
+        finding
+        for name, column in zip(names, values.T)
+        for finding in _column(name, np.ascontiguousarray(column))
+    ]
+    return (*columns, *_spikes(recording), *_jitter(recording), *_gravity_down(recording))
+
+
+def _channels(recording: Recording) -> tuple[list[str], np.ndarray]:
+    """Names and samples (n, columns) of the gyro and accelerometer columns."""
+    present = [group for group in ("gyro", "accel") if getattr(recording, group) is not None]
+    names = [f"{group}_{suffix}" for group in present for suffix in "xyz"]
+    return names, np.hstack(
+        [np.empty((len(recording), 0)), *(getattr(recording, group) for group in present)]
+    )
+
+
+def _column(name: str, values: np.ndarray) -> Iterator[Finding]:
+    known = values[np.isfinite(values)]
+    if len(known) < LEAST_RUN:
+        return
+    if known.min() == known.max():
+        yield Finding("constant_channel", name, len(known), {"value": float(known[0])})
+        return
+    wrapped = list(wrap_findings(name, values))
+    yield from wrapped
+    if not wrapped:  # the edge of a word is no level at which a sensor is clipped
+        yield from clipping_findings(name, values)
+    yield from stuck_findings(name, values)
+    yield from held_findings(name, values)
+    step = quantization_step(values)
+    if step is not None:
+        yield Finding("quantization_step", name, len(known), {"step": step})
+
+
+def _spikes(recording: Recording) -> Iterator[Finding]:
+    names, values = _channels(recording)
+    if not names:
+        return
+    found = spikes(values)
+    for column, name in enumerate(names):
+        v, rows = values[:, column], np.flatnonzero(found[:, column])
+        at_limit = widened(widened(clipped(v))) if len(rows) else found[:, column]
+        rows = rows[~at_limit[rows]]
+        if len(rows):
+            size = np.abs(v[rows] - (v[rows - 1] + v[rows + 1]) / 2)
+            yield Finding(
+                "spikes", name, len(rows), {"largest": float(size.max()), "first_row": int(rows[0])}
+            )
+
+
+def _jitter(recording: Recording) -> Iterator[Finding]:
+    period = recording.sample_period
+    step = np.concatenate([np.diff(recording.time[a:b]) for a, b in recording.segments])
+    rms = float(np.sqrt(np.mean((step - step.mean()) ** 2))) if len(step) else 0.0
+    if rms > JITTER * period:
+        yield Finding("jitter", "time", len(step), {"rms": rms, "period": period})
+
+
+def _gravity_down(recording: Recording) -> Iterator[Finding]:
+    """Gravity on -z at rest: probably a log in forward-right-down axes that nobody declared."""
+    if recording.accel is None or recording.frame_declared:
+        return
+    rest = _quiet_force(recording)
+    if rest is not None and rest[2] < -0.8 * STANDARD_GRAVITY:
+        yield Finding(
+            "gravity_down",
+            "accel_z",
+            1,
+            {f"accel_{suffix}": float(f) for suffix, f in zip("xyz", rest)},
+        )
+
+
+def _quiet_force(recording: Recording) -> np.ndarray | None:
+    """The median specific force (3,) over the quietest tenth of blocks of a second, None where it
+    is not gravity.
+    """
+    length = max(4, min(round(recording.sample_rate), len(recording) // 10))
+    count = len(recording) // length
+    blocks = recording.accel[: count * length].reshape(count, length, 3)
+    blocks = blocks[np.all(np.isfinite(blocks), axis=(1, 2))]
+    if not len(blocks):
+        return None
+    spread = blocks.std(axis=1).sum(axis=1)
+    rest = np.median(blocks[spread <= np.quantile(spread, 0.1)].mean(axis=1), axis=0)
+    return rest if abs(np.linalg.norm(rest) - STANDARD_GRAVITY) < 0.1 * STANDARD_GRAVITY else None

@@ -1,0 +1,82 @@
+"""Isolated samples that are off."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
+
+from pyimu.recording.quality.scatter import BLOCK
+
+SPIKE_SIGMA = 6.0
+"""A spike exceeds so many robust standard deviations of its neighbourhood."""
+
+
+SPIKE_ISOLATION = 3.0
+"""A spike exceeds everything near it by this factor."""
+
+
+SPIKE_TAIL = 3.0
+"""A spike's residual exceeds the 99 % quantile of its column by this factor."""
+
+
+CORRUPT_ISOLATION = 12.0
+"""The same where other columns are off at the same time: a corrupt row is alone, a shock rings."""
+
+
+def spikes(values: np.ndarray) -> np.ndarray:
+    """Mask of the isolated samples of ``values`` (n, columns) that are off.
+
+    The residual of a sample against the cubic through its four neighbours vanishes for motion that
+    the sampling resolves. A spike's exceeds ``SPIKE_SIGMA`` robust standard deviations of the
+    residuals near it, those that are near but not caused by itself by ``SPIKE_ISOLATION``, and the
+    column's 99 % quantile by ``SPIKE_TAIL``. A shock moves several axes and rings: where another
+    column is off at the same time, the isolation must be ``CORRUPT_ISOLATION``.
+    """
+    mask = np.zeros(values.shape, bool)
+    if len(values) < 4 * BLOCK:
+        return mask
+    off = _residuals(values)
+    sigma = _local_sigma(off)
+    tail = np.quantile(off, 0.99, axis=0)
+    loud = off > SPIKE_SIGMA * sigma
+    several = np.count_nonzero(widened(off > 4 * sigma), axis=1) > 1
+    for k, column in np.argwhere(loud & (off > SPIKE_TAIL * tail)):
+        mask[k, column] = _isolated(
+            off[:, column], k, CORRUPT_ISOLATION if several[k] else SPIKE_ISOLATION
+        )
+    return mask
+
+
+def _residuals(v: np.ndarray) -> np.ndarray:
+    """|v_k - (4 (v_k-1 + v_k+1) - v_k-2 - v_k+2) / 6|, zero at the ends and where a value is
+    missing.
+    """
+    off = np.zeros(v.shape)
+    off[2:-2] = np.abs(v[2:-2] - (4 * (v[1:-3] + v[3:-1]) - v[:-4] - v[4:]) / 6)
+    return np.nan_to_num(off)
+
+
+def _local_sigma(off: np.ndarray) -> np.ndarray:
+    """Robust standard deviation of the residuals around each, at least a quarter of the
+    column's.
+    """
+    blocks = 1.4826 * np.median(sliding_window_view(off, 2 * BLOCK, axis=0)[::BLOCK], axis=-1)
+    rows = np.minimum(np.arange(len(off)) // BLOCK, len(blocks) - 1)
+    return np.maximum(blocks, np.median(blocks, axis=0) / 4)[rows]
+
+
+def widened(mask: np.ndarray) -> np.ndarray:
+    """``mask`` and the samples before and after."""
+    wide = mask.copy()
+    wide[1:] |= mask[:-1]
+    wide[:-1] |= mask[1:]
+    return wide
+
+
+def _isolated(off: np.ndarray, k: int, factor: float) -> bool:
+    """Whether residual ``k`` exceeds those near it by ``factor``, the four that it shares samples
+    with left out.
+    """
+    before, after = off[max(k - BLOCK // 2, 0) : max(k - 2, 0)], off[k + 3 : k + 1 + BLOCK // 2]
+    others = max(before.max(initial=0.0), after.max(initial=0.0))
+    return bool(off[k] == off[max(k - 2, 0) : k + 3].max() and off[k] > factor * others)

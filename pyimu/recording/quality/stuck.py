@@ -1,0 +1,106 @@
+"""Samples that a sensor repeats: stuck for a while, or held for several rows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from pyimu.errors import Finding
+from pyimu.recording.quality.clipping import clipped
+
+LEAST_RUN = 5
+"""Equal consecutive samples below this number are never called stuck."""
+
+
+FALSE_ALARMS = 1e-3
+"""Expected number of stuck runs reported in a column without any."""
+
+
+NEIGHBOURS = 512
+"""Samples on each side of a run whose repeats say how likely the run is."""
+
+
+LEAST_CHANGES = 1000
+"""Fewer changes of a column's value do not tell whether they come at regular intervals."""
+
+
+REGULAR = 0.5
+"""The intervals of a held column scatter (variance) below this part of those of changes that come
+by chance, whose estimate from 1000 of them has a standard deviation of 0.09."""
+
+
+def stuck_runs(values: np.ndarray) -> list[tuple[int, int]]:
+    """Index ranges (start, stop) of equal samples that are too long to be chance.
+
+    In independent samples that repeat with probability p, n (1 - p) p^(m - 1) runs of m or more are
+    expected (a geometric law); a run is stuck where that is below ``FALSE_ALARMS``.  p is that of
+    the neighbourhood without the run itself and with three standard deviations of its estimate, for
+    a coarse comb repeats more at rest than in motion; and at least that of the whole column.
+    """
+    same = np.concatenate(([False], values[1:] == values[:-1], [False]))
+    edges = np.flatnonzero(same[1:] != same[:-1])
+    starts, stops = edges[::2], edges[1::2] + 1
+    long = stops - starts >= LEAST_RUN
+    starts, stops = starts[long], stops[long]
+    repeats = np.concatenate(([0], np.cumsum(same[1:])))
+    chance = np.maximum(
+        _repeat_chance(repeats, starts, stops), _clean_chance(repeats, starts, stops)
+    )
+    expected = len(values) * (1 - chance) * chance ** (stops - starts - 1)
+    stuck = expected < FALSE_ALARMS
+    return [(int(a), int(b)) for a, b in zip(starts[stuck], stops[stuck])]
+
+
+def _repeat_chance(repeats: np.ndarray, starts: np.ndarray, stops: np.ndarray) -> np.ndarray:
+    """Probability of a repeat around each run, without it; ``repeats`` (n + 1,) counts them up to
+    each sample.
+    """
+    low, high = np.maximum(starts - NEIGHBOURS, 0), np.minimum(stops + NEIGHBOURS, len(repeats) - 1)
+    count = repeats[high] - repeats[low] - (stops - starts - 1)
+    size = (high - low) - (stops - starts)
+    p = (count + 1) / (size + 2)
+    return np.minimum(p + 3 * np.sqrt(p * (1 - p) / (size + 2)), 1.0)
+
+
+def _clean_chance(repeats: np.ndarray, starts: np.ndarray, stops: np.ndarray) -> float:
+    """Probability of a repeat in the column without its long runs."""
+    long = np.sum(stops - starts)
+    return (repeats[-1] - long + len(starts)) / max(len(repeats) - 1 - long, 1)
+
+
+def stuck_findings(name: str, values: np.ndarray) -> Iterator[Finding]:
+    at_limit = clipped(values)
+    runs = [(a, b) for a, b in stuck_runs(values) if not at_limit[a]]
+    if runs:
+        lengths = [b - a for a, b in runs]
+        yield Finding(
+            "stuck_samples",
+            name,
+            sum(lengths),
+            {"runs": len(runs), "longest": max(lengths), "first_row": runs[0][0]},
+        )
+
+
+def held_rows(values: np.ndarray) -> float | None:
+    """Rows for which a sensor that is slower than its log holds each of the ``values`` (n,), None
+    where it does not.
+
+    Such values change at regular intervals of two rows and more. Where rounded noise repeats
+    itself by chance, the intervals have the geometric law: mean m, variance m (m - 1). A slow
+    motion without noise, rounded, can change regularly, but by one step at a time.
+    """
+    change = np.diff(values)
+    at = np.flatnonzero(np.isfinite(change) & (change != 0))
+    if len(at) < LEAST_CHANGES:
+        return None
+    intervals, size = np.diff(at), np.abs(change[at])
+    mean = float(intervals.mean())
+    regular = np.median(intervals) >= 2 and intervals.var() < REGULAR * mean * (mean - 1)
+    return mean if regular and np.mean(size < 1.5 * size.min()) < 0.9 else None
+
+
+def held_findings(name: str, values: np.ndarray) -> Iterator[Finding]:
+    rows = held_rows(values)
+    if rows is not None:
+        yield Finding("held_samples", name, len(values), {"rows": rows})

@@ -1,0 +1,235 @@
+"""Recordings: a log of an inertial sensor and what is known of the truth, read whole or in pieces.
+
+Formats: CSV (also .gz), Parquet, MAT, HDF5, ROS bags and MCAP. One row is a sample; a header cell
+is a name and its unit, ``gyro_x [deg/s]``. ``GROUPS`` lists every column that has a meaning.
+Inside, all is SI and radians (temperature degC), axes are forward-left-up and east-north-up, and a
+missing value is NaN.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+from pyimu.errors import Finding, UserError
+from pyimu.recording.clock import Cadence, cadence_of, segments
+from pyimu.recording.columns import GROUPS, column_names
+from pyimu.recording.formats.suffix import write_table
+from pyimu.recording.gaps import gap_rows
+from pyimu.units import did_you_mean
+
+
+@dataclass(frozen=True, eq=False)
+class Recording:
+    """One log. Arrays are (n,) or (n, columns) in SI, NaN where a value is missing, None where a
+    group is absent.
+
+    ``time`` [s] increases strictly; ``gyro`` [rad/s] and ``accel`` [m/s^2] are the measured rate
+    against inertial space and specific force in body axes; ``temperature`` [degC]. Of the truth:
+    ``ref_rate`` [rad/s], ``ref_q`` (n, 4) (unit quaternion, scalar first, body to world),
+    ``ref_heading`` [rad] (counter-clockwise from east), ``ref_force`` [m/s^2], ``ref_north``,
+    ``ref_east``, ``ref_up`` [m], ``ref_velocity`` (n, 3) east, north, up [m/s], ``latitude`` [rad],
+    and the marks ``moving`` and ``stationary`` (0 or 1). Further sensors: ``heading`` and
+    ``heading_std`` [rad], ``supply`` [V], ``mag`` [T]. ``frame_declared`` says that the log's axes
+    were stated, not assumed. ``period`` [s] is the sample period, ``longest`` [s] the step above
+    which there may be a gap, and ``gaps`` (m,) the rows that follow one, where they are known
+    otherwise than from ``time``: of a piece of a log they are the log's.
+    """
+
+    name: str
+    time: np.ndarray
+    gyro: np.ndarray | None = None
+    accel: np.ndarray | None = None
+    temperature: np.ndarray | None = None
+    ref_rate: np.ndarray | None = None
+    ref_q: np.ndarray | None = None
+    ref_heading: np.ndarray | None = None
+    ref_force: np.ndarray | None = None
+    ref_north: np.ndarray | None = None
+    ref_east: np.ndarray | None = None
+    ref_up: np.ndarray | None = None
+    ref_velocity: np.ndarray | None = None
+    moving: np.ndarray | None = None
+    stationary: np.ndarray | None = None
+    heading: np.ndarray | None = None
+    heading_std: np.ndarray | None = None
+    supply: np.ndarray | None = None
+    mag: np.ndarray | None = None
+    latitude: np.ndarray | None = None
+    path: Path | None = None
+    findings: tuple[Finding, ...] = ()
+    frame_declared: bool = False
+    period: float | None = None
+    longest: float | None = None
+    gaps: np.ndarray | None = None
+
+    @classmethod
+    def from_arrays(cls, name: str = "recording", *, time, **groups) -> Recording:
+        """A recording of array-likes: ``time`` (n,) s, and groups by name, such as ``gyro=`` (n, 3)
+        rad/s.
+
+        Raises UserError for an unknown group, a wrong shape, or a time that does not increase.
+        """
+        time = np.asarray(time, dtype=float)
+        if (
+            time.ndim != 1
+            or len(time) < 1
+            or not np.all(np.isfinite(time))
+            or np.any(np.diff(time) <= 0)
+        ):
+            raise UserError(f"{name}: time must be a (n,) array of finite seconds that increases")
+        known = {f.name for f in fields(cls)}
+        for group in groups:
+            if group not in known:
+                near = did_you_mean(group, GROUPS)
+                raise UserError(
+                    f"{name}: unknown group '{group}'{near}; known are {', '.join(GROUPS)}"
+                )
+        arrays = {
+            g: _shaped(name, g, groups.pop(g), len(time))
+            for g in GROUPS
+            if groups.get(g) is not None
+        }
+        return cls(name=name, time=time, **(groups | arrays))
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    def __repr__(self) -> str:
+        return (
+            f"Recording({self.name!r}: {len(self)} samples, {self.sample_rate:.6g} Hz, "
+            f"{', '.join(self.groups)})"
+        )
+
+    @property
+    def groups(self) -> dict[str, np.ndarray]:
+        """The groups that the recording holds, by name, in the order of ``GROUPS``."""
+        return {group: getattr(self, group) for group in GROUPS if getattr(self, group) is not None}
+
+    @cached_property
+    def cadence(self) -> Cadence:
+        """The sample period, and the step of the time above which there may be a gap."""
+        if self.period is None:
+            return cadence_of(self.time)
+        return (
+            Cadence.of_period(self.period)
+            if self.longest is None
+            else Cadence(self.period, self.longest)
+        )
+
+    @property
+    def sample_period(self) -> float:
+        """s; the time between gaps over its steps."""
+        return self.cadence.period
+
+    @property
+    def sample_rate(self) -> float:
+        """Hz."""
+        return 1 / self.sample_period
+
+    @cached_property
+    def segments(self) -> list[tuple[int, int]]:
+        """Index ranges (start, stop) without gap: no step above 1.5 sample periods after which the
+        stamps stay late.
+        """
+        gaps = (
+            gap_rows(self.time, self.cadence.period, self.cadence.longest)
+            if self.gaps is None
+            else self.gaps
+        )
+        return segments(gaps, len(self))
+
+    def slice(self, start: int | None = None, stop: int | None = None) -> Recording:
+        """The samples start <= k < stop, as a recording; findings stay those of the whole log."""
+        rows = slice(start, stop)
+        first, last, _ = rows.indices(len(self))
+        gaps = (
+            None
+            if self.gaps is None
+            else self.gaps[(self.gaps >= first) & (self.gaps < last)] - first
+        )
+        return replace(
+            self,
+            time=self.time[rows],
+            gaps=gaps,
+            **{name: values[rows] for name, values in self.groups.items()},
+        )
+
+    def write(self, path: str | os.PathLike) -> Path:
+        """Writes the recording to ``path`` (.csv, .csv.gz or .parquet), exactly, in SI.
+
+        The file appears whole or not at all. Raises UserError for another suffix or a folder that
+        cannot be written.
+        """
+        write_table(Path(path), self._table())
+        return Path(path)
+
+    def _table(self) -> dict[str, np.ndarray]:
+        table = {"time [s]": self.time}
+        for group, values in self.groups.items():
+            columns = values.reshape(len(self), -1).T
+            table |= {
+                f"{name} [{GROUPS[group][1]}]": column
+                for name, column in zip(column_names(group), columns)
+            }
+        return table
+
+
+def _shaped(name: str, group: str, values, n: int) -> np.ndarray:
+    array = np.asarray(values, dtype=float)
+    width = len(GROUPS[group][0])
+    shape = (n, width) if width else (n,)
+    if array.shape != shape:
+        raise UserError(f"{name}: {group} has shape {array.shape}, expected {shape}")
+    return array
+
+
+def filled(time: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """``values`` (n, ...) with missing cells drawn straight from neighbour to neighbour, column by
+    column; one without any number stays missing.
+    """
+    out = np.array(values, dtype=float)
+    for column in out.reshape(len(out), -1).T:
+        known = np.isfinite(column)
+        if known.any() and not known.all():
+            column[~known] = np.interp(time[~known], time[known], column[known])
+    return out
+
+
+def join(pieces: Sequence[Recording]) -> Recording:
+    """Consecutive pieces of one log as one recording. Raises ValueError for no piece."""
+    if not pieces:
+        raise ValueError("no pieces to join")
+    if len(pieces) == 1:
+        return pieces[0]
+    groups = {
+        group: np.concatenate([getattr(piece, group) for piece in pieces])
+        for group in pieces[0].groups
+    }
+    return replace(
+        pieces[0],
+        time=np.concatenate([piece.time for piece in pieces]),
+        gaps=_joined_gaps(pieces),
+        **groups,
+    )
+
+
+def _joined_gaps(pieces: Sequence[Recording]) -> np.ndarray | None:
+    """The rows that follow a gap, None where a piece does not know its own."""
+    starts = np.cumsum([0, *map(len, pieces)])
+    known = [piece.gaps + start for piece, start in zip(pieces, starts) if piece.gaps is not None]
+    return np.concatenate(known) if len(known) == len(pieces) else None
+
+
+def copied(piece: Recording) -> Recording:
+    """A piece that does not keep alive the arrays which it was cut from."""
+    return replace(
+        piece,
+        time=piece.time.copy(),
+        **{group: np.copy(values) for group, values in piece.groups.items()},
+    )

@@ -1,0 +1,1 @@
+"""The rate that a reference saw."""

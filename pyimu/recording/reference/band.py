@@ -1,0 +1,86 @@
+"""The band in which a derived reference can be trusted."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from pyimu.recording.quality.clipping import clipped
+
+COHERENCE = 0.9
+"""Squared coherence between gyro and reference above which the reference is trusted."""
+
+
+FRAMES = (2.0, 1.0, 0.5)
+"""s; lengths of the frames of the coherence estimate, the longest of which there are enough: a
+resolution of 1 to 4 Hz."""
+
+
+LEAST_FRAMES = 30
+"""Least number of frames (three inputs explain 3/30 of noise by chance)."""
+
+
+def trusted_band(
+    time: np.ndarray, gyro: np.ndarray | None, rate: np.ndarray, limit: float
+) -> float:
+    """The highest frequency in Hz, at most ``limit``, up to which ``rate`` (n, 3) explains ``gyro``
+    (n, 3).
+
+    The share of the gyro's power that a linear filter of the reference's axes explains, the
+    multiple coherence tr(S_gr S_rr^-1 S_rg) / tr(S_gg) (Bendat and Piersol 2010, chapter 7), must
+    stay above ``COHERENCE``; weighting the axes by power leaves out those without motion, and using
+    all axes at once makes it blind to an unknown mounting and to a constant delay. Frames with a
+    missing or clipped sample are left out. At least 1 Hz, or ``limit`` where that is less.
+    """
+    least = min(1.0, limit)
+    if gyro is None:
+        return least
+    axes = np.isfinite(rate).any(axis=0)
+    unclipped = np.column_stack([np.where(clipped(column), np.nan, column) for column in gyro.T])
+    frequency, share = coherence(time, unclipped[:, axes], rate[:, axes])
+    if share is None:
+        return least
+    low = np.flatnonzero((share < COHERENCE) & (frequency >= least))
+    band = frequency[max(low[0] - 1, 0)] if len(low) else frequency[-1]
+    return float(min(max(band, least), limit))
+
+
+def coherence(
+    time: np.ndarray, y: np.ndarray, x: np.ndarray
+) -> tuple[np.ndarray, np.ndarray | None]:
+    """Frequencies (f,) Hz, and the share (f,) of the power of ``y`` (n, p) that ``x`` (n, q)
+    explains.
+
+    The share is None where there are too few frames.
+    """
+    period = float(np.median(np.diff(time)))
+    both = np.column_stack([y, x])
+    for seconds in FRAMES:
+        length = max(16, round(seconds / period))
+        frames = _frames(time, both, length, period)
+        if len(frames) >= LEAST_FRAMES:
+            return np.fft.rfftfreq(length, period), _explained(frames, y.shape[1])
+    return np.zeros(0), None
+
+
+def _explained(frames: np.ndarray, p: int) -> np.ndarray:
+    """The share (f,) of the power in the first ``p`` columns of ``frames`` (k, length, p + q) that
+    the others explain.
+    """
+    window = np.hanning(frames.shape[1])[:, None]
+    spectrum = np.fft.rfft((frames - frames.mean(axis=1, keepdims=True)) * window, axis=1)
+    s = np.einsum("kfi,kfj->fij", spectrum.conj(), spectrum)
+    explained = s[:, :p, p:] @ np.linalg.pinv(s[:, p:, p:], hermitian=True) @ s[:, p:, :p]
+    total = np.trace(s[:, :p, :p], axis1=1, axis2=2).real
+    return np.trace(explained, axis1=1, axis2=2).real / np.where(total > 0, total, np.inf)
+
+
+def _frames(time: np.ndarray, values: np.ndarray, length: int, period: float) -> np.ndarray:
+    """Half-overlapping frames (k, length, columns) without gap and without missing sample."""
+    starts = np.arange(0, max(len(time) - length + 1, 0), length // 2)
+    good = np.concatenate(([0], np.cumsum(~np.all(np.isfinite(values), axis=1))))
+    whole = good[starts + length] == good[starts]
+    regular = (
+        np.abs(time[starts + length - 1] - time[starts] - (length - 1) * period) < 0.5 * period
+    )
+    rows = starts[whole & regular][:, None] + np.arange(length)
+    return values[rows]

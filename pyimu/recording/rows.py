@@ -1,0 +1,229 @@
+"""The rows of a file made into samples, a batch at a time: units, axes, the order of the time,
+repeats, missing values.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from pyimu.errors import Finding, UserError
+from pyimu.recording.column_map import ForeignMap, read_map
+from pyimu.recording.columns import GROUPS, column_names
+from pyimu.recording.counts import RawCounts
+from pyimu.recording.formats.suffix import open_table
+from pyimu.recording.formats.table import Table
+from pyimu.recording.header import Header
+from pyimu.recording.quality.tally import Tally
+
+NORM_TOLERANCE = 1e-2
+"""How far the norm of a reference quaternion may be from one before it is reported."""
+
+LEAST_ROWS = 3
+"""A recording has at least so many samples."""
+
+COUNTER_BITS = (16, 24, 32)
+"""Widths of the counters of time that wrap."""
+
+COARSE_STAMPS = 0.01
+"""Above this share of rows with the time of the row before, the stamps are coarser than the sample
+period."""
+
+KINDS = (
+    "time_origin",
+    "repeated_rows",
+    "repeated_time",
+    "reference_norm",
+    "missing_cells",
+    "counts",
+)
+"""The order of the findings, behind those of the file's format and header."""
+
+Values = dict[str, np.ndarray]
+
+
+@dataclass(frozen=True)
+class Source:
+    """A file, opened: its reader, what its columns mean, and the user's column map."""
+
+    table: Table
+    header: Header
+    foreign: ForeignMap
+
+    @classmethod
+    def open(cls, path: Path, columns: Path | None) -> Source:
+        """Raises UserError for a file or a map that cannot be used."""
+        foreign = read_map(columns) if columns is not None else ForeignMap()
+        table = open_table(path, foreign.topics)
+        return cls(
+            table,
+            Header(
+                path,
+                foreign.rename(path, table.header),
+                foreign.scale,
+                table.crowded,
+                table.skipped,
+            ),
+            foreign,
+        )
+
+
+class Rows:
+    """One pass over a ``source``; ``findings`` are complete at its end. Batches are those that
+    suit the file.
+    """
+
+    def __init__(self, source: Source) -> None:
+        self.source = source
+        self.kept = 0
+        self._tally = Tally([*source.table.findings, *source.header.findings])
+        header = source.header
+        self._raw = RawCounts(
+            header.stated, [header.units[header.names.index(name)] for name in header.stated]
+        )
+        self._seen = 0
+        self._single = True
+        self._before: Values | None = None
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        names = ["time", *self.source.header.names]
+
+        def rank(finding: Finding) -> tuple[int, int]:
+            known = finding.kind in KINDS
+            return (KINDS.index(finding.kind) if known else -1), (
+                names.index(finding.column) if known and finding.column in names else 0
+            )
+
+        return tuple(sorted(map(self._coarse, self._tally.findings()), key=rank))
+
+    def _coarse(self, finding: Finding) -> Finding:
+        """``finding``, with the share of rows and the reason where it is of stamps that are coarser
+        than the sample period.
+        """
+        share = finding.count / max(self._seen, 1)
+        if finding.kind != "repeated_time" or share <= COARSE_STAMPS:
+            return finding
+        stamps = "coarser than the sample period" + (
+            ", as numbers of 32 bits are" if self._single else ""
+        )
+        return replace(finding, detail={**finding.detail, "share": share, "stamps": stamps})
+
+    def batches(self) -> Iterator[tuple[np.ndarray, Values, float]]:
+        """Time (n,) that increases strictly, from batch to batch too; the groups by name; and the
+        share of the file read so far.
+
+        Raises UserError with the row for a time that is missing or runs backwards, and for a file
+        of fewer than three rows.
+        """
+        header, origin = self.source.header, None
+        for columns, share in self.source.table.batches(header.positions, header.time):
+            if not len(columns[0]):
+                continue
+            if origin is None:
+                found: list[Finding] = []
+                origin = header.origin(columns[header.positions.index(header.time)][0], found)
+                self._tally.add(found)
+            long = columns[header.positions.index(header.time)]
+            self._single = self._single and _is_single(long)
+            self._raw.add(dict(zip(header.names, columns)))
+            time, values = self._ordered(header.convert(columns, origin))
+            self.kept += len(time)
+            yield time, self._grouped(values), share
+        if self.kept < LEAST_ROWS:
+            raise UserError(
+                f"{self.source.header.path}: {self.kept} rows of data, a recording needs at least "
+                f"{LEAST_ROWS}"
+            )
+        self._tally.add(self._raw.findings())
+
+    def _ordered(self, values: Values) -> tuple[np.ndarray, Values]:
+        """Time and the other columns at the rows that are the first with their time."""
+        lead = 0 if self._before is None else 1
+        if self._before is not None:
+            values = {
+                name: np.concatenate((self._before[name], column))
+                for name, column in values.items()
+            }
+        time = values.pop("time")
+        self._check_times(time, self._seen - lead)
+        keep = np.concatenate((np.full(1, not lead), np.diff(time) > 0))
+        self._report_repeats(time, values, np.flatnonzero(~keep[lead:]) + lead)
+        self._before = {"time": time[-1:]} | {name: column[-1:] for name, column in values.items()}
+        self._seen += len(time) - lead
+        return time[keep], {name: column[keep] for name, column in values.items()}
+
+    def _check_times(self, time: np.ndarray, first: int) -> None:
+        """``first`` is the number of the first row in ``time``."""
+        missing = np.flatnonzero(~np.isfinite(time))
+        if len(missing):
+            raise UserError(f"{self._place(first + missing[0])}: the time is missing")
+        back = np.flatnonzero(np.diff(time) < 0)
+        if len(back):
+            before, after = time[back[0]], time[back[0] + 1]
+            raise UserError(
+                f"{self._place(first + back[0] + 1)}: the time runs backwards, {after:.9g} s "
+                f"follows {before:.9g} s"
+                f"{self._wrapped(before - after)}"
+            )
+
+    def _place(self, row: int) -> str:
+        return f"{self.source.header.path}: {self.source.table.place(int(row))}"
+
+    def _wrapped(self, step: float) -> str:
+        """What to add where the time went back by nearly the whole range of a counter."""
+        for bits in COUNTER_BITS:
+            span = 2.0**bits * self.source.header.seconds
+            if 0.9 * span < step <= span:
+                return f"; a counter of {bits} bits wraps after {span:.9g} s, unwrap it"
+        return ""
+
+    def _report_repeats(
+        self, time: np.ndarray, values: Mapping[str, np.ndarray], again: np.ndarray
+    ) -> None:
+        """``again`` are the rows whose time is that of the row before."""
+        if not len(again):
+            return
+        same = np.all([_equal(v[again], v[again - 1]) for v in values.values()], axis=0)
+        for kind, rows in (("repeated_rows", again[same]), ("repeated_time", again[~same])):
+            if len(rows):
+                self._tally.add([Finding(kind, "time", len(rows), {"first": float(time[rows[0]])})])
+
+    def _grouped(self, values: Mapping[str, np.ndarray]) -> Values:
+        """The groups, in the axes of the package."""
+        groups = {}
+        for group in self.source.header.groups:
+            columns = [values[name] for name in column_names(group)]
+            groups[group] = np.column_stack(columns) if GROUPS[group][0] else columns[0]
+        if "ref_q" in groups:
+            groups["ref_q"] = self._normalised(groups["ref_q"])
+        for name in (
+            name for group in ("gyro", "accel") if group in groups for name in column_names(group)
+        ):
+            missing = int(np.count_nonzero(np.isnan(values[name])))
+            self._tally.add([Finding("missing_cells", name, missing)] if missing else [])
+        return self.source.foreign.turn(groups)
+
+    def _normalised(self, q: np.ndarray) -> np.ndarray:
+        """Unit quaternions; a norm far from one is reported, and one below a half (zeros for "not
+        seen") is missing.
+        """
+        norm = np.linalg.norm(q, axis=1)
+        odd = np.abs(norm - 1) > NORM_TOLERANCE
+        if odd.any():
+            detail = {"largest": float(norm[odd].max()), "least": float(norm[odd].min())}
+            self._tally.add([Finding("reference_norm", "ref_q", int(odd.sum()), detail)])
+        return q / np.where(norm < 0.5, np.nan, norm)[:, None]
+
+
+def _is_single(time: np.ndarray) -> bool:
+    """Whether all of ``time`` (n,) are numbers of 32 bits."""
+    with np.errstate(over="ignore"):
+        return time.dtype.kind == "f" and bool(np.all(time == time.astype(np.float32)))
+
+
+def _equal(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    return (a == b) | (np.isnan(a) & np.isnan(b))

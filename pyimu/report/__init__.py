@@ -1,0 +1,1 @@
+"""What the pages and listings of the package are made of."""

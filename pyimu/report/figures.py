@@ -1,0 +1,124 @@
+"""Figures of a page as inline SVG: clouds rasterised, colours by CSS variable so that one page
+serves day and night.
+"""
+
+from __future__ import annotations
+
+import io
+import re
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.axis import Axis
+from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+INK, BEFORE, AFTER, FLOOR, GREY = "#010203", "#e69f00", "#0072b2", "#009e73", "#808487"
+"""Okabe-Ito, so that the two series differ for every eye; grey for what does not matter."""
+
+VARIABLES = {
+    INK: "var(--ink)",
+    BEFORE: "var(--before)",
+    AFTER: "var(--after)",
+    FLOOR: "var(--floor)",
+    GREY: "var(--grey)",
+}
+
+STYLE = {
+    "svg.fonttype": "none",
+    "svg.hashsalt": "pyimu",
+    "font.family": "sans-serif",
+    "font.size": 9.5,
+    "axes.linewidth": 0.7,
+    "text.color": INK,
+    "axes.edgecolor": INK,
+    "axes.labelcolor": INK,
+    "xtick.color": INK,
+    "ytick.color": INK,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": GREY,
+    "grid.alpha": 0.25,
+    "grid.linewidth": 0.5,
+    "legend.frameon": False,
+    "figure.facecolor": "none",
+    "axes.facecolor": "none",
+}
+
+BINS = 420
+"""Columns of a time series; each shows the smallest and the largest sample that falls into it, so
+that spikes survive."""
+
+
+def new_figure(width: float, height: float, rows: int = 1) -> tuple[Figure, list[Axes]]:
+    """A figure of so many inches with panels above each other on one abscissa."""
+    figure = Figure(figsize=(width, height), layout="constrained")
+    axes = figure.subplots(rows, 1, sharex=True, squeeze=False)[:, 0]
+    return figure, list(axes)
+
+
+def svg_of(figure: Figure) -> str:
+    """The figure as an SVG element that can stand in a page: no prolog, no metadata, no repeated
+    identifiers.
+    """
+    buffer = io.StringIO()
+    figure.savefig(
+        buffer,
+        format="svg",
+        dpi=144,
+        metadata={"Date": None, "Creator": None, "Format": None, "Type": None},
+    )
+    text = buffer.getvalue()
+    text = text[text.index("<svg") :]
+    text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.DOTALL)
+    text = re.sub(r' id="[A-Za-z0-9]+_\d+"| xmlns(:xlink)?="[^"]*"', "", text)
+    text = re.sub(
+        r'(<svg[^>]*?) width="[^"]*"',
+        r"\1",
+        re.sub(r'(<svg[^>]*?) height="[^"]*"', r"\1", text, count=1),
+        count=1,
+    )
+    text = re.sub(r"\n\s*", "\n", text)
+    for colour, variable in VARIABLES.items():
+        text = text.replace(colour, variable)
+    return text
+
+
+def legend(figure: Figure, panel: Axes, columns: int) -> None:
+    """The legend of a panel above the figure."""
+    figure.legend(
+        *panel.get_legend_handles_labels(),
+        loc="outside upper left",
+        ncols=columns,
+        borderaxespad=0.1,
+        handlelength=1.4,
+        columnspacing=1.1,
+        fontsize=8.5,
+    )
+
+
+def plain_logarithm(axis: Axis) -> None:
+    """Numbers without powers; 1, 2, 5 where less than two decades are seen, else decades."""
+    low, high = axis.get_view_interval()
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if high < 100 * low else (1.0,)))
+    axis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}"))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def envelope(
+    time: np.ndarray, values: np.ndarray, bins: int = BINS
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Smallest and largest value in each of ``bins`` stretches of time; NaN where a stretch has no
+    sample.
+    """
+    if len(time) <= bins:
+        return time, values, values
+    edges = np.linspace(time[0], time[-1], bins + 1)
+    place = np.clip(np.searchsorted(edges, time, side="right") - 1, 0, bins - 1)
+    low, high = np.full(bins, np.inf), np.full(bins, -np.inf)
+    np.minimum.at(low, place, values)
+    np.maximum.at(high, place, values)
+    empty = low > high
+    low[empty] = high[empty] = np.nan
+    return 0.5 * (edges[1:] + edges[:-1]), low, high

@@ -1,0 +1,149 @@
+"""What the pages of the package are made of: tables, pictures, cells, and files that appear as a
+whole or not at all.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+import shutil
+import uuid
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup, escape
+
+from pyimu.errors import Finding, UserError
+from pyimu.report.numbers import MISSING, in_unit, number, pretty, quantity, si_quantity, unit_for
+
+SAMPLE = (
+    "level",
+    "step",
+    "least",
+    "largest",
+    "value",
+    "amplitude",
+    "span",
+    "accel_x",
+    "accel_y",
+    "accel_z",
+)
+"""Details of findings that have the unit of the column."""
+
+SECONDS, SECONDS_OF_TIME = (
+    ("time_constant", "period"),
+    ("longest", "total", "rms", "first", "origin"),
+)
+"""Details of findings that are times; the latter those of the column ``time`` only."""
+
+
+@contextmanager
+def staged(out: Path) -> Iterator[Path]:
+    """A folder beside the results whose files take their places once the block has ended well."""
+    stage = out / f".report.{uuid.uuid4().hex}"
+    try:
+        stage.mkdir(parents=True)
+        yield stage
+        _check_places(out, files := sorted(stage.iterdir()))
+        for file in files:
+            os.replace(file, out / file.name)
+    except OSError as error:
+        raise UserError(
+            f"{out}: the report cannot be written ({error.strerror or error})"
+        ) from None
+    finally:
+        shutil.rmtree(stage, ignore_errors=True)
+
+
+def _check_places(out: Path, files: list[Path]) -> None:
+    """Raises OSError where a file cannot take its place, before the first one has."""
+    for file in files:
+        if (out / file.name).is_dir() and not (out / file.name).is_symlink():
+            raise IsADirectoryError(errno.EISDIR, f"{file.name} is a folder there")
+
+
+@dataclass(frozen=True)
+class Table:
+    """Head and rows of cells."""
+
+    head: tuple[str, ...]
+    rows: list[tuple] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class Picture:
+    """An SVG, the line under it, and what it shows for who cannot see it."""
+
+    svg: Markup
+    caption: str
+    alt: str
+    small: bool = False
+
+
+@lru_cache(maxsize=4)
+def templates(package: str) -> Environment:
+    """The templates of a package; ``page.html`` is what their pages extend."""
+    return Environment(
+        loader=ChoiceLoader(
+            [PackageLoader(package, "templates"), PackageLoader("pyimu.report", "templates")]
+        ),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+
+
+def prose(text: str) -> Markup:
+    """A cell of prose, which may break into lines."""
+    return Markup('<span class="words">{}</span>').format(text)
+
+
+def both(value: Any, si: str, unit: str | None = None) -> Markup:
+    """A cell with a value in the people's unit and in SI."""
+    if value is None or not np.isfinite(value):
+        return Markup(MISSING)
+    unit = unit or unit_for(value, si)
+    shown = f"{number(float(in_unit(value, si, unit)))} {pretty(unit)}".rstrip()
+    plain = si_quantity(value, si)
+    return escape(shown) if plain == shown else Markup("{}<small>{}</small>").format(shown, plain)
+
+
+def quality_table(findings: Iterable[Finding]) -> Table:
+    return Table(
+        ("finding", "column", "count", "detail"),
+        [
+            (f.kind.replace("_", " "), f.column or "all", f"{f.count}", prose(detail(f)))
+            for f in findings
+        ],
+    )
+
+
+def detail(f: Finding) -> str:
+    """The finding's numbers with their units."""
+    sample = {"gyro": "rad/s", "accel": "m/s^2"}.get(f.column.partition("_")[0])
+    parts = []
+    for name, value in f.detail.items():
+        text = (
+            f"{value:,}"
+            if isinstance(value, int)
+            else str(value)
+            if np.ndim(value) or isinstance(value, str)
+            else number(float(value), 4)
+        )
+        if sample and name in SAMPLE:
+            text = quantity(float(value), sample)
+        elif name == "share":
+            text = quantity(float(value), "1")
+        elif name in ("rate", "other_rate"):
+            text = f"{value:.6g} Hz"
+        elif name in SECONDS or (f.column == "time" and name in SECONDS_OF_TIME):
+            text = f"{text} s"
+        parts.append(f"{name.replace('_', ' ')} {text}")
+    return ", ".join(parts)

@@ -1,0 +1,160 @@
+"""Parts as people compare them: the listing of all built-in parts, and one part with the source of
+each figure.
+
+Units are spelled as in a part file, so that a figure can be copied back. N is the root of the
+two-sided density; the figure that a data sheet prints as a density is one-sided, sqrt(2) larger,
+and stands under ``quoted``.
+"""
+
+from __future__ import annotations
+
+import io
+import shutil
+import sys
+from collections.abc import Iterable
+
+import numpy as np
+
+from pyimu.model.part import Part
+from pyimu.model.part_entry import RATE_KEY
+from pyimu.model.part_file import part, part_names
+from pyimu.report.numbers import CORNER, FREQUENCIES, in_unit, number, unit_for
+
+ABSENT = "-"
+"""Printed where a part says nothing."""
+
+COLUMNS = (
+    ("gyro", "angle_random_walk", "N", "deg/sqrt(h)"),
+    ("gyro", "bias_instability", "B", "deg/h"),
+    ("gyro", "saturation", "limit", "deg/s"),
+    ("accel", "angle_random_walk", "N", "ug/sqrt(Hz)"),
+    ("accel", "bias_instability", "B", "ug"),
+    ("accel", "saturation", "limit", "g"),
+)
+"""What the listing compares: sensor, effect, parameter, and one unit for all parts."""
+
+UNLIMITED = 10_000
+"""Characters; wider than any line here."""
+
+
+def listing(parts: Iterable[Part] | None = None, width: int | None = None) -> str:
+    """One line a part: rate, noise, bias instability and range; ``parts`` are the built-in ones
+    unless given.
+
+    ``width`` is that of the terminal, None for as wide as it gets; figures are never cut, only
+    descriptions are folded.
+    """
+    from rich.table import Table
+
+    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0), title_justify="left")
+    table.add_column("part\n\n", no_wrap=True)
+    table.add_column("rate\n\nHz", justify="right", no_wrap=True)
+    for kind, effect, parameter, unit in COLUMNS:
+        what = "range" if effect == "saturation" else parameter
+        table.add_column(f"{kind}\n{what}\n{unit}", justify="right", no_wrap=True)
+    table.add_column("description\n\n")
+    for p in map(part, part_names()) if parts is None else parts:
+        figures = [_figure(p, *column) for column in COLUMNS]
+        table.add_row(p.name, f"{p.sample_rate:.10g}", *figures, p.description)
+    return _text(table, width)
+
+
+def detail(name: str | Part, width: int | None = None) -> str:
+    """Every coefficient of one part in a unit of its size, with the figure as quoted and its
+    source.
+
+    Raises UserError where there is no such part.
+    """
+    from rich.table import Table
+
+    p = part(name)
+    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    for heading in ("coefficient", "value"):
+        table.add_column(heading, no_wrap=True)
+    for heading in ("quoted", "source"):
+        table.add_column(heading, ratio=1)
+    for row in _rows(p):
+        table.add_row(*row)
+    title = f"{p.name}: {p.description}" if p.description else p.name
+    return f"{title}\n\n{_text(table, width)}"
+
+
+def terminal_width() -> int | None:
+    """Columns of the terminal that standard output goes to, None where it goes to a file or a
+    pipe.
+    """
+    return shutil.get_terminal_size().columns if sys.stdout.isatty() else None
+
+
+def _rows(p: Part) -> list[tuple[str, str, str, str]]:
+    """Coefficient, value, figure as quoted, source."""
+    rate = p.notes.get(RATE_KEY, {})
+    rows = [("sample_rate", f"{p.sample_rate:.10g} Hz", ABSENT, rate.get("source", ABSENT))]
+    for kind in ("gyro", "accel"):
+        sensor = p.sensor(kind)
+        for e in sensor.effects:
+            for name, q in e.parameters.items():
+                key = (kind, e.name, name)
+                note = p.notes.get(key)
+                if note is None and np.all(sensor.values[e.name][name] == q.start):
+                    continue
+                si = CORNER if (e.name, name) in FREQUENCIES else sensor.unit(q.unit)
+                value = (
+                    "estimated from data"
+                    if key in p.estimate
+                    else _value(sensor.values[e.name][name], si)
+                )
+                rows.append(
+                    (
+                        ".".join(key),
+                        value,
+                        (note or {}).get("quoted", ABSENT),
+                        (note or {}).get("source", ABSENT),
+                    )
+                )
+    return rows
+
+
+def _value(values: np.ndarray, si: str) -> str:
+    unit = unit_for(values, si)
+    return f"{_numbers(in_unit(values, si, unit), 4)} {unit if unit != '1' else ''}".rstrip()
+
+
+def _numbers(values: np.ndarray, digits: int) -> str:
+    """One number for equal axes, else all of them; a matrix row by row."""
+    if values.ndim == 2:
+        return (
+            "[" + "; ".join(" ".join(number(float(v), digits) for v in row) for row in values) + "]"
+        )
+    told = [number(float(v), digits) for v in np.ravel(values)]
+    return told[0] if len(set(told)) == 1 else " ".join(told)
+
+
+def _figure(p: Part, kind: str, effect: str, parameter: str, unit: str) -> str:
+    """The largest axis of a coefficient; a dash where the part has none, leaves it to the data or
+    switches it off.
+    """
+    sensor = p.sensor(kind)
+    if effect not in sensor.values or (kind, effect, parameter) in p.estimate:
+        return ABSENT
+    largest = float(np.max(sensor.values[effect][parameter]))
+    si = sensor.unit({e.name: e for e in sensor.effects}[effect].parameters[parameter].unit)
+    return number(float(in_unit(largest, si, unit))) if largest else ABSENT
+
+
+def _text(table, width: int | None) -> str:
+    """The table as lines without trailing blanks, no narrower than what must not be folded."""
+    from rich.console import Console
+    from rich.measure import Measurement
+
+    wide = Console(width=UNLIMITED)
+    least = Measurement.get(wide, wide.options, table).minimum
+    page = io.StringIO()
+    Console(
+        file=page,
+        width=UNLIMITED if width is None else max(width, least),
+        highlight=False,
+        markup=False,
+        emoji=False,
+    ).print(table)
+    return "\n".join(line.rstrip() for line in page.getvalue().splitlines())

@@ -1,0 +1,120 @@
+"""The sensors' errors are undone in the filter, whatever the effect: an attitude as of sensors
+without errors.
+"""
+
+import casadi as ca
+import numpy as np
+import pytest
+from catalogue_cases import CASES, everything, excited
+from test_attitude_ukf import H, drive, error, output, parameters, rover_rate
+
+from pyimu.attitude import attitude_ukf
+from pyimu.attitude.compensation import noise_of
+from pyimu.model.catalogue import CATALOGUE
+from pyimu.model.part import Part
+from pyimu.model.sensor import Sensor
+
+N = 1000
+WORLD_ALONE = ("earth_rate", "transport_rate")
+"""They come with a turning Earth, which the drives of this file are without."""
+
+UNDONE = [
+    (name, kind)
+    for name, kind in CASES
+    if not CATALOGUE[name].stochastic and CATALOGUE[name].invertible and name not in WORLD_ALONE
+]
+SMALL = {"angular_acceleration": 0.005}
+"""Shares for effects whose inverse is unstable where they are larger: beyond half a sample of
+delay."""
+
+
+@pytest.fixture(scope="module")
+def world():
+    """A drive, and the course of all that effects may depend on."""
+    t, driven = H * np.arange(1, N + 1), drive(rover_rate(N))
+    signals = {
+        "rate": driven.rate,
+        "specific_force": driven.force,
+        "temperature": 25 + 10 * np.sin(t / 5),
+        "supply": 3.3 + 0.1 * np.sin(t),
+        "mag": 1e-5 * np.column_stack([3 * np.cos(t), 3 * np.sin(t), np.full(N, -4.0)]),
+        "attitude": driven.attitude.as_quat(scalar_first=True),
+        "latitude": np.full(N, 0.8),
+        "velocity": np.zeros((N, 3)),
+    }
+    return driven, signals
+
+
+def columns(block, signals: dict) -> np.ndarray:
+    """A block's inputs (n, nu) from signals by name, what is not among them at its start value."""
+    out = np.tile([v.start for v in block.inputs], (N, 1))
+    for i, variable in enumerate(block.inputs):
+        name, _, axis = variable.name.partition("[")
+        if name in signals:
+            out[:, i] = signals[name][:, int(axis[:-1]) - 1] if axis else signals[name]
+    return out
+
+
+def off(part: Part, measured: np.ndarray, world) -> float:
+    """Largest attitude error in rad of the part's filter, which starts at the truth and trusts the
+    gyro alone.
+    """
+    driven, signals = world
+    block = attitude_ukf(part)
+    u = columns(block, {**signals, "gyro": measured[:, :3], "accel": measured[:, 3:]})
+    y, state = block.run(u, p=parameters(block, std0=np.array([1e-4] * 3 + [1e-7] * 3)))
+    assert np.isfinite(state).all()
+    return np.linalg.norm(error(output(block, y, "q"), driven.attitude), axis=1).max()
+
+
+def part_of(kind: str, sensor: Sensor) -> Part:
+    return Part(
+        "test", 1 / H, **({"gyro": Sensor("gyro"), "accel": Sensor("accel")} | {kind: sensor})
+    )
+
+
+@pytest.mark.parametrize("name, kind", UNDONE)
+def test_declared_effect_is_undone(name, kind, world):
+    """To rounding, and where errors follow from what is not affine in the sensor's input to the
+    precision of two steps of Newton's.
+    """
+    part = part_of(kind, excited(name, kind, SMALL.get(name, 0.05)))
+    measured, _ = part.block.run(columns(part.block, world[1]))
+    assert off(part, measured, world) < 1e-7
+    if kind == "gyro":
+        assert off(part_of("gyro", Sensor("gyro")), measured, world) > 1e-5, (
+            "the effect is large enough to be seen"
+        )
+
+
+def test_rounding_counts_as_white_noise_and_what_is_not_undone_is_said():
+    """A step q leaves q^2/12 in a sample; the FMU's description names what stays in."""
+    sensor = Sensor(
+        "gyro",
+        {
+            "angle_random_walk": {"N": 1e-3},
+            "quantization": {"q": 0.02},
+            "lag": {"wn": 60.0, "zeta": 0.7},
+        },
+    )
+    noise = noise_of(sensor, ca.SX(ca.DM(sensor.p)), H)
+    np.testing.assert_allclose(
+        np.array(ca.evalf(noise.white)).ravel() ** 2, 1e-3**2 + 0.02**2 * H / 12, rtol=1e-12
+    )
+    blocks = [
+        attitude_ukf(part_of("gyro", s))
+        for s in (sensor, Sensor("gyro", {"angle_random_walk": {"N": 1e-3}}))
+    ]
+    u = np.tile([v.start for v in blocks[0].inputs], (200, 1))
+    grown = [
+        output(b, b.run(u, p=parameters(b, std0=np.full(6, 1e-9)))[0], "std")[-1, 2] ** 2
+        for b in blocks
+    ]
+    np.testing.assert_allclose(grown[0] - grown[1], 0.02**2 * H / 12 * 200 * H, rtol=1e-3)
+    assert "lag of the gyro" in blocks[0].description and "lag" not in blocks[1].description
+
+
+def test_filter_of_a_part_with_every_effect_at_once_stays_finite(world):
+    part = Part("test", 1 / H, everything("gyro", 0.002), everything("accel", 0.002))
+    measured, _ = part.block.run(columns(part.block, world[1]), seed=1)
+    assert np.isfinite(off(part, measured, world))

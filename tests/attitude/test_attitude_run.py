@@ -1,0 +1,273 @@
+"""The attitude filter over recordings: how it starts, gaps and missing columns, and what it
+refuses.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+from test_attitude_ukf import (
+    EARTH,
+    GRAVITY,
+    Drive,
+    H,
+    N,
+    drive,
+    error,
+    inputs,
+    measured,
+    part,
+    rover_rate,
+)
+
+import pyimu
+from pyimu.attitude import attitude_ukf, run
+from pyimu.attitude.columns import Columns
+from pyimu.attitude.rest import find_rest
+from pyimu.errors import UserError
+from pyimu.recording.recording import Recording
+
+BIAS = np.array([0.01, -0.02, 0.015])
+
+
+def recorded(world: Drive, seed: int = 0, **more) -> Recording:
+    gyro, accel, _ = measured(world, np.random.default_rng(seed), BIAS)
+    return Recording.from_arrays(time=H * np.arange(len(gyro)), gyro=gyro, accel=accel, **more)
+
+
+def tilt_error(result, truth: Rotation) -> np.ndarray:
+    """Angle (n,) between the estimated and the true vertical."""
+    up = Rotation.from_quat(result.q, scalar_first=True).apply([0, 0, 1], inverse=True)
+    return np.arccos(np.clip(np.sum(up * truth.apply([0, 0, 1], inverse=True), axis=1), -1, 1))
+
+
+@pytest.mark.parametrize(
+    "start",
+    [[0.0, 0.0, 0.0], [0.0, 0.2, np.pi], [0.0, -1.4, 0.0]],
+    ids=["level", "upside down", "nose up"],
+)
+def test_rest_levels_the_attitude_and_gives_the_bias(start):
+    truth = Rotation.from_euler("ZYX", start)
+    world = drive(rover_rate(3000, still=1500), truth)
+    result = run(recorded(world), part())
+    assert result.rest.seen and 9 < result.rest.duration < 15
+    assert tilt_error(result, world.attitude).max() < 0.01
+    # The mean of ten seconds, and what has walked since: four standard deviations.
+    std = np.hypot(N / np.sqrt(10), 2e-4 * np.sqrt(10))
+    np.testing.assert_allclose(result.gyro_bias[0], BIAS, atol=4 * std)
+    np.testing.assert_allclose(np.linalg.norm(result.q, axis=1), 1, atol=1e-14)
+
+
+def test_without_a_part_the_noise_at_rest_stands_for_it():
+    world = drive(rover_rate(3000, still=1000))
+    assert tilt_error(run(recorded(world)), world.attitude).max() < 0.01
+
+
+def test_earth_rate_is_not_taken_for_bias_at_a_known_latitude():
+    world = drive(np.zeros((3000, 3)), latitude=0.9)
+    recording = Recording.from_arrays(
+        time=H * np.arange(3000), gyro=world.inertial, accel=world.force
+    )
+    np.testing.assert_allclose(
+        run(recording, part(), latitude=0.9, heading0=0.0).gyro_bias, 0, atol=1e-4 * EARTH
+    )
+    unknown = run(recording, part()).gyro_bias
+    np.testing.assert_allclose(
+        unknown[-1], EARTH * np.array([0, np.cos(0.9), np.sin(0.9)]), atol=1e-6
+    )
+
+
+def test_yaw_starts_where_it_is_told_else_at_the_recorded_heading_else_at_zero():
+    world = drive(np.zeros((500, 3)))
+    heading = np.full(500, -3.1)
+    runs = (
+        run(recorded(world), part(), heading0=2.0),
+        run(recorded(world, heading=heading), part()),
+        run(recorded(world), part()),
+    )
+    np.testing.assert_allclose([r.euler[0, 2] for r in runs], [2.0, -3.1, 0.0], atol=1e-2)
+
+
+def test_given_attitude_is_where_the_run_starts():
+    q0 = Rotation.from_euler("ZYX", [1.0, 0.0, 0.0])
+    result = run(recorded(drive(np.zeros((500, 3)), q0)), part(), q0=q0.as_quat(scalar_first=True))
+    assert np.linalg.norm(error(result.q[:1], q0)) < 0.01
+
+
+def test_given_bias_and_standard_deviations_are_where_the_run_starts():
+    recording = recorded(drive(np.zeros((500, 3))))
+    bias, std = np.array([1e-3, -2e-3, 3e-3]), np.array([0.3, 0.2, 0.1, 1e-6, 1e-6, 1e-6])
+    result = run(recording, part(k=0), bias0=bias, std0=std)
+    np.testing.assert_allclose(result.gyro_bias[0], bias, atol=1e-9)
+    np.testing.assert_allclose(result.std[0, 3:], std[3:], rtol=1e-3)
+    assert result.std[0, 0] <= 0.3 and result.std[0, 2] == pytest.approx(0.1, rel=1e-3)
+    assert [result.parameters[f"std0[{i}]"] for i in range(1, 7)] == std.tolist()
+
+
+def test_gap_widens_the_covariance_and_keeps_the_rows():
+    world = drive(rover_rate(3000, still=1000))
+    whole = recorded(world)
+    keep = np.r_[0:1500, 1600:3000]
+    cut = Recording.from_arrays(
+        time=whole.time[keep], gyro=whole.gyro[keep], accel=whole.accel[keep]
+    )
+    result = run(cut, part())
+    assert len(result.time) == len(result.q) == len(keep)
+    assert result.std[1500, 2] > 0.9 and result.std[1499, 2] < 0.1
+    assert tilt_error(result, world.attitude[keep])[-1] < 0.02
+
+
+def with_gap(world: Drive, seconds: float, seed: int = 0, **more) -> Recording:
+    """The recording with its second half ``seconds`` later."""
+    whole = recorded(world, seed, **more)
+    half = len(whole.time) // 2
+    return replace(whole, time=whole.time + seconds * (np.arange(len(whole.time)) >= half))
+
+
+@pytest.mark.parametrize("seconds", [0.02, 59.0, 7200.0])
+def test_bias_walks_on_over_a_gap_of_any_length_and_its_end_is_marked(seconds):
+    k, n = 1e-4, 2000
+    result = run(with_gap(drive(np.zeros((n, 3))), seconds, stationary=np.ones(n)), part(k=k))
+    before, after = result.std[n // 2 - 1, 3:] ** 2, result.std[n // 2, 3:] ** 2
+    # The row after the gap tells a little of the bias, as a sample of white noise does.
+    expected = before + k**2 * (seconds + H)
+    np.testing.assert_allclose(after, 1 / (1 / expected + H / N**2), rtol=1e-3)
+    np.testing.assert_array_equal(np.flatnonzero(result.status), [n // 2])
+
+
+def test_times_that_are_rounded_have_no_gaps():
+    """At 976 Hz and whole milliseconds a step is one of them or two."""
+    time = np.round(np.arange(5000) * 1.0246e-3, 3)
+    recording = Recording.from_arrays(
+        time=time, gyro=np.zeros((5000, 3)), accel=np.tile([0, 0, GRAVITY], (5000, 1))
+    )
+    result = run(recording, "imt30")
+    assert not result.status.any() and np.all(np.diff(result.std[:, 2]) >= 0)
+
+
+def test_pieces_are_cut_at_long_gaps_alone():
+    recording = with_gap(drive(np.zeros((100, 3))), 600.0)
+    columns = Columns(recording, part(), [v.name for v in attitude_ukf(part()).inputs])
+    pieces = [(len(u), rows, left_out) for u, rows, _, left_out in columns.pieces()]
+    missing = round(60 / H)  # the step over the gap is a sample longer than what it leaves out
+    assert [size for size, _, _ in pieces] == [50 + missing - 1, 50]
+    assert [rows for _, rows, _ in pieces] == [slice(0, 50), slice(50, 100)]
+    assert [left_out for _, _, left_out in pieces] == pytest.approx([0.0, 600.0 + H - 60.0])
+
+
+def test_recording_without_accelerometer_is_integrated():
+    world = drive(rover_rate(500))
+    recording = Recording.from_arrays(time=H * np.arange(500), gyro=world.inertial)
+    certain = {f"std0[{i}]": 0.0 for i in range(1, 7)}
+    result = run(recording, part(0, 0), q0=np.array([1.0, 0, 0, 0]), settings=certain)
+    assert np.abs(error(result.q, world.attitude)).max() < 1e-9
+    np.testing.assert_array_equal(result.status, 1)
+    assert not result.quasi_static.any()
+
+
+def test_missing_cells_are_marked_and_survived():
+    world = drive(rover_rate(2000, still=1000))
+    recording = recorded(world)
+    recording.gyro[1500:1503, 0] = np.nan
+    recording.accel[1200:1300] = np.nan
+    result = run(recording, part())
+    assert np.isfinite(result.q).all() and np.sum(result.status & 1) == 103
+    assert "103 samples" in result.report()
+
+
+def test_run_is_the_block_on_the_recordings_columns():
+    recording = recorded(drive(rover_rate(300)))
+    block = attitude_ukf(part())
+    result = run(
+        recording,
+        part(),
+        settings={f"std0[{i}]": 0.02 for i in range(1, 7)} | {"bias0[1]": 0.0},
+        q0=np.array([1.0, 0, 0, 0]),
+    )
+    p = block.start.copy()
+    for i, v in enumerate(block.parameters):
+        p[i] = 0.02 if v.name.startswith("std0") else p[i]
+    assert not result.rest.seen
+    y, _ = block.run(inputs(300, gyro=recording.gyro, accel=recording.accel), p=p)
+    np.testing.assert_allclose(result.q, y[:, :4], atol=1e-12)
+
+
+def test_what_cannot_be_used_is_refused_with_its_reason():
+    recording = recorded(drive(np.zeros((200, 3))))
+    with pytest.raises(UserError, match="latitude is 52.0 rad"):
+        run(recording, part(), latitude=52.0)
+    with pytest.raises(UserError, match="q0 is"):
+        run(recording, part(), q0=np.zeros(4))
+    with pytest.raises(UserError, match="bias0 is .* expected 3 finite numbers"):
+        run(recording, part(), bias0=[0.1, np.nan, 0.0])
+    with pytest.raises(UserError, match="std0 is .* expected 6 finite numbers"):
+        run(recording, part(), std0=np.ones(3))
+    with pytest.raises(UserError, match="unknown setting 'gravty'"):
+        run(recording, part(), settings={"gravty": 9.8})
+    for given, reason in (
+        ({"q0": [np.inf, 0, 0, 0]}, "q0 is .* expected four finite numbers"),
+        ({"q0": "level"}, "q0 is level"),
+        ({"heading0": np.nan}, "heading0 is 'nan'"),
+        ({"latitude": "45"}, "latitude is '45'"),
+        ({"latitude": np.nan}, "latitude is 'nan'"),
+        ({"bias0": "none"}, "bias0 is none"),
+        ({"std0": -np.ones(6)}, r"std0\[1\] is -1 rad, expected 0"),
+        ({"settings": {"gravity": np.nan}}, "gravity is 'nan'"),
+        ({"settings": {"accel_std": -1}}, "accel_std is -1 m/s"),
+        ({"settings": {"accel_std": "a"}}, "accel_std is 'a'"),
+    ):
+        with pytest.raises(UserError, match=reason):
+            run(recording, part(), **given)
+    with pytest.raises(UserError, match="column latitude is 45.0 rad"):
+        run(recorded(drive(np.zeros((200, 3))), latitude=np.full(200, 45.0)), part())
+    with pytest.raises(UserError, match="one sample"):
+        run(recording.slice(0, 1), part())
+    with pytest.raises(UserError, match="imt31: no built-in part"):
+        run(recording, "imt31")
+    with pytest.raises(UserError, match="no gyro"):
+        run(Recording.from_arrays(time=np.arange(5.0), accel=np.full((5, 3), GRAVITY)), part())
+
+
+def test_a_part_is_taken_by_its_name():
+    recording = recorded(drive(np.zeros((200, 3))))
+    np.testing.assert_array_equal(run(recording, "imt30").q, run(recording, pyimu.part("imt30")).q)
+
+
+# What the samples say of the sensors
+
+
+@pytest.mark.parametrize("declared", [True, False])
+def test_a_gyro_that_rests_on_a_coarse_step_is_not_called_stuck(declared):
+    """At the edge of a step its samples change, in the middle they do not: drift takes it from one
+    to the other.
+    """
+    q, n = 0.005, 6000
+    rng = np.random.default_rng(0)
+    drift = np.where(np.arange(n) < 3500, q / 2, q)[:, None]
+    gyro = q * np.round((drift + q / 8 * rng.standard_normal((n, 3))) / q)
+    recording = recorded(drive(np.zeros((n, 3))))
+    coarse = Recording.from_arrays(time=recording.time, gyro=gyro, accel=recording.accel)
+    assert find_rest(coarse).seen and len(np.unique(gyro[:3000])) > 1
+    result = run(
+        coarse, part(q / 8 * np.sqrt(H), **({"quantization": {"q": q}} if declared else {}))
+    )
+    assert not np.any(result.status & 4)
+
+
+def test_a_gyro_that_stops_is_called_stuck():
+    recording = recorded(drive(np.zeros((4000, 3))))
+    recording.gyro[3200:] = recording.gyro[3200]
+    assert np.all(run(recording, part()).status[3400:] & 4)
+
+
+def test_without_a_part_samples_at_the_level_where_they_pile_up_are_at_a_limit():
+    limit, t = 3.0, H * np.arange(6000)[:, None]
+    world = drive(np.where(t < 31, 0, [4.0, 0.5, 0.5] * np.sin(3 * (t - 31))))
+    recording = recorded(world)
+    free = run(recording)
+    recording.gyro[:, 0] = np.clip(recording.gyro[:, 0], -limit, limit)
+    result = run(recording)
+    beyond = np.abs(recording.gyro[:, 0]) >= limit
+    assert not np.any(free.status & 2) and beyond.sum() > 500
+    np.testing.assert_array_equal(result.status & 2 > 0, np.abs(recording.gyro[:, 0]) >= limit)

@@ -1,0 +1,300 @@
+"""The compiled run gives the bits of casadi's virtual machine, its library outlives the process,
+and its absence goes unnoticed.
+"""
+
+import os
+import subprocess
+import sys
+
+import casadi as ca
+import numpy as np
+import pytest
+from places import same_path
+
+import pyimu
+from pyimu.attitude import attitude_ukf
+from pyimu.block import compiled as native
+from pyimu.block.block import CHUNK, Block, Run
+from pyimu.block.normals import normals
+from pyimu.block.stepping import step_through
+from pyimu.block.variables import NoiseChannel, Variable
+from pyimu.errors import UserError
+
+CHANNELS = [7, 2**40 + 1]
+
+
+@pytest.fixture(autouse=True)
+def cache(tmp_path, monkeypatch):
+    """A cache of its own for each test, nothing known yet, and every step compiled at once."""
+    for name in ("LOOKED_FOR", "WORTHWHILE"):
+        monkeypatch.setattr(native, name, 0)
+    monkeypatch.setenv("PYIMU_CACHE", str(tmp_path / "cache"))
+    forget()
+    yield tmp_path / "cache"
+    forget()
+
+
+def forget():
+    """What a new process does not know."""
+    native._machine_code.cache_clear()
+    native._loaded.clear()
+
+
+@pytest.fixture
+def compilations(monkeypatch):
+    """The keys of the libraries that were compiled."""
+    made, compile_it = [], native._compile
+    monkeypatch.setattr(
+        native,
+        "_compile",
+        lambda source, compiler, key: made.append(key) or compile_it(source, compiler, key),
+    )
+    return made
+
+
+def toy():
+    """A random walk beside white noise; the state is as long as not to fit in registers."""
+    s, u, p, w, h = (
+        ca.SX.sym(n, k) for n, k in (("s", 40), ("u", 2), ("p", 1), ("w", 2), ("h", 1))
+    )
+    following = ca.vertcat(s[0] + p * ca.sqrt(h) * w[0], s[:-1])
+    step = ca.Function(
+        "step", [s, u, p, w, h], [following, ca.vertcat(u[0] * s[39] + s[0], u[1] + w[1])]
+    )
+    initial = ca.Function("initial", [p], [ca.SX.zeros(40), ca.SX.zeros(2)])
+    scalars = [
+        tuple(Variable(f"{n}[{i + 1}]", start=1.0) for i in range(k))
+        for n, k in (("u", 2), ("p", 1), ("y", 2))
+    ]
+    return Block(
+        "Toy", "", step, initial, *scalars, tuple(NoiseChannel(str(c), c) for c in CHANNELS), 0.01
+    )
+
+
+def blocks():
+    part = pyimu.part("imt30")
+    return [toy(), part.block, attitude_ukf(part)]
+
+
+def inputs(block, rows, rng):
+    u = rng.standard_normal((rows, len(block.inputs)))
+    u[:, [i for i, v in enumerate(block.inputs) if v.kind == "boolean"]] = rng.integers(
+        0, 2, (rows, 1)
+    )
+    u[rows // 2] = np.nan
+    return u
+
+
+def without_compiler(monkeypatch):
+    monkeypatch.setenv("CC", "no-such-compiler")
+    forget()
+
+
+# The bits
+
+
+@pytest.mark.parametrize("block", blocks(), ids=lambda b: b.name)
+def test_compiled_step_equals_the_virtual_machine_bit_for_bit(block):
+    rng = np.random.default_rng(1)
+    u, w = inputs(block, 400, rng), rng.standard_normal((400, len(block.noise)))
+    last, want = (
+        np.array(block.initial(block.start)[0], dtype=float).ravel(),
+        np.empty((400, len(block.outputs))),
+    )
+    step_through(block.step, last, u, block.start, w, np.array([block.sample_period]), want)
+    assert native.compiled(block.step, 400) is not None
+    y, state = block.run(u, w=w)
+    np.testing.assert_array_equal(y, want)
+    np.testing.assert_array_equal(state, last)
+
+
+@pytest.mark.parametrize("compiler", [True, False], ids=("compiled", "virtual machine"))
+@pytest.mark.parametrize("first", [1, -5, 2**40])
+def test_seed_draws_the_normals_of_its_samples(compiler, first, monkeypatch):
+    if not compiler:
+        without_compiler(monkeypatch)
+    block, n = toy(), CHUNK + 77
+    u = np.random.default_rng(2).standard_normal((n, 2))
+    y, state = block.run(u, seed=2**64 - 3, first_sample=first)
+    want, last = block.run(u, w=normals(2**64 - 3, CHANNELS, first, n))
+    assert (native.compiled(block.step, 1) is not None) == compiler
+    np.testing.assert_array_equal(y, want)
+    np.testing.assert_array_equal(state, last)
+
+
+@pytest.mark.parametrize("compiler", [True, False], ids=("compiled", "virtual machine"))
+def test_pieces_of_a_run_are_the_run(compiler, monkeypatch):
+    if not compiler:
+        without_compiler(monkeypatch)
+    block = toy()
+    u = np.random.default_rng(3).standard_normal((700, 2))
+    run = Run(block, 700, seed=5)
+    pieces = [run.advance(u[a:b]) for a, b in ((0, 1), (1, 130), (130, 131), (131, 700))]
+    y, state = block.run(u, seed=5)
+    np.testing.assert_array_equal(np.vstack(pieces), y)
+    np.testing.assert_array_equal(run.state, state)
+
+
+def test_without_seed_and_normals_there_is_no_noise(monkeypatch):
+    block, u = toy(), np.random.default_rng(4).standard_normal((300, 2))
+    silent = block.run(u, w=np.zeros((300, 2)))[0]
+    np.testing.assert_array_equal(block.run(u)[0], silent)
+    without_compiler(monkeypatch)
+    np.testing.assert_array_equal(block.run(u)[0], silent)
+
+
+@pytest.mark.parametrize("seed", [-1, 2**64])
+def test_seed_beyond_64_bits_is_refused(seed):
+    with pytest.raises(UserError, match="seed"):
+        toy().run(np.zeros((3, 2)), seed=seed)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [{"u": np.zeros((3, 3))}, {"w": np.zeros((4, 2))}, {"state": np.zeros(3)}, {"p": np.zeros(2)}],
+)
+def test_arrays_of_a_wrong_shape_are_refused_before_they_are_read(wrong):
+    with pytest.raises(ValueError, match="block Toy"):
+        toy().run(**{"u": np.zeros((3, 2)), **wrong})
+
+
+# When it pays
+
+
+def test_short_runs_are_not_compiled_until_there_were_many(monkeypatch, compilations):
+    monkeypatch.setattr(native, "LOOKED_FOR", 500)
+    monkeypatch.setattr(native, "WORTHWHILE", 1000)
+    step = toy().step
+    assert [native.compiled(step, 400) is not None for _ in range(4)] == [False, False, True, True]
+    assert len(compilations) == 1
+
+
+def test_without_a_compiler_the_run_is_the_same(monkeypatch):
+    block = blocks()[1]
+    u = inputs(block, 50, np.random.default_rng(2))
+    want = block.run(u, seed=1)[0]
+    without_compiler(monkeypatch)
+    np.testing.assert_array_equal(block.run(u, seed=1)[0], want)
+
+
+def test_a_compiler_that_fails_is_asked_once(monkeypatch, tmp_path, compilations):
+    monkeypatch.setenv("CC", "false")
+    block = toy()
+    for _ in range(3):
+        assert native.compiled(block.step, 10) is None
+    assert len(compilations) == 1
+
+
+# The cache
+
+
+def test_library_is_found_by_the_next_process(cache, compilations):
+    for _ in range(2):
+        assert native.compiled(toy().step, 10) is not None
+        forget()
+    assert len(compilations) == 1 and len(list(cache.iterdir())) == 1
+
+
+def test_library_is_found_by_another_process(cache):
+    program = (
+        "import numpy as np, test_compiled as t\nfrom pyimu.block import compiled as native\n"
+        "native.LOOKED_FOR, native._compile = 0, None\nprint(repr(t.toy().run(np.ones((9, 2)), "
+        "seed=3)[0].tolist()),"
+        "native.compiled(t.toy().step, 1) is not None)"
+    )
+    want = toy().run(np.ones((9, 2)), seed=3)[0].tolist()
+    done = subprocess.run(
+        [sys.executable, "-c", program], env=same_path(), capture_output=True, text=True, check=True
+    )
+    assert done.stdout.strip() == f"{want!r} True"
+
+
+def test_another_step_other_flags_or_other_noise_are_another_library(monkeypatch, tmp_path):
+    source, compiler = native._source(toy().step), ("cc",)
+    keys = [native._key(source, compiler), native._key(source + " ", compiler)]
+    monkeypatch.setattr(native, "FLAGS", (*native.FLAGS, "-g"))
+    keys.append(native._key(source, compiler))
+    for name in native.HAND_WRITTEN:
+        (tmp_path / name).write_text("int other;")
+    monkeypatch.setattr(native, "source_folder", lambda: tmp_path)
+    keys.append(native._key(source, compiler))
+    assert len(set(keys)) == 4
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        lambda data: data[: len(data) // 2],
+        lambda data: data[:-1] + b"x",
+        lambda data: b"",
+        lambda data: b"not a library",
+    ],
+    ids=("truncated", "altered", "empty", "text"),
+)
+def test_damaged_library_is_compiled_again(cache, compilations, damage):
+    native.compiled(toy().step, 10)
+    (path,) = cache.iterdir()
+    whole = path.read_bytes()
+    path.write_bytes(damage(whole))
+    forget()
+    want = toy().run(np.ones((5, 2)), seed=1)[0]
+    assert len(compilations) == 2 and path.read_bytes() == whole and np.isfinite(want).all()
+
+
+def test_foreign_file_under_a_librarys_name_is_compiled_again(cache, compilations):
+    """A file whose digest is right and that is no library, as one of another system would be."""
+    native.compiled(toy().step, 10)
+    (path,) = cache.iterdir()
+    path.rename(path.with_name(f"{compilations[0]}.{native._digest(b'foreign')}.so"))
+    next(cache.iterdir()).write_bytes(b"foreign")
+    forget()
+    assert native.compiled(toy().step, 10) is not None and len(compilations) == 2
+
+
+@pytest.mark.skipif(not hasattr(os, "getuid"), reason="asks for POSIX permissions")
+def test_folder_that_others_may_write_to_is_not_run_from(cache, compilations):
+    native.compiled(toy().step, 10)
+    cache.chmod(0o777)
+    forget()
+    assert native.compiled(toy().step, 10) is not None and len(compilations) == 2
+
+
+@pytest.mark.parametrize("where", ["", "file"])
+def test_without_a_cache_the_run_is_compiled_all_the_same(tmp_path, monkeypatch, where):
+    """Switched off, and a folder that cannot be made."""
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("PYIMU_CACHE", where and str(tmp_path / "file" / "below"))
+    assert native.compiled(toy().step, 10) is not None
+    assert not list(tmp_path.glob("**/*.so"))
+
+
+def test_cache_keeps_what_was_used_last(cache, monkeypatch):
+    monkeypatch.setattr(native, "KEPT", 3)
+    for k in range(5):
+        native._keep(f"{k:032x}", bytes([k]))
+        (path,) = cache.glob(f"{k:032x}.*")
+        os.utime(path, (k, k))
+    assert sorted(int(p.name.split(".")[0], 16) for p in cache.iterdir()) == [2, 3, 4]
+
+
+@pytest.mark.parametrize(
+    ("platform", "environment", "want"),
+    [
+        ("linux", {"XDG_CACHE_HOME": "/c"}, "/c/pyimu"),
+        ("linux", {}, "/h/.cache/pyimu"),
+        ("linux", {"XDG_CACHE_HOME": "c"}, "/h/.cache/pyimu"),
+        ("darwin", {"XDG_CACHE_HOME": "/c"}, "/h/Library/Caches/pyimu"),
+        ("win32", {"LOCALAPPDATA": "/l"}, "/l/pyimu"),
+        ("win32", {}, "/h/AppData/Local/pyimu"),
+        ("linux", {"PYIMU_CACHE": "/p"}, "/p"),
+        ("linux", {"PYIMU_CACHE": ""}, "None"),
+    ],
+)
+@pytest.mark.skipif(sys.platform == "win32", reason="paths of POSIX")
+def test_cache_folder_is_the_platforms(monkeypatch, platform, environment, want):
+    for name in ("PYIMU_CACHE", "XDG_CACHE_HOME", "LOCALAPPDATA"):
+        monkeypatch.delenv(name, raising=False)
+    for name, value in {"HOME": "/h", **environment}.items():
+        monkeypatch.setenv(name, value)
+    monkeypatch.setattr(sys, "platform", platform)
+    assert str(native.cache_folder()) == want

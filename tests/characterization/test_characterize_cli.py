@@ -1,0 +1,295 @@
+"""``pyimu characterize``: good logs and bad ones; a broken run leaves no half result; the part is
+taken by the other commands.
+"""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+
+from pyimu import Recording
+from pyimu.cli import main
+
+ROWS, H = 4000, 0.01
+
+
+@pytest.fixture
+def pyimu(monkeypatch, capsys, tmp_path):
+    """Run the command line in this process, in an empty folder; gives exit status, stdout and
+    stderr.
+    """
+    monkeypatch.chdir(tmp_path)
+
+    def run(*words):
+        monkeypatch.setattr(sys, "argv", ["pyimu", *map(str, words)])
+        with pytest.raises(SystemExit) as end:
+            main()
+        return (end.value.code, *capsys.readouterr())
+
+    return run
+
+
+def gyro(seed=1):
+    return 1e-3 * np.random.default_rng(seed).standard_normal((ROWS, 3))
+
+
+def write(folder, name="rest", time=None, **groups):
+    groups = groups or {"gyro": gyro()}
+    return Recording.from_arrays(
+        name, time=H * np.arange(len(groups["gyro"])) if time is None else time, **groups
+    ).write(folder / f"{name}.csv")
+
+
+def one_line(text, *words):
+    assert text.startswith("pyimu: ") and text.endswith("\n") and text.count("\n") == 1, text
+    missing = [w for w in words if w not in text]
+    assert not missing, f"{missing} not in: {text}"
+
+
+def findings(folder):
+    data = json.loads((folder / "report.json").read_text())
+    return {(f["kind"], f["column"]): f for log in data["logs"] for f in log["quality"]}
+
+
+# Good logs
+
+
+def test_a_log_gives_three_files_and_says_what_it_found(pyimu, tmp_path):
+    code, out, err = pyimu("characterize", write(tmp_path), "--out", "out")
+    assert code == 0 and err == ""
+    assert sorted(p.name for p in (tmp_path / "out").iterdir()) == [
+        "part.toml",
+        "report.html",
+        "report.json",
+    ]
+    for text in (
+        "4,000 rows, 40.0 s, gyro at 100 Hz",
+        "angle random walk",
+        "deg/sqrt(h)",
+        "report: out/report.html, part: out/part.toml",
+    ):
+        assert text in out
+
+
+def test_the_part_can_be_built_and_closed_with(pyimu, tmp_path):
+    log = write(tmp_path)
+    assert pyimu("characterize", log, "--out", "out")[0] == 0
+    code, out, _ = pyimu("build", "out/part.toml", "--out", "fmus", "--fmu", "sensor", "--fmi", "2")
+    assert code == 0 and "ImuSensor.fmi2.fmu" in out
+    code, out, _ = pyimu("close", log, "--part", "out/part.toml", "--out", "closed")
+    assert code == 0 and out.startswith("verdict: ") and "gyro residual" in out
+    assert "N" in pyimu("parts", "out/part.toml")[1]
+
+
+def test_several_logs_go_together(pyimu, tmp_path):
+    logs = [write(tmp_path, f"test_{k}", gyro=gyro(k)) for k in (1, 2)]
+    code, out, _ = pyimu("characterize", *logs, "--out", "out")
+    assert (
+        code == 0
+        and "Means over 2 logs" in out
+        and 'name = "test"' in (tmp_path / "out" / "part.toml").read_text()
+    )
+
+
+def test_a_file_is_given_once_and_equal_names_are_told_apart(pyimu, tmp_path):
+    log = write(tmp_path)
+    code, _, err = pyimu("characterize", log, tmp_path / "." / "rest.csv", "--out", "out")
+    assert code == 2 and not (tmp_path / "out").exists()
+    one_line(err, "rest.csv", "given twice")
+    for k in ("a", "b"):
+        (tmp_path / k).mkdir()
+        write(tmp_path / k, gyro=gyro(ord(k)))
+    code, out, _ = pyimu("characterize", "a/rest.csv", "b/rest.csv", log, "--out", "out")
+    assert code == 0 and "a/rest: 4,000 rows" in out and "b/rest: 4,000 rows" in out
+
+
+def test_coarse_time_stamps(pyimu, tmp_path):
+    import pandas as pd
+
+    columns = {"time [s]": (1e5 + H * np.arange(ROWS)).astype(np.float32)} | {
+        f"gyro_{a} [rad/s]": v for a, v in zip("xyz", gyro().T, strict=True)
+    }
+    pd.DataFrame(columns | {"time [s]": np.floor(columns["time [s]"] * 50) / 50}).to_csv(
+        tmp_path / "coarse.csv", index=False
+    )
+    code, _, err = pyimu("characterize", "coarse.csv", "--out", "out")
+    assert code == 2 and not (tmp_path / "out").exists()
+    one_line(err, "coarse:", "time of the row before", "float32")
+
+
+def test_a_foreign_log_goes_through_a_column_map(pyimu, tmp_path):
+    rows = "\n".join(
+        f"{k * H},{a},{b},{c}" for k, (a, b, c) in enumerate(np.rint(gyro() / 1e-5).astype(int))
+    )
+    (tmp_path / "raw.csv").write_text(f"t,gx,gy,gz\n{rows}\n")
+    (tmp_path / "map.toml").write_text(
+        '[columns]\nt = "time [s]"\ngx = "gyro_x [count]"\ngy = "gyro_y [count]"\ngz = "gyro_z '
+        '[count]"\n'
+        '[scale]\ngyro = {value = 1e-5, unit = "rad/s"}\n'
+    )
+    assert pyimu("characterize", "raw.csv", "--columns", "map.toml", "--out", "out")[0] == 0
+    data = json.loads((tmp_path / "out" / "report.json").read_text())
+    assert data["part"]["gyro_x"]["N"]["value"] == pytest.approx(1e-3 * np.sqrt(H), rel=0.1)
+
+
+# Logs with something wrong: the command ends with a line, or the report says so
+
+
+def test_a_constant_channel_is_left_out_and_said_so(pyimu, tmp_path):
+    values = gyro()
+    values[:, 1] = 0.5
+    code, out, _ = pyimu("characterize", write(tmp_path, gyro=values), "--out", "out")
+    assert (
+        code == 0
+        and "gyro_y is left out: it is constant" in out
+        and ("constant_channel", "gyro_y") in findings(tmp_path / "out")
+    )
+    code, _, err = pyimu("characterize", write(tmp_path, gyro=0 * values), "--out", "out")
+    assert code == 2
+    one_line(err, "rest", "no channel can be characterised", "constant")
+
+
+def test_two_rates_in_one_file(pyimu, tmp_path):
+    clock = H * np.arange(ROWS)
+    clock[2000:] = clock[2000] + 4 * (clock[2000:] - clock[2000])
+    code, _, err = pyimu("characterize", write(tmp_path, time=clock, gyro=gyro()), "--out", "out")
+    assert code == 2 and not (tmp_path / "out").exists()
+    one_line(err, "rest: two sample rates", "100 Hz", "25 Hz", "a log of its own")
+
+
+def test_integers_that_wrapped(pyimu, tmp_path):
+    values, step = gyro(), 1e-4
+    smooth = np.cumsum(np.full(ROWS, 0.003)) + gyro(2)[:, 0]
+    values[:, 2] = step * ((np.rint(smooth / step).astype(int) + 2**15) % 2**16 - 2**15)
+    code, out, _ = pyimu("characterize", write(tmp_path, gyro=values), "--out", "out")
+    assert (
+        code == 0
+        and "gyro_z is left out: its integers wrapped" in out
+        and ("wrapped", "gyro_z") in findings(tmp_path / "out")
+    )
+
+
+def test_counts_without_a_scale(pyimu, tmp_path):
+    (tmp_path / "counts.csv").write_text(
+        "time [s],gyro_x [count],gyro_y [count],gyro_z [count]\n"
+        + "".join(f"{k},{k},1,2\n" for k in range(9))
+    )
+    code, _, err = pyimu("characterize", "counts.csv")
+    assert code == 2
+    one_line(err, "counts.csv", "gyro_x", "[scale]")
+    (tmp_path / "nothing.csv").write_text(
+        "time [s],gyro_x,gyro_y,gyro_z\n" + "".join(f"{k},{k},1,2\n" for k in range(9))
+    )
+    one_line(pyimu("characterize", "nothing.csv")[2], "nothing.csv", "gyro_x", "unit")
+
+
+def test_counts_that_claim_another_unit(pyimu, tmp_path):
+    code, out, _ = pyimu(
+        "characterize", write(tmp_path, gyro=np.rint(gyro() / 1e-5)), "--out", "out"
+    )
+    assert (
+        code == 0
+        and "hold whole numbers" in out
+        and "[scale]" in out
+        and ("counts", "gyro_x") in findings(tmp_path / "out")
+    )
+
+
+@pytest.mark.parametrize("rows", (3, 50))
+def test_too_few_samples(pyimu, tmp_path, rows):
+    code, _, err = pyimu("characterize", write(tmp_path, gyro=gyro()[:rows]), "--out", "out")
+    assert code == 2
+    one_line(err, "rest", f"{rows} samples", "at least 64")
+
+
+def test_gaps_are_used_around_and_said(pyimu, tmp_path):
+    clock = H * np.arange(ROWS)
+    clock[1000:] += 5
+    clock[2500:] += 1
+    code, out, _ = pyimu("characterize", write(tmp_path, time=clock, gyro=gyro()), "--out", "out")
+    assert code == 0 and "2 gaps. Nothing is bridged" in out and "all 3 stretches" in out
+    gaps = findings(tmp_path / "out")["gaps", "time"]
+    assert gaps["count"] == 2 and gaps["detail"]["longest"] == pytest.approx(5 + H)
+    assert "Nothing is bridged" in (tmp_path / "out" / "report.html").read_text()
+
+
+@pytest.mark.parametrize(
+    "words, said",
+    (
+        (("missing.csv",), ("missing.csv", "no such file")),
+        (("rest.csv", "--level", "2"), ("level 2", "between 0 and 1")),
+        (("rest.csv", "--out", "rest.csv"), ("rest.csv", "is a file")),
+        (("rest.csv", "--columns", "none.toml"), ("none.toml",)),
+        ((), ("LOG", "--help")),
+    ),
+)
+def test_wrong_calls_end_in_one_line(pyimu, tmp_path, words, said):
+    write(tmp_path)
+    code, out, err = pyimu("characterize", *words)
+    assert code == 2 and out == ""
+    one_line(err, *said)
+
+
+# A run that is broken off
+
+
+def test_an_interrupt_leaves_earlier_results_and_nothing_else(tmp_path):
+    """Ctrl-C while it reads or computes: status 130, one line, the folder and the folder of
+    temporary files as they were.
+    """
+    n = 400_000
+    noise = 1e-3 * np.random.default_rng(1).standard_normal((n, 3))
+    log = Recording.from_arrays("long", time=H * np.arange(n), gyro=noise).write(
+        tmp_path / "long.parquet"
+    )
+    out, scratch = tmp_path / "out", tmp_path / "scratch"
+    out.mkdir()
+    scratch.mkdir()
+    (out / "report.html").write_text("earlier")
+    run = subprocess.Popen(
+        [sys.executable, "-m", "pyimu.cli", "characterize", str(log), "--out", str(out)],
+        stderr=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "TMPDIR": str(scratch), "PYTHONUNBUFFERED": "1"},
+    )
+    # It is at work once it has opened its temporary files, which have no names.
+    deadline = time.monotonic() + 60
+    while (
+        run.poll() is None and time.monotonic() < deadline and not holds_files_of(run.pid, scratch)
+    ):
+        time.sleep(0.02)
+    run.send_signal(signal.SIGINT)
+    _, err = run.communicate(timeout=60)
+    assert run.returncode == 130 and "interrupted" in err and err.count("\n") == 1
+    assert [p.name for p in out.iterdir()] == ["report.html"] and (
+        out / "report.html"
+    ).read_text() == "earlier"
+    assert not list(scratch.iterdir())
+
+
+def holds_files_of(pid, folder):
+    try:
+        return any(
+            os.readlink(f"/proc/{pid}/fd/{fd}").startswith(str(folder))
+            for fd in os.listdir(f"/proc/{pid}/fd")
+        )
+    except OSError:
+        return False
+
+
+def test_a_report_that_cannot_be_drawn_costs_no_earlier_one(pyimu, tmp_path, monkeypatch):
+    log = write(tmp_path)
+    assert pyimu("characterize", log, "--out", "out")[0] == 0
+    before = {p.name: p.read_bytes() for p in (tmp_path / "out").iterdir()}
+
+    def fail(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("pyimu.characterization.report.page.save_part", fail)
+    assert pyimu("characterize", log, "--out", "out")[0] == 130
+    assert {p.name: p.read_bytes() for p in (tmp_path / "out").iterdir()} == before

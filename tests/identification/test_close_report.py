@@ -1,0 +1,361 @@
+"""The report of ``close``: what it says, that it stands alone, that it is written as a whole."""
+
+from __future__ import annotations
+
+import json
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import world
+from numpy.testing import assert_allclose
+
+from pyimu.errors import Finding, UserError
+from pyimu.identification.close import close
+from pyimu.identification.fit.band import Band
+from pyimu.identification.fit.response import is_step
+from pyimu.identification.fit.trial import Trial
+from pyimu.identification.fit.whiten import RandomWalk
+from pyimu.identification.report import page as report
+from pyimu.identification.report import pictures
+from pyimu.identification.report.page import write_report
+from pyimu.identification.report.words import headline, plain_equation
+from pyimu.identification.result import Added
+from pyimu.identification.search.leftover import Unexplained
+from pyimu.model.catalogue import CATALOGUE
+from pyimu.model.part_file import part
+from pyimu.recording.recording import Recording
+from pyimu.report.numbers import CORNER, SHOWN, number, pretty, quantity, with_error
+from pyimu.report.page import detail, staged
+from pyimu.units import same_dimension
+
+FILES = ("report.html", "report.json", "model.toml")
+
+
+@pytest.fixture(scope="module")
+def closed():
+    """A gyro that clips and an accelerometer with nothing to find."""
+    motion = world.drive(minutes=2.5, rate_hz=25)
+    return close(world.recording(motion, world.changes(motion, "gyro")["saturation"](0.6)))
+
+
+@pytest.fixture(scope="module")
+def undecided():
+    """A short log at rest without temperature: nothing could show."""
+    rng = np.random.default_rng(2)
+    time = np.arange(0, 120, 0.1)
+    return close(
+        Recording.from_arrays(
+            name="rest", time=time, gyro=1e-3 * rng.standard_normal((len(time), 3))
+        )
+    )
+
+
+@pytest.fixture(scope="module")
+def folder(closed, tmp_path_factory):
+    out = tmp_path_factory.mktemp("report")
+    write_report(closed, out, ("ImuSensor.fmi2.fmu",))
+    return out
+
+
+def test_page_says_what_the_json_says(closed, folder):
+    said, page = (
+        json.loads((folder / "report.json").read_text()),
+        (folder / "report.html").read_text(),
+    )
+    assert said["verdict"] == "named" and f'<h1 class="{said["verdict"]}">' in page
+    assert "saturation" in [a["effect"] for a in said["added"]]
+    for row in said["added"] + said["observability"]:
+        assert row["effect"] in page
+    for stage in ("before", "after", "floor"):
+        assert number(np.rad2deg(said["error"]["rate"][stage])) + " deg/s" in page
+        assert number(said["error"]["specific_force"][stage] / 9.80665e-3) + " mg" in page
+    assert "ImuSensor.fmi2.fmu" in page and said["fmus"] == ["ImuSensor.fmi2.fmu"]
+
+
+def test_model_file_is_the_model_found(closed, folder):
+    assert_allclose(
+        part(folder / "model.toml").sensor("gyro").p, closed.after.sensor("gyro").p, rtol=1e-9
+    )
+
+
+@pytest.mark.parametrize(
+    "finding, says",
+    [
+        (Finding("gravity_down", "accel_z", 1, {"accel_z": -9.80665}), "accel z -1.00 g"),
+        (Finding("wrapped", "gyro_x", 2, {"span": np.radians(500)}), "span 500 deg/s"),
+        (
+            Finding(
+                "counts",
+                "gyro_x",
+                2,
+                {"unit": "deg/s", "least": np.radians(-438), "largest": np.radians(24600)},
+            ),
+            "unit deg/s, least -438 deg/s, largest 24600 deg/s",
+        ),
+        (
+            Finding("repeated_time", "time", 2, {"first": 2.0, "share": 0.36}),
+            "first 2.000 s, share 36.0 %",
+        ),
+    ],
+)
+def test_details_of_findings_have_units(finding, says):
+    assert detail(finding) == says
+
+
+def test_nothing_is_replaced_where_one_file_cannot_be(tmp_path):
+    (tmp_path / "a.txt").write_text("old")
+    (tmp_path / "b.txt").mkdir()
+    with (
+        pytest.raises(UserError, match="cannot be written .b.txt is a folder there"),
+        staged(tmp_path) as stage,
+    ):
+        (stage / "a.txt").write_text("new")
+        (stage / "b.txt").write_text("new")
+    assert (tmp_path / "a.txt").read_text() == "old" and sorted(
+        p.name for p in tmp_path.iterdir()
+    ) == ["a.txt", "b.txt"]
+
+
+def test_page_needs_nothing_beside_it(folder):
+    page = (folder / "report.html").read_text()
+    assert "http" not in page and "<script" not in page and "@import" not in page
+    assert all(
+        target.startswith(("#", "data:")) for target in re.findall(r'(?:src|href)="([^"]*)"', page)
+    )
+    assert all(target.startswith("#") for target in re.findall(r"url\(([^)]*)\)", page))
+    assert len(page) < 1_500_000
+
+
+def test_only_the_three_files_are_left(folder):
+    assert sorted(f.name for f in folder.iterdir()) == sorted(FILES)
+
+
+@pytest.mark.parametrize(
+    "failure, seen",
+    [(OSError(28, "No space left on device"), UserError), (KeyboardInterrupt(), KeyboardInterrupt)],
+)
+@pytest.mark.parametrize("writer", ["save_part", "page"])
+def test_interrupted_writing_leaves_earlier_results_as_they_were(
+    closed, folder, monkeypatch, writer, failure, seen
+):
+    earlier = {f: (folder / f).read_bytes() for f in FILES}
+
+    def fail(*_):
+        raise failure
+
+    monkeypatch.setattr(report, writer, fail)
+    with pytest.raises(seen):
+        write_report(replace(closed, verdict="clean"), folder)
+    assert {f.name: f.read_bytes() for f in folder.iterdir()} == earlier
+
+
+def test_folder_that_cannot_be_made_is_the_users_error(closed, tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(UserError, match="cannot be written"):
+        write_report(closed, tmp_path / "file" / "out")
+
+
+def test_named_sentence(closed):
+    text = headline(closed)
+    assert re.match(
+        r"The gyro clips.*: saturation at [\d., and]+ deg/s on x, y and z.* missing from the "
+        r"model\.",
+        text,
+    )
+    assert re.search(
+        r"The rate residual on held-out data falls from [\d.]+ to [\d.]+ deg/s, to 0\.\d+ of what "
+        r"it was\.",
+        text,
+    )
+
+
+VERDICTS = {
+    "unexplained": (
+        {"unexplained": (Unexplained("gyro", "z", ("rate_x", "specific_force_z"), 1e-9),)},
+        "the gyro residual on z depends on rate x and specific force z (p = 1×10⁻⁹)",
+    ),
+    "drift": (
+        {"drift": {"gyro": {0: 9.0, 2: 30.0}}},
+        "The bias of the gyro on x and z wanders more than the model declares",
+    ),
+    "clean": ({}, "Nothing is missing"),
+    "undecidable": ({"reason": "no motion"}, "These logs cannot decide it: no motion."),
+}
+
+
+@pytest.mark.parametrize("verdict", VERDICTS)
+def test_each_verdict_has_its_sentence_on_the_page(closed, verdict):
+    changes, sentence = VERDICTS[verdict]
+    other = replace(closed, verdict=verdict, added=(), **({"unexplained": ()} | changes))
+    assert sentence in headline(other)
+    assert sentence in report.page(other)
+
+
+def test_page_of_logs_that_cannot_decide(undecided):
+    assert undecided.verdict == "undecidable"
+    page = report.page(undecided)
+    assert "These logs cannot decide it" in page and "Nothing." in page
+
+
+def test_page_without_any_log_is_still_a_page(undecided):
+    page = report.page(
+        replace(
+            undecided, investigations={}, errors={}, recordings=(), log_likelihood=None, band_hz={}
+        )
+    )
+    assert "No rows were held out" in page
+
+
+LOGGED = {
+    "specific_force",
+    "temperature",
+    "time",
+    "temperature_rate",
+    "angular_acceleration",
+    "vibration",
+}
+DRIVEN = [
+    n
+    for n, e in CATALOGUE.items()
+    if not e.stochastic
+    and "gyro" in e.sensors
+    and not is_step(n, "gyro")
+    and e.signals("gyro") <= LOGGED
+]
+
+
+@pytest.mark.parametrize("name", DRIVEN)
+def test_each_effect_has_a_picture_of_what_drives_it(closed, name):
+    inv = closed.investigations["gyro"]
+    values = {
+        n: p.scan.values(0.04, 0.7)[4] if p.scan else p.start + 0.01
+        for n, p in CATALOGUE[name].parameters.items()
+    }
+    values = {
+        n: np.full(p.shape, values[n]) * (1 if p.diagonal else 1 - np.eye(3))
+        for n, p in CATALOGUE[name].parameters.items()
+    }
+    after = replace(inv.after, sensor=inv.after.sensor.with_values(name, **values))
+    added = Added("gyro", name, (), {n: (v, v, "1") for n, v in values.items()}, 1.0, 1.0)
+    shown = pictures.against_input(added, replace(inv, after=after), pictures.traces(inv), most=1)
+    assert len(shown) == 1 and shown[0][1].startswith("<svg") and f"with {name}" in shown[0][1]
+
+
+def test_rounding_is_shown_in_the_raw_samples(closed):
+    added = Added(
+        "gyro", "quantization", (), {"q": (np.array([0.01, 0, 0]), np.zeros(3), "rad/s")}, 1.0, 1.0
+    )
+    inv = closed.investigations["gyro"]
+    assert [axis for axis, _ in pictures.against_input(added, inv, pictures.traces(inv))] == ["x"]
+
+
+def test_envelope_keeps_every_spike():
+    rng = np.random.default_rng(3)
+    time, values = np.arange(50_000) * 0.01, rng.standard_normal(50_000)
+    values[[123, 40_321]] = 50.0, -70.0
+    at, low, high = pictures.envelope(time, values, 300)
+    assert len(at) == 300 and high.max() == 50.0 and low.min() == -70.0
+
+
+def test_envelope_leaves_gaps_open():
+    time = np.concatenate([np.arange(1000), np.arange(5000, 6000)]) * 1.0
+    _, low, high = pictures.envelope(time, np.ones(2000), 60)
+    assert np.isnan(low).sum() == np.isnan(high).sum() == 40
+
+
+def _white(n: int, sigma: float, h: float) -> pictures.Trace:
+    values = sigma * np.random.default_rng(4).standard_normal((n, 3))
+    trial = Trial(
+        "log", "gyro", h, np.arange(n) * h, values, np.zeros((n, 7)), [(0, n)], frozenset(), "rate"
+    )
+    return pictures.Trace(trial, None, trial.time, [(0, n)], values, values)
+
+
+def test_one_sided_density_of_white_noise():
+    # Two sigma^2 h at every frequency; a mean over m rows of three axes has relative deviation
+    # sqrt(2 / (3 m)).
+    n, sigma, h = 60_000, 0.3, 0.01
+    _, density = pictures.density([_white(n, sigma, h)], "after")
+    assert density.mean() == pytest.approx(2 * sigma**2 * h, rel=5 * np.sqrt(2 / (3 * n)))
+
+
+@pytest.mark.parametrize("band", [None, 8.0])
+def test_noise_density_integrates_to_its_variance(band):
+    # Parseval: white noise of variance r through weights w has variance r sum w^2.
+    h, r = 0.01, 0.04
+    trial = replace(_white(200, 1.0, h).trial, band_hz=band)
+    f = (np.arange(4000) + 0.5) / 4000 * 0.5 / h
+    density = pictures.noise_density({i: RandomWalk(r, 0.0) for i in range(3)}, trial, f)
+    weights = np.array((Band() if band is None else trial.band).weights)
+    assert density.mean() * 0.5 / h == pytest.approx(r * np.sum(weights**2), rel=1e-6)
+
+
+@pytest.mark.parametrize("si", SHOWN)
+def test_people_s_units_measure_the_same(si):
+    assert all(same_dimension(si, unit) for unit, _ in SHOWN[si])
+
+
+@pytest.mark.parametrize(
+    "value, si, said",
+    [
+        (np.deg2rad(20.4), "rad/s", "20.4 deg/s"),
+        (np.deg2rad(12.0) / 3600, "rad/s", "12.0 deg/h"),
+        (0.0148, "m/s^2", "1.51 mg"),
+        (3.87e-3, "s", "3.87 ms"),
+        (42e-6, "1", "42.0 ppm"),
+        (2 * np.pi * 30, CORNER, "30.0 Hz"),
+        (1.0, "V", "1.00 V"),
+        (5.06e-3, "m/s^2/K", "0.516 mg/K"),
+        (np.deg2rad(0.2) / 60, "rad/sqrt(s)", "0.200 deg/√h"),
+        (None, "rad/s", "–"),
+    ],
+)
+def test_quantities_as_people_say_them(value, si, said):
+    assert quantity(value, si) == said
+
+
+@pytest.mark.parametrize(
+    "value, std, said",
+    [
+        (4.1173, 0.0404, "4.117 ± 0.040"),
+        (331.2, 12.4, "331 ± 12"),
+        (7.45e-6, 8.3e-7, "(7.45 ± 0.83)×10⁻⁶"),
+        (420.74, 0.0, "420.7"),
+        (420.74, np.nan, "420.7"),
+    ],
+)
+def test_value_and_standard_error_end_at_the_same_place(value, std, said):
+    assert with_error(value, std) == said
+
+
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_equations_are_readable_without_latex(name):
+    text = plain_equation(CATALOGUE[name].equation)
+    assert "\\" not in text and "{" not in text and "$" not in text
+
+
+def test_fraction_in_print():
+    assert (
+        plain_equation(r"\frac{\omega_n^2}{s^2 + 1}")
+        == "ω<sub>n</sub><sup>2</sup> / (s<sup>2</sup> + 1)"
+    )
+
+
+def test_what_a_log_is_called_cannot_break_the_page(undecided):
+    entry = replace(undecided.recordings[0], file="<b>log</b>.csv")
+    assert "<b>" not in report.page(
+        replace(undecided, recordings=(entry,), before=replace(undecided.before, name="<b>"))
+    )
+
+
+def test_units_in_print():
+    spelled = {
+        "rad/s/(m/s^2)": "rad/s/(m/s²)",
+        "deg/sqrt(h)": "deg/√h",
+        "ug/K^2": "µg/K²",
+        "1": "",
+        "us": "µs",
+    }
+    assert {u: pretty(u) for u in spelled} == spelled

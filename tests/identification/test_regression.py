@@ -1,0 +1,254 @@
+"""The regression: against dense generalised least squares, and by the scatter of its estimates
+about the truth.
+"""
+
+import numpy as np
+import pytest
+from loop_cases import inputs, noise, trial
+from scipy.linalg import block_diag
+from scipy.spatial.transform import Rotation
+from scipy.stats import chi2
+
+from pyimu.identification.fit import maximum_likelihood
+from pyimu.identification.fit.columns import Linear, LogState, linearise
+from pyimu.identification.fit.fit import begin, power
+from pyimu.identification.fit.keys import slot_keys
+from pyimu.identification.fit.maximum_likelihood import fit
+from pyimu.identification.fit.normal import normal_equations, solve
+from pyimu.identification.fit.trial import SETTLE
+from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
+from pyimu.model.sensor import Sensor
+
+H = 0.04
+R, K2 = 1e-4, 4e-6
+ALARM = 1e-4
+GAIN = ("scale_factor", "misalignment")
+
+
+def keys_of(sensor: Sensor, *names: str) -> frozenset:
+    return frozenset().union(*(slot_keys(sensor, n) for n in names))
+
+
+def gyro(s=0.0, m=0.0) -> Sensor:
+    return Sensor("gyro", {"scale_factor": {"s": s}, "misalignment": {"m": m * (1 - np.eye(3))}})
+
+
+TRUE_S, TRUE_M = (
+    np.array([0.02, -0.01, 0.015]),
+    0.01 * np.array([[0.0, 1.0, -0.5], [0.3, 0.0, 0.8], [-0.6, 0.2, 0.0]]),
+)
+BIAS = np.array([0.1, -0.2, 0.05])
+
+
+def measured(u: np.ndarray) -> np.ndarray:
+    """Scale factor, misalignment and bias by plain algebra."""
+    return u[:, :3] @ (np.diag(1 + TRUE_S) + TRUE_M).T + BIAS
+
+
+def small_log(seed: int, name: str = "log", turn: Rotation | None = None, n: int = 1000, **more):
+    """A log whose motion is the same for every seed, so that only the noise differs; ``turn`` turns
+    the sensor's axes.
+    """
+    time = H * np.arange(n)
+    u = inputs(np.random.default_rng(99), time)
+    y = measured(u) if turn is None else turn.apply(u[:, :3]) @ np.diag(1 + TRUE_S) + BIAS
+    return trial(time, y + wander(seed, time), u, name=name, **more)
+
+
+def wander(seed: int, time: np.ndarray) -> np.ndarray:
+    """Noise whose random walk passes zero where the regression starts to count rows: the bias is
+    that of the first one.
+    """
+    return noise(np.random.default_rng(seed), time, R, K2, zero_at=SETTLE)
+
+
+@pytest.fixture(scope="module")
+def fits():
+    """The same log fitted under forty draws of the noise."""
+    sensor = gyro()
+    return [fit(begin(sensor, keys_of(sensor, *GAIN), [small_log(s)])) for s in range(40)]
+
+
+def test_normal_equations_give_the_dense_generalised_least_squares_answer():
+    rng = np.random.default_rng(1)
+    time = np.cumsum(rng.uniform(0.5, 1.5, 150) * H)
+    time[70:] += 3.0
+    logs = [
+        trial(time, rng.standard_normal((150, 3)), inputs(rng, time), name=n)
+        for n in ("one", "two")
+    ]
+    model = {i: RandomWalk(0.5 + i, 0.1 * (i + 1)) for i in range(3)}
+    sensor = gyro().with_values("g_sensitivity")
+    wanted = keys_of(sensor, *GAIN, "g_sensitivity")
+    linears = [linearise(sensor, t, LogState(), wanted) for t in logs]
+    normal = normal_equations(linears, model)
+    x, y, covariance = dense(linears, normal.keys, model)
+    white = np.linalg.inv(np.linalg.cholesky(covariance))
+    expected = np.linalg.lstsq(white @ x, white @ y, rcond=None)[0]
+    np.testing.assert_allclose(
+        solve(normal.gram, normal.score), expected, rtol=1e-7, atol=1e-9 * np.abs(expected).max()
+    )
+    np.testing.assert_allclose(normal.power, np.sum((white @ y) ** 2), rtol=1e-10)
+    likelihood = -0.5 * (np.sum((white @ y) ** 2) + np.linalg.slogdet(covariance)[1])
+    np.testing.assert_allclose(normal.log_likelihood, likelihood, rtol=1e-10)
+
+
+def dense(
+    linears: list[Linear], keys: list, model: dict
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Regressors, residual and covariance of all axes of all logs one below the other."""
+    x, y, blocks = [], [], []
+    for one in linears:
+        since = one.time - one.time[0]
+        for i in range(3):
+            full = np.zeros((len(one.time), len(keys)))
+            full[:, [keys.index(k) for k in one.keys[i]]] = one.columns[i]
+            x.append(full)
+            y.append(one.residual[:, i])
+            blocks.append(
+                model[i].r * np.eye(len(since)) + model[i].k2 * np.minimum.outer(since, since)
+            )
+    return np.concatenate(x), np.concatenate(y), block_diag(*blocks)
+
+
+def test_blocks_add_up_to_the_whole():
+    started = begin(gyro(), keys_of(gyro(), *GAIN), [small_log(1), small_log(2, "other", n=300)])
+    linears = started.linearise()
+    normal = normal_equations(linears, started.noise)
+    assert len(normal.block_gram) == len(normal.block_score) == 80
+    assert normal.rows == 3 * sum(t.count for t in started.trials)
+    apart = [normal_equations([one], started.noise) for one in linears]
+    shared = [k for k in normal.keys if k[0] == "slot"]
+    for take in (lambda n: n.score, lambda n: np.diag(n.gram)):
+        total = sum(take(a)[[a.position[k] for k in shared]] for a in apart)
+        np.testing.assert_allclose(
+            take(normal)[[normal.position[k] for k in shared]], total, rtol=1e-9
+        )
+    np.testing.assert_allclose(power(started), normal.power, rtol=1e-10)
+
+
+def z_scores(fitted, effect: str, parameter: str, true: np.ndarray) -> np.ndarray:
+    keys = sorted(slot_keys(fitted.sensor, effect))
+    values = fitted.sensor.values[effect][parameter]
+    return np.array([(values[k[3]] - true[k[3]]) / fitted.std[k] for k in keys])
+
+
+def test_fit_recovers_coefficients_with_right_standard_errors(fits):
+    s = np.array([z_scores(f, "scale_factor", "s", TRUE_S) for f in fits])
+    m = np.array([z_scores(f, "misalignment", "m", TRUE_M) for f in fits])
+    bias = np.array(
+        [
+            [(f.states["log"].bias[i] - BIAS[i]) / f.std["bias", "log", i] for i in range(3)]
+            for f in fits
+        ]
+    )
+    for z in (s, bias):
+        # Axes and draws are independent, so the squares add up to a chi-square.
+        assert np.abs(z).max() < 4.5
+        assert chi2.ppf(ALARM / 2, z.size) < np.sum(z**2) < chi2.ppf(1 - ALARM / 2, z.size)
+    assert np.abs(m).max() < 4.5
+    # The two misalignments of an axis share their regressors' correlation; take one of each axis.
+    for one in (m[:, ::2], m[:, 1::2]):
+        assert chi2.ppf(ALARM / 2, one.size) < np.sum(one**2) < chi2.ppf(1 - ALARM / 2, one.size)
+
+
+def test_fit_recovers_the_noise(fits):
+    r = np.array([[f.noise[i].r for i in range(3)] for f in fits])
+    # Fifteen parameters or so of 3000 rows are spent; the scatter of the mean over all draws is
+    # that of a chi-square.
+    assert abs(r.mean() / R - 1) < 4.5 * np.sqrt(2 / (r.size * 1000)) + 5 / 1000
+
+
+def test_mounting_and_bias_of_each_log_are_recovered():
+    turns = Rotation.from_euler("xyz", [[20, -35, 100], [3, 2, -1], [-170, 10, 5]], degrees=True)
+    logs = [small_log(s, f"log{s}", turn, free_rotation=True) for s, turn in enumerate(turns)]
+    sensor = Sensor("gyro", {"scale_factor": {}})
+    fitted = fit(begin(sensor, keys_of(sensor, "scale_factor"), logs))
+    squares = []
+    for t, turn in zip(logs, turns, strict=True):
+        state = fitted.states[t.name]
+        off = (Rotation.from_matrix(state.rotation) * turn.inv()).as_rotvec()
+        squares += [(off[i] / fitted.std["rotation", t.name, i]) ** 2 for i in range(3)]
+        squares += [
+            ((state.bias[i] - BIAS[i]) / fitted.std["bias", t.name, i]) ** 2 for i in range(3)
+        ]
+    assert max(squares) < 4.5**2 and np.sum(squares) < chi2.ppf(1 - ALARM, len(squares))
+    assert np.abs(z_scores(fitted, "scale_factor", "s", TRUE_S)).max() < 4.5
+
+
+ANGLE_NOISE = 1e-3
+"""rad; white error of an attitude that is sampled at 50 Hz, 0.07 rad/s of white rate error."""
+
+
+def seen_by_attitude(seed: int):
+    """A gyro with a scale factor against the derivative of an attitude with white angle noise."""
+    rng, time = np.random.default_rng(seed), 0.02 * np.arange(5000)
+    u = inputs(np.random.default_rng(99), time)
+    u[:, :3] *= 0.1
+    y = u[:, :3] * (1 + TRUE_S) + 1e-3 * rng.standard_normal((len(time), 3))
+    angle = ANGLE_NOISE * rng.standard_normal((len(time) + 2, 3))
+    u[:, :3] += (angle[2:] - angle[:-2]) / 0.04
+    return trial(time, y, u, reference="attitude", band_hz=6.0)
+
+
+def scale_factors() -> np.ndarray:
+    """Estimates less truth (draws, 3)."""
+    sensor = Sensor("gyro", {"scale_factor": {}, "angle_random_walk": {"N": 1e-3 * np.sqrt(0.02)}})
+    keys = keys_of(sensor, "scale_factor")
+    fits = [fit(begin(sensor, keys, [seen_by_attitude(s)])) for s in range(20)]
+    return np.array([f.sensor.values["scale_factor"]["s"] - TRUE_S for f in fits])
+
+
+def offset(errors: np.ndarray) -> np.ndarray:
+    """Mean of each axis in its own standard errors."""
+    return errors.mean(axis=0) / (errors.std(axis=0, ddof=1) / np.sqrt(len(errors)))
+
+
+def test_noise_of_an_attitude_reference_does_not_pull_the_scale_factor_down(monkeypatch):
+    corrected = scale_factors()
+    monkeypatch.setattr(maximum_likelihood, "without_attenuation", lambda fitted: fitted)
+    raw = scale_factors()
+    assert np.all(offset(raw) < -4.5), offset(raw)
+    assert np.all(np.abs(offset(corrected)) < 4.5), offset(corrected)
+    assert np.all(np.abs(corrected.mean(axis=0)) < 0.3 * np.abs(raw.mean(axis=0)))
+
+
+def test_solve_is_the_least_norm_answer_in_units_of_each_column():
+    rng = np.random.default_rng(3)
+    columns = rng.standard_normal((50, 4)) * [1.0, 1e6, 1e-5, 3.0]
+    columns = np.column_stack([columns, columns[:, 0] * 7 + columns[:, 3], np.zeros(50)])
+    y = rng.standard_normal(50)
+    scale = np.where(np.linalg.norm(columns, axis=0) > 0, np.linalg.norm(columns, axis=0), 1.0)
+    expected = np.linalg.pinv(columns / scale, rcond=1e-9) @ y / scale
+    np.testing.assert_allclose(
+        solve(columns.T @ columns, columns.T @ y), expected, rtol=1e-8, atol=1e-14
+    )
+    assert solve(columns.T @ columns, columns.T @ y)[-1] == 0.0
+    inverse = solve(columns.T @ columns, np.eye(6))
+    np.testing.assert_allclose(inverse @ (columns.T @ y), expected, rtol=1e-6, atol=1e-12)
+
+
+def test_directions_that_the_data_do_not_show_stay_where_they_were():
+    t = small_log(5)
+    u = np.array(t.u)
+    u[:, 2] = 0.0
+    still = trial(t.time, measured(u) + wander(5, t.time), u)
+    start = gyro(s=0.004)
+    start = start.with_values(
+        "misalignment", m=0.002 * np.array([[0.0, 0.0, 1.0], [0.0, 0.0, 1.0], [0.0, 0.0, 0.0]])
+    )
+    fitted = fit(begin(start, keys_of(start, *GAIN), [still]))
+    # Once the misalignment of z is found, its scale factor acts on what leaks in there, a
+    # second-order effect.
+    assert abs(fitted.sensor.values["scale_factor"]["s"][2] - 0.004) < 1e-3
+    np.testing.assert_array_equal(fitted.sensor.values["misalignment"]["m"][:2, 2], 0.002)
+    off = fitted.sensor.values["scale_factor"]["s"][:2] - TRUE_S[:2]
+    assert np.all(
+        np.abs(off) < [4.5 * fitted.std["slot", "scale_factor", "s", (i,)] for i in range(2)]
+    )
+
+
+def test_noise_model_follows_what_the_reference_is():
+    derived = begin(gyro(), (), [small_log(1, reference="attitude", band_hz=5.0)])
+    assert all(isinstance(n, Autoregressive) for n in derived.noise.values())
+    assert all(isinstance(n, RandomWalk) for n in begin(gyro(), (), [small_log(1)]).noise.values())

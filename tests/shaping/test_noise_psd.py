@@ -1,0 +1,275 @@
+"""Every noise that the FMU makes, at two sample rates and over seeds, inside the 99 % band of
+theory at every octave.
+
+Density: ordinates of the periodogram of white Gaussian noise at its Fourier frequencies are
+independent and exactly S chi2(2) / 2, the mean of m of them S chi2(2 m) / (2 m). Each noise is
+made white first by its own theory (``noise_cases``). Allan deviation: the law of the overlapping
+estimator for the theory's density (``allan_band``).
+
+The band is one for this whole file: a right noise fails anything here with a probability of at most
+1 %, by Bonferroni over octaves, axes, rates, seeds and the two statistics. Seeds are fixed, so
+that a test that passes goes on passing.
+"""
+
+from functools import cache
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from noise_cases import CASES, FORMS, NOISES, Case, triads
+from scipy.stats import chi2, norm
+
+from pyimu.characterization.allan import octave_clusters, overlapping_deviation
+from pyimu.characterization.allan.law import allan_band, allan_laws
+from pyimu.fmu import build_fmus, simulate
+from pyimu.model.catalogue import CATALOGUE
+from pyimu.model.part import Part
+from pyimu.model.sensor import Sensor
+from pyimu.shaping import allan_deviation, describe
+
+SAMPLES = 2**16
+RATES = (100.0, 976.0)
+SEEDS = (11, 12, 13)
+RUNS = [(rate, seed) for rate in RATES for seed in SEEDS]
+FALSE_ALARM = 1e-2
+ONE = FALSE_ALARM / (2 * len(CASES) * len(RUNS) + 4)
+"""Of that, for all octaves of one statistic of one noise in one run, and for each of the four tests
+of another kind."""
+
+TRIADS = triads()
+VERSIONS = (2, 3)
+KINDS = ("gyro", "accel")
+
+
+# The runs
+
+
+def sensor(kind: str, cases: list[Case], only_beside: bool = False) -> Sensor:
+    """A triad with every noise, axis i as case i says, or with no more than what stands beside the
+    noise that is meant.
+    """
+    values = {
+        name: {n: np.full(p.shape, p.start) for n, p in CATALOGUE[name].parameters.items()}
+        for name in NOISES
+    }
+    for axis, case in enumerate(cases):
+        for effect, given in {
+            **({} if only_beside else {case.effect: case.values}),
+            **case.beside,
+        }.items():
+            for n, v in given.items():
+                values[effect][n][axis if values[effect][n].ndim else ()] = v
+    return Sensor(
+        kind,
+        {
+            e: v
+            for e, v in values.items()
+            if not only_beside or any(e in case.beside for case in cases)
+        },
+    )
+
+
+def place(triad: int, seed: int) -> tuple[int, str]:
+    """Which FMU run and which sensor a triad of cases goes to: by turns, over the seeds, to either
+    sensor.
+    """
+    return triad // 2, KINDS[(triad + seed) % 2]
+
+
+@cache
+def built(folder):
+    """One FMU of each version with every noise on every axis, all of them off."""
+    part = Part("noise", 100.0, gyro=sensor("gyro", []), accel=sensor("accel", []))
+    return dict(zip(VERSIONS, build_fmus(part.block, folder, VERSIONS)))
+
+
+@cache
+def outputs(folder, group: int, rate: float, seed: int) -> np.ndarray:
+    """Noise (SAMPLES, 6) of one run of an FMU: what it gives less what the Python chain gives
+    without that noise.
+    """
+    cases = {kind: [] for kind in KINDS}
+    for triad, members in enumerate(TRIADS):
+        if place(triad, seed)[0] == group:
+            cases[place(triad, seed)[1]] = members
+    t = np.arange(1, SAMPLES + 2) / rate
+    u = np.zeros((SAMPLES + 1, 7))
+    for k, kind in enumerate(KINDS):
+        for axis, case in enumerate(cases[kind]):
+            u[:, 3 * k + axis] = case.start + case.slope * t
+    # Groups share the names of the streams, so each has a seed of its own; versions take turns.
+    own_seed = 100 * group + seed
+    version = VERSIONS[(group + RUNS.index((rate, seed))) % 2]
+    start = {v.name: v.start for kind in KINDS for v in sensor(kind, cases[kind]).variables}
+    y = simulate(
+        built(folder)[version], u, sample_period=1 / rate, start_values={**start, "seed": own_seed}
+    )
+    beside = Part(
+        "beside", rate, **{kind: sensor(kind, cases[kind], only_beside=True) for kind in KINDS}
+    )
+    # Without the first sample: a rate of the motion is known from the second on.
+    return (y[1:] - beside.block.run(u, seed=own_seed, sample_period=1 / rate)[0])[1:]
+
+
+@pytest.fixture(scope="module")
+def noise(tmp_path_factory):
+    """``noise(case, rate, seed)``: the noise (SAMPLES,) of one case in one run."""
+    folder = tmp_path_factory.mktemp("fmus")
+
+    def of(case: Case, rate: float, seed: int) -> np.ndarray:
+        triad = next(i for i, t in enumerate(TRIADS) if case in t)
+        group, kind = place(triad, seed)
+        return outputs(folder, group, rate, seed)[
+            :, 3 * KINDS.index(kind) + TRIADS[triad].index(case)
+        ]
+
+    yield of
+    outputs.cache_clear()
+    built.cache_clear()
+
+
+# The FMU against theory
+
+
+def octaves(n: int) -> list[slice]:
+    """Bins of the periodogram of n samples by octaves, from the first to the last below Nyquist."""
+    last = (n + 1) // 2
+    return [
+        slice(a, min(b, last))
+        for a, b in pairwise(2 ** np.arange(last.bit_length() + 1))
+        if a < last
+    ]
+
+
+def assert_white(z: np.ndarray, alpha: float) -> float:
+    """Every octave of z (n,) has the density of unit white noise; gives the relative half width of
+    the tightest band.
+    """
+    power, bands = np.abs(np.fft.rfft(z)) ** 2 / len(z), octaves(len(z))
+    narrowest = np.inf
+    for band in bands:
+        m = band.stop - band.start
+        low, high = chi2.ppf([alpha / len(bands) / 2, 1 - alpha / len(bands) / 2], 2 * m) / (2 * m)
+        ratio = np.mean(power[band])
+        where = f"{band.start / len(z):.4g} to {band.stop / len(z):.4g} of the sample rate"
+        assert low <= ratio <= high, (
+            f"{where}: {ratio:.4f} of the theory is not in {low:.4f} to {high:.4f}"
+        )
+        narrowest = min(narrowest, (high - low) / 2)
+    return narrowest
+
+
+@pytest.mark.parametrize("rate, seed", RUNS)
+@pytest.mark.parametrize("case", CASES, ids=lambda c: c.name)
+def test_psd_is_inside_the_band_of_theory(noise, case, rate, seed):
+    z = case.law.whiten(noise(case, rate, seed), 1 / rate)
+    assert abs(len(z) - SAMPLES) <= 1
+    assert assert_white(z, ONE) < 0.05
+
+
+@cache
+def limits(case: Case, rate: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Cluster sizes and the band of all their deviations."""
+    m, h = octave_clusters(SAMPLES), 1 / rate
+    return m, *allan_band(lambda f: case.law.psd(f, h), m * h, SAMPLES, h, 1 - ONE)
+
+
+@pytest.mark.parametrize("rate, seed", RUNS)
+@pytest.mark.parametrize("case", CASES, ids=lambda c: c.name)
+def test_allan_deviation_is_inside_the_band_of_theory(noise, case, rate, seed):
+    m, low, high = limits(case, rate)
+    assert 1.0 < (high / low)[0] < 1.06
+    got = overlapping_deviation(noise(case, rate, seed), m)
+    for size, value, a, b in zip(m, got, low, high):
+        assert a <= value <= b, f"tau = {size / rate:g} s: {value:.4g} is not in {a:.4g} to {b:.4g}"
+
+
+def test_every_noise_of_the_catalogue_has_a_case():
+    """Add a line to ``noise_cases.CASES`` for a new one."""
+    assert {case.effect for case in CASES} == set(NOISES)
+
+
+@pytest.mark.parametrize("rate, seed", RUNS)
+def test_noises_axes_sensors_and_runs_are_independent(noise, rate, seed):
+    """Correlations of independent white series are normal with variance 1 / n, to terms of order 1
+    / n^2.
+    """
+    white = np.array(
+        [case.law.whiten(noise(case, rate, seed), 1 / rate)[-SAMPLES + 1 :] for case in CASES]
+    )
+    r = np.corrcoef(white)[np.triu_indices(len(white), 1)]
+    assert np.abs(r).max() * np.sqrt(white.shape[1]) < norm.isf(ONE / len(RUNS) / 2 / len(r))
+
+
+# The theory against other theory
+
+
+@pytest.mark.parametrize("rate", RATES)
+@pytest.mark.parametrize("case", [c for c in CASES if c.effect in FORMS], ids=lambda c: c.name)
+def test_hidalgo_table_3(case, rate):
+    """Far below Nyquist and over many samples the sampled law is the continuous one, PSD and Allan.
+
+    At a twentieth of the sample rate and below, aliases and the sine for its angle change a density
+    by at most (pi / 20)^2 / 3 = 0.8 %, over twenty samples a variance by less.
+    """
+    h = 1 / rate
+    closed = FORMS[case.effect](h, **case.values)
+    f = np.geomspace(max(closed.frequencies[0], 1e-4), min(closed.frequencies[1], rate / 20), 40)
+    np.testing.assert_allclose(case.law.psd(f, h), closed.psd(f), rtol=0.0083 + closed.ripple)
+    m = np.unique(
+        np.geomspace(max(20, closed.times[0] / h), min(2000, closed.times[1] / h), 8).astype(int)
+    )
+    sampled = allan_deviation(lambda f: case.law.psd(f, h), m * h, h) ** 2
+    np.testing.assert_allclose(sampled, closed.allan(m * h), rtol=0.0083 + closed.ripple)
+
+
+@pytest.mark.parametrize("rate", RATES)
+@pytest.mark.parametrize("case", CASES, ids=lambda c: c.name)
+def test_the_shaping_filter_has_the_law_of_the_tests(case, rate):
+    """Density and Allan deviation of ``describe``, which takes the filter from the effect's own
+    step.
+    """
+    f, m, h = np.geomspace(1e-3, rate / 2, 50), octave_clusters(SAMPLES)[::3], 1 / rate
+    want = np.sqrt(
+        [law.mean for law in allan_laws(lambda f: case.law.psd(f, h), m * h, SAMPLES, h)]
+    )
+    for kind in KINDS:
+        model = describe(sensor(kind, [case]), case.effect, 0, h, at=case.start, slope=case.slope)
+        np.testing.assert_allclose(model.psd_two_sided(f), case.law.psd(f, h), rtol=1e-7)
+        np.testing.assert_allclose(model.allan_deviation(m * h), want, rtol=1e-7)
+
+
+# What has no density
+
+
+def started(case: Case) -> np.ndarray:
+    """First samples (6 x 400,) of a noise, of axes and sensors and seeds."""
+    part = Part(
+        "start", 100.0, **{kind: Sensor(kind, {case.effect: dict(case.values)}) for kind in KINDS}
+    )
+    return np.concatenate(
+        [part.block.run(np.zeros((1, 7)), seed=seed)[0][0] for seed in range(400)]
+    )
+
+
+@pytest.mark.parametrize(
+    "case",
+    [c for c in CASES if c.effect in ("gauss_markov", "bias_instability")],
+    ids=lambda c: c.name,
+)
+def test_the_first_sample_is_drawn_from_the_stationary_state(case):
+    """The whitening of one sample divides by the stationary standard deviation."""
+    z = np.array([case.law.whiten(np.array([x]), 0.01)[0] for x in started(case)])
+    assert chi2.ppf(ONE / 8, len(z)) <= np.sum(z**2) <= chi2.isf(ONE / 8, len(z))
+
+
+@pytest.mark.parametrize("version, rate", list(zip(VERSIONS, RATES, strict=True)))
+def test_hidalgo_table_3_rate_ramp_allan(tmp_path, version, rate):
+    """R tau / sqrt(2), to the rounding of the sums; a ramp has no density."""
+    R = np.array([0.3, -0.2, 0.1])
+    part = Part("ramp", rate, **{kind: Sensor(kind, {"rate_ramp": {"R": R}}) for kind in KINDS})
+    (path,) = build_fmus(part.block, tmp_path, (version,))
+    y = simulate(path, np.zeros((4096, 7)), sample_period=1 / rate)[1:]
+    m = octave_clusters(len(y))
+    want = np.abs(np.tile(R, 2)) * m[:, None] / rate / np.sqrt(2)
+    np.testing.assert_allclose(overlapping_deviation(y, m), want, rtol=1e-9)

@@ -1,0 +1,237 @@
+"""Recordings with one undeclared effect, or none, made by plain numpy: no equation here comes from
+the package.
+
+``lambda_of`` gives how many times detectable an effect is: the norm of what it changes, whitened by
+the innovations filter of white noise plus random walk and freed of everything that the baseline
+explains, in noise sigmas.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.signal import lfilter
+
+from pyimu.recording.recording import Recording
+
+G0 = 9.80665
+N_GYRO = np.deg2rad(np.array([0.20764, 0.23858, 0.20489])) / 60
+K_GYRO = np.deg2rad(np.array([32.8, 49.6, 64.2])) / 3600 / 60
+N_ACCEL = np.array([60e-6, 55e-6, 65e-6]) * G0
+K_ACCEL = np.array([4e-6, 3e-6, 5e-6]) * G0
+
+
+@dataclass
+class World:
+    """True motion of a log: time (n,), rate and specific force (n, 3), temperature (n,)."""
+
+    time: np.ndarray
+    rate: np.ndarray
+    force: np.ndarray
+    temperature: np.ndarray
+
+    @property
+    def h(self) -> float:
+        return self.time[1] - self.time[0]
+
+
+def drive(minutes: float = 6.0, rate_hz: float = 50.0, seed: int = 0) -> World:
+    """A vehicle that turns, tilts and shakes on three axes while the part warms up and cools down
+    again.
+    """
+    rng = np.random.default_rng(seed)
+    t = np.arange(0, minutes * 60, 1 / rate_hz)
+    rate = np.zeros((len(t), 3))
+    force = np.zeros((len(t), 3))
+    for i in range(3):
+        for f in rng.uniform(0.05, 2.5, 6):
+            rate[:, i] += rng.uniform(0.05, 0.35) * np.sin(2 * np.pi * f * t + rng.uniform(0, 6.28))
+            force[:, i] += rng.uniform(0.2, 1.2) * np.sin(
+                2 * np.pi * f * 0.7 * t + rng.uniform(0, 6.28)
+            )
+    # Stops of a quarter of a minute, eased into over a second: a step of rate has no delay that
+    # samples could show.
+    busy = (
+        1 / (1 + np.exp(-30 * (np.sin(2 * np.pi * t / 60 + rng.uniform(0, 6.28)) + 0.6)))[:, None]
+    )
+    tilt = 0.4 * np.sin(2 * np.pi * t / rng.uniform(45, 70))[:, None] * np.array([1.0, 0.6, 0.0])
+    force = force * busy + G0 * np.column_stack(
+        [np.sin(tilt[:, 0]), np.sin(tilt[:, 1]), np.cos(tilt[:, 0]) * np.cos(tilt[:, 1])]
+    )
+    period = rng.uniform(0.28, 0.4) * t[-1]
+    temperature = 28.0 + 7.0 * np.sin(2 * np.pi * t / period) + 3.0 * t / t[-1]
+    return World(t, rate * busy, force, temperature)
+
+
+def noise(world: World, n: np.ndarray, k: np.ndarray, rng: np.random.Generator) -> np.ndarray:
+    """White noise plus random walk, (n, 3)."""
+    shape = (len(world.time), 3)
+    white = n / np.sqrt(world.h) * rng.standard_normal(shape)
+    return white + np.cumsum(k * np.sqrt(world.h) * rng.standard_normal(shape), axis=0)
+
+
+def recording(
+    world: World, gyro_change=None, accel_change=None, seed: int = 1, name: str = "log"
+) -> Recording:
+    """The log of a part with white noise, random walk, turn-on bias and the changes
+    ``(clean (n, 3)) -> (n, 3)`` given.
+    """
+    rng = np.random.default_rng(seed)
+    bias_g, bias_a = 0.003 * rng.standard_normal(3), 0.05 * rng.standard_normal(3)
+    gyro = measured(world.rate, gyro_change, bias_g + noise(world, N_GYRO, K_GYRO, rng))
+    accel = measured(world.force, accel_change, bias_a + noise(world, N_ACCEL, K_ACCEL, rng))
+    return Recording.from_arrays(
+        name=name,
+        time=world.time,
+        gyro=gyro,
+        accel=accel,
+        temperature=world.temperature,
+        ref_rate=world.rate,
+        ref_force=world.force,
+    )
+
+
+def measured(x: np.ndarray, change, disturbance: np.ndarray) -> np.ndarray:
+    """Effects of the input come before the noise, limits and rounding after it (``change.last`` is
+    True).
+    """
+    if change is None:
+        return x + disturbance
+    return change(x + disturbance) if getattr(change, "last", False) else change(x) + disturbance
+
+
+def lambda_of(world: World, kind: str, change, structure: bool = False) -> float:
+    """How many times detectable ``change`` is over a bias, and with ``structure`` over scale factor
+    and misalignment too.
+    """
+    x, n, k = (world.rate, N_GYRO, K_GYRO) if kind == "gyro" else (world.force, N_ACCEL, K_ACCEL)
+    difference = change(x) - x
+    base = np.column_stack([np.ones(len(x)), *([x] if structure else [])])
+    total = 0.0
+    for i in range(3):
+        r, q = n[i] ** 2 / world.h, k[i] ** 2 * world.h
+        p = (q + np.sqrt(q * q + 4 * q * r)) / 2
+        columns, target = (
+            lfilter([1, -1], [1, -r / (p + r)], v, axis=0) / np.sqrt(p + r)
+            for v in (base, difference[:, i])
+        )
+        left = target - columns @ np.linalg.lstsq(columns, target, rcond=None)[0]
+        total += left @ left
+    return float(np.sqrt(total))
+
+
+def last(function):
+    function.last = True
+    return function
+
+
+def changes(world: World, kind: str) -> dict:
+    """One undeclared effect each: name in the catalogue -> size -> change of the clean signal."""
+    f, temp, h = world.force, world.temperature, world.h
+    spread = np.array([1.0, -0.7, 0.5])
+
+    def delayed(d):
+        return lambda v: np.column_stack(
+            [_filtered(v[:, i], h, lambda w: np.exp(-1j * w * d)) for i in range(3)]
+        )
+
+    def second_order(wn, zeta=0.6):
+        return lambda v: np.column_stack(
+            [
+                _filtered(v[:, i], h, lambda w: wn**2 / (wn**2 - w**2 + 2j * zeta * wn * w))
+                for i in range(3)
+            ]
+        )
+
+    table = {
+        "scale_factor": lambda s: lambda v: v * (1 + s * spread),
+        "misalignment": lambda s: (
+            lambda v: v + s * np.roll(v, 1, axis=1) * np.array([1.0, -0.5, 0.3])
+        ),
+        "thermal_bias": lambda s: lambda v: v + s * spread * (temp - 25)[:, None],
+        "thermal_bias_quadratic": lambda s: lambda v: v + s * spread * ((temp - 25) ** 2)[:, None],
+        "scale_factor_asymmetry": lambda s: lambda v: v + s * spread * np.abs(v),
+        "time_delay": lambda s: delayed(s),
+        "lag": lambda s: second_order(1.0 / s),
+        "saturation": lambda s: last(lambda v: np.clip(v, -s, s)),
+        "quantization": lambda s: last(lambda v: np.round(v / s) * s),
+    }
+    rising, steady = np.gradient(temp, h), np.roll(spread, 1)
+    table |= {
+        "scale_factor_nonlinearity": lambda s: lambda v: v + s * spread * v**2,
+        "scale_factor_cubic": lambda s: lambda v: v + s * spread * v**3,
+        "thermal_scale_factor": lambda s: lambda v: v * (1 + s * spread * (temp - 25)[:, None]),
+        "thermal_bias_cubic": lambda s: lambda v: v + s * spread * ((temp - 25) ** 3)[:, None],
+        "temperature_rate": lambda s: lambda v: v + s * spread * rising[:, None],
+    }
+    if kind == "accel":
+        turned = np.gradient(world.rate, h, axis=0)
+        arms = np.array([[1.0, 0.3, -0.5], [-0.7, 0.2, 1.0], [0.4, -1.0, 0.6]])
+
+        def lever(s):
+            felt = [
+                np.cross(turned, s * r) + np.cross(world.rate, np.cross(world.rate, s * r))
+                for r in arms
+            ]
+            return lambda v: v + np.column_stack([felt[i][:, i] for i in range(3)])
+
+        table["size_effect"] = lever
+        table["vibropendulous"] = lambda s: lambda v: v + s * v * (np.roll(v, 1, axis=1) * steady)
+    if kind == "gyro":
+        turned = np.gradient(world.rate, h, axis=0)
+        table |= {
+            "anisoinertia": lambda s: (
+                lambda v: v + s * spread * np.roll(v, 1, axis=1) * np.roll(v, 2, axis=1)
+            ),
+            "scale_factor_g_sensitivity": lambda s: (
+                lambda v: v + s * v * np.roll(f, 1, axis=1) * spread
+            ),
+            "g2_sensitivity": lambda s: (
+                lambda v: (
+                    v + s * np.column_stack([f[:, 0] * f[:, 1], f[:, 2] ** 2, f[:, 1] * f[:, 2]])
+                )
+            ),
+            "angular_acceleration": lambda s: lambda v: v + s * np.roll(turned, 1, axis=1) * spread,
+        }
+        matrix = np.array([[1.0, 0.2, 0.0], [-0.4, 0.5, 0.3], [0.1, 0.0, -0.8]])
+        table["g_sensitivity"] = lambda s: lambda v: v + f @ (s * matrix).T
+    return table
+
+
+def _filtered(values: np.ndarray, h: float, response) -> np.ndarray:
+    """A continuous filter ``response(omega)`` through the spectrum of the signal, mirrored at its
+    end so that it joins up.
+    """
+    mirrored = np.concatenate([values, values[::-1]])
+    omega = 2 * np.pi * np.fft.rfftfreq(len(mirrored), h)
+    return np.fft.irfft(np.fft.rfft(mirrored) * response(omega), len(mirrored))[: len(values)]
+
+
+def size_for(world: World, kind: str, name: str, wanted: float, structure: bool) -> float:
+    """Size at which an effect is ``wanted`` times detectable; limits and steps, which have no such
+    scale, are set by their share.
+    """
+    x, n = (world.rate, N_GYRO) if kind == "gyro" else (world.force, N_ACCEL)
+    if name == "saturation":
+        return float(np.quantile(np.abs(x), 0.998))
+    if name == "quantization":
+        return 2.0 * n.max() / np.sqrt(world.h)
+    make = changes(world, kind)[name]
+    low, high = np.log(1e-9), np.log(0.03)
+    for _ in range(40):
+        middle = (low + high) / 2
+        low, high = (
+            (low, middle)
+            if lambda_of(world, kind, make(np.exp(middle)), structure) > wanted
+            else (middle, high)
+        )
+    return float(np.exp(high))
+
+
+def best_possible(world: World, log: Recording, kind: str, change) -> float:
+    """RMS residual of the true model on the last 30 % of a log, its bias taken from the rest."""
+    x, y = (world.rate, log.gyro) if kind == "gyro" else (world.force, log.accel)
+    left = y - change(x)
+    at = round(0.7 * len(left))
+    return float(np.sqrt(np.mean((left[at:] - left[:at].mean(axis=0)) ** 2)))
