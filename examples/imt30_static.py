@@ -42,6 +42,7 @@ from pyimu.characterization.noise.coefficients import (
     mean_coefficient,
 )
 from pyimu.errors import UserError
+from pyimu.files import whole
 from pyimu.fmu import build_fmu, stream_blocks
 from pyimu.model.part import AXES, Part
 from pyimu.model.part_file import part
@@ -269,9 +270,8 @@ def draw(tests: list[Test], path: Path) -> None:
             _draw_axis(panel, axis, tests)
         panels[0].set_ylabel("Allan deviation [deg/h]")
         panels[0].legend(loc="upper right")
-        unfinished = path.with_suffix(".tmp")
-        figure.savefig(unfinished, format="png", dpi=130)
-    unfinished.replace(path)
+        with whole(path) as unfinished:
+            figure.savefig(unfinished, format="png", dpi=130)
 
 
 def _draw_axis(panel: Axes, axis: int, tests: list[Test]) -> None:

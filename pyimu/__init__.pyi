@@ -2,13 +2,15 @@ from . import attitude as attitude
 from . import fmu as fmu
 from . import shaping as shaping
 from . import symbolic as symbolic
+from .attitude.run import AttitudeResult as AttitudeResult
 from .block.block import Block as Block
 from .characterization.report.page import write_characterization as write_characterization
 from .characterization.run import characterize as characterize
+from .errors import Finding as Finding
 from .errors import UserError as UserError
 from .fmu.package import build as build
 from .identification.close import close as close
-from .identification.report.page import write_report as write_report
+from .identification.result import Closed as Closed
 from .model.catalogue import add_effects as add_effects
 from .model.effect import Effect as Effect
 from .model.effect import Environment as Environment
@@ -24,6 +26,7 @@ from .model.part_file import part_names as part_names
 from .model.part_file import save_part as save_part
 from .model.sensor import Sensor as Sensor
 from .model.simulate import simulate as simulate
+from .recording.log import Log as Log
 from .recording.log import open_log as open_log
 from .recording.log import read_recording as read_recording
 from .recording.recording import Recording as Recording

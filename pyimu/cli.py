@@ -170,7 +170,7 @@ def close_command(
     as FMUs.
     """
     from pyimu.identification.close import close
-    from pyimu.identification.report.deliver import check_delivery, deliver
+    from pyimu.identification.report.deliver import check_delivery
     from pyimu.recording.log import read_recording
 
     if latitude is not None and not abs(latitude) <= 90:
@@ -187,7 +187,7 @@ def close_command(
             latitude=None if latitude is None else math.radians(latitude),
             say=say,
         )
-        deliver(closed, out, say)
+        closed.write(out, say=say)
     print(closed.report())
     print(f"report: {out / 'report.html'}")
 
@@ -272,7 +272,7 @@ def derive_command(
     """
     from pyimu.derivations import derive
     from pyimu.derivations.files import write
-    from pyimu.fmu.package import check_folder
+    from pyimu.files import check_folder
 
     if out is not None:
         check_folder(out)

@@ -21,6 +21,7 @@ from pyimu.characterization.spectrum.psd import Psd
 from pyimu.characterization.temperature.fit import NAMES, ThermalFit
 from pyimu.characterization.temperature.warm_up import WarmUp
 from pyimu.errors import Finding
+from pyimu.files import plain
 from pyimu.model.part import Part
 from pyimu.shaping import flicker_floor
 
@@ -373,18 +374,3 @@ def _coefficient(c: Coefficient, unit: str) -> dict[str, Any]:
         "unit": unit,
         "needed": c.needed,
     }
-
-
-def plain(value: Any) -> Any:
-    """Numbers, lists and tables for JSON; what is not finite becomes null."""
-    if isinstance(value, Mapping):
-        return {k: plain(v) for k, v in value.items()}
-    if isinstance(value, (list, tuple, np.ndarray)):
-        return [plain(v) for v in value]
-    if isinstance(value, (bool, np.bool_)):
-        return bool(value)
-    if isinstance(value, (int, np.integer)):
-        return int(value)
-    if isinstance(value, (float, np.floating)):
-        return float(value) if math.isfinite(value) else None
-    return value

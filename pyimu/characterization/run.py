@@ -36,6 +36,7 @@ from pyimu.errors import Finding, UserError
 from pyimu.model.part import AXES
 from pyimu.recording.clock import Clock
 from pyimu.recording.log import Log, open_log
+from pyimu.recording.names import distinct_names
 from pyimu.recording.quality.in_pieces import Inspector
 from pyimu.recording.recording import Recording
 from pyimu.report.figures import BINS
@@ -78,32 +79,9 @@ def characterize(
         raise UserError("no log to characterise")
     opened = [open_log(Path(s)) if isinstance(s, (str, os.PathLike)) else s for s in sources]
     logs: list[LogResult] = []
-    for source, name in zip(opened, _names(opened), strict=True):
+    for source, name in zip(opened, distinct_names(opened), strict=True):
         logs.append(_log(source, name, level, _origin(logs), say))
     return Characterization(tuple(logs), level)
-
-
-def _names(sources: Sequence[Recording | Log]) -> list[str]:
-    """The logs' names, equal ones with the folder, or their place, before them. Raises UserError
-    for a file that is given twice.
-    """
-    paths = [s.path.resolve() if isinstance(s, Log) else None for s in sources]
-    again = next((p for i, p in enumerate(paths) if p is not None and p in paths[:i]), None)
-    if again is not None:
-        raise UserError(
-            f"{again}: given twice; logs that go together must be independent, give each file once"
-        )
-    names = [s.name for s in sources]
-    while twice := {n for n in names if names.count(n) > 1}:
-        at = [i for i, n in enumerate(names) if n in twice]
-        depth = [names[i].count("/") + 1 for i in at]
-        if any(
-            paths[i] is None or len(paths[i].parts) <= d + 1 for i, d in zip(at, depth, strict=True)
-        ):
-            return [f"{i + 1}: {n}" if n in twice else n for i, n in enumerate(names)]
-        for i, d in zip(at, depth, strict=True):
-            names[i] = f"{paths[i].parts[-d - 1]}/{names[i]}"
-    return names
 
 
 def _origin(logs: Sequence[LogResult]) -> float | None:

@@ -19,6 +19,7 @@ from pathlib import Path
 from pyimu.block.block import Block
 from pyimu.block.compiled import compiler_command, source_folder
 from pyimu.errors import UserError
+from pyimu.files import whole
 from pyimu.fmu.sources import CORE, DESCRIPTION, LAYER, PAGE, TABLE, Form, template_folder, texts
 
 FLAGS = (
@@ -256,24 +257,8 @@ def _source_files(generated: dict[str, str], form: Form) -> dict[str, bytes]:
 
 
 def _write(entries: dict[str, bytes], target: Path) -> Path:
-    """Zip to a temporary file beside the target and rename, so that nobody ever reads half an
-    FMU.
-    """
-    try:
-        target.parent.mkdir(parents=True, exist_ok=True)
-        handle, temporary = tempfile.mkstemp(
-            dir=target.parent, prefix=f".{target.name}.", suffix=".tmp"
-        )
-        try:
-            with os.fdopen(handle, "wb") as file:
-                _zip(file, entries)
-            os.chmod(temporary, 0o644)
-            os.replace(temporary, target)
-        except BaseException:
-            os.unlink(temporary)
-            raise
-    except OSError as error:
-        raise UserError(f"{target}: cannot be written ({error.strerror or error})") from None
+    with whole(target) as unfinished, unfinished.open("wb") as file:
+        _zip(file, entries)
     return target
 
 

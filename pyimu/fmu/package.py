@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from pyimu.attitude import attitude_ukf
 from pyimu.block.block import Block
 from pyimu.errors import UserError
+from pyimu.files import check_folder
 from pyimu.fmu.build import FORMS, build_fmus
 from pyimu.fmu.sources import Form
 from pyimu.model.part import Part
@@ -45,21 +45,3 @@ def build(
     return [
         path for name in fmu for path in build_fmus(BLOCKS[name](found), out, tuple(fmi), platform)
     ]
-
-
-def check_folder(out: Path | str) -> None:
-    """Raise UserError where the folder ``out`` is none or cannot be made, before work is done that
-    would then be lost.
-    """
-    out = Path(out)
-    try:
-        there = next(p for p in (out, *out.absolute().parents) if p.exists())
-        reason = "" if there.is_dir() else f"{there} is a file"
-        if not reason:
-            # Not by asking for permissions, which root has also where there is nothing to write to,
-            # as in /proc.
-            tempfile.TemporaryDirectory(dir=there, prefix=".").cleanup()
-    except OSError as error:
-        reason = f"{error.strerror or error}"
-    if reason:
-        raise UserError(f"{out}: cannot write there, {reason}; give another folder with --out")

@@ -4,6 +4,7 @@ and after out.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -12,21 +13,14 @@ import numpy as np
 
 from pyimu.errors import Finding, UserError
 from pyimu.identification.attitude_error import attitude_error
-from pyimu.identification.fit.attenuation import own_noise
+from pyimu.identification.fit.attenuation import floor_noise
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import slot_key
 from pyimu.identification.fit.score import Tally, floor, held_state, tally
 from pyimu.identification.fit.trial import Trial, accel_trial, gyro_trial, rest_noise
 from pyimu.identification.fit.whiten import RandomWalk
-from pyimu.identification.result import (
-    Added,
-    Changed,
-    Closed,
-    Errors,
-    LogEntry,
-    Visibility,
-    added_of,
-)
+from pyimu.identification.outcome import Added, Changed, Errors, LogEntry, Visibility
+from pyimu.identification.result import Closed
 from pyimu.identification.search.candidates import absent, has_columns
 from pyimu.identification.search.forward import Investigation, Step, investigate
 from pyimu.identification.search.leftover import (
@@ -44,6 +38,7 @@ from pyimu.model.part import Part
 from pyimu.model.part_file import part as find_part
 from pyimu.model.sensor import Sensor
 from pyimu.recording.log import read_recording
+from pyimu.recording.names import distinct_names
 from pyimu.recording.quality.inspect import inspect
 from pyimu.recording.recording import Recording
 
@@ -100,8 +95,9 @@ def close(
     if not logs:
         raise UserError("no log given: name at least one recording")
     others = [_read(r) for r in _many(holdout)] if holdout is not None else []
-    distinct = _distinct([*logs, *others])
-    logs, others = distinct[: len(logs)], distinct[len(logs) :]
+    names = distinct_names([*logs, *others])
+    logs = [replace(r, name=n) for r, n in zip(logs, names, strict=False)]
+    others = [replace(r, name=n) for r, n in zip(others, names[len(logs) :], strict=True)]
     declared = find_part(part) if isinstance(part, (str, Path)) else part
     start = declared or Part(
         "estimated",
@@ -155,28 +151,6 @@ def _read(log: Log) -> Recording:
             f"{SHORTEST} are needed"
         )
     return recording
-
-
-def _distinct(logs: list[Recording]) -> list[Recording]:
-    """Logs under names that tell them apart: files of one name in different folders go by folder
-    and name.
-    """
-    paths = [r.path for r in logs if r.path]
-    for path in paths:
-        if sum(p.resolve() == path.resolve() for p in paths) > 1:
-            raise UserError(f"{path}: given twice; a log can be fitted or held out, once")
-    names = [r.name for r in logs]
-    out = [
-        replace(r, name=f"{r.path.parent.name}/{r.name}")
-        if names.count(r.name) > 1 and r.path
-        else r
-        for r in logs
-    ]
-    names = [r.name for r in out]
-    for name in names:
-        if names.count(name) > 1:
-            raise UserError(f"{name}: two logs have this name; give each its own")
-    return out
 
 
 def has_reference(recording: Recording) -> bool:
@@ -525,17 +499,6 @@ def _state_entry(inv: Investigation, name: str) -> dict | None:
     return {"bias": state.bias.tolist(), "rotation": state.rotation.tolist()}
 
 
-def floor_noise(fit: Fit) -> dict[int, RandomWalk]:
-    """Noise at the sample rate for the floor: as fitted, or the sensor's own where the reference is
-    derived.
-    """
-    return (
-        dict(fit.noise)
-        if all(isinstance(n, RandomWalk) for n in fit.noise.values())
-        else own_noise(fit)
-    )
-
-
 def _observability(kind: str, inv: Investigation) -> list[Visibility]:
     """What the logs could have shown of each absent effect, judged before looking for any."""
     seen = {c.effect: c for c in inv.first.candidates}
@@ -610,4 +573,46 @@ def _verdict(
         )
     return "clean", "nothing is missing" + (
         "; declared values that the data contradict are listed as changed" if changed else ""
+    )
+
+
+def added_of(kind: str, sensor: Sensor, investigation: Investigation) -> list[Added]:
+    """The steps of an investigation with the coefficients as they stand at its end."""
+    out = []
+    for step in (s for s in investigation.steps if not s.declared):
+        e = CATALOGUE[step.effect]
+        parameters = {}
+        for name, p in e.parameters.items():
+            std = np.zeros(p.shape)
+            for key, value in investigation.after.std.items():
+                if key[0] == "slot" and key[1] == step.effect and key[2] == name:
+                    std[key[3]] = value * math.sqrt(step.dispersion)
+            parameters[name] = (sensor.values[step.effect][name], std, sensor.unit(p.unit))
+        out.append(
+            Added(
+                kind,
+                step.effect,
+                step.alternatives,
+                parameters,
+                step.gain,
+                step.gate,
+                _note(step.effect, parameters),
+            )
+        )
+    return out
+
+
+def _note(effect: str, parameters: dict) -> str:
+    """What must be said of classes that no log separates."""
+    if effect not in ("time_delay", "lag"):
+        return ""
+    delay = (
+        float(parameters["td"][0])
+        if effect == "time_delay"
+        else float(2 * parameters["zeta"][0] / parameters["wn"][0])
+    )
+    return (
+        f"time_delay and lag are one class: an effective delay of {delay * 1e3:.2f} ms of the "
+        "sensor against the reference; "
+        "the sensor's bandwidth, its sampling and the reference's clock cannot be told apart"
     )

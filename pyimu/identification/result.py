@@ -1,324 +1,38 @@
-"""What ``close`` found, as frozen data, and its form in report.json."""
+"""The result of ``pyimu.close``: what was found, and what can be done with it."""
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass, field
-from typing import Any
+import os
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
 
-import numpy as np
-
-from pyimu.identification.fit.score import Tally
-from pyimu.identification.search.forward import Investigation, Refused
-from pyimu.identification.search.leftover import Unexplained
-from pyimu.model.catalogue import CATALOGUE
-from pyimu.model.part import Part
-from pyimu.model.sensor import Sensor
+from pyimu.identification.outcome import Outcome
+from pyimu.identification.report.deliver import deliver
+from pyimu.identification.report.words import in_lines
 
 
 @dataclass(frozen=True)
-class Added:
-    """An effect that was added: coefficients by name as ``(value, std, unit)``, arrays of the
-    parameter's shape.
-    """
-
-    sensor: str
-    effect: str
-    alternatives: tuple[str, ...]
-    parameters: dict[str, tuple[np.ndarray, np.ndarray, str]]
-    gain: float
-    gate: float
-    note: str = ""
-
-    def as_dict(self) -> dict[str, Any]:
-        parameters = {
-            n: {"value": _plain(v), "std": _plain(s), "unit": u}
-            for n, (v, s, u) in self.parameters.items()
-        }
-        out = {
-            "sensor": self.sensor,
-            "effect": self.effect,
-            "alternatives": list(self.alternatives),
-            "parameters": parameters,
-            "evidence": {"gain": round(self.gain, 3), "gate": round(self.gate, 3)},
-        }
-        return out | ({"note": self.note} if self.note else {})
-
-
-@dataclass(frozen=True)
-class Changed:
-    """A declared value that the data contradict."""
-
-    sensor: str
-    effect: str
-    parameter: str
-    declared: np.ndarray
-    fitted: np.ndarray
-    std: np.ndarray
-    unit: str
-
-    def as_dict(self) -> dict[str, Any]:
-        return {
-            "sensor": self.sensor,
-            "effect": self.effect,
-            "parameter": self.parameter,
-            "unit": self.unit,
-            "declared": _plain(self.declared),
-            "fitted": _plain(self.fitted),
-            "std": _plain(self.std),
-        }
-
-
-@dataclass(frozen=True)
-class Visibility:
-    """The smallest coefficient of an absent effect that the logs would show, and the effects it
-    looks like in them.
-    """
-
-    sensor: str
-    effect: str
-    smallest_visible: float | None
-    unit: str
-    inseparable_from: tuple[str, ...] = ()
-    reason: str = ""
-
-    def as_dict(self) -> dict[str, Any]:
-        out = {
-            "sensor": self.sensor,
-            "effect": self.effect,
-            "smallest_visible": _plain(self.smallest_visible),
-            "unit": self.unit,
-            "inseparable_from": list(self.inseparable_from),
-        }
-        return out | ({"reason": self.reason} if self.reason else {})
-
-
-@dataclass(frozen=True)
-class Errors:
-    """Held-out error of one sensor before, after, and as the noise alone would leave it."""
-
-    unit: str
-    before: Tally
-    after: Tally
-    floor: Tally | None
-
-    def as_dict(self) -> dict[str, Any]:
-        return {"unit": self.unit} | self._row("total") | {"per_axis": self._row("per_axis")}
-
-    def angle_dict(self, window: float) -> dict[str, Any]:
-        return (
-            {"unit": "rad", "window": window}
-            | self._row("angle")
-            | {"per_axis": self._row("angle_per_axis")}
-        )
-
-    def _row(self, name: str) -> dict[str, Any]:
-        tallies = {"before": self.before, "after": self.after, "floor": self.floor}
-        return {k: None if t is None else _plain(getattr(t, name)) for k, t in tallies.items()}
-
-
-@dataclass(frozen=True)
-class LogEntry:
-    """One recording: its rows, those held out, its error by sensor, and what was estimated of the
-    log itself.
-    """
-
-    file: str
-    samples: int
-    held_out: int
-    errors: dict[str, Errors] = field(default_factory=dict)
-    log_state: dict[str, dict] = field(default_factory=dict)
-
-    def as_dict(self) -> dict[str, Any]:
-        rows = {
-            name: self.errors[kind].as_dict() if kind in self.errors else None
-            for kind, name in (("gyro", "rate"), ("accel", "specific_force"))
-        }
-        return (
-            {"file": self.file, "samples": self.samples, "held_out": self.held_out}
-            | rows
-            | {"log": self.log_state}
-        )
-
-
-@dataclass(frozen=True)
-class Closed:
+class Closed(Outcome):
     """Result of ``pyimu.close``: the part before and after, the verdict, and the error on data that
     was not fitted.
     """
 
-    verdict: str
-    reason: str
-    before: Part
-    after: Part
-    added: tuple[Added, ...]
-    changed: tuple[Changed, ...]
-    unexplained: tuple[Unexplained, ...]
-    drift: dict[str, dict[int, float]]
-    observability: tuple[Visibility, ...]
-    errors: dict[str, Errors]
-    log_likelihood: tuple[float, float] | None
-    attitude: tuple[float, float] | None
-    quality: tuple
-    recordings: tuple[LogEntry, ...]
-    refused: tuple[tuple[str, Refused], ...]
-    investigations: dict[str, Investigation]
-    band_hz: dict[str, float | None]
-    held_out: str
-
-    def as_dict(self, model: str = "model.toml", fmus: tuple[str, ...] = ()) -> dict[str, Any]:
-        """The contents of report.json."""
-        from pyimu.identification.fit.score import WINDOW
-
-        rate, force = self.errors.get("gyro"), self.errors.get("accel")
-        both = (
-            None
-            if self.log_likelihood is None
-            else {
-                "unit": "nat/sample",
-                "before": self.log_likelihood[0],
-                "after": self.log_likelihood[1],
-            }
-        )
-        attitude = (
-            None
-            if self.attitude is None
-            else {"unit": "rad", "before": self.attitude[0], "after": self.attitude[1]}
-        )
-        first = self.unexplained[0] if self.unexplained else None
-        return _finite(
-            {
-                "verdict": self.verdict,
-                "reason": self.reason,
-                "added": [a.as_dict() for a in self.added],
-                "changed": [c.as_dict() for c in self.changed],
-                "unexplained": None
-                if first is None
-                else {
-                    "sensor": first.sensor,
-                    "axis": first.axis,
-                    "depends_on": list(first.depends_on),
-                    "p_value": first.p_value,
-                },
-                "drift": [
-                    {"sensor": s, "axis": "xyz"[i], "gain": g}
-                    for s, axes in self.drift.items()
-                    for i, g in axes.items()
-                ],
-                "refused": [
-                    {"sensor": s, "effect": r.effect, "gain": r.gain, "reason": r.reason}
-                    for s, r in self.refused
-                ],
-                "observability": [v.as_dict() for v in self.observability],
-                "error": {
-                    "data": self.held_out,
-                    "rate": rate and rate.as_dict(),
-                    "angle": rate and rate.angle_dict(WINDOW),
-                    "specific_force": force and force.as_dict(),
-                    "log_likelihood": both,
-                    "attitude": attitude,
-                    "band_hz": self.band_hz,
-                },
-                "quality": [f.as_dict() for f in self.quality],
-                "recordings": [r.as_dict() for r in self.recordings],
-                "model": model,
-                "fmus": list(fmus),
-            }
-        )
-
     def report(self) -> str:
         """A few lines for a terminal or a notebook."""
-        lines = [f"verdict: {self.verdict}" + (f" ({self.reason})" if self.reason else "")]
-        lines += [f"  added {describe(a)}" for a in self.added]
-        lines += [
-            f"  changed {c.sensor}.{c.effect}.{c.parameter}: declared {_short(c.declared)}, fitted "
-            f"{_short(c.fitted)} {c.unit}"
-            for c in self.changed
-        ]
-        lines += [
-            f"  unexplained: {u.sensor} {u.axis} depends on {' x '.join(u.depends_on)} (p = "
-            f"{u.p_value:.1g})"
-            for u in self.unexplained
-        ]
-        for kind, e in self.errors.items():
-            floor = "" if e.floor is None else f", floor {e.floor.total:.4g}"
-            lines.append(
-                f"  {kind} residual on {self.held_out}: {e.before.total:.4g} -> "
-                f"{e.after.total:.4g} {e.unit}{floor}"
-            )
-        return "\n".join(lines)
+        return in_lines(self)
 
+    def write(
+        self,
+        out: str | os.PathLike,
+        *,
+        units: bool = True,
+        say: Callable[[str], None] = lambda text: None,
+    ) -> Path:
+        """Write ``report.html``, ``report.json`` and ``model.toml`` into the folder ``out``, and
+        with ``units`` the FMUs of the sensor as it is now and, under ``before/``, as it was.
 
-def describe(a: Added) -> str:
-    """An added effect in one line."""
-    values = ", ".join(f"{n} = {_short(v)} {u}" for n, (v, _, u) in a.parameters.items())
-    others = f"; as well: {', '.join(a.alternatives)}" if a.alternatives else ""
-    return f"{a.sensor}.{a.effect} ({CATALOGUE[a.effect].term}): {values}{others}"
-
-
-def _short(value: np.ndarray) -> str:
-    return np.array2string(
-        np.asarray(value), precision=4, separator=", ", suppress_small=False
-    ).replace("\n", "")
-
-
-def _plain(value: Any) -> Any:
-    """Numbers and lists for JSON; what is not finite becomes null."""
-    if value is None:
-        return None
-    array = np.asarray(value, dtype=float)
-    if array.ndim == 0:
-        return float(array) if math.isfinite(array) else None
-    return [_plain(v) for v in array]
-
-
-def _finite(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {k: _finite(v) for k, v in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [_finite(v) for v in value]
-    if isinstance(value, (float, np.floating)):
-        return float(value) if math.isfinite(value) else None
-    return int(value) if isinstance(value, np.integer) else value
-
-
-def added_of(kind: str, sensor: Sensor, investigation: Investigation) -> list[Added]:
-    """The steps of an investigation with the coefficients as they stand at its end."""
-    out = []
-    for step in (s for s in investigation.steps if not s.declared):
-        e = CATALOGUE[step.effect]
-        parameters = {}
-        for name, p in e.parameters.items():
-            std = np.zeros(p.shape)
-            for key, value in investigation.after.std.items():
-                if key[0] == "slot" and key[1] == step.effect and key[2] == name:
-                    std[key[3]] = value * math.sqrt(step.dispersion)
-            parameters[name] = (sensor.values[step.effect][name], std, sensor.unit(p.unit))
-        out.append(
-            Added(
-                kind,
-                step.effect,
-                step.alternatives,
-                parameters,
-                step.gain,
-                step.gate,
-                _note(step.effect, parameters),
-            )
-        )
-    return out
-
-
-def _note(effect: str, parameters: dict) -> str:
-    """What must be said of classes that no log separates."""
-    if effect not in ("time_delay", "lag"):
-        return ""
-    delay = (
-        float(parameters["td"][0])
-        if effect == "time_delay"
-        else float(2 * parameters["zeta"][0] / parameters["wn"][0])
-    )
-    return (
-        f"time_delay and lag are one class: an effective delay of {delay * 1e3:.2f} ms of the "
-        "sensor against the reference; "
-        "the sensor's bandwidth, its sampling and the reference's clock cannot be told apart"
-    )
+        All take the place of earlier ones together, once all are made. Gives the page's path.
+        Raises UserError where the folder cannot be written or no compiler is found.
+        """
+        return deliver(self, Path(out), units, say)

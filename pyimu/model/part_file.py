@@ -24,11 +24,11 @@ kept in ``Part.notes``.
 from __future__ import annotations
 
 import os
-import uuid
 from importlib.resources import files
 from pathlib import Path
 
 from pyimu.errors import UserError
+from pyimu.files import write_text
 from pyimu.model.part import Part
 from pyimu.model.part_reader import meant, parse_part
 from pyimu.model.part_writer import format_part
@@ -91,13 +91,5 @@ def save_part(part: Part, path: str | os.PathLike) -> Path:
     where the file cannot be written.
     """
     path = Path(path)
-    temporary = path.with_name(f".{path.name}.{uuid.uuid4().hex}")
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        temporary.write_text(format_part(part), encoding="utf-8")
-        os.replace(temporary, path)
-    except OSError as error:
-        raise UserError(f"{path}: cannot be written ({error.strerror or error})") from None
-    finally:
-        temporary.unlink(missing_ok=True)
+    write_text(path, format_part(part))
     return path

@@ -4,22 +4,16 @@ whole or not at all.
 
 from __future__ import annotations
 
-import errno
-import os
-import shutil
-import uuid
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import lru_cache
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup, escape
 
-from pyimu.errors import Finding, UserError
+from pyimu.errors import Finding
 from pyimu.report.numbers import MISSING, in_unit, number, pretty, quantity, si_quantity, unit_for
 
 SAMPLE = (
@@ -41,31 +35,6 @@ SECONDS, SECONDS_OF_TIME = (
     ("longest", "total", "rms", "first", "origin"),
 )
 """Details of findings that are times; the latter those of the column ``time`` only."""
-
-
-@contextmanager
-def staged(out: Path) -> Iterator[Path]:
-    """A folder beside the results whose files take their places once the block has ended well."""
-    stage = out / f".report.{uuid.uuid4().hex}"
-    try:
-        stage.mkdir(parents=True)
-        yield stage
-        _check_places(out, files := sorted(stage.iterdir()))
-        for file in files:
-            os.replace(file, out / file.name)
-    except OSError as error:
-        raise UserError(
-            f"{out}: the report cannot be written ({error.strerror or error})"
-        ) from None
-    finally:
-        shutil.rmtree(stage, ignore_errors=True)
-
-
-def _check_places(out: Path, files: list[Path]) -> None:
-    """Raises OSError where a file cannot take its place, before the first one has."""
-    for file in files:
-        if (out / file.name).is_dir() and not (out / file.name).is_symlink():
-            raise IsADirectoryError(errno.EISDIR, f"{file.name} is a folder there")
 
 
 @dataclass(frozen=True)

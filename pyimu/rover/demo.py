@@ -9,7 +9,6 @@ factor.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,11 +18,12 @@ from matplotlib.figure import Figure
 from scipy.ndimage import gaussian_filter1d
 from scipy.spatial.transform import Rotation
 
+from pyimu.files import whole
 from pyimu.identification.attitude_error import AttitudeError, attitude_error
 from pyimu.identification.close import close
 from pyimu.identification.fit.columns import band_time, in_band, residual
 from pyimu.identification.fit.score import held_state
-from pyimu.identification.report.deliver import check_delivery, deliver
+from pyimu.identification.report.deliver import check_delivery
 from pyimu.identification.result import Closed
 from pyimu.model.part import Part
 from pyimu.model.part_file import part
@@ -151,7 +151,7 @@ def run_demo(out: Path | str, say: Callable[[str], None] = lambda text: None) ->
         attitude_error(log, p, np.array(entry["rotation"]), len(log.time) - held)
         for p in (closed.before, closed.after)
     ]
-    deliver(closed, out, say)
+    closed.write(out, say=say)
     shown = Demo(closed, *pair)
     draw_before_and_after(shown, out / "heading.png")
     return shown
@@ -182,6 +182,5 @@ def draw_before_and_after(shown: Demo, path: Path) -> None:
     for panel in (left, right):
         panel.grid(alpha=0.3)
         panel.legend(frameon=False)
-    work = path.with_name(f".{path.name}")
-    figure.savefig(work, format="png")
-    os.replace(work, path)
+    with whole(path) as unfinished:
+        figure.savefig(unfinished, format="png")

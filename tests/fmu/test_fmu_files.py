@@ -25,6 +25,7 @@ from pyimu.block.block import Block
 from pyimu.block.normals import normals
 from pyimu.block.variables import NoiseChannel, Variable
 from pyimu.errors import UserError
+from pyimu.files import check_folder
 from pyimu.fmu import (
     FORMS,
     PLATFORMS,
@@ -38,7 +39,6 @@ from pyimu.fmu import (
     write_generated,
 )
 from pyimu.fmu.build import FLAGS, header_folder, icon
-from pyimu.fmu.package import check_folder
 from pyimu.fmu.sources import DESCRIPTION, PAGE
 from pyimu.model.part import Part, Sensor
 

@@ -12,22 +12,22 @@ import world
 from numpy.testing import assert_allclose
 
 from pyimu.errors import Finding, UserError
+from pyimu.files import staged
 from pyimu.identification.close import close
 from pyimu.identification.fit.band import Band
 from pyimu.identification.fit.response import is_step
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk
-from pyimu.identification.report import page as report
-from pyimu.identification.report import pictures
-from pyimu.identification.report.page import write_report
+from pyimu.identification.outcome import Added
+from pyimu.identification.report import deliver, pictures
+from pyimu.identification.report.page import page as page_of
 from pyimu.identification.report.words import headline, plain_equation
-from pyimu.identification.result import Added
 from pyimu.identification.search.leftover import Unexplained
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.part_file import part
 from pyimu.recording.recording import Recording
 from pyimu.report.numbers import CORNER, SHOWN, number, pretty, quantity, with_error
-from pyimu.report.page import detail, staged
+from pyimu.report.page import detail
 from pyimu.units import same_dimension
 
 FILES = ("report.html", "report.json", "model.toml")
@@ -55,7 +55,7 @@ def undecided():
 @pytest.fixture(scope="module")
 def folder(closed, tmp_path_factory):
     out = tmp_path_factory.mktemp("report")
-    write_report(closed, out, ("ImuSensor.fmi2.fmu",))
+    closed.write(out, units=False)
     return out
 
 
@@ -145,16 +145,16 @@ def test_interrupted_writing_leaves_earlier_results_as_they_were(
     def fail(*_):
         raise failure
 
-    monkeypatch.setattr(report, writer, fail)
+    monkeypatch.setattr(deliver, writer, fail)
     with pytest.raises(seen):
-        write_report(replace(closed, verdict="clean"), folder)
+        replace(closed, verdict="clean").write(folder, units=False)
     assert {f.name: f.read_bytes() for f in folder.iterdir()} == earlier
 
 
 def test_folder_that_cannot_be_made_is_the_users_error(closed, tmp_path):
     (tmp_path / "file").write_text("")
-    with pytest.raises(UserError, match="cannot be written"):
-        write_report(closed, tmp_path / "file" / "out")
+    with pytest.raises(UserError, match="cannot write there"):
+        closed.write(tmp_path / "file" / "out", units=False)
 
 
 def test_named_sentence(closed):
@@ -190,17 +190,17 @@ def test_each_verdict_has_its_sentence_on_the_page(closed, verdict):
     changes, sentence = VERDICTS[verdict]
     other = replace(closed, verdict=verdict, added=(), **({"unexplained": ()} | changes))
     assert sentence in headline(other)
-    assert sentence in report.page(other)
+    assert sentence in page_of(other)
 
 
 def test_page_of_logs_that_cannot_decide(undecided):
     assert undecided.verdict == "undecidable"
-    page = report.page(undecided)
+    page = page_of(undecided)
     assert "These logs cannot decide it" in page and "Nothing." in page
 
 
 def test_page_without_any_log_is_still_a_page(undecided):
-    page = report.page(
+    page = page_of(
         replace(
             undecided, investigations={}, errors={}, recordings=(), log_likelihood=None, band_hz={}
         )
@@ -345,7 +345,7 @@ def test_fraction_in_print():
 
 def test_what_a_log_is_called_cannot_break_the_page(undecided):
     entry = replace(undecided.recordings[0], file="<b>log</b>.csv")
-    assert "<b>" not in report.page(
+    assert "<b>" not in page_of(
         replace(undecided, recordings=(entry,), before=replace(undecided.before, name="<b>"))
     )
 

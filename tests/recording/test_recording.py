@@ -299,8 +299,9 @@ def test_equal_recordings_give_equal_files(tmp_path):
 
 def test_write_to_nowhere(tmp_path):
     r = Recording.from_arrays(time=np.arange(3.0), gyro=np.eye(3))
+    (tmp_path / "file").touch()
     with pytest.raises(UserError, match="cannot be written"):
-        r.write(tmp_path / "none" / "log.csv")
+        r.write(tmp_path / "file" / "log.csv")
     with pytest.raises(UserError, match="must end in"):
         r.write(tmp_path / "log.txt")
 

@@ -4,7 +4,6 @@ whole or not at all.
 
 from __future__ import annotations
 
-import json
 import os
 from pathlib import Path
 from typing import Any
@@ -46,10 +45,11 @@ from pyimu.characterization.result import (
     floor,
     read_instability,
 )
+from pyimu.files import check_folder, staged, write_json, write_text
 from pyimu.model.part import AXES
 from pyimu.model.part_file import save_part
 from pyimu.report.numbers import MISSING, SCRIPTS, in_unit, number, pretty, unit_for
-from pyimu.report.page import Picture, Table, prose, staged, templates
+from pyimu.report.page import Picture, Table, prose, templates
 
 PART = "part.toml"
 
@@ -68,10 +68,8 @@ def write_characterization(c: Characterization, out: str | os.PathLike) -> Path:
         else os.path.commonprefix([log.name for log in c.logs]).strip("_-. ") or "characterised"
     )
     with staged(out) as stage:
-        (stage / "report.html").write_text(page(c), encoding="utf-8")
-        (stage / "report.json").write_text(
-            json.dumps(c.as_dict(), indent=1) + "\n", encoding="utf-8"
-        )
+        write_text(stage / "report.html", page(c))
+        write_json(stage / "report.json", c.as_dict())
         save_part(c.part(name), stage / PART)
     return out / "report.html"
 
@@ -80,8 +78,6 @@ def check_delivery(out: str | os.PathLike) -> None:
     """Raise UserError now for what would else end ``write_characterization`` after all the work: a
     folder that is none.
     """
-    from pyimu.fmu.package import check_folder  # which loads casadi
-
     check_folder(out)
 
 

@@ -58,6 +58,17 @@ def own_noise(fitted: Fit) -> dict[int, RandomWalk]:
     return {i: RandomWalk(float(white[i] ** 2), float(walk[i] ** 2)) for i in fitted.noise}
 
 
+def floor_noise(fit: Fit) -> dict[int, RandomWalk]:
+    """Noise at the sample rate for the floor: as fitted, or the sensor's own where the reference is
+    derived.
+    """
+    return (
+        dict(fit.noise)
+        if all(isinstance(n, RandomWalk) for n in fit.noise.values())
+        else own_noise(fit)
+    )
+
+
 def simulated(
     noise: dict[int, RandomWalk], time: np.ndarray, rng: np.random.Generator
 ) -> np.ndarray:

@@ -1,20 +1,17 @@
-"""Write what ``close`` found: FMUs of the sensor as it was and as it is now, then the report that
-names them.
+"""Write what the loop found: units of the sensor as it was and as it is now, the report that names
+them, and the model.
 """
 
 from __future__ import annotations
 
-import os
-import shutil
-import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
-from pyimu.errors import UserError
+from pyimu.files import check_folder, staged, write_json, write_text
 from pyimu.fmu.build import build_fmus, host_compiler
-from pyimu.fmu.package import check_folder
-from pyimu.identification.report.page import write_report
-from pyimu.identification.result import Closed
+from pyimu.identification.outcome import Outcome
+from pyimu.identification.report.page import MODEL, page
+from pyimu.model.part_file import save_part
 
 
 def check_delivery(out: Path | str) -> None:
@@ -25,42 +22,23 @@ def check_delivery(out: Path | str) -> None:
     host_compiler()
 
 
-def deliver(
-    closed: Closed, out: Path | str, say: Callable[[str], None] = lambda text: None
-) -> Path:
-    """Fill the folder ``out``: the FMUs of the part after, those of the part before under
-    ``before/``, report and model.
-
-    Everything is made beside ``out`` first; until all of it exists, what was in ``out`` stays.
-    Gives the report's path. Raises UserError where the folder cannot be written or no compiler is
-    found.
-    """
-    out = Path(out)
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-        work = Path(tempfile.mkdtemp(prefix=".making-", dir=out))
-    except OSError as error:
-        raise UserError(
-            f"{out}: cannot write there ({error.strerror}); give another folder with --out"
-        ) from error
-    try:
-        say("compiling the FMUs")
-        made = [
-            p
-            for folder, part in (("", closed.after), ("before", closed.before))
-            for p in build_fmus(part.block, _folder(work / folder))
-        ]
-        names = tuple(p.relative_to(work).as_posix() for p in made)
+def deliver(closed: Outcome, out: Path, units: bool, say: Callable[[str], None]) -> Path:
+    """What ``Closed.write`` says."""
+    with staged(out) as stage:
+        names = _build_units(closed, stage, say) if units else ()
         say("drawing the report")
-        report = write_report(closed, out, names)
-        for path, name in zip(made, names, strict=True):
-            (out / name).parent.mkdir(exist_ok=True)
-            os.replace(path, out / name)
-        return report
-    finally:
-        shutil.rmtree(work, ignore_errors=True)
+        write_text(stage / "report.html", page(closed, names))
+        write_json(stage / "report.json", closed.as_dict(MODEL, names))
+        save_part(closed.after, stage / MODEL)
+    return out / "report.html"
 
 
-def _folder(path: Path) -> Path:
-    path.mkdir(exist_ok=True)
-    return path
+def _build_units(closed: Outcome, stage: Path, say: Callable[[str], None]) -> tuple[str, ...]:
+    """Names of the units made in the folder ``stage``."""
+    say("compiling the FMUs")
+    made = [
+        path
+        for folder, part in ((stage, closed.after), (stage / "before", closed.before))
+        for path in build_fmus(part.block, folder)
+    ]
+    return tuple(path.relative_to(stage).as_posix() for path in made)

@@ -4,10 +4,7 @@ or not at all.
 
 from __future__ import annotations
 
-import json
-import os
 from collections.abc import Iterable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,6 +12,7 @@ from markupsafe import Markup
 from scipy.spatial.transform import Rotation
 
 from pyimu.identification.fit.score import WINDOW
+from pyimu.identification.outcome import Added, Changed, Errors, Outcome, Visibility
 from pyimu.identification.report import pictures
 from pyimu.identification.report.words import (
     FEW,
@@ -25,35 +23,15 @@ from pyimu.identification.report.words import (
     plain_equation,
     si_of,
 )
-from pyimu.identification.result import Added, Changed, Closed, Errors, Visibility
 from pyimu.identification.search.forward import Investigation
 from pyimu.model.catalogue import CATALOGUE
-from pyimu.model.part_file import save_part
 from pyimu.report.numbers import MISSING, in_unit, number, pretty, si_quantity, unit_for, with_error
-from pyimu.report.page import Picture, Table, both, prose, quality_table, staged, templates
+from pyimu.report.page import Picture, Table, both, prose, quality_table, templates
 
 MODEL = "model.toml"
 
 
-def write_report(closed: Closed, out: str | os.PathLike, fmus: tuple[str, ...] = ()) -> Path:
-    """Write ``report.html``, ``report.json`` and ``model.toml`` into the folder ``out``; returns
-    the page's path.
-
-    ``fmus`` are the names of the units built from the model, which the report lists. The three
-    files take the place of earlier ones only once all are written. Raises UserError where the
-    folder cannot be written.
-    """
-    out = Path(out)
-    with staged(out) as stage:
-        (stage / "report.html").write_text(page(closed, fmus), encoding="utf-8")
-        (stage / "report.json").write_text(
-            json.dumps(closed.as_dict(MODEL, fmus), indent=2) + "\n", encoding="utf-8"
-        )
-        save_part(closed.after, stage / MODEL)
-    return out / "report.html"
-
-
-def page(closed: Closed, fmus: tuple[str, ...] = ()) -> str:
+def page(closed: Outcome, fmus: tuple[str, ...] = ()) -> str:
     """The report as one HTML page that needs nothing beside it."""
     return (
         templates("pyimu.identification.report")
@@ -62,7 +40,7 @@ def page(closed: Closed, fmus: tuple[str, ...] = ()) -> str:
     )
 
 
-def _contents(closed: Closed, fmus: tuple[str, ...]) -> dict[str, Any]:
+def _contents(closed: Outcome, fmus: tuple[str, ...]) -> dict[str, Any]:
     found = {kind: pictures.traces(inv) for kind, inv in closed.investigations.items()}
     return {
         "verdict": closed.verdict,
@@ -93,7 +71,7 @@ def _contents(closed: Closed, fmus: tuple[str, ...]) -> dict[str, Any]:
     }
 
 
-def _about(closed: Closed) -> str:
+def _about(closed: Outcome) -> str:
     count = len(closed.recordings)
     return f"{count} recording{'s' * (count != 1)}, part {closed.before.name}"
 
@@ -101,7 +79,7 @@ def _about(closed: Closed) -> str:
 # Pictures with their captions
 
 
-def _over_time(closed: Closed, kind: str, found: list[pictures.Trace]) -> Picture:
+def _over_time(closed: Outcome, kind: str, found: list[pictures.Trace]) -> Picture:
     errors, si = closed.errors.get(kind), closed.after.sensor(kind).output.unit
     floor = errors.floor.per_axis if errors and errors.floor else None
     names = [t.trial.name for t in found]
@@ -119,12 +97,12 @@ def _over_time(closed: Closed, kind: str, found: list[pictures.Trace]) -> Pictur
     )
 
 
-def _band(closed: Closed, kind: str) -> str:
+def _band(closed: Outcome, kind: str) -> str:
     band = closed.band_hz.get(kind)
     return "" if band is None else f", below {number(band)} Hz"
 
 
-def _screening(closed: Closed, kind: str, inv: Investigation) -> Picture:
+def _screening(closed: Outcome, kind: str, inv: Investigation) -> Picture:
     added = [a.effect for a in closed.added if a.sensor == kind]
     caption = (
         f"{SENSORS[kind].capitalize()}: how much each absent effect would explain. "
@@ -141,7 +119,7 @@ def _screening(closed: Closed, kind: str, inv: Investigation) -> Picture:
 
 
 def _spectrum(
-    closed: Closed, kind: str, inv: Investigation, found: list[pictures.Trace]
+    closed: Outcome, kind: str, inv: Investigation, found: list[pictures.Trace]
 ) -> Picture | None:
     svg = pictures.spectrum(inv, found)
     caption = (
@@ -161,7 +139,7 @@ def _spectrum(
 # Error
 
 
-def _errors(closed: Closed) -> Table:
+def _errors(closed: Outcome) -> Table:
     table = Table(("RMS", "before", "after", "ratio", "floor"))
     for kind, e in closed.errors.items():
         table.rows.extend(_error_rows(QUANTITIES[kind], e, e.unit, "total", "per_axis"))
@@ -207,7 +185,7 @@ def _compared(values: list, si: str, unit: str) -> tuple:
     return both(before, si, unit), both(after, si, unit), ratio, both(floor, si, unit)
 
 
-def _error_notes(closed: Closed) -> list[str]:
+def _error_notes(closed: Outcome) -> list[str]:
     where = (
         "the logs named for it"
         if closed.held_out == "holdout"
@@ -227,7 +205,7 @@ def _error_notes(closed: Closed) -> list[str]:
     return notes
 
 
-def _by_log(closed: Closed) -> Table:
+def _by_log(closed: Outcome) -> Table:
     table = Table(
         ("recording", "samples", "held out", "sensor", "before", "after", "ratio", "floor")
     )
@@ -244,7 +222,7 @@ def _by_log(closed: Closed) -> Table:
     return table
 
 
-def _log_states(closed: Closed) -> Table:
+def _log_states(closed: Outcome) -> Table:
     table = Table(("recording", "sensor", "bias x", "bias y", "bias z", "mounting rotation", ""))
     for r in closed.recordings:
         for kind, state in r.log_state.items():
@@ -272,7 +250,7 @@ def _turn(rotation: list | None) -> Any:
 # Effects
 
 
-def _added(closed: Closed, a: Added, found: list[pictures.Trace]) -> dict[str, Any]:
+def _added(closed: Outcome, a: Added, found: list[pictures.Trace]) -> dict[str, Any]:
     e = CATALOGUE[a.effect]
     others = f" The data allow as well: {', '.join(a.alternatives)}." if a.alternatives else ""
     evidence = f"Gain {number(a.gain, 4)} nat, gate {number(a.gate)} nat.{others}"
@@ -289,7 +267,7 @@ def _added(closed: Closed, a: Added, found: list[pictures.Trace]) -> dict[str, A
     }
 
 
-def _effect_pictures(closed: Closed, a: Added, found: list[pictures.Trace]) -> list[Picture]:
+def _effect_pictures(closed: Outcome, a: Added, found: list[pictures.Trace]) -> list[Picture]:
     most = 3 if len(closed.added) <= FEW else 1
     made = pictures.against_input(a, closed.investigations[a.sensor], found, most)
     what = (
@@ -332,14 +310,14 @@ def _axes(index: tuple[int, ...]) -> str:
     return f" {','.join('xyz'[i] for i in index)}" if index else ""
 
 
-def _refused(closed: Closed) -> Table:
+def _refused(closed: Outcome) -> Table:
     return Table(
         ("sensor", "effect", "gain [nat]", "why"),
         [(SENSORS[s], r.effect, number(r.gain), prose(r.reason)) for s, r in closed.refused],
     )
 
 
-def _changed(closed: Closed) -> Table:
+def _changed(closed: Outcome) -> Table:
     table = Table(("sensor", "value", "declared", "fitted", "SI, declared", "SI, fitted"))
     for c in closed.changed:
         table.rows.extend(_changed_rows(c))
@@ -367,7 +345,7 @@ def _changed_rows(c: Changed) -> list[tuple]:
     return rows
 
 
-def _remains(closed: Closed) -> list[str]:
+def _remains(closed: Outcome) -> list[str]:
     """What no effect of the catalogue explains."""
     lines = (
         [f"No effect of the catalogue describes that {dependence(closed)}."]

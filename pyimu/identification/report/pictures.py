@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from scipy.signal import welch
 
-from pyimu.identification.close import floor_noise
+from pyimu.identification.fit.attenuation import floor_noise
 from pyimu.identification.fit.columns import (
     LogState,
     band_segments,
@@ -26,7 +26,7 @@ from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.score import held_state
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk
-from pyimu.identification.result import Added
+from pyimu.identification.outcome import Added
 from pyimu.identification.search.forward import Investigation
 from pyimu.identification.search.screen import Screening
 from pyimu.model.catalogue import CATALOGUE

@@ -9,7 +9,8 @@ import re
 import numpy as np
 from markupsafe import Markup, escape
 
-from pyimu.identification.result import Added, Closed, Errors
+from pyimu.identification.outcome import Added, Errors, Outcome
+from pyimu.model.catalogue import CATALOGUE
 from pyimu.report.numbers import (
     CORNER,
     FREQUENCIES,
@@ -55,13 +56,13 @@ SAID = {
 """How an effect is said before its coefficient, where its name and "of" would not be English."""
 
 
-def headline(closed: Closed) -> str:
+def headline(closed: Outcome) -> str:
     """The verdict as a person would say it."""
     sentences = {"named": _named, "unexplained": _unexplained, "drift": _drift, "clean": _clean}
     return sentences.get(closed.verdict, _undecidable)(closed)
 
 
-def _named(closed: Closed) -> str:
+def _named(closed: Outcome) -> str:
     parts = []
     for kind in dict.fromkeys(a.sensor for a in closed.added):
         added = [a for a in closed.added if a.sensor == kind]
@@ -84,14 +85,14 @@ def _were(count: int) -> str:
     return " was" if count == 1 else ", were" if count <= FEW else " were"
 
 
-def _unexplained(closed: Closed) -> str:
+def _unexplained(closed: Outcome) -> str:
     return (
         "Something is missing that no effect of the catalogue describes: "
         f"{dependence(closed)}.{_level(closed)}"
     )
 
 
-def _drift(closed: Closed) -> str:
+def _drift(closed: Outcome) -> str:
     where = joined(
         [
             f"the {SENSORS[s]} on {joined(['xyz'[i] for i in axes])}"
@@ -104,7 +105,7 @@ def _drift(closed: Closed) -> str:
     )
 
 
-def _clean(closed: Closed) -> str:
+def _clean(closed: Outcome) -> str:
     count = len(closed.changed)
     correct = (
         f" {count} declared value{'s' * (count > 1)} should be corrected (see below)."
@@ -114,11 +115,11 @@ def _clean(closed: Closed) -> str:
     return f"Nothing is missing: what the model leaves looks like noise.{_level(closed)}{correct}"
 
 
-def _undecidable(closed: Closed) -> str:
+def _undecidable(closed: Outcome) -> str:
     return f"These logs cannot decide it: {closed.reason.rstrip('.') or 'too little to go by'}."
 
 
-def _level(closed: Closed) -> str:
+def _level(closed: Outcome) -> str:
     said = [
         f"the {QUANTITIES[k]} residual is {quantity(e.after.total, e.unit)}"
         for k, e in closed.errors.items()
@@ -127,7 +128,7 @@ def _level(closed: Closed) -> str:
     return f" On held-out data {joined(said)}." if said else ""
 
 
-def dependence(closed: Closed) -> str:
+def dependence(closed: Outcome) -> str:
     """On what the residual still depends."""
     return joined(
         [
@@ -236,3 +237,39 @@ def plain_equation(latex: str) -> Markup:
     text = re.sub(r"\\sqrt" + GROUP, lambda m: f"√{m[1]}" if len(m[1]) == 1 else f"√({m[1]})", text)
     text = re.sub(r"\\frac" + GROUP + GROUP, r"\1 / (\2)", text)
     return Markup(re.sub(r"\\(?:left|right)?|[{}]", "", text))
+
+
+def in_lines(closed: Outcome) -> str:
+    """The findings in a few lines of text."""
+    lines = [f"verdict: {closed.verdict}" + (f" ({closed.reason})" if closed.reason else "")]
+    lines += [f"  added {describe(a)}" for a in closed.added]
+    lines += [
+        f"  changed {c.sensor}.{c.effect}.{c.parameter}: declared {_short(c.declared)}, fitted "
+        f"{_short(c.fitted)} {c.unit}"
+        for c in closed.changed
+    ]
+    lines += [
+        f"  unexplained: {u.sensor} {u.axis} depends on {' x '.join(u.depends_on)} (p = "
+        f"{u.p_value:.1g})"
+        for u in closed.unexplained
+    ]
+    for kind, e in closed.errors.items():
+        floor = "" if e.floor is None else f", floor {e.floor.total:.4g}"
+        lines.append(
+            f"  {kind} residual on {closed.held_out}: {e.before.total:.4g} -> "
+            f"{e.after.total:.4g} {e.unit}{floor}"
+        )
+    return "\n".join(lines)
+
+
+def describe(a: Added) -> str:
+    """An added effect in one line."""
+    values = ", ".join(f"{n} = {_short(v)} {u}" for n, (v, _, u) in a.parameters.items())
+    others = f"; as well: {', '.join(a.alternatives)}" if a.alternatives else ""
+    return f"{a.sensor}.{a.effect} ({CATALOGUE[a.effect].term}): {values}{others}"
+
+
+def _short(value: np.ndarray) -> str:
+    return np.array2string(
+        np.asarray(value), precision=4, separator=", ", suppress_small=False
+    ).replace("\n", "")

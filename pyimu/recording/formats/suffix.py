@@ -5,7 +5,6 @@ recordings.
 from __future__ import annotations
 
 import gzip
-import os
 from collections.abc import Mapping
 from pathlib import Path
 from types import MappingProxyType
@@ -17,6 +16,7 @@ from pyarrow import csv as pacsv
 from pyarrow import parquet
 
 from pyimu.errors import UserError
+from pyimu.files import whole
 from pyimu.recording.formats.bag import BagTable
 from pyimu.recording.formats.hdf5 import Hdf5Table
 from pyimu.recording.formats.mat import MatTable
@@ -80,15 +80,8 @@ def write_table(path: Path, columns: Mapping[str, np.ndarray]) -> None:
     table = pa.table(
         [pa.array(column, from_pandas=True) for column in columns.values()], names=list(columns)
     )
-    temporary = path.with_name(f".{path.name}.{os.getpid()}")
-    try:
-        with temporary.open("wb") as stream:
-            writer(stream, table)
-        os.replace(temporary, path)
-    except OSError as error:
-        raise UserError(f"{path}: cannot be written ({error.strerror or error})") from None
-    finally:
-        temporary.unlink(missing_ok=True)
+    with whole(path) as unfinished, unfinished.open("wb") as stream:
+        writer(stream, table)
 
 
 def _write_csv(stream: BinaryIO, table: pa.Table) -> None:

@@ -1,0 +1,136 @@
+"""Results as files: each appears whole or not at all, whatever ends the work before it is done."""
+
+from __future__ import annotations
+
+import errno
+import json
+import math
+import os
+import shutil
+import tempfile
+import time
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from pyimu.errors import UserError
+
+PREFIX = ".pyimu-"
+"""How the names of unfinished files and folders begin."""
+
+FORGOTTEN = 24 * 3600.0
+"""s; an unfinished file that old belongs to a run that was killed, and is taken away."""
+
+
+@contextmanager
+def whole(path: Path) -> Iterator[Path]:
+    """A file beside ``path`` that takes its place once the block has ended well.
+
+    Raises UserError where the folder cannot be made or written.
+    """
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        _sweep(path.parent)
+        handle, name = tempfile.mkstemp(dir=path.parent, prefix=PREFIX, suffix=f".{path.name}")
+        os.close(handle)
+        unfinished = Path(name)
+        try:
+            yield unfinished
+            unfinished.chmod(0o644)
+            os.replace(unfinished, path)
+        finally:
+            unfinished.unlink(missing_ok=True)
+    except OSError as error:
+        raise UserError(f"{path}: cannot be written ({error.strerror or error})") from None
+
+
+@contextmanager
+def staged(out: Path) -> Iterator[Path]:
+    """A folder inside ``out`` whose files take their places there once the block has ended well.
+
+    Raises UserError where ``out`` cannot be made or written, or a folder stands where a file is to
+    go.
+    """
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+        _sweep(out)
+        stage = Path(tempfile.mkdtemp(dir=out, prefix=PREFIX))
+    except OSError as error:
+        raise UserError(_no_place(out, error.strerror or str(error))) from None
+    try:
+        yield stage
+        files = sorted(p.relative_to(stage) for p in stage.rglob("*") if p.is_file())
+        _check_places(out, files)
+        for file in files:
+            (out / file).parent.mkdir(parents=True, exist_ok=True)
+            os.replace(stage / file, out / file)
+    except OSError as error:
+        raise UserError(f"{out}: cannot be written ({error.strerror or error})") from None
+    finally:
+        shutil.rmtree(stage, ignore_errors=True)
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write a text file, whole or not at all, with the same bytes on every system."""
+    with whole(path) as unfinished:
+        unfinished.write_text(text, encoding="utf-8", newline="\n")
+
+
+def write_json(path: Path, value: Any) -> None:
+    """Write ``plain(value)`` as JSON, whole or not at all."""
+    write_text(path, json.dumps(plain(value), indent=2, ensure_ascii=False) + "\n")
+
+
+def plain(value: Any) -> Any:
+    """Numbers, arrays, lists and tables as JSON has them; a number that is not finite is null."""
+    if isinstance(value, Mapping):
+        return {str(k): plain(v) for k, v in value.items()}
+    if isinstance(value, np.ndarray):
+        return plain(value.tolist())
+    if isinstance(value, (list, tuple)):
+        return [plain(v) for v in value]
+    if isinstance(value, np.generic):
+        return plain(value.item())
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    return value
+
+
+def check_folder(out: Path | str) -> None:
+    """Raise UserError where the folder ``out`` is none or cannot be made, before work is done that
+    would then be lost.
+    """
+    out = Path(out)
+    try:
+        there = next(p for p in (out, *out.absolute().parents) if p.exists())
+        reason = "" if there.is_dir() else f"{there} is a file"
+        if not reason:
+            # Not by asking for permissions, which root has also where there is nothing to write to,
+            # as in /proc.
+            tempfile.TemporaryDirectory(dir=there, prefix=PREFIX).cleanup()
+    except OSError as error:
+        reason = error.strerror or str(error)
+    if reason:
+        raise UserError(_no_place(out, reason))
+
+
+def _no_place(out: Path, reason: str) -> str:
+    return f"{out}: cannot write there, {reason}; give another folder with --out"
+
+
+def _check_places(out: Path, files: list[Path]) -> None:
+    """Raise OSError where a file cannot take its place, before the first one has."""
+    for file in files:
+        if (out / file).is_dir() and not (out / file).is_symlink():
+            raise IsADirectoryError(errno.EISDIR, f"{file} is a folder there")
+
+
+def _sweep(folder: Path) -> None:
+    """Take away what runs that were killed left unfinished long ago."""
+    for path in folder.glob(f"{PREFIX}*"):
+        with suppress(OSError):
+            if time.time() - path.stat().st_mtime > FORGOTTEN:
+                shutil.rmtree(path) if path.is_dir() else path.unlink()
