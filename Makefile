@@ -3,6 +3,7 @@
 PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/.ready
+CODE := pyimu tests benchmarks examples docs/build
 PART ?= imt30
 OUT ?= out
 
@@ -10,9 +11,9 @@ OUT ?= out
 
 help:
 	@echo "make demo      the whole loop on a built-in recording; report under $(OUT)/demo"
-	@echo "make test      all tests"
-	@echo "make lint      style"
-	@echo "make generate  docs/effects.md, docs/noise.md and fmu_src/generated from the definitions"
+	@echo "make test      all tests, on all cores"
+	@echo "make lint      style, format and types"
+	@echo "make generate  what is written from the definitions: docs, pictures, fmu_src/generated"
 	@echo "make fmus      the FMUs of PART ($(PART)) under $(OUT)/fmus"
 	@echo "make bench     speed against named peers"
 
@@ -20,23 +21,25 @@ help:
 $(READY): pyproject.toml
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or later is needed: make PYTHON=python3.12")'
 	test -x $(BIN)/python || $(PYTHON) -m venv .venv
-	$(BIN)/python -m pip install --quiet --editable '.[test]'
+	$(BIN)/python -m pip install --quiet --editable '.[test,lint]'
 	touch $@
 
 demo: $(READY)
 	$(BIN)/pyimu demo
 
 test: $(READY)
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest -n auto
 
 lint: $(READY)
-	$(BIN)/python -m ruff --version 2>/dev/null || $(BIN)/python -m pip install --quiet ruff
-	$(BIN)/python -m ruff check pyimu tests
+	$(BIN)/python -m ruff check $(CODE)
+	$(BIN)/python -m ruff format --check $(CODE)
+	$(BIN)/python -m mypy
 
 generate: $(READY)
 	$(BIN)/python docs/build/effects_page.py
 	$(BIN)/python docs/build/noise_page.py
 	$(BIN)/python -m pyimu.fmu.generate
+	@echo "Files that changed are named above."
 
 fmus: $(READY)
 	$(BIN)/pyimu build $(PART) --out $(OUT)/fmus

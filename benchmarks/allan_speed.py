@@ -1,6 +1,6 @@
-"""Overlapping Allan deviation of 14 million samples at 100 cluster sizes, time and peak memory
-against allantools' ``oadev`` on the same data.
+"""Time and memory of the overlapping Allan deviation, against allantools.
 
+It is made of 14 million samples at 100 cluster sizes, by allantools' ``oadev`` on the same data.
 ``python benchmarks/allan_speed.py [samples]``; needs allantools, which the package itself does not.
 """
 
@@ -64,8 +64,9 @@ def timed(work, runs: int) -> tuple[float, list]:
 
 
 def peak_above_the_data(samples: int) -> float:
-    """Growth of a fresh process' largest resident size over the call, as a share of the data; all
-    code has run before.
+    """Growth of a fresh process' largest resident size over the call, as a share of the data.
+
+    All code has run before.
     """
     run = subprocess.run(
         [sys.executable, __file__, "--peak", str(samples)],

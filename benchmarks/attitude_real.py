@@ -1,5 +1,5 @@
 """Inclination error of the attitude filter on measured recordings with a known attitude, beside
-vqf's on the same samples.
+that of vqf on the same samples.
 
 ``python benchmarks/attitude_real.py [--data FOLDER]``; the folder (else the environment's
 ``PYIMU_DATA``, else ``../shared/data`` beside the checkout) holds recordings of the BROAD data set
@@ -60,7 +60,7 @@ def main() -> None:
         return
     print(
         f"{'inclination error, RMS [deg]':42s}{'pyimu':>8s}{'vqf':>8s}{'ratio':>8s}"
-        f"{'95 %: pyimu':>13s}{'vqf':>8s}{'gate open':>11s}"
+        f"{'95 %: pyimu':>13s}{'vqf':>8s}{'quasi-static':>13s}"
     )
     for path in paths:
         log = pyimu.read_recording(path)
@@ -77,7 +77,7 @@ def main() -> None:
         print(
             f"{path.name.split('.')[0]:42s}{rms[0]:8.3f}{rms[1]:8.3f}{rms[0] / rms[1]:8.3f}"
             f"{most[0]:13.3f}{most[1]:8.3f}"
-            f"{np.mean(ours.quasi_static[scored]):10.0%} {verdict(rms)}"
+            f"{np.mean(ours.quasi_static[scored]):12.0%} {verdict(rms)}"
         )
 
 

@@ -1,10 +1,10 @@
-"""How often the 95 % intervals of the noise coefficients hold the truth, over a thousand simulated
-logs for each of some kinds of noise.
+"""How often the 95 % intervals of the noise coefficients hold the truth.
 
-``python benchmarks/characterize_coverage.py [logs]`` prints, for each kind and coefficient: how
-often it was needed, how often the interval (or bound) held the truth, and the limits of the
-binomial law for a true 95 % at odds of a thousand to one over the whole table. A coefficient that
-is not there is held by its bound; it is false where it is said to be needed.
+``python benchmarks/characterize_coverage.py [logs]`` simulates a thousand logs for each of some
+kinds of noise. It prints, for each kind and coefficient: how often it was needed, how often the
+interval (or bound) held the truth, and the limits of the binomial law for a true 95 % at odds of a
+thousand to one over the whole table. A coefficient that is not there is held by its bound; it is
+false where it is said to be needed.
 """
 
 import sys
@@ -56,8 +56,9 @@ def main(logs: int = 1000) -> None:
 
 
 def tally(name: str, logs: int, terms: str = TERMS) -> dict[str, tuple[int, int, bool]]:
-    """By coefficient: in how many logs it was needed, in how many it was held, and whether it is
-    there.
+    """What came of each coefficient: how often it was needed, how often held, and if it is there.
+
+    The first two are numbers of logs.
     """
     rng, true = np.random.default_rng(SEED), KINDS[name]
     found = [fit(simulated(rng, **true)) for _ in range(logs)]

@@ -1,10 +1,10 @@
-"""Time and peak memory of ``pyimu characterize`` on a log of 14 million rows of six channels and a
-temperature, four hours at 976 Hz.
+"""Time and peak memory of ``pyimu characterize`` on a log of 14 million rows.
 
-``python benchmarks/characterize_speed.py [rows] [.parquet|.csv]``. The Allan deviation alone,
-against allantools, is in ``allan_speed.py``. The log is made in a temporary folder. Peak memory is
-that of the process' own pages (RssAnon of Linux); the temporary files that hold the samples are
-mapped, and their pages go back to the system when it needs them: they are in the second figure.
+``python benchmarks/characterize_speed.py [rows] [.parquet|.csv]``. The log has six channels and a
+temperature, for four hours at 976 Hz, and is made in a temporary folder. The Allan deviation alone,
+against allantools, is in ``allan_speed.py``. Peak memory is that of the process' own pages (RssAnon
+of Linux); the temporary files that hold the samples are mapped, and their pages go back to the
+system when it needs them: they are in the second figure.
 """
 
 import subprocess

@@ -1,9 +1,8 @@
-"""One-sided density of 14 million samples, time and peak memory against ``scipy.signal.welch`` on
-the same data with the same window.
+"""Time and memory of the one-sided density of 14 million samples, against ``scipy.signal.welch``.
 
-``python benchmarks/psd_speed.py [samples]``. Ours takes the record in pieces, and gives besides
-scipy's density those of its slower levels; scipy's is timed as it is called by default, and without
-taking a mean off each window, which is faster.
+``python benchmarks/psd_speed.py [samples]``. Data and windows are the same. Ours takes the record
+in pieces, and gives the densities of its slower levels besides scipy's; scipy's is timed as it is
+called by default, and without subtracting a mean from each window, which is faster.
 """
 
 import resource
@@ -82,8 +81,9 @@ def timed(work) -> float:
 
 
 def peak(samples: int) -> float:
-    """MiB by which a fresh process' largest resident size grows while it takes that many samples, a
-    piece at a time.
+    """MiB by which a fresh process' largest resident size grows while it takes that many samples.
+
+    It takes them a piece at a time.
     """
     run = subprocess.run(
         [sys.executable, __file__, "--peak", str(samples)],

@@ -1,12 +1,12 @@
-"""A real sensor at rest: does the fitted noise describe the log? Its Allan deviation against a
-simulated band of the fit.
+"""A real sensor at rest: does the fitted noise describe the log?
 
     python examples/adis16405_static.py static.csv    any log at rest; written for one of 2.8 h
 
-The log goes through ``pyimu.characterize``. For each gyro axis logs of the fitted noise are
-simulated in means over a second, and the band is laid so that 99 % of them are inside it at all
-cluster times at once; the table says whether the measured deviation is, and the root mean square of
-the logarithm of the ratio of measured to fitted.
+The log goes through ``pyimu.characterize``, and its Allan deviation is compared with a simulated
+band of the fit. For each gyro axis logs of the fitted noise are simulated in means over a second,
+and the band is laid so that 99 % of them are inside it at all cluster times at once. The table says
+whether the measured deviation is, and the root mean square of the logarithm of the ratio of
+measured to fitted.
 """
 
 from __future__ import annotations
@@ -50,15 +50,10 @@ def simulated(
     x = N / np.sqrt(SECOND) * rng.standard_normal(n) + K * np.sqrt(SECOND) * np.cumsum(
         rng.standard_normal(n)
     )
-    return (
-        x
-        + B
-        * fftconvolve(rng.standard_normal(len(response)), response)[
-            len(response) - n : len(response)
-        ]
-        if B
-        else x
-    )
+    if not B:
+        return x
+    flicker = fftconvolve(rng.standard_normal(len(response)), response)
+    return x + B * flicker[len(response) - n : len(response)]
 
 
 def half_integral(n: int) -> np.ndarray:
@@ -68,8 +63,9 @@ def half_integral(n: int) -> np.ndarray:
 
 
 def band(deviations: np.ndarray, probability: float) -> tuple[np.ndarray, np.ndarray]:
-    """Limits (t,) at equal ranks of simulated ``deviations`` (s, t), the narrowest that hold whole
-    rows with the probability.
+    """Limits (t,) at equal ranks of simulated ``deviations`` (s, t).
+
+    They are the narrowest that hold whole rows with the probability.
     """
     ranks = np.argsort(np.argsort(deviations, axis=0), axis=0)
     outermost = np.minimum(ranks, len(ranks) - 1 - ranks).min(axis=1)
@@ -142,9 +138,7 @@ def main(
     longest: Annotated[float, typer.Option(help="Longest cluster time, s.")] = 1500.0,
     logs: Annotated[int, typer.Option(min=200, help="Simulated logs.")] = 2000,
 ) -> None:
-    """Characterise a log at rest and hold its Allan deviation against a simulated band of the
-    fitted noise.
-    """
+    """Compare the Allan deviation of a log at rest with a simulated band of the fitted noise."""
     Console(width=None if sys.stdout.isatty() else 150).print(compare(log, shortest, longest, logs))
 
 

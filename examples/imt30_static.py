@@ -1,13 +1,13 @@
-"""The five static tests of the IMT30 gyros again, simulated and characterised: Tables 2, 4 and 5 of
-Hidalgo 2012 beside what came back.
+"""The five static tests of the IMT30 gyros again, simulated and characterised.
 
     python examples/imt30_static.py        five tests of four hours, 70 million samples
     python examples/imt30_static.py --hours 0.2 --tests 2 --out look
 
-The sensor is the FMU of the part ``imt30`` (the paper's Tables 1, 2 and 4; no flicker) in its block
-form, at rest and at its reference temperature; test k has the seed k. One test is in memory at a
-time. N and K come from a weighted fit of all five terms to the Allan deviation, so that what is
-printed has an interval; B from the floor of the deviation, as the paper reads it.
+It prints Tables 2, 4 and 5 of Hidalgo 2012 beside what came back. The sensor is the FMU of the part
+``imt30`` (the paper's Tables 1, 2 and 4; no flicker) in its block form, at rest and at its
+reference temperature; test k has the seed k. One test is in memory at a time. N and K come from a
+weighted fit of all five terms to the Allan deviation, so that what is printed has an interval; B
+comes from the floor of the deviation, as the paper reads it.
 """
 
 from __future__ import annotations
@@ -71,8 +71,9 @@ BLUE, ORANGE, GREY = "#0072b2", "#d55e00", "#808487"
 
 @dataclass(frozen=True)
 class Test:
-    """What one static test says: cluster times (t,) s, Allan deviations (t, 3) rad/s, and per axis
-    the fit and the reading.
+    """What one static test says: Allan deviations (t, 3) rad/s at cluster times ``tau`` (t,) s.
+
+    Each axis has a fit and a reading.
     """
 
     tau: np.ndarray
@@ -90,8 +91,9 @@ def paper(term: str) -> np.ndarray:
 def static_log(
     fmu: Path, imt30: Part, samples: int, seed: int, made: Callable[[int], None]
 ) -> np.ndarray:
-    """Gyro rates (samples, 3) rad/s of the sensor at rest, from the block form of its FMU; ``made``
-    hears of each chunk.
+    """Gyro rates (samples, 3) rad/s of the sensor at rest, from the block form of its FMU.
+
+    ``made`` hears how many samples each chunk has.
     """
     rest = np.tile([v.start for v in imt30.block.inputs], (min(CHUNK, samples), 1))
     chunks = (rest[: min(CHUNK, samples - first)] for first in range(0, samples, CHUNK))
@@ -135,8 +137,9 @@ def simulate_tests(hours: float, count: int) -> Iterator[Test]:
 
 @contextmanager
 def progress(total: int) -> Iterator[Callable[..., None]]:
-    """A bar of samples on a terminal, nothing elsewhere; gives the function that is told of samples
-    made and what is being done.
+    """A bar of samples on a terminal, nothing elsewhere.
+
+    It gives the function that is told of samples made and what is being done.
     """
     columns = (
         TextColumn("{task.description}"),
@@ -156,8 +159,9 @@ def progress(total: int) -> Iterator[Callable[..., None]]:
 
 
 def fitted_table(term: str, tests: list[Test]) -> Table:
-    """Table 2 or 4 of the paper beside mean, interval and spread of the fits, and the mean of what
-    is read off the plots.
+    """Table 2 or 4 of the paper beside mean, interval and spread of the fits.
+
+    The last column is the mean of what is read off the plots.
     """
     values, unit, title = PAPER[term]
     table = Table(title=f"{title}, {term} in {unit}", title_justify="left")
@@ -188,8 +192,9 @@ def fitted_table(term: str, tests: list[Test]) -> Table:
 
 
 def floor_table(tests: list[Test]) -> Table:
-    """Table 5: the floor over 0.664 as the paper has it, as N and K of Tables 2 and 4 make it, and
-    as read off the simulated plots.
+    """Table 5: the floor over 0.664 as the paper has it.
+
+    Beside it stand the floor that N and K of Tables 2 and 4 make, and that of the simulated plots.
     """
     values, unit, title = PAPER["B"]
     table = Table(
@@ -225,8 +230,9 @@ def floor_table(tests: list[Test]) -> Table:
 
 
 def read_floor(values: list[float]) -> tuple[Coefficient, float]:
-    """Mean, Student's interval and standard deviation of readings, whose errors only the tests
-    themselves tell; nan from a single one.
+    """Mean, Student's interval and standard deviation of readings; nan from a single one.
+
+    Only the tests themselves tell the errors of readings.
     """
     count, mean = len(values), float(np.mean(values))
     spread = float(np.std(values, ddof=1)) if count > 1 else np.nan
@@ -240,9 +246,8 @@ def shown(c: Coefficient, term: str) -> tuple[str, str]:
     """A coefficient and its interval in the paper's unit, or its bound."""
     if not c.needed:
         return f"< {number(c.high, term)}", "not needed"
-    return number(c.value, term), f"{number(c.low, term)} to {number(c.high, term)}" if np.isfinite(
-        c.low
-    ) else "-"
+    interval = f"{number(c.low, term)} to {number(c.high, term)}" if np.isfinite(c.low) else "-"
+    return number(c.value, term), interval
 
 
 def number(value: float, term: str) -> str:
@@ -258,8 +263,9 @@ def says(yes: bool) -> str:
 
 
 def draw(tests: list[Test], path: Path) -> None:
-    """Allan deviation of every test, axis by axis, with the paper's N and K, the mean fit and the
-    paper's floor.
+    """Draw the Allan deviation of every test, axis by axis.
+
+    With it are drawn the paper's N and K, the mean fit and the paper's floor.
     """
     with matplotlib.rc_context(
         {"font.size": 9, "axes.grid": True, "grid.alpha": 0.25, "legend.frameon": False}
@@ -305,8 +311,9 @@ def main(
     tests: Annotated[int, typer.Option(min=1, help="Number of tests.")] = 5,
     out: Annotated[Path, typer.Option(help="Folder for the picture.")] = Path("out/imt30"),
 ) -> None:
-    """Simulate the paper's static tests of the IMT30, characterise them and print Tables 2, 4 and 5
-    beside what came back.
+    """Simulate the paper's static tests of the IMT30 and print its Tables 2, 4 and 5.
+
+    What came back stands beside the paper's figures.
     """
     started = time.perf_counter()
     if hours * 3600 < SHORTEST:

@@ -1,14 +1,13 @@
-"""The IMT30's thermal drift and noise from logs in which the temperature goes up and down: Tables
-1, 2 and 4 of Hidalgo 2012 beside what comes back.
+"""The IMT30's thermal drift and noise from logs in which the temperature goes up and down.
 
     python examples/imt30_thermal.py            two tests of four hours at 976 Hz
     python examples/imt30_thermal.py --hours 0.2 --tests 1 --out look
 
-The sensor is the FMU of the part ``imt30`` in its block form, at rest, in a chamber that goes from
-15 to 35 degC and back; test k has the seed k. Each log goes through ``pyimu.characterize``,
-which finds the temperature effect in noise that it takes for a random walk, takes it off, and fits
-the noise; report, data and part of all tests are under ``--out``. Table 5 is in
-``imt30_static.py``.
+It prints Tables 1, 2 and 4 of Hidalgo 2012 beside what comes back. The sensor is the FMU of the
+part ``imt30`` in its block form, at rest, in a chamber that goes from 15 to 35 degC and back; test
+k has the seed k. Each log goes through ``pyimu.characterize``, which finds the temperature effect
+in noise that it takes for a random walk, removes it, and fits the noise; report, data and part of
+all tests are under ``--out``. Table 5 is in ``imt30_static.py``.
 """
 
 from __future__ import annotations
@@ -25,9 +24,8 @@ from rich.console import Console
 from rich.table import Table
 
 import pyimu
-from pyimu import Recording, units
+from pyimu import Characterization, Recording, units
 from pyimu.characterization.noise.coefficients import Coefficient
-from pyimu.characterization.result import Characterization
 from pyimu.errors import UserError
 from pyimu.fmu import build_fmu, stream_blocks
 from pyimu.model.part import AXES, Part
@@ -126,8 +124,9 @@ def main(
         "out/imt30_thermal"
     ),
 ) -> None:
-    """Simulate the IMT30 in a changing temperature, characterise it and print Tables 1, 2 and 4
-    beside what came back.
+    """Simulate the IMT30 in a changing temperature and print the paper's Tables 1, 2 and 4.
+
+    What came back stands beside the paper's figures.
     """
     started = time.perf_counter()
     if hours * 3600 < SHORTEST:
@@ -135,7 +134,7 @@ def main(
             f"--hours {hours:g} is {hours * 3600:g} s; a test takes at least {SHORTEST:g} s"
         )
     found = characterise(hours, tests)
-    page = pyimu.write_characterization(found, out)
+    page = found.write(out)
     console = Console(width=None if sys.stdout.isatty() else 120)
     for name in PAPER:
         console.print(table(found, name))

@@ -7,12 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-int MODEL_STEP(const double **arg, double **res, long long *iw, double *w, int memory);
-int MODEL_INITIAL(const double **arg, double **res, long long *iw, double *w, int memory);
-#ifdef MODEL_LIMITS
-int MODEL_LIMITS(const double **arg, double **res, long long *iw, double *w, int memory);
-#endif
-
 /* ---- messages --------------------------------------------------------------------------------------------------- */
 
 static void write_log(const BlockLog *log, bool is_error, const char *format, va_list arguments) {
@@ -130,7 +124,7 @@ static struct BlockState *new_state(void) {
 }
 
 static void forget_noise(Block *block) {
-    for (size_t i = 0; i < N_NOISE; i++) {
+    for (int i = 0; i < N_NOISE; i++) {
         noise_forget(&block->noise[i]);
     }
 }
@@ -247,7 +241,7 @@ bool block_evaluate_initial(Block *block) {
     block->res[0] = now->state;
     block->res[1] = block_outputs(now, 0);
     block->outputs_stale = false;
-    bool done = MODEL_INITIAL(block->arg, block->res, block->iw, block->w, 0) == 0;
+    bool done = model_initial(block->arg, block->res, block->iw, block->w) == 0;
     hold_outputs(now, 1);
     return done;
 }
@@ -259,7 +253,7 @@ static bool within_limits(Block *block) {
     block->arg[0] = block->now->parameters;
     block->arg[1] = &block->now->sample_period;
     block->res[0] = broken;
-    if (MODEL_LIMITS(block->arg, block->res, block->iw, block->w, 0) != 0) {
+    if (model_limits(block->arg, block->res, block->iw, block->w) != 0) {
         return block_refuse(block, "%s: its limits cannot be evaluated", MODEL_NAME);
     }
     for (size_t i = 0; i < N_LIMITS; i++) {
@@ -285,15 +279,15 @@ static void tell_changes(const Block *block, const double *before, const double 
 
 static bool evaluate_step(Block *block, int64_t sample, uint64_t row, const double *normals) {
     struct BlockState *now = block->now;
-    double before[N_OUTPUTS];
+    double before[ROOM(N_OUTPUTS)];
     if (block->log_events) {
-        memcpy(before, block_outputs(now, row > 0 ? row - 1 : now->rows - 1), sizeof before);
+        memcpy(before, block_outputs(now, row > 0 ? row - 1 : now->rows - 1), N_OUTPUTS * sizeof *before);
     }
     const double *arguments[] = {now->state, block_inputs(now, row), now->parameters, normals, &now->sample_period};
     memcpy(block->arg, arguments, sizeof arguments);
     block->res[0] = block->next_state;
     block->res[1] = block_outputs(now, row);
-    if (MODEL_STEP(block->arg, block->res, block->iw, block->w, 0) != 0) {
+    if (model_step(block->arg, block->res, block->iw, block->w) != 0) {
         return false;
     }
     memcpy(now->state, block->next_state, sizeof now->state);
@@ -313,7 +307,7 @@ static size_t draw(Block *block, int64_t first, int64_t last) {
         noise_fill(block->normals, block->now->seed, noise_channels, N_NOISE, first, n);
         return n;
     }
-    for (size_t i = 0; i < N_NOISE; i++) {
+    for (int i = 0; i < N_NOISE; i++) {
         block->normals[i] = noise_at(&block->noise[i], block->now->seed, noise_channels[i], first);
     }
     return n;

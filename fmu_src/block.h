@@ -15,6 +15,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "prefix.h"
+
+PRIVATE_FROM_HERE
+
 typedef enum { KIND_REAL, KIND_BOOLEAN, KIND_INTEGER, KIND_UNSIGNED } Kind;
 typedef enum { ROLE_TIME, ROLE_INPUT, ROLE_TUNABLE, ROLE_FIXED, ROLE_OUTPUT, ROLE_STRUCTURAL } Role;
 
@@ -82,5 +86,7 @@ void block_release(void **state);
 bool block_serialized_size(Block *block, const void *state, size_t *size);
 bool block_serialize(Block *block, const void *state, uint8_t *bytes, size_t size);
 bool block_deserialize(Block *block, const uint8_t *bytes, size_t size, void **state);
+
+PRIVATE_TO_HERE
 
 #endif

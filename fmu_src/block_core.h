@@ -3,8 +3,11 @@
 #define BLOCK_CORE_H
 
 #include "block.h"
+#include "model.h"
 #include "model_table.h"
 #include "noise.h"
+
+PRIVATE_FROM_HERE
 
 #define ROOM(n) ((n) > 0 ? (n) : 1) /* C has no arrays of length zero */
 #define DRAWN 64 /* samples whose noise is drawn at a time, a multiple of the four that come together */
@@ -63,6 +66,8 @@ void block_take(Block *block, struct BlockState *state);
 
 /* Outputs before the first sample, and the state from which it is made. */
 bool block_evaluate_initial(Block *block);
+
+PRIVATE_TO_HERE
 
 static inline double *block_inputs(struct BlockState *state, uint64_t row) {
     return state->table + row * N_INPUTS;

@@ -1,4 +1,11 @@
 /* FMI 2.0 co-simulation over a block: signatures and types, nothing else. */
+#include "prefix.h"
+
+/* The standard's header gives the model's prefix to its functions, too, where no library is to be made: there,
+   FMI2_OVERRIDE_FUNCTION_PREFIX is defined. */
+#ifndef FMI2_FUNCTION_PREFIX
+#define FMI2_FUNCTION_PREFIX MODEL_PREFIX
+#endif
 #include <fmi2Functions.h>
 
 #include <string.h>

@@ -1,4 +1,11 @@
 /* FMI 3.0 co-simulation over a block: signatures and types, nothing else. */
+#include "prefix.h"
+
+/* The standard's header gives the model's prefix to its functions, too, where no library is to be made: there,
+   FMI3_OVERRIDE_FUNCTION_PREFIX is defined. */
+#ifndef FMI3_FUNCTION_PREFIX
+#define FMI3_FUNCTION_PREFIX MODEL_PREFIX
+#endif
 #include <fmi3Functions.h>
 
 #include <stdlib.h>

@@ -11,6 +11,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "prefix.h"
+
 /* The four words that cover samples 4 * block to 4 * block + 3 of one channel: derived data, never saved. */
 typedef struct {
     uint64_t block;

@@ -2,9 +2,9 @@ from . import attitude as attitude
 from . import fmu as fmu
 from . import shaping as shaping
 from . import symbolic as symbolic
-from .attitude.run import AttitudeResult as AttitudeResult
+from .attitude.result import AttitudeResult as AttitudeResult
 from .block.block import Block as Block
-from .characterization.report.page import write_characterization as write_characterization
+from .characterization.result import Characterization as Characterization
 from .characterization.run import characterize as characterize
 from .errors import Finding as Finding
 from .errors import UserError as UserError
@@ -14,6 +14,7 @@ from .identification.result import Closed as Closed
 from .model.catalogue import add_effects as add_effects
 from .model.effect import Effect as Effect
 from .model.effect import Environment as Environment
+from .model.effect import Law as Law
 from .model.effect import Noise as Noise
 from .model.effect import Parameter as Parameter
 from .model.effect import SamplePeriod as SamplePeriod
@@ -30,3 +31,5 @@ from .recording.log import Log as Log
 from .recording.log import open_log as open_log
 from .recording.log import read_recording as read_recording
 from .recording.recording import Recording as Recording
+
+__version__: str

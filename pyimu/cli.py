@@ -13,6 +13,7 @@ from typing import Annotated
 import typer
 
 from pyimu.errors import UserError
+from pyimu.interrupt import Interrupts, ignore_at_exit
 
 # The matrices here are small: BLAS threads would wait for each other longer than they compute.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -32,6 +33,14 @@ Out = Annotated[
 ]
 
 
+Effects = Annotated[
+    list[Path] | None,
+    typer.Option(
+        "--effects", help="Python file with effects of your own; it is run. May be given twice."
+    ),
+]
+
+
 INTERRUPTED = 130
 """Exit status of a run that was broken off from the keyboard."""
 
@@ -40,22 +49,31 @@ def main() -> None:
     """Entry point: an error that the user can mend ends with one line on stderr and exit status
     2.
     """
+    interrupts = Interrupts()
     try:
-        code = app(prog_name="pyimu", standalone_mode=False)
+        with interrupts:
+            code = app(prog_name="pyimu", standalone_mode=False)
         if code == INTERRUPTED:  # the parser's own way to say it
             raise KeyboardInterrupt
-    except UserError as error:
-        code = _refuse(str(error))
     except (KeyboardInterrupt, typer.Abort):
-        code = _refuse("interrupted; earlier results are as they were", INTERRUPTED)
-    except (
-        Exception
-    ) as error:  # the command line parser's own errors know how to say themselves in a line
-        if not hasattr(error, "format_message"):
+        code = _interrupted()
+    except UserError as error:
+        code = _interrupted() if interrupts.asked else _refuse(str(error))
+    except Exception as error:
+        # The command line parser's own errors know how to say themselves in a line.
+        if interrupts.asked:
+            code = _interrupted()
+        elif hasattr(error, "format_message"):
+            command = getattr(getattr(error, "ctx", None), "command_path", None) or "pyimu"
+            code = _refuse(f"{error.format_message()} ({command} --help shows what is possible)")
+        else:
             raise
-        command = getattr(getattr(error, "ctx", None), "command_path", None) or "pyimu"
-        code = _refuse(f"{error.format_message()} ({command} --help shows what is possible)")
+    ignore_at_exit()
     sys.exit(code if isinstance(code, int) else 0)
+
+
+def _interrupted() -> int:
+    return _refuse("interrupted; earlier results are as they were", INTERRUPTED)
 
 
 def _refuse(text: str, code: int = 2) -> int:
@@ -120,15 +138,15 @@ def characterize_command(
     build and pyimu close. Several logs of one part give means and their spread. The samples wait in
     temporary files (TMPDIR says where), so that a log may be larger than memory.
     """
-    from pyimu.characterization.report.page import check_delivery, write_characterization
     from pyimu.characterization.run import characterize
+    from pyimu.files import check_folder
     from pyimu.recording.log import open_log
 
-    check_delivery(out)
+    check_folder(out)
     with progress("reading") as say:
         found = characterize([open_log(path, columns) for path in logs], level, say)
         say("drawing the report")
-        page = write_characterization(found, out)
+        page = found.write(out)
     print(found.report())
     print(f"report: {page}, part: {page.with_name('part.toml')}")
 
@@ -162,6 +180,7 @@ def close_command(
         float | None,
         typer.Option("--latitude", help="Degrees; adds the Earth's rate to a derived reference."),
     ] = None,
+    effects: Effects = None,
 ) -> None:
     """Example: pyimu close rover.csv --part imt30 --out out/rover
 
@@ -176,6 +195,7 @@ def close_command(
     if latitude is not None and not abs(latitude) <= 90:
         raise UserError(f"--latitude {latitude:g}: must lie between -90 and 90 deg")
     check_delivery(out)
+    _add_effects(effects)
     with progress("reading") as say:
         recordings, judges = (
             [read_recording(p, columns) for p in paths] for paths in (logs, holdout or [])
@@ -209,6 +229,7 @@ def build(
     platform: Annotated[
         str, typer.Option("--platform", help="host, all (needs ziglang), or one platform by name.")
     ] = "host",
+    effects: Effects = None,
 ) -> None:
     """Example: pyimu build imt30 --out out/fmus
 
@@ -216,11 +237,13 @@ def build(
     that goes with it.
     """
     from pyimu.fmu.package import build as build_part
+    from pyimu.fmu.sources import Form
 
-    forms = {"2": 2, "3": 3, "block": "block"}
+    forms: dict[str, Form] = {"2": 2, "3": 3, "block": "block"}
     names = [name.strip() for name in fmi.split(",")]
     if not all(name in forms for name in names):
         raise UserError(f"--fmi {fmi}: unknown; known are {', '.join(forms)}, separated by commas")
+    _add_effects(effects)
     with progress(f"compiling {part}"):
         paths = build_part(
             part,
@@ -243,6 +266,7 @@ def parts(
             show_default=False,
         ),
     ] = None,
+    effects: Effects = None,
 ) -> None:
     """Example: pyimu parts mpu6050
 
@@ -252,6 +276,7 @@ def parts(
     """
     from pyimu.report.parts_table import detail, listing, terminal_width
 
+    _add_effects(effects)
     print(detail(name, terminal_width()) if name is not None else listing(width=terminal_width()))
 
 
@@ -271,7 +296,6 @@ def derive_command(
     checked against and the difference that was found just now.
     """
     from pyimu.derivations import derive
-    from pyimu.derivations.files import write
     from pyimu.files import check_folder
 
     if out is not None:
@@ -279,10 +303,17 @@ def derive_command(
     with progress("deriving") as say:
         derived = derive(say)
     print(derived.report(), end="")
-    for path in write(derived, out) if out is not None else []:
+    for path in derived.write(out) if out is not None else []:
         print(path)
     if not derived.passed:
         raise typer.Exit(1)
+
+
+def _add_effects(files: list[Path] | None) -> None:
+    if files:
+        from pyimu.model.catalogue import add_effects
+
+        add_effects(*files)
 
 
 @contextmanager

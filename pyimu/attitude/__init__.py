@@ -2,7 +2,8 @@
 recording.
 """
 
-from pyimu.attitude.run import AttitudeResult, run
+from pyimu.attitude.result import AttitudeResult
+from pyimu.attitude.run import run
 from pyimu.attitude.ukf import attitude_ukf
 from pyimu.attitude.variables import STATUS
 

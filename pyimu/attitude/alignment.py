@@ -1,5 +1,5 @@
-"""The attitude, the bias and their uncertainty before the first sample of a recording: from its
-first seconds at rest.
+"""Attitude, bias and their uncertainty before the first sample of a recording, from its first
+seconds at rest.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 
 from pyimu.attitude.columns import extra_column, recorded_heading, temperature_of
 from pyimu.attitude.compensation import Compensation, noise_of
-from pyimu.attitude.correction import LEVEL
+from pyimu.attitude.heading_update import LEVEL
 from pyimu.attitude.rest import Rest
 from pyimu.attitude.unscented import LARGEST_STD
 from pyimu.attitude.variables import ABSURD, EXTRA_INPUTS
@@ -26,10 +26,10 @@ from pyimu.symbolic.earth import EARTH_RATE, earth_rate
 from pyimu.units import STANDARD_GRAVITY
 
 TILT_STD = 0.01
-"""rad; of an attitude levelled at rest: an accelerometer's turn-on bias of 10 mg."""
+"""rad; tilt of an attitude levelled at rest: an accelerometer's turn-on bias of 10 mg."""
 
 MOVING_TILT_STD = 0.3
-"""rad; of an attitude levelled while moving."""
+"""rad; tilt of an attitude levelled while moving."""
 
 YAW_STD = 1e-3
 """rad; yaw starts at the given heading, or defines where it is zero."""
@@ -38,19 +38,20 @@ BIAS_STD = 0.01
 """rad/s; of the bias of a gyro that was not seen at rest."""
 
 REUSED = 10.0
-"""What the filter will take from the same rows once more starts with so much larger a standard
-deviation: a hundredth counts twice."""
+"""Factor on the standard deviation of what the filter will take from the same rows once more: of
+that information a hundredth counts twice."""
 
 SEEN_AGAIN = np.sqrt(2)
-"""The same of the bias of a rest that is not declared. Gravity tells again at most what the rest's
-mean has told, N^2/T, so that of the two together the variance is between 2/3 and 2 times what it
-should be."""
+"""The same factor for the bias of a rest that is not declared. Gravity gives again at most what the
+mean of the rest has given, N^2/T, so that the variance of both together is between 2/3 and 2 times
+what it should be."""
 
 
 @dataclass(frozen=True)
 class Yaw:
-    """Yaw of the first sample and its standard deviation in rad; ``known`` where it is a heading,
-    not the zero of the yaw.
+    """Yaw of the first sample and its standard deviation in rad.
+
+    ``known`` where it is a heading, not where yaw is defined to be zero.
     """
 
     angle: float = 0.0
@@ -61,28 +62,22 @@ class Yaw:
 def initial_values(
     recording: Recording, part: Part, rest: Rest, latitude: float, q0, yaw: Yaw
 ) -> dict[str, float]:
-    """Start values of the filter, by parameter name."""
+    """Start values of the filter by parameter name: ``latitude``, ``q0``, ``bias0``, ``std0``.
+
+    ``q0`` is the given attitude or None. Raises UserError where it is none.
+    """
     rate, force = _compensated(part, rest, recording)
     attitude = _levelled(force, yaw.angle) if q0 is None else given_attitude(q0)
-    tilt_std = (
-        TILT_STD
-        if q0 is not None
-        else LARGEST_STD
-        if force is None
-        else TILT_STD
-        if rest.seen
-        else MOVING_TILT_STD
-    )
-    yaw_std = YAW_STD if q0 is not None else _yaw_std(yaw, attitude, tilt_std)
+    tilt_std, yaw_std = TILT_STD, YAW_STD
+    if q0 is None:
+        tilt_std = _tilt_std(rest, force)
+        yaw_std = _yaw_std(yaw, attitude, tilt_std)
     axes = attitude.inv().as_matrix()
     attitude_std = np.sqrt(axes**2 @ np.array([tilt_std, tilt_std, yaw_std]) ** 2)
     bias, bias_std = np.zeros(3), np.full(3, BIAS_STD)
     if rest.seen:
-        earth = _earth(
-            latitude,
-            oriented=force is not None or q0 is not None,
-            headed=yaw.known or q0 is not None,
-        )
+        oriented, headed = force is not None or q0 is not None, yaw.known or q0 is not None
+        earth = _earth(latitude, oriented, headed)
         bias, bias_std = _bias(rate, part, rest, attitude, *earth, levelled=force is not None)
     named = {
         "q0": attitude.as_quat(scalar_first=True),
@@ -96,7 +91,9 @@ def initial_values(
 
 
 def given_attitude(q0) -> Rotation:
-    """``q0`` as an attitude. Raises UserError for what is none."""
+    """``q0`` (4,) as an attitude. Raises UserError for other than four finite numbers, and for
+    zeros alone.
+    """
     try:
         numbers = np.asarray(q0, dtype=float)
     except (TypeError, ValueError):
@@ -120,19 +117,19 @@ def _bias(
     unknown: np.ndarray,
     levelled: bool,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Bias (3,) of a gyro at rest in rad/s, and its standard deviation.
+    """Bias (3,) of a gyro at rest and its standard deviation (3,), rad/s.
 
-    ``earth`` (3,) is what is known of the Earth's rate, ``unknown`` (3,) the standard deviation of
-    what is not, in world axes. A body that turns steadily about the vertical shows the same as one
-    at rest whose gyro has that bias: unless the rest is declared, the standard deviation of that
-    axis is no less than half the mean rate, so that a turn, the rarer of the two, is two of them
-    away. Where no gravity shows that the body stays ``levelled``, that holds for each axis.
+    ``earth`` (3,) is what is known of the Earth's rate in world axes, ``unknown`` (3,) the standard
+    deviation of the rest. A body that turns steadily about the vertical measures the same as one at
+    rest with that bias. Unless the rest is declared, the standard deviation about the vertical is
+    therefore at least half the mean rate: a turn, the rarer of the two, is two standard deviations
+    away. Where no gravity confirms that the body stays ``levelled``, that holds for each axis.
     """
     axes = attitude.inv().as_matrix()
     bias = rate - axes @ earth
     variance = mean_bias_std(part, rest) ** 2 + axes**2 @ unknown**2
     # The zero-rate updates of a declared rest find the same bias in the same rows; else gravity
-    # does, as far as it is that good.
+    # does, as far as it is precise enough.
     if rest.declared:
         return bias, REUSED * np.sqrt(variance)
     turning = (axes[:, 2] * (axes[:, 2] @ bias) / 2) ** 2 if levelled else (bias / 2) ** 2
@@ -140,41 +137,38 @@ def _bias(
 
 
 def _earth(latitude: float, oriented: bool, headed: bool) -> tuple[np.ndarray, np.ndarray]:
-    """What is known of the Earth's rate (3,) in the world frame of the start, rad/s, and the
-    standard deviation of what is not.
+    """What is known of the Earth's rate (3,) in the world axes of the start, and the standard
+    deviation (3,) of what is not, rad/s.
 
-    Without a heading its horizontal part has no direction.
+    Without a heading (not ``headed``) the direction of its horizontal part is not known.
     """
     if not (abs(latitude) <= np.pi / 2 and oriented):
         return np.zeros(3), np.full(3, EARTH_RATE)
     earth = np.array(earth_rate(ca.DM(latitude))).ravel()
-    return (
-        (earth, np.zeros(3))
-        if headed
-        else (earth * [0, 0, 1], np.array([1, 1, 0]) * np.hypot(*earth[:2]))
-    )
+    if headed:
+        return earth, np.zeros(3)
+    return earth * [0, 0, 1], np.array([1, 1, 0]) * np.hypot(*earth[:2])
 
 
 def mean_bias_std(part: Part, rest: Rest) -> np.ndarray:
-    """Standard deviation (3,) of a gyro's mean over a rest of T s as its bias at the rest's start,
-    rad/s: white noise, N^2/T, and what walks meanwhile, K^2 T/3, each with what stands for the
-    part's flicker and Gauss-Markov noise in the filter.
+    """Standard deviation (3,) in rad/s of a gyro's mean over a rest as its bias at the start of the
+    rest.
+
+    Over T s that is the white noise, N^2/T, and what walks meanwhile, K^2 T/3, each with what
+    stands for flicker and Gauss-Markov noise of the part in the filter.
     """
-    noise, duration = (
-        noise_of(part.gyro, ca.SX(ca.DM(part.gyro.p)), 1 / part.sample_rate),
-        max(rest.duration, 1e-9),
-    )
+    noise = noise_of(part.gyro, ca.SX(ca.DM(part.gyro.p)), 1 / part.sample_rate)
+    duration = max(rest.duration, 1e-9)
     white, walk = (np.array(ca.evalf(v), dtype=float).ravel() for v in (noise.white, noise.walk))
-    return np.sqrt(
-        np.maximum(rest.rate_mean_std, white / np.sqrt(duration)) ** 2 + walk**2 * duration / 3
-    )
+    mean_std = np.maximum(rest.rate_mean_std, white / np.sqrt(duration))
+    return np.sqrt(mean_std**2 + walk**2 * duration / 3)
 
 
 def _compensated(
     part: Part, rest: Rest, recording: Recording
 ) -> tuple[np.ndarray, np.ndarray | None]:
-    """Mean rate and specific force (3,) of the rest without the part's own errors, as after a long
-    time at rest.
+    """Mean rate (3,) and specific force (3,) of the rest without the part's own errors, as after a
+    long time at rest; None for a force that is not gravity.
     """
     force = np.array([0, 0, STANDARD_GRAVITY]) if rest.force is None else rest.force
     known = {
@@ -201,7 +195,9 @@ def _compensated(
 
 
 def _mean(column, rest: Rest, otherwise) -> np.ndarray:
-    """Mean of a signal over the rest, ``otherwise`` where it is missing there."""
+    """Mean of a signal (n, ...) over the rest, ``otherwise`` where it is missing there; a constant
+    as it is.
+    """
     if np.ndim(column) == 0:
         return np.atleast_1d(column)
     rows = column[rest.rows]
@@ -215,11 +211,11 @@ def _mean(column, rest: Rest, otherwise) -> np.ndarray:
 def initial_yaw(
     recording: Recording, rest: Rest, heading0: float | None, turned: Callable[[int], float]
 ) -> Yaw:
-    """The yaw to start with: ``heading0``, else the first recorded heading, else where yaw is zero.
+    """The yaw to start with: ``heading0`` in rad, else by the first recorded heading, else zero.
 
-    A heading of the rest, or of the first sample, is that of the start. Before a later one the
-    body has turned by ``turned(row)`` rad as the gyro says: the filter starts so that the heading
-    will hardly contradict it, but knows nothing until then.
+    A heading during the rest, or of the first sample, is that of the start. Before a later one the
+    body has turned by ``turned(row)`` rad, as the gyro measures: the filter starts so that this
+    heading will hardly contradict it, and with a yaw that is not known until then.
     """
     if heading0 is not None:
         return Yaw(heading0, YAW_STD, known=True)
@@ -233,12 +229,19 @@ def initial_yaw(
     return Yaw(float(heading[first]) - turned(first), LARGEST_STD)
 
 
+def _tilt_std(rest: Rest, force: np.ndarray | None) -> float:
+    """Standard deviation of the tilt of an attitude levelled by ``force``, rad."""
+    if force is None:
+        return LARGEST_STD
+    return TILT_STD if rest.seen else MOVING_TILT_STD
+
+
 def _yaw_std(yaw: Yaw, attitude: Rotation, tilt_std: float) -> float:
     """Standard deviation of the attitude about the vertical, rad.
 
-    A tilt error p turns the heading of a pitched body by p tan(pitch), and one of second order has
-    a part about the vertical. Near the vertical the forward axis has no heading, and the filter
-    takes none.
+    A tilt error p turns the heading of a pitched body by p tan(pitch), and to second order it has a
+    part about the vertical. Where the forward axis points up or down it has no heading, and the
+    filter uses none.
     """
     std = np.hypot(yaw.std, tilt_std**2 / 2)
     if yaw.known:
@@ -249,8 +252,8 @@ def _yaw_std(yaw: Yaw, attitude: Rotation, tilt_std: float) -> float:
 
 
 def _levelled(force: np.ndarray | None, yaw: float) -> Rotation:
-    """The attitude in which gravity is the only force: roll and pitch from its direction (Groves
-    2013, eqs. 5.101), else none.
+    """The attitude at ``yaw`` rad in which ``force`` (3,) points up: roll and pitch by Groves 2013,
+    eqs. 5.101; level without a force.
     """
     x, y, z = (0.0, 0.0, 1.0) if force is None else force
     q = quaternion.from_euler(

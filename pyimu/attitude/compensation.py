@@ -1,28 +1,28 @@
-"""The sensors' errors undone, and what of them stays as noise: what a part's effects mean to its
-attitude filter.
+"""What a part's effects mean to its attitude filter: the sensors' errors undone, and the noise that
+stays.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import casadi as ca
 
 from pyimu.attitude.variables import EXTRA_INPUTS
-from pyimu.model.effects.noise import flicker_processes
+from pyimu.block.variables import Variable
 from pyimu.model.part import Part, input_variables
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import SIGNALS, Derived, vector
 
 TRUE = ("rate", "specific_force")
-"""What the sensors measure: gyro and accelerometer."""
+"""What gyro and accelerometer measure."""
 
 HORIZON = 100.0
-"""s; over so long a time the random walks that stand for correlated noise grow as it does."""
+"""s; over this time the random walks that stand for correlated noise grow as it does."""
 
 NEWTON = 2
-"""Steps by which rate and force are found where the errors depend on their course; one is exact
-where these are affine in them."""
+"""Steps by which rate and force are found where the errors depend on signals that are made of them;
+one step is exact where the errors are affine in rate and force."""
 
 
 # Compensation
@@ -30,29 +30,31 @@ where these are affine in them."""
 
 @dataclass(frozen=True)
 class Compensation:
-    """A part's effects solved for its inputs, sample by sample, with the memory that they and the
-    derived signals need.
+    """The effects of a ``part`` solved for its inputs, sample by sample, with the memory that they
+    and the derived signals need.
     """
 
     part: Part
 
     @property
     def derived(self) -> Derived:
+        """The signals on which effects depend and that are made from the inputs."""
         return Derived.of(self.part.signals)
 
     @property
     def extra(self) -> tuple[str, ...]:
-        """Signals beside temperature that must be inputs."""
+        """Names of the signals beside temperature that must be inputs."""
         return tuple(n for n in EXTRA_INPUTS if n in self.part.signals)
 
     @property
-    def extra_inputs(self):
+    def extra_inputs(self) -> tuple[Variable, ...]:
+        """The variables of those signals."""
         return input_variables(self.extra)
 
     @property
     def implicit(self) -> bool:
-        """Whether the errors depend on what is only known without them: the course of rate or
-        force, or either sensor on the other.
+        """Whether the errors depend on what is only known without them: on a signal that is made of
+        rate or force, or those of each sensor on the input of the other.
         """
         course = {of for name in self.part.signals for of in SIGNALS[name].of} & {
             "rate",
@@ -64,19 +66,19 @@ class Compensation:
 
     @property
     def start(self) -> list[float]:
-        """The memory before the first sample."""
+        """The memory before the first sample; empty where none is needed."""
         return [0.0] * self.derived.size + [
             *self.part.gyro.chain.start,
             *self.part.accel.chain.start,
         ]
 
     def apply(self, memory, measured: dict, gyro_p, accel_p, h):
-        """Memory that follows, rate and force (3,) without the sensors' errors, and marks (3,) each
-        of what is lost.
+        """The memory after the sample, rate and force (3,) without the sensors' errors, and marks
+        (3,) each of the axes of gyro and accelerometer that are lost.
 
-        ``measured`` has ``rate`` and ``specific_force`` (3,) as measured, and of the other inputs
-        of ``SIGNALS`` what is known: the attitude is the filter's own, the velocity nobody's and
-        taken as zero.
+        ``measured`` has ``rate`` and ``specific_force`` (3,) as measured, and of the other signals
+        what is known: the attitude is the filter's own; the velocity is not known and taken as
+        zero.
         """
 
         def undone(true: dict):
@@ -91,60 +93,42 @@ class Compensation:
         return undone(true)
 
     def _undone(self, memory, measured: dict, true: dict, gyro_p, accel_p, h):
-        """The same, where what the errors depend on follows from the ``true`` rate and force, as
-        far as it is not found on the way.
+        """The same as ``apply``, where the signals on which errors depend follow from the ``true``
+        rate and force, as far as they are not found on the way.
 
-        The sensor goes first on whose input the other's errors depend.
+        That sensor goes first on whose input the errors of the other depend.
         """
-        sizes = [
-            self.derived.size,
-            len(self.part.gyro.chain.start),
-            len(self.part.accel.chain.start),
-        ]
-        before, gyro_state, accel_state = ca.vertsplit(
-            memory, [0, sizes[0], sizes[0] + sizes[1], sum(sizes)]
-        )
-        at = (
-            {
-                n: ca.DM(SIGNALS[n].start)
-                for n in ("attitude", "latitude", "velocity", *EXTRA_INPUTS)
-            }
-            | measured
-            | true
-        )
+        gyro, accel = self.part.gyro, self.part.accel
+        size, of_gyro = self.derived.size, self.derived.size + len(gyro.chain.start)
+        before, gyro_state, accel_state = ca.vertsplit(memory, [0, size, of_gyro, memory.numel()])
+        unknown = ("attitude", "latitude", "velocity", *EXTRA_INPUTS)
+        at = {n: ca.DM(SIGNALS[n].start) for n in unknown} | measured | true
         after, made = self.derived.advance(before, at, h)
         at |= self._where_known(made, measured)
-        states, parameters, out = (
-            {"rate": gyro_state, "specific_force": accel_state},
-            {"rate": gyro_p, "specific_force": accel_p},
-            {},
-        )
-        for name in TRUE if "rate" in self.part.accel.signals else reversed(TRUE):
-            sensor = self.part.gyro if name == "rate" else self.part.accel
-            out[name] = sensor.compensation(
-                states[name], measured[name], vector(at), parameters[name], h
-            )
+        ways = {
+            "rate": (gyro, gyro_state, gyro_p),
+            "specific_force": (accel, accel_state, accel_p),
+        }
+        out = {}
+        for name in TRUE if "rate" in accel.signals else reversed(TRUE):
+            sensor, state, p = ways[name]
+            out[name] = sensor.compensation(state, measured[name], vector(at), p, h)
             at = at | {name: out[name][1]}
-        gyro, accel = (out[n] for n in TRUE)
+        (gyro_after, rate, gyro_lost), (accel_after, force, accel_lost) = (out[n] for n in TRUE)
         # casadi makes a row of nothing out of a slice of one number, and counts it when it is
         # stacked.
-        return (
-            ca.vertcat(after[: sizes[0]], gyro[0], accel[0]),
-            gyro[1],
-            accel[1],
-            gyro[2],
-            accel[2],
-        )
+        kept = ca.vertcat(after[:size], gyro_after, accel_after)
+        return kept, rate, force, gyro_lost, accel_lost
 
     @staticmethod
     def _where_known(made: dict, measured: dict) -> dict:
-        """Without a latitude there is no Earth rate."""
+        """The derived signals; those that need a latitude are zero without one."""
         known = measured.get("latitude_known", 1)
-        return {n: v * known if n == "earth_rate" else v for n, v in made.items()}
+        return {n: v * known if "latitude" in SIGNALS[n].of else v for n, v in made.items()}
 
 
 def _solved(undone, start) -> dict:
-    """Rate and force z (6,) that ``undone(z)`` gives back, by Newton's method from ``start``."""
+    """Rate and force z (6,) with ``undone(z)`` = z, by Newton's method from ``start``."""
     z = ca.SX.sym("z", 6)
     left = ca.vertcat(*undone(z)) - z
     step = z - ca.solve(ca.jacobian(left, z), left)
@@ -157,9 +141,11 @@ def _solved(undone, start) -> dict:
 
 
 @dataclass(frozen=True)
-class Noise:
-    """Densities of a triad as the filter models it: (3,) each; ``white`` {Y}/sqrt(s), ``walk``
-    {y}/sqrt(s), ``relative`` sqrt(s).
+class TriadNoise:
+    """Root densities of a triad's noise as the filter models it, (3,) each.
+
+    With y the unit of the output, rad/s or m/s^2: ``white`` y sqrt(s), the random ``walk``
+    y/sqrt(s), and ``relative`` sqrt(s), the noise that is proportional to the input.
     """
 
     white: ca.SX
@@ -167,72 +153,61 @@ class Noise:
     relative: ca.SX
 
 
-def coefficient(sensor: Sensor, p, effect: str, parameter: str):
-    """A coefficient out of the sensor's parameters ``p`` as a column, zero where the part lacks the
-    effect.
+def coefficients(sensor: Sensor, p, effect: str) -> dict[str, ca.SX]:
+    """The coefficients of an effect out of the sensor's parameters ``p``, each as a column."""
+    found: dict[str, list] = {}
+    for i, slot in enumerate(sensor.slots):
+        if slot.effect == effect:
+            found.setdefault(slot.parameter, []).append(p[i])
+    return {name: ca.vertcat(*values) for name, values in found.items()}
+
+
+def share_added(sensor: Sensor, p, signal: str):
+    """The share of a signal of known size, such as the Earth's rate, that the sensor's own effects
+    add to its input.
     """
-    at = [
-        i
-        for i, slot in enumerate(sensor.slots)
-        if (slot.effect, slot.parameter) == (effect, parameter)
-    ]
-    return ca.vertcat(*[p[i] for i in at]) if at else ca.SX.zeros(3)
+    total = ca.SX(0)
+    for e in sensor.effects:
+        known = [n for n, q in e.parameters.items() if q.known is not None]
+        if known and signal in e.environment.values():
+            total = total + coefficients(sensor, p, e.name)[known[0]]
+    return total
 
 
-def noise_of(sensor: Sensor, p, h=0.0) -> Noise:
-    """White noise, random walk and rate-dependent noise of a triad, with what stands for its
-    correlated noise and its rounding.
+def noise_of(sensor: Sensor, p, h=0.0) -> TriadNoise:
+    """White noise, random walk and rate-dependent noise of a triad, and in the first two what
+    stands for its correlated noise and its rounding; all by the laws of its effects.
 
-    A step q is in each sample of period ``h`` s (0: no rounding) an error of variance q^2/12
-    (Widrow and Kollar 2008, section 5.3), white where the other noise is at least of the order of
-    q; below that, rounding is a bias of up to q/2, which the random walk has to follow.
+    Rounding to a step q adds an error of variance q^2/12 to each sample of period ``h`` s (0: no
+    rounding) (Widrow and Kollar 2008, section 5.3). It is white where the other noise is at least
+    of the order of q; below that, rounding is a bias of up to q/2, which the random walk has to
+    follow. Noise that only changes of the input make is left out.
     """
-    noise = Noise(
-        *(
-            coefficient(sensor, p, *name)
-            for name in (
-                ("angle_random_walk", "N"),
-                ("rate_random_walk", "K"),
-                ("rate_dependent_noise", "k"),
-            )
-        )
-    )
-    if "quantization" in sensor.values:
-        noise = replace(
-            noise,
-            white=ca.sqrt(
-                noise.white**2 + coefficient(sensor, p, "quantization", "q") ** 2 * h / 12
-            ),
-        )
-    for variance, tau in correlated(sensor, p):
-        white, walk = _as_random_walk(variance, tau)
-        noise = replace(
-            noise, white=ca.sqrt(noise.white**2 + white), walk=ca.sqrt(noise.walk**2 + walk)
-        )
-    return noise
-
-
-def correlated(sensor: Sensor, p) -> list[tuple]:
-    """Variance (3,) and correlation time of every Gauss-Markov process in a triad's noise."""
-    out = []
-    if "gauss_markov" in sensor.values:
-        q, tau = (coefficient(sensor, p, "gauss_markov", n) for n in ("q", "tau"))
-        out.append((q**2 * tau / 2, tau))
-    if "bias_instability" in sensor.values:
-        b, low, high = (
-            coefficient(sensor, p, "bias_instability", n) for n in ("B", "f_low", "f_high")
-        )
-        out += [(variance, 1 / rate) for variance, rate in flicker_processes(b, low, high)]
-    return out
+    white, walk, relative = ca.SX.zeros(3), ca.SX.zeros(3), ca.SX.zeros(3)
+    for e in sensor.effects:
+        if e.law is None:
+            continue
+        c = coefficients(sensor, p, e.name)
+        at_rest, at_one = (e.law.value("white", c, h=h, slope=0, x=x) for x in (0, 1))
+        if at_rest is not None:
+            white = ca.sqrt(white**2 + at_rest)
+            relative = ca.sqrt(relative**2 + (at_one - at_rest))
+        if e.law.walk is not None:
+            walk = ca.sqrt(walk**2 + e.law.value("walk", c))
+        for variance, tau in e.law.value("markov", c) or ():
+            fast, slow = _as_random_walk(variance, tau)
+            white, walk = ca.sqrt(white**2 + fast), ca.sqrt(walk**2 + slow)
+    return TriadNoise(white, walk, relative)
 
 
 def _as_random_walk(variance, tau):
-    """Squared densities, white and walk, that stand for a Gauss-Markov process: wider than it, in
-    the filter's few states.
+    """Squared root densities of the white noise and the random walk that together stand for a
+    Gauss-Markov process.
 
-    Over ``HORIZON`` T its increment has the variance 2 s^2 (1 - exp(-T/tau)), which is the walk's
-    K^2 T. What is fast against T acts on the angle like white noise of density 2 s^2 tau; of a
-    slow process the walk has that part already.
+    The filter has no state for the process, so that its model is wider. Over ``HORIZON`` T the
+    increment of the process has the variance 2 s^2 (1 - exp(-T/tau)), which is K^2 T of the walk.
+    A process that is fast against T acts on the angle like white noise of density 2 s^2 tau; of a
+    slow one the walk has that part already.
     """
     grown = -ca.expm1(-HORIZON / tau)
     fast = 1 - grown * tau / HORIZON

@@ -1,10 +1,9 @@
-"""A heading that arrives late: the rings of past yaws and of their noise, and where in them a
-sample of some age stands.
+"""Two rings that let a heading correct the attitude of the past, to which it belongs.
 
 The first ring keeps the yaw of past samples less what headings have corrected since the start: with
-the present correction it is the yaw that the filter now believes the body had then. The second
-keeps the variance that the gyro's noise and losses have added about the vertical since the start:
-the difference to now is what they have added since.
+the present correction added, it is the yaw that the filter now believes the body had then. The
+second ring keeps the variance that the gyro's noise and losses have added about the vertical since
+the start: its difference to the present is what they have added since that sample.
 """
 
 from __future__ import annotations
@@ -13,68 +12,62 @@ import casadi as ca
 import numpy as np
 
 SLOTS = 64
-"""Yaws that are kept; SLOTS - 1 spans make up ``heading_memory``, a span being at least a sample.
-"""
+"""Entries of a ring; SLOTS - 1 spans between them cover ``heading_memory``, and a span is at least
+one sample."""
 
 NEVER = 1e9
-"""A yaw that was not: before the first sample, or of a body that pointed up or down. As a place it
-is past a slot's end, so that the first sample starts the first slot."""
-
+"""An entry without a yaw: before the first sample, or of a body that pointed up or down. As a place
+within a span it is past the end, so that the first sample starts the first slot."""
 
 ROUNDING = 1e-6
-"""Samples by which a span may exceed a whole number and still count as that."""
+"""Samples by which a span may exceed a whole number and still counts as that."""
+
+
+def empty():
+    """Both rings (2 ``SLOTS``,) before the first sample."""
+    return ca.vertcat(NEVER * ca.SX.ones(SLOTS), ca.SX.zeros(SLOTS))
 
 
 def samples_per_slot(memory, h):
-    """Samples from one kept direction to the next, a whole number."""
+    """Samples from one kept yaw to the next, a whole number, for a ``memory`` in s."""
     return ca.fmax(1, ca.ceil(memory / ((SLOTS - 1) * h) - ROUNDING))
 
 
 def following(index, within, memory, h):
-    """Slot and place within its span of the sample after that at ``within`` of slot ``index``; a
-    slot keeps its last sample.
+    """Slot and place within its span of the next sample, after that at ``within`` of slot
+    ``index``.
 
-    The condition is that of ``samples_per_slot``, without rounding it up.
+    A slot keeps the last sample of its span. When a span is full is decided as in
+    ``samples_per_slot``, but without rounding up.
     """
     full = (within + 1 + ROUNDING) * ((SLOTS - 1) * h) >= memory
     index = index + full
     return index - SLOTS * (index >= SLOTS), (1 - full) * (within + 1)
 
 
-def _wrapped(index):
-    return index + SLOTS * (index < 0)
-
-
 def wrapped(angle):
-    """``angle`` in rad within half a turn, which it may exceed by a few turns."""
+    """``angle`` in rad brought to within half a turn; it may exceed that by a few turns."""
     return angle - 2 * np.pi * ca.floor(angle / (2 * np.pi) + 0.5)
 
 
 def oldest(each):
-    """Age in samples up to which every sample is kept, whatever stands in the newest slot."""
+    """Age in samples up to which a yaw is always had, wherever the newest slot is filled to.
+
+    ``each`` is the number of samples per slot.
+    """
     return (SLOTS - 1) * each
 
 
-def place(age, index, within, each):
-    """Slots between which the sample lies that is ``age`` >= 1 samples old, and how far towards the
-    second.
+def neighbours(
+    state: ca.MX, first: int, age: ca.MX, index: ca.MX, within: ca.MX, each: ca.MX
+) -> ca.MX:
+    """The entries on either side of the sample that is ``age`` samples old, as a column (5,): two
+    yaws, the share of the second, and the two entries of the second ring.
 
-    Slot ``index`` is one sample old and holds sample ``within`` of its span.
+    The first ring begins at number ``first`` of ``state``, the second follows it. ``index``,
+    ``within`` and ``each`` are as for ``_between_slots``.
     """
-    within = ca.fmin(within, each - 1)
-    inside = age - 1 < within + 1
-    steps = (age - 1 - (within + 1)) / each
-    first = ca.if_else(inside, 0, 1 + ca.floor(steps))
-    share = ca.if_else(inside, (age - 1) / (within + 1), steps - ca.floor(steps))
-    one = _wrapped(index - first)
-    return one, _wrapped(one - 1), share
-
-
-def picked(state: ca.MX, first: int, age: ca.MX, index: ca.MX, within: ca.MX, each: ca.MX) -> ca.MX:
-    """Two neighbouring yaws of the ring that begins at number ``first`` of ``state``, the share of
-    the second, and what the second ring, which follows, has for the two.
-    """
-    one, two, share = place(age, index, within, each)
+    one, two, share = _between_slots(age, index, within, each)
     return ca.vertcat(
         state.nz[first + one],
         state.nz[first + two],
@@ -84,15 +77,34 @@ def picked(state: ca.MX, first: int, age: ca.MX, index: ca.MX, within: ca.MX, ea
     )
 
 
-def between(neighbours):
-    """The yaw between two by a line, and whether there was one."""
+def _between_slots(age, index, within, each):
+    """The two slots on either side of the sample that is ``age`` >= 1 samples old, and how far it
+    lies towards the second.
+
+    Slot ``index`` is one sample old and holds sample ``within`` of its span of ``each`` samples.
+    """
+    within = ca.fmin(within, each - 1)
+    inside = age - 1 < within + 1
+    steps = (age - 1 - (within + 1)) / each
+    first = ca.if_else(inside, 0, 1 + ca.floor(steps))
+    share = ca.if_else(inside, (age - 1) / (within + 1), steps - ca.floor(steps))
+    one = _in_ring(index - first)
+    return one, _in_ring(one - 1), share
+
+
+def _in_ring(index):
+    return index + SLOTS * (index < 0)
+
+
+def past_yaw(neighbours):
+    """The yaw on a line between two entries of the first ring, and whether both have one."""
     one, two, share, _, _ = ca.vertsplit(neighbours)
     # A share of zero must not let in what is not there yet.
     there = ca.logic_and(one < NEVER, ca.logic_or(share == 0, two < NEVER))
     return one + ca.if_else(share > 0, share * wrapped(two - one), 0), there
 
 
-def grown_between(neighbours):
-    """Of the second ring what ``between`` gives of the first."""
+def past_noise(neighbours):
+    """The variance on the same line between two entries of the second ring."""
     _, _, share, one, two = ca.vertsplit(neighbours)
     return one + ca.if_else(share > 0, share * (two - one), 0)

@@ -1,11 +1,11 @@
-"""The unscented filter in its fast, marginalised form: what is linear in the error state takes no
-sigma points.
+"""Propagation and gravity's measurement in fast, marginalised form: what is linear in the error
+state needs no sigma points.
 
-The rate's error is bilinear in attitude error and bias, so that the propagated mean and covariance
-are had in closed form; the attitude's sigma points of the 13-point filter cancel against each other
-to the fourth order of the standard deviations. Gravity depends on the tilt alone: two pairs of
-points are left, whose odd and even parts are written out. Both give what
-``pyimu.attitude.unscented`` gives, at a fifth of the arithmetic, and neither branches.
+The error of the rate is bilinear in attitude error and bias, so that the propagated mean and
+covariance have a closed form; the sigma points of attitude of the 13-point filter cancel to the
+fourth order of the standard deviations. Gravity depends on the tilt alone: two pairs of points are
+left, whose odd and even parts are written out. Both functions give what
+``pyimu.attitude.sigma_point_filter`` gives, with a fifth of its arithmetic, and neither branches.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ SCALE = N + SPREAD
 """A sigma point is the root of this many times the covariance."""
 
 LARGEST_TURN = 7.0
-"""rad in a sample, more than half a turn about each axis; beyond, where only an absurd bias leads,
-it counts as none, as the series of ``turn`` would not end."""
+"""rad in a sample, more than half a turn about each axis. A larger one, which only an absurd bias
+can cause, counts as none, because the series of ``turn`` would not converge."""
 
 TERMS = 7
-"""Of the series of sine and cosine; at half a turn about each axis they leave out 2e-16 of an
+"""Terms of the series of sine and cosine; at half a turn about each axis the rest is 2e-16 for an
 eighth of the angle."""
 
 
@@ -44,10 +44,11 @@ def _horner(square, coefficients: list[float]):
 
 
 def turn(angle):
-    """The quaternion (4,) of the rotation vector ``angle`` (3,) rad, up to half a turn about each
-    axis, and k, its vector part over ``angle``.
+    """The quaternion (4,) of the rotation vector ``angle`` (3,) rad, and k, its vector part over
+    ``angle``.
 
-    A quarter of the angle by series, doubled twice: (w, k a) squared is (2 w^2 - 1, 2 w k a).
+    Serves up to half a turn about each axis: a quarter of the angle by series, doubled twice, as
+    (w, k a) squared is (2 w^2 - 1, 2 w k a).
     """
     square = ca.dot(angle, angle) / 64
     w, k = _series(square, 0), _series(square, 1) / 8
@@ -57,10 +58,10 @@ def turn(angle):
 
 
 def mean_jacobian(angle, k):
-    """J (3, 3) with exp(a - d) = exp(a) exp(-J d) for small d: I - (1 - cos a)/a^2 [a] + (a - sin
-    a)/a^3 [a]^2.
+    """J (3, 3) with exp(a - d) = exp(a) exp(-J d) for small d.
 
-    Sola 2017, eq. 183. ``k`` is that of ``turn``.
+    J = I - (1 - cos a)/a^2 [a] + (a - sin a)/a^3 [a]^2 (Sola 2017, eq. 183). ``k`` is that of
+    ``turn``.
     """
     square = ca.dot(angle, angle)
     b, c = 2 * k * k, _horner(square, [1 / factorial(3 + 2 * i) for i in range(5)])
@@ -72,40 +73,19 @@ def propagate(x: Estimate, rate, earth, moving, noise, h) -> tuple[Estimate, ca.
     """The estimate one period ``h`` s later, and the matrix (3, 3) of its turn in inertial space
     from the old body axes to the new.
 
-    ``rate`` (3,) rad/s is the compensated rate, ``earth`` (3,) the Earth's in body axes, ``moving``
-    0 or 1 whether it turns at all; ``noise`` is the added variance of attitude, of attitude and
-    bias together, and of bias, (3,) each. With R the turn and G = -h J the error becomes R^T p + G
-    b + R^T p x G b / 2: the mean is that of the last term. The quaternion keeps its length however
-    large that is, as the updates that follow take a vertical of unit length for granted.
+    ``rate`` (3,) rad/s is the compensated rate, ``earth`` (3,) rad/s the Earth's in body axes,
+    ``moving`` 0 or 1 whether the body turns at all. ``noise`` is the variance that is added to the
+    attitude, to attitude and bias together, and to the bias, (3,) each. With R the turn and G = -h
+    J the error becomes R^T p + G b + R^T p x G b / 2, and the mean of the last term is the mean
+    error. The quaternion keeps its length however large that mean is: the updates that follow rely
+    on a vertical of unit length.
     """
     step = h * moving
     angle = (rate - x.bias - earth) * step
     angle *= ca.sumsqr(angle) <= LARGEST_TURN**2
     centre, k = turn(angle)
     own = quaternion.to_matrix(quaternion.product(centre, ca.vertcat(1, earth * step / 2))).T
-    g = -step * mean_jacobian(angle, k)
-    pp, pb, bb = x.covariance[:3, :3], x.covariance[:3, 3:], x.covariance[3:, 3:]
-    turned, leaked = own @ pb, g @ bb
-    mixed, both = (turned + leaked / 2) @ g.T, turned + leaked
-    half = own @ pp
-    attitude, cross, bias = noise
-    upper = {
-        **{
-            (i, j): ca.dot(half[i, :], own[j, :]) + mixed[i, j] + mixed[j, i]
-            for i in range(3)
-            for j in range(i, 3)
-        },
-        **{(i, j + 3): both[i, j] for i in range(3) for j in range(3)},
-        **{(i + 3, j + 3): bb[i, j] for i in range(3) for j in range(i, 3)},
-    }
-    added = {
-        **{(i, i): attitude[i] for i in range(3)},
-        **{(i, i + 3): cross[i] for i in range(3)},
-        **{(i + 3, i + 3): bias[i] for i in range(3)},
-    }
-    covariance = symmetric(
-        N, lambda i, j: upper[i, j] + added[i, j] if (i, j) in added else upper[i, j]
-    )
+    covariance, mixed = _propagated(x.covariance, own, -step * mean_jacobian(angle, k), noise)
     mean = (
         ca.vertcat(mixed[1, 2] - mixed[2, 1], mixed[2, 0] - mixed[0, 2], mixed[0, 1] - mixed[1, 0])
         / 2
@@ -114,15 +94,39 @@ def propagate(x: Estimate, rate, earth, moving, noise, h) -> tuple[Estimate, ca.
     return Estimate(q, x.bias, covariance), own
 
 
-def factors(matrix, columns: int):
-    """D and the columns of unit L with L D L^T the part of a symmetric ``matrix`` that its first
-    ``columns`` account for.
+def _propagated(covariance, own, g, noise):
+    """The covariance (6, 6) of R^T p + G b and b with ``noise`` added, and the covariance (3, 3) of
+    R^T p + G b / 2 with G b.
 
-    The pivots D take no root (Golub and Van Loan 2013, section 4.1.2).
+    ``own`` is R^T, ``g`` is G.
+    """
+    pp, pb, bb = covariance[:3, :3], covariance[:3, 3:], covariance[3:, 3:]
+    turned, leaked = own @ pb, g @ bb
+    mixed, both = (turned + leaked / 2) @ g.T, turned + leaked
+    half = own @ pp
+
+    def entry(i: int, j: int):
+        if j < 3:
+            return ca.dot(half[i, :], own[j, :]) + mixed[i, j] + mixed[j, i]
+        return both[i, j - 3] if i < 3 else bb[i - 3, j - 3]
+
+    attitude, cross, bias = noise
+    added = {(i, i): attitude[i] for i in range(3)}
+    added |= {(i, i + 3): cross[i] for i in range(3)}
+    added |= {(i + 3, i + 3): bias[i] for i in range(3)}
+    whole = symmetric(N, lambda i, j: entry(i, j) + added[i, j] if (i, j) in added else entry(i, j))
+    return whole, mixed
+
+
+def factors(matrix, columns: int):
+    """D and the columns of the unit lower triangular L with L D L^T = ``matrix``, a symmetric one.
+
+    With fewer ``columns`` than the matrix has, L D L^T is the part of it that these account for.
+    The pivots D need no root (Golub and Van Loan 2013, section 4.1.2).
     """
     size, pivots, lower = matrix.shape[0], [], []
     for j in range(columns):
-        # A pivot below zero is one of rounding: its size is as good, and takes no choice.
+        # A pivot below zero is one of rounding: its magnitude serves as well, and needs no choice.
         pivot = (
             ca.fabs(matrix[j, j] - sum((lower[k][j] ** 2 * pivots[k] for k in range(j)), 0)) + FLOOR
         )
@@ -139,11 +143,11 @@ def factors(matrix, columns: int):
 
 def measure_gravity(x: Estimate, axes, magnitude):
     """Predicted force (3,), its covariance (3, 3) and its covariance with the error state (6, 3),
-    for gravity of ``magnitude``.
+    for gravity of ``magnitude`` m/s^2.
 
     ``axes`` (3, 3) has east, north and up in body axes for its rows. Gravity depends on the tilt
-    alone, the error's part along east and north: two pairs of points are left. A pair +-p of
-    Rodrigues parameters turns g by an odd part along p x g and an even one along p x (p x g).
+    alone, the attitude error along east and north: two pairs of sigma points are left. A pair +-p
+    of Rodrigues parameters changes g by an odd part along p x g and an even one along p x (p x g).
     """
     gravity = magnitude * axes[2, :].T
     both = x.covariance[:, :3] @ axes[:2, :].T
@@ -172,28 +176,25 @@ def measure_gravity(x: Estimate, axes, magnitude):
 
 
 def correct(
-    x: Estimate, innovation, variance, judged, cross, up, limit
+    x: Estimate, innovation, variance, cross, up, innovation_gate, gate_variance
 ) -> tuple[Estimate, ca.SX, ca.SX]:
-    """The estimate after a measurement of three, its normalised innovation squared, and how it was
-    weighed, 1 up to ``limit``.
+    """The estimate after a measurement of three numbers, its normalised innovation squared, and the
+    weight that it got.
 
-    ``variance`` (3, 3) of the innovation (3,) weighs it and ``judged`` (3, 3) normalises it,
-    ``cross`` (6, 3) is its covariance with the error state, ``up`` (3,) as for
-    ``unscented.moved``. Beyond ``limit`` the gain is that share smaller which brings the
-    innovation back to it, and the covariance falls by no more than that.
+    The same as ``unscented.correct``, with factors L D L^T in place of roots.
     """
     pivots, lower = factors(variance, 3)
     inverse = [1 / p for p in pivots]
     white = _solved(lower, [innovation[i] for i in range(3)])
     gain = _solved(lower, [cross[:, i] for i in range(3)])
-    own_pivots, own_lower = factors(judged, 3)
+    own_pivots, own_lower = factors(gate_variance, 3)
     nis = sum(
         w * w / d
         for w, d in zip(
             _solved(own_lower, [innovation[i] for i in range(3)]), own_pivots, strict=True
         )
     )
-    weight = ca.if_else(nis > limit, limit / nis, 1)
+    weight = ca.if_else(nis > innovation_gate, innovation_gate / nis, 1)
     scaled = [g * (d * weight) for g, d in zip(gain, inverse, strict=True)]
     change = sum(g * w for g, w in zip(scaled, white, strict=True))
     covariance = symmetric(

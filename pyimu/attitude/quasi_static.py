@@ -1,11 +1,12 @@
-"""The quasi-static estimator: is the accelerometer an inclinometer just now?
+"""The quasi-static estimator: can the accelerometer serve as an inclinometer just now?
 
-A scalar Kalman filter follows the magnitude of the specific force, x+ = x- + K (a - x-); a body
-that does not accelerate shows gravity's (Hidalgo 2012, section 5). A magnitude hardly sees an
-acceleration across gravity, so beside it stands the mean of the force over a second, carried along
-as the gyro says the body turns: what a sample differs from it by is acceleration. In motion that
-mean is itself the measurement of gravity, since a body that stays in its place has no mean
-acceleration (Laidig and Seel 2023 average in the same way, in the frame of the gyro alone).
+A scalar Kalman filter follows the magnitude of the specific force, x+ = x- + K (a - x-). A body
+that does not accelerate measures the magnitude of gravity (Hidalgo 2012, section 5). The magnitude
+hardly changes with an acceleration across gravity. Therefore a mean of the force over a second is
+kept as well, turned along with the body as the gyro measures: what a sample differs from that mean
+is acceleration. In motion the mean itself is the measurement of gravity, because a body that stays
+in its place has no mean acceleration (Laidig and Seel 2023 average in the same way, in the frame of
+the gyro alone).
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from dataclasses import dataclass
 import casadi as ca
 
 SCATTER_TIME = 0.3
-"""s; time constant of the mean square of what the samples differ from the mean force by."""
+"""s; time constant of the mean square of the samples' differences from the mean force."""
 
 
 @dataclass(frozen=True)
@@ -28,8 +29,10 @@ class QuasiStatic:
 
 @dataclass(frozen=True)
 class MeanForce:
-    """The mean specific force (3,) in present body axes, m/s^2, the mean square (m/s^2)^2 of the
-    samples against it, and the s that it spans.
+    """The mean specific force and the samples' scatter about it.
+
+    ``force`` (3,) m/s^2 in present body axes; ``scatter`` (m/s^2)^2 the mean square of the samples'
+    differences from it; ``span`` s the time over which it is taken.
     """
 
     force: ca.SX
@@ -38,15 +41,17 @@ class MeanForce:
 
 
 def where(flag, value, otherwise=0):
-    """``value`` where the flag holds, else ``otherwise``; a flag that is True beforehand makes no
-    choice.
+    """``value`` where the flag holds, else ``otherwise``.
+
+    A flag that is the Python value True costs no choice in the generated code.
     """
     return value if flag is True else ca.if_else(flag, value, otherwise)
 
 
 def follow(x: QuasiStatic, measured, walk_variance, noise_variance, valid) -> QuasiStatic:
-    """The estimator after one more magnitude ``measured``, m/s^2; where it is not ``valid`` only
-    the variance grows.
+    """The estimator after one more ``measured`` magnitude in m/s^2 (Hidalgo 2012, section 5).
+
+    Where the measurement is not ``valid`` the variance grows and the magnitude stays.
     """
     variance = x.variance + walk_variance
     gain = where(valid, variance / (variance + noise_variance))
@@ -54,10 +59,10 @@ def follow(x: QuasiStatic, measured, walk_variance, noise_variance, valid) -> Qu
 
 
 def is_quasi_static(x: QuasiStatic, measured, gravity, tolerance, motion):
-    """Whether the followed magnitude is gravity's to ``tolerance``, and this sample's no further
-    than ``motion`` from it.
+    """Whether the estimated magnitude is within ``tolerance`` of ``gravity``, and the ``measured``
+    one within ``motion`` of the estimated; all in m/s^2.
 
-    The first condition sees what lasts, the second what has only begun; all in m/s^2.
+    The first condition detects an acceleration that lasts, the second one that has only begun.
     """
     return (ca.fabs(x.magnitude - gravity) <= tolerance) * (
         ca.fabs(measured - x.magnitude) <= motion
@@ -71,13 +76,13 @@ def is_near(force, magnitude, tolerance):
 
 
 def average(x: MeanForce, force, turn, time, h, valid, turned) -> MeanForce:
-    """The mean after one more ``force`` (3,), the body having turned by ``turn`` (3, 3), old axes
-    to new; ``time`` constant in s.
+    """The mean after one more ``force`` (3,), with the time constant ``time`` in s.
 
-    The turn is that in inertial space, as the Earth turns little in such a time. It begins as a
-    plain mean, so that nothing of an assumed attitude is in it. Where the gyro was lost (not
-    ``turned``) nobody could carry it along, and where no force was ``valid`` for as long as it
-    spans it is out of date: it begins anew.
+    ``turn`` (3, 3) is the body's turn, from old axes to new; that against inertial space serves,
+    because the Earth turns little in such a time. The mean begins as a plain mean of the samples so
+    far, so that no assumed attitude is in it. It begins anew where it cannot be turned along,
+    because the gyro was lost (not ``turned``), and where no force was ``valid`` for as long as it
+    spans.
     """
     before, whole = where(turned, x.span), time + h
     span = where(valid, whole + (before < time) * (before - time), (before > h) * (before - h))
@@ -88,12 +93,12 @@ def average(x: MeanForce, force, turn, time, h, valid, turned) -> MeanForce:
 
 
 def mean_variance(scatter, time, motion_time, h):
-    """Variance that each sample's mean force has as a measurement of gravity, (m/s^2)^2, while the
-    body moves.
+    """Variance in (m/s^2)^2 of each sample's mean force as a measurement of gravity, while the body
+    moves.
 
-    The mean over ``time`` T of an acceleration is the change of velocity over T. With velocities
-    of the standard deviation s_v = ``motion_time`` times that of the acceleration its variance is
-    (s_v / T)^2, and it keeps for about T: a sample of white noise that stands for it has the
-    variance 2 T (s_v / T)^2 / h.
+    The mean over ``time`` T of an acceleration is the change of velocity over T. If the standard
+    deviation of the velocity is s_v = ``motion_time`` times that of the acceleration, the mean's
+    variance is (s_v / T)^2. The mean changes in a time of about T: a sample of white noise that
+    stands for it has the variance 2 T (s_v / T)^2 / h.
     """
     return 2 * motion_time**2 * scatter / (time * h)

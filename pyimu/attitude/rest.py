@@ -1,5 +1,5 @@
-"""The rest at the start of a recording, from which a filter levels itself and learns the turn-on
-bias.
+"""The rest at the start of a recording, by which a filter is levelled and the gyro's turn-on bias
+found.
 """
 
 from __future__ import annotations
@@ -8,42 +8,33 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pyimu.recording.recording import Recording
+from pyimu.recording.rest import still_rows
 from pyimu.units import STANDARD_GRAVITY
 
-WINDOWS = (30.0, 10.0, 5.0, 2.0, 1.0, 0.5)
-"""s; lengths that are tried, the longest first."""
+LONGEST = 30.0
+"""s; more of a rest is not looked at."""
 
-RATE_STD = 0.02
-"""rad/s; scatter of each gyro axis above which the body moves."""
+LENGTHS = (1.0, 0.25)
+"""s; of the means by which a rest is found, the second where the first find none."""
 
-FORCE_STD = 0.2
-"""m/s^2; scatter of each accelerometer axis above which the body moves."""
-
-RATE_MEAN = 0.1
-"""rad/s; a mean rate above is no bias: data sheets of consumer gyros allow up to 5 deg/s."""
+SHORTEST = 0.5
+"""s; of the rows that are looked at where there is no rest."""
 
 FORCE_OFF = 2.0
-"""m/s^2; a mean force further than that from gravity in its size is not gravity's: no accelerometer
+"""m/s^2; a mean force whose magnitude differs more from gravity is not gravity: no accelerometer
 at rest is off by 0.2 g."""
-
-DRIFT = 5.0
-"""Standard deviations by which the means of a rest's two halves may differ, beside ``RATE_DRIFT``
-and ``FORCE_DRIFT``."""
-
-RATE_DRIFT = 2e-3
-"""rad/s; difference of the halves' mean rates that a sensor at rest may show."""
-
-FORCE_DRIFT = 0.03
-"""m/s^2; the same of the specific force."""
 
 
 @dataclass(frozen=True)
 class Rest:
-    """The rows of a rest and its means and scatters, (3,) rad/s and m/s^2.
+    """The rows of a rest, its ``duration`` in s, and of its samples the means and standard
+    deviations, (3,) in rad/s and m/s^2.
 
-    ``seen`` is False where no rest was found: the means are then those of the shortest window.
+    ``seen`` is False where no rest was found: the rows are then those of the shortest window.
     ``declared`` says that the recording's own column ``stationary`` marks it. ``force`` is None
-    where no accelerometer shows gravity.
+    where no accelerometer measures gravity. ``rate_std`` and ``force_std`` are those of a sample's
+    white noise, ``rate_mean_std`` that of the mean rate.
     """
 
     seen: bool
@@ -57,9 +48,9 @@ class Rest:
     declared: bool = False
 
 
-def find_rest(recording) -> Rest:
-    """The longest rest of up to 30 s that a recording starts with; where it has a column
-    ``stationary``, by that.
+def find_rest(recording: Recording) -> Rest:
+    """The longest rest of up to 30 s with which a recording starts; where it has a column
+    ``stationary``, that decides.
 
     A steady turn about the vertical looks like a rest with a bias; only ``stationary`` tells the
     two apart.
@@ -67,89 +58,83 @@ def find_rest(recording) -> Rest:
     declared = _declared(recording)
     if declared is not None and declared > 1:
         return _rest(recording, declared, seen=True, declared=True)
-    for window in WINDOWS:
-        stop = int(np.searchsorted(recording.time, recording.time[0] + window))
-        if declared is None and stop < len(recording.time) and stop > 3 and _still(recording, stop):
+    for length in LENGTHS if declared is None else ():
+        stop = _still_until(recording, length)
+        if stop > 3 and _is_level(recording, stop):
             return _rest(recording, stop, seen=True)
-    return _rest(recording, max(2, min(stop, len(recording.time))), seen=False)
+    return _rest(recording, max(2, _rows(recording, SHORTEST)), seen=False)
 
 
-def _declared(recording) -> int | None:
-    """Number of rows that the column ``stationary`` marks at the start, at most those of the
-    longest window.
+def _rows(recording: Recording, seconds: float) -> int:
+    """Number of rows in the first ``seconds`` of a recording."""
+    return int(np.searchsorted(recording.time, recording.time[0] + seconds))
+
+
+def _still_until(recording: Recording, length: float) -> int:
+    """Row at which the rest that a recording starts with ends, by means over ``length`` s; 0 where
+    it starts with none.
+    """
+    # Beyond the longest rest, so that what the rest is compared with is there.
+    found = still_rows(recording.slice(0, _rows(recording, LONGEST + 2 * length)), length)
+    stop = found[0][1] if found and found[0][0] == 0 else 0
+    return min(stop, _rows(recording, LONGEST))
+
+
+def _declared(recording: Recording) -> int | None:
+    """Number of rows at the start that the column ``stationary`` marks, at most those of the
+    longest window; None without such a column.
     """
     marks = getattr(recording, "stationary", None)
     if marks is None:
         return None
     still = np.concatenate([np.nan_to_num(marks) > 0.5, [False]])
-    return min(
-        int(np.argmin(still)), int(np.searchsorted(recording.time, recording.time[0] + WINDOWS[0]))
-    )
+    return min(int(np.argmin(still)), _rows(recording, LONGEST))
 
 
 def _finite(values: np.ndarray | None, stop: int) -> np.ndarray:
-    """The finite rows before ``stop``."""
-    return (
-        np.empty((0, 3))
-        if values is None
-        else values[:stop][np.isfinite(values[:stop]).all(axis=1)]
-    )
+    """The finite ones of the rows before ``stop``."""
+    if values is None:
+        return np.empty((0, 3))
+    rows = values[:stop]
+    return rows[np.isfinite(rows).all(axis=1)]
 
 
-def _shows_gravity(force: np.ndarray, off: float) -> bool:
+def _is_gravity(force: np.ndarray, off: float) -> bool:
+    """Whether the mean force has the magnitude of gravity, to ``off`` m/s^2."""
     return bool(len(force)) and abs(np.linalg.norm(force.mean(axis=0)) - STANDARD_GRAVITY) < off
 
 
-def _still(recording, stop: int) -> bool:
+def _is_level(recording: Recording, stop: int) -> bool:
+    """Whether the rows before ``stop`` have rates and gravity; a force that is nothing but zeros
+    says nothing of it.
+    """
     rate, force = (_finite(v, stop) for v in (recording.gyro, recording.accel))
-    if (
-        not len(rate)
-        or not _steady(rate, RATE_STD, RATE_DRIFT)
-        or np.any(np.abs(rate.mean(axis=0)) >= RATE_MEAN)
-    ):
-        return False
-    return (
-        not len(force)
-        or not np.any(force)
-        or _shows_gravity(force, FORCE_OFF)
-        and _steady(force, FORCE_STD, FORCE_DRIFT)
-    )
+    return bool(len(rate)) and (not np.any(force) or _is_gravity(force, FORCE_OFF))
 
 
-def _steady(values: np.ndarray, scatter: float, drift: float) -> bool:
-    """Whether each axis scatters little and its two halves agree."""
-    std, half = values.std(axis=0), len(values) // 2
-    change = (
-        np.abs(values[:half].mean(axis=0) - values[half:].mean(axis=0)) if half else np.zeros(3)
-    )
-    return bool(
-        np.all(std < scatter) and np.all(change < drift + DRIFT * std * 2 / np.sqrt(len(values)))
-    )
-
-
-def _rest(recording, stop: int, seen: bool, declared: bool = False) -> Rest:
+def _rest(recording: Recording, stop: int, seen: bool, declared: bool = False) -> Rest:
+    """The rest of the rows before ``stop``."""
     rate, force = (_finite(v, stop) for v in (recording.gyro, recording.accel))
-    # From differences of neighbours: white noise, without the motion and drift that a mean would
-    # leave in.
-    rate_std, force_std = (
-        np.diff(v, axis=0).std(axis=0) / np.sqrt(2) if len(v) > 2 else np.zeros(3)
-        for v in (rate, force)
-    )
-    mean, mean_std = (
-        (rate.mean(axis=0), rate.std(axis=0) / np.sqrt(len(rate)))
-        if len(rate)
-        else (np.zeros(3), np.zeros(3))
-    )
-    # In motion even a force of half gravity's size is a better direction than none.
-    usable = _shows_gravity(force, FORCE_OFF if seen else STANDARD_GRAVITY / 2)
+    mean, mean_std = np.zeros(3), np.zeros(3)
+    if len(rate):
+        mean, mean_std = rate.mean(axis=0), rate.std(axis=0) / np.sqrt(len(rate))
+    # In motion even a force of half the magnitude of gravity is a better direction than none.
+    usable = _is_gravity(force, FORCE_OFF if seen else STANDARD_GRAVITY / 2)
     return Rest(
         seen and len(rate) > 1,
         slice(0, stop),
         float(recording.time[stop - 1] - recording.time[0]),
         mean,
         force.mean(axis=0) if usable else None,
-        rate_std,
-        force_std,
+        _white_std(rate),
+        _white_std(force),
         np.hypot(mean_std, 1e-6),
         declared,
     )
+
+
+def _white_std(values: np.ndarray) -> np.ndarray:
+    """Standard deviation (3,) of a sample's white noise, from the differences of neighbours: motion
+    and drift are not in it.
+    """
+    return np.diff(values, axis=0).std(axis=0) / np.sqrt(2) if len(values) > 2 else np.zeros(3)

@@ -1,8 +1,8 @@
-"""What one row of the inputs says: the sensors' errors undone, and which of it can be trusted.
+"""One row of the inputs: the sensors' errors undone, and which numbers of it can be trusted.
 
-Nearly every row is ordinary: all finite, inside the sensors' ranges, not the same as ever. One
-comparison for all numbers together finds that out, so that only the few other rows take the time to
-be looked at one by one.
+Nearly every row is ordinary: all numbers are finite, inside the sensors' ranges, and not the same
+for too long. One comparison for all of them together finds that out, so that only the few other
+rows take the time of being looked at number by number.
 """
 
 from __future__ import annotations
@@ -18,16 +18,22 @@ from pyimu.attitude.variables import ABSURD, INPUTS
 from pyimu.model.signals import SIGNALS
 
 LARGEST_KEPT = 1e100
-"""Of the sensors' memory; beyond, what has been kept of the sensors is forgotten."""
+"""Largest sum of squares of the sensors' memory; beyond, that memory begins anew."""
+
+GYRO, ACCEL = slice(0, 3), slice(3, 6)
+"""Where a measured column has the two triads."""
 
 
 @dataclass(frozen=True)
 class Sample:
-    """A sample without the sensors' own errors, ``held`` as measured; ``gyro_lost`` (3,), and the
-    flags, are True or False where that is known beforehand.
+    """A row without the sensors' own errors.
 
-    ``same_for`` (2,) s, ``sensors`` the compensation's memory, and ``lost_for`` (3,) s follow;
-    ``missing``, ``at_limit`` and ``stuck`` make the status.
+    ``held`` is what was measured, in place of a bad number its last good one; ``rate`` (3,) rad/s
+    and ``force`` (3,) m/s^2 are compensated. ``sensors`` is the compensation's memory after the
+    row, ``same_for`` (2,) and ``lost_for`` (3,) are those of ``Memory``. ``gyro_lost`` (3,) marks
+    the axes without a rate, ``force_valid`` whether the force can be used. ``missing``,
+    ``at_limit`` and ``stuck`` make the status. What is known beforehand of an ordinary row is a
+    Python value, and costs nothing in the generated code.
     """
 
     held: ca.SX
@@ -44,9 +50,7 @@ class Sample:
 
 
 def raw_of(u):
-    """What is measured, of the inputs: gyro (3), accel (3), temperature, and the further signals of
-    the part.
-    """
+    """What is measured: gyro (3), accel (3), temperature, and further signals of the part."""
     return ca.vertcat(u[:7], u[len(INPUTS) :])
 
 
@@ -60,8 +64,8 @@ def read(
     )
     same_for = ca.vertcat(
         *[
-            (memory.same_for[i] + h) * (ca.sumsqr(raw[rows] - memory.held[rows]) <= 0)
-            for i, rows in enumerate((slice(0, 3), slice(3, 6)))
+            (memory.same_for[i] + h) * (ca.sumsqr(raw[triad] - memory.held[triad]) <= 0)
+            for i, triad in enumerate((GYRO, ACCEL))
         ]
     )
     stuck = (longest > 0) * (same_for[0] + same_for[1] >= longest)
@@ -80,7 +84,9 @@ def read(
 
 
 def look_closely(compensation: Compensation, memory: Memory, u, settings: Settings, h) -> Sample:
-    """The sample number by number: what is not finite is held, and what is lost is marked."""
+    """The sample number by number: in place of what is not finite stands the last good value, and
+    what is lost is marked.
+    """
     raw = raw_of(u)
     good = ca.fabs(raw) <= ABSURD
     held = ca.if_else(good, raw, memory.held)
@@ -97,30 +103,29 @@ def look_closely(compensation: Compensation, memory: Memory, u, settings: Settin
     fastest = _fastest(h)
     beyond = ca.fabs(rate) > fastest
     lost = _any_of(
-        ca.logic_not(good[:3]), stuck[0], ca.logic_not(rate_good), gyro_lost > 0.5, beyond
+        ca.logic_not(good[GYRO]), stuck[0], ca.logic_not(rate_good), gyro_lost > 0.5, beyond
     )
     unusable = _any_of(
-        ca.logic_not(good[3:6]), stuck[1], ca.logic_not(force_good), accel_lost > 0.5
+        ca.logic_not(good[ACCEL]), stuck[1], ca.logic_not(force_good), accel_lost > 0.5
     )
+    at_limit = ca.fmax(ca.mmax(gyro_lost), ca.mmax(accel_lost)) > 0.5
     return Sample(
         held,
         ca.fmin(ca.fmax(rate, -fastest), fastest),
         force,
         sensors,
         same_for,
-        ca.if_else(lost, memory.lost_for + h, 0),
-        lost,
-        ca.logic_not(ca.mmax(unusable)),
-        ca.logic_not(ca.mmin(good)),
-        ca.logic_or(ca.fmax(ca.mmax(gyro_lost), ca.mmax(accel_lost)) > 0.5, ca.mmax(beyond)),
-        ca.fmax(stuck[0], stuck[1]),
+        lost_for=ca.if_else(lost, memory.lost_for + h, 0),
+        gyro_lost=lost,
+        force_valid=ca.logic_not(ca.mmax(unusable)),
+        missing=ca.logic_not(ca.mmin(good)),
+        at_limit=ca.logic_or(at_limit, ca.mmax(beyond)),
+        stuck=ca.fmax(stuck[0], stuck[1]),
     )
 
 
 def _fastest(h):
-    """Nothing is known of a body that turns by more than half a turn about an axis within a
-    sample.
-    """
+    """Half a turn about an axis within a sample, rad/s; a faster body may have turned anyhow."""
     return ca.pi / h
 
 
@@ -132,9 +137,10 @@ def _any_of(*flags):
 
 
 def _compensated(compensation: Compensation, memory: Memory, raw, settings: Settings, h):
+    """``Compensation.apply`` on a measured column, with what the filter itself knows."""
     known = {
-        "rate": raw[:3],
-        "specific_force": raw[3:6],
+        "rate": raw[GYRO],
+        "specific_force": raw[ACCEL],
         "temperature": raw[6],
         "attitude": memory.estimate.q,
         "latitude": settings.latitude,
@@ -149,11 +155,13 @@ def _compensated(compensation: Compensation, memory: Memory, raw, settings: Sett
 
 def _stuck(held, good, memory: Memory, settings: Settings, h):
     """How long gyro and accelerometer (2,) s have given the same samples, and whether that is too
-    long; a missing one is held, not the same.
+    long.
+
+    A missing sample counts as another, although its last good value is held.
     """
     same = [
-        ca.logic_and(ca.mmin(good[rows]), ca.sumsqr(held[rows] - memory.held[rows]) <= 0)
-        for rows in (slice(0, 3), slice(3, 6))
+        ca.logic_and(ca.mmin(good[triad]), ca.sumsqr(held[triad] - memory.held[triad]) <= 0)
+        for triad in (GYRO, ACCEL)
     ]
     same_for = ca.vertcat(
         *[ca.if_else(flag, memory.same_for[i] + h, 0) for i, flag in enumerate(same)]

@@ -1,4 +1,4 @@
-"""The parameters of the attitude filter's block as its equations use them."""
+"""The parameters of an attitude filter's block as its equations use them."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import casadi as ca
 import numpy as np
 
 from pyimu.attitude import marginal
-from pyimu.attitude.compensation import Compensation, Noise, coefficient, noise_of
+from pyimu.attitude.compensation import Compensation, TriadNoise, noise_of, share_added
 from pyimu.attitude.variables import OWN_PARAMETERS
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.earth import earth_rate
@@ -16,9 +16,12 @@ from pyimu.symbolic.earth import earth_rate
 
 @dataclass(frozen=True)
 class Settings:
-    """The block's own parameters by name; ``earth`` (3,) rad/s the Earth's rate in the world frame,
-    as far as the part does not add it itself, zero where the ``latitude`` in rad is not ``known``;
-    the sensors' coefficients and their noise.
+    """The parameters of a filter, taken apart.
+
+    ``scalar`` are the block's own by name. ``earth`` (3,) rad/s is the Earth's rate in the world
+    frame, as far as the part does not add it itself; zero where the ``latitude`` in rad is not
+    ``known``. ``gyro_p`` and ``accel_p`` are the sensors' coefficients, ``gyro`` and ``accel``
+    their noise.
     """
 
     scalar: dict[str, ca.SX]
@@ -27,34 +30,23 @@ class Settings:
     known: ca.SX
     gyro_p: ca.SX
     accel_p: ca.SX
-    gyro: Noise
-    accel: Noise
+    gyro: TriadNoise
+    accel: TriadNoise
 
     @classmethod
     def of(cls, compensation: Compensation, p) -> Settings:
-        part = compensation.part
+        """From the block's parameters ``p`` as a column."""
+        part, own = compensation.part, len(OWN_PARAMETERS)
         scalar = {v.name: p[i] for i, v in enumerate(OWN_PARAMETERS)}
-        gyro, accel = ca.vertsplit(
-            p[len(OWN_PARAMETERS) :], [0, len(part.gyro.slots), p.numel() - len(OWN_PARAMETERS)]
-        )
+        gyro_p, accel_p = ca.vertsplit(p[own:], [0, len(part.gyro.slots), p.numel() - own])
         known = ca.fabs(scalar["latitude"]) <= np.pi / 2
         latitude = ca.if_else(known, scalar["latitude"], 0)
         # Where the part itself adds the Earth's rate, its compensation has subtracted that share.
-        left = 1 - coefficient(part.gyro, gyro, "earth_rate", "k")[0]
-        # North and up at a latitude are those at the equator, turned about east: cheaper than a
-        # sine and a cosine of the libm.
-        earth = quaternion.rotate(
-            marginal.turn(ca.vertcat(latitude, 0, 0))[0], earth_rate(ca.SX(0))
-        )
-        return cls(
-            scalar,
-            left * known * earth,
-            latitude,
-            known,
-            gyro,
-            accel,
-            *(
-                noise_of(sensor, own, 1 / part.sample_rate)
-                for sensor, own in ((part.gyro, gyro), (part.accel, accel))
-            ),
-        )
+        left = 1 - share_added(part.gyro, gyro_p, "earth_rate")
+        # North and up at a latitude are those at the equator, turned about east: this takes less
+        # than a sine and a cosine of the C library.
+        turned = marginal.turn(ca.vertcat(latitude, 0, 0))[0]
+        earth = quaternion.rotate(turned, earth_rate(ca.SX(0)))
+        period = 1 / part.sample_rate
+        gyro, accel = noise_of(part.gyro, gyro_p, period), noise_of(part.accel, accel_p, period)
+        return cls(scalar, left * known * earth, latitude, known, gyro_p, accel_p, gyro, accel)

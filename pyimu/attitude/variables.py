@@ -1,5 +1,5 @@
-"""The variables of the attitude filter's block: its inputs, outputs and own parameters, and the
-limits of its input.
+"""The variables of an attitude filter's block: inputs, outputs and own parameters, and the limits
+within which it takes numbers.
 """
 
 from __future__ import annotations
@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from pyimu.block.variables import Variable
+from pyimu.model.signals import SURROUNDINGS
 from pyimu.units import STANDARD_GRAVITY
 
 STATUS = {
@@ -26,34 +27,33 @@ STATUS = {
     64: "a heading contradicted the attitude, and was weighed less",
     128: "a variance was not above zero, and its std is shown as 0",
 }
-"""Bits of the output ``status``; 0 is well."""
+"""Bits of the output ``status`` and what each says; 0 is well."""
 
 UNKNOWN_LATITUDE = 10.0
-"""rad; like every value outside -pi/2 to pi/2 (NaN too) it stands for "not known", and no Earth
-rate is subtracted."""
+"""rad; stands for "not known", as does every value outside -pi/2 to pi/2 and NaN. No Earth rate is
+then subtracted."""
 
 ABSURD = 1e6
-"""SI; an input larger than this is treated like one that is not finite, since its square might not
-be."""
+"""SI; a larger input is treated like one that is not finite, because its square might not be."""
 
 LARGEST_BIAS = 100.0
 """rad/s; the largest gyro bias before the first sample."""
 
 LEAST_N = 1e-9
-"""rad/sqrt(s); the least angle random walk of the process noise. Together with ``LEAST_K`` it
-keeps the covariance definite for a part without noise."""
+"""rad/sqrt(s); least angle random walk of the process noise. Together with ``LEAST_K`` it keeps the
+covariance definite for a part without noise."""
 
 LEAST_K = 1e-10
-"""rad/s/sqrt(s); the least rate random walk of the process noise."""
+"""rad/s/sqrt(s); least rate random walk of the process noise."""
 
 LEAST_ACCEL_STD = 1e-4
-"""m/s^2; the least standard deviation of a sample of specific force."""
+"""m/s^2; least standard deviation of a sample of specific force."""
 
 LEAST_HEADING_STD = 1e-6
-"""rad; the least standard deviation of a heading."""
+"""rad; least standard deviation of a heading."""
 
-EXTRA_INPUTS = ("supply", "mag")
-"""Signals that become inputs of the filter where the part's effects depend on them."""
+EXTRA_INPUTS = tuple(n for n in SURROUNDINGS if n != "temperature")
+"""Signals that become inputs of the filter where effects of the part depend on them."""
 
 
 def array(
@@ -80,7 +80,7 @@ INPUTS = (
     ),
     Variable("stationary", "1", "the body does not turn against the Earth", kind="boolean"),
 )
-"""Those of every part; ``EXTRA_INPUTS`` follow where the part needs them."""
+"""The inputs for every part; ``EXTRA_INPUTS`` follow where the part needs them."""
 
 OUTPUTS = (
     *array(
@@ -108,16 +108,18 @@ OUTPUTS = (
         "status", "1", "; ".join(f"{bit}: {text}" for bit, text in STATUS.items()), kind="integer"
     ),
 )
+"""The outputs of every filter, in the order of the block."""
 
 
 def _bounded(
     variables: Iterable[Variable], minimum: float, maximum: float = ABSURD
 ) -> tuple[Variable, ...]:
-    """The same with bounds, so that what is no number is refused."""
+    """The same with bounds, outside which and for NaN a value is refused."""
     return tuple(replace(v, minimum=minimum, maximum=maximum) for v in variables)
 
 
 def _setting(name: str, unit: str, text: str, start: float) -> Variable:
+    """A parameter that is not below zero."""
     return Variable(name, unit, text, start, minimum=0.0)
 
 
@@ -213,9 +215,9 @@ SETTINGS = (
         0.5,
     ),
 )
-"""Parameters that are one number, none below zero. What they say of accelerations was chosen once
-for all hand-held recordings of ``benchmarks/attitude_real.py``: a slow vehicle accelerates less,
-and would do better with less of it."""
+"""Parameters that are one number. Those of accelerations were chosen once for all hand-held
+recordings of ``benchmarks/attitude_real.py``: a slow vehicle accelerates less, and would do better
+with smaller ones."""
 
 OWN_PARAMETERS = (
     Variable(
@@ -251,4 +253,4 @@ OWN_PARAMETERS = (
     ),
     *SETTINGS,
 )
-"""Parameters that are the filter's own; the coefficients of the part's sensors follow."""
+"""The filter's own parameters; the coefficients of the part's sensors follow."""

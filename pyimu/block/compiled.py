@@ -35,11 +35,12 @@ FLAGS = (
     "-fvisibility=hidden",
     "-w",
     "-DCASADI_SYMBOL_EXPORT=static",
+    "-DMODEL_PREFIX=run_",
 )
 """Those of the FMUs, without contracted multiply-adds. The step is static, because a libc has a
 function ``step`` of its own that would answer in place of ours."""
 
-HAND_WRITTEN = ("loop.h", "noise.c", "noise.h")
+HAND_WRITTEN = ("loop.h", "noise.c", "noise.h", "prefix.h")
 """What of the hand-written C a library is made of."""
 
 LOOKED_FOR = 2_000

@@ -1,3 +1,1 @@
-"""What a log of a sensor at rest says about it: ``pyimu.characterize``, and the pieces that it is
-made of.
-"""
+"""Noise, spectrum and temperature effect of a sensor at rest: ``pyimu.characterize``."""

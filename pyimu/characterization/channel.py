@@ -1,12 +1,11 @@
-"""One channel of one log: Allan, modified and Hadamard deviations over its stretches, and the
-coefficients of its noise.
-"""
+"""The noise of one channel of one log: its deviations over the segments, and the fit to them."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
+from typing import Self
 
 import numpy as np
 from scipy.stats import chi2
@@ -18,57 +17,32 @@ from pyimu.characterization.allan.deviation import (
     octave_clusters,
     overlapping_deviation,
 )
-from pyimu.characterization.allan.pooled import longest, pooled_deviation
+from pyimu.characterization.allan.moments import TERMS
+from pyimu.characterization.allan.pooled import (
+    Deviation,
+    Segment,
+    equivalent_freedom,
+    pooled_deviation,
+    used_segments,
+)
+from pyimu.characterization.allan.readings import floor
 from pyimu.characterization.noise.fit import ChannelFit, fit_noise
-from pyimu.characterization.samples import CHUNK, Samples
+from pyimu.characterization.outcome import AllanCurve, Curve, NoiseAnalysis
+from pyimu.characterization.samples import PIECE, Samples
 from pyimu.characterization.spectrum.lines import Line
 from pyimu.characterization.store import Store
 from pyimu.characterization.temperature.fit import ThermalFit
 from pyimu.characterization.temperature.warm_up import WarmUp, find_warm_up
 
 POINTS = 100
-"""Cluster times of a curve, evenly in the logarithm; those an octave apart come on top of it."""
+"""Cluster times of a curve, evenly spaced in the logarithm; those an octave apart are added."""
 
 LEAST = 64
-"""Samples without gap from which on a channel is characterised: six clusters an octave apart for
-five terms."""
+"""Samples without gap that a channel needs: they give six clusters an octave apart for the five
+terms."""
 
 
-@dataclass(frozen=True)
-class Curve:
-    """Deviations (t,) in the unit of the samples at cluster times ``tau`` (t,) s."""
-
-    tau: np.ndarray
-    deviation: np.ndarray
-
-
-@dataclass(frozen=True)
-class AllanCurve(Curve):
-    """Overlapping Allan deviations; ``freedom`` (t,) equivalent degrees of freedom, ``low`` and
-    ``high`` (t,) the limits of the true one.
-    """
-
-    freedom: np.ndarray
-    low: np.ndarray
-    high: np.ndarray
-
-
-@dataclass(frozen=True)
-class Noise:
-    """What a channel's clusters say: curves of the samples less what temperature and warm-up make
-    of them, and the fit.
-
-    ``raw`` is the Allan deviation of the samples as they are, None where nothing was taken off.
-    """
-
-    allan: AllanCurve
-    modified: Curve
-    hadamard: Curve
-    raw: Curve | None
-    fit: ChannelFit
-
-
-def noise_of(
+def analyse_noise(
     samples: Samples,
     axis: int,
     compensated: np.ndarray | None,
@@ -76,94 +50,108 @@ def noise_of(
     level: float,
     store: Store,
     say: Callable[[str], None] = lambda text: None,
-) -> Noise:
-    """Curves and fit of one axis, or of it ``compensated`` (n,). Raises UserError where there is
-    no noise.
+) -> NoiseAnalysis:
+    """Deviations and fit of one axis, or of its samples ``compensated`` (n,) if these are given.
+
+    ``lines`` are those of its spectrum, ``level`` is the probability of the intervals. Raises
+    UserError where there is no noise.
     """
-    column, raw, used = samples.columns[axis], None, longest(samples.stretches)
-    lengths = [b - a for a, b in used]
-    room = store.room("sums", max(lengths) + 1)
-    m = np.union1d(octave_clusters(max(lengths)), log_clusters(max(lengths), POINTS))
+    pool, column, as_measured = _Pool.of(samples, store), samples.columns[axis], None
+    m = np.union1d(octave_clusters(pool.longest), log_clusters(pool.longest, POINTS))
     if compensated is not None:
         say("as measured")
-        raw, column = (
-            Curve(m * samples.h, _pooled(column, used, m, overlapping_deviation, 2, room)),
-            compensated,
-        )
+        as_measured = Curve(m * samples.h, pool.deviation(column, m, overlapping_deviation, 2))
+        column = compensated
     say("Allan deviation")
-    deviation = _pooled(column, used, m, overlapping_deviation, 2, room)
-    octaves = np.isin(m, octave_clusters(max(lengths)))
+    deviation = pool.deviation(column, m, overlapping_deviation, 2)
+    octaves = np.isin(m, octave_clusters(pool.longest))
     sines = [(v.frequency, max(v.frequency_std, v.width), v.amplitude) for v in lines]
-    fit = fit_noise(m[octaves], deviation[octaves], lengths, samples.h, level, sines)
+    fit = fit_noise(m[octaves], deviation[octaves], pool.lengths, samples.h, level, sines)
     say("Hadamard deviation")
-    hadamard = _curve(column, used, m, hadamard_deviation, samples.h, room)
+    hadamard = pool.third_order(column, m, hadamard_deviation)
     say("modified deviation")
-    modified = _curve(column, used, m, modified_deviation, samples.h, room)
-    return Noise(
-        _with_limits(m, deviation, fit, lengths, samples.h, level), modified, hadamard, raw, fit
+    modified = pool.third_order(column, m, modified_deviation)
+    tau, terms = m * samples.h, np.sqrt(fit.term_variances(m * samples.h))
+    return NoiseAnalysis(
+        allan=_with_limits(m, deviation, fit, pool, level),
+        modified=modified,
+        hadamard=hadamard,
+        as_measured=as_measured,
+        fit=fit,
+        fitted=fit.deviation(tau),
+        terms={t: terms[:, i] for i, t in enumerate(TERMS) if t in fit.estimates},
+        floor=floor(tau, deviation),
     )
 
 
-def _pooled(
-    column: np.ndarray,
-    used: Sequence[tuple[int, int]],
-    m: np.ndarray,
-    deviation: Callable,
-    order: int,
-    room: np.ndarray,
-) -> np.ndarray:
-    return pooled_deviation(
-        [column[a:b] for a, b in used], m, partial(deviation, store=room), order
-    )
+@dataclass(frozen=True)
+class _Pool:
+    """The segments over which deviations are pooled, and ``room`` (n,) to make them in."""
 
+    segments: Sequence[Segment]
+    h: float
+    room: np.ndarray
 
-def _curve(
-    column: np.ndarray,
-    used: Sequence[tuple[int, int]],
-    m: np.ndarray,
-    deviation: Callable,
-    h: float,
-    room: np.ndarray,
-) -> Curve:
-    """Of one of the deviations that need three clusters in a stretch; they are drawn, and every
-    other cluster time is enough for that.
-    """
-    m = m[3 * m <= max(b - a for a, b in used)][::2]
-    return Curve(m * h, _pooled(column, used, m, deviation, 3, room))
+    @classmethod
+    def of(cls, samples: Samples, store: Store) -> Self:
+        """The segments of a sensor that are used."""
+        used = used_segments(samples.segments)
+        return cls(used, samples.h, store.room("sums", max(b - a for a, b in used) + 1))
+
+    @property
+    def lengths(self) -> list[int]:
+        """Samples of each segment."""
+        return [b - a for a, b in self.segments]
+
+    @property
+    def longest(self) -> int:
+        """Samples of the longest segment."""
+        return max(self.lengths)
+
+    def deviation(
+        self, column: np.ndarray, m: np.ndarray, deviation: Deviation, order: int
+    ) -> np.ndarray:
+        """A deviation (t,) of the column (n,), of ``order`` clusters in a row."""
+        records = [column[a:b] for a, b in self.segments]
+        return pooled_deviation(records, m, partial(deviation, work=self.room), order)
+
+    def third_order(self, column: np.ndarray, m: np.ndarray, deviation: Deviation) -> Curve:
+        """A deviation that needs three clusters in a segment.
+
+        It is only drawn, and every other cluster time is enough for that.
+        """
+        m = m[3 * m <= self.longest][::2]
+        return Curve(m * self.h, self.deviation(column, m, deviation, 3))
 
 
 def _with_limits(
-    m: np.ndarray,
-    deviation: np.ndarray,
-    fit: ChannelFit,
-    lengths: Sequence[int],
-    h: float,
-    level: float,
+    m: np.ndarray, deviation: np.ndarray, fit: ChannelFit, pool: _Pool, level: float
 ) -> AllanCurve:
-    """Limits from a chi-square of the degrees of freedom that the fitted noise gives the estimate
-    at each cluster time.
+    """The Allan deviations (t,) with limits from a chi-square.
+
+    Its degrees of freedom are those that the fitted noise gives the estimate at each cluster time.
     """
-    freedom, side = fit.freedom(m, lengths), (1 - level) / 2
+    freedom, side = equivalent_freedom(m, pool.lengths, fit.squares), (1 - level) / 2
     low, high = (
         deviation * np.sqrt(freedom / chi2.isf(tail, freedom)) for tail in (side, 1 - side)
     )
-    return AllanCurve(m * h, deviation, freedom, low, high)
+    return AllanCurve(m * pool.h, deviation, freedom, low, high)
 
 
-def compensated(
+def compensate(
     samples: Samples, axis: int, thermal: ThermalFit | None, store: Store
 ) -> tuple[np.ndarray | None, WarmUp | None]:
-    """The column less what temperature and warm-up make of its bias, None where that is nothing;
-    and the warm-up.
+    """The column (n,) less the effect of temperature and warm-up, and the warm-up.
+
+    The column is None where there is neither. A warm-up is looked for in the first segment, if that
+    is more than half of the log; one that follows the logged temperature is an effect of
+    temperature.
     """
     column = None
     if thermal is not None and thermal.warranted:
-        column = _less(
-            samples, samples.columns[axis], thermal.effect, store.room("compensated", len(samples))
-        )
-    start, stop = samples.stretches[0]
-    # In the first stretch, if it is a good part of the log. A warm-up by the temperature that was
-    # logged is an effect of temperature.
+        room = store.room("compensated", len(samples))
+        column = _less(samples, samples.columns[axis], thermal.effect, room)
+    start, stop = samples.segments[0]
     if 2 * (stop - start) <= len(samples):
         return column, None
     before = samples.columns[axis] if column is None else column
@@ -181,10 +169,11 @@ def _less(
     effect: Callable[[np.ndarray], np.ndarray],
     out: np.ndarray,
 ) -> np.ndarray:
-    """The column less an effect at the times of the samples, in ``out``, which may be the
-    column.
+    """Fill ``out`` with the column less an effect at the times of the samples.
+
+    ``out`` may be the column.
     """
-    for a in range(0, len(samples), CHUNK):
-        rows = slice(a, a + CHUNK)
+    for a in range(0, len(samples), PIECE):
+        rows = slice(a, a + PIECE)
         out[rows] = column[rows] - effect(samples.time[rows])
     return out

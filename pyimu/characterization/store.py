@@ -1,7 +1,6 @@
-"""Columns of numbers that grow by pieces, as long as a disk: temporary files without a name, mapped
-into memory when they are read.
+"""Columns of numbers larger than memory: temporary files that grow by pieces and are then mapped.
 
-What has no name goes with the process, whatever ends it.
+The files have no names, so that they disappear with the process, whatever ends it.
 """
 
 from __future__ import annotations
@@ -17,8 +16,10 @@ from pyimu.errors import UserError
 
 
 class Store:
-    """Columns by name, float64; a context, at whose end they are gone, and the arrays that
-    ``column`` gave must not be used.
+    """Columns of float64 by name, to be used in a ``with`` statement.
+
+    At its end they are deleted, and the arrays that ``column`` and ``room`` gave must no longer be
+    used.
     """
 
     def __init__(self) -> None:
@@ -48,13 +49,15 @@ class Store:
         return _mapped(self._files[name], "r")
 
     def room(self, name: str, n: int) -> np.ndarray:
-        """A column (n,) of zeros to work in, in place of any of that name."""
+        """A column (n,) of zeros to work in; it replaces one of the same name.
+
+        Raises UserError where the disk is full.
+        """
         if name in self._files:
             self._files.pop(name).close()
         file = self._files[name] = _file()
         try:
-            # What is not there yet would otherwise be missed only when the mapped memory is
-            # written.
+            # Without it a full disk would be noticed only when the mapped memory is written.
             (os.posix_fallocate if hasattr(os, "posix_fallocate") else _truncate)(
                 file.fileno(), 0, max(8 * n, 8)
             )
@@ -79,7 +82,7 @@ def _mapped(file: tempfile._TemporaryFileWrapper, mode: str) -> np.ndarray:
 
 
 def _folder() -> str:
-    """Where TMPDIR says; else where large temporary files belong: /tmp may be in memory."""
+    """The folder in TMPDIR, else one for large temporary files, because /tmp may be in memory."""
     large = Path("/var/tmp")
     return (
         tempfile.gettempdir()

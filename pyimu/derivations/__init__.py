@@ -1,69 +1,52 @@
 """The symbolic results: each as an equation that prints and computes, and what it was checked
 against.
 
-``derive()`` runs every check and gives results whose ``report()`` reads in a terminal; ``write``
-makes files of them. The equations are texts in the language of ``pyimu.derivations.formula``;
-casadi expressions, plain text and LaTeX come from that one text. The checks compare them with
-numpy and scipy, and with the functions of the package.
+``derive()`` runs every check; what it gives has a ``report()`` to read in a terminal, and
+``write(folder)`` makes files of it. An equation is a text in the language of
+``pyimu.derivations.formula``, from which its casadi expression, plain text and LaTeX follow. The
+checks compare the equations with numpy and scipy, and with the functions of the package.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
-from pyimu.derivations import correlated, errors, kinematics, printed, walk
-from pyimu.derivations.model import Check, Derivation, Table
+from pyimu.derivations.kinematics.attitude_error import ATTITUDE_ERROR
+from pyimu.derivations.kinematics.convention import CONVENTION
+from pyimu.derivations.kinematics.quaternions import CLOSED_STEP, KINEMATICS
+from pyimu.derivations.kinematics.rates import EARTH, RATE
+from pyimu.derivations.kinematics.rodrigues import RODRIGUES
+from pyimu.derivations.model import Derivation, Result
+from pyimu.derivations.process_noise.flicker import FLICKER
+from pyimu.derivations.process_noise.gauss_markov import MARKOV, TURNING_MARKOV
+from pyimu.derivations.process_noise.integrals import INTEGRALS
+from pyimu.derivations.process_noise.printed import PRINTED
+from pyimu.derivations.process_noise.random_walk import STILL, TURNING
+from pyimu.derivations.process_noise.random_walk_axes import AXES
+from pyimu.derivations.process_noise.transition import TRANSITION
+from pyimu.derivations.result import Derived
+
+__all__ = ["DERIVATIONS", "Derived", "Result", "derive"]
 
 DERIVATIONS: tuple[Derivation, ...] = (
-    *kinematics.DERIVATIONS,
-    *errors.DERIVATIONS,
-    *walk.DERIVATIONS,
-    *printed.DERIVATIONS,
-    *correlated.DERIVATIONS,
+    KINEMATICS,
+    CLOSED_STEP,
+    CONVENTION,
+    RODRIGUES,
+    ATTITUDE_ERROR,
+    EARTH,
+    RATE,
+    INTEGRALS,
+    TRANSITION,
+    STILL,
+    TURNING,
+    AXES,
+    PRINTED,
+    MARKOV,
+    TURNING_MARKOV,
+    FLICKER,
 )
-
-
-@dataclass(frozen=True)
-class Result:
-    """A derivation with the checks it went through and the tables that were computed."""
-
-    derivation: Derivation
-    checks: tuple[Check, ...]
-    tables: tuple[Table, ...]
-
-    @property
-    def passed(self) -> bool:
-        return all(c.passed for c in self.checks)
-
-
-@dataclass(frozen=True)
-class Derived:
-    """All results, in order."""
-
-    results: tuple[Result, ...]
-
-    @property
-    def passed(self) -> bool:
-        return all(r.passed for r in self.results)
-
-    def report(self) -> str:
-        """All of it as text, the last line a summary."""
-        from pyimu.derivations.text import document
-
-        return document(self)
-
-    def summary(self) -> str:
-        """One line."""
-        checks = [c for r in self.results for c in r.checks]
-        failed = [r.derivation.key for r in self.results if not r.passed]
-        said = f"failed: {', '.join(failed)}" if failed else "none failed"
-        return (
-            f"{len(self.results)} results, {sum(c.passed for c in checks)} of {len(checks)} checks "
-            f"passed, {said}"
-        )
-
-    __str__ = report
+"""Every result, in the order in which they are printed."""
 
 
 def derive(say: Callable[[str], None] = lambda text: None) -> Derived:

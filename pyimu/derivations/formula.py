@@ -1,11 +1,11 @@
-"""Formulas that are printed and computed from one text, so that what a reader sees is what was
-checked.
+"""Formulas that are printed and computed from one text: what a reader sees is what was checked.
 
 A formula is a Python expression over named matrices, such as
 ``s**2*(N**2*h*I_3 + 2*K**2*psi_5*W**2)``: ``*`` multiplies by a number, ``@`` two matrices. It
-evaluates to a casadi matrix and prints as plain text and as LaTeX. Functions: sin, cos, exp, sqrt;
-T (transpose), inv, norm, skew (the matrix of a cross product), diag, blocks (rows of blocks), and
-sines(k, x), the sum over i of (-1)^i x^(2 i)/(k + 2 i)! (``pyimu.symbolic.series.stumpff`` of x^2).
+evaluates to a casadi matrix and prints as plain text and as LaTeX. Its functions are sin, cos, exp,
+sqrt; T (transpose), inv, norm, skew (the matrix of a cross product), diag, blocks (rows of blocks),
+and sines(k, x), the sum over i of (-1)^i x^(2 i)/(k + 2 i)! (``pyimu.symbolic.series.stumpff`` of
+x^2).
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ import casadi as ca
 from pyimu.symbolic.series import stumpff
 
 SUM, NEGATIVE, PRODUCT, POWER, ATOM = range(5)
-"""How tightly an expression holds together, from a sum to what never needs parentheses."""
+"""Precedence of an expression, from a sum to what never needs parentheses."""
 
 
 @dataclass(frozen=True)
 class Formula:
-    """One expression; raises SyntaxError where ``source`` is none."""
+    """One expression. Raises SyntaxError at its first use where ``source`` is none."""
 
     source: str
 
@@ -44,8 +44,9 @@ class Formula:
         )
 
     def evaluate(self, values: Mapping):
-        """The casadi matrix, with ``values`` for the names; raises KeyError for a name without
-        one.
+        """The casadi matrix, with ``values`` for the names.
+
+        Raises KeyError for a name without a value, TypeError for what a formula cannot hold.
         """
         return _evaluate(self.tree, values)
 
@@ -54,6 +55,7 @@ class Formula:
 
 
 def _power(base, exponent):
+    """A power; of a matrix the product with itself."""
     if isinstance(exponent, int) and getattr(base, "shape", (1, 1)) != (1, 1):
         out = base
         for _ in range(exponent - 1):
@@ -127,8 +129,8 @@ def text(formula: Formula) -> str:
     style = Style({}, latex=False)
     rows = _rows(formula.tree)
     if rows is None:
-        return _show(formula.tree, style)[0]
-    cells = [[_show(cell, style)[0] for cell in row] for row in rows]
+        return _printed(formula.tree, style)[0]
+    cells = [[_printed(cell, style)[0] for cell in row] for row in rows]
     widths = [max(len(row[i]) for row in cells) for i in range(len(cells[0]))]
     return "\n".join(
         "[ " + "   ".join(c.ljust(w) for c, w in zip(row, widths, strict=True)) + " ]"
@@ -138,30 +140,28 @@ def text(formula: Formula) -> str:
 
 def latex(formula: Formula, names: Mapping[str, str]) -> str:
     """LaTeX for display mathematics (amsmath); ``names`` are those of the symbols."""
-    return _show(formula.tree, Style(names, latex=True))[0]
+    return _printed(formula.tree, Style(names, latex=True))[0]
 
 
 def terms(formula: Formula, names: Mapping[str, str] | None = None) -> list[str]:
-    """The terms of a sum, each with its sign, as text or (with ``names``) as LaTeX: where a long
-    one may be broken.
+    """The terms of a sum, each with its sign, as text or (with ``names``) as LaTeX; a long sum may
+    be broken between them.
     """
     style, node, out = Style(names or {}, latex=names is not None), formula.tree, []
     while isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub):
-        out.append(
-            ("+ " if isinstance(node.op, ast.Add) else "- ") + _held(node.right, style, PRODUCT)
-        )
+        out.append(f"{_sign(node)} {_bracketed(node.right, style, PRODUCT)}")
         node = node.left
-    return [_held(node, style, SUM), *reversed(out)]
+    return [_bracketed(node, style, SUM), *reversed(out)]
 
 
 def prose(words: str, names: Mapping[str, str] | None = None) -> str:
-    """Words with their formulas, which stand in backquotes, as text or (with ``names``) as LaTeX;
-    ``=`` may join formulas.
+    """Words with the formulas among them, which stand in backquotes, as text or (with ``names``) as
+    LaTeX; ``=`` may join formulas.
     """
 
     def shown(match: re.Match) -> str:
         parts = [
-            _show(Formula(part).tree, Style(names or {}, names is not None))[0] if part else ""
+            _printed(Formula(part).tree, Style(names or {}, names is not None))[0] if part else ""
             for part in match[1].split("= ")
         ]
         joined = " = ".join(p.strip() for p in parts).strip()
@@ -172,37 +172,31 @@ def prose(words: str, names: Mapping[str, str] | None = None) -> str:
 
 def _rows(node: ast.expr) -> list | None:
     """Cells of a matrix of blocks, None for anything else."""
-    return (
-        [row.elts for row in node.args]
-        if isinstance(node, ast.Call) and node.func.id == "blocks"
-        else None
-    )
+    if isinstance(node, ast.Call) and node.func.id == "blocks":
+        return [row.elts for row in node.args]
+    return None
 
 
-def _held(node: ast.expr, style: Style, level: int) -> str:
-    """The expression, in parentheses where it holds together less tightly than ``level``."""
-    shown, own = _show(node, style)
+def _bracketed(node: ast.expr, style: Style, level: int) -> str:
+    """The expression, in parentheses where its precedence is below ``level``."""
+    shown, own = _printed(node, style)
     return style.parentheses(shown) if own < level else shown
 
 
-def _show(node: ast.expr, style: Style) -> tuple[str, int]:
+def _printed(node: ast.expr, style: Style) -> tuple[str, int]:
+    """The expression without parentheses around it, and its precedence."""
     match node:
         case ast.BinOp(op=ast.Add() | ast.Sub()):
-            sign = " + " if isinstance(node.op, ast.Add) else " - "
-            return _held(node.left, style, SUM) + sign + _held(node.right, style, PRODUCT), SUM
+            left, right = _bracketed(node.left, style, SUM), _bracketed(node.right, style, PRODUCT)
+            return f"{left} {_sign(node)} {right}", SUM
         case ast.BinOp(op=ast.Mult() | ast.MatMult()):
             return _product(node, style), NEGATIVE if _begins_negative(node) else PRODUCT
         case ast.BinOp(op=ast.Div()):
             return _quotient(node, style)
         case ast.BinOp(op=ast.Pow()):
-            exponent = (
-                _show(node.right, style)[0] if style.latex else _held(node.right, style, ATOM)
-            )
-            return _held(node.left, style, ATOM) + (
-                "^{" + exponent + "}" if style.latex else "^" + exponent
-            ), POWER
+            return _bracketed(node.left, style, ATOM) + _exponent(node.right, style), POWER
         case ast.UnaryOp(op=ast.USub()):
-            return "-" + _held(node.operand, style, PRODUCT), NEGATIVE
+            return "-" + _bracketed(node.operand, style, PRODUCT), NEGATIVE
         case ast.Call():
             return _call(node, style)
         case ast.Name():
@@ -210,6 +204,16 @@ def _show(node: ast.expr, style: Style) -> tuple[str, int]:
         case ast.Constant():
             return repr(node.value), ATOM
     raise TypeError(f"a formula has no {type(node).__name__}")
+
+
+def _sign(node: ast.BinOp) -> str:
+    return "+" if isinstance(node.op, ast.Add) else "-"
+
+
+def _exponent(node: ast.expr, style: Style) -> str:
+    if style.latex:
+        return "^{" + _printed(node, style)[0] + "}"
+    return "^" + _bracketed(node, style, ATOM)
 
 
 def _begins_negative(node: ast.expr) -> bool:
@@ -222,7 +226,7 @@ def _product(node: ast.BinOp, style: Style) -> str:
     def factor(side: ast.expr, level: int) -> str:
         # In a line of text "a/b c" could be read both ways; a fraction in LaTeX cannot.
         quotient = isinstance(side, ast.BinOp) and isinstance(side.op, ast.Div)
-        return _held(side, style, ATOM if quotient and not style.latex else level)
+        return _bracketed(side, style, ATOM if quotient and not style.latex else level)
 
     left, right = factor(node.left, NEGATIVE), factor(node.right, PRODUCT)
     between = r" \cdot " if style.latex and right[0].isdigit() else " "
@@ -231,28 +235,31 @@ def _product(node: ast.BinOp, style: Style) -> str:
 
 def _quotient(node: ast.BinOp, style: Style) -> tuple[str, int]:
     if style.latex:
-        return rf"\frac{{{_show(node.left, style)[0]}}}{{{_show(node.right, style)[0]}}}", PRODUCT
+        above, below = _printed(node.left, style)[0], _printed(node.right, style)[0]
+        return rf"\frac{{{above}}}{{{below}}}", PRODUCT
     level = NEGATIVE if _begins_negative(node.left) else PRODUCT
-    return f"{_held(node.left, style, NEGATIVE)}/{_held(node.right, style, POWER)}", level
+    return f"{_bracketed(node.left, style, NEGATIVE)}/{_bracketed(node.right, style, POWER)}", level
 
 
 def _call(node: ast.Call, style: Style) -> tuple[str, int]:
     name, arguments = node.func.id, node.args
-    if name == "T":
-        return _held(arguments[0], style, ATOM) + (r"^{\mathsf T}" if style.latex else "^T"), POWER
-    if name == "inv":
-        return _held(arguments[0], style, ATOM) + ("^{-1}" if style.latex else "^-1"), POWER
+    if name in _MARKS:
+        mark = _MARKS[name][style.latex]
+        return _bracketed(arguments[0], style, ATOM) + mark, POWER
     if name == "blocks":
-        rows = [[_show(cell, style)[0] for cell in row.elts] for row in arguments]
-        if style.latex:
-            return r"\begin{bmatrix} " + r" \\ ".join(
-                " & ".join(row) for row in rows
-            ) + r" \end{bmatrix}", ATOM
-        return "[" + "; ".join(", ".join(row) for row in rows) + "]", ATOM
-    shown = [_show(a, style)[0] for a in arguments]
-    return (_LATEX_CALLS if style.latex else _TEXT_CALLS).get(name, _plain_call(name, style))(
-        *shown
-    ), ATOM
+        return _blocks(
+            [[_printed(cell, style)[0] for cell in r.elts] for r in arguments], style
+        ), ATOM
+    shown = [_printed(a, style)[0] for a in arguments]
+    calls = _LATEX_CALLS if style.latex else _TEXT_CALLS
+    return calls.get(name, _plain_call(name, style))(*shown), ATOM
+
+
+def _blocks(rows: list[list[str]], style: Style) -> str:
+    if style.latex:
+        lines = r" \\ ".join(" & ".join(row) for row in rows)
+        return rf"\begin{{bmatrix}} {lines} \end{{bmatrix}}"
+    return "[" + "; ".join(", ".join(row) for row in rows) + "]"
 
 
 def _plain_call(name: str, style: Style):
@@ -260,6 +267,9 @@ def _plain_call(name: str, style: Style):
         rf"\{name}\left({', '.join(shown)}\right)" if style.latex else f"{name}({', '.join(shown)})"
     )
 
+
+_MARKS = {"T": ("^T", r"^{\mathsf T}"), "inv": ("^-1", "^{-1}")}
+"""What stands behind an argument, as text and as LaTeX."""
 
 _TEXT_CALLS = {
     "norm": lambda a: f"|{a}|",

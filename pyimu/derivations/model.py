@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -10,6 +10,7 @@ import casadi as ca
 import numpy as np
 
 from pyimu.derivations.formula import Formula
+from pyimu.derivations.independent import largest
 from pyimu.derivations.symbols import SYMBOLS, Symbol
 
 CONSTANTS = {"I_3": ca.SX.eye(3), "I_6": ca.SX.eye(6), "O_3": ca.SX(3, 3), "O_31": ca.SX(3, 1)}
@@ -20,8 +21,9 @@ EPS = float(np.finfo(float).eps)
 
 @dataclass(frozen=True)
 class Equation:
-    """``left`` = ``right``: a symbol's name and the text of a ``Formula``; ``note`` says what there
-    is to say.
+    """``left`` = ``right``: the name of a symbol and the text of a ``Formula``.
+
+    ``note`` is a remark for the reader.
     """
 
     left: str
@@ -35,8 +37,8 @@ class Equation:
 
 @dataclass(frozen=True)
 class Check:
-    """The largest difference that was found between a result and another way to it, and what
-    rounding allows.
+    """The ``largest`` difference between a result and another way to it, over a number of cases,
+    and the ``bound`` that rounding sets.
     """
 
     against: str
@@ -48,6 +50,17 @@ class Check:
     @property
     def passed(self) -> bool:
         return bool(self.largest <= self.bound)
+
+    @classmethod
+    def of_pairs(cls, against: str, pairs: Sequence[tuple], bound: float, each: int = 1) -> Check:
+        """The largest difference between the two arrays of each pair; a case has ``each`` pairs."""
+        return cls(against, len(pairs) // each, largest(pairs), bound)
+
+    @classmethod
+    def of_covariances(cls, against: str, differences: Sequence[float], bound: float) -> Check:
+        """The largest of ``independent.in_standard_deviations``, one for each case."""
+        kind = "largest difference in standard deviations"
+        return cls(against, len(differences), max(differences), bound, kind)
 
 
 @dataclass(frozen=True)
@@ -61,9 +74,9 @@ class Table:
 
 @dataclass(frozen=True)
 class Derivation:
-    """A result: ``equations`` in order, each free to use those before; ``given`` are equations that
-    stand elsewhere.
+    """A result: its equations, and how it is checked.
 
+    Each of ``equations`` may use those before it, and ``given``, which belong to another result.
     ``check`` and ``tables`` take the derivation; what they return is computed when they are called.
     """
 
@@ -78,8 +91,8 @@ class Derivation:
 
     @property
     def symbols(self) -> tuple[Symbol, ...]:
-        """The symbols to be told, in the order of the equations: what they take as given, and
-        results with a meaning or a unit.
+        """The symbols to be explained, in the order of the equations: what these take as given, and
+        results with a meaning of their own.
         """
         given = _free(self.equations, ())
         named = dict.fromkeys(n for e in self.equations for n in (e.left, *e.formula.names))
@@ -90,8 +103,9 @@ class Derivation:
         )
 
     def function(self, outputs: tuple[str, ...], inputs: tuple[str, ...]) -> ca.Function:
-        """The casadi function from symbols to results, both by name; raises KeyError where an input
-        is missing.
+        """The casadi function from symbols to results, both by name.
+
+        Raises KeyError where an input is missing.
         """
         sx = {n: ca.SX.sym(n, *SYMBOLS[n].shape) for n in inputs}
         values = {**CONSTANTS, **sx}
@@ -110,7 +124,42 @@ class Derivation:
         )
 
 
+@dataclass(frozen=True)
+class Result:
+    """A derivation, the checks it went through, and the tables that were computed."""
+
+    derivation: Derivation
+    checks: tuple[Check, ...]
+    tables: tuple[Table, ...]
+
+    @property
+    def passed(self) -> bool:
+        return all(c.passed for c in self.checks)
+
+
+@dataclass(frozen=True)
+class Results:
+    """All results, in order."""
+
+    results: tuple[Result, ...]
+
+    @property
+    def passed(self) -> bool:
+        return all(r.passed for r in self.results)
+
+    def summary(self) -> str:
+        """One line: how many checks passed, and which results failed."""
+        checks = [c for r in self.results for c in r.checks]
+        failed = [r.derivation.key for r in self.results if not r.passed]
+        said = f"failed: {', '.join(failed)}" if failed else "none failed"
+        return (
+            f"{len(self.results)} results, {sum(c.passed for c in checks)} of {len(checks)} checks "
+            f"passed, {said}"
+        )
+
+
 def _free(equations: tuple[Equation, ...], known: tuple[str, ...]) -> tuple[str, ...]:
+    """The names that the equations use before any of them defines them."""
     found, defined = [], set(known)
     for e in equations:
         found += [n for n in e.formula.names if n not in defined]
@@ -121,6 +170,12 @@ def _free(equations: tuple[Equation, ...], known: tuple[str, ...]) -> tuple[str,
 def _unique(outputs: tuple[str, ...], inputs) -> list[str]:
     """Names of outputs for casadi, which wants them different from those of inputs."""
     return [f"{n}_out" if n in inputs else n for n in outputs]
+
+
+def library(function: Callable, *sizes: int) -> ca.Function:
+    """A function of the package as a casadi function, its arguments columns of these sizes."""
+    symbols = [ca.SX.sym(f"x{i}", size) for i, size in enumerate(sizes)]
+    return ca.Function("library", symbols, [ca.densify(function(*symbols))])
 
 
 def call(function: ca.Function, *arguments) -> list[np.ndarray]:

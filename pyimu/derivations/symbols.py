@@ -7,10 +7,9 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Symbol:
-    """``shape`` is that of its casadi matrix; a symbol without ``meaning`` stands for a result and
-    is told by its equation.
+    """How a symbol is written, the ``shape`` of its casadi matrix, its unit and its meaning.
 
-    ``elsewhere`` is true where that only says in which result it is defined.
+    A symbol without ``meaning`` is explained by its equation.
     """
 
     name: str
@@ -21,6 +20,7 @@ class Symbol:
 
     @property
     def elsewhere(self) -> bool:
+        """Whether the meaning only says in which other result the symbol is defined."""
         return self.meaning.startswith(("as in", "as for", "see"))
 
 

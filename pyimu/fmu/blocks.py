@@ -25,14 +25,17 @@ from fmpy.model_description import ModelDescription, ModelVariable, read_model_d
 from pyimu.errors import UserError
 from pyimu.fmu.arrays import split_name
 from pyimu.fmu.run import special
+from pyimu.fmu.variables import BLOCK_SIZE
 from pyimu.units import did_you_mean
 
-_TYPES = {
+_TYPES: dict[str, tuple[Any, Any]] = {
     "Float64": (np.float64, ctypes.c_double),
     "Int32": (np.int32, ctypes.c_int32),
     "Boolean": (np.bool_, ctypes.c_bool),
     "UInt64": (np.uint64, ctypes.c_uint64),
 }
+
+_READ: dict[str, Callable[[str], Any]] = {"Float64": float, "Boolean": lambda x: x in ("true", "1")}
 
 
 def simulate_blocks(
@@ -146,11 +149,11 @@ class _Table:
         self.getters: list[Callable[[], int]] = []
         for kind in dict.fromkeys(v.type for v in variables):
             chosen = [i for i, v in enumerate(variables) if v.type == kind]
-            arrays = _carve(rows, [counts[i] for i in chosen], kind)
+            buffer, arrays = _carve(rows, [counts[i] for i in chosen], kind)
             self.parts += [
                 (slice(ends[i] - counts[i], ends[i]), array) for i, array in zip(chosen, arrays)
             ]
-            arguments = _arguments([variables[i] for i in chosen], arrays[0].base, kind)
+            arguments = _arguments([variables[i] for i in chosen], buffer, kind)
             self.setters.append(partial(getattr(fmu, f"fmi3Set{kind}"), fmu.component, *arguments))
             self.getters.append(partial(getattr(fmu, f"fmi3Get{kind}"), fmu.component, *arguments))
 
@@ -171,11 +174,11 @@ class _Table:
             rows[:, columns] = array[: len(rows)]
 
 
-def _carve(rows: int, counts: list[int], kind: str) -> list[np.ndarray]:
-    """Arrays (rows, count), one behind the other in one buffer, which is the ``base`` of each."""
-    buffer = np.zeros(rows * sum(counts), dtype=_TYPES[kind][0])
+def _carve(rows: int, counts: list[int], kind: str) -> tuple[np.ndarray, list[np.ndarray]]:
+    """A buffer, and arrays (rows, count) that lie in it one behind the other."""
+    buffer: np.ndarray = np.zeros(rows * sum(counts), dtype=_TYPES[kind][0])
     ends = rows * np.cumsum(counts)
-    return [
+    return buffer, [
         buffer[end - rows * count : end].reshape(rows, count) for end, count in zip(ends, counts)
     ]
 
@@ -204,14 +207,31 @@ def _opened(
     """An instance through its initialization; it and its folder are gone afterwards."""
     description = read_model_description(str(fmu_path), validate=False)
     own = {v.name: v for v in description.modelVariables}
-    if "block_size" not in own:
-        raise ValueError(f"{fmu_path} is not the block form of an FMU: it has no block_size")
-    values = _parameters(
-        description,
-        dict(start_values or {})
-        | ({} if sample_period is None else {"sample_period": sample_period}),
-    )
-    size = int(own["block_size"].start if block_size is None else block_size)
+    if BLOCK_SIZE not in own:
+        raise ValueError(f"{fmu_path} is not the block form of an FMU: it has no {BLOCK_SIZE}")
+    period = {} if sample_period is None else {"sample_period": sample_period}
+    values = _parameters(description, {**(start_values or {}), **period})
+    size = int(own[BLOCK_SIZE].start if block_size is None else block_size)
+    with _instance(fmu_path, description) as fmu:
+        _initialize(fmu, own, values, size, start_time)
+        tables = {
+            c: _Table(fmu, [v for v in description.modelVariables if v.causality == c], size)
+            for c in ("input", "output")
+        }
+        yield _Unit(
+            fmu,
+            description.modelName,
+            tables["input"],
+            tables["output"],
+            size,
+            fmu.getFloat64([own["sample_period"].valueReference])[0],
+            start_time,
+        )
+
+
+@contextmanager
+def _instance(fmu_path: Path | str, description: ModelDescription) -> Iterator[FMU3Slave]:
+    """An instance, not yet initialized; what it has said goes along with fmpy's exceptions."""
     folder = fmpy.extract(str(fmu_path))
     messages: list[str] = []
     try:
@@ -221,25 +241,9 @@ def _opened(
             instanceName=description.modelName,
             modelIdentifier=description.coSimulation.modelIdentifier,
         )
-        fmu.instantiate(
-            logMessage=lambda environment, status, category, message: messages.append(
-                message.decode()
-            )
-        )
+        fmu.instantiate(logMessage=lambda _, __, ___, message: messages.append(message.decode()))
         try:
-            _initialize(fmu, own, values, size, start_time)
-            tables = [
-                _Table(fmu, [v for v in description.modelVariables if v.causality == c], size)
-                for c in ("input", "output")
-            ]
-            yield _Unit(
-                fmu,
-                description.modelName,
-                *tables,
-                size,
-                fmu.getFloat64([own["sample_period"].valueReference])[0],
-                start_time,
-            )
+            yield fmu
         except FMICallException as error:
             for message in messages:
                 error.add_note(message)
@@ -258,7 +262,7 @@ def _initialize(
     start_time: float,
 ) -> None:
     fmu.enterConfigurationMode()
-    fmu.setUInt64([own["block_size"].valueReference], [size])
+    fmu.setUInt64([own[BLOCK_SIZE].valueReference], [size])
     fmu.exitConfigurationMode()
     for name, value in values.items():
         getattr(fmu, f"set{own[name].type}")([own[name].valueReference], value.ravel().tolist())
@@ -291,10 +295,7 @@ def _parameters(description: ModelDescription, given: Mapping[str, Any]) -> dict
 
 def _start(variable: ModelVariable) -> np.ndarray:
     """The start value of a parameter in its shape; one value may stand for all elements."""
-    read = {"Float64": float, "Boolean": lambda text: text in ("true", "1")}.get(variable.type, int)
-    starts = np.array(
-        [read(text) for text in variable.start.split()], dtype=_TYPES[variable.type][0]
-    )
-    return np.array(
-        np.broadcast_to(starts.reshape(variable.shape if len(starts) > 1 else ()), variable.shape)
-    )
+    values = [_READ.get(variable.type, int)(word) for word in variable.start.split()]
+    starts: np.ndarray = np.array(values, dtype=_TYPES[variable.type][0])
+    whole = starts.reshape(variable.shape) if len(values) > 1 else starts[0]
+    return np.array(np.broadcast_to(whole, variable.shape))

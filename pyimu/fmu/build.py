@@ -15,6 +15,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
+from typing import BinaryIO
 
 from pyimu.block.block import Block
 from pyimu.block.compiled import compiler_command, source_folder
@@ -28,10 +29,11 @@ FLAGS = (
     "-ffp-contract=off",
     "-fPIC",
     "-fvisibility=hidden",
-    "-DCASADI_SYMBOL_EXPORT=",
+    "-DFMI2_OVERRIDE_FUNCTION_PREFIX",
+    "-DFMI3_OVERRIDE_FUNCTION_PREFIX",
 )
-"""Without contracted multiply-adds and without -ffast-math, C gives the bits that casadi's virtual
-machine gives."""
+"""In a library FMI's functions have their own names, without the model's prefix. Without contracted
+multiply-adds and without -ffast-math, C gives the bits that casadi's virtual machine gives."""
 
 SCALAR_FORMS: tuple[Form, ...] = (2, 3)
 
@@ -251,7 +253,7 @@ def _source_files(generated: dict[str, str], form: Form) -> dict[str, bytes]:
     folder = source_folder()
     files = {file: (folder / file).read_bytes() for file in (*CORE, LAYER[form])}
     return files | {
-        "step.c": generated["step.c"].encode(),
+        **{file: generated[file].encode() for file in ("step.c", "model_prefix.h")},
         "model_table.h": generated[TABLE[form]].encode(),
     }
 
@@ -298,7 +300,7 @@ def _binaries(
     }
 
 
-def _zip(file, entries: dict[str, bytes]) -> None:
+def _zip(file: BinaryIO, entries: dict[str, bytes]) -> None:
     with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
         for path in sorted(entries):
             info = zipfile.ZipInfo(path, _ZIP_TIME)

@@ -4,21 +4,27 @@
 An FMU never reads them, it is built from texts made anew. They are there to be read, to show in a
 review what a change of a definition does to the C, and for who compiles the C without Python; a
 test proves that they are fresh. The block form differs from the scalar ones in its table of
-variables, ``model_table.block.h``, which in its FMU is ``model_table.h``.
+variables, ``model_table.block.h``, which in its FMU is ``model_table.h``. Of a text that is too
+long to be read, ``UNREADABLE``, its digest stands in its place.
 """
 
 from __future__ import annotations
 
+import hashlib
+import re
 from pathlib import Path
 
 from pyimu.attitude import attitude_ukf
 from pyimu.block.block import Block
 from pyimu.block.compiled import source_folder
-from pyimu.fmu.sources import write_generated
+from pyimu.fmu.sources import texts
 from pyimu.model.part_file import part
 
 REFERENCE = "imt30"
 """The built-in part whose blocks are generated."""
+
+UNREADABLE = ("AttitudeUkf/step.c",)
+"""Texts of thousands of lines, without a structure that a reader could follow."""
 
 
 def reference_blocks() -> tuple[Block, ...]:
@@ -32,21 +38,43 @@ def generated_folder() -> Path:
     return source_folder() / "generated"
 
 
-def generate(folder: Path | str | None = None) -> list[Path]:
-    """Write the texts of the reference blocks to ``folder/NAME/`` (default: where they are checked
-    in); gives their paths.
+def checked_in() -> dict[str, str]:
+    """What is checked in: path below the folder to text."""
+    found = {
+        f"{block.name}/{name}": text
+        for block in reference_blocks()
+        for name, text in texts(block).items()
+    }
+    return dict(
+        (f"{path}.sha256", digest(text) + "\n") if path in UNREADABLE else (path, text)
+        for path, text in found.items()
+    )
 
-    Those folders hold nothing else afterwards: a text that is generated no more is removed.
+
+def digest(text: str) -> str:
+    """SHA-256 of a text, casadi's patch level apart, which its C records and which says nothing."""
+    return hashlib.sha256(re.sub(r"\*patch = \d+;", "", text).encode()).hexdigest()
+
+
+def generate(folder: Path | str | None = None) -> list[Path]:
+    """Write what is checked in to ``folder`` (default: where it is); gives the paths of what
+    changed.
+
+    The folders of the blocks hold nothing else afterwards: a text that is generated no more is
+    removed.
     """
     folder = generated_folder() if folder is None else Path(folder)
-    written = [
-        path for block in reference_blocks() for path in write_generated(block, folder / block.name)
-    ]
-    for stale in {file for path in written for file in path.parent.iterdir()} - set(written):
-        stale.unlink()
-    return written
+    wanted = {folder / path: text.encode() for path, text in checked_in().items()}
+    changed = [p for p, data in wanted.items() if not p.is_file() or p.read_bytes() != data]
+    for path in changed:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(wanted[path])
+    stale = {file for path in wanted for file in path.parent.iterdir()} - set(wanted)
+    for path in stale:
+        path.unlink()
+    return [*changed, *sorted(stale)]
 
 
 if __name__ == "__main__":
-    for written in generate():
-        print(written)
+    for path in generate():
+        print(path)

@@ -1,8 +1,8 @@
 """Block to texts: the generated half of an FMU.
 
 What no model knows is hand-written C in ``fmu_src``; what one model needs is generated here: its
-functions in C (``step.c``), its table of variables (``model_table.h``) and its descriptions. Equal
-blocks give equal texts.
+functions in C (``step.c``), its table of variables (``model_table.h``), the prefix of its names
+(``model_prefix.h``) and its descriptions. Equal blocks give equal texts.
 
 An FMU has three forms: FMI 2 and FMI 3 with scalars, which every importer can connect, and FMI 3 in
 blocks, whose inputs and outputs have a row for each sample of a step, and whose vectors and
@@ -25,6 +25,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from pyimu.block.block import Block
 from pyimu.fmu.variables import (
+    BLOCK_SIZE,
     DEFAULT_SEED,
     MAX_BLOCK_SIZE,
     Entry,
@@ -41,8 +42,10 @@ CORE = (
     "block_core.h",
     "block_saved.c",
     "block_values.c",
+    "model.h",
     "noise.c",
     "noise.h",
+    "prefix.h",
 )
 """Hand-written sources that every FMU shares."""
 
@@ -87,7 +90,7 @@ def texts(block: Block) -> dict[str, str]:
     unit is unknown.
     """
     _check(block)
-    step = _step_source(block)
+    step = _render_one("step.c", _names(block) | {"functions": _functions_in_c(block)})
     # A token stands for the content: what differs in any generated file gets another one, and so
     # does each table.
     contexts = {
@@ -98,7 +101,7 @@ def texts(block: Block) -> dict[str, str]:
         for table, context in contexts.items()
         for text in _render(table, context | {"token": ""}).values()
     ]
-    files = {"step.c": step}
+    files = {"step.c": step, "model_prefix.h": _render_one("model_prefix.h", _names(block))}
     for table, context in contexts.items():
         files |= _render(table, context | {"token": _token([table, step, *blank])})
     return files
@@ -120,7 +123,7 @@ def write_generated(block: Block, folder: Path | str) -> list[Path]:
 def _check(block: Block) -> None:
     if not (block.name.isascii() and block.name.isidentifier()):
         raise ValueError(f"block {block.name!r}: the name of an FMU must be a C identifier")
-    names = [e.name for e in entries(block, False)] + ["block_size"]
+    names = [e.name for e in entries(block, False)] + [BLOCK_SIZE]
     twice = sorted({n for n in names if names.count(n) > 1})
     if twice:
         raise ValueError(f"block {block.name}: more than one variable is called {', '.join(twice)}")
@@ -139,6 +142,16 @@ def _check(block: Block) -> None:
             )
 
 
+def _names(block: Block) -> dict:
+    """What the texts call the block and its functions."""
+    return {
+        "name": block.name,
+        "step": block.step.name(),
+        "initial": block.initial.name(),
+        "limits": block.limits,
+    }
+
+
 def _context(block: Block, in_blocks: bool) -> dict:
     variables = entries(block, in_blocks)
     functions = _functions(block)
@@ -147,12 +160,8 @@ def _context(block: Block, in_blocks: bool) -> dict:
         for form, layer in LAYER.items()
     }
     size = default_block_size(block) if in_blocks else None
-    return {
-        "name": block.name,
+    return _names(block) | {
         "description": block.description,
-        "step": block.step.name(),
-        "initial": block.initial.name(),
-        "limits": block.limits,
         "every_sample": EVERY_SAMPLE,
         "differences": any(EVERY_SAMPLE in v.description for v in block.parameters),
         "sample_period": block.sample_period,
@@ -206,7 +215,7 @@ def _base_unit(name: str) -> dict[str, str] | None:
     return attributes
 
 
-def _step_source(block: Block) -> str:
+def _functions_in_c(block: Block) -> str:
     """The block's functions in C, as casadi writes them; casadi's own integer type is kept, as its
     loader needs it.
     """
@@ -243,10 +252,11 @@ _TEMPLATES: dict[str, dict[str, str]] = {
 
 
 def _render(table: str, context: dict) -> dict[str, str]:
-    return {
-        name: _environment().get_template(template).render(context)
-        for name, template in _TEMPLATES[table].items()
-    }
+    return {name: _render_one(of, context) for name, of in _TEMPLATES[table].items()}
+
+
+def _render_one(template: str, context: dict) -> str:
+    return _environment().get_template(template).render(context)
 
 
 @cache

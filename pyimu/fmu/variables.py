@@ -18,6 +18,17 @@ from pyimu.fmu.arrays import Array, description, grouped, scalars
 
 DEFAULT_SEED = 0
 
+SEED = Variable(
+    "seed",
+    "1",
+    "seed of the noise: other seeds, independent noise",
+    start=DEFAULT_SEED,
+    minimum=0.0,
+)
+
+BLOCK_SIZE = "block_size"
+"""The name of the parameter that the block form alone has."""
+
 MAX_BLOCK_SIZE = 2**24
 """Samples in a block at most: 4 h at 976 Hz are 14 million."""
 
@@ -121,7 +132,8 @@ class Entry:
     @property
     def dimensions(self) -> list[dict[str, int]]:
         """The XML attributes of each dimension of an array, rows first."""
-        rows = [] if self.rows is None else [{"valueReference": self.rows_reference}]
+        first = self.rows_reference
+        rows = [] if first is None else [{"valueReference": first}]
         return rows + [{"start": size} for size in self.array.shape]
 
     @property
@@ -176,9 +188,7 @@ class Entry:
 
 
 def default_block_size(block: Block) -> int:
-    """Samples in a block unless another size is set: a second of them, so that a step of the FMU is
-    a second.
-    """
+    """Samples in a block unless another size is set: those of a second."""
     return min(max(round(1 / block.sample_period), 1), MAX_BLOCK_SIZE)
 
 
@@ -186,65 +196,76 @@ def entries(block: Block, in_blocks: bool) -> list[Entry]:
     """The table of variables: time, inputs, parameters, outputs, sample period, seed; in blocks,
     their size.
     """
+    rows = _rows(block, in_blocks)
+    size = {"rows": default_block_size(block), "rows_reference": len(rows) - 1} if in_blocks else {}
+    tunable = [i for i, r in enumerate(rows) if r.role == "tunable" for _ in r.array.elements]
+    inputs = [r.array.name for r in rows if r.role == "input" for _ in r.array.elements]
+    initial, sample = _dependencies(block.initial, 1, 0), _dependencies(block.step, 1, 1)
+    return [
+        Entry(
+            reference,
+            row.role,
+            row.kind,
+            row.array,
+            row.first,
+            **(size if row.role in ("input", "output") else {}),
+            initial_dependencies=_unique(tunable[i] for c in row.outputs for i in initial[c]),
+            sample_dependencies=_unique(inputs[i] for c in row.outputs for i in sample[c]),
+        )
+        for reference, row in enumerate(rows)
+    ]
+
+
+@dataclass(frozen=True)
+class _Row:
+    """What is known of an entry before all of them are: see there."""
+
+    role: str
+    kind: str
+    array: Array
+    first: int
+
+    @property
+    def outputs(self) -> range:
+        """Its columns among the outputs of the block."""
+        return range(self.first, self.first + len(self.array.elements) * (self.role == "output"))
+
+
+def _rows(block: Block, in_blocks: bool) -> list[_Row]:
+    """The table's rows, in their order."""
+    group = grouped if in_blocks else scalars
     time = Variable("time", "s", "simulation time")
-    period = Variable(
+    parts = [
+        ("time", scalars([time])),
+        ("input", group(block.inputs)),
+        ("tunable", group(block.parameters)),
+        ("output", group(block.outputs)),
+        ("fixed", scalars([_period(block), SEED])),
+        ("structural", scalars([_size(block)] * in_blocks)),
+    ]
+    unsigned = (SEED.name, BLOCK_SIZE)
+    return [
+        _Row(role, "unsigned" if array.name in unsigned else array.elements[0].kind, array, first)
+        for role, arrays in parts
+        for array, first in _with_columns(arrays)
+    ]
+
+
+def _period(block: Block) -> Variable:
+    return Variable(
         "sample_period", "s", "time between two samples", start=block.sample_period, minimum=0.0
     )
-    seed = Variable(
-        "seed",
-        "1",
-        "seed of the noise: other seeds, independent noise",
-        start=DEFAULT_SEED,
-        minimum=0.0,
-    )
-    size = Variable(
-        "block_size",
+
+
+def _size(block: Block) -> Variable:
+    return Variable(
+        BLOCK_SIZE,
         "1",
         "rows of inputs and outputs: most samples in a step, row i for sample i of the step",
         start=default_block_size(block),
         minimum=1,
         maximum=MAX_BLOCK_SIZE,
     )
-    group = grouped if in_blocks else scalars
-    roles = [
-        ("time", scalars([time])),
-        ("input", group(block.inputs)),
-        ("tunable", group(block.parameters)),
-        ("output", group(block.outputs)),
-        ("fixed", scalars([period, seed])),
-        ("structural", scalars([size] * in_blocks)),
-    ]
-    rows = [
-        (role, array, first) for role, arrays in roles for array, first in _with_columns(arrays)
-    ]
-    of_parameter = [
-        i for i, (role, array, _) in enumerate(rows) if role == "tunable" for _ in array.elements
-    ]
-    of_input = [array.name for role, array, _ in rows if role == "input" for _ in array.elements]
-    initial, sample = _dependencies(block.initial, 1, 0), _dependencies(block.step, 1, 1)
-    table = []
-    for reference, (role, array, first) in enumerate(rows):
-        columns = range(first, first + len(array.elements)) if role == "output" else ()
-        kind = "unsigned" if array.elements[0] in (seed, size) else array.elements[0].kind
-        in_rows = in_blocks and role in ("input", "output")
-        table.append(
-            Entry(
-                reference,
-                role,
-                kind,
-                array,
-                first,
-                rows=default_block_size(block) if in_rows else None,
-                rows_reference=len(rows) - 1 if in_rows else None,
-                initial_dependencies=_unique(
-                    of_parameter[i] for column in columns for i in initial.get(column, ())
-                ),
-                sample_dependencies=_unique(
-                    of_input[i] for column in columns for i in sample.get(column, ())
-                ),
-            )
-        )
-    return table
 
 
 def _with_columns(arrays: list[Array]) -> Iterable[tuple[Array, int]]:
@@ -257,12 +278,12 @@ def _unique(items: Iterable) -> tuple:
     return tuple(dict.fromkeys(items))
 
 
-def _dependencies(function: ca.Function, output: int, argument: int) -> dict[int, list[int]]:
-    """Row of the output to the sorted rows of the argument that it depends on."""
-    depends: dict[int, list[int]] = {}
-    if function.numel_out(output) and function.numel_in(argument):
+def _dependencies(function: ca.Function, output: int, argument: int) -> list[list[int]]:
+    """For each row of the output, the sorted rows of the argument that it depends on."""
+    depends: list[list[int]] = [[] for _ in range(function.numel_out(output))]
+    if depends and function.numel_in(argument):
         for row, column in sorted(zip(*function.jac_sparsity(output, argument).get_triplet())):
-            depends.setdefault(row, []).append(column)
+            depends[row].append(column)
     return depends
 
 

@@ -1,1 +1,1 @@
-"""The error model of a part: effects, the chain and the sensor that they make, parts and their files."""
+"""The error model of a part: effects, the chain and the sensor that they make, part files."""

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import importlib.util
 import os
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 
 from pyimu.errors import UserError
-from pyimu.model.effect import STAGES, Effect
+from pyimu.model.effect import Effect
 from pyimu.model.effects import EFFECTS
+from pyimu.model.kinds import STAGES
 from pyimu.units import did_you_mean
 
 
@@ -63,6 +64,30 @@ class Catalogue(Mapping[str, Effect]):
 
 CATALOGUE = Catalogue(EFFECTS)
 """Every effect that is known by name."""
+
+
+def read_off(effects: Iterable[Effect], what: str) -> tuple[str, str] | None:
+    """Effect and coefficient that are read off raw samples as ``what`` ("ceiling", "step"), the
+    first of ``effects`` that has one.
+    """
+    found = ((e.name, n) for e in effects for n, q in e.parameters.items() if q.reads == what)
+    return next(found, None)
+
+
+def _only(chosen: Callable[[Effect], bool]) -> tuple[str, str]:
+    """The effect of the package that is ``chosen``, and its first coefficient."""
+    (found,) = (e for e in EFFECTS if chosen(e))
+    return found.name, next(iter(found.parameters))
+
+
+POWER_ON = _only(lambda e: e.per_power_on)
+"""Effect and coefficient of the bias that is drawn anew at each power-on."""
+
+WHITE = _only(lambda e: e.law is not None and e.law.is_plain("white"))
+"""Effect and coefficient of plain white noise."""
+
+WALK = _only(lambda e: e.law is not None and e.law.is_plain("walk"))
+"""Effect and coefficient of the plain random walk."""
 
 
 def add_effects(*sources: str | os.PathLike | Effect) -> tuple[Effect, ...]:

@@ -13,7 +13,9 @@ import casadi as ca
 import numpy as np
 
 from pyimu.block.variables import Limits, NoiseChannel
-from pyimu.model.effect import INPUT, KINDS, OWN_RATE, Effect, Parameter
+from pyimu.model.arguments import INPUT, Parameter
+from pyimu.model.effect import Effect
+from pyimu.model.kinds import KINDS, OWN_RATE
 from pyimu.model.signals import COLUMNS, N_INPUT, is_number, kept
 
 NEWTON_STEPS = 6

@@ -19,7 +19,6 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
 from types import MappingProxyType
 from typing import Any
 
@@ -28,145 +27,34 @@ import numpy as np
 
 from pyimu import units
 from pyimu.errors import UserError
-from pyimu.model.signals import COLUMNS, SIGNALS, is_number, kept  # noqa: F401 (for effects)
+from pyimu.model.arguments import (
+    INPUT,
+    Environment,
+    Noise,
+    Parameter,
+    SamplePeriod,
+    Scan,
+    State,
+)
+from pyimu.model.kinds import KINDS, OWN_RATE, STAGES
+from pyimu.model.law import Law
+from pyimu.model.signals import SIGNALS, is_number, kept
 
-STAGES = ("motion", "dynamics", "gain", "bias", "noise", "output")
-"""The order in which effects act on a sample: the motion that reaches the element, its dynamics,
-gain, bias, noise, output."""
-
-INPUT = "input"
-"""Start of a state that begins as if the first input had always been there."""
-
-
-@dataclass(frozen=True)
-class SensorKind:
-    """A triad: which signal it measures, that signal's rate, its unit, and the unit of its
-    integral.
-    """
-
-    name: str
-    own: str
-    own_rate: str
-    unit: str
-    integral: str
-
-    def units(self, template: str) -> str:
-        """A unit of a definition, with the triad's own units put in."""
-        return template.replace("{y}", self.unit).replace("{Y}", self.integral)
-
-
-KINDS = {
-    "gyro": SensorKind("gyro", "rate", "angular_acceleration", "rad/s", "rad"),
-    "accel": SensorKind("accel", "specific_force", "jerk", "m/s^2", "m/s"),
-}
-
-OWN = {kind: COLUMNS[k.own] for kind, k in KINDS.items()}
-"""Where a sensor's own signal stands in the input vector."""
-
-OWN_RATE = "own_rate"
-"""Name of the rate of the sensor's own signal among an effect's environment: angular acceleration
-or jerk."""
-
-
-@dataclass(frozen=True)
-class Scan:
-    """Where to look for a coefficient that no slope at the identity finds: ``points`` values,
-    evenly in logarithm.
-
-    ``low`` and ``high`` count sample periods ("period"), radians a sample ("rate") or shares of the
-    largest input ("range").
-    """
-
-    measure: str
-    low: float
-    high: float
-    points: int = 8
-
-    def values(self, period: float, largest: float) -> np.ndarray:
-        """The grid for a log of this sample period [s] and largest input."""
-        unit = {"period": period, "rate": 1.0 / period, "range": largest}[self.measure]
-        return unit * np.geomspace(self.low, self.high, self.points)
-
-
-@dataclass(frozen=True)
-class Parameter:
-    """A coefficient. ``start`` is where the effect is the identity; matrices may leave out their
-    diagonal.
-
-    ``reference`` marks a coefficient that only fixes an origin (a reference temperature): it is
-    never estimated. ``form`` marks one that shapes an effect whose size others give (a time
-    constant, an instant): it acts only where they do. ``known`` is the one value, beside zero,
-    that it can have. ``scan`` says where identification starts its search where the identity has no
-    slope to follow.
-    """
-
-    unit: str
-    shape: tuple[int, ...] = (3,)
-    start: float = 0.0
-    description: str = ""
-    diagonal: bool = True
-    reference: bool = False
-    form: bool = False
-    known: float | None = None
-    minimum: float | None = None
-    maximum: float | None = None
-    scan: Scan | None = None
-
-    @cached_property
-    def indices(self) -> tuple[tuple[int, ...], ...]:
-        """Index of every free element, row by row."""
-        return tuple(i for i in np.ndindex(*self.shape) if self.diagonal or i[0] != i[1])
-
-    def fault(self, values: np.ndarray) -> str:
-        """What is wrong with values of the parameter's shape in its SI unit, as "must not be below
-        0"; empty where nothing is.
-        """
-        if not np.all(np.isfinite(values)):
-            return "must be finite"
-        if self.minimum is not None and np.any(values < self.minimum):
-            return f"must not be below {self.minimum:g}"
-        if self.maximum is not None and np.any(values > self.maximum):
-            return f"must not be above {self.maximum:g}"
-        return (
-            "must have zeros on its diagonal"
-            if not self.diagonal and np.any(np.diag(values))
-            else ""
-        )
-
-
-@dataclass(frozen=True)
-class State:
-    """Memory of an effect; ``start`` is a number, ``INPUT`` for the steady state at the first input
-    of the effect, or the name of one of the effect's environment arguments for that signal's first
-    value.
-    """
-
-    unit: str
-    shape: tuple[int, ...] = (3,)
-    start: float | str = 0.0
-
-
-@dataclass(frozen=True)
-class Noise:
-    """Independent standard normals, one draw a sample."""
-
-    size: int = 3
-
-
-@dataclass(frozen=True)
-class Environment:
-    """A signal beside the effect's own input, by its name in ``SIGNALS``, or ``OWN_RATE``.
-
-    The signal that the sensor itself measures means the effect's own input: a sensor knows it
-    through nothing else.
-    """
-
-    signal: str
-
-
-@dataclass(frozen=True)
-class SamplePeriod:
-    """The sample period in seconds."""
+__all__ = [
+    "INPUT",
+    "OWN_RATE",
+    "Effect",
+    "Environment",
+    "Law",
+    "Noise",
+    "Parameter",
+    "SamplePeriod",
+    "Scan",
+    "State",
+    "effect",
+    "is_number",
+    "kept",
+]
 
 
 @dataclass(frozen=True, eq=False)
@@ -178,7 +66,14 @@ class Effect:
     ``lost(y, **parameters)`` then marks the samples that say nothing of it, and
     ``restore(y, **parameters)`` gives the input of the others where it is not the output itself;
     one without marks is left in. ``limits`` are what several parameters, or one and the sample
-    period, must keep: a text, and ``broken(h, **parameters)``.
+    period, must keep: a text, and ``broken(h, **parameters)``. ``law`` says what the noise is that
+    it makes.
+
+    ``per_power_on`` marks what is drawn anew at each power-on, so that it belongs to a log and not
+    to the part; ``mounting`` what holds a turn of the whole triad among its values. No log tells
+    the effects of one ``family`` apart. ``delay(**parameters)`` is the delay [s] by which an effect
+    holds slow input back. ``symptom`` says what a sensor does that has the effect ("clips"), and
+    ``phrase`` how the effect is said before its coefficient ("saturation at").
     """
 
     name: str
@@ -193,6 +88,13 @@ class Effect:
     lost: Callable[..., Any] | None
     restore: Callable[..., Any] | None
     limits: Mapping[str, Callable[..., Any]]
+    law: Law | None
+    per_power_on: bool
+    mounting: bool
+    family: str
+    delay: Callable[..., Any] | None
+    symptom: str
+    phrase: str
     parameters: Mapping[str, Parameter] = field(repr=False)
     states: Mapping[str, State] = field(repr=False)
     noises: Mapping[str, Noise] = field(repr=False)
@@ -267,6 +169,13 @@ def effect(
     lost: Callable | None = None,
     restore: Callable | None = None,
     limits: Mapping[str, Callable] = MappingProxyType({}),
+    law: Law | None = None,
+    per_power_on: bool = False,
+    mounting: bool = False,
+    family: str = "",
+    delay: Callable | None = None,
+    symptom: str = "",
+    phrase: str = "",
 ) -> Callable[[Callable], Effect]:
     """Make an ``Effect`` of a function; ``pyimu.add_effects`` makes one known by its name.
 
@@ -284,18 +193,25 @@ def effect(
         for kind in sensors:
             _known(name, "sensor", kind, KINDS)
         return Effect(
-            name,
-            stage,
-            equation,
-            source,
-            term,
-            sensors,
-            function,
-            smooth,
-            invertible,
-            lost,
-            restore,
-            MappingProxyType(dict(limits)),
+            name=name,
+            stage=stage,
+            equation=equation,
+            source=source,
+            term=term,
+            sensors=sensors,
+            function=function,
+            smooth=smooth,
+            invertible=invertible,
+            lost=lost,
+            restore=restore,
+            limits=MappingProxyType(dict(limits)),
+            law=law,
+            per_power_on=per_power_on,
+            mounting=mounting,
+            family=family,
+            delay=delay,
+            symptom=symptom,
+            phrase=phrase or f"{name.replace('_', ' ')} of",
             **_arguments(name, function),
         )
 

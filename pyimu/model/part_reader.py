@@ -13,8 +13,10 @@ import numpy as np
 
 from pyimu import units
 from pyimu.errors import UserError
+from pyimu.model.arguments import Parameter
 from pyimu.model.catalogue import CATALOGUE
-from pyimu.model.effect import KINDS, Effect, Parameter
+from pyimu.model.effect import Effect
+from pyimu.model.kinds import KINDS
 from pyimu.model.part import Part
 from pyimu.model.part_entry import (
     DENSITIES,
@@ -27,9 +29,6 @@ from pyimu.model.part_entry import (
     is_density,
 )
 from pyimu.model.sensor import Sensor
-
-_WITH_DENSITY = {("angle_random_walk", "N")}
-
 
 _TOP_KEYS = ("name", "description", "sample_rate", *KINDS)
 
@@ -178,7 +177,7 @@ class _Reader:
                 ".".join(key),
                 {"unit": self._si(key, q), **entry},
                 self._si(key, q),
-                key[1:] in _WITH_DENSITY,
+                q.density,
             )
             return np.full(q.shape, q.start)
         return self._in_si(key, q, {**entry, "value": entry["start"]})
@@ -186,7 +185,7 @@ class _Reader:
     def _in_si(self, key: Key, q: Parameter, entry: dict[str, Any]) -> np.ndarray:
         where = ".".join(key)
         figures = self._numbers(where, entry, q)
-        scale = self._scale(where, entry, self._si(key, q), key[1:] in _WITH_DENSITY)
+        scale = self._scale(where, entry, self._si(key, q), q.density)
         if scale.density == "one-sided" and "quoted" not in entry:
             self.notes[key]["quoted"] = f"{format_array(figures)} {scale.unit}, one-sided"
         values = scale.to_si(figures)

@@ -8,7 +8,8 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from pyimu.model.effect import KINDS, Effect
+from pyimu.model.effect import Effect
+from pyimu.model.kinds import KINDS
 from pyimu.model.part import Part
 from pyimu.model.part_entry import ESTIMATE, RATE_KEY, FigureScale, is_density, nested
 from pyimu.model.sensor import Sensor

@@ -10,13 +10,15 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
+from numpy.typing import ArrayLike
 
 from pyimu import units
 from pyimu.block.variables import NoiseChannel, Variable
 from pyimu.errors import UserError
-from pyimu.model.catalogue import CATALOGUE, add_effects
+from pyimu.model.catalogue import CATALOGUE, add_effects, read_off
 from pyimu.model.chain import Chain, Slot, chain_of
-from pyimu.model.effect import KINDS, Effect, SensorKind
+from pyimu.model.effect import Effect
+from pyimu.model.kinds import KINDS, SensorKind
 from pyimu.model.signals import EVERY_SAMPLE
 
 Values = Mapping[str, Mapping[str, np.ndarray]]
@@ -100,7 +102,7 @@ class Sensor:
         """A unit of a definition, with the sensor's own units put in."""
         return self.output.units(template)
 
-    def with_values(self, effect_name: str, **parameters) -> Sensor:
+    def with_values(self, effect_name: str, **parameters: ArrayLike) -> Sensor:
         """The same sensor with an effect added, or some of its coefficients changed."""
         values = {e: dict(p) for e, p in self.values.items()}
         values.setdefault(effect_name, {}).update(parameters)
@@ -126,6 +128,12 @@ class Sensor:
         return not self.is_off(name) and any(
             np.any(self.values[name][n] != p.start) for n, p in sizes
         )
+
+    def reading(self, what: str) -> tuple[str, str] | None:
+        """Effect and coefficient that are read off raw samples as ``what`` ("ceiling", "step");
+        None where the sensor has none.
+        """
+        return read_off(self.effects, what)
 
     @property
     def left_in(self) -> tuple[str, ...]:

@@ -15,8 +15,8 @@ from types import MappingProxyType
 import casadi as ca
 import numpy as np
 
+from pyimu.recording.columns import GROUPS, ZERO
 from pyimu.symbolic import earth, quaternion
-from pyimu.units import STANDARD_GRAVITY
 
 VIBRATION_TIME = 1.0
 """s; time constant of the mean that parts vibration from motion, and of the mean square of what is
@@ -53,7 +53,7 @@ class Signal:
     ``advance(memory, started, h, *inputs)`` gives the value and the memory that follows,
     ``started`` being false at the first sample. ``difference`` says that the value is the
     difference of two successive inputs: it is zero at a sample whose inputs are held from the one
-    before.
+    before. An input is a ``group`` of a recording's columns.
     """
 
     unit: str
@@ -63,6 +63,8 @@ class Signal:
     memory: int = 0
     advance: Callable | None = None
     difference: bool = False
+    group: str = ""
+    surrounding: bool = False
 
     @property
     def size(self) -> int:
@@ -134,61 +136,51 @@ def _transport(memory, started, h, attitude, latitude, velocity):
     return _to_body(attitude, earth.transport_rate(latitude, velocity)), memory
 
 
-_ZERO = (0.0, 0.0, 0.0)
+_INPUTS = {
+    g.signal: Signal(g.unit, g.start, g.text, group=name, surrounding=g.surrounding)
+    for name, g in GROUPS.items()
+    if g.signal
+}
 
-SIGNALS: Mapping[str, Signal] = MappingProxyType(
-    {
-        "rate": Signal("rad/s", _ZERO, "angular rate against inertial space, body axes"),
-        "specific_force": Signal(
-            "m/s^2", (0.0, 0.0, STANDARD_GRAVITY), "specific force, body axes"
-        ),
-        "temperature": Signal("degC", (25.0,), "temperature of the part"),
-        "supply": Signal("V", (3.3,), "supply voltage"),
-        "mag": Signal("T", _ZERO, "magnetic flux density, body axes"),
-        "attitude": Signal(
-            "1",
-            (1.0, 0.0, 0.0, 0.0),
-            "attitude, body to world (east-north-up), Hamilton, scalar first",
-        ),
-        "latitude": Signal("rad", (0.0,), "geographic latitude"),
-        "velocity": Signal("m/s", _ZERO, "velocity over the ground, east-north-up"),
-        "time": Signal("s", (0.0,), "time since power-on", (), 1, _count),
-        "temperature_rate": Signal(
-            "K/s", (0.0,), "rate of the temperature", ("temperature",), 4, _slow_difference
-        ),
-        "angular_acceleration": Signal(
-            "rad/s^2", _ZERO, "rate of the angular rate, body axes", ("rate",), 3, _difference, True
-        ),
-        "jerk": Signal(
-            "m/s^3",
-            _ZERO,
-            "rate of the specific force, body axes",
-            ("specific_force",),
-            3,
-            _difference,
-            True,
-        ),
-        "vibration": Signal(
-            "(m/s^2)^2",
-            _ZERO,
-            "mean square of the specific force's vibration, body axes",
-            ("specific_force",),
-            6,
-            _mean_square,
-        ),
-        "earth_rate": Signal(
-            "rad/s", _ZERO, "the Earth's rotation, body axes", ("attitude", "latitude"), 0, _earth
-        ),
-        "transport_rate": Signal(
-            "rad/s",
-            _ZERO,
-            "rotation of east-north-up along the way over the Earth, body axes",
-            ("attitude", "latitude", "velocity"),
-            0,
-            _transport,
-        ),
-    }
-)
+_DERIVED = {
+    "time": Signal("s", (0.0,), "time since power-on", (), 1, _count),
+    "temperature_rate": Signal(
+        "K/s", (0.0,), "rate of the temperature", ("temperature",), 4, _slow_difference
+    ),
+    "angular_acceleration": Signal(
+        "rad/s^2", ZERO, "rate of the angular rate, body axes", ("rate",), 3, _difference, True
+    ),
+    "jerk": Signal(
+        "m/s^3",
+        ZERO,
+        "rate of the specific force, body axes",
+        ("specific_force",),
+        3,
+        _difference,
+        True,
+    ),
+    "vibration": Signal(
+        "(m/s^2)^2",
+        ZERO,
+        "mean square of the specific force's vibration, body axes",
+        ("specific_force",),
+        6,
+        _mean_square,
+    ),
+    "earth_rate": Signal(
+        "rad/s", ZERO, "the Earth's rotation, body axes", ("attitude", "latitude"), 0, _earth
+    ),
+    "transport_rate": Signal(
+        "rad/s",
+        ZERO,
+        "rotation of east-north-up along the way over the Earth, body axes",
+        ("attitude", "latitude", "velocity"),
+        0,
+        _transport,
+    ),
+}
+
+SIGNALS: Mapping[str, Signal] = MappingProxyType(_INPUTS | _DERIVED)
 """Every signal, in the order in which they stand in the vector ``u``."""
 
 ALWAYS = ("rate", "specific_force", "temperature")
@@ -262,3 +254,7 @@ class Derived:
             following.append(after)
             at += signal.memory
         return ca.vertcat(*following), values
+
+
+SURROUNDINGS = tuple(n for n, s in SIGNALS.items() if s.surrounding)
+"""Inputs that are neither motion nor place: temperature, supply, magnetic field."""

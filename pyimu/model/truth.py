@@ -27,18 +27,6 @@ SAME_PERIOD = 1e-6
 LONGEST_GAP = 3600.0
 """s; a longer gap in a recording counts as that long."""
 
-GROUPS = {
-    "specific_force": "ref_force",
-    "temperature": "temperature",
-    "supply": "supply",
-    "mag": "mag",
-    "attitude": "ref_q",
-    "latitude": "latitude",
-    "velocity": "ref_velocity",
-}
-"""Where a recording holds the inputs of a part, less the rate, which may follow from other columns.
-"""
-
 MEASURED = {"rate": "gyro", "specific_force": "accel"}
 """What stands for an unknown truth where it only enters another sensor's small errors."""
 
@@ -107,7 +95,7 @@ class Truth:
         for values in self._sources(name):
             if values is not None and _seen(values):
                 return values
-        columns = ", ".join(column_names("ref_rate" if name == "rate" else GROUPS[name]))
+        columns = ", ".join(column_names(SIGNALS[name].group))
         which = self.own.get(name) or " and ".join(self.own.values())
         raise UserError(
             f"{self.recording.name}: no {columns}: the {which} cannot be simulated without the "
@@ -115,7 +103,7 @@ class Truth:
         )
 
     def _sources(self, name: str) -> Iterator[np.ndarray | None]:
-        yield self.rate if name == "rate" else getattr(self.recording, GROUPS[name])
+        yield self.rate if name == "rate" else getattr(self.recording, SIGNALS[name].group)
         if name == "specific_force" and self.at_rest:
             yield self._resting()
         if name not in self.own and name in MEASURED:

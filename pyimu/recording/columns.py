@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any
 
@@ -11,55 +12,95 @@ from pyimu import units
 XYZ = ("x", "y", "z")
 
 
-GROUPS: Mapping[str, tuple[tuple[str, ...], str]] = MappingProxyType(
+@dataclass(frozen=True)
+class Group:
+    """A group of columns, one for each of its suffixes, or a single column that has none.
+
+    A group that is the truth of a signal names it, and the value (size,) that the signal has where
+    nobody sets it; ``surrounding`` says that the signal is neither the body's motion nor its place.
+    """
+
+    unit: str
+    text: str
+    suffixes: tuple[str, ...] = ()
+    signal: str = ""
+    start: tuple[float, ...] = ()
+    surrounding: bool = False
+
+
+def _truth(signal: str, start: tuple[float, ...], unit: str, text: str, *suffixes: str) -> Group:
+    return Group(unit, text, suffixes, signal, start)
+
+
+def _surrounding(signal: str, start: tuple[float, ...], unit: str, text: str, *suffixes) -> Group:
+    return Group(unit, text, suffixes, signal, start, surrounding=True)
+
+
+ZERO = (0.0, 0.0, 0.0)
+
+GROUPS: Mapping[str, Group] = MappingProxyType(
     {
-        "gyro": (XYZ, "rad/s"),
-        "accel": (XYZ, "m/s^2"),
-        "temperature": ((), "degC"),
-        "ref_rate": (XYZ, "rad/s"),
-        "ref_q": (("w", *XYZ), "1"),
-        "ref_heading": ((), "rad"),
-        "ref_force": (XYZ, "m/s^2"),
-        "ref_north": ((), "m"),
-        "ref_east": ((), "m"),
-        "ref_up": ((), "m"),
-        "ref_velocity": (("east", "north", "up"), "m/s"),
-        "moving": ((), "1"),
-        "stationary": ((), "1"),
-        "heading": ((), "rad"),
-        "heading_std": ((), "rad"),
-        "supply": ((), "V"),
-        "mag": (XYZ, "T"),
-        "latitude": ((), "rad"),
+        "gyro": Group("rad/s", "measured rate against inertial space, body axes", XYZ),
+        "accel": Group("m/s^2", "measured specific force, body axes", XYZ),
+        "ref_rate": _truth(
+            "rate", ZERO, "rad/s", "angular rate against inertial space, body axes", *XYZ
+        ),
+        "ref_force": _truth(
+            "specific_force",
+            (0.0, 0.0, units.STANDARD_GRAVITY),
+            "m/s^2",
+            "specific force, body axes",
+            *XYZ,
+        ),
+        "temperature": _surrounding("temperature", (25.0,), "degC", "temperature of the part"),
+        "supply": _surrounding("supply", (3.3,), "V", "supply voltage"),
+        "mag": _surrounding("mag", ZERO, "T", "magnetic flux density, body axes", *XYZ),
+        "ref_q": _truth(
+            "attitude",
+            (1.0, 0.0, 0.0, 0.0),
+            "1",
+            "attitude, body to world (east-north-up), Hamilton, scalar first",
+            *("w", *XYZ),
+        ),
+        "latitude": _truth("latitude", (0.0,), "rad", "geographic latitude"),
+        "ref_velocity": _truth(
+            "velocity",
+            ZERO,
+            "m/s",
+            "velocity over the ground, east-north-up",
+            *("east", "north", "up"),
+        ),
+        "ref_heading": Group("rad", "true heading, counter-clockwise from east"),
+        "ref_north": Group("m", "true position to the north"),
+        "ref_east": Group("m", "true position to the east"),
+        "ref_up": Group("m", "true position above"),
+        "moving": Group("1", "mark of rows in motion"),
+        "stationary": Group("1", "mark of rows at rest"),
+        "heading": Group("rad", "measured heading, counter-clockwise from east"),
+        "heading_std": Group("rad", "standard deviation of the measured heading"),
     }
 )
-"""What a recording can hold: group name to (column suffixes, SI unit). A group without suffixes is
-one column."""
+"""What a recording can hold beside its time, by name. The signals on which a sensor's errors may
+depend are those that groups are the truth of, in this order, and what follows from them
+(``pyimu.model.signals``)."""
 
 
 def column_names(group: str) -> tuple[str, ...]:
     """Names of the columns of a group, without unit: ``("gyro_x", "gyro_y", "gyro_z")``."""
-    suffixes, _ = GROUPS[group]
-    return tuple(f"{group}_{suffix}" for suffix in suffixes) or (group,)
+    return tuple(f"{group}_{suffix}" for suffix in GROUPS[group].suffixes) or (group,)
 
 
-_GROUP = {name: group for group in GROUPS for name in column_names(group)} | {"time": "time"}
+GROUP_OF = {name: group for group in GROUPS for name in column_names(group)} | {"time": "time"}
+"""The group of each column: ``"gyro"`` of ``"gyro_x"``."""
 
-
-UNITS = {
-    "time": "s",
-    **{name: GROUPS[group][1] for name, group in _GROUP.items() if group in GROUPS},
-}
-
-
-def group_of(name: str) -> str:
-    """The group of a column: ``"gyro"`` for ``"gyro_x"``."""
-    return _GROUP[name]
+UNITS = {name: GROUPS[group].unit for name, group in GROUP_OF.items() if group != "time"}
+UNITS["time"] = "s"
 
 
 def check_unit(place: str, name: str, text: Any) -> units.Unit:
-    """The unit ``text`` of the column ``name``. Raises UnitError that begins with ``place`` where
-    it is none, or does not fit.
+    """The unit ``text`` of the column ``name``.
+
+    Raises UnitError that begins with ``place`` where it is none, or does not fit.
     """
     try:
         unit = units.parse(text)

@@ -14,7 +14,7 @@ import numpy as np
 
 from pyimu import units
 from pyimu.errors import Finding, UserError
-from pyimu.recording.columns import GROUPS, check_unit, column_names, group_of
+from pyimu.recording.columns import GROUP_OF, GROUPS, check_unit, column_names
 
 LEAST_ROWS = 100
 """Fewer whole numbers in a column are no sign of counts."""
@@ -106,7 +106,7 @@ class RawCounts:
         self._ranges = {
             name: (math.inf, -math.inf, unit)
             for name, unit in zip(names, found)
-            if group_of(name) in COARSEST
+            if GROUP_OF[name] in COARSEST
         }
 
     def add(self, columns: Mapping[str, np.ndarray]) -> None:
@@ -135,8 +135,8 @@ class RawCounts:
             if self._rows >= LEAST_ROWS
             and low < high
             and (
-                unit.factor >= COARSEST[group_of(name)]
-                or max(-low, high) * unit.factor > LARGEST[group_of(name)]
+                unit.factor >= COARSEST[GROUP_OF[name]]
+                or max(-low, high) * unit.factor > LARGEST[GROUP_OF[name]]
             )
         ]
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from pyimu import units
 from pyimu.errors import Finding, UserError
-from pyimu.recording.columns import GROUPS, UNITS, check_unit, column_names, group_of
+from pyimu.recording.columns import GROUP_OF, GROUPS, UNITS, check_unit, column_names
 from pyimu.recording.counts import Scale
 
 ORIGIN = 1e6
@@ -99,7 +99,7 @@ class Header:
 
     def _size(self, name: str) -> units.Unit:
         if name not in self._scale:
-            group = group_of(name)
+            group = GROUP_OF[name]
             raise UserError(
                 f"{self.path}: column {name} is in counts, and nobody said how large one is; say "
                 "it in a column map (TOML) "

@@ -10,11 +10,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields, make_dataclass, replace
 from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from pyimu.errors import Finding, UserError
 from pyimu.recording.clock import Cadence, cadence_of, segments
@@ -23,44 +25,28 @@ from pyimu.recording.formats.suffix import write_table
 from pyimu.recording.gaps import gap_rows
 from pyimu.units import did_you_mean
 
+_Columns = make_dataclass(
+    "_Columns",
+    [("name", str), ("time", np.ndarray), *((g, np.ndarray | None, None) for g in GROUPS)],
+    frozen=True,
+    eq=False,
+)
+
 
 @dataclass(frozen=True, eq=False)
-class Recording:
-    """One log. Arrays are (n,) or (n, columns) in SI, NaN where a value is missing, None where a
-    group is absent.
+class Recording(_Columns):
+    """One log: its ``name``, its ``time`` (n,) [s], which increases strictly, and groups of
+    columns.
 
-    ``time`` [s] increases strictly; ``gyro`` [rad/s] and ``accel`` [m/s^2] are the measured rate
-    against inertial space and specific force in body axes; ``temperature`` [degC]. Of the truth:
-    ``ref_rate`` [rad/s], ``ref_q`` (n, 4) (unit quaternion, scalar first, body to world),
-    ``ref_heading`` [rad] (counter-clockwise from east), ``ref_force`` [m/s^2], ``ref_north``,
-    ``ref_east``, ``ref_up`` [m], ``ref_velocity`` (n, 3) east, north, up [m/s], ``latitude`` [rad],
-    and the marks ``moving`` and ``stationary`` (0 or 1). Further sensors: ``heading`` and
-    ``heading_std`` [rad], ``supply`` [V], ``mag`` [T]. ``frame_declared`` says that the log's axes
-    were stated, not assumed. ``period`` [s] is the sample period, ``longest`` [s] the step above
-    which there may be a gap, and ``gaps`` (m,) the rows that follow one, where they are known
-    otherwise than from ``time``: of a piece of a log they are the log's.
+    A group is an attribute by its name in ``GROUPS``, listed below: an array (n,) or (n, columns)
+    in SI, NaN where a value is missing, or None where the log has no such group.
+
+    ``frame_declared`` says that the log's axes were stated, not assumed. ``period`` [s] is the
+    sample period, ``longest`` [s] the step above which there may be a gap, and ``gaps`` (m,) the
+    rows that follow one, where they are known otherwise than from ``time``: of a piece of a log
+    they are the log's.
     """
 
-    name: str
-    time: np.ndarray
-    gyro: np.ndarray | None = None
-    accel: np.ndarray | None = None
-    temperature: np.ndarray | None = None
-    ref_rate: np.ndarray | None = None
-    ref_q: np.ndarray | None = None
-    ref_heading: np.ndarray | None = None
-    ref_force: np.ndarray | None = None
-    ref_north: np.ndarray | None = None
-    ref_east: np.ndarray | None = None
-    ref_up: np.ndarray | None = None
-    ref_velocity: np.ndarray | None = None
-    moving: np.ndarray | None = None
-    stationary: np.ndarray | None = None
-    heading: np.ndarray | None = None
-    heading_std: np.ndarray | None = None
-    supply: np.ndarray | None = None
-    mag: np.ndarray | None = None
-    latitude: np.ndarray | None = None
     path: Path | None = None
     findings: tuple[Finding, ...] = ()
     frame_declared: bool = False
@@ -68,8 +54,14 @@ class Recording:
     longest: float | None = None
     gaps: np.ndarray | None = None
 
+    if TYPE_CHECKING:
+
+        def __getattr__(self, group: str) -> Any: ...
+
     @classmethod
-    def from_arrays(cls, name: str = "recording", *, time, **groups) -> Recording:
+    def from_arrays(
+        cls, name: str = "recording", *, time: ArrayLike, **groups: ArrayLike
+    ) -> Recording:
         """A recording of array-likes: ``time`` (n,) s, and groups by name, such as ``gyro=`` (n, 3)
         rad/s.
 
@@ -174,15 +166,21 @@ class Recording:
         for group, values in self.groups.items():
             columns = values.reshape(len(self), -1).T
             table |= {
-                f"{name} [{GROUPS[group][1]}]": column
+                f"{name} [{GROUPS[group].unit}]": column
                 for name, column in zip(column_names(group), columns)
             }
         return table
 
 
+Recording.__doc__ += "\n    Groups:\n\n" + "".join(
+    f"    ``{name}`` {f'(n, {len(g.suffixes)})' if g.suffixes else '(n,)'} [{g.unit}]: {g.text}\n"
+    for name, g in GROUPS.items()
+)
+
+
 def _shaped(name: str, group: str, values, n: int) -> np.ndarray:
     array = np.asarray(values, dtype=float)
-    width = len(GROUPS[group][0])
+    width = len(GROUPS[group].suffixes)
     shape = (n, width) if width else (n,)
     if array.shape != shape:
         raise UserError(f"{name}: {group} has shape {array.shape}, expected {shape}")

@@ -197,7 +197,7 @@ class Rows:
         groups = {}
         for group in self.source.header.groups:
             columns = [values[name] for name in column_names(group)]
-            groups[group] = np.column_stack(columns) if GROUPS[group][0] else columns[0]
+            groups[group] = np.column_stack(columns) if GROUPS[group].suffixes else columns[0]
         if "ref_q" in groups:
             groups["ref_q"] = self._normalised(groups["ref_q"])
         for name in (

@@ -41,8 +41,6 @@ in it."""
 CORNER = "rad/s (corner)"
 """A natural frequency: in rad/s like a rate, yet nobody calls it degrees a second."""
 
-FREQUENCIES = {("lag", "wn")}
-
 SCRIPTS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 
 

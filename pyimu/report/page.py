@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined
+from latex2mathml.converter import convert as latex_to_mathml
 from markupsafe import Markup, escape
 
 from pyimu.errors import Finding
@@ -72,6 +73,11 @@ def templates(package: str) -> Environment:
 def prose(text: str) -> Markup:
     """A cell of prose, which may break into lines."""
     return Markup('<span class="words">{}</span>').format(text)
+
+
+def equation(latex: str) -> Markup:
+    """An equation in LaTeX as MathML, which browsers draw by themselves."""
+    return Markup(latex_to_mathml(latex).replace(' xmlns="http://www.w3.org/1998/Math/MathML"', ""))
 
 
 def both(value: Any, si: str, unit: str | None = None) -> Markup:

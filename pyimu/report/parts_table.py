@@ -18,20 +18,20 @@ import numpy as np
 from pyimu.model.part import Part
 from pyimu.model.part_entry import RATE_KEY
 from pyimu.model.part_file import part, part_names
-from pyimu.report.numbers import CORNER, FREQUENCIES, in_unit, number, unit_for
+from pyimu.report.numbers import CORNER, in_unit, number, unit_for
 
 ABSENT = "-"
 """Printed where a part says nothing."""
 
 COLUMNS = (
-    ("gyro", "angle_random_walk", "N", "deg/sqrt(h)"),
-    ("gyro", "bias_instability", "B", "deg/h"),
-    ("gyro", "saturation", "limit", "deg/s"),
-    ("accel", "angle_random_walk", "N", "ug/sqrt(Hz)"),
-    ("accel", "bias_instability", "B", "ug"),
-    ("accel", "saturation", "limit", "g"),
+    ("N", "gyro", "angle_random_walk", "N", "deg/sqrt(h)"),
+    ("B", "gyro", "bias_instability", "B", "deg/h"),
+    ("range", "gyro", "saturation", "limit", "deg/s"),
+    ("N", "accel", "angle_random_walk", "N", "ug/sqrt(Hz)"),
+    ("B", "accel", "bias_instability", "B", "ug"),
+    ("range", "accel", "saturation", "limit", "g"),
 )
-"""What the listing compares: sensor, effect, parameter, and one unit for all parts."""
+"""What the listing compares: heading, sensor, effect, parameter, and one unit for all parts."""
 
 UNLIMITED = 10_000
 """Characters; wider than any line here."""
@@ -49,12 +49,11 @@ def listing(parts: Iterable[Part] | None = None, width: int | None = None) -> st
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0), title_justify="left")
     table.add_column("part\n\n", no_wrap=True)
     table.add_column("rate\n\nHz", justify="right", no_wrap=True)
-    for kind, effect, parameter, unit in COLUMNS:
-        what = "range" if effect == "saturation" else parameter
-        table.add_column(f"{kind}\n{what}\n{unit}", justify="right", no_wrap=True)
+    for heading, kind, _, _, unit in COLUMNS:
+        table.add_column(f"{kind}\n{heading}\n{unit}", justify="right", no_wrap=True)
     table.add_column("description\n\n")
     for p in map(part, part_names()) if parts is None else parts:
-        figures = [_figure(p, *column) for column in COLUMNS]
+        figures = [_figure(p, *column[1:]) for column in COLUMNS]
         table.add_row(p.name, f"{p.sample_rate:.10g}", *figures, p.description)
     return _text(table, width)
 
@@ -98,7 +97,7 @@ def _rows(p: Part) -> list[tuple[str, str, str, str]]:
                 note = p.notes.get(key)
                 if note is None and np.all(sensor.values[e.name][name] == q.start):
                     continue
-                si = CORNER if (e.name, name) in FREQUENCIES else sensor.unit(q.unit)
+                si = CORNER if q.corner else sensor.unit(q.unit)
                 value = (
                     "estimated from data"
                     if key in p.estimate

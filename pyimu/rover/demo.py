@@ -21,8 +21,6 @@ from scipy.spatial.transform import Rotation
 from pyimu.files import whole
 from pyimu.identification.attitude_error import AttitudeError, attitude_error
 from pyimu.identification.close import close
-from pyimu.identification.fit.columns import band_time, in_band, residual
-from pyimu.identification.fit.score import held_state
 from pyimu.identification.report.deliver import check_delivery
 from pyimu.identification.result import Closed
 from pyimu.model.part import Part
@@ -161,17 +159,15 @@ def draw_before_and_after(shown: Demo, path: Path) -> None:
     """Rate residual about the vertical and heading error on the held-out rows, before and after, as
     a PNG.
     """
-    inv = shown.closed.investigations["gyro"]
     figure = Figure(figsize=(8.4, 3.0), layout="constrained", dpi=150)
     left, right = figure.subplots(1, 2)
-    for name, colour, model, error in (
-        ("before", "#e69f00", inv.before, shown.before),
-        ("after", "#0072b2", inv.after, shown.after),
+    for name, colour, error in (
+        ("before", "#e69f00", shown.before),
+        ("after", "#0072b2", shown.after),
     ):
-        for trial in inv.held:
-            state, rest = held_state(model, trial)
-            r = in_band(rest, residual(model.sensor, rest, state))[:, 2]
-            left.plot(band_time(rest), np.rad2deg(r), color=colour, lw=0.8, label=name)
+        for trace in shown.closed.exhibits["gyro"].traces:
+            rate = np.rad2deg(getattr(trace, name)[:, 2])
+            left.plot(trace.time, rate, color=colour, lw=0.8, label=name)
         right.plot(error.time, np.rad2deg(error.heading), color=colour, lw=1.4, label=name)
     left.set(
         xlabel="time [s]", ylabel="rate residual, z [deg/s]", title="gyro less model, held-out rows"

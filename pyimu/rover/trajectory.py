@@ -94,7 +94,10 @@ def drive(
     """Sample a drive at ``sample_rate`` Hz; ``seed`` draws the ground's bumps."""
     h = 1.0 / sample_rate
     counts = [round(m.duration * sample_rate) for m in manoeuvres]
-    spread = lambda values: np.repeat(np.array(values), counts)
+
+    def spread(values: list[float]) -> np.ndarray:
+        return np.repeat(np.array(values), counts)
+
     turn, speed, rough = (
         gaussian_filter1d(spread([getattr(m, n) for m in manoeuvres]), RAMP / 4 / h)
         for n in ("turn", "speed", "roughness")

@@ -4,7 +4,7 @@ discretisation.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from itertools import pairwise
 
 import control
@@ -12,9 +12,10 @@ import numpy as np
 from scipy.linalg import expm
 from scipy.optimize import brentq
 
-from pyimu.derivations.independent import van_loan
 from pyimu.errors import UserError
-from pyimu.model.effects.noise import POLES, end_weight
+from pyimu.model.catalogue import CATALOGUE
+from pyimu.model.law import Law
+from pyimu.symbolic.van_loan import van_loan
 
 
 def white(gain: float) -> control.StateSpace:
@@ -30,44 +31,33 @@ def processes(strengths: np.ndarray, rates: np.ndarray) -> control.StateSpace:
     return control.ss(-np.diag(rates), np.diag(strengths), np.ones((1, m)), np.zeros((1, m)))
 
 
-def flicker(B: float, f_low: float, f_high: float) -> control.StateSpace:
-    """Gauss-Markov processes with corners evenly in the logarithm from f_low to f_high, whose
-    densities sum to about B^2 / (2 pi f).
-
-    With corner rates a_k apart by the factor e^D, sum_k g_k^2 / (a_k^2 + w^2) D-spaced approaches 1
-    / w where g_k^2 = 2 D a_k / pi, because int 2 a / (pi (a^2 + w^2)) d(ln a) = 1 / w; and B^2 / (2
-    pi f) = B^2 / w.
-    """
-    spacing = np.log(f_high / f_low) / (POLES - 1)
-    weights = np.r_[end_weight(spacing), np.ones(POLES - 2), end_weight(spacing)]
-    rates = 2 * np.pi * np.geomspace(f_low, f_high, POLES)
-    return processes(B * np.sqrt(2 * weights * spacing * rates / np.pi), rates)
-
-
-CONTINUOUS: Mapping[str, Callable[[Mapping[str, float], float], control.StateSpace]] = {
-    "angle_random_walk": lambda c, x: white(c["N"]),
-    "rate_random_walk": lambda c, x: processes([c["K"]], [0.0]),
-    "gauss_markov": lambda c, x: processes([c["q"]], [1 / c["tau"]]),
-    "bias_instability": lambda c, x: flicker(c["B"], c["f_low"], c["f_high"]),
-    "rate_dependent_noise": lambda c, x: white(c["k"] * abs(x)),
-}
-"""The filter by effect, of one axis's coefficients and its input x. Noise that belongs to the
-sample has none."""
-
-
 def continuous_filter(
     effect: str, coefficients: Mapping[str, float], at: float = 0.0
 ) -> control.StateSpace:
     """The continuous filter from white noises of density one to the output, for one axis with the
-    input ``at``.
+    input ``at``: the effect's law as a system.
 
-    Raises UserError for an effect that has none: jitter, quantization and what draws no noise.
+    Raises UserError for an effect that has none: jitter, quantization and what is no noise.
     """
-    if effect not in CONTINUOUS:
+    law = CATALOGUE[effect].law
+    if not has_filter(law):
+        known = [e.name for e in CATALOGUE.values() if has_filter(e.law)]
         raise UserError(
-            f"{effect} has no continuous shaping filter, only {', '.join(CONTINUOUS)} have one"
+            f"{effect} has no continuous shaping filter, only {', '.join(known)} have one"
         )
-    return CONTINUOUS[effect](coefficients, at)
+    walk, markov = (law.value(part, coefficients) for part in ("walk", "markov"))
+    states = [] if walk is None else [(np.sqrt(walk), 0.0)]
+    states += [(np.sqrt(2 * variance / tau), 1 / tau) for variance, tau in markov or ()]
+    density = law.value("white", coefficients, x=at)
+    systems = [processes(*np.transpose(states))] if states else []
+    systems += [] if density is None else [white(np.sqrt(density))]
+    return systems[0] if len(systems) == 1 else control.append(*systems).sum()
+
+
+def has_filter(law: Law | None) -> bool:
+    """Whether a law is one of noise in continuous time."""
+    parts = law and (law.white, law.walk, law.markov)
+    return bool(parts) and not law.sampled and any(parts)
 
 
 def discretise(system: control.StateSpace, sample_period: float) -> control.StateSpace:

@@ -9,15 +9,22 @@ import control
 import numpy as np
 
 from pyimu.errors import UserError
-from pyimu.model.catalogue import CATALOGUE
-from pyimu.model.effect import OWN
+from pyimu.model.effects import EFFECTS
+from pyimu.model.kinds import OWN
+from pyimu.model.law import Law
 from pyimu.model.sensor import Sensor
 from pyimu.shaping import closed
 from pyimu.shaping.allan import allan_deviation, clusters
-from pyimu.shaping.continuous import CONTINUOUS, discretise, transfer_function, white
+from pyimu.shaping.continuous import (
+    continuous_filter,
+    discretise,
+    has_filter,
+    transfer_function,
+    white,
+)
 from pyimu.shaping.sampled import only, operating_point, psd_two_sided, shaping_filter
 
-NOISE_LIKE = ("quantization", "angle_quantization", "rate_ramp")
+NOISE_LIKE = tuple(e.name for e in EFFECTS if e.law and not e.stochastic)
 """Effects that draw nothing and stand in the field's tables of noises all the same."""
 
 Closed = Callable[[np.ndarray], np.ndarray]
@@ -156,18 +163,22 @@ def describe(
     in ``NOISE_LIKE``.
     """
     alone = only(sensor, effect)
-    if not CATALOGUE[effect].stochastic and effect not in NOISE_LIKE:
+    law, stochastic = alone.effect(effect).law, alone.effect(effect).stochastic
+    if law is None:
         raise UserError(
             f"{sensor.kind}.{effect} draws no noise and is not {' or '.join(NOISE_LIKE)}"
+            if not stochastic
+            else f"{sensor.kind}.{effect} has no law: give its definition one"
         )
     c = coefficients(alone, effect, axis)
     x, h = operating_point(sensor, axis, at, slope)[OWN[sensor.kind].start + axis], sample_period
     sampled = (
         shaping_filter(sensor, effect, axis, h, at=at, slope=slope)
-        if CATALOGUE[effect].stochastic
-        else _noise_like(effect, c, h)
+        if stochastic
+        else _noise_like(law, c, h)
     )
-    continuous = CONTINUOUS[effect](c, x) if effect in CONTINUOUS else None
+    continuous = continuous_filter(effect, c, x) if has_filter(law) else None
+    ramp = law.value("ramp", c)
     return NoiseModel(
         sensor.kind,
         effect,
@@ -176,9 +187,9 @@ def describe(
         h,
         sampled,
         continuous,
-        _transfer(effect, c, h, sampled, continuous),
-        _closed(effect, c, h, sampled),
-        (lambda f: c["R"] ** 2 / (2 * np.pi * f) ** 3) if effect == "rate_ramp" else None,
+        _transfer(law.value("rounding", c), h, sampled, continuous),
+        _closed(law, c, h, sampled),
+        None if ramp is None else lambda f: ramp**2 / (2 * np.pi * f) ** 3,
     )
 
 
@@ -190,21 +201,21 @@ def coefficients(sensor: Sensor, effect: str, axis: int) -> dict[str, float]:
     }
 
 
-def _noise_like(effect: str, c: Mapping[str, float], h: float) -> control.StateSpace | None:
-    """What the samples' errors are for rounding: white, or for rounded angles y_k = (e_k-1 - e_k) /
-    h with white e.
+def _noise_like(law: Law, c: Mapping[str, float], h: float) -> control.StateSpace | None:
+    """What the samples' errors are where nothing is drawn: white, or for a rounded integral
+    y_k = (e_k-1 - e_k) / h with white e; None for a ramp.
     """
-    if effect == "rate_ramp":
-        return None
-    std = c["q"] / np.sqrt(12)
-    if effect == "quantization":
+    density, rounding = law.value("white", c, h=h), law.value("rounding", c)
+    if density is not None:
+        std = np.sqrt(density / h)
         return control.ss(np.zeros((0, 0)), np.zeros((0, 1)), np.zeros((1, 0)), [[std]], h)
-    return control.ss([[0.0]], [[std]], [[1 / h]], [[-std / h]], h)
+    if rounding is not None:
+        return control.ss([[0.0]], [[rounding]], [[1 / h]], [[-rounding / h]], h)
+    return None
 
 
 def _transfer(
-    effect: str,
-    c: Mapping[str, float],
+    rounding: float | None,
     h: float,
     sampled: control.StateSpace | None,
     continuous: control.StateSpace | None,
@@ -213,23 +224,24 @@ def _transfer(
         return transfer_function(continuous)
     if sampled is None:
         return None
-    if effect == "angle_quantization":
-        return control.tf([c["q"] * np.sqrt(h / 12), 0.0], [1.0])
+    if rounding is not None:
+        return control.tf([rounding * np.sqrt(h), 0.0], [1.0])
     return transfer_function(white(float(np.linalg.norm(sampled.D)) * np.sqrt(h)))
 
 
 def _closed(
-    effect: str, c: Mapping[str, float], h: float, sampled: control.StateSpace | None
+    law: Law, c: Mapping[str, float], h: float, sampled: control.StateSpace | None
 ) -> Closed | None:
-    """The closed forms of table 3 that are exact for samples; a sum of Gauss-Markov processes is
-    left to the integral.
+    """The closed forms of Hidalgo 2012, table 3, that are exact for samples; a sum of Gauss-Markov
+    processes is left to the integral.
     """
-    if effect == "rate_ramp":
-        return lambda tau: closed.ramp_deviation(c["R"], tau)
-    if effect == "angle_quantization":
-        return lambda tau: closed.angle_quantization_deviation(c["q"] / np.sqrt(12), tau)
-    if effect == "rate_random_walk":
-        return lambda tau: closed.random_walk_deviation(c["K"], tau, h)
+    ramp, rounding, walk = (law.value(part, c) for part in ("ramp", "rounding", "walk"))
+    if ramp is not None:
+        return lambda tau: closed.ramp_deviation(ramp, tau)
+    if rounding is not None:
+        return lambda tau: closed.angle_quantization_deviation(rounding, tau)
+    if walk is not None and law.white is None and law.markov is None:
+        return lambda tau: closed.random_walk_deviation(np.sqrt(walk), tau, h)
     if sampled.nstates == 0:
         return lambda tau: closed.white_deviation(np.linalg.norm(sampled.D) * np.sqrt(h), tau)
     return None

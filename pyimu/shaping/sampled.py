@@ -10,7 +10,7 @@ import numpy as np
 
 from pyimu.errors import UserError
 from pyimu.model.chain import Chain
-from pyimu.model.effect import OWN
+from pyimu.model.kinds import OWN
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS, START
 

@@ -1,9 +1,9 @@
-"""Attitude kinematics as casadi expressions: the one place where a filter, a simulation and a
-derivation take them from.
+"""Attitude kinematics and process noise as casadi expressions, from which filters, simulations and
+derivations take them.
 
 Every function takes and returns casadi matrices of one kind, symbolic (``SX``) or numeric (``DM``);
 vectors are columns. Quaternions are Hamilton, scalar first, body to world (``q_nb``); the world is
-east-north-up, the body forward-left-up.
+east-north-up, the body forward-left-up. Only ``van_loan`` works on numpy arrays.
 """
 
 from pyimu.symbolic import earth, linear, mrp, quaternion, series

@@ -12,19 +12,19 @@ EARTH_RADIUS = 6371008.8
 
 
 def earth_rate(latitude, magnitude: float = EARTH_RATE):
-    """Rate of the east-north-up frame against inertial space (3,) rad/s at ``latitude`` rad.
+    """Rate (3,) rad/s of the east-north-up frame against inertial space at ``latitude`` rad.
 
-    Hidalgo 2012, eq. of the Earth rotation vector, printed there in north-west-up axes: [cos, 0,
-    sin] of the latitude; Groves 2013, eq. 2.123, in north-east-down.
+    Hidalgo 2012, equation of the Earth rotation vector, printed there in north-west-up axes: [cos,
+    0, sin] of the latitude; Groves 2013, eq. 2.123, in north-east-down.
     """
     return magnitude * ca.vertcat(0, ca.cos(latitude), ca.sin(latitude))
 
 
 def transport_rate(latitude, velocity, radius: float = EARTH_RADIUS):
-    """Rate of the east-north-up frame against the Earth (3,) rad/s of a body that moves at
-    ``velocity`` (3,) m/s, east-north-up.
+    """Rate (3,) rad/s of the east-north-up frame against the Earth, for a body that moves at
+    ``velocity`` (3,) m/s in that frame.
 
-    Groves 2013, eq. 5.44, for a sphere and in east-north-up axes.
+    Groves 2013, eq. 5.44, for a sphere of ``radius`` m and in east-north-up axes.
     """
     east, north = velocity[0] / radius, velocity[1] / radius
     return ca.vertcat(-north, east, east * ca.tan(latitude))

@@ -1,4 +1,4 @@
-"""Symmetric matrices without branches: Cholesky's factor and what a filter does with it."""
+"""Symmetric matrices without branches: the Cholesky factor and what a filter needs of it."""
 
 from __future__ import annotations
 
@@ -7,12 +7,14 @@ from collections.abc import Callable
 import casadi as ca
 
 FLOOR = 1e-30
-"""Least square of a pivot of ``cholesky``: a singular matrix gets a tiny pivot instead of NaN."""
+"""Least value under the root of a pivot of ``cholesky``: a singular matrix has a tiny pivot instead
+of NaN."""
 
 
 def symmetric(size: int, entry: Callable):
-    """The matrix (size, size) with ``entry(i, j)``, i <= j, on both sides of the diagonal:
-    symmetric to the last bit.
+    """The matrix (size, size) with ``entry(i, j)``, i <= j, on both sides of the diagonal.
+
+    It is symmetric to the last bit.
     """
     upper = {(i, j): entry(i, j) for i in range(size) for j in range(i, size)}
     return ca.vertcat(
@@ -33,10 +35,10 @@ def unpack(column, size: int):
 
 
 def cholesky(matrix):
-    """Lower triangular L with L L^T = ``matrix``, a symmetric definite matrix (Golub and Van Loan
-    2013, section 4.2).
+    """Lower triangular L with L L^T = ``matrix``, a symmetric definite one.
 
-    The zeros above the diagonal are structural, so that what is computed from a column skips them.
+    Golub and Van Loan 2013, section 4.2. The zeros above the diagonal are structural, so that
+    operations on a column skip them.
     """
     size = matrix.shape[0]
     lower = type(matrix)(size, size)

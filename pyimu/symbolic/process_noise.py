@@ -18,20 +18,20 @@ import casadi as ca
 from pyimu.symbolic.series import phi, stumpff
 
 TERMS = 20
-"""Of the series of ``discretised``; at |F| h = 1/2 what is left out is below 1e-18 of the sum."""
+"""Terms of the series of ``discretised``; at |F| h = 1/2 the rest is below 1e-18 of the sum."""
 
 
 def error_system(rate, n, biases: Sequence[tuple], scale=1.0):
-    """F and G, both (m, m), of the error state with m = 3 and 3 more for each bias process.
+    """F and G, both (m, m), of the error state, with m = 3 and 3 more for each bias process.
 
     ``rate`` (3,) rad/s is the body's, ``n`` (3,) rad/sqrt(s) the angle random walk, ``biases``
-    pairs of the strength (3,) rad/s/sqrt(s) and the decay (3,) 1/s of each process b' = -decay b +
-    strength w; a random walk has no decay::
+    are pairs of the strength (3,) rad/s/sqrt(s) and the decay (3,) 1/s of each process; a random
+    walk has no decay::
 
         p' = -rate x p - scale (sum of b + N w),    b' = -decay b + strength w
 
-    Crassidis and Markley 2003, section III; the minus signs because the bias is subtracted from the
-    measured rate.
+    Crassidis and Markley 2003, section III. The minus signs are there because the bias is
+    subtracted from the measured rate.
     """
     m, kind = len(biases), type(rate)
     upper = ca.horzcat(-ca.skew(rate), *[-scale * kind.eye(3)] * m)
@@ -41,8 +41,8 @@ def error_system(rate, n, biases: Sequence[tuple], scale=1.0):
 
 
 def process_noise(n, k, h):
-    """Covariance (6, 6) that a period ``h`` s adds to the attitude error (rad, body axes) and the
-    gyro bias (rad/s).
+    """Covariance (6, 6) that a period of ``h`` s adds to the attitude error in rad, body axes, and
+    to the gyro bias in rad/s.
 
     ``n`` (3,) rad/sqrt(s) is each axis's angle random walk, ``k`` (3,) rad/s/sqrt(s) its rate
     random walk::
@@ -51,8 +51,8 @@ def process_noise(n, k, h):
         [ -K^2 h^2 / 2 I              K^2 h I       ]
 
     Exact for a body that does not turn during ``h`` (Crassidis and Markley 2003, eq. 27; Hidalgo
-    2012, eq. of Q_k, where the print has lost the minus signs: the bias is subtracted from the
-    rate, so its growth turns the attitude back).
+    2012, equation of Q_k, where the print has lost the minus signs: the bias is subtracted from the
+    rate, so that its growth turns the attitude back).
     """
     n2, k2 = n * n, k * k
     attitude, cross, bias = n2 * h + k2 * h**3 / 3, -k2 * h**2 / 2, k2 * h
@@ -62,18 +62,17 @@ def process_noise(n, k, h):
 
 
 def turning_transition(f, square, h):
-    """exp(F h) = I + h F + psi_2 F^2 + psi_3 F^3 for F^4 = -``square`` F^2, ``square`` = |rate|^2;
-    exact.
+    """exp(F h) = I + h F + psi_2 F^2 + psi_3 F^3, exact where F^4 = -``square`` F^2.
 
     The error state with a random walk for its bias is such a system (``error_system`` without
-    decay).
+    decay), with ``square`` = |rate|^2.
     """
     f2 = f @ f
     return type(f).eye(f.shape[0]) + h * f + psi(2, square, h) * f2 + psi(3, square, h) * f2 @ f
 
 
 def turning_process_noise(rate, n, k, h, scale=1.0):
-    """Covariance (6, 6) like ``process_noise``'s for a body that turns at the constant ``rate``
+    """The covariance (6, 6) of ``process_noise`` for a body that turns at the constant ``rate``
     (3,) rad/s; exact.
 
     With exp(F t) = I + t F + psi_2(t) F^2 + psi_3(t) F^3 the integral is a sum over the products of
@@ -92,8 +91,8 @@ def turning_process_noise(rate, n, k, h, scale=1.0):
 
 
 def turning_products(square, h) -> dict:
-    """Integrals from 0 to h of the products of two of 1, t, psi_2(t), psi_3(t), by their places (i,
-    j), i <= j.
+    """Integrals from 0 to h of the products of two of the functions 1, t, psi_2(t), psi_3(t), by
+    their places (i, j), i <= j.
 
     Squares of sine and cosine are those of twice the angle, hence psi at four times the ``square``
     of the rate.
@@ -124,37 +123,40 @@ def psi(k: int, square, h):
 
 
 def gauss_markov_process_noise(n, strength, tau, h, scale=1.0):
-    """Covariance (6, 6) like ``process_noise``'s for a bias b' = -b/tau + strength w, for a body
+    """The covariance (6, 6) of ``process_noise`` for a bias b' = -b/tau + strength w, for a body
     that does not turn.
 
-    ``strength`` (3,) rad/s/sqrt(s) and ``tau`` (3,) s, one of each an axis; for tau to infinity the
-    random walk's.
+    ``strength`` (3,) rad/s/sqrt(s) and ``tau`` (3,) s have a value for each axis. For tau to
+    infinity the bias is a random walk.
     """
     return flicker_process_noise(n, [(strength, tau)], h, scale)
 
 
 def flicker_process_noise(n, processes: Sequence[tuple], h, scale=1.0):
     """Covariance (3 + 3 m, 3 + 3 m) for a bias that is the sum of m independent Gauss-Markov
-    processes, as is flicker noise.
+    processes, which stand for flicker noise.
 
-    ``processes`` are pairs of strength (3,) rad/s/sqrt(s) and correlation time (3,) s; each has its
-    own three states. The body does not turn; where it does, ``discretised`` has the covariance of
-    ``error_system``.
+    ``processes`` are pairs of strength (3,) rad/s/sqrt(s) and correlation time (3,) s; each has
+    three states of its own. The body does not turn; where it does, ``discretised`` gives the
+    covariance of ``error_system``.
     """
     attitude, rows = n * n * h, []
-    blocks = [_gauss_markov_blocks(strength, tau, h) for strength, tau in processes]
-    for i, (own, cross, bias) in enumerate(blocks):
+    covariances = [_gauss_markov_covariances(strength, tau, h) for strength, tau in processes]
+    for i, (own, cross, bias) in enumerate(covariances):
         attitude += own
         rows.append(
-            [-scale * cross, *[bias if i == j else type(bias)(3, 1) for j in range(len(blocks))]]
+            [
+                -scale * cross,
+                *[bias if i == j else type(bias)(3, 1) for j in range(len(covariances))],
+            ]
         )
     top = [scale**2 * attitude, *[row[0] for row in rows]]
     return ca.vertcat(*[ca.horzcat(*[ca.diag(entry) for entry in row]) for row in (top, *rows)])
 
 
-def _gauss_markov_blocks(strength, tau, h):
-    """Variance that one process gives to the angle, its covariance with the process, the process's
-    own; each (3,).
+def _gauss_markov_covariances(strength, tau, h):
+    """Variance that one process adds to the angle, covariance of the two, and variance of the
+    process itself; (3,) each.
     """
     z, s2 = h / tau, strength * strength
     return (
@@ -165,12 +167,13 @@ def _gauss_markov_blocks(strength, tau, h):
 
 
 def discretised(f, density, h, halvings: int = 0):
-    """exp(F h) and Q of x' = F x + w, ``density`` (m, m) that of w, for any constant F: series to
-    rounding, then doubled.
+    """exp(F h) and Q, (m, m) each, of x' = F x + w for any constant F, with white noise w of
+    ``density`` (m, m).
 
     Q is the sum of M_k h^(k+1)/(k+1)! with M_0 = ``density`` and M_(k+1) = F M_k + M_k F^T, because
-    Q' = F Q + Q F^T + density. To rounding where |F| h < 2^``halvings`` / 2; each doubling is Q(2
-    h) = Q(h) + exp(F h) Q(h) exp(F h)^T.
+    Q' = F Q + Q F^T + density. The sum is taken over h / 2^``halvings`` and then doubled, by Q(2 h)
+    = Q(h) + exp(F h) Q(h) exp(F h)^T. The result is exact to rounding where |F| h < 2^``halvings``
+    / 2.
     """
     h = h / 2**halvings
     power = transition = type(f).eye(f.shape[0])

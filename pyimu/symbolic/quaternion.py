@@ -1,18 +1,16 @@
-"""Unit quaternions (4,), Hamilton, scalar first, that turn body axes into world axes:
-``v_n = q v_b q*``.
-"""
+"""Unit quaternions (4,), Hamilton, scalar first, from body to world axes: ``v_n = q v_b q*``."""
 
 from __future__ import annotations
 
 import casadi as ca
 
 SMALL = 1e-3
-"""Square of the half angle in rad^2 below which series stand for sine and cosine; their first
-neglected terms are 3e-18."""
+"""rad^2; square of half the angle below which series replace sine and cosine. Their first neglected
+terms are 3e-18."""
 
 
 def product(a, b):
-    """``a`` after ``b``, (4,): the rotation by ``b`` first (Hamilton's rules i j = k)."""
+    """The product a b (4,), the rotation by ``b`` followed by that by ``a``; Hamilton's i j = k."""
     av, bv = a[1:4], b[1:4]
     return ca.vertcat(a[0] * b[0] - ca.dot(av, bv), a[0] * bv + b[0] * av + ca.cross(av, bv))
 
@@ -23,23 +21,26 @@ def conjugate(q):
 
 
 def normalized(q):
-    """``q`` at unit length; one Newton step would do after a product, but the root is exact for any
-    length.
+    """``q`` at unit length.
+
+    After a product one Newton step would do, but the root is exact for any length.
     """
     return q / ca.sqrt(ca.dot(q, q))
 
 
 def rotate(q, v):
-    """The vector ``v`` (3,) of the body in world axes: v + 2 w (r x v) + 2 r x (r x v) for q = (w,
-    r).
+    """The vector ``v`` (3,) of the body in world axes.
+
+    v + 2 w (r x v) + 2 r x (r x v) for q = (w, r).
     """
     t = 2 * ca.cross(q[1:4], v)
     return v + q[0] * t + ca.cross(q[1:4], t)
 
 
 def to_matrix(q):
-    """``R_nb`` (3, 3) with v_n = R_nb v_b; its columns are the rotated axes (Markley and Crassidis
-    2014, eq. 2.125).
+    """``R_nb`` (3, 3) with v_n = R_nb v_b; its columns are the rotated axes.
+
+    Markley and Crassidis 2014, eq. 2.125.
     """
     w, x, y, z = (q[i] for i in range(4))
     return ca.vertcat(
@@ -50,28 +51,29 @@ def to_matrix(q):
 
 
 def exponential(angle):
-    """The rotation by the vector ``angle`` (3,) rad: (cos(|a|/2), sin(|a|/2) a/|a|), smooth at
+    """The rotation by the vector ``angle`` a (3,) rad: (cos(|a|/2), sin(|a|/2) a/|a|), smooth at
     zero.
 
-    Sine and cosine are even functions of the length, so both are written in its square: no root is
-    taken, and no quotient 0/0 formed, where their derivatives would not exist.
+    cos(x) and sin(x)/x are even functions, so both are written in the square of the length: no root
+    is taken and no quotient 0/0 formed where their derivatives would not exist.
     """
     square = ca.dot(angle, angle) / 4
     return ca.vertcat(_cosine(square), _sinc(square) / 2 * angle)
 
 
 def derivative(q, rate):
-    """q' of a body that turns at ``rate`` (3,) rad/s in body axes: q (0, rate) / 2 (Hidalgo 2012,
-    section 4.1, there vector first).
+    """q' (4,) of a body that turns at ``rate`` (3,) rad/s in body axes: q (0, rate) / 2.
+
+    Hidalgo 2012, section 4.1, there with the vector part first.
     """
     return product(q, ca.vertcat(0, rate)) / 2
 
 
 def step_matrix(rate, h):
-    """Omega (4, 4) with ``step(q, rate, h)`` = Omega q: the product with the turn of ``h`` s from
-    the right as a matrix.
+    """Omega (4, 4) with ``step(q, rate, h)`` = Omega q.
 
-    Hidalgo 2012, section 4.2, Omega of the angular velocity, its rows and columns put scalar first.
+    Hidalgo 2012, section 4.2, Omega of the angular velocity, with rows and columns put scalar
+    first.
     """
     turn = exponential(rate * h)
     c, v = turn[0], turn[1:4]
@@ -79,10 +81,10 @@ def step_matrix(rate, h):
 
 
 def step(q, rate, h):
-    """Attitude after ``h`` s at the constant body rate ``rate`` (3,) rad/s: q exp(rate h / 2).
+    """Attitude (4,) after ``h`` s at the constant body rate ``rate`` (3,) rad/s: q exp(rate h / 2).
 
-    The closed form of q' = q (0, rate)/2; Hidalgo 2012, eq. of the discrete kinematics (there
-    vector first).
+    The solution of q' = q (0, rate)/2; Hidalgo 2012, equation of the discrete kinematics, there
+    with the vector part first.
     """
     return product(q, exponential(rate * h))
 
@@ -101,15 +103,16 @@ def _cosine(square):
 
 
 def _root(square):
-    """The root where it is used; where the series is, a harmless one, lest 0 times an infinite
-    slope spoil a derivative.
+    """The root of ``square``; 1 where the series is used, because 0 times an infinite slope would
+    spoil its derivative.
     """
     return ca.sqrt(ca.if_else(square < SMALL, 1, square))
 
 
 def from_euler(roll, pitch, yaw):
-    """Rz(yaw) Ry(pitch) Rx(roll), angles in rad; yaw counter-clockwise from east, nose up is
-    negative pitch (REP 103).
+    """The quaternion (4,) of Rz(yaw) Ry(pitch) Rx(roll), angles in rad.
+
+    Yaw is counter-clockwise from east, nose up is negative pitch (REP 103).
     """
 
     def about(axis: int, angle):
@@ -121,10 +124,10 @@ def from_euler(roll, pitch, yaw):
 
 
 def to_euler(q):
-    """(roll, pitch, yaw) in rad, (3,); the inverse of ``from_euler`` for |pitch| < pi/2.
+    """Roll, pitch, yaw (3,) in rad, the inverse of ``from_euler`` for |pitch| < pi/2.
 
-    Pitch is an arc tangent and not an arc sine, so that it keeps its digits close to +-pi/2 and
-    needs no clamp.
+    Pitch is an arc tangent, not an arc sine: it keeps its digits close to +-pi/2, and needs no
+    clamp.
     """
     w, x, y, z = (q[i] for i in range(4))
     forward_east, forward_north = 1 - 2 * (y * y + z * z), 2 * (x * y + w * z)

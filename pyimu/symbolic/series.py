@@ -1,5 +1,5 @@
-"""Functions that a discretisation is made of, each smooth at zero: Stumpff's of a turn, and the phi
-of a decay.
+"""Functions of which discretisations are made, each smooth at zero: Stumpff's for a turn, phi for a
+decay.
 """
 
 from __future__ import annotations
@@ -9,18 +9,18 @@ from math import factorial
 import casadi as ca
 
 TURN, TURN_TERMS = 4.0, 13
-"""z of ``stumpff``, the square of an angle, below which the series stands for the closed form,
-whose digits go with powers of 1/z; and its terms, which leave out less than 1e-17."""
+"""z of ``stumpff``, the square of an angle, below which a series replaces the closed form, which
+loses digits with powers of 1/z; and the terms of that series, whose rest is below 1e-17."""
 
 DECAY, DECAY_TERMS = 1.0, 19
-"""The same of ``phi``."""
+"""The same for ``phi``."""
 
 
 def stumpff(k: int, z):
-    """c_k(z) = 1/k! - z/(k+2)! + z^2/(k+4)! - ... for z >= 0 (Stumpff 1959; Battin 1999, section
-    4.5).
+    """c_k(z) = 1/k! - z/(k+2)! + z^2/(k+4)! - ... for z >= 0.
 
-    c_0 = cos(x), c_1 = sin(x)/x, c_2 = (1 - cos(x))/x^2 and so on with x^2 = z.
+    c_0 = cos(x), c_1 = sin(x)/x, c_2 = (1 - cos(x))/x^2 and so on with x^2 = z (Stumpff 1959;
+    Battin 1999, section 4.5).
     """
     safe = ca.if_else(z < TURN, 1, z)
     root = ca.sqrt(safe)
@@ -33,10 +33,9 @@ def stumpff(k: int, z):
 
 
 def phi(k: int, z):
-    """phi_k(-z) = 1/k! - z/(k+1)! + z^2/(k+2)! - ... for z >= 0 (Hochbruck and Ostermann 2010, eq.
-    2.10).
+    """phi_k(-z) = 1/k! - z/(k+1)! + z^2/(k+2)! - ... for z >= 0.
 
-    phi_0 = exp(-z), phi_1 = (1 - exp(-z))/z and so on.
+    phi_0 = exp(-z), phi_1 = (1 - exp(-z))/z and so on (Hochbruck and Ostermann 2010, eq. 2.10).
     """
     safe = ca.if_else(z < DECAY, 1, z)
     closed = ca.exp(-safe)

@@ -7,8 +7,8 @@ leaves five of them by chance with a probability below 1e-5.
 
 import numpy as np
 import pytest
+from attitude_cases import EARTH, GRAVITY, Drive, H, drive, error, part, rover_rate
 from scipy.spatial.transform import Rotation
-from test_attitude_ukf import EARTH, GRAVITY, Drive, H, drive, error, part, rover_rate
 
 from pyimu.attitude import run
 from pyimu.attitude.alignment import mean_bias_std
@@ -110,7 +110,9 @@ def test_without_gravity_nothing_is_levelled(case):
         assert find_rest(without).force is None
         assert np.abs(normalised(result, world)[:, :3]).max() < FAR
         assert result.std[100, :2].min() > 0.6
-        assert (result.std[-1, :3].min() < 0.2) == (case == "late"), "levelled once gravity shows"
+        assert (result.std[-1, :3].min() < 0.2) == (case == "late"), (
+            "levelled once there is gravity"
+        )
 
 
 # Bias

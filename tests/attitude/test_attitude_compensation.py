@@ -5,8 +5,8 @@ without errors.
 import casadi as ca
 import numpy as np
 import pytest
+from attitude_cases import H, drive, error, output, parameters, rover_rate
 from catalogue_cases import CASES, everything, excited
-from test_attitude_ukf import H, drive, error, output, parameters, rover_rate
 
 from pyimu.attitude import attitude_ukf
 from pyimu.attitude.compensation import noise_of

@@ -4,6 +4,7 @@
 
 import numpy as np
 import pytest
+from attitude_drives import H, Noise, Scenario
 from consistency import (
     INSTANTS,
     KINDS,
@@ -11,9 +12,6 @@ from consistency import (
     SCENARIOS,
     SECOND_ORDER,
     Bands,
-    H,
-    Noise,
-    Scenario,
     Sums,
     aligned,
     expected_at_rest,

@@ -2,10 +2,7 @@
 
 import numpy as np
 import pytest
-from scipy.spatial.transform import Rotation
-from scipy.stats import chi2
-from test_attitude_faults import upside_down
-from test_attitude_ukf import (
+from attitude_cases import (
     H,
     N,
     covariance_of,
@@ -18,6 +15,8 @@ from test_attitude_ukf import (
     part,
     rover_rate,
 )
+from scipy.spatial.transform import Rotation
+from scipy.stats import chi2
 
 from pyimu.attitude import attitude_ukf
 
@@ -45,7 +44,7 @@ def turning(block, at: int, age: int, told: float, memory: float = 0.5, period: 
     )
 
 
-def shown(block, y: np.ndarray) -> np.ndarray:
+def yaw_and_bias(block, y: np.ndarray) -> np.ndarray:
     """Yaw, vertical bias and their standard deviations of one row."""
     return np.array(
         [
@@ -62,8 +61,8 @@ def test_late_heading_tells_what_it_would_have_told_on_time(block, age):
     deviations, here a few hundredths.
     """
     at, yaw = 120, 0.7 * H * 121 + 0.08
-    on_time, late = (shown(block, turning(block, at, a, yaw)[0])[at + age] for a in (0, age))
-    without = shown(block, turning(block, at, 0, yaw, q0=[1.0, 0, 0, 0])[0])[at - 1]
+    on_time, late = (yaw_and_bias(block, turning(block, at, a, yaw)[0])[at + age] for a in (0, age))
+    without = yaw_and_bias(block, turning(block, at, 0, yaw, q0=[1.0, 0, 0, 0])[0])[at - 1]
     assert without[2] > 2 * on_time[2], "the heading tells much"
     np.testing.assert_allclose(late[2:], on_time[2:], rtol=2e-3)
     np.testing.assert_allclose(late[:2], on_time[:2], atol=2e-3 * on_time[2])
@@ -74,8 +73,8 @@ def test_heading_taken_as_if_it_were_present_would_be_wrong(block, age):
     """The property above is not empty: the body has turned by many standard deviations since."""
     at, yaw = 120, 0.7 * H * 121 + 0.08
     gyro_turned = 0.7 * H * age
-    on_time = shown(block, turning(block, at, 0, yaw)[0])[at + age]
-    present = shown(block, turning(block, at + age, 0, yaw)[0])[at + age]
+    on_time = yaw_and_bias(block, turning(block, at, 0, yaw)[0])[at + age]
+    present = yaw_and_bias(block, turning(block, at + age, 0, yaw)[0])[at + age]
     assert abs(present[0] - on_time[0]) > gyro_turned / 2
 
 
@@ -223,7 +222,7 @@ def test_precise_headings_that_are_late_again_and_again_leave_the_filter_consist
     """Each may tell of what was before its age alone. Yaw and bias of many draws against their
     covariance; the covariance stays definite.
     """
-    monkeypatch.setattr("test_attitude_ukf.N", white)
+    monkeypatch.setattr("attitude_cases.N", white)
     block, world = attitude_ukf(part(white)), drive(rover_rate(800) + [0, 0, 0.3])
     n, std, draws, total = 800, 1e-4, 24, np.zeros(2)
     yaw = np.unwrap(world.attitude.as_euler("ZYX")[:, 0])
@@ -274,63 +273,3 @@ def test_late_heading_after_better_ones_of_the_present_is_not_used_and_said(bloc
     y, _ = block.run(u, p=parameters(block, std0=np.array([1e-6, 1e-6, 0.1, 1e-9, 1e-9, 1e-9])))
     status = output(block, y, "status")
     assert status[150] == 32 and not np.delete(status, 150).any()
-
-
-# Wrong headings
-
-
-def test_single_wrong_heading_changes_little_and_is_said(block):
-    """1.5 rad off with a standard deviation of 0.02 rad, among right ones once a second."""
-    n = 4000
-    u = inputs(n)
-    u[::100, 8:10] = 0.02**2, 1
-    right, _ = block.run(u)
-    u[2000, 7] = 1.5
-    y, _ = block.run(u)
-    status = output(block, y, "status")
-    assert status[2000] == 64 and not np.delete(status, 2000).any()
-    moved, std = (
-        np.abs(output(block, y, "yaw") - output(block, right, "yaw")),
-        output(block, y, "std")[:, 2],
-    )
-    assert (moved < 3 * std)[2000:].all() and moved[-1] < std[-1]
-
-
-def test_yaw_that_all_headings_contradict_is_given_up(block):
-    u = inputs(4000)
-    u[1000::10, 7:10] = 2.0, 0.02**2, 1
-    y, _ = block.run(u, p=parameters(block, std0=np.array([0.01, 0.01, 0.01, 1e-3, 1e-3, 1e-3])))
-    status = output(block, y, "status").astype(int)
-    assert status[1000] == 64 and not status[1500:].any()
-    assert abs(output(block, y, "yaw")[-1] - 2.0) < 5 * output(block, y, "std")[-1, 2]
-    assert abs(output(block, y, "gyro_bias")[-1, 2]) < 5 * output(block, y, "std")[-1, 5]
-
-
-@pytest.mark.parametrize("variance", [0.0, -1.0, np.nan])
-def test_heading_whose_variance_is_none_is_refused(block, variance):
-    u = inputs(50)
-    plain, _ = block.run(u)
-    u[20, 7:10] = 0.3, variance, 1
-    y, _ = block.run(u)
-    assert output(block, y, "status")[20] == 1
-    np.testing.assert_array_equal(output(block, y, "q"), output(block, plain, "q"))
-
-
-@pytest.mark.parametrize("std0", [0.1, 2.0])
-def test_headings_wait_until_gravity_has_set_the_tilt_right(block, std0):
-    """Upside down and called level: what the headings are off by then is neither yaw nor bias."""
-    u, _ = upside_down(1 / H, 60, seed=3)
-    told = np.arange(0, len(u), 10)
-    u[told, 7:10] = np.column_stack(
-        [
-            1.0 + 0.02 * np.random.default_rng(3).standard_normal(len(told)),
-            np.full((len(told), 2), [0.02**2, 1]),
-        ]
-    )
-    y, _ = block.run(u, p=parameters(block, std0=np.array([std0] * 3 + [0.003] * 3)))
-    truth = Rotation.from_euler("ZYX", [1.0, 0, np.pi])
-    status, std = output(block, y, "status").astype(int), output(block, y, "std")
-    assert (status[told[1:5]] & 32).all() and not status[1000:].any()
-    for row in (2000, -1):
-        assert (np.abs(error(output(block, y, "q")[row], truth)) < 5 * std[row, :3]).all()
-        assert (np.abs(output(block, y, "gyro_bias")[row]) < 5 * std[row, 3:]).all()

@@ -2,12 +2,12 @@
 refuses.
 """
 
+import sys
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy.spatial.transform import Rotation
-from test_attitude_ukf import (
+from attitude_cases import (
     EARTH,
     GRAVITY,
     Drive,
@@ -15,15 +15,18 @@ from test_attitude_ukf import (
     N,
     drive,
     error,
+    eventful_recording,
     inputs,
     measured,
     part,
     rover_rate,
 )
+from pyarrow import parquet
+from scipy.spatial.transform import Rotation
 
 import pyimu
 from pyimu.attitude import attitude_ukf, run
-from pyimu.attitude.columns import Columns
+from pyimu.attitude.input_grid import InputGrid
 from pyimu.attitude.rest import find_rest
 from pyimu.errors import UserError
 from pyimu.recording.recording import Recording
@@ -148,12 +151,27 @@ def test_times_that_are_rounded_have_no_gaps():
 
 def test_pieces_are_cut_at_long_gaps_alone():
     recording = with_gap(drive(np.zeros((100, 3))), 600.0)
-    columns = Columns(recording, part(), [v.name for v in attitude_ukf(part()).inputs])
-    pieces = [(len(u), rows, left_out) for u, rows, _, left_out in columns.pieces()]
+    grid = InputGrid(recording, part(), [v.name for v in attitude_ukf(part()).inputs])
+    pieces = [(len(piece.inputs), piece.rows, piece.left_out) for piece in grid.pieces()]
     missing = round(60 / H)  # the step over the gap is a sample longer than what it leaves out
     assert [size for size, _, _ in pieces] == [50 + missing - 1, 50]
     assert [rows for _, rows, _ in pieces] == [slice(0, 50), slice(50, 100)]
     assert [left_out for _, _, left_out in pieces] == pytest.approx([0.0, 600.0 + H - 60.0])
+
+
+def test_pieces_of_a_long_recording_are_its_whole(monkeypatch):
+    """A log is run in pieces; where these end, also between gaps, changes nothing."""
+    recording = eventful_recording(3000)
+    keep = np.r_[0:1000, 1100:2000, 2005:3000]
+    cut = Recording.from_arrays(
+        time=recording.time[keep], gyro=recording.gyro[keep], accel=recording.accel[keep]
+    )
+    whole = run(cut, part())
+    for module in ("input_grid", "run"):
+        monkeypatch.setattr(sys.modules[f"pyimu.attitude.{module}"], "CHUNK", 64)
+    pieces = run(cut, part())
+    for name in ("q", "gyro_bias", "std", "quasi_static", "nis", "status"):
+        np.testing.assert_array_equal(getattr(pieces, name), getattr(whole, name))
 
 
 def test_recording_without_accelerometer_is_integrated():
@@ -227,6 +245,24 @@ def test_what_cannot_be_used_is_refused_with_its_reason():
         run(recording, "imt31")
     with pytest.raises(UserError, match="no gyro"):
         run(Recording.from_arrays(time=np.arange(5.0), accel=np.full((5, 3), GRAVITY)), part())
+
+
+def test_written_result_has_a_column_for_each_number_with_its_unit(tmp_path):
+    result = run(recorded(drive(rover_rate(300))), part())
+    path = result.write(tmp_path / "new")
+    table = parquet.read_table(path)
+    for names, values in (
+        ([f"q_{n} [1]" for n in "wxyz"], result.q),
+        ([f"gyro_bias_{n} [rad/s]" for n in "xyz"], result.gyro_bias),
+        ([f"std_{n} [rad{'/s' if n > 3 else ''}]" for n in range(1, 7)], result.std),
+        (["time [s]", "quasi_static [1]"], np.column_stack([result.time, result.quasi_static])),
+        (["nis [1]", "status [1]"], np.column_stack([result.nis, result.status])),
+    ):
+        np.testing.assert_array_equal(np.column_stack([table[n] for n in names]), values)
+    assert table.num_columns == 1 + 4 + 3 + 6 + 3
+    (tmp_path / "file").write_text("")
+    with pytest.raises(UserError, match="cannot be written"):
+        result.write(tmp_path / "file")
 
 
 def test_a_part_is_taken_by_its_name():

@@ -37,7 +37,7 @@ class Compiled:
 
     def __init__(self, folder, *flags):
         file = folder / "noise.so"
-        flags = ("-std=c11", "-O3", "-ffp-contract=off", "-shared", "-fPIC", *flags)
+        flags = ("-std=c11", "-O3", "-DMODEL_PREFIX=", "-shared", "-fPIC", *flags)
         subprocess.run(["cc", *flags, source_folder() / "noise.c", "-o", file, "-lm"], check=True)
         self.library = ctypes.CDLL(str(file))
         self.library.noise_normal.argtypes, self.library.noise_normal.restype = (

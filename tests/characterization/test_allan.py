@@ -1,5 +1,6 @@
-"""Allan deviations against other programs, printed tables and their plain definition; their
-distribution against exact laws and draws.
+"""Allan deviations against other programs, printed tables and their plain definition.
+
+Their distribution is tested against exact laws and against draws.
 """
 
 import csv
@@ -46,8 +47,9 @@ def drifting(n: int, seed: int = 0) -> np.ndarray:
 
 
 def plain(name: str, rates: np.ndarray, m: int) -> float:
-    """By the definitions in means of clusters, in extended precision, with no running sum over the
-    record.
+    """The deviation by its definition in means of clusters.
+
+    It is made in extended precision, with no running sum over the record.
     """
     windows = np.lib.stride_tricks.sliding_window_view(rates.astype(np.longdouble), m).mean(axis=1)
     step = windows[m:] - windows[:-m]
@@ -75,8 +77,9 @@ def test_nist_sp_1065_table_31(name, printed):
 
 @pytest.mark.parametrize("name", DEVIATIONS)
 def test_allantools_on_the_same_points(name):
-    """allan_reference.csv: oadev, ohdev and mdev of allantools 2024.06, data_type "freq", rate
-    1.
+    """allan_reference.csv has oadev, ohdev and mdev of allantools 2024.06.
+
+    They were made with data_type "freq" and rate 1.
     """
     with open(Path(__file__).with_name("allan_reference.csv"), encoding="utf-8") as file:
         rows = [row for row in csv.DictReader(file) if row["deviation"] == name]
@@ -97,8 +100,9 @@ def test_plain_definition_up_to_the_last_term(name):
 
 @pytest.mark.parametrize("name", DEVIATIONS)
 def test_the_error_stays_below_the_stated_bound_under_a_strong_drift(name):
-    """A drift of 1e6 deviations of the noise over the record; the bound follows from the largest
-    cumulative sum.
+    """The bound follows from the largest cumulative sum.
+
+    The drift over the record is 1e6 deviations of the noise.
     """
     n, m = 100_000, np.array([1, 2, 3, 30])
     rates = np.random.default_rng(3).standard_normal(n) + 1e6 * (np.arange(n) / n) ** 2
@@ -175,8 +179,9 @@ KINDS = {
 
 
 def eigenvalues(psd, m: int, n: int) -> np.ndarray:
-    """Weights of the squared normals in the overlapping variance, from the autocovariance by a
-    plain sum over frequencies.
+    """Weights of the squared normals in the overlapping variance.
+
+    They come from the autocovariance by a plain sum over frequencies.
     """
     x = np.pi * (np.arange(64 * n) + 0.5) / (128 * n)
     s = psd(x / (np.pi * H)) * 2 * np.sin(m * x) ** 4 / (m * np.sin(x)) ** 2 / (64 * n * H)
@@ -186,8 +191,9 @@ def eigenvalues(psd, m: int, n: int) -> np.ndarray:
 
 
 def probability_below(w: np.ndarray, q: float) -> float:
-    """Of a sum of squared normals with weights w, by Gil-Pelaez' inversion on a grid without
-    aliases below 1e-12.
+    """Distribution function at q of a sum of squared normals with weights w.
+
+    By Gil-Pelaez' inversion, on a grid without aliases below 1e-12.
     """
     step, count = (
         2 * np.pi / (2.2 * max(q, w.sum() + 60 * w[-1] + 12 * np.sqrt(2 * np.sum(w**2)))),
@@ -203,8 +209,9 @@ def probability_below(w: np.ndarray, q: float) -> float:
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_mean_variance_and_tails_are_those_of_the_exact_law(kind):
-    """Isserlis and the eigenvalues of the full covariance; a limit's tail probability within a
-    sixth of itself at 1e-4.
+    """Isserlis' theorem and the eigenvalues of the full covariance.
+
+    The tail probability of a limit is right to a sixth of itself at 1e-4.
     """
     n, side = 300, 1e-4
     for m in (1, 5, 20, 60, 100):
@@ -228,8 +235,9 @@ def test_one_difference_is_a_chi_square_of_one_degree():
 
 
 def draws(kind: str, n: int, records: int, seed: int) -> np.ndarray:
-    """Gaussian records (n, records) of the noises of ``KINDS`` that a recursion draws, started in
-    their stationary state.
+    """Gaussian records (n, records) of the noises of ``KINDS`` that a recursion makes.
+
+    They start in the stationary state.
     """
     e = np.random.default_rng(seed).standard_normal((n + 1, records)) / np.sqrt(H)
     if kind == "white":
@@ -250,11 +258,10 @@ def draws(kind: str, n: int, records: int, seed: int) -> np.ndarray:
     "kind", ["white", "differenced white", "random walk", "short Gauss-Markov", "long Gauss-Markov"]
 )
 def test_the_band_holds_what_it_says(kind):
-    """Of 4000 records each limit is passed as often as its share, within the binomial law at 1e-3
-    over all limits and kinds.
+    """Of 4000 records each limit is passed as often as its share.
 
-    The share itself is right to a sixth (the test above), which the binomial's bounds are widened
-    by.
+    That is within the binomial law at 1e-3 over all limits and kinds. The share itself is right to
+    a sixth (the test above), by which the binomial's bounds are widened.
     """
     n, records, probability = 512, 4000, 0.9
     m = octave_clusters(n)

@@ -1,5 +1,6 @@
-"""``pyimu.characterize``: what comes out is what was put in; pieces, gaps and several logs; the
-page, the data and the part.
+"""``pyimu.characterize``: what comes out is what was put in.
+
+Also pieces, gaps and several logs, and the page, the data and the part.
 """
 
 import json
@@ -13,10 +14,9 @@ from scipy.stats import binom, norm
 import pyimu
 from pyimu import Recording, UserError, part
 from pyimu.characterization.allan import overlapping_deviation
-from pyimu.characterization.evidence import Comb, Excerpt, Timeline
+from pyimu.characterization.evidence import Excerpt, LevelHistogram, Timeline
+from pyimu.characterization.report.channel_notes import frequency
 from pyimu.characterization.report.page import page
-from pyimu.characterization.report.words import frequency
-from pyimu.characterization.rest import motion
 from pyimu.characterization.run import characterize
 from pyimu.characterization.samples import Collector, Samples
 from pyimu.characterization.store import Store
@@ -36,8 +36,9 @@ twenty."""
 
 
 def draw(seed, rows=ROWS):
-    """A gyro (n, 3) of white noise and a walk, an accelerometer (n, 3) of rounded white noise,
-    level.
+    """A gyro and an accelerometer (n, 3) at rest and level.
+
+    The gyro has white noise and a walk, the accelerometer rounded white noise.
     """
     rng = np.random.default_rng(seed)
     gyro = N / np.sqrt(H) * rng.standard_normal((rows, 3)) + K * np.sqrt(H) * np.cumsum(
@@ -83,8 +84,9 @@ def test_the_package_is_the_function(found):
 
 @pytest.mark.parametrize("axis", "xyz")
 def test_coefficients_come_back(found, axis):
-    """Within the normal law of their standard errors; the walk in squares, to which it is
-    nearer.
+    """Within the normal law of their standard errors.
+
+    The walk is compared in squares, whose distribution is nearer to the normal.
     """
     white, walk = (found.coefficients[f"gyro_{axis}", t].mean for t in "NK")
     assert abs(white.value - N) <= norm.isf(ALPHA / 2) * white.std
@@ -115,8 +117,9 @@ def test_a_strong_walk_is_needed_and_comes_back():
 
 
 def test_deviations_are_those_of_the_samples(found):
-    """At some hundred cluster times from one sample to half the record; a sum, but for its
-    order.
+    """At some hundred cluster times from one sample to half the record.
+
+    They are the same sums, taken in another order.
     """
     gyro, _ = draw(1)
     for i, channel in enumerate(found.logs[0].sensors["gyro"].channels):
@@ -163,8 +166,9 @@ def test_several_logs_have_means_and_spread(several):
 
 
 def test_the_spectrum_is_one_sided(found):
-    """White noise N reads 2 N^2, at frequencies where the walk is nothing; the mean of many within
-    its normal law.
+    """White noise N has the density 2 N^2, at frequencies where the walk is negligible.
+
+    The mean of many is within its normal law.
     """
     psd = found.logs[0].sensors["gyro"].psd
     high = psd.frequency > 5.0
@@ -212,9 +216,9 @@ def test_temperature_is_found_and_taken_off(warm):
         and x.thermal.coefficients["kT"].value == pytest.approx(1e-3, rel=0.02)
         and y.thermal.order == 0
     )
-    assert x.noise.raw is not None and y.noise.raw is None
+    assert x.noise.as_measured is not None and y.noise.as_measured is None
     half = np.argmin(np.abs(x.noise.allan.tau - 75))
-    assert x.noise.raw.deviation[half] > 50 * x.noise.allan.deviation[half]
+    assert x.noise.as_measured.deviation[half] > 50 * x.noise.allan.deviation[half]
     assert (
         x.coefficient("N").holds(N)
         or abs(x.coefficient("N").value - N) <= norm.isf(ALPHA / 2) * x.coefficient("N").std
@@ -223,8 +227,9 @@ def test_temperature_is_found_and_taken_off(warm):
 
 @pytest.fixture(scope="module")
 def looped():
-    """A day at 1 Hz, two cycles of 40 K, and on x a play of 2 K whose loop opens by 4e-5 rad/s: 40
-    times what the walk makes in an hour.
+    """A day at 1 Hz with two cycles of 40 K, and on x a play of 2 K.
+
+    Its loop opens by 4e-5 rad/s: 40 times what the walk makes in an hour.
     """
     rng, n, half, kh = np.random.default_rng(13), 43_200, 2.0, -1e-5
     temperature = 20 + 20 * np.sin(2 * np.pi * np.arange(n) / 21_600)
@@ -245,11 +250,11 @@ def looped():
 def test_a_loop_is_taken_off_and_goes_into_the_part(looped):
     x, y, _ = looped.logs[0].sensors["gyro"].channels
     h = x.thermal.hysteresis
-    assert h.warranted and not y.thermal.warranted and x.taken_off == "temperature"
+    assert h.warranted and not y.thermal.warranted and x.compensated_for == "temperature"
     # What is left of the loop is no walk: half a cycle's deviation is that of a channel that had
     # none.
     quarter = np.argmin(np.abs(x.noise.allan.tau - 5400))
-    assert x.noise.raw.deviation[quarter] > 5 * x.noise.allan.deviation[quarter]
+    assert x.noise.as_measured.deviation[quarter] > 5 * x.noise.allan.deviation[quarter]
     assert (
         x.noise.allan.deviation[quarter] < 3 * y.noise.allan.deviation[quarter]
         and x.coefficient("K").high < 2e-7
@@ -274,14 +279,18 @@ def test_a_loop_is_taken_off_and_goes_into_the_part(looped):
 
 
 def test_the_picture_of_temperature_has_the_curve_on_the_level_of_the_log(looped):
-    """The residual's mean is zero about it, and the words do not call chance what an interval
-    excludes.
+    """The residual's mean is zero, and the curve is the polynomial from which it is taken.
+
+    The words do not call chance what an interval excludes.
     """
     for ch in looped.logs[0].channels:
         t = ch.thermal
-        assert np.mean(t.bias - t.at(t.temperature) - t.level) == pytest.approx(
-            0, abs=1e-12 + 1e-9 * np.ptp(t.bias)
-        )
+        (at, drawn), slack = t.curve, 1e-12 + 1e-9 * np.ptp(t.bias)
+        level = np.mean(t.bias - t.at(t.temperature))
+        np.testing.assert_allclose(t.fitted, t.at(t.temperature) + level, rtol=0, atol=slack)
+        np.testing.assert_allclose(drawn, t.at(at) + level, rtol=0, atol=slack)
+        assert np.mean(t.residual) == pytest.approx(0, abs=slack)
+        assert (at[0], at[-1]) == (t.temperature.min(), t.temperature.max())
     assert "which chance explains" not in page(looped)
 
 
@@ -295,8 +304,9 @@ def test_the_part_has_the_thermal_bias(warm):
 
 
 def test_warm_up_is_told_from_a_walk():
-    """Twice at the most in forty records of a walk (each at odds of a thousand), always where it is
-    twenty times what noise makes.
+    """At most twice in forty records of a walk, each at odds of a thousand.
+
+    It is always found where it is twenty times what noise makes.
     """
     n, rng = 20_000, np.random.default_rng(5)
     records = [rng.standard_normal(n) + 3e-3 * np.cumsum(rng.standard_normal(n)) for _ in range(40)]
@@ -308,18 +318,20 @@ def test_warm_up_is_told_from_a_walk():
 
 
 def test_a_warm_up_is_taken_off_and_said(tmp_path):
-    """A hundred times the noise of a second: neither a walk nor a ramp is needed for it, and the
-    part says that it was there.
+    """With one of a hundred times the noise of a second neither a walk nor a ramp is needed.
+
+    The part says that it was there.
     """
     gyro = draw(14)[0]
     gyro[:, 0] += 0.02 * np.exp(-H * np.arange(ROWS) / 20)
     c = pyimu.characterize(recording(gyro=gyro, accel=None))
     x, y, _ = c.logs[0].sensors["gyro"].channels
-    assert (x.taken_off, y.taken_off) == ("warm-up", "") and x.warm_up.tau == pytest.approx(
-        20.0, rel=0.1
-    )
+    assert (x.compensated_for, y.compensated_for) == (
+        "warm-up",
+        "",
+    ) and x.warm_up.tau == pytest.approx(20.0, rel=0.1)
     assert (
-        x.noise.raw is not None
+        x.noise.as_measured is not None
         and abs(x.coefficient("N").value - N) <= norm.isf(ALPHA / 2) * x.coefficient("N").std
     )
     assert x.coefficient("K").high < 10 * K and not x.coefficient("R").needed
@@ -376,23 +388,23 @@ def test_a_wrapped_column_does_not_move():
         (np.round(gyro[:, 0] / 1e-4 + 0.05 * np.arange(4096)).astype(int) * 400 + 2**15) % 2**16
         - 2**15
     )
-    stretches = [(0, 4096)]
-    s = Samples("gyro", H, H * np.arange(4096), list(gyro.T), stretches, np.empty(0), None)
-    assert [f.column for f in motion(s)] == ["gyro_x"] and motion(s, {"gyro_x"}) == []
+    segments = [(0, 4096)]
+    s = Samples("gyro", H, H * np.arange(4096), list(gyro.T), segments, np.empty(0), None)
+    assert [f.column for f in s.motion()] == ["gyro_x"] and s.motion({"gyro_x"}) == []
 
 
-# Pieces, gaps, stretches
+# Pieces, gaps, segments
 
 
 def test_a_log_in_pieces_gives_what_a_recording_does(tmp_path, monkeypatch):
     """From a file, in pieces that do not divide it: all curves and coefficients bit for bit."""
-    from pyimu.characterization import run, samples
+    from pyimu.characterization import log_samples, samples
 
     temperature = 25 + np.sin(H * np.arange(4096) / 5)
     whole = recording(7, "log", 4096, temperature=temperature)
     path = whole.write(tmp_path / "log.csv")
-    monkeypatch.setattr(run, "CHUNK", 1000)
-    monkeypatch.setattr(samples, "CHUNK", 1000)
+    monkeypatch.setattr(log_samples, "PIECE", 1000)
+    monkeypatch.setattr(samples, "PIECE", 1000)
     a, b = characterize(path), characterize(open_log(path))
     monkeypatch.undo()
     c = characterize(pyimu.read_recording(path))
@@ -411,8 +423,9 @@ def test_a_log_in_pieces_gives_what_a_recording_does(tmp_path, monkeypatch):
 
 
 def test_gaps_are_not_bridged():
-    """A jump of the bias across a gap is not seen: deviations are the sums over both sides, and it
-    is said.
+    """A jump of the bias across a gap does not enter the deviations.
+
+    They are the sums over both sides, and the report says so.
     """
     gyro, _ = draw(8, 6000)
     gyro[2000:] += 1.0
@@ -420,7 +433,7 @@ def test_gaps_are_not_bridged():
     time[2000:] += 7.0
     c = pyimu.characterize(replace(recording(rows=6000, accel=None, gyro=gyro), time=time))
     s = c.logs[0].sensors["gyro"]
-    assert (s.stretches, s.used, s.longest) == (2, 2, 4000)
+    assert (s.segments, s.segments_used, s.longest) == (2, 2, 4000)
     a = s.channels[0].noise.allan
     m = np.rint(a.tau / H).astype(int)
     halves = [
@@ -445,14 +458,14 @@ def test_a_sensor_in_every_second_row_has_half_the_rate():
     assert (sensors["gyro"].h, sensors["accel"].h) == (
         pytest.approx(H),
         pytest.approx(2 * H),
-    ) and sensors["accel"].stretches == 1
+    ) and sensors["accel"].segments == 1
 
 
 @pytest.mark.parametrize("late", (False, True))
 def test_an_empty_axis_is_named_and_the_others_are_characterised(late, monkeypatch):
-    from pyimu.characterization import run
+    from pyimu.characterization import log_samples
 
-    monkeypatch.setattr(run, "CHUNK", 1000)
+    monkeypatch.setattr(log_samples, "PIECE", 1000)
     gyro = draw(17, 4096)[0]
     gyro[: 1000 if late else 4096, 1] = np.nan
     c = pyimu.characterize(recording(rows=4096, gyro=gyro, accel=None))
@@ -548,6 +561,34 @@ def test_the_page_needs_nothing_beside_it(found):
     assert len(text) < 2_000_000
 
 
+def test_the_curves_of_the_page_are_those_of_the_fit(found):
+    """What the page draws is the fit at the cluster times and frequencies of the data."""
+    for sensor in found.logs[0].sensors.values():
+        for i, channel in enumerate(sensor.channels):
+            noise, fit = channel.noise, channel.noise.fit
+            np.testing.assert_array_equal(noise.fitted, fit.deviation(noise.allan.tau))
+            squares = sum(deviation**2 for deviation in noise.terms.values())
+            np.testing.assert_allclose(squares, fit.term_variances(noise.allan.tau).sum(axis=1))
+            np.testing.assert_array_equal(
+                sensor.fitted[:, i], 2 * fit.psd_two_sided(sensor.psd.frequency)
+            )
+            assert (
+                noise.floor.deviation == noise.allan.deviation[noise.allan.tau == noise.floor.tau]
+            )
+
+
+def test_a_result_writes_itself(several, tmp_path):
+    """Three files; the part is named by what the logs' names begin with."""
+    assert isinstance(several, pyimu.Characterization)
+    page_path = several.write(tmp_path / "new" / "out")
+    assert page_path == tmp_path / "new" / "out" / "report.html"
+    assert page_path.read_text(encoding="utf-8") == page(several)
+    data = json.loads(page_path.with_name("report.json").read_text(encoding="utf-8"))
+    assert data == several.as_dict()
+    assert part(page_path.with_name("part.toml")).name == "test"
+    assert len(list(page_path.parent.iterdir())) == 3
+
+
 def test_the_data_are_those_of_the_result(found):
     data = json.loads(json.dumps(found.as_dict()))
     channel = data["logs"][0]["sensors"]["gyro"]["channels"]["gyro_x"]
@@ -589,7 +630,11 @@ def test_lines_have_as_many_figures_as_they_are_known_to():
 
 def test_findings_are_shown(found):
     shown = found.logs[0].evidence["quantization_step", "accel_x"]
-    assert isinstance(shown, Comb) and shown.step == pytest.approx(STEP) and shown.share.sum() <= 1
+    assert (
+        isinstance(shown, LevelHistogram)
+        and shown.step == pytest.approx(STEP)
+        and shown.share.sum() <= 1
+    )
     accel = draw(1)[1]
     accel[4000, 1] += 1.0
     c = pyimu.characterize(recording(accel=accel))

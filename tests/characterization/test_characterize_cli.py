@@ -1,5 +1,6 @@
-"""``pyimu characterize``: good logs and bad ones; a broken run leaves no half result; the part is
-taken by the other commands.
+"""``pyimu characterize`` on good logs and bad ones.
+
+A run that is broken off leaves no half result; the other commands take the part.
 """
 
 import json
@@ -20,8 +21,9 @@ ROWS, H = 4000, 0.01
 
 @pytest.fixture
 def pyimu(monkeypatch, capsys, tmp_path):
-    """Run the command line in this process, in an empty folder; gives exit status, stdout and
-    stderr.
+    """Runs the command line in this process, in an empty folder.
+
+    It gives exit status, stdout and stderr.
     """
     monkeypatch.chdir(tmp_path)
 
@@ -212,7 +214,7 @@ def test_gaps_are_used_around_and_said(pyimu, tmp_path):
     clock[1000:] += 5
     clock[2500:] += 1
     code, out, _ = pyimu("characterize", write(tmp_path, time=clock, gyro=gyro()), "--out", "out")
-    assert code == 0 and "2 gaps. Nothing is bridged" in out and "all 3 stretches" in out
+    assert code == 0 and "2 gaps. Nothing is bridged" in out and "all 3 segments" in out
     gaps = findings(tmp_path / "out")["gaps", "time"]
     assert gaps["count"] == 2 and gaps["detail"]["longest"] == pytest.approx(5 + H)
     assert "Nothing is bridged" in (tmp_path / "out" / "report.html").read_text()
@@ -239,8 +241,9 @@ def test_wrong_calls_end_in_one_line(pyimu, tmp_path, words, said):
 
 
 def test_an_interrupt_leaves_earlier_results_and_nothing_else(tmp_path):
-    """Ctrl-C while it reads or computes: status 130, one line, the folder and the folder of
-    temporary files as they were.
+    """Ctrl-C while it reads or computes gives status 130 and one line.
+
+    The folder and the folder of temporary files are as they were.
     """
     n = 400_000
     noise = 1e-3 * np.random.default_rng(1).standard_normal((n, 3))
@@ -290,6 +293,6 @@ def test_a_report_that_cannot_be_drawn_costs_no_earlier_one(pyimu, tmp_path, mon
     def fail(*_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("pyimu.characterization.report.page.save_part", fail)
+    monkeypatch.setattr("pyimu.characterization.result.save_part", fail)
     assert pyimu("characterize", log, "--out", "out")[0] == 130
     assert {p.name: p.read_bytes() for p in (tmp_path / "out").iterdir()} == before

@@ -1,6 +1,4 @@
-"""The examples of ``characterize``: the paper's tables from a short look, and the band that holds
-whole curves.
-"""
+"""The examples of ``characterize``: the paper's tables, and a band that holds whole curves."""
 
 import numpy as np
 import pytest
@@ -31,8 +29,9 @@ def test_the_tables_of_the_paper_are_those_of_the_part(thermal):
 
 
 def test_hidalgo_table_1_in_a_short_look(thermal, capsys):
-    """One test of six minutes: thermal drift and white noise of every axis within five standard
-    errors, the tables printed.
+    """One test of six minutes gives thermal drift and white noise of every axis.
+
+    They are within five standard errors, and the tables are printed.
     """
     found = thermal.characterise(0.1, 1)
     for axis, drift, white in zip(
@@ -53,8 +52,9 @@ def test_hidalgo_table_1_in_a_short_look(thermal, capsys):
 
 
 def test_the_simulated_band_holds_whole_curves():
-    """As many further rows as it says, within the binomial law, the band's own scatter (as that of
-    as many rows) included.
+    """It holds as many further rows as it says, within the binomial law.
+
+    The band's own scatter, which is that of as many rows, is allowed for.
     """
     adis, rng = program("examples/adis16405_static.py"), np.random.default_rng(1)
 

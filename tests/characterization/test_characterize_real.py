@@ -1,5 +1,6 @@
-"""The ADIS16405 at rest for 2.8 h: what its source's exploration found by hand, found by the
-package; and whether the fit describes the log.
+"""The ADIS16405 at rest for 2.8 h: what its source found by hand, found by the package.
+
+Also whether the fit describes the log.
 """
 
 import numpy as np
@@ -26,8 +27,9 @@ def gyro():
 
 
 def test_white_noise_and_instability_are_those_of_the_source(gyro):
-    """N 0.038 to 0.042 deg/s/sqrt(Hz) and B 26 to 45 deg/h, to the figures printed: their intervals
-    reach the range, the means lie in it.
+    """N 0.038 to 0.042 deg/s/sqrt(Hz) and B 26 to 45 deg/h, to the figures printed.
+
+    The intervals reach the range, and the means lie in it.
     """
     N = np.array([c.coefficient("N").value for c in gyro.channels]) / DEG
     B = np.array([c.coefficient("B").value for c in gyro.channels]) / DEG_PER_HOUR
@@ -56,8 +58,9 @@ def test_the_step_of_the_samples():
 
 @pytest.mark.parametrize("axis", range(3))
 def test_the_measured_deviation_is_inside_the_band_of_the_fit(gyro, axis):
-    """The 99 % simultaneous band of the fitted noise at all octaves in the range (the exact law of
-    the estimate, by saddlepoint).
+    """Inside the 99 % simultaneous band of the fitted noise at all octaves in the range.
+
+    The band is that of the exact law of the estimate, by saddlepoint.
     """
     noise = gyro.channels[axis].noise
     h, n = gyro.h, gyro.samples

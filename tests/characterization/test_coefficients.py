@@ -1,5 +1,7 @@
-"""Coefficients from Allan deviations: moments against traces of matrices, intervals and bounds
-against draws; the example on a short log.
+"""Coefficients from Allan deviations.
+
+Moments are tested against traces of matrices, intervals and bounds against draws, and the example
+on a short log.
 """
 
 import numpy as np
@@ -66,8 +68,9 @@ standard normals."""
 def by_traces(
     factor: np.ndarray, sizes: np.ndarray, mean: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Mean and covariance of x^T A x for x = mean + factor w: tr(A S) + mean^T A mean, and 2 tr(A S
-    B S) + 4 mean^T A S B mean.
+    """Mean and covariance of the quadratic forms x^T A x for x = mean + factor w.
+
+    They are tr(A S) + mean^T A mean, and 2 tr(A S B S) + 4 mean^T A S B mean.
     """
     n, S = len(factor), factor @ factor.T
     sums = np.tril(np.ones((n + 1, n)), -1)
@@ -86,8 +89,9 @@ def by_traces(
     "strengths", ({"Q": 1.0}, {"N": 1.0}, {"K": 1.0}, {"Q": 0.5, "N": 1.0, "K": 0.1})
 )
 def test_moments_are_those_of_quadratic_forms(strengths, ramp):
-    """Isserlis' theorem by whole matrices; every lag is summed here, so that rounding is all that
-    differs.
+    """Isserlis' theorem by whole matrices.
+
+    Every lag is summed here, so that they differ by rounding only.
     """
     sizes = np.array([1, 2, 3, 5, 8, 13, 20, 30])
     factor = np.hstack([c * SHAPES[t] for t, c in strengths.items()])
@@ -109,8 +113,9 @@ def test_moments_are_those_of_quadratic_forms(strengths, ramp):
     ),
 )
 def test_variances_of_a_long_record_are_those_of_its_density(term, psd):
-    """Against the spectral integral, which is right to m / (30 n). Flicker here ends at Nyquist,
-    there nowhere: 1 / m^2 apart at most.
+    """Against the spectral integral, which is right to m / (30 n).
+
+    Flicker ends at Nyquist here, and nowhere there: they are at most 1 / m^2 apart.
     """
     n = 20_000
     sizes = np.array([8, 100, 1000, 6000]) if term != "B" else np.array([64, 256, 1000, 6000])
@@ -127,8 +132,9 @@ def test_variances_of_a_long_record_are_those_of_its_density(term, psd):
 
 
 def test_covariances_of_any_length_can_be_those_of_numbers():
-    """A day at 976 Hz: positive definite, with correlations below one, for every term alone and all
-    together.
+    """Those of a day at 976 Hz are positive definite, with correlations below one.
+
+    That holds for every term alone and for all together.
     """
     n = 84_000_000
     got = moments(octave_clusters(n), n)
@@ -173,8 +179,9 @@ def test_intervals_cover(fits, term, true):
 
 @pytest.mark.parametrize("term, true", (("N", WHITE), ("K", WALK)))
 def test_estimates_scatter_about_the_truth_by_their_standard_errors(fits, term, true):
-    """The mean within the normal law and the curvature of a root, (std / true)^2 / 2 of the truth;
-    the spread within its own, normal, law.
+    """The mean is within the normal law and the curvature of a root.
+
+    That curvature is (std / true)^2 / 2 of the truth. The spread is within its own normal law.
     """
     values = np.array([f[term].value for f in fits])
     std = np.mean([f[term].std for f in fits])
@@ -196,7 +203,9 @@ def test_covariance_is_that_of_the_estimates(fits):
 
 
 def test_as_sharp_as_maximum_likelihood():
-    """On the same logs; the spreads' ratio of two estimators of correlation r is known to about
+    """The spread is compared with that of maximum likelihood on the same logs.
+
+    The ratio of the spreads of two estimators of correlation r is known to about
     sqrt((1 - r^2) / logs).
     """
     rng, logs = np.random.default_rng(8), 20
@@ -211,8 +220,9 @@ def test_as_sharp_as_maximum_likelihood():
 
 
 def test_terms_that_are_not_there_get_bounds_that_hold():
-    """All five asked for: a false one in a hundred logs at the most (three chances of ``CHANCE``
-    each, twice), and N and K still covered.
+    """At most one log in a hundred has a false term where all five are asked for.
+
+    There are three chances of ``CHANCE`` each, twice. N and K are still covered.
     """
     rng, logs = np.random.default_rng(12), 100
     found = [fit(draw(rng, WHITE, WALK)) for _ in range(logs)]
@@ -234,8 +244,9 @@ def test_the_bound_of_a_term_too_small_to_see_holds(R):
 
 
 def test_a_term_that_another_may_replace_has_a_bound():
-    """Flicker, or a walk of a short log: no interval of a value reaches zero, and the curve keeps
-    what it was fitted with.
+    """Flicker, or the walk of a short log: no interval of a value reaches zero.
+
+    The curve keeps the terms that it was fitted with.
     """
     rng, found = np.random.default_rng(22), []
     for _ in range(40):
@@ -256,8 +267,9 @@ def test_a_term_that_another_may_replace_has_a_bound():
 
 
 def test_every_term_comes_back():
-    """Five terms at once, a log whose moments are the theory: the fit leaves nothing, whatever the
-    units.
+    """A log whose moments are the theory has no misfit, with all five terms in it.
+
+    That holds whatever the units.
     """
     n = 2**20
     m = octave_clusters(n)
@@ -322,8 +334,9 @@ def test_the_mean_of_independent_logs():
 
 
 def test_hidalgo_section_2_2_readings_of_exact_curves():
-    """N exactly where nothing else is; K to the share of white noise, a thirty-second; B at the
-    crossing, between neighbouring times.
+    """N is read exactly where nothing else is, K to a thirty-second, the share of white noise.
+
+    B is read at the crossing, to what lies between neighbouring times.
     """
     tau = np.geomspace(0.01, 7200, 400)
     N, K = 0.2, 0.01

@@ -1,5 +1,6 @@
-"""Spectral lines: false alarms at the stated rate, detection as often as theory says, frequency and
-amplitude without bias.
+"""Spectral lines: false alarms at the stated rate, detection as often as theory says.
+
+Frequency and amplitude have no bias.
 """
 
 from fractions import Fraction
@@ -26,8 +27,9 @@ NOISES = ("white", "walk", "flicker", "both")
 
 
 def noise(rng: np.random.Generator, kind: str, n: int = N) -> np.ndarray:
-    """White of unit variance, beside it a walk that is as strong at 0.5 Hz, flicker that is at 5
-    Hz, or both.
+    """White noise of unit variance (n,), and what its kind adds.
+
+    That is a walk that is as strong at 0.5 Hz, flicker that is so at 5 Hz, or both.
     """
     x = rng.standard_normal(n)
     if kind in ("walk", "both"):
@@ -49,8 +51,9 @@ def lines(x: np.ndarray, level: float = 1e-3):
 
 @pytest.mark.parametrize("kind", NOISES)
 def test_false_alarms_come_at_the_stated_rate(kind):
-    """5 %, in the binomial band; at least half of it, as neighbouring bins count twice in
-    Bonferroni's bound.
+    """5 %, within the binomial law.
+
+    It may be half of that, because neighbouring bins count twice in Bonferroni's bound.
     """
     rng, runs, level = np.random.default_rng(1), 1000, 0.05
     alarms = sum(bool(lines(noise(rng, kind), level)) for _ in range(runs))
@@ -77,8 +80,9 @@ def test_hann_leaks_as_its_closed_form_says():
 
 
 def test_covariance_of_bins_beside_a_line():
-    """Every element of the covariance of Welch's bins in white noise with a sine, against 3000
-    spectra.
+    """Every element of the covariance of Welch's bins in white noise with a sine.
+
+    It is compared with that of 3000 spectra.
     """
     rng, length, windows, kappa, strength = np.random.default_rng(3), 256, 16, 40.3, 2.0
     n, k, runs = length * (windows + 1) // 2, np.arange(38, 44), 3000
@@ -101,8 +105,9 @@ def test_covariance_of_bins_beside_a_line():
 
 
 def test_detection_as_often_as_theory_says():
-    """A sine in the middle of a bin, of such an amplitude that its bin passes the limit in half of
-    the records.
+    """A sine in the middle of a bin is found in half of the records.
+
+    Its amplitude is such that its bin passes the limit in half of them.
     """
     rng, runs, level = np.random.default_rng(4), 300, 1e-3
     spectrum = accumulate(noise(rng, "white"), H)
@@ -128,8 +133,9 @@ def test_detection_as_often_as_theory_says():
 
 @pytest.mark.parametrize("kind", ["white", "both"])
 def test_frequency_and_amplitude_have_no_bias_and_the_stated_errors(kind):
-    """Over records with random sines, errors over standard errors have mean zero and variance
-    one.
+    """Errors over standard errors have mean zero and variance one.
+
+    The records have random sines.
     """
     rng, errors = np.random.default_rng(5), []
     for _ in range(300):
@@ -158,8 +164,9 @@ def test_frequency_and_amplitude_have_no_bias_and_the_stated_errors(kind):
 
 @pytest.mark.parametrize("bins", [3, 4, 8])
 def test_lines_up_to_three_bins_below_nyquist(bins):
-    """As mains hum in a log at twice its frequency: found in every record, frequency and amplitude
-    with the stated errors.
+    """As of mains hum in a log at twice its frequency.
+
+    They are found in every record, with the stated errors of frequency and amplitude.
     """
     rng, f, errors, runs = np.random.default_rng(24), 50 - bins / (512 * H), [], 60
     for _ in range(runs):
@@ -190,8 +197,9 @@ def test_a_line_of_millions_of_times_the_noise_is_one_line():
 
 
 def test_a_narrow_band_of_noise_is_one_broad_line():
-    """Of its whole power: a resonance at 20 Hz, 0.5 Hz wide; its realised power varies by 1 /
-    sqrt(bandwidth x time).
+    """A resonance at 20 Hz, 0.5 Hz wide, is a line of its whole power.
+
+    The power of a realisation varies by 1 / sqrt(bandwidth x time).
     """
     rng, n, width = np.random.default_rng(7), 400_000, 0.5
     pole = np.exp((-np.pi * width + 2j * np.pi * 20.0) * H)
@@ -207,7 +215,7 @@ def test_a_narrow_band_of_noise_is_one_broad_line():
 
 @pytest.mark.parametrize("order", [1, 2, 4])
 def test_the_knee_of_a_low_pass_is_no_line(order):
-    """However bent: 20 records of noise through a Butterworth filter, with rounding beneath it."""
+    """However sharp: 20 records of noise through a Butterworth filter, with rounding beneath it."""
     rng, runs = np.random.default_rng(9), 20
     alarms = 0
     for _ in range(runs):
@@ -279,8 +287,9 @@ def test_adis16405_has_its_20_hz_line_on_gyro_z_alone(adis):
 
 
 def test_adis16405_accelerometers_share_a_line_with_its_third_harmonic(adis):
-    """0.564 Hz on all three axes at one frequency, which three separate searches would hardly make
-    of noise; x shows its modulation.
+    """A line at 0.564 Hz on all three axes, which three searches would hardly make of noise.
+
+    On x its modulation is found, too.
     """
     for column in (3, 4, 5):
         own = [line for line in adis if line.column == column]

@@ -1,5 +1,6 @@
-"""The fit of a real channel: lines, a filter, what is left out, records with gaps, and whether
-intervals hold where terms look alike.
+"""The fit of a real channel: lines, a filter, and what is left out.
+
+Also records with gaps, and whether intervals hold where terms look alike.
 """
 
 from dataclasses import replace
@@ -17,17 +18,18 @@ from pyimu.characterization.allan.pooled import (
     FEW,
     differences,
     equivalent_freedom,
-    longest,
     pooled_deviation,
     pooled_moments,
+    used_segments,
 )
 from pyimu.characterization.noise.coefficients import (
     Coefficient,
-    _plain,
+    _unextended,
     mean_coefficient,
     si_factors,
 )
-from pyimu.characterization.noise.fit import _line, fit_noise
+from pyimu.characterization.noise.fit import fit_noise
+from pyimu.characterization.noise.sines import Sine, sine_variance
 from pyimu.errors import UserError
 
 H = 0.01
@@ -57,15 +59,16 @@ def coverage():
 
 
 def test_allan_variance_of_a_sine():
-    """A sine of a whole number of half periods in the overlaps: A^2 sin^4(pi f tau) / (m sin(pi f
-    h))^2, to one part in their number.
+    """A^2 sin^4(pi f tau) / (m sin(pi f h))^2, of a whole number of half periods in the overlaps.
+
+    It is right to one part in their number.
     """
     f, A, m = 0.0123, 2.0, np.array([1, 2, 5, 16, 33, 40, 128])
     n = 200_000
     x = A * np.sin(2 * np.pi * f * np.arange(n) + 0.3)
     # The mean of sin^2 over k terms is a half to 1 / (2 k sin(2 pi f)).
     slack = 1 / (2 * (n - 2 * m) * np.sin(2 * np.pi * f))
-    want = _line(m.astype(float), (f, 0.0, A**2))
+    want = sine_variance(m.astype(float), Sine(f, 0.0, A**2))
     np.testing.assert_array_less(
         np.abs(overlapping_deviation(x, m) ** 2 - want), 2 * slack * A**2 + 1e-12
     )
@@ -75,7 +78,7 @@ def test_a_spread_frequency_averages_the_fourth_power_of_the_sine():
     rng, m = np.random.default_rng(3), np.array([1.0, 7.0, 30.0, 100.0])
     draws = 0.02 + 1e-3 * rng.standard_normal(20_000)
     fourth = np.sin(np.pi * draws[:, None] * m) ** 4
-    got = _line(m, (0.02, 1e-3, 1.0)) * (m * np.sin(np.pi * 0.02)) ** 2
+    got = sine_variance(m, Sine(0.02, 1e-3, 1.0)) * (m * np.sin(np.pi * 0.02)) ** 2
     assert np.all(
         np.abs(got - fourth.mean(axis=0))
         <= norm.isf(ALPHA / 8) * fourth.std(axis=0) / np.sqrt(len(draws)) + 1e-12
@@ -84,8 +87,9 @@ def test_a_spread_frequency_averages_the_fourth_power_of_the_sine():
 
 @pytest.mark.parametrize("frequency", (0.7, 20.0))
 def test_white_noise_under_a_strong_line(frequency):
-    """A hundred times the power of the noise in the samples; N within its own normal law, which the
-    line does not widen much.
+    """N is within its own normal law, which the line does not widen much.
+
+    The line has a hundred times the power of the noise in the samples.
     """
     x = white(5) + 100.0 * np.sin(2 * np.pi * frequency * H * np.arange(N_SAMPLES))
     found = fit(x, lines=[(frequency, 1e-6, 100.0)])
@@ -108,8 +112,9 @@ def test_a_line_that_nobody_named_costs_the_short_clusters_not_the_coefficients(
 
 
 def test_a_filter_in_the_sensor_is_no_quantization():
-    """White noise through a low-pass of a few samples keeps its N; quantization gets a bound and
-    not a value.
+    """White noise through a low-pass of a few samples keeps its N.
+
+    Quantization gets a bound and not a value.
     """
     found = fit(lfilter([0.2, 0.3, 0.3, 0.2], [1.0], white(7)))
     assert abs(found["N"].value - 1) <= norm.isf(ALPHA / 2) * found["N"].std
@@ -145,8 +150,10 @@ def test_errors_name_what_is_wrong():
 
 @pytest.mark.parametrize("name", ("white and flicker", "white, flicker and walk"))
 def test_intervals_and_bounds_hold_at_least_as_often_as_they_say(coverage, name):
-    """In a hundred logs; where flicker and walk look alike intervals reach to both, and may hold
-    nine in ten of flicker (``benchmarks``).
+    """In a hundred logs.
+
+    Where flicker and walk look alike intervals reach to both; that of flicker may hold in nine of
+    ten (``benchmarks``).
     """
     logs = 100
     for term, (_, held, _) in coverage.tally(name, logs).items():
@@ -155,10 +162,11 @@ def test_intervals_and_bounds_hold_at_least_as_often_as_they_say(coverage, name)
 
 
 def test_what_an_interval_reaches_for_another_term_stays_in_the_mean():
-    """The limit of the mean is as far below the plain one as those of the logs are; one log is its
-    own mean.
+    """The limit of the mean is extended by as much as those of the logs are.
+
+    One log is its own mean.
     """
-    plain = [Coefficient(v, 0.2, *_plain(v, 0.2, 0.95)) for v in (9.99, 10.01)]
+    plain = [Coefficient(v, 0.2, *_unextended(v, 0.2, 0.95)) for v in (9.99, 10.01)]
     reaching = [replace(c, low=c.low - 1.0) for c in plain]
     (a, _), (b, _) = mean_coefficient(plain), mean_coefficient(reaching)
     assert b.low == pytest.approx(a.low - 1.0) and b.high == pytest.approx(a.high)
@@ -178,14 +186,14 @@ def test_pooled_deviation_is_one_sum_over_all_differences():
         assert got == pytest.approx(np.sqrt(np.mean(d**2) / 2) / size, rel=1e-10)
 
 
-def test_moments_of_equal_stretches_are_those_of_a_mean():
+def test_moments_of_equal_segments_are_those_of_a_mean():
     m = (1, 2, 4, 8, 16)
     one, pooled = pooled_moments(m, (100,)), pooled_moments(m, (100,) * 5)
     squares = np.array([0.2, 1.0, 0.1, 0.01, 0.0])
     np.testing.assert_allclose(pooled.covariance(squares), one.covariance(squares) / 5, rtol=1e-12)
 
 
-def test_moments_of_unequal_stretches():
+def test_moments_of_unequal_segments():
     """The variance of a mean weighted by the number of differences."""
     m, lengths, squares = (1, 4, 30), (200, 90, 50), np.array([0.0, 1.0, 0.0, 0.1, 0.0])
     share = differences(np.array(m), lengths) / differences(np.array(m), lengths).sum(axis=0)
@@ -201,11 +209,11 @@ def test_moments_of_unequal_stretches():
     )
 
 
-def test_many_stretches_have_few_lengths_and_lose_little():
+def test_many_segments_have_few_lengths_and_lose_little():
     rng = np.random.default_rng(2)
     edges = np.cumsum(np.append(0, rng.integers(500, 3000, 2 * FEW)))
     found = list(zip(edges[:-1].tolist(), edges[1:].tolist(), strict=True))
-    used = longest(found)
+    used = used_segments(found)
     lengths = [b - a for a, b in used]
     # Eight steps an octave over less than three octaves; an eighth of an octave is lost at the
     # most.

@@ -36,8 +36,9 @@ def same(a, b, rtol: float = 1e-12) -> None:
 
 
 def test_the_highest_level_is_scipys_welch():
-    """To rounding: a constant taken off a segment reaches, through Hann's window, no bin from the
-    second on.
+    """To rounding, from the second bin on.
+
+    Through Hann's window a constant taken off a segment reaches none of these.
     """
     x = walk(1, 50_000) + 7.0
     level = accumulate(x, H).levels()[0]
@@ -60,8 +61,9 @@ def theory(kind: str, f: np.ndarray) -> np.ndarray:
 
 @pytest.mark.parametrize("kind", ["white", "walk"])
 def test_density_on_all_levels_is_that_of_theory(kind):
-    """Each group a chi-square of its averages; above bin 16 Hann's window adds at most 1 / 16^2 to
-    a walk's density, a group's width 1 %.
+    """Each group is a chi-square of its averages.
+
+    Above bin 16 Hann's window adds at most 1 / 16^2 to the density of a walk, a group's width 1 %.
     """
     n = 2**19
     got = psd_one_sided((white if kind == "white" else walk)(2, n), H)
@@ -123,8 +125,9 @@ def test_a_look_in_between_changes_nothing():
 
 
 def test_segments_are_never_bridged():
-    """Two halves with a step of a thousand between them are as good as without it, and a missing
-    row is a gap.
+    """Two halves with a step of a thousand between them are as good as without it.
+
+    A missing row is a gap.
     """
     x = white(6, 40_000, 2)
     step = np.where(np.arange(len(x)) < 20_000, 0.0, 1e3)[:, None]

@@ -1,5 +1,6 @@
-"""Bias against temperature in noise that walks: intervals that cover, orders and loops that chance
-does not make.
+"""Bias against temperature in noise that walks.
+
+Intervals cover, and chance makes neither orders nor loops.
 """
 
 from itertools import pairwise
@@ -10,9 +11,14 @@ from places import measured
 from scipy.stats import binom
 
 import pyimu
-from pyimu.characterization.temperature.averages import BlockAccumulator, Blocks, block_means
-from pyimu.characterization.temperature.fit import CHANCE, _gain, fit_thermal
-from pyimu.characterization.temperature.regression import _fill_gram, regress
+from pyimu.characterization.temperature.averages import (
+    AverageAccumulator,
+    Averages,
+    interval_averages,
+)
+from pyimu.characterization.temperature.fit import fit_thermal
+from pyimu.characterization.temperature.order import _gain
+from pyimu.characterization.temperature.regression import CHANCE, _fill_gram, regress
 from pyimu.characterization.temperature.thermometer import smoothed, without_steps
 from pyimu.errors import UserError
 from pyimu.model.catalogue import CATALOGUE
@@ -21,16 +27,18 @@ from pyimu.model.sensor import Sensor
 FALSE_ALARM = 1e-3
 """Of each test here, with a right fit."""
 
-BLOCK, H = 10.0, 0.01
+INTERVAL, H = 10.0, 0.01
 N, K = 1.0, 0.05
-"""White noise and a walk that are as strong in a block of some tens of seconds."""
+"""White noise and a walk that are as strong in an interval of some tens of seconds."""
 
 
 def walk_means(rng: np.random.Generator, m: int, K: float) -> np.ndarray:
-    """Means (m,) of a walk over blocks, exactly: over one block the mean and the end have variances
-    1/3 and 1, and the covariance 1/2.
+    """Exact averages (m,) of a walk over intervals.
+
+    Over one interval the variances of the average and of the end are 1/3 and 1, their covariance
+    1/2.
     """
-    end, rest = rng.standard_normal((2, m)) * K * np.sqrt(BLOCK)
+    end, rest = rng.standard_normal((2, m)) * K * np.sqrt(INTERVAL)
     return np.cumsum(end) - end / 2 + rest / np.sqrt(12)
 
 
@@ -42,22 +50,26 @@ def temperatures(rng: np.random.Generator, kind: str, m: int) -> np.ndarray:
     return 25 + (8 * np.sin(2 * np.pi * 2.5 * u) if kind == "cycles" else walk_means(rng, m, 0.05))
 
 
-def blocks(temperature: np.ndarray, values: np.ndarray) -> Blocks:
+def averages(temperature: np.ndarray, values: np.ndarray) -> Averages:
     m = len(temperature)
-    return Blocks(
-        BLOCK * (np.arange(m) + 0.5), temperature, values[:, None], np.full(m, round(BLOCK / H)), H
+    return Averages(
+        INTERVAL * (np.arange(m) + 0.5),
+        temperature,
+        values[:, None],
+        np.full(m, round(INTERVAL / H)),
+        H,
     )
 
 
 def record(
     rng: np.random.Generator, kind: str, m: int = 300, kT: float = 0.0, K: float = K
-) -> Blocks:
+) -> Averages:
     temperature = temperatures(rng, kind, m)
-    noise = walk_means(rng, m, K) + N / np.sqrt(BLOCK) * rng.standard_normal(m)
-    return blocks(temperature, 3.0 + kT * (temperature - 25) + noise)
+    noise = walk_means(rng, m, K) + N / np.sqrt(INTERVAL) * rng.standard_normal(m)
+    return averages(temperature, 3.0 + kT * (temperature - 25) + noise)
 
 
-def ordinary_holds(b: Blocks, kT: float) -> bool:
+def ordinary_holds(b: Averages, kT: float) -> bool:
     """Whether ordinary regression's 95 % interval contains it."""
     a = np.column_stack([np.ones(len(b.time)), b.temperature])
     coefficients, squares, *_ = np.linalg.lstsq(a, b.values[:, 0], rcond=None)
@@ -68,8 +80,8 @@ def ordinary_holds(b: Blocks, kT: float) -> bool:
 # Noise
 
 
-def dense_covariance(b: Blocks, r: np.ndarray, k2: float) -> np.ndarray:
-    """Of block means, from the walk's min(s, t) integrated over each pair of blocks."""
+def dense_covariance(b: Averages, r: np.ndarray, k2: float) -> np.ndarray:
+    """Covariance of averages: the walk's min(s, t) integrated over each pair of intervals."""
     start, end = (
         b.time - b.duration / 2 - b.time[0] + b.duration[0] / 2,
         b.time + b.duration / 2 - b.time[0] + b.duration[0] / 2,
@@ -78,13 +90,13 @@ def dense_covariance(b: Blocks, r: np.ndarray, k2: float) -> np.ndarray:
     return k2 * (cov - np.diag(np.diag(cov)) + np.diag(start + b.duration / 3)) + np.diag(r)
 
 
-def test_whitening_is_the_dense_covariance_of_block_means():
-    """Gram matrix and determinant, with blocks of unequal length and gaps."""
+def test_whitening_is_the_dense_covariance_of_interval_averages():
+    """Gram matrix and determinant, with intervals of unequal length and gaps."""
     rng, m = np.random.default_rng(1), 40
     count = rng.integers(1, 9, m)
     gap = rng.choice([0.0, 0.7], m)
     time = np.cumsum(count) - count / 2 + np.cumsum(gap)
-    b, x = Blocks(time, np.zeros(m), np.zeros((m, 1)), count, 1.0), rng.standard_normal((m, 3))
+    b, x = Averages(time, np.zeros(m), np.zeros((m, 1)), count, 1.0), rng.standard_normal((m, 3))
     r, got = 0.5 / b.duration, np.empty((3, 3))
     logs = _fill_gram(x, b.duration, b.gap, r, 0.3, got)
     cov = dense_covariance(b, r, 0.3)
@@ -98,8 +110,8 @@ def test_white_noise_and_walk_come_back(N, K):
     rng, m = np.random.default_rng(2), 1000
     fits = []
     for _ in range(40):
-        b = blocks(
-            np.full(m, 25.0), walk_means(rng, m, K) + N / np.sqrt(BLOCK) * rng.standard_normal(m)
+        b = averages(
+            np.full(m, 25.0), walk_means(rng, m, K) + N / np.sqrt(INTERVAL) * rng.standard_normal(m)
         )
         fit = regress(b, b.values[:, 0], np.ones((m, 1)))
         fits.append((fit.N, fit.K))
@@ -108,8 +120,9 @@ def test_white_noise_and_walk_come_back(N, K):
 
 
 def test_the_likeliest_share_taken_for_true_finds_too_much():
-    """Of short warm-ups without a thermal effect; averaged over the share no more than 5 % are
-    below 0.05.
+    """Of short warm-ups without a thermal effect.
+
+    Averaged over the share no more than 5 % of the p-values are below 0.05.
     """
     rng, runs, found = np.random.default_rng(21), 300, np.zeros(2)
     for _ in range(runs):
@@ -130,8 +143,9 @@ def test_the_likeliest_share_taken_for_true_finds_too_much():
 
 @pytest.mark.parametrize("kind", ["warm-up", "cycles", "weather"])
 def test_intervals_cover_and_those_of_ordinary_regression_do_not(kind):
-    """95 % of 400 records, in the binomial band; ordinary regression's hold less than half as
-    often.
+    """95 % of 400 records, within the binomial law.
+
+    Those of ordinary regression hold less than half as often.
     """
     rng, runs, kT = np.random.default_rng(3), 400, 0.2
     held = ordinary = 0
@@ -146,8 +160,9 @@ def test_intervals_cover_and_those_of_ordinary_regression_do_not(kind):
 
 @pytest.mark.parametrize("kind", ["warm-up", "cycles", "weather"])
 def test_chance_makes_no_effect_of_temperature(kind):
-    """Its probability is at most what it says: no more than 5 % below 0.05, and hardly any below
-    the limit.
+    """Its probability is at most what it says.
+
+    No more than 5 % of the p-values are below 0.05, and hardly any below the limit.
     """
     rng, runs = np.random.default_rng(4), 300
     fits = [fit_thermal(record(rng, kind)) for _ in range(runs)]
@@ -158,8 +173,9 @@ def test_chance_makes_no_effect_of_temperature(kind):
 
 
 def test_a_bound_where_no_effect_is_warranted_holds():
-    """An effect too small to see is below it in 95 % of the records, or more, as the bound is
-    two-sided.
+    """An effect too small to be found is below it in 95 % of the records or more.
+
+    It may be more, because the bound is two-sided.
     """
     rng, runs, kT = np.random.default_rng(5), 200, 0.01
     fits = [fit_thermal(record(rng, "cycles", kT=kT)) for _ in range(runs)]
@@ -169,8 +185,9 @@ def test_a_bound_where_no_effect_is_warranted_holds():
 
 @pytest.mark.parametrize("order", [1, 2, 3])
 def test_the_order_is_that_of_the_data(order):
-    """A clear polynomial is fitted with its own order, but for one record in a thousand, and its
-    coefficients are held.
+    """A clear polynomial is fitted with its own order, but for one record in a thousand.
+
+    Its coefficients are in their intervals.
     """
     rng, runs, true = np.random.default_rng(6 + order), 100, [0.4, 0.05, 0.008][:order]
     held, right = np.zeros(order), 0
@@ -178,7 +195,7 @@ def test_the_order_is_that_of_the_data(order):
         b = record(rng, "cycles", 400, K=0.02)
         x = b.temperature - 25
         f = fit_thermal(
-            blocks(
+            averages(
                 b.temperature, b.values[:, 0] + sum(c * x ** (i + 1) for i, c in enumerate(true))
             ),
             T0=25.0,
@@ -208,7 +225,7 @@ def test_coefficients_are_those_of_the_catalogue():
         effects[effect]["T0"] = np.array(25.0)
     assert Sensor("gyro", effects)
     x = b.temperature - 25
-    f = fit_thermal(blocks(b.temperature, b.values[:, 0] + 0.4 * x + 0.05 * x**2), T0=25.0)
+    f = fit_thermal(averages(b.temperature, b.values[:, 0] + 0.4 * x + 0.05 * x**2), T0=25.0)
     found = f.parameters()
     assert set(found) == set(true) | {(effect, "T0") for effect, _ in true}
     for (name, c), key in zip(list(f.coefficients.items())[1:], true, strict=True):
@@ -221,7 +238,7 @@ def test_coefficients_are_those_of_the_catalogue():
 def test_another_origin_is_the_same_polynomial():
     b = record(np.random.default_rng(11), "cycles", kT=0.3)
     x = b.temperature
-    b = blocks(x, b.values[:, 0] + 0.05 * (x - 25) ** 2)
+    b = averages(x, b.values[:, 0] + 0.05 * (x - 25) ** 2)
     here, there = fit_thermal(b), fit_thermal(b, T0=0.0)
     assert here.order == there.order == 2 and abs(here.T0 - x.mean()) < 0.051
     np.testing.assert_allclose(here.at(x), there.at(x), rtol=1e-6)
@@ -230,9 +247,9 @@ def test_another_origin_is_the_same_polynomial():
 
 
 def test_an_exact_record_has_its_exact_polynomial():
-    b = blocks(np.linspace(20, 30, 100), np.empty(100))
+    b = averages(np.linspace(20, 30, 100), np.empty(100))
     f = fit_thermal(
-        blocks(b.temperature, 0.5 * (b.temperature - 25) + 0.05 * (b.temperature - 25) ** 2),
+        averages(b.temperature, 0.5 * (b.temperature - 25) + 0.05 * (b.temperature - 25) ** 2),
         T0=25.0,
     )
     assert f.order >= 2
@@ -246,7 +263,7 @@ def test_an_exact_record_has_its_exact_polynomial():
 
 @pytest.mark.parametrize("fault", ["noise", "steps"])
 def test_a_poor_thermometer_does_not_make_the_coefficient_smaller(fault):
-    """Noise of 0.3 K a block, or steps of 0.5 K: the mean over records is the true one."""
+    """Noise of 0.3 K an interval, or steps of 0.5 K: the mean over records is the true one."""
     rng, runs, kT, got = np.random.default_rng(12), 100, 0.5, []
     for _ in range(runs):
         b = record(rng, "cycles", 600, kT)
@@ -255,22 +272,22 @@ def test_a_poor_thermometer_does_not_make_the_coefficient_smaller(fault):
             if fault == "noise"
             else np.round(2 * b.temperature) / 2
         )
-        got.append(fit_thermal(blocks(poor, b.values[:, 0]), order=1).coefficients["kT"])
+        got.append(fit_thermal(averages(poor, b.values[:, 0]), order=1).coefficients["kT"])
     values = np.array([c.value for c in got])
     assert abs(values.mean() - kT) < 3.3 * values.std() / np.sqrt(runs) + 0.01 * kT
     assert sum(c.holds(kT) for c in got) >= binom.ppf(FALSE_ALARM, runs, 0.95)
 
 
-def stairs(step: float, resolution: float, blocks_each: int = 40, ramp: int = 4) -> np.ndarray:
+def stairs(step: float, resolution: float, intervals_each: int = 40, ramp: int = 4) -> np.ndarray:
     """Plateaus up and down, with short ramps between them, as a coarse thermometer reads them."""
     levels = step * np.array([0, 1, 2, 3, 2, 1, 0])
     each = [
-        np.append(np.linspace(a, b, ramp, endpoint=False), np.full(blocks_each, b))
+        np.append(np.linspace(a, b, ramp, endpoint=False), np.full(intervals_each, b))
         for a, b in pairwise(levels)
     ]
     return (
         25
-        + np.round(np.concatenate([np.full(blocks_each, levels[0]), *each]) / resolution)
+        + np.round(np.concatenate([np.full(intervals_each, levels[0]), *each]) / resolution)
         * resolution
     )
 
@@ -286,15 +303,16 @@ def test_the_plateaus_of_a_chamber_stay_plateaus(step, resolution):
         values = (
             kT * (temperature - 25)
             + walk_means(rng, m, 0.01)
-            + N / np.sqrt(BLOCK) * rng.standard_normal(m)
+            + N / np.sqrt(INTERVAL) * rng.standard_normal(m)
         )
-        held += fit_thermal(blocks(temperature, values), order=1).coefficients["kT"].holds(kT)
+        held += fit_thermal(averages(temperature, values), order=1).coefficients["kT"].holds(kT)
     assert held >= binom.ppf(FALSE_ALARM, runs, 0.95)
 
 
 def test_steps_of_the_thermometer_itself_become_straight():
-    """Within a quarter of a step of the truth where that goes one way, steps in the middle of a
-    block included; ends apart.
+    """Within a quarter of a step of the truth where that goes one way.
+
+    Steps in the middle of an interval are included, the ends are not.
     """
     truth = 25 + 8 * np.sin(np.linspace(-1.2, 1.2, 4000))
     read = (np.round(2 * truth) / 2).reshape(400, 10).mean(axis=1)
@@ -313,19 +331,20 @@ def test_smoothing_leaves_a_good_thermometer_alone():
 # Hysteresis
 
 
-def looped(rng: np.random.Generator, half: float, kh: float, m: int = 400) -> Blocks:
+def looped(rng: np.random.Generator, half: float, kh: float, m: int = 400) -> Averages:
     """The catalogue's play, written out a second time."""
     b, played = record(rng, "cycles", m, kT=0.2, K=0.01), 25.0
     out = np.empty(m)
     for i, t in enumerate(b.temperature):
         played = max(t - half, min(t + half, played))
         out[i] = kh * (played - t)
-    return blocks(b.temperature, b.values[:, 0] + out)
+    return averages(b.temperature, b.values[:, 0] + out)
 
 
 def test_a_loop_is_found_with_its_opening():
-    """Bias rising less bias falling is - 2 kh w; tried half widths are shares of the range, and 0.1
-    of 16 K is this one.
+    """Bias rising less bias falling is - 2 kh w.
+
+    The half widths that are tried are shares of the range, and 0.1 of 16 K is this one.
     """
     rng, runs, half, kh = np.random.default_rng(14), 60, 1.6, -0.5
     loops = [fit_thermal(looped(rng, half, kh)).hysteresis for _ in range(runs)]
@@ -361,20 +380,23 @@ def test_a_warm_up_has_no_loop_and_says_so():
     assert f.hysteresis is None and "does not come back" in f.no_hysteresis
 
 
-# Blocks
+# Averages
 
 
 @pytest.mark.parametrize("piece", [1, 97, 10_000])
-def test_blocks_do_not_depend_on_pieces(piece):
+def test_averages_do_not_depend_on_pieces(piece):
     rng, n = np.random.default_rng(18), 3000
     time = np.cumsum(rng.choice([0.1, 0.1, 0.1, 4.0], n))
     temperature, values = rng.standard_normal(n), rng.standard_normal((n, 2))
     values[7, 1] = temperature[20] = np.nan
-    whole, parts = block_means(time, temperature, values, 0.1, 100), BlockAccumulator(0.1, 100)
+    whole, parts = (
+        interval_averages(time, temperature, values, 0.1, 100),
+        AverageAccumulator(0.1, 100),
+    )
     for a in range(0, n, piece):
         parts.add(time[a : a + piece], temperature[a : a + piece], values[a : a + piece])
     got = parts.result()
-    # Doubling at another moment leaves blocks of the same edges.
+    # Doubling at another moment leaves intervals of the same edges.
     for name in ("time", "temperature", "values", "count"):
         np.testing.assert_allclose(
             getattr(got, name), getattr(whole, name), rtol=1e-9, atol=1e-9, err_msg=name
@@ -390,8 +412,8 @@ def test_blocks_do_not_depend_on_pieces(piece):
     assert np.all(got.gap >= 0) and got.gap[0] == 0
 
 
-def test_samples_slower_than_a_second_are_blocks_of_their_own():
-    got = block_means(np.arange(30) * 10.0, np.arange(30.0), np.ones(30), 10.0)
+def test_samples_slower_than_a_second_are_averages_of_their_own():
+    got = interval_averages(np.arange(30) * 10.0, np.arange(30.0), np.ones(30), 10.0)
     assert np.all(got.count == 1) and len(got.time) == 30
 
 
@@ -400,7 +422,7 @@ def test_samples_slower_than_a_second_are_blocks_of_their_own():
 
 def unfit(temperature, values=None):
     rng, m = np.random.default_rng(19), len(temperature)
-    return blocks(temperature, rng.standard_normal(m) if values is None else values)
+    return averages(temperature, rng.standard_normal(m) if values is None else values)
 
 
 @pytest.mark.parametrize(
@@ -411,9 +433,9 @@ def unfit(temperature, values=None):
             unfit(25 + 0.1 * np.random.default_rng(20).standard_normal(300)),
             "within the thermometer's",
         ),
-        (unfit(np.linspace(20, 30, 10)), "10 blocks of samples, at least 20"),
+        (unfit(np.linspace(20, 30, 10)), "10 averages of samples, at least 20"),
         (unfit(np.linspace(20, 30, 300), np.full(300, 2.0)), "the channel is constant"),
-        (BlockAccumulator(0.01).result(), "0 blocks of samples"),
+        (AverageAccumulator(0.01).result(), "0 averages of samples"),
     ],
     ids=["constant", "noise", "short", "channel", "nothing"],
 )
@@ -423,11 +445,12 @@ def test_no_fit_is_possible_and_why(b, message):
 
 
 def test_astropi_accelerometer_follows_the_temperature():
-    """57 h: plain least squares found +0.56, +0.41, -0.39 mg/K on each axis (SOURCES.md); walks of
-    the bias leave some tenths of doubt.
+    """57 h, in which plain least squares found +0.56, +0.41, -0.39 mg/K (SOURCES.md).
+
+    Walks of the bias leave some tenths of doubt.
     """
     log, milli_g = pyimu.read_recording(measured("astropi_lsm9ds1_static")), 9.80665e-3
-    b = block_means(log.time, log.temperature, log.accel, log.sample_period)
+    b = interval_averages(log.time, log.temperature, log.accel, log.sample_period)
     for axis, plain in enumerate((0.56, 0.41, -0.39)):
         f = fit_thermal(b, axis, order=1)
         slope = f.coefficients["kT"]

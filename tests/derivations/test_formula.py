@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 
 from pyimu.derivations import DERIVATIONS
 from pyimu.derivations.formula import Formula, latex, prose, terms, text
+from pyimu.derivations.report.tex import NAMES, equation
 from pyimu.derivations.symbols import SYMBOLS
-from pyimu.derivations.tex import NAMES, equation
 
 # Reading what was printed
 
@@ -96,71 +96,68 @@ def read_text(line, values):
 def read_latex(tex, values):
     """Rules of LaTeX: side by side multiplies; fractions, roots, bars and the bracketed cross."""
     symbols = {re.sub(r"\s", "", NAMES.get(n, n)): n for n in values}
-    spelled = sorted(symbols, key=len, reverse=True)
-    rest, pieces, closers = (
-        re.sub(r"\\left|\\right", "", tex).replace("\\mathsf T", "\\mathsf{T}"),
-        [],
-        [],
-    )
-    rest = re.sub(r"(?<![a-zA-Z])\s+|\s+(?![a-zA-Z])", "", rest)
-    rest = rest.replace(r"^{\mathsf{T}}", "\1").replace("^{-1}", "\2")
+    rest, pieces, closers = plain(tex), [], []
     while rest:
-        found = next(
-            (
-                s
-                for s in spelled
-                if rest.startswith(s)
-                and not (s[0] == "\\" and s[-1].isalpha() and rest[len(s) : len(s) + 1].isalpha())
-            ),
-            None,
-        )
-        command = re.match(r"\\([a-zA-Z]+)|\d+(\.\d+)?(e[+-]?\d+)?|.", rest, re.DOTALL)
-        if found and not (found.isdigit() and command[0] != found):
-            pieces.append(symbols[found])
-            rest = rest[len(found) :]
-            continue
-        token, rest = command[0], rest[command.end() :]
-        match token:
-            case "\\frac":
-                # Two: one around the whole, so that a power or a product takes all of it.
-                pieces += ["(", "("]
-                closers.append("frac")
+        token, rest = first_token(rest, symbols)
+        if token in symbols:
+            pieces.append(symbols[token])
+        elif token == "\\frac":
+            # Two: one around the whole, so that a power or a product takes all of it.
+            pieces += ["(", "("]
+            closers.append("above")
+            rest = rest.removeprefix("{")
+        elif token == "{":
+            pieces.append("(")
+            closers.append("group")
+        elif token == "}":
+            closed = closers.pop()
+            pieces += AFTER[closed]
+            if closed == "above":
                 rest = rest.removeprefix("{")
-            case "\\cdot":
-                pieces.append("@")
-            case "\\sqrt" | "\\sin" | "\\cos" | "\\exp":
-                pieces.append(token[1:])
-            case "\\lVert":
-                pieces += ["norm", "("]
-            case "\\rVert" | ")":
-                pieces.append(")")
-            case "[":
-                pieces += ["skew", "("]
-            case "\\times":
-                rest = rest.removeprefix("]")
-                pieces.append(")")
-            case "^":
-                pieces.append("**")
-            case "{":
-                pieces.append("(")
-                closers.append("group")
-            case "}":
-                closed = closers.pop()
-                pieces.append(")")
-                if closed == "frac":
-                    pieces += ["/", "("]
-                    rest = rest.removeprefix("{")
-                    closers.append("last")
-                elif closed == "last":
-                    pieces.append(")")
-            case "\1":
-                pieces.append(".T")
-            case "\2":
-                pieces.append(".inv")
-            case _ if token.strip():
-                pieces.append(token)
+                closers.append("below")
+        elif token == "\\times":
+            rest = rest.removeprefix("]")
+            pieces.append(")")
+        elif token.strip():
+            pieces += TOKENS.get(token, [token])
     assert not closers
     return value_of(pieces, values)
+
+
+TOKENS = {
+    "\\cdot": ["@"],
+    "\\sqrt": ["sqrt"],
+    "\\sin": ["sin"],
+    "\\cos": ["cos"],
+    "\\exp": ["exp"],
+    "\\lVert": ["norm", "("],
+    "\\rVert": [")"],
+    "[": ["skew", "("],
+    "^": ["**"],
+    "\1": [".T"],
+    "\2": [".inv"],
+}
+"""What a token of LaTeX is in Python; those not here stand for themselves."""
+
+AFTER = {"group": [")"], "above": [")", "/", "("], "below": [")", ")"]}
+"""What a closing brace is, by what it closes: a group, or a part of a fraction."""
+
+
+def plain(tex):
+    """LaTeX without sizes and spaces, a transpose and an inverse as one character each."""
+    tex = re.sub(r"\\left|\\right", "", tex).replace("\\mathsf T", "\\mathsf{T}")
+    tex = re.sub(r"(?<![a-zA-Z])\s+|\s+(?![a-zA-Z])", "", tex)
+    return tex.replace(r"^{\mathsf{T}}", "\1").replace("^{-1}", "\2")
+
+
+def first_token(tex, symbols):
+    """The first of ``symbols``, commands, numbers or characters in ``tex``, and the rest of it."""
+    command = re.match(r"\\([a-zA-Z]+)|\d+(\.\d+)?(e[+-]?\d+)?|.", tex, re.DOTALL)[0]
+    for symbol in sorted(symbols, key=len, reverse=True):
+        longer = symbol[0] == "\\" and symbol[-1].isalpha() and tex[len(symbol) :][:1].isalpha()
+        if tex.startswith(symbol) and not longer and (not symbol.isdigit() or symbol == command):
+            return symbol, tex[len(symbol) :]
+    return command, tex[len(command) :]
 
 
 def cells(formula):

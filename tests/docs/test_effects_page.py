@@ -1,9 +1,11 @@
 """The page on the catalogue says what the definitions say, and the checked-in copy is fresh."""
 
 import difflib
+import subprocess
+import sys
 
 import pytest
-from effects_page import COLUMNS, documentation
+from effects_page import COLUMNS, documentation, write
 from places import CHECKOUT
 
 from pyimu.model.catalogue import CATALOGUE
@@ -27,6 +29,20 @@ def test_the_page_is_fresh():
         "docs/effects.md is not what the definitions say; update it with `make "
         f"generate`:\n{change}"
     )
+
+
+def test_only_a_page_that_changes_is_written(tmp_path):
+    assert write(tmp_path) == [tmp_path / "effects.md"] and write(tmp_path) == []
+    (tmp_path / "effects.md").write_text("edited")
+    assert write(tmp_path) == [tmp_path / "effects.md"]
+    assert (tmp_path / "effects.md").read_text(encoding="utf-8") == documentation()
+
+
+def test_the_page_is_written_from_a_checkout_by_a_command():
+    """Which says what it wrote: nothing, as the page is fresh."""
+    program = CHECKOUT / "docs" / "build" / "effects_page.py"
+    done = subprocess.run([sys.executable, program], capture_output=True, text=True, check=True)
+    assert done.stdout == ""
 
 
 @pytest.mark.parametrize("name", CATALOGUE)

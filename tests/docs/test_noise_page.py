@@ -2,6 +2,7 @@
 there.
 """
 
+import shutil
 import subprocess
 import sys
 from difflib import unified_diff
@@ -9,6 +10,7 @@ from difflib import unified_diff
 import noise_pictures
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 from noise_page import ENTRIES, SAMPLE_PERIOD, documentation
 from places import CHECKOUT
 from scipy.stats import chi2, kstest
@@ -57,6 +59,49 @@ def test_a_picture_is_linked_and_there(name):
     picture = DOCS / "noise" / f"{name}.png"
     assert f"](noise/{name}.png)" in documentation()
     assert picture.read_bytes().startswith(b"\x89PNG") and picture.stat().st_size < 100_000
+
+
+@pytest.mark.parametrize("entry", ENTRIES, ids=NAMES)
+def test_a_picture_shows_what_the_definitions_give(entry):
+    picture = DOCS / "noise" / f"{entry.effect}.png"
+    assert noise_pictures.is_fresh(entry, picture), f"{picture.name} is old: make generate"
+
+
+def shown(**changes):
+    """The digest of a small picture, and of it changed."""
+    points = {"x": [1.0, 2.0], "y": [3.0, 4.0], "label": "points", "color": "black"} | changes
+    figure = Figure()
+    panel = figure.subplots()
+    panel.plot(points["x"], points["y"], label=points["label"], color=points["color"])
+    panel.fill_between([0.0, 1.0], points.get("low", 0.5), 2.0)
+    panel.set(xlabel=points.get("unit", "s"))
+    return noise_pictures.digest(figure)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [{"y": [3.0, 4.001]}, {"label": "dots"}, {"color": "blue"}, {"low": 0.6}, {"unit": "ms"}],
+    ids=str,
+)
+def test_a_picture_is_drawn_anew_where_a_number_a_text_or_its_style_changes(change):
+    assert shown(**change) != shown()
+
+
+def test_a_picture_stays_where_a_number_differs_by_the_rounding_of_another_machine():
+    assert shown(y=[3.0 + 1e-13, 4.0]) == shown()
+
+
+def test_only_old_pictures_are_drawn(tmp_path, monkeypatch):
+    """The FMU is not even built where there are none."""
+    shutil.copytree(DOCS / "noise", tmp_path / "noise")
+    monkeypatch.setattr(noise_pictures, "ENTRIES", ENTRIES[2:3])
+    monkeypatch.setattr(noise_pictures, "build_fmu", lambda *_: pytest.fail("built an FMU"))
+    assert noise_pictures.draw(tmp_path / "noise") == []
+    (tmp_path / "noise" / f"{NAMES[2]}.png").unlink()
+    monkeypatch.setattr(noise_pictures, "build_fmu", lambda *_: None)
+    monkeypatch.setattr(noise_pictures, "_by_fmu", lambda _: noise_pictures.in_python)
+    assert noise_pictures.draw(tmp_path / "noise") == [tmp_path / "noise" / f"{NAMES[2]}.png"]
+    assert noise_pictures.draw(tmp_path / "noise") == []
 
 
 def test_no_picture_is_left_over():

@@ -15,7 +15,7 @@ from fmu_toy import Unit
 
 from pyimu.attitude import attitude_ukf
 from pyimu.fmu import FORMS, build_fmus, simulate, simulate_blocks
-from pyimu.fmu.generate import generate, generated_folder, reference_blocks
+from pyimu.fmu.generate import checked_in, digest, generate, generated_folder, reference_blocks
 from pyimu.model.part_file import part
 
 SHOWN = 40
@@ -66,10 +66,10 @@ def test_checked_in_texts_are_fresh(tmp_path):
             f"{ca.__version__}"
         )
     lines = []
-    for name in sorted(have.keys() | want.keys()):
+    for name in sorted(have.keys() | want.keys(), key=lambda name: ".sha256" in name):
         lines += difference(name, comparable(have.get(name, "")), comparable(want.get(name, "")))
     assert not lines, (
-        "fmu_src/generated is not what the definitions give: make generate\n"
+        "fmu_src/generated is not what the definitions give; update it with `make generate`:\n"
         + "\n".join(lines[:SHOWN])
     )
 
@@ -89,7 +89,26 @@ def test_generated_twice_is_the_same_to_the_byte(tmp_path):
     first, again = (
         [p.read_bytes() for p in generate(tmp_path / name)] for name in ("first", "again")
     )
-    assert first == again and len(first) == 9 * len(reference_blocks())
+    assert first == again and len(first) == 10 * len(reference_blocks())
+
+
+def test_only_what_changed_is_written(tmp_path):
+    """And told; what is generated no more goes."""
+    generate(tmp_path)
+    table, left_over = tmp_path / "ImuSensor" / "model_table.h", tmp_path / "ImuSensor" / "old.c"
+    table.write_text("edited")
+    left_over.write_text("")
+    assert generate(tmp_path) == [table, left_over]
+    assert not left_over.exists() and generate(tmp_path) == []
+
+
+def test_an_unreadable_text_is_checked_in_by_its_digest():
+    """Which follows from every line of it but casadi's patch level."""
+    text = checked_in()["AttitudeUkf/step.c.sha256"]
+    assert re.fullmatch(r"[0-9a-f]{64}\n", text) and "AttitudeUkf/step.c" not in checked_in()
+    of = {"patch": "  *patch = 2;\n", "other patch": "  *patch = 11;\n", "number": "  a0=2;\n"}
+    digests = {name: digest(f"int step;\n{line}") for name, line in of.items()}
+    assert digests["patch"] == digests["other patch"] != digests["number"]
 
 
 # The attitude filter as FMU

@@ -12,7 +12,7 @@ from scipy.stats import chi2
 from pyimu.identification.fit import maximum_likelihood
 from pyimu.identification.fit.columns import Linear, LogState, linearise
 from pyimu.identification.fit.fit import begin, power
-from pyimu.identification.fit.keys import slot_keys
+from pyimu.identification.fit.keys import Coefficient, LogBias, LogTurn, coefficients_of
 from pyimu.identification.fit.maximum_likelihood import fit
 from pyimu.identification.fit.normal import normal_equations, solve
 from pyimu.identification.fit.trial import SETTLE
@@ -26,7 +26,7 @@ GAIN = ("scale_factor", "misalignment")
 
 
 def keys_of(sensor: Sensor, *names: str) -> frozenset:
-    return frozenset().union(*(slot_keys(sensor, n) for n in names))
+    return frozenset().union(*(coefficients_of(sensor, n) for n in names))
 
 
 def gyro(s=0.0, m=0.0) -> Sensor:
@@ -118,7 +118,7 @@ def test_blocks_add_up_to_the_whole():
     assert len(normal.block_gram) == len(normal.block_score) == 80
     assert normal.rows == 3 * sum(t.count for t in started.trials)
     apart = [normal_equations([one], started.noise) for one in linears]
-    shared = [k for k in normal.keys if k[0] == "slot"]
+    shared = [k for k in normal.keys if isinstance(k, Coefficient)]
     for take in (lambda n: n.score, lambda n: np.diag(n.gram)):
         total = sum(take(a)[[a.position[k] for k in shared]] for a in apart)
         np.testing.assert_allclose(
@@ -128,9 +128,9 @@ def test_blocks_add_up_to_the_whole():
 
 
 def z_scores(fitted, effect: str, parameter: str, true: np.ndarray) -> np.ndarray:
-    keys = sorted(slot_keys(fitted.sensor, effect))
+    keys = sorted(coefficients_of(fitted.sensor, effect))
     values = fitted.sensor.values[effect][parameter]
-    return np.array([(values[k[3]] - true[k[3]]) / fitted.std[k] for k in keys])
+    return np.array([(values[k.index] - true[k.index]) / fitted.std[k] for k in keys])
 
 
 def test_fit_recovers_coefficients_with_right_standard_errors(fits):
@@ -138,7 +138,7 @@ def test_fit_recovers_coefficients_with_right_standard_errors(fits):
     m = np.array([z_scores(f, "misalignment", "m", TRUE_M) for f in fits])
     bias = np.array(
         [
-            [(f.states["log"].bias[i] - BIAS[i]) / f.std["bias", "log", i] for i in range(3)]
+            [(f.states["log"].bias[i] - BIAS[i]) / f.std[LogBias("log", i)] for i in range(3)]
             for f in fits
         ]
     )
@@ -168,9 +168,9 @@ def test_mounting_and_bias_of_each_log_are_recovered():
     for t, turn in zip(logs, turns, strict=True):
         state = fitted.states[t.name]
         off = (Rotation.from_matrix(state.rotation) * turn.inv()).as_rotvec()
-        squares += [(off[i] / fitted.std["rotation", t.name, i]) ** 2 for i in range(3)]
+        squares += [(off[i] / fitted.std[LogTurn(t.name, i)]) ** 2 for i in range(3)]
         squares += [
-            ((state.bias[i] - BIAS[i]) / fitted.std["bias", t.name, i]) ** 2 for i in range(3)
+            ((state.bias[i] - BIAS[i]) / fitted.std[LogBias(t.name, i)]) ** 2 for i in range(3)
         ]
     assert max(squares) < 4.5**2 and np.sum(squares) < chi2.ppf(1 - ALARM, len(squares))
     assert np.abs(z_scores(fitted, "scale_factor", "s", TRUE_S)).max() < 4.5
@@ -244,7 +244,7 @@ def test_directions_that_the_data_do_not_show_stay_where_they_were():
     np.testing.assert_array_equal(fitted.sensor.values["misalignment"]["m"][:2, 2], 0.002)
     off = fitted.sensor.values["scale_factor"]["s"][:2] - TRUE_S[:2]
     assert np.all(
-        np.abs(off) < [4.5 * fitted.std["slot", "scale_factor", "s", (i,)] for i in range(2)]
+        np.abs(off) < [4.5 * fitted.std[Coefficient("scale_factor", "s", (i,))] for i in range(2)]
     )
 
 

@@ -11,14 +11,14 @@ from hypothesis import strategies as st
 
 from pyimu.block.vectorised import over_rows
 from pyimu.identification.fit.response import (
+    after_dynamics,
+    before_dynamics,
     dynamics,
     impulse_response,
     is_step,
+    memoryless,
     predict,
-    tail,
-    tail_of,
 )
-from pyimu.identification.fit.response import motion as before_dynamics
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import N_INPUT
@@ -26,9 +26,11 @@ from pyimu.model.signals import N_INPUT
 SEGMENTS = [(0, 700), (700, 705), (730, 1500)]
 SEEDS = st.integers(0, 2**32 - 1)
 MEMORYLESS = [
-    (name, kind) for name, kind in CASES if not CATALOGUE[name].states and not is_step(name, kind)
+    (name, kind)
+    for name, kind in CASES
+    if not CATALOGUE[name].states and not is_step(CATALOGUE[name], kind)
 ]
-IN_TAIL = [(name, kind) for name, kind in MEMORYLESS if CATALOGUE[name].stage != "motion"]
+AFTER_DYNAMICS = [(name, kind) for name, kind in MEMORYLESS if CATALOGUE[name].stage != "motion"]
 STAIRCASES = {"quantization", "angle_quantization"}
 
 
@@ -70,7 +72,9 @@ def test_predict_is_the_block_sample_by_sample(kind):
     assert_follows_the_block(sensor, u)
 
 
-@pytest.mark.parametrize(("name", "kind"), [(n, k) for n, k in CASES if not is_step(n, k)])
+@pytest.mark.parametrize(
+    ("name", "kind"), [(n, k) for n, k in CASES if not is_step(CATALOGUE[n], k)]
+)
 def test_predict_of_one_effect_is_the_block(name, kind):
     sensor = excited(name, kind)
     # At the usual small share a lag takes minutes; one that dies away within the segment is the
@@ -82,7 +86,11 @@ def test_predict_of_one_effect_is_the_block(name, kind):
 
 def test_dynamics_and_tail_share_the_chain_between_them():
     sensor = everything("gyro")
-    parts = [*before_dynamics(sensor).values, *dynamics(sensor).values, *tail(sensor).values]
+    parts = [
+        *before_dynamics(sensor).values,
+        *dynamics(sensor).values,
+        *after_dynamics(sensor).values,
+    ]
     assert len(parts) == len(set(parts)) and set(sensor.values) - set(parts) == STAIRCASES
 
 
@@ -102,12 +110,12 @@ def test_impulse_response_is_complete(effect, values):
 
 @settings(max_examples=3, deadline=None)
 @given(seed=SEEDS)
-@pytest.mark.parametrize(("name", "kind"), IN_TAIL)
+@pytest.mark.parametrize(("name", "kind"), AFTER_DYNAMICS)
 def test_tail_jacobian_is_the_central_difference_of_predict(name, kind, seed):
     sensor = excited(name, kind)
     u = motion(200, seed=seed)
-    rest = tail(sensor)
-    response = tail_of(kind, tuple(rest.values))
+    rest = after_dynamics(sensor)
+    response = memoryless(rest.chain)
     _, slope, entries = response(u, rest.p, H)
     p, segments = sensor.p, [(0, 200)]
     for j, slot in enumerate(sensor.slots):
@@ -147,20 +155,20 @@ def _check_slope(sensor: Sensor, u: np.ndarray, slope: np.ndarray) -> None:
 @pytest.mark.parametrize("kind", ["gyro", "accel"])
 def test_mean_bend_is_the_difference_of_the_entries(kind, seed):
     """d(entry)/dx of its own axis, by shifting the input of that axis."""
-    sensor = tail(
+    sensor = after_dynamics(
         chain(kind)
         .without("saturation")
         .with_values("scale_factor_asymmetry", sa=[0.01, 0.02, -0.01])
     )
-    response, u = tail_of(kind, tuple(sensor.values)), motion(300, seed=seed)
-    bend = response.mean_bend(u, sensor.p, H)
+    response, u = memoryless(sensor.chain), motion(300, seed=seed)
+    slope = response.mean_slope(u, sensor.p, H)
     for k in range(3):
         step = 1e-6 * np.eye(N_INPUT)[own(kind).start + k]
         high, low = (response(u + d, sensor.p, H)[2] for d in (step, -step))
         difference = ((high - low) / 2e-6).mean(axis=0)
         of_axis = response.axis == k
         # One of 300 samples may lie within a step of the corner of |x|.
-        np.testing.assert_allclose(bend[of_axis], difference[of_axis], atol=1.01 * 2 / 300)
+        np.testing.assert_allclose(slope[of_axis], difference[of_axis], atol=1.01 * 2 / 300)
 
 
 def machine(function: ca.Function, rows: np.ndarray, fixed: np.ndarray) -> np.ndarray:
@@ -259,4 +267,4 @@ def test_over_rows_refuses_what_it_does_not_know():
 
 @pytest.mark.parametrize(("name", "kind"), CASES)
 def test_only_rounding_is_a_staircase(name, kind):
-    assert is_step(name, kind) == (name in STAIRCASES)
+    assert is_step(CATALOGUE[name], kind) == (name in STAIRCASES)

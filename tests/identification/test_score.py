@@ -13,7 +13,7 @@ from pyimu.identification.fit.fit import Fit, begin
 from pyimu.identification.fit.score import (
     FLOOR_DRAWS,
     WINDOW,
-    Tally,
+    ErrorSums,
     _sums,
     floor,
     held_state,
@@ -186,7 +186,7 @@ def test_tallies_add_up_and_axes_without_rows_have_no_number():
     both = np.concatenate([a, b])[:, [0, 2]]
     np.testing.assert_allclose(total.per_axis[[0, 2]], np.sqrt(np.mean(both**2, axis=0)))
     assert np.isnan(total.per_axis[1]) and total.total == pytest.approx(np.sqrt(np.mean(both**2)))
-    assert np.isnan(Tally().total) and np.isnan(Tally().angle)
+    assert np.isnan(ErrorSums().total) and np.isnan(ErrorSums().angle)
 
 
 def test_log_likelihood_is_the_dense_gaussian_one(halves):

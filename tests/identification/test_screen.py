@@ -8,6 +8,7 @@ from loop_cases import inputs, noise, trial
 from scipy.stats import betabinom, chi2
 
 from pyimu.identification.fit.fit import begin
+from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.maximum_likelihood import fit
 from pyimu.identification.fit.normal import Normal
 from pyimu.identification.search.candidates import Choice, Group
@@ -42,7 +43,7 @@ def design(seed: int = 1) -> np.ndarray:
 def normal_of(columns: np.ndarray, y: np.ndarray) -> Normal:
     """Normal equations of white rows, in blocks of equal length."""
     x, r = columns.reshape(BLOCKS, -1, columns.shape[1]), y.reshape(BLOCKS, -1)
-    keys = [("slot", "g_sensitivity", "G", (i // 3, i % 3)) for i in range(columns.shape[1])]
+    keys = [Coefficient("g_sensitivity", "G", (i // 3, i % 3)) for i in range(columns.shape[1])]
     return Normal(
         keys,
         np.einsum("bni,bnj->bij", x, x),
@@ -64,7 +65,7 @@ def choices() -> list[Group]:
     together.
     """
     keys = [
-        [("slot", name, parameter, (i,)) for i in range(3)]
+        [Coefficient(name, parameter, (i,)) for i in range(3)]
         for name, parameter in (
             ("scale_factor", "s"),
             ("saturation", "limit"),
@@ -224,7 +225,7 @@ def screening() -> Screening:
 
 def test_screening_puts_the_effect_that_is_there_first(screening):
     best = screening.above()[0]
-    assert best.effect == "g_sensitivity" and [k[3][0] for g in best.groups for k in g.keys] == [
+    assert best.effect == "g_sensitivity" and [k.index[0] for g in best.groups for k in g.keys] == [
         0,
         0,
         0,

@@ -11,8 +11,8 @@ from scipy.spatial.transform import Rotation
 from pyimu.block.normals import normals
 from pyimu.fmu import build_fmus, simulate
 from pyimu.model.catalogue import CATALOGUE
-from pyimu.model.effect import KINDS
 from pyimu.model.effects.dynamics import MEMORY
+from pyimu.model.kinds import KINDS
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS, N_INPUT
 

@@ -26,8 +26,10 @@ from catalogue_cases import (
 from pyimu import units
 from pyimu.block.normals import normals
 from pyimu.errors import UserError
+from pyimu.model.arguments import Environment, Parameter, State
 from pyimu.model.catalogue import CATALOGUE, add_effects
-from pyimu.model.effect import KINDS, OWN_RATE, Environment, Parameter, State, effect
+from pyimu.model.effect import effect
+from pyimu.model.kinds import KINDS, OWN_RATE
 from pyimu.model.part import Part
 from pyimu.model.part_file import load_part, save_part
 from pyimu.model.sensor import Sensor, candidates

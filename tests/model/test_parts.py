@@ -13,7 +13,7 @@ import pytest
 from pyimu import units
 from pyimu.block.normals import normals
 from pyimu.cli import main
-from pyimu.model.effect import KINDS
+from pyimu.model.kinds import KINDS
 from pyimu.model.part_entry import RATE_KEY
 from pyimu.model.part_file import part, part_names
 from pyimu.report.parts_table import ABSENT, COLUMNS, detail, listing

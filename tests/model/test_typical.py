@@ -9,7 +9,7 @@ import pytest
 
 from pyimu.errors import UserError
 from pyimu.model.catalogue import CATALOGUE
-from pyimu.model.effect import KINDS
+from pyimu.model.kinds import KINDS
 from pyimu.model.sensor import Sensor
 from pyimu.model.typical import CLASSES, NO_SOURCE, _table, documents, magnitudes
 from pyimu.units import convert, same_dimension

@@ -281,7 +281,9 @@ def test_read_of_write_is_identity(tmp_path_factory, name, values, time):
 
 
 def test_every_group_is_written_and_read(tmp_path):
-    arrays = {g: np.full((4, len(s)) if s else 4, 0.5) for g, (s, _) in GROUPS.items()}
+    arrays = {
+        name: np.full((4, len(g.suffixes)) if g.suffixes else 4, 0.5) for name, g in GROUPS.items()
+    }
     again = read_recording(
         Recording.from_arrays(time=np.arange(4.0), **arrays).write(tmp_path / "all.csv")
     )
@@ -578,8 +580,11 @@ def test_reference_rate_columns_are_used_as_they_are():
     )
 
 
-def test_without_any_reference_it_is_static():
-    assert not reference_rate(Recording.from_arrays(time=TIME, gyro=RATE)).rate.any()
+def test_without_any_reference_it_is_static_if_it_does_not_move():
+    still = reference_rate(Recording.from_arrays(time=TIME, gyro=np.zeros_like(RATE)))
+    assert still.kind == "static" and not still.rate.any()
+    moving = reference_rate(Recording.from_arrays(time=TIME, gyro=RATE))
+    assert moving.kind == "none" and np.isnan(moving.rate).all()
 
 
 def test_a_position_alone_is_not_static():

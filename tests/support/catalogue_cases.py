@@ -7,7 +7,7 @@ from pyimu import units
 from pyimu.block.block import Block
 from pyimu.block.variables import Variable
 from pyimu.model.catalogue import CATALOGUE
-from pyimu.model.effect import KINDS
+from pyimu.model.kinds import KINDS
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS, SIGNALS, inputs_for

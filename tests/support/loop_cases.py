@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from pyimu.identification.fit.trial import Trial
-from pyimu.model.effect import OWN
+from pyimu.model.kinds import OWN
 from pyimu.model.signals import N_INPUT
 
 STATE_NAMES = frozenset({"rate", "specific_force", "temperature"})

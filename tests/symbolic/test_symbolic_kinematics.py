@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from scipy.linalg import expm
 from scipy.spatial.transform import Rotation
 
-from pyimu.derivations.independent import van_loan
 from pyimu.symbolic import earth, linear, mrp, quaternion
 from pyimu.symbolic import process_noise as noise
+from pyimu.symbolic.van_loan import van_loan
 
 ROUNDING = 1e-14
 angles = st.floats(-3.0, 3.0)
@@ -137,9 +137,9 @@ def test_mrp_is_the_rotation_vector_to_second_order_and_a_quarter_of_it_for_unit
     r = ca.SX.sym("r", 3)
     p = mrp.from_quaternion(quaternion.exponential(r), a, f)
     slope = ca.Function("slope", [r], [ca.jacobian(p, r)])
-    bend = ca.Function("bend", [r], [ca.jacobian(ca.jacobian(p, r), r)])
+    curvature = ca.Function("curvature", [r], [ca.jacobian(ca.jacobian(p, r), r)])
     np.testing.assert_allclose(np.array(slope(np.zeros(3))), share * np.eye(3), atol=1e-16)
-    np.testing.assert_allclose(np.array(bend(np.zeros(3))), 0, atol=1e-16)
+    np.testing.assert_allclose(np.array(curvature(np.zeros(3))), 0, atol=1e-16)
 
 
 @pytest.mark.parametrize("latitude", [-1.2, 0.0, 0.9])

@@ -7,9 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN "{d850a592-1eef-fbca-f380-f0b8af02a046}"
-#define MODEL_STEP step
-#define MODEL_INITIAL initial
+#define MODEL_TOKEN "{bd5a3654-3de7-0ff9-c8cf-245f89532f99}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

@@ -7,9 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN "{e84bbd5f-24a3-0b89-6c5b-d7e1d7cabc01}"
-#define MODEL_STEP step
-#define MODEL_INITIAL initial
+#define MODEL_TOKEN "{2245e9ca-cf8a-01ed-f2d5-3764f7d32efd}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

@@ -7,9 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "ImuSensor"
-#define MODEL_TOKEN "{671959b9-0f94-98dc-72bf-fbe1f5717ea7}"
-#define MODEL_STEP step
-#define MODEL_INITIAL initial
+#define MODEL_TOKEN "{35813a12-117c-2adf-0fff-ed4e93477b91}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

@@ -7,9 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "ImuSensor"
-#define MODEL_TOKEN "{aec08849-c585-8316-6d4c-24cd35e51f03}"
-#define MODEL_STEP step
-#define MODEL_INITIAL initial
+#define MODEL_TOKEN "{967e319c-1169-2c53-20be-45709f5896a7}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

@@ -1,3 +1,15 @@
+/* Generated from the block ImuSensor; do not edit. */
+#include "model.h"
+
+/* The functions as casadi writes them are private to this file. */
+#ifndef CASADI_SYMBOL_EXPORT
+#define CASADI_SYMBOL_EXPORT static
+#endif
+#ifdef __GNUC__
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wunused-parameter"
+#endif
+
 /* How to prefix internal symbols */
 #ifdef CASADI_CODEGEN_PREFIX
   #define CASADI_NAMESPACE_CONCAT(NS, ID) _CASADI_NAMESPACE_CONCAT(NS, ID)
@@ -298,4 +310,11 @@ CASADI_SYMBOL_EXPORT int initial_work_bytes(casadi_int *sz_arg, casadi_int* sz_r
   return 0;
 }
 
+/* What the core calls. */
+int model_step(const double **arg, double **res, long long *iw, double *w) {
+    return step(arg, res, iw, w, 0);
+}
 
+int model_initial(const double **arg, double **res, long long *iw, double *w) {
+    return initial(arg, res, iw, w, 0);
+}

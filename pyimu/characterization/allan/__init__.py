@@ -1,4 +1,4 @@
-"""Allan deviations of a record, what is expected of them, and how they scatter."""
+"""Allan deviations of a record, their expected values and their distribution."""
 
 from pyimu.characterization.allan.deviation import (
     hadamard_deviation,

@@ -1,8 +1,7 @@
-r"""Allan deviations of a record of rates: overlapping, Hadamard and modified, exact, in bounded
-memory.
+r"""Overlapping, Hadamard and modified Allan deviations of a record of rates.
 
-With S_k the sum of the first k of n rates, and clusters of m samples (tau = m h, h the sample
-period),
+They are exact, and the memory that they take is bounded. With S_k the sum of the first k of n
+rates, and clusters of m samples (tau = m h, h the sample period),
 
     overlapping   sigma^2 = 1 / (2 m^2 (n - 2m + 1)) sum_j (S_{j+2m} - 2 S_{j+m} + S_j)^2
     Hadamard  sigma^2 = 1 / (6 m^2 (n - 3m + 1)) sum_j (S_{j+3m} - 3 S_{j+2m} + 3 S_{j+m} - S_j)^2
@@ -17,13 +16,13 @@ Memory beside the data: S of one column, as much as that column in double precis
 a mapped file. Time: the differences are made a tile at a time for all cluster sizes, so that short
 clusters find their sums in the cache; processors share the tiles.
 
-Error: a column's mean is taken off first, and S is summed with compensation (Neumaier, Z. angew.
-Math. Mech. 54 (1974), 39-51), so that its error is that of storing it, at most u max|S| with u =
+Error: a column's mean is subtracted first, and S is summed with compensation (Neumaier, Z. angew.
+Math. Mech. 54 (1974), 39-51). The error of S is then that of storing it, at most u max|S| with u =
 2^-53, and does not grow along the record. By the triangle inequality of the root mean square a
-deviation is then off by at most 10 u max|S| / m (storing S, and the differences) and some 10 u of
-itself; the modified one, whose inner sum runs along the record, by some u sqrt(n) of itself
-besides. In 1.4e7 samples of white noise max|S| is some 4000 of its deviations, which bounds the
-error at m = 1 by 5e-12; rounding is random, and what comes is far less.
+deviation is off by at most 10 u max|S| / m (storing S, and the differences) and some 10 u of
+itself; the modified one, whose inner sum runs along the record, by another u sqrt(n) of itself.
+In 1.4e7 samples of white noise max|S| is some 4000 of its deviations, which bounds the error at
+m = 1 by 5e-12. Rounding is random, so the actual error is far smaller.
 """
 
 from __future__ import annotations
@@ -42,15 +41,14 @@ TILE = 4096
 
 
 def octave_clusters(n: int, order: int = 2) -> np.ndarray:
-    """Cluster sizes 1, 2, 4, ... of which ``order`` adjoining ones fit into n samples, shape
-    (t,).
-    """
+    """Cluster sizes (t,) 1, 2, 4, ... of which ``order`` in a row fit into n samples."""
     return 2 ** np.arange(int(n // order).bit_length())
 
 
 def log_clusters(n: int, points: int = 100, order: int = 2) -> np.ndarray:
-    """``points`` cluster sizes from 1 to n / order, evenly in logarithm but for the first, which
-    are all the integers.
+    """``points`` cluster sizes (points,) from 1 to n / order, evenly spaced in the logarithm.
+
+    The first ones are consecutive integers, where an even spacing would be below one.
     """
     largest, sizes = n // order, []
     for left in range(min(points, largest) - 1, -1, -1):
@@ -60,34 +58,36 @@ def log_clusters(n: int, points: int = 100, order: int = 2) -> np.ndarray:
 
 
 def overlapping_deviation(
-    rates: np.ndarray, clusters: np.ndarray, store: np.ndarray | None = None
+    rates: np.ndarray, clusters: np.ndarray, work: np.ndarray | None = None
 ) -> np.ndarray:
-    """Overlapping Allan deviation, shape (t,) or (t, c), of ``rates`` (n,) or (n, c) for cluster
-    sizes (t,) in samples.
+    """Overlapping Allan deviation, shape (t,) or (t, c), in the unit of the rates.
 
-    ``store`` (n + 1,) or more is memory to work in, where there should be no more of it: a mapped
-    file, for a very long record. Raises ValueError for a cluster size that is no whole number from
-    1 to n / 2, UserError where a rate is not finite.
+    ``rates`` is (n,) or (n, c), ``clusters`` (t,) are cluster sizes in samples. ``work`` (n + 1,)
+    or longer is memory to work in, such as a mapped file for a very long record; None allocates it.
+    Raises ValueError for a cluster size that is no whole number from 1 to n / 2, UserError where a
+    rate is not finite.
     """
-    return _deviation(rates, clusters, 2, 0, _allan_sums, store)
+    return _deviation(rates, clusters, 2, 0, _allan_sums, work)
 
 
 def hadamard_deviation(
-    rates: np.ndarray, clusters: np.ndarray, store: np.ndarray | None = None
+    rates: np.ndarray, clusters: np.ndarray, work: np.ndarray | None = None
 ) -> np.ndarray:
-    """Overlapping Hadamard deviation, which no rate ramp reaches; arguments and errors as above,
-    sizes up to n / 3.
+    """Overlapping Hadamard deviation, in which a rate ramp does not appear.
+
+    Arguments, shapes and errors are those of ``overlapping_deviation``; sizes go up to n / 3.
     """
-    return _deviation(rates, clusters, 3, 0, _hadamard_sums, store)
+    return _deviation(rates, clusters, 3, 0, _hadamard_sums, work)
 
 
 def modified_deviation(
-    rates: np.ndarray, clusters: np.ndarray, store: np.ndarray | None = None
+    rates: np.ndarray, clusters: np.ndarray, work: np.ndarray | None = None
 ) -> np.ndarray:
-    """Modified Allan deviation, which tells quantization from flicker of the angle; as above, sizes
-    up to (n + 1) / 3.
+    """Modified Allan deviation, which tells quantization from flicker of the angle.
+
+    Arguments, shapes and errors are those of ``overlapping_deviation``; sizes go up to (n + 1) / 3.
     """
-    return _deviation(rates, clusters, 3, 1, _modified_sums, store)
+    return _deviation(rates, clusters, 3, 1, _modified_sums, work)
 
 
 def _deviation(
@@ -96,7 +96,7 @@ def _deviation(
     order: int,
     spare: int,
     sums: Callable,
-    store: np.ndarray | None,
+    work: np.ndarray | None,
 ) -> np.ndarray:
     rates, m = np.asarray(rates), np.atleast_1d(clusters)
     if rates.ndim not in (1, 2):
@@ -108,16 +108,16 @@ def _deviation(
         )
     m = m.astype(np.int64)
     columns = rates[:, None] if rates.ndim == 1 else rates
-    # One store for all columns: fresh memory costs as much as what is done with it.
+    # The same memory for all columns: fresh memory costs as much as what is done with it.
     variance = np.empty((len(m), columns.shape[1]))
-    store = np.empty(len(rates) + 1) if store is None else store[: len(rates) + 1]
+    cumulative = np.empty(len(rates) + 1) if work is None else work[: len(rates) + 1]
     for c in range(columns.shape[1]):
-        variance[:, c] = sums(_cumulative(columns[:, c], c, store), m)
+        variance[:, c] = sums(_cumulative(columns[:, c], c, cumulative), m)
     return np.sqrt(variance).reshape(m.shape + rates.shape[1:])
 
 
 def _cumulative(column: np.ndarray, c: int, out: np.ndarray) -> np.ndarray:
-    """Sums (n + 1,) of the first 0, 1, ..., n rates less their mean, in ``out``."""
+    """Fill ``out`` with the sums (n + 1,) of the first 0, 1, ..., n rates less their mean."""
     with np.errstate(invalid="ignore"):
         mean = np.mean(column, dtype=float)
     if not _fill_cumulative(column, mean, out):
@@ -131,7 +131,7 @@ def _cumulative(column: np.ndarray, c: int, out: np.ndarray) -> np.ndarray:
 
 @njit(cache=True, nogil=True)
 def _fill_cumulative(x, mean, out):
-    """False where the sum is not finite."""
+    """Fill ``out`` with the running sum of x - mean; False where the sum is not finite."""
     total, lost = 0.0, 0.0
     out[0] = 0.0
     for k in range(len(x)):
@@ -143,8 +143,9 @@ def _fill_cumulative(x, mean, out):
 
 @njit(cache=True, nogil=True)
 def _two_sum(a, b):
-    """Sum and its exact rounding error (Knuth); the errors are summed apart, so that the next sum
-    need not wait for them.
+    """The sum of a and b and its exact rounding error (Knuth).
+
+    The errors are summed separately, so that the next sum need not wait for them.
     """
     total = a + b
     part = total - a
@@ -160,9 +161,7 @@ def _hadamard_sums(s: np.ndarray, m: np.ndarray) -> np.ndarray:
 
 
 def _mean_squares(s: np.ndarray, m: np.ndarray, order: int) -> np.ndarray:
-    """Mean over all places of the squared difference of ``order`` 2 or 3 of the sums at distance m,
-    shape (t,).
-    """
+    """Mean squares (t,) of the differences of ``order`` 2 or 3 of the sums ``s`` at distances m."""
     tiles = -(-len(s) // TILE)
     squares = np.zeros((tiles, len(m)))
     _shared(tiles, lambda first, last: _fill_squares(s, m, order, first, last, squares))
@@ -170,13 +169,15 @@ def _mean_squares(s: np.ndarray, m: np.ndarray, order: int) -> np.ndarray:
 
 
 def processors() -> int:
-    """How many this process may use."""
+    """How many processors this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def _shared(parts: int, work: Callable[[int, int], None]) -> None:
-    """Parts 0 to ``parts`` - 1 in contiguous shares on all processors; the results do not depend on
-    their number.
+    """Call ``work(first, last)`` for contiguous shares of the parts, on all processors.
+
+    Together the shares cover the parts 0 to ``parts`` - 1; each part is computed by itself, so that
+    the results do not depend on the number of processors.
     """
     workers = min(processors(), parts)
     if workers == 1:
@@ -189,7 +190,7 @@ def _shared(parts: int, work: Callable[[int, int], None]) -> None:
 
 @njit(cache=True, nogil=True)
 def _fill_squares(s, m, order, first, last, squares):
-    """Sums of squares (tiles, t) of the tiles ``first`` to ``last`` - 1."""
+    """Fill the rows ``first`` to ``last`` - 1 of ``squares`` (tiles, t) with sums over tiles."""
     for tile in range(first, last):
         start = tile * TILE
         for i in range(len(m)):
@@ -245,8 +246,10 @@ def _modified_sums(s: np.ndarray, m: np.ndarray) -> np.ndarray:
 
 @njit(cache=True, nogil=True)
 def _fill_modified(s, m, squares):
-    """The inner sum moves on by a third difference of S; compensated, because it moves through the
-    whole record.
+    """Fill ``squares`` (t,) with the sums of squares of the modified Allan variance.
+
+    The inner sum moves on by a third difference of S; it is compensated, because it moves through
+    the whole record.
     """
     for i in range(len(m)):
         n = m[i]

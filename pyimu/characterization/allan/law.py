@@ -1,27 +1,26 @@
-r"""The distribution of the overlapping Allan variance of a Gaussian noise of known density, and its
-simultaneous limits.
+r"""The distribution of the overlapping Allan variance of Gaussian noise of known density.
 
 The estimator is the mean of the squares of d_j = (mean of rates j + m to j + 2m - 1, less that of j
 to j + m - 1) / sqrt(2), which is a stationary series with autocovariance
 
     R(l) = int_{-1/2h}^{1/2h} S(f) 2 sin^4(pi f m h) / (m sin(pi f h))^2 cos(2 pi f l h) df
 
-whatever the noise, if only S f^2 is finite at zero: a random walk and a stationary flicker are
-covered, a rate ramp is no noise. Its mean is R(0) and, over M = n - 2m + 1 terms, its variance 2 /
-M^2 sum_l (M - |l|) R(l)^2 (Isserlis' theorem). It is a weighted sum of squared normals, the weights
-being the eigenvalues of R's M x M Toeplitz matrix over M.
+whatever the noise, provided that S f^2 is finite at zero: a random walk and a stationary flicker
+are covered, a rate ramp is no noise. The mean of the estimate is R(0) and, over M = n - 2m + 1
+terms, its variance 2 / M^2 sum_l (M - |l|) R(l)^2 (Isserlis' theorem). It is a weighted sum of
+squared normals, the weights being the eigenvalues of R's M x M Toeplitz matrix over M.
 
-Its quantiles: where the equivalent degrees of freedom 2 E^2 / Var are many, those of the shifted
-and scaled chi-square with the same first three cumulants (Hall, Buckley and Eagleson; Buckley and
-Eagleson, Austral. J. Statist. 30A (1988), 150-159); where they are few, the saddlepoint's on the
-eigenvalues (Lugannani and Rice, Adv. Appl. Probab. 12 (1980), 475-490; Kuonen, Biometrika 86
-(1999), 929-935). The eigenvalues are those of d at a hundred places, spread about the mean to the
-exact variance. A limit's own tail probability is so within a sixth of itself (tests/test_allan.py
-holds it against the exact law). The field's chi-square of those degrees of freedom lacks the
-skewness: at one in ten thousand its upper limit is passed two to three times as often, its lower
-one hardly ever.
+Where the equivalent degrees of freedom 2 E^2 / Var are many, its quantiles are taken as those of
+the shifted and scaled chi-square with the same first three cumulants (Hall, Buckley and Eagleson;
+Buckley and Eagleson, Austral. J. Statist. 30A (1988), 150-159). Where they are few, they come from
+the saddlepoint approximation on the eigenvalues (Lugannani and Rice, Adv. Appl. Probab. 12 (1980),
+475-490; Kuonen, Biometrika 86 (1999), 929-935). The eigenvalues are those of d at a hundred places,
+spread about the mean to the exact variance. The tail probability of a limit is then right to a
+sixth of itself (test_allan.py compares it with the exact law). The usual chi-square of those
+degrees of freedom lacks the skewness: at one in ten thousand its upper limit is passed two to three
+times as often, its lower one hardly ever.
 
-Noise that is not Gaussian but lighter in its tails, such as rounding, varies less: its limits hold
+Noise that is not Gaussian but has lighter tails, such as rounding, varies less: its limits hold
 with more than the probability asked for.
 """
 
@@ -41,9 +40,9 @@ from pyimu.shaping import allan_deviation
 Density = Callable[[np.ndarray], np.ndarray]
 
 PLACES = 128
-"""Places of d that stand for all, as many as linear algebra does on one processor without delay: in
-the middles of equal shares of the record where that is a few clusters long, else over as many
-clusters as they reach."""
+"""Places of d that stand for all, as many as linear algebra handles on one processor without delay.
+They are the middles of equal shares of the record where that is a few clusters long, else they are
+``SPLIT`` to a cluster."""
 
 SPLIT = 16
 """Places in a cluster, where the record is many clusters long."""
@@ -57,11 +56,10 @@ GRID = 4
 
 @dataclass(frozen=True)
 class AllanLaw:
-    """Overlapping Allan variance of one cluster size: its mean, its variance, and the shape of its
-    distribution.
+    """The distribution of the overlapping Allan variance of one cluster size.
 
-    ``matrix`` is a covariance of d at fewer places, whose sum of squares has the shape (not the
-    size) of the estimate.
+    ``mean`` and ``variance`` are exact. ``matrix`` is the covariance of d at fewer places, whose
+    sum of squares has the shape (not the size) of the distribution of the estimate.
     """
 
     mean: float
@@ -74,12 +72,12 @@ class AllanLaw:
         return 2 * self.mean**2 / self.variance
 
     def quantile(self, lower: float, upper: float) -> tuple[float, float]:
-        """The variances below which, and above which, the estimate falls with these probabilities
-        (at most 1/4).
+        """The limits below and above which the estimate falls with these probabilities.
+
+        ``lower`` and ``upper`` are at most 1/4.
         """
-        low, high = (_three_cumulants if self.edf >= MANY else _saddlepoint)(
-            self.matrix, self.edf, lower, upper
-        )
+        quantiles = _three_cumulants if self.edf >= MANY else _saddlepoint
+        low, high = quantiles(self.matrix, self.edf, lower, upper)
         spread = np.sqrt(self.variance)
         return max(self.mean + low * spread, 0.0), self.mean + high * spread
 
@@ -87,13 +85,13 @@ class AllanLaw:
 def allan_band(
     psd: Density, taus: np.ndarray, n: int, h: float, probability: float
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Limits (low, high), each (t,), between which all the overlapping Allan deviations lie with at
-    least ``probability``.
+    """Simultaneous limits (low, high), each (t,), of the overlapping Allan deviations.
 
-    ``psd(f)`` is the two-sided density of the Gaussian noise at f > 0 in Hz, ``taus`` (t,) the
-    cluster times in s, multiples of the sample period ``h`` [s], of a record of ``n`` samples.
-    Simultaneous by Bonferroni, half of the rest on either side. Raises ValueError where a tau is
-    no multiple of h from h to n h / 2, or the probability not in (0, 1).
+    All the deviations lie between them with at least ``probability`` (Bonferroni, half of the rest
+    on either side). ``psd(f)`` is the two-sided density of the Gaussian noise at f > 0 in Hz,
+    ``taus`` (t,) are the cluster times in s, multiples of the sample period ``h`` [s], of a record
+    of ``n`` samples. Raises ValueError where a tau is no multiple of h from h to n h / 2, or the
+    probability not in (0, 1).
     """
     if not 0 < probability < 1:
         raise ValueError(f"the probability {probability} is not between 0 and 1")
@@ -103,8 +101,9 @@ def allan_band(
 
 
 def allan_laws(psd: Density, taus: np.ndarray, n: int, h: float) -> list[AllanLaw]:
-    """The distribution at each cluster time; arguments and errors as ``allan_band``. Time and
-    memory grow as 4 n log n.
+    """The distribution of the overlapping Allan variance at each cluster time.
+
+    Arguments and errors are those of ``allan_band``. Time and memory grow as 4 n log n.
     """
     taus = np.atleast_1d(np.asarray(taus, dtype=float))
     m = np.rint(taus / h).astype(int)
@@ -121,14 +120,15 @@ def allan_laws(psd: Density, taus: np.ndarray, n: int, h: float) -> list[AllanLa
 
 
 def _law(weighted: np.ndarray, x: np.ndarray, m: int, n: int, mean: float) -> AllanLaw:
-    """Of clusters of m; ``weighted`` is the density over sin^2(x), x = pi f h, times the integral's
-    weights.
+    """The distribution for clusters of m samples in a record of n.
+
+    ``weighted`` is the density over sin^2(x), x = pi f h, times the weights of the integral.
     """
     # The type-2 cosine transform is twice the sum over the grid, the integral over both signs.
     squared = np.sin(m * x) ** 2
     r = dct(weighted * squared * squared, type=2)[: n - 2 * m + 1] / m**2
-    # A process slower than the record has a line at zero that the grid is too coarse for: it lacks
-    # a covariance that is much the same at all lags.
+    # A process slower than the record has a line at zero that the grid is too coarse for. What is
+    # missing is a covariance that is nearly the same at all lags.
     r += mean - r[0]
     terms = len(r)
     variance = (
@@ -144,11 +144,11 @@ def _law(weighted: np.ndarray, x: np.ndarray, m: int, n: int, mean: float) -> Al
 def _three_cumulants(
     matrix: np.ndarray, edf: float, lower: float, upper: float
 ) -> tuple[float, float]:
-    """Quantiles in standard deviations from the mean, of a chi-square with the skewness of the
-    estimate.
+    """Quantiles, in standard deviations from the mean, of a chi-square as skew as the estimate.
 
     With eigenvalues w, (sum w)(sum w^3) / (sum w^2)^2 hardly depends on how many clusters there
-    are: one for a chi-square, and what the squared skewness 8 / edf grows by, squared.
+    are. It is one for a chi-square; its square is the factor by which the squared skewness exceeds
+    8 / edf.
     """
     square = matrix @ matrix
     shape = np.trace(matrix) * np.sum(square * matrix) / np.trace(square) ** 2
@@ -160,11 +160,10 @@ def _three_cumulants(
 
 
 def _saddlepoint(matrix: np.ndarray, edf: float, lower: float, upper: float) -> tuple[float, float]:
-    """Quantiles in standard deviations from the mean, of a sum of squared normals weighted by the
-    eigenvalues.
+    """Quantiles, in standard deviations from the mean, of a weighted sum of squared normals.
 
-    With K(t) = -1/2 sum log(1 - 2 t w), the quantile is K'(t) at the t where Lugannani and Rice's
-    tail is as given.
+    The weights w are the eigenvalues of ``matrix``. With K(t) = -1/2 sum log(1 - 2 t w), the
+    quantile is K'(t) at the t where Lugannani and Rice's tail probability is the one given.
     """
     w = eigvalsh(matrix)
     w = w[w > 1e-12 * w[-1]] / w[-1]
@@ -175,8 +174,9 @@ def _saddlepoint(matrix: np.ndarray, edf: float, lower: float, upper: float) -> 
 
 
 def _rest(v: float) -> float:
-    """1 - 2 t for the largest weight, 1: v runs from minus infinity, where t does, to infinity,
-    where t nears its pole 1/2.
+    """1 - 2 t, where v replaces t as the variable and the largest weight is 1.
+
+    v runs from minus infinity, as t does, to infinity, where t approaches its pole at 1/2.
     """
     return np.exp(-v)
 
@@ -189,6 +189,6 @@ def _sum_at(w: np.ndarray, v: float) -> float:
 def _tail(w: np.ndarray, v: float) -> float:
     """The probability beyond K'(t), on the side of the sign of v."""
     left, t = 1 - w + w * _rest(v), -np.expm1(-v) / 2
-    k, slope, bend = -0.5 * np.sum(np.log(left)), np.sum(w / left), 2 * np.sum((w / left) ** 2)
-    r = np.sqrt(2 * (t * slope - k))
-    return norm.sf(r) + norm.pdf(r) * (1 / (abs(t) * np.sqrt(bend)) - 1 / r)
+    k, first, second = -0.5 * np.sum(np.log(left)), np.sum(w / left), 2 * np.sum((w / left) ** 2)
+    r = np.sqrt(2 * (t * first - k))
+    return norm.sf(r) + norm.pdf(r) * (1 / (abs(t) * np.sqrt(second)) - 1 / r)

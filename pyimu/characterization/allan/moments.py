@@ -1,23 +1,22 @@
-r"""Mean and covariance of a record's overlapping Allan variances, for noise made of the five terms
-Q, N, B, K, R; in closed form.
+r"""Mean and covariance of overlapping Allan variances, in closed form.
 
-The sum of the rates, as a function of the sample, has for each term a generalised covariance G(u)
-of lag u samples:
+The noise is made of the five terms Q, N, B, K, R. The sum of the rates, as a function of the
+sample, has for each term a generalised covariance G(u) of lag u samples:
 
     Q^2 [u = 0],    -N^2 |u| / 2,    B^2 / (2 pi) u^2 ln|u|,    K^2 (|u|^3 - |u|) / 12
 
 in units in which the sample period is one (an intrinsic random function: Matheron, Adv. Appl.
-Probab. 5 (1973), 439-468); that of flicker is the one of a density B^2 / (2 pi f) at all
-frequencies, the others are exact for samples. The estimate for clusters of m is the mean of
-squares of d_j, second differences of that sum over sqrt(2) m, and the differences for clusters of m
-and m' at places u apart (from centre to centre) have the covariance
+Probab. 5 (1973), 439-468). That of flicker belongs to a density B^2 / (2 pi f) at all frequencies,
+the others are exact for samples. The estimate for clusters of m is the mean of the squares of d_j,
+the second differences of that sum over sqrt(2) m. The differences for clusters of m and m', at
+places u apart (from centre to centre), have the covariance
 
     R(u) = second difference by m of the second difference by m' of G, at u, over 2 m m'.
 
-A ramp is no noise: it gives all d the mean R m / sqrt(2). By Isserlis' theorem the estimates
-covary by the mean over all pairs of places of 2 R(u)^2 + 4 (product of the means) R(u). R is
-smooth but at u = 0, m, m' - m, m', m' + m: at these the sum is taken as it is, in between by Gauss
-and Legendre's rule, so that it takes as long for a record of a minute as for one of a day.
+A ramp is no noise: it gives all d the mean R m / sqrt(2). By Isserlis' theorem the covariance of
+two estimates is the mean over all pairs of places of 2 R(u)^2 + 4 (product of the means) R(u). R is
+smooth except at u = 0, m, m' - m, m', m' + m. Around these the terms are summed one by one, in
+between by the Gauss-Legendre rule, so that a record of a day takes as long as one of a minute.
 """
 
 from __future__ import annotations
@@ -31,25 +30,26 @@ import numpy as np
 from scipy.special import xlogy
 
 TERMS = "QNBKR"
+"""Quantization, angle random walk, bias instability, rate random walk, rate ramp (IEEE Std 952)."""
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
 
 SUMMED = 64
-"""Whole numbers in a row that are summed one by one; for more an integral is the same to (1 /
-SUMMED)^2."""
+"""Up to so many consecutive lags are summed one by one; for more an integral agrees with the sum
+to (1 / SUMMED)^2."""
 
 OCTAVES = 8
-"""Of lags beyond m + m' that are summed; there R of flicker, the only one that is not zero, falls
-with the square of the lag."""
+"""Octaves of lags beyond m + m' that are summed. Only flicker has an R other than zero there, and
+it falls with the square of the lag."""
 
 
 @dataclass(frozen=True)
 class AllanMoments:
-    """Moments at cluster sizes ``m`` (t,), from squares of coefficients (5,), those of ``TERMS``,
-    for a sample period of one.
+    """Means and covariances of the Allan variances at cluster sizes ``m`` (t,).
 
-    ``design`` (t, 5) makes the means of them, ``products`` (4, 4, t, t) and ``sums`` (4, t, t) the
-    covariances.
+    They follow from the squares (5,) of the coefficients of ``TERMS``, for a sample period of one:
+    the means through ``design`` (t, 5), the covariances through ``products`` (4, 4, t, t) and
+    ``sums`` (4, t, t).
     """
 
     m: np.ndarray
@@ -58,9 +58,7 @@ class AllanMoments:
     sums: np.ndarray
 
     def covariance(self, squares: np.ndarray) -> np.ndarray:
-        """Covariance (t, t) of the Allan variances where the noise has these squared coefficients
-        (5,).
-        """
+        """Covariance (t, t) of the Allan variances of noise with these squares (5,)."""
         noise = squares[:4]
         spread = np.einsum("i,j,ijab->ab", noise, noise, self.products)
         return 2 * spread + 2 * squares[4] * np.outer(self.m, self.m) * np.einsum(
@@ -69,8 +67,9 @@ class AllanMoments:
 
 
 def moments(clusters: np.ndarray, n: int) -> AllanMoments:
-    """The moments for a record of ``n`` samples at cluster sizes (t,). Raises ValueError for one
-    that is no whole number from 1 to n / 2.
+    """The moments for a record of ``n`` samples at cluster sizes (t,).
+
+    Raises ValueError for a cluster size that is no whole number from 1 to n / 2.
     """
     m = np.atleast_1d(clusters)
     if np.any(m != np.floor(m)) or np.any(m < 1) or np.any(2 * m > n):
@@ -92,21 +91,23 @@ def _moments(sizes: tuple[int, ...], n: int) -> AllanMoments:
 
 
 def design(m: np.ndarray) -> np.ndarray:
-    """Allan variances (t, 5) of the terms, each with a coefficient of one, for clusters of m (t,)
-    samples (Hidalgo 2012, table 3).
+    """Allan variances (t, 5) of the terms with coefficients of one, for clusters of m (t,) samples.
+
+    The sample period is one (Hidalgo 2012, table 3; the random walk's as its samples have it).
     """
     flat = np.full(np.shape(m), 2 * np.log(2) / np.pi)
     return np.column_stack([3 / m**2, 1 / m, flat, m / 3 + 1 / (6 * m), m**2 / 2])
 
 
 def _lags(m: int, wide: int, n: int) -> tuple[np.ndarray, np.ndarray]:
-    """Lags u >= 0 and weights that give the mean over all pairs of places of an even function of u,
-    for clusters m <= wide.
+    """Lags u >= 0 and weights that average an even function of u over all pairs of places.
+
+    The places are those of the differences for clusters of ``m`` <= ``wide`` in n samples.
     """
     places = (n - 2 * m + 1, n - 2 * wide + 1)
     reach = sum(places) / 2  # the number of pairs falls to nothing there
-    tail = (m + wide) * 2 ** np.arange(1, OCTAVES + 1)
-    ends = np.unique(np.minimum([0, m, wide - m, wide, m + wide, *tail], np.ceil(reach)))
+    octaves = (m + wide) * 2 ** np.arange(1, OCTAVES + 1)
+    ends = np.unique(np.minimum([0, m, wide - m, wide, m + wide, *octaves], np.ceil(reach)))
     parts = [(ends, np.ones(len(ends))), *(_between(a, b) for a, b in pairwise(ends))]
     u, weight = (np.concatenate(p) for p in zip(*parts, strict=True))
     pairs = np.clip(reach - u, 0, min(places))
@@ -114,8 +115,9 @@ def _lags(m: int, wide: int, n: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _between(a: float, b: float) -> tuple[np.ndarray, np.ndarray]:
-    """The whole numbers between a and b, ends left out; where they are many, nodes and weights for
-    the integral from a + 1/2 to b - 1/2.
+    """Lags and weights that sum a function over the whole numbers between a and b, ends excluded.
+
+    Where they are many, these are nodes and weights of the integral from a + 1/2 to b - 1/2.
     """
     count = int(b - a) - 1
     if count <= SUMMED:
@@ -124,14 +126,16 @@ def _between(a: float, b: float) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _cross(second: Callable, u: np.ndarray, m: float, wide: float) -> np.ndarray:
-    """R at lags u of one term with a coefficient of one."""
+    """R at lags u of one term with a coefficient of one, from its second difference of G."""
     m, wide = min(m, wide), max(m, wide)
     return (second(u + wide, m) - 2 * second(u, m) + second(u - wide, m)) / (2 * m * wide)
 
 
 def _quantization(u: np.ndarray, m: float) -> np.ndarray:
-    """Second difference by m of [u = 0]; the three others are of the functions in the module's
-    docstring, less what cancels.
+    """Second difference by m of G of quantization, [u = 0].
+
+    The three functions below are those of the other G of the module's docstring, less what
+    cancels.
     """
     return np.where(np.abs(u) == m, 1.0, 0.0) - np.where(u == 0, 2.0, 0.0)
 

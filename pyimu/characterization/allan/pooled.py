@@ -1,17 +1,16 @@
-"""Records with gaps: the stretches between them, and Allan deviations and their moments pooled over
-the stretches.
+"""Allan deviations of a record with gaps, pooled over its segments, and their moments.
 
-A difference that would reach over a gap is not made. Each stretch gives its own overlapping
-estimate, and the pooled one is their mean weighted by the number of their differences, which is
-what one sum over all of them would be. Stretches are taken to be independent: for noise with a
-long memory that makes the weights less than the best, and the estimate no less right.
+No difference reaches over a gap. Each segment gives its own overlapping estimate, and the pooled
+one is their mean weighted by the number of their differences, which is what one sum over all
+differences would be. Segments are taken to be independent: for noise with a long memory the weights
+are then not the best ones, but the estimate is no less right.
 """
 
 from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -19,63 +18,74 @@ import numpy as np
 from pyimu.characterization.allan.deviation import overlapping_deviation
 from pyimu.characterization.allan.moments import AllanMoments, moments
 
+Deviation = Callable[[np.ndarray, np.ndarray], np.ndarray]
+"""Rates (n,) and cluster sizes (t,) to deviations (t,)."""
+
+Segment = tuple[int, int]
+"""Rows from start to stop (excluded) without gap."""
+
 FEW, MOST = 40, 4000
-"""Up to so many stretches are used as they are; of more, up to the second, the ends are cut so that
+"""Up to ``FEW`` segments are used as they are. Of more, up to ``MOST``, the ends are cut so that
 there are few different lengths."""
 
 LADDER = 2 ** (1 / 8)
-"""Ratio of the lengths that stretches are cut to: moments take as long for a short one as for a
-day, and are made once for each."""
+"""Ratio of the lengths that segments are cut to. Moments are made once for each length, and take
+as long for a short one as for a day."""
 
 SHORTEST = 0.01
-"""A stretch is used from this share of the longest on."""
+"""A segment is used from this share of the longest on."""
 
 
-def longest(found: Sequence[tuple[int, int]]) -> list[tuple[int, int]]:
-    """The stretches that are used: the ``MOST`` longest of those that are at least ``SHORTEST`` as
-    long as the longest, in the order of time.
+def used_segments(segments: Sequence[Segment]) -> list[Segment]:
+    """The segments from which deviations are made, in the order of time.
+
+    They are the ``MOST`` longest of those that are at least ``SHORTEST`` as long as the longest;
+    where they are more than ``FEW``, their ends are cut.
     """
-    if not found:
+    if not segments:
         return []
-    size = [b - a for a, b in found]
-    order = sorted(range(len(found)), key=lambda i: -size[i])[:MOST]
-    used = [found[i] for i in sorted(order) if size[i] >= SHORTEST * max(size)]
+    size = [b - a for a, b in segments]
+    order = sorted(range(len(segments)), key=lambda i: -size[i])[:MOST]
+    used = [segments[i] for i in sorted(order) if size[i] >= SHORTEST * max(size)]
     return used if len(used) <= FEW else [(a, a + _cut(b - a, max(size))) for a, b in used]
 
 
 def _cut(length: int, whole: int) -> int:
-    """The next length below, of those that fall from ``whole`` by ``LADDER``."""
+    """The next length below, of those that fall from ``whole`` by the factor ``LADDER``."""
     steps = math.ceil(math.log(whole / length) / math.log(LADDER) - 1e-9)
     return max(int(whole / LADDER**steps), 1)
 
 
 def differences(m: np.ndarray, lengths: Sequence[int]) -> np.ndarray:
-    """How many overlapping differences each stretch gives (s, t), for cluster sizes ``m`` (t,)."""
+    """Number (s, t) of overlapping differences of segments of ``lengths`` (s,) at sizes m (t,)."""
     return np.maximum(np.array(lengths)[:, None] - 2 * np.asarray(m) + 1, 0)
 
 
 def pooled_deviation(
-    pieces: Sequence[np.ndarray], m: np.ndarray, deviation=overlapping_deviation, order: int = 2
+    records: Sequence[np.ndarray],
+    m: np.ndarray,
+    deviation: Deviation = overlapping_deviation,
+    order: int = 2,
 ) -> np.ndarray:
-    """Deviation (t,) of all the ``pieces`` (n_i,) together at cluster sizes ``m`` (t,), of which
-    ``order`` must fit into the longest.
+    """Deviation (t,) of the ``records`` (n_i,) together, each the rates of one segment.
+
+    ``deviation`` is one of ``allan.deviation``, ``order`` the clusters that it takes in a row;
+    so many of each of the sizes ``m`` (t,) must fit into the longest record.
     """
     m = np.asarray(m)
     total, count = np.zeros(len(m)), np.zeros(len(m))
-    for piece in pieces:
-        fits = order * m <= len(piece)
+    for rates in records:
+        fits = order * m <= len(rates)
         if fits.any():
-            terms = len(piece) - order * m[fits] + 1
-            total[fits] += terms * deviation(piece, m[fits]) ** 2
+            terms = len(rates) - order * m[fits] + 1
+            total[fits] += terms * deviation(rates, m[fits]) ** 2
             count[fits] += terms
     return np.sqrt(total / count)
 
 
 @lru_cache(maxsize=8)
 def pooled_moments(m: tuple[int, ...], lengths: tuple[int, ...]) -> AllanMoments:
-    """Moments of the pooled Allan variances at cluster sizes ``m``, for stretches of these lengths
-    in samples.
-    """
+    """Moments at cluster sizes ``m`` of Allan variances pooled over segments of these lengths."""
     sizes = np.array(m)
     if len(lengths) == 1:
         return moments(sizes, lengths[0])
@@ -98,8 +108,9 @@ def pooled_moments(m: tuple[int, ...], lengths: tuple[int, ...]) -> AllanMoments
 def freedom_parts(
     m: tuple[int, ...], lengths: tuple[int, ...]
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """``design`` (t, 5), and the diagonals ``products`` (t, 4, 4) and ``sums`` (t, 4), of the
-    moments of each size by itself.
+    """The moments of each cluster size by itself.
+
+    They are ``design`` (t, 5), and the diagonals (t, 4, 4) of ``products`` and (t, 4) of ``sums``.
     """
     each = [pooled_moments.__wrapped__((k,), tuple(n for n in lengths if n >= 2 * k)) for k in m]
     return (
@@ -110,12 +121,11 @@ def freedom_parts(
 
 
 def equivalent_freedom(m: np.ndarray, lengths: Sequence[int], squares: np.ndarray) -> np.ndarray:
-    """Equivalent degrees of freedom (t,), 2 mean^2 / variance, of each Allan variance where the
-    noise has these squares (5,).
+    """Equivalent degrees of freedom (t,), 2 mean^2 / variance, of pooled Allan variances.
 
-    ``squares`` are those of the coefficients for a sample period of one. A term of flicker or of a
-    random walk makes the long clusters depend on each other more than white noise does; a ramp,
-    which is no noise, does not count.
+    ``squares`` (5,) are those of the coefficients of the noise, for a sample period of one.
+    Flicker and a random walk make long clusters depend on each other more than white noise does; a
+    ramp, which is no noise, does not count.
     """
     design, products, _ = freedom_parts(tuple(int(k) for k in m), tuple(int(n) for n in lengths))
     noise = squares[:4]

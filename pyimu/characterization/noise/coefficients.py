@@ -1,5 +1,4 @@
-r"""Noise coefficients from an Allan deviation: a weighted fit of the sum of the five terms, with
-intervals.
+r"""Noise coefficients with intervals: a weighted fit of the five terms to an Allan deviation.
 
 With coefficients Q [rad], N [rad/sqrt(s)], B [rad/s], K [rad/s/sqrt(s)], R [rad/s^2] (for an
 accelerometer, m/s in place of rad)
@@ -9,24 +8,26 @@ accelerometer, m/s in place of rad)
 (Hidalgo 2012, table 3; IEEE Std 952-2020, annex C), the random walk's as its samples have it, K^2
 tau / 3 (1 + h^2 / (2 tau^2)). The overlapping estimates at all cluster times are made of the same
 samples. So the fit is one of generalised least squares, linear in the squares of the coefficients,
-which are kept from being negative; it weights by the covariance of the estimates (``moments``) that
-the fitted noise has, and is done again until it stays.
+which are kept from being negative. Its weights are the covariance of the estimates (``moments``)
+that the fitted noise has; the fit is repeated until they no longer change.
 
 Why not maximum likelihood on the samples: for N and K it is a local-level Kalman filter, but
 flicker and a rounded angle have no such short filter. The Allan variances are some twenty numbers
 however long the log is, and can be looked at beside the fit.
 
-A term is needed where noise of the others would look as if it had as much of it with a probability
-of one in a thousand at the most, by the first moments of the Allan variances, and where no other
-term may be in its place. Of 1500 simulated logs of a thousand samples of white noise one had a
-false term; of as many of 64 and of 256 samples, which have heavier tails, nine in a thousand had a
-false quantization and four in a thousand a false flicker. A term that is needed has an interval:
-its square counts as a chi-square with the degrees of freedom that its variance has, 2 (square)^2 /
-variance. Of terms not needed the least is left out first. Each has an upper bound: the value with
-which its estimate would come out as low as it did in one log of twenty (for a level of 95 %). What
-is not needed may be there all the same, and have its share of a term that is: flicker and a random
-walk of a short log look alike. So an interval reaches as far as that of a fit with any one of the
-terms not needed, on the side to which it moves the estimate.
+A term is needed where two things hold: noise of the other terms would look as if it had as much of
+it with a probability of at most one in a thousand, by the first moments of the Allan variances; and
+no other term may be in its place. Of 1500 simulated logs of a thousand samples of white noise one
+had a false term. Of as many of 64 and of 256 samples, whose estimates have heavier tails, nine in a
+thousand had a false quantization and four in a thousand a false flicker. Terms that are not needed
+are left out one after the other, the least needed first.
+
+A term that is needed has an interval: its square counts as a chi-square with the degrees of freedom
+that its variance has, 2 (square)^2 / variance. A term that is not needed has an upper bound: the
+value with which its estimate would come out as low as it did in one log of twenty (for a level of
+95 %). What is not needed may be there all the same, and have its share of a term that is: flicker
+and a random walk of a short log look alike. So the interval of a term is extended to that of the
+fits with each of the terms not needed, on the side to which they move the estimate.
 """
 
 from __future__ import annotations
@@ -39,15 +40,14 @@ from scipy.stats import chi2, norm
 from scipy.stats import t as t_law
 
 from pyimu.characterization.allan.moments import TERMS, design, moments
-from pyimu.characterization.noise.estimate import Estimate
+from pyimu.characterization.estimate import Estimate
 from pyimu.characterization.noise.least_squares import RAMP, Problem
 from pyimu.errors import UserError
 
 
 @dataclass(frozen=True)
 class Coefficient(Estimate):
-    """One coefficient in SI units: estimate, standard error and interval; where it is not needed a
-    bound from above.
+    """One coefficient in SI units: estimate, standard error and interval, or an upper bound.
 
     A coefficient that is not needed, or whose part another term may have as well, has the value
     zero, no standard error (nan), and the interval from zero to its bound.
@@ -55,17 +55,18 @@ class Coefficient(Estimate):
 
     @property
     def needed(self) -> bool:
+        """Whether it has a value, and not only a bound."""
         return self.value > 0
 
 
 @dataclass(frozen=True)
 class NoiseFit:
-    """Coefficients by their letters, those that were asked for, and how the fit went.
+    """The ``coefficients`` that were asked for, by their letters, and how the fit went.
 
-    ``estimates`` are the values of the terms that the fitted curve is made of, also of those that
-    others might replace and that have a bound for this reason; ``covariance`` (k, k) is theirs, in
-    their order. ``misfit`` is the weighted sum of squares of what the fit leaves; its mean is
-    ``freedom`` where the noise has the terms asked for and no other.
+    ``estimates`` are the values of the terms that make up the fitted curve, including those that
+    others might replace and that only have a bound for this reason; ``covariance`` (k, k) is
+    theirs, in their order. ``misfit`` is the weighted sum of squared residuals of the fit; its mean
+    is ``freedom`` where the noise has the terms asked for and no other. ``sample_period`` is in s.
     """
 
     coefficients: Mapping[str, Coefficient]
@@ -80,11 +81,13 @@ class NoiseFit:
 
     @property
     def needed(self) -> str:
+        """Letters of the coefficients that are needed."""
         return "".join(t for t, c in self.coefficients.items() if c.needed)
 
-    def deviation(self, tau: np.ndarray) -> np.ndarray:
-        """Allan deviation (n,) of the fitted noise at cluster times (n,) s."""
-        return np.sqrt(design(np.asarray(tau, dtype=float) / self.sample_period) @ self.squares)
+    @property
+    def replaceable(self) -> str:
+        """Letters of the terms of the curve that others might replace."""
+        return "".join(t for t in self.estimates if not self[t].needed)
 
     @property
     def squares(self) -> np.ndarray:
@@ -93,10 +96,20 @@ class NoiseFit:
             self.sample_period
         )
 
-    @property
-    def replaceable(self) -> str:
-        """The terms of the curve that others might replace."""
-        return "".join(t for t in self.estimates if not self[t].needed)
+    def variance(self, tau: np.ndarray) -> np.ndarray:
+        """Allan variance (n,) of the fitted noise at cluster times (n,) s."""
+        return self._design(tau) @ self.squares
+
+    def deviation(self, tau: np.ndarray) -> np.ndarray:
+        """Allan deviation (n,) of the fitted noise at cluster times (n,) s."""
+        return np.sqrt(self.variance(tau))
+
+    def term_variances(self, tau: np.ndarray) -> np.ndarray:
+        """Allan variances (n, 5) of each of ``TERMS`` by itself at cluster times (n,) s."""
+        return self._design(tau) * self.squares
+
+    def _design(self, tau: np.ndarray) -> np.ndarray:
+        return design(np.asarray(tau, dtype=float) / self.sample_period)
 
 
 def fit_coefficients(
@@ -107,12 +120,12 @@ def fit_coefficients(
     terms: str = TERMS,
     level: float = 0.95,
 ) -> NoiseFit:
-    """Coefficients from overlapping Allan deviations (t,) at cluster sizes (t,) in samples, of a
-    record of ``n`` rates every ``h`` s.
+    """Coefficients from overlapping Allan deviations (t,) at cluster sizes (t,) in samples.
 
-    ``terms`` are the letters of those that may be needed; the noise is taken to have no other.
-    Sizes an octave apart (``octave_clusters``) say nearly all; much nearer neighbours say the same,
-    and make the weights singular.
+    The record has ``n`` rates every ``h`` s. ``terms`` are the letters of those that may be needed;
+    the noise is taken to have no other. ``level`` is the probability of the intervals. Sizes an
+    octave apart (``octave_clusters``) hold nearly all the information; much nearer neighbours add
+    hardly any, and make the weights singular.
 
     Raises ValueError for an unknown term, sizes that do not fit the record, and more terms than
     sizes; UserError where the record has no noise.
@@ -131,28 +144,26 @@ def fit_coefficients(
             f"the Allan deviation of clusters of {m[np.argmin(measured)]} samples is zero: a "
             "record without noise has no coefficients"
         )
-    # In units of the deviations, as the squares of small rates are tiny.
+    # In units of the deviations, because the squares of small rates are tiny.
     unit = np.exp(np.mean(np.log(measured)))
     return solve(Problem(moments(m, n), measured / unit), chosen, unit * si_factors(h), h, level)
 
 
 LOST = 5.0
-"""A square with a standard error so many times itself is none: a noise's own estimate, of one
-degree of freedom, has 1.4 times."""
+"""A square whose standard error is so many times itself counts as none. The estimate of a single
+noise from one degree of freedom has 1.4 times."""
 
 
 def si_factors(h: float) -> np.ndarray:
-    """What squares of coefficients for a sample period of one are multiplied by, (5,), for one of h
-    s.
-    """
+    """Factors (5,) of the squares of coefficients from a sample period of one to one of h s."""
     return float(h) ** np.array([2, 1, 0, -1, -2])
 
 
 def solve(problem: Problem, chosen: list[int], si: np.ndarray, h: float, level: float) -> NoiseFit:
-    """The fit of a problem with the ``chosen`` terms; ``si`` (5,) makes squares in its units those
-    of coefficients in SI.
+    """The fit of a problem with the ``chosen`` terms, given as indices of ``TERMS``.
 
-    Raises UserError where nothing in it is noise.
+    ``si`` (5,) converts squares in the units of the problem to those of coefficients in SI.
+    Raises UserError where the record has no noise.
     """
     kept = problem.needed(chosen)
     squares = problem.fit(kept)
@@ -167,17 +178,11 @@ def solve(problem: Problem, chosen: list[int], si: np.ndarray, h: float, level: 
     found = {}
     for i in chosen:
         interval = (
-            _reaching(problem, i, kept, chosen, level)
+            _extended_interval(problem, i, kept, chosen, level)
             if i in kept
             else (0.0, problem.bound(i, kept, squares, level))
         )
-        needed = i in kept and interval[0] > 0
-        value, std = (
-            (np.sqrt(squares[i]), stds[i] / (2 * np.sqrt(squares[i]))) if needed else (0.0, np.nan)
-        )
-        found[TERMS[i]] = Coefficient(
-            *(float(v) for v in np.array([value, std, *np.sqrt(interval)]) * np.sqrt(si[i]))
-        )
+        found[TERMS[i]] = _coefficient(squares[i], stds.get(i), interval, np.sqrt(si[i]))
     estimates = {TERMS[i]: float(np.sqrt(squares[i] * si[i])) for i in kept}
     slope = np.sqrt(si[kept] / squares[kept]) / 2
     freedom = len(problem.measured) - len(kept) - problem.nuisance.shape[1]
@@ -186,19 +191,33 @@ def solve(problem: Problem, chosen: list[int], si: np.ndarray, h: float, level: 
     )
 
 
-def _reaching(
+def _coefficient(
+    square: float, std: float | None, interval: tuple[float, float], factor: float
+) -> Coefficient:
+    """The coefficient of a square, its standard error (None if not kept) and its interval.
+
+    ``factor`` converts the coefficient to SI.
+    """
+    needed = std is not None and interval[0] > 0
+    value, error = (np.sqrt(square), std / (2 * np.sqrt(square))) if needed else (0.0, np.nan)
+    return Coefficient(*(float(v) for v in np.array([value, error, *np.sqrt(interval)]) * factor))
+
+
+def _extended_interval(
     problem: Problem, i: int, kept: Sequence[int], chosen: Sequence[int], level: float
 ) -> tuple[float, float]:
-    """Interval of the square of term ``i``, one of those ``kept``, as far as that with any of those
-    not needed reaches.
+    """Interval of the square of term ``i``, extended for the terms that are not needed.
+
+    ``i`` is one of the terms ``kept``. The interval reaches as far as that of the fit with any one
+    more of those ``chosen``, on the side to which this one moves the estimate.
     """
     estimate, std = _marginal(problem, i, kept)
     low, high = _interval(estimate, std, level)
     for j in (j for j in chosen if j not in kept):
         with_j = [*kept, j]
         if problem.fit(with_j)[j] > 0:
-            # Two terms that look alike share what is there: the estimate is a difference, which is
-            # normal, and no sum of squares.
+            # Two terms that look alike share what is there: the estimate is then a difference,
+            # which is normal, and not a sum of squares.
             other, std = _marginal(problem, i, with_j)
             half = std * norm.isf((1 - level) / 2)
             low, high = (
@@ -221,33 +240,34 @@ def _marginal(problem: Problem, i: int, terms: Sequence[int]) -> tuple[float, fl
 
 
 def _interval(square: float, std: float, level: float) -> tuple[float, float]:
-    """Of a square that counts as a chi-square with the degrees of freedom of its standard error."""
+    """Interval of a square that counts as a chi-square.
+
+    Its degrees of freedom are those that give the standard error ``std``.
+    """
     freedom = 2 * (square / std) ** 2
     side = (1 - level) / 2
-    with np.errstate(
-        divide="ignore"
-    ):  # of hardly any degree of freedom, which leaves the upper limit open
+    # Where there is hardly any degree of freedom the upper limit is infinite.
+    with np.errstate(divide="ignore"):
         return square * freedom / chi2.isf(side, freedom), float(
             square * freedom / np.float64(chi2.ppf(side, freedom))
         )
 
 
 REACH = 0.1
-"""Share of an interval's half beyond which its limit reaches farther than the standard error alone
-makes it."""
+"""Share of an interval's half from which on a limit counts as extended beyond what the standard
+error alone makes of it."""
 
 
 def mean_coefficient(
     tests: Sequence[Coefficient], level: float = 0.95
 ) -> tuple[Coefficient, float]:
-    """Mean of one coefficient over independent logs of a part, with the wider interval of two, and
-    the logs' standard deviation.
+    """Mean of one coefficient over independent logs of a part, and the logs' standard deviation.
 
-    The second, nan for a single log, is what the logs themselves say of the first's standard
-    errors: where they scatter more than those allow, standard error and interval are those of the
-    scatter (Student's law). What an interval reaches beyond its standard error, because another
-    term may be there, it does in all logs alike, and no mean makes it less. Where a log does not
-    need the coefficient there is no mean, and the bound is the largest that any log gives.
+    The standard deviation, nan for a single log, checks the standard errors: where the logs scatter
+    more than these allow, standard error and interval of the mean are those of the scatter
+    (Student's law). What an interval was extended by, because another term may be there, is the
+    same in all logs, and the mean does not reduce it. Where a log does not need the coefficient
+    there is no mean, and the bound is the largest that any log gives.
     """
     if len(tests) == 1:
         return tests[0], np.nan
@@ -255,28 +275,27 @@ def mean_coefficient(
         return Coefficient(0.0, np.nan, 0.0, max(c.high for c in tests)), np.nan
     values = np.array([c.value for c in tests])
     std = float(np.sqrt(np.sum([c.std**2 for c in tests]))) / len(tests)
-    # In squares, as for one log: the mean has as many times its degrees of freedom as there are
-    # logs.
-    low, high = _plain(values.mean(), std, level)
+    # In squares, as for one log: the mean has the degrees of freedom of all logs together.
+    low, high = _unextended(values.mean(), std, level)
     spread = float(values.std(ddof=1))
     half = spread / np.sqrt(len(tests)) * t_law.isf((1 - level) / 2, len(tests) - 1)
     low, high = min(low, float(values.mean() - half)), max(high, float(values.mean() + half))
     std = max(std, float(spread / np.sqrt(len(tests))))
-    below, above = np.mean([_reach(c, level) for c in tests], axis=0)
+    below, above = np.mean([_extension(c, level) for c in tests], axis=0)
     return Coefficient(
         float(values.mean()), std, float(max(low - below, 0.0)), float(high + above)
     ), spread
 
 
-def _plain(value: float, std: float, level: float) -> tuple[float, float]:
-    """The interval that a standard error makes."""
+def _unextended(value: float, std: float, level: float) -> tuple[float, float]:
+    """The interval of a coefficient that its standard error alone makes."""
     low, high = np.sqrt(_interval(value**2, 2 * value * std, level))
     return float(low), float(high)
 
 
-def _reach(c: Coefficient, level: float) -> tuple[float, float]:
-    """How far a coefficient's interval goes below and above that."""
-    low, high = _plain(c.value, c.std, level)
+def _extension(c: Coefficient, level: float) -> tuple[float, float]:
+    """How far a coefficient's interval goes below and above the unextended one."""
+    low, high = _unextended(c.value, c.std, level)
     below, above = low - c.low, c.high - high
     return (below if below > REACH * (c.value - low) else 0.0), (
         above if above > REACH * (high - c.value) else 0.0

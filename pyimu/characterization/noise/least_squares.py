@@ -1,5 +1,6 @@
-"""Generalised least squares in the squares of the coefficients, none negative, and which of them
-are needed; see ``coefficients``.
+"""Generalised least squares in the squares of the coefficients, and which of them are needed.
+
+None of the squares may be negative. ``coefficients`` states the method.
 """
 
 from __future__ import annotations
@@ -15,23 +16,22 @@ from scipy.stats import chi2, gamma, norm
 from pyimu.characterization.allan.moments import TERMS, AllanMoments
 
 CHANCE = 1e-3
-"""A term is needed where noise without it would look as if it had as much of it with at most this
-probability."""
+"""A term is needed where noise without it would, with at most this probability, look as if it had
+as much of it."""
 
 RAMP = TERMS.index("R")
 """The terms before it are noise."""
 
 ROUNDS, CLOSE = 40, 1e-6
-"""Repetitions at most, and the relative change that ends them."""
+"""The most repetitions, and the relative change that ends them."""
 
 
 @dataclass(frozen=True)
 class Problem:
-    """Allan variances ``measured`` (t,) and their moments; squares of coefficients are (5,), for a
-    sample period of one.
+    """Allan variances ``measured`` (t,) to fit, and their moments.
 
-    ``nuisance`` (t, k) are columns of which any amount, of any sign, may be in the variances: they
-    are left out of the fit.
+    Squares of coefficients are (5,), for a sample period of one. ``nuisance`` (t, k) are columns of
+    which any amount, of any sign, may be in the variances: they are projected out of the fit.
     """
 
     moments: AllanMoments
@@ -43,8 +43,9 @@ class Problem:
             object.__setattr__(self, "nuisance", np.empty((len(self.measured), 0)))
 
     def fit(self, kept: Sequence[int]) -> np.ndarray:
-        """Squares of the terms ``kept``, none negative, zero of the others, under the weights that
-        they themselves make.
+        """Squares (5,) of the terms ``kept``, none negative; those of the others are zero.
+
+        The weights are those of the noise with these squares.
         """
         root = np.diag(self.measured * np.sqrt(self.moments.m))
         squares = np.zeros(len(TERMS))
@@ -59,9 +60,9 @@ class Problem:
         return squares
 
     def _non_negative(self, kept: Sequence[int], root: np.ndarray) -> np.ndarray:
-        """Least squares under the covariance root root^T."""
-        # Not a triangular solve: libraries share even such small ones among processors, and wait
-        # for them a hundred times longer.
+        """Squares (5,) of the terms ``kept`` by least squares under the covariance root root^T."""
+        # Not a triangular solve: libraries divide even such small ones among the processors, which
+        # takes a hundred times longer.
         white = np.linalg.solve(
             root, np.column_stack([self.nuisance, self.moments.design[:, kept], self.measured])
         )
@@ -72,8 +73,9 @@ class Problem:
         return squares
 
     def functionals(self, terms: Sequence[int], squares: np.ndarray) -> np.ndarray:
-        """Rows (k, t) whose products with Allan variances are the estimates, of any sign, of
-        ``terms`` under the weights of given squares.
+        """Rows (k, t) whose products with Allan variances are the estimates of ``terms``.
+
+        The estimates may have any sign; the weights are those of noise with these squares.
         """
         x = np.column_stack([self.moments.design[:, terms], self.nuisance])
         weighted = cho_solve(cho_factor(self.moments.covariance(squares), lower=True), x).T
@@ -84,14 +86,12 @@ class Problem:
         )[: len(terms)]
 
     def covariance(self, kept: Sequence[int], squares: np.ndarray) -> np.ndarray:
-        """Of the estimates (k, k) of the terms ``kept``, which have these squares."""
+        """Covariance (k, k) of the estimates of the terms ``kept``, which have these squares."""
         rows = self.functionals(kept, squares)
         return rows @ self.moments.covariance(squares) @ rows.T
 
     def misfit(self, squares: np.ndarray) -> float:
-        """The weighted sum of squares that is left; infinite where the squares are those of no
-        noise.
-        """
+        """Weighted sum of squared residuals; infinite where the squares are those of no noise."""
         if not np.any(squares[:RAMP]):
             return np.inf
         left = np.column_stack([self.nuisance, self.measured - self.moments.design @ squares])
@@ -99,7 +99,7 @@ class Problem:
         return float(np.sum(_without(white[:, :-1], white[:, -1:]) ** 2))
 
     def needed(self, chosen: Sequence[int]) -> list[int]:
-        """Those of the terms that are left when, one after the other, the least needed has gone."""
+        """The terms that remain when those not needed are dropped, the least needed first."""
         kept = list(chosen)
         while len(kept) > 1:
             squares = self.fit(kept)
@@ -110,12 +110,11 @@ class Problem:
         return kept
 
     def _chance(self, i: int, kept: Sequence[int], squares: np.ndarray) -> float:
-        """Probability, at most, that noise of the other terms gives term i an estimate as large as
-        it has.
+        """Bound of the probability that noise without term i gives it as large an estimate.
 
-        Once under the weights of that noise, which are the sharpest for a small term but put a
-        random walk into the longest cluster alone; and once under those of the fit ``squares`` of
-        all ``kept``.
+        Two weights are tried: those of that noise, which are the sharpest for a small term but put
+        a random walk into the longest cluster alone, and those of the fit ``squares`` of all terms
+        ``kept``.
         """
         if squares[i] == 0:
             return 1.0
@@ -125,17 +124,20 @@ class Problem:
         return 2 * min(self._tail(i, weights, others) for weights in (others, squares))
 
     def _tail(self, i: int, weights: np.ndarray, others: np.ndarray) -> float:
+        """Probability that noise with the squares ``others`` gives term i as large an estimate.
+
+        The estimate is made under the weights of noise with the squares ``weights``.
+        """
         row = self.functionals([i, *(j for j in np.flatnonzero(weights) if j != i)], weights)[0]
         std, shape = self._spread(row, others)
         excess = row @ (self.measured - self.moments.design @ others) / std
         return float(gamma.sf(shape + excess * np.sqrt(shape), shape))
 
     def _spread(self, row: np.ndarray, squares: np.ndarray) -> tuple[float, float]:
-        """Standard deviation of the product of ``row`` with the Allan variances, and the shape of a
-        gamma distribution as skew.
+        """Standard deviation of an estimate, and the shape of a gamma distribution as skew.
 
-        Its skewness is taken for the mean of those of the Allan variances, in proportion to what
-        they contribute to its variance.
+        The estimate is the product of ``row`` with the Allan variances. Its skewness is taken as
+        the mean of theirs, each weighted by what it contributes to the variance of the estimate.
         """
         covariance = self.moments.covariance(squares)
         shares = row * (covariance @ row)
@@ -148,8 +150,10 @@ class Problem:
         return float(np.sqrt(variance)), float(4 / skewness**2)
 
     def bound(self, i: int, kept: Sequence[int], squares: np.ndarray, level: float) -> float:
-        """Square of term i, added to those ``kept``, below which its estimate lies with the
-        probability 1 - ``level`` as far as it does.
+        """Upper bound of the square of term i, which is not among the terms ``kept``.
+
+        It is the square with which the estimate would come out as low as it did, or lower, with the
+        probability 1 - ``level``.
         """
         most, bound, squares = self._alone(i, level), 0.0, squares.copy()
         for _ in range(ROUNDS):
@@ -165,11 +169,11 @@ class Problem:
         return bound
 
     def _alone(self, i: int, level: float) -> float:
-        """The same where no other term is there: no cluster's variance comes out so much smaller
-        than the term alone makes it.
+        """Upper bound of the square of term i where there is no other term.
 
-        Of so many clusters one is low by chance: each counts with its share of the probability. A
-        ramp is counted as a walk.
+        No cluster's variance comes out that much smaller than the term alone makes it. Of many
+        clusters one is low by chance, so each counts with its share of the probability. A ramp is
+        counted as a random walk.
         """
         k = min(i, RAMP - 1)
         spread = np.diagonal(self.moments.products[k, k])

@@ -1,23 +1,18 @@
-"""A characterised sensor as a part file: what ``pyimu build`` simulates and ``pyimu close``
-compares with.
-"""
+"""A characterised sensor as a part, for ``pyimu build`` and ``pyimu close``."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
-from pyimu.characterization.report.words import (
-    COARSE,
-    PEOPLE,
-    doubts,
-    duration,
-    rounding_share,
-    span,
-)
-from pyimu.characterization.result import SAMPLE, SI, Characterization
+from pyimu.characterization.outcome import SAMPLE, SI, Channel, Outcome, Summary
+from pyimu.characterization.report.coefficients import SAMPLE_UNIT, UNITS, with_interval
+from pyimu.characterization.report.log_notes import COARSE, doubts, duration, rounding_share
+from pyimu.characterization.temperature import fit as thermal_fit
 from pyimu.characterization.temperature.fit import ThermalFit
+from pyimu.characterization.temperature.hysteresis import Hysteresis
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.part import AXES, Part
 from pyimu.model.sensor import Sensor
@@ -30,236 +25,245 @@ EFFECTS = {
     "K": ("rate_random_walk", "K"),
     "Q": ("angle_quantization", "q"),
 }
-"""Where a coefficient stands in a part. A ramp belongs to a log."""
+"""The effect and its parameter that a coefficient is in a part. A ramp belongs to a log."""
 
 FLICKER_REACH = 10.0
 """Flicker is simulated up to so many times the frequency at which it crosses the white noise, and
-down to a tenth of one over the log."""
-
+down to a tenth of one over the duration of the log."""
 
 DIGITS, EXACT = 5, 10
-"""Figures of a coefficient in the file, none is known better; and of a step of the samples, which
-is."""
+"""Figures in the file of a coefficient, none of which is known better, and of a step of the
+samples, which is known exactly."""
 
 
-def part_of(c: Characterization, name: str) -> Part:
-    """The part: noise of both sensors, the gyro's turn-on bias, temperature effect and rounding
-    where they were seen.
+@dataclass(frozen=True)
+class PartValue:
+    """A parameter of an effect in the part: its ``value`` in SI, and the ``unit`` in the file."""
+
+    effect: str
+    parameter: str
+    value: np.ndarray
+    unit: str
+    source: str
+
+
+def part_of(c: Outcome, name: str) -> Part:
+    """The part that was characterised, as ``Characterization.part`` describes it.
 
     The white noise that rounding makes is in the measured N; where rounding becomes an effect of
-    the part it is taken out of it. A coefficient with a bound only is zero, and its source says the
-    bound. The accelerometer's bias cannot be told from gravity, and is left to the data.
+    the part, that noise is subtracted from N.
     """
-    values: dict[str, dict] = {kind: {} for kind in ("gyro", "accel")}
+    values: dict[str, dict] = {kind: {} for kind in SI}
     notes: dict[tuple[str, str, str], dict[str, str]] = {}
     for kind in c.kinds:
-        for effect, parameter, value, unit, source in (
-            *_bias(c, kind),
-            *_thermal(c, kind),
-            *_noise(c, kind),
-        ):
-            si = Sensor(kind).unit(CATALOGUE[effect].parameters[parameter].unit)
-            values[kind].setdefault(effect, {})[parameter] = _tidy(value, parameter, si, unit)
-            notes[kind, effect, parameter] = {
-                k: v for k, v in (("unit", unit), ("source", source)) if v
-            }
-    rate = 1 / min(s.h for log in c.logs for s in log.sensors.values())
-    rest = "not at rest" if any(f.kind == "motion" for f in c.findings) else "at rest"
-    said = "".join(f" {text}" for log in c.logs for text in doubts(log))
-    logs = ", ".join(f"{log.name} ({duration(log.duration)})" for log in c.logs)
+        for v in (*_bias(c, kind), *_thermal(c, kind), *_noise(c, kind)):
+            values[kind].setdefault(v.effect, {})[v.parameter] = _rounded(kind, v)
+            said = {"unit": v.unit, "source": v.source}
+            notes[kind, v.effect, v.parameter] = {k: text for k, text in said.items() if text}
     return Part(
         name,
-        rate,
+        1 / min(s.h for log in c.logs for s in log.sensors.values()),
         Sensor("gyro", values["gyro"]),
         Sensor("accel", values["accel"]),
         notes=notes,
-        description=(
-            f"Characterised by pyimu from {logs}; {rest}. N is the root of the two-sided "
-            f"density.{said}"
-        ),
+        description=_description(c),
     )
 
 
-def _tidy(value: np.ndarray, parameter: str, si: str, unit: str) -> np.ndarray:
-    """SI values rounded to so many figures in the unit in which the file says them, so that it says
-    them exactly.
+def _description(c: Outcome) -> str:
+    logs = ", ".join(f"{log.name} ({duration(log.duration)})" for log in c.logs)
+    rest = "not at rest" if any(f.kind == "motion" for f in c.findings) else "at rest"
+    doubted = "".join(f" {text}" for log in c.logs for text in doubts(log))
+    return (
+        f"Characterised by pyimu from {logs}; {rest}. N is the root of the two-sided "
+        f"density.{doubted}"
+    )
+
+
+def _rounded(kind: str, v: PartValue) -> np.ndarray:
+    """The value in SI, rounded to so many figures in the unit of the file.
+
+    So the file holds it exactly.
     """
+    si = Sensor(kind).unit(CATALOGUE[v.effect].parameters[v.parameter].unit)
     if si == "degC":
-        return np.round(value, 3)
-    digits = EXACT if parameter == "q" else DIGITS
-    shown = convert(value, si, unit)
+        return np.round(v.value, 3)
+    digits = EXACT if v.parameter == "q" else DIGITS
+    in_file = convert(v.value, si, v.unit)
     return np.asarray(
-        convert(np.vectorize(lambda v: float(f"{v:.{digits - 1}e}"))(shown), unit, si)
+        convert(np.vectorize(lambda x: float(f"{x:.{digits - 1}e}"))(in_file), v.unit, si)
     )
 
 
-Entry = tuple[str, str, np.ndarray, str, str]
+# Noise
 
 
-def _noise(c: Characterization, kind: str) -> Iterator[Entry]:
+def _noise(c: Outcome, kind: str) -> Iterator[PartValue]:
     rounding = _rounding(c, kind)
     for term, (effect, parameter) in EFFECTS.items():
-        found = [c.coefficients.get((f"{kind}_{axis}", term)) for axis in AXES]
+        found = _summaries(c, kind, term)
         if not any(s is not None and s.mean.needed for s in found):
             continue
         value = np.array([s.mean.value if s is not None else 0.0 for s in found])
-        source = (
-            "this characterisation, "
-            f"{'; '.join(_said(s, kind, term, axis) for s, axis in zip(found, AXES, strict=True))}"
-        )
-        unit = PEOPLE[kind][term]
+        each = (_source(s, kind, term, axis) for s, axis in zip(found, AXES, strict=True))
+        source, unit = f"this characterisation, {'; '.join(each)}", UNITS[kind][term]
         if term == "N" and rounding is not None:
             value = np.sqrt(value**2 - rounding**2 * _h(c, kind) / 12)
             source += "; less the noise of rounding"
         if term == "Q":
+            # The angle is rounded to steps of q, with the variance q^2 / 12.
             value, unit = value * np.sqrt(12), SI[kind][term]
-        yield effect, parameter, value, unit, source
+        yield PartValue(effect, parameter, value, unit, source)
         if term == "B":
-            yield from _band(c, kind)
+            yield from _flicker_band(c, kind)
     if rounding is not None:
-        yield (
-            "quantization",
-            "q",
-            rounding,
-            {"gyro": "deg/s", "accel": "mg"}[kind],
-            "the step on whose multiples the samples lie",
-        )
+        source = "the step on whose multiples the samples lie"
+        yield PartValue("quantization", "q", rounding, SAMPLE_UNIT[kind], source)
 
 
-def _said(s, kind: str, term: str, axis: str) -> str:
+def _summaries(c: Outcome, kind: str, term: str) -> list[Summary | None]:
+    """The coefficient of each axis, None where it was not characterised."""
+    return [c.coefficients.get((f"{kind}_{axis}", term)) for axis in AXES]
+
+
+def _source(s: Summary | None, kind: str, term: str, axis: str) -> str:
     if s is None:
         return f"{axis} not characterised"
-    return f"{axis} {span(s.mean, SI[kind][term], PEOPLE[kind][term])} {PEOPLE[kind][term]}"
+    unit = UNITS[kind][term]
+    return f"{axis} {with_interval(s.mean, SI[kind][term], unit)} {unit}"
 
 
-def _h(c: Characterization, kind: str) -> float:
+def _h(c: Outcome, kind: str) -> float:
+    """Sample period [s] of a sensor in the first log that has it."""
     return next(log.sensors[kind].h for log in c.logs if kind in log.sensors)
 
 
-def _rounding(c: Characterization, kind: str) -> np.ndarray | None:
-    """The steps (3,) of the samples, zero where there is none; None where no axis has one, or where
-    it is more than ``COARSE`` of the noise.
+def _rounding(c: Outcome, kind: str) -> np.ndarray | None:
+    """The steps (3,) of the samples, zero where there is none.
+
+    None where no axis has one, or where it makes more than ``COARSE`` of the white noise.
     """
     steps = np.zeros(3)
     for f in c.findings:
         if f.kind == "quantization_step" and f.column.startswith(kind):
             steps[AXES.index(f.column[-1])] = f.detail["step"]
-    white = [c.coefficients.get((f"{kind}_{axis}", "N")) for axis in AXES]
     share = [
         rounding_share(q, s.mean.value if s is not None else 0.0, _h(c, kind))
-        for q, s in zip(steps, white, strict=True)
+        for q, s in zip(steps, _summaries(c, kind, "N"), strict=True)
         if q
     ]
     return steps if share and max(share) <= COARSE else None
 
 
-def _band(c: Characterization, kind: str) -> Iterator[Entry]:
+def _flicker_band(c: Outcome, kind: str) -> Iterator[PartValue]:
     """Two to five decades, from where white noise hides flicker to where the logs end."""
     longest = max(log.duration for log in c.logs)
-    crossing = []
-    for axis in AXES:
-        pair = [c.coefficients.get((f"{kind}_{axis}", t)) for t in "BN"]
-        if all(s is not None and s.mean.needed for s in pair):
-            crossing.append(pair[0].mean.value ** 2 / (2 * np.pi * pair[1].mean.value ** 2))
+    crossing = [
+        b.mean.value**2 / (2 * np.pi * n.mean.value**2)
+        for b, n in zip(_summaries(c, kind, "B"), _summaries(c, kind, "N"), strict=True)
+        if b is not None and n is not None and b.mean.needed and n.mean.needed
+    ]
     nyquist = 0.5 / _h(c, kind)
     high = min(max(FLICKER_REACH * max(crossing, default=1.0), 100 / longest), nyquist)
     low = float(np.clip(0.1 / longest, 1.001e-5 * high, 0.99e-2 * high))
-    said = (
+    source = (
         "where white noise hides the flicker, ten times over; and a tenth of one over the longest "
         "log"
     )
-    yield "bias_instability", "f_low", np.array(low), "Hz", said
-    yield "bias_instability", "f_high", np.array(high), "Hz", said
+    yield PartValue("bias_instability", "f_low", np.array(low), "Hz", source)
+    yield PartValue("bias_instability", "f_high", np.array(high), "Hz", source)
 
 
-def _thermal(c: Characterization, kind: str) -> Iterator[Entry]:
-    """The coefficients that are warranted in at least half of the logs, means weighted by their
-    standard errors.
+# Bias and temperature
+
+
+def _bias(c: Outcome, kind: str) -> Iterator[PartValue]:
+    """The turn-on bias of the gyro, with its spread over the logs."""
+    if kind != "gyro":
+        return
+    by_axis = [[_bias_of(ch) for ch in c.channel(f"{kind}_{axis}")] for axis in AXES]
+    # An axis without samples has none.
+    by_axis = [[v for v in b if np.isfinite(v)] or [0.0] for b in by_axis]
+    spread = ""
+    if min(map(len, by_axis)) > 1:
+        stds = (number(convert(np.std(b, ddof=1), "rad/s", "deg/s")) for b in by_axis)
+        spread = f"; standard deviations of the logs {', '.join(stds)} deg/s"
+    yield PartValue(
+        "turn_on_bias",
+        "b0",
+        np.array([np.mean(b) for b in by_axis]),
+        "deg/s",
+        f"mean of the logs, the Earth's rate included; a new draw at each power-on{spread}",
+    )
+
+
+def _bias_of(ch: Channel) -> float:
+    """The bias of a channel: that at T0 where temperature has an effect on it, else the mean."""
+    if ch.thermal is not None and ch.thermal.order:
+        return ch.thermal.coefficients["b0"].value
+    return ch.mean
+
+
+def _thermal(c: Outcome, kind: str) -> Iterator[PartValue]:
+    """The coefficients of temperature that are warranted in at least half of the logs.
+
+    They are means weighted by the standard errors.
     """
     fits = [
         [ch.thermal for ch in c.channel(f"{kind}_{axis}") if ch.thermal is not None]
         for axis in AXES
     ]
     T0 = next((t.T0 for f in fits for t in f), None)
-    for order, (effect, name) in enumerate(
-        (("thermal_bias", "kT"), ("thermal_bias_quadratic", "k2"), ("thermal_bias_cubic", "k3")), 1
-    ):
-        value, said = np.zeros(3), []
-        for i, found in enumerate(fits):
-            warranted = [t.coefficients[name] for t in found if t.order >= order]
-            if warranted and 2 * len(warranted) >= len(found):
-                weights = np.array([1 / k.std**2 for k in warranted])
-                value[i] = np.sum(weights * [k.value for k in warranted]) / weights.sum()
-                said.append(
-                    f"{AXES[i]} with a standard error of "
-                    f"{number(100 / np.sqrt(weights.sum()) / abs(value[i]), 2)} %"
-                )
+    for order, (name, (effect, parameter)) in enumerate(thermal_fit.EFFECTS.items(), 1):
+        means = [_mean_of_order(found, order, name) for found in fits]
+        said = [
+            f"{axis} with a standard error of {number(100 * m[1] / abs(m[0]), 2)} %"
+            for axis, m in zip(AXES, means, strict=True)
+            if m is not None
+        ]
         if said:
+            value = np.array([0.0 if m is None else m[0] for m in means])
             unit = SAMPLE[kind] + ("/K" if order == 1 else f"/K^{order}")
-            shown = {"rad/s/K": "deg/s/K", "m/s^2/K": "mg/K"}.get(unit, unit)
-            yield effect, name, value, shown, "this characterisation, " + ", ".join(said)
-            yield effect, "T0", np.array(T0), "degC", ""
+            in_file = {"rad/s/K": "deg/s/K", "m/s^2/K": "mg/K"}.get(unit, unit)
+            source = f"this characterisation, {', '.join(said)}"
+            yield PartValue(effect, parameter, value, in_file, source)
+            yield PartValue(effect, "T0", np.array(T0), "degC", "")
     yield from _hysteresis(fits, kind)
 
 
-def _hysteresis(fits: list[list[ThermalFit]], kind: str) -> Iterator[Entry]:
-    """Loops that are warranted in at least half of the logs; of one width, as a sensor has in the
-    catalogue, that keeps each one's opening.
+def _mean_of_order(fits: Sequence[ThermalFit], order: int, name: str) -> tuple[float, float] | None:
+    """Mean and standard error of a coefficient over the logs; None where it is not warranted."""
+    warranted = [t.coefficients[name] for t in fits if t.order >= order]
+    if not warranted or 2 * len(warranted) < len(fits):
+        return None
+    weights = np.array([1 / k.std**2 for k in warranted])
+    mean = np.sum(weights * [k.value for k in warranted]) / weights.sum()
+    return mean, 1 / np.sqrt(weights.sum())
+
+
+def _hysteresis(fits: Sequence[Sequence[ThermalFit]], kind: str) -> Iterator[PartValue]:
+    """The loops that are warranted in at least half of the logs.
+
+    They get one width, as a sensor has one in the catalogue; each keeps its opening.
     """
-    loops = [
-        [t.hysteresis for t in found if t.hysteresis is not None and t.hysteresis.warranted]
-        for found in fits
-    ]
-    kept = [
-        own if own and 2 * len(own) >= len(found) else []
-        for own, found in zip(loops, fits, strict=True)
-    ]
-    if not any(kept):
+    loops = [_loops(found) for found in fits]
+    if not any(loops):
         return
-    width = float(np.median([h.width for own in kept for h in own]))
-    opening = np.array([np.mean([h.opening.value for h in own]) if own else 0.0 for own in kept])
-    unit = {"gyro": "deg/h/K", "accel": "mg/K"}[kind]
+    width = float(np.median([h.width for own in loops for h in own]))
+    opening = np.array([np.mean([h.opening.value for h in own]) if own else 0.0 for own in loops])
     said = ", ".join(
-        f"{AXES[i]} opens by {quantity(opening[i], SAMPLE[kind])}"
-        for i, own in enumerate(kept)
+        f"{axis} opens by {quantity(by, SAMPLE[kind])}"
+        for axis, by, own in zip(AXES, opening, loops, strict=True)
         if own
     )
-    yield "thermal_hysteresis", "kh", -opening / (2 * width), unit, f"this characterisation, {said}"
-    yield (
-        "thermal_hysteresis",
-        "width",
-        np.array(width),
-        "K",
-        "of the widths that were tried the most significant",
-    )
+    unit = {"gyro": "deg/h/K", "accel": "mg/K"}[kind]
+    source = f"this characterisation, {said}"
+    yield PartValue("thermal_hysteresis", "kh", -opening / (2 * width), unit, source)
+    source = "of the widths that were tried the most significant"
+    yield PartValue("thermal_hysteresis", "width", np.array(width), "K", source)
 
 
-def _bias(c: Characterization, kind: str) -> Iterator[Entry]:
-    if kind != "gyro":
-        return
-    by_log = [
-        [
-            ch.thermal.coefficients["b0"].value
-            if ch.thermal is not None and ch.thermal.order
-            else ch.mean
-            for ch in c.channel(f"{kind}_{axis}")
-        ]
-        for axis in AXES
-    ]
-    # An axis without samples has none.
-    by_log = [[v for v in b if np.isfinite(v)] or [0.0] for b in by_log]
-    value = np.array([np.mean(b) for b in by_log])
-    spread = [np.std(b, ddof=1) for b in by_log] if min(map(len, by_log)) > 1 else []
-    said = (
-        "; standard deviations of the logs "
-        f"{', '.join(number(convert(s, 'rad/s', 'deg/s')) for s in spread)} deg/s"
-        if spread
-        else ""
-    )
-    yield (
-        "turn_on_bias",
-        "b0",
-        value,
-        "deg/s",
-        f"mean of the logs, the Earth's rate included; a new draw at each power-on{said}",
-    )
+def _loops(fits: Sequence[ThermalFit]) -> list[Hysteresis]:
+    """The warranted loops of an axis; none where they are in less than half of its logs."""
+    own = [t.hysteresis for t in fits if t.hysteresis is not None and t.hysteresis.warranted]
+    return own if 2 * len(own) >= len(fits) else []

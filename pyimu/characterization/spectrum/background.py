@@ -1,20 +1,20 @@
-r"""What a spectrum is where it has no line: a smooth curve beneath it, and the probability that
-noise alone stands out so far.
+r"""The background of a spectrum: a smooth curve beneath its lines, and what noise makes over it.
 
-A spectrum is looked at on several scales: bin by bin, and in groups of 4, 16, ... bins, on which a
-line stands out that wanders, or a narrow band of noise. The curve is local: at each place the
-logarithm of the density is a straight line in log f over the bins around, so that every power of f
-is described exactly, and the sum of several nearly. Bins that stand out are left out with their
-neighbours, and the curve is drawn again.
+A spectrum is looked at on several scales: bin by bin, and in groups of 4, 16, ... bins, in which
+lines stand out whose frequency wanders, and narrow bands of noise. The curve is local: at each
+place the logarithm of the density is a straight line in log f over the bins around, so that every
+power of f is described exactly, and a sum of several nearly. Bins that stand out are left out with
+their neighbours, and the curve is fitted again.
 
-Over the curve, Welch's estimate of Gaussian noise is a weighted sum of exponentials. Bin by bin it
-is the mean of K windows of which neighbours have the correlation r = 1/6 (Hann's window, half
-overlap), with the cumulants, in units of the curve,
+Relative to the curve, Welch's estimate of Gaussian noise is a weighted sum of exponentials. Bin by
+bin it is the mean of K windows of which neighbours have the correlation r = 1/6 (Hann's window,
+half overlap), with the cumulants, in units of the curve,
 
     1,   (1 + 2 r^2 (K - 1) / K) / K,   2 (1 + 6 r^2 (K - 1) / K) / K^2
 
-and its law is taken as the shifted gamma law with these three; for groups it is the gamma law with
-their equivalent averages. The curve's own standard error is averaged over.
+Its distribution is taken as the shifted gamma distribution with these three; for groups it is the
+gamma distribution with their equivalent averages. The probability that noise alone stands out is
+averaged over the standard error of the curve.
 """
 
 from __future__ import annotations
@@ -37,28 +37,30 @@ GUARD = 3
 beneath it."""
 
 WIDEST, NARROWEST = 64, 16
-"""Half widths, in bins or groups, over which the curve is a straight line: the first for the
+"""Half widths, in bins or groups, over which the curve is a straight line; the first for the
 longest windows."""
 
 COARSEST = 1024
-"""A window of that many samples has bins as wide as the widest groups of a longer one."""
+"""Length of a window whose bins are as wide as the widest groups of a longer window."""
 
 HIGHEST, HIGHEST_GROUP = 2, 16
-"""Widths below Nyquist that are not searched: bins, in which a line meets its own mirror image; and
-groups, of which a density that falls to zero there makes bands."""
+"""Bins and groups below Nyquist that are not searched: in the bins a line meets its own mirror
+image; in the groups a density that falls to zero at Nyquist looks like a band."""
 
 OUTLIER = 1e-4
-"""What noise makes more rarely than this does not count for the curve."""
+"""Densities that noise makes more rarely than this are left out of the curve."""
 
 FADED = 0.05
-"""A broad line has ended where noise is as high with this probability, several times in a row."""
+"""A broad line ends where noise is as high with this probability, several times in a row."""
 
 ROUNDS = 8
+"""The most times that the curve is fitted."""
 
 BAND = 0.16
-"""Of the rate of a level that comes out of the decimating filter, where that is flat."""
+"""Share of the sample rate up to which a decimated level is flat."""
 
 RULE = np.polynomial.hermite_e.hermegauss(21)
+"""Nodes and weights that average over a standard normal."""
 
 SQUARE = float(CORRELATION[0, REACH - 1])
 """r^2."""
@@ -66,8 +68,10 @@ SQUARE = float(CORRELATION[0, REACH - 1])
 
 @dataclass(frozen=True)
 class Scale:
-    """One column of a level in groups of ``bins``: ``density`` (m,) around the bins ``k`` (m,), and
-    which are to be searched.
+    """One column of a level in groups of ``bins``: ``density`` (m,) about the bins ``k`` (m,).
+
+    The density is the mean of a group. ``searched`` (m,) is the mask of the groups in which lines
+    are looked for.
     """
 
     level: Level
@@ -83,18 +87,19 @@ class Scale:
 
     @property
     def repeated(self) -> float:
-        """How much larger the variance of a long mean is than of as many independent groups."""
+        """Ratio of the variance of a long mean to that of as many independent groups."""
         return WIDEST * self.averages / independent_averages(self.level.windows, WIDEST * self.bins)
 
     @property
     def frequency(self) -> np.ndarray:
-        """Hz."""
+        """Frequencies (m,) of the groups [Hz]."""
         return self.k * self.level.resolution
 
 
 def scales(level: Level, column: int, lowest: int) -> list[Scale]:
-    """The level bin by bin, and in groups; none is searched within ``lowest`` of its own widths of
-    zero, nor near Nyquist.
+    """A column of the level bin by bin, and in groups.
+
+    Groups within ``lowest`` of their own widths of zero, and near Nyquist, are not searched.
     """
     stop, out, bins = int(BAND * level.length) if level.decimated else level.length // 2, [], 1
     while bins == 1 or level.length // bins >= COARSEST:
@@ -111,12 +116,12 @@ def scales(level: Level, column: int, lowest: int) -> list[Scale]:
 
 @dataclass(frozen=True)
 class Background:
-    """Of one scale: ``density`` (m,), infinite where nothing can be said, its relative standard
-    ``error`` (m,), and ``averages``.
+    """The background of one scale, and the distribution of noise about it.
 
-    ``averages`` are the independent ones that an estimate is as good as: fewer than the scale's,
-    where the scatter from group to group is wider than stationary noise has it. ``skewness``:
-    third cumulant over that of the gamma law.
+    ``density`` (m,) is infinite where nothing can be said, ``error`` (m,) is its relative standard
+    error. ``averages`` are the equivalent independent averages of an estimate: fewer than the
+    scale's where the scatter from group to group is wider than that of stationary noise.
+    ``skewness`` is the third cumulant over that of the gamma distribution.
     """
 
     density: np.ndarray
@@ -126,23 +131,27 @@ class Background:
 
     @property
     def windows(self) -> float:
-        """Windows with as many equivalent averages of one bin."""
+        """Number of windows that give as many equivalent averages of one bin."""
         return self.averages * (1 + 2 * SQUARE)
 
     def chance(self, density: np.ndarray) -> np.ndarray:
-        """Probability (m,) that noise alone gives as much as ``density`` (m,), each by itself; one
-        where it is more than ``FADED``.
+        """Probability (m,) that noise alone gives as much as ``density`` (m,), each by itself.
+
+        It is set to one where it is more than ``FADED``.
         """
         out, far = np.ones(len(density)), ~self.faded(density)
         out[far] = self._tail(density[far] / self.density[far], self.error[far])
         return out
 
     def outliers(self, density: np.ndarray) -> np.ndarray:
-        """Mask of what noise makes more rarely than ``OUTLIER``, but for the error of the curve."""
+        """Mask (m,) of densities that noise makes more rarely than ``OUTLIER``.
+
+        The error of the curve is not allowed for.
+        """
         return density / self.density > self._limit(OUTLIER)
 
     def faded(self, density: np.ndarray) -> np.ndarray:
-        """Mask of what noise makes more often than ``FADED``."""
+        """Mask (m,) of densities that noise makes more often than ``FADED``."""
         return density / self.density < self._limit(FADED)
 
     def _limit(self, probability: float) -> float:
@@ -160,7 +169,7 @@ class Background:
 
 
 def background(scale: Scale) -> Background:
-    """The curve, at every group of the scale."""
+    """The background at every group of the scale."""
     windows = scale.level.windows
     again = SQUARE * (windows - 1) / windows
     skewness = (1 + 6 * again) / (1 + 2 * again) ** 2 if scale.bins == 1 else 1.0
@@ -182,15 +191,15 @@ def background(scale: Scale) -> Background:
 
 
 class _LocalLine:
-    """Straight lines through the logarithms of the densities around each group."""
+    """Straight lines through the logarithms of the densities around each group of a scale."""
 
     def __init__(self, scale: Scale) -> None:
         count, self.scale = len(scale.k), scale
         half = min(int(np.clip(scale.level.length // 256, NARROWEST, WIDEST)), (count - 1) // 2)
         at = np.arange(count)
         self.near = np.clip(at - half, 0, count - 2 * half - 1)[:, None] + np.arange(2 * half + 1)
-        # Towards zero and Nyquist, where the density may have a pole and a zero, over half the
-        # distance to them.
+        # Near zero and Nyquist, where the density may have a pole and a zero, the line reaches over
+        # half the distance to them.
         to_end = np.inf if scale.level.decimated else scale.level.length / 2 - scale.k
         own = np.clip((np.minimum(scale.k, to_end) / scale.bins / 2).astype(int), GUARD + 5, half)
         apart = np.abs(self.near - at[:, None])
@@ -221,8 +230,10 @@ class _LocalLine:
 
 
 def _effective(scale: Scale, found: Background, quiet: np.ndarray) -> float:
-    """Averages that would give the scatter about the curve, where it is beyond chance wider than
-    that of the scale's.
+    """Equivalent averages of the scale, fewer where the scatter about the curve is too wide.
+
+    Too wide is a scatter beyond what chance makes of the scale's averages; the averages are then
+    those that would give it.
     """
     use = quiet & np.isfinite(found.density) & scale.searched
     if use.sum() < 2 * NARROWEST:
@@ -238,5 +249,5 @@ def _effective(scale: Scale, found: Background, quiet: np.ndarray) -> float:
 
 
 def _spread(found: np.ndarray, places: int) -> np.ndarray:
-    """``found``, and that many neighbours of each."""
+    """The mask ``found`` extended by that many ``places`` on either side."""
     return np.convolve(found, np.ones(2 * places + 1), mode="same") > 0.5

@@ -1,5 +1,6 @@
-"""One level of the cascade that ``psd`` sends a record through: windows are transformed, and every
-fourth filtered sample goes on.
+"""One stage of the cascade of ``psd``: it transforms windows and passes every fourth sample on.
+
+The samples that go on to the next stage are low-pass filtered.
 """
 
 from __future__ import annotations
@@ -14,36 +15,37 @@ from scipy.signal import firwin, get_window
 DECIMATION = 4
 
 STOP = 120.0
-"""Attenuation in dB of what would fold into a level's band; quantization rises steeply with
-frequency, and folds."""
+"""Attenuation in dB of what would fold into a level's band. Quantization needs it: it rises
+steeply with frequency."""
 
 TAPS = firwin(51, 0.5 / DECIMATION, window=("kaiser", 0.1102 * (STOP - 8.7)), fs=1.0)
-"""Flat to 1e-5 up to 0.16, and at -120 dB from 0.84 of the sample rate that it leaves: a level is
-read no higher than 0.16."""
+"""Low-pass filter. In shares of the sample rate after decimation it is flat to 1e-5 up to 0.16 and
+at -120 dB from 0.84 on; so a level is read up to 0.16 only."""
 
 BATCH = 2**16
-"""Samples of the windows that are transformed at a time, a core's cache being what it is."""
+"""Samples in the windows that are transformed at a time; as many as fit into a core's cache."""
 
 
 class Stage:
-    """One level of the cascade: sums of periodograms, samples that wait for their window, and for
-    the filter.
+    """One stage of the cascade: sums of periodograms, and the samples that wait to be processed.
+
+    Samples wait until their window is full, and until the filter can reach over them.
     """
 
     def __init__(self, length: int, columns: int, room: int) -> None:
-        """``room``: samples of a column that wait before they are transformed."""
+        """Start with windows of ``length`` samples; ``room`` samples wait to be transformed."""
         self.length, self.columns, self.windows, self._count = length, columns, 0, 0
         self.power = np.zeros((columns, length // 2 + 1))
         self._waiting = np.empty((columns, max(room, length) + length))
         self.forget()
 
     def forget(self) -> None:
-        """Start of a segment."""
+        """Start a segment: no window and no filter reaches back across its start."""
         self.transform()
         self._count, self._past = 0, np.empty((self.columns, 0))
 
     def take(self, x: np.ndarray) -> np.ndarray:
-        """Adds samples (c, k) and returns those of the next level."""
+        """Add samples (c, k); returns those for the next stage."""
         done = 0
         while done < x.shape[1]:
             if self._count == self._waiting.shape[1]:
@@ -54,7 +56,7 @@ class Stage:
         return self._decimated(x)
 
     def transform(self) -> None:
-        """Adds the windows that are complete."""
+        """Add the periodograms of the windows that are complete."""
         step = self.length // 2
         count = self._count // step - 1
         if count < 1:
@@ -75,7 +77,7 @@ class Stage:
         self._count = rest
 
     def _decimated(self, x: np.ndarray) -> np.ndarray:
-        """Every fourth output of the filter that draws on this segment alone."""
+        """Every fourth output of the filter, as far as the segment's own samples determine it."""
         x = np.concatenate([self._past, x], axis=1)
         out = np.empty((len(x), max(0, (x.shape[1] - len(TAPS)) // DECIMATION + 1)))
         _fill_filtered(x, out)
@@ -85,7 +87,10 @@ class Stage:
 
 @njit(cache=True, nogil=True, fastmath={"reassoc", "contract"})
 def _fill_filtered(x, out):
-    """The sums may be made in any order, so that the compiler takes several products at a time."""
+    """Fill ``out`` (c, k) with every fourth filtered sample of ``x``.
+
+    The sums may be made in any order, so that the compiler takes several products at a time.
+    """
     for c in range(len(out)):
         for k in range(out.shape[1]):
             total = 0.0

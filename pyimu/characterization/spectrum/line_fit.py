@@ -6,9 +6,11 @@ A sine of amplitude A at bin kappa, on noise of density B, has at bin k the expe
 
 for Hann's window; D is the width of a bin in Hz. The fit weights by the covariance of the P_k:
 that of the noise alone, and that of its product with the sine, between bins and between overlapping
-windows, in which the sine goes on without a break. A line that this does not describe, as it
-wanders by more than a bin or is a narrow band of noise, is measured by its moments: its power is
-the sum of what stands over the noise, its frequency their mean, its width their standard deviation.
+windows, in which the sine goes on without a break.
+
+A line whose frequency wanders by more than a bin, and a narrow band of noise, have another shape.
+They are measured by their moments: the power is the sum of the density above the noise, the
+frequency its mean, the width its standard deviation.
 """
 
 from __future__ import annotations
@@ -25,28 +27,29 @@ from pyimu.characterization.spectrum.psd import SHORTEST
 HALF = 3
 """Bins on either side of the highest one that are fitted."""
 
-STEPS = 12
+ROUNDS = 12
+"""The most steps of the fit."""
 
 PURE = 2e-3
-"""Relative error of g: no line is so pure, and the transform of so few samples so smooth, that it
-is worth more."""
+"""Relative error of g. No line is so pure, and no transform of so few samples so smooth, that g
+describes it better."""
 
 SHARP = 1e-3
-"""A sharp line is misfitted as badly as one that is called broad with this probability."""
+"""Probability with which a sharp line is called broad, because it fits badly by chance."""
 
 BAND = 3
-"""Of a line whose width is that many groups the upper half alone says where it is."""
+"""The frequency of a line more than that many groups wide is that of its upper half."""
 
 QUIET = 3
-"""A broad line ends where that many groups in a row have faded."""
+"""A broad line ends where that many groups in a row have faded into the noise."""
 
 
 @dataclass(frozen=True)
 class Fitted:
-    """``frequency`` [Hz] and ``power`` A^2 in the square of the samples' unit, with standard
-    errors; ``width`` [Hz], zero if sharp.
+    """Frequency and power of a line, with standard errors.
 
-    ``low`` and ``high`` [Hz] are where it ends.
+    ``frequency`` is in Hz, ``power`` is A^2 in the square of the samples' unit. ``width`` [Hz] is
+    zero if the line is sharp; ``low`` and ``high`` [Hz] are its ends.
     """
 
     frequency: float
@@ -59,7 +62,7 @@ class Fitted:
 
 
 def leak(d: np.ndarray) -> np.ndarray:
-    """g(d): what a sine shows at a distance of ``d`` bins, of what it shows at none."""
+    """g(d): density of a sine at a distance of ``d`` bins, relative to that at its frequency."""
     d = np.asarray(d, dtype=float)
     near_one = np.abs(np.abs(d) - 1) < 1e-6
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -84,11 +87,8 @@ def fit_line(scale: Scale, under: Background, peak: int) -> Fitted:
         return _moments(scale, under, peak)
     kappa, strength, covariance = shape
     width = scale.level.resolution
-    unit, std, ends = (
-        3 * width * noise,
-        np.sqrt(np.diag(covariance)),
-        scale.k[near][[0, -1]] * width,
-    )
+    unit, std = 3 * width * noise, np.sqrt(np.diag(covariance))
+    ends = scale.k[near][[0, -1]] * width
     return Fitted(
         kappa * width,
         std[0] * width,
@@ -103,12 +103,14 @@ def fit_line(scale: Scale, under: Background, peak: int) -> Fitted:
 def _sharp(
     k: np.ndarray, density: np.ndarray, noise: np.ndarray, error: float, windows: float, peak: int
 ) -> tuple[float, float, np.ndarray] | None:
-    """Bin, strength over the noise's density and their covariance (2, 2), by generalised least
-    squares; None for a bad fit.
+    """Bin and strength of a sharp line and their covariance (2, 2); None for a bad fit.
+
+    The strength is A^2 / (3 D) over the density of the noise. Bins ``k`` (m,), their ``density``
+    (m,) and the ``noise`` beneath (m,) are fitted by generalised least squares.
     """
     around = np.maximum(density - noise, 0.0) * (np.abs(k - peak) <= 1)
     kappa, strength = float(around @ k / around.sum()), float(around.sum() / 1.5)
-    for _ in range(STEPS):
+    for _ in range(ROUNDS):
         slope = (leak(k - kappa - 1e-4) - leak(k - kappa + 1e-4)) / 2e-4
         jacobian = np.column_stack([strength * slope, leak(k - kappa)])
         covariance = covariance_of_bins(k - peak, kappa - peak, strength, windows) + error**2
@@ -127,12 +129,11 @@ def _sharp(
 
 
 def covariance_of_bins(k: np.ndarray, kappa: float, strength: float, windows: float) -> np.ndarray:
-    """Covariance (m, m) of Welch's estimates at bins ``k`` (m,) in noise of unit density, with a
-    sine at ``kappa`` of ``strength`` A^2 / (3 D).
+    """Covariance (m, m) of Welch's estimates at bins ``k`` (m,) in noise of unit density.
 
-    Bins may be counted from any even one. Per window and pair of windows m halves apart, with s
-    the sine's transform and c the covariance of the noise's, |c|^2 + 2 Re(conj(s_j) s_k exp(i pi
-    (kappa - k) m) c_jk).
+    There is a sine at ``kappa`` of ``strength`` A^2 / (3 D). Bins may be counted from any even one.
+    With s the transform of the sine and c the covariance of that of the noise, a window and a pair
+    of windows m halves apart contribute |c|^2 + 2 Re(conj(s_j) s_k exp(i pi (kappa - k) m) c_jk).
     """
     w, t, half = hann(SHORTEST), np.arange(SHORTEST), SHORTEST // 2
     sine = np.sqrt(strength) * np.exp(-2j * np.pi * np.outer(k - kappa, t) / SHORTEST) @ w / w.sum()
@@ -147,8 +148,9 @@ def covariance_of_bins(k: np.ndarray, kappa: float, strength: float, windows: fl
 
 
 def _moments(scale: Scale, under: Background, peak: int) -> Fitted:
-    """A broad line, out to where it has faded into the noise; of a band, the frequency is that of
-    its upper half.
+    """A broad line by its moments, out to where it has faded into the noise.
+
+    The frequency of a band is that of its upper half.
     """
     over = ~under.faded(scale.density)
     inside = slice(
@@ -161,16 +163,16 @@ def _moments(scale: Scale, under: Background, peak: int) -> Fitted:
     width = np.sqrt(
         max(excess @ (f - excess @ f / total) ** 2 / total - scale.level.resolution**2 / 3, 0.0)
     )
-    # Skirts and shoulders of a band have no part in where it is.
+    # Skirts and shoulders of a band do not count for its frequency.
     band = scale.bins > 1 and width > BAND * step
     top = np.where(excess >= excess.max() / 2, excess, 0.0) if band else excess
     middle = top @ f / top.sum()
-    # Neighbours repeat each other, and the curve beneath is wrong everywhere alike.
+    # Neighbours are correlated, and the curve beneath is off by the same factor everywhere.
     spread = density * np.sqrt(scale.repeated / under.averages)
     std = np.hypot(np.linalg.norm(spread), (under.error[inside] * noise).sum())
     middle_std = np.linalg.norm((spread * (f - middle))[top != 0]) / top.sum()
     if band or (scale.bins > 1 and width < step):
-        # Half a group more or less at either end; or all of it somewhere in one.
+        # The ends of a band are known to half a group, and a line within one group to its width.
         middle_std = np.hypot(middle_std, step / np.sqrt(12))
     return Fitted(
         middle,
@@ -184,9 +186,7 @@ def _moments(scale: Scale, under: Background, peak: int) -> Fitted:
 
 
 def _until_quiet(over: np.ndarray) -> int:
-    """Places from the peak to the last one that stands over the noise, before the first quiet
-    stretch.
-    """
+    """Places from the peak to the last one above the noise, before ``QUIET`` that are not."""
     last = 0
     for i, high in enumerate(over):
         if high:

@@ -1,19 +1,18 @@
-r"""Spectral lines: sines in a record's noise, with frequency, amplitude, standard errors and
-significance.
+r"""Spectral lines: sines in a record's noise, with standard errors and significance.
 
-Each bin of each level of ``psd``'s spectrum is held against the local background
-(``line_background``). The significance of a line is that of its highest bin times the number of
-bins looked at in all columns (Bonferroni; neighbouring bins repeat each other, so that noise
-without lines gives a line somewhat more rarely than the level says). A strong line hides what it
-leaks into: bins where it shows as much as noise scatters are not looked at again.
+Each bin of each level of the spectrum of ``psd`` is compared with the local ``background``. The
+significance of a line is that of its highest bin times the number of bins searched in all columns
+(Bonferroni; neighbouring bins are correlated, so that noise without lines gives false alarms
+somewhat more rarely than asked for). A strong line hides the bins that it leaks into: those to
+which it adds much of the scatter of the noise are not searched again.
 
 Lines are looked for from bin ``LOWEST`` of the longest windows on, where slow drifts end, to three
-bins below half the sample rate; broad ones end earlier there, where a density may fall to zero. A
-resonance is a line too, a broad one: nothing in a spectrum tells it from a disturbance.
+bins below half the sample rate; broad ones not so far up, because a density may fall to zero there.
+A resonance is a broad line, too: nothing in a spectrum tells it from a disturbance.
 
-Frequencies are those in the record, in which one above half the sample rate has been folded; what
-the lines have to do with each other is in ``line_relations``. Noise in bursts has bins that depend
-on each other, and may look like lines.
+Frequencies are those in the record, in which one above half the sample rate has been folded.
+``relations`` says how the lines are related to each other. Noise in bursts has bins that depend on
+each other, and may look like lines.
 """
 
 from __future__ import annotations
@@ -30,34 +29,34 @@ from pyimu.characterization.spectrum.psd import Level, SpectrumAccumulator
 from pyimu.characterization.spectrum.relations import Relation, relations
 
 LOWEST = 16
-"""The lowest bin that is looked at, on the lowest level."""
+"""The lowest bin that is searched on the lowest level."""
 
 MOST = 100
-"""Lines of one column; a comb of more is no list."""
+"""The most lines of one column that are listed."""
 
 HIDDEN = 0.1
 """A bin is hidden where a line leaks into it this share of the scatter of its noise."""
 
 PROMINENT = 1.5
-"""A band of noise is called a line where it stands half as high again as the curve beneath it,
-which no law demands to be smooth."""
+"""A band of noise is called a line where its density is so many times that of the curve beneath
+it: the density of noise need not be smooth."""
 
 SPREAD = 3.0
-"""Standard deviations of a bin, which every line exceeds that is significant among thousands of
+"""Standard deviations of a bin, exceeded by every line that is significant among thousands of
 bins."""
 
 SIDE = 17
-"""Groups on either side of a band, its own included, in which it has to fall."""
+"""Groups on either side of a band, its own included, within which its density has to fall."""
 
 
 @dataclass(frozen=True)
 class Line:
     """One line of one ``column``.
 
-    ``frequency`` [Hz] and ``amplitude`` (the peak of the sine, in the samples' unit) with standard
-    errors; ``p_value`` for the whole search; ``ratio`` of the density at its highest bin to
-    ``background``, the one-sided density beneath it; ``width`` [Hz], the standard deviation of its
-    frequency, zero where it is as sharp as the window.
+    ``frequency`` [Hz] and ``amplitude`` (the peak of the sine, in the samples' unit) have standard
+    errors; ``p_value`` is that of the whole search. ``ratio`` is that of the density at the highest
+    bin to ``background``, the one-sided density beneath it. ``width`` [Hz] is the standard
+    deviation of its frequency, zero where it is as sharp as the window.
     """
 
     column: int
@@ -73,22 +72,24 @@ class Line:
 
     @property
     def rms(self) -> float:
-        """Root mean square of the line."""
+        """Root mean square of the line, in the samples' unit."""
         return self.amplitude / np.sqrt(2)
 
 
-def find_lines(spectrum: SpectrumAccumulator, level: float = 1e-3) -> list[Line]:
-    """Lines of all columns, by column and frequency; ``level`` is the probability to find any in
-    stationary noise without lines.
+def find_lines(spectrum: SpectrumAccumulator, false_alarm: float = 1e-3) -> list[Line]:
+    """Lines of all columns, by column and frequency.
+
+    ``false_alarm`` is the probability of finding any in stationary noise without lines. Raises
+    ValueError where it is not between 0 and 1.
     """
-    if not 0 < level < 1:
-        raise ValueError(f"the level {level} is not between 0 and 1")
+    if not 0 < false_alarm < 1:
+        raise ValueError(f"the probability {false_alarm} is not between 0 and 1")
     levels = spectrum.levels()
     columns = [_column(levels, c) for c in range(levels[0].density.shape[1] if levels else 0)]
     family = sum(int(view.scale.searched.sum()) for views in columns for view in views)
     found = []
     for c, views in enumerate(columns):
-        own = _of_column(views, c, level, family)
+        own = _of_column(views, c, false_alarm, family)
         found += [
             replace(line, relation=r)
             for line, r in zip(own, relations(own, 1 / spectrum.h), strict=True)
@@ -97,7 +98,7 @@ def find_lines(spectrum: SpectrumAccumulator, level: float = 1e-3) -> list[Line]
 
 
 def searched_range(spectrum: SpectrumAccumulator) -> tuple[float, float]:
-    """Hz from which and up to which lines are looked for; nan where there is no spectrum."""
+    """Lowest and highest frequency [Hz] of the search; nan where there is no spectrum."""
     levels = spectrum.levels()
     looked = [
         s.frequency[s.searched]
@@ -114,10 +115,10 @@ def searched_range(spectrum: SpectrumAccumulator) -> tuple[float, float]:
 
 @dataclass
 class _View:
-    """One scale of one level: its background, and each group's probability and ``height`` in
-    standard deviations.
+    """One scale of one level in the search: its background, and how far each group stands out.
 
-    Groups that are not, or no longer, looked at have the probability one.
+    ``chance`` (m,) is the probability that noise alone makes a group as high; it is one for groups
+    that are not, or no longer, searched. ``height`` (m,) is in standard deviations.
     """
 
     scale: Scale
@@ -127,14 +128,15 @@ class _View:
 
     @classmethod
     def of(cls, scale: Scale) -> _View:
+        """The view at the start of the search."""
         under = background(scale)
         ratio = scale.density / under.density
-        # Bin by bin any line counts that noise does not make; but neither a knee.
+        # Bin by bin any line counts that noise does not make, but the knee of a filter does not.
         prominent = (
             PROMINENT if scale.bins > 1 else min(PROMINENT, 1 + SPREAD / np.sqrt(under.averages))
         )
         seen = scale.searched & (ratio >= prominent) & _peaked(scale.density, prominent)
-        # Heights choose between scales; the probabilities of strong lines are zero on all.
+        # Heights choose between scales, because the probabilities of strong lines are zero on all.
         return cls(
             scale,
             under,
@@ -143,9 +145,7 @@ class _View:
         )
 
     def hide(self, line: Line, fitted: Fitted) -> None:
-        """What says nothing any more, once ``line`` has been found: what it covers, and leaks
-        into.
-        """
+        """Take the groups that ``line`` covers or leaks into out of the search."""
         width, f = self.scale.level.resolution, self.scale.frequency
         reach = width * self.scale.bins / 2
         d = np.maximum((np.abs(f - line.frequency) - reach) / width, 2.0)
@@ -160,8 +160,9 @@ class _View:
 
 
 def _peaked(density: np.ndarray, prominent: float) -> np.ndarray:
-    """Mask of where it stands so high over something on either side: the knee of a low-pass does
-    not, however bent it is.
+    """Mask (m,) of the groups that stand out by the factor ``prominent`` on both sides.
+
+    The knee of a low-pass does not, however sharp it is.
     """
     smooth = uniform_filter1d(density, 3, mode="nearest")
     below = minimum_filter1d(smooth, SIDE, origin=(SIDE - 1) // 2, mode="nearest")
@@ -170,6 +171,7 @@ def _peaked(density: np.ndarray, prominent: float) -> np.ndarray:
 
 
 def _column(levels: Sequence[Level], column: int) -> list[_View]:
+    """All scales of all levels of one column."""
     return [
         _View.of(scale)
         for i, a in enumerate(levels)
@@ -178,6 +180,10 @@ def _column(levels: Sequence[Level], column: int) -> list[_View]:
 
 
 def _of_column(views: Sequence[_View], column: int, p: float, family: int) -> list[Line]:
+    """Lines of one column, by frequency; the highest is found first and hidden for the others.
+
+    ``p`` is the probability of a false alarm among all ``family`` groups searched.
+    """
     found: list[Line] = []
     while len(found) < MOST:
         heights = [np.where(v.chance * family < p, v.height, 0.0) for v in views]
@@ -186,26 +192,24 @@ def _of_column(views: Sequence[_View], column: int, p: float, family: int) -> li
         if not view.chance[at] * family < p:
             break
         fitted = fit_line(view.scale, view.under, at)
-        amplitude = np.sqrt(fitted.power)
-        found.append(
-            Line(
-                column,
-                *map(
-                    float,
-                    (
-                        fitted.frequency,
-                        fitted.frequency_std,
-                        amplitude,
-                        fitted.power_std / (2 * amplitude),
-                        view.chance[at] * family,
-                        view.scale.density[at] / view.under.density[at],
-                        view.under.density[at],
-                        fitted.width,
-                    ),
-                ),
-            )
-        )
+        found.append(_line(view, at, column, fitted, family))
         for v in views:
             v.hide(found[-1], fitted)
         view.chance[at] = 1.0
     return sorted(found, key=lambda x: x.frequency)
+
+
+def _line(view: _View, at: int, column: int, fitted: Fitted, family: int) -> Line:
+    """The line whose highest group is the one at index ``at`` of a view."""
+    amplitude = np.sqrt(fitted.power)
+    return Line(
+        column,
+        frequency=float(fitted.frequency),
+        frequency_std=float(fitted.frequency_std),
+        amplitude=float(amplitude),
+        amplitude_std=float(fitted.power_std / (2 * amplitude)),
+        p_value=float(view.chance[at] * family),
+        ratio=float(view.scale.density[at] / view.under.density[at]),
+        background=float(view.under.density[at]),
+        width=float(fitted.width),
+    )

@@ -1,20 +1,20 @@
-r"""One-sided power spectral density of a record: Welch's, logarithmically averaged, in bounded
-memory.
+r"""One-sided power spectral density of a record: Welch's estimate, logarithmically averaged.
 
-The record goes through a cascade that keeps every fourth sample of a low-pass filtered copy, then
-of that, and so on. On every level windows of ``length`` samples, overlapping by half, give Welch's
-estimate (IEEE Trans. Audio Electroacoust. 15 (1967), 70-73)
+The memory that it takes is bounded. The record goes through a cascade that keeps every fourth
+sample of a low-pass filtered copy, then of that, and so on. On every level windows of ``length``
+samples, overlapping by half, give Welch's estimate (IEEE Trans. Audio Electroacoust. 15 (1967),
+70-73)
 
     S(f_k) = 2 h / (K sum w^2) sum over K windows |sum_t w_t x_t exp(-2 pi i k t / L)|^2
 
 so that high frequencies have many averages and low ones long windows (Troebs and Heinzel,
 Measurement 39 (2006), 120-129). Bins are then averaged in groups of equal width in log f.
 
-Nothing is taken off a window but one constant, the same for all windows of a segment: a mean or a
-line taken off each would take flicker with it. Hann's window lets a constant reach no bin from the
-second on, and makes the density of a random walk, 1 / f^2, too large by 1 / k^2 at bin k: 0.1 % and
-less, but for the lowest level, where it is 6 % at ``FIRST_BIN``. A ramp is no noise: it looks like
-a density that falls with f^6.
+Nothing is subtracted from a window but one constant, the same for all windows of a segment: a mean
+or a line subtracted from each would take flicker with it. With Hann's window a constant reaches no
+bin from the second on, and the density of a random walk, 1 / f^2, comes out too large by 1 / k^2 at
+bin k: by 0.1 % and less, except on the lowest level, where it is 6 % at ``FIRST_BIN``. A ramp is no
+noise: it looks like a density that falls with f^6.
 
 A density of m groups of bins over K windows counts as a chi-square of 2 n degrees of freedom, n the
 number of independent averages with the same variance: (K m) / n sums the squared correlations of
@@ -32,27 +32,26 @@ from scipy.stats import chi2
 
 from pyimu.characterization.spectrum.cascade import DECIMATION, Stage, hann
 
-CHUNK = 2**17
-"""Samples of a column that are taken, and wait, at a time."""
+PIECE = 2**17
+"""Samples of a column that are processed, and wait, at a time."""
 
 SHARE = 32
-"""A level is read from bin length / SHARE, where the next one, of four times its resolution,
-begins."""
+"""A level is read from bin length / SHARE on; below, the next level has four times its
+resolution."""
 
 FIRST_BIN = 4
-"""The lowest bin that is shown, on the lowest level."""
+"""The lowest bin that is read on the lowest level."""
 
 SHORTEST, LONGEST = 256, 16384
-"""Window lengths that are chosen for a record, the longest that it holds sixteen times."""
+"""Limits of the window length, which is otherwise the longest that a record holds sixteen times."""
 
 
 @dataclass(frozen=True)
 class Psd:
-    """One-sided densities: ``density`` (m, c) in the square of the samples' unit per Hz at
-    ``frequency`` (m,) Hz.
+    """One-sided densities (m, c), in the square of the samples' unit per Hz.
 
-    ``averages`` (m,): equivalent independent averages; an estimate has twice as many degrees of
-    freedom. White noise N has the one-sided density 2 N^2.
+    They are at ``frequency`` (m,) Hz. ``averages`` (m,) are the equivalent independent averages; an
+    estimate has twice as many degrees of freedom. White noise N has the one-sided density 2 N^2.
     """
 
     frequency: np.ndarray
@@ -60,8 +59,9 @@ class Psd:
     averages: np.ndarray
 
     def interval(self, probability: float = 0.95) -> tuple[np.ndarray, np.ndarray]:
-        """Limits (low, high), each (m, c), that hold the true density at each frequency with this
-        probability.
+        """Limits (low, high), each (m, c), of the true density at each frequency.
+
+        Each pair holds it with this ``probability``.
         """
         freedom = 2 * self.averages[:, None]
         side = (1 - probability) / 2
@@ -72,10 +72,10 @@ class Psd:
 
 @dataclass(frozen=True)
 class Level:
-    """All bins of one level: one-sided ``density`` (length / 2 + 1, c) of ``windows`` windows of
-    ``length`` samples ``h`` s apart.
+    """All bins of one level of the cascade: one-sided ``density`` (length / 2 + 1, c).
 
-    ``first`` and ``last`` are the bins it is read from and to (the latter excluded).
+    It comes from ``windows`` windows of ``length`` samples ``h`` s apart, and is read from bin
+    ``first`` to bin ``last`` (excluded).
     """
 
     density: np.ndarray
@@ -87,12 +87,12 @@ class Level:
 
     @property
     def resolution(self) -> float:
-        """Hz from bin to bin."""
+        """Distance of the bins [Hz]."""
         return 1 / (self.length * self.h)
 
     @property
     def decimated(self) -> bool:
-        """Whether it comes out of the filter, and holds nothing near its Nyquist frequency."""
+        """Whether its samples were filtered, and hold nothing near their Nyquist frequency."""
         return self.last < self.length // 2
 
     @cached_property
@@ -107,10 +107,10 @@ def psd_one_sided(
     segments: Sequence[tuple[int, int]] | None = None,
     points_per_decade: int = 20,
 ) -> Psd:
-    """Density of ``samples`` (n,) or (n, c), ``h`` s apart, over index ranges (start, stop) without
-    gap; see ``SpectrumAccumulator``.
+    """One-sided density of ``samples`` (n,) or (n, c), ``h`` s apart; see ``SpectrumAccumulator``.
 
-    A result without a single frequency means that no segment is as long as a window.
+    ``segments`` are row ranges (start, stop) without gap, None for all rows. A result without a
+    single frequency means that no segment is as long as a window.
     """
     return accumulate(samples, h, segments).result(points_per_decade)
 
@@ -118,8 +118,9 @@ def psd_one_sided(
 def accumulate(
     samples: np.ndarray, h: float, segments: Sequence[tuple[int, int]] | None = None
 ) -> SpectrumAccumulator:
-    """The accumulator of a whole record, with a window length chosen for its longest segment;
-    arguments as ``psd_one_sided``.
+    """The accumulator of a whole record, its window length chosen for the longest segment.
+
+    Arguments are those of ``psd_one_sided``.
     """
     segments = [(0, len(samples))] if segments is None else list(segments)
     spectrum = SpectrumAccumulator(h, window_length(max((b - a for a, b in segments), default=0)))
@@ -130,17 +131,17 @@ def accumulate(
 
 
 def window_length(n: int) -> int:
-    """A power of two for a segment of ``n`` samples."""
+    """The window length, a power of two, for a segment of ``n`` samples."""
     return int(np.clip(2 ** int(np.log2(max(n, 16) / 16)), SHORTEST, LONGEST))
 
 
 class SpectrumAccumulator:
-    """Densities of a record that comes in pieces: ``add(block)`` for each, ``end_segment()`` where
-    it is interrupted, ``result()``.
+    """One-sided densities of a record that comes in pieces.
 
-    Samples ``h`` s apart; windows of ``length`` samples, a power of two from 256. A row with a
-    value that is not finite ends a segment, for all columns; no window and no filter reaches
-    across. Memory: some 3 ``CHUNK`` samples a column.
+    Call ``add(piece)`` for each, ``end_segment()`` where the record is interrupted, and
+    ``result()``. Samples are ``h`` s apart; windows have ``length`` samples, a power of two from
+    256 on. A row with a value that is not finite ends a segment, for all columns; no window and no
+    filter reaches across. Memory: some 3 ``PIECE`` samples a column.
     """
 
     def __init__(self, h: float, length: int = LONGEST) -> None:
@@ -152,29 +153,28 @@ class SpectrumAccumulator:
         self._stages: list[Stage] = []
         self._offset: np.ndarray | None = None
 
-    def add(self, block: np.ndarray) -> None:
-        """The next samples (k,) or (k, c); raises ValueError for another number of columns than
-        before.
+    def add(self, piece: np.ndarray) -> None:
+        """Add the next samples (k,) or (k, c).
+
+        Raises ValueError for another number of columns than before.
         """
-        block = np.asarray(block)
-        rows = block[:, None] if block.ndim == 1 else block
+        piece = np.asarray(piece)
+        rows = piece[:, None] if piece.ndim == 1 else piece
         if not self._stages:
-            self._stages.append(Stage(self.length, rows.shape[1], CHUNK))
+            self._stages.append(Stage(self.length, rows.shape[1], PIECE))
         if rows.shape[1] != self._stages[0].columns:
             raise ValueError(f"{rows.shape[1]} columns after {self._stages[0].columns}")
-        for a in range(0, len(rows), CHUNK):
-            self._add(np.array(rows[a : a + CHUNK].T, dtype=float, order="C"))
+        for a in range(0, len(rows), PIECE):
+            self._add(np.array(rows[a : a + PIECE].T, dtype=float, order="C"))
 
     def end_segment(self) -> None:
-        """The next sample does not follow the last one."""
+        """End the segment: the next sample does not follow the last one."""
         self._offset = None
         for stage in self._stages:
             stage.forget()
 
     def _add(self, x: np.ndarray) -> None:
-        """Samples (c, k): columns apart, so that both the transform and the filter run along
-        memory.
-        """
+        """Add samples (c, k), column by column in memory, as the transform and the filter run."""
         whole = np.isfinite(x).all(axis=0)
         if whole.all():
             return self._run(x)
@@ -196,13 +196,13 @@ class SpectrumAccumulator:
 
     def _pass(self, x: np.ndarray, level: int) -> None:
         if level == len(self._stages):
-            self._stages.append(Stage(self.length, len(x), CHUNK // DECIMATION**level))
+            self._stages.append(Stage(self.length, len(x), PIECE // DECIMATION**level))
         kept = self._stages[level].take(x)
         if kept.shape[1]:
             self._pass(kept, level + 1)
 
     def levels(self) -> list[Level]:
-        """Every level that had a window, from the highest rate on."""
+        """Every level that had a window, the highest sample rate first."""
         for stage in self._stages:
             stage.transform()
         filled = [s for s in self._stages if s.windows]
@@ -227,8 +227,9 @@ class SpectrumAccumulator:
 
 
 def _grouped(level: Level, points_per_decade: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Frequencies, densities and averages of groups of a level's bins, edges on one grid for all
-    levels.
+    """Frequencies (g,), densities (g, c) and averages (g,) of groups of a level's bins.
+
+    The edges of the groups lie on one grid for all levels.
     """
     k = np.arange(level.first, level.last)
     cell = np.floor(points_per_decade * np.log10(k / level.last) + 1e-9)
@@ -243,7 +244,10 @@ def _grouped(level: Level, points_per_decade: int) -> tuple[np.ndarray, np.ndarr
 
 @lru_cache(maxsize=1024)
 def independent_averages(windows: int, bins: int) -> float:
-    """Of ``windows`` overlapping windows and ``bins`` adjoining bins of white noise."""
+    """Equivalent independent averages of white noise.
+
+    They are those of ``windows`` windows that overlap by half and ``bins`` adjoining bins.
+    """
     j, d = np.arange(-1, 2), np.arange(-min(bins, REACH) + 1, min(bins, REACH))
     weights = np.outer(np.maximum(windows - np.abs(j), 0), bins - np.abs(d))
     return (windows * bins) ** 2 / float(np.sum(weights * CORRELATION[:, d + REACH - 1]))
@@ -254,8 +258,9 @@ REACH = 8
 
 
 def _correlations() -> np.ndarray:
-    """Squared correlations (3, 2 REACH - 1) of bins of windows -1, 0, 1 half windows and up to
-    REACH - 1 bins apart.
+    """Squared correlations (3, 2 REACH - 1) of the bins of two windows of white noise.
+
+    The windows are -1, 0, 1 half windows apart, the bins up to REACH - 1.
     """
     w, half = hann(SHORTEST), SHORTEST // 2
     t, d = np.arange(SHORTEST), np.arange(-REACH + 1, REACH)

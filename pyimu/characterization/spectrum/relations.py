@@ -1,7 +1,6 @@
-"""What lines have to do with each other and with the sample rate: harmonics, sidebands of a
-modulated line, fractions of the rate.
+"""How lines are related: harmonics, sidebands of a modulated line, fractions of the sample rate.
 
-Frequencies agree where they differ by no more than ``SIGMA`` standard errors. Agreement is told
+Frequencies agree where they differ by no more than ``SIGMA`` standard errors. A relation is named
 only where chance would hardly make any among as many lines (``CHANCE`` expected).
 """
 
@@ -15,13 +14,20 @@ from typing import Protocol
 import numpy as np
 
 SIGMA = 4.0
+"""Standard errors."""
+
 ORDERS = range(2, 11)
+"""Orders of the harmonics that are looked for."""
+
 CHANCE = 0.05
+"""Expected number of agreements by chance."""
+
 DENOMINATORS = range(2, 11)
+"""Denominators of the fractions of the sample rate that are looked for."""
 
 
 class Tone(Protocol):
-    """What is known of a line here."""
+    """What must be known of a line: its frequency with standard error [Hz], and its amplitude."""
 
     frequency: float
     frequency_std: float
@@ -30,10 +36,11 @@ class Tone(Protocol):
 
 @dataclass(frozen=True)
 class Relation:
-    """``kind`` "harmonic" (``order`` times ``of``), "sideband" (``order`` +1 above or -1 below
-    ``of``), or "clock" (``share`` of the sample rate ``of``).
+    """The relation of a line to another one or to the sample rate, at ``of`` Hz.
 
-    ``folded``: the harmonic lies above half the sample rate, and is seen folded.
+    ``kind`` is "harmonic" (``order`` times ``of``), "sideband" (``order`` +1 above or -1 below
+    ``of``), or "clock" (``share`` of the sample rate ``of``). A ``folded`` harmonic lies above half
+    the sample rate.
     """
 
     kind: str
@@ -44,6 +51,7 @@ class Relation:
 
     @property
     def text(self) -> str:
+        """The relation in words, such as ``2 x 20 Hz``."""
         if self.kind == "harmonic":
             return f"{self.order} x {self.of:.6g} Hz" + (", folded" if self.folded else "")
         if self.kind == "sideband":
@@ -52,13 +60,15 @@ class Relation:
 
 
 def folded(frequency: float, rate: float) -> float:
-    """Where a frequency shows at that sample rate."""
+    """The frequency [Hz] at which one of ``frequency`` appears at the sample ``rate`` [Hz]."""
     return abs(frequency - rate * round(frequency / rate))
 
 
 def relations(lines: Sequence[Tone], rate: float) -> list[Relation | None]:
-    """For each line; the strongest of related lines is the base, and has at most a relation to the
-    sample ``rate`` [Hz].
+    """The relation of each line, or None.
+
+    The strongest of related lines is the base; it has at most a relation to the sample ``rate``
+    [Hz].
     """
     found: dict[int, Relation] = {}
     bases: list[int] = []
@@ -77,12 +87,13 @@ def relations(lines: Sequence[Tone], rate: float) -> list[Relation | None]:
 
 
 def _harmonic(lines: Sequence[Tone], i: int, bases: Sequence[int], rate: float) -> Relation | None:
+    """The harmonic of a base that line i is: if possible one not folded, of the lowest order."""
     line, candidates = lines[i], []
     for b in bases:
         base = lines[b]
         for order in ORDERS:
             within = SIGMA * np.hypot(line.frequency_std, order * base.frequency_std)
-            # Orders up to this one, of any base, for any line.
+            # Any line might agree with any order up to this one of any base.
             likely = len(lines) ** 2 * (order - 1) * 2 * within / (rate / 2) < CHANCE
             if likely and abs(folded(order * base.frequency, rate) - line.frequency) <= within:
                 over = order * base.frequency > rate / 2
@@ -110,6 +121,7 @@ def _sidebands(lines: Sequence[Tone], free: Sequence[int]) -> dict[int, Relation
 
 
 def _mirrored(low: Tone, carrier: Tone, high: Tone, lines: Sequence[Tone]) -> bool:
+    """Whether two lines are at equal distances from the carrier, and hardly by chance."""
     apart = carrier.frequency - low.frequency
     within = SIGMA * np.sqrt(
         low.frequency_std**2 + high.frequency_std**2 + 4 * carrier.frequency_std**2
@@ -123,6 +135,7 @@ def _mirrored(low: Tone, carrier: Tone, high: Tone, lines: Sequence[Tone]) -> bo
 
 
 def _clock(line: Tone, rate: float, count: int) -> Relation | None:
+    """The fraction of the sample rate at which one of ``count`` lines is."""
     shares = {Fraction(p, q) for q in DENOMINATORS for p in range(1, q) if 2 * p <= q}
     within = SIGMA * line.frequency_std
     if count * len(shares) * 2 * within / (rate / 2) >= CHANCE:

@@ -1,1 +1,1 @@
-"""Bias against temperature, and warm-up."""
+"""The effect of temperature on the bias: a polynomial, hysteresis and warm-up."""

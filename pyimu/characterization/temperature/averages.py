@@ -1,5 +1,6 @@
-"""Means of a long record over blocks of equal length in time: what is slow in it, in bounded
-memory.
+"""Averages of a long record over intervals of equal length, in bounded memory.
+
+They hold what is slow in it.
 """
 
 from __future__ import annotations
@@ -9,13 +10,14 @@ from dataclasses import dataclass
 import numpy as np
 
 SHORTEST = 1.0
-"""Seconds of a block at first; they double as the record grows."""
+"""Length of an interval [s] at first; it doubles as the record grows."""
 
 
 @dataclass(frozen=True)
-class Blocks:
-    """Means over the ``count`` (m,) samples, ``h`` s apart, of each block: ``time`` (m,) s,
-    ``temperature`` (m,) degC, ``values`` (m, c).
+class Averages:
+    """Averages over ``count`` (m,) samples each, which are ``h`` s apart.
+
+    ``time`` (m,) is in s, ``temperature`` (m,) in degC, ``values`` (m, c) in the samples' unit.
     """
 
     time: np.ndarray
@@ -26,33 +28,34 @@ class Blocks:
 
     @property
     def duration(self) -> np.ndarray:
-        """Seconds (m,) that each block's samples stand for."""
+        """Time (m,) in s that the samples of each average stand for."""
         return self.count * self.h
 
     @property
     def gap(self) -> np.ndarray:
-        """Seconds (m,) between the samples of a block and those of the one before; zero for the
-        first.
+        """Time (m,) in s between the samples of an average and those of the one before.
+
+        It is zero for the first.
         """
         end, start = self.time + self.duration / 2, self.time - self.duration / 2
         return np.append(0.0, np.maximum(start[1:] - end[:-1], 0.0))
 
 
-def block_means(
+def interval_averages(
     time: np.ndarray, temperature: np.ndarray, values: np.ndarray, h: float, target: int = 2000
-) -> Blocks:
-    """Blocks of whole arrays (n,), (n,) and (n, c) or (n,); see ``BlockAccumulator``."""
-    accumulator = BlockAccumulator(h, target)
+) -> Averages:
+    """Averages of whole arrays (n,), (n,) and (n, c) or (n,); see ``AverageAccumulator``."""
+    accumulator = AverageAccumulator(h, target)
     accumulator.add(time, temperature, values)
     return accumulator.result()
 
 
-class BlockAccumulator:
-    """Block means of a record that comes in pieces, in the order of time; gaps may lie between
-    rows.
+class AverageAccumulator:
+    """Averages of a record that comes in pieces, in the order of time.
 
-    Blocks are 1 s long, or a sample where that is longer, and twice as long whenever they become
-    more than 2 ``target``. Rows with a missing cell are left out.
+    Gaps may lie between rows. The intervals have a length of 1 s, or of a sample ``h`` [s] where
+    that is longer, which doubles whenever there are more than 2 ``target`` of them. Rows with a
+    missing cell are left out.
     """
 
     def __init__(self, h: float, target: int = 2000) -> None:
@@ -62,7 +65,7 @@ class BlockAccumulator:
         self._sums = np.empty((0, 0))
 
     def add(self, time: np.ndarray, temperature: np.ndarray, values: np.ndarray) -> None:
-        """The next rows: (k,) s, (k,) degC and (k, c) or (k,)."""
+        """Add the next rows: (k,) s, (k,) degC and (k, c) or (k,)."""
         rows = np.column_stack([time, temperature, values]).astype(float)
         rows = rows[np.isfinite(rows).all(axis=1)]
         if not len(rows):
@@ -80,8 +83,9 @@ class BlockAccumulator:
             self._append(halved, count, sums)
 
     def _append(self, index: np.ndarray, count: np.ndarray, sums: np.ndarray) -> None:
+        """Add sums over ``count`` samples each to the intervals of these indices."""
         if len(self._index):
-            # The last block may go on.
+            # The last interval may go on.
             index, count = np.append(self._index[-1], index), np.append(self._count[-1], count)
             sums = np.concatenate([self._sums[-1:], sums])
         first = np.flatnonzero(np.diff(index, prepend=index[0] - 1))
@@ -89,11 +93,11 @@ class BlockAccumulator:
         self._count = np.append(self._count[:-1], np.add.reduceat(count, first))
         self._sums = np.concatenate([self._sums[:-1], np.add.reduceat(sums, first, axis=0)])
 
-    def result(self) -> Blocks:
-        """The means so far; more may be added afterwards."""
+    def result(self) -> Averages:
+        """The averages so far; more rows may be added afterwards."""
         means = self._sums / self._count[:, None]
         if self._start is None:
-            return Blocks(np.empty(0), np.empty(0), np.empty((0, 0)), self._count, self.h)
-        return Blocks(
+            return Averages(np.empty(0), np.empty(0), np.empty((0, 0)), self._count, self.h)
+        return Averages(
             means[:, 0] + self._start, means[:, 1], means[:, 2:], self._count.copy(), self.h
         )

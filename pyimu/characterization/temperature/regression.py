@@ -1,18 +1,18 @@
-r"""Regression on block means whose noise is white noise N and a random walk K, both found with it.
+r"""Regression on averages whose noise is white noise N and a random walk K, both found with it.
 
-The mean of a walk over a block is not the walk: with d the block's duration and P the variance of
-what is known of the walk at its start, the mean has the variance P + K^2 d / 3, the walk at the end
-P + K^2 d, and their covariance is P + K^2 d / 2. (A random walk observed in white noise, taken for
-the model of means, would have them anticorrelated in steps; where the walk rules, the steps of
-means have the correlation +1/4: Working, Econometrica 28 (1960), 916-918.)  A Kalman filter of one
-state makes all columns white.
+The average of a walk over an interval is not the walk: with d the interval's duration and P the
+variance of what is known of the walk at its start, the average has the variance P + K^2 d / 3, the
+walk at the end P + K^2 d, and their covariance is P + K^2 d / 2. (If a random walk observed in
+white noise were taken as the model of averages, their steps would be anticorrelated; where the walk
+dominates, they have the correlation +1/4: Working, Econometrica 28 (1960), 916-918.) A Kalman
+filter of one state makes all columns white.
 
-The share of the walk in the noise is not known better than the record tells, and where temperature
-and walk look alike that is not well: with the likeliest share taken for true, five in a hundred
-records without an effect become fifteen (tests/test_thermal.py). So everything is averaged over
-the share, by the residual likelihood (Patterson and Thompson, Biometrika 58 (1971), 545-554; it
-does not take the noise that the regressors follow for less noise), times the density of ``share``
-that is flat in K / N where that is small, and in N / K where that is.
+The share of the walk in the noise is known only as well as the record tells, and not well where
+temperature and walk look alike: if the likeliest share is taken for true, five in a hundred records
+without an effect become fifteen (test_thermal.py). So everything is averaged over the share. The
+weight is the residual likelihood (Patterson and Thompson, Biometrika 58 (1971), 545-554; it does
+not count the noise that the regressors follow as less noise) times a prior density of ``share``
+that is flat in K / N where that is small, and in N / K where that is small.
 """
 
 from __future__ import annotations
@@ -25,23 +25,29 @@ from scipy.optimize import brentq
 from scipy.special import expit
 from scipy.stats import t as t_law
 
-from pyimu.characterization.temperature.averages import Blocks
+from pyimu.characterization.estimate import Estimate
+from pyimu.characterization.temperature.averages import Averages
+
+CHANCE = 1e-3
+"""An effect is warranted where noise without it would look so with at most this probability."""
 
 SHARES = 40
-"""Places at which the likelihood of the share is taken."""
+"""Number of shares at which the likelihood is computed."""
 
 ALL_WALK = 7.0
-"""Log odds at which white noise is a thousandth of the variance of a block; the least are those of
-a walk lost in the whole record's noise."""
+"""Largest log odds of the share: white noise is a thousandth of the variance of an average. At the
+smallest the walk is lost in the noise of the whole record."""
 
 ROUNDING = 1e-13
-"""Of a sum of squares, the share that cannot be told from nothing."""
+"""Share of a sum of squares that cannot be told from zero."""
 
 
 @njit(cache=True)
 def _fill_gram(columns, duration, gap, r, k2, gram):
-    """Products (c, c) of the whitened ``columns`` (m, c), into ``gram``; returns the sum of the
-    logarithms of the variances.
+    """Fill ``gram`` (c, c) with the products of the whitened ``columns`` (m, c).
+
+    Returns the sum of the logarithms of the variances. ``r`` (m,) are the variances of the white
+    noise of the averages, ``k2`` is K^2 of the walk.
     """
     m, c = columns.shape
     level, white, p, total = np.zeros(c), np.empty(c), 0.0, 0.0
@@ -68,11 +74,11 @@ def _fill_gram(columns, duration, gap, r, k2, gram):
 
 @dataclass(frozen=True)
 class Regression:
-    """Regressions at ``shares`` (g,) of the walk in the noise, which have ``weights`` (g,).
+    """Regressions at several ``shares`` (g,) of the walk in the noise, with their ``weights`` (g,).
 
-    ``coefficients`` (g, p), ``inverses`` (g, p, p) of the normal matrices, ``squares`` (g,) of what
-    is left, whitened, with ``freedom`` m - p; ``typical`` s is the duration of a block in which the
-    noise has variance one.
+    Each has ``coefficients`` (g, p), ``inverses`` (g, p, p) of the normal matrices, and
+    ``squares`` (g,), the sums of squares of the whitened residuals, with ``freedom`` m - p.
+    ``typical`` [s] is the duration of an average in which the noise has variance one.
     """
 
     shares: np.ndarray
@@ -85,31 +91,31 @@ class Regression:
 
     @property
     def share(self) -> float:
-        """The likeliest."""
+        """The likeliest share."""
         return float(self.shares[np.argmax(self.weights)])
 
     @property
     def N(self) -> float:
-        """White noise, unit sqrt(s): the root of its two-sided density."""
+        """White noise [unit sqrt(s)]: the root of its two-sided density."""
         return float(
             np.sqrt(self.weights @ (self.squares * (1 - self.shares)) / self.freedom * self.typical)
         )
 
     @property
     def K(self) -> float:
-        """Random walk, unit/sqrt(s)."""
+        """Random walk [unit/sqrt(s)]."""
         return float(
             np.sqrt(self.weights @ (self.squares * self.shares) / self.freedom * 3 / self.typical)
         )
 
     @property
     def mean(self) -> np.ndarray:
-        """Coefficients (p,)."""
+        """Coefficients (p,), averaged over the shares."""
         return self.weights @ self.coefficients
 
     @property
     def covariance(self) -> np.ndarray:
-        """Of the mean, (p, p): within the shares and between them."""
+        """Covariance (p, p) of the mean, within the shares and between them."""
         apart = self.coefficients - self.mean
         within = np.einsum("g,gij->ij", self.weights * self.squares / self.freedom, self.inverses)
         return within + np.einsum("g,gi,gj->ij", self.weights, apart, apart)
@@ -121,13 +127,12 @@ class Regression:
         )
 
     def interval(self, j: int, level: float) -> tuple[float, float]:
-        """Limits between which coefficient ``j`` lies with probability ``level``, as often above as
-        below.
+        """Limits between which coefficient ``j`` lies with probability ``level``.
+
+        It lies above them as often as below.
         """
-        reach, side = (
-            t_law.isf((1 - level) / 2, self.freedom) * 1.001 * self._stds(j),
-            (1 - level) / 2,
-        )
+        side = (1 - level) / 2
+        reach = t_law.isf(side, self.freedom) * 1.001 * self._stds(j)
         ends = (
             float(np.min(self.coefficients[:, j] - reach)),
             float(np.max(self.coefficients[:, j] + reach)),
@@ -138,27 +143,40 @@ class Regression:
 
         return limit(1 - side), limit(side)
 
+    def estimates(self, scale: np.ndarray, level: float) -> list[Estimate]:
+        """The first coefficients, as many as ``scale`` (k,), multiplied by it."""
+        means, stds = self.mean, np.sqrt(np.diag(self.covariance))
+        return [
+            Estimate(
+                float(means[j] * s),
+                float(stds[j] * s),
+                *(float(s * end) for end in self.interval(j, level)),
+            )
+            for j, s in enumerate(scale)
+        ]
+
     def _stds(self, j: int) -> np.ndarray:
         return np.sqrt(self.squares / self.freedom * self.inverses[:, j, j])
 
 
 def regress(
-    blocks: Blocks, values: np.ndarray, regressors: np.ndarray, weights: np.ndarray | None = None
+    averages: Averages,
+    values: np.ndarray,
+    regressors: np.ndarray,
+    weights: np.ndarray | None = None,
 ) -> Regression:
-    """Generalised least squares of ``values`` (m,) on ``regressors`` (m, p), one of them ones.
+    """Generalised least squares of ``values`` (m,) on ``regressors`` (m, p).
 
-    ``weights`` are those of the shares that another regression on the same blocks found; None finds
-    them here.
+    One column of the regressors is a constant one. ``weights`` are those of the shares that another
+    regression on the same averages found; None finds them here.
     """
-    typical, (m, p) = float(np.median(blocks.duration)), regressors.shape
+    typical, (m, p) = float(np.median(averages.duration)), regressors.shape
     shares = expit(np.linspace(-2 * np.log(m) - 2, ALL_WALK, SHARES))
-    # Without the bulk of the bias, which would cost the products their digits.
+    # Without the bulk of the bias, with which the products would lose their digits.
     level = np.median(values)
-    columns, constant = (
-        np.column_stack([regressors, values - level]),
-        np.all(regressors == 1, axis=0),
-    )
-    duration, gap = blocks.duration, blocks.gap
+    columns = np.column_stack([regressors, values - level])
+    constant = np.all(regressors == 1, axis=0)
+    duration, gap = averages.duration, averages.gap
     grams, logs = np.empty((SHARES, p + 1, p + 1)), np.empty(SHARES)
     for g, share in enumerate(shares):
         logs[g] = _fill_gram(
@@ -167,7 +185,7 @@ def regress(
     freedom, normal, right = m - p, grams[:, :p, :p], grams[:, :p, p]
     inverses = np.linalg.inv(normal)
     fitted = np.einsum("gij,gj->gi", inverses, right)
-    # What an exact record leaves is rounding, and never nothing.
+    # The residual of an exact record is rounding, and must not be zero.
     squares = np.maximum(
         grams[:, p, p] - np.einsum("gi,gi->g", fitted, right), ROUNDING * grams[:, p, p]
     )

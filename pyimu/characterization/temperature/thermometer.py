@@ -1,9 +1,9 @@
-r"""The temperature that a noisy or coarse thermometer saw.
+r"""The temperature behind the readings of a noisy or coarse thermometer.
 
-A regressor's own noise makes its coefficient too small; what is expected of it given all readings
-does not, since that does not correlate with what it misses (Berkson, J. Am. Stat. Assoc. 45 (1950),
-164-180). The readings y of the blocks are taken as white noise over a temperature z that is a
-random walk, or one whose slope is; z minimises
+The noise of a regressor makes its coefficient too small. Its expected value given all readings does
+not, because the error of that is not correlated with it (Berkson, J. Am. Stat. Assoc. 45 (1950),
+164-180). The averaged readings y are taken as a temperature z in white noise; z, or its slope, is a
+random walk. z minimises
 
     sum w_i (y_i - z_i)^2 + lambda sum (D z)_i^2
 
@@ -16,26 +16,27 @@ from __future__ import annotations
 import numpy as np
 from scipy.linalg import cho_solve_banded, cholesky_banded
 
-from pyimu.characterization.temperature.averages import Blocks
+from pyimu.characterization.temperature.averages import Averages
 
 STIFFNESS = np.logspace(-4, 9, 40)
-"""Values of lambda, with the time in blocks: from readings that are exact to a straight line."""
+"""Values of lambda, with time in intervals: from exact readings to a straight line."""
 
 STANDS = 0.5
-"""A thermometer whose mean changes in fewer than that share of the blocks shows its own steps."""
+"""The steps of a thermometer are its own where its average changes from one interval to the next
+in less than this share of them."""
 
 COARSEST = 1.0
-"""K; the step of a coarse thermometer. A larger one is a change of the temperature itself."""
+"""Largest step [K] of a coarse thermometer; a larger one is a change of the temperature itself."""
 
 ONE_STEP = 1.5
 """A change of up to so many of the thermometer's steps is one of them; a larger one is a ramp or a
 jump between plateaus."""
 
 
-def smoothed(blocks: Blocks) -> np.ndarray:
-    """What is expected of the temperature (m,) at each block, given all of them."""
-    y, w = without_steps(blocks.temperature), blocks.count / np.median(blocks.count)
-    step = np.diff(blocks.time) / np.median(np.diff(blocks.time))
+def smoothed(averages: Averages) -> np.ndarray:
+    """Expected temperature (m,) in each interval, given all the averages."""
+    y, w = without_steps(averages.temperature), averages.count / np.median(averages.count)
+    step = np.diff(averages.time) / np.median(np.diff(averages.time))
     best = min(
         (_fit(y - y[0], w, step, order, stiffness) for order in (1, 2) for stiffness in STIFFNESS),
         key=lambda fit: fit[0],
@@ -44,16 +45,15 @@ def smoothed(blocks: Blocks) -> np.ndarray:
 
 
 def without_steps(temperature: np.ndarray) -> np.ndarray:
-    """Straight from each of its own steps to the next, where a coarse thermometer stands still for
-    long between them.
+    """The temperature (m,) interpolated between the thermometer's own steps.
 
-    Larger changes, as between the plateaus of a chamber, stay as they were read, and so do the
-    ends.
+    This is done where a coarse thermometer stands still for long between its steps. Larger changes,
+    as between the plateaus of a chamber, stay as they were read, and so do the ends.
     """
     change = np.flatnonzero(np.diff(temperature))
     if not 1 < len(change) < STANDS * len(temperature):
         return temperature
-    # A step in the middle of a block is a change from either side of it.
+    # A step in the middle of an interval is a change on either side of it.
     runs = np.split(change, np.flatnonzero(np.diff(change) > 1) + 1)
     first, last = np.array([r[0] for r in runs]), np.array([r[-1] + 1 for r in runs])
     size = np.abs(temperature[last] - temperature[first])
@@ -74,15 +74,13 @@ def without_steps(temperature: np.ndarray) -> np.ndarray:
 def _fit(
     y: np.ndarray, w: np.ndarray, step: np.ndarray, order: int, stiffness: float
 ) -> tuple[float, np.ndarray]:
-    """Twice the negative logarithm of the likelihood, the noise's variance being the likeliest, and
-    z (m,).
-    """
+    """Twice the negative log likelihood, and z (m,); the variance of the noise is the likeliest."""
     band = stiffness * _squared_differences(step, order)
     band[-1] += w
     try:
         cholesky = cholesky_banded(band)
     except np.linalg.LinAlgError:
-        # Stiffer than rounding can tell from a straight line, where gaps make steps very unequal.
+        # Where gaps make the steps very unequal, rounding cannot tell z from a straight line.
         return np.inf, y
     z = cho_solve_banded((cholesky, False), w * y)
     # At the minimum the sum of squares and penalties is what y does not share with z.
@@ -93,8 +91,9 @@ def _fit(
 
 
 def _squared_differences(step: np.ndarray, order: int) -> np.ndarray:
-    """D'D as the upper band (order + 1, m) that LAPACK takes; the rows of D have unit variance
-    where z is the walk that is meant.
+    """D'D as the upper band (order + 1, m) that LAPACK takes.
+
+    The rows of D have unit variance where z is the walk that is assumed.
     """
     if order == 1:
         rows = np.array([-1, 1])[:, None] / np.sqrt(step)

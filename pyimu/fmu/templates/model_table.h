@@ -8,10 +8,8 @@
 
 #define MODEL_NAME "{{ name }}"
 #define MODEL_TOKEN "{{ token }}"
-#define MODEL_STEP {{ step }}
-#define MODEL_INITIAL {{ initial }}
 {% if limits %}
-#define MODEL_LIMITS {{ limits.broken.name() }}
+#define MODEL_LIMITS
 {% endif %}
 #define MODEL_SEED UINT64_C({{ seed }})
 #define MODEL_SAMPLE_PERIOD {{ sample_period | c_number }}

@@ -6,11 +6,13 @@ import numpy as np
 
 from pyimu.identification.fit.columns import band_segments, band_time, in_band, reference_input
 from pyimu.identification.fit.fit import Fit, stepped
-from pyimu.identification.fit.keys import slot_key
+from pyimu.identification.fit.keys import coefficient_of
 from pyimu.identification.fit.normal import normal_equations, solve
-from pyimu.identification.fit.response import tail, tail_of
+from pyimu.identification.fit.response import after_dynamics, memoryless
 from pyimu.identification.fit.trial import rest_noise
 from pyimu.identification.fit.whiten import RandomWalk
+from pyimu.model.catalogue import WALK, WHITE
+from pyimu.model.sensor import Sensor
 
 
 def without_attenuation(fitted: Fit) -> Fit:
@@ -26,36 +28,35 @@ def without_attenuation(fitted: Fit) -> Fit:
         return fitted
     normal = normal_equations(fitted.linearise(), fitted.noise)
     pull = np.zeros(len(normal.keys))
-    rest = tail(fitted.sensor)
-    response = tail_of(rest.kind, tuple(rest.values))
+    rest = after_dynamics(fitted.sensor)
+    response = memoryless(rest.chain)
     shares = _reference_shares(fitted)
     for t in fitted.trials:
-        bend = response.mean_bend(reference_input(t, fitted.states[t.name]), rest.p, t.h)
+        slope = response.mean_slope(reference_input(t, fitted.states[t.name]), rest.p, t.h)
         rows = len(band_time(t))
         for e, (axis, slot) in enumerate(zip(response.axis, response.slot, strict=True)):
-            key = slot_key(rest.slots[slot])
+            key = coefficient_of(rest.slots[slot])
             if key in normal.position and int(axis) in t.axes:
-                pull[normal.position[key]] += rows * bend[e] * shares[int(axis)]
+                pull[normal.position[key]] += rows * slope[e] * shares[int(axis)]
     return stepped(fitted, normal.keys, solve(normal.gram, pull)).with_noise()
 
 
 def own_noise(fitted: Fit) -> dict[int, RandomWalk]:
-    """The sensor's own noise at the sample rate: as declared, else its white part as its quiet
-    stretches show it.
+    """The sensor's own noise at the sample rate: as declared, else its white part as its quiet rows
+    show it.
     """
-    values, h = fitted.sensor.values, fitted.trials[0].h
-    declared = {
-        n: values[e][n]
-        for e, n in (("angle_random_walk", "N"), ("rate_random_walk", "K"))
-        if e in values and np.any(values[e][n])
-    }
-    white = (
-        declared["N"] / np.sqrt(h)
-        if "N" in declared
-        else np.mean([rest_noise(t) for t in fitted.trials], axis=0)
-    )
-    walk = declared.get("K", np.zeros(3))
-    return {i: RandomWalk(float(white[i] ** 2), float(walk[i] ** 2)) for i in fitted.noise}
+    h = fitted.trials[0].h
+    white, walk = (_declared(fitted.sensor, *name) for name in (WHITE, WALK))
+    if white.any():
+        std = white / np.sqrt(h)
+    else:
+        std = np.mean([rest_noise(t) for t in fitted.trials], axis=0)
+    return {i: RandomWalk(float(std[i] ** 2), float(walk[i] ** 2)) for i in fitted.noise}
+
+
+def _declared(sensor: Sensor, effect: str, parameter: str) -> np.ndarray:
+    """A coefficient (3,) of the model, zero where it lacks the effect."""
+    return sensor.values[effect][parameter] if effect in sensor.values else np.zeros(3)
 
 
 def floor_noise(fit: Fit) -> dict[int, RandomWalk]:

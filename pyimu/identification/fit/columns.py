@@ -8,19 +8,20 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pyimu.identification.fit.keys import Key, slot_key
+from pyimu.identification.fit.keys import Key, LogBias, LogTurn, coefficient_of
 from pyimu.identification.fit.response import (
+    after_dynamics,
+    before_dynamics,
+    behind_dynamics,
     dynamics,
-    felt,
-    motion,
+    memoryless,
     predict,
     remembers,
-    tail,
-    tail_of,
     through_dynamics,
 )
 from pyimu.identification.fit.trial import Trial
-from pyimu.model.effect import OWN, Parameter
+from pyimu.model.arguments import Parameter
+from pyimu.model.kinds import OWN
 from pyimu.model.sensor import Sensor
 
 
@@ -33,10 +34,10 @@ class LogState:
     bias: np.ndarray = field(default_factory=lambda: np.zeros(3))
     rotation: np.ndarray = field(default_factory=lambda: np.eye(3))
 
-    def moved(self, key: Key, change: float) -> LogState:
-        """The state with the coefficient of a "bias" or "rotation" column changed."""
-        unit = np.eye(3)[key[2]]
-        if key[0] == "bias":
+    def moved(self, key: LogBias | LogTurn, change: float) -> LogState:
+        """The state with the coefficient of one of its columns changed."""
+        unit = np.eye(3)[key.axis]
+        if isinstance(key, LogBias):
             return replace(self, bias=self.bias + change * unit)
         return replace(
             self, rotation=Rotation.from_rotvec(change * unit).as_matrix() @ self.rotation
@@ -121,17 +122,17 @@ def linearise(
     wanted = frozenset(wanted)
     u = reference_input(trial, state)
     own = OWN[trial.kind]
-    moved = felt(sensor, u, trial.segments, trial.h)
-    rest = tail(sensor)
-    response = tail_of(rest.kind, tuple(rest.values))
+    moved = behind_dynamics(sensor, u, trial.segments, trial.h)
+    rest = after_dynamics(sensor)
+    response = memoryless(rest.chain)
     y, slope, entries = response(moved, rest.p, trial.h)
     if remembers(sensor):
         y = predict(sensor, u, trial.segments, trial.h)
     out = Columns(trial)
     for e, (axis, slot) in enumerate(zip(response.axis, response.slot, strict=True)):
         s = rest.slots[slot]
-        if slot_key(s) in wanted:
-            out.add(slot_key(s), int(axis), entries[:, e])
+        if coefficient_of(s) in wanted:
+            out.add(coefficient_of(s), int(axis), entries[:, e])
     _log_columns(out, trial, moved[:, own], slope)
     _motion_columns(out, sensor, trial, u, slope, wanted)
     _dynamics_columns(out, sensor, trial, u, wanted)
@@ -150,12 +151,12 @@ def linearise(
 def _log_columns(out: Columns, trial: Trial, x: np.ndarray, slope: np.ndarray) -> None:
     """Bias of each axis; where the mounting is free, a small turn about each axis."""
     for i in range(3):
-        out.add(("bias", trial.name, i), i, np.ones(len(x)))
+        out.add(LogBias(trial.name, i), i, np.ones(len(x)))
     if trial.free_rotation:
         for k in range(3):
             turned = np.einsum("nij,nj->ni", slope, np.cross(np.eye(3)[k], x))
             for i in range(3):
-                out.add(("rotation", trial.name, k), i, turned[:, i])
+                out.add(LogTurn(trial.name, k), i, turned[:, i])
 
 
 def _motion_columns(
@@ -169,14 +170,14 @@ def _motion_columns(
     """Slopes against the coefficients of what comes before the dynamics: through these, and through
     what follows.
     """
-    chain = motion(sensor)
-    if not any(slot_key(s) in wanted for s in chain.slots):
+    chain = before_dynamics(sensor)
+    if not any(coefficient_of(s) in wanted for s in chain.slots):
         return
-    before = tail_of(chain.kind, tuple(chain.values))
+    before = memoryless(chain.chain)
     entries = before(u, chain.p, trial.h)[2]
     for number, s in enumerate(chain.slots):
         of_slot = np.flatnonzero(before.slot == number)
-        if slot_key(s) not in wanted or not len(of_slot):
+        if coefficient_of(s) not in wanted or not len(of_slot):
             continue
         change = np.zeros((len(u), 3))
         change[:, before.axis[of_slot]] = entries[:, of_slot]
@@ -184,7 +185,7 @@ def _motion_columns(
             "nij,nj->ni", slope, through_dynamics(sensor, change, trial.segments, trial.h)
         )
         for i in range(3):
-            out.add(slot_key(s), i, change[:, i])
+            out.add(coefficient_of(s), i, change[:, i])
 
 
 def _dynamics_columns(
@@ -195,13 +196,13 @@ def _dynamics_columns(
     """
     chain = dynamics(sensor)
     for s, value in zip(chain.slots, chain.p, strict=True):
-        if slot_key(s) not in wanted or sensor.is_off(s.effect):
+        if coefficient_of(s) not in wanted or sensor.is_off(s.effect):
             continue
         step = 1e-3 * max(abs(value), 1e-3 * trial.h)
         ends = _clipped(s.definition, value + step), _clipped(s.definition, value - step)
         high, low = (predict(_moved(sensor, s, v), u, trial.segments, trial.h) for v in ends)
         for i in range(3):
-            out.add(slot_key(s), i, (high[:, i] - low[:, i]) / (ends[0] - ends[1]))
+            out.add(coefficient_of(s), i, (high[:, i] - low[:, i]) / (ends[0] - ends[1]))
 
 
 def _moved(sensor: Sensor, slot, value: float) -> Sensor:

@@ -18,12 +18,12 @@ from pyimu.identification.fit.columns import (
     linearise,
     residual,
 )
-from pyimu.identification.fit.keys import Key, slot_keys
+from pyimu.identification.fit.keys import Coefficient, Key, LogBias, LogTurn, coefficients_of
 from pyimu.identification.fit.normal import Noise, normal_equations, solve
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
-from pyimu.model.catalogue import CATALOGUE
-from pyimu.model.effect import OWN, Parameter
+from pyimu.model.arguments import Parameter
+from pyimu.model.kinds import OWN
 from pyimu.model.sensor import Sensor
 
 
@@ -51,7 +51,7 @@ class Fit:
         sensor, wanted = self.sensor, self.free
         for name in candidates:
             sensor = sensor if name in sensor.values else sensor.with_values(name)
-            wanted |= slot_keys(sensor, name)
+            wanted |= coefficients_of(sensor, name)
         return [linearise(sensor, t, self.states[t.name], wanted, extra) for t in self.trials]
 
     def residuals(self) -> list[Linear]:
@@ -149,13 +149,12 @@ def stepped(start: Fit, keys: list[Key], change: np.ndarray) -> Fit:
     values = {e: {n: np.array(v) for n, v in p.items()} for e, p in start.sensor.values.items()}
     states = dict(start.states)
     for key, d in zip(keys, change, strict=True):
-        if key[0] == "slot":
-            _, effect, parameter, index = key
-            values[effect][parameter][index] = _bounded(
-                CATALOGUE[effect].parameters[parameter], values[effect][parameter][index], d
-            )
-        elif key[0] in ("bias", "rotation"):
-            states[key[1]] = states[key[1]].moved(key, d)
+        if isinstance(key, Coefficient):
+            array = values[key.effect][key.parameter]
+            definition = start.sensor.effect(key.effect).parameters[key.parameter]
+            array[key.index] = _bounded(definition, array[key.index], d)
+        elif isinstance(key, (LogBias, LogTurn)):
+            states[key.log] = states[key.log].moved(key, d)
     return replace(start, sensor=_possible(Sensor(start.sensor.kind, values), start), states=states)
 
 

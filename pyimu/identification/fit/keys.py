@@ -1,19 +1,67 @@
-"""Names of the columns of a regression."""
+"""What the columns of a regression stand for."""
 
 from __future__ import annotations
 
-from pyimu.model.sensor import Sensor, Slot
+from dataclasses import dataclass
 
-Key = tuple
-"""Name of a column: ("slot", effect, parameter, index), ("bias", trial, axis), ("rotation", trial,
-axis) or ("scan", ...)."""
-
-
-def slot_key(slot: Slot) -> Key:
-    return ("slot", slot.effect, slot.parameter, slot.index)
+from pyimu.model.chain import Slot
+from pyimu.model.sensor import Sensor
 
 
-def slot_keys(sensor: Sensor, effect: str) -> frozenset[Key]:
-    """Keys of all coefficients of an effect that can be estimated."""
+@dataclass(frozen=True, order=True)
+class Coefficient:
+    """A coefficient of the sensor's model."""
+
+    effect: str
+    parameter: str
+    index: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class LogBias:
+    """The bias of one axis at a log's power-on."""
+
+    log: str
+    axis: int
+
+
+@dataclass(frozen=True)
+class LogTurn:
+    """A small turn of a log's reference against the sensor, about one axis."""
+
+    log: str
+    axis: int
+
+
+@dataclass(frozen=True)
+class Scanned:
+    """The change that an effect would make with one of the values that are tried of a coefficient,
+    ``number`` of them smaller.
+    """
+
+    effect: str
+    parameter: str
+    index: tuple[int, ...]
+    number: int
+    value: float
+
+
+@dataclass(frozen=True)
+class Product:
+    """A product of inputs, by their places, as it would add to one axis."""
+
+    inputs: tuple[int, ...]
+    axis: int
+
+
+Key = Coefficient | LogBias | LogTurn | Scanned | Product
+
+
+def coefficient_of(slot: Slot) -> Coefficient:
+    return Coefficient(slot.effect, slot.parameter, slot.index)
+
+
+def coefficients_of(sensor: Sensor, effect: str) -> frozenset[Coefficient]:
+    """All coefficients of an effect that can be estimated, whether the sensor has it or not."""
     one = Sensor(sensor.kind, {effect: {}})
-    return frozenset(slot_key(s) for s in one.slots if not s.definition.reference)
+    return frozenset(coefficient_of(s) for s in one.slots if not s.definition.reference)

@@ -16,7 +16,9 @@ from scipy.signal import oaconvolve
 
 from pyimu.block.stepping import step_through
 from pyimu.block.vectorised import over_rows
-from pyimu.model.effect import OWN
+from pyimu.model.chain import Chain, chain_of
+from pyimu.model.effect import Effect
+from pyimu.model.kinds import OWN
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import N_INPUT
 
@@ -25,49 +27,40 @@ LONGEST_RESPONSE = 1 << 14
 
 def remembers(sensor: Sensor) -> bool:
     """Whether some effect's memory is more than a filter's (rounding left out)."""
-    return any(e.remembers and not is_step(e.name, sensor.kind) for e in sensor.effects)
+    return any(e.remembers and not is_step(e, sensor.kind) for e in sensor.effects)
 
 
-def motion(sensor: Sensor) -> Sensor:
+def before_dynamics(sensor: Sensor) -> Sensor:
     """The part of the chain that lies before the dynamics."""
-    return Sensor(
-        sensor.kind, {e.name: sensor.values[e.name] for e in sensor.effects if e.stage == "motion"}
-    )
+    return sensor.without(*(e.name for e in sensor.effects if e.stage != "motion"))
 
 
 def dynamics(sensor: Sensor) -> Sensor:
     """The part of the chain that filters."""
-    return Sensor(
-        sensor.kind,
-        {e.name: sensor.values[e.name] for e in sensor.effects if e.stage == "dynamics"},
-    )
+    return sensor.without(*(e.name for e in sensor.effects if e.stage != "dynamics"))
 
 
-def tail(sensor: Sensor) -> Sensor:
+def after_dynamics(sensor: Sensor) -> Sensor:
     """What follows the dynamics, less the effects whose output has no slope (rounding acts as noise
     here).
     """
-    return Sensor(
-        sensor.kind,
-        {
-            e.name: sensor.values[e.name]
-            for e in sensor.effects
-            if e.stage not in ("motion", "dynamics") and not is_step(e.name, sensor.kind)
-        },
+    left_out = (
+        e.name
+        for e in sensor.effects
+        if e.stage in ("motion", "dynamics") or is_step(e, sensor.kind)
     )
+    return sensor.without(*left_out)
 
 
 @cache
-def is_step(name: str, kind: str) -> bool:
-    """True for an effect whose slope is zero almost everywhere: a staircase."""
-    one = Sensor(kind, {name: {}})
-    x = one.chain.x
-    y = one.step(one.chain.start, one.chain.u, one.chain.p, np.zeros(len(one.noise)), 1.0)[1]
-    slope = ca.Function("slope", [one.chain.u, one.chain.p], [ca.jacobian(y, x)])
+def is_step(e: Effect, kind: str) -> bool:
+    """Whether the slope of an effect's output is zero almost everywhere: a staircase."""
+    chain = chain_of(kind, (e,))
+    y = chain.step(chain.start, chain.u, chain.p, np.zeros(len(chain.noise)), 1.0)[1]
+    slope = ca.Function("slope", [chain.u, chain.p], [ca.jacobian(y, chain.x)])
     # Inside and outside of a threshold or limit of one.
-    return all(
-        float(ca.norm_fro(slope(np.full(N_INPUT, v), one.p + 1.0))) == 0.0 for v in (0.3, 30.3)
-    )
+    inside = np.array([s.definition.start for s in chain.slots]) + 1.0
+    return all(float(ca.norm_fro(slope(np.full(N_INPUT, v), inside))) == 0.0 for v in (0.3, 30.3))
 
 
 def impulse_response(sensor: Sensor, h: float) -> np.ndarray:
@@ -112,37 +105,37 @@ def through_dynamics(
     return out
 
 
-def felt(sensor: Sensor, u: np.ndarray, segments: list[tuple[int, int]], h: float) -> np.ndarray:
+def behind_dynamics(
+    sensor: Sensor, u: np.ndarray, segments: list[tuple[int, int]], h: float
+) -> np.ndarray:
     """Inputs (n, N_INPUT) with the sensor's own signal as it comes out of the dynamics."""
-    own, before = OWN[sensor.kind], motion(sensor)
+    own, before = OWN[sensor.kind], before_dynamics(sensor)
     out = np.array(u)
     if before.effects:
-        out[:, own] = tail_of(before.kind, tuple(before.values)).output(u, before.p, h)
+        out[:, own] = memoryless(before.chain).output(u, before.p, h)
     out[:, own] = through_dynamics(sensor, out[:, own], segments, h)
     return out
 
 
-class Tail:
+class Memoryless:
     """A memoryless part of a chain with its Jacobians, for one structure (which effects, not which
     values).
     """
 
-    def __init__(self, sensor: Sensor) -> None:
-        self.sensor = sensor
-        chain = self.sensor.chain
-        y = chain.step(chain.start, chain.u, chain.p, np.zeros(len(self.sensor.noise)), chain.h)[1]
+    def __init__(self, chain: Chain) -> None:
+        y = chain.step(chain.start, chain.u, chain.p, np.zeros(len(chain.noise)), chain.h)[1]
         fixed = ca.vertcat(chain.p, chain.h)
         jp = ca.jacobian(y, chain.p)
         self.axis, self.slot = (np.array(i, dtype=int) for i in jp.sparsity().get_triplet())
         outputs = ca.vertcat(y, ca.vec(ca.densify(ca.jacobian(y, chain.x)).T), *jp.nonzeros())
-        self._all = ca.Function("tail", [chain.u, fixed], [ca.densify(outputs)])
+        self._all = ca.Function("memoryless", [chain.u, fixed], [ca.densify(outputs)])
         self._output = ca.Function("output", [chain.u, fixed], [ca.densify(y)])
-        bends = [
+        slopes = [
             ca.jacobian(entry, chain.x[int(i)])
             for entry, i in zip(jp.nonzeros(), self.axis, strict=True)
         ]
-        self._bend = ca.Function(
-            "bend", [chain.u, fixed], [ca.densify(ca.vertcat(ca.SX(0, 1), *bends))]
+        self._slopes = ca.Function(
+            "slopes", [chain.u, fixed], [ca.densify(ca.vertcat(ca.SX(0, 1), *slopes))]
         )
 
     def __call__(
@@ -161,30 +154,30 @@ class Tail:
         """Output (n, 3) alone."""
         return over_rows(self._output, u, np.append(p, h))
 
-    def mean_bend(self, u: np.ndarray, p: np.ndarray, h: float) -> np.ndarray:
+    def mean_slope(self, u: np.ndarray, p: np.ndarray, h: float) -> np.ndarray:
         """Mean over the rows (n, N_INPUT) of d(entry)/dx of its own axis, (entries,): how a
         regressor follows an error of the input.
         """
-        return over_rows(self._bend, u, np.append(p, h)).mean(axis=0)
+        return over_rows(self._slopes, u, np.append(p, h)).mean(axis=0)
 
 
 @lru_cache(maxsize=32)
-def tail_of(kind: str, effects: tuple[str, ...]) -> Tail:
-    """The ``Tail`` of a structure, built once."""
-    return Tail(Sensor(kind, {name: {} for name in effects}))
+def memoryless(chain: Chain) -> Memoryless:
+    """The ``Memoryless`` of a chain, built once."""
+    return Memoryless(chain)
 
 
 def predict(sensor: Sensor, u: np.ndarray, segments: list[tuple[int, int]], h: float) -> np.ndarray:
     """Noise-free answer (n, 3) of a sensor to a log (rounding left out)."""
     if remembers(sensor):
         return _stepped(
-            sensor.without(*[e.name for e in sensor.effects if is_step(e.name, sensor.kind)]),
+            sensor.without(*[e.name for e in sensor.effects if is_step(e, sensor.kind)]),
             u,
             segments,
             h,
         )
-    rest = tail(sensor)
-    return tail_of(rest.kind, tuple(rest.values)).output(felt(sensor, u, segments, h), rest.p, h)
+    rest = after_dynamics(sensor)
+    return memoryless(rest.chain).output(behind_dynamics(sensor, u, segments, h), rest.p, h)
 
 
 def _stepped(

@@ -14,6 +14,7 @@ import numpy as np
 from pyimu.identification.fit.attenuation import simulated
 from pyimu.identification.fit.columns import LogState, band_segments, in_band, linearise, residual
 from pyimu.identification.fit.fit import Fit, bare
+from pyimu.identification.fit.keys import LogTurn
 from pyimu.identification.fit.normal import normal_equations, solve
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk
@@ -28,7 +29,7 @@ FLOOR_DRAWS = 8
 
 
 @dataclass(frozen=True)
-class Tally:
+class ErrorSums:
     """Sums over held-out rows, by axis: squares of the residual, of its integral over windows, and
     log-likelihood.
     """
@@ -39,8 +40,8 @@ class Tally:
     windows: np.ndarray = field(default_factory=lambda: np.zeros(3))
     log_likelihood: float = 0.0
 
-    def __add__(self, other: Tally) -> Tally:
-        return Tally(*(getattr(self, n) + getattr(other, n) for n in self.__dataclass_fields__))
+    def __add__(self, other: ErrorSums) -> ErrorSums:
+        return ErrorSums(*(getattr(self, n) + getattr(other, n) for n in self.__dataclass_fields__))
 
     @property
     def per_axis(self) -> np.ndarray:
@@ -88,17 +89,19 @@ def _head_state(fit: Fit, head: Trial) -> LogState:
         normal = normal_equations([linearise(fit.sensor, head, state, ())], white)
         if not normal.keys:
             return state
-        prior = np.diag([ROTATION_PRIOR**-2 if k[0] == "rotation" else 0.0 for k in normal.keys])
+        prior = np.diag(
+            [ROTATION_PRIOR**-2 if isinstance(k, LogTurn) else 0.0 for k in normal.keys]
+        )
         for key, change in zip(normal.keys, solve(normal.gram + prior, normal.score), strict=True):
             state = state.moved(key, change)
     return state
 
 
-def tally(fit: Fit, trial: Trial) -> Tally:
+def tally(fit: Fit, trial: Trial) -> ErrorSums:
     """Score of a fitted model on one held-out trial."""
     state, rest = held_state(fit, trial)
     r = in_band(rest, residual(fit.sensor, rest, state))
-    return _sums(rest, r) + Tally(log_likelihood=log_likelihood(fit, rest, r))
+    return _sums(rest, r) + ErrorSums(log_likelihood=log_likelihood(fit, rest, r))
 
 
 def log_likelihood(fit: Fit, trial: Trial, r: np.ndarray) -> float:
@@ -107,7 +110,7 @@ def log_likelihood(fit: Fit, trial: Trial, r: np.ndarray) -> float:
     return normal.log_likelihood - 0.5 * normal.rows * np.log(2 * np.pi)
 
 
-def _sums(trial: Trial, r: np.ndarray) -> Tally:
+def _sums(trial: Trial, r: np.ndarray) -> ErrorSums:
     squares, rows = np.zeros(3), np.zeros(3)
     angle, windows = np.zeros(3), np.zeros(3)
     step = float(np.median(np.diff(trial.time))) * trial.band.stride
@@ -119,17 +122,17 @@ def _sums(trial: Trial, r: np.ndarray) -> Tally:
             sums = r[a : a + whole, i].reshape(-1, length).sum(axis=1) * step
             angle[i] += np.sum(sums**2)
             windows[i] += len(sums)
-    return Tally(squares, rows, angle, windows)
+    return ErrorSums(squares, rows, angle, windows)
 
 
-def floor(noise: dict[int, RandomWalk], fit: Fit, trial: Trial, seed: int = 1) -> Tally:
+def floor(noise: dict[int, RandomWalk], fit: Fit, trial: Trial, seed: int = 1) -> ErrorSums:
     """What the noise model alone leaves of the same number, by simulation through the same band and
     bias estimate.
     """
     rng = np.random.default_rng(seed)
     parent = next((t for t in fit.trials if t.name == trial.parent), None)
     head, rest = (parent, trial) if parent is not None else trial.head()
-    total = Tally()
+    total = ErrorSums()
     for _ in range(FLOOR_DRAWS):
         draw = simulated(noise, np.concatenate([head.time, rest.time]), rng)
         first, last = draw[: len(head.time)], draw[len(head.time) :]

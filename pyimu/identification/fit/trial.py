@@ -13,8 +13,8 @@ from scipy.ndimage import uniform_filter1d
 from pyimu.block.stepping import step_through
 from pyimu.errors import Finding
 from pyimu.identification.fit.band import Band
-from pyimu.model.effect import OWN
-from pyimu.model.signals import COLUMNS, SIGNALS, START
+from pyimu.model.kinds import OWN
+from pyimu.model.signals import COLUMNS, SIGNALS, START, SURROUNDINGS
 from pyimu.recording.quality.spikes import spikes
 from pyimu.recording.recording import Recording, filled
 from pyimu.recording.reference.rate import reference_rate
@@ -192,8 +192,8 @@ def _environment(recording: Recording) -> tuple[np.ndarray, frozenset[str]]:
         u[:, OWN["accel"]] = np.nan_to_num(filled(recording.time, force))
         u[:, COLUMNS["vibration"]] = _vibration(u[:, OWN["accel"]], recording)
         known |= {"specific_force", "vibration"}
-    for name in ("temperature", "supply", "mag"):
-        values = getattr(recording, name)
+    for name in SURROUNDINGS:
+        values = getattr(recording, SIGNALS[name].group)
         if values is not None and np.isfinite(values).any():
             u[:, COLUMNS[name]] = np.nan_to_num(
                 filled(recording.time, values.reshape(len(values), -1))

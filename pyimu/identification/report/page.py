@@ -11,8 +11,10 @@ import numpy as np
 from markupsafe import Markup
 from scipy.spatial.transform import Rotation
 
+from pyimu.identification.exhibits import MOST_AXES, Cloud, Comb, Exhibits, Spectrum
 from pyimu.identification.fit.score import WINDOW
-from pyimu.identification.outcome import Added, Changed, Errors, Outcome, Visibility
+from pyimu.identification.found import Added, Changed, Errors, Visibility
+from pyimu.identification.outcome import Outcome
 from pyimu.identification.report import pictures
 from pyimu.identification.report.words import (
     FEW,
@@ -20,13 +22,12 @@ from pyimu.identification.report.words import (
     SENSORS,
     dependence,
     headline,
-    plain_equation,
     si_of,
 )
-from pyimu.identification.search.forward import Investigation
 from pyimu.model.catalogue import CATALOGUE
+from pyimu.model.part import AXES
 from pyimu.report.numbers import MISSING, in_unit, number, pretty, si_quantity, unit_for, with_error
-from pyimu.report.page import Picture, Table, both, prose, quality_table, templates
+from pyimu.report.page import Picture, Table, both, equation, prose, quality_table, templates
 
 MODEL = "model.toml"
 
@@ -41,30 +42,29 @@ def page(closed: Outcome, fmus: tuple[str, ...] = ()) -> str:
 
 
 def _contents(closed: Outcome, fmus: tuple[str, ...]) -> dict[str, Any]:
-    found = {kind: pictures.traces(inv) for kind, inv in closed.investigations.items()}
     return {
         "verdict": closed.verdict,
         "headline": headline(closed),
         "about": _about(closed),
-        "over_time": [_over_time(closed, kind, found[kind]) for kind in found],
+        "over_time": [_over_time(closed, kind, e) for kind, e in closed.exhibits.items()],
         "errors": _errors(closed),
         "error_notes": _error_notes(closed),
         "by_log": _by_log(closed),
         "log_states": _log_states(closed),
-        "added": [_added(closed, a, found[a.sensor]) for a in closed.added],
+        "added": [_added(closed, a) for a in closed.added],
         "refused": _refused(closed),
         "changed": _changed(closed),
         "remains": _remains(closed),
         "screenings": [
-            _screening(closed, k, inv)
-            for k, inv in closed.investigations.items()
-            if inv.first.candidates and 0 < inv.first.gate < np.inf
+            _screening(closed, kind, e)
+            for kind, e in closed.exhibits.items()
+            if e.first.candidates and 0 < e.first.gate < np.inf
         ],
         "observability": _observability(closed.observability),
         "spectra": [
-            p
-            for k, inv in closed.investigations.items()
-            if (p := _spectrum(closed, k, inv, found[k]))
+            _spectrum(closed, kind, e.spectrum)
+            for kind, e in closed.exhibits.items()
+            if e.spectrum is not None
         ],
         "quality": quality_table(closed.quality),
         "files": _files(fmus),
@@ -79,19 +79,19 @@ def _about(closed: Outcome) -> str:
 # Pictures with their captions
 
 
-def _over_time(closed: Outcome, kind: str, found: list[pictures.Trace]) -> Picture:
+def _over_time(closed: Outcome, kind: str, e: Exhibits) -> Picture:
     errors, si = closed.errors.get(kind), closed.after.sensor(kind).output.unit
     floor = errors.floor.per_axis if errors and errors.floor else None
-    names = [t.trial.name for t in found]
+    names = [t.name for t in e.traces]
     logs = f" Dotted lines part the logs: {', '.join(names)}." if len(names) > 1 else ""
-    rows = "held-out rows" if closed.investigations[kind].held else "fitted rows"
+    rows = "held-out rows" if e.held_out else "fitted rows"
     caption = (
         f"{SENSORS[kind].capitalize()} residual, measured less model, on the {rows}"
         f"{_band(closed, kind)}; smallest and largest sample in each column of the picture. "
         f"Each axis has its own scale.{logs}"
     )
     return Picture(
-        Markup(pictures.over_time(found, floor, si)),
+        Markup(pictures.over_time(e.traces, floor, si)),
         caption,
         f"{SENSORS[kind]} residual over time before and after",
     )
@@ -102,38 +102,30 @@ def _band(closed: Outcome, kind: str) -> str:
     return "" if band is None else f", below {number(band)} Hz"
 
 
-def _screening(closed: Outcome, kind: str, inv: Investigation) -> Picture:
+def _screening(closed: Outcome, kind: str, e: Exhibits) -> Picture:
     added = [a.effect for a in closed.added if a.sensor == kind]
     caption = (
         f"{SENSORS[kind].capitalize()}: how much each absent effect would explain. "
         "Bars: the first look, before anything was added. "
-        f"Gate {number(inv.first.gate)} nat: chance alone passes it once in a hundred."
+        f"Gate {number(e.first.gate)} nat: chance alone passes it once in a hundred."
     )
-    if inv.last is not inv.first:
+    if e.last is not e.first:
         caption += (
             " Diamonds: what remains to be explained after the last addition "
-            f"(gate {number(inv.last.gate)} nat)."
+            f"(gate {number(e.last.gate)} nat)."
         )
-    svg = Markup(pictures.screening(inv.first, inv.last, added))
+    svg = Markup(pictures.screening(e.first, e.last, added))
     return Picture(svg, caption, f"gain of each candidate effect of the {SENSORS[kind]}")
 
 
-def _spectrum(
-    closed: Outcome, kind: str, inv: Investigation, found: list[pictures.Trace]
-) -> Picture | None:
-    svg = pictures.spectrum(inv, found)
+def _spectrum(closed: Outcome, kind: str, s: Spectrum) -> Picture:
     caption = (
         f"{SENSORS[kind].capitalize()} residual: root of the one-sided power spectral density, "
         f"mean of the axes (Welch, Hann window){_band(closed, kind)}. "
         "Dashed: what the noise model alone would leave."
     )
-    return (
-        None
-        if svg is None
-        else Picture(
-            Markup(svg), caption, f"spectrum of the {SENSORS[kind]} residual before and after"
-        )
-    )
+    svg = Markup(pictures.spectrum(s, closed.after.sensor(kind).output.unit))
+    return Picture(svg, caption, f"spectrum of the {SENSORS[kind]} residual before and after")
 
 
 # Error
@@ -250,7 +242,7 @@ def _turn(rotation: list | None) -> Any:
 # Effects
 
 
-def _added(closed: Outcome, a: Added, found: list[pictures.Trace]) -> dict[str, Any]:
+def _added(closed: Outcome, a: Added) -> dict[str, Any]:
     e = CATALOGUE[a.effect]
     others = f" The data allow as well: {', '.join(a.alternatives)}." if a.alternatives else ""
     evidence = f"Gain {number(a.gain, 4)} nat, gate {number(a.gate)} nat.{others}"
@@ -258,28 +250,33 @@ def _added(closed: Outcome, a: Added, found: list[pictures.Trace]) -> dict[str, 
         "name": a.effect,
         "term": e.term,
         "sensor": SENSORS[a.sensor],
-        "equation": plain_equation(e.equation),
+        "equation": equation(e.equation),
         "source": e.source,
         "parameters": _parameters(a),
         "evidence": evidence,
         "note": a.note,
-        "pictures": _effect_pictures(closed, a, found),
+        "pictures": _effect_pictures(closed, a),
     }
 
 
-def _effect_pictures(closed: Outcome, a: Added, found: list[pictures.Trace]) -> list[Picture]:
-    most = 3 if len(closed.added) <= FEW else 1
-    made = pictures.against_input(a, closed.investigations[a.sensor], found, most)
-    what = (
-        "where the raw samples lie between two steps"
-        if a.effect == "quantization"
-        else "residual without and with the effect against what drives it, fitted and held-out "
-        "rows; medians and quartiles"
-    )
-    return [
-        Picture(Markup(svg), f"Axis {axis}: {what}.", f"{a.effect} on {axis}", small=True)
-        for axis, svg in made
-    ]
+def _effect_pictures(closed: Outcome, a: Added) -> list[Picture]:
+    most = MOST_AXES if len(closed.added) <= FEW else 1
+    strongest = closed.exhibits[a.sensor].of_effect.get(a.effect, ())[:most]
+    si = closed.after.sensor(a.sensor).output.unit
+    return [_effect_picture(a.effect, e, si) for e in sorted(strongest, key=lambda e: e.axis)]
+
+
+def _effect_picture(effect: str, e: Cloud | Comb, si: str) -> Picture:
+    if isinstance(e, Comb):
+        svg, what = pictures.comb(e), "where the raw samples lie between two steps"
+    else:
+        svg = pictures.cloud(e, effect, si)
+        what = (
+            "residual without and with the effect against what drives it, fitted and held-out "
+            "rows; medians and quartiles"
+        )
+    axis = AXES[e.axis]
+    return Picture(Markup(svg), f"Axis {axis}: {what}.", f"{effect} on {axis}", small=True)
 
 
 def _parameters(a: Added) -> Table:

@@ -5,35 +5,16 @@ page serves day and night.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
 
 import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from scipy.signal import welch
 
-from pyimu.identification.fit.attenuation import floor_noise
-from pyimu.identification.fit.columns import (
-    LogState,
-    band_segments,
-    band_time,
-    in_band,
-    reference_input,
-    residual,
-)
-from pyimu.identification.fit.fit import Fit
-from pyimu.identification.fit.score import held_state
-from pyimu.identification.fit.trial import Trial
-from pyimu.identification.fit.whiten import RandomWalk
-from pyimu.identification.outcome import Added
-from pyimu.identification.search.forward import Investigation
+from pyimu.identification.exhibits import Cloud, Comb, Driver, Spectrum, Trace
 from pyimu.identification.search.screen import Screening
-from pyimu.model.catalogue import CATALOGUE
-from pyimu.model.effect import KINDS
 from pyimu.model.part import AXES
-from pyimu.model.sensor import Sensor
-from pyimu.model.signals import COLUMNS, SIGNALS
+from pyimu.model.signals import SIGNALS
 from pyimu.report.figures import (
     AFTER,
     BEFORE,
@@ -49,7 +30,7 @@ from pyimu.report.figures import (
 )
 from pyimu.report.numbers import in_unit, number, pretty, unit_for
 
-CLOUD = 3000
+POINTS = 3000
 """Points of a cloud, evenly picked."""
 
 LEVELS = 22
@@ -57,60 +38,13 @@ LEVELS = 22
 
 LEAST_IN_BIN = 5
 
-
-@dataclass(frozen=True)
-class Trace:
-    """One log's residual (m, 3) under two models, in its band, and the inputs (m, 7) in the
-    sensor's axes.
-    """
-
-    trial: Trial
-    state: LogState
-    time: np.ndarray
-    segments: list[tuple[int, int]]
-    before: np.ndarray
-    after: np.ndarray
-
-
-def traces(inv: Investigation) -> list[Trace]:
-    """Residuals of the held-out logs before and after; of the fitted ones where nothing is held
-    out.
-    """
-    return [trace(inv.before, inv.after, t) for t in inv.held or inv.after.trials]
-
-
-def trace(before: Fit, after: Fit, trial: Trial) -> Trace:
-    """Residual of one log under two models, each with the log's own bias and mounting found under
-    it.
-    """
-    (state_before, rest), (state, _) = _state(before, trial), _state(after, trial)
-    pair = [
-        in_band(rest, residual(f.sensor, rest, s))
-        for f, s in ((before, state_before), (after, state))
-    ]
-    return Trace(rest, state, band_time(rest), band_segments(rest), *pair)
-
-
-def _state(fit: Fit, trial: Trial) -> tuple[LogState, Trial]:
-    """State of a log under a model and the rows to look at; a fitted log's bias is found anew, the
-    model may be another.
-    """
-    if trial.parent is not None or trial.name not in fit.states:
-        return held_state(fit, trial)
-    whole = replace(trial, left_out=None)
-    state = replace(fit.states[trial.name], bias=np.zeros(3))
-    return replace(
-        state, bias=in_band(whole, residual(fit.sensor, whole, state)).mean(axis=0)
-    ), whole
-
-
 # Residual over time
 
 
 def over_time(found: Sequence[Trace], floor: np.ndarray | None, si: str) -> str:
     """Residual before and after on the held-out rows, both on one scale, one panel an axis."""
     with matplotlib.rc_context(STYLE):
-        axes_shown = sorted({i for t in found for i in t.trial.axes})
+        axes_shown = sorted({i for t in found for i in t.axes})
         unit = unit_for(_scale([t.before for t in found]), si)
         figure, panels = new_figure(5.4, 0.9 + 1.35 * len(axes_shown), len(axes_shown))
         clock, ends = _running_time(found)
@@ -175,134 +109,59 @@ def _time_panel(
         panel.fill_between(at, low, high, color=colour, lw=0.6, label=name, zorder=2)
 
 
-# Residual against what drives it
+# Residual against what drives an effect
 
 
-@dataclass(frozen=True)
-class Driver:
-    """What an effect answers to on one axis of the sensor: values (m,) in the log's band, and how
-    to name them.
+def cloud(c: Cloud, effect: str, si: str) -> str:
+    """Residual of one axis, in the unit ``si``, against what drives an effect: a light cloud,
+    binned medians with quartiles on it.
     """
-
-    values: np.ndarray
-    label: str
-
-
-def against_input(
-    a: Added, inv: Investigation, found: Sequence[Trace], most: int = 3
-) -> list[tuple[str, str]]:
-    """Pictures ``(axis, svg)``, at most ``most``, of the residual without and with an added effect
-    against its input.
-
-    All rows are shown, fitted and held out: what drives an effect may not move enough in the last
-    part of a log.
-    """
-    if a.effect == "quantization":
-        return comb(a, found)
-    if CATALOGUE[a.effect].stochastic or a.effect not in inv.after.sensor.values:
-        return []
-    bare = replace(inv.after, sensor=inv.after.sensor.without(a.effect))
-    both = [trace(bare, inv.after, t) for t in (*inv.after.trials, *inv.held)]
-    weight = np.sqrt(sum(np.sum((t.before - t.after) ** 2, axis=0) for t in both))
-    axes = [int(i) for i in np.argsort(-weight)[:most] if weight[i] > 0.1 * weight.max() > 0.0]
-    pictures = []
-    for i in sorted(axes):
-        source = _source(a, i, both)
-        drivers = [_driver(source, i, inv.after.sensor, t) for t in both]
-        pictures.append(
-            ("xyz"[i], _cloud(drivers, both, i, inv.after.sensor.output.unit, a.effect))
-        )
-    return pictures
-
-
-def _source(a: Added, i: int, both: Sequence[Trace]) -> tuple[str, int]:
-    """Which signal drives an effect on axis ``i``, and which component of it."""
-    e, kind = CATALOGUE[a.effect], both[0].trial.kind
-    signal = next(iter(sorted(e.signals(kind))), None)
-    matrix = next((v for v, _, _ in a.parameters.values() if np.ndim(v) == 2), None)
-    if e.stage == "dynamics":
-        return "change", i
-    if signal and (e.stage in ("motion", "gain") or len(e.signals(kind)) > 1):
-        return "contribution", i
-    width = SIGNALS[signal or KINDS[kind].own].size
-    if matrix is not None and matrix.shape[1] == width:
-        spread = np.std(
-            np.concatenate([t.trial.u[:, COLUMNS[signal or KINDS[kind].own]] for t in both]), axis=0
-        )
-        return signal or "own", int(np.argmax(np.abs(matrix[i]) * spread))
-    if signal:
-        return signal, i if width == 3 else 0
-    return ("time", 0) if e.stage == "bias" else ("own", i)
-
-
-def _driver(source: tuple[str, int], axis: int, sensor: Sensor, t: Trace) -> Driver:
-    """The values of a signal in a log's band, in the unit that people use."""
-    signal, component = source
-    rest, own = t.trial, sensor.output.own
-    if signal == "time":
-        return Driver((t.time - rest.time[0]) / 60, "time [min]")
-    if signal == "contribution":
-        unit = "deg/s" if rest.kind == "gyro" else "mg"
-        return Driver(
-            in_unit((t.before - t.after)[:, axis], sensor.output.unit, unit),
-            f"what the effect adds [{unit}]",
-        )
-    u = reference_input(rest, t.state)
-    name = own if signal in ("own", "change") else signal
-    values, si = u[:, COLUMNS[name]][:, component : component + 1], SIGNALS[name].unit
-    unit = UNITS.get(name) or unit_for(values, si)
-    values = values if unit == si else in_unit(values, si, unit)
-    label = f"{name.replace('_', ' ')}{f' {AXES[component]}' if SIGNALS[name].size == 3 else ''}"
-    if signal == "change":
-        values, unit, label = (
-            np.gradient(values, rest.h, axis=0),
-            f"{unit}/s".replace("deg/s/s", "deg/s^2"),
-            f"change of {label}",
-        )
-    return Driver(in_band(rest, values)[:, 0], f"{label} [{pretty(unit)}]")
+    x, label = _people(c.driver, c.values, si)
+    # A limit acts on the outermost samples, which are what a picture of anything else leaves out.
+    span = np.quantile(x, [0.0, 1.0] if c.outermost else [0.001, 0.999])
+    edges = np.linspace(*span, LEVELS + 1)
+    unit = unit_for(_scale([c.without[:, None]]), si)
+    with matplotlib.rc_context(STYLE):
+        figure, (panel,) = new_figure(4.4, 2.9)
+        seen = []
+        for values, colour, said, shift in (
+            (c.without, BEFORE, f"without {effect}", 0.0),
+            (c.with_effect, AFTER, f"with {effect}", 0.2),
+        ):
+            y = in_unit(values, si, unit)
+            _points(panel, x, y, colour)
+            quartiles = _medians(panel, x, y, edges, colour, said, shift)
+            seen += [np.quantile(y, [0.002, 0.998]), quartiles.ravel()]
+        _limits(panel.set_xlim, span)
+        _limits(panel.set_ylim, np.concatenate(seen))
+        panel.locator_params(axis="x", nbins=6)
+        panel.set(xlabel=label, ylabel=f"residual {AXES[c.axis]} [{pretty(unit)}]")
+        legend(figure, panel, 2)
+        return svg_of(figure)
 
 
 UNITS = {"rate": "deg/s", "specific_force": "g", "temperature": "degC"}
 """Units that people expect on the axis of a signal, whatever its size."""
 
 
-def _cloud(drivers: Sequence[Driver], both: Sequence[Trace], i: int, si: str, effect: str) -> str:
-    """Residual of one axis against its driver: a light cloud, binned medians with quartiles on
-    it.
-    """
-    x = np.concatenate([d.values for d in drivers])
-    # A limit acts on the outermost samples, which are what a picture of anything else leaves out.
-    span = np.quantile(x, [0.0, 1.0] if CATALOGUE[effect].stage == "output" else [0.001, 0.999])
-    unit = unit_for(_scale([t.before[:, i : i + 1] for t in both]), si)
-    with matplotlib.rc_context(STYLE):
-        figure, (panel,) = new_figure(4.4, 2.9)
-        seen = []
-        for name, colour, label in (
-            ("before", BEFORE, f"without {effect}"),
-            ("after", AFTER, f"with {effect}"),
-        ):
-            y = in_unit(np.concatenate([getattr(t, name)[:, i] for t in both]), si, unit)
-            _points(panel, x, y, colour)
-            quartiles = _medians(
-                panel,
-                x,
-                y,
-                np.linspace(*span, LEVELS + 1),
-                colour,
-                label,
-                0.0 if name == "before" else 0.2,
-            )
-            seen += [np.quantile(y, [0.002, 0.998]), quartiles.ravel()]
-        _limits(panel.set_xlim, span)
-        _limits(panel.set_ylim, np.concatenate(seen))
-        panel.locator_params(axis="x", nbins=6)
-        panel.set(xlabel=drivers[0].label, ylabel=f"residual {'xyz'[i]} [{pretty(unit)}]")
-        legend(figure, panel, 2)
-        return svg_of(figure)
+def _people(driver: Driver, values: np.ndarray, si: str) -> tuple[np.ndarray, str]:
+    """The values of a driver in the unit that people use, and the label of their axis."""
+    if driver.signal == "time":
+        return values / 60, "time [min]"
+    if driver.signal == "contribution":
+        unit = "deg/s" if si == "rad/s" else "mg"
+        return in_unit(values, si, unit), f"what the effect adds [{unit}]"
+    unit = UNITS.get(driver.signal) or unit_for(values, driver.unit)
+    shown = values if unit == driver.unit else in_unit(values, driver.unit, unit)
+    axis = f" {AXES[driver.component]}" if SIGNALS[driver.signal].size == 3 else ""
+    label = f"{driver.signal.replace('_', ' ')}{axis}"
+    if driver.change:
+        unit, label = f"{unit}/s".replace("deg/s/s", "deg/s^2"), f"change of {label}"
+    return shown, f"{label} [{pretty(unit)}]"
 
 
 def _points(panel: Axes, x: np.ndarray, y: np.ndarray, colour: str) -> None:
-    pick = np.linspace(0, len(x) - 1, min(CLOUD, len(x))).astype(int)
+    pick = np.linspace(0, len(x) - 1, min(POINTS, len(x))).astype(int)
     alpha = 0.5 if len(x) < 1000 else 0.38
     panel.plot(
         x[pick], y[pick], ".", ms=2.8, mew=0, color=colour, alpha=alpha, rasterized=True, zorder=2
@@ -353,30 +212,17 @@ def _limits(set_limits: Callable, values: np.ndarray) -> None:
     set_limits(low - margin, high + margin)
 
 
-def comb(a: Added, found: Sequence[Trace]) -> list[tuple[str, str]]:
-    """Where the raw samples lie between two multiples of the step found: on the multiples, if they
-    are rounded.
-    """
-    q = next(iter(a.parameters.values()))[0]
-    pictures = []
-    for i in np.flatnonzero(q):
-        y = np.concatenate([t.trial.y[s:e, i] for t in found for s, e in t.trial.segments])
-        share = (y - y[0]) / q[i] + 0.5
-        with matplotlib.rc_context(STYLE):
-            figure, (panel,) = new_figure(4.4, 2.4)
-            panel.hist(
-                share % 1.0 - 0.5,
-                bins=41,
-                range=(-0.5, 0.5),
-                color=AFTER,
-                weights=np.full(len(y), 100.0 / len(y)),
-            )
-            panel.set(
-                xlabel=f"sample {'xyz'[i]}, distance to the nearest multiple [steps]",
-                ylabel="samples [%]",
-            )
-            pictures.append(("xyz"[i], svg_of(figure)))
-    return pictures
+def comb(c: Comb) -> str:
+    """Where the raw samples lie between two multiples of the step found."""
+    with matplotlib.rc_context(STYLE):
+        figure, (panel,) = new_figure(4.4, 2.4)
+        shares = np.full(len(c.offsets), 100.0 / len(c.offsets))
+        panel.hist(c.offsets, bins=41, range=(-0.5, 0.5), color=AFTER, weights=shares)
+        panel.set(
+            xlabel=f"sample {AXES[c.axis]}, distance to the nearest multiple [steps]",
+            ylabel="samples [%]",
+        )
+        return svg_of(figure)
 
 
 # Screening
@@ -444,43 +290,23 @@ def _screening_legend(figure: Figure, panel: Axes, looked_again: bool) -> None:
 # Spectrum
 
 
-def spectrum(inv: Investigation, found: Sequence[Trace]) -> str | None:
-    """One-sided amplitude density of the residual before and after, over all axes, and of the noise
-    alone.
+def spectrum(s: Spectrum, si: str) -> str:
+    """One-sided amplitude density of the residual, in the unit ``si``, before and after, and of the
+    noise alone.
     """
-    densities = [density(found, name) for name in ("before", "after")]
-    if any(d is None for d in densities):
-        return None
-    kind = inv.after.sensor.kind
-    si, unit = inv.after.sensor.output.unit, "deg/s" if kind == "gyro" else "mg"
-    trial = found[0].trial
+    unit = "deg/s" if si == "rad/s" else "mg"
+    lines = (
+        (s.before, BEFORE, "-", "before"),
+        (s.after, AFTER, "-", "after"),
+        (s.noise, FLOOR, (0, (5, 2)), "the noise alone"),
+    )
     with matplotlib.rc_context(STYLE):
         figure, (panel,) = new_figure(5.4, 3.0)
-        for (f, p), colour, label in zip(
-            densities, (BEFORE, AFTER), ("before", "after"), strict=True
-        ):
-            panel.loglog(f, in_unit(np.sqrt(p), si, unit), color=colour, lw=1.5, label=label)
-        f = densities[0][0]
-        noise = np.sqrt(noise_density(floor_noise(inv.after), trial, f))
-        panel.loglog(
-            f,
-            in_unit(noise, si, unit),
-            color=FLOOR,
-            lw=1.5,
-            ls=(0, (5, 2)),
-            label="the noise alone",
-        )
-        if trial.band_hz is not None:
-            panel.axvline(trial.band_hz, color=INK, lw=0.8, ls=(0, (1, 2)))
-            panel.annotate(
-                "band",
-                (trial.band_hz, 0.02),
-                xycoords=("data", "axes fraction"),
-                xytext=(-3, 0),
-                textcoords="offset points",
-                ha="right",
-                fontsize=8.5,
-            )
+        for power, colour, style, label in lines:
+            amplitude = in_unit(np.sqrt(power), si, unit)
+            panel.loglog(s.frequency, amplitude, color=colour, ls=style, lw=1.5, label=label)
+        if s.band_hz is not None:
+            _mark_band(panel, s.band_hz)
         panel.set(xlabel="frequency [Hz]", ylabel=f"density, one-sided [{unit}/√Hz]")
         for axis in (panel.xaxis, panel.yaxis):
             plain_logarithm(axis)
@@ -488,39 +314,14 @@ def spectrum(inv: Investigation, found: Sequence[Trace]) -> str | None:
         return svg_of(figure)
 
 
-def density(found: Sequence[Trace], name: str) -> tuple[np.ndarray, np.ndarray] | None:
-    """One-sided PSD, the mean of the axes, averaged over all stretches that are long enough."""
-    pieces = [
-        (t, getattr(t, name)[a:b][:, list(t.trial.axes)]) for t in found for a, b in t.segments
-    ]
-    longest = max((len(p) for _, p in pieces), default=0)
-    length = min(1024, 2 ** int(np.log2(max(longest, 1) / 3 + 1)))
-    if length < 16:
-        return None
-    total, weight = 0.0, 0
-    for t, piece in pieces:
-        if len(piece) >= length:
-            f, p = welch(
-                piece,
-                1.0 / (t.trial.h * t.trial.band.stride),
-                nperseg=length,
-                axis=0,
-                detrend="constant",
-            )
-            total, weight = total + len(piece) * p.mean(axis=1), weight + len(piece)
-    return f[1:-1], (total / weight)[1:-1]
-
-
-def noise_density(noise: dict[int, RandomWalk], trial: Trial, f: np.ndarray) -> np.ndarray:
-    """One-sided PSD of white noise plus random walk through the trial's band, the mean of the
-    axes.
-    """
-    weights = np.array(trial.band.weights)
-    gain = (
-        np.abs(np.exp(-2j * np.pi * np.outer(f * trial.h, np.arange(len(weights)))) @ weights) ** 2
-    )
-    walk = (2 * np.sin(np.pi * np.minimum(f * trial.h, 0.5)) / trial.h) ** 2
-    return np.mean(
-        [gain * (2 * n.r * trial.h + 2 * n.k2 / walk) for i, n in noise.items() if i in trial.axes],
-        axis=0,
+def _mark_band(panel: Axes, band_hz: float) -> None:
+    panel.axvline(band_hz, color=INK, lw=0.8, ls=(0, (1, 2)))
+    panel.annotate(
+        "band",
+        (band_hz, 0.02),
+        xycoords=("data", "axes fraction"),
+        xytext=(-3, 0),
+        textcoords="offset points",
+        ha="right",
+        fontsize=8.5,
     )

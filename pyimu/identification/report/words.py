@@ -4,16 +4,13 @@ without LaTeX.
 
 from __future__ import annotations
 
-import re
-
 import numpy as np
-from markupsafe import Markup, escape
 
-from pyimu.identification.outcome import Added, Errors, Outcome
+from pyimu.identification.found import Added, Errors
+from pyimu.identification.outcome import Outcome
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.report.numbers import (
     CORNER,
-    FREQUENCIES,
     in_unit,
     joined,
     number,
@@ -25,35 +22,9 @@ from pyimu.report.numbers import (
 SENSORS = {"gyro": "gyro", "accel": "accelerometer"}
 QUANTITIES = {"gyro": "rate", "accel": "specific force"}
 
-DOES = {
-    "saturation": "clips",
-    "time_delay": "answers late",
-    "lag": "answers late",
-    "quantization": "rounds coarsely",
-    "scale_factor": "has another scale factor",
-    "misalignment": "is not square to its axes",
-    "scale_factor_asymmetry": "scales the two senses differently",
-    "thermal_bias": "drifts with temperature",
-    "thermal_bias_quadratic": "drifts with temperature",
-    "g_sensitivity": "feels acceleration",
-    "g2_sensitivity": "feels acceleration squared",
-    "bias_instability": "flickers",
-    "rate_ramp": "ramps",
-}
-"""What a sensor does that has an effect, in a few words; other effects are said by their term
-alone."""
-
 FEW = 2
 """Up to so many effects of a sensor are said with their coefficients; more only by name, or nobody
 reads to the end."""
-
-SAID = {
-    "saturation": "saturation at",
-    "time_delay": "a time delay of",
-    "lag": "a second-order lag at",
-    "quantization": "rounding to",
-}
-"""How an effect is said before its coefficient, where its name and "of" would not be English."""
 
 
 def headline(closed: Outcome) -> str:
@@ -66,7 +37,8 @@ def _named(closed: Outcome) -> str:
     parts = []
     for kind in dict.fromkeys(a.sensor for a in closed.added):
         added = [a for a in closed.added if a.sensor == kind]
-        does = joined(list(dict.fromkeys(DOES[a.effect] for a in added if a.effect in DOES)))
+        symptoms = dict.fromkeys(CATALOGUE[a.effect].symptom for a in added)
+        does = joined([symptom for symptom in symptoms if symptom])
         what = (
             ", and ".join(map(missing, added))
             if len(added) <= FEW
@@ -167,13 +139,13 @@ def missing(a: Added) -> str:
     ``saturation at 421 and 424 deg/s on x and y``.
     """
     name, (value, _, si) = next(iter(a.parameters.items()))
-    said = SAID.get(a.effect, f"{a.effect.replace('_', ' ')} of")
-    return f"{said} {coefficient(value, si_of(a.effect, name, si))}"
+    phrase = CATALOGUE[a.effect].phrase
+    return f"{phrase} {coefficient(value, si_of(a.effect, name, si))}"
 
 
 def si_of(effect: str, parameter: str, si: str) -> str:
     """The SI unit, told apart where rad/s means a frequency and not a rate."""
-    return CORNER if (effect, parameter) in FREQUENCIES else si
+    return CORNER if CATALOGUE[effect].parameters[parameter].corner else si
 
 
 def coefficient(value: np.ndarray, si: str) -> str:
@@ -189,54 +161,6 @@ def coefficient(value: np.ndarray, si: str) -> str:
         return f"{numbers} on {joined(['xyz'[i] for i in on])}"
     i, j = np.unravel_index(np.nanargmax(np.abs(shown)), shown.shape)
     return f"up to {number(float(abs(shown[i, j])))} {pretty(unit)} ({'xyz'[i]} from {'xyz'[j]})"
-
-
-SYMBOLS = {
-    "alpha": "α",
-    "beta": "β",
-    "zeta": "ζ",
-    "theta": "θ",
-    "lambda": "λ",
-    "mu": "µ",
-    "pi": "π",
-    "sigma": "σ",
-    "tau": "τ",
-    "phi": "φ",
-    "omega": "ω",
-    "Delta": "Δ",
-    "Omega": "Ω",
-    "cdot": "·",
-    "times": "×",
-    "odot": "∘",
-    "circ": "∘",
-    "pm": "±",
-    "le": "≤",
-    "ge": "≥",
-    "lfloor": "⌊",
-    "rfloor": "⌋",
-    "in": "∈",
-    "to": "→",
-    "infty": "∞",
-    "sum": "∑",
-    "int": "∫",
-    "approx": "≈",
-}
-
-GROUP = r"\{([^{}]*)\}"
-
-
-def plain_equation(latex: str) -> Markup:
-    """An equation of the catalogue as HTML that needs nothing but sub and sup."""
-    text = str(escape(latex))
-    text = re.sub(r"\\(?:mathrm|text|operatorname|mathbf)" + GROUP, r"\1", text)
-    text = re.sub(r"\\ddot\s*(\w)", "\\1\u0308", re.sub(r"\\dot\s*(\w)", "\\1\u0307", text))
-    text = re.sub(r"\\[,;:! ]|\\q?quad", " ", text)
-    text = re.sub(r"\\([A-Za-z]+)", lambda m: SYMBOLS.get(m[1], "\\" + m[1]), text)
-    text = re.sub(r"_" + GROUP + r"|_(\w)", lambda m: f"<sub>{m[1] or m[2]}</sub>", text)
-    text = re.sub(r"\^" + GROUP + r"|\^(\w)", lambda m: f"<sup>{m[1] or m[2]}</sup>", text)
-    text = re.sub(r"\\sqrt" + GROUP, lambda m: f"√{m[1]}" if len(m[1]) == 1 else f"√({m[1]})", text)
-    text = re.sub(r"\\frac" + GROUP + GROUP, r"\1 / (\2)", text)
-    return Markup(re.sub(r"\\(?:left|right)?|[{}]", "", text))
 
 
 def in_lines(closed: Outcome) -> str:

@@ -8,17 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyimu.identification.fit.fit import Fit
-from pyimu.identification.fit.keys import Key, slot_keys
+from pyimu.identification.fit.keys import Key, Scanned, coefficients_of
 from pyimu.identification.fit.normal import Normal
 from pyimu.identification.fit.response import is_step, predict
 from pyimu.identification.fit.trial import Trial
+from pyimu.model.arguments import Parameter
 from pyimu.model.catalogue import CATALOGUE
-from pyimu.model.effect import Effect, Parameter
+from pyimu.model.effect import Effect
 from pyimu.model.sensor import Sensor, candidates
-
-INSEPARABLE = ({"time_delay", "lag"}, {"rate_ramp", "ageing"})
-"""Effects of one class, always named together: lag and delay differ only under motion near a third
-of the bandwidth, age and time since power-on only from one power-on to the next."""
 
 
 @dataclass(frozen=True)
@@ -64,7 +61,7 @@ def absent(fit: Fit) -> list[Effect]:
     return [
         e
         for e in candidates(fit.sensor.kind, present | twins)
-        if e.name != "turn_on_bias"
+        if not e.per_power_on
         and has_columns(e, fit.sensor.kind)
         and e.signals(fit.sensor.kind) <= known
     ]
@@ -77,7 +74,7 @@ def has_columns(e: Effect, kind: str) -> bool:
     return not (
         e.stochastic
         or e.remembers
-        or is_step(e.name, kind)
+        or is_step(e, kind)
         or any(p.form and not p.scan for p in e.parameters.values())
     )
 
@@ -92,9 +89,9 @@ def contestable(fit: Fit, declared: Iterable[str]) -> list[Effect]:
         for e in fit.sensor.effects
         if e.name in names
         and not fit.sensor.is_off(e.name)
-        and e.name != "turn_on_bias"
+        and not e.per_power_on
         and has_columns(e, fit.sensor.kind)
-        and not slot_keys(fit.sensor, e.name) & fit.free
+        and not coefficients_of(fit.sensor, e.name) & fit.free
     ]
 
 
@@ -125,7 +122,7 @@ def scan_columns(sensor: Sensor, effects: Iterable[Effect]) -> Callable:
                 )
                 for i in range(3):
                     index = (i,) if p.shape else ()
-                    add(("scan", e.name, name, index, number, float(value)), i, changed[:, i])
+                    add(Scanned(e.name, name, index, number, float(value)), i, changed[:, i])
 
     return add_all
 
@@ -153,23 +150,23 @@ def groups(normal: Normal, sensor: Sensor, effects: Iterable[Effect]) -> list[Gr
 def _scan_groups(normal: Normal, sensor: Sensor, e: Effect) -> list[Group]:
     by_index: dict[tuple, list[Key]] = {}
     for key in normal.keys:
-        if key[0] == "scan" and key[1] == e.name:
-            by_index.setdefault(key[3], []).append(key)
+        if isinstance(key, Scanned) and key.effect == e.name:
+            by_index.setdefault(key.index, []).append(key)
     return [
         Group(
             e.name,
-            tuple(sorted(k for k in slot_keys(sensor, e.name) if k[3] == index)),
-            tuple(Choice((normal.position[k],), k[5]) for k in keys),
+            tuple(sorted(k for k in coefficients_of(sensor, e.name) if k.index == index)),
+            tuple(Choice((normal.position[k],), k.value) for k in keys),
         )
         for index, keys in by_index.items()
     ]
 
 
 def _linear_groups(normal: Normal, sensor: Sensor, e: Effect) -> list[Group]:
-    present = [k for k in normal.keys if k in slot_keys(sensor, e.name)]
+    present = [k for k in normal.keys if k in coefficients_of(sensor, e.name)]
     rows: dict[int, list[Key]] = {}
     for key in present:
-        rows.setdefault(key[3][0] if key[3] else -1, []).append(key)
+        rows.setdefault(key.index[0] if key.index else -1, []).append(key)
     return [
         Group(e.name, tuple(keys), (Choice(tuple(normal.position[k] for k in keys)),))
         for keys in rows.values()
@@ -177,8 +174,9 @@ def _linear_groups(normal: Normal, sensor: Sensor, e: Effect) -> list[Group]:
 
 
 def equivalent(name: str) -> set[str]:
-    """Effects that no log tells from this one by design."""
-    return set().union(*(group for group in INSEPARABLE if name in group)) - {name}
+    """Effects of one family with this one: no log tells them apart by design."""
+    family = CATALOGUE[name].family
+    return {e.name for e in CATALOGUE.values() if family and e.family == family} - {name}
 
 
 def with_start(sensor: Sensor, group_values: dict[tuple, float], effect: str) -> Sensor:

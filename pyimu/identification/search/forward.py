@@ -5,18 +5,25 @@ and look again.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
+from typing import Any
 
 import numpy as np
 
-from pyimu.identification.fit.columns import LogState, in_band, reference_input, residual
+from pyimu.identification.fit.columns import in_band, residual
 from pyimu.identification.fit.fit import Fit, begin
 from pyimu.identification.fit.maximum_likelihood import fit
 from pyimu.identification.fit.normal import Normal, normal_equations
-from pyimu.identification.fit.response import predict
 from pyimu.identification.fit.score import held_state, log_likelihood
-from pyimu.identification.fit.trial import Trial, rest_noise
+from pyimu.identification.fit.trial import Trial
 from pyimu.identification.search.candidates import Group, equivalent, with_start
+from pyimu.identification.search.ceiling import (
+    at_samples,
+    has_ceiling,
+    is_ceiling,
+    stops_there,
+    without_lost,
+)
 from pyimu.identification.search.screen import (
     PENALTY,
     Screened,
@@ -69,6 +76,9 @@ class Refused:
     gain: float
     reason: str
 
+    def as_dict(self) -> dict[str, Any]:
+        return asdict(self)
+
 
 @dataclass(frozen=True)
 class Investigation:
@@ -107,7 +117,7 @@ def investigate(
     """
     say(f"{sensor.kind}: fitting the model as declared")
     before = fit(begin(sensor, free, trials))
-    if "saturation" in sensor.values and np.any(sensor.values["saturation"]["limit"]):
+    if has_ceiling(sensor):
         before = without_lost(before)
     after = before
     steps: list[Step] = []
@@ -136,7 +146,7 @@ def investigate(
                 name in before.sensor.values,
             )
         )
-        after = without_lost(chosen.fit) if name == "saturation" else chosen.fit
+        after = without_lost(chosen.fit) if is_ceiling(chosen.fit.sensor, name) else chosen.fit
         last = screen(after, sensor.values)
     after, steps = _backward(after, steps)
     return Investigation(
@@ -192,11 +202,13 @@ def refine(current: Fit, c: Screened) -> Refined:
             replace(
                 c,
                 groups=needed,
-                values={k: v for k, v in c.values.items() if k in {g.keys[0][3] for g in needed}},
+                values={
+                    k: v for k, v in c.values.items() if k in {g.keys[0].index for g in needed}
+                },
             ),
         )
     spread = fitted_dispersion(normal, keys_of(c))
-    fitted = on_plateau(fitted) if c.effect == "saturation" else fitted
+    fitted = at_samples(fitted) if is_ceiling(sensor, c.effect) else fitted
     gain = (fitted.log_likelihood - current.log_likelihood) / spread - PENALTY * len(keys_of(c))
     return Refined(c, fitted, gain if needed else -np.inf, spread)
 
@@ -205,28 +217,11 @@ def _needed(fitted: Fit, normal: Normal, group: Group, declared: bool) -> bool:
     """True where the part of an effect that a group stands for explains something once all is
     fitted together.
     """
-    if group.effect == "saturation":
-        return respects_limit(fitted, group.keys[0][3][0])
+    if is_ceiling(fitted.sensor, group.effect):
+        return stops_there(fitted, group.keys[0].index[0])
     return (
         declared or group.measure is not None or fitted_gain(normal, fitted.sensor, group.keys) > 0
     )
-
-
-def respects_limit(fitted: Fit, axis: int) -> bool:
-    """True where the samples really stop at the limit of an axis while the model's input is beyond
-    it.
-    """
-    limit = float(fitted.sensor.values["saturation"]["limit"][axis])
-    open_sensor, beyond, over = fitted.sensor.without("saturation"), 0, 0
-    for t in fitted.trials:
-        x = predict(open_sensor, reference_input(t, fitted.states[t.name]), t.segments, t.h)[
-            :, axis
-        ]
-        outside = np.concatenate([np.abs(x[a:b]) > 1.02 * limit for a, b in t.row_segments])
-        y = np.concatenate([np.abs(t.y[a:b, axis]) for a, b in t.row_segments])
-        beyond += int(outside.sum())
-        over += int((outside & (y > 1.02 * limit + 4 * rest_noise(t)[axis])).sum())
-    return beyond >= 5 and over < 0.2 * beyond
 
 
 def improves(old: Fit, new: Fit, held: list[Trial]) -> bool:
@@ -259,78 +254,13 @@ def improves(old: Fit, new: Fit, held: list[Trial]) -> bool:
     return gained > 0.0 or difference < 0.5
 
 
-def on_plateau(fitted: Fit) -> Fit:
-    """Put each limit where the raw samples sit while the model's input is well beyond it, and fit
-    the rest again.
-
-    In the band of a derived reference the edges of a clipped stretch are smeared; the samples
-    themselves show the limit.
-    """
-    limit, std = np.array(fitted.sensor.values["saturation"]["limit"]), {}
-    open_sensor = fitted.sensor.without("saturation")
-    for i in np.flatnonzero(limit):
-        beyond = [
-            _plateau(open_sensor, t, fitted.states[t.name], int(i), limit[i]) for t in fitted.trials
-        ]
-        sides = [np.concatenate([b[side] for b in beyond]) for side in (0, 1)]
-        levels = [(float(np.median(s)), _median_std(s)) for s in sides if len(s) >= 5]
-        if levels:
-            limit[i], std[("slot", "saturation", "limit", (int(i),))] = max(levels)
-    sensor = fitted.sensor.with_values("saturation", limit=limit)
-    free = frozenset(k for k in fitted.free if k[1] != "saturation")
-    return fit(replace(fitted, sensor=sensor, free=free, std={**fitted.std, **std}).with_noise())
-
-
-def _median_std(values: np.ndarray) -> float:
-    """Standard error of a median from the scatter about it, sqrt(pi/2) that of a mean."""
-    scatter = 1.4826 * float(np.median(np.abs(values - np.median(values))))
-    return np.sqrt(np.pi / 2 / len(values)) * scatter
-
-
-def without_lost(fitted: Fit) -> Fit:
-    """Leave out the samples that sit at a limit: they carry no noise and no slope, and would bend
-    what is looked for next.
-    """
-    limit = fitted.sensor.values["saturation"]["limit"]
-    open_sensor = fitted.sensor.without("saturation")
-    margin = np.array(
-        [4 * np.sqrt(fitted.noise[i].r) if i in fitted.noise else 0.0 for i in range(3)]
-    )
-    trials = []
-    for t in fitted.trials:
-        # Judged by the model, not by the noisy sample: choosing by the sample would keep one half
-        # of the noise.
-        x = predict(open_sensor, reference_input(t, fitted.states[t.name]), t.segments, t.h)
-        lost = ((limit > 0) & (np.abs(x) > limit - margin)).any(axis=1)
-        trials.append(replace(t, left_out=lost if t.left_out is None else lost | t.left_out))
-    return fit(replace(fitted, trials=tuple(trials)).with_noise())
-
-
-def _plateau(
-    sensor: Sensor, trial: Trial, state: LogState, axis: int, limit: float
-) -> tuple[np.ndarray, np.ndarray]:
-    """Magnitudes of the samples, positive and negative side, taken while the unlimited model is 10
-    % beyond the limit.
-    """
-    x = predict(sensor, reference_input(trial, state), trial.segments, trial.h)[:, axis]
-    inside = np.zeros(len(x), dtype=bool)
-    for a, b in trial.row_segments:
-        inside[a:b] = True
-    return tuple(
-        np.abs(
-            trial.y[
-                inside & (sign * x > 1.1 * limit) & (sign * trial.y[:, axis] > 0.8 * limit), axis
-            ]
-        )
-        for sign in (1, -1)
-    )
-
-
 def _backward(after: Fit, steps: list[Step]) -> tuple[Fit, list[Step]]:
-    """Drop what later additions made superfluous; a limit never is, the samples at it having been
+    """Drop what later additions made superfluous; a ceiling never is, the samples at it having been
     left out since.
     """
-    for step in [s for s in steps[:-1] if not s.declared and s.effect != "saturation"]:
+    for step in [
+        s for s in steps[:-1] if not s.declared and not is_ceiling(after.sensor, s.effect)
+    ]:
         rest = [s for s in steps if s is not step]
         kept = after.free - step.keys
         without = fit(

@@ -5,14 +5,16 @@ declared, rounding.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from itertools import combinations_with_replacement
+from typing import Any
 
 import numpy as np
 from scipy.stats import chi2
 
 from pyimu.identification.fit.columns import Linear
 from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.keys import Product
 from pyimu.identification.fit.normal import normal_equations
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk, power_less_bias
@@ -45,10 +47,15 @@ SHARE = 0.03
 
 @dataclass(frozen=True)
 class Unexplained:
+    """A product of inputs on which a residual depends although no effect of the model says so."""
+
     sensor: str
     axis: str
     depends_on: tuple[str, ...]
     p_value: float
+
+    def as_dict(self) -> dict[str, Any]:
+        return asdict(self) | {"depends_on": list(self.depends_on)}
 
 
 def lack_of_fit(fit: Fit) -> Unexplained | None:
@@ -61,7 +68,7 @@ def lack_of_fit(fit: Fit) -> Unexplained | None:
     if all(t.reference == "static" and "temperature" not in t.known for t in fit.trials):
         return None
     normal = normal_equations(fit.linearise((), [_products(fit.trials)]), fit.noise)
-    wanted = [i for i, k in enumerate(normal.keys) if k[0] == "product"]
+    wanted = [i for i, k in enumerate(normal.keys) if isinstance(k, Product)]
     if not wanted:
         return None
     projected = Projected.of(
@@ -81,8 +88,8 @@ def lack_of_fit(fit: Fit) -> Unexplained | None:
         return None
     return Unexplained(
         fit.sensor.kind,
-        "xyz"[key[2]],
-        tuple(dict.fromkeys(INPUT_NAMES[j] for j in key[1])),
+        "xyz"[key.axis],
+        tuple(dict.fromkeys(INPUT_NAMES[j] for j in key.inputs)),
         p_value,
     )
 
@@ -107,7 +114,7 @@ def _products(trials: tuple[Trial, ...]) -> Callable:
         for term in terms:
             values = np.prod(z[:, list(term)], axis=1)
             for i in range(3):
-                add(("product", term, i), i, values)
+                add(Product(term, i), i, values)
 
     return add_all
 

@@ -161,7 +161,7 @@ def _screened(effect: str, gs: list[Group], projected: Projected) -> Screened:
             picked.append(g)
             gain += best
             if choice.value is not None:
-                values[g.keys[0][3]] = choice.value
+                values[g.keys[0].index] = choice.value
     nearest = max if gs[0].measure in ("rate", "range") else min
     return Screened(effect, gain, tuple(picked), values, nearest(visible, default=np.inf))
 
@@ -221,7 +221,7 @@ def fitted_gain(normal: Normal, sensor: Sensor, keys: Iterable[Key]) -> float:
     projected = _projected(normal, keys)
     if projected is None:
         return -np.inf
-    value = np.array([sensor.values[k[1]][k[2]][k[3]] for k in keys])
+    value = np.array([sensor.values[k.effect][k.parameter][k.index] for k in keys])
     return 0.5 * float(value @ projected.gram @ value) / dispersion(
         projected, range(len(keys))
     ) - PENALTY * len(keys)

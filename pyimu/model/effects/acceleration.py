@@ -30,6 +30,7 @@ def scale_factor_g_sensitivity(
     equation=r"y = x + G f",
     source="IEEE Std 528-2019, acceleration-sensitive drift rate; Groves 2013, eq. 4.17, G_g f",
     sensors=("gyro",),
+    symptom="drifts with acceleration",
 )
 def g_sensitivity(
     x,
@@ -50,6 +51,7 @@ def g_sensitivity(
         "IEEE Std 528-2019, acceleration-squared-sensitive drift rate: squares and products of "
         "components"
     ),
+    symptom="drifts with acceleration squared",
 )
 def g2_sensitivity(
     x,

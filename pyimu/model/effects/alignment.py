@@ -8,6 +8,8 @@ from pyimu.model.effect import Parameter, effect
     term="misalignment, nonorthogonality",
     equation=r"y = x + M x,\; \mathrm{diag}\, M = 0",
     source="Hidalgo 2012, section 3.2, matrix M; Groves 2013, eqs. 4.16 and 4.17, M_a and M_g",
+    mounting=True,
+    symptom="is not square to its axes",
 )
 def misalignment(
     x,

@@ -1,6 +1,6 @@
 """A sample that is not taken when its time says."""
 
-from pyimu.model.effect import OWN_RATE, Environment, Noise, Parameter, effect
+from pyimu.model.effect import OWN_RATE, Environment, Law, Noise, Parameter, effect
 
 
 @effect(
@@ -27,6 +27,16 @@ def clock_skew(
     term="sampling jitter",
     equation=r"y = x + s_j \dot x w",
     source="no source; first order in the jitter, one draw a sample for all axes",
+    law=Law(
+        white=lambda sj, slope, h: (sj * slope) ** 2 * h,
+        transfer=r"s_j |\dot x| \sqrt{h}",
+        psd=r"s_j^2\, \dot x^2\, h",
+        allan=r"s_j |\dot x| \sqrt{\frac{h}{\tau}}",
+        note=(
+            "White from sample to sample, whatever the period; the same draw on all axes. The "
+            "picture is at 1 rad/s^2."
+        ),
+    ),
 )
 def sampling_jitter(
     x,

@@ -2,7 +2,7 @@
 
 import casadi as ca
 
-from pyimu.model.effect import Environment, Parameter, effect
+from pyimu.model.effect import Environment, Law, Parameter, effect
 
 EVENTS = 4
 """Steps of the bias that one sensor can have."""
@@ -25,6 +25,18 @@ def warm_up(
     term="rate (acceleration) ramp",
     equation=r"y = x + R t",
     source="Hidalgo 2012, table 3, rate ramp",
+    law=Law(
+        ramp=lambda R: R,
+        transfer=r"\text{none: no random process}",
+        psd=r"\frac{R^2}{(2 \pi f)^3}\ \text{(a formal label)}",
+        allan=r"\frac{R \tau}{\sqrt 2}",
+        note=(
+            "A ramp has no density: the label of the field's tables has a divergent Allan "
+            "integral, and only the Allan deviation can be compared."
+        ),
+    ),
+    family="growth with time",
+    symptom="ramps",
 )
 def rate_ramp(
     x, R: Parameter("{y}/s", description="bias that grows with time"), t: Environment("time")
@@ -52,6 +64,7 @@ def bias_step(
     term="ageing of bias and scale factor",
     equation=r"y = x + (a + t)(k_b + k_s x)",
     source="no source for the form; IEEE Std 528-2019, long-term stability",
+    family="growth with time",
 )
 def ageing(
     x,

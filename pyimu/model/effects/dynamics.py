@@ -26,6 +26,10 @@ def _too_long(h, td):
         "no source for the coefficients; second-order low-pass of a read-out: its poles exactly, "
         "its gain to second order in s"
     ),
+    family="delay",
+    delay=lambda wn, zeta: ca.if_else(wn > 0, 2 * zeta / wn, 0),
+    symptom="answers late",
+    phrase="a second-order lag at",
 )
 def lag(
     x,
@@ -34,6 +38,7 @@ def lag(
         (),
         minimum=0.0,
         scan=Scan("rate", 0.06, 4.0, 10),
+        corner=True,
         description="natural frequency; 0 switches the lag off",
     ),
     zeta: Parameter(
@@ -81,6 +86,10 @@ def _second_order(angle: ca.SX, zeta: ca.SX) -> tuple[tuple, tuple]:
     invertible=False,
     limits={f"td must not be above {LONGEST_DELAY} sample periods": _too_long},
     source="no source for the coefficient; third-order Lagrange interpolation between samples",
+    family="delay",
+    delay=lambda td: td,
+    symptom="answers late",
+    phrase="a time delay of",
 )
 def time_delay(
     x,

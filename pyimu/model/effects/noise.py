@@ -4,7 +4,7 @@ it.
 
 import casadi as ca
 
-from pyimu.model.effect import Environment, Noise, Parameter, SamplePeriod, State, effect
+from pyimu.model.effect import Environment, Law, Noise, Parameter, SamplePeriod, State, effect
 
 POLES = 6
 """Gauss-Markov processes that make up ``bias_instability``, evenly in the logarithm from ``f_low``
@@ -31,11 +31,15 @@ def end_weight(spacing):
     term="angle (velocity) random walk",
     equation=r"y = x + N w / \sqrt{h}",
     source="Hidalgo 2012, section 3.2 and table 3; IEEE Std 528-2001, 2.10",
+    law=Law(white=lambda N: N**2, transfer="N", psd="N^2", allan=r"\frac{N}{\sqrt\tau}"),
 )
 def angle_random_walk(
     x,
     N: Parameter(
-        "{Y}/sqrt(s)", minimum=0.0, description="root of the two-sided white noise density"
+        "{Y}/sqrt(s)",
+        minimum=0.0,
+        density=True,
+        description="root of the two-sided white noise density",
     ),
     w: Noise(),
     h: SamplePeriod(),
@@ -48,6 +52,13 @@ def angle_random_walk(
     term="rate (acceleration) random walk",
     equation=r"y = x + b,\; \dot b = K w",
     source="Hidalgo 2012, section 3.2 and table 3",
+    law=Law(
+        walk=lambda K: K**2,
+        transfer=r"\frac{K}{s}",
+        poles="0",
+        psd=r"\frac{K^2 h^2}{4 \sin^2(\pi f h)} \approx \frac{K^2}{(2 \pi f)^2}",
+        allan=r"K \sqrt{\frac{\tau}{3} \left(1 + \frac{1}{2 n^2}\right)}",
+    ),
 )
 def rate_random_walk(
     x,
@@ -78,6 +89,26 @@ def _gauss_markov(b, variance, angle, w, started):
     source=(
         "first-order Gauss-Markov process, exponentially correlated noise of IEEE Std 952; its "
         "text was not checked"
+    ),
+    law=Law(
+        markov=lambda q, tau: [(q**2 * tau / 2, tau)],
+        transfer=r"\frac{q}{s + 1 / \tau_c}",
+        poles=r"-1 / \tau_c",
+        psd=(
+            r"\frac{q^2 h\, (1 - a^2)\, \tau_c / 2}{1 - 2 a \cos(2 \pi f h) + a^2} \approx "
+            r"\frac{q^2 \tau_c^2}{1 + (2 \pi f \tau_c)^2},\quad a = e^{-h / \tau_c}"
+        ),
+        allan=(
+            r"q \tau_c \sqrt{\tfrac{1}{\tau} \left[1 - \tfrac{\tau_c}{2 \tau} \left(3 - "
+            r"4 e^{-\tau / \tau_c} + e^{-2 \tau / \tau_c}\right)\right]}"
+        ),
+        note=(
+            "The closed form is the continuous one (IEEE Std 952-2020, annex C); samples lie "
+            r"above, in the variance by at most $\left(h / (\sqrt{2}\, \tau) + h / (\sqrt{12}\, "
+            r"\tau_c)\right)^2$ of it. The coefficient `tau` is the correlation time $\tau_c$; "
+            r"$\tau$ alone is the cluster time."
+        ),
+        shown={"tau": 10.0},
     ),
 )
 def gauss_markov(
@@ -130,6 +161,25 @@ def flicker_processes(B, f_low, f_high):
         "Hidalgo 2012, table 3 for the density; no source for this sum of Gauss-Markov processes, "
         "one a decade"
     ),
+    law=Law(
+        markov=lambda B, f_low, f_high: [
+            (variance, 1 / rate) for variance, rate in flicker_processes(B, f_low, f_high)
+        ],
+        floor=lambda B: ca.sqrt(2 * ca.log(2) / ca.pi) * B,
+        transfer=(
+            r"c\, \frac{\prod_{k=1}^{5} (s + z_k)}{\prod_{k=1}^{6} (s + a_k)},\quad "
+            r"|H|^2 = \sum_k \frac{g_k^2}{a_k^2 + \omega^2}"
+        ),
+        poles=r"-a_k = -2 \pi f_{low} (f_{high} / f_{low})^{(k - 1) / 5}",
+        psd=r"\approx \frac{B^2}{2 \pi f} \quad (f_{low} \le f \le f_{high})",
+        allan=r"\approx \sqrt{\tfrac{2 \ln 2}{\pi}}\, B = 0.664\, B",
+        note=(
+            "A sum of six Gauss-Markov processes stands for the density. From $f_{low}$ to "
+            r"$f_{high}$ it departs from $B^2 / (2 \pi f)$ by at most 0.25 dB; the line of the "
+            "Allan deviation is the integral of the sum's density."
+        ),
+    ),
+    symptom="flickers",
 )
 def bias_instability(
     x,
@@ -172,6 +222,13 @@ def bias_instability(
     term="rate-dependent noise, scale factor noise",
     equation=r"y = x + k x w / \sqrt{h}",
     source="no source; white noise whose root density grows with the input",
+    law=Law(
+        white=lambda k, x: (k * x) ** 2,
+        transfer=r"k\, |x|",
+        psd="k^2 x^2",
+        allan=r"\frac{k |x|}{\sqrt\tau}",
+        note="White noise as large as the rate is fast; the picture is at 100 deg/s.",
+    ),
 )
 def rate_dependent_noise(
     x,

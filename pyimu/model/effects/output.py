@@ -2,7 +2,7 @@
 
 import casadi as ca
 
-from pyimu.model.effect import Parameter, SamplePeriod, Scan, State, effect
+from pyimu.model.effect import Law, Parameter, SamplePeriod, Scan, State, effect
 
 
 def _inside(y, d):
@@ -37,6 +37,17 @@ def dead_zone(x, d: Parameter("{y}", minimum=0.0, description="largest input wit
     smooth=False,
     invertible=False,
     source="Hidalgo 2012, table 3, quantization noise with Q = q / sqrt(12)",
+    law=Law(
+        rounding=lambda q: q / ca.sqrt(12),
+        transfer=r"Q \sqrt{h}\, s,\quad Q = q / \sqrt{12}",
+        psd=r"\frac{4 Q^2}{h} \sin^2(\pi f h) \approx (2 \pi f)^2 Q^2 h",
+        allan=r"\frac{\sqrt 3\, Q}{\tau}",
+        note=(
+            "The angle's rounding error is independent from sample to sample where other noise "
+            "turns the sensor by half a step a sample or more. The picture shows the error alone, "
+            "the FMU's output less that of the same noise unrounded."
+        ),
+    ),
 )
 def angle_quantization(
     x,
@@ -63,6 +74,8 @@ def _at_limit(y, limit):
     invertible=False,
     lost=_at_limit,
     source="no source; clipping at the ends of the input range",
+    symptom="clips",
+    phrase="saturation at",
 )
 def saturation(
     x,
@@ -70,6 +83,7 @@ def saturation(
         "{y}",
         minimum=0.0,
         scan=Scan("range", 0.3, 0.98, 12),
+        reads="ceiling",
         description="largest output; 0 switches the limit off",
     ),
 ):
@@ -84,8 +98,23 @@ def saturation(
     smooth=False,
     invertible=False,
     source="no source; rounding of the rate to steps q",
+    law=Law(
+        white=lambda q, h: q**2 * h / 12,
+        transfer=r"q \sqrt{h / 12}",
+        psd=r"\frac{q^2 h}{12}",
+        allan=r"q \sqrt{\frac{h}{12\, \tau}}",
+        note=(
+            "Rounding of the rate is white noise where other noise exceeds half a step. The "
+            "picture shows the error alone."
+        ),
+    ),
+    symptom="rounds coarsely",
+    phrase="rounding to",
 )
 def quantization(
-    x, q: Parameter("{y}", minimum=0.0, description="step of the output; 0 switches rounding off")
+    x,
+    q: Parameter(
+        "{y}", minimum=0.0, reads="step", description="step of the output; 0 switches rounding off"
+    ),
 ):
     return ca.if_else(q > 0, q * ca.floor(x / q + 0.5), x)

@@ -10,6 +10,7 @@ from pyimu.model.effect import Parameter, effect
     term="scale factor error",
     equation=r"y = (1 + s) x",
     source="Hidalgo 2012, section 3.2, matrix M; Groves 2013, eqs. 4.16 and 4.17",
+    symptom="has another scale factor",
 )
 def scale_factor(x, s: Parameter("1", description="relative scale factor error")):
     return x + s * x
@@ -23,6 +24,7 @@ def scale_factor(x, s: Parameter("1", description="relative scale factor error")
         "scale factor asymmetry of IEEE Std 528, whose text was not checked; here half the "
         "difference of the slopes"
     ),
+    symptom="scales the two senses differently",
 )
 def scale_factor_asymmetry(
     x,

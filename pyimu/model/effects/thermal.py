@@ -14,6 +14,7 @@ ORIGIN = Parameter(
     term="bias temperature sensitivity",
     equation=r"y = x + k_T (T - T_0)",
     source="Hidalgo 2012, table 1",
+    symptom="drifts with temperature",
 )
 def thermal_bias(
     x,
@@ -32,6 +33,7 @@ def thermal_bias(
         "polynomial of third order as autopilots fit it (ArduPilot, pull request 16262; PX4, "
         "parameters TC_G)"
     ),
+    symptom="drifts with temperature",
 )
 def thermal_bias_quadratic(
     x,

@@ -33,7 +33,7 @@ _FIELDS = {"gyro": "angular_velocity", "accel": "linear_acceleration"}
 @dataclass(frozen=True)
 class BagTable(Table):
     """A bag: ``topic`` of its Imu messages, ``messages`` how many, the sensor ``groups`` in them,
-    ``warmth`` ns and degC.
+    ``temperature`` ns and degC.
 
     Messages are read one by one; of the temperature, which is interpolated at the Imu's times, all
     at once.
@@ -45,7 +45,7 @@ class BagTable(Table):
     messages: int
     groups: tuple[str, ...]
     logged: bool
-    warmth: tuple[np.ndarray, np.ndarray] | None
+    temperature: tuple[np.ndarray, np.ndarray] | None
     findings: tuple[Finding, ...] = ()
 
     @classmethod
@@ -71,15 +71,15 @@ class BagTable(Table):
             count = sum(c.msgcount for c in _connections(bag, topic))
             if logged:
                 findings.append(Finding("log_time", "time", count, {"topic": topic}))
-            warmth = _warmth(path, bag, topics.get("temperature"), logged, findings)
+            temperature = _temperature(path, bag, topics.get("temperature"), logged, findings)
             return cls(
                 path,
-                _header(groups, warmth is not None),
+                _header(groups, temperature is not None),
                 topic,
                 count,
                 groups,
                 logged,
-                warmth,
+                temperature,
                 tuple(findings),
             )
 
@@ -108,8 +108,8 @@ class BagTable(Table):
     ) -> Columns:
         time = np.array(times, dtype=np.int64)
         columns = [time, *np.array(rows, dtype=float).reshape(len(rows), -1).T]
-        if self.warmth is not None:
-            stamp, value = self.warmth
+        if self.temperature is not None:
+            stamp, value = self.temperature
             columns.append(
                 np.interp((time - stamp[0]).astype(float), (stamp - stamp[0]).astype(float), value)
             )
@@ -186,7 +186,7 @@ def _imu_topic(path: Path, bag: Any, named: str | None) -> str:
     return known[0]
 
 
-def _warmth(
+def _temperature(
     path: Path, bag: Any, named: str | None, logged: bool, findings: list[Finding]
 ) -> tuple[np.ndarray, np.ndarray] | None:
     """Times [ns] and temperatures [degC] of the topic, in order of time, None where there is none
@@ -218,10 +218,10 @@ def _warmth(
     )
 
 
-def _header(groups: Sequence[str], warmth: bool) -> list[str]:
+def _header(groups: Sequence[str], temperature: bool) -> list[str]:
     names = [
-        f"{name} [{GROUPS[group][1]}]"
-        for group in (*groups, *(["temperature"] if warmth else []))
+        f"{name} [{GROUPS[group].unit}]"
+        for group in (*groups, *(["temperature"] if temperature else []))
         for name in column_names(group)
     ]
     return ["time [ns]", *names]

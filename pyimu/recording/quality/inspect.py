@@ -96,7 +96,7 @@ def _gravity_down(recording: Recording) -> Iterator[Finding]:
     """Gravity on -z at rest: probably a log in forward-right-down axes that nobody declared."""
     if recording.accel is None or recording.frame_declared:
         return
-    rest = _quiet_force(recording)
+    rest = _quietest_force(recording)
     if rest is not None and rest[2] < -0.8 * STANDARD_GRAVITY:
         yield Finding(
             "gravity_down",
@@ -106,16 +106,18 @@ def _gravity_down(recording: Recording) -> Iterator[Finding]:
         )
 
 
-def _quiet_force(recording: Recording) -> np.ndarray | None:
-    """The median specific force (3,) over the quietest tenth of blocks of a second, None where it
-    is not gravity.
+def _quietest_force(recording: Recording) -> np.ndarray | None:
+    """The median specific force (3,) over the quietest tenth of the seconds, None where it is not
+    gravity. A log need not rest for that.
     """
     length = max(4, min(round(recording.sample_rate), len(recording) // 10))
     count = len(recording) // length
-    blocks = recording.accel[: count * length].reshape(count, length, 3)
-    blocks = blocks[np.all(np.isfinite(blocks), axis=(1, 2))]
-    if not len(blocks):
+    seconds = recording.accel[: count * length].reshape(count, length, 3)
+    seconds = seconds[np.all(np.isfinite(seconds), axis=(1, 2))]
+    if not len(seconds):
         return None
-    spread = blocks.std(axis=1).sum(axis=1)
-    rest = np.median(blocks[spread <= np.quantile(spread, 0.1)].mean(axis=1), axis=0)
-    return rest if abs(np.linalg.norm(rest) - STANDARD_GRAVITY) < 0.1 * STANDARD_GRAVITY else None
+    spread = seconds.std(axis=1).sum(axis=1)
+    quietest = seconds[spread <= np.quantile(spread, 0.1)].mean(axis=1)
+    force = np.median(quietest, axis=0)
+    off = abs(np.linalg.norm(force) - STANDARD_GRAVITY)
+    return force if off < 0.1 * STANDARD_GRAVITY else None

@@ -2,7 +2,7 @@
 
 A reference attitude is differentiated by a cubic rotation spline through its own samples
 (``scipy``'s RotationSpline, which solves the kinematic equation, so that rotations need not
-commute). It adds no bandwidth of its own, and stays inside each stretch that was seen: occlusions
+commute). It adds no bandwidth of its own, and stays inside each segment that was seen: occlusions
 and faults are NaN.
 """
 
@@ -20,6 +20,7 @@ from pyimu.errors import Finding, UserError
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.band import trusted_band
 from pyimu.recording.reference.track import Track
+from pyimu.recording.rest import is_at_rest
 
 EARTH_RATE = 7.292115e-5
 """rad/s (WGS 84)."""
@@ -48,8 +49,8 @@ def reference_rate(recording: Recording, latitude: float | None = None) -> Refer
     """The rate against inertial space that the recording's reference saw, in body axes.
 
     From ``ref_rate`` as it is; else from ``ref_q``, differentiated; else about z from
-    ``ref_heading`` of a planar vehicle, x and y unknown; else unknown where the recording has a
-    position or is marked as moving, and zero (static) where it has no reference at all. To a
+    ``ref_heading`` of a planar vehicle, x and y unknown; else zero (static) where the recording is
+    at rest, and unknown where it moves. To a
     differentiated rate the Earth's is added where the latitude [rad] is known (the argument, else
     the recording's column). Raises UserError for a latitude beyond pi/2.
     """
@@ -63,18 +64,10 @@ def reference_rate(recording: Recording, latitude: float | None = None) -> Refer
         return _from_attitude(recording, _latitudes(recording, latitude))
     if recording.ref_heading is not None:
         return _from_heading(recording, _latitudes(recording, latitude))
-    if _moves(recording):
+    if not is_at_rest(recording):
         return Reference(np.full((len(recording), 3), np.nan), "none", earth_rate=False)
     return Reference(
         np.zeros((len(recording), 3)), "static", None, recording.segments, earth_rate=False
-    )
-
-
-def _moves(recording: Recording) -> bool:
-    """Whether a recording without reference of its rotation is known to move all the same."""
-    track = (recording.ref_north, recording.ref_east, recording.ref_velocity)
-    return any(t is not None for t in track) or (
-        recording.moving is not None and bool(np.any(recording.moving > 0))
     )
 
 
@@ -117,7 +110,7 @@ def _from_attitude(recording: Recording, latitude: np.ndarray | float | None) ->
 
     track = Track(recording.time, _fresh(q), steps)
     rate = np.full((len(recording), 3), np.nan)
-    for nodes in track.stretches:
+    for nodes in track.segments:
         rows, curve = np.arange(nodes[0], nodes[-1] + 1), spline(nodes)
         rate[rows] = curve(recording.time[rows], 1)
         if latitude is not None:
@@ -135,7 +128,7 @@ def _from_heading(recording: Recording, latitude: np.ndarray | float | None) -> 
     unwrapped[known] = np.unwrap(heading[known])
     track = Track(recording.time, known, lambda nodes: np.diff(unwrapped[nodes])[:, None])
     rate = np.full((len(recording), 3), np.nan)
-    for nodes in track.stretches:
+    for nodes in track.segments:
         rows = np.arange(nodes[0], nodes[-1] + 1)
         rate[rows, 2] = CubicSpline(recording.time[nodes], unwrapped[nodes])(
             recording.time[rows], 1
@@ -167,7 +160,7 @@ def _derived(
 ) -> Reference:
     band = (
         trusted_band(recording.time, recording.gyro, rate, 0.25 / track.period)
-        if track.stretches
+        if track.segments
         else None
     )
     return Reference(

@@ -10,11 +10,11 @@ import numpy as np
 from pyimu.errors import Finding
 
 LEAST_NODES = 8
-"""A stretch of a reference with fewer samples is left out."""
+"""A segment of a reference with fewer samples is left out."""
 
 
 BREAK = 1.5
-"""A step between reference samples above so many of its own usual steps ends a stretch."""
+"""A step between reference samples above so many of its own usual steps ends a segment."""
 
 
 SPIKE_ANGLE = 0.05
@@ -38,7 +38,7 @@ MARGIN = 0.25
 
 
 class Track:
-    """The samples of a reference: stretches of row numbers that can be differentiated, without
+    """The samples of a reference: segments of row numbers that can be differentiated, without
     occlusions and faults.
 
     ``known`` are the rows with a reference; ``steps(nodes)`` gives the rotation vectors (m - 1, d)
@@ -55,7 +55,7 @@ class Track:
         longest = BREAK * float(np.quantile(step, 0.9)) if len(step) else math.nan
         self.period = float(step[step <= longest].mean()) if len(step) else math.nan
         whole = self._split(known, step > longest)
-        self.stretches = [
+        self.segments = [
             nodes for nodes in self._without_faults(whole, steps) if len(nodes) >= LEAST_NODES
         ]
 
@@ -66,7 +66,7 @@ class Track:
         ]
 
     def _without_faults(self, whole: list[np.ndarray], steps) -> list[np.ndarray]:
-        """The stretches less the faults of the reference.
+        """The segments less the faults of the reference.
 
         A spike is a step of the attitude that comes and goes, or a rate that jumps up and down
         again between samples: two successive changes of rate that oppose each other, sqrt(-d_k .

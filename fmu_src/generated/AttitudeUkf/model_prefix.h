@@ -1,0 +1,4 @@
+/* Generated from the block AttitudeUkf; do not edit. */
+#ifndef MODEL_PREFIX
+#define MODEL_PREFIX AttitudeUkf_
+#endif

@@ -1,0 +1,63 @@
+"""An attitude filter as a block: what the filters have in common of names, start and step."""
+
+from __future__ import annotations
+
+import casadi as ca
+
+from pyimu.attitude import late_heading
+from pyimu.attitude.layout import Layout
+from pyimu.attitude.memory import start
+from pyimu.attitude.updates import outputs
+from pyimu.attitude.variables import OUTPUTS
+from pyimu.block.block import Block
+from pyimu.model.part import Part
+
+
+def filter_block(name: str, title: str, layout: Layout, step: ca.Function) -> Block:
+    """The block ``name`` of a filter with this ``step``; ``title`` begins its description."""
+    part = layout.compensation.part
+    p = ca.SX.sym("p", len(layout.parameters))
+    estimate, state = start(layout.compensation, p)
+    initial = ca.Function("initial", [p], [state, outputs(estimate, 0, 0, 0)], ["p"], ["s", "y"])
+    return Block(
+        name=name,
+        description=f"{title} of the part {part.name}{_left_in(part)}",
+        step=step,
+        initial=initial,
+        inputs=layout.inputs,
+        parameters=layout.parameters,
+        outputs=OUTPUTS,
+        noise=(),
+        sample_period=1.0 / part.sample_rate,
+    )
+
+
+def _left_in(part: Part) -> str:
+    """Which of the sensors' errors the filter leaves in, for the description."""
+    left = [
+        f"{name} of the {sensor.kind}"
+        for sensor in (part.gyro, part.accel)
+        for name in sensor.left_in
+    ]
+    if not left:
+        return ""
+    return f"; not undone, and in no standard deviation but that of rounding: {', '.join(left)}"
+
+
+def step_function(layout: Layout, symbols: list[ca.MX], estimate, memory, yaw, y) -> ca.Function:
+    """The step ``(s, u, p, w, h) -> (s_next, y)`` of the block, without noise.
+
+    ``symbols`` are s, u, p and h. ``estimate`` and ``memory`` are the columns after the sample; its
+    ``yaw`` and its variance about the vertical take their slot in the rings.
+    """
+    s, u, p, h = symbols
+    vertical_noise, slot = memory[-3], memory[-2]
+    rings = s[layout.rings :]
+    rings.nz[slot + ca.DM([0, late_heading.SLOTS])] = ca.vertcat(yaw, vertical_noise)
+    return ca.Function(
+        "step",
+        [s, u, p, ca.MX(0, 1), h],
+        [ca.vertcat(estimate, memory, rings), y],
+        ["s", "u", "p", "w", "h"],
+        ["s_next", "y"],
+    )

@@ -1,0 +1,119 @@
+"""A recording as the attitude filter's inputs, on a regular grid of its sample period."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from pyimu.attitude.columns import extra_column, recorded_heading, temperature_of
+from pyimu.attitude.variables import EXTRA_INPUTS
+from pyimu.model.part import Part
+from pyimu.recording.recording import Recording
+
+LONGEST_GAP = 60.0
+"""s; of a gap so much becomes missing samples, by which the attitude is lost; over the rest of it
+only the bias still walks."""
+
+CHUNK = 65_536
+"""Samples that are run at a time, so that a long log takes no more memory than its results do."""
+
+
+class Piece(NamedTuple):
+    """The inputs (m, nu) of successive samples, in an array that is used again.
+
+    ``rows`` are the recording's rows among them, ``at`` the samples of ``inputs`` where these
+    stand, ``left_out`` the s of a gap that are left out before the first.
+    """
+
+    inputs: np.ndarray
+    rows: slice
+    at: np.ndarray
+    left_out: float
+
+
+class InputGrid:
+    """The block's inputs on the grid: the recording's rows where there are any, else missing values
+    of the sensors and no mark.
+
+    ``rows`` (n,) is the sample number of each row, ``after_gap`` the rows that follow a gap,
+    ``left_out`` the s of each gap that exceed its missing samples. ``names`` are those of the
+    block's inputs.
+    """
+
+    def __init__(self, recording: Recording, part: Part, names: list[str]) -> None:
+        self.rows, gaps, self.left_out = _grid(recording)
+        self.after_gap = 1 + gaps
+        signals, marks = _signals(recording, part), _marks(recording)
+        self.columns = [_column(name, signals, marks) for name in names]
+
+    def pieces(self) -> Iterator[Piece]:
+        """The inputs piece by piece."""
+        u, start = np.empty((CHUNK, len(self.columns))), 0
+        for first, size, left_out in self._cuts():
+            stop = int(np.searchsorted(self.rows, first + size))
+            rows, at = slice(start, stop), self.rows[start:stop] - first
+            for i, (values, otherwise) in enumerate(self.columns):
+                u[:, i] = otherwise
+                if values is not None:
+                    u[at, i] = values[rows]
+            yield Piece(u[:size], rows, at, left_out)
+            start = stop
+
+    def _cuts(self) -> Iterator[tuple[int, int, float]]:
+        """First sample and size of each piece, and the s left out before it: a piece ends where a
+        long gap does.
+        """
+        long = np.flatnonzero(self.left_out)
+        starts = [0, *self.rows[self.after_gap[long]].tolist()]
+        ends = [*starts[1:], int(self.rows[-1]) + 1]
+        before = [0.0, *self.left_out[long].tolist()]
+        for start, end, left_out in zip(starts, ends, before, strict=True):
+            for first in range(start, end, CHUNK):
+                yield first, min(CHUNK, end - first), left_out if first == start else 0.0
+
+
+def _signals(recording: Recording, part: Part) -> dict[str, np.ndarray | None]:
+    """The sensors' columns by name, (n,) or (n, 3); they are missing between the rows."""
+    temperature = np.broadcast_to(temperature_of(recording, part), len(recording.time))
+    extra = {signal: extra_column(recording, part, signal) for signal in EXTRA_INPUTS}
+    return {"gyro": recording.gyro, "accel": recording.accel, "temperature": temperature} | extra
+
+
+def _marks(recording: Recording) -> dict[str, np.ndarray | None]:
+    """The columns (n,) of headings and ``stationary`` by name; they are zero between the rows."""
+    marks = {"stationary": getattr(recording, "stationary", None)}
+    if getattr(recording, "heading", None) is None:
+        return marks
+    heading, std = recorded_heading(recording)
+    valid = np.isfinite(heading) & np.isfinite(std)
+    return marks | {
+        "heading": np.where(valid, heading, 0),
+        "heading_variance": np.where(valid, std**2, 0),
+        "heading_valid": valid,
+    }
+
+
+def _column(name: str, signals: dict, marks: dict) -> tuple[np.ndarray | None, float]:
+    """The recorded values (n,) of an input where there are any, and what stands between them."""
+    signal, _, axis = name.partition("[")
+    if signal not in signals:
+        return marks.get(name), 0.0
+    values = signals[signal]
+    return (values if values is None or not axis else values[:, int(axis[:-1]) - 1]), np.nan
+
+
+def _grid(recording: Recording) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Sample number (n,) of each row on a regular grid; the rows before a gap; the s (gaps,) of
+    each gap that exceed its missing samples.
+    """
+    period = recording.sample_period
+    steps = np.diff(recording.time) / period
+    gaps = np.flatnonzero(steps > recording.cadence.longest / period)
+    if not len(gaps):
+        return np.arange(len(recording.time)), gaps, np.zeros(0)
+    # Only a gap counts: jitter of the time stamps neither drops nor adds a sample.
+    counts, whole = np.ones(len(steps), dtype=int), np.round(steps[gaps])
+    counts[gaps] = np.minimum(whole, max(1, round(LONGEST_GAP / period)))
+    return np.concatenate([[0], np.cumsum(counts)]), gaps, (whole - counts[gaps]) * period

@@ -1,0 +1,123 @@
+"""What goes from one function of an attitude filter's step to the next, and how many numbers each
+argument has.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import casadi as ca
+
+from pyimu.attitude import late_heading
+from pyimu.attitude.compensation import Compensation
+from pyimu.attitude.memory import ESTIMATE, WORKING, memory_sizes
+from pyimu.attitude.variables import INPUTS, OWN_PARAMETERS
+from pyimu.block.variables import Variable
+
+GRAVITY = 11
+"""Numbers of a ``GravityMeasurement``."""
+
+
+@dataclass(frozen=True)
+class GravityMeasurement:
+    """A force that stands for gravity, as the update by gravity takes it.
+
+    ``force`` (3,) m/s^2 in body axes; ``variance`` (3,) (m/s^2)^2 by which it is weighed;
+    ``magnitude`` of gravity in m/s^2; the sample ``period`` in s; ``sample_variance`` (3,), that of
+    one sample, by which the innovation is normalised.
+    """
+
+    force: ca.SX
+    variance: ca.SX
+    magnitude: ca.SX
+    period: ca.SX
+    sample_variance: ca.SX
+
+    def pack(self) -> ca.SX:
+        return ca.vertcat(
+            self.force, self.variance, self.magnitude, self.period, self.sample_variance
+        )
+
+    @classmethod
+    def unpack(cls, column) -> GravityMeasurement:
+        return cls(column[:3], column[3:6], column[6], column[7], column[8:])
+
+
+FLAGS = 9
+"""Numbers of ``Flags``."""
+
+
+@dataclass(frozen=True)
+class Flags:
+    """What the prediction says to the updates.
+
+    ``which`` updates are needed, 0: none, 1: gravity's alone, 2: others. Whether ``gravity``
+    corrects, whether the body is ``quasi_static``, whether its attitude may be ``lost``, whether a
+    ``heading`` and a zero rate (``stationary``) correct, whether an input was ``missing``.
+    ``faults`` are the other bits of the status; ``vertical_noise`` is that of ``Memory``.
+    """
+
+    which: ca.SX
+    gravity: ca.SX
+    quasi_static: ca.SX
+    lost: ca.SX
+    heading: ca.SX
+    stationary: ca.SX
+    missing: ca.SX
+    faults: ca.SX
+    vertical_noise: ca.SX
+
+    def pack(self) -> ca.SX:
+        return ca.densify(ca.vertcat(*vars(self).values()))
+
+    @classmethod
+    def unpack(cls, column) -> Flags:
+        *flags, _ = ca.vertsplit(column)
+        # The last one by itself keeps the generated C of the fast filter as it was.
+        return cls(*flags, column[-1])
+
+
+@dataclass(frozen=True)
+class Layout:
+    """How many numbers each argument of the step's functions has, for the sensors of a part."""
+
+    compensation: Compensation
+
+    @cached_property
+    def inputs(self) -> tuple[Variable, ...]:
+        return (*INPUTS, *self.compensation.extra_inputs)
+
+    @cached_property
+    def parameters(self) -> tuple[Variable, ...]:
+        part = self.compensation.part
+        return (*OWN_PARAMETERS, *part.gyro.variables, *part.accel.variables)
+
+    @cached_property
+    def rings(self) -> int:
+        """Where in the state the two rings of past yaws and past ``vertical_noise`` begin."""
+        return ESTIMATE + sum(memory_sizes(self.compensation))
+
+    @cached_property
+    def sizes(self) -> dict[str, int]:
+        """By name: the ``estimate`` and the ``memory`` that follows it in the state ``s``, the
+        working estimate ``x``, the inputs ``u``, the parameters ``p``, the sample period ``h``; the
+        compensated ``rate``, what stands for ``gravity``, the ``flags``, ``vertical_noise``.
+        """
+        return {
+            "estimate": ESTIMATE,
+            "memory": self.rings - ESTIMATE,
+            "s": self.rings + 2 * late_heading.SLOTS,
+            "x": WORKING,
+            "u": len(self.inputs),
+            "p": len(self.parameters),
+            "h": 1,
+            "rate": 3,
+            "gravity": GRAVITY,
+            "flags": FLAGS,
+            "vertical_noise": 1,
+        }
+
+    def symbols(self, kind: type[ca.SX | ca.MX], names: str) -> list:
+        """A symbol for each of ``names``, which spaces separate."""
+        return [kind.sym(name, self.sizes[name]) for name in names.split()]

@@ -1,0 +1,135 @@
+"""The updates that the filters have in common, as casadi functions of the working estimate, and the
+outputs.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import casadi as ca
+
+from pyimu.attitude import late_heading, unscented
+from pyimu.attitude.gravity_update import vertical
+from pyimu.attitude.heading_update import LEVEL, by_heading
+from pyimu.attitude.layout import FLAGS, Flags, Layout
+from pyimu.attitude.memory import ESTIMATE, WORKING, Memory
+from pyimu.attitude.settings import Settings
+from pyimu.attitude.unscented import Estimate, bounded, bounded_tilt
+from pyimu.symbolic import quaternion
+
+OPTIONS = {"cse": True}
+
+
+def where(condition, function: ca.Function, values, *more):
+    """``function(values, *more)`` where ``condition`` holds, else ``values``.
+
+    The function runs only then.
+    """
+    symbols = [ca.MX.sym(f"i{i}", function.numel_in(i)) for i in range(function.n_in())]
+    same = ca.Function(f"without_{function.name()}", symbols, [symbols[0]])
+    return ca.Function.if_else(f"perhaps_{function.name()}", function, same)(
+        condition, values, *more
+    )
+
+
+# A lost attitude
+
+
+def bounded_where_lost(x: ca.MX, flags: Flags) -> ca.MX:
+    """The working estimate with its standard deviations of attitude bounded where that may be lost;
+    where gravity is about to correct it, those of the tilt are bounded so that it can.
+    """
+    return where(flags.lost * flags.gravity, _bounding_tilt(), where(flags.lost, _bounding(), x))
+
+
+def _bounding() -> ca.Function:
+    """``x -> x`` with the standard deviation about each axis bounded."""
+    s = ca.SX.sym("x", WORKING)
+    x = Memory.estimate_of(s)
+    after = Estimate(x.q, x.bias, bounded(x.covariance))
+    return ca.Function("bounding", [s], [_with_estimate(s, after)], OPTIONS)
+
+
+def _bounding_tilt() -> ca.Function:
+    """``x -> x`` with the standard deviation of the tilt bounded."""
+    s = ca.SX.sym("x", WORKING)
+    after = bounded_tilt(Memory.estimate_of(s))
+    return ca.Function("bounding_tilt", [s], [_with_estimate(s, after)], OPTIONS)
+
+
+def _with_estimate(working, x: Estimate):
+    """The ``working`` estimate with ``x`` in place of its estimate."""
+    return ca.vertcat(Memory.pack_estimate(x), working[ESTIMATE - 1 :])
+
+
+# Heading and zero rate
+
+
+def after_gravity(layout: Layout, x, s, u, p, h, rate, flags: Flags) -> ca.MX:
+    """The working estimate after the updates that follow gravity's: by a heading and by a zero
+    rate, where the ``flags`` ask for them.
+    """
+    x = where(flags.heading, by_heading(layout), x, s, u, p, h, rate, flags.vertical_noise)
+    return where(flags.stationary, _by_zero_rate(layout), x, rate, p, h)
+
+
+def _by_zero_rate(layout: Layout) -> ca.Function:
+    """``x, rate, p, h -> x``: the gyro of a body that does not turn against the Earth.
+
+    It measures bias and Earth rate, z = b + R_nb^T w_e + n. To first order R_nb^T w_e of the true
+    attitude is w_b + w_b x p, with w_b that of the estimate: linear in the error state.
+    """
+    s, rate, p, h = symbols = layout.symbols(ca.SX, "x rate p h")
+    x, settings = Memory.estimate_of(s), Settings.of(layout.compensation, p)
+    earth = quaternion.rotate(quaternion.conjugate(x.q), settings.earth)
+    slope = ca.horzcat(ca.skew(earth), ca.SX.eye(3))
+    cross = x.covariance @ slope.T
+    noise = settings.gyro.white**2 / h + settings.scalar["stationary_std"] ** 2
+    after, _, _ = unscented.correct(
+        x, rate - x.bias - earth, slope @ cross + ca.diag(noise), cross, vertical(x)
+    )
+    return ca.Function("by_zero_rate", symbols, [_with_estimate(s, after)], OPTIONS)
+
+
+# Outputs
+
+
+def finish() -> ca.Function:
+    """``x, flags -> estimate, yaw, y``: the estimate with q at unit length, its yaw as the ring
+    keeps it, and the outputs.
+    """
+    given, packed = ca.SX.sym("x", WORKING), ca.SX.sym("flags", FLAGS)
+    x, flags = Memory.estimate_of(given), Flags.unpack(packed)
+    q = quaternion.normalized(x.q)
+    nis, *report = ca.vertsplit(given[ESTIMATE:])
+    status = _status(flags, report, ca.diag(x.covariance))
+    y = outputs(replace(x, q=q), flags.quasi_static, nis * flags.quasi_static, status)
+    level = (1 - 2 * (q[2] * q[2] + q[3] * q[3])) ** 2 + (
+        2 * (q[1] * q[2] + q[0] * q[3])
+    ) ** 2 > LEVEL**2
+    yaw = ca.if_else(level, y[6] - given[ESTIMATE - 1], late_heading.NEVER)
+    estimate = ca.vertcat(q, given[4:ESTIMATE])
+    return ca.Function("finish", [given, packed], [estimate, yaw, y], OPTIONS)
+
+
+def _status(flags: Flags, report: list, variances):
+    """The bits of ``STATUS`` from the prediction's flags and the updates' report."""
+    gravity_beyond, old, unusable, held_back, heading_beyond = report
+    no_variance = 1 - ca.mmin(variances > 0)
+    not_finite = flags.missing + unusable - flags.missing * unusable
+    return flags.faults + (
+        not_finite
+        + 8 * gravity_beyond
+        + 16 * old
+        + 32 * held_back
+        + 64 * heading_beyond
+        + 128 * no_variance
+    )
+
+
+def outputs(x: Estimate, quasi_static, nis, status) -> ca.SX:
+    """The block's outputs (``pyimu.attitude.variables.OUTPUTS``) as a column."""
+    std = [ca.sqrt(ca.fmax(x.covariance[i, i], 0)) for i in range(6)]
+    return ca.densify(
+        ca.vertcat(x.q, quaternion.to_euler(x.q), x.bias, *std, quasi_static, nis, status)
+    )

@@ -1,0 +1,168 @@
+"""Sentences about a log: its contents, its segments, and what its faults do to the coefficients."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+
+import numpy as np
+
+from pyimu.characterization.outcome import LogResult, Outcome
+from pyimu.characterization.report.coefficients import SENSORS
+from pyimu.errors import Finding
+from pyimu.report.numbers import number
+from pyimu.report.page import detail
+
+TIMES = ((86400.0, "d"), (3600.0, "h"), (60.0, "min"), (0.0, "s"))
+"""Seconds of the units of time, the largest first."""
+
+FAULTS = {
+    "clipping": (
+        "clipped samples: what lies beyond the limit is missing, so that N is too small and the "
+        "bias is off"
+    ),
+    "spikes": "the spikes are in N and Q, which are too large",
+    "stuck_samples": "stuck samples hold one value for long, so that N, B and K are off",
+    "held_samples": (
+        "each value stands in several rows, so that Q and N at short clusters are those of the log "
+        "and not of the sensor"
+    ),
+    "quantization_step": (
+        "steps as coarse as the noise: N, B and K are also those of the rounding, and not of the "
+        "sensor alone"
+    ),
+}
+"""What findings do to the coefficients."""
+
+COARSE = 0.5
+"""Share of the white noise made by rounding above which the noise is not the sensor's own."""
+
+NOTICED = 0.01
+"""Share of the white noise below which spikes and stuck samples do not matter."""
+
+
+def duration(seconds: float) -> str:
+    """A time in the unit that suits it, ``2.78 h``."""
+    size, unit = next((s, u) for s, u in TIMES if seconds >= 2 * s)
+    return f"{number(seconds / (size or 1.0))} {unit}"
+
+
+def about(log: LogResult) -> str:
+    """A log in a line: its rows, its length, its sensors and their rates."""
+    sensors = ", ".join(f"{SENSORS[k]} at {1 / s.h:.6g} Hz" for k, s in log.sensors.items())
+    return f"{log.rows:,} rows, {duration(log.duration)}, {sensors}"
+
+
+def notes(c: Outcome) -> list[str]:
+    """What must be known of the logs: doubts, gaps, and channels that are left out."""
+    return [line for log in c.logs for line in (*doubts(log), *_gaps(log))] + [
+        f"{log.name}: {ch.name} is left out: {ch.reason}."
+        for log in c.logs
+        for ch in log.channels
+        if ch.noise is None
+    ]
+
+
+def _gaps(log: LogResult) -> Iterator[str]:
+    """What was done with a log that has gaps, a sentence for each sensor."""
+    for k, s in log.sensors.items():
+        if s.segments > 1:
+            used = (
+                f"all {s.segments_used:,}"
+                if s.segments_used == s.segments
+                else f"the longest {s.segments_used:,} of {s.segments:,}"
+            )
+            yield (
+                f"{log.name}: the {SENSORS[k]} has {s.segments - 1:,} "
+                f"gap{'s' * (s.segments > 2)}. Nothing is bridged: deviations are made of "
+                f"{used} segments, up to {duration(s.longest * s.h)} each, and the spectrum of "
+                "all."
+            )
+
+
+def doubts(log: LogResult) -> Iterator[str]:
+    """Why the coefficients of a log may not be those of the sensor.
+
+    The log holds raw counts, is not at rest, has faults that reach the coefficients, or a warm-up
+    was removed from it.
+    """
+    yield from _not_at_rest(log)
+    for kind, text in FAULTS.items():
+        columns = list(
+            dict.fromkeys(f.column for f in log.findings if f.kind == kind and _matters(log, f))
+        )
+        if columns:
+            yield f"{log.name}: {', '.join(columns)}: {text}."
+    removed = [ch.compensated_for for ch in log.channels if "warm-up" in ch.compensated_for]
+    for text in dict.fromkeys(removed):
+        columns = [ch.name for ch in log.channels if ch.compensated_for == text]
+        yield (
+            f"{log.name}: {', '.join(columns)}: a warm-up was taken off; what its exponential "
+            "leaves is in B, K and R."
+        )
+
+
+def _not_at_rest(log: LogResult) -> Iterator[str]:
+    """That a log holds raw counts, which look like motion, or else moves."""
+    counts, moving = (
+        [f.column for f in log.findings if f.kind == kind] for kind in ("counts", "motion")
+    )
+    if counts:
+        yield (
+            f"{log.name}: {', '.join(counts)} hold whole numbers, as counts of a converter do, in "
+            "a unit that no sensor is that coarse in: "
+            "the coefficients are in a false unit. Say the size of a count in a column map, "
+            "[scale]."
+        )
+    elif moving:
+        yield (
+            f"{log.name}: not at rest: {', '.join(moving)} change more from one second to the next "
+            "than noise does, "
+            "so that the coefficients are also those of the motion. Give a log at rest, or the "
+            "part of it that is."
+        )
+
+
+def rounding_share(step: float, N: float, h: float) -> float:
+    """Share of the white noise N that rounding to ``step`` makes; infinite where there is no N.
+
+    Samples are ``h`` s apart; rounding has the variance step^2 / 12.
+    """
+    return step**2 * h / 12 / N**2 if N else np.inf
+
+
+def _matters(log: LogResult, f: Finding) -> bool:
+    """Whether a finding reaches the coefficients of its channel, if it has any."""
+    ch = next((ch for ch in log.channels if ch.name == f.column and ch.noise is not None), None)
+    if ch is None:
+        return False
+    # Where N is not needed, as much as there may be.
+    s, N = log.sensors[ch.kind], ch.noise.fit.estimates.get("N", 0.0) or ch.coefficient("N").high
+    if f.kind == "quantization_step":
+        return rounding_share(f.detail["step"], N, s.h) > COARSE
+    if f.kind == "spikes":
+        return f.count * f.detail["largest"] ** 2 * s.h > NOTICED * N**2 * s.samples
+    # As a jump of the bias by one standard deviation, for as long as it lasts.
+    return f.kind != "stuck_samples" or f.detail["longest"] ** 2 > NOTICED * s.samples
+
+
+def grouped(findings: Iterable[Finding]) -> list[tuple[str, str, int, str]]:
+    """Findings as (kind, columns, count, detail).
+
+    Those that differ in the axis alone are one: ``gyro x, y, z``.
+    """
+    rows: dict[tuple, list[Finding]] = {}
+    for f in findings:
+        sensor = f.column.partition("_")[0] if f.column.startswith(tuple(SENSORS)) else f.column
+        rows.setdefault((f.kind, sensor, f.count, detail(f)), []).append(f)
+    return [
+        (kind.replace("_", " "), _axes(sensor, found), count, text)
+        for (kind, sensor, count, text), found in rows.items()
+    ]
+
+
+def _axes(sensor: str, found: Sequence[Finding]) -> str:
+    return (
+        f"{sensor} {', '.join(f.column[-1] for f in found)}"
+        if sensor in SENSORS
+        else sensor.replace("_", " ")
+    )

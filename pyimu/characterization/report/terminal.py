@@ -1,0 +1,105 @@
+"""What a characterisation found, for a terminal or a notebook."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from pyimu.characterization.outcome import SAMPLE, SI, LogResult, Outcome, Summary
+from pyimu.characterization.report.channel_notes import (
+    frequency,
+    loop_sentence,
+    thermal_sentence,
+)
+from pyimu.characterization.report.coefficients import (
+    READING_ORDER,
+    SENSORS,
+    TERM_NAMES,
+    UNITS,
+    with_interval,
+)
+from pyimu.characterization.report.log_notes import about, grouped, notes
+from pyimu.model.part import AXES
+from pyimu.report.numbers import MISSING, in_unit, number, quantity
+
+
+def in_lines(c: Outcome) -> str:
+    """The report for a terminal."""
+    lines = [f"{log.name}: {about(log)}" for log in c.logs] + notes(c)
+    for kind in c.kinds:
+        lines += ["", *_grid(_rows(c, kind))]
+    lines += [
+        "",
+        (
+            f"Intervals: {100 * c.level:g} %. '<' is an upper bound: the data do not need the "
+            "term. N is the root of the two-sided density."
+        ),
+    ]
+    if len(c.logs) > 1:
+        lines.append(f"Means over {len(c.logs)} logs; ± is the standard deviation of the logs.")
+    for log in c.logs:
+        lines += [f"{log.name}: {text}" for text in (*_lines(log), *_thermal(log), *_quality(log))]
+    return "\n".join(lines)
+
+
+def _rows(c: Outcome, kind: str) -> list[tuple[str, ...]]:
+    """The coefficients of a sensor, one a row, and its lowest Allan deviations."""
+    rows = [(SENSORS[kind], "", *AXES)]
+    for term in READING_ORDER:
+        summaries = [c.coefficients.get((f"{kind}_{axis}", term)) for axis in AXES]
+        if any(summaries):
+            name = f"  {term} {TERM_NAMES[kind][term]}"
+            rows.append((name, UNITS[kind][term], *(_cell(s, kind, term) for s in summaries)))
+    floors = [[ch.noise.floor for ch in c.channel(f"{kind}_{axis}") if ch.noise] for axis in AXES]
+    unit = UNITS[kind]["B"]
+    cells = [
+        f"{number(float(in_unit(np.mean([v.deviation for v in f]), SAMPLE[kind], unit)))} at "
+        f"{number(f[0].tau)} s"
+        if f
+        else MISSING
+        for f in floors
+    ]
+    return [*rows, ("  lowest Allan deviation", unit, *cells)]
+
+
+def _cell(s: Summary | None, kind: str, term: str) -> str:
+    if s is None:
+        return MISSING
+    si, unit = SI[kind][term], UNITS[kind][term]
+    spread = f" ± {number(float(in_unit(s.spread, si, unit)), 2)}" if np.isfinite(s.spread) else ""
+    return with_interval(s.mean, si, unit) + spread
+
+
+def _grid(rows: Sequence[tuple[str, ...]]) -> list[str]:
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    return [
+        "  ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True)).rstrip()
+        for row in rows
+    ]
+
+
+def _lines(log: LogResult) -> Iterator[str]:
+    """The strongest lines of each channel that has any."""
+    for ch in log.channels:
+        if ch.lines:
+            top = sorted(ch.lines, key=lambda v: -v.amplitude)[:4]
+            more = f" and {len(ch.lines) - len(top)} more" if len(ch.lines) > len(top) else ""
+            said = [f"{frequency(v)} Hz ({quantity(v.amplitude, SAMPLE[ch.kind])})" for v in top]
+            yield f"{ch.name} has lines at {', '.join(said)}{more}"
+
+
+def _thermal(log: LogResult) -> Iterator[str]:
+    for ch in log.channels:
+        if ch.thermal is not None:
+            h = ch.thermal.hysteresis
+            loop = f"; {loop_sentence(ch)}" if h is not None and h.warranted else ""
+            yield f"{ch.name}: {thermal_sentence(ch)}{loop}"
+
+
+def _quality(log: LogResult) -> Iterator[str]:
+    for kind, columns, count, text in grouped(log.findings):
+        yield (
+            f"{kind}{f' of {columns}' if columns not in ('time', '') else ''}: "
+            f"{count:,}{f' ({text})' if text else ''}"
+        )

@@ -1,0 +1,1 @@
+"""Results of attitude kinematics: quaternions, Rodrigues parameters, the attitude error, rates."""

@@ -1,0 +1,1 @@
+"""Results of the discrete process noise of attitude error and gyro bias."""

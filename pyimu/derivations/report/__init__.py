@@ -1,0 +1,1 @@
+"""The results as plain text, LaTeX and Markdown."""

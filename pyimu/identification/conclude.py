@@ -1,0 +1,246 @@
+"""Put together what was found: models, effects, verdict, error on held-out data."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from pyimu.identification.declared import changed_noise, drifting, released
+from pyimu.identification.exhibits import Exhibits, exhibits_of
+from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.keys import Coefficient
+from pyimu.identification.fit.trial import rest_noise
+from pyimu.identification.fit.whiten import RandomWalk
+from pyimu.identification.found import Added, Errors
+from pyimu.identification.held_out import attitude_errors, scores
+from pyimu.identification.result import Closed
+from pyimu.identification.search.forward import Investigation
+from pyimu.identification.search.leftover import (
+    NoiseFigure,
+    comb_gain,
+    lack_of_fit,
+    noise_figures,
+    rounding,
+)
+from pyimu.identification.search.screen import PENALTY
+from pyimu.identification.visibility import visibility
+from pyimu.model.catalogue import CATALOGUE, POWER_ON, WALK, WHITE, read_off
+from pyimu.model.effect import Effect
+from pyimu.model.part import Part
+from pyimu.model.sensor import Sensor
+from pyimu.recording.recording import Recording
+from pyimu.report.numbers import joined
+
+FAR = 1.5
+"""Ratio of the held-out error to its floor from which on the verdict says so."""
+
+SHORT = 500
+"""Fitted rows below which finding nothing says nothing."""
+
+Found = dict[str, Investigation]
+
+
+def conclude(
+    start: Part,
+    declared: Part | None,
+    logs: list[Recording],
+    others: list[Recording],
+    found: Found,
+    quality: tuple,
+    say: Callable[[str], None],
+) -> Closed:
+    """The result of the investigations ``found`` of the sensors of a part."""
+    after, before, added, changed, drifts = start, start, [], [], {}
+    for kind, inv in found.items():
+        say(f"{kind}: what is left")
+        steps = _rounding(kind, inv)
+        before = before.with_sensor(_finished(declared, inv.before))
+        sensor = _finished(declared, inv.after)
+        for a in steps:
+            sensor = sensor.with_values(a.effect, **{n: v for n, (v, _, _) in a.parameters.items()})
+        after = after.with_sensor(sensor)
+        added += _added(kind, sensor, inv) + steps
+        changed += [released(start.sensor(kind), inv.after, s) for s in inv.steps if s.declared]
+        if declared is not None and not steps:
+            changed += changed_noise(start, kind, inv.after)
+            drifts |= drifting(kind, inv.after, start.sensor(kind))
+    unexplained = tuple(u for u in (lack_of_fit(inv.after) for inv in found.values()) if u)
+    say("error on held-out data")
+    errors, entries, likelihood = scores(found, logs, others)
+    verdict, reason = _verdict(added, changed, unexplained, drifts, found)
+    reason += _far_from_floor(errors, found)
+    say("attitude against the reference")
+    attitude = attitude_errors(before, after, found.get("gyro"), others or logs)
+    return Closed(
+        verdict=verdict,
+        reason=reason,
+        before=before,
+        after=replace(after, estimate=frozenset()),
+        added=tuple(added),
+        changed=tuple(changed),
+        unexplained=unexplained,
+        drift=drifts,
+        observability=tuple(v for kind, inv in found.items() for v in visibility(kind, inv)),
+        errors=errors,
+        log_likelihood=likelihood,
+        attitude=attitude,
+        quality=quality,
+        recordings=entries,
+        refused=tuple((kind, r) for kind, inv in found.items() for r in inv.refused),
+        exhibits=_exhibits(found, added),
+        band_hz={kind: inv.after.trials[0].band_hz for kind, inv in found.items()},
+        held_out="holdout" if others else "last 30 %",
+    )
+
+
+def _exhibits(found: Found, added: list[Added]) -> dict[str, Exhibits]:
+    return {
+        kind: exhibits_of(inv, [a for a in added if a.sensor == kind])
+        for kind, inv in found.items()
+    }
+
+
+# Models
+
+
+def _finished(declared: Part | None, fit: Fit) -> Sensor:
+    """The fitted sensor with what no column carries: bias, and of an undeclared part the noise
+    found.
+    """
+    if declared is not None:
+        return fit.sensor
+    figures = noise_figures(fit)
+    if figures:
+        none = NoiseFigure(0, 0, 0, 0)
+        white = np.array([figures.get(i, none).N for i in range(3)])
+        walk = np.array([figures.get(i, none).K for i in range(3)])
+    else:
+        # A differentiated reference hides the sensor's own noise; its quiet rows show the white
+        # part only.
+        rest = np.mean([rest_noise(t) for t in fit.trials], axis=0)
+        white, walk = np.nan_to_num(rest) * np.sqrt(fit.trials[0].h), np.zeros(3)
+    bias = np.mean([fit.states[t.name].bias for t in fit.trials], axis=0)
+    sensor = fit.sensor
+    for (effect, parameter), value in ((POWER_ON, bias), (WHITE, white), (WALK, walk)):
+        sensor = sensor.with_values(effect, **{parameter: value})
+    return sensor
+
+
+def _rounding(kind: str, inv: Investigation) -> list[Added]:
+    """Rounding as an added effect where its steps are seen in the raw samples and weigh against the
+    noise.
+    """
+    sensor, noise = inv.after.sensor, inv.after.noise
+    walks = all(isinstance(n, RandomWalk) for n in noise.values())
+    if sensor.reading("step") is not None or not walks:
+        # Against a differentiated reference the steps vanish in its noise; they stay a finding
+        # about the raw samples.
+        return []
+    white = np.array([np.sqrt(noise[i].r) if i in noise else np.nan for i in range(3)])
+    steps = rounding(inv.after.trials, white)
+    if not steps:
+        return []
+    effect, parameter = read_off(CATALOGUE.values(), "step")
+    q = np.array([steps.get(i, 0.0) for i in range(3)])
+    return [
+        Added(
+            sensor=kind,
+            effect=effect,
+            alternatives=(),
+            parameters={parameter: (q, np.zeros(3), sensor.unit("{y}"))},
+            gain=comb_gain(inv.after.trials, steps),
+            gate=PENALTY * len(steps),
+            note="every raw sample lies on a comb of these steps",
+        )
+    ]
+
+
+def _added(kind: str, sensor: Sensor, inv: Investigation) -> list[Added]:
+    """The steps of an investigation with the coefficients as they stand at its end."""
+    out = []
+    for step in (s for s in inv.steps if not s.declared):
+        e = sensor.effect(step.effect)
+        values = sensor.values[e.name]
+        parameters = {
+            name: (values[name], _standard_errors(inv.after, e, name, step.dispersion), unit)
+            for name, unit in ((n, sensor.unit(p.unit)) for n, p in e.parameters.items())
+        }
+        note = _note_on_delay(e, parameters)
+        out.append(Added(kind, e.name, step.alternatives, parameters, step.gain, step.gate, note))
+    return out
+
+
+def _standard_errors(fit: Fit, e: Effect, name: str, dispersion: float) -> np.ndarray:
+    """Standard errors of a coefficient, zero where it was not estimated."""
+    std = np.zeros(e.parameters[name].shape)
+    for key, value in fit.std.items():
+        if isinstance(key, Coefficient) and (key.effect, key.parameter) == (e.name, name):
+            std[key.index] = value * math.sqrt(dispersion)
+    return std
+
+
+def _note_on_delay(e: Effect, parameters: dict) -> str:
+    """What must be said of a family that no log tells apart."""
+    if e.delay is None:
+        return ""
+    delay = float(e.delay(**{n: float(v) for n, (v, _, _) in parameters.items()}))
+    names = [other.name for other in CATALOGUE.values() if other.family == e.family]
+    return (
+        f"{joined(names)} are one class: an effective delay of {delay * 1e3:.2f} ms of the "
+        "sensor against the reference; the sensor's bandwidth, its sampling and the reference's "
+        "clock cannot be told apart"
+    )
+
+
+# Verdict
+
+
+def _far_from_floor(errors: dict[str, Errors], found: Found) -> str:
+    """What must be added to any verdict where the noise does not account for what is left."""
+    said = ""
+    for kind, e in errors.items():
+        derived = found[kind].after.trials[0].band_hz is not None
+        if not derived and e.floor is not None and e.after.total > FAR * e.floor.total:
+            said += (
+                f"; the {kind} residual that is left is {e.after.total / e.floor.total:.1f} times "
+                "what its noise accounts for"
+            )
+    return said
+
+
+def _verdict(
+    added: list[Added], changed: list, unexplained: tuple, drifts: dict, found: Found
+) -> tuple[str, str]:
+    if added:
+        return "named", ", ".join(f"{a.sensor} {a.effect}" for a in added)
+    if unexplained:
+        u = unexplained[0]
+        return "unexplained", f"{u.sensor} {u.axis} depends on {' x '.join(u.depends_on)}"
+    if drifts:
+        return "drift", "more random walk than declared: an input that nobody logged"
+    if not _shows_anything(found):
+        return (
+            "undecidable",
+            "no motion and no temperature: these logs could show little of what may be missing",
+        )
+    if max(sum(t.count for t in inv.after.trials) for inv in found.values()) < SHORT:
+        return (
+            "undecidable",
+            f"fewer than {SHORT} rows were there to fit: too short to miss an effect in",
+        )
+    corrected = "; declared values that the data contradict are listed as changed"
+    return "clean", "nothing is missing" + (corrected if changed else "")
+
+
+def _shows_anything(found: Found) -> bool:
+    """Whether some effect would be visible that time alone does not drive: those show in any log,
+    and say nothing about the effects that people ask for.
+    """
+    return any(
+        np.isfinite(c.smallest_visible) and "time" not in CATALOGUE[c.effect].signals(kind)
+        for kind, inv in found.items()
+        for c in inv.first.candidates
+    )

@@ -1,0 +1,141 @@
+"""What the loop found, entry by entry: effects, declared values, visibility, errors, logs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from pyimu.files import plain
+from pyimu.identification.fit.score import ErrorSums
+
+
+@dataclass(frozen=True)
+class Added:
+    """An effect that was added: coefficients by name as ``(value, std, unit)``, arrays of the
+    parameter's shape.
+    """
+
+    sensor: str
+    effect: str
+    alternatives: tuple[str, ...]
+    parameters: dict[str, tuple[np.ndarray, np.ndarray, str]]
+    gain: float
+    gate: float
+    note: str = ""
+
+    def as_dict(self) -> dict[str, Any]:
+        parameters = {
+            n: {"value": plain(v), "std": plain(s), "unit": u}
+            for n, (v, s, u) in self.parameters.items()
+        }
+        out = {
+            "sensor": self.sensor,
+            "effect": self.effect,
+            "alternatives": list(self.alternatives),
+            "parameters": parameters,
+            "evidence": {"gain": round(self.gain, 3), "gate": round(self.gate, 3)},
+        }
+        return out | ({"note": self.note} if self.note else {})
+
+
+@dataclass(frozen=True)
+class Changed:
+    """A declared value that the data contradict."""
+
+    sensor: str
+    effect: str
+    parameter: str
+    declared: np.ndarray
+    fitted: np.ndarray
+    std: np.ndarray
+    unit: str
+
+    def as_dict(self) -> dict[str, Any]:
+        return {
+            "sensor": self.sensor,
+            "effect": self.effect,
+            "parameter": self.parameter,
+            "unit": self.unit,
+            "declared": plain(self.declared),
+            "fitted": plain(self.fitted),
+            "std": plain(self.std),
+        }
+
+
+@dataclass(frozen=True)
+class Visibility:
+    """The smallest coefficient of an absent effect that the logs would show, and the effects it
+    looks like in them.
+    """
+
+    sensor: str
+    effect: str
+    smallest_visible: float | None
+    unit: str
+    inseparable_from: tuple[str, ...] = ()
+    reason: str = ""
+
+    def as_dict(self) -> dict[str, Any]:
+        out = {
+            "sensor": self.sensor,
+            "effect": self.effect,
+            "smallest_visible": plain(self.smallest_visible),
+            "unit": self.unit,
+            "inseparable_from": list(self.inseparable_from),
+        }
+        return out | ({"reason": self.reason} if self.reason else {})
+
+
+@dataclass(frozen=True)
+class Errors:
+    """Held-out error of one sensor before, after, and as the noise alone would leave it."""
+
+    unit: str
+    before: ErrorSums
+    after: ErrorSums
+    floor: ErrorSums | None
+
+    def __add__(self, other: Errors) -> Errors:
+        floors = (self.floor, other.floor)
+        floor = None if None in floors else floors[0] + floors[1]
+        return Errors(self.unit, self.before + other.before, self.after + other.after, floor)
+
+    def as_dict(self) -> dict[str, Any]:
+        return {"unit": self.unit} | self._row("total") | {"per_axis": self._row("per_axis")}
+
+    def angle_dict(self, window: float) -> dict[str, Any]:
+        return (
+            {"unit": "rad", "window": window}
+            | self._row("angle")
+            | {"per_axis": self._row("angle_per_axis")}
+        )
+
+    def _row(self, name: str) -> dict[str, Any]:
+        tallies = {"before": self.before, "after": self.after, "floor": self.floor}
+        return {k: None if t is None else plain(getattr(t, name)) for k, t in tallies.items()}
+
+
+@dataclass(frozen=True)
+class LogEntry:
+    """One recording: its rows, those held out, its error by sensor, and what was estimated of the
+    log itself.
+    """
+
+    file: str
+    samples: int
+    held_out: int
+    errors: dict[str, Errors] = field(default_factory=dict)
+    log_state: dict[str, dict] = field(default_factory=dict)
+
+    def as_dict(self) -> dict[str, Any]:
+        rows = {
+            name: self.errors[kind].as_dict() if kind in self.errors else None
+            for kind, name in (("gyro", "rate"), ("accel", "specific_force"))
+        }
+        return (
+            {"file": self.file, "samples": self.samples, "held_out": self.held_out}
+            | rows
+            | {"log": self.log_state}
+        )

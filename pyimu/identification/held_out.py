@@ -1,0 +1,93 @@
+"""Errors on the rows that were not fitted: by sensor, by log, and of the attitude."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from pyimu.identification.attitude_error import attitude_error
+from pyimu.identification.fit.attenuation import floor_noise
+from pyimu.identification.fit.score import floor, held_state, tally
+from pyimu.identification.found import Errors, LogEntry
+from pyimu.identification.search.forward import Investigation
+from pyimu.model.part import Part
+from pyimu.recording.recording import Recording
+
+Scores = tuple[dict[str, Errors], tuple[LogEntry, ...], tuple[float, float] | None]
+
+
+def scores(
+    found: dict[str, Investigation], logs: list[Recording], others: list[Recording]
+) -> Scores:
+    """Held-out errors of each sensor, in all and by recording, and the log-likelihood per sample
+    before and after.
+    """
+    together = [*logs, *others]
+    by_log: dict[str, dict[str, Errors]] = {r.name: {} for r in together}
+    errors, likelihood = {}, np.zeros(2)
+    for kind, inv in found.items():
+        for trial in inv.held:
+            by_log[trial.name][kind] = _errors(inv, trial)
+        each = [e[kind] for e in by_log.values() if kind in e]
+        if each:
+            errors[kind] = sum(each[1:], start=each[0])
+            likelihood += _per_row(errors[kind])
+    entries = tuple(_entry(r, found, by_log[r.name]) for r in together)
+    return errors, entries, tuple(likelihood.tolist()) if errors else None
+
+
+def _errors(inv: Investigation, trial) -> Errors:
+    return Errors(
+        inv.after.sensor.output.unit,
+        tally(inv.before, trial),
+        tally(inv.after, trial),
+        floor(floor_noise(inv.after), inv.after, trial),
+    )
+
+
+def _per_row(e: Errors) -> np.ndarray:
+    rows = max(e.before.rows.max(), 1.0)
+    return np.array([e.before.log_likelihood, e.after.log_likelihood]) / rows
+
+
+def _entry(r: Recording, found: dict[str, Investigation], errors: dict[str, Errors]) -> LogEntry:
+    held = [t for inv in found.values() for t in inv.held if t.name == r.name]
+    states = {kind: log_state(inv, r.name) for kind, inv in found.items()}
+    return LogEntry(
+        file=r.path.name if r.path else r.name,
+        samples=len(r.time),
+        held_out=max((len(t.time) for t in held), default=0),
+        errors=errors,
+        log_state={kind: s for kind, s in states.items() if s},
+    )
+
+
+def log_state(inv: Investigation, name: str) -> dict[str, list] | None:
+    """What was estimated of a log itself, under the model after; None for a log that was not
+    looked at.
+    """
+    state = inv.after.states.get(name)
+    if state is None:
+        held = next((t for t in inv.held if t.name == name), None)
+        if held is None:
+            return None
+        state = held_state(inv.after, held)[0]
+    return {"bias": state.bias.tolist(), "rotation": state.rotation.tolist()}
+
+
+def attitude_errors(
+    before: Part, after: Part, inv: Investigation | None, logs: list[Recording]
+) -> tuple[float, float] | None:
+    """RMS error [rad] of the attitude filter with the model before and after, over the held-out
+    rows that ``ref_q`` covers; None where there are none.
+    """
+    squares, rows = np.zeros(2), 0
+    for r in logs if inv is not None else ():
+        held = next((t for t in inv.held if t.name == r.name), None)
+        if held is None or r.ref_q is None or r.accel is None:
+            continue
+        mounting = np.array(log_state(inv, r.name)["rotation"])
+        first = len(r.time) - len(held.time)
+        pair = [attitude_error(r, p, mounting, first) for p in (before, after)]
+        squares += [np.sum(e.total**2) for e in pair]
+        rows += len(pair[0].total)
+    return tuple(np.sqrt(squares / rows).tolist()) if rows else None

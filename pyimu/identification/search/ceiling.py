@@ -1,0 +1,118 @@
+"""The level at which samples stop (saturation): read off the samples that lie there, which are then
+left out of what is looked for next.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from pyimu.identification.fit.columns import LogState, reference_input
+from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.keys import Coefficient, Key
+from pyimu.identification.fit.maximum_likelihood import fit
+from pyimu.identification.fit.response import predict
+from pyimu.identification.fit.trial import Trial, rest_noise
+from pyimu.model.sensor import Sensor
+
+CEILING = "ceiling"
+
+LEAST_AT_LEVEL = 5
+"""Fewer samples beyond a level do not show that there is one."""
+
+
+def has_ceiling(sensor: Sensor) -> bool:
+    """Whether the model's output stops at some level."""
+    found = sensor.reading(CEILING)
+    return found is not None and bool(np.any(sensor.values[found[0]][found[1]]))
+
+
+def is_ceiling(sensor: Sensor, effect: str) -> bool:
+    """Whether an effect that the sensor has is the one that stops its output."""
+    found = sensor.reading(CEILING)
+    return found is not None and found[0] == effect
+
+
+def _levels(sensor: Sensor) -> tuple[np.ndarray, Sensor]:
+    """The levels (3,), zero where there is none, and the sensor without them."""
+    effect, parameter = sensor.reading(CEILING)
+    return np.array(sensor.values[effect][parameter]), sensor.without(effect)
+
+
+def stops_there(fitted: Fit, axis: int) -> bool:
+    """Whether the samples really stop at the level of an axis while the model's input is beyond
+    it.
+    """
+    levels, unlimited = _levels(fitted.sensor)
+    level, beyond, over = levels[axis], 0, 0
+    for t in fitted.trials:
+        u = reference_input(t, fitted.states[t.name])
+        x = np.abs(predict(unlimited, u, t.segments, t.h)[:, axis])
+        y, most = np.abs(t.y[:, axis]), 1.02 * level + 4 * rest_noise(t)[axis]
+        for a, b in t.row_segments:
+            outside = x[a:b] > 1.02 * level
+            beyond += int(outside.sum())
+            over += int((outside & (y[a:b] > most)).sum())
+    return beyond >= LEAST_AT_LEVEL and over < 0.2 * beyond
+
+
+def at_samples(fitted: Fit) -> Fit:
+    """Put each level where the raw samples lie while the model's input is well beyond it, and fit
+    the rest again.
+
+    In the band of a derived reference the ends of a clipped segment are smeared; the samples
+    themselves show the level.
+    """
+    effect, parameter = fitted.sensor.reading(CEILING)
+    levels, unlimited = _levels(fitted.sensor)
+    std: dict[Key, float] = {}
+    for i in map(int, np.flatnonzero(levels)):
+        sides = [_beyond(unlimited, t, fitted.states[t.name], i, levels[i]) for t in fitted.trials]
+        joined = [np.concatenate(values) for values in zip(*sides, strict=True)]
+        found = [(float(np.median(v)), _median_std(v)) for v in joined if len(v) >= LEAST_AT_LEVEL]
+        if found:
+            levels[i], std[Coefficient(effect, parameter, (i,))] = max(found)
+    sensor = fitted.sensor.with_values(effect, **{parameter: levels})
+    free = frozenset(k for k in fitted.free if k.effect != effect)
+    return fit(replace(fitted, sensor=sensor, free=free, std={**fitted.std, **std}).with_noise())
+
+
+def _median_std(values: np.ndarray) -> float:
+    """Standard error of a median from the scatter about it, sqrt(pi/2) that of a mean."""
+    scatter = 1.4826 * float(np.median(np.abs(values - np.median(values))))
+    return np.sqrt(np.pi / 2 / len(values)) * scatter
+
+
+def _beyond(
+    unlimited: Sensor, trial: Trial, state: LogState, axis: int, level: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Magnitudes of the samples, positive and negative side, taken while the unlimited model is 10
+    % beyond the level.
+    """
+    x = predict(unlimited, reference_input(trial, state), trial.segments, trial.h)[:, axis]
+    counted = np.zeros(len(x), dtype=bool)
+    for a, b in trial.row_segments:
+        counted[a:b] = True
+    y = trial.y[:, axis]
+    return tuple(
+        np.abs(y[counted & (sign * x > 1.1 * level) & (sign * y > 0.8 * level)]) for sign in (1, -1)
+    )
+
+
+def without_lost(fitted: Fit) -> Fit:
+    """Leave out the samples at the level: they carry no noise and no slope, and would bias what is
+    looked for next.
+    """
+    levels, unlimited = _levels(fitted.sensor)
+    margin = np.array(
+        [4 * np.sqrt(fitted.noise[i].r) if i in fitted.noise else 0.0 for i in range(3)]
+    )
+    trials = []
+    for t in fitted.trials:
+        # Judged by the model, not by the noisy sample: choosing by the sample would keep one half
+        # of the noise.
+        x = predict(unlimited, reference_input(t, fitted.states[t.name]), t.segments, t.h)
+        lost = ((levels > 0) & (np.abs(x) > levels - margin)).any(axis=1)
+        trials.append(replace(t, left_out=lost if t.left_out is None else lost | t.left_out))
+    return fit(replace(fitted, trials=tuple(trials)).with_noise())

@@ -1,0 +1,45 @@
+"""What logs could have shown of the effects that a model lacks, judged before looking for any."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from pyimu.identification.found import Visibility
+from pyimu.identification.search.candidates import absent, has_columns
+from pyimu.identification.search.forward import Investigation
+from pyimu.model.catalogue import CATALOGUE
+from pyimu.model.effect import Effect
+
+
+def visibility(kind: str, inv: Investigation) -> list[Visibility]:
+    """One entry for each effect that the loop can look for and that the model lacked."""
+    lacking = [
+        e
+        for e in CATALOGUE.values()
+        if kind in e.sensors
+        and e.name not in inv.before.sensor.values
+        and not e.per_power_on
+        and (has_columns(e, kind) or _rounds(e))
+    ]
+    return [_of(e, kind, inv) for e in lacking]
+
+
+def _rounds(e: Effect) -> bool:
+    return any(p.reads == "step" for p in e.parameters.values())
+
+
+def _of(e: Effect, kind: str, inv: Investigation) -> Visibility:
+    parameter = next(p for p in e.parameters.values() if not p.reference)
+    unit = inv.before.sensor.unit(parameter.unit)
+    seen = next((c for c in inv.first.candidates if c.effect == e.name), None)
+    if seen is not None and np.isfinite(seen.smallest_visible):
+        return Visibility(kind, e.name, seen.smallest_visible, unit, seen.inseparable_from)
+    return Visibility(kind, e.name, None, unit, (), _why_not(e, kind, inv))
+
+
+def _why_not(e: Effect, kind: str, inv: Investigation) -> str:
+    if _rounds(e):
+        return "looked for in the raw samples"
+    if e.name in {known.name for known in absent(inv.before)}:
+        return "no motion excites it"
+    return f"the log lacks {', '.join(sorted(e.signals(kind) - inv.before.trials[0].known))}"

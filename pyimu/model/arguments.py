@@ -1,0 +1,121 @@
+"""What the arguments of an effect's function can be: coefficients, memory, noise, signals, the
+sample period.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal
+
+import numpy as np
+
+INPUT = "input"
+"""Start of a state that begins as if the first input had always been there."""
+
+
+@dataclass(frozen=True)
+class Scan:
+    """Where to look for a coefficient that no slope at the identity finds: ``points`` values,
+    evenly in logarithm.
+
+    ``low`` and ``high`` count sample periods ("period"), radians a sample ("rate") or shares of the
+    largest input ("range").
+    """
+
+    measure: str
+    low: float
+    high: float
+    points: int = 8
+
+    def values(self, period: float, largest: float) -> np.ndarray:
+        """The grid for a log of this sample period [s] and largest input."""
+        unit = {"period": period, "rate": 1.0 / period, "range": largest}[self.measure]
+        return unit * np.geomspace(self.low, self.high, self.points)
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A coefficient. ``start`` is where the effect is the identity; matrices may leave out their
+    diagonal.
+
+    ``reference`` marks a coefficient that only fixes an origin (a reference temperature): it is
+    never estimated. ``form`` marks one that shapes an effect whose size others give (a time
+    constant, an instant): it acts only where they do. ``known`` is the one value, beside zero,
+    that it can have. ``scan`` says where identification starts its search where the identity has no
+    slope to follow. ``reads`` marks one that is read off the raw samples: the level at which they
+    stop ("ceiling"), or the step on whose multiples they lie ("step"). ``density`` marks the root
+    of a white noise's density, which a data sheet may print one-sided, and ``corner`` a frequency
+    that is said in Hz, though it is in rad/s.
+    """
+
+    unit: str
+    shape: tuple[int, ...] = (3,)
+    start: float = 0.0
+    description: str = ""
+    diagonal: bool = True
+    reference: bool = False
+    form: bool = False
+    known: float | None = None
+    minimum: float | None = None
+    maximum: float | None = None
+    scan: Scan | None = None
+    reads: Literal["", "ceiling", "step"] = ""
+    density: bool = False
+    corner: bool = False
+
+    @cached_property
+    def indices(self) -> tuple[tuple[int, ...], ...]:
+        """Index of every free element, row by row."""
+        return tuple(i for i in np.ndindex(*self.shape) if self.diagonal or i[0] != i[1])
+
+    def fault(self, values: np.ndarray) -> str:
+        """What is wrong with values of the parameter's shape in its SI unit, as "must not be below
+        0"; empty where nothing is.
+        """
+        if not np.all(np.isfinite(values)):
+            return "must be finite"
+        if self.minimum is not None and np.any(values < self.minimum):
+            return f"must not be below {self.minimum:g}"
+        if self.maximum is not None and np.any(values > self.maximum):
+            return f"must not be above {self.maximum:g}"
+        return (
+            "must have zeros on its diagonal"
+            if not self.diagonal and np.any(np.diag(values))
+            else ""
+        )
+
+
+@dataclass(frozen=True)
+class State:
+    """Memory of an effect; ``start`` is a number, ``INPUT`` for the steady state at the first input
+    of the effect, or the name of one of the effect's environment arguments for that signal's first
+    value.
+    """
+
+    unit: str
+    shape: tuple[int, ...] = (3,)
+    start: float | str = 0.0
+
+
+@dataclass(frozen=True)
+class Noise:
+    """Independent standard normals, one draw a sample."""
+
+    size: int = 3
+
+
+@dataclass(frozen=True)
+class Environment:
+    """A signal beside the effect's own input, by its name in ``SIGNALS``, or ``OWN_RATE``.
+
+    The signal that the sensor itself measures means the effect's own input: a sensor knows it
+    through nothing else.
+    """
+
+    signal: str
+
+
+@dataclass(frozen=True)
+class SamplePeriod:
+    """The sample period in seconds."""

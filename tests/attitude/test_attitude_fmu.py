@@ -1,0 +1,136 @@
+"""The attitude filter in an FMU: the bits of Python, states that are taken back and carried to
+another process, refusals and messages.
+"""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from attitude_cases import H, eventful_recording, inputs, output, part
+from fmu_toy import Unit
+from places import same_path
+from test_attitude_faults import log
+
+from pyimu.attitude import attitude_ukf, run
+from pyimu.fmu import FORMS, build_fmus, simulate, simulate_blocks
+from pyimu.recording.recording import Recording
+
+
+@pytest.fixture(scope="module")
+def fmus(tmp_path_factory):
+    return dict(zip(FORMS, build_fmus(attitude_ukf(part()), tmp_path_factory.mktemp("ukf"), FORMS)))
+
+
+def rows(recording: Recording) -> np.ndarray:
+    """The recording as the filter's inputs, as a user would write them."""
+    told = np.isfinite(recording.heading)
+    return inputs(
+        len(recording.time),
+        gyro=recording.gyro,
+        accel=recording.accel,
+        heading=np.where(told, recording.heading, 0),
+        heading_variance=np.where(told, recording.heading_std, 0) ** 2,
+        heading_valid=told,
+        stationary=recording.stationary,
+    )
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_fmu_with_the_results_parameters_gives_its_bits(fmus, form):
+    recording = eventful_recording()
+    result = run(recording, part(), latitude=0.8)
+    period = recording.sample_period
+    given = {"start_values": dict(result.parameters), "sample_period": period}
+    y = (
+        simulate_blocks(fmus[form], rows(recording), block_size=500, **given)
+        if form == "block"
+        else simulate(fmus[form], rows(recording), **given)
+    )
+    block = attitude_ukf(part())
+    for name in ("q", "gyro_bias", "std", "quasi_static", "nis", "status"):
+        np.testing.assert_array_equal(output(block, y[1:], name), getattr(result, name))
+
+
+@pytest.mark.parametrize("form", (2, 3))
+def test_state_taken_back_makes_the_same_run_again(fmus, form):
+    u, half = rows(eventful_recording(600)), 300
+    with Unit(fmus[form]).start() as unit:
+        unit.run(u[:half], period=H)
+        state = unit.save()
+        first = unit.run(u[half:], first=half, period=H)
+        unit.restore(state)
+        np.testing.assert_array_equal(unit.run(u[half:], first=half, period=H), first)
+        unit.release(state)
+
+
+@pytest.fixture(scope="module", params=(2, 3), ids=("fmi2", "fmi3"))
+def path(request, tmp_path_factory):
+    return build_fmus(attitude_ukf(part()), tmp_path_factory.mktemp("faults"), (request.param,))[0]
+
+
+def test_step_back_in_time_is_refused_and_changes_nothing(path):
+    u = log(None)[0][:60]
+    want, _ = attitude_ukf(part()).run(u)
+    with Unit(path).start() as unit:
+        first = unit.run(u[:30], period=H)
+        with pytest.raises(Exception, match="doStep|fmi[23]DoStep"):
+            unit.step(10 * H, H)
+        assert any(
+            category == "logStatusError" and "last one ended" in text
+            for category, text in unit.messages
+        )
+        np.testing.assert_array_equal(
+            np.vstack([first, unit.run(u[30:], first=30, period=H)]), want
+        )
+
+
+def test_each_change_of_the_status_is_an_event_in_the_log(path):
+    u = log(None)[0][:60]
+    u[20:25, 3] = np.nan
+    with Unit(path, log_events=True).start() as unit:
+        unit.run(u, period=H)
+        told = [
+            text for category, text in unit.messages if category == "logEvents" and "status" in text
+        ]
+        assert told == [
+            "AttitudeUkf: status is 1 after sample 21",
+            "AttitudeUkf: status is 0 after sample 26",
+        ]
+
+
+CONTINUE = """
+import sys, numpy as np
+from pathlib import Path
+from fmu_toy import Unit
+from test_attitude_fmu import H, eventful
+with Unit(Path(sys.argv[1])) as unit:
+    unit.restore(unit.from_bytes(Path(sys.argv[2]).read_bytes()))
+    np.save(sys.argv[3], unit.run(eventful()[150:], first=150, period=H))
+"""
+
+
+def eventful() -> np.ndarray:
+    """300 rows with faults, and headings that came late."""
+    u, truth = log(None)
+    u = u[:300].copy()
+    u[140:160, 0], u[145:152, 4], u[200, 2] = np.nan, np.inf, np.nan
+    told = np.arange(60, 300, 20)
+    u[told, 7:11] = np.column_stack(
+        [
+            truth.as_euler("ZYX")[told - 37, 0],
+            np.full((len(told), 2), [1e-3, 1]),
+            np.full(len(told), 37 * H),
+        ]
+    )
+    return u
+
+
+def test_state_serialised_into_another_process_goes_on_bit_for_bit(path, tmp_path):
+    want, _ = attitude_ukf(part()).run(eventful())
+    with Unit(path).start() as unit:
+        unit.run(eventful()[:150], period=H)
+        (tmp_path / "state").write_bytes(unit.to_bytes(unit.save()))
+    command = [sys.executable, "-c", CONTINUE, path, tmp_path / "state", tmp_path / "y.npy"]
+    subprocess.run(list(map(str, command)), env=same_path(), check=True)
+    np.testing.assert_array_equal(np.load(tmp_path / "y.npy"), want[150:])
