@@ -187,8 +187,10 @@ ERRORS = dict(
         ),
         (
             '[gyro.misalignment]\nm = {value = [1, 2, 3, 4, 5, 6, 7, 8, 9], unit = "rad"}',
-            "gyro.misalignment.m: must have zeros on its diagonal, "
-            "not [[1, 2, 3], [4, 5, 6], [7, 8, 9]] rad",
+            (
+                "gyro.misalignment.m: must have zeros on its diagonal, "
+                "not [[1, 2, 3], [4, 5, 6], [7, 8, 9]] rad"
+            ),
         ),
         ('[gyro.scale_factor]\ns = "3 %"', "gyro.scale_factor.s: must be a number, not '3 %'"),
         (
@@ -221,10 +223,14 @@ ERRORS = dict(
         ),
         *(
             (
-                "[gyro.angle_random_walk]\n"
-                f'N = {{value = 1, unit = "{unit}", density = "{density}"}}',
-                "gyro.angle_random_walk.N.density: "
-                f"goes only with a unit per sqrt(Hz), not with {unit}",
+                (
+                    "[gyro.angle_random_walk]\n"
+                    f'N = {{value = 1, unit = "{unit}", density = "{density}"}}'
+                ),
+                (
+                    "gyro.angle_random_walk.N.density: "
+                    f"goes only with a unit per sqrt(Hz), not with {unit}"
+                ),
             )
             for unit in ("deg/sqrt(h)", "rad/sqrt(s)")
             for density in ("one-sided", "two-sided")
@@ -234,8 +240,10 @@ ERRORS = dict(
             "part a: gyro time_delay: td must not be above 30 sample periods",
         ),
         (
-            '[accel.bias_instability]\nB = {value = 1, unit = "mg"}\n'
-            'f_high = {value = 2, unit = "Hz"}',
+            (
+                '[accel.bias_instability]\nB = {value = 1, unit = "mg"}\n'
+                'f_high = {value = 2, unit = "Hz"}'
+            ),
             "part a: accel bias_instability: f_high must lie 2 to 5 decades above f_low",
         ),
         (
