@@ -37,14 +37,19 @@ class Compensation:
     part: Part
 
     @property
+    def signals(self) -> frozenset[str]:
+        """Names in ``SIGNALS`` of what it needs beside what the sensors measure."""
+        return needed_signals(self.part.gyro) | needed_signals(self.part.accel)
+
+    @property
     def derived(self) -> Derived:
         """The signals on which effects depend and that are made from the inputs."""
-        return Derived.of(self.part.signals)
+        return Derived.of(self.signals)
 
     @property
     def extra(self) -> tuple[str, ...]:
         """Names of the signals beside temperature that must be inputs."""
-        return tuple(n for n in EXTRA_INPUTS if n in self.part.signals)
+        return tuple(n for n in EXTRA_INPUTS if n in self.signals)
 
     @property
     def extra_inputs(self) -> tuple[Variable, ...]:
@@ -56,12 +61,13 @@ class Compensation:
         """Whether the errors depend on what is only known without them: on a signal that is made of
         rate or force, or those of each sensor on the input of the other.
         """
-        course = {of for name in self.part.signals for of in SIGNALS[name].of} & {
+        course = {of for name in self.signals for of in SIGNALS[name].of} & {
             "rate",
             "specific_force",
         }
         return bool(course) or (
-            "rate" in self.part.accel.signals and "specific_force" in self.part.gyro.signals
+            "rate" in needed_signals(self.part.accel)
+            and "specific_force" in needed_signals(self.part.gyro)
         )
 
     @property
@@ -110,7 +116,7 @@ class Compensation:
             "specific_force": (accel, accel_state, accel_p),
         }
         out = {}
-        for name in TRUE if "rate" in accel.signals else reversed(TRUE):
+        for name in TRUE if "rate" in needed_signals(accel) else reversed(TRUE):
             sensor, state, p = ways[name]
             out[name] = sensor.compensation(state, measured[name], vector(at), p, h)
             at = at | {name: out[name][1]}
@@ -125,6 +131,12 @@ class Compensation:
         """The derived signals; those that need a latitude are zero without one."""
         known = measured.get("latitude_known", 1)
         return {n: v * known if "latitude" in SIGNALS[n].of else v for n, v in made.items()}
+
+
+def needed_signals(sensor: Sensor) -> frozenset[str]:
+    """Names in ``SIGNALS`` of what a sensor's compensation needs beside the signal it measures."""
+    acting = (e for e in sensor.effects if e.invertible or e.states)
+    return frozenset().union(*(e.signals(sensor.kind) for e in acting))
 
 
 def _solved(undone, start) -> dict:
@@ -160,6 +172,13 @@ def coefficients(sensor: Sensor, p, effect: str) -> dict[str, ca.SX]:
         if slot.effect == effect:
             found.setdefault(slot.parameter, []).append(p[i])
     return {name: ca.vertcat(*values) for name, values in found.items()}
+
+
+def clock_error(sensor: Sensor, p):
+    """The relative error of a sensor's clock: its sample k was taken (1 + it) k periods after the
+    start. 0 where no effect has one.
+    """
+    return sum(e.clock(**coefficients(sensor, p, e.name)) for e in sensor.effects if e.clock)
 
 
 def share_added(sensor: Sensor, p, signal: str):

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pyimu.attitude.columns import extra_column, recorded_heading, temperature_of
+from pyimu.attitude.retiming import Retiming
 from pyimu.attitude.variables import EXTRA_INPUTS
 from pyimu.model.part import Part
 from pyimu.recording.recording import Recording
@@ -34,18 +35,27 @@ class Piece(NamedTuple):
 
 
 class InputGrid:
-    """The block's inputs on the grid: the recording's rows where there are any, else missing values
-    of the sensors and no mark.
+    """The block's inputs on the grid: the recording's rows, between them missing values.
+
+    Between the rows the sensors are missing, and there is no mark.
 
     ``rows`` (n,) is the sample number of each row, ``after_gap`` the rows that follow a gap,
     ``left_out`` the s of each gap that exceed its missing samples. ``names`` are those of the
     block's inputs.
     """
 
-    def __init__(self, recording: Recording, part: Part, names: list[str]) -> None:
+    def __init__(
+        self,
+        recording: Recording,
+        part: Part,
+        names: list[str],
+        retiming: Retiming | None = None,
+    ) -> None:
         self.rows, gaps, self.left_out = _grid(recording)
         self.after_gap = 1 + gaps
         signals, marks = _signals(recording, part), _marks(recording)
+        if retiming is not None:
+            marks = _at_instants(marks, retiming.nearest_row())
         self.columns = [_column(name, signals, marks) for name in names]
 
     def pieces(self) -> Iterator[Piece]:
@@ -62,8 +72,9 @@ class InputGrid:
             start = stop
 
     def _cuts(self) -> Iterator[tuple[int, int, float]]:
-        """First sample and size of each piece, and the s left out before it: a piece ends where a
-        long gap does.
+        """First sample and size of each piece, and the s left out before it.
+
+        A piece ends where a long gap does.
         """
         long = np.flatnonzero(self.left_out)
         starts = [0, *self.rows[self.after_gap[long]].tolist()]
@@ -95,6 +106,11 @@ def _marks(recording: Recording) -> dict[str, np.ndarray | None]:
     }
 
 
+def _at_instants(marks: dict, row: np.ndarray) -> dict[str, np.ndarray | None]:
+    """The marks of the ``row`` (n,) nearest to each sample; none where it is -1."""
+    return {n: v if v is None else np.where(row < 0, 0, v[row]) for n, v in marks.items()}
+
+
 def _column(name: str, signals: dict, marks: dict) -> tuple[np.ndarray | None, float]:
     """The recorded values (n,) of an input where there are any, and what stands between them."""
     signal, _, axis = name.partition("[")
@@ -105,8 +121,9 @@ def _column(name: str, signals: dict, marks: dict) -> tuple[np.ndarray | None, f
 
 
 def _grid(recording: Recording) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Sample number (n,) of each row on a regular grid; the rows before a gap; the s (gaps,) of
-    each gap that exceed its missing samples.
+    """Sample number (n,) of each row on a regular grid, the rows before a gap, the s left out.
+
+    The last is (gaps,): what each gap exceeds its missing samples by.
     """
     period = recording.sample_period
     steps = np.diff(recording.time) / period

@@ -1,6 +1,4 @@
-"""What the filters' predictions have in common: the noise that a sample adds, and what the updates
-need to know of the sample.
-"""
+"""What the predictions of both filters share: a sample's added noise, and the flags for updates."""
 
 from __future__ import annotations
 
@@ -9,6 +7,7 @@ from dataclasses import dataclass
 import casadi as ca
 
 from pyimu.attitude import late_heading
+from pyimu.attitude.compensation import clock_error
 from pyimu.attitude.gravity_update import Inclination, inclination
 from pyimu.attitude.layout import Flags, Layout
 from pyimu.attitude.memory import ESTIMATE, REPORTED, Memory
@@ -30,8 +29,10 @@ ARGUMENTS = "estimate memory u p h"
 
 @dataclass(frozen=True)
 class Instant:
-    """What there is when a sample comes: the ``estimate`` as a column, the memory, the settings,
-    the inputs ``u``, and the sample period ``h`` in s.
+    """What there is when a sample comes.
+
+    The ``estimate`` as a column, the memory, the settings, the inputs ``u``, and the period ``h``
+    in s by the gyro's clock as the part knows it.
     """
 
     estimate: ca.SX
@@ -46,7 +47,9 @@ class Instant:
         estimate, memory, u, p, h = symbols
         compensation = layout.compensation
         kept = Memory.unpack(estimate, memory, compensation)
-        return cls(estimate, kept, Settings.of(compensation, p), u, h)
+        settings = Settings.of(compensation, p)
+        clock = clock_error(compensation.part.gyro, settings.gyro_p)
+        return cls(estimate, kept, settings, u, h * (1 + clock))
 
     @property
     def stationary(self):
@@ -66,8 +69,7 @@ class Instant:
 
 
 def added_noise(at: Instant, sample: Sample):
-    """Variance (3,) each that a sample adds to the attitude, to attitude and bias together, and to
-    the bias.
+    """Variance (3,) that a sample adds to the attitude, to attitude and bias together, to the bias.
 
     To that of the gyro's noise comes the noise that grows with the rate, and the angle about an
     axis whose gyro is lost. A body that is called stationary does not turn by the gyro, and its
@@ -92,8 +94,7 @@ def added_noise(at: Instant, sample: Sample):
 
 
 def _lost_variance(lost_for, settings: Settings, h):
-    """Growth in a sample of the variance (3,) rad^2 of the angle about an axis whose rate is
-    unknown.
+    """Growth in a sample of the variance (3,) rad^2 of the angle about an axis of unknown rate.
 
     Over a loss of duration T the unknown rate is one number of variance s^2: the variance of the
     angle grows as s^2 T^2.
@@ -102,8 +103,10 @@ def _lost_variance(lost_for, settings: Settings, h):
 
 
 def predicted(at: Instant, sample: Sample, x: Estimate, turned, noise) -> list[ca.SX]:
-    """The working estimate, the memory after the sample, the compensated rate, the measurement of
-    gravity, and the flags, each as a column.
+    """The outputs of a prediction, each as a column.
+
+    The working estimate, the memory after the sample, the compensated rate, the measurement of
+    gravity, and the flags.
 
     ``x`` is the propagated estimate, ``turned`` (3, 3) the turn in inertial space from old body
     axes to new, ``noise`` that of ``added_noise``.
@@ -148,8 +151,9 @@ def _flags(at: Instant, sample: Sample, x: Estimate, force: Inclination, vertica
 
 
 def _about_the_vertical(x: Estimate, added):
-    """The part about the vertical of a variance (3,) that a sample adds to the attitude, at most
-    what an angle can have.
+    """The part about the vertical of a variance (3,) that a sample adds to the attitude.
+
+    It is at most what an angle can have.
     """
     q = x.q
     up = ca.vertcat(

@@ -18,11 +18,12 @@ from pyimu.attitude.columns import (
     number,
     settings_of,
 )
-from pyimu.attitude.compensation import noise_of
+from pyimu.attitude.compensation import clock_error, noise_of
 from pyimu.attitude.input_grid import CHUNK, InputGrid
 from pyimu.attitude.memory import BIAS_VARIANCE
 from pyimu.attitude.rest import find_rest
 from pyimu.attitude.result import AttitudeResult
+from pyimu.attitude.retiming import Retiming
 from pyimu.attitude.ukf import attitude_ukf
 from pyimu.attitude.variables import LEAST_K, OWN_PARAMETERS
 from pyimu.block.block import Block, Run
@@ -44,8 +45,9 @@ def run(
     std0: np.ndarray | None = None,
     settings: Mapping[str, float] | None = None,
 ) -> AttitudeResult:
-    """The attitude of a recording, by the filter of ``part``: a ``Part``, the name of one, or a
-    TOML file.
+    """The attitude of a recording, by the filter of ``part``.
+
+    ``part`` is a ``Part``, the name of one, or a TOML file.
 
     Without a part, the filter knows of the sensors only their noise at rest. ``latitude`` in rad is
     else the recording's; without either, no Earth rate is subtracted. ``q0`` (4,) is the attitude
@@ -79,10 +81,13 @@ def run(
     if part is None:
         values["rate_noise"] = NOMINAL_RATE_NOISE
     p = _parameters(block, values | dict(settings or {}))
-    grid = InputGrid(recording, known, [v.name for v in block.inputs])
+    retiming = _retiming(recording, known, p)
+    grid = InputGrid(recording, known, [v.name for v in block.inputs], retiming)
     steps = Run(block, grid.rows[-1] + 1, p=p, sample_period=recording.sample_period)
     outputs = _outputs(block, grid, steps, _bias_walk(known, p))
     outputs["status"][grid.after_gap] |= 1
+    if retiming is not None:
+        outputs = retiming.to_rows(outputs)
     parameters = {v.name: value for v, value in zip(block.parameters, p.tolist(), strict=True)}
     name = getattr(recording, "name", "recording")
     return AttitudeResult(name, recording.time, **outputs, rest=rest, parameters=parameters)
@@ -150,13 +155,21 @@ def _bounded(variable: Variable, value) -> float:
     return value
 
 
-def _bias_walk(part: Part, p: np.ndarray) -> np.ndarray:
-    """Variance (3,) by which the gyro's bias walks in a second, (rad/s)^2/s, as the filter models
-    it.
-    """
+def _gyro_p(part: Part, p: np.ndarray) -> ca.SX:
+    """The gyro's coefficients among the block's parameters."""
     first = len(OWN_PARAMETERS)
-    gyro_p = ca.SX(ca.DM(p[first : first + len(part.gyro.slots)]))
-    walk = noise_of(part.gyro, gyro_p, 1 / part.sample_rate).walk
+    return ca.SX(ca.DM(p[first : first + len(part.gyro.slots)]))
+
+
+def _retiming(recording: Recording, part: Part, p: np.ndarray) -> Retiming | None:
+    """How the gyro's samples lie in time; None where its clock is right."""
+    skew = float(ca.evalf(ca.SX(clock_error(part.gyro, _gyro_p(part, p)))))
+    return Retiming(recording.time, skew, recording.sample_period) if skew else None
+
+
+def _bias_walk(part: Part, p: np.ndarray) -> np.ndarray:
+    """Variance (3,) in (rad/s)^2/s by which the gyro's bias walks, as the filter models it."""
+    walk = noise_of(part.gyro, _gyro_p(part, p), 1 / part.sample_rate).walk
     return np.array(ca.evalf(walk), dtype=float).ravel() ** 2 + LEAST_K**2
 
 
@@ -195,8 +208,10 @@ class Kept:
 
 
 def _outputs(block: Block, grid: InputGrid, steps: Run, walk: np.ndarray) -> dict[str, np.ndarray]:
-    """The outputs at the recording's rows; over what a gap exceeds its missing samples by, the bias
-    walks on with the variance ``walk`` (3,) in a second.
+    """The outputs at the recording's rows.
+
+    Over what a gap exceeds its missing samples by, the bias walks on with the variance ``walk``
+    (3,) in a second.
 
     A second thread puts away what has been made, because memory that is touched for the first time
     can cost more than the filter.

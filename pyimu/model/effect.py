@@ -1,5 +1,4 @@
-"""One sensor error effect is one symbolic function; the rest of the package derives everything else
-from it.
+"""An effect: one symbolic function for one sensor error, from which all else is derived.
 
 An effect is written as a function of the sensor's input ``x`` (3,), whose annotated arguments say
 what else it needs::
@@ -72,8 +71,10 @@ class Effect:
     ``per_power_on`` marks what is drawn anew at each power-on, so that it belongs to a log and not
     to the part; ``mounting`` what holds a turn of the whole triad among its values. No log tells
     the effects of one ``family`` apart. ``delay(**parameters)`` is the delay [s] by which an effect
-    holds slow input back. ``symptom`` says what a sensor does that has the effect ("clips"), and
-    ``phrase`` how the effect is said before its coefficient ("saturation at").
+    holds slow input back, ``clock(**parameters)`` the relative error of the sensor's clock: both
+    say when a sample was taken, not what it holds. ``symptom`` says what a sensor does that has the
+    effect ("clips"), and ``phrase`` how the effect is said before its coefficient ("saturation
+    at").
     """
 
     name: str
@@ -93,6 +94,7 @@ class Effect:
     mounting: bool
     family: str
     delay: Callable[..., Any] | None
+    clock: Callable[..., Any] | None
     symptom: str
     phrase: str
     parameters: Mapping[str, Parameter] = field(repr=False)
@@ -109,29 +111,27 @@ class Effect:
 
     @property
     def remembers(self) -> bool:
-        """True where the output without noise depends on what was before, and not as a linear
-        filter of the input does.
-        """
+        """True where the noise-free output depends on the past other than by a linear filter."""
         return bool(self.states) and not self.stochastic and self.stage != "dynamics"
 
     @property
     def left_in(self) -> bool:
-        """True where compensation neither solves the effect for its input nor marks samples: what
-        it does stays in.
+        """True where compensation neither inverts the effect nor marks its samples.
+
+        The effect then stays in the compensated output.
         """
         return not self.invertible and self.lost is None
 
     @property
     def differences(self) -> bool:
-        """True where the effect follows from the difference of successive inputs, and is zero where
-        they are held.
+        """True where the effect follows from the difference of successive inputs.
+
+        Such an effect is zero where the inputs are held.
         """
         return any(s == OWN_RATE or SIGNALS[s].difference for s in self.environment.values())
 
     def signals(self, kind: str) -> frozenset[str]:
-        """Names in ``SIGNALS`` of what the effect needs beside the signal that a sensor of this
-        kind measures.
-        """
+        """Names in ``SIGNALS`` that the effect needs beside what this kind of sensor measures."""
         named = (KINDS[kind].own_rate if s == OWN_RATE else s for s in self.environment.values())
         return frozenset(named) - {KINDS[kind].own}
 
@@ -142,8 +142,9 @@ class Effect:
     def __call__(
         self, x: ca.SX, p: Mapping, s: Mapping, w: Mapping, u: Mapping, h: ca.SX
     ) -> tuple[ca.SX, dict]:
-        """Output (3,) and following states for input ``x`` (3,); the mappings hold casadi matrices
-        by argument name.
+        """Output (3,) and next states for input ``x`` (3,).
+
+        The mappings hold casadi matrices by argument name.
         """
         arguments = {
             **p,
@@ -174,6 +175,7 @@ def effect(
     mounting: bool = False,
     family: str = "",
     delay: Callable | None = None,
+    clock: Callable | None = None,
     symptom: str = "",
     phrase: str = "",
 ) -> Callable[[Callable], Effect]:
@@ -210,6 +212,7 @@ def effect(
             mounting=mounting,
             family=family,
             delay=delay,
+            clock=clock,
             symptom=symptom,
             phrase=phrase or f"{name.replace('_', ' ')} of",
             **_arguments(name, function),
@@ -245,8 +248,9 @@ def _arguments(name: str, function: Callable) -> dict[str, Any]:
 
 
 def _checked(name: str, argument: str, annotation: Any) -> None:
-    """Refuse a signal or a unit that does not exist where the effect is made, not where it is first
-    used.
+    """Refuse a signal or a unit that does not exist when the effect is defined.
+
+    Otherwise the error would come only where it is first used.
     """
     if isinstance(annotation, Environment):
         _known(name, "signal", annotation.signal, (*SIGNALS, OWN_RATE))

@@ -79,6 +79,7 @@ COMPENSATED = {
     "angle_random_walk": "yes, with its noise zero",
     "saturation": "no, marked",
     "dead_zone": "no, marked",
+    "clock_skew": "no, left in",
     "lag": "no, left in",
     "time_delay": "no, left in",
     "quantization": "no, left in",

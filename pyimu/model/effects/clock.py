@@ -8,6 +8,10 @@ from pyimu.model.effect import OWN_RATE, Environment, Law, Noise, Parameter, eff
     term="clock skew",
     equation=r"y = x + \epsilon t \dot x",
     source="no source; first order in the time by which the clock is off, short against the motion",
+    # The inverse of x + eps t dx/dt with a difference for dx/dt grows without bound once
+    # eps t < -h / 2, and what a causal inverse lacks are the samples to come.
+    invertible=False,
+    clock=lambda eps: eps,
 )
 def clock_skew(
     x,
@@ -32,10 +36,7 @@ def clock_skew(
         transfer=r"s_j |\dot x| \sqrt{h}",
         psd=r"s_j^2\, \dot x^2\, h",
         allan=r"s_j |\dot x| \sqrt{\frac{h}{\tau}}",
-        note=(
-            "White from sample to sample, whatever the period; the same draw on all axes. The "
-            "picture is at 1 rad/s^2."
-        ),
+        note="White from sample to sample, whatever the period; the same draw on all axes.",
     ),
 )
 def sampling_jitter(
