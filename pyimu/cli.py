@@ -46,8 +46,9 @@ INTERRUPTED = 130
 
 
 def main() -> None:
-    """Entry point: an error that the user can mend ends with one line on stderr and exit status
-    2.
+    """Entry point of the command line.
+
+    An error that the user can mend ends with one line on stderr and exit status 2.
     """
     interrupts = Interrupts()
     try:
@@ -318,8 +319,9 @@ def _add_effects(files: list[Path] | None) -> None:
 
 @contextmanager
 def progress(text: str) -> Iterator[Callable[..., None]]:
-    """A moving bar on a terminal, nothing elsewhere; gives the function that says what is being
-    done, and which share of it.
+    """A progress bar on a terminal, nothing elsewhere.
+
+    Gives the function that says what is being done, and which share of it.
     """
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn

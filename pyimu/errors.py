@@ -1,6 +1,4 @@
-"""What can be wrong with what a user gave: errors, which end the work, and findings, which go along
-with the result.
-"""
+"""Errors, which end the work, and findings, which go along with the result."""
 
 from __future__ import annotations
 

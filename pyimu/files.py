@@ -27,7 +27,7 @@ FORGOTTEN = 24 * 3600.0
 
 @contextmanager
 def whole(path: Path) -> Iterator[Path]:
-    """A file beside ``path`` that takes its place once the block has ended well.
+    """A file beside ``path`` that takes its place once the ``with`` block has ended well.
 
     Raises UserError where the folder cannot be made or written.
     """
@@ -49,7 +49,7 @@ def whole(path: Path) -> Iterator[Path]:
 
 @contextmanager
 def staged(out: Path) -> Iterator[Path]:
-    """A folder inside ``out`` whose files take their places there once the block has ended well.
+    """A folder inside ``out`` whose files take their places once the ``with`` block has ended well.
 
     Raises UserError where ``out`` cannot be made or written, or a folder stands where a file is to
     go.
@@ -100,8 +100,9 @@ def plain(value: Any) -> Any:
 
 
 def check_folder(out: Path | str) -> None:
-    """Raise UserError where the folder ``out`` is none or cannot be made, before work is done that
-    would then be lost.
+    """Raise UserError where ``out`` is not a folder or cannot be made.
+
+    To be called before the work whose result would be lost.
     """
     out = Path(out)
     try:

@@ -115,8 +115,9 @@ class UnitError(UserError):
 
 @dataclass(frozen=True)
 class Unit:
-    """A unit: ``factor`` times the SI unit of ``dimension``, the exponents of ``BASES``; ``text``
-    as it was spelled.
+    """A unit: ``factor`` times the SI unit of ``dimension``.
+
+    ``dimension`` holds the exponents of ``BASES``, ``text`` the spelling that was parsed.
     """
 
     factor: float
@@ -151,8 +152,9 @@ def same_dimension(a: str | Unit, b: str | Unit) -> bool:
 
 
 def convert(values, source: str | Unit, target: str | Unit):
-    """``values`` given in ``source``, expressed in ``target``: a float for a scalar, else an array
-    of the same shape.
+    """Convert ``values`` from unit ``source`` to unit ``target``.
+
+    Gives a float for a scalar, else an array of the same shape.
 
     Temperatures convert as differences; for readings of a thermometer see ``to_degc``. Raises
     UnitError where the dimensions differ.
@@ -168,8 +170,9 @@ def convert(values, source: str | Unit, target: str | Unit):
 
 
 def to_degc(values, unit: str | Unit):
-    """Temperatures read in ``unit`` (``K`` or ``degC``) as degC, a float for a scalar. Raises
-    UnitError for another unit.
+    """Convert temperatures read in ``unit`` (``K`` or ``degC``) to degC; a float for a scalar.
+
+    Raises UnitError for another unit.
     """
     unit = _unit(unit)
     if unit.text not in ("K", "degC"):
@@ -179,9 +182,7 @@ def to_degc(values, unit: str | Unit):
 
 
 def nearest(name: str, names: Iterable[str], cutoff: float = 0.7) -> str | None:
-    """The member of ``names`` that ``name`` was probably meant to be, upper and lower case alike,
-    or None.
-    """
+    """The member of ``names`` closest in spelling to ``name``, ignoring case, or None."""
     folded: dict[str, str] = {}
     for candidate in names:
         folded.setdefault(candidate.casefold(), candidate)
@@ -206,8 +207,9 @@ def _describe(unit: Unit) -> str:
 
 
 class _Reader:
-    """Recursive descent over the grammar in the module's docstring; each method returns (factor,
-    dimension).
+    """Recursive descent parser of the grammar in the module's docstring.
+
+    The method of each rule returns (factor, dimension).
     """
 
     def __init__(self, text: str) -> None:

@@ -9,9 +9,11 @@ import zipfile
 from pathlib import Path
 
 import pytest
+from built import built
 from places import CHECKOUT
 
-from pyimu.fmu.package import build
+from pyimu.attitude import attitude_ukf
+from pyimu.model.part_file import part
 
 
 def pip(*words):
@@ -88,7 +90,7 @@ def isolated(installed, cwd, *words):
     )
 
 
-def test_installed_package_builds_fmus(installed, tmp_path):
+def test_installed_package_builds_fmus(installed, tmp_path, tmp_path_factory):
     ask = "import pyimu, pyimu.fmu as f; print(pyimu.__file__, f.source_folder(), sep='\\n')"
     said = isolated(installed, tmp_path, "-c", ask)
     places = [Path(line) for line in said.stdout.split("\n") if line]
@@ -102,7 +104,9 @@ def test_installed_package_builds_fmus(installed, tmp_path):
         for n in ("ImuSensor", "AttitudeUkf")
         for form in ("fmi2", "fmi3", "block")
     ]
-    for made in build("imt30", tmp_path / "checkout"):
-        assert (tmp_path / "x" / made.name).read_bytes() == made.read_bytes(), (
-            f"{made.name} differs from the checkout's"
-        )
+    imt30 = part("imt30")
+    for block in (imt30.block, attitude_ukf(imt30)):
+        for made in built(block, tmp_path_factory).values():
+            assert (tmp_path / "x" / made.name).read_bytes() == made.read_bytes(), (
+                f"{made.name} differs from the checkout's"
+            )

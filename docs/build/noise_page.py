@@ -1,31 +1,41 @@
-"""The page ``docs/noise.md``: every noise of the catalogue with its theory, and what an FMU makes
-of it.
+"""The page ``docs/noise.md``: every noise of the catalogue, its theory and what an FMU makes of it.
 
 ``python docs/build/noise_page.py`` writes the text and, by ``noise_pictures``, the pictures whose
-numbers have changed.
+numbers have changed. Both follow from the ``law`` of each effect; none is named here.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-from math import pi
+from collections.abc import Iterable
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from pages import DOCS, write_changed
 
+from pyimu import units
 from pyimu.model.catalogue import CATALOGUE
+from pyimu.model.effect import Effect
+from pyimu.model.kinds import KINDS
+from pyimu.model.law import Law
 from pyimu.model.sensor import Sensor
 from pyimu.model.typical import magnitudes
 from pyimu.shaping import NoiseModel, describe
+from pyimu.shaping.model import coefficients
 
 SAMPLE_PERIOD, SAMPLES, AXIS = 0.01, 2**17, 0
 """Of the FMU's run, s, and the axis that is shown."""
 
+FAST = {"gyro": (100, "deg/s"), "accel": (2, "g")}
+"""The input of a sensor whose noise depends on it."""
+
+GROWTH = 1.0
+"""The rate of the input where the noise depends on that, in the sensor's own unit a second."""
+
 HEAD = """# Noise
 
-Written by `make generate` from `pyimu/shaping` and `docs/build/noise_page.py`; do not edit.
+Written by `make generate` from the laws in `pyimu/model/effects` and from `pyimu/shaping`; do not
+edit.
 
 Every noise of the catalogue as a filter on white noise. Densities are two-sided: white noise N has
 the density $N^2$ at every frequency of either sign, and what a spectrum analyser shows, one-sided,
@@ -56,191 +66,114 @@ of 99 % if the theory is right.
 
 @dataclass(frozen=True)
 class Entry:
-    """One noise on the page: the effect, its formulae, and the conditions of its picture.
+    """One noise on the page: an effect that has a law, and the conditions of its picture."""
 
-    ``form`` replaces coefficients that would not fit the length of the run; ``at`` [rad/s] and
-    ``slope`` [rad/s^2] are the true rate and its growth; ``dither`` is the white noise, in steps
-    per sample, that rounding needs.
-    """
-
-    effect: str
-    transfer: str
-    poles: str
-    psd: str
-    allan: str
-    note: str = ""
-    form: Mapping[str, float] = field(default_factory=dict)
-    at: float = 0.0
-    slope: float = 0.0
-    dither: float = 0.0
+    effect: Effect
 
     @property
-    def coefficients(self) -> dict[str, float]:
-        """In SI: the typical figures of a tactical gyro, and ``form``."""
-        figure = magnitudes(self.effect, "gyro")["tactical"]
-        return {figure.parameter: figure.si, **figure.beside_si, **self.form}
+    def name(self) -> str:
+        return self.effect.name
+
+    @property
+    def law(self) -> Law:
+        return self.effect.law
+
+    @property
+    def kind(self) -> str:
+        """The sensor of the picture: a gyro, but for a noise that no gyro has."""
+        return next(kind for kind in KINDS if kind in self.effect.sensors)
 
     @property
     def sensor(self) -> Sensor:
-        return Sensor("gyro", {self.effect: self.coefficients})
+        """With the typical figures of a tactical part, and those that the law wants shown."""
+        figure = magnitudes(self.name, self.kind)["tactical"]
+        typical = {figure.parameter: figure.si, **figure.beside_si}
+        return Sensor(self.kind, {self.name: {**typical, **self.law.shown}})
+
+    @property
+    def coefficients(self) -> dict[str, float]:
+        """Of the axis that is shown, in SI."""
+        return coefficients(self.sensor, self.name, AXIS)
+
+    @property
+    def at(self) -> float:
+        """The true input at the start, in SI."""
+        value, unit = FAST[self.kind]
+        return value * units.parse(unit).factor if self.law.needs("x") else 0.0
+
+    @property
+    def slope(self) -> float:
+        """The growth of the true input, in SI a second."""
+        # Of a noise that depends on the input as well, growth would make a changing noise.
+        return GROWTH if self.law.needs("slope") and not self.law.needs("x") else 0.0
+
+    @property
+    def rounds(self) -> bool:
+        """Whether it draws nothing and makes noise of other noise."""
+        return not self.effect.stochastic and self.law.ramp is None
 
     @property
     def model(self) -> NoiseModel:
-        return describe(self.sensor, self.effect, AXIS, SAMPLE_PERIOD, at=self.at, slope=self.slope)
+        return describe(self.sensor, self.name, AXIS, SAMPLE_PERIOD, at=self.at, slope=self.slope)
 
 
-ENTRIES = (
-    Entry(
-        "angle_quantization",
-        r"Q \sqrt{h}\, s,\quad Q = q / \sqrt{12}",
-        "none",
-        r"\frac{4 Q^2}{h} \sin^2(\pi f h) \approx (2 \pi f)^2 Q^2 h",
-        r"\frac{\sqrt 3\, Q}{\tau}",
-        "The angle's rounding error is independent from sample to sample where other noise turns "
-        "the sensor by half a step a sample or more. The picture shows the error alone, the FMU's "
-        "output less that of the same noise unrounded.",
-        dither=1.0,
-    ),
-    Entry(
-        "quantization",
-        r"q \sqrt{h / 12}",
-        "none",
-        r"\frac{q^2 h}{12}",
-        r"q \sqrt{\frac{h}{12\, \tau}}",
-        "Rounding of the rate is white noise where other noise exceeds half a step. The picture "
-        "shows the error alone.",
-        dither=1.0,
-    ),
-    Entry("angle_random_walk", "N", "none", "N^2", r"\frac{N}{\sqrt\tau}"),
-    Entry(
-        "bias_instability",
-        r"c\, \frac{\prod_{k=1}^{5} (s + z_k)}{\prod_{k=1}^{6} (s + a_k)},\quad "
-        r"|H|^2 = \sum_k \frac{g_k^2}{a_k^2 + \omega^2}",
-        r"-a_k = -2 \pi f_{low} (f_{high} / f_{low})^{(k - 1) / 5}",
-        r"\approx \frac{B^2}{2 \pi f} \quad (f_{low} \le f \le f_{high})",
-        r"\approx \sqrt{\tfrac{2 \ln 2}{\pi}}\, B = 0.664\, B",
-        "A sum of six Gauss-Markov processes stands for the density. From $f_{{low}}$ to "
-        "$f_{{high}}$ it departs from $B^2 / (2 \\pi f)$ by {ripple} dB; the line of the Allan "
-        "deviation is the integral of the sum's density.",
-    ),
-    Entry(
-        "rate_random_walk",
-        r"\frac{K}{s}",
-        "0",
-        r"\frac{K^2 h^2}{4 \sin^2(\pi f h)} \approx \frac{K^2}{(2 \pi f)^2}",
-        r"K \sqrt{\frac{\tau}{3} \left(1 + \frac{1}{2 n^2}\right)}",
-    ),
-    Entry(
-        "rate_ramp",
-        r"\text{none: no random process}",
-        "none",
-        r"\frac{R^2}{(2 \pi f)^3}\ \text{(a formal label)}",
-        r"\frac{R \tau}{\sqrt 2}",
-        "A ramp has no density: the label of the field's tables has a divergent Allan integral, "
-        "and only the Allan deviation can be compared.",
-    ),
-    Entry(
-        "gauss_markov",
-        r"\frac{q}{s + 1 / \tau_c}",
-        r"-1 / \tau_c",
-        r"\frac{q^2 h\, (1 - a^2)\, \tau_c / 2}{1 - 2 a \cos(2 \pi f h) + a^2} \approx "
-        r"\frac{q^2 \tau_c^2}{1 + (2 \pi f \tau_c)^2},\quad a = e^{-h / \tau_c}",
-        r"q \tau_c \sqrt{\tfrac{1}{\tau} \left[1 - \tfrac{\tau_c}{2 \tau} "
-        r"\left(3 - 4 e^{-\tau / \tau_c} + e^{-2 \tau / \tau_c}\right)\right]}",
-        "The closed form is the continuous one (IEEE Std 952-2020, annex C); samples lie above, in "
-        "the variance by at most $\\left(h / (\\sqrt{{2}}\\, \\tau) + "
-        "h / (\\sqrt{{12}}\\, \\tau_c)\\right)^2$ of it. The coefficient `tau` is the correlation "
-        "time $\\tau_c$; $\\tau$ alone is the cluster time.",
-        form={"tau": 10.0},
-    ),
-    Entry(
-        "rate_dependent_noise",
-        r"k\, |x|",
-        "none",
-        "k^2 x^2",
-        r"\frac{k |x|}{\sqrt\tau}",
-        "White noise as large as the rate is fast; the picture is at 100 deg/s.",
-        at=100 * pi / 180,
-    ),
-    Entry(
-        "sampling_jitter",
-        r"s_j |\dot x| \sqrt{h}",
-        "none",
-        r"s_j^2\, \dot x^2\, h",
-        r"s_j |\dot x| \sqrt{\frac{h}{\tau}}",
-        "White from sample to sample, whatever the period; the same draw on all axes. The picture "
-        "is at 1 rad/s^2.",
-        slope=1.0,
-    ),
-)
+def entries() -> tuple[Entry, ...]:
+    """The noises in the order of the catalogue."""
+    return tuple(Entry(e) for e in CATALOGUE.values() if e.law is not None)
 
 
 def documentation(folder: str = "noise") -> str:
     """The page's text; pictures are linked as ``folder/EFFECT.png``."""
-    return HEAD.format(samples=SAMPLES, period=SAMPLE_PERIOD) + "".join(
-        _section(e, folder) for e in ENTRIES
-    )
+    head = HEAD.format(samples=SAMPLES, period=SAMPLE_PERIOD)
+    return head + "".join(_section(e, folder) for e in entries())
 
 
 def _section(entry: Entry, folder: str) -> str:
-    effect = CATALOGUE[entry.effect]
+    effect, law = entry.effect, entry.law
     rows = [
         ("equation", f"${effect.equation}$"),
-        ("transfer function $H(s)$", f"${entry.transfer}$"),
-        ("poles [1/s]", _maths(entry.poles)),
-        ("two-sided PSD $S(f)$", f"${entry.psd}$"),
-        ("Allan deviation $\\sigma(\\tau)$", f"${entry.allan}$"),
-        ("in the picture", _shown(entry)),
+        ("transfer function $H(s)$", _formula(entry, "transfer")),
+        ("poles [1/s]", "none" if law.poles == "none" else f"${law.poles}$"),
+        ("two-sided PSD $S(f)$", _formula(entry, "psd")),
+        ("Allan deviation $\\sigma(\\tau)$", _formula(entry, "allan")),
+        ("in the picture", "; ".join(_shown(entry))),
         ("source", effect.source),
     ]
     table = "\n".join(f"| {name} | {text.replace('|', chr(92) + 'vert ')} |" for name, text in rows)
-    note = entry.note.format(ripple=_ripple(entry)) if entry.note else ""
-    title = f"{effect.term[0].upper()}{effect.term[1:]}: `{entry.effect}`"
+    title = f"{effect.term[0].upper()}{effect.term[1:]}: `{entry.name}`"
     legend = f"{effect.term}: density and Allan deviation, theory and FMU"
     return (
         f"\n## {title}\n\n| | |\n| --- | --- |\n{table}\n\n"
-        + (f"{note}\n\n" if note else "")
-        + f"![{legend}]({folder}/{entry.effect}.png)\n"
+        + (f"{law.note}\n\n" if law.note else "")
+        + f"![{legend}]({folder}/{entry.name}.png)\n"
     )
 
 
-def _maths(text: str) -> str:
-    return text if text == "none" else f"${text}$"
+def _formula(entry: Entry, name: str) -> str:
+    """A formula of the law. Raises ValueError where it is not written."""
+    text = getattr(entry.law, name)
+    if not text:
+        raise ValueError(f"effect {entry.name}: its law lacks {name}=, a formula for docs/noise.md")
+    return f"${text}$"
 
 
-def _shown(entry: Entry) -> str:
-    """The coefficients of the picture and what follows from them."""
-    sensor, model = entry.sensor, entry.model
-    units = {slot.parameter: slot.unit for slot in sensor.slots}
-    forms = {
-        n: q.start
-        for n, q in CATALOGUE[entry.effect].parameters.items()
-        if n not in entry.coefficients
-    }
-    parts = [
-        f"{name} = {value:.4g} {units[name]}"
-        for name, value in {**entry.coefficients, **forms}.items()
-    ]
+def _shown(entry: Entry) -> Iterable[str]:
+    """The coefficients of the picture, its conditions, and what follows from them."""
+    unit_of = {slot.parameter: slot.unit for slot in entry.sensor.slots}
+    for name, value in entry.coefficients.items():
+        yield f"{name} = {value:.4g} {unit_of[name]}"
+    if entry.at:
+        value, unit = FAST[entry.kind]
+        yield f"at {value} {unit}"
+    if entry.slope:
+        yield f"at {entry.slope:g} {entry.sensor.unit('{y}/s')}"
+    if entry.rounds:
+        yield "the error alone, under white noise of one step"
+    model = entry.model
     if len(model.poles) and model.poles.any():
-        parts.append(f"poles {', '.join(f'{p:.4g}' for p in model.poles)} 1/s")
+        yield f"poles {', '.join(f'{p:.4g}' for p in model.poles)} 1/s"
     if np.isfinite(model.standard_deviation):
-        parts.append(f"standard deviation {model.standard_deviation:.4g} {model.unit}")
-    return "; ".join(parts)
-
-
-def _ripple(entry: Entry) -> str:
-    """Lowest and highest departure in dB of f S(f) from B^2 / (2 pi), for the effect's defaults."""
-    if entry.effect != "bias_instability":
-        return ""
-    c = {
-        **{n: q.start for n, q in CATALOGUE[entry.effect].parameters.items()},
-        **entry.coefficients,
-    }
-    f = np.geomspace(c["f_low"], c["f_high"], 4001)
-    level = 10 * np.log10(
-        2 * pi * f * np.abs(entry.model.bode(f).magnitude.ravel()) ** 2 / c["B"] ** 2
-    )
-    return f"{level.min():.2f} to {level.max():+.2f}"
+        yield f"standard deviation {model.standard_deviation:.4g} {model.unit}"
 
 
 def write(folder: Path | str) -> list[Path]:
@@ -254,7 +187,7 @@ def write(folder: Path | str) -> list[Path]:
     page = folder / "noise.md"
     (folder / "noise").mkdir(parents=True, exist_ok=True)
     written = [page] if write_changed(page, documentation()) else []
-    return written + draw(folder / "noise")
+    return written + draw(folder / "noise", entries())
 
 
 if __name__ == "__main__":

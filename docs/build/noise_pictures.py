@@ -10,38 +10,35 @@ from __future__ import annotations
 import hashlib
 import json
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from noise_page import AXIS, ENTRIES, SAMPLE_PERIOD, SAMPLES, Entry
+from noise_page import AXIS, SAMPLE_PERIOD, SAMPLES, Entry, entries
 from PIL import Image
 from scipy.stats import chi2
 
 from pyimu import units
+from pyimu.block.block import Block
 from pyimu.characterization.allan import log_clusters, octave_clusters, overlapping_deviation
 from pyimu.characterization.allan.law import allan_band
 from pyimu.files import whole
 from pyimu.fmu import build_fmu, simulate
-from pyimu.model.catalogue import CATALOGUE
+from pyimu.model.catalogue import WHITE
+from pyimu.model.kinds import KINDS
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
 from pyimu.shaping import (
-    flicker_floor,
     gauss_markov_deviation,
     psd_two_sided,
     random_walk_deviation,
+    white_deviation,
 )
 
 SEED = 2012
-PANELS = 2 * len(ENTRIES) - 2
-PROBABILITY = 1 - 0.01 / PANELS
-"""That all points of a panel are inside its band; then with 99 % those of all panels are
-(Bonferroni). A ramp has no band."""
-
 FIRST_BIN, LEAST, RATIO = 8, 4, 2 ** (1 / 3)
 """A density is drawn from this bin of the periodogram on, in means over thirds of an octave but of
 four bins at the least: at lower frequencies there are too few to say anything."""
@@ -64,29 +61,33 @@ STYLE = {
     "legend.fontsize": 8,
 }
 
-UNIT = "deg/h"
-DEG_PER_HOUR = units.parse(UNIT).factor
+UNITS = {"gyro": "deg/h", "accel": "ug"}
+"""Of the axes of a picture."""
 
 DIGEST, DIGITS = "Digest", 6
 """The key in a picture's metadata, and the digits of a number that count."""
 
 Run = Callable[[Sensor, np.ndarray], np.ndarray]
-"""Gyro output (n, 3) of a sensor at rest but for a rate (n, 3), from its second sample on."""
-
-QUIET = Sensor("gyro", {name: {} for name in ("angle_random_walk", *(e.effect for e in ENTRIES))})
-"""Every noise, all of them off."""
+"""Output (n, 3) of a sensor at rest but for its own signal (n, 3), from its second sample on."""
 
 
-def draw(folder: Path) -> list[Path]:
-    """Write ``EFFECT.png`` for each entry of the page to a folder; gives the paths of those that
-    show something new. The same bytes at every run.
+def quiet(kind: str) -> Sensor:
+    """Every noise of the page that such a sensor has, all of them off."""
+    return Sensor(kind, {e.name: {} for e in entries() if kind in e.effect.sensors})
+
+
+def draw(folder: Path, chosen: Sequence[Entry]) -> list[Path]:
+    """Write ``EFFECT.png`` for each of these noises to a folder, where it shows something new.
+
+    Gives the paths of those that were written. The same bytes at every run.
     """
-    changed = [e for e in ENTRIES if not is_fresh(e, folder / f"{e.effect}.png")]
+    changed = [e for e in chosen if not is_fresh(e, folder / f"{e.name}.png")]
     if not changed:
         return []
+    sensors = [quiet(kind) for kind in dict.fromkeys(e.kind for e in changed)]
     with tempfile.TemporaryDirectory() as work:
-        run = _by_fmu(build_fmu(_block(QUIET), work))
-        return [_save(picture(e, run), folder / f"{e.effect}.png") for e in changed]
+        run = _by_fmu(build_fmu(_block(*sensors), work))
+        return [_save(picture(e, run), folder / f"{e.name}.png") for e in changed]
 
 
 def is_fresh(entry: Entry, path: Path) -> bool:
@@ -97,52 +98,72 @@ def is_fresh(entry: Entry, path: Path) -> bool:
         return image.info.get(DIGEST) == digest(picture(entry, in_python))
 
 
-def in_python(sensor: Sensor, rate: np.ndarray) -> np.ndarray:
+def in_python(sensor: Sensor, signal: np.ndarray) -> np.ndarray:
     """A ``Run`` by the sensor's block."""
-    block = _block(sensor)
-    return block.run(_inputs(sensor, rate), seed=SEED)[0][1:, :3]
+    y = _block(sensor).run(_inputs(sensor, signal), seed=SEED)[0]
+    return y[1:, _columns(sensor)]
 
 
 def _by_fmu(path: Path) -> Run:
-    """A ``Run`` by the FMU of ``QUIET``."""
+    """A ``Run`` by an FMU of sensors that are ``quiet``."""
 
-    def run(sensor: Sensor, rate: np.ndarray) -> np.ndarray:
+    def run(sensor: Sensor, signal: np.ndarray) -> np.ndarray:
         start = {"seed": SEED, **{v.name: float(v.start) for v in sensor.variables}}
-        y = simulate(path, _inputs(sensor, rate), sample_period=SAMPLE_PERIOD, start_values=start)
-        return y[2:, :3]
+        u = _inputs(sensor, signal)
+        y = simulate(path, u, sample_period=SAMPLE_PERIOD, start_values=start)
+        return y[2:, _columns(sensor)]
 
     return run
 
 
-def _block(sensor: Sensor):
-    return Part("noise", 1 / SAMPLE_PERIOD, gyro=sensor).block
+def _block(*sensors: Sensor) -> Block:
+    return Part("noise", 1 / SAMPLE_PERIOD, **{s.kind: s for s in sensors}).block
 
 
-def _inputs(sensor: Sensor, rate: np.ndarray) -> np.ndarray:
-    u = np.tile([v.start for v in _block(sensor).inputs], (len(rate), 1))
-    u[:, :3] = rate
+def _columns(sensor: Sensor) -> slice:
+    """Where a sensor stands among the inputs and the outputs of a part."""
+    first = 3 * list(KINDS).index(sensor.kind)
+    return slice(first, first + 3)
+
+
+def _inputs(sensor: Sensor, signal: np.ndarray) -> np.ndarray:
+    u = np.tile([v.start for v in _block(sensor).inputs], (len(signal), 1))
+    u[:, _columns(sensor)] = signal
     return u
 
 
 def noise(entry: Entry, run: Run) -> np.ndarray:
-    """What the noise adds to the output, rad/s, shape (SAMPLES,): the output with the noise on less
-    that with it off.
+    """What the noise adds to the output, in SI, shape (SAMPLES,).
 
-    A dither is in both, from the same draws. Sample 1, which knows no slope yet, is left out.
+    That is the output with the noise on less the output with it off. White noise of one step, under
+    which rounding makes noise, is in both, from the same draws. Sample 1, which knows no slope yet,
+    is left out.
     """
-    rate = np.zeros((SAMPLES + 1, 3))
-    rate[:, AXIS] = entry.at + entry.slope * SAMPLE_PERIOD * np.arange(SAMPLES + 1)
-    dither = entry.dither and entry.dither * _step(entry) * np.sqrt(SAMPLE_PERIOD)
-    off = QUIET.with_values("angle_random_walk", N=dither) if dither else QUIET
-    on = off.with_values(entry.effect, **entry.coefficients)
-    before = run(off, rate) if dither else rate[1:]
-    return (run(on, rate) - before)[:, AXIS]
+    signal = np.zeros((SAMPLES + 1, 3))
+    signal[:, AXIS] = entry.at + entry.slope * SAMPLE_PERIOD * np.arange(SAMPLES + 1)
+    off, before = quiet(entry.kind), signal[1:]
+    if entry.rounds:
+        white, root = WHITE
+        off = off.with_values(white, **{root: _step(entry) * np.sqrt(SAMPLE_PERIOD)})
+        before = run(off, signal)
+    on = off.with_values(entry.name, **entry.sensor.values[entry.name])
+    return (run(on, signal) - before)[:, AXIS]
 
 
 def _step(entry: Entry) -> float:
-    """The step of the rate, rad/s, that rounding makes."""
-    period = SAMPLE_PERIOD if entry.effect == "angle_quantization" else 1.0
-    return entry.coefficients["q"] / period
+    """The step by which a noise rounds the output.
+
+    The error of one sample is even within a step: its root mean square is step / sqrt(12).
+    """
+    return np.sqrt(12) * np.linalg.norm(entry.model.sampled.D)
+
+
+def probability() -> float:
+    """The probability that all points of one panel are inside its band.
+
+    Those of all panels then are with 99 % (Bonferroni). A ramp has no band.
+    """
+    return 1 - 0.01 / (2 * sum(e.law.ramp is None for e in entries()))
 
 
 def picture(entry: Entry, run: Run) -> Figure:
@@ -153,7 +174,7 @@ def picture(entry: Entry, run: Run) -> Figure:
         left, right = figure.subplots(1, 2)
         _density(left, entry, x)
         _allan(right, entry, x)
-        figure.suptitle(CATALOGUE[entry.effect].term, fontsize=10)
+        figure.suptitle(entry.effect.term, fontsize=10)
     return figure
 
 
@@ -199,41 +220,39 @@ def _rounded(numbers: np.ndarray) -> list[str]:
 
 
 def _density(panel: Axes, entry: Entry, x: np.ndarray) -> None:
-    model, scale = entry.model, DEG_PER_HOUR**2
+    model, scale = entry.model, _scale(entry) ** 2
     line = np.geomspace(FIRST_BIN / (len(x) * SAMPLE_PERIOD), 0.5 / SAMPLE_PERIOD, 300)
+    theory = model.psd_two_sided(line)
     if model.sampled is None:
-        panel.plot(
-            line,
-            model.psd_two_sided(line) / scale,
-            color="black",
-            ls="--",
-            lw=1.2,
-            label="formal label, no density",
-        )
+        _theory(panel, line, theory / scale, "formal label, no density", color="black", ls="--")
     else:
         f, ratio, freedom = spectrum(x, model.psd_two_sided)
-        side = (1 - PROBABILITY) / (2 * len(f))
+        side = (1 - probability()) / (2 * len(f))
         centre = model.psd_two_sided(f) / scale
-        panel.fill_between(
-            f,
-            centre * chi2.ppf(side, freedom) / freedom,
-            centre * chi2.isf(side, freedom) / freedom,
-            color=BLUE,
-            alpha=0.18,
-            lw=0,
-            label="99 % band",
-        )
-        samples, continuous = (
-            model.psd_two_sided(line),
-            psd_two_sided(model.transfer_function, line),
-        )
-        if not np.allclose(samples, continuous, rtol=1e-6, atol=0):
-            panel.plot(
-                line, continuous / scale, color=GREY, lw=1.2, ls="--", label="continuous theory"
-            )
-        panel.plot(line, samples / scale, color="black", lw=1.2, label="theory of the samples")
-        panel.plot(f, ratio * centre, "o", color=BLUE, ms=3.2, label="FMU")
-    _logarithmic(panel, "frequency [Hz]", f"two-sided PSD [({UNIT})²/Hz]")
+        low, high = (quantile(side, freedom) / freedom for quantile in (chi2.ppf, chi2.isf))
+        _band(panel, f, centre * low, centre * high)
+        continuous = psd_two_sided(model.transfer_function, line)
+        if not np.allclose(theory, continuous, rtol=1e-6, atol=0):
+            _theory(panel, line, continuous / scale, "continuous theory", color=GREY, ls="--")
+        _theory(panel, line, theory / scale, "theory of the samples", color="black")
+        _points(panel, f, ratio * centre)
+    _logarithmic(panel, "frequency [Hz]", f"two-sided PSD [({UNITS[entry.kind]})²/Hz]")
+
+
+def _scale(entry: Entry) -> float:
+    return units.parse(UNITS[entry.kind]).factor
+
+
+def _band(panel: Axes, x: np.ndarray, low: np.ndarray, high: np.ndarray) -> None:
+    panel.fill_between(x, low, high, color=BLUE, alpha=0.18, lw=0, label="99 % band")
+
+
+def _theory(panel: Axes, x: np.ndarray, y: np.ndarray, label: str, **style: str) -> None:
+    panel.plot(x, y, lw=1.2, label=label, **style)
+
+
+def _points(panel: Axes, x: np.ndarray, y: np.ndarray) -> None:
+    panel.plot(x, y, "o", color=BLUE, ms=3.2, label="FMU")
 
 
 def spectrum(
@@ -267,49 +286,38 @@ def spectrum(
 
 
 def _allan(panel: Axes, entry: Entry, x: np.ndarray) -> None:
-    model, n, h = entry.model, len(x), SAMPLE_PERIOD
+    model, n, h, scale = entry.model, len(x), SAMPLE_PERIOD, _scale(entry)
     octaves = octave_clusters(n // 2)  # the longest has but one difference, which says nothing
     line = log_clusters(n // 2, 60) * h
     if model.sampled is not None:
-        low, high = allan_band(model.psd_two_sided, octaves * h, n, h, PROBABILITY)
-        panel.fill_between(
-            octaves * h,
-            low / DEG_PER_HOUR,
-            high / DEG_PER_HOUR,
-            color=BLUE,
-            alpha=0.18,
-            lw=0,
-            label="99 % band",
-        )
-    for name, values in _references(entry, line):
-        panel.plot(line, values / DEG_PER_HOUR, color=GREY, ls="--", lw=1.2, label=name)
-    panel.plot(
-        line,
-        model.allan_deviation(line) / DEG_PER_HOUR,
-        color="black",
-        lw=1.2,
-        label="theory of the samples",
-    )
-    panel.plot(
-        octaves * h,
-        overlapping_deviation(x, octaves) / DEG_PER_HOUR,
-        "o",
-        color=BLUE,
-        ms=3.2,
-        label="FMU",
-    )
-    _logarithmic(panel, "cluster time τ [s]", f"Allan deviation [{UNIT}]")
+        low, high = allan_band(model.psd_two_sided, octaves * h, n, h, probability())
+        _band(panel, octaves * h, low / scale, high / scale)
+    theory = model.allan_deviation(line)
+    for name, reference in _references(entry, line):
+        if not np.allclose(theory, reference, rtol=1e-6, atol=0):
+            _theory(panel, line, reference / scale, name, color=GREY, ls="--")
+    _theory(panel, line, theory / scale, "theory of the samples", color="black")
+    _points(panel, octaves * h, overlapping_deviation(x, octaves) / scale)
+    _logarithmic(panel, "cluster time τ [s]", f"Allan deviation [{UNITS[entry.kind]}]")
 
 
-def _references(entry: Entry, tau: np.ndarray) -> Iterator[tuple[str, np.ndarray]]:
-    """Closed forms of the field that differ from the line of the samples, each with its name."""
-    c = entry.coefficients
-    if entry.effect == "rate_random_walk":
-        yield "continuous theory", random_walk_deviation(c["K"], tau)
-    if entry.effect == "gauss_markov":
-        yield "continuous theory", gauss_markov_deviation(c["q"], c["tau"], tau)
-    if entry.effect == "bias_instability":
-        yield "floor, 0.664 B", np.full_like(tau, flicker_floor(c["B"]))
+def _references(entry: Entry, tau: np.ndarray) -> list[tuple[str, np.ndarray]]:
+    """The field's form of the Allan deviation, with its name.
+
+    That is the floor where the law has one, else the closed form in continuous time; none for what
+    belongs to the samples alone.
+    """
+    law, c = entry.law, entry.coefficients
+    floor, walk = (law.value(part, c) for part in ("floor", "walk"))
+    if floor is not None:
+        return [("floor", np.full_like(tau, floor))]
+    if law.sampled or law.ramp is not None:
+        return []
+    white, markov = law.value("white", c, x=entry.at, slope=entry.slope), law.value("markov", c)
+    parts = [gauss_markov_deviation(np.sqrt(2 * v / t), t, tau) for v, t in markov or ()]
+    parts += [] if white is None else [white_deviation(np.sqrt(white), tau)]
+    parts += [] if walk is None else [random_walk_deviation(np.sqrt(walk), tau)]
+    return [("continuous theory", np.linalg.norm(parts, axis=0))]
 
 
 def _logarithmic(panel: Axes, x: str, y: str) -> None:

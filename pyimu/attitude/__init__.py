@@ -1,6 +1,4 @@
-"""Attitude from a gyro and an accelerometer: the unscented filter as a block, and its run over a
-recording.
-"""
+"""Attitude from gyro and accelerometer: the unscented filter as a block, and its run over a log."""
 
 from pyimu.attitude.result import AttitudeResult
 from pyimu.attitude.run import run

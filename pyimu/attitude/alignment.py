@@ -1,6 +1,4 @@
-"""Attitude, bias and their uncertainty before the first sample of a recording, from its first
-seconds at rest.
-"""
+"""Alignment: initial attitude, bias and their uncertainty from a recording's first seconds."""
 
 from __future__ import annotations
 
@@ -91,8 +89,9 @@ def initial_values(
 
 
 def given_attitude(q0) -> Rotation:
-    """``q0`` (4,) as an attitude. Raises UserError for other than four finite numbers, and for
-    zeros alone.
+    """``q0`` (4,) as an attitude.
+
+    Raises UserError for other than four finite numbers, and for zeros alone.
     """
     try:
         numbers = np.asarray(q0, dtype=float)
@@ -137,8 +136,9 @@ def _bias(
 
 
 def _earth(latitude: float, oriented: bool, headed: bool) -> tuple[np.ndarray, np.ndarray]:
-    """What is known of the Earth's rate (3,) in the world axes of the start, and the standard
-    deviation (3,) of what is not, rad/s.
+    """The Earth's rate (3,) in world axes at the start, and its standard deviation (3,), rad/s.
+
+    The rate is what is known of it, the standard deviation that of what is not known.
 
     Without a heading (not ``headed``) the direction of its horizontal part is not known.
     """
@@ -151,8 +151,7 @@ def _earth(latitude: float, oriented: bool, headed: bool) -> tuple[np.ndarray, n
 
 
 def mean_bias_std(part: Part, rest: Rest) -> np.ndarray:
-    """Standard deviation (3,) in rad/s of a gyro's mean over a rest as its bias at the start of the
-    rest.
+    """Standard deviation (3,) rad/s of a gyro's mean over a rest as its bias at the rest's start.
 
     Over T s that is the white noise, N^2/T, and what walks meanwhile, K^2 T/3, each with what
     stands for flicker and Gauss-Markov noise of the part in the filter.
@@ -167,8 +166,9 @@ def mean_bias_std(part: Part, rest: Rest) -> np.ndarray:
 def _compensated(
     part: Part, rest: Rest, recording: Recording
 ) -> tuple[np.ndarray, np.ndarray | None]:
-    """Mean rate (3,) and specific force (3,) of the rest without the part's own errors, as after a
-    long time at rest; None for a force that is not gravity.
+    """Mean rate (3,) and specific force (3,) of the rest, compensated for the part's own errors.
+
+    They are as after a long time at rest; the force is None where it is not gravity.
     """
     force = np.array([0, 0, STANDARD_GRAVITY]) if rest.force is None else rest.force
     known = {
@@ -195,8 +195,9 @@ def _compensated(
 
 
 def _mean(column, rest: Rest, otherwise) -> np.ndarray:
-    """Mean of a signal (n, ...) over the rest, ``otherwise`` where it is missing there; a constant
-    as it is.
+    """Mean of a signal (n, ...) over the rest, ``otherwise`` where it is missing there.
+
+    A constant stays as it is.
     """
     if np.ndim(column) == 0:
         return np.atleast_1d(column)
@@ -252,8 +253,9 @@ def _yaw_std(yaw: Yaw, attitude: Rotation, tilt_std: float) -> float:
 
 
 def _levelled(force: np.ndarray | None, yaw: float) -> Rotation:
-    """The attitude at ``yaw`` rad in which ``force`` (3,) points up: roll and pitch by Groves 2013,
-    eqs. 5.101; level without a force.
+    """The attitude at ``yaw`` rad in which ``force`` (3,) points up; level without a force.
+
+    Roll and pitch are by Groves 2013, eqs. 5.101.
     """
     x, y, z = (0.0, 0.0, 1.0) if force is None else force
     q = quaternion.from_euler(

@@ -1,5 +1,6 @@
-"""What a recording says to the attitude filter beside its samples: the part that stands for an
-unknown one, columns with their defaults, and when a sensor is stuck.
+"""What the attitude filter takes from a recording beside its samples.
+
+The part that stands for an unknown one, columns with their defaults, and when a sensor is stuck.
 """
 
 from __future__ import annotations
@@ -81,8 +82,9 @@ def latitude_of(recording: Recording, latitude: float | None) -> float:
 
 
 def temperature_of(recording: Recording, part: Part) -> np.ndarray | float:
-    """The recorded temperature (n,) in degC, else the one at which the part has no thermal
-    error.
+    """The recorded temperature (n,) in degC.
+
+    Without one, the temperature at which the part has no thermal error.
     """
     if recording.temperature is not None:
         return recording.temperature
@@ -106,7 +108,7 @@ def extra_column(recording: Recording, part: Part, signal: str) -> np.ndarray | 
 
 
 def settings_of(recording: Recording, part: Part, rest: Rest) -> dict[str, float]:
-    """Settings that the log's own samples give: after which time a triad is called stuck.
+    """Settings that follow from the log's own samples: how long a triad must repeat to be stuck.
 
     Never (0) where sensors have no noise, or steps coarser than their noise: equal samples then say
     nothing.
@@ -133,8 +135,9 @@ def _longest_run(values: np.ndarray) -> int:
 
 
 def _step(sensor: Sensor, values: np.ndarray) -> np.ndarray:
-    """The step (3,) between the values that an output can have, 0 where there is none: that in its
-    first samples, or the sensor's declared one if that is larger.
+    """The step (3,) between the values that an output can have, 0 where there is none.
+
+    It is that of the first samples, or the sensor's declared one if that is larger.
     """
     found = [quantization_step(column) or 0.0 for column in values[:FIRST].T]
     declared = sensor.reading("step")
@@ -143,9 +146,7 @@ def _step(sensor: Sensor, values: np.ndarray) -> np.ndarray:
 
 
 def _clipped(values: np.ndarray | None) -> dict[str, dict[str, np.ndarray]]:
-    """The saturation of a triad (n, 3) whose samples pile up at a level; nothing where they do
-    not.
-    """
+    """The saturation of a triad (n, 3) whose samples pile up at a level, else nothing."""
     if values is None:
         return {}
     levels = (

@@ -1,5 +1,4 @@
-"""The update by gravity: which force stands for it at a sample, how it is weighed, and what its
-innovation gate does.
+"""The update by gravity: the force that measures it, its weight, and its innovation gate.
 
 Gravity is a sample of the specific force while the body is quasi-static, and in motion the mean
 force of the last second (``pyimu.attitude.quasi_static``).
@@ -41,8 +40,10 @@ in this time."""
 
 @dataclass(frozen=True)
 class Inclination:
-    """What a sample of the accelerometer says: the estimators after it, the ``measurement`` of
-    gravity, whether that is ``usable``, and whether the body is ``quasi_static``.
+    """What a sample of the accelerometer says of the inclination.
+
+    The estimators after it, the ``measurement`` of gravity, whether that is ``usable``, and whether
+    the body is ``quasi_static``.
     """
 
     quasi: QuasiStatic
@@ -53,8 +54,7 @@ class Inclination:
 
 
 def inclination(memory: Memory, sample: Sample, turned, settings: Settings, h) -> Inclination:
-    """The quasi-static estimator and the mean force one sample later, and their measurement of
-    gravity.
+    """The quasi-static estimator and the mean force one sample later, and the gravity they measure.
 
     ``turned`` (3, 3) is the body's turn in inertial space in the period ``h`` s, from old axes to
     new.
@@ -114,8 +114,9 @@ def _measurement(
 
 
 def corrected(working, given: GravityMeasurement, x: Estimate, nis, weight):
-    """The working estimate after the update by gravity, which gave ``x``, the normalised innovation
-    squared and its weight.
+    """The working estimate after the update by gravity.
+
+    The update gave ``x``, the normalised innovation squared ``nis`` and its ``weight``.
 
     A few wrong samples change little. An attitude that is far off, such as one given upside down,
     becomes uncertain in time for gravity to correct it, without its error being taken for bias.

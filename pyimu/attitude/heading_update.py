@@ -32,9 +32,10 @@ OPTIONS = {"cse": True}
 
 @dataclass(frozen=True)
 class Heading:
-    """A heading of the inputs: ``angle`` in rad and its ``variance``, whether they are usable
-    numbers (``good``), the sample ``period`` in s, and the gyro's squared rate random walk
-    ``walk`` (3,) in (rad/s)^2/s.
+    """A heading of the inputs.
+
+    ``angle`` in rad and its ``variance``, whether they are usable numbers (``good``), the sample
+    ``period`` in s, and the gyro's squared rate random walk ``walk`` (3,) in (rad/s)^2/s.
     """
 
     angle: ca.SX
@@ -78,8 +79,9 @@ def by_heading(layout: Layout) -> ca.Function:
 
 
 def _read(layout: Layout) -> ca.Function:
-    """``u, p, h -> heading, samples, each``: the ``Heading`` of the inputs, its age in samples, and
-    the samples per slot of the rings.
+    """``u, p, h -> heading, samples, each``: the ``Heading`` of the inputs and its age in samples.
+
+    ``each`` is the number of samples per slot of the rings.
     """
     u, p, h = layout.symbols(ca.SX, "u p h")
     settings = Settings.of(layout.compensation, p)
@@ -95,8 +97,9 @@ def _read(layout: Layout) -> ca.Function:
 
 
 def _past_heading() -> ca.Function:
-    """``x, neighbours, heading, samples, each, rate, vertical_noise -> x``: a heading against the
-    yaw of ``samples`` ago.
+    """The function that corrects by a heading against the yaw of ``samples`` ago.
+
+    ``x, neighbours, heading, samples, each, rate, vertical_noise -> x``.
 
     It is held back while gravity is beyond its innovation gate or the tilt is not known: its
     innovation is then no error of yaw. Angles are differences, so that nothing depends on where yaw
@@ -132,8 +135,10 @@ def _past_heading() -> ca.Function:
 
 @dataclass(frozen=True)
 class PastYaw:
-    """A past yaw in rad as the filter now believes it, whether it is ``kept`` in the rings, its
-    ``age`` in s, and the variance in rad^2 that was added about the vertical ``since``.
+    """A past yaw in rad as the filter now believes it.
+
+    ``kept`` says whether it is in the rings, ``age`` is in s, and ``since`` the variance in rad^2
+    that was added about the vertical since then.
     """
 
     yaw: ca.SX
@@ -143,8 +148,9 @@ class PastYaw:
 
 
 def _past_yaw(x: Estimate, total, neighbours, samples, each, period, vertical_noise) -> PastYaw:
-    """The yaw of ``samples`` ago, the present one at 0; ``total`` rad is what headings have
-    corrected so far.
+    """The yaw of ``samples`` ago, the present one at 0.
+
+    ``total`` rad is the sum of the corrections by headings so far.
     """
     now, present = _forward(x), samples < 1
     past, there = late_heading.past_yaw(neighbours)
@@ -155,8 +161,9 @@ def _past_yaw(x: Estimate, total, neighbours, samples, each, period, vertical_no
 
 
 def _corrected(x: Estimate, heading: Heading, past: PastYaw, rate):
-    """The estimate after the heading, the weight that it got, and whether it can be told from the
-    noise since then (``_aged``).
+    """The estimate after the heading, its weight, and whether it is separable from later noise.
+
+    The last is that of ``_aged``.
 
     Of an age T, the heading belongs to the attitude before the gyro's noise of that time, and
     before its bias error had turned it: yaw then = yaw now + T u b - w, with u the vertical in body
@@ -184,8 +191,9 @@ def _corrected(x: Estimate, heading: Heading, past: PastYaw, rate):
 
 
 def _aged(x: Estimate, variance, cross, up, past: PastYaw, walk):
-    """Variance of the past yaw and its covariance (6,) with the present error, from those of the
-    present yaw; and whether the two can be separated.
+    """Variance of the past yaw and its covariance (6,) with the present error; whether separable.
+
+    They are made from those of the present yaw.
 
     ``past.since`` is the variance about the vertical u that the angle w got in the age T,
     ``walk`` K^2 that of the bias in a second. Together they gave the errors of angle and bias along
@@ -219,8 +227,9 @@ def _aged(x: Estimate, variance, cross, up, past: PastYaw, walk):
 
 
 def _with_less_known_yaw(x: Estimate, beyond) -> Estimate:
-    """The estimate with twice the variance about the vertical where a heading is ``beyond`` its
-    innovation gate, independent of the bias.
+    """The estimate with a doubled yaw variance where a heading is ``beyond`` its innovation gate.
+
+    The variance is that about the vertical; what is added is independent of the bias.
 
     One wrong heading changes little; a yaw that is far off is given up after some.
     """

@@ -34,8 +34,7 @@ def samples_per_slot(memory, h):
 
 
 def following(index, within, memory, h):
-    """Slot and place within its span of the next sample, after that at ``within`` of slot
-    ``index``.
+    """Slot and place within its span of the sample that follows ``within`` of slot ``index``.
 
     A slot keeps the last sample of its span. When a span is full is decided as in
     ``samples_per_slot``, but without rounding up.
@@ -61,8 +60,9 @@ def oldest(each):
 def neighbours(
     state: ca.MX, first: int, age: ca.MX, index: ca.MX, within: ca.MX, each: ca.MX
 ) -> ca.MX:
-    """The entries on either side of the sample that is ``age`` samples old, as a column (5,): two
-    yaws, the share of the second, and the two entries of the second ring.
+    """The entries on either side of the sample that is ``age`` samples old, as a column (5,).
+
+    Two yaws, the share of the second, and the two entries of the second ring.
 
     The first ring begins at number ``first`` of ``state``, the second follows it. ``index``,
     ``within`` and ``each`` are as for ``_between_slots``.
@@ -78,8 +78,9 @@ def neighbours(
 
 
 def _between_slots(age, index, within, each):
-    """The two slots on either side of the sample that is ``age`` >= 1 samples old, and how far it
-    lies towards the second.
+    """The two slots on either side of the sample that is ``age`` >= 1 samples old.
+
+    Also how far it lies towards the second.
 
     Slot ``index`` is one sample old and holds sample ``within`` of its span of ``each`` samples.
     """

@@ -1,6 +1,4 @@
-"""What goes from one function of an attitude filter's step to the next, and how many numbers each
-argument has.
-"""
+"""The data that the functions of an attitude filter's step exchange, and their sizes."""
 
 from __future__ import annotations
 
@@ -100,9 +98,11 @@ class Layout:
 
     @cached_property
     def sizes(self) -> dict[str, int]:
-        """By name: the ``estimate`` and the ``memory`` that follows it in the state ``s``, the
-        working estimate ``x``, the inputs ``u``, the parameters ``p``, the sample period ``h``; the
-        compensated ``rate``, what stands for ``gravity``, the ``flags``, ``vertical_noise``.
+        """The size of each argument by name.
+
+        The ``estimate`` and the ``memory`` that follows it in the state ``s``, the working estimate
+        ``x``, the inputs ``u``, the parameters ``p``, the sample period ``h``; the compensated
+        ``rate``, the force that stands for ``gravity``, the ``flags``, ``vertical_noise``.
         """
         return {
             "estimate": ESTIMATE,

@@ -1,5 +1,6 @@
-"""Propagation and gravity's measurement in fast, marginalised form: what is linear in the error
-state needs no sigma points.
+"""Propagation and gravity's measurement in fast, marginalised form.
+
+What is linear in the error state needs no sigma points.
 
 The error of the rate is bilinear in attitude error and bias, so that the propagated mean and
 covariance have a closed form; the sigma points of attitude of the 13-point filter cancel to the
@@ -44,8 +45,9 @@ def _horner(square, coefficients: list[float]):
 
 
 def turn(angle):
-    """The quaternion (4,) of the rotation vector ``angle`` (3,) rad, and k, its vector part over
-    ``angle``.
+    """The quaternion (4,) of the rotation vector ``angle`` (3,) rad, and k.
+
+    k is the quaternion's vector part over ``angle``.
 
     Serves up to half a turn about each axis: a quarter of the angle by series, doubled twice, as
     (w, k a) squared is (2 w^2 - 1, 2 w k a).
@@ -70,8 +72,9 @@ def mean_jacobian(angle, k):
 
 
 def propagate(x: Estimate, rate, earth, moving, noise, h) -> tuple[Estimate, ca.SX]:
-    """The estimate one period ``h`` s later, and the matrix (3, 3) of its turn in inertial space
-    from the old body axes to the new.
+    """The estimate one period ``h`` s later, and the body's turn (3, 3) in inertial space.
+
+    The turn is from the old body axes to the new.
 
     ``rate`` (3,) rad/s is the compensated rate, ``earth`` (3,) rad/s the Earth's in body axes,
     ``moving`` 0 or 1 whether the body turns at all. ``noise`` is the variance that is added to the
@@ -95,8 +98,9 @@ def propagate(x: Estimate, rate, earth, moving, noise, h) -> tuple[Estimate, ca.
 
 
 def _propagated(covariance, own, g, noise):
-    """The covariance (6, 6) of R^T p + G b and b with ``noise`` added, and the covariance (3, 3) of
-    R^T p + G b / 2 with G b.
+    """The covariance (6, 6) of R^T p + G b and b with ``noise``, and that of its bilinear part.
+
+    The second is the covariance (3, 3) of R^T p + G b / 2 with G b.
 
     ``own`` is R^T, ``g`` is G.
     """
@@ -119,7 +123,7 @@ def _propagated(covariance, own, g, noise):
 
 
 def factors(matrix, columns: int):
-    """D and the columns of the unit lower triangular L with L D L^T = ``matrix``, a symmetric one.
+    """D and the columns of the unit lower triangular L with L D L^T = ``matrix``, symmetric.
 
     With fewer ``columns`` than the matrix has, L D L^T is the part of it that these account for.
     The pivots D need no root (Golub and Van Loan 2013, section 4.1.2).
@@ -142,8 +146,9 @@ def factors(matrix, columns: int):
 
 
 def measure_gravity(x: Estimate, axes, magnitude):
-    """Predicted force (3,), its covariance (3, 3) and its covariance with the error state (6, 3),
-    for gravity of ``magnitude`` m/s^2.
+    """Predicted force (3,), its covariance (3, 3), and its covariance with the error state (6, 3).
+
+    The measurement is of gravity of ``magnitude`` m/s^2.
 
     ``axes`` (3, 3) has east, north and up in body axes for its rows. Gravity depends on the tilt
     alone, the attitude error along east and north: two pairs of sigma points are left. A pair +-p
@@ -178,8 +183,9 @@ def measure_gravity(x: Estimate, axes, magnitude):
 def correct(
     x: Estimate, innovation, variance, cross, up, innovation_gate, gate_variance
 ) -> tuple[Estimate, ca.SX, ca.SX]:
-    """The estimate after a measurement of three numbers, its normalised innovation squared, and the
-    weight that it got.
+    """The estimate after a measurement of three numbers, its NIS, and its weight.
+
+    NIS is the normalised innovation squared.
 
     The same as ``unscented.correct``, with factors L D L^T in place of roots.
     """

@@ -59,8 +59,10 @@ def follow(x: QuasiStatic, measured, walk_variance, noise_variance, valid) -> Qu
 
 
 def is_quasi_static(x: QuasiStatic, measured, gravity, tolerance, motion):
-    """Whether the estimated magnitude is within ``tolerance`` of ``gravity``, and the ``measured``
-    one within ``motion`` of the estimated; all in m/s^2.
+    """Whether the body is quasi-static; all arguments are in m/s^2.
+
+    The estimated magnitude must be within ``tolerance`` of ``gravity``, and the ``measured`` one
+    within ``motion`` of the estimated.
 
     The first condition detects an acceleration that lasts, the second one that has only begun.
     """
@@ -93,8 +95,7 @@ def average(x: MeanForce, force, turn, time, h, valid, turned) -> MeanForce:
 
 
 def mean_variance(scatter, time, motion_time, h):
-    """Variance in (m/s^2)^2 of each sample's mean force as a measurement of gravity, while the body
-    moves.
+    """Variance in (m/s^2)^2 of each sample's mean force as a measurement of gravity in motion.
 
     The mean over ``time`` T of an acceleration is the change of velocity over T. If the standard
     deviation of the velocity is s_v = ``motion_time`` times that of the acceleration, the mean's

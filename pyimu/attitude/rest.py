@@ -1,6 +1,4 @@
-"""The rest at the start of a recording, by which a filter is levelled and the gyro's turn-on bias
-found.
-"""
+"""The rest at the start of a recording, for levelling and for the gyro's turn-on bias."""
 
 from __future__ import annotations
 
@@ -28,8 +26,9 @@ at rest is off by 0.2 g."""
 
 @dataclass(frozen=True)
 class Rest:
-    """The rows of a rest, its ``duration`` in s, and of its samples the means and standard
-    deviations, (3,) in rad/s and m/s^2.
+    """The rows of a rest, its ``duration`` in s, and statistics of its samples.
+
+    The means and standard deviations are (3,) in rad/s and m/s^2.
 
     ``seen`` is False where no rest was found: the rows are then those of the shortest window.
     ``declared`` says that the recording's own column ``stationary`` marks it. ``force`` is None
@@ -49,8 +48,9 @@ class Rest:
 
 
 def find_rest(recording: Recording) -> Rest:
-    """The longest rest of up to 30 s with which a recording starts; where it has a column
-    ``stationary``, that decides.
+    """The longest rest of up to 30 s at the start of a recording.
+
+    Where the recording has a column ``stationary``, that decides.
 
     A steady turn about the vertical looks like a rest with a bias; only ``stationary`` tells the
     two apart.
@@ -71,9 +71,7 @@ def _rows(recording: Recording, seconds: float) -> int:
 
 
 def _still_until(recording: Recording, length: float) -> int:
-    """Row at which the rest that a recording starts with ends, by means over ``length`` s; 0 where
-    it starts with none.
-    """
+    """Row at which the rest at the start ends, by means over ``length`` s; 0 without a rest."""
     # Beyond the longest rest, so that what the rest is compared with is there.
     found = still_rows(recording.slice(0, _rows(recording, LONGEST + 2 * length)), length)
     stop = found[0][1] if found and found[0][0] == 0 else 0
@@ -81,8 +79,9 @@ def _still_until(recording: Recording, length: float) -> int:
 
 
 def _declared(recording: Recording) -> int | None:
-    """Number of rows at the start that the column ``stationary`` marks, at most those of the
-    longest window; None without such a column.
+    """Number of rows at the start that the column ``stationary`` marks; None without the column.
+
+    It is at most the number of rows of the longest window.
     """
     marks = getattr(recording, "stationary", None)
     if marks is None:
@@ -105,8 +104,9 @@ def _is_gravity(force: np.ndarray, off: float) -> bool:
 
 
 def _is_level(recording: Recording, stop: int) -> bool:
-    """Whether the rows before ``stop`` have rates and gravity; a force that is nothing but zeros
-    says nothing of it.
+    """Whether the rows before ``stop`` have rates and gravity.
+
+    A force of zeros alone says nothing about it.
     """
     rate, force = (_finite(v, stop) for v in (recording.gyro, recording.accel))
     return bool(len(rate)) and (not np.any(force) or _is_gravity(force, FORCE_OFF))
@@ -134,7 +134,8 @@ def _rest(recording: Recording, stop: int, seen: bool, declared: bool = False) -
 
 
 def _white_std(values: np.ndarray) -> np.ndarray:
-    """Standard deviation (3,) of a sample's white noise, from the differences of neighbours: motion
-    and drift are not in it.
+    """Standard deviation (3,) of a sample's white noise.
+
+    It is taken from the differences of neighbours, so that motion and drift are not in it.
     """
     return np.diff(values, axis=0).std(axis=0) / np.sqrt(2) if len(values) > 2 else np.zeros(3)

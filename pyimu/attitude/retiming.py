@@ -13,16 +13,18 @@ from scipy.spatial.transform import Rotation
 
 
 class Retiming:
-    """The instants ``taken`` (n,) s of the samples whose rows say ``time`` (n,) s, where the clock
-    is off by the share ``skew``; power-on is one ``period`` s before the first row.
+    """The instants ``taken`` (n,) s of the samples whose rows say ``time`` (n,) s.
+
+    The clock is off by the share ``skew``; power-on is one ``period`` s before the first row.
     """
 
     def __init__(self, time: np.ndarray, skew: float, period: float) -> None:
         self.time, self.taken = time, time + skew * (time - time[0] + period)
 
     def nearest_row(self) -> np.ndarray:
-        """The row (n,) whose time is nearest to each sample's instant, -1 where the sample before
-        has it.
+        """The row (n,) whose time is nearest to each sample's instant.
+
+        It is -1 where the sample before has that row.
         """
         row = _nearest(self.time, self.taken)
         return np.where(np.diff(row, prepend=-1) > 0, row, -1)

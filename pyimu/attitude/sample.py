@@ -84,8 +84,9 @@ def read(
 
 
 def look_closely(compensation: Compensation, memory: Memory, u, settings: Settings, h) -> Sample:
-    """The sample number by number: in place of what is not finite stands the last good value, and
-    what is lost is marked.
+    """The sample, checked number by number.
+
+    The last good value replaces what is not finite, and what is lost is marked.
     """
     raw = raw_of(u)
     good = ca.fabs(raw) <= ABSURD
@@ -154,8 +155,7 @@ def _compensated(compensation: Compensation, memory: Memory, raw, settings: Sett
 
 
 def _stuck(held, good, memory: Memory, settings: Settings, h):
-    """How long gyro and accelerometer (2,) s have given the same samples, and whether that is too
-    long.
+    """How long (2,) s gyro and accelerometer have repeated their samples, and whether too long.
 
     A missing sample counts as another, although its last good value is held.
     """

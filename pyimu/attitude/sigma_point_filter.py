@@ -27,8 +27,9 @@ from pyimu.symbolic import mrp, quaternion
 
 
 def sigma_point_filter(part: Part) -> Block:
-    """The filter ``AttitudeSigmaPoints`` of a part with ``gyro`` and ``accel`` (``Sensor``) and
-    ``sample_rate`` in Hz.
+    """The filter ``AttitudeSigmaPoints`` of a part, a block.
+
+    The part has ``gyro`` and ``accel`` (``Sensor``) and ``sample_rate`` in Hz.
 
     Its variables and its state are those of ``pyimu.attitude.attitude_ukf``.
     """
@@ -38,9 +39,7 @@ def sigma_point_filter(part: Part) -> Block:
 
 
 def _step(layout: Layout) -> ca.Function:
-    """Each sample is looked at number by number, predicted, and corrected by what its flags ask
-    for.
-    """
+    """Check each sample number by number, predict, and correct by what its flags ask for."""
     s, u, p, h = symbols = layout.symbols(ca.MX, "s u p h")
     x, memory, rate, gravity, packed = _predict(layout)(
         s[:ESTIMATE], s[ESTIMATE : layout.rings], u, p, h
@@ -107,8 +106,9 @@ def propagate(x: Estimate, rate, turn: Callable, noise, h) -> Estimate:
 
 
 def _by_gravity() -> ca.Function:
-    """``x, gravity -> x``: the force against gravity in body axes, R_nb^T [0, 0, g], which each
-    sigma point turns by its own attitude error.
+    """``x, gravity -> x``: the update by gravity in body axes, R_nb^T [0, 0, g].
+
+    Each sigma point turns gravity by its own attitude error.
 
     The part of an error along the vertical does not change gravity: the error is taken as a tilt,
     followed by a turn about the vertical.

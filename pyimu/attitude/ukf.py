@@ -15,6 +15,8 @@ with no update but gravity's.
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import casadi as ca
 
 from pyimu.attitude import marginal
@@ -27,6 +29,7 @@ from pyimu.attitude.prediction import ARGUMENTS, Instant, added_noise, predicted
 from pyimu.attitude.sample import Sample, look_closely, raw_of, read
 from pyimu.attitude.updates import after_gravity, bounded_where_lost, finish, where
 from pyimu.block.block import Block
+from pyimu.model.effect import Effect
 from pyimu.model.part import Part
 from pyimu.symbolic import quaternion
 
@@ -34,8 +37,9 @@ OPTIONS = {"cse": True}
 
 
 def attitude_ukf(part: Part) -> Block:
-    """The filter ``AttitudeUkf`` of a part with ``gyro`` and ``accel`` (``Sensor``) and
-    ``sample_rate`` in Hz.
+    """The filter ``AttitudeUkf`` of a part, a block.
+
+    The part has ``gyro`` and ``accel`` (``Sensor``) and ``sample_rate`` in Hz.
 
     What ``Sensor.left_in`` names, such as a lag or a delay, is not undone: the estimate is late by
     it, and its standard deviations do not contain it. The state begins with q (4), bias (3) and the
@@ -44,6 +48,12 @@ def attitude_ukf(part: Part) -> Block:
     The equations are those of ``pyimu.attitude.sigma_point_filter`` in their marginalised form
     (``pyimu.attitude.marginal``).
     """
+    return _of(part, part.gyro.effects, part.accel.effects)
+
+
+@lru_cache(maxsize=16)
+def _of(part: Part, *effects: tuple[Effect, ...]) -> Block:
+    """The filter of a part with these ``effects``: parts are equal where their numbers are."""
     layout = Layout(Compensation(part))
     return filter_block("AttitudeUkf", "Unscented attitude filter", layout, _step(layout))
 
@@ -103,8 +113,9 @@ def _row(name: str, at: Instant, sample: Sample, symbols: list[ca.SX]) -> ca.Fun
 
 
 def _updates(layout: Layout) -> ca.Function:
-    """``which, x, s, u, p, h, rate, gravity, flags -> estimate, yaw, y``: no update, gravity's
-    alone, or whichever are needed.
+    """``which, x, s, u, p, h, rate, gravity, flags -> estimate, yaw, y``: the updates of a sample.
+
+    There is none, gravity's alone, or whichever are needed.
 
     The two usual cases are one function each, because every call from one function to another
     copies the estimate.

@@ -1,5 +1,6 @@
-"""What every unscented filter of attitude and gyro bias is made of, as casadi expressions: the
-estimate, its sigma points, measurement and correction.
+"""The parts of an unscented filter of attitude and gyro bias, as casadi expressions.
+
+The estimate, its sigma points, measurement and correction.
 
 The error state is x = (p, b). p (3,) is the small rotation in body axes that turns the estimate
 into the truth, ``q_true = q p``, as modified Rodrigues parameters scaled to rad; b (3,) is the
@@ -91,8 +92,9 @@ def bounded(covariance):
 
 
 def bounded_tilt(x: Estimate) -> Estimate:
-    """The estimate with the standard deviations of its tilt at most ``LARGEST_TILT_STD``, so that
-    gravity can correct it.
+    """The estimate with its tilt's standard deviations at most ``LARGEST_TILT_STD``.
+
+    Gravity can then correct it.
 
     Tilt is the attitude error about east and about north.
     """
@@ -111,8 +113,9 @@ def bounded_tilt(x: Estimate) -> Estimate:
 
 
 def measure(x: Estimate, function: Callable):
-    """Predicted measurement (m,), its covariance (m, m), and its covariance with the error state
-    (6, m), by sigma points.
+    """Predicted measurement (m,), its covariance (m, m), and that with the error state (6, m).
+
+    They are made by sigma points.
 
     ``function(p)`` is the measurement for the attitude error ``p`` (3,).
     """
@@ -132,8 +135,7 @@ def correct(
     innovation_gate: float | None = None,
     gate_variance=None,
 ) -> tuple[Estimate, ca.SX, ca.SX]:
-    """The estimate after a measurement, its normalised innovation squared, and the weight that the
-    measurement got.
+    """The estimate after a measurement, its normalised innovation squared, and its weight.
 
     ``variance`` (m, m) is that of the ``innovation`` (m,), ``cross`` (6, m) the covariance of the
     innovation with the error state, ``up`` as for ``moved``. With L the Cholesky factor of the
@@ -159,8 +161,9 @@ def correct(
 
 
 def moved(x: Estimate, change, up) -> Estimate:
-    """The estimate with ``change`` (6,) of its errors added; ``up`` (3,) is the vertical in its
-    body axes before that.
+    """The estimate with ``change`` (6,) of its errors added.
+
+    ``up`` (3,) is the vertical in its body axes before that.
 
     Gravity says nothing of the angle about the vertical, and that must stay so: the covariance is
     turned along with the estimated vertical, from old body axes to new. Otherwise the large

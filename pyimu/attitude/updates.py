@@ -1,6 +1,4 @@
-"""The updates that the filters have in common, as casadi functions of the working estimate, and the
-outputs.
-"""
+"""The updates that both filters share, as casadi functions of the working estimate; the outputs."""
 
 from __future__ import annotations
 
@@ -36,8 +34,9 @@ def where(condition, function: ca.Function, values, *more):
 
 
 def bounded_where_lost(x: ca.MX, flags: Flags) -> ca.MX:
-    """The working estimate with its standard deviations of attitude bounded where that may be lost;
-    where gravity is about to correct it, those of the tilt are bounded so that it can.
+    """The working estimate with its attitude's standard deviations bounded where it may be lost.
+
+    Where gravity is about to correct it, those of the tilt are bounded so that it can.
     """
     return where(flags.lost * flags.gravity, _bounding_tilt(), where(flags.lost, _bounding(), x))
 
@@ -66,8 +65,9 @@ def _with_estimate(working, x: Estimate):
 
 
 def after_gravity(layout: Layout, x, s, u, p, h, rate, flags: Flags) -> ca.MX:
-    """The working estimate after the updates that follow gravity's: by a heading and by a zero
-    rate, where the ``flags`` ask for them.
+    """The working estimate after the updates that follow gravity's.
+
+    These are by a heading and by a zero rate, where the ``flags`` ask for them.
     """
     x = where(flags.heading, by_heading(layout), x, s, u, p, h, rate, flags.vertical_noise)
     return where(flags.stationary, _by_zero_rate(layout), x, rate, p, h)
@@ -95,8 +95,9 @@ def _by_zero_rate(layout: Layout) -> ca.Function:
 
 
 def finish() -> ca.Function:
-    """``x, flags -> estimate, yaw, y``: the estimate with q at unit length, its yaw as the ring
-    keeps it, and the outputs.
+    """``x, flags -> estimate, yaw, y``: what a step gives after its updates.
+
+    The estimate with q at unit length, its yaw as the ring keeps it, and the outputs.
     """
     given, packed = ca.SX.sym("x", WORKING), ca.SX.sym("flags", FLAGS)
     x, flags = Memory.estimate_of(given), Flags.unpack(packed)

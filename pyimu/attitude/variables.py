@@ -1,6 +1,4 @@
-"""The variables of an attitude filter's block: inputs, outputs and own parameters, and the limits
-within which it takes numbers.
-"""
+"""Inputs, outputs and own parameters of an attitude filter's block, and the numbers it accepts."""
 
 from __future__ import annotations
 

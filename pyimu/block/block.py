@@ -91,8 +91,7 @@ class Block:
 
 
 class Run:
-    """A run under way: what does not change from call to call, the state, and the number of the
-    next sample.
+    """A run under way: the constants of the block, the state, and the number of the next sample.
 
     ``rows`` is how many samples are to come in all, by which is decided whether compiling pays; the
     rest is as for ``Block.run``. Memory beyond the arrays does not grow with the length of the
@@ -134,8 +133,10 @@ class Run:
     def advance(
         self, u: np.ndarray, w: np.ndarray | None = None, y: np.ndarray | None = None
     ) -> np.ndarray:
-        """Outputs (n, ny), in ``y`` where that is given, to the next inputs (n, nu), under normals
-        ``w`` (n, nw) where these are given.
+        """Outputs (n, ny) to the next inputs (n, nu).
+
+        They are written into ``y`` where that is given; the normals are ``w`` (n, nw) where these
+        are given.
         """
         n, block = len(u), self.block
         u = _rows(block, "inputs", u, n, len(block.inputs))

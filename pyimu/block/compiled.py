@@ -59,16 +59,15 @@ KEPT = 64
 
 
 def compiler_command() -> list[str]:
-    """The command that compiles for this machine: ``CC``, else ``cc``; empty where it is not to be
-    found.
-    """
+    """The command that compiles for this machine: ``CC``, else ``cc``; empty without a compiler."""
     command = shlex.split(os.environ.get("CC", "")) or ["cc"]
     return command if shutil.which(command[0]) else []
 
 
 def source_folder() -> Path:
-    """The hand-written C: ``fmu_src`` beside the package in a checkout, inside it in an installed
-    wheel.
+    """The folder of the hand-written C.
+
+    It is ``fmu_src`` beside the package in a checkout, inside it in an installed wheel.
     """
     package = Path(__file__).resolve().parents[1]
     for folder in (package / "fmu_src", package.parent / "fmu_src"):
@@ -78,8 +77,9 @@ def source_folder() -> Path:
 
 
 def cache_folder() -> Path | None:
-    """Where libraries are kept: ``PYIMU_CACHE`` (empty: nowhere), else ``pyimu`` in the user's
-    cache folder of the platform.
+    """The folder in which compiled libraries are kept, None for none.
+
+    It is ``PYIMU_CACHE`` (empty: none), else ``pyimu`` in the user's cache folder of the platform.
     """
     given = os.environ.get("PYIMU_CACHE")
     if given is not None:
@@ -98,9 +98,10 @@ def cache_folder() -> Path | None:
 
 
 def compiled(step: ca.Function, rows: int) -> Callable | None:
-    """``run(s, u, p, h, y, w, channels, seed, first)``, which fills ``y``, for ``rows`` more
-    samples of this step, or None where none is at hand and compiling would not pay or cannot be
-    done.
+    """The compiled loop over a step for ``rows`` more samples, None where there is none.
+
+    It is ``run(s, u, p, h, y, w, channels, seed, first)``, which fills ``y``. There is none where
+    no library is at hand and compiling would not pay or cannot be done.
     """
     return _machine_code(step).after(rows)
 
@@ -111,16 +112,14 @@ def _machine_code(step: ca.Function) -> _MachineCode:
 
 
 class _MachineCode:
-    """What is known of the machine code of one step: how many samples it has been asked for, and
-    the library once there is one.
-    """
+    """The machine code of one step, once there is a library, and the samples asked for so far."""
 
     def __init__(self, step: ca.Function) -> None:
         self.step, self.rows, self.call, self.tried = step, 0, None, 0
 
     def after(self, rows: int) -> Callable | None:
         """Look for the library, and later compile it, at most once each."""
-        self.rows += rows
+        self.rows += int(rows)  # two bools of numpy add up to one
         reached = (self.rows >= LOOKED_FOR) + (self.rows >= WORTHWHILE)
         if self.call is None and reached > self.tried:
             library = _library(_source(self.step), reached == 2)
@@ -205,8 +204,9 @@ def _version(compiler: tuple[str, ...]) -> str:
 
 
 def _compile(source: str, compiler: list[str], key: str) -> ctypes.CDLL | None:
-    """Compile in a temporary folder, keep a copy in the cache and load; the library's own file is
-    gone once it is loaded.
+    """Compile in a temporary folder, keep a copy in the cache and load the library.
+
+    The library's own file is gone once it is loaded.
     """
     with tempfile.TemporaryDirectory(prefix="pyimu-", ignore_cleanup_errors=True) as folder:
         path, library, hand_written = Path(folder, "run.c"), Path(folder, "run.so"), source_folder()
@@ -228,8 +228,9 @@ def _digest(data: bytes) -> str:
 
 
 def _from_cache(key: str) -> ctypes.CDLL | None:
-    """A library of the cache, if it is whole: its name tells the digest of its bytes, as a
-    truncated one could end the process.
+    """A library of the cache, if it is whole.
+
+    Its name holds the digest of its bytes, as a truncated one could end the process.
     """
     with contextlib.suppress(OSError):
         for path in _files(f"{key}.*"):
@@ -242,8 +243,9 @@ def _from_cache(key: str) -> ctypes.CDLL | None:
 
 
 def _keep(key: str, data: bytes) -> None:
-    """Write a library to the cache under a temporary name and rename it, so that nobody loads half
-    of it.
+    """Write a library to the cache under a temporary name and rename it.
+
+    So nobody loads half of it.
     """
     folder = cache_folder()
     if folder is None:

@@ -1,5 +1,6 @@
-"""Standard normals that are a function of (seed, channel, sample) only: the ones that
-``fmu_src/noise.c`` draws.
+"""Standard normals as a function of (seed, channel, sample) only.
+
+They are the ones that ``fmu_src/noise.c`` draws.
 
 The words are those of Philox4x64-10 (Salmon, Moraes, Dror, Shaw, "Parallel random numbers: as easy
 as 1, 2, 3", SC11, 2011) with key (seed, channel): sample k takes word k of
@@ -61,8 +62,9 @@ def normals(seed: int, channels: Sequence[int], first_sample: int, n: int) -> np
 
 
 def edges() -> np.ndarray:
-    """The ziggurat's abscissas (257,) for f(x) = exp(-x^2 / 2), from the widest to zero, each the
-    nearest double.
+    """The ziggurat's abscissas (257,) for f(x) = exp(-x^2 / 2), from the widest to zero.
+
+    Each is the nearest double.
 
     Every layer has the area of the lowest, v = x_1 f(x_1) + int_x_1^inf f, so f(x_i+1) = f(x_i) + v
     / x_i, and the lowest counts as a rectangle of width x_0 = v / f(x_1) (Marsaglia and Tsang 2000,
@@ -79,8 +81,9 @@ def edges() -> np.ndarray:
 
 
 def _mills_ratio(x: Decimal) -> Decimal:
-    """int_x^inf f / f(x) = 1 / (x + 1 / (x + 2 / (x + 3 / ...))), Laplace (Abramowitz and Stegun
-    26.2.14).
+    """int_x^inf f / f(x) = 1 / (x + 1 / (x + 2 / (x + 3 / ...))), by Laplace.
+
+    The continued fraction is Abramowitz and Stegun 26.2.14.
     """
     denominator = x
     for k in range(200, 0, -1):
@@ -103,8 +106,9 @@ _EDGE = edges()
 
 @njit(cache=True)
 def _fill(seed, channels, first, out):
-    """A block of four words at a time over all channels, so that memory is written once and in its
-    order.
+    """Fill ``out`` four words at a time over all channels.
+
+    So memory is written once and in its order.
     """
     n = len(out)
     for row in range(-np.int64(first & _3), n, 4):
@@ -131,8 +135,9 @@ def _philox(key_0, key_1, counter_0, counter_1):
 
 @intrinsic
 def _high_product(_, a, b):
-    """The upper 64 of the 128 bits of a product: one instruction, which numba's own integers cannot
-    ask for.
+    """The upper 64 of the 128 bits of a product.
+
+    It is one instruction, which numba's own integers cannot ask for.
     """
 
     def generate(context, builder, signature, arguments):
@@ -154,8 +159,9 @@ def _normal(seed, channel, sample, word):
 
 @njit(cache=True)
 def _abscissa(word):
-    """The top 54 bits, made odd, as a point between -1 and 1 times the width of the layer that the
-    lowest 8 bits choose.
+    """The top 54 bits, made odd, as a point in (-1, 1) times the width of the word's layer.
+
+    The lowest 8 bits choose the layer.
     """
     return float(np.int64((word >> _10) | _1) - (1 << 53)) * 2.0**-53 * _EDGE[word & _LAYER]
 
@@ -167,8 +173,10 @@ def _inside(x, word):
 
 @njit(cache=True)
 def _beyond_the_edge(seed, channel, sample, word):
-    """Each attempt is refused with a chance below 0.07, so the bound is met with one below 1e-72; x
-    is then as it is.
+    """The normal of a word outside its layer's rectangle.
+
+    Each attempt is refused with a chance below 0.07, so the bound is met with one below 1e-72; x is
+    then as it is.
     """
     x = _abscissa(word)
     for attempt in range(1, _ATTEMPTS):
@@ -189,8 +197,9 @@ def _beyond_the_edge(seed, channel, sample, word):
 
 @njit(cache=True)
 def _from_tail(words):
-    """One of the tail, if the words will have it (Marsaglia, Technometrics 6, 1964; Marsaglia and
-    Tsang 2000), else 0.
+    """A normal from the tail, 0 where the words are refused.
+
+    The method is that of Marsaglia, Technometrics 6, 1964 (Marsaglia and Tsang 2000).
     """
     beyond = -math.log(_uniform(words[0])) / _EDGE[1]
     return _EDGE[1] + beyond if -2.0 * math.log(_uniform(words[1])) > beyond * beyond else 0.0

@@ -16,8 +16,9 @@ Kind = Literal["real", "boolean", "integer"]
 
 @dataclass(frozen=True)
 class Variable:
-    """One scalar of a block; ``name`` is its FMI name (``gyro_error.g_sensitivity.G[1,2]``),
-    ``unit`` an SI spelling.
+    """One scalar of a block.
+
+    ``name`` is its FMI name (``gyro_error.g_sensitivity.G[1,2]``), ``unit`` an SI spelling.
     """
 
     name: str
@@ -39,8 +40,9 @@ class NoiseChannel:
 
 @dataclass(frozen=True)
 class Limits:
-    """What parameters must keep together, and with the sample period: ``broken(p, h)`` (n,) is not
-    0 where they break ``texts[i]``.
+    """Conditions that parameters must keep together, and with the sample period.
+
+    ``broken(p, h)`` (n,) is not 0 where they break ``texts[i]``.
 
     What one parameter must keep by itself are the bounds of its ``Variable``.
     """
@@ -56,8 +58,9 @@ class Limits:
 
 
 def sample_period_of(seconds: float, what: str) -> float:
-    """A sample period [s] as a float. Raises UserError, which starts with ``what``, for one that
-    is no positive, finite number.
+    """A sample period [s] as a float.
+
+    Raises UserError, which starts with ``what``, for one that is not a positive, finite number.
     """
     try:
         h = float(seconds)

@@ -1,5 +1,6 @@
-"""Evaluate a memoryless casadi function on whole columns with numpy, one array operation for each
-of its instructions.
+"""Evaluation of a memoryless casadi function on whole columns with numpy.
+
+There is one array operation for each of its instructions.
 """
 
 from __future__ import annotations

@@ -1,5 +1,4 @@
-"""The symbolic results: each as an equation that prints and computes, and what it was checked
-against.
+"""The symbolic results: equations that print and compute, and what they were checked against.
 
 ``derive()`` runs every check; what it gives has a ``report()`` to read in a terminal, and
 ``write(folder)`` makes files of it. An equation is a text in the language of
@@ -50,8 +49,9 @@ DERIVATIONS: tuple[Derivation, ...] = (
 
 
 def derive(say: Callable[[str], None] = lambda text: None) -> Derived:
-    """Every result with its checks, which are computed now; ``say`` is told what is being
-    checked.
+    """Every result with its checks, which are computed now.
+
+    ``say`` is told what is being checked.
     """
     results = []
     for d in DERIVATIONS:

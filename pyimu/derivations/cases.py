@@ -22,8 +22,9 @@ def rotations(rng: np.random.Generator) -> list[Rotation]:
 def vectors(
     rng: np.random.Generator, low: float, high: float, count: int | None = None
 ) -> np.ndarray:
-    """Vectors (count, 3) of random directions, their lengths even in logarithm; one for each case
-    unless ``count`` says otherwise.
+    """Vectors (count, 3) of random directions, their lengths uniform in logarithm.
+
+    There is one for each case unless ``count`` says otherwise.
     """
     count = CASES if count is None else count
     v = rng.standard_normal((count, 3))

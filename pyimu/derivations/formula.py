@@ -144,8 +144,9 @@ def latex(formula: Formula, names: Mapping[str, str]) -> str:
 
 
 def terms(formula: Formula, names: Mapping[str, str] | None = None) -> list[str]:
-    """The terms of a sum, each with its sign, as text or (with ``names``) as LaTeX; a long sum may
-    be broken between them.
+    """The terms of a sum, each with its sign, as text or (with ``names``) as LaTeX.
+
+    A long sum may be broken between them.
     """
     style, node, out = Style(names or {}, latex=names is not None), formula.tree, []
     while isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub):
@@ -155,8 +156,9 @@ def terms(formula: Formula, names: Mapping[str, str] | None = None) -> list[str]
 
 
 def prose(words: str, names: Mapping[str, str] | None = None) -> str:
-    """Words with the formulas among them, which stand in backquotes, as text or (with ``names``) as
-    LaTeX; ``=`` may join formulas.
+    """Words with the formulas among them as text or (with ``names``) as LaTeX.
+
+    The formulas stand in backquotes; ``=`` may join formulas.
     """
 
     def shown(match: re.Match) -> str:

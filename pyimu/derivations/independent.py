@@ -14,8 +14,9 @@ def largest(pairs: Iterable[tuple]) -> float:
 
 
 def in_standard_deviations(a: np.ndarray, reference: np.ndarray) -> float:
-    """Largest difference of two covariances, each element in the standard deviations of its row and
-    column.
+    """Largest difference of two covariances, in units of standard deviations.
+
+    Each element is divided by the standard deviations of its row and its column.
     """
     std = np.sqrt(np.diag(reference))
     return float(np.max(np.abs(a - reference) / np.outer(std, std)))

@@ -37,8 +37,9 @@ class Equation:
 
 @dataclass(frozen=True)
 class Check:
-    """The ``largest`` difference between a result and another way to it, over a number of cases,
-    and the ``bound`` that rounding sets.
+    """The ``largest`` difference between a result and another way to it, over a number of cases.
+
+    ``bound`` is what rounding sets.
     """
 
     against: str
@@ -91,8 +92,9 @@ class Derivation:
 
     @property
     def symbols(self) -> tuple[Symbol, ...]:
-        """The symbols to be explained, in the order of the equations: what these take as given, and
-        results with a meaning of their own.
+        """The symbols to be explained, in the order of the equations.
+
+        These are what the equations take as given, and results with a meaning of their own.
         """
         given = _free(self.equations, ())
         named = dict.fromkeys(n for e in self.equations for n in (e.left, *e.formula.names))

@@ -27,8 +27,9 @@ class Derived(Results):
     __str__ = report
 
     def write(self, out: str | os.PathLike) -> list[Path]:
-        """Write ``derivations.txt``, ``.tex`` and ``.md`` into the folder ``out``, each whole or
-        not at all; gives their paths.
+        """Write ``derivations.txt``, ``.tex`` and ``.md`` into the folder ``out``.
+
+        Gives their paths. Each file is written whole or not at all.
 
         The folder is made if it is missing. Raises UserError where it cannot be written.
         """

@@ -1,5 +1,6 @@
-"""Blocks as FMI co-simulation units: ``sources`` (block to texts), ``build`` (texts to .fmu),
-``run`` and ``blocks`` (through fmpy).
+"""Blocks as FMI co-simulation units.
+
+``sources`` (block to texts), ``build`` (texts to .fmu), ``run`` and ``blocks`` (through fmpy).
 """
 
 from pyimu.block.compiled import source_folder

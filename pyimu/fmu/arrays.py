@@ -31,8 +31,9 @@ class Array:
 
 
 def split_name(name: str) -> tuple[str, tuple[int, ...]]:
-    """The array and the index, which counts from one, that a name like ``G[1,2]`` says;
-    ``(name, ())`` for other names.
+    """The array and the index, from one, that a name like ``G[1,2]`` says.
+
+    It is ``(name, ())`` for other names.
     """
     found = _ELEMENT.fullmatch(name)
     return (
@@ -79,8 +80,9 @@ def _as_array(group: Sequence[Variable]) -> list[Array]:
 
 
 def description(array: Array) -> str:
-    """What the elements' descriptions have in common, as far as its last comma where they differ
-    ("rate, axis x").
+    """The common part of the elements' descriptions.
+
+    Where they differ ("rate, axis x") it ends before its last comma.
     """
     texts = [v.description for v in array.elements]
     common = commonprefix(texts)

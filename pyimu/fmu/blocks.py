@@ -48,8 +48,9 @@ def simulate_blocks(
     block_size: int | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> np.ndarray:
-    """Outputs (n + 1, ny) of the block form of an FMU for ``inputs`` (n, nu), to the bit those of
-    ``simulate`` on a scalar form.
+    """Outputs (n + 1, ny) of the block form of an FMU for ``inputs`` (n, nu).
+
+    They are to the bit those of ``simulate`` on a scalar form.
 
     Columns are in the order of the scalar form's inputs and outputs. Row 0 is the start value and
     row k the answer to row k - 1. ``start_values`` maps names of parameters to values: arrays as a
@@ -80,8 +81,9 @@ def stream_blocks(
     start_time: float = 0.0,
     block_size: int | None = None,
 ) -> Iterator[np.ndarray]:
-    """Outputs (m, ny) to each chunk of inputs (m, nu) in turn, row k the answer to row k; chunks
-    may be of any length.
+    """Outputs (m, ny) to each chunk of inputs (m, nu) in turn, of any length.
+
+    Row k is the answer to row k.
 
     For logs that do not fit into memory: a chunk is asked for when the answer to the one before has
     been taken. One after the other the answers are what ``simulate_blocks`` gives after its row 0;
@@ -98,8 +100,9 @@ def stream_blocks(
 
 @dataclass
 class _Unit:
-    """An initialized instance, its inputs and outputs as tables of ``size`` rows, and the number of
-    samples made.
+    """An initialized instance and the number of samples made.
+
+    Its inputs and outputs are tables of ``size`` rows.
     """
 
     fmu: FMU3Slave
@@ -112,8 +115,9 @@ class _Unit:
     sample: int = 0
 
     def answer(self, inputs: np.ndarray, outputs: np.ndarray) -> Iterator[int]:
-        """Fill ``outputs`` (n, ny) from ``inputs`` (n, nu) block by block; gives after each how
-        many of the rows are done.
+        """Fill ``outputs`` (n, ny) from ``inputs`` (n, nu) block by block.
+
+        Gives after each block how many of the rows are done.
         """
         if inputs.ndim != 2 or inputs.shape[1] != self.inputs.columns:
             raise ValueError(
@@ -136,8 +140,9 @@ class _Unit:
 
 
 class _Table:
-    """Variables as the columns of one table, and behind it a buffer for each type, which one call
-    hands to the FMU whole.
+    """Variables as the columns of one table.
+
+    Behind it is a buffer for each type, which one call hands to the FMU whole.
     """
 
     def __init__(self, fmu: FMU3Slave, variables: list[ModelVariable], rows: int) -> None:
@@ -158,8 +163,9 @@ class _Table:
             self.getters.append(partial(getattr(fmu, f"fmi3Get{kind}"), fmu.component, *arguments))
 
     def set(self, rows: np.ndarray) -> None:
-        """Set the first rows; those after them, which a shorter step does not read, stay as they
-        were.
+        """Set the first rows.
+
+        Those after them, which a shorter step does not read, do not change.
         """
         for columns, array in self.parts:
             array[: len(rows)] = rows[:, columns]
@@ -184,8 +190,9 @@ def _carve(rows: int, counts: list[int], kind: str) -> tuple[np.ndarray, list[np
 
 
 def _arguments(variables: list[ModelVariable], buffer: np.ndarray, kind: str) -> tuple:
-    """Value references, how many, values, how many: what an FMI 3 function for these variables
-    takes after the instance.
+    """The arguments of an FMI 3 getter or setter for these variables, after the instance.
+
+    Value references, their number, values, their number.
     """
     references = (ctypes.c_uint * len(variables))(*[v.valueReference for v in variables])
     return (
@@ -271,8 +278,9 @@ def _initialize(
 
 
 def _parameters(description: ModelDescription, given: Mapping[str, Any]) -> dict[str, np.ndarray]:
-    """The parameters that ``given`` names, each whole: where it names an element, the others have
-    their start values.
+    """The parameters that ``given`` names, each whole.
+
+    Where it names an element, the others have their start values.
     """
     parameters = {v.name: v for v in description.modelVariables if v.causality == "parameter"}
     values: dict[str, np.ndarray] = {}

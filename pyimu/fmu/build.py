@@ -45,8 +45,9 @@ _ZIP_TIME = (1980, 1, 1, 0, 0, 0)
 
 @dataclass(frozen=True)
 class Platform:
-    """Where a library runs: its name, which is its folder in FMI 3; its folder in FMI 2; its
-    suffix; zig's name of it.
+    """A platform of libraries.
+
+    Its name, which is its folder in FMI 3; its folder in FMI 2; its suffix; zig's name of it.
     """
 
     name: str
@@ -125,9 +126,7 @@ def _platforms(name: str) -> list[tuple[Platform, list[str]]]:
 
 
 def host_platform() -> str:
-    """The name in ``PLATFORMS`` of the machine that this runs on. Raises UserError where it has
-    none.
-    """
+    """The name in ``PLATFORMS`` of this machine. Raises UserError where it has none."""
     machine = {"AMD64": "x86_64", "arm64": "aarch64"}.get(host.machine(), host.machine())
     name = f"{machine}-{host.system().lower()}"
     if name not in PLATFORMS:
@@ -136,8 +135,9 @@ def host_platform() -> str:
 
 
 def host_compiler() -> list[str]:
-    """The command that compiles for this machine: ``CC``, else ``cc``. Raises UserError where
-    there is none.
+    """The command that compiles for this machine: ``CC``, else ``cc``.
+
+    Raises UserError where there is none.
     """
     command = compiler_command()
     if not command:
@@ -201,8 +201,9 @@ def _compile(
 
 
 def _objects(form: Form) -> dict[str, tuple[str, str]]:
-    """Each object file of a form to its source and the folder of its table of variables, which is
-    read by ``block*.c`` alone.
+    """Each object file of a form, with its source and the folder of its table of variables.
+
+    The table is read by ``block*.c`` alone.
     """
     sources = [*(file for file in CORE if file.endswith(".c")), LAYER[form], "step.c"]
     folder = _table_folder(form)
@@ -237,8 +238,9 @@ def _link(
 
 
 def _run(command: list[str], folder: Path, what: str) -> None:
-    """Compile or link ``what``. Raises UserError with the compiler's first error, or else its
-    first line.
+    """Compile or link ``what``.
+
+    Raises UserError with the compiler's first error, or else its first line.
     """
     done = subprocess.run(
         command, cwd=folder, capture_output=True, text=True, errors="replace", check=False
@@ -311,8 +313,9 @@ def _zip(file: BinaryIO, entries: dict[str, bytes]) -> None:
 
 
 def icon(size: int = 64) -> bytes:
-    """The icon as PNG, ``size`` pixels square: a held staircase on a ramp, which is what a sampled
-    unit gives.
+    """The icon as PNG, ``size`` pixels square.
+
+    It is a held staircase on a ramp, which is what a sampled unit gives.
     """
 
     def pixel(row: int, column: int) -> int:

@@ -1,5 +1,6 @@
-"""The generated texts of the reference blocks, checked in: ``python -m pyimu.fmu.generate``, or
-``make generate``.
+"""The generated texts of the reference blocks, which are checked in.
+
+They are made by ``python -m pyimu.fmu.generate``, or ``make generate``.
 
 An FMU never reads them, it is built from texts made anew. They are there to be read, to show in a
 review what a change of a definition does to the C, and for who compiles the C without Python; a
@@ -57,8 +58,7 @@ def digest(text: str) -> str:
 
 
 def generate(folder: Path | str | None = None) -> list[Path]:
-    """Write what is checked in to ``folder`` (default: where it is); gives the paths of what
-    changed.
+    """Write the checked-in texts to ``folder`` (default: where they are); gives the changed paths.
 
     The folders of the blocks hold nothing else afterwards: a text that is generated no more is
     removed.

@@ -26,8 +26,7 @@ def simulate(
     start_time: float = 0.0,
     samples_per_step: int = 1,
 ) -> np.ndarray:
-    """Outputs (n / samples_per_step + 1, ny) of an FMU that is given the rows of ``inputs`` (n,
-    nu), one a sample.
+    """Outputs (n / samples_per_step + 1, ny) of an FMU to ``inputs`` (n, nu), a row per sample.
 
     Columns are in the order of the FMU's inputs and outputs. Row 0 is the start value and row k
     the answer to row k - 1 of the inputs; with ``samples_per_step`` of m, to row m (k - 1), held
@@ -62,8 +61,9 @@ def simulate(
 
 
 def checked(description: ModelDescription, start_values: Mapping[str, Any]) -> dict[str, Any]:
-    """The start values, each the name of a parameter of a scalar form. Raises UserError for a
-    name, a seed or a period that is none.
+    """The start values, each of which must name a parameter of a scalar form.
+
+    Raises UserError for a name, a seed or a period that is none.
     """
     parameters = {v.name: v.type for v in description.modelVariables if v.causality == "parameter"}
     for name in start_values:
@@ -75,8 +75,9 @@ def checked(description: ModelDescription, start_values: Mapping[str, Any]) -> d
 
 
 def special(start_values: Mapping[str, Any], seed_bits: int = 64) -> dict[str, Any]:
-    """The start values with seed and sample period, where they are among them, as what they must
-    be. Raises UserError.
+    """The start values with seed and sample period, if given, checked and converted.
+
+    Raises UserError for a seed or a sample period that is none.
     """
     values = dict(start_values)
     if "seed" in values:

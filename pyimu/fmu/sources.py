@@ -108,8 +108,9 @@ def texts(block: Block) -> dict[str, str]:
 
 
 def write_generated(block: Block, folder: Path | str) -> list[Path]:
-    """Write the generated files of ``block`` to ``folder``, which is made if needed; gives their
-    paths.
+    """Write the generated files of ``block`` to ``folder``; gives their paths.
+
+    The folder is made if needed.
     """
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
@@ -192,8 +193,9 @@ def _context(block: Block, in_blocks: bool) -> dict:
 
 
 def _units(variables: Iterable[Entry]) -> list[dict]:
-    """The units in use: name, and base unit attributes or None where an exponent is no integer, as
-    FMI cannot say that.
+    """The units in use: name, and base unit attributes.
+
+    The attributes are None where an exponent is no integer, as FMI cannot say that.
     """
     names = sorted({e.unit for e in variables if e.unit})
     return [{"name": name, "base": _base_unit(name)} for name in names]
@@ -216,8 +218,9 @@ def _base_unit(name: str) -> dict[str, str] | None:
 
 
 def _functions_in_c(block: Block) -> str:
-    """The block's functions in C, as casadi writes them; casadi's own integer type is kept, as its
-    loader needs it.
+    """The block's functions in C, as casadi writes them.
+
+    Casadi's own integer type is kept, as its loader needs it.
     """
     generator = ca.CodeGenerator(block.name)
     for function in _functions(block):

@@ -1,6 +1,4 @@
-"""The table of an FMU's variables: what its C, its descriptions and its documentation say of each,
-from one place.
-"""
+"""The table of an FMU's variables, the one source of its C, descriptions and documentation."""
 
 from __future__ import annotations
 
@@ -63,7 +61,9 @@ _LINE = 150
 
 @dataclass(frozen=True)
 class Entry:
-    """One row of the table of variables; ``reference`` is its place there and its value reference.
+    """One row of the table of variables.
+
+    ``reference`` is its place there and its value reference.
 
     Its elements are columns of the block's inputs, parameters or outputs, from column ``first``
     on. ``rows`` is None but for the inputs and outputs of the block form, which have so many at
@@ -193,8 +193,9 @@ def default_block_size(block: Block) -> int:
 
 
 def entries(block: Block, in_blocks: bool) -> list[Entry]:
-    """The table of variables: time, inputs, parameters, outputs, sample period, seed; in blocks,
-    their size.
+    """The table of variables: time, inputs, parameters, outputs, sample period, seed.
+
+    In blocks it has their size, too.
     """
     rows = _rows(block, in_blocks)
     size = {"rows": default_block_size(block), "rows_reference": len(rows) - 1} if in_blocks else {}
@@ -288,8 +289,9 @@ def _dependencies(function: ca.Function, output: int, argument: int) -> list[lis
 
 
 def xml_number(x: float) -> str:
-    """The shortest decimal that reads back as the same double, with XML's names for what is no
-    number.
+    """The shortest decimal that reads back as the same double.
+
+    What is no number has XML's name.
     """
     x = float(x)
     return repr(x) if math.isfinite(x) else "NaN" if math.isnan(x) else "INF" if x > 0 else "-INF"

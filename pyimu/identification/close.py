@@ -15,12 +15,14 @@ from pyimu.errors import Finding, UserError
 from pyimu.identification.conclude import conclude
 from pyimu.identification.fit.keys import Key, coefficient_of
 from pyimu.identification.fit.trial import Trial, accel_trial, gyro_trial
+from pyimu.identification.reference.align import aligned
 from pyimu.identification.result import Closed
 from pyimu.identification.search.forward import Investigation, investigate
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as find_part
 from pyimu.model.part_reader import parse_part
 from pyimu.model.sensor import Sensor
+from pyimu.model.typical import CLASSES, magnitudes
 from pyimu.recording.log import read_recording
 from pyimu.recording.names import distinct_names
 from pyimu.recording.quality.inspect import inspect
@@ -66,11 +68,12 @@ def close(
     quality = [_of(r.name, f) for r in [*logs, *others] for f in (*r.findings, *inspect(r))]
     found: dict[str, Investigation] = {}
     for kind, make in (("gyro", gyro_trial), ("accel", accel_trial)):
-        trials, held = _trials(kind, make, logs, others, latitude)
+        trials, held = _trials(start.sensor(kind), make, logs, others, latitude)
         quality += _of_trials([*trials, *held])
         if trials:
             free = _free(start, declared is not None, start.sensor(kind), trials)
-            found[kind] = investigate(start.sensor(kind), free, trials, held, say)
+            prior = {} if declared else _prior(kind, free)
+            found[kind] = investigate(start.sensor(kind), free, trials, held, say, prior)
     if not found:
         raise UserError(_nothing_to_compare(logs))
     return conclude(start, declared, logs, others, found, tuple(quality), say)
@@ -146,22 +149,24 @@ def _nothing_to_compare(logs: list[Recording]) -> str:
 
 
 def _trials(
-    kind: str,
+    sensor: Sensor,
     make: Callable,
     logs: list[Recording],
     others: list[Recording],
     latitude: float | None,
 ) -> tuple[list[Trial], list[Trial]]:
-    """Trials to fit and to judge by, all seen through one band."""
+    """Trials to fit and to judge by, the references on the sensor's clock, through one band."""
 
     def trial(r: Recording) -> Trial | None:
         static = is_at_rest(r)
-        if kind == "accel":
+        if sensor.kind == "accel":
             return make(r, static)
         return make(r, latitude) if static or has_reference(r) else None
 
     fitted = [t for t in map(trial, logs) if t is not None and t.count >= SHORTEST]
     apart = [t for t in map(trial, others) if t is not None and t.count >= SHORTEST]
+    together = aligned(fitted, apart, sensor)
+    fitted, apart = together[: len(fitted)], together[len(fitted) :]
     bands = [t.band_hz for t in fitted if t.band_hz is not None]
     if bands:
         band = BAND_SHARE * float(np.median(bands))
@@ -190,6 +195,13 @@ def _free(start: Part, declared: bool, sensor: Sensor, trials: list[Trial]) -> f
         # angles, not six.
         left = [s for s in left if not effects[s.effect].mounting or s.index[0] < s.index[1]]
     return frozenset(map(coefficient_of, left))
+
+
+def _prior(kind: str, free: frozenset[Key]) -> dict[Key, float]:
+    """What is known of the coefficients of a part that nobody declared: the typical size in the
+    coarsest class of parts.
+    """
+    return {k: magnitudes(k.effect, kind)[CLASSES[-1]].si for k in free}
 
 
 def _refuse_without_motion(start: Part, sensor: Sensor, left: list, log: str) -> None:

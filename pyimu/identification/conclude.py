@@ -14,10 +14,11 @@ from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.trial import rest_noise
 from pyimu.identification.fit.whiten import RandomWalk
-from pyimu.identification.found import Added, Errors
+from pyimu.identification.found import Added
 from pyimu.identification.held_out import attitude_errors, scores
 from pyimu.identification.result import Closed
-from pyimu.identification.search.forward import Investigation
+from pyimu.identification.search.ceiling import is_ceiling
+from pyimu.identification.search.forward import Investigation, without
 from pyimu.identification.search.leftover import (
     NoiseFigure,
     comb_gain,
@@ -26,6 +27,7 @@ from pyimu.identification.search.leftover import (
     rounding,
 )
 from pyimu.identification.search.screen import PENALTY
+from pyimu.identification.verdict import WORSE, Evidence, verdict
 from pyimu.identification.visibility import visibility
 from pyimu.model.catalogue import CATALOGUE, POWER_ON, WALK, WHITE, read_off
 from pyimu.model.effect import Effect
@@ -33,12 +35,6 @@ from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
 from pyimu.recording.recording import Recording
 from pyimu.report.numbers import joined
-
-FAR = 1.5
-"""Ratio of the held-out error to its floor from which on the verdict says so."""
-
-SHORT = 500
-"""Fitted rows below which finding nothing says nothing."""
 
 Found = dict[str, Investigation]
 
@@ -53,30 +49,30 @@ def conclude(
     say: Callable[[str], None],
 ) -> Closed:
     """The result of the investigations ``found`` of the sensors of a part."""
-    after, before, added, changed, drifts = start, start, [], [], {}
+    say("attitude against the reference")
+    found, attitude = settled(start, declared, found, others or logs)
+    before, after = models(start, declared, found)
+    added, changed, drifts = [], [], {}
     for kind, inv in found.items():
         say(f"{kind}: what is left")
         steps = _rounding(kind, inv)
-        before = before.with_sensor(_finished(declared, inv.before))
-        sensor = _finished(declared, inv.after)
-        for a in steps:
-            sensor = sensor.with_values(a.effect, **{n: v for n, (v, _, _) in a.parameters.items()})
-        after = after.with_sensor(sensor)
-        added += _added(kind, sensor, inv) + steps
+        added += _added(kind, after.sensor(kind), inv) + steps
         changed += [released(start.sensor(kind), inv.after, s) for s in inv.steps if s.declared]
         if declared is not None and not steps:
             changed += changed_noise(start, kind, inv.after)
             drifts |= drifting(kind, inv.after, start.sensor(kind))
     unexplained = tuple(u for u in (lack_of_fit(inv.after) for inv in found.values()) if u)
+    refused = [(kind, r) for kind, inv in found.items() for r in inv.refused]
     say("error on held-out data")
     errors, entries, likelihood = scores(found, logs, others)
-    verdict, reason = _verdict(added, changed, unexplained, drifts, found)
-    reason += _far_from_floor(errors, found)
-    say("attitude against the reference")
-    attitude = attitude_errors(before, after, found.get("gyro"), others or logs)
+    unexamined = _unexamined(found, logs)
+    said = verdict(
+        Evidence(added, changed, unexplained, drifts, found, errors, attitude, refused, unexamined)
+    )
     return Closed(
-        verdict=verdict,
-        reason=reason,
+        verdict=said.word,
+        reason=said.reason,
+        remarks=said.remarks,
         before=before,
         after=replace(after, estimate=frozenset()),
         added=tuple(added),
@@ -89,11 +85,21 @@ def conclude(
         attitude=attitude,
         quality=quality,
         recordings=entries,
-        refused=tuple((kind, r) for kind, inv in found.items() for r in inv.refused),
+        refused=tuple(refused),
         exhibits=_exhibits(found, added),
         band_hz={kind: inv.after.trials[0].band_hz for kind, inv in found.items()},
         held_out="holdout" if others else "last 30 %",
     )
+
+
+def _unexamined(found: Found, logs: list[Recording]) -> dict[str, str]:
+    """Why a sensor of the logs was not looked at, by its kind."""
+    reasons = {
+        "gyro": "the gyro was not examined: no reference of its rate",
+        "accel": "the accelerometer was not examined: no reference of its force",
+    }
+    there = {k for k in reasons if any(getattr(r, k) is not None for r in logs)}
+    return {k: reason for k, reason in reasons.items() if k in there - set(found)}
 
 
 def _exhibits(found: Found, added: list[Added]) -> dict[str, Exhibits]:
@@ -104,6 +110,45 @@ def _exhibits(found: Found, added: list[Added]) -> dict[str, Exhibits]:
 
 
 # Models
+
+
+def models(start: Part, declared: Part | None, found: Found) -> tuple[Part, Part]:
+    """The part before and after what was ``found``."""
+    before, after = start, start
+    for kind, inv in found.items():
+        before = before.with_sensor(_finished(declared, inv.before))
+        sensor = _finished(declared, inv.after)
+        for a in _rounding(kind, inv):
+            sensor = sensor.with_values(a.effect, **{n: v for n, (v, _, _) in a.parameters.items()})
+        after = after.with_sensor(sensor)
+    return before, after
+
+
+def settled(
+    start: Part, declared: Part | None, found: Found, logs: list[Recording]
+) -> tuple[Found, tuple[float, float] | None]:
+    """What was found less the effects that make the filter's attitude worse, and the attitude's
+    error before and after.
+    """
+    while True:
+        before, after = models(start, declared, found)
+        pair = attitude_errors(before, after, found.get("gyro"), logs)
+        if pair is None or not pair[1] > WORSE * pair[0]:
+            return found, pair
+        inv = found["gyro"]
+        errors = {
+            s.effect: attitude_errors(
+                before, after.with_sensor(after.gyro.without(s.effect)), inv, logs
+            )[1]
+            for s in inv.steps
+            if not s.declared and not is_ceiling(after.gyro, s.effect)
+        }
+        worst = min(errors, key=errors.get, default=None)
+        if worst is None or not WORSE * errors[worst] < pair[1]:
+            return found, pair
+        degrees = [f"{np.degrees(v):.2f}" for v in (errors[worst], pair[1])]
+        reason = f"makes the attitude worse, {degrees[0]} to {degrees[1]} deg"
+        found = found | {"gyro": without(inv, worst, reason)}
 
 
 def _finished(declared: Part | None, fit: Fit) -> Sensor:
@@ -192,55 +237,4 @@ def _note_on_delay(e: Effect, parameters: dict) -> str:
         f"{joined(names)} are one class: an effective delay of {delay * 1e3:.2f} ms of the "
         "sensor against the reference; the sensor's bandwidth, its sampling and the reference's "
         "clock cannot be told apart"
-    )
-
-
-# Verdict
-
-
-def _far_from_floor(errors: dict[str, Errors], found: Found) -> str:
-    """What must be added to any verdict where the noise does not account for what is left."""
-    said = ""
-    for kind, e in errors.items():
-        derived = found[kind].after.trials[0].band_hz is not None
-        if not derived and e.floor is not None and e.after.total > FAR * e.floor.total:
-            said += (
-                f"; the {kind} residual that is left is {e.after.total / e.floor.total:.1f} times "
-                "what its noise accounts for"
-            )
-    return said
-
-
-def _verdict(
-    added: list[Added], changed: list, unexplained: tuple, drifts: dict, found: Found
-) -> tuple[str, str]:
-    if added:
-        return "named", ", ".join(f"{a.sensor} {a.effect}" for a in added)
-    if unexplained:
-        u = unexplained[0]
-        return "unexplained", f"{u.sensor} {u.axis} depends on {' x '.join(u.depends_on)}"
-    if drifts:
-        return "drift", "more random walk than declared: an input that nobody logged"
-    if not _shows_anything(found):
-        return (
-            "undecidable",
-            "no motion and no temperature: these logs could show little of what may be missing",
-        )
-    if max(sum(t.count for t in inv.after.trials) for inv in found.values()) < SHORT:
-        return (
-            "undecidable",
-            f"fewer than {SHORT} rows were there to fit: too short to miss an effect in",
-        )
-    corrected = "; declared values that the data contradict are listed as changed"
-    return "clean", "nothing is missing" + (corrected if changed else "")
-
-
-def _shows_anything(found: Found) -> bool:
-    """Whether some effect would be visible that time alone does not drive: those show in any log,
-    and say nothing about the effects that people ask for.
-    """
-    return any(
-        np.isfinite(c.smallest_visible) and "time" not in CATALOGUE[c.effect].signals(kind)
-        for kind, inv in found.items()
-        for c in inv.first.candidates
     )

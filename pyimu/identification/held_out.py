@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from pyimu.identification.attitude_error import attitude_error
 from pyimu.identification.fit.attenuation import floor_noise
 from pyimu.identification.fit.score import floor, held_state, tally
+from pyimu.identification.fit.trial import Trial
 from pyimu.identification.found import Errors, LogEntry
 from pyimu.identification.search.forward import Investigation
 from pyimu.model.part import Part
@@ -61,17 +64,24 @@ def _entry(r: Recording, found: dict[str, Investigation], errors: dict[str, Erro
     )
 
 
-def log_state(inv: Investigation, name: str) -> dict[str, list] | None:
+def log_state(inv: Investigation, name: str) -> dict[str, Any] | None:
     """What was estimated of a log itself, under the model after; None for a log that was not
     looked at.
     """
-    state = inv.after.states.get(name)
-    if state is None:
-        held = next((t for t in inv.held if t.name == name), None)
-        if held is None:
-            return None
-        state = held_state(inv.after, held)[0]
-    return {"bias": state.bias.tolist(), "rotation": state.rotation.tolist()}
+    trial = next((t for t in (*inv.after.trials, *inv.held) if t.name == name), None)
+    if trial is None:
+        return None
+    state = inv.after.states.get(name) or held_state(inv.after, trial)[0]
+    found = {"bias": state.bias.tolist(), "rotation": state.rotation.tolist()}
+    return found | {"reference": _reference(trial)}
+
+
+def _reference(trial: Trial) -> dict[str, Any]:
+    """What was found of a log's reference itself."""
+    seen = {"kind": trial.reference, "band_hz": trial.band_hz}
+    if trial.clock is None:
+        return seen | {"clock": None, "explained": None}
+    return seen | {"clock": trial.clock.as_dict(), "explained": trial.clock.explained}
 
 
 def attitude_errors(

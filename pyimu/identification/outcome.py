@@ -39,12 +39,14 @@ class Outcome:
     exhibits: dict[str, Exhibits]
     band_hz: dict[str, float | None]
     held_out: str
+    remarks: tuple[str, ...] = ()
 
     def as_dict(self, model: str = "model.toml", fmus: tuple[str, ...] = ()) -> dict[str, Any]:
         """The contents of report.json."""
         found = {
             "verdict": self.verdict,
             "reason": self.reason,
+            "remarks": list(self.remarks),
             "added": [a.as_dict() for a in self.added],
             "changed": [c.as_dict() for c in self.changed],
             "unexplained": self.unexplained[0].as_dict() if self.unexplained else None,

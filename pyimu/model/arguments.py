@@ -1,5 +1,6 @@
-"""What the arguments of an effect's function can be: coefficients, memory, noise, signals, the
-sample period.
+"""Annotations for the arguments of an effect's function.
+
+Coefficients, states, noise, signals, and the sample period.
 """
 
 from __future__ import annotations
@@ -16,8 +17,7 @@ INPUT = "input"
 
 @dataclass(frozen=True)
 class Scan:
-    """Where to look for a coefficient that no slope at the identity finds: ``points`` values,
-    evenly in logarithm.
+    """A logarithmic grid of ``points`` values for a coefficient without slope at the identity.
 
     ``low`` and ``high`` count sample periods ("period"), radians a sample ("rate") or shares of the
     largest input ("range").
@@ -36,8 +36,9 @@ class Scan:
 
 @dataclass(frozen=True)
 class Parameter:
-    """A coefficient. ``start`` is where the effect is the identity; matrices may leave out their
-    diagonal.
+    """A coefficient of an effect, and what is known of it beforehand.
+
+    At ``start`` the effect is the identity; matrices may leave out their diagonal.
 
     ``reference`` marks a coefficient that only fixes an origin (a reference temperature): it is
     never estimated. ``form`` marks one that shapes an effect whose size others give (a time
@@ -70,8 +71,9 @@ class Parameter:
         return tuple(i for i in np.ndindex(*self.shape) if self.diagonal or i[0] != i[1])
 
     def fault(self, values: np.ndarray) -> str:
-        """What is wrong with values of the parameter's shape in its SI unit, as "must not be below
-        0"; empty where nothing is.
+        """Why ``values`` are not allowed, as "must not be below 0"; empty where they are.
+
+        The values have the parameter's shape and are in its SI unit.
         """
         if not np.all(np.isfinite(values)):
             return "must be finite"
@@ -88,9 +90,10 @@ class Parameter:
 
 @dataclass(frozen=True)
 class State:
-    """Memory of an effect; ``start`` is a number, ``INPUT`` for the steady state at the first input
-    of the effect, or the name of one of the effect's environment arguments for that signal's first
-    value.
+    """Memory of an effect.
+
+    ``start`` is a number, ``INPUT`` for the steady state at the first input of the effect, or the
+    name of one of the effect's environment arguments for that signal's first value.
     """
 
     unit: str

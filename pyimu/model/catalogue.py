@@ -55,8 +55,9 @@ class Catalogue(Mapping[str, Effect]):
         return self._effects[name]
 
     def in_order(self, effects: Iterable[Effect]) -> tuple[Effect, ...]:
-        """Effects in the order in which they act: by stage, within one by their place in the
-        catalogue.
+        """Effects in the order in which they act.
+
+        They are sorted by stage, and within a stage by their place in the catalogue.
         """
         places = {name: place for place, name in enumerate(self._effects)}
         return tuple(sorted(effects, key=lambda e: (STAGES.index(e.stage), places[e.name])))
@@ -67,8 +68,10 @@ CATALOGUE = Catalogue(EFFECTS)
 
 
 def read_off(effects: Iterable[Effect], what: str) -> tuple[str, str] | None:
-    """Effect and coefficient that are read off raw samples as ``what`` ("ceiling", "step"), the
-    first of ``effects`` that has one.
+    """The first of ``effects`` with a coefficient that is read off raw samples as ``what``.
+
+    ``what`` is "ceiling" or "step". Gives the names of effect and coefficient, None where there is
+    none.
     """
     found = ((e.name, n) for e in effects for n, q in e.parameters.items() if q.reads == what)
     return next(found, None)
@@ -91,15 +94,16 @@ WALK = _only(lambda e: e.law is not None and e.law.is_plain("walk"))
 
 
 def add_effects(*sources: str | os.PathLike | Effect) -> tuple[Effect, ...]:
-    """Make effects of your own known by their names, to parts, to ``close`` and to every other
-    command::
+    """Add effects of your own to the catalogue, for parts, ``close`` and every other command.
+
+    For example::
 
         pyimu.add_effects("my_effects.py")              # every effect that the file defines
         pyimu.add_effects(my_effect)                    # one that was defined here
 
-    The file is run as a Python program is. A file or an effect that was added before takes the
-    place of its older self. Gives the effects. Raises UserError for a file that cannot be run or
-    defines none, and for the name of an effect of the package.
+    The file is run as a Python program. A file or an effect that was added before replaces its
+    older version. Gives the effects. Raises UserError for a file that cannot be run or defines
+    none, and for the name of an effect of the package.
     """
     found = [e for s in sources for e in ([s] if isinstance(s, Effect) else _effects_of(Path(s)))]
     CATALOGUE.remove(

@@ -1,6 +1,4 @@
-"""The effects of a sensor put together: its step, its compensation and its limits as casadi
-functions.
-"""
+"""The chain of a sensor's effects: its step, compensation and limits as casadi functions."""
 
 from __future__ import annotations
 
@@ -42,8 +40,7 @@ class Slot:
 
 
 class Chain:
-    """What effects one after another make of a sample: names and places of their coefficients and
-    normals, casadi functions.
+    """Effects in series: names and places of coefficients and normals, and the casadi functions.
 
     ``effects`` stand in the order in which they act. A chain has no values; a ``Sensor`` is a
     chain with values.
@@ -79,8 +76,10 @@ class Chain:
 
     @cached_property
     def noise(self) -> tuple[NoiseChannel, ...]:
-        """Standard normals; a stream's number follows from its name alone, so another effect never
-        shifts it.
+        """The standard normals.
+
+        The number of a stream follows from its name alone, so adding an effect never shifts
+        another.
         """
         names = [
             f"{self.kind}_error.{e.name}.{n}[{i + 1}]"
@@ -91,8 +90,9 @@ class Chain:
         return tuple(NoiseChannel(n, zlib.crc32(n.encode())) for n in names)
 
     def _split_parameters(self) -> dict[str, dict[str, ca.SX]]:
-        """Put the vector ``p`` into the matrices of the definitions; rows first, here and nowhere
-        else.
+        """Arrange the vector ``p`` in the matrices of the definitions, row by row.
+
+        This is the only place that sets this order.
         """
         slots = iter(ca.vertsplit(self.p)) if len(self.slots) else iter(())
         out: dict[str, dict[str, ca.SX]] = {}
@@ -122,8 +122,9 @@ class Chain:
         return symbols, ca.vertcat(*flat) if flat else ca.SX.zeros(0, 1)
 
     def _current(self, e: Effect, x: ca.SX, started: ca.SX | None) -> dict[str, ca.SX]:
-        """States of an effect, those that wait for the first input filled with it; one that is NaN
-        still waits for its first.
+        """States of an effect, with those that wait for the first input set from it.
+
+        A state that is NaN still waits for its first input.
         """
         out = {}
         for name, q in e.states.items():
@@ -221,8 +222,9 @@ class Chain:
         return self._apply(e, x, silent, started)
 
     def _fed(self, e: Effect) -> list[bool]:
-        """Which numbers of an effect's states follow from inputs of this sample; the others, from
-        noise and older states, are numbers.
+        """Which numbers of an effect's states follow from inputs of this sample.
+
+        The others, which follow from noise and older states, are never NaN.
         """
         x = ca.SX.sym("x", 3)
         _, update = e(
@@ -239,8 +241,9 @@ class Chain:
 
     @cached_property
     def limits(self) -> Limits | None:
-        """What the coefficients must keep together, and with the sample period; None where there is
-        nothing of the kind.
+        """The conditions that the coefficients must keep together, and with the sample period.
+
+        None where there are no such conditions.
         """
         found = [
             (f"{self.kind} {e.name}: {text}", broken(self.h, **self.parameters[e.name]))
@@ -259,8 +262,9 @@ class Chain:
         return Limits(tuple(text for text, _ in found), flags)
 
     def _invert(self, e: Effect, y: ca.SX, started: ca.SX | None) -> ca.SX:
-        """Solve ``e(x) = y`` for x: one linear solve where the effect is affine in x, else Newton
-        from ``x = y``.
+        """Solve ``e(x) = y`` for x.
+
+        One linear solve where the effect is affine in x, else Newton's method from ``x = y``.
         """
         x = ca.SX.sym("x", 3)
         out, _ = self._call(e, x, started)

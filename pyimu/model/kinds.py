@@ -13,9 +13,7 @@ gain, bias, noise, output."""
 
 @dataclass(frozen=True)
 class SensorKind:
-    """A triad: which signal it measures, that signal's rate, its unit, and the unit of its
-    integral.
-    """
+    """A triad: the signal that it measures, that signal's rate, its unit and its integral's."""
 
     name: str
     own: str

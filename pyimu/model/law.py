@@ -7,11 +7,16 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+PARTS = ("white", "walk", "markov", "rounding", "ramp")
+"""What a law can be made of."""
+
 
 @dataclass(frozen=True)
 class Law:
-    """The noise of an effect on one axis, of which spectra, Allan deviations, shaping filters, the
-    attitude filter's Q and the page on noise are made.
+    """The noise of an effect on one axis.
+
+    Spectra, Allan deviations, shaping filters, the attitude filter's Q, the page on noise with its
+    pictures and the tests of the noise are all made from it.
 
     Each function takes the coefficients that it names, and of ``h`` (sample period, s), ``x`` (the
     axis's own input) and ``slope`` (its rate) what it names; numbers and casadi expressions alike.
@@ -19,14 +24,16 @@ class Law:
     * ``white``: two-sided density of white noise. One that needs ``h`` belongs to the sample: it is
       no noise in continuous time.
     * ``walk``: two-sided density of a random walk's derivative.
-    * ``markov``: pairs (variance, correlation time [s]) of independent Gauss-Markov processes.
+    * ``markov``: pairs (variance, correlation time [s]) of independent Gauss-Markov processes, each
+      of them stationary from the first sample on.
     * ``rounding``: root mean square of the independent error of the output's integral at each
       sample; the output has its differences over h.
     * ``ramp``: growth per second; no noise, yet in the field's tables of noises.
     * ``floor``: level of the Allan deviation where it is flat.
 
-    ``transfer``, ``poles``, ``psd`` and ``allan`` are the field's formulas in LaTeX, ``note`` what
-    else a reader should know, and ``shown`` coefficients for a picture in place of typical ones.
+    ``transfer``, ``poles``, ``psd`` and ``allan`` are the field's formulas in LaTeX, without the
+    dollars, ``note`` what else a reader should know, and ``shown`` coefficients for a picture in
+    place of typical ones.
     """
 
     white: Callable[..., Any] | None = None
@@ -43,14 +50,17 @@ class Law:
     shown: Mapping[str, float] = field(default_factory=dict)
 
     def value(self, part: str, coefficients: Mapping[str, Any], **conditions: Any) -> Any:
-        """A part of the law by its name, for these coefficients and conditions; None where there is
-        none.
-        """
+        """A part of the law for these coefficients and conditions; None where there is none."""
         function = getattr(self, part)
         if function is None:
             return None
         given = {**conditions, **coefficients}
         return function(**{name: given[name] for name in inspect.signature(function).parameters})
+
+    @property
+    def parts(self) -> tuple[str, ...]:
+        """Names of what the law is made of."""
+        return tuple(part for part in PARTS if getattr(self, part) is not None)
 
     def needs(self, condition: str) -> bool:
         """Whether the white noise depends on ``h``, ``x`` or ``slope``."""
@@ -58,13 +68,7 @@ class Law:
 
     def is_plain(self, part: str) -> bool:
         """Whether the law is this part alone, under no condition."""
-        others = {"white", "walk", "markov", "rounding"} - {part}
-        conditions = ("h", "x", "slope")
-        return (
-            getattr(self, part) is not None
-            and all(getattr(self, other) is None for other in others)
-            and not any(map(self.needs, conditions))
-        )
+        return self.parts == (part,) and not any(map(self.needs, ("h", "x", "slope")))
 
     @property
     def sampled(self) -> bool:

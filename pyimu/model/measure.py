@@ -1,5 +1,6 @@
-"""What a block makes of inputs as long as a log: arrays through the C of its FMU, a piece at a
-time.
+"""The outputs of a block for arrays as long as a log.
+
+The arrays go through the C of the block's FMU, a piece at a time.
 """
 
 from __future__ import annotations
@@ -25,8 +26,9 @@ def measure(
     seed: int | None,
     sample_period: float,
 ) -> dict[str, np.ndarray]:
-    """Each group of outputs (n, size) by name; ``missing`` says how many samples no row has been
-    kept of before a row.
+    """Each group of outputs (n, size) by name.
+
+    ``missing`` gives by row how many samples are missing before it.
     """
     inputs, outputs = _places(block.inputs), _places(block.outputs)
     source = _Inputs(block, inputs, given, n)
@@ -57,8 +59,9 @@ def _places(variables: Sequence[Variable]) -> dict[str, slice]:
 
 
 class _Inputs:
-    """The inputs of a block, a piece at a time: rows of arrays beside constants, and start values
-    where nothing is given.
+    """The inputs of a block, a piece at a time.
+
+    Rows of arrays beside constants, and start values where nothing is given.
     """
 
     def __init__(
@@ -92,9 +95,7 @@ class _Inputs:
         return u
 
     def between(self, before: int, after: int, count: int) -> Iterator[np.ndarray]:
-        """``count`` inputs on the straight way from a row to another; an attitude, which has no
-        straight way, is held.
-        """
+        """``count`` inputs interpolated linearly between two rows; an attitude is held."""
         first, last = (
             self.rows(slice(before, before + 1))[0].copy(),
             self.rows(slice(after, after + 1))[0].copy(),

@@ -23,8 +23,9 @@ AXES = "xyz"
 
 @dataclass(frozen=True)
 class Part:
-    """A sensor as data: name, sample rate [Hz], the gyro's and the accelerometer's chain of effects
-    with their values.
+    """A sensor as data: name, sample rate [Hz], and the effects of gyro and accelerometer.
+
+    The effects are those of two ``Sensor``, with the values of their coefficients.
 
     ``estimate`` names the coefficients ``(sensor, effect, parameter)`` that the part leaves to the
     data; ``notes`` keeps what the file says beside a value: its source, the figure as quoted.
@@ -68,8 +69,9 @@ class Part:
         return self.gyro.signals | self.accel.signals
 
     def simulate(self, recording: Recording, *, seed: int | None = 0) -> Recording:
-        """The recording as this part would have measured it; see
-        ``pyimu.model.simulate.simulate_recording``.
+        """The recording as this part would have measured it.
+
+        See ``pyimu.model.simulate.simulate_recording``.
         """
         return measured_recording(
             self.block, (self.gyro, self.accel), recording, self.sample_period, seed
@@ -77,9 +79,7 @@ class Part:
 
     @cached_property
     def block(self) -> Block:
-        """The part as the block ``ImuSensor``: gyro and accelerometer side by side on the same
-        inputs.
-        """
+        """The part as the block ``ImuSensor``: gyro and accelerometer on the same inputs."""
         return _imu_sensor(self)
 
 
@@ -92,8 +92,9 @@ def _inverse(rate: float) -> float:
 
 
 def input_variables(names: Iterable[str]) -> tuple[Variable, ...]:
-    """Inputs of a block by their names in ``SIGNALS``; unconnected, they mean a part at rest,
-    level, in its reference state.
+    """Inputs of a block by their names in ``SIGNALS``.
+
+    Unconnected, they mean a part at rest, level, in its reference state.
     """
     return tuple(
         Variable(
@@ -158,9 +159,7 @@ def _imu_sensor(part: Part) -> Block:
 
 
 def _description(part: Part) -> str:
-    """What the part says of itself, and which of its effects a step of more than one sample would
-    leave out.
-    """
+    """The part's description, and which effects a step of more than one sample would leave out."""
     text = part.description or f"Inertial measurement unit {part.name}"
     names = sorted({e.name for s in (part.gyro, part.accel) for e in s.effects if e.differences})
     return (

@@ -31,9 +31,7 @@ Key = tuple[str, str, str]
 
 @dataclass(frozen=True)
 class FigureScale:
-    """How the figures of one entry become SI: a unit, the kind of density, and whether they are
-    thermometer readings.
-    """
+    """How the figures of one entry become SI: unit, kind of density, and whether temperatures."""
 
     unit: str
     si: str
@@ -52,8 +50,9 @@ class FigureScale:
 
 
 def is_density(unit: Any) -> bool:
-    """Whether a figure in this unit is the root of a density, which can be one-sided; a random walk
-    in deg/sqrt(h) is two-sided by definition.
+    """Whether a figure in this unit is the root of a density, which can be one-sided.
+
+    A random walk in deg/sqrt(h) is two-sided by definition.
     """
     return isinstance(unit, str) and "Hz" in unit
 

@@ -1,5 +1,4 @@
-"""Parts as data: TOML files of coefficients with their units and sources, read to SI and written
-back.
+"""Part files: TOML with coefficients, units and sources, read to SI and written back.
 
 One table per effect, one entry per parameter::
 
@@ -69,8 +68,9 @@ def part(name_or_path: str | os.PathLike | Part) -> Part:
 
 
 def load_part(path: str | os.PathLike) -> Part:
-    """The part in a TOML file. Raises UserError, with file and key, where it cannot be read or
-    says what is no part.
+    """The part in a TOML file.
+
+    Raises UserError, with file and key, where it cannot be read or is not a valid part.
     """
     try:
         text = Path(path).read_text(encoding="utf-8")
@@ -84,8 +84,9 @@ def load_part(path: str | os.PathLike) -> Part:
 
 
 def save_part(part: Part, path: str | os.PathLike) -> Path:
-    """Write a part to a TOML file, which reads back as an equal part; the file is there as a whole
-    or not at all.
+    """Write a part to a TOML file, which reads back as an equal part.
+
+    The file is written whole or not at all.
 
     Each value is written in the unit in which its note quotes it, else in SI. Raises UserError
     where the file cannot be written.

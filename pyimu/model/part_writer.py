@@ -54,8 +54,9 @@ def _format_entry(part: Part, sensor: Sensor, e: Effect, name: str) -> str:
 
 
 def _with_unit(values: np.ndarray, si: str, note: Mapping[str, str]) -> dict[str, str]:
-    """The value of an entry with its unit: as quoted where that gives back the same SI value to the
-    last bit.
+    """The value of an entry with its unit.
+
+    The unit is the quoted one where that gives back the same SI value to the last bit.
     """
     unit = note.get("unit", si)
     scale = FigureScale(
@@ -70,9 +71,7 @@ def _with_unit(values: np.ndarray, si: str, note: Mapping[str, str]) -> dict[str
 
 
 def _figures(values: np.ndarray, scale: FigureScale) -> str | None:
-    """The shortest decimals whose SI values are exactly ``values``, or None where there are
-    none.
-    """
+    """The shortest decimals whose SI values are exactly ``values``, None where there are none."""
     texts = [
         _shortest(v, g, scale.to_si)
         for v, g in zip(values.ravel(), np.ravel(scale.guess(values)), strict=True)

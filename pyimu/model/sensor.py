@@ -56,8 +56,9 @@ class Sensor:
         object.__setattr__(self, "effects", effects)
 
     def __eq__(self, other: object) -> bool:
-        """Equal kind, effects and coefficients; arrays have no truth value, so the dataclass cannot
-        compare them itself.
+        """Equal kind, effects and coefficients.
+
+        Written out because arrays have no truth value, so the dataclass cannot compare them.
         """
         if not isinstance(other, Sensor):
             return NotImplemented
@@ -82,9 +83,7 @@ class Sensor:
 
     @property
     def signals(self) -> frozenset[str]:
-        """Names in ``SIGNALS`` of what the sensor's effects need beside the signal that it
-        measures.
-        """
+        """Names in ``SIGNALS`` that the effects need beside the signal that the sensor measures."""
         return frozenset().union(*(e.signals(self.kind) for e in self.effects))
 
     @property
@@ -92,8 +91,9 @@ class Sensor:
         return KINDS[self.kind]
 
     def check(self, sample_period: float, name: str) -> None:
-        """Raise UserError, which starts with ``name``, for coefficients that do not go with each
-        other or with the sample period [s].
+        """Raise UserError for coefficients that conflict with each other or the sample period [s].
+
+        The message starts with ``name``.
         """
         if any(e.limits for e in self.effects):
             self.chain.limits.check(self.p, sample_period, name)
@@ -112,15 +112,17 @@ class Sensor:
         return replace(self, values={e: p for e, p in self.values.items() if e not in names})
 
     def is_off(self, name: str) -> bool:
-        """True for an effect that must be scanned for and stands where it does nothing: no slope
-        leads away from there.
+        """True for an effect that must be scanned for and stands at its identity.
+
+        It has no slope there.
         """
         found = [(n, p) for n, p in self.effect(name).parameters.items() if p.scan]
         return bool(found) and all(np.all(self.values[name][n] == p.start) for n, p in found)
 
     def acts(self, name: str) -> bool:
-        """True for an effect that is not at the identity; coefficients that only shape one, or fix
-        its origin, do not count.
+        """True for an effect that is not at the identity.
+
+        Coefficients that only shape an effect, or fix its origin, do not count.
         """
         sizes = [
             (n, p) for n, p in self.effect(name).parameters.items() if not (p.form or p.reference)
@@ -130,16 +132,15 @@ class Sensor:
         )
 
     def reading(self, what: str) -> tuple[str, str] | None:
-        """Effect and coefficient that are read off raw samples as ``what`` ("ceiling", "step");
+        """Effect and coefficient that are read off raw samples as ``what`` ("ceiling", "step").
+
         None where the sensor has none.
         """
         return read_off(self.effects, what)
 
     @property
     def left_in(self) -> tuple[str, ...]:
-        """Names of the effects that act and that ``compensation`` leaves in: it neither solves them
-        nor marks samples.
-        """
+        """Names of the acting effects that ``compensation`` neither inverts nor marks."""
         return tuple(e.name for e in self.effects if e.left_in and self.acts(e.name))
 
     @property
@@ -192,8 +193,7 @@ class Sensor:
 
     @property
     def compensation(self) -> ca.Function:
-        """``(s, y, u, p, h) -> (s_next, x, lost)``: the chain solved for its input with all noise
-        zero.
+        """``(s, y, u, p, h) -> (s_next, x, lost)``: the chain solved for its input, without noise.
 
         ``u`` (N_INPUT,) carries the environment (its own signal is ignored); ``lost`` (3,) is 1
         where this sample says nothing of ``x``, as beyond the range or within a dead zone. The
@@ -250,8 +250,6 @@ def _refuse(kind: str, e: Effect, parameter: str, array: np.ndarray) -> None:
 
 
 def candidates(kind: str, present: Iterable[str]) -> tuple[Effect, ...]:
-    """Effects of the catalogue that a sensor of this kind could have and ``present`` does not
-    name.
-    """
+    """Effects of the catalogue that a sensor of this kind could have, less those in ``present``."""
     have = set(present)
     return tuple(e for e in CATALOGUE.values() if kind in e.sensors and e.name not in have)

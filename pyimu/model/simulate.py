@@ -1,5 +1,4 @@
-"""What a part would measure of a known motion: arrays or a whole recording through the C of its
-FMU.
+"""Simulation of a known motion, as arrays or as a recording, through the C of the part's FMU.
 
 The inputs go through in pieces that stay in the processor's cache, so that nothing is made of the
 length of the log but the measurements. Sample 1 of the noise belongs to the first row, as in an
@@ -34,8 +33,9 @@ def simulate(
     sample_period: float | None = None,
     **others: np.ndarray | float,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Measured rate and specific force, each (n, 3), of a part that moves as given (rad/s, m/s^2,
-    degC).
+    """Measured rate [rad/s] and specific force [m/s^2], each (n, 3), of a part that moves as given.
+
+    The inputs are in rad/s, m/s^2 and degC.
 
     The part may be a name or a file (see ``pyimu.part``). ``others`` are inputs by their names in
     ``SIGNALS`` that the part's effects need: ``supply`` (n,) V, ``mag`` (n, 3) T and so on; one
@@ -70,8 +70,9 @@ def simulate(
 
 
 def _numbers(name: str, values: np.ndarray | float) -> np.ndarray:
-    """An input as an array, its kind of number as it is. Raises UserError for what is no array of
-    real numbers.
+    """An input as an array of its own number type.
+
+    Raises UserError for what is not an array of real numbers.
     """
     try:
         array = np.asarray(values)
@@ -87,8 +88,9 @@ def _numbers(name: str, values: np.ndarray | float) -> np.ndarray:
 def simulate_recording(
     model: Part | Sensor, recording: Recording, *, seed: int | None = 0
 ) -> Recording:
-    """The recording as ``model`` would have measured it: ``gyro`` and ``accel`` (of a ``Sensor``
-    its own) replaced, all else kept.
+    """The recording as ``model`` would have measured it.
+
+    ``gyro`` and ``accel`` are replaced (by a ``Sensor`` only its own), all else is kept.
 
     The truth comes from the recording: the rate from ``ref_rate``, else differentiated from
     ``ref_q`` as ``reference_rate`` says; the specific force from ``ref_force``; both are those of a

@@ -1,5 +1,4 @@
-"""A recording as sensors would have measured it: the truth that it knows, and what was measured of
-that.
+"""Simulation from a recording: the true inputs that it knows, and what sensors measure of them.
 
 Sample 1 of the noise belongs to the first row, as in an FMU that is started one sample period
 before it.
@@ -118,9 +117,7 @@ class Truth:
         return np.mean(accel, axis=0) if _whole(accel) else np.nanmean(accel, axis=0)
 
     def filled(self, name: str) -> np.ndarray:
-        """The values of an input, its missing cells drawn straight from neighbour to neighbour; an
-        attitude's are held.
-        """
+        """The values of an input, missing cells interpolated linearly; an attitude's are held."""
         values, time = self.values[name], self.recording.time
         if _whole(values):
             return values
@@ -135,9 +132,7 @@ class Truth:
         return out
 
     def unknown(self, name: str) -> np.ndarray | None:
-        """Mask (n,) of the rows in which an axis of an input is missing, None where there are
-        none.
-        """
+        """Mask (n,) of rows in which an axis of an input is missing, None where there are none."""
         values = self.values[name]
         return None if _whole(values) else ~np.isfinite(values).all(axis=1)
 

@@ -1,5 +1,6 @@
-"""How large each effect is in a tactical and in a consumer MEMS part; ``effects/typical.toml``
-holds the figures and their sources.
+"""The typical size of each effect in a tactical and in a consumer MEMS part.
+
+The figures and their sources are in ``pyimu/model/typical.toml``.
 """
 
 from __future__ import annotations
@@ -53,8 +54,9 @@ class Magnitude:
 
 
 def magnitudes(effect: str, kind: str) -> dict[str, Magnitude]:
-    """The size of an effect in a sensor of this kind, by class of part. Raises UserError where
-    there is none.
+    """The size of an effect in a sensor of this kind, by class of part.
+
+    Raises UserError where there is none.
     """
     table = _table()
     if (effect, kind) not in table:

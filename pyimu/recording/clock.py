@@ -42,8 +42,9 @@ LEAST_ROUNDED = 32
 
 @dataclass(frozen=True)
 class Cadence:
-    """``period`` between samples [s]; a step of the time above ``longest`` [s] is a gap if the
-    stamps stay late after it.
+    """The sample period ``period`` [s] and the step ``longest`` [s] above which there may be a gap.
+
+    A longer step is a gap if the stamps stay late after it.
     """
 
     period: float
@@ -55,8 +56,9 @@ class Cadence:
 
 
 def cadence_of(time: np.ndarray) -> Cadence:
-    """That of the times (n,): the time between gaps over its steps; of two rates that of most
-    windows.
+    """The cadence of the times (n,).
+
+    The period is the time between gaps over its steps; of two rates it is that of most windows.
     """
     step = np.diff(time)
     if not len(step):
@@ -97,8 +99,9 @@ def period_of(time: np.ndarray) -> float:
 
 
 def _rounding(step: np.ndarray, median: float) -> float:
-    """The unit u [s] to which the times were rounded where that is ``COARSE``, else 0: 976 Hz in ms
-    has steps of 1 and 2 ms.
+    """The unit u [s] to which the times were rounded where that is ``COARSE``, else 0.
+
+    Times of 976 Hz in ms, for example, have steps of 1 and 2 ms.
 
     Lost samples make long steps too. But the time over m steps of rounded times scatters by u^2 /
     4 at most, of lost samples by u^2 for each one in it: m is chosen to have eight of the rarer
@@ -116,16 +119,18 @@ def _rounding(step: np.ndarray, median: float) -> float:
 
 
 def segments(gaps: np.ndarray, count: int) -> list[tuple[int, int]]:
-    """Index ranges (start, stop) of ``count`` rows without one of the ``gaps`` (m,), the rows that
-    follow a gap, inside.
+    """Index ranges (start, stop) of ``count`` rows between the ``gaps`` (m,).
+
+    ``gaps`` are the rows that follow a gap.
     """
     edges = [0, *map(int, gaps[gaps > 0]), count]
     return list(pairwise(edges))
 
 
 class Clock:
-    """Watches the times of a log, piece by piece, against its ``cadence``; the result does not
-    depend on the pieces.
+    """The sample rate and the gaps of a log, checked piece by piece against its ``cadence``.
+
+    The result does not depend on how the log is cut into pieces.
     """
 
     def __init__(self, cadence: Cadence) -> None:
@@ -188,8 +193,10 @@ class Clock:
         return abs(period / self.cadence.period - 1)
 
     def findings(self) -> list[Finding]:
-        """``gaps``: the ``longest`` step and the ``total`` time lost [s]; and ``two_rates``: how
-        many samples have another rate than the log, the typical one of these, since when.
+        """The findings ``gaps`` and ``two_rates``, as far as the log has been added.
+
+        ``gaps`` has the ``longest`` step and the ``total`` time lost [s]; ``two_rates`` how many
+        samples have another rate than the log, the typical one of these, and since when.
         """
         done = copy(self)  # more may be added, and tell of the last rows
         done._finder, done._others = copy(self._finder), self._others.copy()

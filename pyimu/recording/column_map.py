@@ -1,6 +1,4 @@
-"""Foreign logs: a TOML file that renames a log's columns, declares its axes and gives the size of
-raw counts.
-"""
+"""Column maps: TOML files that rename columns, declare axes and scale raw counts."""
 
 from __future__ import annotations
 
@@ -48,8 +46,9 @@ class ForeignMap:
         return [self.columns.get(cell, cell) for cell in header]
 
     def turn(self, groups: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
-        """The groups in forward-left-up and east-north-up axes; a sample's result does not depend
-        on those beside it.
+        """The groups in forward-left-up and east-north-up axes.
+
+        The result of a sample does not depend on its neighbours.
         """
         turned = dict(groups)
         if self.body is not None:
@@ -75,8 +74,9 @@ class ForeignMap:
 
 
 def _rotated(rotation: np.ndarray, v: np.ndarray) -> np.ndarray:
-    """R v for each row of ``v`` (n, 3), in the same order of operations for any n; a matrix product
-    promises no order.
+    """R v for each row of ``v`` (n, 3), with the same order of operations for any n.
+
+    A matrix product does not guarantee an order.
     """
     x, y, z = v.T
     return np.column_stack([a * x + b * y + c * z for a, b, c in rotation])
@@ -137,9 +137,7 @@ def _choice(path: Path, frame: Mapping[str, Any], key: str, choices: Sequence[st
 
 
 def _body(path: Path, frame: Mapping[str, Any]) -> np.ndarray | None:
-    """The rotation from the log's body axes to forward-left-up, None where the file declares
-    none.
-    """
+    """The rotation from the log's body axes to forward-left-up, None where the file has none."""
     if "body" in frame and "R" in frame:
         raise UserError(f"{path}: keys frame.body and frame.R say the same, keep one")
     key = "R" if "R" in frame else "body"

@@ -1,6 +1,4 @@
-"""Raw counts of a converter: the size of one, as a column map states it, and the columns that look
-like counts undeclared.
-"""
+"""Raw counts of a converter: their size in a column map, and columns that look like counts."""
 
 from __future__ import annotations
 
@@ -38,8 +36,9 @@ class Scale:
 
 
 def read_scales(path: Path, table: Any) -> Mapping[str, Scale]:
-    """The table ``scale`` of a column map by column name:
-    ``gyro = {value = 0.07, unit = "deg/s"}``, or for ``gyro_x`` alone.
+    """The scales in the table ``scale`` of a column map, by column name.
+
+    An entry is ``gyro = {value = 0.07, unit = "deg/s"}``, or for ``gyro_x`` alone.
 
     Raises UserError, with the key, for an unknown name, a missing or wrong unit and what is no
     number.
@@ -95,8 +94,7 @@ def _number(path: Path, key: str, value: Any) -> float:
 
 
 class RawCounts:
-    """Watches the gyro's and accelerometer's columns of a file, as they stand in it, for counts
-    that claim another unit.
+    """Detects gyro and accelerometer columns of raw counts whose header claims another unit.
 
     Such a column has whole numbers only, of a step or a size that no sensor has.
     """

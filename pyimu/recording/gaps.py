@@ -33,8 +33,10 @@ class GapFinder:
         self._first = 0
 
     def add(self, time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """``time`` (n,) s follows what was added before: rows (m,) before which a gap lies, and its
-        steps (m,) s, as far as they are settled.
+        """Add ``time`` (n,) s, which follows what was added before.
+
+        Gives the rows (m,) that follow a gap, and the steps (m,) s there, as far as they are
+        settled.
         """
         self._times = np.concatenate((self._times, time))
         return self._settle(max(self._first + len(self._times) - WIDE, self.settled))
@@ -55,9 +57,7 @@ class GapFinder:
         return found
 
     def _lasting(self, rows: np.ndarray) -> np.ndarray:
-        """Mask of the ``rows``, places in the times at hand, before which the stamps move for
-        good.
-        """
+        """Mask of the ``rows`` (positions in the held times) from which the stamps stay late."""
         inside = (rows > WIDE) & (rows + WIDE < len(self._times))
         lasting = np.zeros(len(rows), bool)
         for places in (np.flatnonzero(inside)[k : k + MOST] for k in range(0, len(rows), MOST)):

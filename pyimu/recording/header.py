@@ -23,8 +23,10 @@ COUNT = ("count", "counts", "lsb", "raw", "digit", "digits", "adc")
 
 
 class Header:
-    """The columns of a file that have a meaning: ``names`` without unit, ``positions`` in the file,
-    ``units``.
+    """The columns of a file that have a meaning.
+
+    ``names`` are without unit, ``positions`` count the file's columns, ``units`` are the stated
+    ones.
 
     ``scale`` gives the size of a count by column; a ``crowded`` file holds much that is not looked
     at, and ``skipped`` says what in it has no columns of numbers. Raises UserError for a column
@@ -148,8 +150,9 @@ class Header:
         )
 
     def origin(self, first: float | np.integer, findings: list[Finding]) -> float | np.integer:
-        """What to take from the file's times, in its unit: the ``first`` where that is a clock of
-        its own, else 0.
+        """What to subtract from the file's times, in its unit.
+
+        It is the ``first`` time where that is on a clock of its own (Unix time), else 0.
         """
         seconds = float(first) * self.seconds
         if not ORIGIN < abs(seconds) < np.inf:

@@ -46,7 +46,7 @@ class Log:
     @property
     def count(self) -> int | None:
         """Rows in the file, before repeats are dropped; None where only reading tells."""
-        return self._source.table.count(self._source.header.time)
+        return self._source.reader.count(self._source.header.time)
 
     @property
     def frame_declared(self) -> bool:
@@ -75,8 +75,9 @@ class Log:
         return 1 / self.sample_period
 
     def pieces(self, rows: int = 1_000_000) -> Iterator[tuple[Recording, float]]:
-        """Consecutive pieces of ``rows`` samples, the last one shorter, and the share of the file
-        read so far: 1 with the last.
+        """Consecutive pieces of ``rows`` samples, and the share of the file read so far.
+
+        The last piece is shorter, and its share is 1.
 
         Joined they are what ``read_recording`` gives, for any ``rows``; the times run on from piece
         to piece. Each piece carries the log's ``period`` and its own ``gaps``, by
@@ -92,7 +93,7 @@ class Log:
             self.findings = (*passing.findings, *clock.findings())
             yield piece, share
 
-    def stretches(self, rows: int = 1_000_000) -> Iterator[tuple[int, Recording, float]]:
+    def segments(self, rows: int = 1_000_000) -> Iterator[tuple[int, Recording, float]]:
         """As ``pieces``, cut at the gaps too: (segment, piece, share).
 
         ``segment`` counts the ranges of the log without gap from 0; consecutive pieces of one
@@ -126,8 +127,9 @@ class Log:
 def _marked(
     batches: Iterable[tuple[Recording, float]], cadence: Cadence
 ) -> Iterator[tuple[Recording, float]]:
-    """``batches`` with the log's cadence and their gaps; the last rows of one wait for the next,
-    which tells whether a stamp stays late.
+    """``batches`` with the log's cadence and their gaps.
+
+    The last rows of a batch wait for the next, which shows whether a stamp stays late.
     """
     finder = GapFinder(cadence.period, cadence.longest)
     held: list[Recording] = []
@@ -152,8 +154,9 @@ def _marked(
 def _cut(
     batches: Iterable[tuple[Recording, float]], rows: int
 ) -> Iterator[tuple[Recording, float]]:
-    """``batches`` in pieces of exactly ``rows`` samples, the last one shorter; nothing is given out
-    before it is known not to be the last.
+    """``batches`` in pieces of exactly ``rows`` samples, the last one shorter.
+
+    A piece is held back until it is known whether it is the last.
     """
     held: list[Recording] = []
     waiting, share = 0, 0.0
@@ -169,8 +172,9 @@ def _cut(
 
 
 def open_log(path: str | os.PathLike, columns: str | os.PathLike | None = None) -> Log:
-    """The log in ``path``, of any format and any length, opened to be read in pieces of bounded
-    memory::
+    """Open the log in ``path``, of any format and any length, to read it in bounded memory.
+
+    For example::
 
         log = open_log("day.parquet")
         for piece, share in log.pieces():
@@ -186,8 +190,10 @@ def open_log(path: str | os.PathLike, columns: str | os.PathLike | None = None) 
 
 
 def read_recording(path: str | os.PathLike, columns: str | os.PathLike | None = None) -> Recording:
-    """The recording in ``path``: .csv, .csv.gz, .parquet, .mat, .h5, .hdf5, .bag, .db3, .mcap, or
-    the folder of a bag of ROS 2.
+    """Read the recording in ``path``, in the format of its suffix.
+
+    Suffixes are .csv, .csv.gz, .parquet, .mat, .h5, .hdf5, .bag, .db3 and .mcap; the path may also
+    be the folder of a bag of ROS 2.
 
     ``columns`` is a TOML file for a foreign log; it renames columns, declares axes, gives the size
     of raw counts, and picks the topics of a bag::

@@ -35,8 +35,7 @@ _Columns = make_dataclass(
 
 @dataclass(frozen=True, eq=False)
 class Recording(_Columns):
-    """One log: its ``name``, its ``time`` (n,) [s], which increases strictly, and groups of
-    columns.
+    """One log: its ``name``, its strictly increasing ``time`` (n,) [s], and groups of columns.
 
     A group is an attribute by its name in ``GROUPS``, listed below: an array (n,) or (n, columns)
     in SI, NaN where a value is missing, or None where the log has no such group.
@@ -62,8 +61,9 @@ class Recording(_Columns):
     def from_arrays(
         cls, name: str = "recording", *, time: ArrayLike, **groups: ArrayLike
     ) -> Recording:
-        """A recording of array-likes: ``time`` (n,) s, and groups by name, such as ``gyro=`` (n, 3)
-        rad/s.
+        """A recording of arrays: ``time`` (n,) s, and groups by name.
+
+        A group is such as ``gyro`` (n, 3) rad/s.
 
         Raises UserError for an unknown group, a wrong shape, or a time that does not increase.
         """
@@ -126,8 +126,9 @@ class Recording(_Columns):
 
     @cached_property
     def segments(self) -> list[tuple[int, int]]:
-        """Index ranges (start, stop) without gap: no step above 1.5 sample periods after which the
-        stamps stay late.
+        """Index ranges (start, stop) without gap.
+
+        A gap is a step above 1.5 sample periods after which the stamps stay late.
         """
         gaps = (
             gap_rows(self.time, self.cadence.period, self.cadence.longest)
@@ -188,8 +189,9 @@ def _shaped(name: str, group: str, values, n: int) -> np.ndarray:
 
 
 def filled(time: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """``values`` (n, ...) with missing cells drawn straight from neighbour to neighbour, column by
-    column; one without any number stays missing.
+    """``values`` (n, ...) with missing cells interpolated linearly, column by column.
+
+    A column without any number stays missing.
     """
     out = np.array(values, dtype=float)
     for column in out.reshape(len(out), -1).T:

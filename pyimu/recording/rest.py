@@ -1,5 +1,7 @@
-"""Whether a sensor is at rest: its mean does not change from one second to the next by more than
-noise makes it, nor does it ever go far.
+"""Whether a sensor is at rest.
+
+At rest its mean does not change from one second to the next by more than noise makes it, nor does
+it ever go far.
 
 This is the package's one answer to that question, for whole logs and for the seconds of one.
 """
@@ -34,15 +36,15 @@ part's bias over some tens of kelvin (LSM6DSO, BMI270: 0.02 to 0.03 deg/s/K, 0.3
 LARGEST_RATE = 0.1
 """rad/s; a larger mean rate is no bias: data sheets of consumer gyros allow up to 5 deg/s."""
 
-SHAKEN = {"gyro": 0.02, "accel": 0.2}
+VIBRATION = {"gyro": 0.02, "accel": 0.2}
 """Standard deviation [rad/s and m/s^2] within a second from which on it is not still, if it is no
 noise either."""
 
 RARE = 0.005
-"""Share of the seconds with larger changes up to which these are jolts, and not motion."""
+"""Share of the seconds with larger changes up to which these are shocks, and not motion."""
 
-ONE_JOLT = 2
-"""Changes that a single jolt makes, there and back."""
+ONE_SHOCK = 2
+"""Changes that a single shock makes, there and back."""
 
 PIECE = 1 << 20
 """Samples that are looked at together, at most: a column may be longer than memory."""
@@ -50,8 +52,11 @@ PIECE = 1 << 20
 
 @dataclass(frozen=True)
 class Seconds:
-    """The seconds of one column, (k,): mean, standard deviation and first sample of each, and which
-    follow the one before without gap; ``white`` is the standard deviation of a sample's noise.
+    """The seconds of one column, (k,).
+
+    ``mean``, ``std`` and ``first`` are the mean, standard deviation and first sample of each;
+    ``joined`` says whether it follows the one before without gap; ``white`` is the standard
+    deviation of a sample's noise.
     """
 
     mean: np.ndarray
@@ -76,17 +81,18 @@ class Seconds:
         middle = np.median(self.mean) if len(self.mean) else 0.0
         return np.abs(self.mean - middle) > FARTHEST[kind]
 
-    def shaken(self, kind: str) -> np.ndarray:
+    def vibrating(self, kind: str) -> np.ndarray:
         """Mask (k,) of the seconds in which it vibrates."""
-        return self.std > max(SHAKEN[kind], 3 * self.white)
+        return self.std > max(VIBRATION[kind], 3 * self.white)
 
 
 def seconds_of(
     column: np.ndarray, segments: Sequence[tuple[int, int]], period: float, seconds: float = SECOND
 ) -> Seconds:
-    """The ``seconds`` (or whatever length is asked for) of a column (n,) with this sample period
-    [s], segment by segment; what is left at a segment's end is left out, and so are seconds without
-    a sample.
+    """The seconds of a column (n,) with sample period ``period`` [s], segment by segment.
+
+    ``seconds`` sets another length [s]. What remains at the end of a segment is left out, and so
+    are seconds without a sample.
     """
     length = max(round(seconds / period), 1)
     parts = [
@@ -106,8 +112,10 @@ def seconds_of(
 def _summary(
     column: np.ndarray, start: int, count: int, length: int, follows: bool
 ) -> tuple[np.ndarray, ...]:
-    """Mean, standard deviation, mean square of the third differences, first sample of each of
-    ``count`` seconds, and whether it follows another without gap.
+    """Statistics of each of ``count`` seconds.
+
+    Mean, standard deviation, mean square of the third differences, first sample, and whether it
+    follows another without gap.
     """
     values = np.asarray(column[start : start + count * length]).reshape(count, length)
     known = np.isfinite(values)
@@ -126,15 +134,16 @@ def _summary(
 def motion_of(
     kind: str, column: np.ndarray, segments: Sequence[tuple[int, int]], period: float
 ) -> Finding | None:
-    """A finding ``motion`` where a column of a gyro or an accelerometer moves in more than a few
-    seconds: their number, the ``largest`` change, and the first row of the first of them.
+    """A finding ``motion`` where a gyro or accelerometer column moves in more than a few seconds.
+
+    It has their number, the ``largest`` change, and the first row of the first of them.
 
     Looked at second by second, and for what is slower and lost in noise over ten seconds.
     """
     for length in LENGTHS:
         seconds = seconds_of(column, segments, period, length)
         moving = seconds.moving(kind) | seconds.far(kind)
-        if np.count_nonzero(moving) > max(RARE * len(moving), ONE_JOLT):
+        if np.count_nonzero(moving) > max(RARE * len(moving), ONE_SHOCK):
             detail = {
                 "largest": float(np.abs(seconds.change).max()),
                 "first_row": int(seconds.first[np.argmax(moving)]),
@@ -177,8 +186,9 @@ def _says_motion(recording: Recording) -> bool:
 
 
 def still_rows(recording: Recording, seconds: float = SECOND) -> list[tuple[int, int]]:
-    """Segments of rows, as long as they get, in whose ``seconds`` no measured column moves or
-    vibrates.
+    """Segments of rows, as long as possible, in which no measured column moves or vibrates.
+
+    They are made of whole intervals of ``seconds`` [s].
 
     A second at whose end the motion begins is not among them.
     """
@@ -189,7 +199,7 @@ def still_rows(recording: Recording, seconds: float = SECOND) -> list[tuple[int,
             if not np.isfinite(column).any():
                 continue
             one = seconds_of(column, recording.segments, recording.sample_period, seconds)
-            moving = one.moving(kind) | one.shaken(kind)
+            moving = one.moving(kind) | one.vibrating(kind)
             if kind == "gyro":
                 moving |= np.abs(one.mean) > LARGEST_RATE
             # The change is known at the later of two seconds: it may lie in either.

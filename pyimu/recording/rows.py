@@ -1,5 +1,6 @@
-"""The rows of a file made into samples, a batch at a time: units, axes, the order of the time,
-repeats, missing values.
+"""The rows of a file made into samples, a batch at a time.
+
+This sets units and axes, checks the order of the time, drops repeats and marks missing values.
 """
 
 from __future__ import annotations
@@ -14,8 +15,8 @@ from pyimu.errors import Finding, UserError
 from pyimu.recording.column_map import ForeignMap, read_map
 from pyimu.recording.columns import GROUPS, column_names
 from pyimu.recording.counts import RawCounts
-from pyimu.recording.formats.suffix import open_table
-from pyimu.recording.formats.table import Table
+from pyimu.recording.formats.reader import Reader
+from pyimu.recording.formats.suffix import open_reader
 from pyimu.recording.header import Header
 from pyimu.recording.quality.tally import Tally
 
@@ -49,7 +50,7 @@ Values = dict[str, np.ndarray]
 class Source:
     """A file, opened: its reader, what its columns mean, and the user's column map."""
 
-    table: Table
+    reader: Reader
     header: Header
     foreign: ForeignMap
 
@@ -57,29 +58,30 @@ class Source:
     def open(cls, path: Path, columns: Path | None) -> Source:
         """Raises UserError for a file or a map that cannot be used."""
         foreign = read_map(columns) if columns is not None else ForeignMap()
-        table = open_table(path, foreign.topics)
+        reader = open_reader(path, foreign.topics)
         return cls(
-            table,
+            reader,
             Header(
                 path,
-                foreign.rename(path, table.header),
+                foreign.rename(path, reader.header),
                 foreign.scale,
-                table.crowded,
-                table.skipped,
+                reader.crowded,
+                reader.skipped,
             ),
             foreign,
         )
 
 
 class Rows:
-    """One pass over a ``source``; ``findings`` are complete at its end. Batches are those that
-    suit the file.
+    """One pass over a ``source``, in batches that suit the file.
+
+    ``findings`` are complete at its end.
     """
 
     def __init__(self, source: Source) -> None:
         self.source = source
         self.kept = 0
-        self._tally = Tally([*source.table.findings, *source.header.findings])
+        self._tally = Tally([*source.reader.findings, *source.header.findings])
         header = source.header
         self._raw = RawCounts(
             header.stated, [header.units[header.names.index(name)] for name in header.stated]
@@ -101,9 +103,7 @@ class Rows:
         return tuple(sorted(map(self._coarse, self._tally.findings()), key=rank))
 
     def _coarse(self, finding: Finding) -> Finding:
-        """``finding``, with the share of rows and the reason where it is of stamps that are coarser
-        than the sample period.
-        """
+        """``finding``, with share and reason where stamps are coarser than the sample period."""
         share = finding.count / max(self._seen, 1)
         if finding.kind != "repeated_time" or share <= COARSE_STAMPS:
             return finding
@@ -113,14 +113,15 @@ class Rows:
         return replace(finding, detail={**finding.detail, "share": share, "stamps": stamps})
 
     def batches(self) -> Iterator[tuple[np.ndarray, Values, float]]:
-        """Time (n,) that increases strictly, from batch to batch too; the groups by name; and the
-        share of the file read so far.
+        """Strictly increasing time (n,), the groups by name, and the share of the file read so far.
+
+        The time increases from batch to batch too.
 
         Raises UserError with the row for a time that is missing or runs backwards, and for a file
         of fewer than three rows.
         """
         header, origin = self.source.header, None
-        for columns, share in self.source.table.batches(header.positions, header.time):
+        for columns, share in self.source.reader.batches(header.positions, header.time):
             if not len(columns[0]):
                 continue
             if origin is None:
@@ -171,7 +172,7 @@ class Rows:
             )
 
     def _place(self, row: int) -> str:
-        return f"{self.source.header.path}: {self.source.table.place(int(row))}"
+        return f"{self.source.header.path}: {self.source.reader.place(int(row))}"
 
     def _wrapped(self, step: float) -> str:
         """What to add where the time went back by nearly the whole range of a counter."""
@@ -208,8 +209,9 @@ class Rows:
         return self.source.foreign.turn(groups)
 
     def _normalised(self, q: np.ndarray) -> np.ndarray:
-        """Unit quaternions; a norm far from one is reported, and one below a half (zeros for "not
-        seen") is missing.
+        """Unit quaternions.
+
+        A norm far from one is reported, and one below a half (zeros for "not seen") is missing.
         """
         norm = np.linalg.norm(q, axis=1)
         odd = np.abs(norm - 1) > NORM_TOLERANCE

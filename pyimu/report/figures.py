@@ -1,5 +1,6 @@
-"""Figures of a page as inline SVG: clouds rasterised, colours by CSS variable so that one page
-serves day and night.
+"""Figures of a page as inline SVG.
+
+Clouds are rasterised; colours are CSS variables, so that one page serves day and night.
 """
 
 from __future__ import annotations
@@ -59,8 +60,9 @@ def new_figure(width: float, height: float, rows: int = 1) -> tuple[Figure, list
 
 
 def svg_of(figure: Figure) -> str:
-    """The figure as an SVG element that can stand in a page: no prolog, no metadata, no repeated
-    identifiers.
+    """The figure as an SVG element that can stand in a page.
+
+    It has no prolog, no metadata and no repeated identifiers.
     """
     buffer = io.StringIO()
     figure.savefig(
@@ -109,8 +111,9 @@ def plain_logarithm(axis: Axis) -> None:
 def envelope(
     time: np.ndarray, values: np.ndarray, bins: int = BINS
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Smallest and largest value in each of ``bins`` stretches of time; NaN where a stretch has no
-    sample.
+    """Smallest and largest value in each of ``bins`` intervals of time.
+
+    They are NaN where an interval has no sample.
     """
     if len(time) <= bins:
         return time, values, values

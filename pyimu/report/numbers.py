@@ -1,5 +1,6 @@
-"""Numbers as people read them: deg/s, deg/h, mg, ppm and ms, three or four figures, a standard
-error beside.
+"""Numbers in the units people use: deg/s, deg/h, mg, ppm and ms.
+
+They have three or four figures, with a standard error beside them.
 """
 
 from __future__ import annotations
@@ -45,8 +46,9 @@ SCRIPTS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 
 
 def unit_for(values: object, si: str) -> str:
-    """The unit in which people would say the largest of ``values`` (SI); the SI unit itself where
-    the table has none.
+    """The unit in which people would say the largest of ``values`` (SI).
+
+    It is the SI unit itself where the table has none.
     """
     if si == CORNER:
         return "Hz"
@@ -117,8 +119,9 @@ def si_quantity(value: object, si: str, digits: int = 3) -> str:
 
 
 def with_error(value: float, std: float) -> str:
-    """``value`` and its standard error to two figures of the error; the value alone where there is
-    none.
+    """``value`` and its standard error, rounded to two figures of the error.
+
+    The value stands alone where there is no error.
     """
     if not math.isfinite(std) or std <= 0.0:
         return number(value, 4)

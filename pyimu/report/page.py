@@ -1,6 +1,4 @@
-"""What the pages of the package are made of: tables, pictures, cells, and files that appear as a
-whole or not at all.
-"""
+"""The elements of the package's pages: tables, pictures and cells."""
 
 from __future__ import annotations
 

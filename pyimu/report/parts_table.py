@@ -1,5 +1,4 @@
-"""Parts as people compare them: the listing of all built-in parts, and one part with the source of
-each figure.
+"""The listing of all built-in parts, and one part with the source of each figure.
 
 Units are spelled as in a part file, so that a figure can be copied back. N is the root of the
 two-sided density; the figure that a data sheet prints as a density is one-sided, sqrt(2) larger,
@@ -38,8 +37,9 @@ UNLIMITED = 10_000
 
 
 def listing(parts: Iterable[Part] | None = None, width: int | None = None) -> str:
-    """One line a part: rate, noise, bias instability and range; ``parts`` are the built-in ones
-    unless given.
+    """One line for each part: rate, noise, bias instability and range.
+
+    ``parts`` are the built-in ones unless given.
 
     ``width`` is that of the terminal, None for as wide as it gets; figures are never cut, only
     descriptions are folded.
@@ -59,8 +59,7 @@ def listing(parts: Iterable[Part] | None = None, width: int | None = None) -> st
 
 
 def detail(name: str | Part, width: int | None = None) -> str:
-    """Every coefficient of one part in a unit of its size, with the figure as quoted and its
-    source.
+    """Every coefficient of one part in a unit of its size, with quoted figure and source.
 
     Raises UserError where there is no such part.
     """
@@ -79,9 +78,7 @@ def detail(name: str | Part, width: int | None = None) -> str:
 
 
 def terminal_width() -> int | None:
-    """Columns of the terminal that standard output goes to, None where it goes to a file or a
-    pipe.
-    """
+    """Columns of the terminal that standard output goes to, None for a file or a pipe."""
     return shutil.get_terminal_size().columns if sys.stdout.isatty() else None
 
 
@@ -125,13 +122,14 @@ def _numbers(values: np.ndarray, digits: int) -> str:
         return (
             "[" + "; ".join(" ".join(number(float(v), digits) for v in row) for row in values) + "]"
         )
-    told = [number(float(v), digits) for v in np.ravel(values)]
-    return told[0] if len(set(told)) == 1 else " ".join(told)
+    texts = [number(float(v), digits) for v in np.ravel(values)]
+    return texts[0] if len(set(texts)) == 1 else " ".join(texts)
 
 
 def _figure(p: Part, kind: str, effect: str, parameter: str, unit: str) -> str:
-    """The largest axis of a coefficient; a dash where the part has none, leaves it to the data or
-    switches it off.
+    """The largest axis of a coefficient.
+
+    It is a dash where the part has none, leaves it to the data or switches it off.
     """
     sensor = p.sensor(kind)
     if effect not in sensor.values or (kind, effect, parameter) in p.estimate:

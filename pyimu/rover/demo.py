@@ -1,5 +1,4 @@
-"""The paper's own open case as a recording: an IMT30 on a rover whose gyros have a scale factor
-that nobody measured.
+"""The paper's own open case as a recording: a rover's IMT30 with an unknown scale factor.
 
 Hidalgo 2012, section 6.2, found 6.5 deg of heading error after a half turn on the spot and could
 not say how much of it was scale factor. This recording is simulated from the paper's tables with a
@@ -62,8 +61,9 @@ def true_part() -> Part:
 
 
 def motion(seed: int = 2012) -> Motion:
-    """Turn on the spot, straight line, Ackermann half circle, and a second turn on the spot, with
-    stops between.
+    """The demo's drive, with stops between its manoeuvres.
+
+    Turn on the spot, straight line, Ackermann half circle, and a second turn on the spot.
     """
     parts = [
         stop(60.0),
@@ -80,8 +80,9 @@ def motion(seed: int = 2012) -> Motion:
 
 
 def recording(seed: int = 2012) -> Recording:
-    """The demo's recording: gyro, accelerometer, temperature, optical reference attitude, and when
-    the rover stands.
+    """The demo's recording.
+
+    Gyro, accelerometer, temperature, optical reference attitude, and when the rover stands.
     """
     m = motion(seed)
     rng = np.random.default_rng(seed + 1)
@@ -103,8 +104,9 @@ def recording(seed: int = 2012) -> Recording:
 
 
 def _seen(m: Motion, rng: np.random.Generator) -> np.ndarray:
-    """The attitude as the optical reference gives it, (n, 4): right to a tenth of a degree,
-    wandering over 20 s.
+    """The attitude (n, 4) as the optical reference gives it.
+
+    It is right to a tenth of a degree, wandering over 20 s.
     """
     slow = gaussian_filter1d(rng.standard_normal((len(m.time), 3)), 20.0 * SAMPLE_RATE, axis=0)
     error = REFERENCE_WANDER * slow / slow.std() + REFERENCE_NOISE * rng.standard_normal(slow.shape)
@@ -115,8 +117,9 @@ def _seen(m: Motion, rng: np.random.Generator) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Demo:
-    """What the demo found: the closed loop, and the heading error [rad] over the held-out rows
-    before and after.
+    """The result of the demo: the closed loop, and the heading error before and after.
+
+    The heading error [rad] is that over the held-out rows.
     """
 
     closed: Closed
@@ -133,8 +136,9 @@ class Demo:
 
 
 def run_demo(out: Path | str, say: Callable[[str], None] = lambda text: None) -> Demo:
-    """Make the recording, close the loop on it with the paper's tables alone, and write everything
-    to ``out``.
+    """Run the demo and write everything to ``out``.
+
+    It makes the recording and closes the loop on it with the paper's tables alone.
     """
     out = Path(out)
     check_delivery(out)
@@ -156,8 +160,9 @@ def run_demo(out: Path | str, say: Callable[[str], None] = lambda text: None) ->
 
 
 def draw_before_and_after(shown: Demo, path: Path) -> None:
-    """Rate residual about the vertical and heading error on the held-out rows, before and after, as
-    a PNG.
+    """Draw rate residual about the vertical and heading error, before and after, as a PNG.
+
+    Both are on the held-out rows.
     """
     figure = Figure(figsize=(8.4, 3.0), layout="constrained", dpi=150)
     left, right = figure.subplots(1, 2)

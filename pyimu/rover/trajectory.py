@@ -1,6 +1,6 @@
 """The motion of a planetary rover through the manoeuvres of Hidalgo 2012, section 6.1.
 
-A drive is a list of manoeuvres, each a stretch of constant heading rate and speed between two
+A drive is a list of manoeuvres, each a segment of constant heading rate and speed between two
 stops. From it follow attitude, body rate and specific force at every sample.
 """
 
@@ -31,8 +31,9 @@ RAMP = 2.0
 
 @dataclass(frozen=True)
 class Manoeuvre:
-    """``duration`` s at ``turn`` rad/s (counter-clockwise) and ``speed`` m/s over ground as rough
-    as ``roughness`` rad.
+    """``duration`` s at ``turn`` rad/s (counter-clockwise) and ``speed`` m/s.
+
+    The ground is as rough as ``roughness`` rad.
     """
 
     name: str
@@ -44,9 +45,10 @@ class Manoeuvre:
 
 @dataclass(frozen=True)
 class Motion:
-    """True motion at n samples: ``time`` s, ``q`` (n, 4) body to east-north-up, ``rate`` rad/s
-    against inertial space and ``force`` m/s^2 (n, 3) in body axes, ``standing`` (n,), ``name`` (n,)
-    of the manoeuvre.
+    """True motion at n samples.
+
+    ``time`` s, ``q`` (n, 4) body to east-north-up, ``rate`` rad/s against inertial space and
+    ``force`` m/s^2 (n, 3) in body axes, ``standing`` (n,), ``name`` (n,) of the manoeuvre.
     """
 
     time: np.ndarray

@@ -22,8 +22,9 @@ has but 1e-13 below."""
 def allan_deviation(
     psd: Callable[[np.ndarray], np.ndarray], tau: np.ndarray, sample_period: float | None = None
 ) -> np.ndarray:
-    """Allan deviation at cluster times ``tau`` (n,) in s of a noise with two-sided density
-    ``psd(f)``, f > 0 in Hz.
+    """Allan deviation at cluster times ``tau`` (n,) s of a noise with two-sided density ``psd(f)``.
+
+    f > 0 is in Hz.
 
     Without ``sample_period`` the noise is continuous: sigma^2 = 4 int_0^inf S sin^4(pi f tau) / (pi
     f tau)^2 df (Hidalgo 2012, section 2.1; IEEE Std 952-2020, annex C). With it, clusters are
@@ -40,8 +41,9 @@ def allan_deviation(
 
 
 def clusters(tau: np.ndarray, sample_period: float) -> np.ndarray:
-    """Samples in each cluster (n,). Raises ValueError where a time is not a positive multiple of
-    the sample period.
+    """Samples in each cluster (n,).
+
+    Raises ValueError where a time is not a positive multiple of the sample period.
     """
     tau = np.atleast_1d(np.asarray(tau, dtype=float))
     n = np.rint(tau / sample_period).astype(int)
@@ -88,8 +90,10 @@ def _panels(edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _continuous_variance(psd: Callable, tau: float) -> float:
-    """Below the first lobe in the logarithm, then lobe by lobe, then with the mean of sin^4, as
-    ``_sampled_rule``.
+    """The Allan variance of continuous noise.
+
+    The integral is logarithmic below the first lobe, then lobe by lobe, then with the mean of
+    sin^4, as in ``_sampled_rule``.
     """
     x, weights = (
         np.concatenate(p)
@@ -99,8 +103,8 @@ def _continuous_variance(psd: Callable, tau: float) -> float:
             strict=True,
         )
     )
-    head = np.sum(psd(x / (np.pi * tau)) * np.sin(x) ** 4 / x**2 * weights)
-    tail = quad(
+    lobes = np.sum(psd(x / (np.pi * tau)) * np.sin(x) ** 4 / x**2 * weights)
+    rest = quad(
         lambda v: 0.375 * float(psd(np.array(1 / (v * np.pi * tau)))), 0, 1 / (np.pi * LOBES)
     )[0]
-    return 4 / (np.pi * tau) * float(head + tail)
+    return 4 / (np.pi * tau) * float(lobes + rest)

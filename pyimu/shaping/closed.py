@@ -13,8 +13,9 @@ from pyimu.symbolic.series import phi
 
 
 def angle_quantization_deviation(Q: float, tau: np.ndarray) -> np.ndarray:
-    """sqrt(3) Q / tau for an angle with the independent error Q (root mean square) at each of its
-    samples.
+    """sqrt(3) Q / tau for an angle with an independent error Q in each sample.
+
+    Q is a root mean square.
 
     Exact: the difference of two adjoining clusters is (2 e_n - e_0 - e_2n) / tau, of variance 6 Q^2
     / tau^2.
@@ -23,15 +24,17 @@ def angle_quantization_deviation(Q: float, tau: np.ndarray) -> np.ndarray:
 
 
 def white_deviation(N: float, tau: np.ndarray) -> np.ndarray:
-    """N / sqrt(tau) for white noise of the two-sided density N^2; samples have the variance N^2 /
-    h.
+    """N / sqrt(tau) for white noise of the two-sided density N^2.
+
+    Samples have the variance N^2 / h.
     """
     return N / np.sqrt(tau)
 
 
 def flicker_floor(B: float) -> float:
-    """sqrt(2 ln 2 / pi) B = 0.664 B, where the density is B^2 / (2 pi f) over decades around 0.4 /
-    tau.
+    """sqrt(2 ln 2 / pi) B = 0.664 B, for the density B^2 / (2 pi f).
+
+    The density must have that form over decades around 0.4 / tau.
     """
     return np.sqrt(2 * np.log(2) / np.pi) * B
 
@@ -51,8 +54,9 @@ def ramp_deviation(R: float, tau: np.ndarray) -> np.ndarray:
 
 
 def gauss_markov_deviation(q: float, tau_c: float, tau: np.ndarray) -> np.ndarray:
-    """Exponentially correlated noise, correlation time ``tau_c`` s, driven by white noise of
-    density q^2; continuous.
+    """Deviation of exponentially correlated noise driven by white noise of density q^2.
+
+    The correlation time is ``tau_c`` s, the noise continuous.
 
     sigma^2 = q^2 tau_c^2 / tau (1 - tau_c / (2 tau) (3 - 4 exp(-tau / tau_c) + exp(-2 tau /
     tau_c))), IEEE Std 952-2020, annex C; here with phi_3(z) = (1 - z + z^2/2 - exp(-z)) / z^3,

@@ -1,5 +1,6 @@
-"""The field's filters on continuous white noise, written apart from the effects, and their exact
-discretisation.
+"""The standard filters on continuous white noise, and their exact discretisation.
+
+They are written independently of the effects.
 """
 
 from __future__ import annotations
@@ -24,18 +25,20 @@ def white(gain: float) -> control.StateSpace:
 
 
 def processes(strengths: np.ndarray, rates: np.ndarray) -> control.StateSpace:
-    """The sum of b_i' = -rate_i b_i + strength_i w_i, each with its own white noise; a rate of zero
-    is a random walk.
+    """The sum of b_i' = -rate_i b_i + strength_i w_i, each with its own white noise.
+
+    A rate of zero is a random walk.
     """
     m = len(rates)
     return control.ss(-np.diag(rates), np.diag(strengths), np.ones((1, m)), np.zeros((1, m)))
 
 
 def continuous_filter(
-    effect: str, coefficients: Mapping[str, float], at: float = 0.0
+    effect: str, coefficients: Mapping[str, float], at: float = 0.0, slope: float = 0.0
 ) -> control.StateSpace:
-    """The continuous filter from white noises of density one to the output, for one axis with the
-    input ``at``: the effect's law as a system.
+    """The continuous filter from white noises of density one to an effect's output, for one axis.
+
+    It is the effect's law as a system, with the input ``at`` and its rate ``slope``.
 
     Raises UserError for an effect that has none: jitter, quantization and what is no noise.
     """
@@ -48,10 +51,13 @@ def continuous_filter(
     walk, markov = (law.value(part, coefficients) for part in ("walk", "markov"))
     states = [] if walk is None else [(np.sqrt(walk), 0.0)]
     states += [(np.sqrt(2 * variance / tau), 1 / tau) for variance, tau in markov or ()]
-    density = law.value("white", coefficients, x=at)
+    density = law.value("white", coefficients, x=at, slope=slope)
     systems = [processes(*np.transpose(states))] if states else []
     systems += [] if density is None else [white(np.sqrt(density))]
-    return systems[0] if len(systems) == 1 else control.append(*systems).sum()
+    if len(systems) == 1:
+        return systems[0]
+    sum_of_outputs = control.ss([], [], [], np.ones((1, len(systems))))
+    return sum_of_outputs * control.append(*systems)
 
 
 def has_filter(law: Law | None) -> bool:
@@ -61,8 +67,9 @@ def has_filter(law: Law | None) -> bool:
 
 
 def discretise(system: control.StateSpace, sample_period: float) -> control.StateSpace:
-    """The discrete system driven by standard normals whose samples have the law of the continuous
-    one's, at any step [s].
+    """The discrete system, driven by standard normals, that is equal in law at the samples.
+
+    The step [s] may have any length.
 
     x_k+1 = exp(A h) x_k + v_k with the covariance of v by Van Loan's integral, y_k = C x_k; an
     input that goes straight to the output is averaged over a sample, D / sqrt(h). Raises
@@ -116,8 +123,9 @@ def covariance_root(q: np.ndarray) -> np.ndarray:
 
 
 def transfer_function(system: control.StateSpace) -> control.TransferFunction:
-    """The transfer function from one white noise of density 1 to the output of a static gain or a
-    sum of ``processes``.
+    """The transfer function from one white noise of density 1 to the output.
+
+    The system is a static gain or a sum of ``processes``.
     """
     if system.nstates == 0:
         return control.tf([float(np.linalg.norm(system.D))], [1.0])
@@ -125,8 +133,9 @@ def transfer_function(system: control.StateSpace) -> control.TransferFunction:
 
 
 def spectral_factor(strengths: np.ndarray, rates: np.ndarray) -> control.TransferFunction:
-    """The one minimum-phase filter H with |H|^2 = sum g_i^2 / (a_i^2 + w^2), ``strengths`` g (m,)
-    and ``rates`` a (m,) rising.
+    """The one minimum-phase filter H with |H|^2 = sum g_i^2 / (a_i^2 + w^2).
+
+    ``strengths`` are g (m,), ``rates`` are a (m,), rising.
 
     Over p = s^2 the density is sum g_i^2 / (a_i^2 - p), which rises from minus to plus infinity
     between neighbouring a_i^2 and so has exactly one zero there.

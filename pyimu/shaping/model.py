@@ -66,8 +66,9 @@ class NoiseModel:
         return np.sort(found.real)[::-1] + 0.0
 
     def psd_two_sided(self, f: np.ndarray) -> np.ndarray:
-        """Two-sided density of the samples at ``f`` [Hz], in unit^2/Hz, shape of ``f``; a ramp's is
-        the formal label R^2 / (2 pi f)^3.
+        """Two-sided density of the samples at ``f`` [Hz], in unit^2/Hz, shape of ``f``.
+
+        A ramp's is the formal label R^2 / (2 pi f)^3.
         """
         return (
             self.label(np.asarray(f, dtype=float))
@@ -76,8 +77,9 @@ class NoiseModel:
         )
 
     def allan_deviation(self, tau: np.ndarray) -> np.ndarray:
-        """Allan deviation (n,) of the samples at ``tau`` (n,) s, multiples of the sample period; in
-        closed form or by the integral.
+        """Allan deviation (n,) of the samples at ``tau`` (n,) s, multiples of the sample period.
+
+        It is in closed form or by the integral.
 
         Raises ValueError for another tau.
         """
@@ -86,8 +88,9 @@ class NoiseModel:
         return self.closed_allan(clusters(tau, self.sample_period) * self.sample_period)
 
     def bode(self, f: np.ndarray) -> control.FrequencyResponseData:
-        """Response of the transfer function at ``f`` (n,) Hz; ``.magnitude``, ``.phase`` and
-        ``.plot()`` as python-control has them.
+        """Response of the transfer function at ``f`` (n,) Hz.
+
+        ``.magnitude``, ``.phase`` and ``.plot()`` are those of python-control.
         """
         return control.frequency_response(
             self._existing(self.transfer_function, "transfer function"),
@@ -95,8 +98,9 @@ class NoiseModel:
         )
 
     def discrete(self, sample_period: float | None = None) -> control.StateSpace:
-        """The continuous filter sampled exactly, by Van Loan's method, at this sample period or
-        another [s].
+        """The continuous filter sampled exactly, by Van Loan's method.
+
+        The sample period [s] is the model's or another.
 
         Raises UserError where there is no continuous filter.
         """
@@ -107,8 +111,9 @@ class NoiseModel:
 
     @property
     def stationary_covariance(self) -> np.ndarray | None:
-        """Covariance (m, m) of the filter's states in the long run, P = A P A^T + B B^T; None where
-        it grows for ever.
+        """Stationary covariance (m, m) of the filter's states, P = A P A^T + B B^T.
+
+        None where it grows for ever.
         """
         if self.sampled is None or np.any(np.abs(self.sampled.poles()) >= 1):
             return None
@@ -117,8 +122,9 @@ class NoiseModel:
 
     @property
     def standard_deviation(self) -> float:
-        """Of a sample in the long run, in the output's unit; infinite where the noise grows for
-        ever.
+        """Stationary standard deviation of a sample, in the output's unit.
+
+        It is infinite where the noise grows for ever.
         """
         p = self.stationary_covariance
         if p is None:
@@ -202,8 +208,9 @@ def coefficients(sensor: Sensor, effect: str, axis: int) -> dict[str, float]:
 
 
 def _noise_like(law: Law, c: Mapping[str, float], h: float) -> control.StateSpace | None:
-    """What the samples' errors are where nothing is drawn: white, or for a rounded integral
-    y_k = (e_k-1 - e_k) / h with white e; None for a ramp.
+    """The system that makes the samples' errors where nothing is drawn; None for a ramp.
+
+    It is white noise, or for a rounded integral y_k = (e_k-1 - e_k) / h with white e.
     """
     density, rounding = law.value("white", c, h=h), law.value("rounding", c)
     if density is not None:
@@ -232,8 +239,9 @@ def _transfer(
 def _closed(
     law: Law, c: Mapping[str, float], h: float, sampled: control.StateSpace | None
 ) -> Closed | None:
-    """The closed forms of Hidalgo 2012, table 3, that are exact for samples; a sum of Gauss-Markov
-    processes is left to the integral.
+    """The closed forms of Hidalgo 2012, table 3, that are exact for samples.
+
+    A sum of Gauss-Markov processes is left to the integral.
     """
     ramp, rounding, walk = (law.value(part, c) for part in ("ramp", "rounding", "walk"))
     if ramp is not None:

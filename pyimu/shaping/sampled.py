@@ -1,6 +1,4 @@
-"""The filter that a simulated effect is: the Jacobians of its step, and the density of what comes
-out.
-"""
+"""The shaping filter of a simulated effect: the Jacobians of its step, and its density."""
 
 from __future__ import annotations
 
@@ -24,8 +22,9 @@ def shaping_filter(
     at: float | None = None,
     slope: float = 0.0,
 ) -> control.StateSpace:
-    """The discrete system from the standard normals that reach one axis (0 to 2) to that axis's
-    output, for one effect of a sensor.
+    """The discrete system from standard normals to one axis (0 to 2) of one effect's output.
+
+    Its inputs are those normals that reach the axis.
 
     Its output is in the sensor's unit (rad/s or m/s^2), its step ``sample_period`` in seconds; it
     has as many inputs as the effect has normals that reach the axis, in their order. States that
@@ -64,8 +63,9 @@ def only(sensor: Sensor, effect: str) -> Sensor:
 
 
 def operating_point(sensor: Sensor, axis: int, at: float | None, slope: float) -> np.ndarray:
-    """Inputs (N_INPUT,) at rest and level, but for one axis of the sensor's own signal and of its
-    rate.
+    """Inputs (N_INPUT,) at rest and level, but for one axis.
+
+    ``at`` and ``slope`` set the sensor's own signal and its rate on that axis.
     """
     u = START.copy()
     if at is not None:
@@ -75,8 +75,9 @@ def operating_point(sensor: Sensor, axis: int, at: float | None, slope: float) -
 
 
 def _linearised(chain: Chain, axis: int) -> tuple[ca.Function, tuple[np.ndarray, ...]]:
-    """A, B, C, D as a function of (s, u, p, w, h), and where each can differ from zero, whatever
-    the coefficients are.
+    """A, B, C, D as a function of (s, u, p, w, h), and where each can differ from zero.
+
+    The second holds for any coefficients.
     """
     s, u, p, w, h = (chain.step.sx_in(i) for i in range(5))
     s_next, y = chain.step(s, u, p, w, h)
@@ -86,8 +87,9 @@ def _linearised(chain: Chain, axis: int) -> tuple[ca.Function, tuple[np.ndarray,
 
 
 def _reached(a: np.ndarray, entered: np.ndarray) -> np.ndarray:
-    """Which states a signal entering at ``entered`` (n,) comes to, shape (n,); for the transposed
-    system, which ones are seen.
+    """Mask (n,) of the states that a signal entering at ``entered`` (n,) reaches.
+
+    For the transposed system these are the states that are seen.
     """
     reached = entered
     for _ in range(len(a)):
@@ -96,8 +98,9 @@ def _reached(a: np.ndarray, entered: np.ndarray) -> np.ndarray:
 
 
 def psd_two_sided(system: control.lti.LTI, f: np.ndarray) -> np.ndarray:
-    """Two-sided density of a system's one output at ``f`` [Hz], the sum over its inputs; shape of
-    ``f``.
+    """Two-sided density of a system's one output at ``f`` [Hz], the sum over its inputs.
+
+    It has the shape of ``f``.
 
     In the square of the output's unit per Hz; infinite at a pole. A discrete system of step h is
     driven by standard normals and has |H(exp(j 2 pi f h))|^2 h, a continuous one by white noise of

@@ -1,5 +1,6 @@
-"""Attitude kinematics and process noise as casadi expressions, from which filters, simulations and
-derivations take them.
+"""Attitude kinematics and process noise as casadi expressions.
+
+Filters, simulations and derivations take them from here.
 
 Every function takes and returns casadi matrices of one kind, symbolic (``SX``) or numeric (``DM``);
 vectors are columns. Quaternions are Hamilton, scalar first, body to world (``q_nb``); the world is

@@ -21,8 +21,9 @@ def earth_rate(latitude, magnitude: float = EARTH_RATE):
 
 
 def transport_rate(latitude, velocity, radius: float = EARTH_RADIUS):
-    """Rate (3,) rad/s of the east-north-up frame against the Earth, for a body that moves at
-    ``velocity`` (3,) m/s in that frame.
+    """Transport rate (3,) rad/s of the east-north-up frame against the Earth.
+
+    The body moves at ``velocity`` (3,) m/s in that frame.
 
     Groves 2013, eq. 5.44, for a sphere of ``radius`` m and in east-north-up axes.
     """

@@ -1,5 +1,6 @@
-"""Generalised Rodrigues parameters: a small rotation as three numbers, p = f r / (a + w) for the
-quaternion (w, r).
+"""Generalised Rodrigues parameters: p = f r / (a + w) for the quaternion (w, r).
+
+They are a small rotation as three numbers.
 
 ``a`` = ``f`` = 1 are the modified Rodrigues parameters, ``a`` = 0 and ``f`` = 1 the Gibbs vector.
 With ``f`` = 2 (a + 1) the vector p is the rotation vector in rad to second order, so that its
@@ -36,15 +37,17 @@ def to_quaternion(p, a: float = A, f: float = F):
 
 
 def share(a: float = A, f: float = F):
-    """The factor f / (2 (a + 1)) from a small rotation vector to p: 1 at the package's own scaling,
-    1/4 at f = a = 1.
+    """The factor f / (2 (a + 1)) from a small rotation vector to p.
+
+    It is 1 at the package's own scaling, 1/4 at f = a = 1.
     """
     return f / (2 * (a + 1))
 
 
 def error_derivative(p, rate, rate_error, a: float = A, f: float = F):
-    """p' (3,) of the attitude error p (3,) in body axes, truth = estimate p, while the estimate
-    turns at ``rate`` (3,) rad/s.
+    """p' (3,) of the attitude error p (3,) in body axes, truth = estimate p.
+
+    The estimate turns at ``rate`` (3,) rad/s.
 
     ``rate_error`` (3,) is the true rate less ``rate``. Exact for an error of any size; to first
     order p' = -rate x p + share(a, f) rate_error (Crassidis and Markley 2003, section III, has the

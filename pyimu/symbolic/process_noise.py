@@ -41,8 +41,9 @@ def error_system(rate, n, biases: Sequence[tuple], scale=1.0):
 
 
 def process_noise(n, k, h):
-    """Covariance (6, 6) that a period of ``h`` s adds to the attitude error in rad, body axes, and
-    to the gyro bias in rad/s.
+    """Covariance (6, 6) that a period of ``h`` s adds to attitude error and gyro bias.
+
+    The attitude error is in rad in body axes, the gyro bias in rad/s.
 
     ``n`` (3,) rad/sqrt(s) is each axis's angle random walk, ``k`` (3,) rad/s/sqrt(s) its rate
     random walk::
@@ -72,8 +73,9 @@ def turning_transition(f, square, h):
 
 
 def turning_process_noise(rate, n, k, h, scale=1.0):
-    """The covariance (6, 6) of ``process_noise`` for a body that turns at the constant ``rate``
-    (3,) rad/s; exact.
+    """The covariance (6, 6) of ``process_noise`` for a body that turns at a constant rate; exact.
+
+    ``rate`` is (3,) rad/s.
 
     With exp(F t) = I + t F + psi_2(t) F^2 + psi_3(t) F^3 the integral is a sum over the products of
     two of the four functions; axes may have different coefficients. ``scale`` is that of the
@@ -91,8 +93,9 @@ def turning_process_noise(rate, n, k, h, scale=1.0):
 
 
 def turning_products(square, h) -> dict:
-    """Integrals from 0 to h of the products of two of the functions 1, t, psi_2(t), psi_3(t), by
-    their places (i, j), i <= j.
+    """Integrals from 0 to h of the products of two of the functions 1, t, psi_2(t), psi_3(t).
+
+    They are given by the places (i, j), i <= j, of the two.
 
     Squares of sine and cosine are those of twice the angle, hence psi at four times the ``square``
     of the rate.
@@ -114,8 +117,9 @@ def turning_products(square, h) -> dict:
 
 
 def psi(k: int, square, h):
-    """psi_k = h^k c_k(square h^2): sin(x)/w, (1 - cos(x))/w^2, (x - sin(x))/w^3, ... with x = w h,
-    w^2 = ``square``.
+    """psi_k = h^k c_k(square h^2): sin(x)/w, (1 - cos(x))/w^2, (x - sin(x))/w^3, ...
+
+    Here x = w h and w^2 = ``square``.
 
     Each is the integral of the one before over h.
     """
@@ -123,8 +127,9 @@ def psi(k: int, square, h):
 
 
 def gauss_markov_process_noise(n, strength, tau, h, scale=1.0):
-    """The covariance (6, 6) of ``process_noise`` for a bias b' = -b/tau + strength w, for a body
-    that does not turn.
+    """The covariance (6, 6) of ``process_noise`` for a Gauss-Markov bias, without rotation.
+
+    The bias obeys b' = -b/tau + strength w.
 
     ``strength`` (3,) rad/s/sqrt(s) and ``tau`` (3,) s have a value for each axis. For tau to
     infinity the bias is a random walk.
@@ -133,8 +138,9 @@ def gauss_markov_process_noise(n, strength, tau, h, scale=1.0):
 
 
 def flicker_process_noise(n, processes: Sequence[tuple], h, scale=1.0):
-    """Covariance (3 + 3 m, 3 + 3 m) for a bias that is the sum of m independent Gauss-Markov
-    processes, which stand for flicker noise.
+    """Covariance (3 + 3 m, 3 + 3 m) for a bias that is a sum of m Gauss-Markov processes.
+
+    The processes are independent, and stand for flicker noise.
 
     ``processes`` are pairs of strength (3,) rad/s/sqrt(s) and correlation time (3,) s; each has
     three states of its own. The body does not turn; where it does, ``discretised`` gives the
@@ -155,8 +161,9 @@ def flicker_process_noise(n, processes: Sequence[tuple], h, scale=1.0):
 
 
 def _gauss_markov_covariances(strength, tau, h):
-    """Variance that one process adds to the angle, covariance of the two, and variance of the
-    process itself; (3,) each.
+    """Variance that one process adds to the angle, covariance of the two, its own variance.
+
+    They are (3,) each.
     """
     z, s2 = h / tau, strength * strength
     return (
@@ -167,8 +174,9 @@ def _gauss_markov_covariances(strength, tau, h):
 
 
 def discretised(f, density, h, halvings: int = 0):
-    """exp(F h) and Q, (m, m) each, of x' = F x + w for any constant F, with white noise w of
-    ``density`` (m, m).
+    """exp(F h) and Q, (m, m) each, of x' = F x + w for any constant F.
+
+    w is white noise of ``density`` (m, m).
 
     Q is the sum of M_k h^(k+1)/(k+1)! with M_0 = ``density`` and M_(k+1) = F M_k + M_k F^T, because
     Q' = F Q + Q F^T + density. The sum is taken over h / 2^``halvings`` and then doubled, by Q(2 h)

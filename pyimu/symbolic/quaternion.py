@@ -51,8 +51,9 @@ def to_matrix(q):
 
 
 def exponential(angle):
-    """The rotation by the vector ``angle`` a (3,) rad: (cos(|a|/2), sin(|a|/2) a/|a|), smooth at
-    zero.
+    """The rotation by the vector ``angle`` a (3,) rad: (cos(|a|/2), sin(|a|/2) a/|a|).
+
+    It is smooth at zero.
 
     cos(x) and sin(x)/x are even functions, so both are written in the square of the length: no root
     is taken and no quotient 0/0 formed where their derivatives would not exist.
@@ -103,8 +104,9 @@ def _cosine(square):
 
 
 def _root(square):
-    """The root of ``square``; 1 where the series is used, because 0 times an infinite slope would
-    spoil its derivative.
+    """The root of ``square``, 1 where the series is used.
+
+    There 0 times an infinite slope would spoil its derivative.
     """
     return ca.sqrt(ca.if_else(square < SMALL, 1, square))
 

@@ -1,6 +1,4 @@
-"""Functions of which discretisations are made, each smooth at zero: Stumpff's for a turn, phi for a
-decay.
-"""
+"""Smooth functions for discretisation: Stumpff's for a turn, phi for a decay."""
 
 from __future__ import annotations
 

@@ -8,18 +8,19 @@ import sys
 import numpy as np
 import pytest
 from attitude_cases import H, eventful_recording, inputs, output, part
+from built import built
 from fmu_toy import Unit
 from places import same_path
 from test_attitude_faults import log
 
 from pyimu.attitude import attitude_ukf, run
-from pyimu.fmu import FORMS, build_fmus, simulate, simulate_blocks
+from pyimu.fmu import FORMS, simulate, simulate_blocks
 from pyimu.recording.recording import Recording
 
 
 @pytest.fixture(scope="module")
 def fmus(tmp_path_factory):
-    return dict(zip(FORMS, build_fmus(attitude_ukf(part()), tmp_path_factory.mktemp("ukf"), FORMS)))
+    return built(attitude_ukf(part()), tmp_path_factory)
 
 
 def rows(recording: Recording) -> np.ndarray:
@@ -64,9 +65,9 @@ def test_state_taken_back_makes_the_same_run_again(fmus, form):
         unit.release(state)
 
 
-@pytest.fixture(scope="module", params=(2, 3), ids=("fmi2", "fmi3"))
-def path(request, tmp_path_factory):
-    return build_fmus(attitude_ukf(part()), tmp_path_factory.mktemp("faults"), (request.param,))[0]
+@pytest.fixture(params=(2, 3), ids=("fmi2", "fmi3"))
+def path(request, fmus):
+    return fmus[request.param]
 
 
 def test_step_back_in_time_is_refused_and_changes_nothing(path):

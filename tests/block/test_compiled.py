@@ -169,6 +169,13 @@ def test_short_runs_are_not_compiled_until_there_were_many(monkeypatch, compilat
     assert len(compilations) == 1
 
 
+def test_a_long_run_is_compiled_whoever_counted_its_rows(monkeypatch):
+    """An integer of numpy counts as any other; the rows of a recording are one."""
+    for name in ("LOOKED_FOR", "WORTHWHILE"):
+        monkeypatch.setattr(native, name, 500)
+    assert native.compiled(toy().step, np.int64(500)) is not None
+
+
 def test_without_a_compiler_the_run_is_the_same(monkeypatch):
     block = blocks()[1]
     u = inputs(block, 50, np.random.default_rng(2))

@@ -15,8 +15,8 @@ import pyimu
 from pyimu import Recording, UserError, part
 from pyimu.characterization.allan import overlapping_deviation
 from pyimu.characterization.evidence import Excerpt, LevelHistogram, Timeline
+from pyimu.characterization.report import page as report_page
 from pyimu.characterization.report.channel_notes import frequency
-from pyimu.characterization.report.page import page
 from pyimu.characterization.run import characterize
 from pyimu.characterization.samples import Collector, Samples
 from pyimu.characterization.store import Store
@@ -55,6 +55,17 @@ def recording(seed=1, name="rest", rows=ROWS, **changes):
     return Recording.from_arrays(
         name, time=H * np.arange(rows), **{"gyro": gyro, "accel": accel} | changes
     )
+
+
+DRAWN = {}
+"""Results and their pages by the result's id: a page takes seconds to draw."""
+
+
+def page(result):
+    """The page of a result, drawn once."""
+    if id(result) not in DRAWN:
+        DRAWN[id(result)] = result, report_page.page(result)
+    return DRAWN[id(result)][1]
 
 
 @pytest.fixture(scope="module")

@@ -8,6 +8,7 @@ import sys
 import casadi as ca
 import numpy as np
 import pytest
+from built import built
 from fmpy import read_model_description, simulate_fmu
 from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
@@ -18,8 +19,9 @@ from hypothesis import strategies as st
 from pyimu.block.block import Block
 from pyimu.block.normals import normals
 from pyimu.block.variables import Variable
-from pyimu.fmu import build_fmu, build_fmus, simulate, simulate_blocks, stream_blocks
+from pyimu.fmu import build_fmus, simulate, simulate_blocks, stream_blocks, texts
 from pyimu.fmu.arrays import description, grouped, split_name
+from pyimu.fmu.sources import DESCRIPTION
 from pyimu.model.part import Sensor
 from pyimu.model.part_file import part
 
@@ -32,7 +34,8 @@ ROWS = 8
 @pytest.fixture(scope="module")
 def toys(tmp_path_factory):
     """Scalar and block form of the toy."""
-    return build_fmus(BLOCK, tmp_path_factory.mktemp("toys"), (3, "block"))
+    fmus = built(BLOCK, tmp_path_factory)
+    return [fmus[form] for form in (3, "block")]
 
 
 @pytest.fixture
@@ -199,10 +202,10 @@ def vectors():
     return Block("Vectors", "", step, initial, names[0], (), names[1] + names[2], (), 0.125)
 
 
-def test_a_vector_of_a_block_goes_sample_by_sample(tmp_path):
+def test_a_vector_of_a_block_goes_sample_by_sample(tmp_path_factory):
     """Three samples of three: what FMI passes is the first sample's vector, then the second's."""
     inputs = np.arange(9.0).reshape(3, 3)
-    with Unit(build_fmu(vectors(), tmp_path, "block"), rows=3).start() as unit:
+    with Unit(built(vectors(), tmp_path_factory)["block"], rows=3).start() as unit:
         v = unit.variables
         unit.fmu.setFloat64([v["u"].valueReference], list(range(9)))
         unit.step(0.0, 3 * 0.125)
@@ -210,8 +213,8 @@ def test_a_vector_of_a_block_goes_sample_by_sample(tmp_path):
     np.testing.assert_array_equal(np.reshape(both, (2, 3, 3)), [2 * inputs, inputs])
 
 
-def test_a_vector_starts_in_every_row(tmp_path):
-    fmu = build_fmu(vectors(), tmp_path, "block")
+def test_a_vector_starts_in_every_row(tmp_path_factory):
+    fmu = built(vectors(), tmp_path_factory)["block"]
     assert validate_fmu(str(fmu)) == []
     u = {v.name: v for v in read_model_description(str(fmu)).modelVariables}["u"]
     assert u.shape == (8, 3)
@@ -323,7 +326,9 @@ def test_model_structure_names_whole_arrays(path):
 
 @pytest.mark.parametrize("period, size", ((0.01, 100), (3.0, 1), (1e-9, 2**24)))
 def test_a_block_is_a_second_unless_set(tmp_path, period, size):
-    model = read_model_description(str(build_fmu(toy(sample_period=period), tmp_path, "block")))
+    description = tmp_path / "modelDescription.xml"
+    description.write_text(texts(toy(sample_period=period))[DESCRIPTION["block"]])
+    model = read_model_description(str(description))
     assert [v.start for v in model.modelVariables if v.name == "block_size"] == [str(size)]
 
 

@@ -11,6 +11,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from built import built
 from fmpy.fmi1 import FMICallException
 from fmu_toy import CHANNELS, Unit, drive, toy
 from hypothesis import given, settings
@@ -20,7 +21,7 @@ from places import same_path
 
 from pyimu.block.normals import normals
 from pyimu.errors import UserError
-from pyimu.fmu import FORMS, build_fmus, simulate_blocks
+from pyimu.fmu import FORMS, simulate_blocks
 from pyimu.fmu import simulate as simulate_scalars
 
 BLOCK = toy()
@@ -31,7 +32,7 @@ SILENT = {"noise.N": 0.0, "noise.K": 0.0}
 @pytest.fixture(scope="session")
 def toys(tmp_path_factory):
     """The toy in every form: form to path."""
-    return dict(zip(FORMS, build_fmus(BLOCK, tmp_path_factory.mktemp("toys"), FORMS)))
+    return built(BLOCK, tmp_path_factory)
 
 
 @pytest.fixture(params=FORMS, ids=("fmi2", "fmi3", "block"))
@@ -286,7 +287,7 @@ def test_serialized_state_outlives_the_process(path, tmp_path):
 
 
 @pytest.mark.parametrize("damage", ("short", "long", "empty", "flipped", "foreign"))
-def test_damaged_state_is_refused(path, tmp_path, damage):
+def test_damaged_state_is_refused(path, tmp_path_factory, damage):
     with Unit(path).start() as unit:
         good = unit.to_bytes(unit.save())
         flipped = bytearray(good)
@@ -301,7 +302,7 @@ def test_damaged_state_is_refused(path, tmp_path, damage):
         if damage != "foreign":
             refused(unit, lambda: unit.from_bytes(bad), "state")
             return
-        other = build_fmus(toy(unit="deg/s"), tmp_path, (unit.form,))[0]
+        other = built(toy(unit="deg/s"), tmp_path_factory)[unit.form]
         with Unit(other).start() as stranger:
             refused(stranger, lambda: stranger.from_bytes(bad), "another model")
 

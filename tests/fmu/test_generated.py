@@ -9,12 +9,13 @@ from itertools import islice
 import casadi as ca
 import numpy as np
 import pytest
+from built import built
 from fmpy import read_model_description
 from fmpy.validation import validate_fmu
 from fmu_toy import Unit
 
 from pyimu.attitude import attitude_ukf
-from pyimu.fmu import FORMS, build_fmus, simulate, simulate_blocks
+from pyimu.fmu import simulate, simulate_blocks
 from pyimu.fmu.generate import checked_in, digest, generate, generated_folder, reference_blocks
 from pyimu.model.part_file import part
 
@@ -121,7 +122,7 @@ PERIOD = BLOCK.sample_period
 @pytest.fixture(scope="module")
 def fmus(tmp_path_factory):
     """Form to path of AttitudeUkf."""
-    return dict(zip(FORMS, build_fmus(BLOCK, tmp_path_factory.mktemp("ukf"), FORMS)))
+    return built(BLOCK, tmp_path_factory)
 
 
 @pytest.fixture(params=(2, 3), ids=("fmi2", "fmi3"))

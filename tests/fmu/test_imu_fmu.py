@@ -4,12 +4,13 @@ has.
 
 import numpy as np
 import pytest
+from built import built
 from catalogue_cases import H, as_part, everything, inputs, motion
 from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
 from fmu_toy import Unit
 
-from pyimu.fmu import build_fmus, simulate, simulate_blocks
+from pyimu.fmu import simulate, simulate_blocks
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.part_file import part
 from pyimu.model.signals import COLUMNS, inputs_for
@@ -30,7 +31,7 @@ def full():
 
 @pytest.fixture(scope="module")
 def fmus(full, tmp_path_factory):
-    return dict(zip(FORMS, build_fmus(full.block, tmp_path_factory.mktemp("fmus"), FORMS)))
+    return built(full.block, tmp_path_factory)
 
 
 def through(fmus, form, u, **start_values):
@@ -181,6 +182,7 @@ def test_fmpy_finds_nothing_wrong_with_the_full_sensor(fmus, version):
 
 
 @pytest.mark.parametrize("name", ("imt30", "stim300", "mpu6050"))
-def test_fmpy_finds_nothing_wrong_with_built_in_parts(name, tmp_path):
-    for path in build_fmus(part(name).block, tmp_path, VERSIONS):
-        assert validate_fmu(str(path)) == []
+def test_fmpy_finds_nothing_wrong_with_built_in_parts(name, tmp_path_factory):
+    fmus = built(part(name).block, tmp_path_factory)
+    for version in VERSIONS:
+        assert validate_fmu(str(fmus[version])) == []

@@ -7,16 +7,18 @@ import shutil
 import subprocess
 import sys
 import zipfile
+from functools import cache
 from pathlib import Path
 
 import numpy as np
 import pytest
+from built import built
 from fmpy import read_model_description
 from fmpy.build import build_platform_binary
 from lxml import etree
 
 from pyimu.attitude import attitude_ukf
-from pyimu.fmu import FORMS, build_fmus, host_platform, simulate, simulate_blocks
+from pyimu.fmu import FORMS, host_platform, simulate, simulate_blocks
 from pyimu.fmu.build import PLATFORMS, header_folder
 from pyimu.model.part_file import part
 
@@ -30,17 +32,18 @@ ROWS = 50
 @pytest.fixture(scope="module")
 def fmus(tmp_path_factory):
     """Name of the block and form to the product's FMU."""
-    folder = tmp_path_factory.mktemp("fmus")
     return {
         (name, form): path
         for name, block in BLOCKS.items()
-        for form, path in zip(FORMS, build_fmus(block, folder, FORMS))
+        for form, path in built(block, tmp_path_factory).items()
     }
 
 
-@pytest.fixture(params=[(n, f) for n in BLOCKS for f in FORMS], ids=lambda p: f"{p[0]}-{p[1]}")
-def fmu(request, fmus):
-    return fmus[request.param]
+EACH = [(name, form) for name in BLOCKS for form in FORMS]
+
+
+def named(each):
+    return f"{each[0]}-{each[1]}"
 
 
 def moving(block):
@@ -149,8 +152,12 @@ def test_sources_of_fmi_2_give_the_bits_of_the_library(fmus, name, options, tmp_
     )
 
 
-def test_what_fmpy_compiles_gives_the_bits_of_the_library(fmu, tmp_path, monkeypatch):
-    """By cmake, which fmpy brings along."""
+@pytest.mark.parametrize(
+    "each", [*(("ImuSensor", form) for form in FORMS), ("AttitudeUkf", "block")], ids=named
+)
+def test_what_fmpy_compiles_gives_the_bits_of_the_library(fmus, each, tmp_path, monkeypatch):
+    """By cmake, which fmpy brings along; how it compiles depends on the form alone."""
+    fmu = fmus[each]
     beside_python = str(Path(sys.executable).parent)
     monkeypatch.setenv("PATH", os.pathsep.join((beside_python, os.environ["PATH"])))
     sources_of(fmu, tmp_path / "fmu")
@@ -239,10 +246,22 @@ def expected(fmu, form, steps):
     return rows, y[:, columns]
 
 
+@pytest.fixture(scope="module")
+def objects_of(fmus, tmp_path_factory):
+    """``objects_of(name, form)``: the object files, compiled once."""
+    include = headers(tmp_path_factory.mktemp("headers") / "include")
+
+    @cache
+    def made(name, form):
+        return objects(fmus[name, form], form, tmp_path_factory.mktemp("objects"), include)
+
+    return made
+
+
 @pytest.mark.parametrize("form", FORMS)
-def test_two_fmus_link_into_one_program(fmus, form, tmp_path):
-    include, pair = headers(tmp_path / "include"), [fmus[name, form] for name in BLOCKS]
-    files = [o for fmu in pair for o in objects(fmu, form, tmp_path, include)]
+def test_two_fmus_link_into_one_program(fmus, objects_of, form, tmp_path):
+    pair = [fmus[name, form] for name in BLOCKS]
+    files = [o for name in BLOCKS for o in objects_of(name, form)]
     steps = 2 if form == "block" else ROWS
     size = PART.block.sample_period * (
         round(1 / PART.block.sample_period) if form == "block" else 1
@@ -271,10 +290,9 @@ def test_two_fmus_link_into_one_program(fmus, form, tmp_path):
 
 
 @pytest.mark.skipif(shutil.which("nm") is None, reason="needs nm")
-def test_every_name_of_an_object_file_has_the_prefix(fmu, tmp_path):
-    form = "block" if fmu.name.endswith("block.fmu") else int(fmu.name[-5])
-    name = fmu.name.partition(".")[0]
-    files = objects(fmu, form, tmp_path, headers(tmp_path / "include"))
+@pytest.mark.parametrize("each", EACH, ids=named)
+def test_every_name_of_an_object_file_has_the_prefix(objects_of, each):
+    name, files = each[0], objects_of(*each)
     listed = subprocess.run(
         ["nm", "-g", "--defined-only", *files], capture_output=True, text=True, check=True
     ).stdout

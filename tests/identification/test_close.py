@@ -2,6 +2,8 @@
 be blamed on an effect.
 """
 
+from itertools import zip_longest
+
 import numpy as np
 import pytest
 from scipy.stats import binom
@@ -53,7 +55,8 @@ STRUCTURE = ("scale_factor", "misalignment")
 
 @pytest.fixture(scope="module")
 def world():
-    return drive(seed=3)
+    """Three minutes; every effect is made as large as they must be to show it."""
+    return drive(minutes=3, seed=3)
 
 
 def noise_only(**gyro_effects) -> Part:
@@ -74,32 +77,46 @@ def undeclared(world, kind, name, structure, wanted=40.0):
     change = changes(world, kind)[name](size_for(world, kind, name, wanted, structure))
     # Limits and steps have no scale of detectability; the rest is at what the question asks for.
     assert lambda_of(world, kind, change, structure) >= 30 or name == "quantization"
-    return change, recording(world, **{f"{kind}_change": change}, seed=5)
+    return change
 
 
-def check(world, kind, name, change, log, closed):
+def check(world, present, part):
+    """Close one log whose sensors have the effects ``present`` {kind: name}, or none."""
+    made = {k: undeclared(world, k, name, structure=part is None) for k, name in present.items()}
+    log = recording(world, **{f"{kind}_change": change for kind, change in made.items()}, seed=5)
+    closed = pyimu.close(log, part)
     assert closed.verdict == "named"
-    first = closed.added[0]
-    assert name in (first.effect, *first.alternatives), closed.report()
-    assert [a.sensor for a in closed.added] == [kind] * len(closed.added), closed.report()
-    reached = closed.errors[kind].after.total / best_possible(world, log, kind, change)
-    assert reached < 1.05, f"error after is {reached:.3f} of what the true model leaves"
+    assert {a.sensor for a in closed.added} == set(present), closed.report()
+    for kind, name in present.items():
+        first = next(a for a in closed.added if a.sensor == kind)
+        assert name in (first.effect, *first.alternatives), closed.report()
+        reached = closed.errors[kind].after.total / best_possible(world, log, kind, made[kind])
+        assert reached < 1.05, f"{kind}: error after is {reached:.3f} of what the true model leaves"
 
 
-@pytest.mark.parametrize(
-    ("kind", "name"), [("gyro", n) for n in GYRO] + [("accel", n) for n in ACCEL]
-)
-def test_undeclared_effect_is_named_without_a_part(world, kind, name):
-    change, log = undeclared(world, kind, name, structure=True)
-    check(world, kind, name, change, log, pyimu.close(log))
+def in_one_log(gyro, accel):
+    """Cases {kind: name}: as many logs as the gyro has effects, of which some have two effects.
+
+    The two sensors' noise and effects have nothing in common, so that each is a case of its own;
+    where only the gyro has one, the accelerometer must not be blamed, and the other way round.
+    """
+    alone = [{"gyro": gyro[0]}, {"accel": accel[0]}]
+    pairs = zip_longest(gyro[1:], accel[1:])
+    return alone + [{k: n for k, n in zip(("gyro", "accel"), pair) if n} for pair in pairs]
 
 
-@pytest.mark.parametrize(
-    ("kind", "name"), [("gyro", n) for n in (*STRUCTURE, *GYRO)] + [("accel", n) for n in STRUCTURE]
-)
-def test_undeclared_effect_is_named_against_a_declared_part(world, kind, name):
-    change, log = undeclared(world, kind, name, structure=False)
-    check(world, kind, name, change, log, pyimu.close(log, noise_only()))
+def named(present):
+    return "-".join(f"{kind}-{name}" for kind, name in present.items())
+
+
+@pytest.mark.parametrize("present", in_one_log(GYRO, ACCEL), ids=named)
+def test_undeclared_effect_is_named_without_a_part(world, present):
+    check(world, present, None)
+
+
+@pytest.mark.parametrize("present", in_one_log((*STRUCTURE, *GYRO), STRUCTURE), ids=named)
+def test_undeclared_effect_is_named_against_a_declared_part(world, present):
+    check(world, present, noise_only())
 
 
 def test_coefficient_comes_out_with_an_honest_standard_error(world):
@@ -150,10 +167,11 @@ def test_clean_logs_are_blamed_no_more_often_than_the_gate_allows():
     count, blamed = 30, []
     for seed in range(count):
         closed = pyimu.close(
-            recording(drive(minutes=4, rate_hz=25, seed=1000 + seed), seed=2000 + seed)
+            recording(drive(minutes=2, rate_hz=25, seed=1000 + seed), seed=2000 + seed)
         )
         blamed += [a.effect for a in closed.added]
-        assert closed.verdict in ("clean", "named")
+        # What chance lifts over the gate is named, or refused by the held-out rows.
+        assert closed.verdict in ("clean", "named", "not_confirmed")
     # Two sensors a log, 1 % each: more than this comes once in ten thousand runs of a right gate.
     assert len(blamed) <= binom.ppf(0.9999, 2 * count, 0.01), blamed
 

@@ -111,11 +111,11 @@ def dense(
     return np.concatenate(x), np.concatenate(y), block_diag(*blocks)
 
 
-def test_blocks_add_up_to_the_whole():
+def test_batches_add_up_to_the_whole():
     started = begin(gyro(), keys_of(gyro(), *GAIN), [small_log(1), small_log(2, "other", n=300)])
     linears = started.linearise()
     normal = normal_equations(linears, started.noise)
-    assert len(normal.block_gram) == len(normal.block_score) == 80
+    assert len(normal.batch_gram) == len(normal.batch_score) == 80
     assert normal.rows == 3 * sum(t.count for t in started.trials)
     apart = [normal_equations([one], started.noise) for one in linears]
     shared = [k for k in normal.keys if isinstance(k, Coefficient)]

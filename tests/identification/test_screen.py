@@ -29,7 +29,7 @@ from pyimu.identification.search.screen import (
 from pyimu.model.sensor import Sensor
 
 ALARM = 1e-4
-ROWS, BLOCKS = 4000, 80
+ROWS, BATCHES = 4000, 80
 BASE, CANDIDATES = [0, 1, 2], [3, 4, 5, 6, 7, 8]
 
 
@@ -41,8 +41,8 @@ def design(seed: int = 1) -> np.ndarray:
 
 
 def normal_of(columns: np.ndarray, y: np.ndarray) -> Normal:
-    """Normal equations of white rows, in blocks of equal length."""
-    x, r = columns.reshape(BLOCKS, -1, columns.shape[1]), y.reshape(BLOCKS, -1)
+    """Normal equations of white rows, in batches of equal length."""
+    x, r = columns.reshape(BATCHES, -1, columns.shape[1]), y.reshape(BATCHES, -1)
     keys = [Coefficient("g_sensitivity", "G", (i // 3, i % 3)) for i in range(columns.shape[1])]
     return Normal(
         keys,
@@ -98,7 +98,7 @@ def test_noise_passes_the_gate_as_often_as_it_says():
 
 
 def with_score(projected: Projected, score: np.ndarray) -> Projected:
-    return Projected(projected.gram, score, projected.block_score, projected.block_gram)
+    return Projected(projected.gram, score, projected.batch_score, projected.batch_gram)
 
 
 @pytest.mark.parametrize("columns", [(0,), (3,), (1, 4), (0, 1, 2, 3, 4, 5)])
@@ -145,18 +145,18 @@ def test_fitted_gain_is_the_drop_when_the_coefficients_are_put_back_to_zero():
 
 @pytest.mark.parametrize("ratio", [1.0, 4.0])
 def test_dispersion_is_the_ratio_of_true_to_modelled_variance(ratio):
-    """Block scores about their mean: a chi-square of one degree less a block for each column, over
+    """Batch scores about their mean: a chi-square of one degree less a batch for each column, over
     what is expected of all.
     """
     x, columns = design(), (0, 2, 3)
-    band = chi2.ppf([ALARM / 20, 1 - ALARM / 20], (BLOCKS - 1) * len(columns)) / (
-        BLOCKS * len(columns)
+    band = chi2.ppf([ALARM / 20, 1 - ALARM / 20], (BATCHES - 1) * len(columns)) / (
+        BATCHES * len(columns)
     )
     found = []
     for seed in range(10):
         y = np.sqrt(ratio) * np.random.default_rng(seed).standard_normal(ROWS)
         found.append(dispersion(Projected.of(normal_of(x, y), BASE, CANDIDATES), columns))
-    # Blocks of 50 rows differ in what they show; 10 % covers what that does to the number of
+    # Batches of 50 rows differ in what they show; 10 % covers what that does to the number of
     # degrees of freedom.
     assert max(1.0, 0.9 * ratio * band[0]) <= min(found) and max(found) <= max(
         1.0, 1.1 * ratio * band[1]
@@ -164,15 +164,15 @@ def test_dispersion_is_the_ratio_of_true_to_modelled_variance(ratio):
     assert (ratio == 1.0) == (min(found) == 1.0)
 
 
-def test_dispersion_sees_blocks_whose_scores_hang_together():
-    """A residual that is constant in each block, of unit variance, makes scores of a constant
+def test_dispersion_sees_batches_whose_scores_hang_together():
+    """A residual that is constant in each batch, of unit variance, makes scores of a constant
     column scatter 50 times as much.
     """
-    rng, length = np.random.default_rng(6), ROWS // BLOCKS
-    y = np.repeat(rng.standard_normal(BLOCKS), length)
+    rng, length = np.random.default_rng(6), ROWS // BATCHES
+    y = np.repeat(rng.standard_normal(BATCHES), length)
     x = np.column_stack([rng.standard_normal(ROWS), 1.0 + 0.01 * rng.standard_normal(ROWS)])
     found = dispersion(Projected.of(normal_of(x, y), [0], [1]), (0,))
-    low, high = length * chi2.ppf([ALARM / 2, 1 - ALARM / 2], BLOCKS - 1) / BLOCKS
+    low, high = length * chi2.ppf([ALARM / 2, 1 - ALARM / 2], BATCHES - 1) / BATCHES
     assert 0.98 * low < found < 1.02 * high
 
 
@@ -187,10 +187,10 @@ def test_projection_leaves_the_residual_of_least_squares():
     )
     np.testing.assert_allclose(projected.score / size, left.T @ y / size, atol=1e-8)
     np.testing.assert_allclose(
-        projected.block_score.sum(axis=0) / size, projected.score / size, atol=1e-8
+        projected.batch_score.sum(axis=0) / size, projected.score / size, atol=1e-8
     )
     np.testing.assert_allclose(
-        (projected.block_gram.sum(axis=0) - projected.gram) / np.outer(size, size), 0.0, atol=1e-9
+        (projected.batch_gram.sum(axis=0) - projected.gram) / np.outer(size, size), 0.0, atol=1e-9
     )
 
 
@@ -204,8 +204,8 @@ def test_projection_leaves_nothing_of_what_the_base_explains():
     assert not projected.gram[2].any() and not projected.gram[:, 2].any()
     assert (
         projected.score[2] == 0.0
-        and not projected.block_score[:, 2].any()
-        and not projected.block_gram[:, 2].any()
+        and not projected.batch_score[:, 2].any()
+        and not projected.batch_gram[:, 2].any()
     )
     assert _gains(projected.score[None], Choice((2,)), projected.gram)[0] == 0.0
     assert np.all(np.delete(np.diag(projected.gram), 2) > 0)

@@ -4,12 +4,24 @@ from math import factorial
 
 import numpy as np
 import pytest
-from catalogue_cases import CASES, H, as_part, excited, inputs, motion, outputs, own, run
+from built import built
+from catalogue_cases import (
+    CASES,
+    H,
+    as_part,
+    everything,
+    excited,
+    inputs,
+    motion,
+    outputs,
+    own,
+    run,
+)
 from scipy.signal import lfilter, lfilter_zi
 from scipy.spatial.transform import Rotation
 
 from pyimu.block.normals import normals
-from pyimu.fmu import build_fmus, simulate
+from pyimu.fmu import simulate
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.effects.dynamics import MEMORY
 from pyimu.model.kinds import KINDS
@@ -236,14 +248,14 @@ EQUATIONS = {
 
 @pytest.fixture(scope="module")
 def fmu(tmp_path_factory):
-    """One FMU of a part that has every effect, all at the identity."""
+    """A part that has every effect, all at the identity, and an FMU that can be told so."""
     part = as_part(
         *(
             Sensor(kind, {name: {} for name, e in CATALOGUE.items() if kind in e.sensors})
             for kind in KINDS
         )
     )
-    return part, build_fmus(part.block, tmp_path_factory.mktemp("fmus"), (2,))[0]
+    return part, built(as_part(*map(everything, KINDS)).block, tmp_path_factory)[2]
 
 
 @pytest.mark.parametrize("name, kind", CASES)
@@ -252,7 +264,7 @@ def test_effect_keeps_its_equation_through_the_fmu(fmu, name, kind):
     assert name in EQUATIONS, f"write the equation of {name} into EQUATIONS, in numpy"
     part, path = fmu
     sensor, u, n = excited(name, kind), motion(400), 400
-    settings = {v.name: v.start for v in sensor.variables} | {"seed": 5}
+    settings = {v.name: v.start for v in (*part.block.parameters, *sensor.variables)} | {"seed": 5}
     y = simulate(path, inputs(u, part), sample_period=H, start_values=settings)[1:, outputs(kind)]
     w, x = normals(5, [c.number for c in sensor.noise], 1, n), u[:, own(kind)]
     want = EQUATIONS[name](x, sensor.values[name], Motion(u), w)

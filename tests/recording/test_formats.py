@@ -104,7 +104,7 @@ def test_missing_library_is_named_with_its_extra(
     def importing(module):
         raise ImportError(module)
 
-    monkeypatch.setattr("pyimu.recording.formats.table.import_module", importing)
+    monkeypatch.setattr("pyimu.recording.formats.reader.import_module", importing)
     refused(
         put(tmp_path / name, "x"),
         f"needs {library}, which is not installed; install the extra: pip install 'pyimu[{extra}]'",
@@ -113,7 +113,7 @@ def test_missing_library_is_named_with_its_extra(
 
 def test_mat_73_names_its_extra(tmp_path, monkeypatch, refused):
     monkeypatch.setattr(
-        "pyimu.recording.formats.table.import_module",
+        "pyimu.recording.formats.reader.import_module",
         lambda module: importlib.import_module("no_such_" + module),
     )
     (tmp_path / "log.mat").write_bytes(b"MATLAB 7.3".ljust(512) + b"\x89HDF\r\n\x1a\n")

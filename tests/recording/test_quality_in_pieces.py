@@ -1,4 +1,4 @@
-"""Quality of a log in pieces: faults are found at their rows and counted up; one block gives what
+"""Quality of a log in pieces: faults are found at their rows and counted up; one window gives what
 the whole does; words that wrapped.
 """
 
@@ -7,7 +7,7 @@ import pytest
 
 from pyimu.errors import Finding
 from pyimu.recording.quality.clipping import clipped
-from pyimu.recording.quality.in_pieces import BLOCK_ROWS, Inspector
+from pyimu.recording.quality.in_pieces import WINDOW_ROWS, Inspector
 from pyimu.recording.quality.inspect import inspect
 from pyimu.recording.quality.stuck import held_rows
 from pyimu.recording.quality.wraps import wraps
@@ -29,7 +29,7 @@ def inspected(recording, rows):
     return inspector.findings()
 
 
-def test_inspector_of_one_block_is_inspect():
+def test_inspector_of_one_window_is_inspect():
     recording = noisy(50_000)
     recording.gyro[1000:1100, 0] = recording.gyro[1000, 0]
     recording.accel[7000, 1] = 4
@@ -38,42 +38,40 @@ def test_inspector_of_one_block_is_inspect():
 
 
 @pytest.fixture(scope="module")
-def faulty_blocks():
-    """Three blocks; the first ends in a stuck run, the second is stuck on gyro y, and the third has
-    a spike.
-    """
-    recording = noisy(3 * BLOCK_ROWS)
-    recording.gyro[BLOCK_ROWS - 60 : BLOCK_ROWS, 0] = 4e-4
-    recording.gyro[BLOCK_ROWS : 2 * BLOCK_ROWS, 1] = 4e-4
-    recording.accel[2 * BLOCK_ROWS + 500, 2] = 11
+def faulty_windows():
+    """Three windows: one ends in a stuck run, one is stuck on gyro y, and one has a spike."""
+    recording = noisy(3 * WINDOW_ROWS)
+    recording.gyro[WINDOW_ROWS - 60 : WINDOW_ROWS, 0] = 4e-4
+    recording.gyro[WINDOW_ROWS : 2 * WINDOW_ROWS, 1] = 4e-4
+    recording.accel[2 * WINDOW_ROWS + 500, 2] = 11
     return recording
 
 
-@pytest.mark.parametrize("rows", [100_000, 3 * BLOCK_ROWS])
-def test_inspector_adds_up_over_blocks(rows, faulty_blocks):
-    found = {(f.kind, f.column): f for f in inspected(faulty_blocks, rows)}
+@pytest.mark.parametrize("rows", [100_000, 3 * WINDOW_ROWS])
+def test_inspector_adds_up_over_windows(rows, faulty_windows):
+    found = {(f.kind, f.column): f for f in inspected(faulty_windows, rows)}
     stuck, dead = found["stuck_samples", "gyro_x"], found["stuck_samples", "gyro_y"]
-    assert (stuck.count, stuck.detail["first_row"]) == (60, BLOCK_ROWS - 60)
+    assert (stuck.count, stuck.detail["first_row"]) == (60, WINDOW_ROWS - 60)
     assert (dead.count, dead.detail["first_row"], dead.detail["runs"]) == (
-        BLOCK_ROWS,
-        BLOCK_ROWS,
+        WINDOW_ROWS,
+        WINDOW_ROWS,
         1,
     )
     assert (found["spikes", "accel_z"].count, found["spikes", "accel_z"].detail["first_row"]) == (
         1,
-        2 * BLOCK_ROWS + 500,
+        2 * WINDOW_ROWS + 500,
     )
-    assert found["quantization_step", "gyro_x"].count == 3 * BLOCK_ROWS and found[
+    assert found["quantization_step", "gyro_x"].count == 3 * WINDOW_ROWS and found[
         "quantization_step", "gyro_x"
     ].detail["step"] == pytest.approx(4e-4)
     assert len(found) == 6
 
 
 def test_channel_that_is_constant_throughout():
-    recording = noisy(2 * BLOCK_ROWS)
+    recording = noisy(2 * WINDOW_ROWS)
     recording.accel[:, 0] = 0.5
     assert inspected(recording, 50_000)[-1] == Finding(
-        "constant_channel", "accel_x", 2 * BLOCK_ROWS, {"value": 0.5}
+        "constant_channel", "accel_x", 2 * WINDOW_ROWS, {"value": 0.5}
     )
 
 

@@ -184,11 +184,11 @@ def gapped(tmp_path, n=900):
 
 
 @pytest.mark.parametrize("rows", [7, 100, 300, 10_000])
-def test_stretches_are_the_segments(rows, tmp_path):
+def test_segments_of_a_log_are_those_of_the_recording(rows, tmp_path):
     path = gapped(tmp_path)
     whole, log = read_recording(path), open_log(path)
     found = {}
-    for segment, piece, _ in log.stretches(rows):
+    for segment, piece, _ in log.segments(rows):
         assert piece.segments == [(0, len(piece))] and piece.sample_period == log.sample_period
         found.setdefault(segment, []).append(piece)
     assert [
@@ -217,7 +217,7 @@ def test_pieces_know_the_gaps_that_late_stamps_hide(rows, tmp_path):
         and join(pieces).slice(5, -5).segments == whole.slice(0, len(whole)).slice(5, -5).segments
     )
     lengths = {}
-    for segment, piece, _ in log.stretches(rows):
+    for segment, piece, _ in log.segments(rows):
         lengths[segment] = lengths.get(segment, 0) + len(piece)
     assert list(lengths.values()) == [b - a for a, b in whole.segments] and len(lengths) > 10
 

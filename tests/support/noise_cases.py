@@ -1,8 +1,8 @@
-"""What every noise of the catalogue should look like: densities and whitening filters, written
-apart from the package.
+"""What every noise of the catalogue should look like: densities and whitening filters.
 
-A new stochastic effect needs one line in ``CASES``. Its law is one of those below, or another
-function that gives one.
+Those of ``WRITTEN`` are written by hand, apart from the package. A noise that is not among them is
+tested against the law of its own definition, so a new one needs no line here; ``hindrance`` says
+which does.
 """
 
 from collections.abc import Callable, Mapping
@@ -12,20 +12,21 @@ import numpy as np
 from numba import njit
 
 from pyimu.model.catalogue import CATALOGUE
+from pyimu.model.effect import Effect, Parameter
 from pyimu.model.effects.noise import POLES, end_weight
-from pyimu.shaping import NOISE_LIKE
+from pyimu.model.kinds import KINDS
 
 Values = Mapping[str, float]
 
 
 @dataclass(frozen=True)
 class Law:
-    """A sampled noise: its two-sided density ``psd(f, h)`` and ``whiten(x, h)``, which makes x (n,)
-    unit white noise if it is right.
+    """A sampled noise: its two-sided density ``psd(f, h)`` and its whitening filter.
 
-    The whitened series is what periodograms are taken of. A periodogram of the noise itself is,
-    where the density is steep, leakage from its high side through the ends of the record; one of
-    white noise has no leakage, and its octaves measure the noise's density over the theory's.
+    ``whiten(x, h)`` makes x (n,) unit white noise if it is right. The whitened series is what
+    periodograms are taken of. A periodogram of the noise itself is, where the density is steep,
+    leakage from its high side through the ends of the record; one of white noise has no leakage,
+    and its octaves measure the noise's density over the theory's.
     """
 
     psd: Callable[[np.ndarray, float], np.ndarray]
@@ -38,8 +39,9 @@ def white(density: Callable[[float], float]) -> Law:
 
 
 def walk(K: float) -> Law:
-    """Sums of independent steps of variance K^2 h: K^2 / (2 pi f)^2 and, by sampling, its aliases.
-    Whitened by its steps.
+    """Sums of independent steps of variance K^2 h, whitened by its steps.
+
+    The density is K^2 / (2 pi f)^2 and, by sampling, its aliases.
     """
     return Law(
         lambda f, h: (K * h / (2 * np.sin(np.pi * f * h))) ** 2,
@@ -48,8 +50,9 @@ def walk(K: float) -> Law:
 
 
 def rounded_angle(q: float) -> Law:
-    """First differences over h of errors that are even within a step q. Whitened by their sums,
-    but for the first error.
+    """First differences over h of errors that are even within a step q.
+
+    Whitened by their sums, but for the first error.
     """
     variance = q**2 / 12
     return Law(
@@ -59,8 +62,9 @@ def rounded_angle(q: float) -> Law:
 
 
 def markov(variance: np.ndarray, tau: np.ndarray) -> Law:
-    """Sum of stationary Gauss-Markov processes, variances (p,), time constants (p,) s. Whitened by
-    a Kalman filter from the first sample on.
+    """Sum of stationary Gauss-Markov processes, variances (p,), time constants (p,) s.
+
+    Whitened by a Kalman filter from the first sample on.
     """
     variance, tau = np.atleast_1d(variance).astype(float), np.atleast_1d(tau).astype(float)
 
@@ -75,8 +79,9 @@ def markov(variance: np.ndarray, tau: np.ndarray) -> Law:
 
 @njit(cache=True)
 def _innovations(x, a, variance):
-    """Innovations (n,) over their standard deviations of x = sum of b_k, each b_k+ = a_k b_k +
-    noise, stationary from the start.
+    """Innovations (n,) of x = sum of b_k over their standard deviations.
+
+    Each b_k+ = a_k b_k + noise is stationary from the start.
     """
     p = len(a)
     b, cov, out = np.zeros(p), np.diag(variance), np.empty(len(x))
@@ -95,8 +100,9 @@ def _innovations(x, a, variance):
 
 
 def flicker(B: float, f_low: float, f_high: float) -> Law:
-    """Gauss-Markov processes with corners evenly in logarithm; variance B^2 / pi a unit of log
-    frequency makes B^2 / (2 pi f).
+    """Gauss-Markov processes with corners evenly in logarithm.
+
+    A variance of B^2 / pi a unit of log frequency makes B^2 / (2 pi f).
     """
     corners = np.geomspace(f_low, f_high, POLES)
     weights = np.ones(POLES)
@@ -126,8 +132,13 @@ class Case:
     def name(self) -> str:
         return "-".join([self.effect, *(f"{k}={v:g}" for k, v in self.values.items())])
 
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """Sensors that can have the effect."""
+        return tuple(kind for kind in KINDS if kind in CATALOGUE[self.effect].sensors)
 
-CASES = (
+
+WRITTEN = (
     Case("angle_random_walk", {"N": 6.0e-5}, white(lambda h: 6.0e-5**2)),
     Case("rate_random_walk", {"K": 2.7e-3}, walk(2.7e-3)),
     Case("gauss_markov", {"q": 1e-3, "tau": 0.5}, markov(1e-6 * 0.5 / 2, 0.5)),
@@ -153,19 +164,87 @@ CASES = (
     ),
 )
 
-NOISES = [name for name, e in CATALOGUE.items() if e.stochastic] + [
-    name for name in NOISE_LIKE if name != "rate_ramp"
-]
-"""Effects that make noise: those that draw it, and those that round."""
+SIZE, START, SLOPE = 1e-3, 3.0, 1.5
+"""Of a case that follows from a definition: the coefficients, and the true signal and its rate
+where the noise depends on them, all in SI."""
+
+
+def noises() -> list[Effect]:
+    """Effects of the catalogue that make noise: those that draw it, and those that round."""
+    return [e for e in CATALOGUE.values() if e.stochastic or (e.law and e.law.ramp is None)]
+
+
+def hindrance(e: Effect) -> str:
+    """Why no case follows from the definition of a noise, in one line; empty where one does."""
+    write = "add a Case to WRITTEN in tests/support/noise_cases.py"
+    if e.law is None:
+        return f"{e.name} draws noise and has no law: give its definition one"
+    if not e.stochastic:
+        return f"{e.name} makes its noise of other noise, which its law does not say: {write}"
+    if len(e.law.parts) != 1 or e.law.parts[0] not in _BY_PART:
+        made_of = " and ".join(e.law.parts) or "nothing"
+        return f"{e.name} has a law of {made_of}, not of one of {', '.join(_BY_PART)}: {write}"
+    odd = [n for n, q in e.parameters.items() if q.shape not in ((), (3,))]
+    if odd:
+        return f"{e.name} has coefficients that are not one an axis, {', '.join(odd)}: {write}"
+    return ""
+
+
+def derived(e: Effect) -> Case:
+    """The case that follows from the definition of a noise without ``hindrance``."""
+    values = {n: _value(q) for n, q in e.parameters.items()}
+    values |= e.law.shown
+    start = START if e.law.needs("x") else 0.0
+    # A noise that depends on the signal as well is stationary where the signal does not grow.
+    slope = SLOPE if e.law.needs("slope") and not start else 0.0
+    return Case(e.name, values, law_of(e, values, start, slope), start=start, slope=slope)
+
+
+def _value(q: Parameter) -> float:
+    """``SIZE``, or the coefficient's bound nearest to it; its start where it only shapes others."""
+    if q.form or q.reference:
+        return q.start
+    low = -np.inf if q.minimum is None else q.minimum
+    high = np.inf if q.maximum is None else q.maximum
+    return float(np.clip(SIZE, low, high))
+
+
+def law_of(e: Effect, values: Values, start: float, slope: float) -> Law:
+    """What the law of a definition says, for these coefficients and this signal."""
+    (part,) = e.law.parts
+    return _BY_PART[part](lambda **h: e.law.value(part, values, x=start, slope=slope, **h))
+
+
+_BY_PART: Mapping[str, Callable[[Callable], Law]] = {
+    "white": lambda density: white(lambda h: density(h=h)),
+    "walk": lambda density: walk(np.sqrt(density())),
+    "markov": lambda processes: markov(*np.transpose(processes())),
+}
+"""By the one part that a law has, of that part as a function."""
+
+
+def cases() -> tuple[Case, ...]:
+    """Those written by hand, then one for each other noise of the catalogue that makes one."""
+    by_hand = {case.effect for case in WRITTEN}
+    others = [e for e in noises() if e.name not in by_hand and not hindrance(e)]
+    return (*WRITTEN, *map(derived, others))
+
+
+CASES = cases()
 
 
 def triads() -> list[list[Case]]:
-    """The cases in threes, for the axes of a triad; none has an effect twice, because some
-    coefficients belong to the triad.
+    """The cases in threes, for the axes of a triad of one sensor that can have all of them.
+
+    None has an effect twice, because some coefficients belong to the triad.
     """
     out: list[list[Case]] = []
     for case in CASES:
-        fits = [t for t in out if len(t) < 3 and case.effect not in [c.effect for c in t]]
+        fits = [
+            t
+            for t in out
+            if len(t) < 3 and case.effect not in [c.effect for c in t] and case.kinds == t[0].kinds
+        ]
         fits[0].append(case) if fits else out.append([case])
     return out
 
@@ -176,8 +255,9 @@ def triads() -> list[list[Case]]:
 
 @dataclass(frozen=True)
 class Form:
-    """Two-sided density at f [Hz] and Allan variance at tau [s], and the frequencies and times from
-    and to which they hold.
+    """Two-sided density at f [Hz] and Allan variance at tau [s], and where they hold.
+
+    ``frequencies`` and ``times`` are from and to.
     """
 
     psd: Callable[[np.ndarray], np.ndarray]
@@ -203,8 +283,9 @@ def _markov_form(h: float, q: float, tau: float) -> Form:
 
 
 def _flicker_form(h: float, B: float, f_low: float, f_high: float) -> Form:
-    """To a quarter of a decibel: the density between the corners, the floor where the window about
-    1 / tau lies between them.
+    """To a quarter of a decibel: the density between the corners, and the floor.
+
+    The floor holds where the window about 1 / tau lies between the corners.
     """
     return Form(
         lambda f: B**2 / (2 * np.pi * f),

@@ -105,20 +105,35 @@ def lambda_of(world: World, kind: str, change, structure: bool = False) -> float
     """How many times detectable ``change`` is over a bias, and with ``structure`` over scale factor
     and misalignment too.
     """
-    x, n, k = (world.rate, N_GYRO, K_GYRO) if kind == "gyro" else (world.force, N_ACCEL, K_ACCEL)
-    difference = change(x) - x
-    base = np.column_stack([np.ones(len(x)), *([x] if structure else [])])
+    x = world.rate if kind == "gyro" else world.force
+    return _norm(change(x) - x, _explained(world, kind, structure))
+
+
+def _norm(difference: np.ndarray, explained: list) -> float:
+    """Norm of a difference (n, 3), whitened and freed of what is explained."""
     total = 0.0
-    for i in range(3):
-        r, q = n[i] ** 2 / world.h, k[i] ** 2 * world.h
-        p = (q + np.sqrt(q * q + 4 * q * r)) / 2
-        columns, target = (
-            lfilter([1, -1], [1, -r / (p + r)], v, axis=0) / np.sqrt(p + r)
-            for v in (base, difference[:, i])
-        )
-        left = target - columns @ np.linalg.lstsq(columns, target, rcond=None)[0]
+    for i, (whiten, basis) in enumerate(explained):
+        target = whiten(difference[:, i])
+        left = target - basis @ (basis.T @ target)
         total += left @ left
     return float(np.sqrt(total))
+
+
+def _explained(world: World, kind: str, structure: bool) -> list:
+    """For each axis the innovations filter and an orthonormal basis of what the baseline
+    explains.
+    """
+    x, n, k = (world.rate, N_GYRO, K_GYRO) if kind == "gyro" else (world.force, N_ACCEL, K_ACCEL)
+    base = np.column_stack([np.ones(len(x)), *([x] if structure else [])])
+    out = []
+    for r, q in zip(n**2 / world.h, k**2 * world.h):
+        p = (q + np.sqrt(q * q + 4 * q * r)) / 2
+
+        def whiten(v, r=r, p=p):
+            return lfilter([1, -1], [1, -r / (p + r)], v, axis=0) / np.sqrt(p + r)
+
+        out.append((whiten, np.linalg.qr(whiten(base))[0]))
+    return out
 
 
 def last(function):
@@ -217,13 +232,13 @@ def size_for(world: World, kind: str, name: str, wanted: float, structure: bool)
         return float(np.quantile(np.abs(x), 0.998))
     if name == "quantization":
         return 2.0 * n.max() / np.sqrt(world.h)
-    make = changes(world, kind)[name]
+    make, explained = changes(world, kind)[name], _explained(world, kind, structure)
     low, high = np.log(1e-9), np.log(0.03)
-    for _ in range(40):
+    for _ in range(24):  # to a millionth of the size
         middle = (low + high) / 2
         low, high = (
             (low, middle)
-            if lambda_of(world, kind, make(np.exp(middle)), structure) > wanted
+            if _norm(make(np.exp(middle))(x) - x, explained) > wanted
             else (middle, high)
         )
     return float(np.exp(high))

@@ -22,7 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 from numba import njit
 from scipy.optimize import brentq
-from scipy.special import expit
+from scipy.special import expit, stdtr
 from scipy.stats import t as t_law
 
 from pyimu.characterization.estimate import Estimate
@@ -123,7 +123,7 @@ class Regression:
     def tail(self, j: int, value: float) -> float:
         """Probability that coefficient ``j`` is more than ``value``."""
         return float(
-            self.weights @ t_law.sf((value - self.coefficients[:, j]) / self._stds(j), self.freedom)
+            self.weights @ stdtr(self.freedom, (self.coefficients[:, j] - value) / self._stds(j))
         )
 
     def interval(self, j: int, level: float) -> tuple[float, float]:

@@ -14,7 +14,7 @@ with D the first or second divided differences (Whittaker, Proc. Edinb. Math. So
 from __future__ import annotations
 
 import numpy as np
-from scipy.linalg import cho_solve_banded, cholesky_banded
+from scipy.linalg.lapack import dpbtrf, dpbtrs
 
 from pyimu.characterization.temperature.averages import Averages
 
@@ -38,7 +38,11 @@ def smoothed(averages: Averages) -> np.ndarray:
     y, w = without_steps(averages.temperature), averages.count / np.median(averages.count)
     step = np.diff(averages.time) / np.median(np.diff(averages.time))
     best = min(
-        (_fit(y - y[0], w, step, order, stiffness) for order in (1, 2) for stiffness in STIFFNESS),
+        (
+            _fit(y - y[0], w, squared, stiffness)
+            for squared in (_squared_differences(step, order) for order in (1, 2))
+            for stiffness in STIFFNESS
+        ),
         key=lambda fit: fit[0],
     )
     return best[1] + y[0]
@@ -72,19 +76,22 @@ def without_steps(temperature: np.ndarray) -> np.ndarray:
 
 
 def _fit(
-    y: np.ndarray, w: np.ndarray, step: np.ndarray, order: int, stiffness: float
+    y: np.ndarray, w: np.ndarray, squared: np.ndarray, stiffness: float
 ) -> tuple[float, np.ndarray]:
-    """Twice the negative log likelihood, and z (m,); the variance of the noise is the likeliest."""
-    band = stiffness * _squared_differences(step, order)
+    """Twice the negative log likelihood, and z (m,); the variance of the noise is the likeliest.
+
+    ``squared`` (order + 1, m) is the band of D'D.
+    """
+    band = stiffness * squared
     band[-1] += w
-    try:
-        cholesky = cholesky_banded(band)
-    except np.linalg.LinAlgError:
+    cholesky, indefinite = dpbtrf(band)
+    if indefinite:
         # Where gaps make the steps very unequal, rounding cannot tell z from a straight line.
         return np.inf, y
-    z = cho_solve_banded((cholesky, False), w * y)
+    z = dpbtrs(cholesky, w * y)[0]
     # At the minimum the sum of squares and penalties is what y does not share with z.
-    free, squares = len(y) - order, max(float(np.sum(w * y * (y - z))), 1e-300)
+    free = len(y) - (len(squared) - 1)
+    squares = max(float(np.sum(w * y * (y - z))), 1e-300)
     return float(
         free * np.log(squares) + 2 * np.sum(np.log(cholesky[-1])) - free * np.log(stiffness)
     ), z

@@ -82,8 +82,10 @@ def _check_error(d: Derivation) -> list[Check]:
 
 
 class Case(NamedTuple):
-    """An attitude error ``start``, the estimated ``rate`` and its ``error``, the rate of a
-    ``frame``, (3,) each; ``a`` and ``f`` of the Rodrigues parameters.
+    """A random case of the attitude error.
+
+    The error ``start``, the estimated ``rate`` and its ``error``, the rate of a ``frame``, (3,)
+    each; ``a`` and ``f`` of the Rodrigues parameters.
     """
 
     start: np.ndarray
@@ -134,8 +136,9 @@ def _integrated(derivative, y: np.ndarray) -> np.ndarray:
 
 
 def _in_turning_frame(start: Rotation, rate: np.ndarray, frame: np.ndarray) -> Rotation:
-    """Attitude at the end against a frame that itself turns, q' = (q (0, rate) - (0, frame) q)/2,
-    by the differential equation of the matrices.
+    """Attitude at the end against a frame that itself turns.
+
+    q' = (q (0, rate) - (0, frame) q)/2, by the differential equation of the matrices.
     """
 
     def derivative(t, y):
@@ -165,8 +168,9 @@ def _check_jacobians(d: Derivation) -> Check:
 
 
 def _jacobians(d: Derivation) -> ca.Function:
-    """Derivatives of the exact equations by x, by the noises, and by both; and F, G and the
-    derivatives of the linear equation.
+    """Derivatives of the exact equations by x, by the noises, and by both.
+
+    Beside them are F, G and the derivatives of the linear equation.
     """
     p, b, eta, walk, rate, n, k = (
         ca.SX.sym(name, 3) for name in ("p", "b", "eta", "walk", "rate", "n", "k")

@@ -88,7 +88,9 @@ STEP = Equation("Omega", "blocks([c, -T(psi)], [psi, c*I_3 - skew(psi)])")
 
 
 class Step(NamedTuple):
-    """An attitude ``before``, a ``rate`` (3,) over ``h`` s; an ``angle`` (3,) of up to half a turn
+    """A random case of one step.
+
+    An attitude ``before``, a ``rate`` (3,) over ``h`` s; an ``angle`` (3,) of up to half a turn
     about each axis, and a ``tiny`` factor.
     """
 
@@ -177,8 +179,9 @@ def _check_fast(steps: list[Step]) -> list[Check]:
 
 
 def _mean_turn(angle: np.ndarray) -> np.ndarray:
-    """Integral over s from 0 to 1 of the matrix (3, 3) of the turn by -s ``angle``, out of one
-    matrix exponential (Van Loan 1978).
+    """Integral over s from 0 to 1 of the matrix (3, 3) of the turn by -s ``angle``.
+
+    It comes from one matrix exponential (Van Loan 1978).
     """
     whole = np.zeros((6, 6))
     whole[:3, :3], whole[:3, 3:] = cross_matrix(angle).T, np.eye(3)

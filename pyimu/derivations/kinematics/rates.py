@@ -104,8 +104,9 @@ def _check_rate(d: Derivation) -> list[Check]:
 
 
 def _orders(d: Derivation) -> ca.Function:
-    """Taylor coefficients 0, 1 and 2 of omega_1 - omega_hat by a small factor on both M and beta;
-    and e_1.
+    """Taylor coefficients 0, 1 and 2 of omega_1 - omega_hat, and e_1.
+
+    The expansion is by a small factor on both M and beta.
     """
     small, m, measured, beta = (
         ca.SX.sym("small"),

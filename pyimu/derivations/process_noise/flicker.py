@@ -102,8 +102,9 @@ def _check_catalogue() -> list[Check]:
 
 
 def _catalogue() -> list[tuple[float, float]]:
-    """g (for B = 1) and tau in s of each process of the catalogue's ``bias_instability``, from its
-    step.
+    """g (for B = 1) and tau in s of each process of the catalogue's ``bias_instability``.
+
+    They are taken from its step.
     """
     h, out = 1e-2, []
     for kept, fresh in step_of(

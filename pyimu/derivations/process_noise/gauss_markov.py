@@ -46,8 +46,9 @@ def _check_markov(d: Derivation) -> list[Check]:
 
 
 def _drawn() -> list[tuple]:
-    """Periods, shares, N and g (3,), correlation times (3,) of one to ten periods, and of up to 1e8
-    periods.
+    """Periods, shares, N and g (3,), and correlation times (3,) of two kinds.
+
+    The first are one to ten periods, the second up to 1e8 periods.
     """
     rng, drawn = np.random.default_rng(20), []
     for _ in rounds():
@@ -119,8 +120,9 @@ def _check_step(d: Derivation) -> Check:
 
 
 def step_of(effect: str, values: dict, h: float) -> list[tuple[float, float]]:
-    """Decay over ``h`` s and standard deviation of what a step adds, of each Gauss-Markov process
-    of an effect's first axis.
+    """Decay over ``h`` s and standard deviation added, of each process of an effect's first axis.
+
+    The processes are Gauss-Markov; the standard deviation is that of what a step adds.
     """
     sensor = Sensor("gyro", {effect: values})
     s, w = sensor.step.sx_in(0), sensor.step.sx_in(3)

@@ -53,8 +53,9 @@ def _check_still(d: Derivation) -> list[Check]:
 
 
 def by_casadi(still: bool) -> ca.Function:
-    """Q from rate, N, K (3,) each, h and s by casadi alone: the integral term by term in powers of
-    F, whose sum is Q' = F Q + Q F^T + G G^T.
+    """Q from rate, N, K (3,) each, h and s by casadi alone.
+
+    The integral is taken term by term in powers of F; its sum is Q' = F Q + Q F^T + G G^T.
     """
 
     def integral(rate, n, k, h, share):

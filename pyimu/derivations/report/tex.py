@@ -1,5 +1,6 @@
-"""The results as LaTeX, a document that needs no packages but amsmath, amssymb, booktabs and
-geometry; its equations serve Markdown, too.
+"""The results as a LaTeX document.
+
+It needs no packages but amsmath, amssymb, booktabs and geometry; its equations serve Markdown, too.
 """
 
 from __future__ import annotations

@@ -44,8 +44,9 @@ def _result(number: int, r: Result) -> str:
 
 
 def equation(e: Equation) -> str:
-    """``left = right``; a long sum is broken between its terms, a matrix has a line for each row of
-    blocks.
+    """``left = right`` as lines of text.
+
+    A long sum is broken between its terms, a matrix has a line for each row of blocks.
     """
     note = f"    ({formula.prose(e.note)})" if e.note else ""
     shown = formula.text(e.formula).split("\n")

@@ -89,8 +89,8 @@ def band_time(trial: Trial) -> np.ndarray:
     return trial.time[trial.band.centres(trial.row_segments)]
 
 
-class Columns:
-    """Collects columns as (key, axis, values at the sample rate) and filters them all at once."""
+class Regressors:
+    """Collects regressors as (key, axis, values at the sample rate) and filters them together."""
 
     def __init__(self, trial: Trial) -> None:
         self.trial = trial
@@ -128,7 +128,7 @@ def linearise(
     y, slope, entries = response(moved, rest.p, trial.h)
     if remembers(sensor):
         y = predict(sensor, u, trial.segments, trial.h)
-    out = Columns(trial)
+    out = Regressors(trial)
     for e, (axis, slot) in enumerate(zip(response.axis, response.slot, strict=True)):
         s = rest.slots[slot]
         if coefficient_of(s) in wanted:
@@ -148,7 +148,7 @@ def linearise(
     )
 
 
-def _log_columns(out: Columns, trial: Trial, x: np.ndarray, slope: np.ndarray) -> None:
+def _log_columns(out: Regressors, trial: Trial, x: np.ndarray, slope: np.ndarray) -> None:
     """Bias of each axis; where the mounting is free, a small turn about each axis."""
     for i in range(3):
         out.add(LogBias(trial.name, i), i, np.ones(len(x)))
@@ -160,7 +160,7 @@ def _log_columns(out: Columns, trial: Trial, x: np.ndarray, slope: np.ndarray) -
 
 
 def _motion_columns(
-    out: Columns,
+    out: Regressors,
     sensor: Sensor,
     trial: Trial,
     u: np.ndarray,
@@ -189,7 +189,7 @@ def _motion_columns(
 
 
 def _dynamics_columns(
-    out: Columns, sensor: Sensor, trial: Trial, u: np.ndarray, wanted: frozenset[Key]
+    out: Regressors, sensor: Sensor, trial: Trial, u: np.ndarray, wanted: frozenset[Key]
 ) -> None:
     """Slopes against the coefficients of dynamics that are switched on, by central differences,
     one-sided at a bound.

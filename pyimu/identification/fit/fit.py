@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
+from types import MappingProxyType
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -19,7 +20,7 @@ from pyimu.identification.fit.columns import (
     residual,
 )
 from pyimu.identification.fit.keys import Coefficient, Key, LogBias, LogTurn, coefficients_of
-from pyimu.identification.fit.normal import Noise, normal_equations, solve
+from pyimu.identification.fit.normal import Noise, Normal, normal_equations, solve
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
 from pyimu.model.arguments import Parameter
@@ -33,7 +34,8 @@ class Fit:
     [nat].
 
     ``free`` are the keys of the coefficients that are estimated; ``std`` the standard errors by
-    column key.
+    column key; ``prior`` the standard deviations, about the identity, of coefficients that nobody
+    declared.
     """
 
     sensor: Sensor
@@ -43,6 +45,7 @@ class Fit:
     noise: Noise
     log_likelihood: float = -np.inf
     std: Mapping[Key, float] = field(default_factory=dict)
+    prior: Mapping[Coefficient, float] = field(default_factory=dict)
 
     def linearise(self, candidates: Iterable[str] = (), extra: Iterable = ()) -> list[Linear]:
         """All trials with columns for the free coefficients, the logs' own, and effects
@@ -105,16 +108,21 @@ def initial_state(sensor: Sensor, trial: Trial) -> LogState:
     return LogState(np.median(rest, axis=0) if len(rest) else np.zeros(3), rotation)
 
 
-def begin(sensor: Sensor, free: Iterable[Key], trials: Iterable[Trial]) -> Fit:
+def begin(
+    sensor: Sensor,
+    free: Iterable[Key],
+    trials: Iterable[Trial],
+    prior: Mapping[Coefficient, float] = MappingProxyType({}),
+) -> Fit:
     """A model before its first fit."""
     trials = tuple(trials)
     states = {t.name: initial_state(sensor, t) for t in trials}
-    return Fit(sensor, frozenset(free), trials, states, {}).with_noise()
+    return Fit(sensor, frozenset(free), trials, states, {}, prior=prior).with_noise()
 
 
 def gauss_newton(start: Fit, steps: int) -> Fit:
     """Least squares of the whitened residual, each step halved until it lowers it."""
-    normal = normal_equations(start.linearise(), start.noise)
+    normal = with_prior(normal_equations(start.linearise(), start.noise), start)
     for _ in range(steps):
         change = solve(normal.gram, normal.score)
         if float(change @ normal.score) < 1e-3:
@@ -123,14 +131,37 @@ def gauss_newton(start: Fit, steps: int) -> Fit:
             (
                 m
                 for m in (stepped(start, normal.keys, change / 2**k) for k in range(8))
-                if power(m) < normal.power
+                if power(m) + prior_power(m) < normal.power
             ),
             None,
         )
         if moved is None:
             break
-        start, normal = moved, normal_equations(moved.linearise(), moved.noise)
+        start = moved
+        normal = with_prior(normal_equations(start.linearise(), start.noise), start)
     return start
+
+
+def with_prior(normal: Normal, fit: Fit) -> Normal:
+    """The normal equations with the prior's rows, which share out over the batches."""
+    gram, score = np.array(normal.batch_gram), np.array(normal.batch_score)
+    for key, std in fit.prior.items():
+        if key in normal.position:
+            i = normal.position[key]
+            gram[:, i, i] += std**-2 / len(gram)
+            score[:, i] -= _departure(fit, key) / std**2 / len(gram)
+    power = normal.power + prior_power(fit)
+    return replace(normal, batch_gram=gram, batch_score=score, power=power)
+
+
+def prior_power(fit: Fit) -> float:
+    """Sum of squares of the coefficients' departures from the identity in their prior's units."""
+    return sum((_departure(fit, k) / s) ** 2 for k, s in fit.prior.items() if k in fit.free)
+
+
+def _departure(fit: Fit, key: Coefficient) -> float:
+    value = fit.sensor.values[key.effect][key.parameter][key.index]
+    return float(value - fit.sensor.effect(key.effect).parameters[key.parameter].start)
 
 
 def power(fit: Fit) -> float:

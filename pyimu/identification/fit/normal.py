@@ -11,8 +11,8 @@ from pyimu.identification.fit.columns import Linear
 from pyimu.identification.fit.keys import Key
 from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
 
-BLOCKS = 80
-"""Stretches into which all rows are cut to see how much the scores really scatter."""
+BATCHES = 80
+"""Batches into which all rows are cut to see how much the scores really scatter."""
 
 
 Noise = dict[int, "RandomWalk | Autoregressive"]
@@ -20,24 +20,24 @@ Noise = dict[int, "RandomWalk | Autoregressive"]
 
 @dataclass
 class Normal:
-    """Normal equations in whitened units, whole and by block: ``gram`` (P, P), ``score`` (P,), for
+    """Normal equations in whitened units, whole and by batch: ``gram`` (P, P), ``score`` (P,), for
     named columns.
     """
 
     keys: list[Key]
-    block_gram: np.ndarray
-    block_score: np.ndarray
+    batch_gram: np.ndarray
+    batch_score: np.ndarray
     power: float
     rows: int
     log_det: float
 
     @cached_property
     def gram(self) -> np.ndarray:
-        return self.block_gram.sum(axis=0)
+        return self.batch_gram.sum(axis=0)
 
     @cached_property
     def score(self) -> np.ndarray:
-        return self.block_score.sum(axis=0)
+        return self.batch_score.sum(axis=0)
 
     @cached_property
     def position(self) -> dict[Key, int]:
@@ -53,14 +53,14 @@ def normal_equations(linears: list[Linear], noise: Noise) -> Normal:
     """Whiten residual and columns, axis by axis, and add up what the rows say."""
     keys = list(dict.fromkeys(k for one in linears for i in one.keys for k in one.keys[i]))
     position = {k: i for i, k in enumerate(keys)}
-    blocks = [
-        max(2, round(BLOCKS * len(one.time) / max(1, sum(len(o.time) for o in linears))))
+    batches = [
+        max(2, round(BATCHES * len(one.time) / max(1, sum(len(o.time) for o in linears))))
         for one in linears
     ]
-    gram = np.zeros((sum(blocks), len(keys), len(keys)))
-    score = np.zeros((sum(blocks), len(keys)))
+    gram = np.zeros((sum(batches), len(keys), len(keys)))
+    score = np.zeros((sum(batches), len(keys)))
     power, log_det, rows, first = 0.0, 0.0, 0, 0
-    for one, count in zip(linears, blocks, strict=True):
+    for one, count in zip(linears, batches, strict=True):
         edges = np.linspace(0, len(one.time), count + 1).astype(int)
         for i, columns in one.columns.items():
             at = np.array([position[k] for k in one.keys[i]], dtype=int)
@@ -70,11 +70,11 @@ def normal_equations(linears: list[Linear], noise: Noise) -> Normal:
             power += float(white[:, -1] @ white[:, -1])
             log_det += noise[i].log_det(one.time, one.segments)
             rows += len(white)
-            for b in range(count):
-                part = white[edges[b] : edges[b + 1]]
-                whole = part.T @ part
-                gram[first + b][np.ix_(at, at)] += whole[:-1, :-1]
-                score[first + b][at] += whole[:-1, -1]
+            parts = (white[a:b] for a, b in zip(edges[:-1], edges[1:], strict=True))
+            wholes = np.array([part.T @ part for part in parts])
+            batch = np.arange(first, first + count)
+            gram[np.ix_(batch, at, at)] += wholes[:, :-1, :-1]
+            score[np.ix_(batch, at)] += wholes[:, :-1, -1]
         first += count
     return Normal(keys, gram, score, power, rows, log_det)
 

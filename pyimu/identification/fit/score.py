@@ -10,10 +10,11 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from pyimu.identification.fit.attenuation import simulated
 from pyimu.identification.fit.columns import LogState, band_segments, in_band, linearise, residual
-from pyimu.identification.fit.fit import Fit, bare
+from pyimu.identification.fit.fit import Fit, bare, initial_state
 from pyimu.identification.fit.keys import LogTurn
 from pyimu.identification.fit.normal import normal_equations, solve
 from pyimu.identification.fit.trial import Trial
@@ -22,8 +23,9 @@ from pyimu.identification.fit.whiten import RandomWalk
 WINDOW = 10.0
 """Seconds over which a rate residual is integrated to an angle."""
 
-ROTATION_PRIOR = 0.05
-"""Standard deviation [rad] of a log's mounting about that of the fitted logs."""
+ROTATION_PRIOR, LEAST_PRIOR = 0.05, 1e-4
+"""Standard deviation [rad] of a log's mounting about that of the fitted logs: of one alone, and the
+least that is taken where several agree."""
 
 FLOOR_DRAWS = 8
 
@@ -82,19 +84,41 @@ def _head_state(fit: Fit, head: Trial) -> LogState:
     """Bias and, where it is free, mounting from the first seconds, the mounting drawn towards that
     of the fitted logs.
     """
-    first = fit.states[fit.trials[0].name]
-    state = LogState(np.zeros(3), first.rotation if head.free_rotation else np.eye(3))
+    if not head.count:
+        return LogState()
+    mountings = [LogState(np.zeros(3), r) for r in _mountings(fit, head)]
+    state = min(mountings, key=lambda s: float(np.sum(_centred(fit, head, s) ** 2)))
+    spread = _spread(fit)
     white = {i: RandomWalk(n.r, 0.0) for i, n in fit.noise.items()}
     for _ in range(2):
         normal = normal_equations([linearise(fit.sensor, head, state, ())], white)
         if not normal.keys:
             return state
-        prior = np.diag(
-            [ROTATION_PRIOR**-2 if isinstance(k, LogTurn) else 0.0 for k in normal.keys]
-        )
+        prior = np.diag([spread**-2 if isinstance(k, LogTurn) else 0.0 for k in normal.keys])
         for key, change in zip(normal.keys, solve(normal.gram + prior, normal.score), strict=True):
             state = state.moved(key, change)
     return state
+
+
+def _mountings(fit: Fit, head: Trial) -> list[np.ndarray]:
+    """The mountings to begin with: that of the fitted logs, and the one the log itself shows."""
+    if not head.free_rotation:
+        return [np.eye(3)]
+    return [fit.states[fit.trials[0].name].rotation, initial_state(fit.sensor, head).rotation]
+
+
+def _centred(fit: Fit, head: Trial, state: LogState) -> np.ndarray:
+    r = in_band(head, residual(fit.sensor, head, state))
+    return r - r.mean(axis=0) if len(r) else r
+
+
+def _spread(fit: Fit) -> float:
+    """How far, in rad, the mountings of the fitted logs lie apart."""
+    mountings = [fit.states[n].rotation for n in {t.name for t in fit.trials if t.free_rotation}]
+    if len(mountings) < 2:
+        return ROTATION_PRIOR
+    turns = [Rotation.from_matrix(m @ mountings[0].T).magnitude() for m in mountings[1:]]
+    return max(LEAST_PRIOR, float(np.sqrt(np.mean(np.square(turns)))))
 
 
 def tally(fit: Fit, trial: Trial) -> ErrorSums:

@@ -13,6 +13,7 @@ from scipy.ndimage import uniform_filter1d
 from pyimu.block.stepping import step_through
 from pyimu.errors import Finding
 from pyimu.identification.fit.band import Band
+from pyimu.identification.fit.clock import Clock
 from pyimu.model.kinds import OWN
 from pyimu.model.signals import COLUMNS, SIGNALS, START, SURROUNDINGS
 from pyimu.recording.quality.spikes import spikes
@@ -20,7 +21,7 @@ from pyimu.recording.recording import Recording, filled
 from pyimu.recording.reference.rate import reference_rate
 
 SETTLE = 32
-"""Rows at the start of a stretch that are not counted: nobody knows what a lag or delay remembers
+"""Rows at the start of a segment that are not counted: nobody knows what a lag or delay remembers
 from before it."""
 
 SLOW = 30.0
@@ -28,7 +29,12 @@ SLOW = 30.0
 coarse steps."""
 
 HEAD = 30.0
-"""Seconds at the start of a held-out log from which what belongs to the log is estimated."""
+"""Seconds of motion at the start of a held-out log from which what belongs to the log is
+estimated."""
+
+MOVING = 0.2
+"""Share of the reference's root mean square above which a row counts as moving: at rest it shows no
+mounting and no clock, but its own noise."""
 
 
 @dataclass(frozen=True)
@@ -37,11 +43,12 @@ class Trial:
 
     ``y`` (n, 3) measured, ``u`` (n, N_INPUT) reference inputs (at their start values where nobody
     knows them), ``known`` the signals that are really known, ``axes`` those that the reference
-    covers, ``segments`` the stretches without gap. ``reference`` is "rate", "attitude", "heading",
+    covers, ``segments`` the ranges without gap. ``reference`` is "rate", "attitude", "heading",
     "force" or "static"; ``free_rotation`` says that the reference's mounting is not known.
     ``parent`` names the fitted trial that has the same power-on, if any; ``left_out`` (n,) marks
     samples that are missing or carry no information (spikes, repeats, at a limit), heeded where no
-    band mixes them with their neighbours.
+    band mixes them with their neighbours. ``band_hz`` is the band of a derived reference, at most
+    ``band_limit``; ``clock`` what was taken out of the reference's clock.
     """
 
     name: str
@@ -59,6 +66,8 @@ class Trial:
     parent: str | None = None
     left_out: np.ndarray | None = None
     findings: tuple[Finding, ...] = ()
+    band_limit: float | None = None
+    clock: Clock | None = None
 
     @property
     def band(self) -> Band:
@@ -66,7 +75,7 @@ class Trial:
 
     @property
     def row_segments(self) -> list[tuple[int, int]]:
-        """Stretches of rows that regression draws on: the segments once settled, less what is left
+        """Ranges of rows that regression draws on: the segments once settled, less what is left
         out.
         """
         settled = [
@@ -108,10 +117,24 @@ class Trial:
         return self.part(0, at), self.part(at, len(self.time), parent=self.name)
 
     def head(self) -> tuple[Trial, Trial]:
-        """The first ``HEAD`` seconds, at most half of the log, and the rest."""
-        at = int(np.searchsorted(self.time, self.time[0] + HEAD))
+        """The rows with the first ``HEAD`` seconds of motion, at most half of the log, and the
+        rest.
+        """
+        moved = np.cumsum(self._moves()) * self.h
+        at = int(np.searchsorted(moved, HEAD)) + 1
         at = min(at, len(self.time) // 2)
         return self.part(0, at), self.part(at, len(self.time))
+
+    def _moves(self) -> np.ndarray:
+        """The rows (n,) that move; all of them where nothing but rest is to be seen."""
+        x = self.u[:, OWN[self.kind]]
+        inside = np.zeros(len(x), dtype=bool)
+        for a, b in self.segments:
+            inside[a:b] = True
+        if not self.free_rotation or not inside.any():
+            return np.ones(len(x), dtype=bool)
+        speed = np.linalg.norm(x, axis=1)
+        return inside & (speed >= MOVING * np.sqrt(np.mean(speed[inside] ** 2)))
 
 
 def gyro_trial(recording: Recording, latitude: float | None = None) -> Trial | None:
@@ -143,6 +166,7 @@ def gyro_trial(recording: Recording, latitude: float | None = None) -> Trial | N
         known,
         reference.kind,
         band_hz=reference.band_hz,
+        band_limit=reference.band_limit,
         axes=axes,
         free_rotation=reference.kind == "attitude" and len(axes) == 3,
         findings=reference.findings,
@@ -207,7 +231,7 @@ def _environment(recording: Recording) -> tuple[np.ndarray, frozenset[str]]:
 def _slope(
     u: np.ndarray, recording: Recording, signal: str, into: str, over: float = 0.0
 ) -> set[str]:
-    """Fill the rate of a signal in, stretch by stretch: between neighbours on both sides, of means
+    """Fill the rate of a signal in, segment by segment: between neighbours on both sides, of means
     over ``over`` seconds.
     """
     values, rows = u[:, COLUMNS[signal]], max(1, round(over / recording.sample_period))
@@ -265,7 +289,7 @@ def _trial(
     findings: tuple[Finding, ...] = (),
     **more,
 ) -> Trial | None:
-    """A trial of the rows that the reference covers; a bad sample is left out, or ends a stretch
+    """A trial of the rows that the reference covers; a bad sample is left out, or ends a segment
     where a band would spread it.
     """
     if not axes:
@@ -309,14 +333,14 @@ def repeated(values: np.ndarray) -> np.ndarray:
 
 
 def runs(flags: np.ndarray) -> list[tuple[int, int]]:
-    """Stretches (start, stop) of true flags."""
+    """Ranges (start, stop) of true flags."""
     edges = np.flatnonzero(np.diff(np.concatenate([[0], flags.astype(np.int8), [0]])))
     return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))
 
 
 def rest_noise(trial: Trial) -> np.ndarray:
     """Standard deviation (3,) of the white noise of the samples, from the quietest quarter of
-    second-long stretches.
+    second-long segments.
 
     Third differences take out motion up to a tenth of the sample rate; those of white noise have 20
     times its variance.

@@ -51,6 +51,7 @@ def _contents(closed: Outcome, fmus: tuple[str, ...]) -> dict[str, Any]:
         "error_notes": _error_notes(closed),
         "by_log": _by_log(closed),
         "log_states": _log_states(closed),
+        "references": _references(closed),
         "added": [_added(closed, a) for a in closed.added],
         "refused": _refused(closed),
         "changed": _changed(closed),
@@ -221,7 +222,9 @@ def _log_states(closed: Outcome) -> Table:
             if state:
                 si = closed.after.sensor(kind).output.unit
                 bias = [both(b, si, unit_for(state["bias"], si)) for b in state["bias"]]
-                rest = {k: v for k, v in state.items() if k not in ("bias", "rotation")}
+                rest = {
+                    k: v for k, v in state.items() if k not in ("bias", "rotation", "reference")
+                }
                 further = ", ".join(
                     f"{k.replace('_', ' ')} {number(v) if isinstance(v, float) else v}"
                     for k, v in rest.items()
@@ -229,6 +232,36 @@ def _log_states(closed: Outcome) -> Table:
                 turn = _turn(state.get("rotation"))
                 table.rows.append((prose(r.file), SENSORS[kind], *bias, turn, prose(further)))
     return table
+
+
+def _references(closed: Outcome) -> Table:
+    """Of each log that moves, how its reference goes with the sensor."""
+    titles = ("recording", "sensor", "reference", "sensor late by", "of it", "accounts for")
+    table = Table(titles)
+    for r in closed.recordings:
+        for kind, state in r.log_state.items():
+            reference = state.get("reference") or {}
+            if reference.get("clock"):
+                share = f"{reference['explained']:.1%} of the {QUANTITIES[kind]}"
+                late, whose = _lateness(reference["clock"])
+                table.rows.append(
+                    (prose(r.file), SENSORS[kind], reference["kind"], late, prose(whose), share)
+                )
+    return table
+
+
+def _lateness(clock: dict[str, float | None]) -> tuple[str, str]:
+    """How late the sensor is by the reference's clock, and what became of it."""
+    if clock["std"] is None:
+        return "not seen", "too few rows follow the reference"
+    least, most, std = (number(1e3 * clock[k]) for k in ("least", "most", "std"))
+    if clock["least"] != clock["most"]:
+        return f"{least} to {most} ms", "wanders: taken for the clocks', and out of the reference"
+    late = f"{number(1e3 * clock['late'])} ± {std} ms"
+    if clock["left_to_sensor"]:
+        return late, "left to the sensor: all logs have it in common"
+    taken = clock["late"] != 0.0
+    return late, "taken for the clocks', and out of the reference" if taken else "none"
 
 
 def _turn(rotation: list | None) -> Any:

@@ -29,8 +29,27 @@ reads to the end."""
 
 def headline(closed: Outcome) -> str:
     """The verdict as a person would say it."""
-    sentences = {"named": _named, "unexplained": _unexplained, "drift": _drift, "clean": _clean}
-    return sentences.get(closed.verdict, _undecidable)(closed)
+    sentences = {
+        "named": _named,
+        "partly": _named,
+        "not_confirmed": _not_confirmed,
+        "unexplained": _unexplained,
+        "drift": _drift,
+        "clean": _clean,
+        "reference_unfit": _unfit,
+    }
+    said = sentences.get(closed.verdict, _undecidable)(closed)
+    return " ".join([said, *(f"{r[0].upper()}{r[1:]}." for r in closed.remarks)])
+
+
+def _not_confirmed(closed: Outcome) -> str:
+    return (
+        f"Something is missing, but what it is is not confirmed: {closed.reason}.{_level(closed)}"
+    )
+
+
+def _unfit(closed: Outcome) -> str:
+    return f"The reference does not belong to this sensor: {closed.reason}."
 
 
 def _named(closed: Outcome) -> str:
@@ -58,6 +77,8 @@ def _were(count: int) -> str:
 
 
 def _unexplained(closed: Outcome) -> str:
+    if not closed.unexplained:
+        return f"More than noise is left: {closed.reason}.{_level(closed)}"
     return (
         "Something is missing that no effect of the catalogue describes: "
         f"{dependence(closed)}.{_level(closed)}"
@@ -166,6 +187,7 @@ def coefficient(value: np.ndarray, si: str) -> str:
 def in_lines(closed: Outcome) -> str:
     """The findings in a few lines of text."""
     lines = [f"verdict: {closed.verdict}" + (f" ({closed.reason})" if closed.reason else "")]
+    lines += [f"  {remark}" for remark in closed.remarks]
     lines += [f"  added {describe(a)}" for a in closed.added]
     lines += [
         f"  changed {c.sensor}.{c.effect}.{c.parameter}: declared {_short(c.declared)}, fitted "

@@ -152,10 +152,11 @@ def _scan_groups(normal: Normal, sensor: Sensor, e: Effect) -> list[Group]:
     for key in normal.keys:
         if isinstance(key, Scanned) and key.effect == e.name:
             by_index.setdefault(key.index, []).append(key)
+    coefficients = coefficients_of(sensor, e.name)
     return [
         Group(
             e.name,
-            tuple(sorted(k for k in coefficients_of(sensor, e.name) if k.index == index)),
+            tuple(sorted(k for k in coefficients if k.index == index)),
             tuple(Choice((normal.position[k],), k.value) for k in keys),
         )
         for index, keys in by_index.items()
@@ -163,7 +164,8 @@ def _scan_groups(normal: Normal, sensor: Sensor, e: Effect) -> list[Group]:
 
 
 def _linear_groups(normal: Normal, sensor: Sensor, e: Effect) -> list[Group]:
-    present = [k for k in normal.keys if k in coefficients_of(sensor, e.name)]
+    coefficients = coefficients_of(sensor, e.name)
+    present = [k for k in normal.keys if k in coefficients]
     rows: dict[int, list[Key]] = {}
     for key in present:
         rows.setdefault(key.index[0] if key.index else -1, []).append(key)

@@ -4,18 +4,21 @@ and look again.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, replace
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
 from pyimu.identification.fit.columns import in_band, residual
 from pyimu.identification.fit.fit import Fit, begin
-from pyimu.identification.fit.maximum_likelihood import fit
-from pyimu.identification.fit.normal import Normal, normal_equations
+from pyimu.identification.fit.keys import Coefficient
+from pyimu.identification.fit.maximum_likelihood import fit, fit_and_normal
+from pyimu.identification.fit.normal import Normal
 from pyimu.identification.fit.score import held_state, log_likelihood
 from pyimu.identification.fit.trial import Trial
+from pyimu.identification.search.belief import unbelievable
 from pyimu.identification.search.candidates import Group, equivalent, with_start
 from pyimu.identification.search.ceiling import (
     at_samples,
@@ -70,7 +73,7 @@ class Step:
 
 @dataclass(frozen=True)
 class Refused:
-    """An effect that passed the gate but not the held-out data."""
+    """An effect that passed the gate but not belief or the held-out data."""
 
     effect: str
     gain: float
@@ -111,12 +114,13 @@ def investigate(
     trials: list[Trial],
     held: list[Trial],
     say: Callable[[str], None] = lambda text: None,
+    prior: Mapping[Coefficient, float] = MappingProxyType({}),
 ) -> Investigation:
     """Find what ``sensor``, with coefficients ``free``, lacks to explain ``trials``, confirmed on
-    ``held``.
+    ``held``; ``prior`` are standard deviations of coefficients that nobody declared.
     """
     say(f"{sensor.kind}: fitting the model as declared")
-    before = fit(begin(sensor, free, trials))
+    before = fit(begin(sensor, free, trials, prior))
     if has_ceiling(sensor):
         before = without_lost(before)
     after = before
@@ -129,10 +133,10 @@ def investigate(
         chosen, names = _choose(after, options, last.gate)
         if chosen is None:
             break
-        if not improves(after, chosen.fit, held):
-            refused[chosen.screened.effect] = Refused(
-                chosen.screened.effect, chosen.gain, "does not lower the error on held-out data"
-            )
+        reason = _against(after, chosen, held)
+        if reason:
+            name = chosen.screened.effect
+            refused[name] = Refused(name, chosen.gain, reason)
             continue
         name = chosen.screened.effect
         steps.append(
@@ -191,8 +195,9 @@ def refine(current: Fit, c: Screened) -> Refined:
     corrected for the scatter of the scores at the fitted values.
     """
     sensor = with_start(current.sensor, c.values, c.effect)
-    fitted = fit(replace(current, sensor=sensor, free=current.free | keys_of(c)).with_noise())
-    normal = normal_equations(fitted.linearise(), fitted.noise)
+    fitted, normal = fit_and_normal(
+        replace(current, sensor=sensor, free=current.free | keys_of(c)).with_noise()
+    )
     needed = tuple(
         g for g in c.groups if _needed(fitted, normal, g, c.effect in current.sensor.values)
     )
@@ -224,6 +229,15 @@ def _needed(fitted: Fit, normal: Normal, group: Group, declared: bool) -> bool:
     )
 
 
+def _against(after: Fit, chosen: Refined, held: list[Trial]) -> str:
+    """Why a chosen candidate is refused all the same; nothing where it is not."""
+    if chosen.screened.effect not in after.sensor.values:
+        reason = unbelievable(chosen.fit, keys_of(chosen.screened))
+        if reason:
+            return reason
+    return "" if improves(after, chosen.fit, held) else "does not lower the error on held-out data"
+
+
 def improves(old: Fit, new: Fit, held: list[Trial]) -> bool:
     """True where held-out rows are likelier under the new model, both judged with the new model's
     noise.
@@ -252,6 +266,20 @@ def improves(old: Fit, new: Fit, held: list[Trial]) -> bool:
     if dynamic and squares[1] > (1 - LEAST_BESIDE_DYNAMICS) ** 2 * squares[0] > 0:
         return False
     return gained > 0.0 or difference < 0.5
+
+
+def without(inv: Investigation, effect: str, reason: str) -> Investigation:
+    """The investigation with an added effect taken back, for a ``reason`` found elsewhere."""
+    step = next(s for s in inv.steps if s.effect == effect)
+    sensor = inv.after.sensor.without(effect)
+    after = fit(replace(inv.after, sensor=sensor, free=inv.after.free - step.keys).with_noise())
+    return replace(
+        inv,
+        after=after,
+        steps=tuple(s for s in inv.steps if s is not step),
+        refused=(*inv.refused, Refused(effect, step.gain, reason)),
+        last=screen(after, inv.before.sensor.values),
+    )
 
 
 def _backward(after: Fit, steps: list[Step]) -> tuple[Fit, list[Step]]:

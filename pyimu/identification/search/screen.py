@@ -64,8 +64,8 @@ class Projected:
 
     gram: np.ndarray
     score: np.ndarray
-    block_score: np.ndarray
-    block_gram: np.ndarray
+    batch_score: np.ndarray
+    batch_gram: np.ndarray
 
     @classmethod
     def of(cls, normal: Normal, base: list[int], wanted: list[int]) -> Projected:
@@ -80,12 +80,12 @@ class Projected:
         dead = np.diag(gram) < 1e-9 * raw
         turn[:, dead] = 0.0
         gram[dead] = gram[:, dead] = 0.0
-        block_score = normal.block_score @ turn
+        batch_score = normal.batch_score @ turn
         return cls(
             gram,
             turn.T @ normal.score,
-            block_score,
-            np.einsum("ki,bkl,lj->bij", turn, normal.block_gram, turn, optimize=True),
+            batch_score,
+            np.einsum("ki,bkl,lj->bij", turn, normal.batch_gram, turn, optimize=True),
         )
 
 
@@ -189,7 +189,7 @@ def _smallest(projected: Projected, g: Group) -> float | None:
 
 
 def dispersion(projected: Projected, columns: Sequence[int]) -> float:
-    """How much more the scores scatter from block to block than the noise model says, at least 1.
+    """How much more the scores scatter from batch to batch than the noise model says, at least 1.
 
     A residual whose variance follows the motion, or that is correlated beyond the whitening, makes
     every gain look larger than it is; the ratio of the empirical to the modelled variance of the
@@ -200,7 +200,7 @@ def dispersion(projected: Projected, columns: Sequence[int]) -> float:
     if not np.any(np.diag(gram)):
         return 1.0
     estimate = solve(gram, projected.score[at])
-    rest = projected.block_score[:, at] - projected.block_gram[:, at][:, :, at] @ estimate
+    rest = projected.batch_score[:, at] - projected.batch_gram[:, at][:, :, at] @ estimate
     rest = rest - rest.mean(axis=0)
     return max(1.0, float(np.trace(solve(gram, rest.T @ rest))) / len(at))
 
@@ -241,12 +241,14 @@ def _with_twins(
 ) -> list[Screened]:
     """Note for each effect which others its columns could stand in for."""
     spaces = {name: _space(gs, projected) for name, gs in by_effect.items() if gs}
+    d = np.sqrt(np.diag(projected.gram))
+    correlation = projected.gram / np.where(np.outer(d, d) > 0, np.outer(d, d), 1.0)
     out = []
     for one in found:
         twins = tuple(
             other
             for other in spaces
-            if other != one.effect and _alike(spaces[one.effect], spaces[other], projected.gram)
+            if other != one.effect and _alike(spaces[one.effect], spaces[other], correlation)
         )
         out.append(replace(one, inseparable_from=twins))
     return out
@@ -258,13 +260,11 @@ def _space(gs: list[Group], projected: Projected) -> list[int]:
     return [c for choice in least for c in choice.columns if projected.gram[c, c] > 0]
 
 
-def _alike(a: list[int], b: list[int], gram: np.ndarray, limit: float = 0.98) -> bool:
+def _alike(a: list[int], b: list[int], correlation: np.ndarray, limit: float = 0.98) -> bool:
     """True where some direction of ``a`` correlates with one of ``b`` above ``limit``."""
     if not a or not b:
         return False
-    d = np.sqrt(np.diag(gram))
-    r = gram / np.where(np.outer(d, d) > 0, np.outer(d, d), 1.0)
-    return bool(np.abs(r[np.ix_(a, b)]).max() > limit)
+    return bool(np.abs(correlation[np.ix_(a, b)]).max() > limit)
 
 
 def keys_of(screened: Screened) -> frozenset[Key]:

@@ -84,7 +84,7 @@ def transport_rate(
 )
 def coning(
     x,
-    c: Parameter("1", (), description="share of the coning correction that is missing"),
+    c: Parameter("1", (), known=1.0, description="share of the coning correction that is missing"),
     acceleration: Environment("angular_acceleration"),
     h: SamplePeriod(),
 ):

@@ -227,7 +227,7 @@ def bias_instability(
         transfer=r"k\, |x|",
         psd="k^2 x^2",
         allan=r"\frac{k |x|}{\sqrt\tau}",
-        note="White noise as large as the rate is fast; the picture is at 100 deg/s.",
+        note="White noise in proportion to the size of the input.",
     ),
 )
 def rate_dependent_noise(

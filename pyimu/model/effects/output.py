@@ -44,8 +44,7 @@ def dead_zone(x, d: Parameter("{y}", minimum=0.0, description="largest input wit
         allan=r"\frac{\sqrt 3\, Q}{\tau}",
         note=(
             "The angle's rounding error is independent from sample to sample where other noise "
-            "turns the sensor by half a step a sample or more. The picture shows the error alone, "
-            "the FMU's output less that of the same noise unrounded."
+            "turns the sensor by half a step a sample or more."
         ),
     ),
 )
@@ -103,10 +102,7 @@ def saturation(
         transfer=r"q \sqrt{h / 12}",
         psd=r"\frac{q^2 h}{12}",
         allan=r"q \sqrt{\frac{h}{12\, \tau}}",
-        note=(
-            "Rounding of the rate is white noise where other noise exceeds half a step. The "
-            "picture shows the error alone."
-        ),
+        note="Rounding of the rate is white noise where other noise exceeds half a step.",
     ),
     symptom="rounds coarsely",
     phrase="rounding to",

@@ -1,5 +1,6 @@
-"""ROS 1 and ROS 2 bags and MCAP files, read by rosbags: ``sensor_msgs/Imu`` and
-``sensor_msgs/Temperature``.
+"""ROS 1 and ROS 2 bags and MCAP files, read by rosbags.
+
+Messages are of ``sensor_msgs/Imu`` and ``sensor_msgs/Temperature``.
 
 Units are those of the message definitions: rad/s, m/s^2, degC. The time is the header's stamp, or
 the time of logging where the stamps are not set. An Imu's orientation is a filter's estimate and
@@ -19,7 +20,7 @@ import numpy as np
 
 from pyimu.errors import Finding, UserError
 from pyimu.recording.columns import GROUPS, column_names
-from pyimu.recording.formats.table import Columns, Table, need
+from pyimu.recording.formats.reader import Columns, Reader, need
 
 TYPES = {"imu": "sensor_msgs/msg/Imu", "temperature": "sensor_msgs/msg/Temperature"}
 """What a topic of each role holds."""
@@ -31,12 +32,13 @@ _FIELDS = {"gyro": "angular_velocity", "accel": "linear_acceleration"}
 
 
 @dataclass(frozen=True)
-class BagTable(Table):
-    """A bag: ``topic`` of its Imu messages, ``messages`` how many, the sensor ``groups`` in them,
-    ``temperature`` ns and degC.
+class BagReader(Reader):
+    """A bag: its Imu messages, and a temperature interpolated at their times.
 
-    Messages are read one by one; of the temperature, which is interpolated at the Imu's times, all
-    at once.
+    ``topic`` is that of the Imu messages, ``messages`` their number, ``groups`` the sensors in
+    them, ``temperature`` the times [ns] and values [degC].
+
+    Imu messages are read one by one, those of the temperature all at once.
     """
 
     path: Path
@@ -49,9 +51,10 @@ class BagTable(Table):
     findings: tuple[Finding, ...] = ()
 
     @classmethod
-    def open(cls, path: Path, topics: Mapping[str, str]) -> BagTable:
-        """``topics`` names those of "imu" and "temperature"; without it the only one of its type is
-        taken.
+    def open(cls, path: Path, topics: Mapping[str, str]) -> BagReader:
+        """Open a bag; ``topics`` names those of "imu" and "temperature".
+
+        A topic that is not named is the only one of its type.
 
         Raises UserError for a file that is no bag, where rosbags is not installed, and for a topic
         that is not there or not clear.
@@ -189,8 +192,9 @@ def _imu_topic(path: Path, bag: Any, named: str | None) -> str:
 def _temperature(
     path: Path, bag: Any, named: str | None, logged: bool, findings: list[Finding]
 ) -> tuple[np.ndarray, np.ndarray] | None:
-    """Times [ns] and temperatures [degC] of the topic, in order of time, None where there is none
-    or it is not clear which.
+    """Times [ns] and temperatures [degC] of the topic, in order of time.
+
+    None where there is no such topic or it is not clear which.
     """
     known = _topics(bag, "temperature")
     if named is None and len(known) != 1:

@@ -1,5 +1,4 @@
-"""Files that hold named arrays (HDF5, MAT): which of their arrays are columns, and how a column map
-calls them.
+"""Files that hold named arrays (HDF5, MAT): which arrays are columns, and their names.
 
 An array is called by its path, ``imu/time``; a column of an array of several by its number from 0,
 ``imu/gyro[2]``, and a field of an array of records by its name, ``imu/table[gx]``, and of a field
@@ -19,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from pyimu.errors import UserError
-from pyimu.recording.formats.table import Columns, Table, as_number
+from pyimu.recording.formats.reader import Columns, Reader, as_number
 
 BATCH = 1 << 16
 """Rows of a piece."""
@@ -27,8 +26,10 @@ BATCH = 1 << 16
 
 @dataclass(frozen=True)
 class Column:
-    """A column in a file of arrays: of ``array``, samples along ``axis``, at ``index`` of the other
-    axis, or a field, or its ``part``.
+    """A column in a file of arrays.
+
+    It is part of ``array``, with samples along ``axis``, at ``index`` of the other axis; or it is a
+    field of records, or the field's ``part``.
     """
 
     array: str
@@ -68,8 +69,9 @@ def columns_of(name: str, shape: tuple[int, ...], dtype: np.dtype) -> list[Colum
 
 
 def _parts(field: np.dtype) -> list[int | None]:
-    """The columns of a field of records: its numbers where it has several, None for its only
-    one.
+    """The columns in a field of records.
+
+    Their numbers where the field has several, None for its only one.
     """
     if field.base.kind not in "iufb" or len(field.shape) > 1:
         return []
@@ -77,8 +79,9 @@ def _parts(field: np.dtype) -> list[int | None]:
 
 
 def skipped(name: str, shape: tuple[int, ...], dtype: np.dtype) -> list[str]:
-    """What of an array is in none of its columns, each with the reason; a single value is nothing
-    that anybody misses.
+    """What part of an array is in no column, each with the reason.
+
+    A single value is not listed.
     """
     if math.prod(shape) < 2:
         return []
@@ -96,7 +99,7 @@ def _reason(dtype: np.dtype, axes: int) -> str:
     return what or (f"{axes} axes" if dtype.kind in "iufb" else f"of type {dtype}")
 
 
-class DatasetTable(Table):
+class DatasetReader(Reader):
     """A file of named arrays; its ``header`` is the list of all columns in them."""
 
     crowded = True

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from pyimu.errors import UserError
-from pyimu.recording.formats.datasets import Column, DatasetTable, columns_of, skipped
-from pyimu.recording.formats.table import need
+from pyimu.recording.formats.datasets import Column, DatasetReader, columns_of, skipped
+from pyimu.recording.formats.reader import need
 
 CACHE = 1 << 25
 """Bytes of decompressed chunks kept for each array: a slice may end inside of a chunk, which the
@@ -24,7 +24,7 @@ NUMERIC = (
 """MATLAB's classes of numbers; a char array is stored as integers too, and is none."""
 
 
-class Hdf5Table(DatasetTable):
+class Hdf5Reader(DatasetReader):
     """An HDF5 file; ``extra`` is the extra of the package that its reader is asked under."""
 
     def __init__(
@@ -34,7 +34,7 @@ class Hdf5Table(DatasetTable):
         self.extra = extra
 
     @classmethod
-    def open(cls, path: Path, extra: str = "hdf5") -> Hdf5Table:
+    def open(cls, path: Path, extra: str = "hdf5") -> Hdf5Reader:
         """Raises UserError for a file that is none, and where h5py is not installed."""
         with _file(path, extra) as file:
             arrays: list[tuple] = []

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from pyimu.errors import UserError
-from pyimu.recording.formats.datasets import DatasetTable, columns_of, skipped
-from pyimu.recording.formats.hdf5 import Hdf5Table
+from pyimu.recording.formats.datasets import DatasetReader, columns_of, skipped
+from pyimu.recording.formats.hdf5 import Hdf5Reader
 
 WHOLE = 2 << 30
 """Bytes of the largest MAT file before version 7.3 that is read."""
@@ -19,7 +19,7 @@ WHOLE = 2 << 30
 _HDF5 = b"\x89HDF\r\n\x1a\n"
 
 
-class MatTable(DatasetTable):
+class MatReader(DatasetReader):
     """A MAT file of version 4 to 7.2, in memory."""
 
     def __init__(
@@ -37,12 +37,13 @@ class MatTable(DatasetTable):
         self.arrays = arrays
 
     @classmethod
-    def open(cls, path: Path) -> MatTable | Hdf5Table:
-        """Structures are folders, ``log/gyro[0]``. Raises UserError for a file that is none, or
-        too large to be read whole.
+    def open(cls, path: Path) -> MatReader | Hdf5Reader:
+        """Open a MAT file; structures become folders, ``log/gyro[0]``.
+
+        Raises UserError for a file that is not a MAT file, or is too large to be read whole.
         """
         if _is_hdf5(path):
-            return Hdf5Table.open(path, "mat")
+            return Hdf5Reader.open(path, "mat")
         if path.stat().st_size > WHOLE:
             raise UserError(
                 f"{path}: MAT files before version 7.3 are read whole and may have {WHOLE >> 30} "
@@ -61,9 +62,7 @@ class MatTable(DatasetTable):
 
 
 def _is_hdf5(path: Path) -> bool:
-    """Whether the signature of HDF5 stands at the start or behind MATLAB's 512 bytes of user
-    block.
-    """
+    """Whether HDF5's signature is at the start or after MATLAB's user block of 512 bytes."""
     with path.open("rb") as file:
         head = file.read(512 + len(_HDF5))
     return _HDF5 in (head[: len(_HDF5)], head[512:])
@@ -89,8 +88,9 @@ def _items(folder: str, items: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
 
 
 def _skipped(name: str, item: Any) -> list[str]:
-    """What of an ``item`` has no columns: arrays of structures come as lists, cells as lists or
-    arrays of objects.
+    """What of an ``item`` has no columns.
+
+    Arrays of structures come as lists, cells as lists or as arrays of objects.
     """
     if isinstance(item, list) and item and isinstance(item[0], Mapping):
         return [f"{name} ({len(item)} structures, save one whose fields are arrays)"]

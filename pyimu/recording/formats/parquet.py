@@ -11,7 +11,7 @@ import pyarrow as pa
 from pyarrow import parquet
 
 from pyimu.errors import UserError
-from pyimu.recording.formats.table import Columns, Table, as_number
+from pyimu.recording.formats.reader import Columns, Reader, as_number
 from pyimu.recording.formats.text import to_numpy
 
 BATCH = 1 << 16
@@ -26,7 +26,7 @@ For the same reason nothing is "pre-buffered": what that reads ahead is kept to 
 
 
 @dataclass(frozen=True)
-class ParquetTable(Table):
+class ParquetReader(Reader):
     """A Parquet file; ``header`` are its column names, ``rows`` how many it has."""
 
     path: Path
@@ -34,7 +34,7 @@ class ParquetTable(Table):
     rows: int
 
     @classmethod
-    def open(cls, path: Path) -> ParquetTable:
+    def open(cls, path: Path) -> ParquetReader:
         """Raises UserError for a file that cannot be read."""
         with _reading(path), parquet.ParquetFile(path) as file:
             return cls(

@@ -1,6 +1,4 @@
-"""Tables of numbers in files: the reader that fits a file's suffix, and the writer of
-recordings.
-"""
+"""Reader and writer of recordings by the suffix of a file."""
 
 from __future__ import annotations
 
@@ -17,32 +15,33 @@ from pyarrow import parquet
 
 from pyimu.errors import UserError
 from pyimu.files import whole
-from pyimu.recording.formats.bag import BagTable
-from pyimu.recording.formats.hdf5 import Hdf5Table
-from pyimu.recording.formats.mat import MatTable
-from pyimu.recording.formats.parquet import ParquetTable
-from pyimu.recording.formats.table import Table
-from pyimu.recording.formats.text import CsvTable
+from pyimu.recording.formats.bag import BagReader
+from pyimu.recording.formats.hdf5 import Hdf5Reader
+from pyimu.recording.formats.mat import MatReader
+from pyimu.recording.formats.parquet import ParquetReader
+from pyimu.recording.formats.reader import Reader
+from pyimu.recording.formats.text import CsvReader
 
 READERS: Mapping[str, Any] = MappingProxyType(
     {
-        ".csv": CsvTable,
-        ".csv.gz": CsvTable,
-        ".parquet": ParquetTable,
-        ".mat": MatTable,
-        ".h5": Hdf5Table,
-        ".hdf5": Hdf5Table,
-        ".bag": BagTable,
-        ".db3": BagTable,
-        ".mcap": BagTable,
+        ".csv": CsvReader,
+        ".csv.gz": CsvReader,
+        ".parquet": ParquetReader,
+        ".mat": MatReader,
+        ".h5": Hdf5Reader,
+        ".hdf5": Hdf5Reader,
+        ".bag": BagReader,
+        ".db3": BagReader,
+        ".mcap": BagReader,
     }
 )
 """The reader of each suffix; a folder with a ``metadata.yaml`` is a bag of ROS 2."""
 
 
-def open_table(path: Path, topics: Mapping[str, str] | None = None) -> Table:
-    """The table in ``path``, by its suffix; ``topics`` names a bag's, by the keys "imu" and
-    "temperature".
+def open_reader(path: Path, topics: Mapping[str, str] | None = None) -> Reader:
+    """Open the file ``path`` with the reader of its suffix.
+
+    ``topics`` names a bag's topics, by the keys "imu" and "temperature".
 
     Raises UserError for a file that is missing or none of these, and for topics of a file that has
     none.
@@ -51,9 +50,9 @@ def open_table(path: Path, topics: Mapping[str, str] | None = None) -> Table:
         raise UserError(f"{path}: no such file")
     if path.is_dir() and not (path / "metadata.yaml").is_file():
         raise UserError(f"{path}: a folder, give the files in it")
-    reader = BagTable if path.is_dir() else _by_suffix(path, READERS)
-    if reader is BagTable:
-        return BagTable.open(path, topics or {})
+    reader = BagReader if path.is_dir() else _by_suffix(path, READERS)
+    if reader is BagReader:
+        return BagReader.open(path, topics or {})
     if topics:
         raise UserError(
             f"{path}: has no topics, only ROS bags do; leave [topics] out of the column map"
@@ -68,8 +67,9 @@ def stem(path: Path) -> str:
 
 
 def write_table(path: Path, columns: Mapping[str, np.ndarray]) -> None:
-    """Writes ``columns`` (name to (n,) array) to ``path``, in the shortest digits that read back
-    the same.
+    """Write ``columns`` (name to (n,) array) to ``path``.
+
+    Numbers have the fewest digits that read back the same.
 
     The file appears whole or not at all. Raises UserError for an unknown suffix or a folder that
     cannot be written.

@@ -16,23 +16,24 @@ import pyarrow as pa
 from pyarrow import csv as pacsv
 
 from pyimu.errors import UserError
-from pyimu.recording.formats.table import Columns, Table
+from pyimu.recording.formats.reader import Columns, Reader
 
 MISSING = ("", "NaN", "nan", "NAN", "NA", "null", "-nan")
 """Cells of a CSV file that hold no value."""
 
 
 @dataclass(frozen=True)
-class CsvTable(Table):
+class CsvReader(Reader):
     """A CSV file, plain or gzipped; ``header`` are the cells of its first row."""
 
     path: Path
     header: list[str]
 
     @classmethod
-    def open(cls, path: Path) -> CsvTable:
-        """Raises UserError for a file that cannot be read, or is separated by something else than
-        commas.
+    def open(cls, path: Path) -> CsvReader:
+        """Open a CSV file.
+
+        Raises UserError for a file that cannot be read, or whose separator is not a comma.
         """
         first = next(_csv_rows(path), (1, []))[1]
         if len(first) == 1 and re.search(r"[;\t]", first[0]):
@@ -78,9 +79,7 @@ class CsvTable(Table):
         return None
 
     def place(self, index: int) -> str:
-        """Row, as a spreadsheet counts it, of the sample ``index``; rows that are blank hold no
-        sample.
-        """
+        """Row of the sample ``index``, as a spreadsheet counts it; blank rows hold no sample."""
         rows = (row for k, (row, _) in enumerate(_csv_rows(self.path)) if k == index + 1)
         return f"row {next(rows, index + 2)}"
 
@@ -93,9 +92,7 @@ class CsvTable(Table):
         return self._first_row() is not None
 
     def _is_long(self, position: int) -> bool:
-        """Whether the first number of a column is an integer that float64 would round (Unix time in
-        ns).
-        """
+        """Whether a column starts with an integer that float64 would round (Unix time in ns)."""
         cells = self._first_row() or []
         return (
             len(cells) > position
@@ -103,8 +100,9 @@ class CsvTable(Table):
         )
 
     def _explain(self, positions: Sequence[int], good: int) -> None:
-        """Raises UserError for the first cell that is no number, or the first row that is too long
-        or too short, past ``good`` rows.
+        """Raise UserError for the first wrong cell or row after ``good`` rows.
+
+        A cell is wrong where it is not a number, a row where it is too long or too short.
         """
         for row, cells in islice(_csv_rows(self.path), 1 + good, None):
             if len(cells) != len(self.header):

@@ -1,5 +1,6 @@
-"""The quality of a log that is read in pieces: ``pyimu.recording.quality.inspect`` on blocks of it,
-added up.
+"""The quality of a log that is read in pieces.
+
+``pyimu.recording.quality.inspect`` on windows of the log, added up.
 """
 
 from __future__ import annotations
@@ -11,39 +12,38 @@ from pyimu.recording.quality.inspect import inspect
 from pyimu.recording.quality.tally import Tally
 from pyimu.recording.recording import Recording, copied, join
 
-BLOCK_ROWS = 1 << 18
-"""Samples of a block. Rare things need many samples to stand out from; a block takes some tens of
+WINDOW_ROWS = 1 << 18
+"""Samples of a window. Rare things need many samples to stand out from; a window takes some tens of
 MB and a third of a second."""
 
 
 class Inspector:
-    """Watches the pieces of a log, given in order; the findings do not depend on how the log was
-    cut into them.
+    """Inspects the pieces of a log, given in order; the result does not depend on the pieces.
 
-    The kinds are those of ``pyimu.recording.quality.inspect.inspect``, found in blocks of 2^18
-    samples (the last one of half to one and a half of it), so that a log of one block gives exactly
-    what ``inspect`` does; counts are added up, and a row is one of the log. What concerns a whole
-    column is judged over the blocks: ``constant_channel`` where it is in all of them (else these
-    are stuck samples), ``gravity_down`` in most.
+    The kinds are those of ``pyimu.recording.quality.inspect.inspect``, found in windows of 2^18
+    samples (the last one of half to one and a half of it), so that a log of one window gives
+    exactly what ``inspect`` does; counts are added up, and a row is one of the log. What concerns a
+    whole column is judged over the windows: ``constant_channel`` where it is in all of them (else
+    these are stuck samples), ``gravity_down`` in most.
     """
 
     def __init__(self) -> None:
         self._held: list[Recording] = []
         self._waiting = 0
         self._rows = 0
-        self._blocks = 0
+        self._windows = 0
         self._found: dict[tuple[str, str], list[tuple[int, Finding]]] = {}
 
     def add(self, piece: Recording) -> None:
         """The ``piece`` that follows what was added before."""
         self._held.append(piece)
         self._waiting += len(piece)
-        if self._waiting < 1.5 * BLOCK_ROWS:
+        if self._waiting < 1.5 * WINDOW_ROWS:
             return
         whole = join(self._held)
-        while len(whole) >= 1.5 * BLOCK_ROWS:
-            self._inspect(whole.slice(0, BLOCK_ROWS))
-            whole = whole.slice(BLOCK_ROWS)
+        while len(whole) >= 1.5 * WINDOW_ROWS:
+            self._inspect(whole.slice(0, WINDOW_ROWS))
+            whole = whole.slice(WINDOW_ROWS)
         self._held, self._waiting = [copied(whole)], len(whole)
 
     def findings(self) -> tuple[Finding, ...]:
@@ -57,22 +57,20 @@ class Inspector:
                 tally.add(self._constant(found))
             elif kind != "gravity_down":
                 tally.add(_moved(finding, start) for start, finding in found)
-            elif 2 * len(found) > self._blocks:
+            elif 2 * len(found) > self._windows:
                 tally.add([found[0][1]])
         return tally.findings()
 
-    def _inspect(self, block: Recording) -> None:
-        for finding in inspect(block):
+    def _inspect(self, window: Recording) -> None:
+        for finding in inspect(window):
             self._found.setdefault((finding.kind, finding.column), []).append((self._rows, finding))
-        self._rows += len(block)
-        self._blocks += 1
+        self._rows += len(window)
+        self._windows += 1
 
     def _constant(self, found: list[tuple[int, Finding]]) -> list[Finding]:
-        """One finding for a channel that is constant all the time, else the stuck samples of each
-        block.
-        """
+        """One finding for a channel that is always constant, else each window's stuck samples."""
         values = {finding.detail["value"] for _, finding in found}
-        if len(found) == self._blocks and len(values) == 1:
+        if len(found) == self._windows and len(values) == 1:
             return [replace(found[0][1], count=sum(finding.count for _, finding in found))]
         return [
             Finding(
@@ -86,7 +84,7 @@ class Inspector:
 
 
 def _moved(finding: Finding, rows: int) -> Finding:
-    """The finding of a block that begins at row ``rows`` of the log."""
+    """The finding of a window that begins at row ``rows`` of the log."""
     if "first_row" not in finding.detail:
         return finding
     return replace(

@@ -1,5 +1,4 @@
-"""Quality of the raw samples: what to know of a recording before a model is blamed for its
-residual.
+"""Quality of the raw samples, to be known before a model is blamed for its residual.
 
 Every test looks at the measured samples alone, needs no reference and no model, and takes its
 threshold from the column itself.
@@ -25,8 +24,7 @@ JITTER = 0.01
 
 
 def inspect(recording: Recording) -> tuple[Finding, ...]:
-    """What the raw gyro and accelerometer samples and their times show: see the functions below for
-    the kinds.
+    """The findings from raw gyro and accelerometer samples and their times.
 
     ``constant_channel``, ``wrapped``, ``clipping``, ``stuck_samples``, ``held_samples``,
     ``spikes``, ``quantization_step`` for each column; ``jitter`` and ``gravity_down`` for the
@@ -107,8 +105,9 @@ def _gravity_down(recording: Recording) -> Iterator[Finding]:
 
 
 def _quietest_force(recording: Recording) -> np.ndarray | None:
-    """The median specific force (3,) over the quietest tenth of the seconds, None where it is not
-    gravity. A log need not rest for that.
+    """The median specific force (3,) over the quietest tenth of the seconds.
+
+    None where it is not gravity. A log need not be at rest for that.
     """
     length = max(4, min(round(recording.sample_rate), len(recording) // 10))
     count = len(recording) // length

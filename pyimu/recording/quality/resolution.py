@@ -40,9 +40,7 @@ def quantization_step(values: np.ndarray) -> float | None:
 
 
 def _first_step(known: np.ndarray, levels: np.ndarray) -> float | None:
-    """The median distance between levels where they are dense, in the middle half of the
-    samples.
-    """
+    """The median distance between levels, where they are dense: the samples' middle half."""
     low, high = np.quantile(known, (0.25, 0.75))
     dense = levels[(levels >= low) & (levels <= high)]
     gaps = np.diff(dense if len(dense) > 8 else levels)

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
-BLOCK = 32
-"""Samples of a block in which the local noise is estimated."""
+WINDOW = 32
+"""Samples of a window in which the local noise is estimated."""
 
 
 def scatter(curvature: np.ndarray, quantile: float) -> float:
-    """A quantile over blocks of the median of ``curvature``, the size of the second differences."""
+    """A quantile over windows of the median ``curvature``, the absolute second difference."""
     curvature = curvature[np.isfinite(curvature)]
-    blocks = len(curvature) // BLOCK
-    if not blocks:
+    windows = len(curvature) // WINDOW
+    if not windows:
         return float(np.median(curvature)) if len(curvature) else 0.0
-    medians = np.median(curvature[: blocks * BLOCK].reshape(blocks, BLOCK), axis=1)
+    medians = np.median(curvature[: windows * WINDOW].reshape(windows, WINDOW), axis=1)
     return float(np.quantile(medians, quantile))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from pyimu.recording.quality.scatter import BLOCK
+from pyimu.recording.quality.scatter import WINDOW
 
 SPIKE_SIGMA = 6.0
 """A spike exceeds so many robust standard deviations of its neighbourhood."""
@@ -33,7 +33,7 @@ def spikes(values: np.ndarray) -> np.ndarray:
     column is off at the same time, the isolation must be ``CORRUPT_ISOLATION``.
     """
     mask = np.zeros(values.shape, bool)
-    if len(values) < 4 * BLOCK:
+    if len(values) < 4 * WINDOW:
         return mask
     off = _residuals(values)
     sigma = _local_sigma(off)
@@ -48,8 +48,9 @@ def spikes(values: np.ndarray) -> np.ndarray:
 
 
 def _residuals(v: np.ndarray) -> np.ndarray:
-    """|v_k - (4 (v_k-1 + v_k+1) - v_k-2 - v_k+2) / 6|, zero at the ends and where a value is
-    missing.
+    """The residual of each sample against the cubic through its four neighbours.
+
+    |v_k - (4 (v_k-1 + v_k+1) - v_k-2 - v_k+2) / 6|, zero at the ends and where a value is missing.
     """
     off = np.zeros(v.shape)
     off[2:-2] = np.abs(v[2:-2] - (4 * (v[1:-3] + v[3:-1]) - v[:-4] - v[4:]) / 6)
@@ -57,12 +58,10 @@ def _residuals(v: np.ndarray) -> np.ndarray:
 
 
 def _local_sigma(off: np.ndarray) -> np.ndarray:
-    """Robust standard deviation of the residuals around each, at least a quarter of the
-    column's.
-    """
-    blocks = 1.4826 * np.median(sliding_window_view(off, 2 * BLOCK, axis=0)[::BLOCK], axis=-1)
-    rows = np.minimum(np.arange(len(off)) // BLOCK, len(blocks) - 1)
-    return np.maximum(blocks, np.median(blocks, axis=0) / 4)[rows]
+    """Robust standard deviation of the residuals near each, at least a quarter of the column's."""
+    windows = 1.4826 * np.median(sliding_window_view(off, 2 * WINDOW, axis=0)[::WINDOW], axis=-1)
+    rows = np.minimum(np.arange(len(off)) // WINDOW, len(windows) - 1)
+    return np.maximum(windows, np.median(windows, axis=0) / 4)[rows]
 
 
 def widened(mask: np.ndarray) -> np.ndarray:
@@ -74,9 +73,10 @@ def widened(mask: np.ndarray) -> np.ndarray:
 
 
 def _isolated(off: np.ndarray, k: int, factor: float) -> bool:
-    """Whether residual ``k`` exceeds those near it by ``factor``, the four that it shares samples
-    with left out.
+    """Whether residual ``k`` exceeds those near it by ``factor``.
+
+    The four residuals that share samples with it are left out.
     """
-    before, after = off[max(k - BLOCK // 2, 0) : max(k - 2, 0)], off[k + 3 : k + 1 + BLOCK // 2]
+    before, after = off[max(k - WINDOW // 2, 0) : max(k - 2, 0)], off[k + 3 : k + 1 + WINDOW // 2]
     others = max(before.max(initial=0.0), after.max(initial=0.0))
     return bool(off[k] == off[max(k - 2, 0) : k + 3].max() and off[k] > factor * others)

@@ -53,8 +53,9 @@ def stuck_runs(values: np.ndarray) -> list[tuple[int, int]]:
 
 
 def _repeat_chance(repeats: np.ndarray, starts: np.ndarray, stops: np.ndarray) -> np.ndarray:
-    """Probability of a repeat around each run, without it; ``repeats`` (n + 1,) counts them up to
-    each sample.
+    """Probability of a repeat around each run, the run itself left out.
+
+    ``repeats`` (n + 1,) counts the repeats up to each sample.
     """
     low, high = np.maximum(starts - NEIGHBOURS, 0), np.minimum(stops + NEIGHBOURS, len(repeats) - 1)
     count = repeats[high] - repeats[low] - (stops - starts - 1)
@@ -83,8 +84,9 @@ def stuck_findings(name: str, values: np.ndarray) -> Iterator[Finding]:
 
 
 def held_rows(values: np.ndarray) -> float | None:
-    """Rows for which a sensor that is slower than its log holds each of the ``values`` (n,), None
-    where it does not.
+    """Rows for which each of ``values`` (n,) is held, None where they are not held.
+
+    They are held by a sensor that is slower than its log.
 
     Such values change at regular intervals of two rows and more. Where rounded noise repeats
     itself by chance, the intervals have the geometric law: mean m, variance m (m - 1). A slow

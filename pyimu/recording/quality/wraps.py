@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from pyimu.errors import Finding
-from pyimu.recording.quality.scatter import BLOCK
+from pyimu.recording.quality.scatter import WINDOW
 
 WRAP = 0.8
 """A step above this part of a column's range goes across the edge of a word, where the column is
@@ -19,8 +19,9 @@ SMOOTH = 1 / 16
 
 
 def wraps(values: np.ndarray) -> tuple[np.ndarray, float]:
-    """(rows, span): where a word of integers wrapped around in ``values`` (n,), and its range in
-    their unit; no rows where none did.
+    """(rows, span): where an integer word wrapped around in ``values`` (n,), and its range.
+
+    The range is in the unit of the values; there are no rows where none wrapped.
 
     A smooth column jumps from end to end of its range, and less the slope beside it each jump is
     the same: the word's range. The samples span no more than that. Those of a motion that is
@@ -31,7 +32,7 @@ def wraps(values: np.ndarray) -> tuple[np.ndarray, float]:
     size, rows = np.abs(change), np.zeros(0, int)
     reach = np.nanmax(values) - np.nanmin(values)
     if (
-        len(values) < 4 * BLOCK
+        len(values) < 4 * WINDOW
         or not np.isfinite(size).any()
         or not 0 < np.nanmedian(size) < SMOOTH * reach
     ):

@@ -22,8 +22,9 @@ LEAST_FRAMES = 30
 def trusted_band(
     time: np.ndarray, gyro: np.ndarray | None, rate: np.ndarray, limit: float
 ) -> float:
-    """The highest frequency in Hz, at most ``limit``, up to which ``rate`` (n, 3) explains ``gyro``
-    (n, 3).
+    """The highest frequency [Hz], at most ``limit``, up to which ``rate`` (n, 3) explains ``gyro``.
+
+    ``gyro`` is (n, 3).
 
     The share of the gyro's power that a linear filter of the reference's axes explains, the
     multiple coherence tr(S_gr S_rr^-1 S_rg) / tr(S_gg) (Bendat and Piersol 2010, chapter 7), must
@@ -47,8 +48,9 @@ def trusted_band(
 def coherence(
     time: np.ndarray, y: np.ndarray, x: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray | None]:
-    """Frequencies (f,) Hz, and the share (f,) of the power of ``y`` (n, p) that ``x`` (n, q)
-    explains.
+    """Frequencies (f,) Hz, and the share (f,) of the power of ``y`` that ``x`` explains.
+
+    ``y`` is (n, p), ``x`` is (n, q).
 
     The share is None where there are too few frames.
     """
@@ -63,8 +65,9 @@ def coherence(
 
 
 def _explained(frames: np.ndarray, p: int) -> np.ndarray:
-    """The share (f,) of the power in the first ``p`` columns of ``frames`` (k, length, p + q) that
-    the others explain.
+    """The share (f,) of the power in the first ``p`` columns that the other columns explain.
+
+    ``frames`` is (k, length, p + q).
     """
     window = np.hanning(frames.shape[1])[:, None]
     spectrum = np.fft.rfft((frames - frames.mean(axis=1, keepdims=True)) * window, axis=1)

@@ -43,16 +43,17 @@ class Reference:
     segments: list[tuple[int, int]] = field(default_factory=list)
     findings: tuple[Finding, ...] = ()
     earth_rate: bool = True
+    band_limit: float | None = None
 
 
 def reference_rate(recording: Recording, latitude: float | None = None) -> Reference:
     """The rate against inertial space that the recording's reference saw, in body axes.
 
-    From ``ref_rate`` as it is; else from ``ref_q``, differentiated; else about z from
-    ``ref_heading`` of a planar vehicle, x and y unknown; else zero (static) where the recording is
-    at rest, and unknown where it moves. To a
-    differentiated rate the Earth's is added where the latitude [rad] is known (the argument, else
-    the recording's column). Raises UserError for a latitude beyond pi/2.
+    It is ``ref_rate`` as it is; else ``ref_q``, differentiated; else about z from ``ref_heading``
+    of a planar vehicle, x and y unknown; else zero (static) where the recording is at rest, and
+    unknown where it moves. To a differentiated rate the Earth's is added where the latitude [rad]
+    is known (the argument, else the recording's column). Raises UserError for a latitude beyond
+    pi/2.
     """
     if latitude is not None and not abs(latitude) <= math.pi / 2:
         raise UserError(f"latitude is {latitude} rad, expected -pi/2 to pi/2")
@@ -72,8 +73,7 @@ def reference_rate(recording: Recording, latitude: float | None = None) -> Refer
 
 
 def earth_rate_in_body(q: np.ndarray, latitude: np.ndarray | float) -> np.ndarray:
-    """The Earth's rate (n, 3) rad/s in the axes of the body with attitude ``q`` (n, 4), NaN where
-    that is NaN.
+    """The Earth's rate (n, 3) rad/s in body axes at attitude ``q`` (n, 4), NaN where that is NaN.
 
     R_nb^T [0, cos(lat), sin(lat)] 7.292115e-5 in east-north-up (Groves 2013, chapter 2, there in
     north-east-down).
@@ -158,14 +158,10 @@ def _fresh(values: np.ndarray) -> np.ndarray:
 def _derived(
     recording: Recording, rate: np.ndarray, kind, track: Track, earth_rate: bool
 ) -> Reference:
-    band = (
-        trusted_band(recording.time, recording.gyro, rate, 0.25 / track.period)
-        if track.segments
-        else None
-    )
-    return Reference(
-        rate, kind, band, _finite_runs(recording, rate), tuple(track.findings), earth_rate
-    )
+    limit = 0.25 / track.period
+    band = trusted_band(recording.time, recording.gyro, rate, limit) if track.segments else None
+    runs = _finite_runs(recording, rate)
+    return Reference(rate, kind, band, runs, tuple(track.findings), earth_rate, limit)
 
 
 def _finite_runs(recording: Recording, rate: np.ndarray) -> list[tuple[int, int]]:

@@ -38,11 +38,10 @@ MARGIN = 0.25
 
 
 class Track:
-    """The samples of a reference: segments of row numbers that can be differentiated, without
-    occlusions and faults.
+    """The samples of a reference that can be differentiated, without occlusions and faults.
 
-    ``known`` are the rows with a reference; ``steps(nodes)`` gives the rotation vectors (m - 1, d)
-    rad between them.
+    ``segments`` are arrays of row numbers. ``known`` are the rows with a reference;
+    ``steps(nodes)`` gives the rotation vectors (m - 1, d) rad between them.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""What every reader gives: named columns of numbers, read in pieces of bounded length."""
+"""The interface of every reader: named columns of numbers, read in pieces of bounded length."""
 
 from __future__ import annotations
 
@@ -16,13 +16,12 @@ Columns = list[np.ndarray]
 """Arrays (n,) of one length: float64, NaN where a value is missing; the time may be of int64."""
 
 
-class Table(ABC):
-    """A file with columns of numbers: ``header`` their names, ``findings`` what its reader had to
-    decide.
+class Reader(ABC):
+    """A file with columns of numbers, named by ``header``.
 
-    ``crowded`` says that a file may hold much else, so that only the columns that a map names, or
-    whose names are a recording's own, are looked at; ``skipped`` says what in it has no columns of
-    numbers, and why.
+    ``findings`` are what the reader had to decide. ``crowded`` says that a file may hold much else,
+    so that only the columns that a map names, or whose names are a recording's own, are looked at;
+    ``skipped`` says what in it has no columns of numbers, and why.
     """
 
     path: Path
@@ -33,8 +32,9 @@ class Table(ABC):
 
     @abstractmethod
     def batches(self, positions: Sequence[int], long: int) -> Iterator[tuple[Columns, float]]:
-        """The columns at ``positions``, in pieces of the length that suits the file, and the share
-        of the file read so far.
+        """The columns at ``positions``, piece by piece, and the share of the file read so far.
+
+        The pieces have the length that suits the file.
 
         ``long`` is the position of a column that may stay of integers, so that a clock in ns is not
         rounded. Raises UserError, with its place, for what is no number.
@@ -42,8 +42,9 @@ class Table(ABC):
 
     @abstractmethod
     def count(self, long: int) -> int | None:
-        """How many rows there are, None where only reading tells; ``long`` is the position of the
-        time.
+        """The number of rows, None where only reading tells.
+
+        ``long`` is the position of the time.
         """
 
     def place(self, index: int) -> str:
@@ -59,8 +60,9 @@ def as_number(column: np.ndarray, may_stay: bool) -> np.ndarray:
 
 
 def need(module: str, extra: str, path: Path) -> ModuleType:
-    """The module ``module``. Raises UserError that names the extra of the package which brings
-    it.
+    """Import the module ``module``.
+
+    Raises UserError that names the extra of the package which installs it.
     """
     try:
         return import_module(module)

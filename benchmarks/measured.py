@@ -1,0 +1,158 @@
+"""What ``close`` says of measured logs, row by row, beside what is known of them.
+
+``python benchmarks/measured.py [ROW ...]`` closes the loop on public recordings, which lie in the
+folder that ``PYIMU_DATA`` names, and prints for each row the verdict, what was added, the error on
+the held-out rows before, after and floor, and of the attitude. Rows whose recordings are missing
+are named as such.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+import pyimu
+from pyimu.identification.result import Closed
+
+DATA = Path(os.environ.get("PYIMU_DATA", Path(__file__).parents[2] / "shared" / "data"))
+SUFFIX = ".csv.gz"
+
+BROAD = {
+    "02": "broad_02_undisturbed_slow_rotation_B",
+    "07": "broad_07_undisturbed_fast_rotation_B",
+    "09": "broad_09_undisturbed_fast_rotation_with_breaks_B",
+    "16": "broad_16_undisturbed_fast_translation_B",
+    "26": "broad_26_disturbed_phone_vibration_A",
+}
+WAND = [f"repoimu_tstick_test0{i}_trial1" for i in (5, 6, 7)]
+
+
+@dataclass(frozen=True)
+class Row:
+    """Logs to fit and to judge by, what is true of them, and what must hold of the result."""
+
+    name: str
+    logs: list[str]
+    holdout: list[str]
+    truth: str
+    columns: str = ""
+    holds: Callable[[Closed], bool] = lambda closed: True
+
+
+def ratio(closed: Closed, kind: str = "gyro") -> float:
+    """Held-out error after over before."""
+    e = closed.errors[kind]
+    return e.after.total / e.before.total
+
+
+def delay(closed: Closed) -> float:
+    """s; NaN where no delay was added."""
+    found = [a.parameters["td"][0] for a in closed.added if a.effect == "time_delay"]
+    return float(found[0]) if found else np.nan
+
+
+def only_a_delay(largest: float) -> Callable[[Closed], bool]:
+    """Whether a delay of 4.1 to 4.3 ms is all that was added to the gyro, and what it is worth."""
+
+    def holds(closed: Closed) -> bool:
+        added = [a.effect for a in closed.added if a.sensor == "gyro"]
+        delay_found = added == ["time_delay"] and 4.1e-3 <= delay(closed) <= 4.3e-3
+        return delay_found and ratio(closed) <= largest
+
+    return holds
+
+
+def wand(closed: Closed) -> bool:
+    """Whether the gyro clips, nothing else is wrong with it, and the attitude is no worse."""
+    added = {a.effect for a in closed.added if a.sensor == "gyro"}
+    before, after = closed.attitude or (1.0, 1.0)
+    wrong = {"clock_skew", "coning", "angular_acceleration"}
+    return "saturation" in added and not added & wrong and after <= 1.02 * before
+
+
+ROWS = (
+    Row(
+        "02+09 -> 16", [BROAD["02"], BROAD["09"]], [BROAD["16"]], "delay 4.2 ms", only_a_delay(0.3)
+    ),
+    Row("09 -> 16", [BROAD["09"]], [BROAD["16"]], "delay 4.2 ms", only_a_delay(0.3)),
+    Row("02 -> 07", [BROAD["02"]], [BROAD["07"]], "delay 4.2 ms", only_a_delay(0.2)),
+    Row(
+        "02+07 -> 26", [BROAD["02"], BROAD["07"]], [BROAD["26"]], "delay 4.2 ms", only_a_delay(0.6)
+    ),
+    Row("wand 05 to 07", WAND, [], "clips; clocks that slip", wand),
+    Row(
+        "wand 07",
+        WAND[2:],
+        [],
+        "two clocks 1e-4 apart that slip by a sample",
+        lambda c: not any(a.sensor == "gyro" for a in c.added),
+    ),
+    Row(
+        "pendulum",
+        ["repoimu_pendulum_02a"],
+        [],
+        "one axis moves: bias alone leaves 3.23 deg/s",
+        lambda c: c.verdict == "undecidable" or np.degrees(c.errors["gyro"].after.total) <= 3.3,
+    ),
+    Row(
+        "rocket",
+        ["raw/rocket_jackpot"],
+        [],
+        "its filter's quaternion and its gyro do not belong together",
+        lambda c: c.verdict == "reference_unfit",
+    ),
+    Row("car n", ["morpinet_rccar_n"], [], "clocks 0.25 s apart"),
+    Row("rests", ["imucalib_unit0"], [], "scale factor, misalignment, bias of the accelerometer"),
+    Row("static", ["adis16405_unit1_static"], [], "flicker"),
+    Row("thermal", ["astropi_lsm9ds1_static"], [], "accelerometer follows temperature"),
+)
+
+
+def table(rows: list[Row]) -> bool:
+    """Print the rows; whether all that could be run hold."""
+    good = True
+    for row in rows:
+        paths = [[DATA / (n + SUFFIX) for n in names] for names in (row.logs, row.holdout)]
+        if not all(p.is_file() for ps in paths for p in ps):
+            print(f"{row.name:14} skipped: not in {DATA}")
+            continue
+        began = time.perf_counter()
+        try:
+            closed = pyimu.close(paths[0], holdout=paths[1] or None)
+        except pyimu.UserError as error:
+            print(f"{row.name:14} refused: {error}")
+            good = False
+            continue
+        holds = row.holds(closed)
+        good &= holds
+        print(
+            f"{row.name:14} {'holds' if holds else 'WRONG'}  ({time.perf_counter() - began:.0f} s)"
+        )
+        print(f"{'':14} true: {row.truth}")
+        print(f"{'':14} said: {closed.verdict}: {closed.reason}")
+        for line in _figures(closed):
+            print(f"{'':14} {line}")
+    return good
+
+
+def _figures(closed: Closed):
+    for kind, e in closed.errors.items():
+        scale, unit = (np.degrees(1), "deg/s") if kind == "gyro" else (1.0, "m/s^2")
+        values = [e.before.total, e.after.total, np.nan if e.floor is None else e.floor.total]
+        before, after, floor = (scale * v for v in values)
+        yield f"{kind}: {before:.4g} -> {after:.4g} {unit}, floor {floor:.3g}"
+    if closed.attitude:
+        yield "attitude: {:.2f} -> {:.2f} deg".format(*np.degrees(closed.attitude))
+    for kind, r in closed.refused:
+        yield f"refused: {kind} {r.effect} ({r.gain:.0f} nat): {r.reason}"
+
+
+if __name__ == "__main__":
+    wanted = sys.argv[1:]
+    sys.exit(not table([r for r in ROWS if not wanted or r.name in wanted]))

@@ -1,0 +1,1 @@
+"""The reference as an instrument with errors of its own, log by log."""

@@ -1,0 +1,70 @@
+"""Whose delay it is: what the logs' clocks say together, and the logs with their references on the
+sensor's clock.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from pyimu.errors import Finding
+from pyimu.identification.fit.clock import Clock
+from pyimu.identification.fit.trial import Trial
+from pyimu.identification.reference.clock import measure, rebanded, shifted
+from pyimu.model.sensor import Sensor
+
+SIGNIFICANT = 5.0
+"""Standard errors from which on a lag is no chance."""
+
+ALIKE = 0.1
+"""Logs whose lags differ by less than this share of their mean have one in common."""
+
+LONGEST_OWN = 0.05
+"""s; a lag above it is no sensor's: bandwidths begin at some 5 Hz."""
+
+
+def aligned(trials: Sequence[Trial], held: Sequence[Trial], sensor: Sensor) -> list[Trial]:
+    """All trials, fitted and ``held``, with the reference's clock taken out, as far as it is the
+    reference's; their ``clock`` and ``findings`` say what was taken out.
+
+    A lag may be the sensor's own where all fitted logs have it in common and the sensor is late. It
+    is left in then, for the effects that make one. What differs from log to log, wanders, makes the
+    sensor early, or is longer than any sensor's is the clock's.
+    """
+    clocks = [measure(t, sensor) for t in (*trials, *held)]
+    own = in_common([c for c in clocks[: len(trials)] if c is not None and np.isfinite(c.std)])
+    return [_aligned(t, c, own) for t, c in zip((*trials, *held), clocks, strict=True)]
+
+
+def in_common(clocks: Sequence[Clock]) -> float:
+    """The lag in s that may be the sensor's own; 0 where there is none."""
+    if not clocks or not all(c.keeps_step for c in clocks):
+        return 0.0
+    late = np.array([c.mean for c in clocks])
+    weight = np.array([c.std for c in clocks]) ** -2.0
+    mean = float(weight @ late / weight.sum())
+    chance = SIGNIFICANT * np.array([c.std for c in clocks])
+    certain = np.all(late > chance) and mean < LONGEST_OWN
+    alike = np.all(np.abs(late - mean) < np.maximum(ALIKE * mean, chance))
+    return mean if certain and alike else 0.0
+
+
+def _aligned(trial: Trial, clock: Clock | None, own: float) -> Trial:
+    if clock is None:
+        return trial
+    if not np.isfinite(clock.std):
+        return replace(trial, clock=clock)
+    rest = clock.less(own)
+    chance = max(SIGNIFICANT * clock.std, ALIKE * own)
+    if rest.keeps_step and abs(rest.mean) < chance:
+        return replace(trial, clock=replace(rest, late=np.zeros(1), std=clock.std))
+    found = Finding(
+        "reference_clock",
+        trial.kind,
+        len(rest.late),
+        {"least": float(rest.late.min()), "most": float(rest.late.max()), "std": clock.std},
+    )
+    moved = rebanded(shifted(trial, rest))
+    return replace(moved, clock=rest, findings=(*trial.findings, found))

@@ -1,0 +1,251 @@
+"""The clock of a log's reference against the sensor's: how much later than the reference says the
+sensor shows the motion.
+
+A coarse lag is where the sizes of the two rates correlate best, which no mounting changes. The fine
+one is the coefficient of -dx/dt, x being the reference's rate, in the sensor's output; in windows
+of some seconds it shows whether the two clocks keep step.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from scipy.fft import irfft, next_fast_len, rfft
+
+from pyimu.identification.fit.clock import Clock
+from pyimu.identification.fit.columns import band_time, in_band
+from pyimu.identification.fit.response import through_dynamics
+from pyimu.identification.fit.trial import MOVING, Trial, rest_noise
+from pyimu.identification.reference.track import level_of
+from pyimu.model.kinds import KINDS, OWN
+from pyimu.model.sensor import Sensor
+from pyimu.model.signals import COLUMNS
+from pyimu.recording.quality.clipping import clipped
+from pyimu.recording.reference.band import trusted_band
+
+WINDOW, ROWS = 2.5, 32
+"""s; windows of the fine lag, and the least rows of the band that one covers."""
+
+FARTHEST = 10.0
+"""s; the coarse lag is looked for so far, and within a quarter of the log."""
+
+FITTING = 0.3
+"""Share of the rate by which a row may miss the fit: clipped samples and faults miss by more."""
+
+LEAST_ROWS = 16
+"""Moving rows below which a window says nothing."""
+
+MOTION = 5.0
+"""Times its own noise that a sensor must show for a reference to be judged by it."""
+
+ROUNDS = 5
+TAPS, SHAPE = 12, 10.0
+"""Samples on either side from which a shifted reference is interpolated, and the shape of their
+Kaiser window: its side lobes shift what is interpolated by less than 1e-4 samples."""
+
+
+def measure(trial: Trial, sensor: Sensor) -> Clock | None:
+    """The clock of a trial, by the model ``sensor`` with its dynamics; None without motion.
+
+    Where too few rows follow the reference for a lag to be seen, its ``std`` is infinite.
+    """
+    if trial.reference == "static" or not trial.segments or not moves(trial):
+        return None
+    clock = Clock(trial.time[:1], np.array([_coarse(trial)]), 0.0, 0.0)
+    for _ in range(ROUNDS):
+        seen = _windows(shifted(trial, clock), sensor)
+        if seen is None:
+            return replace(clock, std=np.inf, explained=_explained(shifted(trial, clock)))
+        time, late, std = seen
+        level = level_of(time, late + clock.at(time), std)
+        before, clock = clock, Clock(level.time, level.value, level.std, 0.0)
+        if np.abs(clock.at(time) - before.at(time)).max() < 0.1 * clock.std:
+            break
+    return replace(clock, explained=_explained(shifted(trial, clock)))
+
+
+def moves(trial: Trial) -> bool:
+    """Whether the sensor shows more than its own noise."""
+    axes = list(trial.axes)
+    y = in_band(replace(trial, band_hz=_band_of(trial)), trial.y[:, axes])
+    if len(y) < LEAST_ROWS:
+        return False
+    weights = np.array(replace(trial, band_hz=_band_of(trial)).band.weights)
+    noise = rest_noise(trial)[axes] * np.sqrt(np.sum(weights**2))
+    return bool(np.linalg.norm(y.std(axis=0)) > MOTION * np.linalg.norm(noise))
+
+
+def _explained(trial: Trial) -> float:
+    """Share of the sensor's power in the band that the reference accounts for, once turned into the
+    sensor's axes; below zero where it is further off than nothing.
+    """
+    trial, axes = replace(trial, band_hz=_band_of(trial)), list(trial.axes)
+    rows = _rows(trial)
+    x, y = (in_band(trial, v[:, axes])[rows] for v in (trial.u[:, OWN[trial.kind]], trial.y))
+    if len(y) < LEAST_ROWS:
+        return 1.0
+    x, y = x - x.mean(axis=0), y - y.mean(axis=0)
+    left = y - (x @ _turn(x, y) if trial.free_rotation else x)
+    return float(1 - np.sum(left**2) / max(np.sum(y**2), 1e-300))
+
+
+# The reference, moved
+
+
+def shifted(trial: Trial, clock: Clock) -> Trial:
+    """The trial with its reference as late as ``clock`` says, over the rows where it is known."""
+    late = clock.at(trial.time)
+    if not np.any(late):
+        return trial
+    u, segments = np.array(trial.u), []
+    columns = [OWN[trial.kind], COLUMNS[KINDS[trial.kind].own_rate]]
+    for a, b in trial.segments:
+        row = np.interp(trial.time[a:b] - late[a:b], trial.time[a:b], np.arange(b - a), -1, b - a)
+        inside = np.flatnonzero((row >= 0) & (row <= b - a - 1))
+        if len(inside) < 2:
+            continue
+        for at in columns:
+            u[a:b, at] = _interpolated(trial.u[a:b, at], np.clip(row, 0, b - a - 1))
+        segments.append((a + int(inside[0]), a + int(inside[-1]) + 1))
+    return replace(trial, u=u, segments=segments)
+
+
+def rebanded(trial: Trial) -> Trial:
+    """The trial with the band in which its reference, as it stands now, can be trusted; one whose
+    reference was not derived has none.
+    """
+    if trial.band_hz is None:
+        return trial
+    return replace(trial, band_hz=_band_of(trial))
+
+
+def _interpolated(x: np.ndarray, row: np.ndarray) -> np.ndarray:
+    """Values of ``x`` (n, k) at fractional rows (m,): a sinc under a Kaiser window, so that white
+    noise keeps its size where a line between neighbours would smooth it.
+    """
+    left = np.floor(row).astype(int)
+    out, total = np.zeros((len(row), x.shape[1])), np.zeros(len(row))
+    for j in range(1 - TAPS, TAPS + 1):
+        away = row - (left + j)
+        window = np.i0(SHAPE * np.sqrt(np.maximum(1 - (away / TAPS) ** 2, 0.0)))
+        weight = np.sinc(away) * window
+        out += weight[:, None] * x[np.clip(left + j, 0, len(x) - 1)]
+        total += weight
+    return out / total[:, None]
+
+
+# How late
+
+
+def _coarse(trial: Trial) -> float:
+    """Lag in s at which the sizes of the two rates correlate best; 0 where that is hardly better
+    than without a lag.
+    """
+    axes = list(trial.axes)
+    counted = np.zeros(len(trial.time), dtype=bool)
+    for a, b in trial.row_segments:
+        counted[a:b] = True
+    rate = trial.u[:, OWN[trial.kind]][:, axes]
+    x = np.linalg.norm(rate, axis=1)
+    y = np.linalg.norm(trial.y[:, axes] - np.median(trial.y[:, axes], axis=0), axis=1)
+    most = round(min(FARTHEST, (trial.time[-1] - trial.time[0]) / 4) / trial.h)
+    lags = np.arange(-most, most + 1)
+    r = _correlation(x, y, counted, lags)
+    best = int(np.argmax(r))
+    return float(lags[best] * trial.h) if 1 - r[best] < 0.5 * (1 - r[most]) else 0.0
+
+
+def _correlation(x, y, counted, lags: np.ndarray) -> np.ndarray:
+    """Correlation of x (n,) with y (n,) ``lags`` (m,) rows later, over rows that both have."""
+    n, size = len(x), next_fast_len(2 * len(x))
+    m = counted.astype(float)
+    x, y = ((v - v[counted].mean()) * m for v in (x, y))
+
+    def cross(a, b):
+        return irfft(np.conj(rfft(a, size)) * rfft(b, size), size)[lags % size]
+
+    pairs = np.maximum(cross(m, m), 1.0)
+    covariance = cross(x, y) / pairs
+    power = cross(x * x, m) * cross(m, y * y) / pairs**2
+    enough = pairs > 0.5 * n * m.mean() ** 2
+    return np.where(enough, covariance / np.sqrt(np.maximum(power, 1e-300)), -1.0)
+
+
+def _turn(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """The rotation (3, 3) with x @ rotation nearest to y, (m, 3) each (Kabsch's algorithm)."""
+    left, _, right = np.linalg.svd(x.T @ y)
+    return left @ np.diag([1.0, 1.0, np.linalg.det(left @ right)]) @ right
+
+
+def _windows(trial: Trial, sensor: Sensor):
+    """Middle (k,) s, lag (k,) s and standard error (k,) s of each window that moves; None where too
+    little does.
+    """
+    axes = list(trial.axes)
+    rate = trial.u[:, OWN[trial.kind]]
+    slope = np.zeros_like(rate)
+    for a, b in trial.segments:
+        slope[a:b] = np.gradient(rate[a:b], trial.time[a:b], axis=0)
+    x, slope = (
+        through_dynamics(sensor, v, trial.segments, trial.h)[:, axes] for v in (rate, slope)
+    )
+    trial = replace(trial, band_hz=_band_of(trial))
+    time, rows = band_time(trial), _rows(trial)
+    x, slope, y = (in_band(trial, v)[rows] for v in (x, slope, trial.y[:, axes]))
+    time = time[rows]
+    speed = np.linalg.norm(x - np.median(x, axis=0), axis=1)
+    if len(speed) < 4 * LEAST_ROWS or not np.any(speed):
+        return None
+    moving = speed > MOVING * np.sqrt(np.mean(speed**2))
+    size = np.linalg.norm(y - np.median(y, axis=0), axis=1)
+    good = moving & (np.abs(size - speed) < FITTING * speed)
+    for _ in range(3):
+        if good.sum() < 4 * LEAST_ROWS:
+            return None
+        known = np.column_stack([np.ones(len(x)), x])
+        gain = np.linalg.lstsq(known[good], y[good], rcond=1e-6)[0]
+        left = y - known @ gain
+        turned = slope @ gain[1:]
+        late = -np.sum(turned[good] * left[good]) / max(np.sum(turned[good] ** 2), 1e-300)
+        missed = np.linalg.norm(left + late * turned, axis=1)
+        good = moving & (missed < FITTING * speed)
+    return _by_window(trial, time, left, turned, good)
+
+
+def _by_window(trial: Trial, time, left, turned, good):
+    length = max(WINDOW, ROWS * trial.band.stride * trial.h)
+    window = ((time - trial.time[0]) / length).astype(int)
+    middles, lates, stds = [], [], []
+    for k in np.unique(window[good]):
+        at = good & (window == k)
+        power = np.sum(turned[at] ** 2)
+        if at.sum() < LEAST_ROWS or power == 0.0:
+            continue
+        late = -np.sum(turned[at] * left[at]) / power
+        rest = left[at] + late * turned[at]
+        middles.append(float(time[at].mean()))
+        lates.append(late)
+        stds.append(np.sqrt(np.mean(rest**2) / power) + 1e-12)
+    if not middles:
+        return None
+    return np.array(middles), np.array(lates), np.array(stds)
+
+
+def _rows(trial: Trial) -> np.ndarray:
+    """Rows of the band (m,) on which no clipped or left-out sample has any weight."""
+    bad = np.any([clipped(trial.y[:, i]) for i in trial.axes], axis=0)
+    if trial.left_out is not None:
+        bad = bad | trial.left_out
+    return in_band(trial, bad.astype(float)[:, None])[:, 0] < 1e-6
+
+
+def _band_of(trial: Trial) -> float:
+    """The band in Hz in which the reference, as it stands now, explains the sensor."""
+    rate = trial.u[:, OWN[trial.kind]]
+    limit = 0.25 / trial.h if trial.band_limit is None else trial.band_limit
+    seen = np.full_like(rate, np.nan)
+    for a, b in trial.segments:
+        seen[a:b] = rate[a:b]
+    axes = list(trial.axes)
+    return trusted_band(trial.time, trial.y[:, axes], seen[:, axes], limit)

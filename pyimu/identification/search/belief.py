@@ -1,0 +1,49 @@
+"""What no sensor has: a coefficient beyond all of its kind, or a known one of another size."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from pyimu.errors import UserError
+from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.keys import Coefficient
+from pyimu.model.catalogue import CATALOGUE
+from pyimu.model.typical import magnitudes
+from pyimu.report.numbers import quantity
+
+FARTHEST = 10.0
+"""Times the typical size in a consumer part, the coarsest class there is, that no part reaches."""
+
+CHANCE = 4.0
+"""Standard errors by which a coefficient of known size may miss it."""
+
+
+def unbelievable(fit: Fit, keys: Iterable[Coefficient]) -> str:
+    """Why the fitted coefficients ``keys`` are no sensor's; nothing where they may be."""
+    for key in sorted(keys):
+        effect = CATALOGUE[key.effect]
+        definition = effect.parameters[key.parameter]
+        value = float(fit.sensor.values[key.effect][key.parameter][key.index])
+        unit = fit.sensor.unit(definition.unit)
+        if definition.known is not None:
+            miss = abs(value - definition.known)
+            if miss > CHANCE * fit.std.get(key, np.inf):
+                return f"{key.parameter} is {value:.3g}, and can be {definition.known:g} alone"
+        most = _most(effect.name, fit.sensor.kind, key.parameter)
+        if definition.scan is None and abs(value) > most:
+            return (
+                f"{key.parameter} is {quantity(value, unit)}, beyond belief: more than "
+                f"{FARTHEST:g} times what is typical of a consumer part"
+            )
+    return ""
+
+
+def _most(effect: str, kind: str, parameter: str) -> float:
+    """The largest size in SI units that a coefficient may have; infinite where none is known."""
+    try:
+        typical = magnitudes(effect, kind)["consumer"]
+    except UserError:
+        return np.inf
+    return FARTHEST * typical.si if typical.parameter == parameter else np.inf

@@ -1,0 +1,171 @@
+"""What the numbers together say: the verdict of a closed loop, and why."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pyimu.identification.fit.columns import in_band, residual
+from pyimu.identification.fit.score import held_state
+from pyimu.identification.fit.trial import Trial
+from pyimu.identification.found import Added, Errors
+from pyimu.identification.reference.clock import moves
+from pyimu.identification.search.forward import Investigation, Refused
+from pyimu.model.catalogue import CATALOGUE
+from pyimu.report.numbers import joined, number
+
+FAR = 3.0
+"""Ratio of the held-out error to its floor from which on more than noise is left."""
+
+UNFIT = 0.5
+"""Share of the sensor's moving power below which a reference does not belong to the sensor."""
+
+SHORT = 500
+"""Fitted rows below which finding nothing says nothing."""
+
+WORSE = 1.02
+"""Ratio of the attitude errors after and before from which on the model is worse for attitude."""
+
+VERDICTS = (
+    "reference_unfit",
+    "named",
+    "partly",
+    "not_confirmed",
+    "unexplained",
+    "drift",
+    "clean",
+    "undecidable",
+)
+
+Found = dict[str, Investigation]
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """One of ``VERDICTS``, the reason for it, and what must be said beside it."""
+
+    word: str
+    reason: str
+    remarks: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What a verdict goes by; ``unexamined`` says of each sensor of the logs that was not looked at
+    why not.
+    """
+
+    added: list[Added]
+    changed: list
+    unexplained: tuple
+    drift: dict
+    found: Found
+    errors: dict[str, Errors]
+    attitude: tuple[float, float] | None
+    refused: list[tuple[str, Refused]]
+    unexamined: dict[str, str]
+
+
+def verdict(e: Evidence) -> Verdict:
+    """The verdict, with what must be said beside it."""
+    found = _verdict(e)
+    beside = (*_growing_attitude(e.attitude), *e.unexamined.values())
+    return replace(found, remarks=found.remarks + beside)
+
+
+def _verdict(e: Evidence) -> Verdict:
+    unfit = _unfit(e.found)
+    if unfit:
+        return Verdict("reference_unfit", unfit)
+    left = _left(e.errors)
+    if e.added:
+        names = ", ".join(f"{a.sensor} {a.effect}" for a in e.added)
+        return Verdict("partly", names, (left,)) if left else Verdict("named", names)
+    if e.refused:
+        kind, most = max(e.refused, key=lambda r: r[1].gain)
+        gain = f"{kind} {most.effect} explains the fitted rows ({most.gain:.0f} nat)"
+        return Verdict("not_confirmed", f"{gain}, but {most.reason}")
+    if e.unexplained:
+        u = e.unexplained[0]
+        return Verdict("unexplained", f"{u.sensor} {u.axis} depends on {' x '.join(u.depends_on)}")
+    if e.drift:
+        return Verdict("drift", "more random walk than declared: an input that nobody logged")
+    return _nothing_found(e, left)
+
+
+def _nothing_found(e: Evidence, left: str) -> Verdict:
+    if not _shows_anything(e.found):
+        return Verdict(
+            "undecidable",
+            "no motion and no temperature: these logs could show little of what may be missing",
+        )
+    if max(sum(t.count for t in inv.after.trials) for inv in e.found.values()) < SHORT:
+        return Verdict(
+            "undecidable",
+            f"fewer than {SHORT} rows were there to fit: too short to miss an effect in",
+        )
+    if left:
+        return Verdict("unexplained", f"no effect of the catalogue accounts for it: {left}")
+    if e.unexamined:
+        seen = joined(sorted(e.found))
+        return Verdict("undecidable", f"nothing is missing of the {seen}")
+    corrected = "; declared values that the data contradict are listed as changed"
+    return Verdict("clean", "nothing is missing" + (corrected if e.changed else ""))
+
+
+def _unfit(found: Found) -> str:
+    """Why a reference does not belong to its sensor; nothing where all do."""
+    for kind, inv in found.items():
+        fitted = [(t.name, t.clock.explained) for t in inv.after.trials if t.clock is not None]
+        held = [(t.name, _explained(inv, t)) for t in inv.held if t.clock and moves(t)]
+        for name, share in [*fitted, *held]:
+            if share < UNFIT:
+                part = f"{max(share, 0.0):.0%} of what the {kind} shows"
+                return (
+                    f"the reference of {name} accounts for {part}: another body, another time, or "
+                    "other axes"
+                )
+    return ""
+
+
+def _explained(inv: Investigation, trial: Trial) -> float:
+    """Share of the sensor's power in the band, on held-out rows, that the model accounts for."""
+    state, rest = held_state(inv.after, trial)
+    axes = list(rest.axes)
+    y = in_band(rest, rest.y[:, axes])
+    left = in_band(rest, residual(inv.after.sensor, rest, state))[:, axes]
+    power = float(np.sum((y - y.mean(axis=0)) ** 2)) if len(y) else 0.0
+    return 1.0 - float(np.sum(left**2)) / power if power > 0.0 else 1.0
+
+
+def _left(errors: dict[str, Errors]) -> str:
+    """How much more than noise is left, and on which axis most; nothing where it is noise."""
+    far = []
+    for kind, e in errors.items():
+        if e.floor is None or not e.after.total > FAR * e.floor.total:
+            continue
+        with np.errstate(invalid="ignore", divide="ignore"):
+            axes = e.after.per_axis / e.floor.per_axis
+        ratio = e.after.total / e.floor.total
+        axis = "xyz"[int(np.nanargmax(axes))]
+        far.append(f"the {kind} residual is {number(ratio, 2)} times its noise, most on {axis}")
+    return joined(far)
+
+
+def _growing_attitude(attitude: tuple[float, float] | None) -> list[str]:
+    if attitude is None or not attitude[1] > WORSE * attitude[0]:
+        return []
+    before, after = np.degrees(attitude)
+    return [f"attitude is worse with it: {before:.2f} to {after:.2f} deg"]
+
+
+def _shows_anything(found: Found) -> bool:
+    """Whether some effect would be visible that time alone does not drive: those show in any log,
+    and say nothing about the effects that people ask for.
+    """
+    return any(
+        np.isfinite(c.smallest_visible) and "time" not in CATALOGUE[c.effect].signals(kind)
+        for kind, inv in found.items()
+        for c in inv.first.candidates
+    )

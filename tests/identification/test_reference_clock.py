@@ -1,0 +1,202 @@
+"""The reference's clock: how late the sensor is by it, and whose lag that is."""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation, RotationSpline
+
+import pyimu
+from pyimu.identification.fit.clock import Clock
+from pyimu.identification.fit.trial import gyro_trial
+from pyimu.identification.reference.align import LONGEST_OWN, in_common
+from pyimu.identification.reference.clock import measure
+from pyimu.identification.reference.track import WANDERS, level_of
+from pyimu.model.sensor import Sensor
+from pyimu.recording.recording import Recording
+
+H, SECONDS, NOISE = 0.01, 120.0, 2e-3
+TIME = np.arange(0.0, SECONDS, H)
+
+
+class Motion:
+    """A rate (n, 3) rad/s at any time: sines up to 2 Hz."""
+
+    def __init__(self, seed):
+        rng = np.random.default_rng(seed)
+        self.frequency = rng.uniform(0.1, 2.0, (3, 6))
+        self.phase = rng.uniform(0, 2 * np.pi, (3, 6))
+        self.size = rng.uniform(0.1, 0.4, (3, 6))
+
+    def __call__(self, t):
+        angle = 2 * np.pi * self.frequency * np.asarray(t)[:, None, None] + self.phase
+        return np.sum(self.size * np.sin(angle), axis=2)
+
+
+def log(late, seed=0, name="log", reference_noise=0.0):
+    """A log whose gyro shows the motion ``late`` s, a number or (n,), after its reference."""
+    rng, motion = np.random.default_rng(100 + seed), Motion(seed)
+    gyro = motion(TIME - late) + NOISE * rng.standard_normal((len(TIME), 3))
+    rate = motion(TIME) + reference_noise * rng.standard_normal((len(TIME), 3))
+    return Recording.from_arrays(name=name, time=TIME, gyro=gyro, ref_rate=rate)
+
+
+def seen(recording):
+    return measure(gyro_trial(recording), Sensor("gyro"))
+
+
+SAWTOOTH = 8e-3 * ((TIME / 40.0) % 1.0)
+
+
+@pytest.mark.parametrize("late", [0.0, -0.0025, -0.0125, -0.0225, 0.005, 0.02, 1.37, -1.37])
+def test_a_constant_lag_is_found_to_its_standard_error(late):
+    """The slope by differences is short, which the rounds take out of the lag; interpolation adds
+    1e-4 sample periods.
+    """
+    clock = seen(log(late))
+    assert clock.keeps_step
+    # Five standard errors are exceeded once in two million times.
+    assert abs(clock.mean - late) < 5 * clock.std + 1e-4 * H
+    assert clock.std < 1e-4 and clock.explained > 0.999
+
+
+def test_a_clock_that_slips_is_followed():
+    clock = seen(log(SAWTOOTH))
+    assert not clock.keeps_step
+    inside = np.abs((TIME % 40.0) - 20.0) < 15.0
+    error = clock.at(TIME)[inside] - SAWTOOTH[inside]
+    assert np.sqrt(np.mean(error**2)) < 0.1 * np.sqrt(np.mean(SAWTOOTH**2))
+
+
+def test_a_level_that_stands_still_is_rarely_said_to_wander():
+    """Twice the gain of the walk is half chance zero and half chi-square on one degree (Self and
+    Liang 1987): above 2 ``WANDERS`` with p = 0.00027, in 400 draws more than twice once in 5000.
+    """
+    assert WANDERS >= 6.0
+    rng, time = np.random.default_rng(5), np.arange(0.0, 100.0, 2.5)
+    levels = [level_of(time, 1e-3 * rng.standard_normal(40), np.full(40, 3e-4)) for _ in range(400)]
+    assert sum(len(one.value) > 1 for one in levels) <= 2
+    # Unknown up to a factor: the scatter tells the standard error, not what was claimed.
+    np.testing.assert_allclose(
+        [np.median([one.std for one in levels])], 1e-3 / np.sqrt(40), rtol=0.1
+    )
+
+
+def test_without_motion_there_is_no_clock():
+    still = Recording.from_arrays(
+        name="still",
+        time=TIME,
+        gyro=NOISE * np.random.default_rng(1).standard_normal((len(TIME), 3)),
+        ref_rate=np.zeros((len(TIME), 3)),
+    )
+    assert seen(still) is None
+
+
+def clock(*late, std=1e-5):
+    return Clock(np.arange(len(late), dtype=float), np.array(late), std, 1.0)
+
+
+@pytest.mark.parametrize(
+    "clocks, own",
+    [
+        ([clock(4.2e-3)], 4.2e-3),
+        ([clock(4.2e-3), clock(4.3e-3)], 4.25e-3),
+        ([clock(4.2e-3), clock(8e-3)], 0.0),
+        ([clock(-4.2e-3)], 0.0),
+        ([clock(-4.2e-3), clock(4.2e-3)], 0.0),
+        ([clock(4.2e-3), clock(4e-3, 5e-3)], 0.0),
+        ([clock(1.1 * LONGEST_OWN)], 0.0),
+        ([clock(4.2e-3, std=1e-3)], 0.0),
+        ([], 0.0),
+    ],
+)
+def test_a_lag_may_be_the_sensors_where_all_logs_have_it_and_it_is_late(clocks, own):
+    assert in_common(clocks) == pytest.approx(own)
+
+
+@pytest.mark.parametrize("late", [-0.0025, -0.0125, -0.0225, H / 2 - H, 1.37, SAWTOOTH])
+def test_a_clock_is_no_effect_of_the_sensor(late):
+    """Its error on held-out rows is that of the same log without the clock's error: white noise."""
+    closed = pyimu.close(log(late))
+    assert not closed.added, closed.report()
+    (found,) = [f for f in closed.quality if f.kind == "reference_clock"]
+    assert found.detail["least"] < np.max(late) + 1e-4
+    assert found.detail["most"] > np.min(late) - 1e-4
+    reached = closed.errors["gyro"].after.total / NOISE
+    # Held-out rows of three axes; a slipping clock is known to within its windows only.
+    assert reached < (1.05 if np.ndim(late) == 0 else 1.5)
+
+
+def test_lags_that_differ_from_log_to_log_are_the_clocks():
+    closed = pyimu.close([log(0.004, 1, "a"), log(0.016, 2, "b")])
+    assert not closed.added, closed.report()
+    lates = [r.log_state["gyro"]["reference"]["clock"]["late"] for r in closed.recordings]
+    np.testing.assert_allclose(lates, [0.004, 0.016], atol=1e-4)
+
+
+def test_a_lag_that_all_logs_share_is_the_sensors_with_the_clock_beside_it():
+    closed = pyimu.close([log(0.0085, 1, "a"), log(0.0085, 2, "b")])
+    (added,) = closed.added
+    assert {added.effect, *added.alternatives} == {"time_delay", "lag"} and "clock" in added.note
+    clocks = [r.log_state["gyro"]["reference"]["clock"] for r in closed.recordings]
+    assert all(c["left_to_sensor"] == pytest.approx(0.0085, abs=1e-4) for c in clocks)
+
+
+def test_a_noisy_reference_is_no_lag():
+    """As noisy as the gyro: interpolation would smooth it, and win likelihood."""
+    closed = pyimu.close(log(0.0, 3, reference_noise=NOISE))
+    assert not closed.added, closed.report()
+
+
+def attitude_log(name, seed, mounting, rest):
+    """A gyro 8 ms late behind an optical attitude, which rests for ``rest`` s first."""
+    rng, motion = np.random.default_rng(seed), Motion(seed)
+    h = 0.005
+    t = np.arange(0.0, 100.0 + rest, h)
+    fade = np.clip((t - rest) / 2.0, 0.0, 1.0)[:, None]
+    angles = 0.3 * fade * motion(t)
+    spline = RotationSpline(t, Rotation.from_rotvec(angles))
+    gyro = mounting.apply(spline(np.maximum(t - 0.008, 0.0), 1))
+    gyro += NOISE * rng.standard_normal((len(t), 3)) + [0.01, -0.02, 0.005]
+    optical = Rotation.from_rotvec(1e-4 * rng.standard_normal((len(t), 3))) * spline(t)
+    return Recording.from_arrays(
+        name=name, time=t, gyro=gyro, ref_q=optical.as_quat(scalar_first=True)
+    )
+
+
+def test_a_held_out_log_that_begins_at_rest_confirms_the_delay():
+    """Its mounting and bias come from rows that move; a rest shows neither."""
+    mounting = Rotation.from_euler("xyz", [20, -35, 100], degrees=True)
+    closed = pyimu.close(
+        attitude_log("a", 1, mounting, 0.0), holdout=attitude_log("b", 2, mounting, 40.0)
+    )
+    assert [a.effect for a in closed.added] == ["time_delay"], closed.report()
+    rate = closed.errors["gyro"]
+    assert rate.after.total < 0.3 * rate.before.total
+    held = np.array(closed.recordings[1].log_state["gyro"]["rotation"])
+    assert Rotation.from_matrix(held.T @ mounting.as_matrix()).magnitude() < 0.01
+
+
+def test_a_reference_of_another_body_is_unfit():
+    own = log(0.0, 4)
+    other = Recording.from_arrays(name="x", time=TIME, gyro=own.gyro, ref_rate=Motion(99)(TIME))
+    closed = pyimu.close(other)
+    assert closed.verdict == "reference_unfit" and not closed.added, closed.report()
+
+
+def test_coefficients_of_an_axis_that_does_not_move_stay_where_they_are_typical():
+    """One axis of motion: what it does not show of a part that nobody declared is left."""
+    from pyimu.model.typical import magnitudes
+
+    rng = np.random.default_rng(6)
+    rate = Motion(6)(TIME) * [0.0, 0.0, 1.0]
+    gyro = rate * 1.01 + NOISE * rng.standard_normal((len(TIME), 3))
+    reference = rate + 1e-4 * rng.standard_normal((len(TIME), 3))
+    closed = pyimu.close(
+        Recording.from_arrays(name="pendulum", time=TIME, gyro=gyro, ref_rate=reference)
+    )
+    s, m = (
+        closed.after.gyro.values[e][p] for e, p in (("scale_factor", "s"), ("misalignment", "m"))
+    )
+    assert s[2] == pytest.approx(0.01, abs=1e-3)
+    most = [3 * magnitudes(e, "gyro")["consumer"].si for e in ("scale_factor", "misalignment")]
+    assert np.abs(s[:2]).max() < most[0] and np.abs(m).max() < most[1]
+    assert closed.errors["gyro"].after.total < 1.05 * NOISE
