@@ -90,17 +90,30 @@ class Visibility:
 
 @dataclass(frozen=True)
 class Errors:
-    """Held-out error of one sensor before, after, and as the noise alone would leave it."""
+    """Held-out error of one sensor before, after, and as the noise alone would leave it.
+
+    ``floor`` is what the white noise of sensor and reference leaves, ``drift`` what the random walk
+    of the sensor would add to it.
+    """
 
     unit: str
     before: ErrorSums
     after: ErrorSums
     floor: ErrorSums | None
+    drift: ErrorSums | None = None
+
+    @property
+    def noise(self) -> float:
+        """RMS that white noise and random walk leave together; NaN without a floor."""
+        if self.floor is None:
+            return float("nan")
+        drift = 0.0 if self.drift is None else np.nan_to_num(self.drift.total)
+        return float(np.hypot(self.floor.total, drift))
 
     def __add__(self, other: Errors) -> Errors:
-        floors = (self.floor, other.floor)
-        floor = None if None in floors else floors[0] + floors[1]
-        return Errors(self.unit, self.before + other.before, self.after + other.after, floor)
+        before, after = self.before + other.before, self.after + other.after
+        floor, drift = _both(self.floor, other.floor), _both(self.drift, other.drift)
+        return Errors(self.unit, before, after, floor, drift)
 
     def as_dict(self) -> dict[str, Any]:
         return {"unit": self.unit} | self._row("total") | {"per_axis": self._row("per_axis")}
@@ -113,8 +126,12 @@ class Errors:
         )
 
     def _row(self, name: str) -> dict[str, Any]:
-        tallies = {"before": self.before, "after": self.after, "floor": self.floor}
+        tallies = {n: getattr(self, n) for n in ("before", "after", "floor", "drift")}
         return {k: None if t is None else plain(getattr(t, name)) for k, t in tallies.items()}
+
+
+def _both(one: ErrorSums | None, other: ErrorSums | None) -> ErrorSums | None:
+    return None if one is None or other is None else one + other
 
 
 @dataclass(frozen=True)

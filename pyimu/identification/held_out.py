@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 
 from pyimu.identification.attitude_error import attitude_error
-from pyimu.identification.fit.attenuation import floor_noise
-from pyimu.identification.fit.score import floor, held_state, tally
+from pyimu.identification.fit.attenuation import floor_noise, reference_variance
+from pyimu.identification.fit.score import ErrorSums, floor, held_state, tally
 from pyimu.identification.fit.trial import Trial
+from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.identification.found import Errors, LogEntry
 from pyimu.identification.search.forward import Investigation
 from pyimu.model.part import Part
@@ -39,11 +40,16 @@ def scores(
 
 
 def _errors(inv: Investigation, trial) -> Errors:
+    noise, reference = floor_noise(inv.after), reference_variance(inv.after)
+    white = {i: RandomWalk(n.r, 0.0) for i, n in noise.items()}
+    walk = {i: RandomWalk(0.0, n.k2) for i, n in noise.items()}
+    drift = floor(walk, inv.after, trial) if any(n.k2 for n in noise.values()) else None
     return Errors(
         inv.after.sensor.output.unit,
         tally(inv.before, trial),
         tally(inv.after, trial),
-        floor(floor_noise(inv.after), inv.after, trial),
+        floor(white, inv.after, trial).with_variance(reference),
+        drift or ErrorSums(),
     )
 
 

@@ -143,11 +143,11 @@ def _left(errors: dict[str, Errors]) -> str:
     """How much more than noise is left, and on which axis most; nothing where it is noise."""
     far = []
     for kind, e in errors.items():
-        if e.floor is None or not e.after.total > FAR * e.floor.total:
+        if e.floor is None or not e.after.total > FAR * e.noise:
             continue
         with np.errstate(invalid="ignore", divide="ignore"):
             axes = e.after.per_axis / e.floor.per_axis
-        ratio = e.after.total / e.floor.total
+        ratio = e.after.total / e.noise
         axis = "xyz"[int(np.nanargmax(axes))]
         far.append(f"the {kind} residual is {number(ratio, 2)} times its noise, most on {axis}")
     return joined(far)

@@ -14,6 +14,9 @@ from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.model.catalogue import WALK, WHITE
 from pyimu.model.sensor import Sensor
 
+WINDOW = 64
+"""Rows of the windows in which the quiet is looked for."""
+
 
 def without_attenuation(fitted: Fit) -> Fit:
     """Take out the bias that noise of a derived reference puts into coefficients (errors in
@@ -68,6 +71,31 @@ def floor_noise(fit: Fit) -> dict[int, RandomWalk]:
         if all(isinstance(n, RandomWalk) for n in fit.noise.values())
         else own_noise(fit)
     )
+
+
+def reference_variance(fit: Fit) -> np.ndarray:
+    """Variance (3,) in a row of the band that a derived reference adds to the sensor's own noise.
+
+    It is read off the quietest quarter of the fitted windows.
+    """
+    noise = np.zeros(3)
+    if all(t.band_hz is None for t in fit.trials):
+        return noise
+    own, residuals = own_noise(fit), fit.residuals()
+    for i in own:
+        windows = np.concatenate([_windows(one.residual[:, i], one.segments) for one in residuals])
+        if not len(windows):
+            continue
+        squares = np.sort(windows.var(axis=1))[: max(1, len(windows) // 4)]
+        share = np.mean([np.sum(np.square(t.band.weights)) for t in fit.trials])
+        noise[i] = max(0.0, float(np.mean(squares)) - own[i].r * share)
+    return noise
+
+
+def _windows(values: np.ndarray, segments: list[tuple[int, int]]) -> np.ndarray:
+    """Whole windows (k, ``WINDOW``) of values (n,), none of which reaches over a gap."""
+    parts = [values[a : a + (b - a) // WINDOW * WINDOW].reshape(-1, WINDOW) for a, b in segments]
+    return np.concatenate(parts) if parts else np.zeros((0, WINDOW))
 
 
 def simulated(

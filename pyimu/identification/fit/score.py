@@ -45,6 +45,10 @@ class ErrorSums:
     def __add__(self, other: ErrorSums) -> ErrorSums:
         return ErrorSums(*(getattr(self, n) + getattr(other, n) for n in self.__dataclass_fields__))
 
+    def with_variance(self, variance: np.ndarray) -> ErrorSums:
+        """With a ``variance`` (3,) more in each row."""
+        return replace(self, squares=self.squares + self.rows * variance)
+
     @property
     def per_axis(self) -> np.ndarray:
         """RMS residual of each axis, NaN where no row counts."""

@@ -26,7 +26,16 @@ from pyimu.identification.report.words import (
 )
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.part import AXES
-from pyimu.report.numbers import MISSING, in_unit, number, pretty, si_quantity, unit_for, with_error
+from pyimu.report.numbers import (
+    MISSING,
+    in_unit,
+    number,
+    pretty,
+    quantity,
+    si_quantity,
+    unit_for,
+    with_error,
+)
 from pyimu.report.page import Picture, Table, both, equation, prose, quality_table, templates
 
 MODEL = "model.toml"
@@ -184,9 +193,13 @@ def _error_notes(closed: Outcome) -> list[str]:
         if closed.held_out == "holdout"
         else f"{closed.held_out} of each log"
     )
-    notes = [
-        f"Held out: {where}. The floor is what the noise model alone leaves of the same number."
-    ]
+    floor = "The floor is what the white noise of sensor and reference leaves of the same number."
+    notes = [f"Held out: {where}. {floor}"]
+    for kind, e in closed.errors.items():
+        if e.drift is not None and e.drift.total > 0:
+            walk = quantity(e.drift.total, e.unit)
+            whose = f"the {SENSORS[kind]}'s random walk"
+            notes.append(f"Over the held-out rows {whose} may add {walk} to its floor.")
     for kind, band in closed.band_hz.items():
         if band is not None:
             notes.append(
