@@ -33,6 +33,7 @@ BOTH = (
     "thermal_bias_cubic",
     "temperature_rate",
     "thermal_scale_factor",
+    "thermal_misalignment",
     "scale_factor_asymmetry",
     "scale_factor_nonlinearity",
     "scale_factor_cubic",
@@ -202,13 +203,16 @@ def test_input_that_nobody_logged_is_drift(world):
 
 def test_dependence_that_no_effect_describes_is_unexplained(world):
     product = (
-        2e-4 * (world.temperature - 25.0)[:, None] * world.rate[:, :1] * np.array([0.0, 0.0, 1.0])
+        3e-5
+        * (world.temperature - world.temperature.mean())[:, None]
+        * world.force[:, :1]
+        * np.array([0.0, 0.0, 1.0])
     )
     closed = pyimu.close(recording(world, gyro_change=lambda v: v + product, seed=10))
     assert closed.verdict == "unexplained", closed.report()
     assert (closed.unexplained[0].axis, set(closed.unexplained[0].depends_on)) == (
         "z",
-        {"rate_x", "temperature"},
+        {"specific_force_x", "temperature"},
     )
 
 

@@ -89,4 +89,6 @@ def test_astropi_accelerometer_follows_temperature():
     assert [(a.sensor, a.effect) for a in closed.added] == [("accel", "thermal_bias")]
     force = closed.errors["accel"]
     np.testing.assert_allclose(force.before.per_axis / MG, [1.51, 0.92, 1.37], atol=0.01)
-    assert np.all(force.after.per_axis / MG <= [0.30, 0.26, 0.70])
+    # By plain least squares and hand, on the same rows.
+    by_hand, found = np.array([0.23, 0.24, 0.60]), force.after.per_axis / MG
+    assert np.linalg.norm(found) <= 1.1 * np.linalg.norm(by_hand) and np.all(found <= 1.3 * by_hand)

@@ -206,6 +206,9 @@ EQUATIONS = {
     "thermal_scale_factor": lambda x, p, m, w: (
         x * (1 + np.outer(m.temperature[:, 0] - p["T0"], p["kS"]))
     ),
+    "thermal_misalignment": lambda x, p, m, w: (
+        x + (m.temperature - p["T0"]) * np.einsum("ij,kj->ki", p["mT"], x)
+    ),
     "clock_skew": lambda x, p, m, w: x + p["eps"] * m.t * m.slope(x),
     "turn_on_bias": lambda x, p, m, w: x + p["b0"],
     "g_sensitivity": lambda x, p, m, w: x + np.einsum("ij,kj->ki", p["G"], m.specific_force),

@@ -177,6 +177,9 @@ def changes(world: World, kind: str) -> dict:
         "scale_factor_nonlinearity": lambda s: lambda v: v + s * spread * v**2,
         "scale_factor_cubic": lambda s: lambda v: v + s * spread * v**3,
         "thermal_scale_factor": lambda s: lambda v: v * (1 + s * spread * (temp - 25)[:, None]),
+        "thermal_misalignment": lambda s: (
+            lambda v: v + s * (temp - 25)[:, None] * np.roll(v, 1, axis=1) * spread
+        ),
         "thermal_bias_cubic": lambda s: lambda v: v + s * spread * ((temp - 25) ** 3)[:, None],
         "temperature_rate": lambda s: lambda v: v + s * spread * rising[:, None],
     }

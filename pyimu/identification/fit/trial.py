@@ -14,6 +14,7 @@ from pyimu.block.stepping import step_through
 from pyimu.errors import Finding
 from pyimu.identification.fit.band import Band
 from pyimu.identification.fit.clock import Clock
+from pyimu.identification.fit.surroundings import without_noise
 from pyimu.model.kinds import OWN
 from pyimu.model.signals import COLUMNS, SIGNALS, START, SURROUNDINGS
 from pyimu.recording.quality.spikes import spikes
@@ -219,9 +220,10 @@ def _environment(recording: Recording) -> tuple[np.ndarray, frozenset[str]]:
     for name in SURROUNDINGS:
         values = getattr(recording, SIGNALS[name].group)
         if values is not None and np.isfinite(values).any():
-            u[:, COLUMNS[name]] = np.nan_to_num(
-                filled(recording.time, values.reshape(len(values), -1))
-            )
+            found = np.nan_to_num(filled(recording.time, values.reshape(len(values), -1)))
+            # A field turns with the body: only what is a scalar is slow.
+            slow = found.shape[1] == 1
+            u[:, COLUMNS[name]] = without_noise(recording, found[:, 0])[:, None] if slow else found
             known.add(name)
     if "temperature" in known:
         known |= _slope(u, recording, "temperature", "temperature_rate", over=SLOW)

@@ -45,6 +45,7 @@ EFFECTS: tuple[Effect, ...] = (
     thermal.temperature_rate,
     thermal.thermal_hysteresis,
     thermal.thermal_scale_factor,
+    thermal.thermal_misalignment,
     bias.turn_on_bias,
     course.warm_up,
     course.rate_ramp,

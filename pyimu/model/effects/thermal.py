@@ -117,3 +117,23 @@ def thermal_scale_factor(
     T: Environment("temperature"),
 ):
     return x + kS * (T - T0) * x
+
+
+@effect(
+    stage="gain",
+    term="misalignment temperature sensitivity",
+    equation=r"y = x + (T - T_0) M_T x,\; \mathrm{diag}\, M_T = 0",
+    source="no source for the equation; the linear term of a misalignment that follows temperature",
+)
+def thermal_misalignment(
+    x,
+    mT: Parameter(
+        "rad/K",
+        (3, 3),
+        diagonal=False,
+        description="part of axis j seen by axis i, per kelvin",
+    ),
+    T0: ORIGIN,
+    T: Environment("temperature"),
+):
+    return x + (T - T0) * (mT @ x)

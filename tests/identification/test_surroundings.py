@@ -1,0 +1,59 @@
+"""Temperature behind a noisy or coarse thermometer, as the loop takes it."""
+
+import numpy as np
+import pytest
+
+import pyimu
+from pyimu.identification.fit.surroundings import without_noise
+from pyimu.recording.recording import Recording
+
+TIME = np.arange(0.0, 300.0, 0.02)
+TRUE = 25 + 8 * np.sin(2 * np.pi * TIME / 240)
+RNG = np.random.default_rng(11)
+READINGS = {
+    "noisy": TRUE + 0.03 * RNG.standard_normal(len(TIME)),
+    "coarse": np.round(TRUE / 0.5) * 0.5,
+    "exact": TRUE,
+}
+
+
+def log(temperature, kT=0.0):
+    rng = np.random.default_rng(12)
+    rate = np.column_stack([np.sin(2 * np.pi * f * TIME) for f in (0.3, 0.7, 1.1)])
+    gyro = rate + 1e-3 * rng.standard_normal(rate.shape) + kT * (TRUE - 25)[:, None]
+    return Recording.from_arrays(
+        name="log", time=TIME, gyro=gyro, temperature=temperature, ref_rate=rate
+    )
+
+
+@pytest.mark.parametrize(
+    "kind, most", [("noisy", 0.03 / np.sqrt(50)), ("coarse", 0.5 / np.sqrt(12)), ("exact", 1e-3)]
+)
+def test_what_is_left_is_less_than_the_mean_of_an_interval_has(kind, most):
+    """White noise of a second's mean; the rounding itself; the line between means of a curve, of
+    which the second difference is 8 (2 pi / 240)^2 = 5.5e-3 K/s^2.
+    """
+    found = without_noise(log(READINGS[kind]), READINGS[kind])
+    assert np.sqrt(np.mean((found - TRUE) ** 2)) < most
+
+
+@pytest.mark.parametrize("kind", READINGS)
+def test_a_thermal_bias_is_named_by_any_thermometer(kind):
+    closed = pyimu.close(log(READINGS[kind], kT=3e-4))
+    assert [a.effect for a in closed.added] == ["thermal_bias"], closed.report()
+    kT, std, _ = closed.added[0].parameters["kT"]
+    # Four standard errors on three axes, and the 2 % by which a coarse one may mistake its range.
+    assert np.all(np.abs(kT - 3e-4) < 4 * std + 6e-6)
+
+
+@pytest.mark.parametrize("kind", READINGS)
+def test_a_thermometer_alone_is_no_effect(kind):
+    assert not pyimu.close(log(READINGS[kind])).added
+
+
+def test_a_constant_or_short_temperature_stays_as_it_was_read():
+    still = np.full(len(TIME), 25.0)
+    assert without_noise(log(still), still) is not still
+    assert np.array_equal(without_noise(log(still), still), still)
+    short = log(READINGS["noisy"]).slice(0, 100)
+    assert np.array_equal(without_noise(short, short.temperature), short.temperature)
