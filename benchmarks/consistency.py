@@ -15,7 +15,7 @@ import sys
 from dataclasses import dataclass
 
 import numpy as np
-from attitude_drives import (
+from drives.attitude import (
     LATITUDE,
     STD0,
     WHITE,

@@ -27,6 +27,9 @@ from pyimu.errors import UserError
 STANDARD_GRAVITY = 9.80665
 """m/s^2, exact by definition (3rd CGPM, 1901)."""
 
+LARGEST_EXPONENT = 150
+"""Powers of ten that a unit's factor may have, so that its square and its inverse are numbers."""
+
 ZERO_CELSIUS = 273.15
 """K, exact by definition."""
 
@@ -263,7 +266,10 @@ class _Reader:
         text = self.take()
         if not re.fullmatch(r"[-+]?\d{1,2}", text):
             raise self.error(f"a power must be an integer below 100, not '{text}'")
-        return factor ** int(text), tuple(e * int(text) for e in dimension)
+        power = int(text)
+        if factor != 0 and abs(power * math.log10(abs(factor))) > LARGEST_EXPONENT:
+            raise self.error(f"the power {power} is beyond all sizes")
+        return factor**power, tuple(e * power for e in dimension)
 
     def factor(self) -> _Value:
         token = self.take()

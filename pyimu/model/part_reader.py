@@ -206,7 +206,7 @@ class _Reader:
         self, where: str, entry: Mapping[str, Any], si: str, with_density: bool
     ) -> FigureScale:
         if "density" in entry and not with_density:
-            raise self.error(f"{where}.density", "goes only with angle_random_walk.N")
+            raise self.error(f"{where}.density", "goes only with the root of a noise's density")
         density = entry.get("density", "two-sided")
         if density not in DENSITIES:
             raise self.error(

@@ -4,7 +4,6 @@
 
 import numpy as np
 import pytest
-from attitude_drives import H, Noise, Scenario
 from consistency import (
     INSTANTS,
     KINDS,
@@ -18,6 +17,7 @@ from consistency import (
     outside,
     simulate,
 )
+from drives.attitude import H, Noise, Scenario
 
 DRIVES, SHORT = 24, INSTANTS[:7]
 """Drives of 40 s."""

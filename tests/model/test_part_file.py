@@ -215,7 +215,7 @@ ERRORS = dict(
         ),
         (
             '[gyro.scale_factor]\ns = {value = 1, density = "one-sided"}',
-            "gyro.scale_factor.s.density: goes only with angle_random_walk.N",
+            "gyro.scale_factor.s.density: goes only with the root of a noise's density",
         ),
         (
             '[gyro.angle_random_walk]\nN = {value = 1, unit = "deg/sqrt(h)", density = "half"}',

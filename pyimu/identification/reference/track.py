@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numba import njit
 from scipy.optimize import minimize, minimize_scalar
 
 WANDERS = 6.0
@@ -56,7 +57,8 @@ def level_of(time: np.ndarray, values: np.ndarray, std: np.ndarray) -> Level:
     return Level(time, unit * level, error)
 
 
-def _smoothed(time, values, std, q: float, r: float) -> tuple[float, np.ndarray, np.ndarray]:
+@njit(cache=True)
+def _smoothed(time, values, std, q, r):
     """Log-likelihood given the first value, level (k,) and its variance (k,), by a Kalman smoother;
     ``q`` is the walk's variance in a second, ``r`` the factor on std^2.
     """

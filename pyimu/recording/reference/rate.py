@@ -21,9 +21,7 @@ from pyimu.recording.recording import Recording
 from pyimu.recording.reference.band import trusted_band
 from pyimu.recording.reference.track import Track
 from pyimu.recording.rest import is_at_rest
-
-EARTH_RATE = 7.292115e-5
-"""rad/s (WGS 84)."""
+from pyimu.symbolic.earth import EARTH_RATE
 
 
 @dataclass(frozen=True, eq=False)

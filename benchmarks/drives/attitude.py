@@ -1,5 +1,5 @@
 """Simulated drives for ``consistency.py``: the truth in closed form, the noise of the sensors, and
-the initial error of the filter. By itself this file runs nothing.
+the initial error of the filter.
 """
 
 from collections.abc import Iterator
