@@ -28,7 +28,7 @@ demo: $(READY)
 	$(BIN)/pyimu demo
 
 test: $(READY)
-	$(BIN)/python -m pytest -n auto
+	$(BIN)/python -m pytest -n auto --dist loadfile  # what a file builds, it builds once
 
 lint: $(READY)
 	$(BIN)/python -m ruff check $(CODE)

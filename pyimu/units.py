@@ -33,7 +33,17 @@ LARGEST_EXPONENT = 150
 ZERO_CELSIUS = 273.15
 """K, exact by definition."""
 
-BASES = ("rad", "s", "m", "K", "V", "T")
+IN_SI: dict[str, dict[str, int]] = {
+    "rad": {"rad": 1},
+    "s": {"s": 1},
+    "m": {"m": 1},
+    "K": {"K": 1},
+    "V": {"kg": 1, "m": 2, "s": -3, "A": -1},
+    "T": {"kg": 1, "s": -2, "A": -1},
+}
+"""The base units of this module in those of SI."""
+
+BASES = tuple(IN_SI)
 """The base units, in the order of the exponents in ``Unit.dimension``."""
 
 _DEG = math.pi / 180

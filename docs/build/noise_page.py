@@ -60,7 +60,7 @@ model.stationary_covariance, model.bode(f), model.discrete(h)
 Each picture: a gyro of typical tactical size, {samples} samples every {period:g} s out of an FMU
 (FMI 2.0, run by fmpy). Black: the theory of the samples; dashed: the continuous form where it is
 another; points: the FMU; shaded: where all points of all pictures lie together with a probability
-of 99 % if the theory is right.
+of at least 99 % if the theory is right.
 """
 
 

@@ -34,7 +34,7 @@ from pyimu.fmu.variables import (
     xml_number,
 )
 from pyimu.model.signals import EVERY_SAMPLE
-from pyimu.units import BASES, ZERO_CELSIUS, parse
+from pyimu.units import BASES, IN_SI, ZERO_CELSIUS, parse
 
 CORE = (
     "block.c",
@@ -70,16 +70,6 @@ _LOG_CATEGORIES = (
     ("logStatusError", "refused calls and values; always told"),
     ("logEvents", "initialization and termination"),
 )
-
-_IN_BASE_UNITS = {
-    "rad": {"rad": 1},
-    "s": {"s": 1},
-    "m": {"m": 1},
-    "K": {"K": 1},
-    "V": {"kg": 1, "m": 2, "s": -3, "A": -1},
-    "T": {"kg": 1, "s": -2, "A": -1},
-}
-"""The bases of ``pyimu.units`` in those of FMI."""
 
 
 def texts(block: Block) -> dict[str, str]:
@@ -207,7 +197,7 @@ def _base_unit(name: str) -> dict[str, str] | None:
     for base, exponent in zip(BASES, unit.dimension):
         if exponent.denominator != 1:
             return None
-        for si, power in _IN_BASE_UNITS[base].items():
+        for si, power in IN_SI[base].items():
             exponents[si] = exponents.get(si, 0) + power * int(exponent)
     attributes = {si: str(power) for si, power in exponents.items() if power}
     if unit.factor != 1.0:

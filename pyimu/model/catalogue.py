@@ -79,8 +79,10 @@ def read_off(effects: Iterable[Effect], what: str) -> tuple[str, str] | None:
 
 def _only(chosen: Callable[[Effect], bool]) -> tuple[str, str]:
     """The effect of the package that is ``chosen``, and its first coefficient."""
-    (found,) = (e for e in EFFECTS if chosen(e))
-    return found.name, next(iter(found.parameters))
+    found = [e for e in EFFECTS if chosen(e)]
+    if len(found) != 1:
+        raise ValueError(f"one effect alone may be this: {', '.join(e.name for e in found)}")
+    return found[0].name, next(iter(found[0].parameters))
 
 
 POWER_ON = _only(lambda e: e.per_power_on)

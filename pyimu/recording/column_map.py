@@ -13,6 +13,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from pyimu.errors import UserError
+from pyimu.recording.columns import GROUPS, XYZ
 from pyimu.recording.counts import Scale, read_scales
 from pyimu.units import did_you_mean
 
@@ -20,7 +21,7 @@ _FRD = np.diag([1.0, -1.0, -1.0])
 _NED = np.array([[0.0, 1, 0], [1, 0, 0], [0, 0, -1]])
 _BODY = {"flu": np.eye(3), "frd": _FRD}
 _WORLD = {"enu": np.eye(3), "ned": _NED}
-_AXES = ("gyro", "accel", "mag", "ref_rate", "ref_force")
+_AXES = tuple(name for name, g in GROUPS.items() if g.suffixes == XYZ)
 """The groups that are vectors in body axes."""
 
 

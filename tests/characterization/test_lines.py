@@ -55,7 +55,7 @@ def test_false_alarms_come_at_the_stated_rate(kind):
 
     It may be half of that, because neighbouring bins count twice in Bonferroni's bound.
     """
-    rng, runs, level = np.random.default_rng(1), 1000, 0.05
+    rng, runs, level = np.random.default_rng(1), 600, 0.05
     alarms = sum(bool(lines(noise(rng, kind), level)) for _ in range(runs))
     assert (
         binom.ppf(FALSE_ALARM / 2, runs, level / 2)

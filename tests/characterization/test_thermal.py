@@ -143,11 +143,11 @@ def test_the_likeliest_share_taken_for_true_finds_too_much():
 
 @pytest.mark.parametrize("kind", ["warm-up", "cycles", "weather"])
 def test_intervals_cover_and_those_of_ordinary_regression_do_not(kind):
-    """95 % of 400 records, within the binomial law.
+    """95 % of 240 records, within the binomial law.
 
     Those of ordinary regression hold less than half as often.
     """
-    rng, runs, kT = np.random.default_rng(3), 400, 0.2
+    rng, runs, kT = np.random.default_rng(3), 240, 0.2
     held = ordinary = 0
     for _ in range(runs):
         b = record(rng, kind, kT=kT)
@@ -164,7 +164,7 @@ def test_chance_makes_no_effect_of_temperature(kind):
 
     No more than 5 % of the p-values are below 0.05, and hardly any below the limit.
     """
-    rng, runs = np.random.default_rng(4), 300
+    rng, runs = np.random.default_rng(4), 200
     fits = [fit_thermal(record(rng, kind)) for _ in range(runs)]
     assert sum(f.p_value < 0.05 for f in fits) <= binom.isf(FALSE_ALARM / 2, runs, 0.05)
     assert sum(f.order > 0 for f in fits) <= binom.isf(FALSE_ALARM / 2, runs, CHANCE)

@@ -2,6 +2,8 @@
 least squares too.
 """
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from loop_cases import inputs, noise, trial
@@ -98,7 +100,7 @@ def test_noise_passes_the_gate_as_often_as_it_says():
 
 
 def with_score(projected: Projected, score: np.ndarray) -> Projected:
-    return Projected(projected.gram, score, projected.batch_score, projected.batch_gram)
+    return replace(projected, score=score)
 
 
 @pytest.mark.parametrize("columns", [(0,), (3,), (1, 4), (0, 1, 2, 3, 4, 5)])

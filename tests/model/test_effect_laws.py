@@ -370,7 +370,7 @@ def defined(**arguments):
 @pytest.mark.parametrize(
     "annotation, message",
     [
-        (Environment("presure"), "effect made_up: unknown signal 'presure'; known are rate, "),
+        (Environment("qqq"), "effect made_up: unknown signal 'qqq'; known are rate, "),
         (
             Environment("temprature"),
             "effect made_up: unknown signal 'temprature', did you mean temperature",

@@ -19,19 +19,20 @@ from pyimu.identification.fit.normal import normal_equations
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk, power_less_bias
 from pyimu.identification.search.screen import Projected, dispersion
+from pyimu.model.signals import COLUMNS, N_INPUT, SIGNALS, SURROUNDINGS
 from pyimu.recording.quality.resolution import quantization_step
 
-INPUT_NAMES = (
-    "rate_x",
-    "rate_y",
-    "rate_z",
-    "specific_force_x",
-    "specific_force_y",
-    "specific_force_z",
-    "temperature",
+TRIED = ("rate", "specific_force", *SURROUNDINGS)
+"""The signals that a residual which nothing explains is tried against."""
+
+SIGNAL_OF = tuple(name for name in TRIED for _ in range(SIGNALS[name].size))
+PLACES = np.concatenate([np.arange(N_INPUT)[COLUMNS[name]] for name in TRIED])
+INPUT_NAMES = tuple(
+    name + suffix
+    for name in TRIED
+    for suffix in (("",) if SIGNALS[name].size == 1 else ("_x", "_y", "_z"))
 )
-SIGNAL_OF = ("rate",) * 3 + ("specific_force",) * 3 + ("temperature",)
-"""The first columns of the input vector: what a residual that nothing explains is tried against."""
+"""Of each number of those signals: its signal, its place in the input vector, and its name."""
 
 UNEXPLAINED = 1e-3
 """Family-wise p-value below which a dependence on inputs is reported."""
@@ -99,8 +100,7 @@ def _products(trials: tuple[Trial, ...]) -> Callable:
     scaled over all logs.
     """
     known = frozenset.intersection(*(t.known for t in trials))
-    together = np.concatenate([t.u for t in trials])
-    together = together[:, : len(SIGNAL_OF)]
+    together = np.concatenate([t.u[:, PLACES] for t in trials])
     mean, scale = together.mean(axis=0), together.std(axis=0)
     usable = [
         j
@@ -110,7 +110,7 @@ def _products(trials: tuple[Trial, ...]) -> Callable:
     terms = [*combinations_with_replacement(usable, 2), *((j, j, j) for j in usable)]
 
     def add_all(trial: Trial, u: np.ndarray, y: np.ndarray, add: Callable) -> None:
-        z = (trial.u[:, : len(SIGNAL_OF)] - mean) / np.where(scale > 0, scale, 1.0)
+        z = (trial.u[:, PLACES] - mean) / np.where(scale > 0, scale, 1.0)
         for term in terms:
             values = np.prod(z[:, list(term)], axis=1)
             for i in range(3):

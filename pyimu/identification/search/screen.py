@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -60,12 +61,15 @@ class Screening:
 
 @dataclass(frozen=True)
 class Projected:
-    """Candidate columns with everything that the model already explains projected out."""
+    """Candidate columns with everything that the model already explains projected out.
+
+    ``turn`` (P, candidates) makes them of all columns.
+    """
 
     gram: np.ndarray
     score: np.ndarray
-    batch_score: np.ndarray
-    batch_gram: np.ndarray
+    turn: np.ndarray
+    normal: Normal
 
     @classmethod
     def of(cls, normal: Normal, base: list[int], wanted: list[int]) -> Projected:
@@ -80,12 +84,16 @@ class Projected:
         dead = np.diag(gram) < 1e-9 * raw
         turn[:, dead] = 0.0
         gram[dead] = gram[:, dead] = 0.0
-        batch_score = normal.batch_score @ turn
-        return cls(
-            gram,
-            turn.T @ normal.score,
-            batch_score,
-            np.einsum("ki,bkl,lj->bij", turn, normal.batch_gram, turn, optimize=True),
+        return cls(gram, turn.T @ normal.score, turn, normal)
+
+    @cached_property
+    def batch_score(self) -> np.ndarray:
+        return self.normal.batch_score @ self.turn
+
+    @cached_property
+    def batch_gram(self) -> np.ndarray:
+        return np.einsum(
+            "ki,bkl,lj->bij", self.turn, self.normal.batch_gram, self.turn, optimize=True
         )
 
 
