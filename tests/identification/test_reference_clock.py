@@ -118,8 +118,8 @@ def test_a_clock_is_no_effect_of_the_sensor(late):
     closed = pyimu.close(log(late))
     assert not closed.added, closed.report()
     (found,) = [f for f in closed.quality if f.kind == "reference_clock"]
-    assert found.detail["least"] < np.max(late) + 1e-4
-    assert found.detail["most"] > np.min(late) - 1e-4
+    assert found.detail["least_late"] < np.max(late) + 1e-4
+    assert found.detail["most_late"] > np.min(late) - 1e-4
     reached = closed.errors["gyro"].after.total / NOISE
     # Held-out rows of three axes; a slipping clock is known to within its windows only.
     assert reached < (1.05 if np.ndim(late) == 0 else 1.5)

@@ -64,7 +64,11 @@ def _aligned(trial: Trial, clock: Clock | None, own: float) -> Trial:
         "reference_clock",
         trial.kind,
         len(rest.late),
-        {"least": float(rest.late.min()), "most": float(rest.late.max()), "std": clock.std},
+        {
+            "least_late": float(rest.late.min()),
+            "most_late": float(rest.late.max()),
+            "late_std": clock.std,
+        },
     )
     moved = rebanded(shifted(trial, rest))
     return replace(moved, clock=rest, findings=(*trial.findings, found))

@@ -249,7 +249,7 @@ def _log_states(closed: Outcome) -> Table:
 
 def _references(closed: Outcome) -> Table:
     """Of each log that moves, how its reference goes with the sensor."""
-    titles = ("recording", "sensor", "reference", "sensor late by", "of it", "accounts for")
+    titles = ("recording", "sensor", "reference", "sensor late by", "whose it is", "accounts for")
     table = Table(titles)
     for r in closed.recordings:
         for kind, state in r.log_state.items():
