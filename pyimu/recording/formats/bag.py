@@ -137,7 +137,8 @@ def _bag(path: Path) -> Iterator[Any]:
             yield bag
     except UserError:
         raise
-    except Exception as error:  # noqa: BLE001  (its errors have no common class: those of SQLite, YAML and two bag formats pass through)
+    except Exception as error:  # noqa: BLE001
+        # Its errors have no common class: those of SQLite, YAML and two bag formats pass through.
         reason = (str(error).splitlines() or [type(error).__name__])[0]
         raise UserError(f"{path}: cannot be read as a ROS bag ({reason})") from None
 

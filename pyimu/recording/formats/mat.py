@@ -73,7 +73,8 @@ def _load(path: Path) -> dict[str, Any]:
 
     try:  # in MATLAB's own types: a double array of whole numbers is stored in bytes
         return loadmat(path, simplify_cells=True, mat_dtype=True)
-    except Exception as error:  # noqa: BLE001  (scipy's reader of damaged files raises whatever comes its way)
+    except Exception as error:  # noqa: BLE001
+        # scipy's reader of damaged files raises whatever comes its way.
         raise UserError(
             f"{path}: cannot be read as MAT ({str(error).partition(chr(10))[0]})"
         ) from None
