@@ -95,6 +95,14 @@ def pyimu(monkeypatch, capsys):
     return run
 
 
+@pytest.fixture
+def uncompiled(monkeypatch):
+    """FMUs with empty libraries, as compiling takes seconds, for tests of what else is written."""
+    monkeypatch.setattr(
+        "pyimu.fmu.build._compile", lambda name, texts, forms, *_: {form: b"" for form in forms}
+    )
+
+
 def in_a_process(*words):
     command = [sys.executable, "-m", "pyimu.cli", *map(str, words)]
     return subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
@@ -470,7 +478,7 @@ def test_holdout(here, pyimu):
     assert contents(Path("out"))[Path("before/ImuSensor.fmi2.fmu")][:2] == b"PK"
 
 
-def test_columns_and_latitude(here, pyimu):
+def test_columns_and_latitude(here, pyimu, uncompiled):
     """A log with other names, units and axes (forward, right, down) gives the same scale factor."""
     table = np.genfromtxt("rover.csv", delimiter=",", skip_header=1)
     turned = table * [1e3, *np.tile(np.rad2deg([1, -1, -1]), 2)]
@@ -500,7 +508,7 @@ def test_columns_and_latitude(here, pyimu):
     )
 
 
-def test_log_at_rest_is_undecidable(here, pyimu):
+def test_log_at_rest_is_undecidable(here, pyimu, uncompiled):
     code, out, err = pyimu("close", "rest.csv", "--out", "out")
     assert (code, err) == (0, "") and out.startswith("verdict: undecidable (no motion")
     report = json.loads(Path("out/report.json").read_text())
@@ -514,7 +522,7 @@ def test_log_at_rest_is_undecidable(here, pyimu):
     np.testing.assert_allclose(found, NOISE / RATE**0.5, rtol=5 / np.sqrt(2 * 0.7 * ROWS))
 
 
-def test_build_lists_what_it_made(here, pyimu):
+def test_build_lists_what_it_made(here, pyimu, uncompiled):
     code, out, err = pyimu("build", "imt30", "--out", "fmus")
     assert (code, err) == (0, "")
     assert out.split() == [

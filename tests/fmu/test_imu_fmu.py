@@ -10,7 +10,7 @@ from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
 from fmu_toy import Unit
 
-from pyimu.fmu import simulate, simulate_blocks
+from pyimu.fmu import build, simulate, simulate_blocks
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.part_file import part
 from pyimu.model.signals import COLUMNS, inputs_for
@@ -182,7 +182,8 @@ def test_fmpy_finds_nothing_wrong_with_the_full_sensor(fmus, version):
 
 
 @pytest.mark.parametrize("name", ("imt30", "stim300", "mpu6050"))
-def test_fmpy_finds_nothing_wrong_with_built_in_parts(name, tmp_path_factory):
-    fmus = built(part(name).block, tmp_path_factory)
-    for version in VERSIONS:
-        assert validate_fmu(str(fmus[version])) == []
+def test_fmpy_finds_nothing_wrong_with_built_in_parts(name, tmp_path, monkeypatch):
+    """It looks at the description alone, so that the libraries may be empty."""
+    monkeypatch.setattr(build, "_compile", lambda *_: dict.fromkeys(VERSIONS, b""))
+    for path in build.build_fmus(part(name).block, tmp_path, VERSIONS):
+        assert validate_fmu(str(path)) == []

@@ -458,11 +458,13 @@ def moving(n=2000, period=0.01, rate=None):
         lambda t: np.column_stack([2 * np.sin(3 * t), 1.5 * np.cos(2 * t + 1), np.sin(5 * t)])
     )
     steps = Rotation.from_rotvec(rate(middle) * period / fine)
+    turns = steps[::fine]
+    for j in range(1, fine):
+        turns = turns * steps[j::fine]
     attitude, q = Rotation.identity(), []
-    for k in range(n):
+    for turn in turns:
         q.append(attitude.as_quat(scalar_first=True))
-        for j in range(fine):
-            attitude = attitude * steps[k * fine + j]
+        attitude = attitude * turn
     time = np.arange(n) * period
     return time, rate(time), np.array(q)
 

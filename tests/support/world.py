@@ -72,10 +72,15 @@ def noise(world: World, n: np.ndarray, k: np.ndarray, rng: np.random.Generator) 
 
 
 def recording(
-    world: World, gyro_change=None, accel_change=None, seed: int = 1, name: str = "log"
+    world: World,
+    gyro_change=None,
+    accel_change=None,
+    seed: int = 1,
+    name: str = "log",
+    kinds=("gyro", "accel"),
 ) -> Recording:
     """The log of a part with white noise, random walk, turn-on bias and the changes
-    ``(clean (n, 3)) -> (n, 3)`` given.
+    ``(clean (n, 3)) -> (n, 3)`` given; of sensors it has those of ``kinds``.
     """
     rng = np.random.default_rng(seed)
     bias_g, bias_a = 0.003 * rng.standard_normal(3), 0.05 * rng.standard_normal(3)
@@ -84,8 +89,8 @@ def recording(
     return Recording.from_arrays(
         name=name,
         time=world.time,
-        gyro=gyro,
-        accel=accel,
+        gyro=gyro if "gyro" in kinds else None,
+        accel=accel if "accel" in kinds else None,
         temperature=world.temperature,
         ref_rate=world.rate,
         ref_force=world.force,

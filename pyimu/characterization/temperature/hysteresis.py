@@ -19,7 +19,7 @@ from numba import njit
 
 from pyimu.characterization.estimate import Estimate
 from pyimu.characterization.temperature.averages import Averages
-from pyimu.characterization.temperature.regression import CHANCE, regress
+from pyimu.characterization.temperature.regression import CHANCE, Regression, regress
 
 PLAYS = (0.02, 0.05, 0.1, 0.2)
 """Half widths of the play that are tried, as shares of the range of the temperature."""
@@ -68,10 +68,9 @@ def find_loop(
             None,
             "the temperature does not come back over a quarter of its range, rising and falling",
         )
-    loops = [loop_of_width(averages, values, powers, half, level, len(tried)) for half in tried]
-    return min(
-        loops, key=lambda loop: (loop.p_value, -abs(loop.opening.value) / loop.opening.std)
-    ), ""
+    fits = [(half, _with_play(averages, values, powers, half)) for half in tried]
+    half, fit = min(fits, key=lambda one: _rank(one[1], len(tried)))
+    return _loop(fit, half, level, len(tried)), ""
 
 
 def loop_of_width(
@@ -83,9 +82,29 @@ def loop_of_width(
     tried: int,
 ) -> Hysteresis:
     """The loop of half width ``half`` [K], one of so many ``tried``; arguments as ``find_loop``."""
-    fit = regress(averages, values, np.column_stack([play(averages.temperature, half), powers]))
-    opening, above = fit.estimates(np.array([2.0]), level)[0], fit.tail(0, 0.0)
-    return Hysteresis(opening, min(1.0, max(0.0, tried * 2 * min(above, 1 - above))), half)
+    return _loop(_with_play(averages, values, powers, half), half, level, tried)
+
+
+def _with_play(
+    averages: Averages, values: np.ndarray, powers: np.ndarray, half: float
+) -> Regression:
+    """The regression on the play of half width ``half`` [K] and the polynomial."""
+    return regress(averages, values, np.column_stack([play(averages.temperature, half), powers]))
+
+
+def _loop(fit: Regression, half: float, level: float, tried: int) -> Hysteresis:
+    return Hysteresis(fit.estimates(np.array([2.0]), level)[0], _p_value(fit, tried), half)
+
+
+def _p_value(fit: Regression, tried: int) -> float:
+    """Probability that noise alone opens such a loop at one of so many half widths."""
+    above = fit.tail(0, 0.0)
+    return min(1.0, max(0.0, tried * 2 * min(above, 1 - above)))
+
+
+def _rank(fit: Regression, tried: int) -> tuple[float, float]:
+    """The significance of the loop, the most significant first."""
+    return _p_value(fit, tried), float(-abs(fit.mean[0]) / np.sqrt(fit.covariance[0, 0]))
 
 
 def half_widths(temperature: np.ndarray) -> list[float]:
