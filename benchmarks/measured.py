@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import os
 import sys
+import tempfile
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -33,16 +34,35 @@ BROAD = {
 WAND = [f"repoimu_tstick_test0{i}_trial1" for i in (5, 6, 7)]
 
 
+ROCKET = """[columns]
+timestamp_seconds = "time [s]"
+raw_angular_rate_x_deg_per_s = "gyro_x [deg/s]"
+raw_angular_rate_y_deg_per_s = "gyro_y [deg/s]"
+raw_angular_rate_z_deg_per_s = "gyro_z [deg/s]"
+raw_acceleration_x_gs = "accel_x [g]"
+raw_acceleration_y_gs = "accel_y [g]"
+raw_acceleration_z_gs = "accel_z [g]"
+temperature_celsius = "temperature [degC]"
+est_quaternion_w = "ref_q_w [1]"
+est_quaternion_x = "ref_q_x [1]"
+est_quaternion_y = "ref_q_y [1]"
+est_quaternion_z = "ref_q_z [1]"
+"""
+
+
 @dataclass(frozen=True)
 class Row:
-    """Logs to fit and to judge by, what is true of them, and what must hold of the result."""
+    """Logs to fit and to judge by, what is true of them, and what must hold of the result.
+
+    ``columns`` is the column map of foreign logs.
+    """
 
     name: str
     logs: list[str]
     holdout: list[str]
     truth: str
-    columns: str = ""
     holds: Callable[[Closed], bool] = lambda closed: True
+    columns: str = ""
 
 
 def ratio(closed: Closed, kind: str = "gyro") -> float:
@@ -106,6 +126,7 @@ ROWS = (
         [],
         "its filter's quaternion and its gyro do not belong together",
         lambda c: c.verdict == "reference_unfit",
+        ROCKET,
     ),
     Row("car n", ["morpinet_rccar_n"], [], "clocks 0.25 s apart"),
     Row("rests", ["imucalib_unit0"], [], "scale factor, misalignment, bias of the accelerometer"),
@@ -124,7 +145,8 @@ def table(rows: list[Row]) -> bool:
             continue
         began = time.perf_counter()
         try:
-            closed = pyimu.close(paths[0], holdout=paths[1] or None)
+            fitted, judged = ([_read(p, row.columns) for p in ps] for ps in paths)
+            closed = pyimu.close(fitted, holdout=judged or None)
         except pyimu.UserError as error:
             print(f"{row.name:14} refused: {error}")
             good = False
@@ -135,10 +157,19 @@ def table(rows: list[Row]) -> bool:
             f"{row.name:14} {'holds' if holds else 'WRONG'}  ({time.perf_counter() - began:.0f} s)"
         )
         print(f"{'':14} true: {row.truth}")
-        print(f"{'':14} said: {closed.verdict}: {closed.reason}")
+        print(f"{'':14} said: {closed.verdict}: {'; '.join([closed.reason, *closed.remarks])}")
         for line in _figures(closed):
             print(f"{'':14} {line}")
     return good
+
+
+def _read(path: Path, columns: str) -> pyimu.Recording:
+    if not columns:
+        return pyimu.read_recording(path)
+    with tempfile.TemporaryDirectory() as folder:
+        map_file = Path(folder) / "columns.toml"
+        map_file.write_text(columns)
+        return pyimu.read_recording(path, columns=map_file)
 
 
 def _figures(closed: Closed):
