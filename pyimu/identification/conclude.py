@@ -65,10 +65,8 @@ def conclude(
     refused = [(kind, r) for kind, inv in found.items() for r in inv.refused]
     say("error on held-out data")
     errors, entries, likelihood = scores(found, logs, others)
-    unexamined = _unexamined(found, logs)
-    said = verdict(
-        Evidence(added, changed, unexplained, drifts, found, errors, attitude, refused, unexamined)
-    )
+    beside = (errors, attitude, refused, _unexamined(found, logs))
+    said = verdict(Evidence(added, changed, unexplained, drifts, found, *beside))
     return Closed(
         verdict=said.word,
         reason=said.reason,
