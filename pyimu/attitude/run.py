@@ -55,7 +55,8 @@ def run(
     ``std0`` (6,) the standard deviations of attitude in body axes in rad and of bias in rad/s. What
     is not given comes from the first seconds at rest; yaw from the first recorded heading, or it is
     zero. ``settings`` are values of other parameters of the block, by name. A gap widens the
-    estimate, and the row after it has bit 1 of the status.
+    estimate, and the row after it has bit 1 of the status. A clock of the gyro that the part knows
+    to be off is undone by its samples' times; the accelerometer's is taken for the same.
 
     Raises UserError for a recording without gyro or with one row, a latitude beyond -pi/2 to pi/2,
     a quaternion without length, other than so many finite numbers, and a setting that is unknown or

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.trial import rest_noise
 from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.identification.found import Added
-from pyimu.identification.held_out import attitude_errors, scores
+from pyimu.identification.held_out import attitude_rms, scores
 from pyimu.identification.result import Closed
 from pyimu.identification.search.ceiling import is_ceiling
 from pyimu.identification.search.forward import Investigation, without
@@ -50,13 +50,12 @@ def conclude(
 ) -> Closed:
     """The result of the investigations ``found`` of the sensors of a part."""
     say("attitude against the reference")
-    found, attitude = settled(start, declared, found, others or logs)
-    before, after = models(start, declared, found)
+    found, model, attitude = settled(start, declared, found, others or logs)
     added, changed, drifts = [], [], {}
     for kind, inv in found.items():
         say(f"{kind}: what is left")
-        steps = _rounding(kind, inv)
-        added += _added(kind, after.sensor(kind), inv) + steps
+        steps = model.rounding[kind]
+        added += _added(kind, model.after.sensor(kind), inv) + steps
         changed += [released(start.sensor(kind), inv.after, s) for s in inv.steps if s.declared]
         if declared is not None and not steps:
             changed += changed_noise(start, kind, inv.after)
@@ -71,8 +70,8 @@ def conclude(
         verdict=said.word,
         reason=said.reason,
         remarks=said.remarks,
-        before=before,
-        after=replace(after, estimate=frozenset()),
+        before=model.before,
+        after=replace(model.after, estimate=frozenset()),
         added=tuple(added),
         changed=tuple(changed),
         unexplained=unexplained,
@@ -110,41 +109,47 @@ def _exhibits(found: Found, added: list[Added]) -> dict[str, Exhibits]:
 # Models
 
 
-def models(start: Part, declared: Part | None, found: Found) -> tuple[Part, Part]:
-    """The part before and after what was ``found``."""
-    before, after = start, start
+@dataclass(frozen=True)
+class Model:
+    """The part before and after what was found, and the rounding among that by kind of sensor."""
+
+    before: Part
+    after: Part
+    rounding: dict[str, list[Added]]
+
+
+def model_of(start: Part, declared: Part | None, found: Found) -> Model:
+    """The model that investigations ``found`` of a part amount to."""
+    before, after, rounding = start, start, {}
     for kind, inv in found.items():
         before = before.with_sensor(_finished(declared, inv.before))
-        sensor = _finished(declared, inv.after)
-        for a in _rounding(kind, inv):
+        sensor, rounding[kind] = _finished(declared, inv.after), _rounding(kind, inv)
+        for a in rounding[kind]:
             sensor = sensor.with_values(a.effect, **{n: v for n, (v, _, _) in a.parameters.items()})
         after = after.with_sensor(sensor)
-    return before, after
+    return Model(before, after, rounding)
 
 
 def settled(
     start: Part, declared: Part | None, found: Found, logs: list[Recording]
-) -> tuple[Found, tuple[float, float] | None]:
-    """What was found less the effects that make the filter's attitude worse, and the attitude's
-    error before and after.
+) -> tuple[Found, Model, tuple[float, float] | None]:
+    """What was found less the effects that make the filter's attitude worse, the model that it
+    makes, and the attitude's error before and after.
     """
     while True:
-        before, after = models(start, declared, found)
-        pair = attitude_errors(before, after, found.get("gyro"), logs)
-        if pair is None or not pair[1] > WORSE * pair[0]:
-            return found, pair
-        inv = found["gyro"]
+        model, inv = model_of(start, declared, found), found.get("gyro")
+        before, after = (attitude_rms(p, inv, logs) for p in (model.before, model.after))
+        if before is None or not after > WORSE * before:
+            return found, model, None if before is None else (before, after)
         errors = {
-            s.effect: attitude_errors(
-                before, after.with_sensor(after.gyro.without(s.effect)), inv, logs
-            )[1]
-            for s in inv.steps
-            if not s.declared and not is_ceiling(after.gyro, s.effect)
+            name: attitude_rms(model.after.with_sensor(model.after.gyro.without(name)), inv, logs)
+            for name in (s.effect for s in inv.steps if not s.declared)
+            if not is_ceiling(model.after.gyro, name)
         }
         worst = min(errors, key=errors.get, default=None)
-        if worst is None or not WORSE * errors[worst] < pair[1]:
-            return found, pair
-        degrees = [f"{np.degrees(v):.2f}" for v in (errors[worst], pair[1])]
+        if worst is None or not WORSE * errors[worst] < after:
+            return found, model, (before, after)
+        degrees = [f"{np.degrees(v):.2f}" for v in (errors[worst], after)]
         reason = f"makes the attitude worse, {degrees[0]} to {degrees[1]} deg"
         found = found | {"gyro": without(inv, worst, reason)}
 

@@ -29,8 +29,9 @@ def scores(
     by_log: dict[str, dict[str, Errors]] = {r.name: {} for r in together}
     errors, likelihood = {}, np.zeros(2)
     for kind, inv in found.items():
+        noise, reference = floor_noise(inv.after), reference_variance(inv.after)
         for trial in inv.held:
-            by_log[trial.name][kind] = _errors(inv, trial)
+            by_log[trial.name][kind] = _errors(inv, trial, noise, reference)
         each = [e[kind] for e in by_log.values() if kind in e]
         if each:
             errors[kind] = sum(each[1:], start=each[0])
@@ -39,8 +40,9 @@ def scores(
     return errors, entries, tuple(likelihood.tolist()) if errors else None
 
 
-def _errors(inv: Investigation, trial) -> Errors:
-    noise, reference = floor_noise(inv.after), reference_variance(inv.after)
+def _errors(
+    inv: Investigation, trial: Trial, noise: dict[int, RandomWalk], reference: np.ndarray
+) -> Errors:
     white = {i: RandomWalk(n.r, 0.0) for i, n in noise.items()}
     walk = {i: RandomWalk(0.0, n.k2) for i, n in noise.items()}
     drift = floor(walk, inv.after, trial) if any(n.k2 for n in noise.values()) else None
@@ -90,20 +92,17 @@ def _reference(trial: Trial) -> dict[str, Any]:
     return seen | {"clock": trial.clock.as_dict(), "explained": trial.clock.explained}
 
 
-def attitude_errors(
-    before: Part, after: Part, inv: Investigation | None, logs: list[Recording]
-) -> tuple[float, float] | None:
-    """RMS error [rad] of the attitude filter with the model before and after, over the held-out
-    rows that ``ref_q`` covers; None where there are none.
+def attitude_rms(part: Part, inv: Investigation | None, logs: list[Recording]) -> float | None:
+    """RMS error [rad] of the attitude filter with a part, over the held-out rows that ``ref_q``
+    covers; None where there are none.
     """
-    squares, rows = np.zeros(2), 0
+    squares, rows = 0.0, 0
     for r in logs if inv is not None else ():
         held = next((t for t in inv.held if t.name == r.name), None)
         if held is None or r.ref_q is None or r.accel is None:
             continue
         mounting = np.array(log_state(inv, r.name)["rotation"])
         first = len(r.time) - len(held.time)
-        pair = [attitude_error(r, p, mounting, first) for p in (before, after)]
-        squares += [np.sum(e.total**2) for e in pair]
-        rows += len(pair[0].total)
-    return tuple(np.sqrt(squares / rows).tolist()) if rows else None
+        error = attitude_error(r, part, mounting, first).total
+        squares, rows = squares + float(np.sum(error**2)), rows + len(error)
+    return float(np.sqrt(squares / rows)) if rows else None

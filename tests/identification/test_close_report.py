@@ -27,6 +27,7 @@ from pyimu.identification.report import deliver, pictures
 from pyimu.identification.report.page import page as page_of
 from pyimu.identification.report.words import headline
 from pyimu.identification.search.leftover import Unexplained
+from pyimu.identification.verdict import VERDICTS as ALL_VERDICTS
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.part_file import part
 from pyimu.recording.recording import Recording
@@ -206,8 +207,15 @@ VERDICTS = {
         "The bias of the gyro on x and z wanders more than the model declares",
     ),
     "clean": ({}, "Nothing is missing"),
+    "partly": ({"remarks": ("much is left",)}, "Much is left."),
+    "not_confirmed": ({"reason": "held-out rows differ"}, "Nothing is confirmed: held-out rows"),
+    "reference_unfit": ({"reason": "another body"}, "The reference does not belong to this sensor"),
     "undecidable": ({"reason": "no motion"}, "These logs cannot decide it: no motion."),
 }
+
+
+def test_no_verdict_is_without_a_sentence():
+    assert {*VERDICTS, "named"} == set(ALL_VERDICTS)
 
 
 @pytest.mark.parametrize("verdict", VERDICTS)

@@ -182,6 +182,22 @@ def test_a_reference_of_another_body_is_unfit():
     assert closed.verdict == "reference_unfit" and not closed.added, closed.report()
 
 
+def test_a_sensor_that_warms_up_beside_a_reference_at_rest_has_no_unfit_reference():
+    """Its bias follows the temperature; the reference says truly that nothing turned."""
+    rng, temperature = np.random.default_rng(7), 25 + 8 * np.sin(2 * np.pi * TIME / 60)
+    gyro = NOISE * rng.standard_normal((len(TIME), 3)) + 1e-3 * (temperature - 25)[:, None]
+    still = Recording.from_arrays(
+        name="table",
+        time=TIME,
+        gyro=gyro,
+        ref_rate=np.zeros((len(TIME), 3)),
+        temperature=temperature,
+    )
+    closed = pyimu.close(still)
+    assert closed.verdict == "named", closed.report()
+    assert [a.effect for a in closed.added] == ["thermal_bias"]
+
+
 def test_coefficients_of_an_axis_that_does_not_move_stay_where_they_are_typical():
     """One axis of motion: what it does not show of a part that nobody declared is left."""
     from pyimu.model.typical import magnitudes

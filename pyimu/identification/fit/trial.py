@@ -129,9 +129,7 @@ class Trial:
     def _moves(self) -> np.ndarray:
         """The rows (n,) that move; all of them where nothing but rest is to be seen."""
         x = self.u[:, OWN[self.kind]]
-        inside = np.zeros(len(x), dtype=bool)
-        for a, b in self.segments:
-            inside[a:b] = True
+        inside = marked(self.segments, len(x))
         if not self.free_rotation or not inside.any():
             return np.ones(len(x), dtype=bool)
         speed = np.linalg.norm(x, axis=1)
@@ -332,6 +330,14 @@ def repeated(values: np.ndarray) -> np.ndarray:
         if 0 < same.mean() < 0.2 and same.mean() > 10 * np.prod(by_axis)
         else np.zeros(len(values), dtype=bool)
     )
+
+
+def marked(segments: list[tuple[int, int]], n: int) -> np.ndarray:
+    """Flags (n,) that are true inside the ranges (start, stop): the contrary of ``runs``."""
+    flags = np.zeros(n, dtype=bool)
+    for a, b in segments:
+        flags[a:b] = True
+    return flags
 
 
 def runs(flags: np.ndarray) -> list[tuple[int, int]]:

@@ -12,11 +12,12 @@ from dataclasses import replace
 
 import numpy as np
 from scipy.fft import irfft, next_fast_len, rfft
+from scipy.special import i0
 
 from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.columns import band_time, in_band
 from pyimu.identification.fit.response import through_dynamics
-from pyimu.identification.fit.trial import MOVING, Trial, rest_noise
+from pyimu.identification.fit.trial import MOVING, Trial, marked, rest_noise
 from pyimu.identification.reference.track import level_of
 from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.sensor import Sensor
@@ -66,21 +67,23 @@ def measure(trial: Trial, sensor: Sensor) -> Clock | None:
 
 
 def moves(trial: Trial) -> bool:
-    """Whether the sensor shows more than its own noise."""
-    axes = list(trial.axes)
-    y = in_band(replace(trial, band_hz=_band_of(trial)), trial.y[:, axes])
+    """Whether sensor and reference both show more than the sensor's own noise: a sensor alone that
+    does may follow its temperature.
+    """
+    axes, trial = list(trial.axes), _in_own_band(trial)
+    x, y = (in_band(trial, v[:, axes]) for v in (trial.u[:, OWN[trial.kind]], trial.y))
     if len(y) < LEAST_ROWS:
         return False
-    weights = np.array(replace(trial, band_hz=_band_of(trial)).band.weights)
-    noise = rest_noise(trial)[axes] * np.sqrt(np.sum(weights**2))
-    return bool(np.linalg.norm(y.std(axis=0)) > MOTION * np.linalg.norm(noise))
+    gain = np.sqrt(np.sum(np.square(trial.band.weights)))
+    least = MOTION * gain * np.linalg.norm(rest_noise(trial)[axes])
+    return all(np.linalg.norm(v.std(axis=0)) > least for v in (x, y))
 
 
 def _explained(trial: Trial) -> float:
     """Share of the sensor's power in the band that the reference accounts for, once turned into the
     sensor's axes; below zero where it is further off than nothing.
     """
-    trial, axes = replace(trial, band_hz=_band_of(trial)), list(trial.axes)
+    trial, axes = _in_own_band(trial), list(trial.axes)
     rows = _rows(trial)
     x, y = (in_band(trial, v[:, axes])[rows] for v in (trial.u[:, OWN[trial.kind]], trial.y))
     if len(y) < LEAST_ROWS:
@@ -115,9 +118,7 @@ def rebanded(trial: Trial) -> Trial:
     """The trial with the band in which its reference, as it stands now, can be trusted; one whose
     reference was not derived has none.
     """
-    if trial.band_hz is None:
-        return trial
-    return replace(trial, band_hz=_band_of(trial))
+    return trial if trial.band_hz is None else _in_own_band(trial)
 
 
 def _interpolated(x: np.ndarray, row: np.ndarray) -> np.ndarray:
@@ -128,7 +129,7 @@ def _interpolated(x: np.ndarray, row: np.ndarray) -> np.ndarray:
     out, total = np.zeros((len(row), x.shape[1])), np.zeros(len(row))
     for j in range(1 - TAPS, TAPS + 1):
         away = row - (left + j)
-        window = np.i0(SHAPE * np.sqrt(np.maximum(1 - (away / TAPS) ** 2, 0.0)))
+        window = i0(SHAPE * np.sqrt(np.maximum(1 - (away / TAPS) ** 2, 0.0)))
         weight = np.sinc(away) * window
         out += weight[:, None] * x[np.clip(left + j, 0, len(x) - 1)]
         total += weight
@@ -143,9 +144,7 @@ def _coarse(trial: Trial) -> float:
     than without a lag.
     """
     axes = list(trial.axes)
-    counted = np.zeros(len(trial.time), dtype=bool)
-    for a, b in trial.row_segments:
-        counted[a:b] = True
+    counted = marked(trial.row_segments, len(trial.time))
     rate = trial.u[:, OWN[trial.kind]][:, axes]
     x = np.linalg.norm(rate, axis=1)
     y = np.linalg.norm(trial.y[:, axes] - np.median(trial.y[:, axes], axis=0), axis=1)
@@ -190,7 +189,7 @@ def _windows(trial: Trial, sensor: Sensor):
     x, slope = (
         through_dynamics(sensor, v, trial.segments, trial.h)[:, axes] for v in (rate, slope)
     )
-    trial = replace(trial, band_hz=_band_of(trial))
+    trial = _in_own_band(trial)
     time, rows = band_time(trial), _rows(trial)
     x, slope, y = (in_band(trial, v)[rows] for v in (x, slope, trial.y[:, axes]))
     time = time[rows]
@@ -240,12 +239,11 @@ def _rows(trial: Trial) -> np.ndarray:
     return in_band(trial, bad.astype(float)[:, None])[:, 0] < 1e-6
 
 
-def _band_of(trial: Trial) -> float:
-    """The band in Hz in which the reference, as it stands now, explains the sensor."""
+def _in_own_band(trial: Trial) -> Trial:
+    """The trial in the band in which its reference, as it stands now, explains the sensor."""
     rate = trial.u[:, OWN[trial.kind]]
     limit = 0.25 / trial.h if trial.band_limit is None else trial.band_limit
-    seen = np.full_like(rate, np.nan)
-    for a, b in trial.segments:
-        seen[a:b] = rate[a:b]
+    seen = np.where(marked(trial.segments, len(rate))[:, None], rate, np.nan)
     axes = list(trial.axes)
-    return trusted_band(trial.time, trial.y[:, axes], seen[:, axes], limit)
+    band = trusted_band(trial.time, trial.y[:, axes], seen[:, axes], limit)
+    return replace(trial, band_hz=band)

@@ -43,9 +43,7 @@ def headline(closed: Outcome) -> str:
 
 
 def _not_confirmed(closed: Outcome) -> str:
-    return (
-        f"Something is missing, but what it is is not confirmed: {closed.reason}.{_level(closed)}"
-    )
+    return f"Nothing is confirmed: {closed.reason}.{_level(closed)}"
 
 
 def _unfit(closed: Outcome) -> str:

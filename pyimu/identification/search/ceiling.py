@@ -13,7 +13,7 @@ from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient, Key
 from pyimu.identification.fit.maximum_likelihood import fit
 from pyimu.identification.fit.response import predict
-from pyimu.identification.fit.trial import Trial, rest_noise
+from pyimu.identification.fit.trial import Trial, marked, rest_noise
 from pyimu.model.sensor import Sensor
 
 CEILING = "ceiling"
@@ -91,9 +91,7 @@ def _beyond(
     % beyond the level.
     """
     x = predict(unlimited, reference_input(trial, state), trial.segments, trial.h)[:, axis]
-    counted = np.zeros(len(x), dtype=bool)
-    for a, b in trial.row_segments:
-        counted[a:b] = True
+    counted = marked(trial.row_segments, len(x))
     y = trial.y[:, axis]
     return tuple(
         np.abs(y[counted & (sign * x > 1.1 * level) & (sign * y > 0.8 * level)]) for sign in (1, -1)
