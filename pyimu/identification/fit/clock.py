@@ -13,7 +13,9 @@ class Clock:
 
     ``late`` (k,) s at ``time`` (k,) s of the log, one entry where the clocks keep step; ``std`` is
     the standard error in s. ``explained`` is the share of the sensor's power that the reference
-    then accounts for. ``own`` s are left beside it for the effects of the sensor that make it late.
+    then accounts for. ``own`` s are left beside it for the effects of the sensor that make it
+    late; ``taken_out`` says whether ``late`` was taken out of the reference, or is too small for
+    that.
     """
 
     time: np.ndarray
@@ -21,6 +23,7 @@ class Clock:
     std: float
     explained: float
     own: float = 0.0
+    taken_out: bool = False
 
     @property
     def keeps_step(self) -> bool:
@@ -34,8 +37,8 @@ class Clock:
         """The clock when ``delay`` s of it are the sensor's own."""
         return replace(self, late=self.late - delay, own=delay)
 
-    def as_dict(self) -> dict[str, float | None]:
-        """Its figures in s, for report.json."""
+    def as_dict(self) -> dict[str, float | bool | None]:
+        """Its figures in s, as they were measured, for report.json."""
         figures = {
             "late": self.mean + self.own,
             "std": self.std,
@@ -43,7 +46,8 @@ class Clock:
             "most": float(self.late.max()) + self.own,
             "left_to_sensor": self.own,
         }
-        return {k: v if np.isfinite(v) else None for k, v in figures.items()}
+        known = {k: v if np.isfinite(v) else None for k, v in figures.items()}
+        return known | {"taken_out": self.taken_out}
 
     def at(self, time: np.ndarray) -> np.ndarray:
         return np.interp(time, self.time, self.late)

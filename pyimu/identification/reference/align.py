@@ -59,7 +59,7 @@ def _aligned(trial: Trial, clock: Clock | None, own: float) -> Trial:
     rest = clock.less(own)
     chance = max(SIGNIFICANT * clock.std, ALIKE * own)
     if rest.keeps_step and abs(rest.mean) < chance:
-        return replace(trial, clock=replace(rest, late=np.zeros(1), std=clock.std))
+        return replace(trial, clock=rest)
     found = Finding(
         "reference_clock",
         trial.kind,
@@ -71,4 +71,4 @@ def _aligned(trial: Trial, clock: Clock | None, own: float) -> Trial:
         },
     )
     moved = rebanded(shifted(trial, rest))
-    return replace(moved, clock=rest, findings=(*trial.findings, found))
+    return replace(moved, clock=replace(rest, taken_out=True), findings=(*trial.findings, found))

@@ -249,32 +249,31 @@ def _log_states(closed: Outcome) -> Table:
 
 def _references(closed: Outcome) -> Table:
     """Of each log that moves, how its reference goes with the sensor."""
-    titles = ("recording", "sensor", "reference", "sensor late by", "whose it is", "accounts for")
-    table = Table(titles)
+    table = Table(("recording", "sensor", "reference", "late by [ms]", "the lag is", "explains"))
     for r in closed.recordings:
         for kind, state in r.log_state.items():
             reference = state.get("reference") or {}
             if reference.get("clock"):
-                share = f"{reference['explained']:.1%} of the {QUANTITIES[kind]}"
-                late, whose = _lateness(reference["clock"])
+                share = f"{100 * reference['explained']:.4g} %"
+                lag = _lag(reference["clock"])
                 table.rows.append(
-                    (prose(r.file), SENSORS[kind], reference["kind"], late, prose(whose), share)
+                    (prose(r.file), SENSORS[kind], reference["kind"], *map(prose, lag), share)
                 )
     return table
 
 
-def _lateness(clock: dict[str, float | None]) -> tuple[str, str]:
+def _lag(clock: dict[str, float | bool | None]) -> tuple[str, str]:
     """How late the sensor is by the reference's clock, and what became of it."""
     if clock["std"] is None:
         return "not seen", "too few rows follow the reference"
-    least, most, std = (number(1e3 * clock[k]) for k in ("least", "most", "std"))
-    if clock["least"] != clock["most"]:
-        return f"{least} to {most} ms", "wanders: taken for the clocks', and out of the reference"
-    late = f"{number(1e3 * clock['late'])} ± {std} ms"
-    if clock["left_to_sensor"]:
-        return late, "left to the sensor: all logs have it in common"
-    taken = clock["late"] != 0.0
-    return late, "taken for the clocks', and out of the reference" if taken else "none"
+    late, least, most, std = (1e3 * clock[k] for k in ("late", "least", "most", "std"))
+    if least != most:
+        said = f"{number(least)} to {number(most)}"
+    else:
+        said = with_error(late, std)
+    if clock["taken_out"]:
+        return said, "the clocks', taken out"
+    return said, "left to the sensor" if clock["left_to_sensor"] else "within its error"
 
 
 def _turn(rotation: list | None) -> Any:
