@@ -11,12 +11,10 @@ from typing import Any
 
 import numpy as np
 
-from pyimu.identification.fit.columns import in_band, residual
 from pyimu.identification.fit.fit import Fit, begin
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.maximum_likelihood import fit, fit_and_normal
 from pyimu.identification.fit.normal import Normal
-from pyimu.identification.fit.score import held_state, log_likelihood
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.search.belief import unbelievable
 from pyimu.identification.search.candidates import Group, equivalent, with_start
@@ -27,6 +25,7 @@ from pyimu.identification.search.ceiling import (
     stops_there,
     without_lost,
 )
+from pyimu.identification.search.confirm import LEAST_OF_EXCESS, SPEAKS, Evidence, evidence
 from pyimu.identification.search.screen import (
     PENALTY,
     Screened,
@@ -40,10 +39,6 @@ from pyimu.model.sensor import Sensor
 
 SET_WIDTH = 6.0
 """Log-likelihood [nat] within which another effect explains the data as well as the best."""
-
-LEAST_BESIDE_DYNAMICS = 0.01
-"""Share of the held-out RMS error by which an effect must lower it where a lag or delay is in the
-model."""
 
 MOST_EFFECTS = 8
 MOST_REFINED = 5
@@ -106,6 +101,7 @@ class Refined:
     fit: Fit
     gain: float
     dispersion: float
+    normal: Normal
 
 
 def investigate(
@@ -133,7 +129,8 @@ def investigate(
         chosen, names = _choose(after, options, last.gate)
         if chosen is None:
             break
-        reason = _against(after, chosen, held)
+        chosen, seen = _confirmed(after, chosen, held)
+        reason = _against(after, chosen, seen, last.gate)
         if reason:
             name = chosen.screened.effect
             refused[name] = Refused(name, chosen.gain, reason)
@@ -202,20 +199,11 @@ def refine(current: Fit, c: Screened) -> Refined:
         g for g in c.groups if _needed(fitted, normal, g, c.effect in current.sensor.values)
     )
     if needed and len(needed) < len(c.groups):
-        return refine(
-            current,
-            replace(
-                c,
-                groups=needed,
-                values={
-                    k: v for k, v in c.values.items() if k in {g.keys[0].index for g in needed}
-                },
-            ),
-        )
+        return refine(current, c.only(needed))
     spread = fitted_dispersion(normal, keys_of(c))
     fitted = at_samples(fitted) if is_ceiling(sensor, c.effect) else fitted
     gain = (fitted.log_likelihood - current.log_likelihood) / spread - PENALTY * len(keys_of(c))
-    return Refined(c, fitted, gain if needed else -np.inf, spread)
+    return Refined(c, fitted, gain if needed else -np.inf, spread, normal)
 
 
 def _needed(fitted: Fit, normal: Normal, group: Group, declared: bool) -> bool:
@@ -229,43 +217,47 @@ def _needed(fitted: Fit, normal: Normal, group: Group, declared: bool) -> bool:
     )
 
 
-def _against(after: Fit, chosen: Refined, held: list[Trial]) -> str:
+def _confirmed(old: Fit, chosen: Refined, held: list[Trial]) -> tuple[Refined, Evidence]:
+    """The chosen candidate less the axes on which held-out and fitted rows together speak against
+    it, and the evidence for what is left.
+    """
+    seen = evidence(old, chosen.fit, held)
+    groups = chosen.screened.groups
+    kept = tuple(g for g in groups if not _denied(g, chosen, seen))
+    if not seen.speaks or len(kept) in (0, len(groups)):
+        return chosen, seen
+    fewer = refine(old, chosen.screened.only(kept))
+    return fewer, evidence(old, fewer.fit, held)
+
+
+def _denied(group: Group, chosen: Refined, seen: Evidence) -> bool:
+    """True where held-out rows lose more on the axis of a group than fitted rows gain by it."""
+    if len(chosen.screened.groups) < 2 or not group.keys[0].index:
+        return False
+    axis = group.keys[0].index[0]
+    if seen.difference[axis] < SPEAKS or seen.held[1, axis] <= seen.held[0, axis]:
+        return False
+    fitted = fitted_gain(chosen.normal, chosen.fit.sensor, group.keys)
+    return fitted + seen.gained[axis] / chosen.dispersion <= 0.0
+
+
+def _against(old: Fit, chosen: Refined, seen: Evidence, gate: float) -> str:
     """Why a chosen candidate is refused all the same; nothing where it is not."""
-    if chosen.screened.effect not in after.sensor.values:
+    if chosen.screened.effect not in old.sensor.values:
         reason = unbelievable(chosen.fit, keys_of(chosen.screened))
         if reason:
             return reason
-    return "" if improves(after, chosen.fit, held) else "does not lower the error on held-out data"
-
-
-def improves(old: Fit, new: Fit, held: list[Trial]) -> bool:
-    """True where held-out rows are likelier under the new model, both judged with the new model's
-    noise.
-
-    Held-out data in which the two models hardly differ cannot speak against the new one. Beside a
-    lag or delay an effect must also lower the error by ``LEAST_BESIDE_DYNAMICS``: sampled dynamics
-    are right to third order in the sample period only, and what they miss looks like a little of
-    every other effect.
-    """
-    gained, difference, squares = 0.0, 0.0, np.zeros(2)
-    for trial in held:
-        (state_old, rest), (state_new, _) = held_state(old, trial), held_state(new, trial)
-        r_old, r_new = (
-            in_band(rest, residual(f.sensor, rest, s))
-            for f, s in ((old, state_old), (new, state_new))
+    if seen.speaks and seen.rise > 0.0:
+        return f"raises the error on held-out data by {seen.rise:.2%}"
+    apart = float(seen.gained.sum()) / chosen.dispersion
+    if seen.speaks and chosen.gain + apart <= gate:
+        return f"held-out data lose {-apart:.0f} nat by it"
+    if seen.share < LEAST_OF_EXCESS:
+        return (
+            f"explains {seen.share:.0%} of what is left above the noise, where something unknown "
+            f"may look like {LEAST_OF_EXCESS:.0%}"
         )
-        judged = [log_likelihood(new, rest, r) for r in (r_new, r_old)]
-        gained += judged[0] - judged[1]
-        difference += log_likelihood(new, rest, np.zeros_like(r_new)) - log_likelihood(
-            new, rest, r_new - r_old
-        )
-        squares += [np.sum(r_old**2), np.sum(r_new**2)]
-    dynamic = any(
-        e.stage == "dynamics" and not old.sensor.is_off(e.name) for e in old.sensor.effects
-    )
-    if dynamic and squares[1] > (1 - LEAST_BESIDE_DYNAMICS) ** 2 * squares[0] > 0:
-        return False
-    return gained > 0.0 or difference < 0.5
+    return ""
 
 
 def without(inv: Investigation, effect: str, reason: str) -> Investigation:

@@ -48,6 +48,12 @@ class Screened:
     smallest_visible: float
     inseparable_from: tuple[str, ...] = ()
 
+    def only(self, kept: tuple[Group, ...]) -> Screened:
+        """The same effect on the axes of some of its groups."""
+        indices = {g.keys[0].index for g in kept}
+        values = {k: v for k, v in self.values.items() if k in indices}
+        return replace(self, groups=kept, values=values)
+
 
 @dataclass(frozen=True)
 class Screening:

@@ -1,0 +1,106 @@
+"""What speaks against a chosen candidate: fitted and held-out rows together, axis by axis."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.stats import chi2
+
+from pyimu.identification.fit.attenuation import own_noise, reference_variance
+from pyimu.identification.fit.columns import band_segments, band_time, in_band, residual
+from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.normal import BATCHES
+from pyimu.identification.fit.score import held_state
+from pyimu.identification.fit.trial import Trial
+
+SPEAKS = 0.5
+"""Log-likelihood [nat] by which two models must differ on held-out rows for these to decide."""
+
+LEAST_OF_EXCESS = float(chi2.isf(1e-4, 1)) / BATCHES
+"""Share of what is left above the noise of sensor and reference that an effect must explain.
+
+What neither accounts for has a cause that nobody knows, and a form. Where it is spread over the
+batches of a log it looks, once in a hundred, like so much of the best of some hundred columns."""
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What old and new model leave, by axis (3,).
+
+    ``gained`` is the log-likelihood [nat] that held-out rows gain, ``difference`` by how much the
+    models differ on them; ``held`` (2, 3) and ``whole`` (2, 3) are sums of squares, old and new, of
+    the held-out rows and of all; ``noise`` (3,) is what the noise of sensor and reference leaves of
+    ``whole``, None where only the residual itself tells of it.
+    """
+
+    gained: np.ndarray
+    difference: np.ndarray
+    held: np.ndarray
+    whole: np.ndarray
+    noise: np.ndarray | None
+
+    @property
+    def speaks(self) -> bool:
+        return float(self.difference.sum()) >= SPEAKS
+
+    @property
+    def rise(self) -> float:
+        """Relative rise of the held-out RMS error; negative where it falls."""
+        old, new = self.held.sum(axis=1)
+        return float(np.sqrt(new / old)) - 1.0 if old > 0.0 else 0.0
+
+    @property
+    def share(self) -> float:
+        """The largest share on any axis of what was left above the noise that is explained."""
+        if self.noise is None:
+            return np.inf
+        above = np.maximum(self.whole[0] - self.noise, 1e-300)
+        shares = (self.whole[0] - self.whole[1]) / above
+        return float(np.max(shares[self.whole[0] > 0.0], initial=0.0))
+
+
+def evidence(old: Fit, new: Fit, held: Sequence[Trial]) -> Evidence:
+    """The evidence of all rows for ``new`` over ``old``, judged with the noise of ``new``."""
+    gained, difference = np.zeros(3), np.zeros(3)
+    apart = np.zeros((2, 3))
+    for trial in held:
+        (state_old, rest), (state_new, _) = held_state(old, trial), held_state(new, trial)
+        first, second = (
+            in_band(rest, residual(f.sensor, rest, s))
+            for f, s in ((old, state_old), (new, state_new))
+        )
+        powers = [_whitened(new, rest, r) for r in (first, second, second - first)]
+        gained += 0.5 * (powers[0] - powers[1])
+        difference += 0.5 * powers[2]
+        apart += [np.sum(first**2, axis=0), np.sum(second**2, axis=0)]
+    fitted = np.array([_squares(f) for f in (old, new)])
+    return Evidence(gained, difference, apart, apart + fitted, _noise(new, held))
+
+
+def _whitened(fit: Fit, trial: Trial, r: np.ndarray) -> np.ndarray:
+    """Sums of squares (3,) of a residual (m, 3) whitened by the noise of a fit."""
+    time, segments, out = band_time(trial), band_segments(trial), np.zeros(3)
+    for i in trial.axes:
+        out[i] = np.sum(fit.noise[i].whiten(r[:, i : i + 1], time, segments) ** 2)
+    return out
+
+
+def _squares(fit: Fit) -> np.ndarray:
+    return np.sum([np.sum(one.residual**2, axis=0) for one in fit.residuals()], axis=0)
+
+
+def _noise(fit: Fit, held: Sequence[Trial]) -> np.ndarray | None:
+    """Sum of squares (3,) over fitted and held-out rows that sensor and reference account for.
+
+    None where a reference was not derived: the noise is fitted to the residual itself then.
+    """
+    if any(t.band_hz is None for t in fit.trials):
+        return None
+    own, reference, out = own_noise(fit), reference_variance(fit), np.zeros(3)
+    for t in (*fit.trials, *held):
+        rows, share = len(band_time(t)), float(np.sum(np.square(t.band.weights)))
+        for i in t.axes:
+            out[i] += rows * (own[i].r * share + reference[i])
+    return out
