@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy.signal import lfilter
 
 from pyimu.identification.fit.columns import band_segments, band_time, in_band, reference_input
 from pyimu.identification.fit.fit import Fit, stepped
@@ -10,12 +11,15 @@ from pyimu.identification.fit.keys import coefficient_of
 from pyimu.identification.fit.normal import normal_equations, solve
 from pyimu.identification.fit.response import after_dynamics, memoryless
 from pyimu.identification.fit.trial import rest_noise
-from pyimu.identification.fit.whiten import RandomWalk
+from pyimu.identification.fit.whiten import AR_ORDER, Autoregressive, RandomWalk
 from pyimu.model.catalogue import WALK, WHITE
 from pyimu.model.sensor import Sensor
 
 WINDOW = 64
 """Rows of the windows in which the quiet is looked for."""
+
+DRAWN = 512
+"""Windows that are drawn to see how quiet chance makes a quarter of them."""
 
 
 def without_attenuation(fitted: Fit) -> Fit:
@@ -76,7 +80,8 @@ def floor_noise(fit: Fit) -> dict[int, RandomWalk]:
 def reference_variance(fit: Fit) -> np.ndarray:
     """Variance (3,) in a row of the band that a derived reference adds to the sensor's own noise.
 
-    It is read off the quietest quarter of the fitted windows.
+    It is read off the quietest quarter of the fitted windows, and is by as much more than these
+    show as noise of one level would be.
     """
     noise = np.zeros(3)
     if all(t.band_hz is None for t in fit.trials):
@@ -86,10 +91,25 @@ def reference_variance(fit: Fit) -> np.ndarray:
         windows = np.concatenate([_windows(one.residual[:, i], one.segments) for one in residuals])
         if not len(windows):
             continue
-        squares = np.sort(windows.var(axis=1))[: max(1, len(windows) // 4)]
         share = np.mean([np.sum(np.square(t.band.weights)) for t in fit.trials])
-        noise[i] = max(0.0, float(np.mean(squares)) - own[i].r * share)
+        noise[i] = max(0.0, _quiet(windows) / _lowness(fit.noise[i]) - own[i].r * share)
     return noise
+
+
+def _quiet(windows: np.ndarray) -> float:
+    """Mean variance of the quietest quarter of windows (k, ``WINDOW``)."""
+    return float(np.mean(np.sort(windows.var(axis=1))[: max(1, len(windows) // 4)]))
+
+
+def _lowness(noise: RandomWalk | Autoregressive, seed: int = 1) -> float:
+    """What the quietest quarter of windows shows of the variance where noise of one spectrum, that
+    which was fitted, has one level.
+    """
+    coefficients = noise.coefficients if isinstance(noise, Autoregressive) else ()
+    drawn = np.random.default_rng(seed).standard_normal(DRAWN * WINDOW)
+    like = lfilter([1.0], np.concatenate([[1.0], -np.array(coefficients)]), drawn)
+    settled = like[AR_ORDER * WINDOW :].reshape(-1, WINDOW)
+    return _quiet(settled) / float(np.mean(settled.var(axis=1)))
 
 
 def _windows(values: np.ndarray, segments: list[tuple[int, int]]) -> np.ndarray:

@@ -5,7 +5,7 @@ and look again.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from types import MappingProxyType
 from typing import Any
 
@@ -104,6 +104,22 @@ class Refined:
     normal: Normal
 
 
+@dataclass
+class Tried:
+    """Candidates beside one model, each fitted in full once; ``impossible`` are those whose
+    coefficients are beyond belief.
+    """
+
+    current: Fit
+    refined: dict[str, Refined] = field(default_factory=dict)
+    impossible: list[Refined] = field(default_factory=list)
+
+    def refine(self, c: Screened) -> Refined:
+        if c.effect not in self.refined:
+            self.refined[c.effect] = refine(self.current, c)
+        return self.refined[c.effect]
+
+
 def investigate(
     sensor: Sensor,
     free: frozenset,
@@ -123,19 +139,18 @@ def investigate(
     steps: list[Step] = []
     refused: dict[str, Refused] = {}
     first = last = screen(before, sensor.values)
+    tried = Tried(after)
     while len(steps) < MOST_EFFECTS:
         say(f"{sensor.kind}: {len(steps)} added, trying {len(last.candidates)} candidates")
         options = [c for c in last.above() if c.effect not in refused]
-        chosen, names = _choose(after, options, last.gate)
+        chosen, names = _choose(tried, options, last.gate)
         if chosen is None:
             break
-        chosen, seen = _confirmed(after, chosen, held)
-        reason = _against(after, chosen, seen, last.gate)
+        chosen, reason = _judged(tried, chosen, held, last.gate)
+        name = chosen.screened.effect
         if reason:
-            name = chosen.screened.effect
             refused[name] = Refused(name, chosen.gain, reason)
             continue
-        name = chosen.screened.effect
         steps.append(
             Step(
                 name,
@@ -148,7 +163,7 @@ def investigate(
             )
         )
         after = without_lost(chosen.fit) if is_ceiling(chosen.fit.sensor, name) else chosen.fit
-        last = screen(after, sensor.values)
+        last, tried = screen(after, sensor.values), Tried(after)
     after, steps = _backward(after, steps)
     return Investigation(
         before, after, tuple(steps), tuple(refused.values()), first, last, tuple(held)
@@ -156,18 +171,18 @@ def investigate(
 
 
 def _choose(
-    current: Fit, options: list[Screened], gate: float
+    tried: Tried, options: list[Screened], gate: float
 ) -> tuple[Refined | None, tuple[str, ...]]:
     """The candidate that explains most once fitted in full, and the names of those that explain as
     much.
     """
     worth = [c for c in options[:MOST_REFINED] if c.gain > LEAST_SHARE * options[0].gain]
-    refined = sorted((refine(current, c) for c in worth), key=lambda r: -r.gain)
+    refined = sorted(map(tried.refine, worth), key=lambda r: -r.gain)
     refined = [r for r in refined if r.gain > gate]
     if not refined:
         return None, ()
     best = refined[0]
-    derived = any(t.band_hz is not None for t in current.trials)
+    derived = any(t.band_hz is not None for t in tried.current.trials)
     for other in refined[1:]:
         # Of one class take the one with fewer coefficients unless the data speak clearly for the
         # other; a reference that ends below the band in which the two differ cannot speak at all.
@@ -217,6 +232,20 @@ def _needed(fitted: Fit, normal: Normal, group: Group, declared: bool) -> bool:
     )
 
 
+def _judged(tried: Tried, chosen: Refined, held: list[Trial], gate: float) -> tuple[Refined, str]:
+    """A chosen candidate on the axes that held-out rows leave it, and why it is refused all the
+    same; nothing where it is not.
+    """
+    old = tried.current
+    if chosen.screened.effect not in old.sensor.values:
+        reason = unbelievable(chosen.fit, keys_of(chosen.screened))
+        if reason:
+            tried.impossible.append(chosen)
+            return chosen, reason
+    chosen, seen = _confirmed(old, chosen, held)
+    return chosen, _against(chosen, seen, gate) or _stands_in(tried, chosen, gate)
+
+
 def _confirmed(old: Fit, chosen: Refined, held: list[Trial]) -> tuple[Refined, Evidence]:
     """The chosen candidate less the axes on which held-out and fitted rows together speak against
     it, and the evidence for what is left.
@@ -241,12 +270,8 @@ def _denied(group: Group, chosen: Refined, seen: Evidence) -> bool:
     return fitted + seen.gained[axis] / chosen.dispersion <= 0.0
 
 
-def _against(old: Fit, chosen: Refined, seen: Evidence, gate: float) -> str:
-    """Why a chosen candidate is refused all the same; nothing where it is not."""
-    if chosen.screened.effect not in old.sensor.values:
-        reason = unbelievable(chosen.fit, keys_of(chosen.screened))
-        if reason:
-            return reason
+def _against(chosen: Refined, seen: Evidence, gate: float) -> str:
+    """What fitted and held-out rows say against a chosen candidate."""
     if seen.speaks and seen.rise > 0.0:
         return f"raises the error on held-out data by {seen.rise:.2%}"
     apart = float(seen.gained.sum()) / chosen.dispersion
@@ -257,6 +282,16 @@ def _against(old: Fit, chosen: Refined, seen: Evidence, gate: float) -> str:
             f"explains {seen.share:.0%} of what is left above the noise, where something unknown "
             f"may look like {LEAST_OF_EXCESS:.0%}"
         )
+    return ""
+
+
+def _stands_in(tried: Tried, chosen: Refined, gate: float) -> str:
+    """The effect beyond belief that leaves a chosen candidate nothing to explain, if any does."""
+    for other in tried.impossible:
+        beside = refine(other.fit, chosen.screened)
+        if beside.gain <= gate:
+            name = other.screened.effect
+            return f"explains what {name} would explain, whose size is beyond belief"
     return ""
 
 
