@@ -15,6 +15,7 @@ from pyimu.identification.fit.fit import begin, power
 from pyimu.identification.fit.keys import Coefficient, LogBias, LogTurn, coefficients_of
 from pyimu.identification.fit.maximum_likelihood import fit
 from pyimu.identification.fit.normal import normal_equations, solve
+from pyimu.identification.fit.reference_noise import with_reference_noise
 from pyimu.identification.fit.trial import SETTLE
 from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
 from pyimu.model.sensor import Sensor
@@ -196,6 +197,7 @@ def scale_factors() -> np.ndarray:
     sensor = Sensor("gyro", {"scale_factor": {}, "angle_random_walk": {"N": 1e-3 * np.sqrt(0.02)}})
     keys = keys_of(sensor, "scale_factor")
     fits = [fit(begin(sensor, keys, [seen_by_attitude(s)])) for s in range(20)]
+    fits = [fit(with_reference_noise(f, [])[0]) for f in fits]
     return np.array([f.sensor.values["scale_factor"]["s"] - TRUE_S for f in fits])
 
 
@@ -206,7 +208,7 @@ def offset(errors: np.ndarray) -> np.ndarray:
 
 def test_noise_of_an_attitude_reference_does_not_pull_the_scale_factor_down(monkeypatch):
     corrected = scale_factors()
-    monkeypatch.setattr(maximum_likelihood, "without_attenuation", lambda fitted: fitted)
+    monkeypatch.setattr(maximum_likelihood, "without_reference_noise", lambda fitted: fitted)
     raw = scale_factors()
     assert np.all(offset(raw) < -4.5), offset(raw)
     assert np.all(np.abs(offset(corrected)) < 4.5), offset(corrected)

@@ -35,7 +35,8 @@ class Fit:
 
     ``free`` are the keys of the coefficients that are estimated; ``std`` the standard errors by
     column key; ``prior`` the standard deviations, about the identity, of coefficients that nobody
-    declared.
+    declared; ``echo`` by axis what the reference's noise added to the variance of the innovations
+    of the first model; ``coloured`` says that this noise is not white.
     """
 
     sensor: Sensor
@@ -46,6 +47,8 @@ class Fit:
     log_likelihood: float = -np.inf
     std: Mapping[Key, float] = field(default_factory=dict)
     prior: Mapping[Coefficient, float] = field(default_factory=dict)
+    echo: Mapping[int, float] = field(default_factory=dict)
+    coloured: bool = False
 
     def linearise(self, candidates: Iterable[str] = (), extra: Iterable = ()) -> list[Linear]:
         """All trials with columns for the free coefficients, the logs' own, and effects
@@ -65,7 +68,7 @@ class Fit:
 
     def with_noise(self) -> Fit:
         """The same model with the noise fitted to its present residual."""
-        return replace(self, noise=fit_noise(self.trials, self.residuals()))
+        return replace(self, noise=fit_noise(self.trials, self.residuals(), self.coloured))
 
 
 def bare(trial: Trial, r: np.ndarray) -> Linear:
@@ -79,9 +82,9 @@ def bare(trial: Trial, r: np.ndarray) -> Linear:
     )
 
 
-def fit_noise(trials: tuple[Trial, ...], residuals: list[Linear]) -> Noise:
+def fit_noise(trials: tuple[Trial, ...], residuals: list[Linear], coloured: bool = False) -> Noise:
     """Noise model of each axis, one for all logs: the whitening follows what the reference is."""
-    derived = any(t.reference in ("attitude", "heading") for t in trials)
+    derived = coloured or any(t.reference in ("attitude", "heading") for t in trials)
     made = {}
     for i in sorted({i for t in trials for i in t.axes}):
         parts = [(one.residual[:, i], one.time, one.segments) for one in residuals if i in one.keys]

@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from pyimu.identification.fit.attenuation import without_attenuation
-from pyimu.identification.fit.fit import Fit, gauss_newton, with_prior
-from pyimu.identification.fit.normal import Normal, normal_equations, variances
+from pyimu.identification.fit.fit import Fit, gauss_newton, stepped, with_prior
+from pyimu.identification.fit.normal import Normal, solve, variances
+from pyimu.identification.fit.reference_noise import equations, has_noise, smoothing
 
 
 def fit(start: Fit) -> Fit:
@@ -26,10 +26,18 @@ def fit_and_normal(start: Fit, rounds: int = 3, steps: int = 6) -> tuple[Fit, No
         start = gauss_newton(start, steps).with_noise()
         if np.allclose(before, start.sensor.p, rtol=1e-4, atol=1e-9):
             break
-    start = without_attenuation(start)
-    normal = with_prior(normal_equations(start.linearise(), start.noise), start)
+    start = without_reference_noise(start)
+    normal = with_prior(equations(start), start)
     variance = variances(normal.gram)
     # A coefficient that was set by other means than regression keeps the standard error it came
     # with.
     std = {**start.std, **{k: float(np.sqrt(variance[i])) for i, k in enumerate(normal.keys)}}
-    return replace(start, log_likelihood=normal.log_likelihood, std=std), normal
+    return replace(start, log_likelihood=normal.log_likelihood - smoothing(start), std=std), normal
+
+
+def without_reference_noise(fitted: Fit) -> Fit:
+    """The fit less what the noise of its reference pulls coefficients by."""
+    if not has_noise(fitted):
+        return fitted
+    normal = with_prior(equations(fitted), fitted)
+    return stepped(fitted, normal.keys, solve(normal.gram, normal.score)).with_noise()

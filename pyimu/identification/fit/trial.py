@@ -49,7 +49,8 @@ class Trial:
     ``parent`` names the fitted trial that has the same power-on, if any; ``left_out`` (n,) marks
     samples that are missing or carry no information (spikes, repeats, at a limit), heeded where no
     band mixes them with their neighbours. ``band_hz`` is the band of a derived reference, at most
-    ``band_limit``; ``clock`` what was taken out of the reference's clock.
+    ``band_limit``; ``clock`` what was taken out of the reference's clock; ``noise`` (n, 3) a draw
+    of the reference's noise, where it has any to speak of.
     """
 
     name: str
@@ -69,6 +70,7 @@ class Trial:
     findings: tuple[Finding, ...] = ()
     band_limit: float | None = None
     clock: Clock | None = None
+    noise: np.ndarray | None = None
 
     @property
     def band(self) -> Band:
@@ -106,6 +108,7 @@ class Trial:
             u=self.u[start:stop],
             segments=inside,
             left_out=flags,
+            noise=None if self.noise is None else self.noise[start:stop],
             **changes,
         )
 

@@ -24,6 +24,9 @@ LEAST_VARIANCE = 1e-22
 AR_ORDER = 32
 """Longest memory of an autoregression; a fiftieth of the rows where there are few."""
 
+CHUNK = 65536
+"""Rows that are put side by side with their predecessors at once."""
+
 
 @njit(cache=True)
 def _innovations(values, steps, r, k2, out):
@@ -153,15 +156,21 @@ class Autoregressive:
         if not pieces:
             everything = np.concatenate([v for v, _, _ in residuals])
             return cls((), max(float(np.var(everything)), LEAST_VARIANCE))
-        past = np.concatenate(
-            [np.lib.stride_tricks.sliding_window_view(v, order)[:-1, ::-1] for v in pieces]
-        )
-        now = np.concatenate([v[order:] for v in pieces])
         # Normal equations: an SVD of the same rows takes ten times longer, and the noise floor
         # keeps them regular.
-        gram = past.T @ past
-        coefficients = np.linalg.solve(gram + 1e-12 * np.trace(gram) * np.eye(order), past.T @ now)
-        return cls(
-            tuple(coefficients),
-            max(float(np.mean((now - past @ coefficients) ** 2)), LEAST_VARIANCE),
-        )
+        whole = sum(_lagged_products(v, order) for v in pieces)
+        gram, right, power = whole[1:, 1:], whole[1:, 0], whole[0, 0]
+        coefficients = np.linalg.solve(gram + 1e-12 * np.trace(gram) * np.eye(order), right)
+        left = power - 2 * coefficients @ right + coefficients @ gram @ coefficients
+        rows = sum(len(v) - order for v in pieces)
+        return cls(tuple(coefficients), max(float(left) / rows, LEAST_VARIANCE))
+
+
+def _lagged_products(values: np.ndarray, order: int) -> np.ndarray:
+    """Products (order + 1, order + 1), summed, of rows with themselves and their predecessors."""
+    total = np.zeros((order + 1, order + 1))
+    for first in range(0, len(values) - order, CHUNK):
+        piece = values[first : first + CHUNK + order]
+        rows = np.lib.stride_tricks.sliding_window_view(piece, order + 1)[:, ::-1]
+        total += rows.T @ rows
+    return total

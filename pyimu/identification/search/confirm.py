@@ -9,9 +9,10 @@ import numpy as np
 from scipy.stats import chi2
 
 from pyimu.identification.fit.attenuation import own_noise, reference_variance
-from pyimu.identification.fit.columns import band_segments, band_time, in_band, residual
-from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.columns import Linear, band_time, in_band, residual
+from pyimu.identification.fit.fit import Fit, bare
 from pyimu.identification.fit.normal import BATCHES
+from pyimu.identification.fit.reference_noise import STEP, changes, has_noise, moved, whitened
 from pyimu.identification.fit.score import held_state
 from pyimu.identification.fit.trial import Trial
 
@@ -48,7 +49,7 @@ class Evidence:
     @property
     def rise(self) -> float:
         """Relative rise of the held-out RMS error; negative where it falls."""
-        old, new = self.held.sum(axis=1)
+        old, new = np.maximum(self.held.sum(axis=1), 0.0)
         return float(np.sqrt(new / old)) - 1.0 if old > 0.0 else 0.0
 
     @property
@@ -63,32 +64,49 @@ class Evidence:
 
 def evidence(old: Fit, new: Fit, held: Sequence[Trial]) -> Evidence:
     """The evidence of all rows for ``new`` over ``old``, judged with the noise of ``new``."""
-    gained, difference = np.zeros(3), np.zeros(3)
-    apart = np.zeros((2, 3))
+    gained, difference, apart = np.zeros(3), np.zeros(3), np.zeros((2, 3))
     for trial in held:
         (state_old, rest), (state_new, _) = held_state(old, trial), held_state(new, trial)
-        first, second = (
-            in_band(rest, residual(f.sensor, rest, s))
-            for f, s in ((old, state_old), (new, state_new))
-        )
-        powers = [_whitened(new, rest, r) for r in (first, second, second - first)]
-        gained += 0.5 * (powers[0] - powers[1])
-        difference += 0.5 * powers[2]
-        apart += [np.sum(first**2, axis=0), np.sum(second**2, axis=0)]
+        pairs = ((old.sensor, state_old), (new.sensor, state_new))
+        for sign, rows in _rows(rest, pairs):
+            first, second = (bare(rest, r) for r in rows)
+            between = bare(rest, rows[1] - rows[0])
+            powers = [_whitened(new, rest, one) for one in (first, second, between)]
+            gained += sign * 0.5 * (powers[0] - powers[1])
+            difference += sign * 0.5 * powers[2]
+            apart += sign * np.array([np.sum(r**2, axis=0) for r in rows])
     fitted = np.array([_squares(f) for f in (old, new)])
     return Evidence(gained, difference, apart, apart + fitted, _noise(new, held))
 
 
-def _whitened(fit: Fit, trial: Trial, r: np.ndarray) -> np.ndarray:
-    """Sums of squares (3,) of a residual (m, 3) whitened by the noise of a fit."""
-    time, segments, out = band_time(trial), band_segments(trial), np.zeros(3)
-    for i in trial.axes:
-        out[i] = np.sum(fit.noise[i].whiten(r[:, i : i + 1], time, segments) ** 2)
-    return out
+def _rows(rest: Trial, pairs):
+    """The residuals (m, 3) of sensors with their states, and with -1 as the sign what the noise of
+    the reference makes of them.
+    """
+
+    def left(trial: Trial) -> list[np.ndarray]:
+        return [in_band(trial, residual(sensor, trial, state)) for sensor, state in pairs]
+
+    yield 1, left(rest)
+    if rest.noise is not None:
+        up, down = (left(moved(rest, sign)) for sign in (1, -1))
+        yield -1, [(a - b) / (2 * STEP) for a, b in zip(up, down, strict=True)]
+
+
+def _whitened(fit: Fit, trial: Trial, one: Linear) -> np.ndarray:
+    """Sums of squares (3,) of a residual whitened by the noise of a fit."""
+    seen = [whitened(fit.noise[i], one, i) if i in trial.axes else 0.0 for i in range(3)]
+    return np.array(seen)
 
 
 def _squares(fit: Fit) -> np.ndarray:
-    return np.sum([np.sum(one.residual**2, axis=0) for one in fit.residuals()], axis=0)
+    """Sums of squares (3,) on fitted rows, as a reference without noise would leave them."""
+    seen = np.sum([np.sum(one.residual**2, axis=0) for one in fit.residuals()], axis=0)
+    if not has_noise(fit):
+        return seen
+    return seen - np.sum(
+        [np.sum(c.residual**2, axis=0) for c in changes(fit, Fit.residuals)], axis=0
+    )
 
 
 def _noise(fit: Fit, held: Sequence[Trial]) -> np.ndarray | None:
@@ -99,6 +117,8 @@ def _noise(fit: Fit, held: Sequence[Trial]) -> np.ndarray | None:
     if any(t.band_hz is None for t in fit.trials):
         return None
     own, reference, out = own_noise(fit), reference_variance(fit), np.zeros(3)
+    if fit.echo:
+        reference = np.zeros(3)  # it is taken out of the sums already
     for t in (*fit.trials, *held):
         rows, share = len(band_time(t)), float(np.sum(np.square(t.band.weights)))
         for i in t.axes:

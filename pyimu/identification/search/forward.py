@@ -15,6 +15,7 @@ from pyimu.identification.fit.fit import Fit, begin
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.maximum_likelihood import fit, fit_and_normal
 from pyimu.identification.fit.normal import Normal
+from pyimu.identification.fit.reference_noise import with_reference_noise
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.search.belief import unbelievable
 from pyimu.identification.search.candidates import Group, equivalent, with_start
@@ -132,7 +133,8 @@ def investigate(
     ``held``; ``prior`` are standard deviations of coefficients that nobody declared.
     """
     say(f"{sensor.kind}: fitting the model as declared")
-    before = fit(begin(sensor, free, trials, prior))
+    before, held = with_reference_noise(fit(begin(sensor, free, trials, prior)), held)
+    before = fit(before) if before.echo else before
     if has_ceiling(sensor):
         before = without_lost(before)
     after = before

@@ -15,7 +15,7 @@ from scipy.stats import chi2
 from pyimu.identification.fit.columns import Linear
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Product
-from pyimu.identification.fit.normal import normal_equations
+from pyimu.identification.fit.reference_noise import equations
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk, power_less_bias
 from pyimu.identification.search.screen import Projected, dispersion
@@ -68,7 +68,7 @@ def lack_of_fit(fit: Fit) -> Unexplained | None:
     """
     if all(t.reference == "static" and "temperature" not in t.known for t in fit.trials):
         return None
-    normal = normal_equations(fit.linearise((), [_products(fit.trials)]), fit.noise)
+    normal = equations(fit, lambda f: f.linearise((), [_products(fit.trials)]))
     wanted = [i for i, k in enumerate(normal.keys) if isinstance(k, Product)]
     if not wanted:
         return None

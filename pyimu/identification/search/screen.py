@@ -16,7 +16,8 @@ import numpy as np
 
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Key
-from pyimu.identification.fit.normal import Normal, normal_equations, solve
+from pyimu.identification.fit.normal import Normal, solve
+from pyimu.identification.fit.reference_noise import equations
 from pyimu.identification.search.candidates import (
     Choice,
     Group,
@@ -110,8 +111,7 @@ def screen(fit: Fit, declared: Iterable[str], seed: int = 1) -> Screening:
     new, held = absent(fit), contestable(fit, declared)
     effects = new + held
     linear = [e.name for e in new if not scanned(e)] + [e.name for e in held]
-    linears = fit.linearise(linear, [scan_columns(fit.sensor, new)])
-    normal = normal_equations(linears, fit.noise)
+    normal = equations(fit, lambda f: f.linearise(linear, [scan_columns(fit.sensor, new)]))
     all_groups = groups(normal, fit.sensor, effects)
     taken = sorted({c for g in all_groups for choice in g.choices for c in choice.columns})
     base = [i for i in range(len(normal.keys)) if i not in set(taken)]
@@ -255,7 +255,7 @@ def _with_twins(
 ) -> list[Screened]:
     """Note for each effect which others its columns could stand in for."""
     spaces = {name: _space(gs, projected) for name, gs in by_effect.items() if gs}
-    d = np.sqrt(np.diag(projected.gram))
+    d = np.sqrt(np.maximum(np.diag(projected.gram), 0.0))
     correlation = projected.gram / np.where(np.outer(d, d) > 0, np.outer(d, d), 1.0)
     out = []
     for one in found:

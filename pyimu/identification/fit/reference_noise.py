@@ -1,0 +1,252 @@
+"""The noise of a reference among the regressors (errors in variables), and what it does to them.
+
+A reference is x + e. Every column c(x + e) meets the residual's own -J e: their product has a mean,
+-J var(e) E[dc/dx] by Stein's lemma, although nothing is missing. It pulls a scale factor down, and
+makes a dead zone or a lag look as if they explained something. What a draw e' of like noise changes
+in residual and columns has that same product, and its sums of squares and products are taken out
+again: the corrected score and likelihood (Nakamura 1990, "Corrected score function for
+errors-in-variables models", Biometrika 77), the means taken over the draw.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
+from scipy.linalg import solve_toeplitz
+from scipy.signal import lfilter
+
+from pyimu.identification.fit.attenuation import (
+    QUIET,
+    beyond_own,
+    lowness,
+    quiet,
+    quietest,
+    windows,
+)
+from pyimu.identification.fit.columns import Linear, band_segments, band_time, in_band
+from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.normal import Normal, normal_equations
+from pyimu.identification.fit.trial import Trial
+from pyimu.model.kinds import KINDS, OWN
+from pyimu.model.signals import COLUMNS
+
+LEAST = 1e-3
+"""Share of the residual's variance below which the noise of a reference is left alone: what it does
+to a gain is less than the scatter of that gain in a million rows."""
+
+STEP = 0.3
+"""Share of its standard deviation by which the reference is moved either way to see what changes:
+slopes are limits, and the kinks of a dead zone scatter them the more the smaller the step."""
+
+MOST_ROWS = 20000
+"""Rows of a log in which the residual is compared with what the sensor shows."""
+
+REST = 1 / 16
+"""Share of the windows in which a reference is taken to be at rest, if it ever is."""
+
+LAGS, CORRELATED = 8, 0.2
+"""Rows over which what is left in the quiet is tried for correlation, and the one that counts: six
+standard errors in a thousand rows."""
+
+
+# Drawing it
+
+
+def with_reference_noise(fit: Fit, held: list[Trial], seed: int = 1) -> tuple[Fit, list[Trial]]:
+    """The fit and the held-out trials with a draw of their reference's noise, where there is any
+    to speak of.
+    """
+    seen, unseen = (np.array([f(fit, i) for i in range(3)]) for f in (_in_quiet, _unseen))
+    variance = np.minimum.reduce([beyond_own(fit), seen, unseen])
+    total = [np.concatenate([one.residual[:, i] for one in fit.residuals()]) for i in range(3)]
+    if not np.any(variance > LEAST * np.array([max(np.var(r), 1e-300) for r in total])):
+        return fit, held
+    rng, colour = np.random.default_rng(seed), _colour(fit)
+    trials = tuple(_drawn(t, variance, colour, rng) for t in fit.trials)
+    apart = [_drawn(t, variance, colour, rng) for t in held]
+    known = replace(fit, trials=trials, coloured=bool(colour)).with_noise()
+    return replace(known, echo=_echo(known)), apart
+
+
+def _in_quiet(fit: Fit, axis: int) -> float:
+    """Variance in a row of the band that the reference itself shows in its quiet."""
+    trials = [t for t in fit.trials if axis in t.axes and t.reference != "static"]
+    own = [in_band(t, t.u[:, OWN[t.kind]][:, [axis]])[:, 0] for t in trials]
+    pieces = [windows(x, band_segments(t)) for x, t in zip(own, trials, strict=True)]
+    found = np.concatenate(pieces) if pieces else np.zeros((0, 1))
+    return quiet(found, REST) / lowness(fit.noise[axis], REST) if len(found) else 0.0
+
+
+def _unseen(fit: Fit, axis: int) -> float:
+    """Variance of a residual that the sensor from ``LAGS`` rows before to ``LAGS`` after does not
+    show: it shows what an effect leaves, and nothing of the noise of its reference.
+
+    Infinite where a band lies between the two.
+    """
+    if any(t.band_hz is not None for t in fit.trials):
+        return np.inf
+    left, rows = 0.0, 0
+    for t, one in zip(fit.trials, fit.residuals(), strict=True):
+        measured = in_band(t, t.y[:, list(t.axes)])
+        for a, b in one.segments if axis in one.keys else ():
+            b = min(b, a + MOST_ROWS)
+            if b - a > 40 * LAGS:
+                around = sliding_window_view(measured[a:b], 2 * LAGS + 1, axis=0)
+                columns = np.column_stack([np.ones(len(around)), around.reshape(len(around), -1)])
+                r = one.residual[a + LAGS : b - LAGS, axis]
+                rest = r - columns @ np.linalg.lstsq(columns, r)[0]
+                left, rows = left + float(rest @ rest), rows + len(r) - columns.shape[1]
+    return left / rows if rows else np.inf
+
+
+def _colour(fit: Fit) -> tuple[float, ...]:
+    """Coefficients of an autoregression like what is left in the quiet against a reference that is
+    no derivative; none where that is white.
+    """
+    if any(t.band_hz is not None for t in fit.trials):
+        return ()
+    linears = fit.residuals()
+    pieces = [windows(r.residual[:, i], r.segments) for r in linears for i in r.keys]
+    products = sum(_products(quietest(p, QUIET)) for p in pieces)
+    if not np.any(np.abs(products[1:]) > CORRELATED * products[0]):
+        return ()
+    return tuple(solve_toeplitz(products[:-1], products[1:]))
+
+
+def _products(pieces: np.ndarray) -> np.ndarray:
+    """Autocovariances (``LAGS`` + 1,) of windows (k, m) in units of each one's variance, summed."""
+    v = pieces - pieces.mean(axis=1, keepdims=True)
+    v = v / np.maximum(v.std(axis=1, keepdims=True), 1e-300)
+    return np.array([np.sum(v[:, k:] * v[:, : v.shape[1] - k]) for k in range(LAGS + 1)])
+
+
+def _drawn(trial: Trial, variance: np.ndarray, colour, rng: np.random.Generator) -> Trial:
+    """The trial with a draw (n, 3) of noise that has a ``variance`` (3,) in its band: white, of a
+    colour, or as a white attitude has it once it is differentiated.
+
+    A derivative has no more of it than its high differences show: its band hides from the sensor
+    what is left beyond.
+    """
+    draw = rng.standard_normal(trial.y.shape)
+    if trial.band_hz is not None:
+        draw = np.gradient(draw, axis=0)
+    draw = lfilter([1.0], [1.0, *(-c for c in colour)], draw, axis=0)
+    seen = in_band(trial, draw).var(axis=0) if trial.count else np.ones(3)
+    wanted = np.isin(np.arange(3), trial.axes) & (seen > 0.0)
+    scale = np.sqrt(np.where(wanted, variance / np.where(seen > 0.0, seen, 1.0), 0.0))
+    if trial.band_hz is None:
+        return replace(trial, noise=draw * scale)
+    most = _high(trial, trial.u[:, OWN[trial.kind]]) / np.maximum(_high(trial, draw), 1e-300)
+    return replace(trial, noise=draw * np.minimum(scale, most))
+
+
+def _high(trial: Trial, values: np.ndarray) -> np.ndarray:
+    """Root mean square (3,) of third differences of values (n, 3), in their quietest quarter."""
+    pieces = [np.diff(values[a:b], n=3, axis=0) for a, b in trial.segments]
+    out = np.zeros(3)
+    for i in range(3):
+        short = [windows(p[:, i], [(0, len(p))]) for p in pieces]
+        kept = np.concatenate(short) if short else np.zeros((0, 1))
+        out[i] = np.sqrt(quiet(kept)) if len(kept) else np.nan
+    return np.nan_to_num(out)
+
+
+# Taking it out
+
+
+def moved(trial: Trial, sign: int) -> Trial:
+    """The trial with its reference moved by ``STEP`` of its noise."""
+    if trial.noise is None:
+        return trial
+    u, more = np.array(trial.u), sign * STEP * trial.noise
+    u[:, OWN[trial.kind]] += more
+    for a, b in trial.segments:
+        if b - a > 1:
+            rate = np.gradient(more[a:b], trial.time[a:b], axis=0)
+            u[a:b, COLUMNS[KINDS[trial.kind].own_rate]] += rate
+    return replace(trial, u=u)
+
+
+def has_noise(fit: Fit) -> bool:
+    return any(t.noise is not None for t in fit.trials)
+
+
+def changes(fit: Fit, linearised: Callable[[Fit], list[Linear]]) -> list[Linear]:
+    """What the noise of the reference makes of each trial's residual and columns."""
+    up, down = (
+        linearised(replace(fit, trials=tuple(moved(t, sign) for t in fit.trials)))
+        for sign in (1, -1)
+    )
+    return [_difference(a, b) for a, b in zip(up, down, strict=True)]
+
+
+def _difference(up: Linear, down: Linear) -> Linear:
+    columns = {}
+    for i, keys in up.keys.items():
+        below = dict(zip(down.keys[i], down.columns[i].T, strict=True))
+        other = np.zeros_like(up.columns[i])
+        for at, key in enumerate(keys):
+            other[:, at] = below.get(key, 0.0)
+        columns[i] = (up.columns[i] - other) / (2 * STEP)
+    change = (up.residual - down.residual) / (2 * STEP)
+    return replace(up, residual=change, columns=columns)
+
+
+def equations(fit: Fit, linearised: Callable[[Fit], list[Linear]] = Fit.linearise) -> Normal:
+    """Normal equations of a fit's columns as a reference without noise would have them."""
+    found = normal_equations(linearised(fit), fit.noise)
+    if not has_noise(fit):
+        return found
+    noise = _on(found, normal_equations(changes(fit, linearised), fit.noise))
+    return replace(
+        found,
+        batch_gram=found.batch_gram - noise.batch_gram,
+        batch_score=found.batch_score - noise.batch_score,
+        power=found.power - noise.power,
+    )
+
+
+def _on(like: Normal, other: Normal) -> Normal:
+    """Normal equations on the columns of others, in their order; one that is missing is zero."""
+    at = [other.position.get(k, -1) for k in like.keys]
+    missing = np.array(at) < 0
+    score, gram = other.batch_score[:, at], other.batch_gram[:, at][:, :, at]
+    score[:, missing] = gram[:, missing] = gram[:, :, missing] = 0.0
+    return replace(like, batch_gram=gram, batch_score=score, power=other.power)
+
+
+def smoothing(fit: Fit) -> float:
+    """Log-likelihood [nat] that a fit gains by smoothing the reference's noise, not by explaining.
+
+    With r the variance of the innovations, q r what that noise makes of it, and q0 r0 the same of
+    the first model: -1/2 log(r (1 - q) + q0 r0) a row is the likelihood where that noise goes
+    through as it did, -1/2 log r the one that was taken.
+    """
+    if not fit.echo:
+        return 0.0
+    echo, rows = _echo(fit), _rows(fit)
+    change = {i: (e0 - echo[i]) / fit.noise[i].r for i, e0 in fit.echo.items()}
+    return sum(0.5 * rows[i] * float(np.log1p(max(c, -0.5))) for i, c in change.items())
+
+
+def _echo(fit: Fit) -> dict[int, float]:
+    """What the reference's noise adds, by axis, to the variance of a fit's innovations."""
+    rows, grown = _rows(fit), {}
+    linears = changes(fit, Fit.residuals)
+    for i, noise in fit.noise.items():
+        power = sum(whitened(noise, one, i) for one in linears if i in one.keys)
+        grown[i] = power / max(rows[i], 1) * noise.r
+    return grown
+
+
+def _rows(fit: Fit) -> dict[int, int]:
+    return {i: sum(len(band_time(t)) for t in fit.trials if i in t.axes) for i in fit.noise}
+
+
+def whitened(noise, one: Linear, axis: int) -> float:
+    """Sum of squares of a residual, whitened."""
+    r = one.residual[:, axis : axis + 1]
+    return float(np.sum(noise.whiten(r, one.time, one.segments) ** 2))
