@@ -1,0 +1,7 @@
+"""Logs in which the sensor is blameless, beyond what its part declares, and something else is
+wrong.
+
+Plain numpy and scipy: no equation here comes from the package that these logs try. Attitudes are
+quaternions (w, x, y, z), Hamilton's product, body to world; axes are forward-left-up and
+east-north-up; all is SI and radians.
+"""

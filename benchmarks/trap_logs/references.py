@@ -1,0 +1,120 @@
+"""Traps of the reference: its rows, its noise, its mounting, its faults."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.signal import butter, sosfilt
+
+from trap_logs import rotation
+from trap_logs.log import Log, Scene, new_scene
+
+
+def slerp_60_to_200_hz(rng) -> Log:
+    """An attitude of 60 Hz, brought to the log's 200 Hz along the shortest arcs."""
+    scene = new_scene(rng, hz=200.0)
+    node = np.arange(-1, scene.time[-1] * 60 + 2) / 60 + rng.uniform(0, 1 / 60)
+    seen = rotation.between(node, scene.attitude_at(node), scene.time)
+    return scene.log(scene.sensed() | {"ref_q": seen}, "sample_rate", figures={"rate": 60.0})
+
+
+def held_at_20_hz(rng) -> Log:
+    """An attitude of 20 Hz, each value repeated until the next."""
+    scene = new_scene(rng)
+    every = round(1 / (20 * scene.h))
+    latest = np.arange(len(scene.time)) // every * every
+    columns = scene.sensed() | {"ref_q": scene.attitude()[latest]}
+    return scene.log(columns, "sample_rate", figures={"rate": 20.0})
+
+
+def _against_rate(scene: Scene, error: np.ndarray) -> Log:
+    rate = scene.motion.rate(scene.time)
+    columns = scene.sensed() | {"ref_rate": rate + error}
+    return scene.log(columns, "noise", figures={"noise": float(error.std())})
+
+
+def _own_noise(scene: Scene) -> np.ndarray:
+    """White noise (n, 3) of the gyro's own size."""
+    white = scene.rng.standard_normal((len(scene.time), 3))
+    return scene.sensor.gyro.n / np.sqrt(scene.h) * white
+
+
+def rate_as_noisy_as_gyro(rng) -> Log:
+    scene = new_scene(rng)
+    return _against_rate(scene, _own_noise(scene))
+
+
+def rate_with_correlated_noise(rng) -> Log:
+    """A rate whose noise is as large as the gyro's and ends at 3 to 15 Hz."""
+    scene = new_scene(rng)
+    white = _own_noise(scene)
+    low = sosfilt(butter(2, rng.uniform(3, 15), fs=1 / scene.h, output="sos"), white, axis=0)
+    return _against_rate(scene, low * white.std(axis=0) / low.std(axis=0))
+
+
+def _mounted(rng, angle: float) -> Log:
+    scene = new_scene(rng)
+    turn = _turn(rng, np.deg2rad(angle))
+    columns = scene.sensed() | {"ref_q": rotation.product(scene.attitude(), turn)}
+    return scene.log(columns, "mounting", figures={"angle": np.deg2rad(angle)})
+
+
+def _turn(rng, angle: float) -> np.ndarray:
+    """A rotation (4,) about a random axis."""
+    axis = rng.standard_normal(3)
+    return rotation.from_vector(angle * axis / np.linalg.norm(axis))
+
+
+def mounting_1_deg(rng) -> Log:
+    return _mounted(rng, 1.0)
+
+
+def mounting_10_deg(rng) -> Log:
+    return _mounted(rng, 10.0)
+
+
+def occlusions(rng) -> Log:
+    """The reference is lost for 0.5 to 3 s, some ten times."""
+    scene = new_scene(rng)
+    columns = scene.sensed() | {"ref_q": _occluded(scene, scene.attitude())}
+    return scene.log(columns, "occlusions")
+
+
+def _occluded(scene: Scene, q: np.ndarray) -> np.ndarray:
+    for start in scene.rng.uniform(2, scene.time[-1], round(scene.time[-1] / 8)):
+        lost = (scene.time >= start) & (scene.time < start + scene.rng.uniform(0.5, 3))
+        q = np.where(lost[:, None], np.nan, q)
+    return q
+
+
+def occlusions_and_jumps(rng) -> Log:
+    """As ``occlusions``, and three times the reference's world turns by 1 to 5 deg at once."""
+    scene = new_scene(rng)
+    q = scene.attitude()
+    for at in rng.uniform(5, scene.time[-1] - 5, 3):
+        jump = _turn(rng, np.deg2rad(rng.uniform(1, 5)))
+        q = np.where(scene.time[:, None] >= at, rotation.product(jump, q), q)
+    columns = scene.sensed() | {"ref_q": _occluded(scene, q)}
+    return scene.log(columns, "jumps", figures={"count": 3})
+
+
+def drift_0_1_deg_per_min(rng) -> Log:
+    """The reference's world turns slowly about one axis."""
+    scene = new_scene(rng)
+    axis = rng.standard_normal(3)
+    slope = np.deg2rad(0.1) / 60 * axis / np.linalg.norm(axis)
+    turned = rotation.from_vector(scene.time[:, None] * slope)
+    columns = scene.sensed() | {"ref_q": rotation.product(turned, scene.attitude())}
+    return scene.log(columns, "reference_drift", figures={"rate": float(np.linalg.norm(slope))})
+
+
+TRAPS = (
+    slerp_60_to_200_hz,
+    held_at_20_hz,
+    rate_as_noisy_as_gyro,
+    rate_with_correlated_noise,
+    mounting_1_deg,
+    mounting_10_deg,
+    occlusions,
+    occlusions_and_jumps,
+    drift_0_1_deg_per_min,
+)

@@ -1,0 +1,258 @@
+"""How often ``close`` blames a sensor for what something else did.
+
+``python benchmarks/traps.py [TRAP ...] [--logs N] [--seed S]`` closes the loop on logs in which the
+sensor is blameless and the clocks, the reference, a thermometer or the samples are not (see
+``trap_logs``), each once as the log of a part that nobody declared and once with the part's own
+figures declared. It prints for each trap how often the sensor was blamed, for what, the verdicts,
+and how often the finding names the true cause. The issue allows one blame in a hundred.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+import zlib
+from collections import Counter
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+from trap_logs.catalogue import TRAPS
+from trap_logs.log import Log
+
+import pyimu
+from pyimu.identification.result import Closed
+from pyimu.model.part_reader import parse_part
+
+DELAYS = frozenset({"time_delay", "lag"})
+"""What may be said of a sensor that is late by one time in all logs."""
+
+FORMS = ("undeclared", "declared")
+
+
+@dataclass
+class Tally:
+    """What became of the logs of one trap in one form."""
+
+    logs: int = 0
+    blamed: int = 0
+    named: int = 0
+    effects: Counter = field(default_factory=Counter)
+    verdicts: Counter = field(default_factory=Counter)
+    seconds: list[float] = field(default_factory=list)
+
+    def row(self, name: str, form: str) -> str:
+        counts = ", ".join(f"{k} {n}" for k, n in self.effects.most_common()) or "-"
+        words = ", ".join(f"{k} {n}" for k, n in self.verdicts.most_common())
+        return (
+            f"{name:37} {form:10} {self.logs:4} {self.blamed:6} {self.named:5} "
+            f"{np.median(self.seconds or [np.nan]):5.1f}  {words:40} {counts}"
+        )
+
+
+HEADER = (
+    f"{'trap':37} {'form':10} {'logs':>4} {'blamed':>6} {'named':>5} {'s':>5}  "
+    f"{'verdicts':40} blamed for"
+)
+
+
+# One case
+
+
+def case(name: str, seed: int, number: int) -> Log:
+    """The case of a trap: it depends on the trap's name, the seed and its number alone."""
+    return TRAPS[name](np.random.default_rng([zlib.crc32(name.encode()), seed, number]))
+
+
+def closed(log: Log, form: str) -> Closed:
+    """The loop closed on a case; the part is its own where ``form`` is "declared"."""
+    recordings = [
+        pyimu.Recording.from_arrays(f"log{i}", **columns) for i, columns in enumerate(log.logs)
+    ]
+    part = parse_part(log.part, "trap.toml") if form == "declared" else None
+    return pyimu.close(recordings, part=part)
+
+
+def blamed(log: Log, form: str, found: Closed) -> list[str]:
+    """The effects that a blameless sensor is said to have."""
+    excused = log.own if form == "undeclared" else frozenset()
+    excused |= DELAYS if log.late else frozenset()
+    return [f"{a.sensor} {a.effect}" for a in found.added if a.effect not in excused]
+
+
+# Whether the finding names the true cause
+
+
+def _reference(found: Closed, number: int = 0) -> dict:
+    """What was found of the reference of a log."""
+    return found.recordings[number].log_state.get("gyro", {}).get("reference") or {}
+
+
+def _clock(found: Closed, number: int = 0) -> dict:
+    return _reference(found, number).get("clock") or {}
+
+
+def _near(value: float | None, truth: float, least: float, share: float = 0.1) -> bool:
+    return value is not None and abs(value - truth) <= max(least, share * abs(truth))
+
+
+def _finds(found: Closed, *kinds: str) -> bool:
+    return any(f.kind in kinds for f in found.quality)
+
+
+def names_clock(log: Log, found: Closed) -> bool:
+    """The lag of each log's clock to a millisecond, or a tenth."""
+    return all(
+        _near(_clock(found, i).get("late"), late, 1e-3) for i, late in enumerate(_lates(log))
+    )
+
+
+def _lates(log: Log) -> list[float]:
+    return list(log.figures.values())
+
+
+def names_skew(log: Log, found: Closed) -> bool:
+    """A clock that wanders by as much as the skew makes of the fitted rows, to half of it."""
+    span = abs(log.figures["skew"]) * 0.7 * log.logs[0]["time"][-1]
+    return _spans(found, span)
+
+
+def names_slips(log: Log, found: Closed) -> bool:
+    return _spans(found, log.figures["span"])
+
+
+def _spans(found: Closed, span: float) -> bool:
+    c = _clock(found)
+    return bool(c) and _near((c["most"] or 0.0) - (c["least"] or 0.0), span, 0.0, 0.5)
+
+
+def names_rate(log: Log, found: Closed) -> bool:
+    return _near(_number(_reference(found).get("sample_rate")), log.figures["rate"], 0.0, 0.05)
+
+
+def names_noise(log: Log, found: Closed) -> bool:
+    """The reference's noise to a third."""
+    return _near(_number(_reference(found).get("noise")), log.figures["noise"], 0.0, 0.33)
+
+
+def _number(value) -> float | None:
+    """The root mean square of a number, a list, or an entry with a value."""
+    value = value.get("value") if isinstance(value, dict) else value
+    return None if value is None else float(np.sqrt(np.mean(np.square(value))))
+
+
+def names_mounting(log: Log, found: Closed) -> bool:
+    """The mounting's angle to 0.5 deg, which a misalignment may share."""
+    turn = np.array(found.recordings[0].log_state["gyro"]["rotation"])
+    angle = np.arccos(np.clip((np.trace(turn) - 1) / 2, -1, 1))
+    return _near(float(angle), log.figures["angle"], np.deg2rad(0.5))
+
+
+def _by_finding(*kinds: str) -> Callable[[Log, Closed], bool]:
+    return lambda log, found: _finds(found, *kinds)
+
+
+def names_nothing(log: Log, found: Closed) -> bool:
+    """Nothing to be named: the verdict says so, or names the sensor's own effects alone."""
+    return found.verdict in ("clean", "named", "undecidable") and not found.refused
+
+
+NAMED: dict[str, Callable[[Log, Closed], bool]] = {
+    "nothing": names_nothing,
+    "thermometer": names_nothing,
+    "occlusions": names_nothing,
+    "clock": names_clock,
+    "skew": names_skew,
+    "slips": names_slips,
+    "sample_rate": names_rate,
+    "noise": names_noise,
+    "mounting": names_mounting,
+    "jumps": _by_finding("reference_spikes"),
+    "reference_drift": _by_finding("reference_drift"),
+    "vibration": _by_finding("vibration"),
+    "jitter": _by_finding("jitter"),
+    "gaps": _by_finding("gaps"),
+    "spikes": _by_finding("spikes"),
+}
+"""By cause: whether a result names it."""
+
+
+# The table
+
+
+def run(name: str, form: str, logs: int, seed: int, tell: Callable[[str], None]) -> Tally:
+    tally = Tally()
+    for number in range(logs):
+        log = case(name, seed, number)
+        began = time.perf_counter()
+        try:
+            found = closed(log, form)
+        except pyimu.UserError as error:
+            tally.logs += 1
+            tally.verdicts["refused"] += 1
+            tell(f"  {name} {form} {number}: refused: {error}")
+            continue
+        tally.seconds.append(time.perf_counter() - began)
+        tally.logs += 1
+        wrong = blamed(log, form, found)
+        tally.blamed += bool(wrong)
+        tally.effects.update(wrong)
+        named = NAMED[log.cause](log, found)
+        tally.named += named
+        tally.verdicts[found.verdict] += 1
+        tell("  " + "; ".join(_detail(name, form, number, log, found, wrong, named)))
+    return tally
+
+
+def _detail(name, form, number, log: Log, found: Closed, wrong, named) -> Iterator[str]:
+    """One line on a case: its motion, its verdict, and what was added or refused, with gains."""
+    yield f"{name} {form} {number} ({', '.join(log.motions)})"
+    yield f"{'BLAMED ' if wrong else ''}{'' if named else 'not named '}{found.verdict}"
+    yield found.reason
+    for a in found.added:
+        yield f"+{a.sensor} {a.effect} {a.gain:.0f} nat (gate {a.gate:.0f})"
+    for kind, r in found.refused:
+        yield f"-{kind} {r.effect} {r.gain:.0f} nat ({r.reason})"
+    if found.errors.get("gyro"):
+        e = found.errors["gyro"]
+        degrees = np.degrees([e.before.total, e.after.total, e.noise])
+        yield "gyro {:.4f} -> {:.4f}, floor {:.4f} deg/s".format(*degrees)
+    clock = _clock(found)
+    if clock:
+        yield "late {} ms".format([_ms(clock[k]) for k in ("late", "least", "most")])
+
+
+def _ms(value: float | None) -> float | None:
+    return None if value is None else round(1e3 * value, 2)
+
+
+def main(arguments: list[str]) -> bool:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("trap", nargs="*", help=f"of {', '.join(TRAPS)}; all without")
+    parser.add_argument("--logs", type=int, default=50, help="cases a trap (50)")
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--form", choices=FORMS, nargs="*", default=FORMS)
+    parser.add_argument("--details", action="store_true", help="one line a case, on stderr")
+    given = parser.parse_args(arguments)
+    unknown = set(given.trap) - set(TRAPS)
+    if unknown:
+        parser.error(f"no such trap: {', '.join(sorted(unknown))}; there are {', '.join(TRAPS)}")
+
+    def tell(line: str) -> None:
+        if given.details:
+            print(line, file=sys.stderr, flush=True)
+
+    print(HEADER)
+    total, wrong = 0, 0
+    for name in given.trap or TRAPS:
+        for form in given.form:
+            tally = run(name, form, given.logs, given.seed, tell)
+            print(tally.row(name, form), flush=True)
+            total, wrong = total + tally.logs, wrong + tally.blamed
+    print(f"blamed: {wrong} of {total} ({wrong / max(total, 1):.1%})")
+    return wrong <= 0.01 * total
+
+
+if __name__ == "__main__":
+    sys.exit(not main(sys.argv[1:]))
