@@ -208,6 +208,7 @@ def close_command(
             latitude=None if latitude is None else math.radians(latitude),
             say=say,
         )
+        closed = closed.by_command(sys.argv[1:])
         closed.write(out, say=say)
     print(closed.report())
     print(f"report: {out / 'report.html'}")

@@ -468,7 +468,7 @@ def test_holdout(here, pyimu):
     code, out, err = pyimu(
         "close", "rover.csv", "--part", "plain.toml", "--holdout", "second.csv", "--out", "out"
     )
-    assert (code, err) == (0, "") and "gyro residual on holdout" in out
+    assert (code, err) == (0, "") and "rate residual on the logs held out" in out
     report = json.loads(Path("out/report.json").read_text())
     assert report["error"]["data"] == "holdout"
     assert [(r["file"], r["rate"] is None) for r in report["recordings"]] == [

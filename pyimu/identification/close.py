@@ -15,11 +15,13 @@ from pyimu.errors import Finding, UserError
 from pyimu.identification.conclude import conclude
 from pyimu.identification.fit.keys import Key, coefficient_of
 from pyimu.identification.fit.trial import Trial, accel_trial, gyro_trial
+from pyimu.identification.made_with import called
 from pyimu.identification.reference.align import aligned
 from pyimu.identification.result import Closed
 from pyimu.identification.search.forward import Investigation, investigate
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as find_part
+from pyimu.model.part_file import part_names
 from pyimu.model.part_reader import parse_part
 from pyimu.model.sensor import Sensor
 from pyimu.model.typical import CLASSES, magnitudes
@@ -62,6 +64,16 @@ def close(
     do not excite what the part asks to be estimated.
     """
     logs, others = _named(_many(recordings), _many(holdout))
+    made_with = called(
+        "close",
+        {
+            "recordings": [r.path or r.name for r in logs],
+            "part": part,
+            "holdout": [r.path or r.name for r in others] or None,
+            "latitude": latitude,
+        },
+        [*(r.path for r in (*logs, *others)), *_file_of(part)],
+    )
     declared = None if part is None else find_part(part)
     start = declared or undeclared(logs[0].sample_rate)
     say("quality of the raw samples")
@@ -76,7 +88,12 @@ def close(
             found[kind] = investigate(start.sensor(kind), free, trials, held, say, prior)
     if not found:
         raise UserError(_nothing_to_compare(logs))
-    return conclude(start, declared, logs, others, found, tuple(quality), say)
+    return conclude(start, declared, logs, others, found, tuple(quality), say, made_with)
+
+
+def _file_of(part: Part | str | Path | None) -> list[Path]:
+    """The file that a part is read from, where it is one."""
+    return [Path(part)] if isinstance(part, (str, Path)) and part not in part_names() else []
 
 
 def undeclared(sample_rate: float) -> Part:

@@ -8,14 +8,22 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from pyimu.identification.advice import advice
+from pyimu.identification.as_part import as_part, unexamined_left_out
+from pyimu.identification.confounds import what_no_log_tells_apart
 from pyimu.identification.declared import changed_noise, drifting, released
+from pyimu.identification.estimated import estimated
 from pyimu.identification.exhibits import Exhibits, exhibits_of
+from pyimu.identification.fates import TAKEN_BACK, Fate, fates
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.trial import rest_noise
 from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.identification.found import Added
 from pyimu.identification.held_out import attitude_rms, scores
+from pyimu.identification.made_with import MadeWith
+from pyimu.identification.overview import Overview, overview
+from pyimu.identification.references import references
 from pyimu.identification.result import Closed
 from pyimu.identification.search.ceiling import is_ceiling
 from pyimu.identification.search.forward import Investigation, without
@@ -34,7 +42,6 @@ from pyimu.model.effect import Effect
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
 from pyimu.recording.recording import Recording
-from pyimu.report.numbers import joined
 
 Found = dict[str, Investigation]
 
@@ -47,10 +54,12 @@ def conclude(
     found: Found,
     quality: tuple,
     say: Callable[[str], None],
+    made_with: MadeWith | None = None,
 ) -> Closed:
     """The result of the investigations ``found`` of the sensors of a part."""
     say("attitude against the reference")
     found, model, attitude = settled(start, declared, found, others or logs)
+    not_examined = _unexamined(found, logs)
     added, changed, drifts = [], [], {}
     for kind, inv in found.items():
         say(f"{kind}: what is left")
@@ -64,36 +73,58 @@ def conclude(
     refused = [(kind, r) for kind, inv in found.items() for r in inv.refused]
     say("error on held-out data")
     errors, entries, likelihood = scores(found, logs, others)
-    beside = (errors, attitude, refused, _unexamined(found, logs))
+    beside = (errors, attitude, refused, not_examined)
     said = verdict(Evidence(added, changed, unexplained, drifts, found, *beside))
+    say("the whole model, and what to measure next")
+    together = [*logs, *others]
+    model_after = estimated(start, model.after, found, added)
+    seen = tuple(v for kind, inv in found.items() for v in visibility(kind, inv))
     return Closed(
         verdict=said.word,
         reason=said.reason,
         remarks=said.remarks,
         before=model.before,
-        after=replace(model.after, estimate=frozenset()),
+        after=as_part(model.after, model_after, declared, not_examined),
         added=tuple(added),
         changed=tuple(changed),
         unexplained=unexplained,
         drift=drifts,
-        observability=tuple(v for kind, inv in found.items() for v in visibility(kind, inv)),
+        observability=seen,
         errors=errors,
         log_likelihood=likelihood,
         attitude=attitude,
         quality=quality,
-        recordings=entries,
+        recordings=tuple(
+            replace(e, overview=_overview(r, found, quality))
+            for e, r in zip(entries, together, strict=True)
+        ),
         refused=tuple(refused),
         exhibits=_exhibits(found, added),
         band_hz={kind: inv.after.trials[0].band_hz for kind, inv in found.items()},
         held_out="holdout" if others else "last 30 %",
+        estimated=model_after,
+        not_examined=not_examined,
+        candidates=tuple(f for kind, inv in found.items() for f in _fates(kind, inv, added)),
+        references=references(found, together),
+        next=advice(found, model_after, seen, logs, not_examined, not others),
+        made_with=made_with,
     )
+
+
+def _fates(kind: str, inv: Investigation, added: list[Added]) -> list[Fate]:
+    return fates(kind, inv, [a for a in added if a.sensor == kind])
+
+
+def _overview(r: Recording, found: Found, quality: tuple) -> Overview:
+    held = [t for inv in found.values() for t in inv.held if t.name == r.name]
+    return overview(r, held, [f for f in quality if f.detail.get("recording") == r.name])
 
 
 def _unexamined(found: Found, logs: list[Recording]) -> dict[str, str]:
     """Why a sensor of the logs was not looked at, by its kind."""
     reasons = {
-        "gyro": "the gyro was not examined: no reference of its rate",
-        "accel": "the accelerometer was not examined: no reference of its force",
+        "gyro": "the gyro was not examined: no reference of its rate, and it moves",
+        "accel": "the accelerometer was not examined: no reference of its force, and it moves",
     }
     there = {k for k in reasons if any(getattr(r, k) is not None for r in logs)}
     return {k: reason for k, reason in reasons.items() if k in there - set(found)}
@@ -120,10 +151,11 @@ class Model:
 
 def model_of(start: Part, declared: Part | None, found: Found) -> Model:
     """The model that investigations ``found`` of a part amount to."""
-    before, after, rounding = start, start, {}
+    before = after = unexamined_left_out(start, declared, found)
+    rounding = {}
     for kind, inv in found.items():
-        before = before.with_sensor(_finished(declared, inv.before))
-        sensor, rounding[kind] = _finished(declared, inv.after), _rounding(kind, inv)
+        before = before.with_sensor(_finished(start, inv.before))
+        sensor, rounding[kind] = _finished(start, inv.after), _rounding(kind, inv)
         for a in rounding[kind]:
             sensor = sensor.with_values(a.effect, **{n: v for n, (v, _, _) in a.parameters.items()})
         after = after.with_sensor(sensor)
@@ -133,8 +165,9 @@ def model_of(start: Part, declared: Part | None, found: Found) -> Model:
 def settled(
     start: Part, declared: Part | None, found: Found, logs: list[Recording]
 ) -> tuple[Found, Model, tuple[float, float] | None]:
-    """What was found less the effects that make the filter's attitude worse, the model that it
-    makes, and the attitude's error before and after.
+    """What was found less the effects that make the filter's attitude worse.
+
+    Gives the model that it makes, too, and the attitude's error before and after.
     """
     while True:
         model, inv = model_of(start, declared, found), found.get("gyro")
@@ -150,16 +183,12 @@ def settled(
         if worst is None or not WORSE * errors[worst] < after:
             return found, model, (before, after)
         degrees = [f"{np.degrees(v):.2f}" for v in (errors[worst], after)]
-        reason = f"makes the attitude worse, {degrees[0]} to {degrees[1]} deg"
+        reason = f"{TAKEN_BACK}, {degrees[0]} to {degrees[1]} deg"
         found = found | {"gyro": without(inv, worst, reason)}
 
 
-def _finished(declared: Part | None, fit: Fit) -> Sensor:
-    """The fitted sensor with what no column carries: bias, and of an undeclared part the noise
-    found.
-    """
-    if declared is not None:
-        return fit.sensor
+def _finished(start: Part, fit: Fit) -> Sensor:
+    """The fitted sensor with the bias and the noise found, where they are left to the data."""
     figures = noise_figures(fit)
     if figures:
         none = NoiseFigure(0, 0, 0, 0)
@@ -173,13 +202,15 @@ def _finished(declared: Part | None, fit: Fit) -> Sensor:
     bias = np.mean([fit.states[t.name].bias for t in fit.trials], axis=0)
     sensor = fit.sensor
     for (effect, parameter), value in ((POWER_ON, bias), (WHITE, white), (WALK, walk)):
-        sensor = sensor.with_values(effect, **{parameter: value})
+        if (sensor.kind, effect, parameter) in start.estimate:
+            sensor = sensor.with_values(effect, **{parameter: value})
     return sensor
 
 
 def _rounding(kind: str, inv: Investigation) -> list[Added]:
-    """Rounding as an added effect where its steps are seen in the raw samples and weigh against the
-    noise.
+    """Rounding as an added effect, where the raw samples show its steps.
+
+    They must weigh against the noise.
     """
     sensor, noise = inv.after.sensor, inv.after.noise
     walks = all(isinstance(n, RandomWalk) for n in noise.values())
@@ -216,7 +247,7 @@ def _added(kind: str, sensor: Sensor, inv: Investigation) -> list[Added]:
             name: (values[name], _standard_errors(inv.after, e, name, step.dispersion), unit)
             for name, unit in ((n, sensor.unit(p.unit)) for n, p in e.parameters.items())
         }
-        note = _note_on_delay(e, parameters)
+        note = what_no_log_tells_apart(e, sensor, inv.after.trials)
         out.append(Added(kind, e.name, step.alternatives, parameters, step.gain, step.gate, note))
     return out
 
@@ -228,16 +259,3 @@ def _standard_errors(fit: Fit, e: Effect, name: str, dispersion: float) -> np.nd
         if isinstance(key, Coefficient) and (key.effect, key.parameter) == (e.name, name):
             std[key.index] = value * math.sqrt(dispersion)
     return std
-
-
-def _note_on_delay(e: Effect, parameters: dict) -> str:
-    """What must be said of a family that no log tells apart."""
-    if e.delay is None:
-        return ""
-    delay = float(e.delay(**{n: float(v) for n, (v, _, _) in parameters.items()}))
-    names = [other.name for other in CATALOGUE.values() if other.family == e.family]
-    return (
-        f"{joined(names)} are one class: an effective delay of {delay * 1e3:.2f} ms of the "
-        "sensor against the reference; the sensor's bandwidth, its sampling and the reference's "
-        "clock cannot be told apart"
-    )

@@ -1,5 +1,7 @@
-"""What the page shows of a sensor, as finished arrays: residuals over time and against what drives
-an effect, their spectrum, and the gains of the candidates.
+"""What the page shows of a sensor, as finished arrays.
+
+Residuals over time and against what drives an effect, their spectrum, and the gains of the
+candidates.
 """
 
 from __future__ import annotations
@@ -10,7 +12,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.signal import welch
 
-from pyimu.identification.fit.attenuation import floor_noise
+from pyimu.identification.fit.noise_floor import floor_noise
 from pyimu.identification.fit.columns import (
     LogState,
     band_segments,
@@ -133,8 +135,9 @@ def exhibits_of(inv: Investigation, added: Sequence[Added]) -> Exhibits:
 
 
 def _seen(before: Fit, after: Fit, trial: Trial) -> tuple[Trace, Trial, LogState]:
-    """Residual of one log under two models, each with the log's own bias and mounting found under
-    it; the rows looked at; the log's state under the second.
+    """Residual of one log under two models, each with the log's own state found under it.
+
+    Gives the rows looked at, too, and the log's state under the second.
     """
     (state_before, rest), (state, _) = _state(before, trial), _state(after, trial)
     first, second = (
@@ -154,8 +157,9 @@ def _seen(before: Fit, after: Fit, trial: Trial) -> tuple[Trace, Trial, LogState
 
 
 def _state(fit: Fit, trial: Trial) -> tuple[LogState, Trial]:
-    """State of a log under a model and the rows to look at; a fitted log's bias is found anew, the
-    model may be another.
+    """State of a log under a model, and the rows to look at.
+
+    A fitted log's bias is found anew: the model may be another.
     """
     if trial.parent is not None or trial.name not in fit.states:
         return held_state(fit, trial)
@@ -169,8 +173,9 @@ def _state(fit: Fit, trial: Trial) -> tuple[LogState, Trial]:
 
 
 def _of_effect(a: Added, inv: Investigation) -> tuple[Cloud | Comb, ...]:
-    """The axes on which an effect acts, the strongest first; all rows, as what drives an effect may
-    not move enough in the last part of a log.
+    """The axes on which an effect acts, the strongest first.
+
+    All rows are shown: what drives an effect may not move enough in the last part of a log.
     """
     step = inv.before.sensor.with_values(a.effect).reading("step")
     if step is not None and step[0] == a.effect:
@@ -228,8 +233,6 @@ def _values(
     driver: Driver, axis: int, sensor: Sensor, trace: Trace, trial: Trial, state: LogState
 ) -> np.ndarray:
     """The values (m,) of what drives an effect, in a log's band."""
-    if driver.signal == "time":
-        return trace.time - trial.time[0]
     if driver.signal == "contribution":
         return (trace.before - trace.after)[:, axis]
     u = reference_input(trial, state)[:, COLUMNS[driver.signal]]
@@ -263,8 +266,9 @@ def _spectrum(inv: Investigation, traces: Sequence[Trace], trial: Trial) -> Spec
 
 
 def density(traces: Sequence[Trace], name: str) -> tuple[np.ndarray, np.ndarray] | None:
-    """Frequencies [Hz] and one-sided PSD, the mean of the axes, averaged over all segments that are
-    long enough; None where none is.
+    """Frequencies [Hz] and one-sided PSD, the mean of the axes.
+
+    It is averaged over all segments that are long enough; None where none is.
     """
     pieces = [(t, getattr(t, name)[a:b][:, list(t.axes)]) for t in traces for a, b in t.segments]
     longest = max((len(p) for _, p in pieces), default=0)
@@ -281,9 +285,7 @@ def density(traces: Sequence[Trace], name: str) -> tuple[np.ndarray, np.ndarray]
 
 
 def noise_density(noise: dict[int, RandomWalk], trial: Trial, f: np.ndarray) -> np.ndarray:
-    """One-sided PSD of white noise plus random walk through the trial's band, the mean of the
-    axes.
-    """
+    """One-sided PSD of white noise plus random walk through the band, the mean of the axes."""
     weights = np.array(trial.band.weights)
     delays = np.outer(f * trial.h, np.arange(len(weights)))
     gain = np.abs(np.exp(-2j * np.pi * delays) @ weights) ** 2

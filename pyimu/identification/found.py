@@ -9,12 +9,14 @@ import numpy as np
 
 from pyimu.files import plain
 from pyimu.identification.fit.score import ErrorSums
+from pyimu.identification.overview import Overview
 
 
 @dataclass(frozen=True)
 class Added:
-    """An effect that was added: coefficients by name as ``(value, std, unit)``, arrays of the
-    parameter's shape.
+    """An effect that was added.
+
+    Coefficients by name as ``(value, std, unit)``, arrays of the parameter's shape.
     """
 
     sensor: str
@@ -66,8 +68,9 @@ class Changed:
 
 @dataclass(frozen=True)
 class Visibility:
-    """The smallest coefficient of an absent effect that the logs would show, and the effects it
-    looks like in them.
+    """The smallest coefficient of an absent effect that the logs would show.
+
+    ``inseparable_from`` are the effects that it looks like in them.
     """
 
     sensor: str
@@ -136,15 +139,14 @@ def _both(one: ErrorSums | None, other: ErrorSums | None) -> ErrorSums | None:
 
 @dataclass(frozen=True)
 class LogEntry:
-    """One recording: its rows, those held out, its error by sensor, and what was estimated of the
-    log itself.
-    """
+    """One recording: its rows, its error by sensor, and what was estimated of the log itself."""
 
     file: str
     samples: int
     held_out: int
     errors: dict[str, Errors] = field(default_factory=dict)
     log_state: dict[str, dict] = field(default_factory=dict)
+    overview: Overview | None = None
 
     def as_dict(self) -> dict[str, Any]:
         rows = {
@@ -154,5 +156,5 @@ class LogEntry:
         return (
             {"file": self.file, "samples": self.samples, "held_out": self.held_out}
             | rows
-            | {"log": self.log_state}
+            | {"log": self.log_state, "overview": self.overview and self.overview.as_dict()}
         )

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from pyimu.identification.attitude_error import attitude_error
-from pyimu.identification.fit.attenuation import floor_noise, reference_variance
+from pyimu.identification.fit.noise_floor import floor_noise, reference_variance
 from pyimu.identification.fit.score import ErrorSums, floor, held_state, tally
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from pyimu.errors import Finding
 from pyimu.files import plain
+from pyimu.identification.advice import Advice
+from pyimu.identification.estimated import Estimated
 from pyimu.identification.exhibits import Exhibits
+from pyimu.identification.fates import Fate
 from pyimu.identification.fit.score import WINDOW
 from pyimu.identification.found import Added, Changed, Errors, LogEntry, Visibility
+from pyimu.identification.made_with import MadeWith
 from pyimu.identification.search.forward import Refused
 from pyimu.identification.search.leftover import Unexplained
 from pyimu.model.part import Part
@@ -17,9 +21,7 @@ from pyimu.model.part import Part
 
 @dataclass(frozen=True)
 class Outcome:
-    """What the loop found: the part before and after, the verdict, and the error on data that
-    was not fitted.
-    """
+    """What the loop found: verdict, part before and after, error on data that was not fitted."""
 
     verdict: str
     reason: str
@@ -40,6 +42,12 @@ class Outcome:
     band_hz: dict[str, float | None]
     held_out: str
     remarks: tuple[str, ...] = ()
+    estimated: tuple[Estimated, ...] = ()
+    not_examined: dict[str, str] = field(default_factory=dict)
+    candidates: tuple[Fate, ...] = ()
+    references: tuple[dict[str, Any], ...] = ()
+    next: tuple[Advice, ...] = ()
+    made_with: MadeWith | None = None
 
     def as_dict(self, model: str = "model.toml", fmus: tuple[str, ...] = ()) -> dict[str, Any]:
         """The contents of report.json."""
@@ -55,13 +63,19 @@ class Outcome:
                 for s, axes in self.drift.items()
                 for i, gain in axes.items()
             ],
+            "estimated": [v.as_dict() for v in self.estimated],
+            "not_examined": [{"sensor": s, "reason": r} for s, r in self.not_examined.items()],
+            "candidates": [c.as_dict() for c in self.candidates],
             "refused": [{"sensor": s} | r.as_dict() for s, r in self.refused],
             "observability": [v.as_dict() for v in self.observability],
             "error": self._error(),
             "quality": [f.as_dict() for f in self.quality],
             "recordings": [r.as_dict() for r in self.recordings],
+            "reference": list(self.references),
+            "next": [a.as_dict() for a in self.next],
             "model": model,
             "fmus": list(fmus),
+            "made_with": self.made_with and self.made_with.as_dict(),
         }
         return plain(found)
 

@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from pyimu.identification.outcome import Outcome
 from pyimu.identification.report.deliver import deliver
-from pyimu.identification.report.words import in_lines
+from pyimu.identification.report.terminal import in_lines
 
 
 @dataclass(frozen=True)
 class Closed(Outcome):
-    """Result of ``pyimu.close``: the part before and after, the verdict, and the error on data that
-    was not fitted.
-    """
+    """Result of ``pyimu.close``: verdict, part before and after, error on data not fitted."""
+
+    def by_command(self, arguments: Sequence[str]) -> Closed:
+        """The same, made by a command line with these arguments, file names without folders."""
+        made = None if self.made_with is None else self.made_with.by_command(arguments)
+        return replace(self, made_with=made)
 
     def report(self) -> str:
         """A few lines for a terminal or a notebook."""
@@ -29,8 +32,9 @@ class Closed(Outcome):
         units: bool = True,
         say: Callable[[str], None] = lambda text: None,
     ) -> Path:
-        """Write ``report.html``, ``report.json`` and ``model.toml`` into the folder ``out``, and
-        with ``units`` the FMUs of the sensor as it is now and, under ``before/``, as it was.
+        """Write ``report.html``, ``report.json`` and ``model.toml`` into the folder ``out``.
+
+        With ``units`` also the FMUs of the sensor as it is now and, under ``before/``, as it was.
 
         All take the place of earlier ones together, once all are made. Gives the page's path.
         Raises UserError where the folder cannot be written or no compiler is found.

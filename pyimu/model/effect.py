@@ -42,6 +42,7 @@ from pyimu.model.signals import SIGNALS, is_number, kept
 __all__ = [
     "INPUT",
     "OWN_RATE",
+    "Confound",
     "Effect",
     "Environment",
     "Law",
@@ -54,6 +55,14 @@ __all__ = [
     "is_number",
     "kept",
 ]
+
+
+@dataclass(frozen=True)
+class Confound:
+    """What no log tells an effect from, and what a measurement needs to tell them ``apart``."""
+
+    of: str
+    apart: str
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,7 +79,9 @@ class Effect:
 
     ``per_power_on`` marks what is drawn anew at each power-on, so that it belongs to a log and not
     to the part; ``mounting`` what holds a turn of the whole triad among its values. No log tells
-    the effects of one ``family`` apart. ``delay(**parameters)`` is the delay [s] by which an effect
+    the effects of one ``family`` apart, nor an effect from its ``confound``, which is said beside
+    it wherever it is named (of ``mounting`` only where the reference's axes are not known).
+    ``delay(**parameters)`` is the delay [s] by which an effect
     holds slow input back, ``clock(**parameters)`` the relative error of the sensor's clock: both
     say when a sample was taken, not what it holds. ``symptom`` says what a sensor does that has the
     effect ("clips"), and ``phrase`` how the effect is said before its coefficient ("saturation
@@ -97,6 +108,7 @@ class Effect:
     clock: Callable[..., Any] | None
     symptom: str
     phrase: str
+    confound: Confound | None
     parameters: Mapping[str, Parameter] = field(repr=False)
     states: Mapping[str, State] = field(repr=False)
     noises: Mapping[str, Noise] = field(repr=False)
@@ -178,6 +190,7 @@ def effect(
     clock: Callable | None = None,
     symptom: str = "",
     phrase: str = "",
+    confound: Confound | None = None,
 ) -> Callable[[Callable], Effect]:
     """Make an ``Effect`` of a function; ``pyimu.add_effects`` makes one known by its name.
 
@@ -215,6 +228,7 @@ def effect(
             clock=clock,
             symptom=symptom,
             phrase=phrase or f"{name.replace('_', ' ')} of",
+            confound=confound,
             **_arguments(name, function),
         )
 

@@ -134,6 +134,21 @@ def with_error(value: float, std: float) -> str:
     return f"{round(value, places):.{max(0, places)}f} ± {round(std, places):.{max(0, places)}f}"
 
 
+def with_limits(value: float, low: float, high: float) -> str:
+    """``1.02 (0.98 to 1.06)``, to two figures of the interval's width; the value stands alone
+    where there is no interval.
+    """
+    if not (math.isfinite(low) and math.isfinite(high) and high > low):
+        return number(value, 4)
+    size = math.floor(math.log10(max(abs(low), abs(high))))
+    if not -3 <= size < 6:
+        scaled = (v / 10.0**size for v in (value, low, high))
+        return f"{with_limits(*scaled)} ×10{str(size).translate(SCRIPTS)}"
+    places = max(0, 1 - math.floor(math.log10(high - low)))
+    value, low, high = (round(v, places) + 0.0 for v in (value, low, high))
+    return f"{value:.{places}f} ({low:.{places}f} to {high:.{places}f})"
+
+
 def joined(parts: Sequence[str]) -> str:
     """a, b and c."""
     return (

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -71,6 +72,12 @@ def templates(package: str) -> Environment:
 def prose(text: str) -> Markup:
     """A cell of prose, which may break into lines."""
     return Markup('<span class="words">{}</span>').format(text)
+
+
+def file_name(name: str) -> Markup:
+    """A cell with the name of a file, which may break behind underscores."""
+    words = Markup("<wbr>").join(re.findall(r"[^_]+_*|_+", name))
+    return Markup('<span class="file">{}</span>').format(words)
 
 
 def equation(latex: str) -> Markup:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -13,8 +12,8 @@ from pyimu.characterization.report.log_notes import COARSE, doubts, duration, ro
 from pyimu.characterization.temperature import fit as thermal_fit
 from pyimu.characterization.temperature.fit import ThermalFit
 from pyimu.characterization.temperature.hysteresis import Hysteresis
-from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.part import AXES, Part
+from pyimu.model.part_value import DIGITS, EXACT, PartValue, with_values
 from pyimu.model.sensor import Sensor
 from pyimu.report.numbers import number, quantity
 from pyimu.units import convert
@@ -31,21 +30,6 @@ FLICKER_REACH = 10.0
 """Flicker is simulated up to so many times the frequency at which it crosses the white noise, and
 down to a tenth of one over the duration of the log."""
 
-DIGITS, EXACT = 5, 10
-"""Figures in the file of a coefficient, none of which is known better, and of a step of the
-samples, which is known exactly."""
-
-
-@dataclass(frozen=True)
-class PartValue:
-    """A parameter of an effect in the part: its ``value`` in SI, and the ``unit`` in the file."""
-
-    effect: str
-    parameter: str
-    value: np.ndarray
-    unit: str
-    source: str
-
 
 def part_of(c: Outcome, name: str) -> Part:
     """The part that was characterised, as ``Characterization.part`` describes it.
@@ -53,18 +37,15 @@ def part_of(c: Outcome, name: str) -> Part:
     The white noise that rounding makes is in the measured N; where rounding becomes an effect of
     the part, that noise is subtracted from N.
     """
-    values: dict[str, dict] = {kind: {} for kind in SI}
-    notes: dict[tuple[str, str, str], dict[str, str]] = {}
-    for kind in c.kinds:
-        for v in (*_bias(c, kind), *_thermal(c, kind), *_noise(c, kind)):
-            values[kind].setdefault(v.effect, {})[v.parameter] = _rounded(kind, v)
-            said = {"unit": v.unit, "source": v.source}
-            notes[kind, v.effect, v.parameter] = {k: text for k, text in said.items() if text}
+    sensors, notes = {}, {}
+    for kind in SI:
+        found = (*_bias(c, kind), *_thermal(c, kind), *_noise(c, kind)) if kind in c.kinds else ()
+        sensors[kind], said = with_values(Sensor(kind), found)
+        notes |= said
     return Part(
         name,
         1 / min(s.h for log in c.logs for s in log.sensors.values()),
-        Sensor("gyro", values["gyro"]),
-        Sensor("accel", values["accel"]),
+        **sensors,
         notes=notes,
         description=_description(c),
     )
@@ -77,21 +58,6 @@ def _description(c: Outcome) -> str:
     return (
         f"Characterised by pyimu from {logs}; {rest}. N is the root of the two-sided "
         f"density.{doubted}"
-    )
-
-
-def _rounded(kind: str, v: PartValue) -> np.ndarray:
-    """The value in SI, rounded to so many figures in the unit of the file.
-
-    So the file holds it exactly.
-    """
-    si = Sensor(kind).unit(CATALOGUE[v.effect].parameters[v.parameter].unit)
-    if si == "degC":
-        return np.round(v.value, 3)
-    digits = EXACT if v.parameter == "q" else DIGITS
-    in_file = convert(v.value, si, v.unit)
-    return np.asarray(
-        convert(np.vectorize(lambda x: float(f"{x:.{digits - 1}e}"))(in_file), v.unit, si)
     )
 
 
@@ -113,12 +79,12 @@ def _noise(c: Outcome, kind: str) -> Iterator[PartValue]:
         if term == "Q":
             # The angle is rounded to steps of q, with the variance q^2 / 12.
             value, unit = value * np.sqrt(12), SI[kind][term]
-        yield PartValue(effect, parameter, value, unit, source)
+        yield PartValue(effect, parameter, value, unit, source, EXACT if term == "Q" else DIGITS)
         if term == "B":
             yield from _flicker_band(c, kind)
     if rounding is not None:
         source = "the step on whose multiples the samples lie"
-        yield PartValue("quantization", "q", rounding, SAMPLE_UNIT[kind], source)
+        yield PartValue("quantization", "q", rounding, SAMPLE_UNIT[kind], source, EXACT)
 
 
 def _summaries(c: Outcome, kind: str, term: str) -> list[Summary | None]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -21,6 +21,7 @@ from pyimu.characterization.report.coefficients import (
 )
 from pyimu.characterization.report.log_notes import about, grouped, notes
 from pyimu.model.part import AXES
+from pyimu.report.lines import in_columns
 from pyimu.report.numbers import MISSING, in_unit, number, quantity
 
 
@@ -28,7 +29,7 @@ def in_lines(c: Outcome) -> str:
     """The report for a terminal."""
     lines = [f"{log.name}: {about(log)}" for log in c.logs] + notes(c)
     for kind in c.kinds:
-        lines += ["", *_grid(_rows(c, kind))]
+        lines += ["", *in_columns(_rows(c, kind))]
     lines += [
         "",
         (
@@ -69,14 +70,6 @@ def _cell(s: Summary | None, kind: str, term: str) -> str:
     si, unit = SI[kind][term], UNITS[kind][term]
     spread = f" ± {number(float(in_unit(s.spread, si, unit)), 2)}" if np.isfinite(s.spread) else ""
     return with_interval(s.mean, si, unit) + spread
-
-
-def _grid(rows: Sequence[tuple[str, ...]]) -> list[str]:
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    return [
-        "  ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True)).rstrip()
-        for row in rows
-    ]
 
 
 def _lines(log: LogResult) -> Iterator[str]:

@@ -18,7 +18,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from scipy.linalg import solve_toeplitz
 from scipy.signal import lfilter
 
-from pyimu.identification.fit.attenuation import (
+from pyimu.identification.fit.noise_floor import (
     QUIET,
     beyond_own,
     lowness,

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pyimu.identification.fit.attenuation import simulated
+from pyimu.identification.fit.noise_floor import simulated
 from pyimu.identification.fit.columns import LogState, band_segments, in_band, linearise, residual
 from pyimu.identification.fit.fit import Fit, bare, initial_state
 from pyimu.identification.fit.keys import LogTurn

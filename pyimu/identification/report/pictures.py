@@ -1,5 +1,6 @@
-"""The pictures of the report, as inline SVG: clouds rasterised, colours by CSS variable so that one
-page serves day and night.
+"""The pictures of the report, as inline SVG.
+
+Clouds are rasterised, colours are CSS variables: one page serves day and night.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from pyimu.identification.exhibits import Cloud, Comb, Driver, Spectrum, Trace
+from pyimu.identification.report.strips import own_time, side_by_side
 from pyimu.identification.search.screen import Screening
 from pyimu.model.part import AXES
 from pyimu.model.signals import SIGNALS
@@ -42,35 +44,26 @@ LEAST_IN_BIN = 5
 
 
 def over_time(found: Sequence[Trace], floor: np.ndarray | None, si: str) -> str:
-    """Residual before and after on the held-out rows, both on one scale, one panel an axis."""
+    """Residual before and after on the held-out rows, both on one scale.
+
+    One row of panels an axis, one column a log.
+    """
     with matplotlib.rc_context(STYLE):
         axes_shown = sorted({i for t in found for i in t.axes})
         unit = unit_for(_scale([t.before for t in found]), si)
-        figure, panels = new_figure(5.4, 0.9 + 1.35 * len(axes_shown), len(axes_shown))
-        clock, ends = _running_time(found)
-        factor, label = _time_unit(clock[-1][-1] if len(clock) and len(clock[-1]) else 1.0)
-        for i, panel in zip(axes_shown, panels, strict=True):
-            _time_panel(panel, found, [c / factor for c in clock], i, si, unit)
-            if floor is not None and np.isfinite(floor[i]):
-                limit = 2 * float(in_unit(floor[i], si, unit))
-                panel.axhspan(
-                    -limit,
-                    limit,
-                    color=FLOOR,
-                    alpha=0.25,
-                    lw=0,
-                    zorder=1,
-                    label="±2σ of the noise alone",
-                )
-                for edge in (-limit, limit):
-                    panel.axhline(edge, color=FLOOR, lw=0.8, zorder=3)
-            for edge in ends:
-                panel.axvline(edge / factor, color=GREY, lw=0.8, ls=(0, (2, 2)))
-            panel.set_ylabel(f"{'xyz'[i]} [{pretty(unit)}]")
-            limit = max(map(abs, panel.get_ylim()))
-            panel.set_ylim(-limit, limit)
-        panels[-1].set_xlabel(f"time on the held-out rows [{label}]")
-        legend(figure, panels[0], 3)
+        spans = [float(t.time[-1] - t.time[0]) if len(t.time) else 0.0 for t in found]
+        figure, panels = side_by_side(len(axes_shown), spans, 1.35)
+        for row, i in zip(panels, axes_shown, strict=True):
+            for t, panel in zip(found, row, strict=True):
+                _time_panel(panel, t, i, si, unit)
+                if floor is not None and np.isfinite(floor[i]):
+                    _noise_alone(panel, 2 * float(in_unit(floor[i], si, unit)))
+            row[0].set_ylabel(f"{AXES[i]} [{pretty(unit)}]")
+            limit = max(map(abs, row[0].get_ylim()))
+            row[0].set_ylim(-limit, limit)
+        for t, panel in zip(found, panels[-1], strict=True):
+            own_time(panel, t.name, len(found))
+        legend(figure, panels[0, 0], 3)
         return svg_of(figure)
 
 
@@ -82,39 +75,27 @@ def _scale(residuals: Sequence[np.ndarray]) -> float:
     )
 
 
-def _running_time(found: Sequence[Trace]) -> tuple[list[np.ndarray], list[float]]:
-    """Times of the logs one after another from zero, and where one ends and the next begins."""
-    clock, edges, at = [], [], 0.0
-    for t in found:
-        if len(t.time):
-            clock.append(t.time - t.time[0] + at)
-            at = float(clock[-1][-1])
-            edges.append(at)
-        else:
-            clock.append(t.time)
-    return clock, edges[:-1]
-
-
-def _time_unit(span: float) -> tuple[float, str]:
-    return (3600.0, "h") if span > 3 * 3600 else (60.0, "min") if span > 600 else (1.0, "s")
-
-
-def _time_panel(
-    panel: Axes, found: Sequence[Trace], clock: list[np.ndarray], i: int, si: str, unit: str
-) -> None:
+def _time_panel(panel: Axes, t: Trace, i: int, si: str, unit: str) -> None:
     for name, colour in (("before", BEFORE), ("after", AFTER)):
-        times = np.concatenate(clock)
-        values = in_unit(np.concatenate([getattr(t, name)[:, i] for t in found]), si, unit)
-        at, low, high = envelope(times, values)
+        values = in_unit(getattr(t, name)[:, i], si, unit)
+        at, low, high = envelope(t.time, values)
         panel.fill_between(at, low, high, color=colour, lw=0.6, label=name, zorder=2)
+
+
+def _noise_alone(panel: Axes, limit: float) -> None:
+    label = "±2σ of the noise alone"
+    panel.axhspan(-limit, limit, color=FLOOR, alpha=0.25, lw=0, zorder=1, label=label)
+    for edge in (-limit, limit):
+        panel.axhline(edge, color=FLOOR, lw=0.8, zorder=3)
 
 
 # Residual against what drives an effect
 
 
 def cloud(c: Cloud, effect: str, si: str) -> str:
-    """Residual of one axis, in the unit ``si``, against what drives an effect: a light cloud,
-    binned medians with quartiles on it.
+    """Residual of one axis, in the unit ``si``, against what drives an effect.
+
+    A light cloud with binned medians and quartiles on it.
     """
     x, label = _people(c.driver, c.values, si)
     # A limit acts on the outermost samples, which are what a picture of anything else leaves out.
@@ -147,7 +128,7 @@ UNITS = {"rate": "deg/s", "specific_force": "g", "temperature": "degC"}
 def _people(driver: Driver, values: np.ndarray, si: str) -> tuple[np.ndarray, str]:
     """The values of a driver in the unit that people use, and the label of their axis."""
     if driver.signal == "time":
-        return values / 60, "time [min]"
+        return values, "time since the first row of the log [s]"
     if driver.signal == "contribution":
         unit = "deg/s" if si == "rad/s" else "mg"
         return in_unit(values, si, unit), f"what the effect adds [{unit}]"
@@ -177,8 +158,9 @@ def _medians(
     label: str,
     shift: float,
 ) -> np.ndarray:
-    """Draw, and give, median and quartiles (k, 3) of ``y`` in bins of ``x``; ``shift`` [bins] parts
-    two series.
+    """Draw, and give, median and quartiles (k, 3) of ``y`` in bins of ``x``.
+
+    ``shift`` [bins] parts two series.
     """
     place = np.searchsorted(edges, x) - 1
     rows = [
@@ -291,8 +273,9 @@ def _screening_legend(figure: Figure, panel: Axes, looked_again: bool) -> None:
 
 
 def spectrum(s: Spectrum, si: str) -> str:
-    """One-sided amplitude density of the residual, in the unit ``si``, before and after, and of the
-    noise alone.
+    """One-sided amplitude density of the residual before and after, and of the noise alone.
+
+    The residual is in the unit ``si``.
     """
     unit = "deg/s" if si == "rad/s" else "mg"
     lines = (

@@ -1,11 +1,10 @@
-"""What ``close`` found in sentences: the verdict, an effect with its coefficients, an equation
-without LaTeX.
-"""
+"""What ``close`` found in sentences: the verdict, an effect with its coefficients."""
 
 from __future__ import annotations
 
 import numpy as np
 
+from pyimu.identification.as_part import SENSORS
 from pyimu.identification.found import Added, Errors
 from pyimu.identification.outcome import Outcome
 from pyimu.model.catalogue import CATALOGUE
@@ -19,7 +18,6 @@ from pyimu.report.numbers import (
     unit_for,
 )
 
-SENSORS = {"gyro": "gyro", "accel": "accelerometer"}
 QUANTITIES = {"gyro": "rate", "accel": "specific force"}
 
 FEW = 2
@@ -154,9 +152,7 @@ def fall(kind: str, e: Errors) -> str:
 
 
 def missing(a: Added) -> str:
-    """An effect by its name, with its coefficients:
-    ``saturation at 421 and 424 deg/s on x and y``.
-    """
+    """An effect with its coefficients: ``saturation at 421 and 424 deg/s on x and y``."""
     name, (value, _, si) = next(iter(a.parameters.items()))
     phrase = CATALOGUE[a.effect].phrase
     return f"{phrase} {coefficient(value, si_of(a.effect, name, si))}"
@@ -180,40 +176,3 @@ def coefficient(value: np.ndarray, si: str) -> str:
         return f"{numbers} on {joined(['xyz'[i] for i in on])}"
     i, j = np.unravel_index(np.nanargmax(np.abs(shown)), shown.shape)
     return f"up to {number(float(abs(shown[i, j])))} {pretty(unit)} ({'xyz'[i]} from {'xyz'[j]})"
-
-
-def in_lines(closed: Outcome) -> str:
-    """The findings in a few lines of text."""
-    lines = [f"verdict: {closed.verdict}" + (f" ({closed.reason})" if closed.reason else "")]
-    lines += [f"  {remark}" for remark in closed.remarks]
-    lines += [f"  added {describe(a)}" for a in closed.added]
-    lines += [
-        f"  changed {c.sensor}.{c.effect}.{c.parameter}: declared {_short(c.declared)}, fitted "
-        f"{_short(c.fitted)} {c.unit}"
-        for c in closed.changed
-    ]
-    lines += [
-        f"  unexplained: {u.sensor} {u.axis} depends on {' x '.join(u.depends_on)} (p = "
-        f"{u.p_value:.1g})"
-        for u in closed.unexplained
-    ]
-    for kind, e in closed.errors.items():
-        floor = "" if e.floor is None else f", floor {e.floor.total:.4g}"
-        lines.append(
-            f"  {kind} residual on {closed.held_out}: {e.before.total:.4g} -> "
-            f"{e.after.total:.4g} {e.unit}{floor}"
-        )
-    return "\n".join(lines)
-
-
-def describe(a: Added) -> str:
-    """An added effect in one line."""
-    values = ", ".join(f"{n} = {_short(v)} {u}" for n, (v, _, u) in a.parameters.items())
-    others = f"; as well: {', '.join(a.alternatives)}" if a.alternatives else ""
-    return f"{a.sensor}.{a.effect} ({CATALOGUE[a.effect].term}): {values}{others}"
-
-
-def _short(value: np.ndarray) -> str:
-    return np.array2string(
-        np.asarray(value), precision=4, separator=", ", suppress_small=False
-    ).replace("\n", "")

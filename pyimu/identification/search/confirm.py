@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import chi2
 
-from pyimu.identification.fit.attenuation import own_noise, reference_variance
+from pyimu.identification.fit.noise_floor import own_noise, reference_variance
 from pyimu.identification.fit.columns import Linear, band_time, in_band, residual
 from pyimu.identification.fit.fit import Fit, bare
 from pyimu.identification.fit.normal import BATCHES

@@ -1,6 +1,6 @@
 """Input axes that do not lie along the body axes."""
 
-from pyimu.model.effect import Parameter, effect
+from pyimu.model.effect import Confound, Parameter, effect
 
 
 @effect(
@@ -10,6 +10,10 @@ from pyimu.model.effect import Parameter, effect
     source="Hidalgo 2012, section 3.2, matrix M; Groves 2013, eqs. 4.16 and 4.17, M_a and M_g",
     mounting=True,
     symptom="is not square to its axes",
+    confound=Confound(
+        "a turn of the reference's mounting",
+        "a reference whose axes are known to be the sensor's",
+    ),
 )
 def misalignment(
     x,

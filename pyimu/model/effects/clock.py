@@ -1,6 +1,6 @@
 """A sample that is not taken when its time says."""
 
-from pyimu.model.effect import OWN_RATE, Environment, Law, Noise, Parameter, effect
+from pyimu.model.effect import OWN_RATE, Confound, Environment, Law, Noise, Parameter, effect
 
 
 @effect(
@@ -12,6 +12,10 @@ from pyimu.model.effect import OWN_RATE, Environment, Law, Noise, Parameter, eff
     # eps t < -h / 2, and what a causal inverse lacks are the samples to come.
     invertible=False,
     clock=lambda eps: eps,
+    confound=Confound(
+        "a clock of the reference that runs at another rate",
+        "one clock for sensor and reference",
+    ),
 )
 def clock_skew(
     x,

@@ -2,13 +2,29 @@
 
 import casadi as ca
 
-from pyimu.model.effect import INPUT, Parameter, SamplePeriod, Scan, State, effect, is_number, kept
+from pyimu.model.effect import (
+    INPUT,
+    Confound,
+    Parameter,
+    SamplePeriod,
+    Scan,
+    State,
+    effect,
+    is_number,
+    kept,
+)
 
 MEMORY = 32
 """Samples that ``time_delay`` remembers."""
 
 LONGEST_DELAY = MEMORY - 2
 """Sample periods that it reaches back: the cubic needs a sample on either side."""
+
+
+LATE = Confound(
+    "a clock of the reference that is early by as much in all logs",
+    "one clock for sensor and reference",
+)
 
 
 def _too_long(h, td):
@@ -28,6 +44,7 @@ def _too_long(h, td):
     ),
     family="delay",
     delay=lambda wn, zeta: ca.if_else(wn > 0, 2 * zeta / wn, 0),
+    confound=LATE,
     symptom="answers late",
     phrase="a second-order lag at",
 )
@@ -88,6 +105,7 @@ def _second_order(angle: ca.SX, zeta: ca.SX) -> tuple[tuple, tuple]:
     source="no source for the coefficient; third-order Lagrange interpolation between samples",
     family="delay",
     delay=lambda td: td,
+    confound=LATE,
     symptom="answers late",
     phrase="a time delay of",
 )

@@ -2,7 +2,7 @@
 
 import casadi as ca
 
-from pyimu.model.effect import Environment, Parameter, State, effect
+from pyimu.model.effect import Confound, Environment, Parameter, State, effect
 
 ORIGIN = Parameter(
     "degC", (), 25.0, "temperature at which the thermal error is zero", reference=True
@@ -69,6 +69,10 @@ def thermal_bias_cubic(
     source=(
         "no source for the equation; data sheets state its coefficient per K/min (STIM300, bias "
         "over temperature gradients)"
+    ),
+    confound=Confound(
+        "a thermometer that lags behind the part, whose bias follows its temperature",
+        "a thermometer on the part itself, or a temperature that rests between its changes",
     ),
 )
 def temperature_rate(

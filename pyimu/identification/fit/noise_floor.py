@@ -88,8 +88,8 @@ def quiet(pieces: np.ndarray, share: float = QUIET) -> float:
 
 
 def lowness(noise: RandomWalk | Autoregressive, share: float = QUIET, seed: int = 1) -> float:
-    """What the quietest ``share`` of windows shows of the variance where noise, of the spectrum that
-    was fitted, has one level.
+    """What the quietest ``share`` of windows shows of the variance, if noise of the fitted spectrum
+    has one level.
     """
     coefficients = noise.coefficients if isinstance(noise, Autoregressive) else ()
     drawn = np.random.default_rng(seed).standard_normal(DRAWN * WINDOW)

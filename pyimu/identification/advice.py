@@ -1,0 +1,289 @@
+"""What to measure next, and how well the model would then be known.
+
+Each proposal is a motion or a temperature that is put through the model and the noise as they were
+fitted: the standard errors follow from its normal equations, the bias estimated beside it, as they
+do for a log (Gauss-Markov theorem).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from pyimu.errors import UserError
+from pyimu.files import plain
+from pyimu.identification.estimated import REACH, Estimated
+from pyimu.identification.fit.noise_floor import own_noise, reference_variance
+from pyimu.identification.fit.columns import LogState, linearise
+from pyimu.identification.fit.keys import Coefficient, coefficients_of
+from pyimu.identification.fit.normal import normal_equations, variances
+from pyimu.identification.fit.trial import Trial
+from pyimu.identification.fit.whiten import RandomWalk
+from pyimu.identification.found import Visibility
+from pyimu.identification.plans import lying, noise_at, turning, warming
+from pyimu.identification.search.candidates import has_columns, scanned
+from pyimu.identification.search.forward import Investigation
+from pyimu.identification.search.screen import VISIBLE
+from pyimu.model.catalogue import CATALOGUE, POWER_ON
+from pyimu.model.kinds import KINDS
+from pyimu.model.part import AXES
+from pyimu.model.sensor import Sensor
+from pyimu.model.typical import magnitudes
+from pyimu.recording.recording import Recording
+from pyimu.recording.rest import seconds_of
+from pyimu.report.numbers import joined, quantity
+
+MOST = 5
+"""Proposals that are made: nobody reads to the end of more."""
+
+BETTER = 2.0
+"""Times by which a coefficient must become better known for a measurement to be proposed."""
+
+
+@dataclass(frozen=True)
+class Gain:
+    """How well a coefficient would be known (SI), as half the width of its 95 % interval.
+
+    ``now`` is None where these logs do not show it.
+    """
+
+    effect: str
+    parameter: str
+    axes: str
+    now: float | None
+    then: float
+    unit: str
+
+    @property
+    def factor(self) -> float:
+        return np.inf if self.now is None else self.now / self.then
+
+
+@dataclass(frozen=True)
+class Advice:
+    """A measurement that is worth making, and what it would show of a sensor.
+
+    ``why`` says what its gain follows from where that is no noise.
+    """
+
+    sensor: str
+    measure: str
+    gains: tuple[Gain, ...] = ()
+    why: str = ""
+
+    @property
+    def worth(self) -> float:
+        return max((g.factor for g in self.gains), default=1.0)
+
+    def as_dict(self) -> dict[str, Any]:
+        return plain(asdict(self))
+
+
+def advice(
+    found: Mapping[str, Investigation],
+    entries: Sequence[Estimated],
+    seen: Sequence[Visibility],
+    logs: Sequence[Recording],
+    unexamined: Mapping[str, str],
+    own_holdout: bool,
+) -> tuple[Advice, ...]:
+    """At most ``MOST`` measurements, the one that gains most first."""
+    made = [a for kind in unexamined for a in _unexamined(kind, logs)]
+    for kind, inv in found.items():
+        of_kind = ([v for v in vs if v.sensor == kind] for vs in (entries, seen))
+        known = _Known(*of_kind)
+        made += _planned(kind, inv, known)
+        made += _unlogged(kind, inv, seen)
+        made += _confounded(kind, entries)
+        made += _better_reference(kind, inv)
+    if own_holdout:
+        made.append(
+            Advice(
+                "",
+                "another log of the same part, given with --holdout",
+                why="the end of a log shares its power-on, its mounting and its temperature with "
+                "the rows that were fitted",
+            )
+        )
+    # What is not known at all comes first; of equals, what was said first.
+    return tuple(sorted(made, key=lambda a: -a.worth)[:MOST])
+
+
+# What is known now
+
+
+class _Known:
+    """Half widths of 95 % intervals now, by coefficient; None of one that the logs do not show."""
+
+    def __init__(self, entries: Iterable[Estimated], seen: Iterable[Visibility]) -> None:
+        self.half: dict[tuple[str, str], np.ndarray] = {}
+        for v in entries:
+            if v.origin in ("estimated", "added", "changed"):
+                # No motion shows what a mounting that nobody knows stands for.
+                hidden = np.nan if CATALOGUE[v.effect].mounting and v.note else np.inf
+                self.half[v.effect, v.parameter] = np.where(v.shown, REACH * v.std, hidden)
+        for s in seen:
+            e = CATALOGUE[s.effect]
+            name = next(n for n, p in e.parameters.items() if not p.reference)
+            if s.smallest_visible is None and not s.reason.startswith("no motion"):
+                continue
+            std = np.inf if s.smallest_visible is None else s.smallest_visible / VISIBLE
+            if has_columns(e, s.sensor) and not scanned(e):
+                self.half[s.effect, name] = np.full(e.parameters[name].shape, REACH * std)
+
+    def of(self, key: Coefficient) -> float:
+        """Of one coefficient; NaN of one that is held where it is."""
+        half = self.half.get((key.effect, key.parameter))
+        return np.nan if half is None else float(half[key.index])
+
+
+# Measurements that are put through the model
+
+
+def _planned(kind: str, inv: Investigation, known: _Known) -> Iterator[Advice]:
+    fit = inv.after
+    plans = [turning(fit.sensor)] if kind == "gyro" else [lying()]
+    for text, trial, frequency in (*plans, warming(kind)):
+        gains = _gains(fit.sensor, trial, noise_at(fit, frequency, trial.h), known)
+        if gains:
+            yield Advice(kind, text, tuple(gains[:3]))
+
+
+def _gains(
+    sensor: Sensor, trial: Trial, noise: Mapping[int, RandomWalk], known: _Known
+) -> list[Gain]:
+    """The coefficients of which too little is known and that a trial would show.
+
+    First come those of which nothing is known.
+    """
+    trial = replace(trial, axes=tuple(sorted(noise)))
+    gains = [
+        _gain(sensor, trial, noise, effect, name, known)
+        for effect, name in known.half
+        if (effect, name) != POWER_ON
+    ]
+    return sorted((g for g in gains if g is not None), key=lambda g: -g.factor)
+
+
+def _gain(
+    sensor: Sensor,
+    trial: Trial,
+    noise: Mapping[int, RandomWalk],
+    effect: str,
+    name: str,
+    known: _Known,
+) -> Gain | None:
+    present, half = effect in sensor.values, known.half[effect, name]
+    std = _standard_errors(sensor, trial, noise, effect, known)
+    size = _typical(effect, sensor.kind, name, "tactical" if present else "consumer")
+    better: dict[tuple[int, ...], tuple[float, float]] = {}
+    for key, error in sorted(std.items()):
+        if (key.effect, key.parameter) == (effect, name):
+            now, then = float(half[key.index]), REACH * error
+            if then < size < now and BETTER * then < now:
+                better[key.index] = now, then
+    if not better:
+        return None
+    now, then = (max(v) for v in zip(*better.values(), strict=True))
+    unit = sensor.unit(CATALOGUE[effect].parameters[name].unit)
+    whole = len(better) == len(CATALOGUE[effect].parameters[name].indices)
+    which = [" from ".join(AXES[i] for i in index) for index in better if index]
+    axes = "all axes" if whole and len(better) > 3 else joined(which)
+    return Gain(effect, name, axes, None if np.isinf(now) else now, then, unit)
+
+
+def _standard_errors(
+    sensor: Sensor,
+    trial: Trial,
+    noise: Mapping[int, RandomWalk],
+    effect: str,
+    known: _Known,
+) -> dict[Coefficient, float]:
+    """Of an effect's coefficients and of all that the model has, estimated together.
+
+    They come from a trial and from what is known of each now.
+    """
+    model = sensor if effect in sensor.values else sensor.with_values(effect)
+    wanted = {
+        k
+        for e in model.values
+        for k in coefficients_of(model, e)
+        if not np.isnan(known.of(k)) and (e, k.parameter) != POWER_ON
+    }
+    normal = normal_equations([linearise(model, trial, LogState(), wanted)], dict(noise))
+    now = [known.of(k) if isinstance(k, Coefficient) else np.inf for k in normal.keys]
+    std = np.sqrt(variances(normal.gram + np.diag((np.array(now) / REACH) ** -2.0)))
+    found = dict(zip(normal.keys, map(float, std), strict=True))
+    return {k: v for k, v in found.items() if isinstance(k, Coefficient)}
+
+
+def _typical(effect: str, kind: str, parameter: str, of: str) -> float:
+    """The size of a coefficient in a class of parts; infinite where none is known."""
+    try:
+        typical = magnitudes(effect, kind)[of]
+    except UserError:
+        return np.inf
+    return typical.si if typical.parameter == parameter else np.inf
+
+
+# Measurements that follow from a reason
+
+
+def _unexamined(kind: str, logs: Sequence[Recording]) -> Iterator[Advice]:
+    if kind == "gyro":
+        yield Advice(kind, "a reference of the rate or of the attitude", why="the log has none")
+        return
+    r = next(r for r in logs if r.accel is not None)
+    text, trial, _ = lying()
+    white = [seconds_of(c, r.segments, r.sample_period).white for c in r.accel.T]
+    per_row = r.sample_period / trial.h
+    noise = {i: RandomWalk(max(w, 1e-9) ** 2 * per_row, 0.0) for i, w in enumerate(white)}
+    effects = ("scale_factor", "misalignment")
+    known = _Known((), ())
+    for effect in effects:
+        name, q = next(iter(CATALOGUE[effect].parameters.items()))
+        known.half[effect, name] = np.full(q.shape, np.inf)
+    gains = _gains(Sensor(kind), trial, noise, known)
+    yield Advice(kind, text, tuple(gains), "figured from its white noise alone")
+
+
+def _confounded(kind: str, entries: Iterable[Estimated]) -> Iterator[Advice]:
+    """What would tell an effect of the model from what no log tells it from."""
+    effects = dict.fromkeys(v.effect for v in entries if v.sensor == kind and v.note)
+    for effect in effects:
+        confound = CATALOGUE[effect].confound
+        if confound is not None:
+            why = f"no log tells {effect.replace('_', ' ')} from {confound.of}"
+            yield Advice(kind, confound.apart, why=why)
+
+
+def _unlogged(kind: str, inv: Investigation, seen: Iterable[Visibility]) -> Iterator[Advice]:
+    if any("temperature" not in t.known for t in inv.after.trials):
+        effects = [
+            v.effect
+            for v in seen
+            if v.sensor == kind and "temperature" in CATALOGUE[v.effect].signals(kind)
+        ]
+        if effects:
+            why = f"without it nobody can look for {joined(effects)}"
+            yield Advice(kind, "log the temperature of the part", why=why)
+
+
+def _better_reference(kind: str, inv: Investigation) -> Iterator[Advice]:
+    """Where the reference's noise hides the sensor's own in the band."""
+    added, own = reference_variance(inv.after), own_noise(inv.after)
+    share = np.mean([np.sum(np.square(t.band.weights)) for t in inv.after.trials])
+    if not own or not np.any(added):
+        return
+    theirs = float(np.sqrt(np.mean([added[i] for i in own])))
+    ours = float(np.sqrt(np.mean([n.r for n in own.values()]) * share))
+    if theirs > BETTER * ours:
+        unit = KINDS[kind].unit
+        why = (
+            f"in its band the reference adds {quantity(theirs, unit)} of noise, the "
+            f"sensor's own is {quantity(ours, unit)}"
+        )
+        yield Advice(kind, "a reference with less noise", why=why)

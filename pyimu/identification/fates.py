@@ -1,0 +1,125 @@
+"""What became of each candidate above the gate, and why."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from pyimu.files import plain
+from pyimu.identification.found import Added
+from pyimu.identification.search.candidates import equivalent
+from pyimu.identification.search.forward import (
+    LEAST_SHARE,
+    MOST_EFFECTS,
+    MOST_REFINED,
+    SET_WIDTH,
+    Investigation,
+)
+from pyimu.report.numbers import joined, number
+
+TAKEN_BACK = "makes the attitude worse"
+"""How the reason begins for which an effect is taken back after the search has ended."""
+
+
+@dataclass(frozen=True)
+class Fate:
+    """One candidate, and what became of it.
+
+    ``gain`` [nat] is that of the first look, ``last`` that of the last one.
+
+    ``outcome`` is "added", "changed" (a declared value set free), "alternative", "explained",
+    "refused", "dropped" or "not taken up"; ``by`` are the effects that stand for it.
+    """
+
+    sensor: str
+    effect: str
+    gain: float | None
+    last: float | None
+    outcome: str
+    reason: str
+    by: tuple[str, ...] = ()
+
+    def as_dict(self) -> dict[str, Any]:
+        return plain(asdict(self))
+
+
+def fates(kind: str, inv: Investigation, added: Iterable[Added]) -> list[Fate]:
+    """One entry for each candidate that passed the gate at either look or was decided on.
+
+    The largest gain comes first.
+    """
+    first, last = ({c.effect: c for c in s.candidates} for s in (inv.first, inv.last))
+    names = [c.effect for s in (inv.first, inv.last) for c in s.above()]
+    names += [s.effect for s in inv.steps] + [r.effect for r in inv.refused]
+    out = [_fate(kind, inv, n, first.get(n), last.get(n)) for n in dict.fromkeys(names)]
+    out += [
+        Fate(kind, a.effect, a.gain, None, "added", f"{a.note}; gain {number(a.gain)} nat")
+        for a in added
+        if a.effect not in names
+    ]
+    return sorted(out, key=lambda f: -max(f.gain or 0.0, f.last or 0.0))
+
+
+def _fate(kind: str, inv: Investigation, name: str, first: Any, last: Any) -> Fate:
+    gains = tuple(None if c is None else c.gain for c in (first, last))
+    outcome, reason, by = _outcome(inv, name, *gains)
+    alike = set() if first is None else set(first.inseparable_from)
+    alike &= {s.effect for s in inv.steps} - set(by if outcome == "alternative" else ())
+    if alike and outcome != "added":
+        reason += f"; in these logs it looks like {joined(sorted(alike))} (correlation above 98 %)"
+    return Fate(kind, name, *gains, outcome, reason, by)
+
+
+def _outcome(
+    inv: Investigation, name: str, first: float | None, last: float | None
+) -> tuple[str, str, tuple[str, ...]]:
+    step = next((s for s in inv.steps if s.effect == name), None)
+    if step is not None:
+        gain = f"{number(step.gain)} nat, gate {number(step.gate)} nat"
+        if step.declared:
+            return "changed", f"the declared value is set free: {gain}", ()
+        order = f"number {inv.steps.index(step) + 1}: " if len(inv.steps) > 1 else ""
+        return "added", f"{order}{gain}, and held-out data do not speak against it", ()
+    refused = next((r for r in inv.refused if r.effect == name), None)
+    if refused is not None:
+        return "refused", f"{refused.reason} (fitted in full {number(refused.gain)} nat)", ()
+    of = [s.effect for s in inv.steps if s.effect in equivalent(name)]
+    if of:
+        return "alternative", f"one class with {joined(of)}, which no log tells apart", tuple(of)
+    close = [s.effect for s in inv.steps if name in s.alternatives]
+    if close:
+        within = f"explains as much as {joined(close)}, to within {SET_WIDTH:g} nat"
+        return "alternative", within, tuple(close)
+    return _by_the_steps(inv, name, first, last)
+
+
+def _by_the_steps(
+    inv: Investigation, name: str, first: float | None, last: float | None
+) -> tuple[str, str, tuple[str, ...]]:
+    steps = tuple(s.effect for s in inv.steps)
+    if last is None:
+        return "dropped", f"no longer needed beside {joined(steps)}", steps
+    if last <= inv.last.gate:
+        fell = f"its gain fell from {number(first)} to {number(last)} nat"
+        return "explained", f"{fell} once {joined(steps)} {_was(steps)} in", steps
+    return "not taken up", _why_left(inv, name), ()
+
+
+def _was(names: tuple[str, ...]) -> str:
+    return "was" if len(names) == 1 else "were"
+
+
+def _why_left(inv: Investigation, name: str) -> str:
+    """Why a candidate that still passes the gate at the last look was not added."""
+    if len(inv.steps) >= MOST_EFFECTS:
+        return f"{MOST_EFFECTS} effects were added already"
+    refused = {r.effect for r in inv.refused}
+    back = [r.effect for r in inv.refused if r.reason.startswith(TAKEN_BACK)]
+    if back:
+        return f"not looked for again after {joined(back)} was taken back"
+    options = [c for c in inv.last.above() if c.effect not in refused]
+    best = [c for c in options[:MOST_REFINED] if c.gain > LEAST_SHARE * options[0].gain]
+    if name in [c.effect for c in best]:
+        return "fitted in full, beside all else, it gains less than the gate"
+    return f"weaker than {joined([c.effect for c in best])}, which fitted in full gain nothing"

@@ -1,0 +1,97 @@
+"""What was found of each log's reference: an instrument with a clock, a mounting and noise."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from pyimu.files import plain
+from pyimu.identification.fit.noise_floor import reference_variance
+from pyimu.identification.fit.clock import Clock
+from pyimu.identification.fit.trial import Trial
+from pyimu.identification.held_out import log_state
+from pyimu.identification.search.forward import Investigation
+from pyimu.recording.recording import Recording
+
+NATURE = {
+    "rate": "ref_rate",
+    "attitude": "ref_q",
+    "heading": "ref_heading",
+    "force": "ref_force",
+}
+"""The group of a recording that a kind of reference is read from."""
+
+
+def references(
+    found: Mapping[str, Investigation], logs: list[Recording]
+) -> tuple[dict[str, Any], ...]:
+    """The reference of each log, as report.json has it: the gyro's, else the accelerometer's.
+
+    ``clock_offset`` is by how much later than the reference says the sensor shows the motion, less
+    what is left to the sensor; it is positive where the sensor is late.
+    """
+    noise = {kind: np.sqrt(reference_variance(inv.after)) for kind, inv in found.items()}
+    entries = []
+    for r in logs:
+        of_log = [(k, inv, t) for k, inv in found.items() if (t := _trial(inv, r.name)) is not None]
+        moving = [one for one in of_log if one[2].reference != "static"]
+        entries += [_entry(r, *one, noise[one[0]]) for one in (moving or of_log)[:1]]
+    return tuple(entries)
+
+
+def _trial(inv: Investigation, name: str) -> Trial | None:
+    return next((t for t in (*inv.after.trials, *inv.held) if t.name == name), None)
+
+
+def _entry(
+    r: Recording, kind: str, inv: Investigation, t: Trial, noise: np.ndarray
+) -> dict[str, Any]:
+    state = log_state(inv, r.name)
+    clock, turn = t.clock, Rotation.from_matrix(state["rotation"]).magnitude()
+    offset, skew = _clock(clock)
+    return plain(
+        {
+            "file": r.path.name if r.path else r.name,
+            "sensor": kind,
+            "kind": t.reference,
+            "clock_offset": offset,
+            "clock_skew": skew,
+            "slips": None if clock is None else not clock.keeps_step,
+            "taken_out": clock is not None and clock.taken_out,
+            "left_to_sensor": None if clock is None else {"value": clock.own, "unit": "s"},
+            "mounting": {
+                "rotation": state["rotation"],
+                "angle": {"value": turn, "unit": "rad"},
+                "estimated": t.free_rotation,
+            },
+            "noise": {"value": noise, "unit": inv.after.sensor.output.unit}
+            if t.band_hz is not None
+            else None,
+            "sample_rate": {"value": _own_rate(r, t), "unit": "Hz"},
+            "band_hz": t.band_hz,
+            "explains": None if clock is None else clock.explained,
+        }
+    )
+
+
+def _clock(clock: Clock | None) -> tuple[dict[str, Any] | None, float | None]:
+    """Offset [s], and its slope over the log where the clocks do not keep step."""
+    if clock is None or not np.isfinite(clock.std):
+        return None, None
+    offset = {"value": clock.mean, "std": clock.std, "unit": "s"}
+    offset |= {"least": float(clock.late.min()), "most": float(clock.late.max())}
+    return offset, None if clock.keeps_step else float(np.polyfit(clock.time, clock.late, 1)[0])
+
+
+def _own_rate(r: Recording, t: Trial) -> float | None:
+    """Hz; how often the reference has a new value, most of the time; None where it has no rows."""
+    if t.band_limit is not None:
+        return 4.0 * t.band_limit
+    values = getattr(r, NATURE.get(t.reference, ""), None)
+    if values is None:
+        return None
+    known = np.flatnonzero(np.isfinite(values.reshape(len(values), -1)).all(axis=1))
+    return float(1 / np.median(np.diff(r.time[known]))) if len(known) > 1 else None

@@ -1,0 +1,90 @@
+"""The candidates: how they compared, what became of each, and what the logs could show."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+from markupsafe import Markup
+
+from pyimu.identification.as_part import SENSORS
+from pyimu.identification.exhibits import Exhibits
+from pyimu.identification.found import Visibility
+from pyimu.identification.outcome import Outcome
+from pyimu.identification.report import pictures
+from pyimu.identification.report.words import si_of
+from pyimu.model.catalogue import CATALOGUE
+from pyimu.report.numbers import MISSING, number
+from pyimu.report.page import Picture, Table, both, prose
+
+
+def screenings(closed: Outcome) -> list[Picture]:
+    """The gain of each candidate at the first look and at the last."""
+    return [
+        _screening(closed, kind, e)
+        for kind, e in closed.exhibits.items()
+        if e.first.candidates and 0 < e.first.gate < np.inf
+    ]
+
+
+def fate_table(closed: Outcome) -> Table:
+    """What became of each candidate above the gate, and why."""
+    head = ("sensor", "candidate", "first look", "last look", "what became of it", "why")
+    return Table(
+        head,
+        [
+            (
+                SENSORS[c.sensor],
+                prose(c.effect),
+                _nat(c.gain),
+                _nat(c.last),
+                c.outcome,
+                prose(c.reason),
+            )
+            for c in closed.candidates
+        ],
+    )
+
+
+def _nat(gain: float | None) -> str:
+    return MISSING if gain is None else f"{number(gain)} nat" if gain > 0 else "nothing"
+
+
+def _screening(closed: Outcome, kind: str, e: Exhibits) -> Picture:
+    added = [a.effect for a in closed.added if a.sensor == kind]
+    caption = (
+        f"{SENSORS[kind].capitalize()}: how much each absent effect would explain. "
+        "Bars: the first look, before anything was added. "
+        f"Gate {number(e.first.gate)} nat: chance alone passes it once in a hundred."
+    )
+    if e.last is not e.first:
+        caption += (
+            " Diamonds: what remains to be explained after the last addition "
+            f"(gate {number(e.last.gate)} nat)."
+        )
+    svg = Markup(pictures.screening(e.first, e.last, added))
+    return Picture(svg, caption, f"gain of each candidate effect of the {SENSORS[kind]}")
+
+
+def observability_table(entries: Iterable[Visibility]) -> Table:
+    """The smallest coefficient of each absent effect that the logs would show."""
+    table = Table(
+        ("sensor", "effect", "smallest visible", "looks like, in these logs", "not visible because")
+    )
+    for v in entries:
+        first = next(iter(CATALOGUE[v.effect].parameters), "") if v.effect in CATALOGUE else ""
+        seen = (
+            MISSING
+            if v.smallest_visible is None
+            else both(v.smallest_visible, si_of(v.effect, first, v.unit))
+        )
+        table.rows.append(
+            (
+                SENSORS[v.sensor],
+                v.effect,
+                seen,
+                prose(", ".join(v.inseparable_from) or MISSING),
+                prose(v.reason),
+            )
+        )
+    return table

@@ -1,0 +1,176 @@
+"""The logs: what each holds, what was estimated of it, and its reference."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from markupsafe import Markup, escape
+from scipy.spatial.transform import Rotation
+
+from pyimu.identification.as_part import SENSORS
+from pyimu.identification.found import LogEntry
+from pyimu.identification.outcome import Outcome
+from pyimu.identification.overview import Overview
+from pyimu.identification.report.errors import BESIDE
+from pyimu.identification.report.strips import strips
+from pyimu.model.part import AXES
+from pyimu.report.numbers import MISSING, in_unit, number, pretty, unit_for, with_error
+from pyimu.report.page import Picture, Table, both, file_name, prose
+
+
+def overview_table(closed: Outcome) -> Table:
+    """What each log holds, as it was measured."""
+    table = Table(
+        ("recording", "length", "held out", "at rest", "rate", "force", "temperature", "faults")
+    )
+    for r in closed.recordings:
+        if r.overview is not None:
+            table.rows.append((file_name(r.file), *_overview(r, r.overview)))
+    return table
+
+
+def _overview(r: LogEntry, o: Overview) -> tuple:
+    share = r.held_out / max(r.samples, 1)
+    return (
+        _under(f"{number(o.duration, 4)} s", f"{r.samples:,} rows", f"{o.rate:.6g} Hz"),
+        _under(f"{100 * share:.0f} %", f"{r.held_out:,} rows") if r.held_out else "none",
+        f"{100 * o.rest:.0f} %",
+        MISSING if o.turning is None else _turning(*o.turning),
+        MISSING if o.force is None else _by_axis(o.force, "m/s^2"),
+        MISSING if o.temperature is None else _range(*o.temperature),
+        _faults(o),
+    )
+
+
+def _under(first: str, *more: str) -> Markup:
+    """Lines of a cell, the later ones small."""
+    return escape(first) + Markup("").join(
+        Markup("<small>{}</small>").format(_unbroken(m)) for m in more
+    )
+
+
+def _unbroken(text: str) -> str:
+    return text.replace(" ", "\u00a0")
+
+
+def _by_axis(values: np.ndarray, si: str) -> Markup:
+    unit = unit_for(values, si)
+    shown = [f"{a} {number(float(in_unit(v, si, unit)), 2)}" for a, v in zip(AXES, values)]
+    return Markup("<br>").join([*shown[:2], f"{shown[2]} {pretty(unit)}"])
+
+
+def _turning(rms: np.ndarray, largest: np.ndarray) -> Markup:
+    """Of each axis the rms, and in brackets the largest."""
+    unit = unit_for(rms, "rad/s")
+    pairs = [
+        " (".join(number(float(in_unit(v, "rad/s", unit)), 2) for v in both_of) + ")"
+        for both_of in zip(rms, largest)
+    ]
+    lines = [f"{a} {pair}" for a, pair in zip(AXES, pairs)]
+    return Markup("<br>").join([*lines[:2], f"{lines[2]} {pretty(unit)}"])
+
+
+def _range(least: float, most: float) -> str:
+    return f"{least:.1f} to {most:.1f} °C"
+
+
+def _faults(o: Overview) -> Markup | str:
+    said = [f"{o.gaps} gap{'s' * (o.gaps > 1)}, {number(o.missing)} s"] if o.gaps else []
+    said += [f"{c.replace('_', ' ')}: {n:,} clipped" for c, n in o.clipped.items()]
+    return prose("; ".join(said)) if said else "none seen"
+
+
+def overviews(closed: Outcome) -> list[Picture]:
+    """The rate and the temperature of each log over its own time."""
+    drawn = [r for r in closed.recordings if r.overview is not None and r.overview.speed]
+    return [_strips(drawn[k : k + BESIDE]) for k in range(0, len(drawn), BESIDE)]
+
+
+def _strips(logs: Sequence[LogEntry]) -> Picture:
+    svg = Markup(strips([(r.file, r.overview) for r in logs]))
+    names = ", ".join(r.file for r in logs)
+    warm = " and temperature" if any(r.overview.warmth for r in logs) else ""
+    caption = (
+        f"Size of the measured rate{warm} of {names}; time is that of the log's own time column. "
+        "Shaded: rows that were held out."
+    )
+    return Picture(svg, caption, f"rate{warm} of {names} over time")
+
+
+def log_states(closed: Outcome) -> Table:
+    """What belongs to a log and not to the part."""
+    table = Table(("recording", "sensor", "bias x", "bias y", "bias z", "mounting rotation"))
+    for r in closed.recordings:
+        for kind, state in r.log_state.items():
+            si = closed.after.sensor(kind).output.unit
+            bias = [both(b, si, unit_for(state["bias"], si)) for b in state["bias"]]
+            turn = _turn(state.get("rotation"))
+            table.rows.append((file_name(r.file), SENSORS[kind], *bias, turn))
+    return table
+
+
+def reference_table(closed: Outcome) -> Table:
+    """Of each log the instrument that it is compared with."""
+    head = ("recording", "reference", "rate and band", "late by [ms]", "the lag is")
+    table = Table((*head, "noise", "explains"))
+    for entry in closed.references:
+        table.rows.append(
+            (
+                file_name(entry["file"]),
+                _under(*KINDS_OF_REFERENCE[entry["kind"]], f"of the {SENSORS[entry['sensor']]}"),
+                _rates(entry["sample_rate"]["value"], entry["band_hz"]),
+                *map(prose, _lag(entry)),
+                _noise(entry["noise"]),
+                MISSING if entry["explains"] is None else f"{100 * entry['explains']:.4g} %",
+            )
+        )
+    return table
+
+
+KINDS_OF_REFERENCE = {
+    "rate": ("rate",),
+    "attitude": ("attitude", "differentiated"),
+    "heading": ("heading", "differentiated"),
+    "force": ("force",),
+    "static": ("rest",),
+}
+
+
+def _rates(own: float | None, band: float | None) -> Any:
+    """How often the reference has a new value, and the band in which it is used."""
+    if own is None:
+        return MISSING
+    return _under(f"{number(own, 4)} Hz", *([] if band is None else [f"below {number(band)} Hz"]))
+
+
+def _noise(noise: dict[str, Any] | None) -> Any:
+    if noise is None or not any(noise["value"]):
+        return MISSING
+    return _by_axis(np.array(noise["value"], dtype=float), noise["unit"])
+
+
+def _lag(entry: dict[str, Any]) -> tuple[str, str]:
+    """How late the sensor is by the reference's clock, and what became of it."""
+    offset, own = entry["clock_offset"], entry["left_to_sensor"]
+    if own is None:
+        return MISSING, MISSING
+    if offset is None:
+        return "not seen", "too few rows follow the reference"
+    late, least, most = (1e3 * (offset[k] + own["value"]) for k in ("value", "least", "most"))
+    if least != most:
+        said = f"{number(least)} to {number(most)}"
+    else:
+        said = with_error(late, 1e3 * offset["std"])
+    if entry["taken_out"]:
+        return said, "the clocks', taken out"
+    return said, "left to the sensor" if own["value"] else "within its error"
+
+
+def _turn(rotation: list | None) -> Any:
+    """Angle of a rotation matrix; none where it is the identity."""
+    if rotation is None:
+        return MISSING
+    angle = float(Rotation.from_matrix(rotation).magnitude())
+    return both(angle, "rad") if angle else "none"
