@@ -96,6 +96,14 @@ def wand(closed: Closed) -> bool:
     return "saturation" in added and not added & wrong and after <= 1.02 * before
 
 
+def car(closed: Closed) -> bool:
+    """Whether the clock was found, the heading follows the course, and the gyro is not blamed."""
+    clock = closed.recordings[0].log_state["gyro"]["reference"]["clock"]
+    heading = closed.heading or (np.inf, np.inf)
+    blamed = any(a.sensor == "gyro" for a in closed.added)
+    return 0.23 <= clock["late"] <= 0.27 and np.degrees(heading[1]) <= 1.5 and not blamed
+
+
 ROWS = (
     Row(
         "02+09 -> 16", [BROAD["02"], BROAD["09"]], [BROAD["16"]], "delay 4.2 ms", only_a_delay(0.3)
@@ -128,7 +136,13 @@ ROWS = (
         lambda c: c.verdict == "reference_unfit",
         ROCKET,
     ),
-    Row("car n", ["morpinet_rccar_n"], [], "clocks 0.25 s apart"),
+    Row(
+        "car n",
+        ["morpinet_rccar_n"],
+        [],
+        "clocks 0.25 s apart; a heading of 1.2 deg once that is known",
+        car,
+    ),
     Row("rests", ["imucalib_unit0"], [], "scale factor, misalignment, bias of the accelerometer"),
     Row("static", ["adis16405_unit1_static"], [], "flicker"),
     Row("thermal", ["astropi_lsm9ds1_static"], [], "accelerometer follows temperature"),
@@ -180,6 +194,12 @@ def _figures(closed: Closed):
         yield f"{kind}: {before:.4g} -> {after:.4g} {unit}, floor {floor:.3g}"
     if closed.attitude:
         yield "attitude: {:.2f} -> {:.2f} deg".format(*np.degrees(closed.attitude))
+    if closed.heading:
+        yield "heading: {:.2f} -> {:.2f} deg".format(*np.degrees(closed.heading))
+    for r in closed.recordings:
+        clock = r.log_state.get("gyro", {}).get("reference", {}).get("clock")
+        if clock and clock["taken_out"]:
+            yield f"clock of {r.file}: {clock['least']:.4g} to {clock['most']:.4g} s late"
     for kind, r in closed.refused:
         yield f"refused: {kind} {r.effect} ({r.gain:.0f} nat): {r.reason}"
 

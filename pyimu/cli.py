@@ -177,6 +177,16 @@ def close_command(
     columns: Annotated[
         Path | None, typer.Option("--columns", help="TOML that renames a foreign log's columns.")
     ] = None,
+    reference: Annotated[
+        list[Path] | None,
+        typer.Option(
+            "--reference",
+            help="Reference in a file of its own: one for each LOG, then for each --holdout.",
+        ),
+    ] = None,
+    reference_columns: Annotated[
+        Path | None, typer.Option("--reference-columns", help="TOML that renames its columns.")
+    ] = None,
     latitude: Annotated[
         float | None,
         typer.Option("--latitude", help="Degrees; adds the Earth's rate to a derived reference."),
@@ -192,6 +202,7 @@ def close_command(
     from pyimu.identification.close import close
     from pyimu.identification.report.deliver import check_delivery
     from pyimu.recording.log import read_recording
+    from pyimu.recording.reference.file import read_reference
 
     if latitude is not None and not abs(latitude) <= 90:
         raise UserError(f"--latitude {latitude:g}: must lie between -90 and 90 deg")
@@ -205,6 +216,7 @@ def close_command(
             recordings,
             part,
             judges or None,
+            reference=[read_reference(p, reference_columns) for p in reference or []],
             latitude=None if latitude is None else math.radians(latitude),
             say=say,
         )

@@ -215,7 +215,15 @@ BAD_COMMANDS = {
     "other suffix": (["plain.toml"], ["plain.toml", ".csv, .csv.gz, .parquet"]),
     "no reference": (
         ["moving.csv"],
-        ["moving", "no reference", "ref_rate, ref_q, ref_heading or ref_force", "must stand still"],
+        ["moving", "no reference", "ref_rate, ref_q, ref_heading, ref_force", "must stand still"],
+    ),
+    "reference file without one": (
+        ["rover.csv", "--reference", "moving.csv"],
+        ["moving.csv", "no reference in it", "ref_north and ref_east"],
+    ),
+    "more references than logs": (
+        ["rover.csv", "--reference", "rover.csv", "--reference", "rover.csv"],
+        ["2 references for 1 logs", "in order"],
     ),
     "same log twice": (["rover.csv", "rover.csv"], ["rover", "given twice"]),
     "fitted and held out": (["rover.csv", "--holdout", "rover.csv"], ["rover", "given twice"]),

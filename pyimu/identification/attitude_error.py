@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from pyimu.attitude import run
+from pyimu.identification.fit.clock import Clock
 from pyimu.model.part import Part
 from pyimu.recording.recording import Recording
+from pyimu.recording.reference.attitude import attitude_at
 
 
 @dataclass(frozen=True)
@@ -30,12 +32,19 @@ class AttitudeError:
 
 
 def attitude_error(
-    recording: Recording, part: Part, mounting: np.ndarray, start: int = 0
+    recording: Recording,
+    part: Part,
+    mounting: np.ndarray,
+    start: int = 0,
+    clock: Clock | None = None,
 ) -> AttitudeError:
     """Run the filter with ``part`` over a whole recording that has ``ref_q``, and compare.
 
-    ``mounting`` (3, 3) turns the reference's body axes into the sensor's.
+    ``mounting`` (3, 3) turns the reference's body axes into the sensor's; ``clock`` is what was
+    taken out of the reference's clock.
     """
+    if clock is not None and clock.taken_out:
+        recording = _on_own_clock(recording, clock)
     truth_known = np.isfinite(recording.ref_q).all(axis=1)
     rows = np.flatnonzero(truth_known & (np.arange(len(truth_known)) >= start))
     if not len(rows):
@@ -52,3 +61,10 @@ def attitude_error(
     return AttitudeError(
         recording.time[rows], error.magnitude(), np.unwrap(error.as_euler("ZYX")[:, 0])
     )
+
+
+def _on_own_clock(recording: Recording, clock: Clock) -> Recording:
+    """The recording with its reference attitude as late as its sensors."""
+    source = recording if recording.reference is None else recording.reference
+    time = recording.time - clock.at(recording.time)
+    return replace(recording, ref_q=attitude_at(source, time))

@@ -29,6 +29,9 @@ from pyimu.recording.log import read_recording
 from pyimu.recording.names import distinct_names
 from pyimu.recording.quality.inspect import inspect
 from pyimu.recording.recording import Recording
+from pyimu.recording.reference.course import has_course
+from pyimu.recording.reference.file import read_reference, with_references
+from pyimu.recording.reference.rate import reference_rate
 from pyimu.recording.rest import is_at_rest
 
 HELD_OUT = 0.3
@@ -51,6 +54,7 @@ def close(
     part: Part | str | Path | None = None,
     holdout: Sequence[Log] | Log | None = None,
     *,
+    reference: Sequence[Log] | Log | None = None,
     latitude: float | None = None,
     say: Say = lambda text: None,
 ) -> Closed:
@@ -59,20 +63,24 @@ def close(
 
     ``recordings`` are Recordings or paths; ``part`` is a Part, the name of a built-in one, a TOML
     path, or None for the baseline structure with every coefficient estimated. Without ``holdout``
-    the last 30 % of each log is held out. ``latitude`` [rad] adds the Earth's rate to a reference
-    rate derived from an attitude. Raises UserError for logs that cannot be read, are too short, or
-    do not excite what the part asks to be estimated.
+    the last 30 % of each log is held out. ``reference`` are references in recordings or files of
+    their own, at their own rate and on their own clock: one for each log in order, then one for
+    each log of ``holdout``; a log without one has its own. ``latitude`` [rad] adds the Earth's rate
+    to a reference rate derived from an attitude. Raises UserError for logs that cannot be read, are
+    too short, do not overlap their reference, or do not excite what the part asks to be estimated.
     """
-    logs, others = _named(_many(recordings), _many(holdout))
+    own = _references(reference)
+    logs, others = _named(*_with_references(_many(recordings), _many(holdout), own))
     made_with = called(
         "close",
         {
             "recordings": [r.path or r.name for r in logs],
             "part": part,
             "holdout": [r.path or r.name for r in others] or None,
+            "reference": [r.path or r.name for r in own] or None,
             "latitude": latitude,
         },
-        [*(r.path for r in (*logs, *others)), *_file_of(part)],
+        [*(r.path for r in (*logs, *others, *own)), *_file_of(part)],
     )
     declared = None if part is None else find_part(part)
     start = declared or undeclared(logs[0].sample_rate)
@@ -111,6 +119,19 @@ def _many(logs: Sequence[Log] | Log | None) -> list[Recording]:
     return [_read(r) for r in ([logs] if isinstance(logs, (Recording, str, Path)) else logs)]
 
 
+def _references(given: Sequence[Log] | Log | None) -> list[Recording]:
+    single = isinstance(given, (Recording, str, Path))
+    each = [] if given is None else [given] if single else given
+    return [r if isinstance(r, Recording) else read_reference(r) for r in each]
+
+
+def _with_references(
+    logs: list[Recording], others: list[Recording], references: list[Recording]
+) -> tuple[list[Recording], list[Recording]]:
+    together = with_references([*logs, *others], references)
+    return together[: len(logs)], together[len(logs) :]
+
+
 def _read(log: Log) -> Recording:
     recording = log if isinstance(log, Recording) else read_recording(log)
     if len(recording.time) < SHORTEST:
@@ -144,13 +165,17 @@ def _of_trials(trials: Sequence[Trial]) -> list[Finding]:
 
 
 def has_reference(recording: Recording) -> bool:
-    return any(
-        v is not None
-        for v in (recording.ref_rate, recording.ref_q, recording.ref_heading, recording.ref_force)
-    )
+    direct = (recording.ref_rate, recording.ref_q, recording.ref_heading, recording.ref_force)
+    given = any(v is not None for v in direct) or recording.reference is not None
+    return given or has_course(recording)
 
 
 def _nothing_to_compare(logs: list[Recording]) -> str:
+    if all(has_course(r) and reference_rate(r).kind == "none" for r in logs):
+        return (
+            f"{logs[0].name}: nothing to compare: its positions never move so fast that they have "
+            "a course; give a log that drives, or leave the positions out where it stands still"
+        )
     if any(has_reference(r) for r in logs):
         return (
             f"{logs[0].name}: too short to say anything: fewer than {SHORTEST} rows that sensor "
@@ -158,7 +183,8 @@ def _nothing_to_compare(logs: list[Recording]) -> str:
         )
     return (
         f"{logs[0].name}: nothing to compare: the log has no reference (ref_rate, ref_q, "
-        "ref_heading or ref_force) and moves; a log without reference must stand still"
+        "ref_heading, ref_force, positions or velocities) and moves; a log without reference must "
+        "stand still"
     )
 
 

@@ -20,6 +20,7 @@ from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.trial import rest_noise
 from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.identification.found import Added
+from pyimu.identification.heading_error import heading_rms
 from pyimu.identification.held_out import attitude_rms, scores
 from pyimu.identification.made_with import MadeWith
 from pyimu.identification.overview import Overview, overview
@@ -108,6 +109,7 @@ def conclude(
         references=references(found, together),
         next=advice(found, model_after, seen, logs, not_examined, not others),
         made_with=made_with,
+        heading=heading_rms(found.get("gyro")),
     )
 
 

@@ -86,7 +86,9 @@ def log_state(inv: Investigation, name: str) -> dict[str, Any] | None:
 
 def _reference(trial: Trial) -> dict[str, Any]:
     """What was found of a log's reference itself."""
-    seen = {"kind": trial.reference, "band_hz": trial.band_hz}
+    seen: dict[str, Any] = {"kind": trial.reference, "band_hz": trial.band_hz}
+    if trial.up is not None:
+        seen["up"] = trial.up.tolist()
     if trial.clock is None:
         return seen | {"clock": None, "explained": None}
     return seen | {"clock": trial.clock.as_dict(), "explained": trial.clock.explained}
@@ -103,6 +105,6 @@ def attitude_rms(part: Part, inv: Investigation | None, logs: list[Recording]) -
             continue
         mounting = np.array(log_state(inv, r.name)["rotation"])
         first = len(r.time) - len(held.time)
-        error = attitude_error(r, part, mounting, first).total
+        error = attitude_error(r, part, mounting, first, held.clock).total
         squares, rows = squares + float(np.sum(error**2)), rows + len(error)
     return float(np.sqrt(squares / rows)) if rows else None

@@ -48,6 +48,7 @@ class Outcome:
     references: tuple[dict[str, Any], ...] = ()
     next: tuple[Advice, ...] = ()
     made_with: MadeWith | None = None
+    heading: tuple[float, float] | None = None
 
     def as_dict(self, model: str = "model.toml", fmus: tuple[str, ...] = ()) -> dict[str, Any]:
         """The contents of report.json."""
@@ -88,6 +89,7 @@ class Outcome:
             "specific_force": force and force.as_dict(),
             "log_likelihood": _pair("nat/sample", self.log_likelihood),
             "attitude": _pair("rad", self.attitude),
+            "heading": _pair("rad", self.heading),
             "band_hz": self.band_hz,
         }
 

@@ -90,6 +90,7 @@ def _own_rate(r: Recording, t: Trial) -> float | None:
     """Hz; how often the reference has a new value, most of the time; None where it has no rows."""
     if t.band_limit is not None:
         return 4.0 * t.band_limit
+    r = r.reference or r
     values = getattr(r, NATURE.get(t.reference, ""), None)
     if values is None:
         return None

@@ -32,7 +32,8 @@ class Header:
     at, and ``skipped`` says what in it has no columns of numbers. Raises UserError for a column
     that stands twice, has no, an unknown or the wrong unit, is in counts of unknown size, or has a
     name close to a known one; for an incomplete group, no time, and neither gyro nor
-    accelerometer. A column with another name is left out, and listed in ``findings``.
+    accelerometer, or in a ``reference`` no reference. A column with another name is left out, and
+    listed in ``findings``.
     """
 
     def __init__(
@@ -42,6 +43,7 @@ class Header:
         scale: Mapping[str, Scale] = MappingProxyType({}),
         crowded: bool = False,
         skipped: Sequence[str] = (),
+        reference: bool = False,
     ) -> None:
         self.path = path
         self.names: list[str] = []
@@ -50,6 +52,7 @@ class Header:
         self.findings: list[Finding] = []
         self._crowded = crowded
         self._skipped = skipped
+        self._reference = reference
         self._scale = scale
         self._counted: set[str] = set()
         for position, cell in enumerate(header):
@@ -130,7 +133,13 @@ class Header:
                     f"{self.path}: column {missing[0]} is missing, {group} needs "
                     f"{', '.join(column_names(group))}"
                 )
-        if "gyro_x" not in self.names and "accel_x" not in self.names:
+        if self._reference and not any(name.startswith("ref_") for name in self.names):
+            raise UserError(
+                f"{self.path}: no reference in it; it needs ref_q, ref_rate, ref_heading, "
+                "ref_north and ref_east, ref_velocity or ref_force, or a column map (TOML) that "
+                "names them"
+            )
+        if not self._reference and "gyro_x" not in self.names and "accel_x" not in self.names:
             raise UserError(
                 f"{self.path}: neither gyro_x, gyro_y, gyro_z nor accel_x, accel_y, accel_z is "
                 "there"

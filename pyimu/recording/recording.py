@@ -43,7 +43,8 @@ class Recording(_Columns):
     ``frame_declared`` says that the log's axes were stated, not assumed. ``period`` [s] is the
     sample period, ``longest`` [s] the step above which there may be a gap, and ``gaps`` (m,) the
     rows that follow one, where they are known otherwise than from ``time``: of a piece of a log
-    they are the log's.
+    they are the log's. ``reference`` is where the log's reference came from, if that has times of
+    its own.
     """
 
     path: Path | None = None
@@ -52,6 +53,7 @@ class Recording(_Columns):
     period: float | None = None
     longest: float | None = None
     gaps: np.ndarray | None = None
+    reference: Recording | None = None
 
     if TYPE_CHECKING:
 

@@ -180,7 +180,8 @@ REFERENCES = ("ref_rate", "ref_q", "ref_heading", "ref_force", "ref_north", "ref
 
 
 def _says_motion(recording: Recording) -> bool:
-    given = any(getattr(recording, group) is not None for group in (*REFERENCES, "ref_velocity"))
+    groups = (*REFERENCES, "ref_velocity", "reference")
+    given = any(getattr(recording, group) is not None for group in groups)
     moving = recording.moving is not None and bool(np.any(recording.moving > 0))
     return given or moving
 

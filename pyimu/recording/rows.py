@@ -55,8 +55,10 @@ class Source:
     foreign: ForeignMap
 
     @classmethod
-    def open(cls, path: Path, columns: Path | None) -> Source:
-        """Raises UserError for a file or a map that cannot be used."""
+    def open(cls, path: Path, columns: Path | None, reference: bool = False) -> Source:
+        """Raises UserError for a file or a map that cannot be used; a ``reference`` need hold no
+        sensor.
+        """
         foreign = read_map(columns) if columns is not None else ForeignMap()
         reader = open_reader(path, foreign.topics)
         return cls(
@@ -67,6 +69,7 @@ class Source:
                 foreign.scale,
                 reader.crowded,
                 reader.skipped,
+                reference,
             ),
             foreign,
         )

@@ -26,6 +26,7 @@ from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
 from pyimu.model.arguments import Parameter
 from pyimu.model.kinds import OWN
 from pyimu.model.sensor import Sensor
+from pyimu.recording.reference.rate import DERIVED
 
 
 @dataclass(frozen=True)
@@ -84,7 +85,7 @@ def bare(trial: Trial, r: np.ndarray) -> Linear:
 
 def fit_noise(trials: tuple[Trial, ...], residuals: list[Linear], coloured: bool = False) -> Noise:
     """Noise model of each axis, one for all logs: the whitening follows what the reference is."""
-    derived = coloured or any(t.reference in ("attitude", "heading") for t in trials)
+    derived = coloured or any(t.reference in DERIVED for t in trials)
     made = {}
     for i in sorted({i for t in trials for i in t.axes}):
         parts = [(one.residual[:, i], one.time, one.segments) for one in residuals if i in one.keys]

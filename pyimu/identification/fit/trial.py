@@ -20,6 +20,7 @@ from pyimu.model.signals import COLUMNS, SIGNALS, START, SURROUNDINGS
 from pyimu.recording.quality.spikes import spikes
 from pyimu.recording.recording import Recording, filled
 from pyimu.recording.reference.rate import reference_rate
+from pyimu.recording.reference.track import runs
 
 SETTLE = 32
 """Rows at the start of a segment that are not counted: nobody knows what a lag or delay remembers
@@ -45,12 +46,13 @@ class Trial:
     ``y`` (n, 3) measured, ``u`` (n, N_INPUT) reference inputs (at their start values where nobody
     knows them), ``known`` the signals that are really known, ``axes`` those that the reference
     covers, ``segments`` the ranges without gap. ``reference`` is "rate", "attitude", "heading",
-    "force" or "static"; ``free_rotation`` says that the reference's mounting is not known.
-    ``parent`` names the fitted trial that has the same power-on, if any; ``left_out`` (n,) marks
-    samples that are missing or carry no information (spikes, repeats, at a limit), heeded where no
-    band mixes them with their neighbours. ``band_hz`` is the band of a derived reference, at most
-    ``band_limit``; ``clock`` what was taken out of the reference's clock; ``noise`` (n, 3) a draw
-    of the reference's noise, where it has any to speak of.
+    "course", "force" or "static"; ``free_rotation`` says that the reference's mounting is not
+    known. ``parent`` names the fitted trial that has the same power-on, if any; ``left_out`` (n,)
+    marks samples that are missing or carry no information (spikes, repeats, at a limit), heeded
+    where no band mixes them with their neighbours. ``band_hz`` is the band of a derived reference,
+    at most ``band_limit``; ``clock`` what was taken out of the reference's clock; ``up`` (3,) the
+    direction upward in the sensor's axes where the reference knows only the turn about it; ``noise``
+    (n, 3) a draw of the reference's noise, where it has any to speak of.
     """
 
     name: str
@@ -71,6 +73,7 @@ class Trial:
     band_limit: float | None = None
     clock: Clock | None = None
     noise: np.ndarray | None = None
+    up: np.ndarray | None = None
 
     @property
     def band(self) -> Band:
@@ -172,6 +175,7 @@ def gyro_trial(recording: Recording, latitude: float | None = None) -> Trial | N
         axes=axes,
         free_rotation=reference.kind == "attitude" and len(axes) == 3,
         findings=reference.findings,
+        up=reference.up,
     )
 
 
@@ -341,12 +345,6 @@ def marked(segments: list[tuple[int, int]], n: int) -> np.ndarray:
     for a, b in segments:
         flags[a:b] = True
     return flags
-
-
-def runs(flags: np.ndarray) -> list[tuple[int, int]]:
-    """Ranges (start, stop) of true flags."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], flags.astype(np.int8), [0]])))
-    return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))
 
 
 def rest_noise(trial: Trial) -> np.ndarray:

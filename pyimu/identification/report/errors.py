@@ -78,6 +78,7 @@ def error_table(closed: Outcome) -> Table:
     for name, pair, si in (
         ("log-likelihood [nat/sample]", closed.log_likelihood, ""),
         ("attitude", closed.attitude, "rad"),
+        ("heading", closed.heading, "rad"),
     ):
         if pair is not None:
             cells = tuple(both(v, si) if si else number(v, 5) for v in pair)

@@ -133,6 +133,7 @@ KINDS_OF_REFERENCE = {
     "rate": ("rate",),
     "attitude": ("attitude", "differentiated"),
     "heading": ("heading", "differentiated"),
+    "course": ("course", "differentiated"),
     "force": ("force",),
     "static": ("rest",),
 }

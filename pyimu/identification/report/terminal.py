@@ -82,9 +82,10 @@ def _errors(closed: Outcome) -> Iterator[str]:
                 walk = number(values[1] / e.noise, 2)
                 floor += f" ({walk} times with the random walk that may be in it)"
         yield f"{QUANTITIES[kind]} residual on {where}: {_fall(values, e.unit)}{left}{floor}"
-    if closed.attitude is not None:
-        before, after = closed.attitude
-        yield f"attitude error: {_fall(closed.attitude, 'rad')}, {number(after / before, 2)} of it"
+    for name in ("attitude", "heading"):
+        pair = getattr(closed, name)
+        if pair is not None:
+            yield f"{name} error: {_fall(pair, 'rad')}, {number(pair[1] / pair[0], 2)} of it"
 
 
 def _fall(values: tuple[float, float], si: str) -> str:

@@ -54,14 +54,19 @@ class Group:
 def absent(fit: Fit) -> list[Effect]:
     """Deterministic effects that the model lacks, whose inputs every log knows and whose
     coefficients have slopes or a scan.
+
+    A course shows no sensor's delay: a tracked point ``l`` ahead of the axle turns its course l / v
+    before the vehicle turns, and the clock stands for that.
     """
     known = frozenset.intersection(*(t.known for t in fit.trials))
     present = {name for name in fit.sensor.values if not fit.sensor.is_off(name)}
     twins = set().union(*(equivalent(name) for name in present))
+    timed = all(t.reference != "course" for t in fit.trials)
     return [
         e
         for e in candidates(fit.sensor.kind, present | twins)
         if not e.per_power_on
+        and (timed or (e.delay is None and e.clock is None))
         and has_columns(e, fit.sensor.kind)
         and e.signals(fit.sensor.kind) <= known
     ]

@@ -94,7 +94,7 @@ def _gravity_down(recording: Recording) -> Iterator[Finding]:
     """Gravity on -z at rest: probably a log in forward-right-down axes that nobody declared."""
     if recording.accel is None or recording.frame_declared:
         return
-    rest = _quietest_force(recording)
+    rest = quietest_force(recording)
     if rest is not None and rest[2] < -0.8 * STANDARD_GRAVITY:
         yield Finding(
             "gravity_down",
@@ -104,7 +104,7 @@ def _gravity_down(recording: Recording) -> Iterator[Finding]:
         )
 
 
-def _quietest_force(recording: Recording) -> np.ndarray | None:
+def quietest_force(recording: Recording) -> np.ndarray | None:
     """The median specific force (3,) over the quietest tenth of the seconds.
 
     None where it is not gravity. A log need not be at rest for that.

@@ -9,19 +9,27 @@ and faults are NaN.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
 from scipy.interpolate import CubicSpline
-from scipy.spatial.transform import Rotation, RotationSpline
+from scipy.spatial.transform import Rotation
 
 from pyimu.errors import Finding, UserError
 from pyimu.recording.recording import Recording
+from pyimu.recording.reference.attitude import attitude_curve, attitude_track, within
 from pyimu.recording.reference.band import trusted_band
-from pyimu.recording.reference.track import Track
-from pyimu.recording.rest import is_at_rest
+from pyimu.recording.reference.course import course_of, looks_like_degrees, mounted, upward
+from pyimu.recording.reference.track import Track, fresh, runs
+from pyimu.recording.rest import is_at_rest, motion_in
 from pyimu.symbolic.earth import EARTH_RATE
+
+DERIVED = ("attitude", "heading", "course")
+"""Kinds of reference whose rate was differentiated."""
+
+VERTICAL = ("heading", "course")
+"""Kinds of reference that know only the turn about the vertical."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,37 +40,47 @@ class Reference:
     it moves unseen); ``band_hz`` is the highest frequency in Hz at which a derived rate is to be
     used, None where the rate was not derived; ``segments`` are the index ranges (start, stop) in
     which every known axis is finite; ``findings`` tell of faults of the reference; ``earth_rate``
-    says whether the rate is against inertial space (True), or Earth-relative (False).
+    says whether the rate is against inertial space (True), or Earth-relative (False); ``up`` (3,)
+    is the direction upward in the sensor's axes where the rate is only that about it.
     """
 
     rate: np.ndarray
-    kind: Literal["rate", "attitude", "heading", "static", "none"]
+    kind: Literal["rate", "attitude", "heading", "course", "static", "none"]
     band_hz: float | None = None
     segments: list[tuple[int, int]] = field(default_factory=list)
     findings: tuple[Finding, ...] = ()
     earth_rate: bool = True
     band_limit: float | None = None
+    up: np.ndarray | None = None
 
 
 def reference_rate(recording: Recording, latitude: float | None = None) -> Reference:
     """The rate against inertial space that the recording's reference saw, in body axes.
 
     It is ``ref_rate`` as it is; else ``ref_q``, differentiated; else about z from ``ref_heading``
-    of a planar vehicle, x and y unknown; else zero (static) where the recording is at rest, and
-    unknown where it moves. To a differentiated rate the Earth's is added where the latitude [rad]
-    is known (the argument, else the recording's column). Raises UserError for a latitude beyond
-    pi/2.
+    of a planar vehicle, x and y unknown; else about the axis nearest to the vertical from the
+    course of its positions or velocities; else zero (static) where the recording is at rest, and
+    unknown where it moves. A reference in a recording of its own is taken at its own samples. To a
+    differentiated rate the Earth's is added where the latitude [rad] is known (the argument, else
+    the recording's column). Raises UserError for a latitude beyond pi/2, and for positions that
+    look like degrees.
     """
     if latitude is not None and not abs(latitude) <= math.pi / 2:
         raise UserError(f"latitude is {latitude} rad, expected -pi/2 to pi/2")
+    source = recording if recording.reference is None else recording.reference
+    if recording.ref_rate is not None and source is recording:
+        seen = _finite_runs(recording, recording.ref_rate)
+        return Reference(recording.ref_rate, "rate", None, seen)
     if recording.ref_rate is not None:
-        return Reference(
-            recording.ref_rate, "rate", None, _finite_runs(recording, recording.ref_rate)
-        )
-    if recording.ref_q is not None:
-        return _from_attitude(recording, _latitudes(recording, latitude))
-    if recording.ref_heading is not None:
-        return _from_heading(recording, _latitudes(recording, latitude))
+        return _of_another_clock(recording, source)
+    earth = _latitudes(recording, latitude)
+    if source.ref_q is not None:
+        return _from_attitude(recording, source, earth)
+    if source.ref_heading is not None:
+        return _from_heading(recording, source, earth)
+    course = _from_course(recording, source, earth)
+    if course is not None:
+        return course
     if not is_at_rest(recording):
         return Reference(np.full((len(recording), 3), np.nan), "none", earth_rate=False)
     return Reference(
@@ -94,63 +112,73 @@ def _latitudes(recording: Recording, latitude: float | None) -> np.ndarray | flo
     return np.interp(recording.time, recording.time[known], recording.latitude[known])
 
 
-def _from_attitude(recording: Recording, latitude: np.ndarray | float | None) -> Reference:
-    q = recording.ref_q
-
-    def steps(nodes: np.ndarray) -> np.ndarray:
-        attitude = Rotation.from_quat(q[nodes], scalar_first=True)
-        return (attitude[:-1].inv() * attitude[1:]).as_rotvec()
-
-    def spline(nodes: np.ndarray):
-        return RotationSpline(
-            recording.time[nodes], Rotation.from_quat(q[nodes], scalar_first=True)
-        )
-
-    track = Track(recording.time, _fresh(q), steps)
+def _from_attitude(
+    recording: Recording, source: Recording, latitude: np.ndarray | float | None
+) -> Reference:
+    track, time = attitude_track(source), recording.time
     rate = np.full((len(recording), 3), np.nan)
     for nodes in track.segments:
-        rows, curve = np.arange(nodes[0], nodes[-1] + 1), spline(nodes)
-        rate[rows] = curve(recording.time[rows], 1)
+        rows, curve = within(time, source.time[nodes]), attitude_curve(source, nodes)
+        if not len(rows):
+            continue
+        rate[rows] = curve(time[rows], 1)
         if latitude is not None:
-            attitude = curve(recording.time[rows]).as_quat(scalar_first=True)
+            attitude = curve(time[rows]).as_quat(scalar_first=True)
             rate[rows] += earth_rate_in_body(
                 attitude, latitude if np.ndim(latitude) == 0 else latitude[rows]
             )
     return _derived(recording, rate, "attitude", track, latitude is not None)
 
 
-def _from_heading(recording: Recording, latitude: np.ndarray | float | None) -> Reference:
-    heading = recording.ref_heading
-    known = _fresh(heading[:, None])
-    unwrapped = np.full(len(recording), np.nan)
+def _from_heading(
+    recording: Recording, source: Recording, latitude: np.ndarray | float | None
+) -> Reference:
+    heading, time = source.ref_heading, recording.time
+    known = fresh(heading[:, None])
+    unwrapped = np.full(len(source), np.nan)
     unwrapped[known] = np.unwrap(heading[known])
-    track = Track(recording.time, known, lambda nodes: np.diff(unwrapped[nodes])[:, None])
+    track = Track(source.time, known, lambda nodes: np.diff(unwrapped[nodes])[:, None])
     rate = np.full((len(recording), 3), np.nan)
     for nodes in track.segments:
-        rows = np.arange(nodes[0], nodes[-1] + 1)
-        rate[rows, 2] = CubicSpline(recording.time[nodes], unwrapped[nodes])(
-            recording.time[rows], 1
-        )
+        rows = within(time, source.time[nodes])
+        rate[rows, 2] = CubicSpline(source.time[nodes], unwrapped[nodes])(time[rows], 1)
     if latitude is not None:
         rate[:, 2] += EARTH_RATE * np.sin(latitude)
-    return _derived(recording, rate, "heading", track, latitude is not None)
+    made = _derived(recording, rate, "heading", track, latitude is not None)
+    return replace(made, up=np.array([0.0, 0.0, 1.0]))
 
 
-def _fresh(values: np.ndarray) -> np.ndarray:
-    """Rows of a reference (n, k) that are known and new.
+def _of_another_clock(recording: Recording, source: Recording) -> Reference:
+    """A rate that was measured at times of its own, in the band that these can show."""
+    track = Track(
+        source.time, fresh(source.ref_rate), lambda n: np.diff(source.ref_rate[n], axis=0), np.inf
+    )
+    return _derived(recording, recording.ref_rate, "rate", track, True)
 
-    A slow reference that is held between its own samples repeats most rows in runs of one length;
-    its repeats are no samples. One that stands still for a while, or is known at every row, is
-    left as it is.
-    """
-    known = np.flatnonzero(np.all(np.isfinite(values), axis=1))
-    if len(known) < 8:
-        return known
-    new = np.concatenate([[True], np.any(np.diff(values[known], axis=0) != 0, axis=1)])
-    lengths = np.diff(np.flatnonzero(np.append(new, True)))
-    usual = np.median(lengths)
-    held = len(lengths) >= 8 and usual >= 2 and np.mean(np.abs(lengths - usual) <= 1) > 0.8
-    return known[new] if held else known
+
+def _from_course(
+    recording: Recording, source: Recording, latitude: np.ndarray | float | None
+) -> Reference | None:
+    """About the sensor's axis nearest to the vertical; None where no course is known."""
+    if looks_like_degrees(source) and motion_in(recording):
+        east, north = np.nanmedian(source.ref_east), np.nanmedian(source.ref_north)
+        raise UserError(
+            f"{source.name}: ref_north, ref_east are in m, about {north:.4f}, {east:.4f}, and "
+            "change by less than a millimetre a second while the sensor moves: they look like "
+            "degrees of latitude and longitude; give metres north and east of some point, "
+            "a degree of latitude being 111 km"
+        )
+    found = course_of(source, recording.time)
+    if found is None or not np.isfinite(found.rate).any():
+        return None
+    up = upward(recording, found.rate)
+    axis = int(np.argmax(np.abs(up)))
+    rate = np.full((len(recording), 3), np.nan)
+    rate[:, axis] = up[axis] * (
+        found.rate if latitude is None else found.rate + EARTH_RATE * np.sin(latitude)
+    )
+    made = _derived(recording, rate, "course", found.track, latitude is not None)
+    return replace(made, findings=(*made.findings, mounted(up)), up=up)
 
 
 def _derived(
@@ -158,21 +186,16 @@ def _derived(
 ) -> Reference:
     limit = 0.25 / track.period
     band = trusted_band(recording.time, recording.gyro, rate, limit) if track.segments else None
-    runs = _finite_runs(recording, rate)
-    return Reference(rate, kind, band, runs, tuple(track.findings), earth_rate, limit)
+    seen = _finite_runs(recording, rate)
+    return Reference(rate, kind, band, seen, tuple(track.findings), earth_rate, limit)
 
 
 def _finite_runs(recording: Recording, rate: np.ndarray) -> list[tuple[int, int]]:
     """Index ranges without gap in which the axes that are ever known are finite."""
     finite = np.isfinite(rate)
     good = np.all(finite[:, finite.any(axis=0)], axis=1) & finite.any(axis=1)
-    runs = []
+    found: list[tuple[int, int]] = []
     for start, stop in recording.segments:
-        edges = (
-            np.flatnonzero(
-                np.diff(np.concatenate(([False], good[start:stop], [False])).astype(int))
-            )
-            + start
-        )
-        runs += [(int(a), int(b)) for a, b in zip(edges[::2], edges[1::2])]
-    return runs
+        runs_here = runs(good[start:stop])
+        found += [(start + a, start + b) for a, b in runs_here]
+    return found

@@ -37,17 +37,46 @@ MARGIN = 0.25
 """s; left out on both sides of a fault."""
 
 
+def fresh(values: np.ndarray) -> np.ndarray:
+    """Rows of a reference (n, k) that are known and new.
+
+    A slow reference that is held between its own samples repeats most rows in runs of one length;
+    its repeats are no samples. One that stands still for a while, or is known at every row, is
+    left as it is.
+    """
+    known = np.flatnonzero(np.all(np.isfinite(values), axis=1))
+    if len(known) < 8:
+        return known
+    new = np.concatenate([[True], np.any(np.diff(values[known], axis=0) != 0, axis=1)])
+    lengths = np.diff(np.flatnonzero(np.append(new, True)))
+    usual = np.median(lengths)
+    held = len(lengths) >= 8 and usual >= 2 and np.mean(np.abs(lengths - usual) <= 1) > 0.8
+    return known[new] if held else known
+
+
+def runs(flags: np.ndarray) -> list[tuple[int, int]]:
+    """Ranges (start, stop) of true flags."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], flags.astype(np.int8), [0]])))
+    return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))
+
+
 class Track:
     """The samples of a reference that can be differentiated, without occlusions and faults.
 
     ``segments`` are arrays of row numbers. ``known`` are the rows with a reference;
-    ``steps(nodes)`` gives the rotation vectors (m - 1, d) rad between them.
+    ``steps(nodes)`` gives the rotation vectors (m - 1, d) rad between them, or steps of another
+    unit; a step and back below ``least`` is taken for the reference's noise.
     """
 
     def __init__(
-        self, time: np.ndarray, known: np.ndarray, steps: Callable[[np.ndarray], np.ndarray]
+        self,
+        time: np.ndarray,
+        known: np.ndarray,
+        steps: Callable[[np.ndarray], np.ndarray],
+        least: float = SPIKE_ANGLE,
     ) -> None:
         self.time = time
+        self.least = least
         self.findings: list[Finding] = []
         step = np.diff(time[known])
         # the 90 % quantile, for a reference may fall on every second and third row in turn
@@ -77,7 +106,7 @@ class Track:
         spikes = [np.sqrt(np.maximum(0, -np.sum(d[:-1] * d[1:], axis=1))) for d in changes]
         if not whole:
             return []
-        gate = max(SPIKE_ANGLE, SPIKE_RATIO * float(np.quantile(np.concatenate(spikes), 0.95)))
+        gate = max(self.least, SPIKE_RATIO * float(np.quantile(np.concatenate(spikes), 0.95)))
         if max(s.max() for s in spikes) < gate:
             return whole
         sizes = [np.linalg.norm(d, axis=1) for d in changes]
@@ -98,8 +127,7 @@ class Track:
         good, time = np.ones(len(nodes), bool), self.time[nodes]
         for first, last in self._faults(time[1:-2][spike], time[1:-1][step]):
             good &= (time < first - MARGIN) | (time > last + MARGIN)
-        edges = np.flatnonzero(np.diff(np.concatenate(([False], good, [False])).astype(int)))
-        for start, stop in zip(edges[::2], edges[1::2]):
+        for start, stop in runs(good):
             if stop - start < len(nodes) and time[stop - 1] - time[start] < REACQUIRE:
                 good[start:stop] = False
         return good

@@ -1,0 +1,113 @@
+"""A reference in a file of its own, with a rate and a clock of its own."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from pyimu.errors import UserError
+from pyimu.recording.columns import GROUPS
+from pyimu.recording.log import Log
+from pyimu.recording.recording import Recording, filled
+from pyimu.recording.reference.attitude import attitude_at, within
+from pyimu.recording.reference.track import Track, fresh
+from pyimu.recording.rows import Source
+
+TRUTHS = tuple(name for name in GROUPS if name.startswith("ref_"))
+"""The groups that a reference may hold."""
+
+DAY = 86400.0
+"""s; clocks whose starts differ by more count from different epochs."""
+
+
+def read_reference(path: str | os.PathLike, columns: str | os.PathLike | None = None) -> Recording:
+    """Read a reference in a file of its own: ``time`` and columns ``ref_*``, in any format that
+    ``read_recording`` reads; it needs neither gyro nor accelerometer.
+
+    ``columns`` is that of ``read_recording``. Raises UserError as that does, and for a file without
+    a reference.
+    """
+    source = Source.open(Path(path), None if columns is None else Path(columns), reference=True)
+    return Log(source).read()
+
+
+def with_reference(log: Recording, reference: Recording) -> Recording:
+    """The log with the reference of another recording in place of its own.
+
+    ``reference`` keeps its rate and its clock, which may be some seconds off: its samples are used
+    as they are. Raises UserError where it holds no reference, or where the two do not overlap.
+    """
+    given = [g for g in TRUTHS if getattr(reference, g) is not None]
+    if not given:
+        raise UserError(
+            f"{reference.name}: no reference in it, expected columns of {', '.join(TRUTHS)}"
+        )
+    moved = replace(
+        reference,
+        time=reference.time + (_origin(reference) - _origin(log)),
+        **{g: None for g in GROUPS if g not in (*TRUTHS, "latitude")},
+    )
+    _check_overlap(log, moved)
+    seen = {g: None for g in TRUTHS} | {"reference": moved}
+    if moved.ref_q is not None:
+        seen["ref_q"] = attitude_at(moved, log.time)
+    for group in ("ref_rate", "ref_force"):
+        values = getattr(moved, group)
+        if values is not None:
+            seen[group] = _interpolated(moved.time, values, log.time)
+    if log.latitude is None and moved.latitude is not None:
+        seen["latitude"] = np.interp(log.time, moved.time, filled(moved.time, moved.latitude))
+    return replace(log, **seen)
+
+
+def with_references(logs: Sequence[Recording], references: Sequence[Recording]) -> list[Recording]:
+    """Each of the first logs with its reference; the others as they are.
+
+    Raises UserError for more references than logs.
+    """
+    if len(references) > len(logs):
+        raise UserError(
+            f"{len(references)} references for {len(logs)} logs: give one for each log, in order"
+        )
+    paired = [with_reference(a, b) for a, b in zip(logs, references, strict=False)]
+    return [*paired, *logs[len(references) :]]
+
+
+def _origin(recording: Recording) -> float:
+    """s; what was subtracted from the times of a file whose clock is of its own (Unix time)."""
+    found = [f for f in recording.findings if f.kind == "time_origin"]
+    return float(found[0].detail["origin"]) if found else 0.0
+
+
+def _check_overlap(log: Recording, reference: Recording) -> None:
+    first, last = log.time[[0, -1]]
+    begins, ends = reference.time[[0, -1]]
+    spans = (
+        f"{reference.name} covers {_span(reference, _origin(log))} and {log.name} "
+        f"{_span(log, _origin(log))}"
+    )
+    by = f"add {first - begins:.9g} s to the time of {reference.name} if both begin together"
+    if abs(begins - first) > DAY:
+        raise UserError(f"{spans}: their clocks count from different epochs; {by}")
+    if min(last, ends) <= max(first, begins):
+        raise UserError(f"{spans}: log and reference do not overlap; {by}")
+
+
+def _span(recording: Recording, origin: float) -> str:
+    first, last = (f"{t + origin:.12g}" for t in recording.time[[0, -1]])
+    return f"{first} to {last} s"
+
+
+def _interpolated(nodes: np.ndarray, values: np.ndarray, time: np.ndarray) -> np.ndarray:
+    """Values (m, 3) at times (n,) by cubic splines through what is known without gap, else NaN."""
+    out = np.full((len(time), values.shape[1]), np.nan)
+    track = Track(nodes, fresh(values), lambda n: np.diff(values[n], axis=0), np.inf)
+    for part in track.segments:
+        rows = within(time, nodes[part])
+        out[rows] = CubicSpline(nodes[part], values[part])(time[rows])
+    return out

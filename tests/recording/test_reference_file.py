@@ -1,0 +1,181 @@
+"""A reference in a file of its own: its own rate and clock, and what cannot be used."""
+
+import drives
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from pyimu.errors import UserError
+from pyimu.recording.log import read_recording
+from pyimu.recording.recording import Recording
+from pyimu.recording.reference.course import looks_like_degrees
+from pyimu.recording.reference.file import read_reference, with_reference, with_references
+from pyimu.recording.reference.rate import reference_rate
+
+TIME = np.arange(0.0, 40.0, 0.005)
+SIZE, SLOW = 0.8, 1 / 60
+
+
+def angle(t):
+    return SIZE * np.sin(2.0 * t)
+
+
+def rate(t):
+    return 2.0 * SIZE * np.cos(2.0 * t)
+
+
+AXIS = np.array([1.0, 2.0, 2.0]) / 3
+
+
+def log(**more):
+    gyro = np.outer(rate(TIME), AXIS)
+    noise = 1e-3 * np.random.default_rng(1).standard_normal(gyro.shape)
+    return Recording.from_arrays(name="log", time=TIME, gyro=gyro + noise, **more)
+
+
+def tracked(start=2.0, stop=30.0, period=SLOW):
+    """An attitude about a fixed axis, as optical motion capture of 60 Hz sees it."""
+    t = np.arange(start, stop, period)
+    q = Rotation.from_rotvec(np.outer(angle(t), AXIS)).as_quat(scalar_first=True)
+    return Recording.from_arrays(name="mocap", time=t, ref_q=q)
+
+
+def test_a_slow_attitude_is_differentiated_through_its_own_samples():
+    """Error of the slope of a cubic spline through samples of period T: h^3 / 24 times the fourth
+    derivative, 2^4 SIZE here; 1e-6 rad/s. Near its ends it is larger.
+    """
+    reference = reference_rate(with_reference(log(), tracked()))
+    known = np.isfinite(reference.rate).all(axis=1)
+    assert reference.kind == "attitude" and reference.band_limit == pytest.approx(0.25 / SLOW)
+    np.testing.assert_array_equal(known, (TIME >= 2.0) & (TIME <= tracked().time[-1]))
+    inside = known & (TIME > 3.0) & (TIME < 29.0)
+    off = reference.rate[inside] - np.outer(rate(TIME[inside]), AXIS)
+    assert np.abs(off).max() < 2 * SLOW**3 / 24 * 16 * SIZE
+    q = with_reference(log(), tracked()).ref_q[inside]
+    truth = Rotation.from_rotvec(np.outer(angle(TIME[inside]), AXIS))
+    assert (Rotation.from_quat(q, scalar_first=True) * truth.inv()).magnitude().max() < 1e-5
+
+
+def test_its_own_reference_is_put_aside():
+    own = log(ref_rate=np.ones((len(TIME), 3)), ref_heading=TIME)
+    paired = with_reference(own, tracked())
+    assert paired.ref_rate is None and paired.ref_heading is None
+    assert reference_rate(paired).kind == "attitude"
+
+
+def test_a_rate_at_times_of_its_own_is_interpolated_and_ends_with_its_band():
+    t = np.arange(1.0, 35.0, 0.02)
+    other = Recording.from_arrays(name="table", time=t, ref_rate=np.outer(rate(t), AXIS))
+    reference = reference_rate(with_reference(log(), other))
+    assert reference.kind == "rate" and reference.band_hz <= 0.25 / 0.02
+    known = np.isfinite(reference.rate[:, 0])
+    off = reference.rate[known] - np.outer(rate(TIME[known]), AXIS)
+    # A cubic spline misses by 5/384 of T^4 times the fourth derivative, more at its ends.
+    assert np.abs(off).max() < 10 * 5 / 384 * 0.02**4 * 2**5 * SIZE
+
+
+def test_positions_and_headings_of_another_file_are_used_too():
+    drive = drives.figure_eight(2)
+    gyro, accel = drives.measured_by(drive, np.eye(3), 0.0, 2)
+    car = Recording.from_arrays(name="car", time=drive.time, gyro=gyro, accel=accel)
+    north, east = drives.received(drive, 0.02, 2)
+    seen = np.isfinite(north)
+    alone = Recording.from_arrays(
+        name="rtk", time=drive.time[seen], ref_north=north[seen], ref_east=east[seen]
+    )
+    within = Recording.from_arrays(
+        time=drive.time, gyro=gyro, accel=accel, ref_north=north, ref_east=east
+    )
+    np.testing.assert_allclose(
+        reference_rate(with_reference(car, alone)).rate, reference_rate(within).rate, rtol=1e-9
+    )
+    turning = Recording.from_arrays(
+        name="compass", time=drive.time[::5], ref_heading=drive.course[::5]
+    )
+    found = reference_rate(with_reference(car, turning))
+    inside = np.isfinite(found.rate[:, 2])
+    assert found.kind == "heading"
+    assert np.abs(found.rate[inside, 2] - drive.rate[inside]).max() < 1e-2
+
+
+def write(path, header, columns):
+    rows = [
+        ",".join(header),
+        *(",".join(f"{v!r}" for v in row) for row in np.column_stack(columns).tolist()),
+    ]
+    path.write_text("\n".join(rows))
+    return path
+
+
+def test_a_file_needs_no_gyro_and_unix_times_meet(tmp_path):
+    mocap, start = tracked(), 1.7e9
+    names = ["stamp", *(f"ref_q_{c} [1]" for c in "wxyz")]
+    file = write(tmp_path / "mocap.csv", names, [mocap.time + start, mocap.ref_q])
+    columns = tmp_path / "map.toml"
+    columns.write_text('[columns]\nstamp = "time [s]"\n')
+    read = read_reference(file, columns)
+    sensor = [f"gyro_{c} [rad/s]" for c in "xyz"]
+    own = read_recording(
+        write(tmp_path / "log.csv", ["time [s]", *sensor], [TIME + start, log().gyro])
+    )
+    known = np.isfinite(reference_rate(with_reference(own, read)).rate).all(axis=1)
+    assert np.isin(np.flatnonzero(known)[[0, -1]], range(399, 6001)).all()
+    with pytest.raises(UserError, match="neither gyro_x"):
+        read_recording(file, columns)
+    with pytest.raises(UserError, match="no reference in it"):
+        read_reference(tmp_path / "log.csv")
+
+
+@pytest.mark.parametrize(
+    "shift, words",
+    [
+        (50.0, ["do not overlap", "52 to 79.98", "add -52 s"]),
+        (1.7e9, ["different epochs", "mocap"]),
+    ],
+)
+def test_clocks_without_a_time_in_common_are_refused(shift, words):
+    mocap = tracked()
+    late = Recording.from_arrays(name="mocap", time=mocap.time + shift, ref_q=mocap.ref_q)
+    with pytest.raises(UserError) as refused:
+        with_reference(log(), late)
+    assert all(w in str(refused.value) for w in words), refused.value
+
+
+def test_one_reference_for_each_log_in_order():
+    with pytest.raises(UserError, match="2 references for 1 logs"):
+        with_references([log()], [tracked(), tracked()])
+    first, second = with_references([log(), log(ref_heading=TIME)], [tracked()])
+    assert first.reference is not None and second.reference is None
+    with pytest.raises(UserError, match="no reference in it"):
+        with_reference(log(), log())
+
+
+def degrees_of(drive, noise=0.02, seed=1):
+    """North and east as a latitude and a longitude about 52, 13 deg."""
+    north, east = drives.received(drive, noise, seed)
+    return 52.0 + north / 111.2e3, 13.0 + east / (111.3e3 * np.cos(np.radians(52)))
+
+
+@pytest.mark.parametrize("noise", [0.02, 1.5])
+def test_degrees_of_latitude_under_metres_are_refused(noise):
+    drive = drives.figure_eight(4)
+    gyro, accel = drives.measured_by(drive, np.eye(3), 0.0, 4)
+    north, east = degrees_of(drive, noise)
+    car = Recording.from_arrays(
+        name="car", time=drive.time, gyro=gyro, accel=accel, ref_north=north, ref_east=east
+    )
+    with pytest.raises(UserError, match="car: ref_north.*degrees of latitude.*111 km"):
+        reference_rate(car)
+
+
+@pytest.mark.parametrize("origin", [0.0, 3.0, 60.0])
+@pytest.mark.parametrize("size, noise", [(0.3, 1e-3), (0.02, 1e-4), (0.0, 1e-4), (0.0, 1e-5)])
+def test_a_track_in_a_room_does_not_look_like_degrees(origin, size, noise):
+    """Hand-held, on a small table, and at rest, about an origin in the room or beside it."""
+    rng, t = np.random.default_rng(8), np.arange(0.0, 120.0, 0.01)
+    path = [
+        origin + size * f(0.7 * t) + noise * rng.standard_normal(len(t)) for f in (np.sin, np.cos)
+    ]
+    assert not looks_like_degrees(
+        Recording.from_arrays(time=t, ref_north=path[0], ref_east=path[1])
+    )
