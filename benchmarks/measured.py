@@ -19,6 +19,7 @@ from pathlib import Path
 import numpy as np
 
 import pyimu
+from pyimu.identification.report.words import gravity_at_rest
 from pyimu.identification.result import Closed
 
 DATA = Path(os.environ.get("PYIMU_DATA", Path(__file__).parents[2] / "shared" / "data"))
@@ -143,7 +144,17 @@ ROWS = (
         "clocks 0.25 s apart; a heading of 1.2 deg once that is known",
         car,
     ),
-    Row("rests", ["imucalib_unit0"], [], "scale factor, misalignment, bias of the accelerometer"),
+    Row(
+        "rests",
+        ["imucalib_unit0"],
+        [],
+        "scale factor, misalignment, bias of both sensors: gravity's size to 0.007 m/s^2",
+        lambda c: (
+            [g.sensor for g in c.at_rest] == ["accel", "gyro"]
+            and c.at_rest[0].after <= 0.007
+            and c.at_rest[1].after <= 0.3 * c.at_rest[1].as_measured
+        ),
+    ),
     Row("static", ["adis16405_unit1_static"], [], "flicker"),
     Row("thermal", ["astropi_lsm9ds1_static"], [], "accelerometer follows temperature"),
 )
@@ -192,6 +203,7 @@ def _figures(closed: Closed):
         values = [e.before.total, e.after.total, np.nan if e.floor is None else e.floor.total]
         before, after, floor = (scale * v for v in values)
         yield f"{kind}: {before:.4g} -> {after:.4g} {unit}, floor {floor:.3g}"
+    yield from map(gravity_at_rest, closed.at_rest)
     if closed.attitude:
         yield "attitude: {:.2f} -> {:.2f} deg".format(*np.degrees(closed.attitude))
     if closed.heading:

@@ -16,9 +16,9 @@ import numpy as np
 from pyimu.errors import UserError
 from pyimu.files import plain
 from pyimu.identification.estimated import REACH, Estimated
-from pyimu.identification.fit.noise_floor import own_noise, reference_variance
 from pyimu.identification.fit.columns import LogState, linearise
 from pyimu.identification.fit.keys import Coefficient, coefficients_of
+from pyimu.identification.fit.noise_floor import own_noise, reference_variance
 from pyimu.identification.fit.normal import normal_equations, variances
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk
@@ -145,6 +145,8 @@ class _Known:
 
 def _planned(kind: str, inv: Investigation, known: _Known) -> Iterator[Advice]:
     fit = inv.after
+    if any(t.reduction is not None for t in fit.trials):
+        return  # the noise of its rows is that of whole rests, not of samples
     plans = [turning(fit.sensor)] if kind == "gyro" else [lying()]
     for text, trial, frequency in (*plans, warming(kind)):
         gains = _gains(fit.sensor, trial, noise_at(fit, frequency, trial.h), known)

@@ -17,6 +17,9 @@ from pyimu.identification.fit.keys import Key, coefficient_of
 from pyimu.identification.fit.trial import Trial, accel_trial, gyro_trial
 from pyimu.identification.made_with import called
 from pyimu.identification.reference.align import aligned
+from pyimu.identification.reference.gravity import few, rest_trials
+from pyimu.identification.reference.positions import positions_wanted, unshown
+from pyimu.identification.reference.turns import turn_trials
 from pyimu.identification.result import Closed
 from pyimu.identification.search.forward import Investigation, investigate
 from pyimu.model.part import Part
@@ -33,6 +36,7 @@ from pyimu.recording.reference.course import has_course
 from pyimu.recording.reference.file import read_reference, with_references
 from pyimu.recording.reference.rate import reference_rate
 from pyimu.recording.rest import is_at_rest
+from pyimu.report.numbers import joined
 
 HELD_OUT = 0.3
 """Share of each log, its end, that is held out where no log is named for it."""
@@ -87,15 +91,23 @@ def close(
     say("quality of the raw samples")
     quality = [_of(r.name, f) for r in [*logs, *others] for f in (*r.findings, *inspect(r))]
     found: dict[str, Investigation] = {}
-    for kind, make in (("gyro", gyro_trial), ("accel", accel_trial)):
+    for kind, make in (("accel", accel_trial), ("gyro", gyro_trial)):
         trials, held = _trials(start.sensor(kind), make, logs, others, latitude)
-        quality += _of_trials([*trials, *held])
+        if kind == "accel":
+            at_rest = rest_trials(start.accel, logs, others, latitude)
+            trials, held = at_rest or (trials, held)
+        elif not trials:
+            turned = turn_trials(start.gyro, logs, others, found.get("accel"))
+            trials, held = turned or (trials, held)
         if trials:
             free = _free(start, declared is not None, start.sensor(kind), trials)
+            trials = _shown(start, declared is not None, free, trials)
             prior = {} if declared else _prior(kind, free)
             found[kind] = investigate(start.sensor(kind), free, trials, held, say, prior)
+        quality += _of_trials([*trials, *held])
     if not found:
         raise UserError(_nothing_to_compare(logs))
+    found = {k: found[k] for k in ("gyro", "accel") if k in found}
     return conclude(start, declared, logs, others, found, tuple(quality), say, made_with)
 
 
@@ -184,7 +196,7 @@ def _nothing_to_compare(logs: list[Recording]) -> str:
     return (
         f"{logs[0].name}: nothing to compare: the log has no reference (ref_rate, ref_q, "
         "ref_heading, ref_force, positions or velocities) and moves; a log without reference must "
-        "stand still"
+        f"stand still, or rest in several positions (here {few(logs)})"
     )
 
 
@@ -233,11 +245,38 @@ def _free(start: Part, declared: bool, sensor: Sensor, trials: list[Trial]) -> f
     left = [s for s in left if not (effects[s.effect].stochastic or effects[s.effect].per_power_on)]
     if declared and all(t.reference == "static" for t in trials):
         _refuse_without_motion(start, sensor, [s for s in left], trials[0].name)
-    if all(t.free_rotation for t in trials):
+    if all(t.any_turn for t in trials):
         # A turn of the whole triad is the mounting's; what such an effect has of its own is three
         # angles, not six.
         left = [s for s in left if not effects[s.effect].mounting or s.index[0] < s.index[1]]
     return frozenset(map(coefficient_of, left))
+
+
+def _shown(start: Part, declared: bool, free: frozenset[Key], trials: list[Trial]) -> list[Trial]:
+    """The trials with a finding of the free coefficients that rests do not show.
+
+    They stay free, near zero by their prior: held at zero they would bend those that are shown.
+    Raises UserError for one that the part asks for, and that has no prior therefore.
+    """
+    if all(t.reduction is None for t in trials):
+        return trials
+    sensor, name = start.sensor(trials[0].kind), trials[0].name
+    hidden = unshown(sensor, free, trials)
+    if not hidden:
+        return trials
+    names = joined([f"{k.effect}.{k.parameter}{list(k.index)}" for k in hidden])
+    more = positions_wanted(sensor, free, trials)
+    said = f"{len(more)} more at rest would: {joined(more)}" if more else "many more would"
+    if declared:
+        have = sum(len(np.unique(t.reduction.group)) for t in trials)
+        raise UserError(
+            f"{name}: {have} positions at rest do not show {names} of the {sensor.kind}, which "
+            f"part {start.name} asks to estimate; {said}"
+        )
+    detail = {"coefficients": names, "positions": said}
+    found = Finding("not_shown_at_rest", sensor.kind, len(hidden), detail)
+    first = replace(trials[0], findings=(*trials[0].findings, found))
+    return [first, *trials[1:]]
 
 
 def _prior(kind: str, free: frozenset[Key]) -> dict[Key, float]:

@@ -21,9 +21,10 @@ from pyimu.identification.fit.trial import rest_noise
 from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.identification.found import Added
 from pyimu.identification.heading_error import heading_rms
-from pyimu.identification.held_out import attitude_rms, scores
+from pyimu.identification.held_out import at_rest, attitude_rms, scores
 from pyimu.identification.made_with import MadeWith
 from pyimu.identification.overview import Overview, overview
+from pyimu.identification.reference.gravity import few
 from pyimu.identification.references import references
 from pyimu.identification.result import Closed
 from pyimu.identification.search.ceiling import is_ceiling
@@ -110,6 +111,7 @@ def conclude(
         next=advice(found, model_after, seen, logs, not_examined, not others),
         made_with=made_with,
         heading=heading_rms(found.get("gyro")),
+        at_rest=at_rest(found),
     )
 
 
@@ -125,11 +127,13 @@ def _overview(r: Recording, found: Found, quality: tuple) -> Overview:
 def _unexamined(found: Found, logs: list[Recording]) -> dict[str, str]:
     """Why a sensor of the logs was not looked at, by its kind."""
     reasons = {
-        "gyro": "the gyro was not examined: no reference of its rate, and it moves",
-        "accel": "the accelerometer was not examined: no reference of its force, and it moves",
+        "gyro": lambda: "the gyro was not examined: no reference of its rate, and it moves",
+        "accel": lambda: (
+            f"the accelerometer was not examined: no reference of its force, and {few(logs)}"
+        ),
     }
     there = {k for k in reasons if any(getattr(r, k) is not None for r in logs)}
-    return {k: reason for k, reason in reasons.items() if k in there - set(found)}
+    return {k: reason() for k, reason in reasons.items() if k in there - set(found)}
 
 
 def _exhibits(found: Found, added: list[Added]) -> dict[str, Exhibits]:

@@ -12,7 +12,6 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.signal import welch
 
-from pyimu.identification.fit.noise_floor import floor_noise
 from pyimu.identification.fit.columns import (
     LogState,
     band_segments,
@@ -22,6 +21,8 @@ from pyimu.identification.fit.columns import (
     residual,
 )
 from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.left_out import left_out
+from pyimu.identification.fit.noise_floor import floor_noise
 from pyimu.identification.fit.score import held_state
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk
@@ -139,6 +140,8 @@ def _seen(before: Fit, after: Fit, trial: Trial) -> tuple[Trace, Trial, LogState
 
     Gives the rows looked at, too, and the log's state under the second.
     """
+    if trial.reduction is not None:
+        return _judged(before, after, trial)
     (state_before, rest), (state, _) = _state(before, trial), _state(after, trial)
     first, second = (
         in_band(rest, residual(f.sensor, rest, s))
@@ -154,6 +157,17 @@ def _seen(before: Fit, after: Fit, trial: Trial) -> tuple[Trace, Trial, LogState
         period=rest.h * rest.band.stride,
     )
     return trace, rest, state
+
+
+def _judged(before: Fit, after: Fit, trial: Trial) -> tuple[Trace, Trial, LogState]:
+    """The same of rows that are each judged by a fit to the others; one of which these say nothing
+    is met exactly.
+    """
+    first, second = (left_out(fit, trial) for fit in (before, after))
+    errors = (np.nan_to_num(one.error)[:, None] * one.along for one in (first, second))
+    time = trial.reduction.time
+    trace = Trace(trial.name, time, [(0, len(time))], *errors, trial.axes, trial.h)
+    return trace, trial, held_state(after, trial)[0]
 
 
 def _state(fit: Fit, trial: Trial) -> tuple[LogState, Trial]:
@@ -184,7 +198,8 @@ def _of_effect(a: Added, inv: Investigation) -> tuple[Cloud | Comb, ...]:
         return ()
     e = inv.after.sensor.effect(a.effect)
     bare = replace(inv.after, sensor=inv.after.sensor.without(a.effect))
-    seen = [_seen(bare, inv.after, t) for t in (*inv.after.trials, *inv.held)]
+    others = (t for t in inv.held if t.reduction is None or t.parent is None)
+    seen = [_seen(bare, inv.after, t) for t in (*inv.after.trials, *others)]
     without, with_effect = (
         np.concatenate([getattr(trace, name) for trace, _, _ in seen])
         for name in ("before", "after")
@@ -212,10 +227,10 @@ def _of_effect(a: Added, inv: Investigation) -> tuple[Cloud | Comb, ...]:
 def _driver(a: Added, e: Effect, i: int, trials: Sequence[Trial]) -> Driver:
     """What drives an effect on axis ``i``."""
     kind = KINDS[trials[0].kind]
-    needed = sorted(e.signals(kind.name))
-    if e.stage == "dynamics":
+    needed, whole = sorted(e.signals(kind.name)), any(t.reduction is not None for t in trials)
+    if e.stage == "dynamics" and not whole:
         return Driver(kind.own, i, SIGNALS[kind.own].unit, change=True)
-    if needed and (e.stage in ("motion", "gain") or len(needed) > 1):
+    if whole or (needed and (e.stage in ("motion", "gain") or len(needed) > 1)):
         return Driver("contribution", None, kind.unit)
     signal = needed[0] if needed else kind.own
     matrix = next((v for v, _, _ in a.parameters.values() if np.ndim(v) == 2), None)
@@ -257,6 +272,8 @@ def _combs(a: Added, trials: Sequence[Trial]) -> tuple[Comb, ...]:
 
 def _spectrum(inv: Investigation, traces: Sequence[Trace], trial: Trial) -> Spectrum | None:
     """None where no segment is long enough."""
+    if trial.reduction is not None:
+        return None
     before, after = (density(traces, name) for name in ("before", "after"))
     if before is None or after is None:
         return None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
 import numpy as np
@@ -96,7 +96,8 @@ class Errors:
     """Held-out error of one sensor before, after, and as the noise alone would leave it.
 
     ``floor`` is what the white noise of sensor and reference leaves, ``drift`` what the random walk
-    of the sensor would add to it.
+    of the sensor would add to it. ``data`` says what was held out where that is not the same for
+    all sensors.
     """
 
     unit: str
@@ -104,6 +105,7 @@ class Errors:
     after: ErrorSums
     floor: ErrorSums | None
     drift: ErrorSums | None = None
+    data: str = ""
 
     @property
     def noise(self) -> float:
@@ -116,10 +118,12 @@ class Errors:
     def __add__(self, other: Errors) -> Errors:
         before, after = self.before + other.before, self.after + other.after
         floor, drift = _both(self.floor, other.floor), _both(self.drift, other.drift)
-        return Errors(self.unit, before, after, floor, drift)
+        return Errors(self.unit, before, after, floor, drift, self.data)
 
     def as_dict(self) -> dict[str, Any]:
-        return {"unit": self.unit} | self._row("total") | {"per_axis": self._row("per_axis")}
+        data = {"data": self.data} if self.data else {}
+        row = {"unit": self.unit} | self._row("total") | {"per_axis": self._row("per_axis")}
+        return row | data
 
     def angle_dict(self, window: float) -> dict[str, Any]:
         return (
@@ -135,6 +139,30 @@ class Errors:
 
 def _both(one: ErrorSums | None, other: ErrorSums | None) -> ErrorSums | None:
     return None if one is None or other is None else one + other
+
+
+@dataclass(frozen=True)
+class AtRest:
+    """RMS error of gravity at rest in all logs: as measured, and before and after with each of
+    ``folds`` left out of the fit in turn.
+
+    Of an accelerometer it is that of gravity's size, in m/s^2, and a fold is a position; of a gyro
+    the angle, in rad, by which its turn from one rest to the next misses gravity's direction, and a
+    fold is a turn; as measured less the bias of its rests. Of ``errors`` some are not ``judged``,
+    because they alone show a coefficient.
+    """
+
+    sensor: str
+    unit: str
+    folds: int
+    errors: int
+    judged: int
+    as_measured: float
+    before: float
+    after: float
+
+    def as_dict(self) -> dict[str, Any]:
+        return {k: plain(v) for k, v in asdict(self).items() if k != "sensor"}
 
 
 @dataclass(frozen=True)

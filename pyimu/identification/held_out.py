@@ -7,16 +7,22 @@ from typing import Any
 import numpy as np
 
 from pyimu.identification.attitude_error import attitude_error
+from pyimu.identification.fit.left_out import as_measured, left_out
 from pyimu.identification.fit.noise_floor import floor_noise, reference_variance
 from pyimu.identification.fit.score import ErrorSums, floor, held_state, tally
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk
-from pyimu.identification.found import Errors, LogEntry
+from pyimu.identification.found import AtRest, Errors, LogEntry
+from pyimu.identification.reference.gravity import typical_wander
+from pyimu.identification.search.belief import FARTHEST
 from pyimu.identification.search.forward import Investigation
 from pyimu.model.part import Part
 from pyimu.recording.recording import Recording
 
 Scores = tuple[dict[str, Errors], tuple[LogEntry, ...], tuple[float, float] | None]
+
+FOLDS = {"accel": "each position at rest in turn", "gyro": "each turn between rests in turn"}
+"""What is left out of the fit and judged by it."""
 
 
 def scores(
@@ -43,6 +49,8 @@ def scores(
 def _errors(
     inv: Investigation, trial: Trial, noise: dict[int, RandomWalk], reference: np.ndarray
 ) -> Errors:
+    if trial.reduction is not None:
+        return _errors_of_rows(inv, trial)
     white = {i: RandomWalk(n.r, 0.0) for i, n in noise.items()}
     walk = {i: RandomWalk(0.0, n.k2) for i, n in noise.items()}
     drift = floor(walk, inv.after, trial) if any(n.k2 for n in noise.values()) else None
@@ -53,6 +61,47 @@ def _errors(
         floor(white, inv.after, trial).with_variance(reference),
         drift or ErrorSums(),
     )
+
+
+def _errors_of_rows(inv: Investigation, trial: Trial) -> Errors:
+    """Errors of rows that are each judged by a fit to the others."""
+    before, after = left_out(inv.before, trial), left_out(inv.after, trial)
+    likely = (ErrorSums(log_likelihood=one.log_likelihood) for one in (before, after))
+    sums = (one.sums(one.error**2) + e for one, e in zip((before, after), likely, strict=True))
+    wander = trial.reduction.wander.max()
+    # More than any sensor wanders is no noise, but something that the model lacks.
+    most = min(1.0, (FARTHEST * typical_wander(trial.kind)) ** 2 / wander)
+    unit, shares = inv.after.sensor.output.unit, (after.white, most * after.wander)
+    noise = (after.sums(v) for v in shares)
+    return Errors(unit, *sums, *noise, data=FOLDS[trial.kind])
+
+
+def at_rest(found: dict[str, Investigation]) -> tuple[AtRest, ...]:
+    """The errors of gravity at rest where it was a sensor's reference."""
+    of_rests = {
+        kind: [t for t in found[kind].held if t.reduction is not None]
+        for kind in ("accel", "gyro")
+        if kind in found
+    }
+    return tuple(_at_rest(found[kind], trials) for kind, trials in of_rests.items() if trials)
+
+
+def _at_rest(inv: Investigation, trials: list[Trial]) -> AtRest:
+    bare, before, after = (
+        np.concatenate([t.reduction.of_gravity(e(t)) for t in trials])
+        for e in (
+            as_measured,
+            lambda t: left_out(inv.before, t).error,
+            lambda t: left_out(inv.after, t).error,
+        )
+    )
+    judged = np.isfinite(before) & np.isfinite(after)
+    rows = int(judged.sum()) or np.nan
+    rms = (float(np.sqrt(np.sum(e[judged] ** 2) / rows)) for e in (bare, before, after))
+    folds = sum(len(np.unique(t.reduction.group)) for t in trials)
+    kind = trials[0].kind
+    unit = inv.after.sensor.output.unit if kind == "accel" else "rad"
+    return AtRest(kind, unit, folds, len(judged), int(judged.sum()), *rms)
 
 
 def _per_row(e: Errors) -> np.ndarray:

@@ -12,7 +12,7 @@ from pyimu.identification.estimated import Estimated
 from pyimu.identification.exhibits import Exhibits
 from pyimu.identification.fates import Fate
 from pyimu.identification.fit.score import WINDOW
-from pyimu.identification.found import Added, Changed, Errors, LogEntry, Visibility
+from pyimu.identification.found import Added, AtRest, Changed, Errors, LogEntry, Visibility
 from pyimu.identification.made_with import MadeWith
 from pyimu.identification.search.forward import Refused
 from pyimu.identification.search.leftover import Unexplained
@@ -49,6 +49,7 @@ class Outcome:
     next: tuple[Advice, ...] = ()
     made_with: MadeWith | None = None
     heading: tuple[float, float] | None = None
+    at_rest: tuple[AtRest, ...] = ()
 
     def as_dict(self, model: str = "model.toml", fmus: tuple[str, ...] = ()) -> dict[str, Any]:
         """The contents of report.json."""
@@ -91,7 +92,12 @@ class Outcome:
             "attitude": _pair("rad", self.attitude),
             "heading": _pair("rad", self.heading),
             "band_hz": self.band_hz,
+            "gravity": self._gravity("accel"),
+            "gravity_direction": self._gravity("gyro"),
         }
+
+    def _gravity(self, kind: str) -> dict[str, Any] | None:
+        return next((g.as_dict() for g in self.at_rest if g.sensor == kind), None)
 
 
 def _pair(unit: str, values: tuple[float, float] | None) -> dict[str, Any] | None:

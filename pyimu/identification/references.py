@@ -9,8 +9,8 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from pyimu.files import plain
-from pyimu.identification.fit.noise_floor import reference_variance
 from pyimu.identification.fit.clock import Clock
+from pyimu.identification.fit.noise_floor import reference_variance
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.held_out import log_state
 from pyimu.identification.search.forward import Investigation

@@ -118,6 +118,12 @@ def _rounding(step: np.ndarray, median: float) -> float:
     return unit if np.var(drift[m:] - drift[:-m]) < unit**2 / 2 else 0.0
 
 
+def runs(flags: np.ndarray) -> list[tuple[int, int]]:
+    """Ranges (start, stop) of true flags."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], flags.astype(np.int8), [0]])))
+    return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))
+
+
 def segments(gaps: np.ndarray, count: int) -> list[tuple[int, int]]:
     """Index ranges (start, stop) of ``count`` rows between the ``gaps`` (m,).
 

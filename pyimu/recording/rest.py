@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyimu.errors import Finding
+from pyimu.recording.clock import runs
 from pyimu.recording.recording import Recording
 
 SECOND = 1.0
@@ -45,6 +46,10 @@ RARE = 0.005
 
 ONE_SHOCK = 2
 """Changes that a single shock makes, there and back."""
+
+PHASES = 10
+"""Parts of a second at which the seconds of a rest may begin: a rest of a few is not to be cut to
+whole ones of the log's."""
 
 PIECE = 1 << 20
 """Samples that are looked at together, at most: a column may be longer than memory."""
@@ -210,6 +215,24 @@ def still_rows(recording: Recording, seconds: float = SECOND) -> list[tuple[int,
             rows = set(one.first[~(moving | begins)].tolist())
             still, length = rows if still is None else still & rows, one.length
     return _joined(sorted(still or ()), length)
+
+
+def rests(recording: Recording) -> list[tuple[int, int]]:
+    """Segments of rows at rest: as the column ``stationary`` says, else as the samples tell, whose
+    still seconds may begin at any tenth of one.
+    """
+    if recording.stationary is None:
+        return _at_any_phase(recording)
+    marked = recording.stationary > 0.5
+    return [(a + i, a + j) for a, b in recording.segments for i, j in runs(marked[a:b])]
+
+
+def _at_any_phase(recording: Recording) -> list[tuple[int, int]]:
+    still, step = np.zeros(len(recording), dtype=bool), SECOND / recording.sample_period / PHASES
+    for start in sorted({round(k * step) for k in range(PHASES)}):
+        for a, b in still_rows(recording.slice(start)) if start < len(recording) else ():
+            still[start + a : start + b] = True
+    return [(a + i, a + j) for a, b in recording.segments for i, j in runs(still[a:b])]
 
 
 def _joined(first: list[int], length: int) -> list[tuple[int, int]]:

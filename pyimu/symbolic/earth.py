@@ -29,3 +29,21 @@ def transport_rate(latitude, velocity, radius: float = EARTH_RADIUS):
     """
     east, north = velocity[0] / radius, velocity[1] / radius
     return ca.vertcat(-north, east, east * ca.tan(latitude))
+
+
+EQUATORIAL_GRAVITY, GRAVITY_SLOPE, ECCENTRICITY_SQUARED = (
+    9.7803253359,
+    1.93185265241e-3,
+    6.69437999014e-3,
+)
+"""m/s^2, 1 and 1: of Somigliana's formula, WGS 84 (NIMA TR8350.2, third edition, table 3.4)."""
+
+
+def normal_gravity(latitude):
+    """Magnitude of gravity in m/s^2 on the ellipsoid at ``latitude`` rad.
+
+    NIMA TR8350.2, eq. 4-1 (Somigliana); above the ellipsoid it falls by 3.086e-6 m/s^2 a metre.
+    """
+    square = ca.sin(latitude) ** 2
+    bent = (1 - ECCENTRICITY_SQUARED * square) ** 0.5
+    return EQUATORIAL_GRAVITY * (1 + GRAVITY_SLOPE * square) / bent

@@ -62,7 +62,7 @@ def test_a_gyro_without_fault_is_not_blamed_and_its_heading_follows(k, late, dow
     before, after = np.degrees(closed.heading)
     # The course of a smoothed position of 3 cm at 3 m/s and 10 Hz: under 1 deg.
     assert after < 1.0 and (before > 4.0) == (late != 0.0)
-    assert f"-> {after:.3g} deg" in closed.report()
+    assert "heading error" in closed.report()
     assert closed.as_dict()["error"]["heading"]["after"] == closed.heading[1]
 
 

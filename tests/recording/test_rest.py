@@ -11,6 +11,7 @@ from pyimu.recording.rest import (
     is_at_rest,
     motion_in,
     motion_of,
+    rests,
     seconds_of,
     still_rows,
 )
@@ -76,6 +77,13 @@ def test_rests_are_found_where_they_are():
     """The second in which a turn begins or ends is not counted, so up to two are missing."""
     rate = np.where((time() > 40) & (time() < 70), 0.3, 0.0)
     assert still_rows(log(rate=rate)) == [(0, 3900), (7100, 12000)]
+
+
+def test_rests_are_where_the_log_says_so():
+    """The column wins over the samples, and a gap parts a rest."""
+    marks = np.where((time() > 10) & (time() < 40), 1.0, 0.0)
+    assert rests(log(rate=0.3 * marks, stationary=marks)) == [(1001, 4000)]
+    assert rests(log(rate=np.zeros(len(marks)))) == [(0, len(marks))]
 
 
 def test_a_body_that_shakes_is_not_still():

@@ -142,6 +142,18 @@ def test_mrp_is_the_rotation_vector_to_second_order_and_a_quarter_of_it_for_unit
     np.testing.assert_allclose(np.array(curvature(np.zeros(3))), 0, atol=1e-16)
 
 
+@pytest.mark.parametrize("degrees", [0.0, 45.0, 70.0, 90.0])
+def test_normal_gravity_lies_between_equator_and_pole(degrees):
+    """Somigliana's formula in its first form, by both semi-axes and the gravity at their ends (NIMA
+    TR8350.2, table 3.4), whose digits allow 1e-9.
+    """
+    c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+    a, b, equator, pole = 6378137.0, 6356752.3142, 9.7803253359, 9.8321849378
+    ends = a * equator * c**2 + b * pole * s**2
+    closed = ends / np.sqrt((a * c) ** 2 + (b * s) ** 2)
+    assert abs(earth.normal_gravity(np.radians(degrees)) - closed) < 1e-9
+
+
 @pytest.mark.parametrize("latitude", [-1.2, 0.0, 0.9])
 def test_earth_rate_is_the_polar_axis_turned_into_east_north_up(latitude):
     """The frame at longitude zero: east is y of the Earth, up lies in the meridian."""

@@ -8,7 +8,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pyimu.identification.fit.keys import Key, LogBias, LogTurn, coefficient_of
+from pyimu.identification.fit.keys import Coefficient, Key, LogBias, LogTurn, coefficient_of
+from pyimu.identification.fit.reduction import Rows
 from pyimu.identification.fit.response import (
     after_dynamics,
     before_dynamics,
@@ -21,6 +22,7 @@ from pyimu.identification.fit.response import (
 )
 from pyimu.identification.fit.trial import Trial
 from pyimu.model.arguments import Parameter
+from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.kinds import OWN
 from pyimu.model.sensor import Sensor
 
@@ -120,7 +122,8 @@ def linearise(
     of their own (scans, generic inputs).
     """
     wanted = frozenset(wanted)
-    u = reference_input(trial, state)
+    rows = None if trial.reduction is None else trial.rows(sensor, state.bias)
+    u = reference_input(trial, state) if rows is None else rows.u
     own = OWN[trial.kind]
     moved = behind_dynamics(sensor, u, trial.segments, trial.h)
     rest = after_dynamics(sensor)
@@ -138,6 +141,8 @@ def linearise(
     _dynamics_columns(out, sensor, trial, u, wanted)
     for function in extra:
         function(trial, u, y, out.add)
+    if rows is not None:
+        return reduced(trial, rows, out.items)
     keys, columns = out.filtered()
     return Linear(
         band_time(trial),
@@ -145,6 +150,29 @@ def linearise(
         in_band(trial, trial.y - y - state.bias),
         keys,
         columns,
+    )
+
+
+def reduced(trial: Trial, rows: Rows, items: Iterable[tuple[Key, int, np.ndarray]] = ()) -> Linear:
+    """A trial of rows that are not samples, white, as one axis: ``items`` are columns at the sample
+    rate, by axis.
+    """
+    columns: dict[Key, np.ndarray] = {}
+    for key, axis, values in items:
+        if not (trial.reduction.any_turn and _is_turn(key)):
+            columns[key] = columns.get(key, 0.0) + rows.weights[axis] @ values
+    made = np.column_stack([rows.residual, *columns.values()])
+    white = trial.reduction.whiten(made)
+    time = trial.reduction.time
+    return Linear(time, [(0, len(time))], white[:, :1], {0: list(columns)}, {0: white[:, 1:]})
+
+
+def _is_turn(key: Key) -> bool:
+    """Whether a coefficient of a mounting's effect lies below the diagonal: where the whole triad
+    may turn, those above it say all there is.
+    """
+    return isinstance(key, Coefficient) and (
+        CATALOGUE[key.effect].mounting and key.index[0] > key.index[1]
     )
 
 

@@ -17,10 +17,12 @@ from pyimu.identification.fit.columns import (
     band_time,
     in_band,
     linearise,
+    reduced,
     residual,
 )
 from pyimu.identification.fit.keys import Coefficient, Key, LogBias, LogTurn, coefficients_of
 from pyimu.identification.fit.normal import Noise, Normal, normal_equations, solve
+from pyimu.identification.fit.reduction import Unit
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
 from pyimu.model.arguments import Parameter
@@ -63,9 +65,13 @@ class Fit:
 
     def residuals(self) -> list[Linear]:
         """All trials' residuals in their band, without columns."""
-        return [
-            bare(t, in_band(t, residual(self.sensor, t, self.states[t.name]))) for t in self.trials
-        ]
+        return [self._residual(t) for t in self.trials]
+
+    def _residual(self, trial: Trial) -> Linear:
+        state = self.states[trial.name]
+        if trial.reduction is not None:
+            return reduced(trial, trial.rows(self.sensor, state.bias))
+        return bare(trial, in_band(trial, residual(self.sensor, trial, state)))
 
     def with_noise(self) -> Fit:
         """The same model with the noise fitted to its present residual."""
@@ -85,6 +91,8 @@ def bare(trial: Trial, r: np.ndarray) -> Linear:
 
 def fit_noise(trials: tuple[Trial, ...], residuals: list[Linear], coloured: bool = False) -> Noise:
     """Noise model of each axis, one for all logs: the whitening follows what the reference is."""
+    if any(t.reduction is not None for t in trials):
+        return {0: Unit()}
     derived = coloured or any(t.reference in DERIVED for t in trials)
     made = {}
     for i in sorted({i for t in trials for i in t.axes}):
@@ -98,6 +106,8 @@ def initial_state(sensor: Sensor, trial: Trial) -> LogState:
     what is left.
     """
     rotation = np.eye(3)
+    if trial.reduction is not None:
+        return LogState(np.array(trial.reduction.bias))
     if trial.free_rotation:
         x, y = (in_band(trial, v) for v in (trial.u[:, OWN[trial.kind]], trial.y))
         # Turns whose size the two sides tell apart (a clipped sensor, a bad reference) would bend

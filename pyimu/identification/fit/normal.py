@@ -9,13 +9,14 @@ import numpy as np
 
 from pyimu.identification.fit.columns import Linear
 from pyimu.identification.fit.keys import Key
+from pyimu.identification.fit.reduction import Unit
 from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
 
 BATCHES = 80
 """Batches into which all rows are cut to see how much the scores really scatter."""
 
 
-Noise = dict[int, "RandomWalk | Autoregressive"]
+Noise = dict[int, "RandomWalk | Autoregressive | Unit"]
 
 
 @dataclass

@@ -18,6 +18,8 @@ from numpy.lib.stride_tricks import sliding_window_view
 from scipy.linalg import solve_toeplitz
 from scipy.signal import lfilter
 
+from pyimu.identification.fit.columns import Linear, band_segments, band_time, in_band
+from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.noise_floor import (
     QUIET,
     beyond_own,
@@ -26,8 +28,6 @@ from pyimu.identification.fit.noise_floor import (
     quietest,
     windows,
 )
-from pyimu.identification.fit.columns import Linear, band_segments, band_time, in_band
-from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.normal import Normal, normal_equations
 from pyimu.identification.fit.trial import Trial
 from pyimu.model.kinds import KINDS, OWN
@@ -59,6 +59,8 @@ def with_reference_noise(fit: Fit, held: list[Trial], seed: int = 1) -> tuple[Fi
     """The fit and the held-out trials with a draw of their reference's noise, where there is any
     to speak of.
     """
+    if any(t.reduction is not None for t in fit.trials):
+        return fit, held
     seen, unseen = (np.array([f(fit, i) for i in range(3)]) for f in (_in_quiet, _unseen))
     variance = np.minimum.reduce([beyond_own(fit), seen, unseen])
     total = [np.concatenate([one.residual[:, i] for one in fit.residuals()]) for i in range(3)]

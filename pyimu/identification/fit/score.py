@@ -12,10 +12,10 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pyimu.identification.fit.noise_floor import simulated
 from pyimu.identification.fit.columns import LogState, band_segments, in_band, linearise, residual
 from pyimu.identification.fit.fit import Fit, bare, initial_state
 from pyimu.identification.fit.keys import LogTurn
+from pyimu.identification.fit.noise_floor import simulated
 from pyimu.identification.fit.normal import normal_equations, solve
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk
@@ -28,6 +28,9 @@ ROTATION_PRIOR, LEAST_PRIOR = 0.05, 1e-4
 least that is taken where several agree."""
 
 FLOOR_DRAWS = 8
+
+STEPS = 3
+"""Newton steps to the state of a log that was not fitted."""
 
 
 @dataclass(frozen=True)
@@ -74,6 +77,8 @@ def _root(squares, count):
 
 def held_state(fit: Fit, trial: Trial) -> tuple[LogState, Trial]:
     """State of a held-out log under a model, and the rows that are left to score."""
+    if trial.reduction is not None:
+        return fit.states[trial.name] if trial.name in fit.states else _own_state(fit, trial), trial
     if trial.parent is not None:
         parent = next(t for t in fit.trials if t.name == trial.parent)
         state = replace(fit.states[parent.name], bias=np.zeros(3))
@@ -82,6 +87,16 @@ def held_state(fit: Fit, trial: Trial) -> tuple[LogState, Trial]:
         ), trial
     head, rest = trial.head()
     return _head_state(fit, head), rest
+
+
+def _own_state(fit: Fit, trial: Trial) -> LogState:
+    """State of a log whose rows are judged by each other, from all of them."""
+    state = LogState(np.array(trial.reduction.bias))
+    for _ in range(STEPS):
+        normal = normal_equations([linearise(fit.sensor, trial, state, ())], fit.noise)
+        for key, change in zip(normal.keys, solve(normal.gram, normal.score), strict=True):
+            state = state.moved(key, change)
+    return state
 
 
 def _head_state(fit: Fit, head: Trial) -> LogState:

@@ -14,13 +14,15 @@ from pyimu.block.stepping import step_through
 from pyimu.errors import Finding
 from pyimu.identification.fit.band import Band
 from pyimu.identification.fit.clock import Clock
+from pyimu.identification.fit.reduction import Reduction, Rows
 from pyimu.identification.fit.surroundings import without_noise
 from pyimu.model.kinds import OWN
+from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS, SIGNALS, START, SURROUNDINGS
+from pyimu.recording.clock import runs
 from pyimu.recording.quality.spikes import spikes
 from pyimu.recording.recording import Recording, filled
 from pyimu.recording.reference.rate import reference_rate
-from pyimu.recording.reference.track import runs
 
 SETTLE = 32
 """Rows at the start of a segment that are not counted: nobody knows what a lag or delay remembers
@@ -46,13 +48,14 @@ class Trial:
     ``y`` (n, 3) measured, ``u`` (n, N_INPUT) reference inputs (at their start values where nobody
     knows them), ``known`` the signals that are really known, ``axes`` those that the reference
     covers, ``segments`` the ranges without gap. ``reference`` is "rate", "attitude", "heading",
-    "course", "force" or "static"; ``free_rotation`` says that the reference's mounting is not
-    known. ``parent`` names the fitted trial that has the same power-on, if any; ``left_out`` (n,)
-    marks samples that are missing or carry no information (spikes, repeats, at a limit), heeded
-    where no band mixes them with their neighbours. ``band_hz`` is the band of a derived reference,
-    at most ``band_limit``; ``clock`` what was taken out of the reference's clock; ``up`` (3,) the
-    direction upward in the sensor's axes where the reference knows only the turn about it; ``noise``
-    (n, 3) a draw of the reference's noise, where it has any to speak of.
+    "course", "force", "gravity" or "static"; ``free_rotation`` says that the reference's mounting
+    is not known. ``parent`` names the fitted trial that has the same power-on, if any; ``left_out``
+    (n,) marks samples that are missing or carry no information (spikes, repeats, at a limit),
+    heeded where no band mixes them with their neighbours. ``band_hz`` is the band of a derived
+    reference, at most ``band_limit``; ``clock`` what was taken out of the reference's clock; ``up``
+    (3,) the direction upward in the sensor's axes where the reference knows only the turn about it;
+    ``noise`` (n, 3) a draw of the reference's noise, where it has any to speak of. ``reduction`` is
+    how samples become rows where these are whole stretches of the log.
     """
 
     name: str
@@ -74,6 +77,7 @@ class Trial:
     clock: Clock | None = None
     noise: np.ndarray | None = None
     up: np.ndarray | None = None
+    reduction: Reduction | None = None
 
     @property
     def band(self) -> Band:
@@ -93,8 +97,19 @@ class Trial:
         return [(a + i, a + j) for a, b in settled for i, j in runs(~self.left_out[a:b])]
 
     @property
+    def any_turn(self) -> bool:
+        """Whether a turn of the whole triad is not the sensor's to answer for."""
+        return self.free_rotation or (self.reduction is not None and self.reduction.any_turn)
+
+    @property
     def count(self) -> int:
+        if self.reduction is not None:
+            return self.reduction.samples
         return sum(b - a for a, b in self.row_segments)
+
+    def rows(self, sensor: Sensor, bias: np.ndarray) -> Rows:
+        """What the stretches that are this trial's rows say under a model and a ``bias`` (3,)."""
+        return self.reduction.rows(sensor, self.y - bias, self.u, self.segments, self.h)
 
     def part(self, start: int, stop: int, **changes) -> Trial:
         """Rows start to stop as a trial of their own."""
@@ -118,7 +133,11 @@ class Trial:
     def split(self, held_out: float) -> tuple[Trial, Trial]:
         """The rows to fit and the last ``held_out`` of those that a reference covers to judge
         by.
+
+        Of rows that are not samples none is held out: each is judged by a fit to the others.
         """
+        if self.reduction is not None:
+            return self, replace(self, parent=self.name)
         rows = np.concatenate([np.arange(a, b) for a, b in self.segments] or [np.arange(0)])
         at = int(rows[round(len(rows) * (1.0 - held_out))]) if len(rows) > 1 else len(self.time)
         return self.part(0, at), self.part(at, len(self.time), parent=self.name)
@@ -154,7 +173,7 @@ def gyro_trial(recording: Recording, latitude: float | None = None) -> Trial | N
         for i in range(3)
         if np.isfinite(reference.rate[:, i]).any() and np.isfinite(recording.gyro[:, i]).any()
     )
-    u, known = _environment(recording)
+    u, known = environment(recording)
     u[:, OWN["gyro"]] = np.where(np.isfinite(reference.rate), reference.rate, 0.0)
     known = known | {"rate"} | _slope(u, recording, "rate", "angular_acceleration")
     if reference.kind == "static":
@@ -185,7 +204,7 @@ def accel_trial(recording: Recording, static: bool) -> Trial | None:
     """
     if recording.accel is None or (recording.ref_force is None and not static):
         return None
-    u, known = _environment(recording)
+    u, known = environment(recording)
     force = recording.ref_force
     if force is None:
         force = np.broadcast_to(np.nanmean(recording.accel, axis=0), recording.accel.shape)
@@ -210,7 +229,7 @@ def accel_trial(recording: Recording, static: bool) -> Trial | None:
     )
 
 
-def _environment(recording: Recording) -> tuple[np.ndarray, frozenset[str]]:
+def environment(recording: Recording) -> tuple[np.ndarray, frozenset[str]]:
     """Inputs (n, N_INPUT) that are not the sensor's own, and which of them are known; the others
     stand at their start values.
     """
@@ -354,6 +373,8 @@ def rest_noise(trial: Trial) -> np.ndarray:
     Third differences take out motion up to a tenth of the sample rate; those of white noise have 20
     times its variance.
     """
+    if trial.reduction is not None:
+        return trial.reduction.sample_std
     length = max(8, round(1.0 / trial.h))
     pieces = [
         trial.y[k : k + length]

@@ -51,7 +51,12 @@ def measure(trial: Trial, sensor: Sensor) -> Clock | None:
 
     Where too few rows follow the reference for a lag to be seen, its ``std`` is infinite.
     """
-    if trial.reference == "static" or not trial.segments or not moves(trial):
+    if (
+        trial.reference == "static"
+        or trial.reduction is not None
+        or not trial.segments
+        or not moves(trial)
+    ):
         return None
     clock = Clock(trial.time[:1], np.array([_coarse(trial)]), 0.0, 0.0)
     for _ in range(ROUNDS):

@@ -11,7 +11,7 @@ from pyimu.identification.fit.score import WINDOW
 from pyimu.identification.found import Errors
 from pyimu.identification.outcome import Outcome
 from pyimu.identification.report import pictures
-from pyimu.identification.report.words import QUANTITIES
+from pyimu.identification.report.words import QUANTITIES, gravity_at_rest
 from pyimu.report.numbers import MISSING, number, quantity, unit_for
 from pyimu.report.page import Picture, Table, both, file_name, prose
 
@@ -123,6 +123,12 @@ def error_notes(closed: Outcome) -> list[str]:
     )
     floor = "The floor is what the white noise of sensor and reference leaves of the same number."
     notes = [f"Held out: {where}. {floor}"]
+    for g in closed.at_rest:
+        rows = "rests" if g.sensor == "accel" else "turns between rests, by their time"
+        notes.append(
+            f"Rows of the {QUANTITIES[g.sensor]} are {rows}, each judged by a fit to the others; "
+            f"the error of an axis is what lies along it: {gravity_at_rest(g)}."
+        )
     for kind, e in closed.errors.items():
         if e.drift is not None and e.drift.total > 0:
             walk = quantity(e.drift.total, e.unit)

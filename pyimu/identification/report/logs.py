@@ -135,6 +135,7 @@ KINDS_OF_REFERENCE = {
     "heading": ("heading", "differentiated"),
     "course": ("course", "differentiated"),
     "force": ("force",),
+    "gravity": ("gravity", "in rests"),
     "static": ("rest",),
 }
 

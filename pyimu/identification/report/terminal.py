@@ -10,7 +10,7 @@ from pyimu.identification.as_part import SENSORS
 from pyimu.identification.outcome import Outcome
 from pyimu.identification.report.coefficients import LEGEND, rows
 from pyimu.identification.report.next import gains
-from pyimu.identification.report.words import QUANTITIES, missing, si_of
+from pyimu.identification.report.words import QUANTITIES, gravity_at_rest, missing, si_of
 from pyimu.report.lines import in_columns
 from pyimu.report.numbers import in_unit, joined, number, unit_for
 
@@ -81,7 +81,9 @@ def _errors(closed: Outcome) -> Iterator[str]:
             if e.noise > 1.01 * e.floor.total:
                 walk = number(values[1] / e.noise, 2)
                 floor += f" ({walk} times with the random walk that may be in it)"
-        yield f"{QUANTITIES[kind]} residual on {where}: {_fall(values, e.unit)}{left}{floor}"
+        rows = e.data or where
+        yield f"{QUANTITIES[kind]} residual on {rows}: {_fall(values, e.unit)}{left}{floor}"
+    yield from map(gravity_at_rest, closed.at_rest)
     for name in ("attitude", "heading"):
         pair = getattr(closed, name)
         if pair is not None:

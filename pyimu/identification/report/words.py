@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from pyimu.identification.as_part import SENSORS
-from pyimu.identification.found import Added, Errors
+from pyimu.identification.found import Added, AtRest, Errors
 from pyimu.identification.outcome import Outcome
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.report.numbers import (
@@ -176,3 +176,19 @@ def coefficient(value: np.ndarray, si: str) -> str:
         return f"{numbers} on {joined(['xyz'[i] for i in on])}"
     i, j = np.unravel_index(np.nanargmax(np.abs(shown)), shown.shape)
     return f"up to {number(float(abs(shown[i, j])))} {pretty(unit)} ({'xyz'[i]} from {'xyz'[j]})"
+
+
+def gravity_at_rest(g: AtRest) -> str:
+    """How far gravity at rest is off, as measured and with each position or turn left out."""
+    of, fold = ("size", "position") if g.sensor == "accel" else ("direction", "turn")
+    if not g.judged:
+        return f"gravity's {of}: no {fold} at rest can be judged by the {g.folds - 1} others"
+    unit = unit_for(g.as_measured, g.unit)
+    said = [
+        f"{number(float(in_unit(v, g.unit, unit)))} {pretty(unit)}"
+        for v in (g.as_measured, g.before, g.after)
+    ]
+    return (
+        f"gravity's {of} at rest is off by {said[0]} as measured; each of {g.folds} {fold}s left "
+        f"out in turn, by {said[1]} before and {said[2]} after"
+    )

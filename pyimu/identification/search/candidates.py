@@ -112,7 +112,7 @@ def scan_columns(sensor: Sensor, effects: Iterable[Effect]) -> Callable:
     found = [(e, n, p) for e in effects for n, p in e.parameters.items() if p.scan]
 
     def add_all(trial: Trial, u: np.ndarray, y: np.ndarray, add: Callable) -> None:
-        if trial.reference == "static":
+        if trial.reference == "static" or trial.reduction is not None:
             return
         for e, name, p in found:
             for number, value in enumerate(_grid(p, trial, y)):

@@ -8,9 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import chi2
 
-from pyimu.identification.fit.noise_floor import own_noise, reference_variance
 from pyimu.identification.fit.columns import Linear, band_time, in_band, residual
 from pyimu.identification.fit.fit import Fit, bare
+from pyimu.identification.fit.left_out import left_out
+from pyimu.identification.fit.noise_floor import own_noise, reference_variance
 from pyimu.identification.fit.normal import BATCHES
 from pyimu.identification.fit.reference_noise import STEP, changes, has_noise, moved, whitened
 from pyimu.identification.fit.score import held_state
@@ -66,6 +67,12 @@ def evidence(old: Fit, new: Fit, held: Sequence[Trial]) -> Evidence:
     """The evidence of all rows for ``new`` over ``old``, judged with the noise of ``new``."""
     gained, difference, apart = np.zeros(3), np.zeros(3), np.zeros((2, 3))
     for trial in held:
+        if trial.reduction is not None:
+            was, now = left_out(old, trial), left_out(new, trial)
+            gained[0] += now.log_likelihood - was.log_likelihood
+            difference[0] += 0.5 * float(np.nansum((was.error - now.error) ** 2 / now.variance))
+            apart[:, 0] += [np.nansum(was.error**2), np.nansum(now.error**2)]
+            continue
         (state_old, rest), (state_new, _) = held_state(old, trial), held_state(new, trial)
         pairs = ((old.sensor, state_old), (new.sensor, state_new))
         for sign, rows in _rows(rest, pairs):
@@ -75,6 +82,8 @@ def evidence(old: Fit, new: Fit, held: Sequence[Trial]) -> Evidence:
             gained += sign * 0.5 * (powers[0] - powers[1])
             difference += sign * 0.5 * powers[2]
             apart += sign * np.array([np.sum(r**2, axis=0) for r in rows])
+    if any(t.reduction is not None for t in held):
+        return Evidence(gained, difference, apart, apart, None)
     fitted = np.array([_squares(f) for f in (old, new)])
     return Evidence(gained, difference, apart, apart + fitted, _noise(new, held))
 

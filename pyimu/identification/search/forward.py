@@ -15,6 +15,7 @@ from pyimu.identification.fit.fit import Fit, begin
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.maximum_likelihood import fit, fit_and_normal
 from pyimu.identification.fit.normal import Normal
+from pyimu.identification.fit.reduction import STRUCTURE
 from pyimu.identification.fit.reference_noise import with_reference_noise
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.search.belief import unbelievable
@@ -144,7 +145,7 @@ def investigate(
     tried = Tried(after)
     while len(steps) < MOST_EFFECTS:
         say(f"{sensor.kind}: {len(steps)} added, trying {len(last.candidates)} candidates")
-        options = [c for c in last.above() if c.effect not in refused]
+        options = _in_order([c for c in last.above() if c.effect not in refused], after)
         chosen, names = _choose(tried, options, last.gate)
         if chosen is None:
             break
@@ -170,6 +171,17 @@ def investigate(
     return Investigation(
         before, after, tuple(steps), tuple(refused.values()), first, last, tuple(held)
     )
+
+
+def _in_order(options: list[Screened], fit: Fit) -> list[Screened]:
+    """The candidates that come first where rows are stretches of a log: gains before all else.
+
+    So few rows hardly tell a bend from a slope, and slopes are the commoner (effect hierarchy, Wu
+    and Hamada 2009, section 4.6).
+    """
+    if all(t.reduction is None for t in fit.trials):
+        return options
+    return [c for c in options if c.effect in STRUCTURE] or options
 
 
 def _choose(
@@ -229,8 +241,12 @@ def _needed(fitted: Fit, normal: Normal, group: Group, declared: bool) -> bool:
     """
     if is_ceiling(fitted.sensor, group.effect):
         return stops_there(fitted, group.keys[0].index[0])
+    whole = any(t.reduction is not None for t in fitted.trials) and group.effect in STRUCTURE
     return (
-        declared or group.measure is not None or fitted_gain(normal, fitted.sensor, group.keys) > 0
+        declared
+        or whole
+        or group.measure is not None
+        or fitted_gain(normal, fitted.sensor, group.keys) > 0
     )
 
 

@@ -84,7 +84,7 @@ def lack_of_fit(fit: Fit) -> Unexplained | None:
                 / dispersion(projected, (place,))
             )
             found.append((float(chi2.sf(statistic, 1)) * len(wanted), normal.keys[column]))
-    p_value, key = min(found, default=(1.0, None))
+    p_value, key = min(found, key=lambda f: f[0], default=(1.0, None))
     if p_value >= UNEXPLAINED:
         return None
     return Unexplained(

@@ -8,11 +8,12 @@ import numpy as np
 from scipy.signal import correlate
 
 from pyimu.errors import Finding
+from pyimu.recording.clock import runs
 from pyimu.recording.quality.inspect import quietest_force
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.attitude import within
 from pyimu.recording.reference.smoother import smoothed, white_noise
-from pyimu.recording.reference.track import Track, fresh, runs
+from pyimu.recording.reference.track import Track, fresh
 
 CRAWL = 10.0
 """Times its own standard error that a velocity must have for its direction to be a course: the

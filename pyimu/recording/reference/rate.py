@@ -17,11 +17,12 @@ from scipy.interpolate import CubicSpline
 from scipy.spatial.transform import Rotation
 
 from pyimu.errors import Finding, UserError
+from pyimu.recording.clock import runs
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.attitude import attitude_curve, attitude_track, within
 from pyimu.recording.reference.band import trusted_band
 from pyimu.recording.reference.course import course_of, looks_like_degrees, mounted, upward
-from pyimu.recording.reference.track import Track, fresh, runs
+from pyimu.recording.reference.track import Track, fresh
 from pyimu.recording.rest import is_at_rest, motion_in
 from pyimu.symbolic.earth import EARTH_RATE
 

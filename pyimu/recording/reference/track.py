@@ -8,6 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from pyimu.errors import Finding
+from pyimu.recording.clock import runs
 
 LEAST_NODES = 8
 """A segment of a reference with fewer samples is left out."""
@@ -52,12 +53,6 @@ def fresh(values: np.ndarray) -> np.ndarray:
     usual = np.median(lengths)
     held = len(lengths) >= 8 and usual >= 2 and np.mean(np.abs(lengths - usual) <= 1) > 0.8
     return known[new] if held else known
-
-
-def runs(flags: np.ndarray) -> list[tuple[int, int]]:
-    """Ranges (start, stop) of true flags."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], flags.astype(np.int8), [0]])))
-    return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))
 
 
 class Track:
