@@ -13,6 +13,10 @@ from pyimu.model.part import Part
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.attitude import attitude_at
 
+LOST = 0.5
+"""rad; root mean square from which on an attitude is lost: which of two lost ones is further off is
+chance."""
+
 
 @dataclass(frozen=True)
 class AttitudeError:
@@ -29,6 +33,10 @@ class AttitudeError:
     @property
     def rms(self) -> float:
         return float(np.sqrt(np.mean(self.total**2))) if len(self.total) else float("nan")
+
+    @property
+    def is_lost(self) -> bool:
+        return self.rms > LOST
 
 
 def attitude_error(

@@ -10,6 +10,7 @@ import numpy as np
 
 from pyimu.identification.advice import advice
 from pyimu.identification.as_part import as_part, unexamined_left_out
+from pyimu.identification.attitude_error import AttitudeError
 from pyimu.identification.confounds import what_no_log_tells_apart
 from pyimu.identification.declared import changed_noise, drifting, released
 from pyimu.identification.estimated import estimated
@@ -21,7 +22,7 @@ from pyimu.identification.fit.trial import rest_noise
 from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.identification.found import Added
 from pyimu.identification.heading_error import heading_rms
-from pyimu.identification.held_out import at_rest, attitude_rms, scores
+from pyimu.identification.held_out import at_rest, attitudes, scores
 from pyimu.identification.made_with import MadeWith
 from pyimu.identification.overview import Overview, overview
 from pyimu.identification.reference.gravity import few
@@ -60,7 +61,7 @@ def conclude(
 ) -> Closed:
     """The result of the investigations ``found`` of the sensors of a part."""
     say("attitude against the reference")
-    found, model, attitude = settled(start, declared, found, others or logs)
+    found, model, attitude, lost = settled(start, declared, found, others or logs)
     not_examined = _unexamined(found, logs)
     added, changed, drifts = [], [], {}
     for kind, inv in found.items():
@@ -75,7 +76,7 @@ def conclude(
     refused = [(kind, r) for kind, inv in found.items() for r in inv.refused]
     say("error on held-out data")
     errors, entries, likelihood = scores(found, logs, others)
-    beside = (errors, attitude, refused, not_examined)
+    beside = (errors, attitude, refused, not_examined, lost)
     said = verdict(Evidence(added, changed, unexplained, drifts, found, *beside))
     say("the whole model, and what to measure next")
     together = [*logs, *others]
@@ -170,27 +171,51 @@ def model_of(start: Part, declared: Part | None, found: Found) -> Model:
 
 def settled(
     start: Part, declared: Part | None, found: Found, logs: list[Recording]
-) -> tuple[Found, Model, tuple[float, float] | None]:
+) -> tuple[Found, Model, tuple[float, float] | None, tuple[str, ...]]:
     """What was found less the effects that make the filter's attitude worse.
 
-    Gives the model that it makes, too, and the attitude's error before and after.
+    Gives the model that it makes, too, the attitude's error before and after, and of each log in
+    which both are lost, so that they are not compared, what is to be said.
     """
     while True:
         model, inv = model_of(start, declared, found), found.get("gyro")
-        before, after = (attitude_rms(p, inv, logs) for p in (model.before, model.after))
-        if before is None or not after > WORSE * before:
-            return found, model, None if before is None else (before, after)
+        before, after = (attitudes(p, inv, logs) for p in (model.before, model.after))
+        lost = [n for n in before if before[n].is_lost and after[n].is_lost]
+        said = tuple(_lost(n, before[n], after[n]) for n in lost)
+        kept = [n for n in before if n not in lost]
+        if not kept:
+            return found, model, None, said
+        was, now = (_pooled(e, kept) for e in (before, after))
+        if not now > WORSE * was:
+            return found, model, (was, now), said
         errors = {
-            name: attitude_rms(model.after.with_sensor(model.after.gyro.without(name)), inv, logs)
+            name: _pooled(attitudes(_part_without(model.after, name), inv, logs), kept)
             for name in (s.effect for s in inv.steps if not s.declared)
             if not is_ceiling(model.after.gyro, name)
         }
         worst = min(errors, key=errors.get, default=None)
-        if worst is None or not WORSE * errors[worst] < after:
-            return found, model, (before, after)
-        degrees = [f"{np.degrees(v):.2f}" for v in (errors[worst], after)]
+        if worst is None or not WORSE * errors[worst] < now:
+            return found, model, (was, now), said
+        degrees = [f"{np.degrees(v):.2f}" for v in (errors[worst], now)]
         reason = f"{TAKEN_BACK}, {degrees[0]} to {degrees[1]} deg"
         found = found | {"gyro": without(inv, worst, reason)}
+
+
+def _part_without(part: Part, effect: str) -> Part:
+    return part.with_sensor(part.gyro.without(effect))
+
+
+def _pooled(errors: dict[str, AttitudeError], names: list[str]) -> float:
+    """RMS error [rad] over the rows of some logs."""
+    return float(np.sqrt(np.mean(np.concatenate([errors[n].total for n in names]) ** 2)))
+
+
+def _lost(name: str, before: AttitudeError, after: AttitudeError) -> str:
+    degrees = [f"{np.degrees(e.rms):.0f}" for e in (before, after)]
+    return (
+        f"the filter loses the attitude of {name}, before ({degrees[0]} deg) and after "
+        f"({degrees[1]} deg): not compared"
+    )
 
 
 def _finished(start: Part, fit: Fit) -> Sensor:

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from pyimu.identification.attitude_error import attitude_error
+from pyimu.identification.attitude_error import AttitudeError, attitude_error
 from pyimu.identification.fit.left_out import as_measured, left_out
 from pyimu.identification.fit.noise_floor import floor_noise, reference_variance
 from pyimu.identification.fit.score import ErrorSums, floor, held_state, tally
@@ -143,17 +143,19 @@ def _reference(trial: Trial) -> dict[str, Any]:
     return seen | {"clock": trial.clock.as_dict(), "explained": trial.clock.explained}
 
 
-def attitude_rms(part: Part, inv: Investigation | None, logs: list[Recording]) -> float | None:
-    """RMS error [rad] of the attitude filter with a part, over the held-out rows that ``ref_q``
-    covers; None where there are none.
+def attitudes(
+    part: Part, inv: Investigation | None, logs: list[Recording]
+) -> dict[str, AttitudeError]:
+    """Errors of the attitude filter with a part by log, over the held-out rows that ``ref_q``
+    covers.
     """
-    squares, rows = 0.0, 0
+    found = {}
     for r in logs if inv is not None else ():
         held = next((t for t in inv.held if t.name == r.name), None)
         if held is None or r.ref_q is None or r.accel is None:
             continue
         mounting = np.array(log_state(inv, r.name)["rotation"])
         first = len(r.time) - len(held.time)
-        error = attitude_error(r, part, mounting, first, held.clock).total
-        squares, rows = squares + float(np.sum(error**2)), rows + len(error)
-    return float(np.sqrt(squares / rows)) if rows else None
+        error = attitude_error(r, part, mounting, first, held.clock)
+        found |= {r.name: error} if len(error.total) else {}
+    return found

@@ -52,8 +52,10 @@ class Verdict:
 
 @dataclass(frozen=True)
 class Evidence:
-    """What a verdict goes by; ``unexamined`` says of each sensor of the logs that was not looked at
-    why not.
+    """What a verdict goes by.
+
+    ``unexamined`` says of each sensor of the logs that was not looked at why not, ``lost`` of which
+    logs the attitude is lost.
     """
 
     added: list[Added]
@@ -65,12 +67,13 @@ class Evidence:
     attitude: tuple[float, float] | None
     refused: list[tuple[str, Refused]]
     unexamined: dict[str, str]
+    lost: tuple[str, ...] = ()
 
 
 def verdict(e: Evidence) -> Verdict:
     """The verdict, with what must be said beside it."""
     found = _verdict(e)
-    beside = (*_growing_attitude(e.attitude), *e.unexamined.values())
+    beside = (*_growing_attitude(e.attitude), *e.lost, *e.unexamined.values())
     return replace(found, remarks=found.remarks + beside)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from scipy.signal import lfilter
+from scipy.stats import chi2
 
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.trial import rest_noise
@@ -66,14 +67,17 @@ def beyond_own(fit: Fit) -> np.ndarray:
     """Variance (3,) in a row of the band that the quiet shows beyond the sensor's own noise."""
     noise = np.zeros(3)
     own, residuals = own_noise(fit), fit.residuals()
+    share = np.mean([np.sum(np.square(t.band.weights)) for t in fit.trials])
     for i in own:
-        pieces = np.concatenate(
-            [windows(one.residual[:, i], one.segments) for one in residuals if i in one.keys]
-        )
-        if not len(pieces):
-            continue
-        share = np.mean([np.sum(np.square(t.band.weights)) for t in fit.trials])
-        noise[i] = max(0.0, quiet(pieces) / lowness(fit.noise[i]) - own[i].r * share)
+        seen = [(one.residual[:, i], one.segments) for one in residuals if i in one.keys]
+        pieces = np.concatenate([windows(*one) for one in seen])
+        if len(pieces):
+            level = quiet(pieces) / lowness(fit.noise[i])
+        else:
+            # No stretch is as long as a window: the level that half of the rows stay below.
+            squares = np.concatenate([r for r, _ in seen]) ** 2
+            level = float(np.median(squares) / chi2.median(1)) if len(squares) else 0.0
+        noise[i] = max(0.0, level - own[i].r * share)
     return noise
 
 

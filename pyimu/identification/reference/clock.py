@@ -40,6 +40,10 @@ LEAST_ROWS = 16
 MOTION = 5.0
 """Times its own noise that a sensor must show for a reference to be judged by it."""
 
+FASTEST_DRIFT = 1e-3
+"""Relative difference of two clocks that run: quartz keeps to some 1e-4, a bare RC oscillator to a
+percent, and that is no clock to log by."""
+
 ROUNDS = 5
 TAPS, SHAPE = 12, 10.0
 """Samples on either side from which a shifted reference is interpolated, and the shape of their
@@ -115,8 +119,18 @@ def shifted(trial: Trial, clock: Clock) -> Trial:
             continue
         for at in columns:
             u[a:b, at] = _interpolated(trial.u[a:b, at], np.clip(row, 0, b - a - 1))
+            if trial.band_hz is not None and b - a > 1:
+                u[a:b, at] *= 1.0 - _drift(trial.time[a:b], late[a:b])[:, None]
         segments.append((a + int(inside[0]), a + int(inside[-1]) + 1))
     return replace(trial, u=u, segments=segments)
+
+
+def _drift(time: np.ndarray, late: np.ndarray) -> np.ndarray:
+    """Rate (n,) at which a lag grows: an attitude that is read at a pace of its own turns at that
+    pace. A slip is none.
+    """
+    rate = np.gradient(late, time)
+    return np.where(np.abs(rate) < FASTEST_DRIFT, rate, 0.0)
 
 
 def rebanded(trial: Trial) -> Trial:

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
 from pyimu.recording.quality.scatter import WINDOW
+from pyimu.recording.recording import filled
 
 SPIKE_SIGMA = 6.0
 """A spike exceeds so many robust standard deviations of its neighbourhood."""
@@ -17,6 +18,10 @@ SPIKE_ISOLATION = 3.0
 
 SPIKE_TAIL = 3.0
 """A spike's residual exceeds the 99 % quantile of its column by this factor."""
+
+
+ROUNDS = 8
+"""Each round finds the largest of what is left: from one to the next they halve or better."""
 
 
 CORRUPT_ISOLATION = 12.0
@@ -31,10 +36,26 @@ def spikes(values: np.ndarray) -> np.ndarray:
     residuals near it, those that are near but not caused by itself by ``SPIKE_ISOLATION``, and the
     column's 99 % quantile by ``SPIKE_TAIL``. A shock moves several axes and rings: where another
     column is off at the same time, the isolation must be ``CORRUPT_ISOLATION``.
+
+    Spikes hide each other: where some are found, they are replaced by the line between their
+    neighbours, and it is looked for more, ``ROUNDS`` times at most.
     """
     mask = np.zeros(values.shape, bool)
     if len(values) < 4 * WINDOW:
         return mask
+    healed = values
+    for _ in range(ROUNDS):
+        new = _alone(healed) & ~mask
+        if not new.any():
+            break
+        mask |= new
+        healed = filled(np.arange(len(values)), np.where(mask, np.nan, values))
+    return mask
+
+
+def _alone(values: np.ndarray) -> np.ndarray:
+    """Mask of the spikes that the others do not hide."""
+    mask = np.zeros(values.shape, bool)
     off = _residuals(values)
     sigma = _local_sigma(off)
     tail = np.quantile(off, 0.99, axis=0)
