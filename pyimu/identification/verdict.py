@@ -13,6 +13,7 @@ from pyimu.identification.found import Added, Errors
 from pyimu.identification.reference.clock import moves
 from pyimu.identification.search.forward import Investigation, Refused
 from pyimu.model.catalogue import CATALOGUE
+from pyimu.recording.reference.band import COHERENCE, LEAST_BAND
 from pyimu.report.numbers import joined, number
 
 FAR = 3.0
@@ -120,16 +121,22 @@ def _nothing_found(e: Evidence, left: str) -> Verdict:
 def _unfit(found: Found) -> str:
     """Why a reference does not belong to its sensor; nothing where all do."""
     for kind, inv in found.items():
-        fitted = [(t.name, t.clock.explained) for t in inv.after.trials if t.clock is not None]
-        held = [(t.name, _explained(inv, t)) for t in inv.held if t.clock and moves(t)]
-        for name, share in [*fitted, *held]:
-            if share < UNFIT:
+        fitted = [(t, t.clock.explained) for t in inv.after.trials if t.clock is not None]
+        held = [(t, _explained(inv, t)) for t in inv.held if t.clock and moves(t)]
+        for trial, share in [*fitted, *held]:
+            if share < (COHERENCE if _coheres_nowhere(trial) else UNFIT):
                 part = f"{max(share, 0.0):.0%} of what the {kind} shows"
                 return (
-                    f"the reference of {name} accounts for {part}: another body, another time, or "
-                    "other axes"
+                    f"the reference of {trial.name} accounts for {part}: another body, another "
+                    "time, or other axes"
                 )
     return ""
+
+
+def _coheres_nowhere(trial: Trial) -> bool:
+    """Whether sensor and reference agree in no band, so that they are compared in the least."""
+    least = trial.band_hz is not None and trial.band_hz < LEAST_BAND
+    return least and trial.band_limit is not None and trial.band_limit > LEAST_BAND
 
 
 def _explained(inv: Investigation, trial: Trial) -> float:

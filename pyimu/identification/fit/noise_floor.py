@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy.linalg import solve_toeplitz
 from scipy.signal import lfilter
 from scipy.stats import chi2
 
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.trial import rest_noise
-from pyimu.identification.fit.whiten import AR_ORDER, Autoregressive, RandomWalk
+from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.model.catalogue import WALK, WHITE
 from pyimu.model.sensor import Sensor
 
@@ -17,6 +18,9 @@ WINDOW = 64
 
 QUIET = 0.25
 """Share of the windows that is taken for quiet."""
+
+LAGS = 8
+"""Rows over which what is left in the quiet is tried for correlation."""
 
 DRAWN = 512
 """Windows that are drawn to see how quiet chance makes a quarter of them."""
@@ -72,7 +76,7 @@ def beyond_own(fit: Fit) -> np.ndarray:
         seen = [(one.residual[:, i], one.segments) for one in residuals if i in one.keys]
         pieces = np.concatenate([windows(*one) for one in seen])
         if len(pieces):
-            level = quiet(pieces) / lowness(fit.noise[i])
+            level = quiet(pieces) / lowness(pieces)
         else:
             # No stretch is as long as a window: the level that half of the rows stay below.
             squares = np.concatenate([r for r, _ in seen]) ** 2
@@ -91,14 +95,23 @@ def quiet(pieces: np.ndarray, share: float = QUIET) -> float:
     return float(np.mean(quietest(pieces, share).var(axis=1)))
 
 
-def lowness(noise: RandomWalk | Autoregressive, share: float = QUIET, seed: int = 1) -> float:
-    """What the quietest ``share`` of windows shows of the variance, if noise of the fitted spectrum
-    has one level.
+def colour(pieces: np.ndarray) -> tuple[float, ...]:
+    """Coefficients of an autoregression over ``LAGS`` rows like windows (k, m), each in units of
+    its own size, by their autocovariances (Yule and Walker).
     """
-    coefficients = noise.coefficients if isinstance(noise, Autoregressive) else ()
+    v = pieces - pieces.mean(axis=1, keepdims=True)
+    v = v / np.maximum(v.std(axis=1, keepdims=True), 1e-300)
+    products = np.array([np.sum(v[:, k:] * v[:, : v.shape[1] - k]) for k in range(LAGS + 1)])
+    return tuple(solve_toeplitz(products[:-1], products[1:])) if products[0] > 0 else ()
+
+
+def lowness(pieces: np.ndarray, share: float = QUIET, seed: int = 1) -> float:
+    """What the quietest ``share`` of windows shows of the variance, if noise of the colour that
+    windows (k, m) have in their quiet has one level.
+    """
+    taps = [1.0, *(-c for c in colour(quietest(pieces, QUIET)))]
     drawn = np.random.default_rng(seed).standard_normal(DRAWN * WINDOW)
-    like = lfilter([1.0], np.concatenate([[1.0], -np.array(coefficients)]), drawn)
-    settled = like[AR_ORDER * WINDOW :].reshape(-1, WINDOW)
+    settled = lfilter([1.0], taps, drawn)[WINDOW:].reshape(-1, WINDOW)
     return quiet(settled, share) / float(np.mean(settled.var(axis=1)))
 
 

@@ -15,14 +15,15 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
-from scipy.linalg import solve_toeplitz
 from scipy.signal import lfilter
 
 from pyimu.identification.fit.columns import Linear, band_segments, band_time, in_band
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.noise_floor import (
+    LAGS,
     QUIET,
     beyond_own,
+    colour,
     lowness,
     quiet,
     quietest,
@@ -47,9 +48,9 @@ MOST_ROWS = 20000
 REST = 1 / 16
 """Share of the windows in which a reference is taken to be at rest, if it ever is."""
 
-LAGS, CORRELATED = 8, 0.2
-"""Rows over which what is left in the quiet is tried for correlation, and the one that counts: six
-standard errors in a thousand rows."""
+CORRELATED = 0.2
+"""Size of a coefficient of the autoregression from which on noise is not white: six standard errors
+in a thousand rows."""
 
 
 # Drawing it
@@ -79,7 +80,7 @@ def _in_quiet(fit: Fit, axis: int) -> float:
     own = [in_band(t, t.u[:, OWN[t.kind]][:, [axis]])[:, 0] for t in trials]
     pieces = [windows(x, band_segments(t)) for x, t in zip(own, trials, strict=True)]
     found = np.concatenate(pieces) if pieces else np.zeros((0, 1))
-    return quiet(found, REST) / lowness(fit.noise[axis], REST) if len(found) else 0.0
+    return quiet(found, REST) / lowness(found, REST) if len(found) else 0.0
 
 
 def _unseen(fit: Fit, axis: int) -> float:
@@ -112,17 +113,9 @@ def _colour(fit: Fit) -> tuple[float, ...]:
         return ()
     linears = fit.residuals()
     pieces = [windows(r.residual[:, i], r.segments) for r in linears for i in r.keys]
-    products = sum(_products(quietest(p, QUIET)) for p in pieces)
-    if not np.any(np.abs(products[1:]) > CORRELATED * products[0]):
-        return ()
-    return tuple(solve_toeplitz(products[:-1], products[1:]))
-
-
-def _products(pieces: np.ndarray) -> np.ndarray:
-    """Autocovariances (``LAGS`` + 1,) of windows (k, m) in units of each one's variance, summed."""
-    v = pieces - pieces.mean(axis=1, keepdims=True)
-    v = v / np.maximum(v.std(axis=1, keepdims=True), 1e-300)
-    return np.array([np.sum(v[:, k:] * v[:, : v.shape[1] - k]) for k in range(LAGS + 1)])
+    quietest_of_each = np.concatenate([quietest(p, QUIET) for p in pieces])
+    found = colour(quietest_of_each)
+    return found if np.any(np.abs(found) > CORRELATED) else ()
 
 
 def _drawn(trial: Trial, variance: np.ndarray, colour, rng: np.random.Generator) -> Trial:

@@ -41,20 +41,22 @@ def _levels(sensor: Sensor) -> tuple[np.ndarray, Sensor]:
 
 
 def stops_there(fitted: Fit, axis: int) -> bool:
-    """Whether the samples really stop at the level of an axis while the model's input is beyond
-    it.
+    """Whether the samples really stop at the level of an axis while the model's input is beyond it:
+    few lie above, and most lie there. A reference that jumps leaves them far below.
     """
     levels, unlimited = _levels(fitted.sensor)
-    level, beyond, over = levels[axis], 0, 0
+    level, beyond, over, under = levels[axis], 0, 0, 0
     for t in fitted.trials:
         u = reference_input(t, fitted.states[t.name])
         x = np.abs(predict(unlimited, u, t.segments, t.h)[:, axis])
-        y, most = np.abs(t.y[:, axis]), 1.02 * level + 4 * rest_noise(t)[axis]
+        y, chance = np.abs(t.y[:, axis]), 4 * rest_noise(t)[axis]
+        least, most = 0.95 * level - chance, 1.02 * level + chance
         for a, b in t.row_segments:
             outside = x[a:b] > 1.02 * level
             beyond += int(outside.sum())
             over += int((outside & (y[a:b] > most)).sum())
-    return beyond >= LEAST_AT_LEVEL and over < 0.2 * beyond
+            under += int((outside & (y[a:b] < least)).sum())
+    return beyond >= LEAST_AT_LEVEL and over < 0.2 * beyond and under < 0.5 * beyond
 
 
 def at_samples(fitted: Fit) -> Fit:

@@ -10,6 +10,10 @@ COHERENCE = 0.9
 """Squared coherence between gyro and reference above which the reference is trusted."""
 
 
+LEAST_BAND = 1.0
+"""Hz; the band of a reference that is trusted in none."""
+
+
 FRAMES = (2.0, 1.0, 0.5)
 """s; lengths of the frames of the coherence estimate, the longest of which there are enough: a
 resolution of 1 to 4 Hz."""
@@ -30,9 +34,9 @@ def trusted_band(
     multiple coherence tr(S_gr S_rr^-1 S_rg) / tr(S_gg) (Bendat and Piersol 2010, chapter 7), must
     stay above ``COHERENCE``; weighting the axes by power leaves out those without motion, and using
     all axes at once makes it blind to an unknown mounting and to a constant delay. Frames with a
-    missing or clipped sample are left out. At least 1 Hz, or ``limit`` where that is less.
+    missing or clipped sample are left out. At least ``LEAST_BAND``, or ``limit`` if that is less.
     """
-    least = min(1.0, limit)
+    least = min(LEAST_BAND, limit)
     if gyro is None:
         return least
     axes = np.isfinite(rate).any(axis=0)
