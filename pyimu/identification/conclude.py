@@ -26,6 +26,7 @@ from pyimu.identification.held_out import at_rest, attitudes, scores
 from pyimu.identification.made_with import MadeWith
 from pyimu.identification.overview import Overview, overview
 from pyimu.identification.reference.gravity import few
+from pyimu.identification.reference.order import other_order
 from pyimu.identification.references import references
 from pyimu.identification.result import Closed
 from pyimu.identification.search.ceiling import is_ceiling
@@ -38,7 +39,7 @@ from pyimu.identification.search.leftover import (
     rounding,
 )
 from pyimu.identification.search.screen import PENALTY
-from pyimu.identification.verdict import WORSE, Evidence, verdict
+from pyimu.identification.verdict import WORSE, Evidence, Verdict, verdict
 from pyimu.identification.visibility import visibility
 from pyimu.model.catalogue import CATALOGUE, POWER_ON, WALK, WHITE, read_off
 from pyimu.model.effect import Effect
@@ -77,9 +78,9 @@ def conclude(
     say("error on held-out data")
     errors, entries, likelihood = scores(found, logs, others)
     beside = (errors, attitude, refused, not_examined, lost)
-    said = verdict(Evidence(added, changed, unexplained, drifts, found, *beside))
-    say("the whole model, and what to measure next")
     together = [*logs, *others]
+    said = _said(Evidence(added, changed, unexplained, drifts, found, *beside), together)
+    say("the whole model, and what to measure next")
     model_after = estimated(start, model.after, found, added)
     seen = tuple(v for kind, inv in found.items() for v in visibility(kind, inv))
     return Closed(
@@ -118,6 +119,14 @@ def conclude(
 
 def _fates(kind: str, inv: Investigation, added: list[Added]) -> list[Fate]:
     return fates(kind, inv, [a for a in added if a.sensor == kind])
+
+
+def _said(evidence: Evidence, logs: list[Recording]) -> Verdict:
+    """The verdict; beside a reference that does not fit, the order in which it would."""
+    said = verdict(evidence)
+    if said.word != "reference_unfit":
+        return said
+    return replace(said, remarks=(*filter(None, [other_order(logs)]), *said.remarks))
 
 
 def _overview(r: Recording, found: Found, quality: tuple) -> Overview:

@@ -10,7 +10,7 @@ from pyimu.identification.fit.columns import in_band, residual
 from pyimu.identification.fit.score import held_state
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.found import Added, Errors
-from pyimu.identification.reference.clock import moves
+from pyimu.identification.reference.clock import mistaken, moves
 from pyimu.identification.search.forward import Investigation, Refused
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.recording.reference.band import COHERENCE, LEAST_BAND
@@ -121,6 +121,10 @@ def _nothing_found(e: Evidence, left: str) -> Verdict:
 def _unfit(found: Found) -> str:
     """Why a reference does not belong to its sensor; nothing where all do."""
     for kind, inv in found.items():
+        for t in (t for t in inv.after.trials if t.clock is not None):
+            mistake = mistaken(t)
+            if mistake:
+                return f"the reference of {t.name} {mistake}"
         fitted = [(t, t.clock.explained) for t in inv.after.trials if t.clock is not None]
         held = [(t, _explained(inv, t)) for t in inv.held if t.clock and moves(t)]
         for trial, share in [*fitted, *held]:

@@ -1,5 +1,7 @@
 """The reference's clock: how late the sensor is by it, and whose lag that is."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation, RotationSpline
@@ -216,3 +218,41 @@ def test_coefficients_of_an_axis_that_does_not_move_stay_where_they_are_typical(
     most = [3 * magnitudes(e, "gyro")["consumer"].si for e in ("scale_factor", "misalignment")]
     assert np.abs(s[:2]).max() < most[0] and np.abs(m).max() < most[1]
     assert closed.errors["gyro"].after.total < 1.05 * NOISE
+
+
+# References that are not what they say
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (np.diag([1.0, 1.0, -1.0]), "mirrored axes"),
+        (np.degrees(1.0) * np.eye(3), "too large by 57.3"),
+        (np.radians(1.0) * np.eye(3), "too small by 57.3"),
+    ],
+)
+def test_a_reference_of_other_axes_or_units_is_said(change, said):
+    rng, motion = np.random.default_rng(3), Motion(3)
+    gyro = motion(TIME) + NOISE * rng.standard_normal((len(TIME), 3))
+    closed = pyimu.close(
+        Recording.from_arrays(name="log", time=TIME, gyro=gyro, ref_rate=motion(TIME) @ change)
+    )
+    assert closed.verdict == "reference_unfit" and said in closed.reason, closed.report()
+    assert said in closed.report()
+
+
+@pytest.mark.parametrize(
+    ("misread", "said"),
+    [
+        (lambda q: np.roll(q, -1, axis=1), "scalar last"),
+        (lambda q: q * [1.0, -1.0, -1.0, -1.0], "world to body"),
+    ],
+)
+def test_a_quaternion_in_another_order_is_said(misread, said):
+    """The attitude turns through more than half a turn, so that no constant mounting stands for the
+    order.
+    """
+    log_of = attitude_log("a", 1, Rotation.from_euler("xyz", [10, 20, 30], degrees=True), 0.0)
+    closed = pyimu.close(replace(log_of, ref_q=misread(log_of.ref_q)))
+    assert closed.verdict == "reference_unfit", closed.report()
+    assert any(said in remark for remark in closed.remarks), closed.remarks

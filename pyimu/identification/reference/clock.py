@@ -23,7 +23,7 @@ from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS
 from pyimu.recording.quality.clipping import clipped
-from pyimu.recording.reference.band import trusted_band
+from pyimu.recording.reference.band import COHERENCE, trusted_band
 
 WINDOW, ROWS = 2.5, 32
 """s; windows of the fine lag, and the least rows of the band that one covers."""
@@ -43,6 +43,9 @@ MOTION = 5.0
 FASTEST_DRIFT = 1e-3
 """Relative difference of two clocks that run: quartz keeps to some 1e-4, a bare RC oscillator to a
 percent, and that is no clock to log by."""
+
+DEGREE, ALIKE = float(np.degrees(1.0)), 0.1
+"""Degrees in a radian, and how near a factor must be to one that is a mistake of units."""
 
 ROUNDS = 5
 TAPS, SHAPE = 12, 10.0
@@ -100,6 +103,31 @@ def _explained(trial: Trial) -> float:
     x, y = x - x.mean(axis=0), y - y.mean(axis=0)
     left = y - (x @ _turn(x, y) if trial.free_rotation else x)
     return float(1 - np.sum(left**2) / max(np.sum(y**2), 1e-300))
+
+
+def mistaken(trial: Trial) -> str:
+    """What is wrong with the reference of a trial that would fit once that is put right: mirrored
+    axes, or degrees taken for radians; nothing where neither is.
+    """
+    trial, axes = _in_own_band(trial), list(trial.axes)
+    rows = _rows(trial)
+    x, y = (in_band(trial, v[:, axes])[rows] for v in (trial.u[:, OWN[trial.kind]], trial.y))
+    if len(y) < LEAST_ROWS or len(axes) < 3:
+        return ""
+    x, y = x - x.mean(axis=0), y - y.mean(axis=0)
+    turned, flipped = (_scaled(x @ _turn(a * x, y) * a, y) for a in (1.0, -1.0))
+    if turned[1] < COHERENCE <= flipped[1] and abs(flipped[0] - 1) < ALIKE:
+        return "has mirrored axes: its frame is turned into the sensor's by a determinant of -1"
+    for factor, units in ((DEGREE, "in rad"), (1 / DEGREE, "in deg")):
+        if turned[1] >= COHERENCE and abs(turned[0] / factor - 1) < ALIKE:
+            return f"is too {'large' if factor < 1 else 'small'} by 57.3: its numbers are {units}"
+    return ""
+
+
+def _scaled(x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
+    """The factor of x (m, 3) nearest to y, and the share of the power of y that it explains."""
+    factor = float(np.sum(x * y) / max(np.sum(x * x), 1e-300))
+    return factor, 1 - float(np.sum((y - factor * x) ** 2) / max(np.sum(y * y), 1e-300))
 
 
 # The reference, moved
