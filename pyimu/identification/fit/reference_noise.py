@@ -48,6 +48,10 @@ MOST_ROWS = 20000
 REST = 1 / 16
 """Share of the windows in which a reference is taken to be at rest, if it ever is."""
 
+LEAST_SEEN = 0.01
+"""Share of a column's power that must not be noise of the reference; of the rest there is nothing
+to be seen."""
+
 CORRELATED = 0.2
 """Size of a coefficient of the autoregression from which on noise is not white: six standard errors
 in a thousand rows."""
@@ -196,12 +200,11 @@ def equations(fit: Fit, linearised: Callable[[Fit], list[Linear]] = Fit.linearis
     if not has_noise(fit):
         return found
     noise = _on(found, normal_equations(changes(fit, linearised), fit.noise))
-    return replace(
-        found,
-        batch_gram=found.batch_gram - noise.batch_gram,
-        batch_score=found.batch_score - noise.batch_score,
-        power=found.power - noise.power,
-    )
+    gram, score = found.batch_gram - noise.batch_gram, found.batch_score - noise.batch_score
+    whole, seen = gram.sum(axis=0), found.gram
+    hidden = np.diag(whole) <= LEAST_SEEN * np.diag(seen)
+    score[:, hidden] = gram[:, hidden] = gram[:, :, hidden] = 0.0
+    return replace(found, batch_gram=gram, batch_score=score, power=found.power - noise.power)
 
 
 def _on(like: Normal, other: Normal) -> Normal:
