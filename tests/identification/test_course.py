@@ -1,8 +1,8 @@
 """The loop on a car that knows its position: the clock, the heading, and no blame on the gyro."""
 
-import drives
 import numpy as np
 import pytest
+import vehicle_drives
 from places import measured
 from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
@@ -19,10 +19,10 @@ DRAWS = 32
 
 def car(k, late, down):
     """Drive ``k``: positions of 10 Hz with 1 to 3 cm of noise, a gyro ``late`` s with a bias."""
-    drive = drives.figure_eight(k)
+    drive = vehicle_drives.figure_eight(k)
     turn = Rotation.from_euler("xyz", [180 * down + 3, 4, 30 * k], degrees=True).as_matrix()
-    gyro, accel = drives.measured_by(drive, turn, late, k)
-    north, east = drives.received(drive, NOISES[k % 3], k + 1000)
+    gyro, accel = vehicle_drives.measured_by(drive, turn, late, k)
+    north, east = vehicle_drives.received(drive, NOISES[k % 3], k + 1000)
     return Recording.from_arrays(
         name="car",
         time=drive.time,

@@ -1,8 +1,8 @@
 """A reference in a file of its own: its own rate and clock, and what cannot be used."""
 
-import drives
 import numpy as np
 import pytest
+import vehicle_drives
 from scipy.spatial.transform import Rotation
 
 from pyimu.errors import UserError
@@ -75,10 +75,10 @@ def test_a_rate_at_times_of_its_own_is_interpolated_and_ends_with_its_band():
 
 
 def test_positions_and_headings_of_another_file_are_used_too():
-    drive = drives.figure_eight(2)
-    gyro, accel = drives.measured_by(drive, np.eye(3), 0.0, 2)
+    drive = vehicle_drives.figure_eight(2)
+    gyro, accel = vehicle_drives.measured_by(drive, np.eye(3), 0.0, 2)
     car = Recording.from_arrays(name="car", time=drive.time, gyro=gyro, accel=accel)
-    north, east = drives.received(drive, 0.02, 2)
+    north, east = vehicle_drives.received(drive, 0.02, 2)
     seen = np.isfinite(north)
     alone = Recording.from_arrays(
         name="rtk", time=drive.time[seen], ref_north=north[seen], ref_east=east[seen]
@@ -152,14 +152,14 @@ def test_one_reference_for_each_log_in_order():
 
 def degrees_of(drive, noise=0.02, seed=1):
     """North and east as a latitude and a longitude about 52, 13 deg."""
-    north, east = drives.received(drive, noise, seed)
+    north, east = vehicle_drives.received(drive, noise, seed)
     return 52.0 + north / 111.2e3, 13.0 + east / (111.3e3 * np.cos(np.radians(52)))
 
 
 @pytest.mark.parametrize("noise", [0.02, 1.5])
 def test_degrees_of_latitude_under_metres_are_refused(noise):
-    drive = drives.figure_eight(4)
-    gyro, accel = drives.measured_by(drive, np.eye(3), 0.0, 4)
+    drive = vehicle_drives.figure_eight(4)
+    gyro, accel = vehicle_drives.measured_by(drive, np.eye(3), 0.0, 4)
     north, east = degrees_of(drive, noise)
     car = Recording.from_arrays(
         name="car", time=drive.time, gyro=gyro, accel=accel, ref_north=north, ref_east=east

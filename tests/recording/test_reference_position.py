@@ -1,8 +1,8 @@
 """The course of a vehicle from its positions: smoothing, speed, mounting."""
 
-import drives
 import numpy as np
 import pytest
+import vehicle_drives
 from scipy.spatial.transform import Rotation
 
 from pyimu.recording.recording import Recording
@@ -15,13 +15,13 @@ NOISE = 0.02
 
 @pytest.fixture(scope="module")
 def drive():
-    return drives.figure_eight(3)
+    return vehicle_drives.figure_eight(3)
 
 
 def recording(drive, noise=NOISE, seed=1, mounting=None, **more):
     mounting = np.eye(3) if mounting is None else mounting
-    gyro, accel = drives.measured_by(drive, mounting, 0.0, seed)
-    north, east = drives.received(drive, noise, seed)
+    gyro, accel = vehicle_drives.measured_by(drive, mounting, 0.0, seed)
+    north, east = vehicle_drives.received(drive, noise, seed)
     return Recording.from_arrays(
         time=drive.time, gyro=gyro, accel=accel, ref_north=north, ref_east=east, **more
     )
@@ -68,7 +68,7 @@ def test_the_noise_of_positions_is_found(drive):
     """Some 1,600 samples in two directions: the variance is known to sqrt(2 / 3200), its root to
     1.8 %, of which five.
     """
-    north, east = drives.received(drive, NOISE, 5)
+    north, east = vehicle_drives.received(drive, NOISE, 5)
     seen = np.isfinite(north)
     _, noise = smoothed([(drive.time[seen], np.column_stack([east, north])[seen])])
     assert noise == pytest.approx(NOISE, rel=0.09)
@@ -146,16 +146,16 @@ def test_a_position_that_jumps_and_comes_back_is_left_out(drive):
 def test_without_accelerometer_the_axis_is_the_one_that_turns(drive, axis, sign):
     up = sign * np.eye(3)[axis]
     turn = Rotation.align_vectors([up], [[0.0, 0.0, 1.0]])[0].as_matrix()
-    gyro, _ = drives.measured_by(drive, turn, 0.7, 1)
-    north, east = drives.received(drive, NOISE, 1)
+    gyro, _ = vehicle_drives.measured_by(drive, turn, 0.7, 1)
+    north, east = vehicle_drives.received(drive, NOISE, 1)
     log = Recording.from_arrays(time=drive.time, gyro=gyro + 0.02, ref_north=north, ref_east=east)
     np.testing.assert_array_equal(reference_rate(log).up, up)
 
 
 def test_turns_that_the_receiver_hardly_resolves_are_no_noise():
     """Positions of 1 Hz and 0.5 m at 12 m/s: the likelihood alone takes the turns for noise."""
-    fast = drives.figure_eight(21, seconds=400.0, fast=12.0)
-    north, east = drives.received(fast, 0.5, 1, every=100)
+    fast = vehicle_drives.figure_eight(21, seconds=400.0, fast=12.0)
+    north, east = vehicle_drives.received(fast, 0.5, 1, every=100)
     found = course_of(Recording.from_arrays(time=fast.time, ref_north=north, ref_east=east))
     known = np.isfinite(found.rate)
     assert found.noise < 1.5
