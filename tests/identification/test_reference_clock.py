@@ -256,3 +256,10 @@ def test_a_quaternion_in_another_order_is_said(misread, said):
     closed = pyimu.close(replace(log_of, ref_q=misread(log_of.ref_q)))
     assert closed.verdict == "reference_unfit", closed.report()
     assert any(said in remark for remark in closed.remarks), closed.remarks
+
+
+def test_a_row_between_two_gaps_has_no_slope_and_stops_nothing():
+    whole = gyro_trial(log(0.005))
+    alone = replace(whole, segments=[(0, 6000), (6500, 6501), (7000, len(TIME))])
+    clock = measure(alone, Sensor("gyro"))
+    assert abs(clock.mean - 0.005) < 5 * clock.std + 1e-4 * H

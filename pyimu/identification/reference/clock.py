@@ -232,7 +232,8 @@ def _windows(trial: Trial, sensor: Sensor):
     rate = trial.u[:, OWN[trial.kind]]
     slope = np.zeros_like(rate)
     for a, b in trial.segments:
-        slope[a:b] = np.gradient(rate[a:b], trial.time[a:b], axis=0)
+        if b - a > 1:
+            slope[a:b] = np.gradient(rate[a:b], trial.time[a:b], axis=0)
     x, slope = (
         through_dynamics(sensor, v, trial.segments, trial.h)[:, axes] for v in (rate, slope)
     )
