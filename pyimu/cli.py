@@ -33,6 +33,9 @@ Out = Annotated[
 ]
 
 
+Columns = Annotated[
+    Path | None, typer.Option("--columns", help="TOML that renames a foreign log's columns.")
+]
 Effects = Annotated[
     list[Path] | None,
     typer.Option(
@@ -127,9 +130,7 @@ def characterize_command(
     out: Annotated[
         Path, typer.Option("--out", help="Folder for report.html, report.json and part.toml.")
     ] = Path("out/characterize"),
-    columns: Annotated[
-        Path | None, typer.Option("--columns", help="TOML that renames a foreign log's columns.")
-    ] = None,
+    columns: Columns = None,
     level: Annotated[float, typer.Option("--level", help="Probability of the intervals.")] = 0.95,
 ) -> None:
     """Example: pyimu characterize static.csv --out out/static
@@ -174,9 +175,7 @@ def close_command(
         list[Path] | None,
         typer.Option("--holdout", help="Log to judge by; else the last 30 % of each."),
     ] = None,
-    columns: Annotated[
-        Path | None, typer.Option("--columns", help="TOML that renames a foreign log's columns.")
-    ] = None,
+    columns: Columns = None,
     reference: Annotated[
         list[Path] | None,
         typer.Option(

@@ -20,9 +20,9 @@ from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.trial import rest_noise
 from pyimu.identification.fit.whiten import RandomWalk
-from pyimu.identification.found import Added
+from pyimu.identification.found import Added, Changed
 from pyimu.identification.heading_error import heading_rms
-from pyimu.identification.held_out import at_rest, attitudes, scores
+from pyimu.identification.held_out import at_rest, attitudes, held_trials, scores
 from pyimu.identification.made_with import MadeWith
 from pyimu.identification.overview import Overview, overview
 from pyimu.identification.reference.gravity import few
@@ -64,15 +64,7 @@ def conclude(
     say("attitude against the reference")
     found, model, attitude, lost = settled(start, declared, found, others or logs)
     not_examined = _unexamined(found, logs)
-    added, changed, drifts = [], [], {}
-    for kind, inv in found.items():
-        say(f"{kind}: what is left")
-        steps = model.rounding[kind]
-        added += _added(kind, model.after.sensor(kind), inv) + steps
-        changed += [released(start.sensor(kind), inv.after, s) for s in inv.steps if s.declared]
-        if declared is not None and not steps:
-            changed += changed_noise(start, kind, inv.after)
-            drifts |= drifting(kind, inv.after, start.sensor(kind))
+    added, changed, drifts = _findings(start, declared, found, model, say)
     unexplained = tuple(u for u in (lack_of_fit(inv.after) for inv in found.values()) if u)
     refused = [(kind, r) for kind, inv in found.items() for r in inv.refused]
     say("error on held-out data")
@@ -117,6 +109,24 @@ def conclude(
     )
 
 
+def _findings(
+    start: Part, declared: Part | None, found: Found, model: Model, say: Callable[[str], None]
+) -> tuple[list[Added], list[Changed], dict[str, dict[int, float]]]:
+    """The effects that were added, the declared values that changed, and by sensor the axes that
+    wander more than declared.
+    """
+    added, changed, drifts = [], [], {}
+    for kind, inv in found.items():
+        say(f"{kind}: what is left")
+        steps = model.rounding[kind]
+        added += _added(kind, model.after.sensor(kind), inv) + steps
+        changed += [released(start.sensor(kind), inv.after, s) for s in inv.steps if s.declared]
+        if declared is not None and not steps:
+            changed += changed_noise(start, kind, inv.after)
+            drifts |= drifting(kind, inv.after, start.sensor(kind))
+    return added, changed, drifts
+
+
 def _fates(kind: str, inv: Investigation, added: list[Added]) -> list[Fate]:
     return fates(kind, inv, [a for a in added if a.sensor == kind])
 
@@ -130,7 +140,7 @@ def _said(evidence: Evidence, logs: list[Recording]) -> Verdict:
 
 
 def _overview(r: Recording, found: Found, quality: tuple) -> Overview:
-    held = [t for inv in found.values() for t in inv.held if t.name == r.name]
+    held = held_trials(found, r.name)
     return overview(r, held, [f for f in quality if f.detail.get("recording") == r.name])
 
 

@@ -13,7 +13,7 @@ from pyimu.files import plain
 from pyimu.identification.confounds import what_no_log_tells_apart
 from pyimu.identification.fit.fit import with_prior
 from pyimu.identification.fit.keys import Coefficient, LogBias
-from pyimu.identification.fit.normal import normal_equations
+from pyimu.identification.fit.reference_noise import equations
 from pyimu.identification.found import Added
 from pyimu.identification.search.forward import Investigation
 from pyimu.identification.search.leftover import noise_figures
@@ -142,7 +142,7 @@ class _Regression:
 
     def __init__(self, inv: Investigation) -> None:
         self.inv, self.fit = inv, inv.after
-        self.normal = with_prior(normal_equations(self.fit.linearise(), self.fit.noise), self.fit)
+        self.normal = with_prior(equations(self.fit), self.fit)
         self.figures = noise_figures(self.fit)
 
     def of(self, e: Effect, name: str, value: np.ndarray) -> Errors:
@@ -177,7 +177,7 @@ class _Regression:
         if self.fit.sensor.kind == "accel" and all(t.reference == "static" for t in trials):
             return _hidden(value)
         std, names = np.full(3, np.nan), [t.name for t in self.fit.trials]
-        for i in self.fit.noise:
+        for i in range(3):
             keys = [LogBias(n, i) for n in names if LogBias(n, i) in self.normal.position]
             each = [self.fit.std.get(k, np.inf) for k in keys]
             spread = fitted_dispersion(self.normal, keys) if keys else 1.0

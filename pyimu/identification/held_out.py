@@ -110,15 +110,21 @@ def _per_row(e: Errors) -> np.ndarray:
 
 
 def _entry(r: Recording, found: dict[str, Investigation], errors: dict[str, Errors]) -> LogEntry:
-    held = [t for inv in found.values() for t in inv.held if t.name == r.name]
+    held = held_trials(found, r.name)
     states = {kind: log_state(inv, r.name) for kind, inv in found.items()}
     return LogEntry(
         file=r.path.name if r.path else r.name,
         samples=len(r.time),
-        held_out=max((len(t.time) for t in held), default=0),
+        held_out=max((len(t.time if t.reduction is None else r.time) for t in held), default=0),
         errors=errors,
         log_state={kind: s for kind, s in states.items() if s},
     )
+
+
+def held_trials(found: dict[str, Investigation], name: str) -> list[Trial]:
+    """The trials of a log whose rows were left out of the fit all at once, not each in turn."""
+    held = [t for inv in found.values() for t in inv.held if t.name == name]
+    return [t for t in held if t.reduction is None or t.parent is None]
 
 
 def log_state(inv: Investigation, name: str) -> dict[str, Any] | None:

@@ -194,6 +194,17 @@ def test_six_faces_show_scale_factors_and_say_what_they_do_not():
     assert found.detail["positions"].startswith("3 more at rest would: between ")
 
 
+def test_the_bias_of_every_axis_is_shown_and_written():
+    """Within five standard errors of the truth; the file rounds far below one."""
+    rng, bias = np.random.default_rng(5), np.array([0.1, -0.2, 0.3])
+    closed = pyimu.close(resting(rng, everywhere(rng, 20), bias=bias))
+    (found,) = [v for v in closed.estimated if (v.sensor, v.parameter) == ("accel", "b0")]
+    assert found.shown.all()
+    assert np.all(np.abs(found.value - bias) < 5 * found.std), (found.value, found.std)
+    written = closed.after.accel.values["turn_on_bias"]["b0"]
+    assert np.all(np.abs(written - found.value) < 0.05 * found.std)
+
+
 def test_the_positions_asked_for_suffice():
     """A part that asks for misalignment is refused on six faces, and fitted with the rests that the
     refusal names.

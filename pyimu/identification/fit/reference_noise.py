@@ -10,7 +10,7 @@ errors-in-variables models", Biometrika 77), the means taken over the draw.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -66,15 +66,16 @@ def with_reference_noise(fit: Fit, held: list[Trial], seed: int = 1) -> tuple[Fi
     """
     if any(t.reduction is not None for t in fit.trials):
         return fit, held
-    seen, unseen = (np.array([f(fit, i) for i in range(3)]) for f in (_in_quiet, _unseen))
-    variance = np.minimum.reduce([beyond_own(fit), seen, unseen])
-    total = [np.concatenate([one.residual[:, i] for one in fit.residuals()]) for i in range(3)]
-    if not np.any(variance > LEAST * np.array([max(np.var(r), 1e-300) for r in total])):
+    linears = fit.residuals()
+    seen = np.array([_in_quiet(fit, i) for i in range(3)])
+    variance = np.minimum.reduce([beyond_own(fit), seen, _unseen(fit, linears)])
+    total = np.var(np.concatenate([one.residual for one in linears]), axis=0)
+    if not np.any(variance > LEAST * np.maximum(total, 1e-300)):
         return fit, held
-    rng, colour = np.random.default_rng(seed), _colour(fit)
-    trials = tuple(_drawn(t, variance, colour, rng) for t in fit.trials)
-    apart = [_drawn(t, variance, colour, rng) for t in held]
-    known = replace(fit, trials=trials, coloured=bool(colour)).with_noise()
+    rng, shape = np.random.default_rng(seed), _shape(fit, linears)
+    trials = tuple(_drawn(t, variance, shape, rng) for t in fit.trials)
+    apart = [_drawn(t, variance, shape, rng) for t in held]
+    known = replace(fit, trials=trials, coloured=bool(shape)).with_noise()
     return replace(known, echo=_echo(known)), apart
 
 
@@ -87,44 +88,45 @@ def _in_quiet(fit: Fit, axis: int) -> float:
     return quiet(found, REST) / lowness(found, REST) if len(found) else 0.0
 
 
-def _unseen(fit: Fit, axis: int) -> float:
-    """Variance of a residual that the sensor from ``LAGS`` rows before to ``LAGS`` after does not
-    show: it shows what an effect leaves, and nothing of the noise of its reference.
+def _unseen(fit: Fit, linears: Sequence[Linear]) -> np.ndarray:
+    """Variance (3,) of a residual that the sensor from ``LAGS`` rows before to ``LAGS`` after does
+    not show: it shows what an effect leaves, and nothing of the noise of its reference.
 
     Infinite where a band lies between the two.
     """
-    if any(t.band_hz is not None for t in fit.trials):
-        return np.inf
-    left, rows = 0.0, 0
-    for t, one in zip(fit.trials, fit.residuals(), strict=True):
-        measured = in_band(t, t.y[:, list(t.axes)])
-        for a, b in one.segments if axis in one.keys else ():
+    left, rows = np.zeros(3), np.zeros(3)
+    for t, one in zip(fit.trials, linears, strict=True):
+        if t.band_hz is not None:
+            return np.full(3, np.inf)
+        axes, measured = list(t.axes), in_band(t, t.y[:, list(t.axes)])
+        for a, b in one.segments:
             b = min(b, a + MOST_ROWS)
             if b - a > 40 * LAGS:
                 around = sliding_window_view(measured[a:b], 2 * LAGS + 1, axis=0)
                 columns = np.column_stack([np.ones(len(around)), around.reshape(len(around), -1)])
-                r = one.residual[a + LAGS : b - LAGS, axis]
+                r = one.residual[a + LAGS : b - LAGS, axes]
                 rest = r - columns @ np.linalg.lstsq(columns, r)[0]
-                left, rows = left + float(rest @ rest), rows + len(r) - columns.shape[1]
-    return left / rows if rows else np.inf
+                left[axes] += np.sum(rest**2, axis=0)
+                rows[axes] += len(r) - columns.shape[1]
+    return np.where(rows > 0, left / np.maximum(rows, 1), np.inf)
 
 
-def _colour(fit: Fit) -> tuple[float, ...]:
+def _shape(fit: Fit, linears: Sequence[Linear]) -> tuple[float, ...]:
     """Coefficients of an autoregression like what is left in the quiet against a reference that is
     no derivative; none where that is white.
     """
     if any(t.band_hz is not None for t in fit.trials):
         return ()
-    linears = fit.residuals()
-    pieces = [windows(r.residual[:, i], r.segments) for r in linears for i in r.keys]
-    quietest_of_each = np.concatenate([quietest(p, QUIET) for p in pieces])
-    found = colour(quietest_of_each)
+    pieces = [windows(one.residual[:, i], one.segments) for one in linears for i in one.keys]
+    found = colour(np.concatenate([quietest(p, QUIET) for p in pieces]))
     return found if np.any(np.abs(found) > CORRELATED) else ()
 
 
-def _drawn(trial: Trial, variance: np.ndarray, colour, rng: np.random.Generator) -> Trial:
-    """The trial with a draw (n, 3) of noise that has a ``variance`` (3,) in its band: white, of a
-    colour, or as a white attitude has it once it is differentiated.
+def _drawn(
+    trial: Trial, variance: np.ndarray, shape: tuple[float, ...], rng: np.random.Generator
+) -> Trial:
+    """The trial with a draw (n, 3) of noise that has a ``variance`` (3,) in its band: white, of the
+    ``shape`` of an autoregression, or as a white attitude has it once it is differentiated.
 
     A derivative has no more of it than its high differences show: its band hides from the sensor
     what is left beyond.
@@ -132,7 +134,7 @@ def _drawn(trial: Trial, variance: np.ndarray, colour, rng: np.random.Generator)
     draw = rng.standard_normal(trial.y.shape)
     if trial.band_hz is not None:
         draw = np.gradient(draw, axis=0)
-    draw = lfilter([1.0], [1.0, *(-c for c in colour)], draw, axis=0)
+    draw = lfilter([1.0], [1.0, *(-c for c in shape)], draw, axis=0)
     seen = in_band(trial, draw).var(axis=0) if trial.count else np.ones(3)
     wanted = np.isin(np.arange(3), trial.axes) & (seen > 0.0)
     scale = np.sqrt(np.where(wanted, variance / np.where(seen > 0.0, seen, 1.0), 0.0))

@@ -31,9 +31,10 @@ def over_time(closed: Outcome) -> list[Picture]:
 def _over_time(closed: Outcome, kind: str, e: Exhibits, first: int) -> Picture:
     errors, si = closed.errors.get(kind), closed.after.sensor(kind).output.unit
     floor = errors.floor.per_axis if errors and errors.floor else None
-    rows = "held-out rows" if e.held_out else "fitted rows"
+    rows = "the held-out rows" if e.held_out else "the fitted rows"
+    rows = errors.data if errors and errors.data else rows
     caption = (
-        f"{SENSORS[kind].capitalize()} residual, measured less model, on the {rows}"
+        f"{SENSORS[kind].capitalize()} residual, measured less model, on {rows}"
         f"{_band(closed, kind)}; smallest and largest sample in each column of the picture. Time "
         "is that of the log's own time column. Each axis has its own scale."
     )

@@ -35,13 +35,19 @@ def _overview(r: LogEntry, o: Overview) -> tuple:
     share = r.held_out / max(r.samples, 1)
     return (
         _under(f"{number(o.duration, 4)} s", f"{r.samples:,} rows", f"{o.rate:.6g} Hz"),
-        _under(f"{100 * share:.0f} %", f"{r.held_out:,} rows") if r.held_out else "none",
+        _under(f"{100 * share:.0f} %", f"{r.held_out:,} rows") if r.held_out else _in_turn(r),
         f"{100 * o.rest:.0f} %",
         MISSING if o.turning is None else _turning(*o.turning),
         MISSING if o.force is None else _by_axis(o.force, "m/s^2"),
         MISSING if o.temperature is None else _range(*o.temperature),
         _faults(o),
     )
+
+
+def _in_turn(r: LogEntry) -> Markup | str:
+    """What is left out of the fit one at a time, where no rows are held out."""
+    left = [e.data for e in r.errors.values() if e.data]
+    return _under(*left) if left else "none"
 
 
 def _under(first: str, *more: str) -> Markup:

@@ -109,12 +109,17 @@ def _undecidable(closed: Outcome) -> str:
 
 
 def _level(closed: Outcome) -> str:
-    said = [
-        f"the {QUANTITIES[k]} residual is {quantity(e.after.total, e.unit)}"
-        for k, e in closed.errors.items()
-        if np.isfinite(e.after.total)
-    ]
-    return f" On held-out data {joined(said)}." if said else ""
+    said: dict[str, list[str]] = {}
+    for k, e in closed.errors.items():
+        if np.isfinite(e.after.total):
+            residual = f"the {QUANTITIES[k]} residual is {quantity(e.after.total, e.unit)}"
+            said.setdefault(judged_on(e), []).append(residual)
+    return "".join(f" On {where} {joined(each)}." for where, each in said.items())
+
+
+def judged_on(e: Errors) -> str:
+    """What was left out of the fit and judged by it."""
+    return f"{e.data}, left out of the fit," if e.data else "held-out data"
 
 
 def dependence(closed: Outcome) -> str:
@@ -139,7 +144,7 @@ def fall(kind: str, e: Errors) -> str:
     before, after = e.before.total, e.after.total
     unit = unit_for(before, e.unit)
     old, new = (number(float(in_unit(v, e.unit, unit))) for v in (before, after))
-    lead = f"The {QUANTITIES[kind]} residual on held-out data"
+    lead = f"The {QUANTITIES[kind]} residual on {judged_on(e)}"
     if not before > 0.0 or not np.isfinite(after):
         return f"{lead} could not be compared."
     ratio = after / before

@@ -125,9 +125,9 @@ def _noise(fit: Fit, held: Sequence[Trial]) -> np.ndarray | None:
     """
     if any(t.band_hz is None for t in fit.trials):
         return None
-    own, reference, out = own_noise(fit), reference_variance(fit), np.zeros(3)
-    if fit.echo:
-        reference = np.zeros(3)  # it is taken out of the sums already
+    own, out = own_noise(fit), np.zeros(3)
+    # The echo of a reference's noise is taken out of the sums already.
+    reference = np.zeros(3) if fit.echo else reference_variance(fit)
     for t in (*fit.trials, *held):
         rows, share = len(band_time(t)), float(np.sum(np.square(t.band.weights)))
         for i in t.axes:
