@@ -218,4 +218,7 @@ def _figures(closed: Closed):
 
 if __name__ == "__main__":
     wanted = sys.argv[1:]
+    unknown = set(wanted) - {r.name for r in ROWS}
+    if unknown:
+        sys.exit(f"no such row: {', '.join(sorted(unknown))}; there are {[r.name for r in ROWS]}")
     sys.exit(not table([r for r in ROWS if not wanted or r.name in wanted]))

@@ -13,6 +13,7 @@ from pyimu.identification.as_part import SENSORS
 from pyimu.identification.found import LogEntry
 from pyimu.identification.outcome import Outcome
 from pyimu.identification.overview import Overview
+from pyimu.identification.reference.align import SIGNIFICANT
 from pyimu.identification.report.errors import BESIDE
 from pyimu.identification.report.strips import strips
 from pyimu.model.part import AXES
@@ -44,10 +45,9 @@ def _overview(r: LogEntry, o: Overview) -> tuple:
     )
 
 
-def _in_turn(r: LogEntry) -> Markup | str:
-    """What is left out of the fit one at a time, where no rows are held out."""
-    left = [e.data for e in r.errors.values() if e.data]
-    return _under(*left) if left else "none"
+def _in_turn(r: LogEntry) -> str:
+    """Whether rests are left out of the fit in turn, where no rows are held out."""
+    return "in turn" if any(e.data for e in r.errors.values()) else "none"
 
 
 def _under(first: str, *more: str) -> Markup:
@@ -173,7 +173,7 @@ def _lag(entry: dict[str, Any]) -> tuple[str, str]:
         said = with_error(late, 1e3 * offset["std"])
     if entry["taken_out"]:
         return said, "the clocks', taken out"
-    return said, "left to the sensor" if own["value"] else "within its error"
+    return said, "left to the sensor" if own["value"] else f"within {SIGNIFICANT:g} of its errors"
 
 
 def _turn(rotation: list | None) -> Any:

@@ -291,7 +291,7 @@ def _denied(group: Group, chosen: Refined, seen: Evidence) -> bool:
 def _against(chosen: Refined, seen: Evidence, gate: float) -> str:
     """What fitted and held-out rows say against a chosen candidate."""
     if seen.speaks and seen.rise > 0.0:
-        return f"raises the error on held-out data by {seen.rise:.2%}"
+        return f"raises the error on held-out data by {100 * seen.rise:.2g} %"
     apart = float(seen.gained.sum()) / chosen.dispersion
     if seen.speaks and chosen.gain + apart <= gate:
         return f"held-out data lose {-apart:.0f} nat by it"
