@@ -215,6 +215,31 @@ def test_noise_of_an_attitude_reference_does_not_pull_the_scale_factor_down(monk
     assert np.all(np.abs(corrected.mean(axis=0)) < 0.3 * np.abs(raw.mean(axis=0)))
 
 
+def seen_by_rate(seed: int):
+    """A gyro with a scale factor against a rate as noisy as itself, at rest in turn."""
+    rng, time = np.random.default_rng(seed), 0.02 * np.arange(5000)
+    u = inputs(np.random.default_rng(99), time)
+    u[:, :3] *= 0.1 * (time % 20.0 >= 6.0)[:, None]
+    y = u[:, :3] * (1 + TRUE_S) + 1e-3 * rng.standard_normal((len(time), 3))
+    u[:, :3] += 1e-3 * rng.standard_normal((len(time), 3))
+    return trial(time, y, u)
+
+
+def test_noise_of_a_rate_reference_neither_pulls_the_scale_factor_nor_narrows_its_interval():
+    """The squares of the errors in standard errors are a chi-square."""
+    sensor = Sensor("gyro", {"scale_factor": {}, "angle_random_walk": {"N": 1e-3 * np.sqrt(0.02)}})
+    keys, z = keys_of(sensor, "scale_factor"), []
+    for seed in range(20):
+        known, _ = with_reference_noise(fit(begin(sensor, keys, [seen_by_rate(seed)])), [])
+        assert known.trials[0].noise is not None
+        found = fit(known)
+        std = [found.std[Coefficient("scale_factor", "s", (i,))] for i in range(3)]
+        z.append((found.sensor.values["scale_factor"]["s"] - TRUE_S) / std)
+    z = np.array(z)
+    assert chi2.ppf(ALARM / 2, z.size) < np.sum(z**2) < chi2.ppf(1 - ALARM / 2, z.size)
+    assert abs(z.mean()) < 4.5 / np.sqrt(z.size)
+
+
 def test_solve_is_the_least_norm_answer_in_units_of_each_column():
     rng = np.random.default_rng(3)
     columns = rng.standard_normal((50, 4)) * [1.0, 1e6, 1e-5, 3.0]
