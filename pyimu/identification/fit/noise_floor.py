@@ -67,8 +67,10 @@ def reference_variance(fit: Fit) -> np.ndarray:
     return beyond_own(fit)
 
 
-def beyond_own(fit: Fit) -> np.ndarray:
-    """Variance (3,) in a row of the band that the quiet shows beyond the sensor's own noise."""
+def beyond_own(fit: Fit, errors: float = 0.0) -> np.ndarray:
+    """Variance (3,) in a row of the band that the quiet shows beyond the sensor's own noise, or the
+    most that it may be, by so many standard ``errors``.
+    """
     noise = np.zeros(3)
     own, residuals = own_noise(fit), fit.residuals()
     share = np.mean([np.sum(np.square(t.band.weights)) for t in fit.trials])
@@ -76,12 +78,14 @@ def beyond_own(fit: Fit) -> np.ndarray:
         seen = [(one.residual[:, i], one.segments) for one in residuals if i in one.keys]
         pieces = np.concatenate([windows(*one) for one in seen])
         if len(pieces):
-            level = quiet(pieces) / lowness(pieces)
+            level, rows = quiet(pieces) / lowness(pieces), QUIET * pieces.size
         else:
             # No stretch is as long as a window: the level that half of the rows stay below.
             squares = np.concatenate([r for r, _ in seen]) ** 2
-            level = float(np.median(squares) / chi2.median(1)) if len(squares) else 0.0
-        noise[i] = max(0.0, level - own[i].r * share)
+            rows = len(squares)
+            level = float(np.median(squares) / chi2.median(1)) if rows else 0.0
+        most = level * (1.0 + errors * np.sqrt(2.0 / max(rows, 1.0)))
+        noise[i] = max(0.0, most - own[i].r * share)
     return noise
 
 

@@ -52,6 +52,9 @@ LEAST_SEEN = 0.01
 """Share of a column's power that must not be noise of the reference; of the rest there is nothing
 to be seen."""
 
+CHANCE = 4.0
+"""Standard errors by which a variance may be more than it seems."""
+
 CORRELATED = 0.2
 """Size of a coefficient of the autoregression from which on noise is not white: six standard errors
 in a thousand rows."""
@@ -67,8 +70,7 @@ def with_reference_noise(fit: Fit, held: list[Trial], seed: int = 1) -> tuple[Fi
     if any(t.reduction is not None for t in fit.trials):
         return fit, held
     linears = fit.residuals()
-    seen = np.array([_in_quiet(fit, i) for i in range(3)])
-    variance = np.minimum.reduce([beyond_own(fit), seen, _unseen(fit, linears)])
+    variance = _variance(fit, linears)
     total = np.var(np.concatenate([one.residual for one in linears]), axis=0)
     if not np.any(variance > LEAST * np.maximum(total, 1e-300)):
         return fit, held
@@ -77,6 +79,19 @@ def with_reference_noise(fit: Fit, held: list[Trial], seed: int = 1) -> tuple[Fi
     apart = [_drawn(t, variance, shape, rng) for t in held]
     known = replace(fit, trials=trials, coloured=bool(shape)).with_noise()
     return replace(known, echo=_echo(known)), apart
+
+
+def _variance(fit: Fit, linears: Sequence[Linear]) -> np.ndarray:
+    """Variance (3,) in a row of the band that the noise of the reference has.
+
+    It is the least of what must be at least as much. A rate shows it by itself in its quiet; what
+    the residual has beyond the sensor's own noise is the difference of two large numbers then, and
+    speaks against that only where it is less by more than chance.
+    """
+    derived = any(t.band_hz is not None for t in fit.trials)
+    seen = np.array([_in_quiet(fit, i) for i in range(3)])
+    beyond = beyond_own(fit, 0.0 if derived else CHANCE)
+    return np.minimum.reduce([beyond, seen, _unseen(fit, linears)])
 
 
 def _in_quiet(fit: Fit, axis: int) -> float:
