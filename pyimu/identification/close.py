@@ -22,6 +22,7 @@ from pyimu.identification.reference.positions import positions_wanted, unshown
 from pyimu.identification.reference.turns import turn_trials
 from pyimu.identification.result import Closed
 from pyimu.identification.search.forward import Investigation, investigate
+from pyimu.identification.thermometer import late_thermometers
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as find_part
 from pyimu.model.part_file import part_names
@@ -104,6 +105,7 @@ def close(
             trials = _shown(start, declared is not None, free, trials)
             prior = {} if declared else _prior(kind, free)
             found[kind] = investigate(start.sensor(kind), free, trials, held, say, prior)
+            quality += late_thermometers(found[kind])
         quality += _of_trials([*trials, *held])
     if not found:
         raise UserError(_nothing_to_compare(logs))

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from pyimu.identification.attitude_error import AttitudeError, attitude_error
+from pyimu.identification.fit.clock import Clock
+from pyimu.identification.fit.keys import LogClock
 from pyimu.identification.fit.left_out import as_measured, left_out
 from pyimu.identification.fit.noise_floor import floor_noise, reference_variance
 from pyimu.identification.fit.score import ErrorSums, floor, held_state, tally
@@ -136,7 +139,17 @@ def log_state(inv: Investigation, name: str) -> dict[str, Any] | None:
         return None
     state = inv.after.states.get(name) or held_state(inv.after, trial)[0]
     found = {"bias": state.bias.tolist(), "rotation": state.rotation.tolist()}
-    return found | {"reference": _reference(trial)}
+    return found | {"reference": _reference(replace(trial, clock=clock_of(inv, name)))}
+
+
+def clock_of(inv: Investigation, name: str) -> Clock | None:
+    """The clock of a log as it was measured, with what the model after found beside it."""
+    trials = [t for t in (*inv.after.trials, *inv.held) if t.name == name]
+    clock, state = trials[0].clock, inv.after.states.get(name)
+    if clock is None or state is None or state.clock is None:
+        return clock
+    change = state.clock.significant(inv.after.std.get(LogClock(name, 1), np.inf))
+    return clock.corrected(change, trials[0].time[0], trials[-1].time[-1])
 
 
 def _reference(trial: Trial) -> dict[str, Any]:
@@ -162,6 +175,6 @@ def attitudes(
             continue
         mounting = np.array(log_state(inv, r.name)["rotation"])
         first = len(r.time) - len(held.time)
-        error = attitude_error(r, part, mounting, first, held.clock)
+        error = attitude_error(r, part, mounting, first, clock_of(inv, r.name))
         found |= {r.name: error} if len(error.total) else {}
     return found

@@ -12,7 +12,7 @@ from pyimu.files import plain
 from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.noise_floor import reference_variance
 from pyimu.identification.fit.trial import Trial
-from pyimu.identification.held_out import log_state
+from pyimu.identification.held_out import clock_of, log_state
 from pyimu.identification.search.forward import Investigation
 from pyimu.recording.recording import Recording
 
@@ -50,7 +50,7 @@ def _entry(
     r: Recording, kind: str, inv: Investigation, t: Trial, noise: np.ndarray
 ) -> dict[str, Any]:
     state = log_state(inv, r.name)
-    clock, turn = t.clock, Rotation.from_matrix(state["rotation"]).magnitude()
+    clock, turn = clock_of(inv, r.name), Rotation.from_matrix(state["rotation"]).magnitude()
     offset, skew = _clock(clock)
     return plain(
         {

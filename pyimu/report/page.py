@@ -31,7 +31,7 @@ SAMPLE = (
 """Details of findings that have the unit of the column."""
 
 SECONDS, SECONDS_OF_TIME = (
-    ("time_constant", "period", "least_late", "most_late", "late_std"),
+    ("time_constant", "period", "late", "least_late", "most_late", "late_std"),
     ("longest", "total", "rms", "first", "origin"),
 )
 """Details of findings that are times; the latter those of the column ``time`` only."""

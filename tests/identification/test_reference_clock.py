@@ -82,6 +82,23 @@ def test_a_level_that_stands_still_is_rarely_said_to_wander():
     )
 
 
+def test_a_level_that_rises_is_a_line_to_the_ends_of_the_log():
+    """Few windows are enough for a slope of many standard errors, where a walk takes eight."""
+    time, error = np.arange(5.0, 80.0, 12.0), 3e-4
+    values = 5e-4 * time + error * np.random.default_rng(6).standard_normal(len(time))
+    level = level_of(time, values, np.full(len(time), error)).between(0.0, 90.0)
+    assert level.time.tolist() == [0.0, 90.0]
+    slope_std = error / (np.std(time) * np.sqrt(len(time)))
+    assert abs(np.diff(level.value)[0] / 90.0 - 5e-4) < 5 * slope_std
+
+
+def test_few_measurements_rarely_make_a_slope():
+    """By chance once in 3700 logs: in 400 draws more than twice once in 5000."""
+    rng, time = np.random.default_rng(7), np.arange(6.0)
+    levels = [level_of(time, rng.standard_normal(6), np.ones(6)) for _ in range(400)]
+    assert sum(len(one.value) > 1 for one in levels) <= 2
+
+
 def test_without_motion_there_is_no_clock():
     still = Recording.from_arrays(
         name="still",
@@ -127,6 +144,22 @@ def test_a_clock_is_no_effect_of_the_sensor(late):
     assert reached < (1.05 if np.ndim(late) == 0 else 1.5)
 
 
+@pytest.mark.parametrize("drift", [5e-5, -5e-5, 5e-4])
+def test_a_clock_that_runs_is_the_references_and_its_drift_is_known(drift):
+    """The rows that were fitted say how fast, weighed as the model weighs them."""
+    closed = pyimu.close(log(drift * TIME, 4))
+    assert not closed.added, closed.report()
+    assert closed.verdict in ("clean", "undecidable")
+    clock = closed.recordings[0].log_state["gyro"]["reference"]["clock"]
+    reached = (clock["most"] - clock["least"]) / SECONDS
+    # The white noise alone, by the motion's rate over the fitted 70 % of the log.
+    rate = np.gradient(Motion(4)(TIME), TIME, axis=0)[: int(0.7 * len(TIME))]
+    since = TIME[: len(rate)] - TIME[: len(rate)].mean()
+    std = NOISE / np.sqrt(np.sum((rate * since[:, None]) ** 2))
+    assert abs(reached - abs(drift)) < 5 * std
+    assert closed.errors["gyro"].after.total / NOISE < 1.02
+
+
 def test_lags_that_differ_from_log_to_log_are_the_clocks():
     closed = pyimu.close([log(0.004, 1, "a"), log(0.016, 2, "b")])
     assert not closed.added, closed.report()
@@ -140,6 +173,23 @@ def test_a_lag_that_all_logs_share_is_the_sensors_with_the_clock_beside_it():
     assert {added.effect, *added.alternatives} == {"time_delay", "lag"} and "clock" in added.note
     clocks = [r.log_state["gyro"]["reference"]["clock"] for r in closed.recordings]
     assert all(c["left_to_sensor"] == pytest.approx(0.0085, abs=1e-4) for c in clocks)
+
+
+@pytest.mark.parametrize("share", [0.05, 0.1, 0.3])
+def test_a_little_noise_of_the_reference_is_no_dead_zone(share):
+    """A zone as wide as that noise would smooth it where nothing turns: half a nat in a row for
+    each share of the variance.
+    """
+    rng, motion = np.random.default_rng(9), Motion(3)
+
+    def turns(t):
+        eased = np.clip(np.sin(2 * np.pi * t / 20.0), 0.0, 1.0) ** 2
+        return eased[:, None] * motion(t)
+
+    gyro = turns(TIME + 0.5 * H) + NOISE * rng.standard_normal((len(TIME), 3))
+    rate = turns(TIME) + share * NOISE * rng.standard_normal((len(TIME), 3))
+    closed = pyimu.close(Recording.from_arrays(name="log", time=TIME, gyro=gyro, ref_rate=rate))
+    assert not closed.added, closed.report()
 
 
 def test_a_noisy_reference_is_no_lag():

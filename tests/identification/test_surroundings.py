@@ -2,9 +2,11 @@
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 
 import pyimu
 from pyimu.identification.fit.surroundings import without_noise
+from pyimu.model.part_reader import parse_part
 from pyimu.recording.recording import Recording
 
 TIME = np.arange(0.0, 300.0, 0.02)
@@ -49,6 +51,38 @@ def test_a_thermal_bias_is_named_by_any_thermometer(kind):
 @pytest.mark.parametrize("kind", READINGS)
 def test_a_thermometer_alone_is_no_effect(kind):
     assert not pyimu.close(log(READINGS[kind])).added
+
+
+DECLARED = """
+name = "warm"
+sample_rate = {value = 50.0, unit = "Hz"}
+[gyro.thermal_bias]
+kT = {value = [3e-4, -2e-4, 4e-4], unit = "rad/s/K"}
+T0 = {value = 25.0, unit = "degC"}
+[gyro.angle_random_walk]
+N = {value = [1.41421356e-4, 1.41421356e-4, 1.41421356e-4], unit = "rad/sqrt(s)"}
+"""
+
+
+@pytest.mark.parametrize("tau", [0.0, 20.0, 40.0])
+def test_a_late_thermometer_is_found_and_is_no_rate_of_temperature(tau):
+    """A thermometer that is a first-order lag of T shows T - tau dT/dt."""
+    late = TRUE if tau == 0.0 else _behind(tau)
+    part = parse_part(DECLARED, "warm.toml")
+    kT = np.array([3e-4, -2e-4, 4e-4])
+    closed = pyimu.close(log(late + 0.01 * RNG.standard_normal(len(TIME)), kT=kT), part=part)
+    assert not closed.added, closed.report()
+    found = [f.detail for f in closed.quality if f.kind == "thermometer_late"]
+    assert len(found) == (tau > 0)
+    for one in found:
+        # Its prior of 30 s draws it by less than a standard error; a difference of means over
+        # seconds by less than a percent.
+        assert abs(one["late"] - tau) < 5 * one["late_std"] + 0.01 * tau
+
+
+def _behind(tau):
+    share = (TIME[1] - TIME[0]) / tau
+    return lfilter([share], [1.0, share - 1.0], TRUE, zi=[(1.0 - share) * TRUE[0]])[0]
 
 
 def test_a_constant_or_short_temperature_stays_as_it_was_read():

@@ -6,6 +6,33 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+WIDE = 5.0
+"""Standard errors of a lag as it was measured, of which a fit may make use: it sees the same rows,
+but weighs them better."""
+
+
+@dataclass(frozen=True)
+class ClockChange:
+    """What a fit finds beside a measured clock: ``offset`` s later at ``middle`` s of the log, and
+    ``drift`` s more each second.
+    """
+
+    middle: float
+    offset: float = 0.0
+    drift: float = 0.0
+
+    def significant(self, std: float) -> ClockChange:
+        """Without a drift that may be chance, ``std`` being its standard error."""
+        return self if abs(self.drift) > WIDE * std else replace(self, drift=0.0)
+
+    def moved(self, order: int, change: float) -> ClockChange:
+        if order == 0:
+            return replace(self, offset=self.offset + change)
+        return replace(self, drift=self.drift + change)
+
+    def at(self, time: np.ndarray) -> np.ndarray:
+        return self.offset + self.drift * (time - self.middle)
+
 
 @dataclass(frozen=True)
 class Clock:
@@ -36,6 +63,22 @@ class Clock:
     def less(self, delay: float) -> Clock:
         """The clock when ``delay`` s of it are the sensor's own."""
         return replace(self, late=self.late - delay, own=delay)
+
+    def room(self, seconds: float) -> dict[int, float]:
+        """Standard deviations of what a fit to ``seconds`` of a log may find beside the lag, by the
+        order in time.
+
+        The offset, in s, is left alone where it may be the sensor's own, and where there seemed to
+        be none; the drift never is.
+        """
+        drift = {1: WIDE * self.std * np.sqrt(12.0) / seconds}
+        return {0: WIDE * self.std, **drift} if self.taken_out and not self.own else drift
+
+    def corrected(self, change: ClockChange, first: float, last: float) -> Clock:
+        """The clock with what a fit found beside it, from ``first`` to ``last`` s."""
+        drifts = self.keeps_step and change.drift != 0.0
+        time = np.array([first, last]) if drifts else self.time
+        return replace(self, time=time, late=self.at(time) + change.at(time))
 
     def as_dict(self) -> dict[str, float | bool | None]:
         """Its figures in s, as they were measured, for report.json."""

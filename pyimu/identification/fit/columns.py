@@ -8,7 +8,17 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pyimu.identification.fit.keys import Coefficient, Key, LogBias, LogTurn, coefficient_of
+from pyimu.identification.fit.clock import ClockChange
+from pyimu.identification.fit.keys import (
+    Coefficient,
+    Key,
+    LogBias,
+    LogClock,
+    LogKey,
+    LogLag,
+    LogTurn,
+    coefficient_of,
+)
 from pyimu.identification.fit.reduction import Rows
 from pyimu.identification.fit.response import (
     after_dynamics,
@@ -23,21 +33,34 @@ from pyimu.identification.fit.response import (
 from pyimu.identification.fit.trial import Trial
 from pyimu.model.arguments import Parameter
 from pyimu.model.catalogue import CATALOGUE
-from pyimu.model.kinds import OWN
+from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.sensor import Sensor
+from pyimu.model.signals import COLUMNS
+
+TEMPERATURE, ITS_RATE = COLUMNS["temperature"], COLUMNS["temperature_rate"]
+
+SMALL_LAG = 0.1
+"""s; a step of a thermometer's lag that changes a temperature by far less than its noise."""
 
 
 @dataclass(frozen=True)
 class LogState:
-    """What belongs to a log and not to the part: bias (3,) at power-on and mounting rotation (3, 3)
-    of the reference.
+    """What belongs to a log and not to the part: bias (3,) at power-on, mounting rotation (3, 3)
+    of the reference, ``lag`` s of its thermometer behind the sensor's temperature, and what its
+    clock still lacks, None where that is not to be found.
     """
 
     bias: np.ndarray = field(default_factory=lambda: np.zeros(3))
     rotation: np.ndarray = field(default_factory=lambda: np.eye(3))
+    lag: float = 0.0
+    clock: ClockChange | None = None
 
-    def moved(self, key: LogBias | LogTurn, change: float) -> LogState:
+    def moved(self, key: LogKey, change: float) -> LogState:
         """The state with the coefficient of one of its columns changed."""
+        if isinstance(key, LogClock):
+            return replace(self, clock=self.clock.moved(key.order, change))
+        if isinstance(key, LogLag):
+            return replace(self, lag=self.lag + change)
         unit = np.eye(3)[key.axis]
         if isinstance(key, LogBias):
             return replace(self, bias=self.bias + change * unit)
@@ -60,10 +83,23 @@ class Linear:
 
 
 def reference_input(trial: Trial, state: LogState) -> np.ndarray:
-    """Inputs (n, N_INPUT) with the reference turned into the sensor's axes."""
-    u = np.array(trial.u)
-    u[:, OWN[trial.kind]] = u[:, OWN[trial.kind]] @ state.rotation.T
+    """Inputs (n, N_INPUT) with the reference turned into the sensor's axes, on the sensor's clock.
+
+    What the clock still lacks is short against the motion: its first order is enough. A thermometer
+    that is a first-order lag shows T - lag dT/dt.
+    """
+    u, own, rate = np.array(trial.u), OWN[trial.kind], _own_rate(trial.kind)
+    if state.clock is not None:
+        late = state.clock.at(trial.time)[:, None]
+        u[:, own] -= late * u[:, rate]
+    for at in (own, rate):
+        u[:, at] = u[:, at] @ state.rotation.T
+    u[:, TEMPERATURE] += state.lag * u[:, ITS_RATE]
     return u
+
+
+def _own_rate(kind: str) -> slice:
+    return COLUMNS[KINDS[kind].own_rate]
 
 
 def residual(sensor: Sensor, trial: Trial, state: LogState) -> np.ndarray:
@@ -137,6 +173,8 @@ def linearise(
         if coefficient_of(s) in wanted:
             out.add(coefficient_of(s), int(axis), entries[:, e])
     _log_columns(out, trial, moved[:, own], slope)
+    _clock_columns(out, sensor, trial, state, u, slope)
+    _thermometer_columns(out, rest, trial, moved)
     _motion_columns(out, sensor, trial, u, slope, wanted)
     _dynamics_columns(out, sensor, trial, u, wanted)
     for function in extra:
@@ -185,6 +223,48 @@ def _log_columns(out: Regressors, trial: Trial, x: np.ndarray, slope: np.ndarray
             turned = np.einsum("nij,nj->ni", slope, np.cross(np.eye(3)[k], x))
             for i in range(3):
                 out.add(LogTurn(trial.name, k), i, turned[:, i])
+
+
+def _clock_columns(
+    out: Regressors,
+    sensor: Sensor,
+    trial: Trial,
+    state: LogState,
+    u: np.ndarray,
+    slope: np.ndarray,
+) -> None:
+    """What is left of the log's clock: each second of it takes the motion's rate off the sensor's
+    own signal, and each second per second as much as has passed since the middle.
+    """
+    if state.clock is None:
+        return
+    rate = u[:, _own_rate(trial.kind)]
+    since = (trial.time - state.clock.middle)[:, None]
+    for order in trial.clock.room(1.0):
+        later = through_dynamics(sensor, -rate * since**order, trial.segments, trial.h)
+        turned = np.einsum("nij,nj->ni", slope, later)
+        for i in range(3):
+            out.add(LogClock(trial.name, order), i, turned[:, i])
+
+
+def _thermometer_columns(out: Regressors, rest: Sensor, trial: Trial, moved: np.ndarray) -> None:
+    """What a lag of the log's thermometer changes in all that depends on temperature."""
+    if not has_thermometer(rest, trial):
+        return
+    ends = []
+    for sign in (1.0, -1.0):
+        later = np.array(moved)
+        later[:, TEMPERATURE] += sign * SMALL_LAG * later[:, ITS_RATE]
+        ends.append(memoryless(rest.chain).output(later, rest.p, trial.h))
+    change = (ends[0] - ends[1]) / (2 * SMALL_LAG)
+    for i in range(3):
+        out.add(LogLag(trial.name), i, change[:, i])
+
+
+def has_thermometer(sensor: Sensor, trial: Trial) -> bool:
+    """Whether a lag of the log's thermometer matters to a model: one that follows temperature."""
+    logged = {"temperature", "temperature_rate"} <= trial.known and trial.reduction is None
+    return logged and any("temperature" in e.signals(sensor.kind) for e in sensor.effects)
 
 
 def _motion_columns(

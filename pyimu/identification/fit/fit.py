@@ -10,6 +10,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from pyimu.errors import UserError
+from pyimu.identification.fit.clock import ClockChange
 from pyimu.identification.fit.columns import (
     Linear,
     LogState,
@@ -20,15 +21,27 @@ from pyimu.identification.fit.columns import (
     reduced,
     residual,
 )
-from pyimu.identification.fit.keys import Coefficient, Key, LogBias, LogTurn, coefficients_of
+from pyimu.identification.fit.keys import (
+    Coefficient,
+    Key,
+    LogClock,
+    LogKey,
+    LogLag,
+    coefficients_of,
+)
 from pyimu.identification.fit.normal import Noise, Normal, normal_equations, solve
 from pyimu.identification.fit.reduction import Unit
-from pyimu.identification.fit.trial import Trial
+from pyimu.identification.fit.trial import Trial, marked
 from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
 from pyimu.model.arguments import Parameter
-from pyimu.model.kinds import OWN
+from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.sensor import Sensor
+from pyimu.model.signals import COLUMNS
 from pyimu.recording.reference.rate import DERIVED
+
+THERMOMETER = 30.0
+"""s; standard deviation of a thermometer's lag behind the sensor: some seconds on the same die, a
+minute on the same board."""
 
 
 @dataclass(frozen=True)
@@ -119,7 +132,19 @@ def initial_state(sensor: Sensor, trial: Trial) -> LogState:
         if fast.sum() > 10:
             rotation = Rotation.align_vectors(y[fast], x[fast])[0].as_matrix()
     rest = in_band(trial, residual(sensor, trial, LogState(np.zeros(3), rotation)))
-    return LogState(np.median(rest, axis=0) if len(rest) else np.zeros(3), rotation)
+    bias = np.median(rest, axis=0) if len(rest) else np.zeros(3)
+    return LogState(bias, rotation, clock=_clock_to_find(trial))
+
+
+def _clock_to_find(trial: Trial) -> ClockChange | None:
+    """What a trial's clock still lacks before anything is known of it, about the middle of its
+    motion; None where too little of the clock is to be seen.
+    """
+    if trial.clock is None or not np.isfinite(trial.clock.std):
+        return None
+    power = np.sum(trial.u[:, COLUMNS[KINDS[trial.kind].own_rate]] ** 2, axis=1)
+    power = power * marked(trial.row_segments, len(power))
+    return ClockChange(float(power @ trial.time / power.sum())) if np.any(power) else None
 
 
 def begin(
@@ -159,18 +184,31 @@ def gauss_newton(start: Fit, steps: int) -> Fit:
 def with_prior(normal: Normal, fit: Fit) -> Normal:
     """The normal equations with the prior's rows, which share out over the batches."""
     gram, score = np.array(normal.batch_gram), np.array(normal.batch_score)
-    for key, std in fit.prior.items():
+    for key, (departure, std) in departures(fit).items():
         if key in normal.position:
             i = normal.position[key]
             gram[:, i, i] += std**-2 / len(gram)
-            score[:, i] -= _departure(fit, key) / std**2 / len(gram)
+            score[:, i] -= departure / std**2 / len(gram)
     power = normal.power + prior_power(fit)
     return replace(normal, batch_gram=gram, batch_score=score, power=power)
 
 
 def prior_power(fit: Fit) -> float:
-    """Sum of squares of the coefficients' departures from the identity in their prior's units."""
-    return sum((_departure(fit, k) / s) ** 2 for k, s in fit.prior.items() if k in fit.free)
+    """Sum of squares of what has a prior, by how far it departs from that in units of its own."""
+    return sum((away / std) ** 2 for away, std in departures(fit).values())
+
+
+def departures(fit: Fit) -> dict[Key, tuple[float, float]]:
+    """By key what departs from its prior, and the prior's standard deviation."""
+    away = {k: (_departure(fit, k), s) for k, s in fit.prior.items() if k in fit.free}
+    for t in fit.trials:
+        change = fit.states[t.name].clock
+        if change is not None:
+            values = (change.offset, change.drift)
+            room = t.clock.room(t.time[-1] - t.time[0])
+            away |= {LogClock(t.name, k): (values[k], std) for k, std in room.items()}
+        away[LogLag(t.name)] = fit.states[t.name].lag, THERMOMETER
+    return away
 
 
 def _departure(fit: Fit, key: Coefficient) -> float:
@@ -198,7 +236,7 @@ def stepped(start: Fit, keys: list[Key], change: np.ndarray) -> Fit:
             array = values[key.effect][key.parameter]
             definition = start.sensor.effect(key.effect).parameters[key.parameter]
             array[key.index] = _bounded(definition, array[key.index], d)
-        elif isinstance(key, (LogBias, LogTurn)):
+        elif isinstance(key, LogKey):
             states[key.log] = states[key.log].moved(key, d)
     return replace(start, sensor=_possible(Sensor(start.sensor.kind, values), start), states=states)
 

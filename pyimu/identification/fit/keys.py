@@ -34,6 +34,14 @@ class LogTurn:
 
 
 @dataclass(frozen=True)
+class LogClock:
+    """What is left of a log's clock: an offset (``order`` 0) or a drift (1)."""
+
+    log: str
+    order: int
+
+
+@dataclass(frozen=True)
 class Scanned:
     """The change that an effect would make with one of the values that are tried of a coefficient,
     ``number`` of them smaller.
@@ -54,7 +62,16 @@ class Product:
     axis: int
 
 
-Key = Coefficient | LogBias | LogTurn | Scanned | Product
+@dataclass(frozen=True)
+class LogLag:
+    """Seconds by which a log's thermometer is behind the sensor's temperature."""
+
+    log: str
+
+
+LogKey = LogBias | LogTurn | LogClock | LogLag
+
+Key = Coefficient | LogKey | Scanned | Product
 
 
 def coefficient_of(slot: Slot) -> Coefficient:

@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from pyimu.identification.fit.columns import LogState, band_segments, in_band, linearise, residual
 from pyimu.identification.fit.fit import Fit, bare, initial_state
-from pyimu.identification.fit.keys import LogTurn
+from pyimu.identification.fit.keys import LogLag, LogTurn
 from pyimu.identification.fit.noise_floor import simulated
 from pyimu.identification.fit.normal import normal_equations, solve
 from pyimu.identification.fit.trial import Trial
@@ -26,6 +26,9 @@ WINDOW = 10.0
 ROTATION_PRIOR, LEAST_PRIOR = 0.05, 1e-4
 """Standard deviation [rad] of a log's mounting about that of the fitted logs: of one alone, and the
 least that is taken where several agree."""
+
+KNOWN = 1e-6
+"""s; standard deviation of a thermometer's lag that other logs have shown."""
 
 FLOOR_DRAWS = 8
 
@@ -105,7 +108,9 @@ def _head_state(fit: Fit, head: Trial) -> LogState:
     """
     if not head.count:
         return LogState()
-    mountings = [LogState(np.zeros(3), r) for r in _mountings(fit, head)]
+    # The thermometer goes with the part.
+    lag = float(np.mean([s.lag for s in fit.states.values()]))
+    mountings = [LogState(np.zeros(3), r, lag) for r in _mountings(fit, head)]
     state = min(mountings, key=lambda s: float(np.sum(_centred(fit, head, s) ** 2)))
     spread = _spread(fit)
     white = {i: RandomWalk(n.r, 0.0) for i, n in fit.noise.items()}
@@ -113,7 +118,8 @@ def _head_state(fit: Fit, head: Trial) -> LogState:
         normal = normal_equations([linearise(fit.sensor, head, state, ())], white)
         if not normal.keys:
             return state
-        prior = np.diag([spread**-2 if isinstance(k, LogTurn) else 0.0 for k in normal.keys])
+        known = {LogTurn: spread**-2, LogLag: KNOWN**-2}
+        prior = np.diag([known.get(type(k), 0.0) for k in normal.keys])
         for key, change in zip(normal.keys, solve(normal.gram + prior, normal.score), strict=True):
             state = state.moved(key, change)
     return state

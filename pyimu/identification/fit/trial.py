@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 
 import casadi as ca
 import numpy as np
-from scipy.ndimage import uniform_filter1d
 
 from pyimu.block.stepping import step_through
 from pyimu.errors import Finding
@@ -27,10 +26,6 @@ from pyimu.recording.reference.rate import reference_rate
 SETTLE = 32
 """Rows at the start of a segment that are not counted: nobody knows what a lag or delay remembers
 from before it."""
-
-SLOW = 30.0
-"""Seconds over which a logged temperature is averaged before its rate is taken: thermometers have
-coarse steps."""
 
 HEAD = 30.0
 """Seconds of motion at the start of a held-out log from which what belongs to the log is
@@ -250,25 +245,16 @@ def environment(recording: Recording) -> tuple[np.ndarray, frozenset[str]]:
             u[:, COLUMNS[name]] = without_noise(recording, found[:, 0])[:, None] if slow else found
             known.add(name)
     if "temperature" in known:
-        known |= _slope(u, recording, "temperature", "temperature_rate", over=SLOW)
+        known |= _slope(u, recording, "temperature", "temperature_rate")
     return u, frozenset(known)
 
 
-def _slope(
-    u: np.ndarray, recording: Recording, signal: str, into: str, over: float = 0.0
-) -> set[str]:
-    """Fill the rate of a signal in, segment by segment: between neighbours on both sides, of means
-    over ``over`` seconds.
-    """
-    values, rows = u[:, COLUMNS[signal]], max(1, round(over / recording.sample_period))
+def _slope(u: np.ndarray, recording: Recording, signal: str, into: str) -> set[str]:
+    """Fill the rate of a signal in, segment by segment: between neighbours on both sides."""
+    values = u[:, COLUMNS[signal]]
     for a, b in recording.segments:
         if b - a > 1:
-            piece = (
-                uniform_filter1d(values[a:b], min(rows, b - a), axis=0, mode="nearest")
-                if rows > 1
-                else values[a:b]
-            )
-            u[a:b, COLUMNS[into]] = np.gradient(piece, recording.time[a:b], axis=0)
+            u[a:b, COLUMNS[into]] = np.gradient(values[a:b], recording.time[a:b], axis=0)
     return {into}
 
 

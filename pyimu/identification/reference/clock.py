@@ -71,7 +71,7 @@ def measure(trial: Trial, sensor: Sensor) -> Clock | None:
         if seen is None:
             return replace(clock, std=np.inf, explained=_explained(shifted(trial, clock)))
         time, late, std = seen
-        level = level_of(time, late + clock.at(time), std)
+        level = level_of(time, late + clock.at(time), std).between(trial.time[0], trial.time[-1])
         before, clock = clock, Clock(level.time, level.value, level.std, 0.0)
         if np.abs(clock.at(time) - before.at(time)).max() < 0.1 * clock.std:
             break

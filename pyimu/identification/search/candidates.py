@@ -56,17 +56,20 @@ def absent(fit: Fit) -> list[Effect]:
     coefficients have slopes or a scan.
 
     A course shows no sensor's delay: a tracked point ``l`` ahead of the axle turns its course l / v
-    before the vehicle turns, and the clock stands for that.
+    before the vehicle turns, and the clock stands for that. Where a log's clock is found beside the
+    model, a clock of the sensor that runs at another rate is the same.
     """
     known = frozenset.intersection(*(t.known for t in fit.trials))
     present = {name for name in fit.sensor.values if not fit.sensor.is_off(name)}
     twins = set().union(*(equivalent(name) for name in present))
     timed = all(t.reference != "course" for t in fit.trials)
+    free = any(fit.states[t.name].clock is not None for t in fit.trials)
     return [
         e
         for e in candidates(fit.sensor.kind, present | twins)
         if not e.per_power_on
-        and (timed or (e.delay is None and e.clock is None))
+        and (timed or e.delay is None)
+        and not (e.clock and (free or not timed))
         and has_columns(e, fit.sensor.kind)
         and e.signals(fit.sensor.kind) <= known
     ]

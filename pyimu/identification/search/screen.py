@@ -14,7 +14,7 @@ from functools import cached_property
 
 import numpy as np
 
-from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.fit import Fit, with_prior
 from pyimu.identification.fit.keys import Key
 from pyimu.identification.fit.normal import Normal, solve
 from pyimu.identification.fit.reference_noise import equations
@@ -111,7 +111,9 @@ def screen(fit: Fit, declared: Iterable[str], seed: int = 1) -> Screening:
     new, held = absent(fit), contestable(fit, declared)
     effects = new + held
     linear = [e.name for e in new if not scanned(e)] + [e.name for e in held]
-    normal = equations(fit, lambda f: f.linearise(linear, [scan_columns(fit.sensor, new)]))
+    normal = with_prior(
+        equations(fit, lambda f: f.linearise(linear, [scan_columns(fit.sensor, new)])), fit
+    )
     all_groups = groups(normal, fit.sensor, effects)
     taken = sorted({c for g in all_groups for choice in g.choices for c in choice.columns})
     base = [i for i in range(len(normal.keys)) if i not in set(taken)]
