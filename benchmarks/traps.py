@@ -1,10 +1,11 @@
 """How often ``close`` blames a sensor for what something else did.
 
-``python benchmarks/traps.py [TRAP ...] [--logs N] [--seed S]`` closes the loop on logs in which the
-sensor is blameless and the clocks, the reference, a thermometer or the samples are not (see
-``trap_logs``), each once as the log of a part that nobody declared and once with the part's own
-figures declared. It prints for each trap how often the sensor was blamed, for what, the verdicts,
-and how often the finding names the true cause. The issue allows one blame in a hundred.
+``python benchmarks/traps.py [TRAP ...] [--logs N] [--seed S] [--jobs J]`` closes the loop on logs
+in which the sensor is blameless and the clocks, the reference, a thermometer or the samples are
+not (see ``trap_logs``), each once as the log of a part that nobody declared and once with the
+part's own figures declared. It prints for each trap how often the sensor was blamed, for what, the
+verdicts, and how often the finding names the true cause. Each result is a line in a file; a run
+that was stopped goes on where it was. One blame in a hundred is allowed.
 """
 
 from __future__ import annotations
@@ -16,8 +17,15 @@ import zlib
 from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
 
+import generators
 import numpy as np
+import trap_logs
+from runs.intervals import shown
+from runs.pool import ROOT, digest, note, run_all
+from runs.pool import name as text
 from trap_logs.catalogue import TRAPS
 from trap_logs.log import Log
 
@@ -29,6 +37,10 @@ DELAYS = frozenset({"time_delay", "lag"})
 """What may be said of a sensor that is late by one time in all logs."""
 
 FORMS = ("undeclared", "declared")
+
+RESULTS = ROOT / "out" / "traps.jsonl"
+CODE = (*(Path(m.__path__[0]) for m in (pyimu, trap_logs, generators)), Path(__file__))
+"""What a result depends on."""
 
 
 @dataclass
@@ -181,33 +193,35 @@ NAMED: dict[str, Callable[[Log, Closed], bool]] = {
 # The table
 
 
-def run(name: str, form: str, logs: int, seed: int, tell: Callable[[str], None]) -> Tally:
-    tally = Tally()
-    for number in range(logs):
-        log = case(name, seed, number)
-        began = time.perf_counter()
-        try:
-            found = closed(log, form)
-        except pyimu.UserError as error:
-            tally.logs += 1
-            tally.verdicts["refused"] += 1
-            tell(f"  {name} {form} {number}: refused: {error}")
-            continue
-        tally.seconds.append(time.perf_counter() - began)
-        tally.logs += 1
-        wrong = blamed(log, form, found)
-        tally.blamed += bool(wrong)
-        tally.effects.update(wrong)
-        named = NAMED[log.cause](log, found)
-        tally.named += named
-        tally.verdicts[found.verdict] += 1
-        tell("  " + "; ".join(_detail(name, form, number, log, found, wrong, named)))
-    return tally
+def record(name: str, form: str, number: int, seed: int) -> dict[str, Any]:
+    """One case of a trap in one form, through the loop: what is counted of it."""
+    log = case(name, seed, number)
+    began = time.perf_counter()
+    try:
+        found = closed(log, form)
+    except pyimu.UserError as error:
+        return {"wrong": [], "named": False, "verdict": "refused", "detail": f"refused: {error}"}
+    seconds = time.perf_counter() - began
+    wrong, named = blamed(log, form, found), NAMED[log.cause](log, found)
+    detail = "; ".join(_detail(log, found, wrong, named))
+    told = {"wrong": wrong, "named": bool(named), "verdict": found.verdict, "detail": detail}
+    return told | {"seconds": round(seconds, 2)}
 
 
-def _detail(name, form, number, log: Log, found: Closed, wrong, named) -> Iterator[str]:
+def tally(records: list[dict[str, Any]]) -> Tally:
+    return Tally(
+        len(records),
+        sum(bool(r["wrong"]) for r in records),
+        sum(r["named"] for r in records),
+        Counter(effect for r in records for effect in r["wrong"]),
+        Counter(r["verdict"] for r in records),
+        [r["seconds"] for r in records if "seconds" in r],
+    )
+
+
+def _detail(log: Log, found: Closed, wrong, named) -> Iterator[str]:
     """One line on a case: its motion, its verdict, and what was added or refused, with gains."""
-    yield f"{name} {form} {number} ({', '.join(log.motions)})"
+    yield f"({', '.join(log.motions)})"
     yield f"{'BLAMED ' if wrong else ''}{'' if named else 'not named '}{found.verdict}"
     yield found.reason
     for a in found.added:
@@ -227,30 +241,39 @@ def _ms(value: float | None) -> float | None:
     return None if value is None else round(1e3 * value, 2)
 
 
-def main(arguments: list[str]) -> bool:
+def options() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("trap", nargs="*", help=f"of {', '.join(TRAPS)}; all without")
     parser.add_argument("--logs", type=int, default=50, help="cases a trap (50)")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--form", choices=FORMS, nargs="*", default=FORMS)
+    parser.add_argument("--jobs", type=int, default=2, help="processes (2)")
+    parser.add_argument("--results", type=Path, default=RESULTS)
     parser.add_argument("--details", action="store_true", help="one line a case, on stderr")
+    return parser
+
+
+def main(arguments: list[str]) -> bool:
+    parser = options()
     given = parser.parse_args(arguments)
     unknown = set(given.trap) - set(TRAPS)
     if unknown:
         parser.error(f"no such trap: {', '.join(sorted(unknown))}; there are {', '.join(TRAPS)}")
 
-    def tell(line: str) -> None:
+    def tell(key: str, result: dict[str, Any]) -> None:
         if given.details:
-            print(line, file=sys.stderr, flush=True)
+            note(f"  {key} {result['detail']}")
 
+    pairs = [(name, form) for name in given.trap or TRAPS for form in given.form]
+    keys = [(*pair, number, given.seed) for pair in pairs for number in range(given.logs)]
+    found = run_all(record, keys, given.results, digest(*CODE), given.jobs, tell)
     print(HEADER)
     total, wrong = 0, 0
-    for name in given.trap or TRAPS:
-        for form in given.form:
-            tally = run(name, form, given.logs, given.seed, tell)
-            print(tally.row(name, form), flush=True)
-            total, wrong = total + tally.logs, wrong + tally.blamed
-    print(f"blamed: {wrong} of {total} ({wrong / max(total, 1):.1%})")
+    for pair in pairs:
+        counted = tally([found[text(key)] for key in keys if key[:2] == pair])
+        print(counted.row(*pair), flush=True)
+        total, wrong = total + counted.logs, wrong + counted.blamed
+    print(f"blamed: {shown(wrong, total)}")
     return wrong <= 0.01 * total
 
 

@@ -6,10 +6,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-
-from trap_logs import rotation
-from trap_logs.instrument import Sensor, any_sensor
-from trap_logs.motion import Motion, any_motion
+from generators import rotation
+from generators.instrument import Sensor, any_sensor
+from generators.motion import Motion, any_motion
 
 Columns = dict[str, np.ndarray]
 

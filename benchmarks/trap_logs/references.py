@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
+from generators import rotation
 from scipy.signal import butter, sosfilt
 
-from trap_logs import rotation
 from trap_logs.log import Log, Scene, new_scene
 
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
+from generators.motion import tumble
 from scipy.signal import lfilter
 
 from trap_logs.log import Log, Scene, new_scene
-from trap_logs.motion import tumble
 
 
 def _warmth(scene: Scene) -> np.ndarray:

@@ -5,9 +5,9 @@ benchmark.
 import numpy as np
 import pytest
 import traps
-from trap_logs import rotation
+from generators import rotation
+from generators.motion import GRAVITY, MOTIONS
 from trap_logs.catalogue import TRAPS
-from trap_logs.motion import GRAVITY, MOTIONS
 
 STEP = 1e-4
 

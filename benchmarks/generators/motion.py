@@ -1,4 +1,5 @@
-"""Motions: a rate table, a tumble by hand, a rover's drive, a slow calibration dance.
+"""Motions: a rate table, a tumble by hand, a rover's drive, a slow calibration dance, a shaker, a
+thermal cycle with turns, rest.
 
 A motion is given by the slopes of roll, pitch and yaw and by the body's acceleration as cubic
 splines. The angles are their integrals, so that attitude and rate agree to rounding at any time,
@@ -15,7 +16,7 @@ import numpy as np
 from scipy.interpolate import BSpline, make_interp_spline
 from scipy.signal import butter, sosfiltfilt
 
-from trap_logs import rotation
+from generators import rotation
 
 GRAVITY = 9.80665
 KNOTS = 50.0
@@ -39,6 +40,10 @@ class Motion:
     @cached_property
     def _angles(self) -> BSpline:
         return self.slopes.antiderivative()
+
+    def angles(self, time: np.ndarray) -> np.ndarray:
+        """Roll, pitch and yaw (n, 3)."""
+        return self._angles(time)
 
     def attitude(self, time: np.ndarray) -> np.ndarray:
         return rotation.from_angles(self._angles(time))
@@ -146,6 +151,51 @@ def dance(rng, duration: float) -> Motion:
         slopes += rng.uniform(0.5, 1.5) * eased(t, [(a, b)])[:, None] * axis
     shaken = 0.05 * smooth_noise(rng, t, 3, 0.5, 6.0) * (np.abs(slopes).sum(axis=1) > 0)[:, None]
     return motion_of("dance", t, slopes + shaken, 4 * shaken)
+
+
+def shaker(rng, duration: float) -> Motion:
+    """Shaken on a table in one tilted position: a sinusoid that sweeps from 2 to 10 Hz, along one
+    direction after another, and random vibration, with pauses; it hardly turns.
+    """
+    t = grid(duration)
+    spans = busy_spans(rng, duration, (15, 30), (3, 6))
+    swept = 2 * np.pi * np.cumsum(6 + 4 * np.sin(2 * np.pi * t / rng.uniform(25, 60))) / KNOTS
+    pushed = rng.uniform(0.5, 2.0) * smooth_noise(rng, t, 3, 2.0, 12.0)
+    share = np.zeros_like(t)
+    for span in spans:
+        direction = rng.standard_normal(3)
+        direction *= rng.uniform(2.0, 8.0) / np.linalg.norm(direction)
+        on = eased(t, [span], 1.0)
+        pushed += on[:, None] * np.sin(swept)[:, None] * direction
+        share = np.maximum(share, on * rng.uniform(0.2, 1.0))
+    wobble = 0.02 * smooth_noise(rng, t, 3, 2.0, 12.0) * share[:, None]
+    return motion_of("shaker", t, wobble + _tilt(rng, t), pushed * share[:, None])
+
+
+def _tilt(rng, t: np.ndarray) -> np.ndarray:
+    """Slopes (n, 3) that turn roll and pitch by up to 0.6 rad before the log begins."""
+    turned = eased(t, [(-BEYOND + 0.5, -BEYOND + 2.5)])
+    return turned[:, None] * np.append(rng.uniform(-0.6, 0.6, 2), 0.0) / (turned.sum() / KNOTS)
+
+
+def static(rng, duration: float) -> Motion:
+    """At rest in a tilted position."""
+    t = grid(duration)
+    return motion_of("static", t, _tilt(rng, t))
+
+
+def thermal_cycle(rng, duration: float) -> Motion:
+    """In a chamber: at rest, and every two minutes turned to and fro about each axis."""
+    t = grid(duration)
+    slopes, at = _tilt(rng, t), float(rng.uniform(5, 15))
+    while at < duration:
+        for axis in rng.permutation(3):
+            fast = rng.uniform(0.3, 1.5) * rng.choice([-1, 1])
+            shares = eased(t, [(at, at + 5)]) - eased(t, [(at + 5, at + 10)])
+            slopes[:, axis] += fast * shares
+            at += 11.0
+        at += float(rng.uniform(70, 100))
+    return motion_of("thermal_cycle", t, slopes)
 
 
 MOTIONS: tuple[Callable[..., Motion], ...] = (table, tumble, rover, dance)

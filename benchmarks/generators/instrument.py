@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from trap_logs.motion import GRAVITY
+from generators.motion import GRAVITY
 
 T0 = 25.0
 
@@ -40,15 +40,21 @@ class Sensor:
     gyro: Triad
     accel: Triad
 
-    def part_file(self, sample_rate: float) -> str:
+    def part_file(self, sample_rate: float, name: str = "simulated") -> str:
         """TOML that declares all of it but the bias, which is new at each power-on."""
-        lines = ['name = "trap"', f'sample_rate = {{value = {sample_rate!r}, unit = "Hz"}}']
+        lines = [f'name = "{name}"', f'sample_rate = {{value = {sample_rate!r}, unit = "Hz"}}']
         for kind, y, triad in (("gyro", "rad/s", self.gyro), ("accel", "m/s^2", self.accel)):
             for effect, name, unit, values in _declared(triad, y):
-                numbers = np.round(values, 12).tolist()
+                numbers = _written(values)
                 lines += ["", f"[{kind}.{effect}]"]
                 lines += [f'{name} = {{value = {numbers}, unit = "{unit}"}}']
         return "\n".join(lines) + "\n"
+
+
+def _written(values: np.ndarray) -> list:
+    """Nested lists of numbers of twelve digits."""
+    digits = [float(f"{v:.12g}") for v in np.ravel(values)]
+    return np.reshape(digits, np.shape(values)).tolist()
 
 
 def _declared(triad: Triad, y: str) -> list[tuple[str, str, str, np.ndarray]]:

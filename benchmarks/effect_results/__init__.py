@@ -1,0 +1,1 @@
+"""What becomes of the cases of ``effect_logs``: the loop closed on them, judged, and counted."""

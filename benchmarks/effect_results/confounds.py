@@ -1,0 +1,66 @@
+"""Effects that no log of the benchmark's kind tells apart, and why: said beforehand.
+
+Where the loop names the one, its alternatives name the other, and the other is the truth, that
+counts as right.
+"""
+
+from __future__ import annotations
+
+CONFOUNDS: dict[frozenset[str], str] = {
+    frozenset({"lag", "time_delay"}): (
+        "below a third of its bandwidth a lag is a delay by 2 zeta / wn, or tau"
+    ),
+    frozenset({"time_delay", "clock_skew"}): (
+        "over a short part of a log a clock that runs late is a delay; apart only by its growth"
+    ),
+    frozenset({"rate_ramp", "ageing"}): (
+        "ageing of the bias alone is a ramp: (a + t) kb with kb = R, a in the turn-on bias"
+    ),
+    frozenset({"warm_up", "rate_ramp"}): (
+        "a warm-up is a ramp as long as the log is short against its time constant"
+    ),
+    frozenset({"misalignment", "scale_factor"}): (
+        "turned about one axis alone, one column is all that a log shows of both"
+    ),
+    frozenset({"scale_factor", "scale_factor_asymmetry"}): (
+        "turned in one sense alone, x and |x| are the same up to their sign"
+    ),
+    frozenset({"scale_factor_asymmetry", "scale_factor_nonlinearity"}): (
+        "at turns of one speed, to and fro, |x| and x^2 are in one proportion"
+    ),
+    frozenset({"scale_factor_cubic", "saturation"}): (
+        "a ceiling that is hardly reached bends the largest inputs as a cubic does"
+    ),
+    frozenset({"g_sensitivity", "magnetic_sensitivity"}): (
+        "without acceleration, turned about the vertical alone, gravity and field keep their angle"
+    ),
+    frozenset({"g_sensitivity", "g2_sensitivity"}): (
+        "near level the vertical force is g, and its products with the others are linear in those"
+    ),
+    frozenset({"gauss_markov", "bias_instability"}): (
+        "in one log flicker noise is a Gauss-Markov process over the decades that it shows"
+    ),
+    frozenset({"gauss_markov", "rate_random_walk"}): (
+        "a process whose correlation time is as long as the log is a random walk"
+    ),
+    frozenset({"sampling_jitter", "rate_dependent_noise"}): (
+        "swung at one frequency, rate and angular acceleration are equally large on the whole"
+    ),
+    frozenset({"vibration_rectification", "g2_sensitivity"}): (
+        "vibration much faster than a second has the mean square that it rectifies"
+    ),
+}
+
+FINDINGS: dict[str, tuple[str, str]] = {
+    "clock_skew": (
+        "reference_clock",
+        "against one reference, a clock that runs fast is the sensor's or the reference's",
+    ),
+}
+"""Effects that are as well a fault of the reference: the finding that names it, and why. Where
+nothing else is named, that finding is right."""
+
+
+def confounded(one: str, other: str) -> bool:
+    """Whether two effects are in the list."""
+    return frozenset({one, other}) in CONFOUNDS

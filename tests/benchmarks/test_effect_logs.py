@@ -1,0 +1,219 @@
+"""The logs of ``benchmarks/effects.py``: sizes in sigmas and equations, each another way."""
+
+import numpy as np
+import pytest
+from effect_logs import cases, nameless, noise_terms, whitening
+from effect_logs.chain import NAMED, TERMS, Chain
+from effect_logs.scene import new_scene
+from effect_logs.term import Case
+from generators.instrument import Triad, any_sensor
+from generators.motion import shaker, static, thermal_cycle, tumble
+
+from pyimu.model.catalogue import CATALOGUE
+from pyimu.model.part_reader import parse_part
+
+H = 0.01
+TRIAD = Triad(np.zeros(3), np.array([0.1, 0.2, 0.3]), np.array([0.5, 1e-3, 2.0]))
+
+
+def innovations_norm(error, r, k2h, free):
+    """The norm of an error behind the Kalman filter of a level that walks, whose innovations are
+    white; what a bias and free columns explain is taken off by least squares.
+    """
+    columns = np.column_stack([error, np.ones(len(error)), free])
+    level, variance = np.zeros(columns.shape[1]), 0.0
+    out = np.empty_like(columns)
+    for k, values in enumerate(columns):
+        variance += k2h if k else 0.0
+        out[k] = (values - level) / np.sqrt(variance + r)
+        level = level + variance / (variance + r) * (values - level)
+        variance *= r / (variance + r)
+    left = out[:, 0] - out[:, 1:] @ np.linalg.lstsq(out[:, 1:], out[:, 0])[0]
+    return left @ left
+
+
+def test_the_norm_is_that_of_the_innovations_filter():
+    """To the rounding of a least squares: its condition is below 1e4 here, so 1e-9."""
+    rng = np.random.default_rng(1)
+    error = np.cumsum(rng.standard_normal((400, 3)), axis=0)
+    free = rng.standard_normal((400, 2))
+    found = whitening.squares(error, TRIAD, H, free)
+    for i in range(3):
+        r, k2h = TRIAD.n[i] ** 2 / H, TRIAD.k[i] ** 2 * H
+        np.testing.assert_allclose(found[i], innovations_norm(error[:, i], r, k2h, free), rtol=1e-9)
+
+
+def test_the_norm_in_white_noise_is_the_root_of_the_sum_of_squares():
+    """Without a walk, of an error less its mean."""
+    error = np.random.default_rng(2).standard_normal((500, 3))
+    white = Triad(np.zeros(3), TRIAD.n, np.zeros(3))
+    wanted = np.sqrt(np.sum(((error - error.mean(axis=0)) / (TRIAD.n / np.sqrt(H))) ** 2))
+    np.testing.assert_allclose(whitening.norm(error, white, H), wanted, rtol=1e-9)
+
+
+def test_the_size_of_excess_white_noise_is_the_likelihoods():
+    """Whittle's sum over all frequencies for a flat excess is that of independent samples, less
+    the bins of zero and pi and what the random walk adds below: a thousandth of 20,000 rows.
+    """
+    n, triad = 20_000, Triad(np.zeros(3), TRIAD.n, 1e-9 * TRIAD.n)
+    extra = 0.3 * triad.n**2 / H
+    flat = np.tile(extra, (len(whitening.frequencies(n)[0]), 1))
+    found = whitening.gain_of_spectrum(flat, n, triad, H)
+    wanted = whitening.gain_of_variance(np.tile(extra, (n, 1)), triad, H)
+    np.testing.assert_allclose(found, wanted, rtol=1e-3)
+
+
+def test_white_noise_and_a_walk_of_another_size_are_nothing_where_they_are_free():
+    n = 20_000
+    omega, _ = whitening.frequencies(n)
+    walk = 3 * TRIAD.k**2 * H / (4 * np.sin(omega[:, None] / 2) ** 2)
+    extra = walk + 0.3 * TRIAD.n**2 / H
+    assert whitening.gain_of_spectrum(extra, n, TRIAD, H) > 10
+    assert whitening.gain_of_spectrum(extra, n, TRIAD, H, free=True) < 0.1
+
+
+def test_the_frequencies_stand_for_all():
+    for n in (200, 30_000, 84_001):
+        omega, count = whitening.frequencies(n)
+        assert np.sum(count) == n // 2 - 1
+        assert np.all(np.diff(omega) > 0) and omega[-1] < np.pi
+
+
+def test_gauss_markov_draws_have_their_variance_and_correlation():
+    """Of 4,000 processes the variance of a sample has a relative deviation of sqrt(2 / 4000), the
+    correlation of two at most 1 / sqrt(4000): six of each.
+    """
+    draws = np.random.default_rng(3).standard_normal((60, 4000))
+    x = noise_terms._markov(draws, 2.0, 0.05)
+    assert abs(x[0].var() / 2 - 1) < 6 * np.sqrt(2 / 4000)
+    assert abs(x[59].var() / 2 - 1) < 6 * np.sqrt(2 / 4000)
+    assert abs(np.corrcoef(x[10], x[50])[0, 1] - np.exp(-40 * 0.05)) < 6 / np.sqrt(4000)
+
+
+def test_flicker_has_its_density():
+    """B^2 / w times 2 / pi (atan(b / w) - atan(a / w)) of rates from a to b, half a spacing beyond
+    the first and the last; the sum over so many is that integral to 1e-4 (its first harmonic is the
+    hyperbolic secant of pi^2 / d). What is folded down from above 50 Hz adds 0.7 % at 0.1 Hz.
+    """
+    scene = new_scene(np.random.default_rng(4), static, 60.0)
+    case = Case("gyro", scene, np.ones(3), {}, 1)
+    w = 2 * np.pi * np.logspace(-3, -1, 50)
+    rates, spacing = noise_terms._poles()
+    a, b = rates[0] * np.exp(-spacing / 2), rates[-1] * np.exp(spacing / 2)
+    found = noise_terms._flicker_density(case, w * H)[:, 0] * H
+    wanted = 2 / np.pi * (np.arctan(b / w) - np.arctan(a / w)) / w
+    np.testing.assert_allclose(found, wanted, rtol=0.01)
+
+
+def test_a_first_order_lag_of_a_sinusoid():
+    """Gain 1 / sqrt(1 + (w tau)^2), delay atan(w tau) / w. Held linear between samples 2.5 ms
+    apart a sinusoid of 1 Hz is too small by (w h)^2 / 12 = 2e-5 at most.
+    """
+
+    class Swung:
+        def rate(self, time):
+            return np.tile(np.sin(2 * np.pi * time)[:, None], 3)
+
+    scene = new_scene(np.random.default_rng(5), static, 30.0)
+    swung = type(scene)(scene.time, Swung(), scene.warmth, scene.supply, 0.5, scene.cruise)
+    tau, w = 0.05, 2 * np.pi
+    case = Case("gyro", swung, tau, {}, 1)
+    late = TERMS["lag_first_order"].apply(swung.rate, case)
+    wanted = np.sin(w * scene.time - np.arctan(w * tau)) / np.hypot(1, w * tau)
+    np.testing.assert_allclose(late[500:, 0], wanted[500:], atol=4e-5)
+
+
+def test_a_play_follows_a_triangle_behind_by_its_half_width():
+    scene = new_scene(np.random.default_rng(6), static, 40.0)
+    up = np.abs((scene.time / 10 + 1) % 2 - 1) * 20
+    ramped = type(scene)(scene.time, scene.motion, up, scene.supply, 0.5, scene.cruise)
+    case = Case("gyro", ramped, np.ones(3), {"width": 2.0}, 1)
+    moved = TERMS["thermal_hysteresis"].apply(np.zeros((len(up), 3)), case)[:, 0]
+    rising = (scene.time > 25) & (scene.time < 29)
+    falling = (scene.time > 15) & (scene.time < 19)
+    signs = np.sign(np.gradient(up))
+    np.testing.assert_allclose(moved[rising], -2.0 * signs[rising], atol=1e-9)
+    np.testing.assert_allclose(moved[falling], -2.0 * signs[falling], atol=1e-9)
+
+
+def test_every_effect_of_the_catalogue_has_a_term_or_is_the_bias():
+    assert {t.right for t in NAMED} == set(CATALOGUE) - {"turn_on_bias"}
+    for t in NAMED:
+        assert set(t.sizes) == set(CATALOGUE[t.right].sensors)
+
+
+@pytest.mark.parametrize("term", [t for t in TERMS.values()], ids=lambda t: t.name)
+def test_an_effect_of_no_size_is_nothing(term):
+    """Of what is given by its size: the output is the input, to the rounding of one filter."""
+    scene = new_scene(np.random.default_rng(7), tumble, 20.0)
+    kind = next(iter(term.sizes))
+    x = scene.own(kind)
+    c = np.zeros(term.shape) if term.shape else 1e-9
+    form = term.form(np.random.default_rng(8), scene)
+    y = term.apply(x, Case(kind, scene, 0.0 if term.known else c, form, 1))
+    np.testing.assert_allclose(y, x, atol=1e-6)
+
+
+@pytest.mark.parametrize("name", ["one/8/gyro.g_sensitivity", "one/30/accel.dead_zone_hard"])
+def test_a_case_has_its_size_and_depends_on_its_name_alone(name):
+    one, other = (cases.make(name, 1, (1.0, 1.5)) for _ in range(2))
+    assert one.part == other.part and one.form == other.form == "undeclared"
+    for a, b in zip(one.logs, other.logs, strict=True):
+        assert a.keys() == b.keys() and all(np.array_equal(a[k], b[k]) for k in a)
+    assert abs(one.truths[0].size / float(name.split("/")[1]) - 1) < cases.WITHIN
+
+
+def test_the_size_is_that_of_the_difference_it_makes():
+    """The log less the same log without the effect, whitened; both logs share their noise."""
+    scene = new_scene(np.random.default_rng(9), tumble, 60.0)
+    sensor = any_sensor(np.random.default_rng(10))
+    chain = Chain("gyro", scene, sensor.gyro, 11)
+    case = chain.case(1e-3 * np.ones(3), {})
+    error = chain.measure({"scale_factor_asymmetry": case}) - chain.measure({})
+    np.testing.assert_allclose(
+        error,
+        1e-3 * np.abs((1 + sensor.gyro.scale) * (scene.rate + scene.rate @ sensor.gyro.skew.T)),
+        atol=1e-12,
+    )
+    size = chain.size(TERMS["scale_factor_asymmetry"], case)
+    assert size == chain.size_of(error)
+
+
+def test_together_and_pairs_have_their_sizes():
+    both = cases.make("together/8/gyro.scale_factor_cubic", 0, (1.0, 1.5))
+    assert len(both.logs) == 2 and abs(both.truths[0].size / 8 - 1) < cases.WITHIN
+    pair = cases.make("pair/12/gyro", 0, (1.0, 1.5))
+    assert len(pair.truths) == 2
+    assert all(abs(t.size / 12 - 1) < cases.WITHIN for t in pair.truths)
+
+
+def test_all_rows_have_cases():
+    for row in cases.ROWS:
+        assert cases.names(row)
+    assert len(nameless.TERMS) * 2 == len(cases.names("unknown_30"))
+
+
+@pytest.mark.parametrize("motion", [shaker, static, thermal_cycle], ids=lambda m: m.__name__)
+def test_rest_is_rest(motion):
+    """Gravity's size at rest, and in a shaker no turn to speak of."""
+    scene = new_scene(np.random.default_rng(12), motion, 120.0)
+    if motion is not shaker:
+        np.testing.assert_allclose(np.linalg.norm(scene.force, axis=1), 9.80665, rtol=1e-9)
+    if motion is static:
+        assert np.abs(scene.rate).max() < 1e-9
+
+
+def test_the_true_model_leaves_the_noise():
+    """Of a random effect its noise as well: white noise of c / sqrt(h) beside the declared.
+
+    Squares of differences of n = 6,000 white samples have neighbours correlated by a half, so that
+    their mean has a relative deviation of sqrt(3 / n); six of it. The walk adds less than 1e-3.
+    """
+    fixed = cases.make("one/30/gyro.scale_factor", 0, (1.0, 1.5))
+    random = cases.make("one/30/gyro.angle_random_walk", 0, (1.0, 1.5))
+    for made in (fixed, random):
+        white = np.diff(made.left[0]["gyro"], axis=0) / np.sqrt(2)
+        declared = np.array(parse_part(made.part, "case").gyro.values["angle_random_walk"]["N"])
+        extra = made.truths[0].value if made is random else np.zeros(3)
+        wanted = (declared**2 + extra**2) / H
+        np.testing.assert_allclose(np.mean(white**2, axis=0), wanted, rtol=6 * np.sqrt(3 / 6000))
