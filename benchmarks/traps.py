@@ -33,7 +33,7 @@ import pyimu
 from pyimu.identification.result import Closed
 from pyimu.model.part_reader import parse_part
 
-DELAYS = frozenset({"time_delay", "lag"})
+DELAYS = frozenset({"time_delay", "lag", "first_order_lag"})
 """What may be said of a sensor that is late by one time in all logs."""
 
 FORMS = ("undeclared", "declared")

@@ -29,7 +29,6 @@ from pyimu.identification.search.forward import Investigation
 from pyimu.identification.search.screen import VISIBLE
 from pyimu.model.catalogue import CATALOGUE, POWER_ON
 from pyimu.model.kinds import KINDS
-from pyimu.model.part import AXES
 from pyimu.model.sensor import Sensor
 from pyimu.model.typical import magnitudes
 from pyimu.recording.recording import Recording
@@ -192,7 +191,7 @@ def _gain(
     now, then = (max(v) for v in zip(*better.values(), strict=True))
     unit = sensor.unit(CATALOGUE[effect].parameters[name].unit)
     whole = len(better) == len(CATALOGUE[effect].parameters[name].indices)
-    which = [" from ".join(AXES[i] for i in index) for index in better if index]
+    which = [CATALOGUE[effect].parameters[name].place(index) for index in better if index]
     axes = "all axes" if whole and len(better) > 3 else joined(which)
     return Gain(effect, name, axes, None if np.isinf(now) else now, then, unit)
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from pyimu.identification.estimated import LEVEL, Estimated
 from pyimu.model.catalogue import CATALOGUE
-from pyimu.model.part import AXES, Part
+from pyimu.model.part import Part
 from pyimu.model.part_value import EXACT, PartValue, with_values
 from pyimu.model.sensor import Sensor
 from pyimu.report.numbers import CORNER, in_unit, joined, unit_for, with_limits
@@ -93,12 +93,12 @@ def _part_value(v: Estimated) -> PartValue:
 
 def _source(v: Estimated, unit: str) -> str:
     """Where a coefficient is from, each element of it with its interval."""
-    indices = CATALOGUE[v.effect].parameters[v.parameter].indices
-    told = [i for i in indices if v.shown[i] and (np.isfinite(v.std[i]) or v.value[i])]
-    hidden = [i for i in indices if not v.shown[i]]
-    said = [f"{axes_of(i)} {element(v, i, unit)}".lstrip() for i in told]
+    definition = CATALOGUE[v.effect].parameters[v.parameter]
+    told = [i for i in definition.indices if v.shown[i] and (np.isfinite(v.std[i]) or v.value[i])]
+    hidden = [definition.place(i) for i in definition.indices if not v.shown[i]]
+    said = [f"{definition.place(i)} {element(v, i, unit)}".lstrip() for i in told]
     if hidden:
-        which = "the rest" if len(v.value.shape) == 2 and told else joined([*map(axes_of, hidden)])
+        which = "the rest" if len(v.value.shape) == 2 and told else joined(hidden)
         said.append(f"{which} {NOT_SHOWN}".lstrip())
     level = f"; {100 * LEVEL:g} % intervals in {unit}" if np.isfinite(v.std).any() else ""
     return f"{ORIGINS[v.origin]}: {', '.join(said)}{level}"
@@ -114,14 +114,6 @@ def element(v: Estimated, index: tuple[int, ...], unit: str) -> str:
 def _si(v: Estimated, unit: str) -> str:
     """The SI unit of a coefficient, told apart where ``unit`` is that of a corner frequency."""
     return CORNER if unit == "Hz" and v.unit == "rad/s" else v.unit
-
-
-def axes_of(index: tuple[int, ...]) -> str:
-    """The axes of an element, ``x from y`` of a matrix; nothing where it has none."""
-    if not index:
-        return ""
-    inside = max(index) < len(AXES)
-    return " from ".join(AXES[i] for i in index) if inside else ", ".join(map(str, index))
 
 
 def _description(part: Part, entries: Iterable[Estimated], unexamined: Mapping[str, str]) -> str:

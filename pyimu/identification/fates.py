@@ -15,6 +15,7 @@ from pyimu.identification.search.forward import (
     MOST_REFINED,
     SET_WIDTH,
     Investigation,
+    Step,
 )
 from pyimu.report.numbers import joined, number
 
@@ -84,14 +85,25 @@ def _outcome(
     refused = next((r for r in inv.refused if r.effect == name), None)
     if refused is not None:
         return "refused", f"{refused.reason} (fitted in full {number(refused.gain)} nat)", ()
-    of = [s.effect for s in inv.steps if s.effect in equivalent(name)]
+    of = [s for s in inv.steps if s.effect in equivalent(name)]
     if of:
-        return "alternative", f"one class with {joined(of)}, which no log tells apart", tuple(of)
+        return _as_another_form(name, of)
     close = [s.effect for s in inv.steps if name in s.alternatives]
     if close:
         within = f"explains as much as {joined(close)}, to within {SET_WIDTH:g} nat"
         return "alternative", within, tuple(close)
     return _by_the_steps(inv, name, first, last)
+
+
+def _as_another_form(name: str, of: list[Step]) -> tuple[str, str, tuple[str, ...]]:
+    """What became of an effect of whose family there is a step: the data may tell the forms apart
+    or not.
+    """
+    names = [s.effect for s in of]
+    if any(name in s.alternatives for s in of):
+        return "alternative", f"one class with {joined(names)}, not told apart", tuple(names)
+    clear = f"the data speak for {joined(names)} by more than {SET_WIDTH:g} nat"
+    return "explained", f"another form of the same error: {clear}", tuple(names)
 
 
 def _by_the_steps(

@@ -5,6 +5,7 @@ Coefficients, states, noise, signals, and the sample period.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
@@ -14,13 +15,16 @@ import numpy as np
 INPUT = "input"
 """Start of a state that begins as if the first input had always been there."""
 
+AXES = "xyz"
+
 
 @dataclass(frozen=True)
 class Scan:
     """A logarithmic grid of ``points`` values for a coefficient without slope at the identity.
 
     ``low`` and ``high`` count sample periods ("period"), radians a sample ("rate") or shares of the
-    largest input ("range").
+    largest input, of which a limit does most where it is small ("range") and a dead zone where it
+    is large ("zone").
     """
 
     measure: str
@@ -30,7 +34,8 @@ class Scan:
 
     def values(self, period: float, largest: float) -> np.ndarray:
         """The grid for a log of this sample period [s] and largest input."""
-        unit = {"period": period, "rate": 1.0 / period, "range": largest}[self.measure]
+        sizes = {"period": period, "rate": 1.0 / period, "range": largest, "zone": largest}
+        unit = sizes[self.measure]
         return unit * np.geomspace(self.low, self.high, self.points)
 
 
@@ -45,9 +50,10 @@ class Parameter:
     constant, an instant): it acts only where they do. ``known`` is the one value, beside zero,
     that it can have. ``scan`` says where identification starts its search where the identity has no
     slope to follow. ``reads`` marks one that is read off the raw samples: the level at which they
-    stop ("ceiling"), or the step on whose multiples they lie ("step"). ``density`` marks the root
-    of a white noise's density, which a data sheet may print one-sided, and ``corner`` a frequency
-    that is said in Hz, though it is in rad/s.
+    stop ("ceiling"), the one below which they are zero ("threshold"), or the step on whose
+    multiples they lie ("step"). ``density`` marks the root of a white noise's density, which a data
+    sheet may print one-sided, and ``corner`` a frequency that is said in Hz, though it is in rad/s.
+    ``columns`` names the columns of a matrix where these are no axes.
     """
 
     unit: str
@@ -61,14 +67,22 @@ class Parameter:
     minimum: float | None = None
     maximum: float | None = None
     scan: Scan | None = None
-    reads: Literal["", "ceiling", "step"] = ""
+    reads: Literal["", "ceiling", "threshold", "step"] = ""
     density: bool = False
     corner: bool = False
+    columns: tuple[str, ...] = ()
 
     @cached_property
     def indices(self) -> tuple[tuple[int, ...], ...]:
         """Index of every free element, row by row."""
         return tuple(i for i in np.ndindex(*self.shape) if self.diagonal or i[0] != i[1])
+
+    def place(self, index: tuple[int, ...]) -> str:
+        """Where an element stands, as "x" or "x from yz"; nothing where there is but one."""
+        if len(index) == 1 and self.shape != (3,):
+            return str(index[0] + 1)
+        labels: list[Sequence[str]] = [AXES, self.columns or AXES]
+        return " from ".join(labels[k][i] for k, i in enumerate(index))
 
     def fault(self, values: np.ndarray) -> str:
         """Why ``values`` are not allowed, as "must not be below 0"; empty where they are.

@@ -78,8 +78,9 @@ class Effect:
     it makes.
 
     ``per_power_on`` marks what is drawn anew at each power-on, so that it belongs to a log and not
-    to the part; ``mounting`` what holds a turn of the whole triad among its values. No log tells
-    the effects of one ``family`` apart, nor an effect from its ``confound``, which is said beside
+    to the part; ``mounting`` what holds a turn of the whole triad among its values. The
+    effects of one ``family`` are forms of one error: a model has one of them, that for which the
+    data speak. No log tells an effect from its ``confound``, which is said beside
     it wherever it is named (of ``mounting`` only where the reference's axes are not known).
     ``delay(**parameters)`` is the delay [s] by which an effect
     holds slow input back, ``clock(**parameters)`` the relative error of the sensor's clock: both

@@ -13,12 +13,11 @@ import numpy as np
 from pyimu.block.block import Block
 from pyimu.block.variables import Limits, Variable
 from pyimu.errors import UserError
+from pyimu.model.arguments import AXES
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import EVERY_SAMPLE, SIGNALS, Derived, inputs_for, vector
 from pyimu.model.truth import measured_recording
 from pyimu.recording.recording import Recording
-
-AXES = "xyz"
 
 
 @dataclass(frozen=True)

@@ -179,7 +179,8 @@ def test_lags_that_differ_from_log_to_log_are_the_clocks():
 def test_a_lag_that_all_logs_share_is_the_sensors_with_the_clock_beside_it():
     closed = pyimu.close([log(0.0085, 1, "a"), log(0.0085, 2, "b")])
     (added,) = closed.added
-    assert {added.effect, *added.alternatives} == {"time_delay", "lag"} and "clock" in added.note
+    named = {added.effect, *added.alternatives}
+    assert named == {"time_delay", "lag", "first_order_lag"} and "clock" in added.note
     clocks = [r.log_state["gyro"]["reference"]["clock"] for r in closed.recordings]
     assert all(c["left_to_sensor"] == pytest.approx(0.0085, abs=1e-4) for c in clocks)
 

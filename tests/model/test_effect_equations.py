@@ -80,6 +80,16 @@ def lag(x, p, u, w):
     return lfilter(b, a, x, axis=0, zi=lfilter_zi(b, a)[:, None] * x[0])[0]
 
 
+def first_order_lag(x, p, m, w):
+    """dy/dt = (x - y) / tau, the slope that of the cubic through the last four outputs."""
+    cubic, nodes = np.polynomial.Polynomial.fit, np.arange(-3, 1)
+    slope = np.array([cubic(nodes, unit, 3).deriv()(0.0) for unit in np.eye(4)]) * p["tau"] / H
+    out = [x[0]] * 3
+    for now in x:
+        out.append((now - slope[:3] @ np.array(out[-3:])) / (1 + slope[3]))
+    return np.array(out[3:])
+
+
 def time_delay(x, p, u, w):
     """The cubic through four samples by numpy's polynomial fit; before the log the first sample."""
     held = np.vstack([np.repeat(x[:1], MEMORY + 3, axis=0), x])
@@ -189,6 +199,7 @@ EQUATIONS = {
         x - p["c"] * H / 12 * (np.cross(before(m.rate), x) + np.cross(before(x), m.rate))
     ),
     "lag": lag,
+    "first_order_lag": first_order_lag,
     "time_delay": time_delay,
     "scale_factor": lambda x, p, m, w: x * (1 + p["s"]),
     "scale_factor_asymmetry": lambda x, p, m, w: np.where(
@@ -199,6 +210,11 @@ EQUATIONS = {
     "misalignment": lambda x, p, m, w: x + np.einsum("ij,kj->ki", p["m"], x),
     "anisoinertia": lambda x, p, m, w: x + p["c"] * np.roll(x, -1, 1) * np.roll(x, 1, 1),
     "vibropendulous": lambda x, p, m, w: x + np.einsum("ij,ki,kj->ki", p["kp"], x, x),
+    "cross_axis_nonlinearity": lambda x, p, m, w: (
+        x + np.square(x) @ p["k"].T + p["kx"] * np.prod(x, 1, keepdims=True) / x
+    ),
+    "spin_sensitivity": lambda x, p, m, w: x + np.einsum("ij,ki,kj->ki", p["s"], m.rate, m.rate),
+    "bias_asymmetry": lambda x, p, m, w: np.where(x > 0, x + p["ba"] / 2, x - p["ba"] / 2),
     "angular_acceleration": lambda x, p, m, w: x + m.slope(m.rate) @ p["c"].T,
     "scale_factor_g_sensitivity": lambda x, p, m, w: (
         x + np.einsum("ij,ki,kj->ki", p["P"], x, m.specific_force)
@@ -239,10 +255,12 @@ EQUATIONS = {
         x + np.vstack([np.zeros(3), np.cumsum(p["K"] * np.sqrt(H) * w, 0)[:-1]])
     ),
     "gauss_markov": gauss_markov,
+    "second_gauss_markov": gauss_markov,
     "bias_instability": bias_instability,
     "rate_dependent_noise": lambda x, p, m, w: x * (1 + p["k"] * w / np.sqrt(H)),
     "sampling_jitter": lambda x, p, m, w: x + p["sj"] * w * m.slope(x),
     "dead_zone": lambda x, p, m, w: np.sign(x) * np.maximum(np.abs(x) - p["d"], 0),
+    "hard_dead_zone": lambda x, p, m, w: x * (np.abs(x) > p["d"]),
     "angle_quantization": angle_quantization,
     "saturation": lambda x, p, m, w: np.clip(x, -p["limit"], p["limit"]),
     "quantization": lambda x, p, m, w: p["q"] * np.rint(x / p["q"]),

@@ -163,8 +163,10 @@ def is_affine_in_coefficients(sensor: Sensor) -> bool:
         for i, slot in enumerate(sensor.slots)
         if not (slot.definition.reference or slot.definition.form)
     ]
-    slope = ca.jacobian(sensor.step(s, u, p, w, h)[1], p)[:, free]
-    return not ca.depends_on(slope, p[free]) if free else True
+    y = sensor.step(s, u, p, w, h)[1]
+    slope = ca.jacobian(y, p)
+    moves_a_jump = any(ca.depends_on(y, p[i]) and slope[:, i].is_zero() for i in free)
+    return not (free and (moves_a_jump or ca.depends_on(slope[:, free], p[free])))
 
 
 @every_effect
@@ -405,7 +407,9 @@ def test_the_catalogue_is_there_whoever_asks_first():
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_compensation_undoes_the_whole_chain(kind):
-    sensor, u = everything(kind, share=0.01), motion(150)
+    # So small that the slopes of all effects together stay near one: where they meet in a slope of
+    # nothing, no chain can be undone.
+    sensor, u = everything(kind, share=0.005), motion(150)
     sensor = sensor.without(*[e.name for e in sensor.effects if not e.invertible])
     x, _ = compensate(sensor, run(sensor, u), u)
     np.testing.assert_allclose(
@@ -438,9 +442,9 @@ def test_compensation_of_a_nonlinear_effect_converges(bent, kind):
 @every_effect
 def test_saturated_samples_stay_marked_behind_the_effect(name, kind):
     """What the range of the sensor cut off is lost, whatever else its chain does."""
-    if name in ("quantization", "dead_zone"):
+    if name == "quantization" or (CATALOGUE[name].lost and name != "saturation"):
         pytest.skip(
-            "rounding moves the limit to the next step; a dead zone marks samples of its own"
+            "rounding moves the limit to the next step; what loses input marks samples of its own"
         )
     sensor, u = excited(name, kind, 0.01).without("saturation"), motion(100)
     limit = 0.6 * np.abs(run(sensor, u)).max(0)

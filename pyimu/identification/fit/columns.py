@@ -32,7 +32,7 @@ from pyimu.identification.fit.response import (
 )
 from pyimu.identification.fit.trial import Trial
 from pyimu.model.arguments import Parameter
-from pyimu.model.catalogue import CATALOGUE
+from pyimu.model.catalogue import CATALOGUE, POWER_ON
 from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS
@@ -102,13 +102,17 @@ def _own_rate(kind: str) -> slice:
     return COLUMNS[KINDS[kind].own_rate]
 
 
+def in_log(sensor: Sensor, state: LogState) -> Sensor:
+    """The sensor as a log has it: its bias there comes before what the output does to it."""
+    effect, parameter = POWER_ON
+    declared = sensor.values[effect][parameter] if effect in sensor.values else 0.0
+    return sensor.with_values(effect, **{parameter: declared + state.bias})
+
+
 def residual(sensor: Sensor, trial: Trial, state: LogState) -> np.ndarray:
     """Measured less model (n, 3), at the sample rate."""
-    return (
-        trial.y
-        - predict(sensor, reference_input(trial, state), trial.segments, trial.h)
-        - state.bias
-    )
+    u = reference_input(trial, state)
+    return trial.y - predict(in_log(sensor, state), u, trial.segments, trial.h)
 
 
 def in_band(trial: Trial, values: np.ndarray) -> np.ndarray:
@@ -160,7 +164,7 @@ def linearise(
     wanted = frozenset(wanted)
     rows = None if trial.reduction is None else trial.rows(sensor, state.bias)
     u = reference_input(trial, state) if rows is None else rows.u
-    own = OWN[trial.kind]
+    own, sensor = OWN[trial.kind], in_log(sensor, state)
     moved = behind_dynamics(sensor, u, trial.segments, trial.h)
     rest = after_dynamics(sensor)
     response = memoryless(rest.chain)
@@ -172,7 +176,9 @@ def linearise(
         s = rest.slots[slot]
         if coefficient_of(s) in wanted:
             out.add(coefficient_of(s), int(axis), entries[:, e])
-    _log_columns(out, trial, moved[:, own], slope)
+        if (s.effect, s.parameter) == POWER_ON:
+            out.add(LogBias(trial.name, s.index[0]), int(axis), entries[:, e])
+    _turn_columns(out, trial, moved[:, own], slope)
     _clock_columns(out, sensor, trial, state, u, slope)
     _thermometer_columns(out, rest, trial, moved)
     _motion_columns(out, sensor, trial, u, slope, wanted)
@@ -185,7 +191,7 @@ def linearise(
     return Linear(
         band_time(trial),
         band_segments(trial),
-        in_band(trial, trial.y - y - state.bias),
+        in_band(trial, trial.y - y),
         keys,
         columns,
     )
@@ -214,10 +220,8 @@ def _is_turn(key: Key) -> bool:
     )
 
 
-def _log_columns(out: Regressors, trial: Trial, x: np.ndarray, slope: np.ndarray) -> None:
-    """Bias of each axis; where the mounting is free, a small turn about each axis."""
-    for i in range(3):
-        out.add(LogBias(trial.name, i), i, np.ones(len(x)))
+def _turn_columns(out: Regressors, trial: Trial, x: np.ndarray, slope: np.ndarray) -> None:
+    """Where the mounting is free, a small turn about each axis."""
     if trial.free_rotation:
         for k in range(3):
             turned = np.einsum("nij,nj->ni", slope, np.cross(np.eye(3)[k], x))

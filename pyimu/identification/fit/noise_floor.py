@@ -104,7 +104,10 @@ def colour(pieces: np.ndarray) -> tuple[float, ...]:
     its own size, by their autocovariances (Yule and Walker).
     """
     v = pieces - pieces.mean(axis=1, keepdims=True)
-    v = v / np.maximum(v.std(axis=1, keepdims=True), 1e-300)
+    size = v.std(axis=1, keepdims=True)
+    # What is constant to rounding has no colour.
+    alive = size > 1e-12 * np.abs(pieces).max(axis=1, keepdims=True)
+    v = np.where(alive, v / np.where(alive, size, 1.0), 0.0)
     products = np.array([np.sum(v[:, k:] * v[:, : v.shape[1] - k]) for k in range(LAGS + 1)])
     return tuple(solve_toeplitz(products[:-1], products[1:])) if products[0] > 0 else ()
 

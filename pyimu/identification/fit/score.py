@@ -84,10 +84,9 @@ def held_state(fit: Fit, trial: Trial) -> tuple[LogState, Trial]:
         return fit.states[trial.name] if trial.name in fit.states else _own_state(fit, trial), trial
     if trial.parent is not None:
         parent = next(t for t in fit.trials if t.name == trial.parent)
-        state = replace(fit.states[parent.name], bias=np.zeros(3))
-        return replace(
-            state, bias=in_band(parent, residual(fit.sensor, parent, state)).mean(axis=0)
-        ), trial
+        state = fit.states[parent.name]
+        left = in_band(parent, residual(fit.sensor, parent, state)).mean(axis=0)
+        return replace(state, bias=state.bias + left), trial
     head, rest = trial.head()
     return _head_state(fit, head), rest
 

@@ -56,15 +56,16 @@ def _rows(v: Estimated) -> Iterator[Row]:
         cells = (NOT_SHOWN,) * 3 if v.value.shape else (NOT_SHOWN, "", "")
         yield Row(f"{v.effect} {v.parameter}", unit, cells, "not shown by these logs", "")
         return
-    for label, indices in _lines(v.value.shape):
+    columns = CATALOGUE[v.effect].parameters[v.parameter].columns
+    for label, indices in _lines(v.value.shape, columns):
         cells = tuple(_cell(v, i, unit) if i in allowed else "" for i in indices)
         told = {*cells} - {"", NOT_SHOWN}
         origin = ORIGINS[v.origin] if told else "not shown by these logs"
         yield Row(f"{v.effect} {v.parameter}{label}", unit, cells, origin, v.source)
 
 
-def _lines(shape: tuple[int, ...]) -> Iterator[tuple[str, list]]:
-    """The elements of a coefficient in rows of three."""
+def _lines(shape: tuple[int, ...], columns: tuple[str, ...]) -> Iterator[tuple[str, list]]:
+    """The elements of a coefficient in rows of three; a matrix may name its ``columns``."""
     if not shape:
         yield "", [(), None, None]
     elif shape == (3,):
@@ -77,7 +78,7 @@ def _lines(shape: tuple[int, ...]) -> Iterator[tuple[str, list]]:
             yield f" {k + 1}", [(k,), None, None]
     else:
         for k in range(shape[1]):
-            yield f" {k + 1}", [(i, k) for i in range(3)]
+            yield f" {columns[k] if columns else k + 1}", [(i, k) for i in range(3)]
 
 
 def _cell(v: Estimated, index: tuple[int, ...], unit: str) -> str:

@@ -109,22 +109,19 @@ def _parameters(a: Added) -> Table:
             si_of(a.effect, name, si),
         )
         unit = "degC" if si == "degC" else unit_for(value, si)
+        place = CATALOGUE[a.effect].parameters[name].place
         for index in np.ndindex(*value.shape):
             if value.ndim == 0 or value[index] != 0.0:
                 shown, error = (float(in_unit(v[index], si, unit)) for v in (value, std))
                 plain = with_error(float(value[index]), float(std[index]))
                 table.rows.append(
                     (
-                        name + _axes(index),
+                        f"{name} {place(index)}".rstrip(),
                         f"{with_error(shown, error)} {pretty(unit)}",
                         f"{plain} {pretty(si)}",
                     )
                 )
     return table
-
-
-def _axes(index: tuple[int, ...]) -> str:
-    return f" {','.join('xyz'[i] for i in index)}" if index else ""
 
 
 def changed_table(closed: Outcome) -> Table:
@@ -138,7 +135,7 @@ def changed_table(closed: Outcome) -> Table:
 def _changed_rows(c: Changed) -> list[tuple]:
     si = si_of(c.effect, c.parameter, c.unit)
     unit = unit_for(c.declared, si)
-    rows = []
+    place, rows = CATALOGUE[c.effect].parameters[c.parameter].place, []
     for index in np.ndindex(*np.shape(c.declared)):
         had, now, std = (float(np.asarray(v)[index]) for v in (c.declared, c.fitted, c.std))
         if np.isfinite(now) and (had or now):
@@ -146,7 +143,7 @@ def _changed_rows(c: Changed) -> list[tuple]:
             rows.append(
                 (
                     SENSORS[c.sensor],
-                    f"{c.effect}.{c.parameter}{_axes(index)}",
+                    f"{c.effect}.{c.parameter} {place(index)}".rstrip(),
                     f"{number(shown[0])} {pretty(unit)}",
                     f"{with_error(*shown[1:])} {pretty(unit)}",
                     si_quantity(had, si),

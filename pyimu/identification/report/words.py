@@ -7,6 +7,7 @@ import numpy as np
 from pyimu.identification.as_part import SENSORS
 from pyimu.identification.found import Added, AtRest, Errors
 from pyimu.identification.outcome import Outcome
+from pyimu.model.arguments import Parameter
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.report.numbers import (
     CORNER,
@@ -158,9 +159,10 @@ def fall(kind: str, e: Errors) -> str:
 
 def missing(a: Added) -> str:
     """An effect with its coefficients: ``saturation at 421 and 424 deg/s on x and y``."""
-    name, (value, _, si) = next(iter(a.parameters.items()))
-    phrase = CATALOGUE[a.effect].phrase
-    return f"{phrase} {coefficient(value, si_of(a.effect, name, si))}"
+    given = {n: v for n, (v, _, _) in a.parameters.items() if np.any(v)} or a.parameters
+    name, e = next(iter(given)), CATALOGUE[a.effect]
+    value, _, si = a.parameters[name]
+    return f"{e.phrase} {coefficient(value, si_of(a.effect, name, si), e.parameters[name])}"
 
 
 def si_of(effect: str, parameter: str, si: str) -> str:
@@ -168,7 +170,7 @@ def si_of(effect: str, parameter: str, si: str) -> str:
     return CORNER if CATALOGUE[effect].parameters[parameter].corner else si
 
 
-def coefficient(value: np.ndarray, si: str) -> str:
+def coefficient(value: np.ndarray, si: str, definition: Parameter) -> str:
     """A coefficient in words: every axis that has one; of a matrix the largest entry."""
     value = np.asarray(value, dtype=float)
     unit = unit_for(value, si)
@@ -178,9 +180,9 @@ def coefficient(value: np.ndarray, si: str) -> str:
     if value.ndim == 1:
         on = np.flatnonzero(value)
         numbers = f"{joined([number(float(shown[i])) for i in on])} {pretty(unit)}".rstrip()
-        return f"{numbers} on {joined(['xyz'[i] for i in on])}"
-    i, j = np.unravel_index(np.nanargmax(np.abs(shown)), shown.shape)
-    return f"up to {number(float(abs(shown[i, j])))} {pretty(unit)} ({'xyz'[i]} from {'xyz'[j]})"
+        return f"{numbers} on {joined([definition.place((int(i),)) for i in on])}"
+    i, j = map(int, np.unravel_index(np.nanargmax(np.abs(shown)), shown.shape))
+    return f"up to {number(float(abs(shown[i, j])))} {pretty(unit)} ({definition.place((i, j))})"
 
 
 def gravity_at_rest(g: AtRest) -> str:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pyimu.identification.fit.columns import in_log
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Key, Scanned, coefficients_of
 from pyimu.identification.fit.normal import Normal
@@ -108,15 +109,16 @@ def scanned(effect: Effect) -> Parameter | None:
     return next((p for p in effect.parameters.values() if p.scan), None)
 
 
-def scan_columns(sensor: Sensor, effects: Iterable[Effect]) -> Callable:
+def scan_columns(fit: Fit, effects: Iterable[Effect]) -> Callable:
     """Column maker for ``Fit.linearise``: what each scanned value of each effect would change in
-    the output.
+    the output of the fitted model.
     """
     found = [(e, n, p) for e in effects for n, p in e.parameters.items() if p.scan]
 
     def add_all(trial: Trial, u: np.ndarray, y: np.ndarray, add: Callable) -> None:
         if trial.reference == "static" or trial.reduction is not None:
             return
+        sensor = in_log(fit.sensor, fit.states[trial.name])
         for e, name, p in found:
             for number, value in enumerate(_grid(p, trial, y)):
                 changed = (
@@ -184,7 +186,7 @@ def _linear_groups(normal: Normal, sensor: Sensor, e: Effect) -> list[Group]:
 
 
 def equivalent(name: str) -> set[str]:
-    """Effects of one family with this one: no log tells them apart by design."""
+    """Effects of one family with this one: other forms of the same error."""
     family = CATALOGUE[name].family
     return {e.name for e in CATALOGUE.values() if family and e.family == family} - {name}
 

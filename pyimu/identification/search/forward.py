@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, field, replace
+from functools import reduce
 from types import MappingProxyType
 from typing import Any
 
@@ -37,6 +38,8 @@ from pyimu.identification.search.screen import (
     keys_of,
     screen,
 )
+from pyimu.identification.search.threshold import at_threshold, is_threshold
+from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.sensor import Sensor
 
 SET_WIDTH = 6.0
@@ -195,22 +198,45 @@ def _choose(
     refined = [r for r in refined if r.gain > gate]
     if not refined:
         return None, ()
-    best = refined[0]
     derived = any(t.band_hz is not None for t in tried.current.trials)
-    for other in refined[1:]:
-        # Of one class take the one with fewer coefficients unless the data speak clearly for the
-        # other; a reference that ends below the band in which the two differ cannot speak at all.
-        if (
-            other.screened.effect in equivalent(best.screened.effect)
-            and (derived or best.gain - other.gain < SET_WIDTH)
-            and len(keys_of(other.screened)) < len(keys_of(best.screened))
+    family = equivalent(refined[0].screened.effect)
+    forms = [r for r in refined if r.screened.effect in family | {refined[0].screened.effect}]
+    best = _form(forms, derived)
+    close = [
+        r.screened.effect
+        for r in refined
+        if r is not best and (_ahead(best, r) if r in forms else best.gain - r.gain) <= SET_WIDTH
+    ]
+    if derived or CATALOGUE[best.screened.effect].delay is not None:
+        # Of a reference that ends below the band, or its clock, another form may be the truth.
+        close += [c.effect for c in options if c.effect in equivalent(best.screened.effect)]
+    return best, tuple(dict.fromkeys(close))
+
+
+def _form(forms: list[Refined], derived: bool) -> Refined:
+    """The one of several forms of an effect that the data speak for.
+
+    It is the one with fewer coefficients unless they speak clearly for the other; a reference that
+    ends below the band in which the two differ cannot speak at all.
+    """
+    best = reduce(lambda one, other: other if _ahead(other, one) > 0.0 else one, forms)
+    for other in forms:
+        if (derived or _ahead(best, other) < SET_WIDTH) and (
+            len(keys_of(other.screened)) < len(keys_of(best.screened))
         ):
             best = other
-    close = [
-        r.screened.effect for r in refined if r is not best and best.gain - r.gain <= SET_WIDTH
-    ]
-    twins = [c.effect for c in options if c.effect in equivalent(best.screened.effect)]
-    return best, tuple(dict.fromkeys(close + twins))
+    return best
+
+
+def _ahead(one: Refined, other: Refined) -> float:
+    """Log-likelihood [nat] by which one form explains more than another, penalised.
+
+    Both are corrected for the larger scatter: by each its own, what they explain together would
+    decide.
+    """
+    more = len(keys_of(one.screened)) - len(keys_of(other.screened))
+    apart = one.fit.log_likelihood - other.fit.log_likelihood
+    return apart / max(one.dispersion, other.dispersion) - PENALTY * more
 
 
 def refine(current: Fit, c: Screened) -> Refined:
@@ -231,6 +257,7 @@ def refine(current: Fit, c: Screened) -> Refined:
         return refine(current, c.only(needed))
     spread = fitted_dispersion(normal, keys_of(c))
     fitted = at_samples(fitted) if is_ceiling(sensor, c.effect) else fitted
+    fitted = at_threshold(fitted) if is_threshold(sensor, c.effect) else fitted
     gain = (fitted.log_likelihood - current.log_likelihood) / spread - PENALTY * len(keys_of(c))
     return Refined(c, fitted, gain if needed else -np.inf, spread, normal)
 

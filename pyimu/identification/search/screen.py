@@ -111,9 +111,7 @@ def screen(fit: Fit, declared: Iterable[str], seed: int = 1) -> Screening:
     new, held = absent(fit), contestable(fit, declared)
     effects = new + held
     linear = [e.name for e in new if not scanned(e)] + [e.name for e in held]
-    normal = with_prior(
-        equations(fit, lambda f: f.linearise(linear, [scan_columns(fit.sensor, new)])), fit
-    )
+    normal = with_prior(equations(fit, lambda f: f.linearise(linear, [scan_columns(f, new)])), fit)
     all_groups = groups(normal, fit.sensor, effects)
     taken = sorted({c for g in all_groups for choice in g.choices for c in choice.columns})
     base = [i for i in range(len(normal.keys)) if i not in set(taken)]
@@ -186,8 +184,9 @@ def _smallest(projected: Projected, g: Group) -> float | None:
     """The coefficient of a group nearest to the identity that would stand out, None where none
     would.
 
-    A scanned delay does more, a natural frequency or a limit less, the larger it is; the first two
-    do so in proportion near the identity, so the grid's nearest value gives the answer.
+    A scanned delay or dead zone does more, a natural frequency or a limit less, the larger it is;
+    delay and frequency do so in proportion near the identity, so the grid's nearest value gives the
+    answer.
     """
     seen = sorted(
         (c.value or 0.0, float(np.diag(projected.gram)[list(c.columns)].max())) for c in g.choices
@@ -201,7 +200,8 @@ def _smallest(projected: Projected, g: Group) -> float | None:
         return seen[0][0] / seen[0][1]
     if g.measure == "rate":
         return seen[-1][0] * seen[-1][1]
-    return max((v for v, ratio in seen if ratio > 1), default=None)
+    nearest = min if g.measure == "zone" else max
+    return nearest((v for v, ratio in seen if ratio > 1), default=None)
 
 
 def dispersion(projected: Projected, columns: Sequence[int]) -> float:

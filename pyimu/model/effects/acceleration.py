@@ -58,6 +58,7 @@ def g2_sensitivity(
     Q: Parameter(
         "{y}/(m/s^2)^2",
         (3, 6),
+        columns=("xx", "yy", "zz", "yz", "zx", "xy"),
         description="drift of axis i per product of forces: xx, yy, zz, yz, zx, xy",
     ),
     f: Environment("specific_force"),

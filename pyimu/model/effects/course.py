@@ -52,7 +52,12 @@ def rate_ramp(
 )
 def bias_step(
     x,
-    A: Parameter("{y}", (3, EVENTS), description="change of axis i's bias at event k"),
+    A: Parameter(
+        "{y}",
+        (3, EVENTS),
+        description="change of axis i's bias at event k",
+        columns=tuple(f"event {k + 1}" for k in range(EVENTS)),
+    ),
     t0: Parameter("s", (EVENTS,), description="time of event k since power-on", form=True),
     t: Environment("time"),
 ):

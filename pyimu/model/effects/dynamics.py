@@ -98,6 +98,49 @@ def _second_order(angle: ca.SX, zeta: ca.SX) -> tuple[tuple, tuple]:
 
 @effect(
     stage="dynamics",
+    term="bandwidth, first-order lag",
+    equation=(
+        r"y = \frac{1}{1 + \tau s} x,\quad s \to \frac{11 - 18 z^{-1} + 9 z^{-2} - 2 z^{-3}}{6 h}"
+    ),
+    source=(
+        "no source for the coefficient; single-pole low-pass, an exponential average in continuous "
+        "time, its derivative by the backward difference of third order"
+    ),
+    family="delay",
+    delay=lambda tau: tau,
+    confound=LATE,
+    symptom="answers late",
+    phrase="a first-order lag of",
+)
+def first_order_lag(
+    x,
+    tau: Parameter(
+        "s",
+        (),
+        minimum=0.0,
+        scan=Scan("period", 0.3, 28.0, 10),
+        description="time constant of the single pole; 0 switches the lag off",
+    ),
+    x1: State("{y}", start=INPUT),
+    y1: State("{y}", start=INPUT),
+    y2: State("{y}", start=INPUT),
+    y3: State("{y}", start=INPUT),
+    h: SamplePeriod(),
+):
+    # The difference over past outputs is right to third order in s h, and its inverse
+    # x = y + tau dy/dt has no memory of what it restored: it cannot ring.
+    share = 1 / (1 + 11 / 6 * tau / h)
+    past = tau / h * (18 * y1 - 9 * y2 + 2 * y3) / 6
+
+    def answer(felt):
+        return share * (felt + past)
+
+    felt = kept(x, x1)  # behind a missing input it goes on as if the last one had been held
+    return answer(x), {"x1": felt, "y1": answer(felt), "y2": y1, "y3": y2}
+
+
+@effect(
+    stage="dynamics",
     term="time delay, timestamp offset",
     equation=r"y(t) = x(t - t_d)",
     invertible=False,

@@ -82,6 +82,46 @@ def _gauss_markov(b, variance, angle, w, started):
     return ca.if_else(started, kept * b + fresh * w, ca.sqrt(variance) * w)
 
 
+MARKOV_LAW = Law(
+    markov=lambda q, tau: [(q**2 * tau / 2, tau)],
+    transfer=r"\frac{q}{s + 1 / \tau_c}",
+    poles=r"-1 / \tau_c",
+    psd=(
+        r"\frac{q^2 h\, (1 - a^2)\, \tau_c / 2}{1 - 2 a \cos(2 \pi f h) + a^2} \approx "
+        r"\frac{q^2 \tau_c^2}{1 + (2 \pi f \tau_c)^2},\quad a = e^{-h / \tau_c}"
+    ),
+    allan=(
+        r"q \tau_c \sqrt{\tfrac{1}{\tau} \left[1 - \tfrac{\tau_c}{2 \tau} \left(3 - "
+        r"4 e^{-\tau / \tau_c} + e^{-2 \tau / \tau_c}\right)\right]}"
+    ),
+    note=(
+        "The closed form is the continuous one (IEEE Std 952-2020, annex C); samples lie "
+        r"above, in the variance by at most $\left(h / (\sqrt{2}\, \tau) + h / (\sqrt{12}\, "
+        r"\tau_c)\right)^2$ of it. The coefficient `tau` is the correlation time $\tau_c$; "
+        r"$\tau$ alone is the cluster time."
+    ),
+    shown={"tau": 10.0},
+)
+"""Of each Gauss-Markov process that a sensor can have."""
+
+MARKOV_DRIVE = Parameter(
+    "{y}/sqrt(s)",
+    minimum=0.0,
+    description="root of the two-sided density of the noise that drives it",
+)
+
+
+def _correlation_time(start):
+    return Parameter(
+        "s", (3,), start, "correlation time, tau_c of the equation", form=True, minimum=1e-6
+    )
+
+
+def _markov_step(x, q, tau, b, started, w, h):
+    b = _gauss_markov(b, q**2 * tau / 2, h / tau, w, started)
+    return x + b, {"b": b, "started": 1}
+
+
 @effect(
     stage="noise",
     term="exponentially correlated (Gauss-Markov) noise",
@@ -90,44 +130,40 @@ def _gauss_markov(b, variance, angle, w, started):
         "first-order Gauss-Markov process, exponentially correlated noise of IEEE Std 952; its "
         "text was not checked"
     ),
-    law=Law(
-        markov=lambda q, tau: [(q**2 * tau / 2, tau)],
-        transfer=r"\frac{q}{s + 1 / \tau_c}",
-        poles=r"-1 / \tau_c",
-        psd=(
-            r"\frac{q^2 h\, (1 - a^2)\, \tau_c / 2}{1 - 2 a \cos(2 \pi f h) + a^2} \approx "
-            r"\frac{q^2 \tau_c^2}{1 + (2 \pi f \tau_c)^2},\quad a = e^{-h / \tau_c}"
-        ),
-        allan=(
-            r"q \tau_c \sqrt{\tfrac{1}{\tau} \left[1 - \tfrac{\tau_c}{2 \tau} \left(3 - "
-            r"4 e^{-\tau / \tau_c} + e^{-2 \tau / \tau_c}\right)\right]}"
-        ),
-        note=(
-            "The closed form is the continuous one (IEEE Std 952-2020, annex C); samples lie "
-            r"above, in the variance by at most $\left(h / (\sqrt{2}\, \tau) + h / (\sqrt{12}\, "
-            r"\tau_c)\right)^2$ of it. The coefficient `tau` is the correlation time $\tau_c$; "
-            r"$\tau$ alone is the cluster time."
-        ),
-        shown={"tau": 10.0},
-    ),
+    law=MARKOV_LAW,
 )
 def gauss_markov(
     x,
-    q: Parameter(
-        "{y}/sqrt(s)",
-        minimum=0.0,
-        description="root of the two-sided density of the noise that drives it",
-    ),
-    tau: Parameter(
-        "s", (3,), 100.0, "correlation time, tau_c of the equation", form=True, minimum=1e-6
-    ),
+    q: MARKOV_DRIVE,
+    tau: _correlation_time(100.0),
     b: State("{y}"),
     started: State("1", ()),
     w: Noise(),
     h: SamplePeriod(),
 ):
-    b = _gauss_markov(b, q**2 * tau / 2, h / tau, w, started)
-    return x + b, {"b": b, "started": 1}
+    return _markov_step(x, q, tau, b, started, w, h)
+
+
+@effect(
+    stage="noise",
+    term="second exponentially correlated (Gauss-Markov) noise",
+    equation=r"y = x + b,\; \dot b = -b / \tau_c + q w",
+    source=(
+        "as gauss_markov; two processes of different correlation times beside the random walk are "
+        "usual in models of accelerometers, no source for a second one"
+    ),
+    law=MARKOV_LAW,
+)
+def second_gauss_markov(
+    x,
+    q: MARKOV_DRIVE,
+    tau: _correlation_time(1.0),
+    b: State("{y}"),
+    started: State("1", ()),
+    w: Noise(),
+    h: SamplePeriod(),
+):
+    return _markov_step(x, q, tau, b, started, w, h)
 
 
 def _no_flicker(h, B, f_low, f_high):

@@ -22,9 +22,39 @@ def _outside(y, d):
     lost=_inside,
     restore=_outside,
     source="no source; threshold as mechanical stops and digital filters leave it",
+    family="dead zone",
+    symptom="does not answer to small input",
 )
 def dead_zone(x, d: Parameter("{y}", minimum=0.0, description="largest input without output")):
     return x - ca.fmax(-d, ca.fmin(d, x))
+
+
+@effect(
+    stage="output",
+    term="dead band, hard",
+    equation=r"y = x\ (|x| > d),\quad 0\ (|x| \le d)",
+    smooth=False,
+    invertible=False,
+    lost=_inside,
+    source=(
+        "no source for the form; dead band and threshold of IEEE Std 528, whose text was not "
+        "checked, as firmware that suppresses small outputs leaves it"
+    ),
+    family="dead zone",
+    symptom="does not answer to small input",
+    phrase="a hard dead zone of",
+)
+def hard_dead_zone(
+    x,
+    d: Parameter(
+        "{y}",
+        minimum=0.0,
+        scan=Scan("zone", 0.002, 0.5, 16),
+        reads="threshold",
+        description="largest input whose output is zero; larger ones pass as they are",
+    ),
+):
+    return ca.if_else(ca.logic_and(d > 0, ca.fabs(x) <= d), 0, x)
 
 
 @effect(

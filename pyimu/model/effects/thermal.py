@@ -128,6 +128,10 @@ def thermal_scale_factor(
     term="misalignment temperature sensitivity",
     equation=r"y = x + (T - T_0) M_T x,\; \mathrm{diag}\, M_T = 0",
     source="no source for the equation; the linear term of a misalignment that follows temperature",
+    confound=Confound(
+        "a mounting that turns as the temperature changes",
+        "a reference that is fixed to the part itself",
+    ),
 )
 def thermal_misalignment(
     x,
