@@ -29,6 +29,7 @@ from pyimu.model.part_file import part_names
 from pyimu.model.part_reader import parse_part
 from pyimu.model.sensor import Sensor
 from pyimu.model.typical import CLASSES, magnitudes
+from pyimu.recording.clock import Clock
 from pyimu.recording.log import read_recording
 from pyimu.recording.names import distinct_names
 from pyimu.recording.quality.inspect import inspect
@@ -90,7 +91,7 @@ def close(
     declared = None if part is None else find_part(part)
     start = declared or undeclared(logs[0].sample_rate)
     say("quality of the raw samples")
-    quality = [_of(r.name, f) for r in [*logs, *others] for f in (*r.findings, *inspect(r))]
+    quality = [_of(r.name, f) for r in [*logs, *others] for f in (*_of_reading(r), *inspect(r))]
     found: dict[str, Investigation] = {}
     for kind, make in (("accel", accel_trial), ("gyro", gyro_trial)):
         trials, held = _trials(start.sensor(kind), make, logs, others, latitude)
@@ -106,7 +107,7 @@ def close(
             prior = {} if declared else _prior(kind, free)
             found[kind] = investigate(start.sensor(kind), free, trials, held, say, prior)
             quality += late_thermometers(found[kind])
-        quality += _of_trials([*trials, *held])
+        quality = _with(quality, _of_trials([*trials, *held]))
     if not found:
         raise UserError(_nothing_to_compare(logs))
     found = {k: found[k] for k in ("gyro", "accel") if k in found}
@@ -167,6 +168,15 @@ def _named(
     return named[: len(logs)], named[len(logs) :]
 
 
+def _of_reading(recording: Recording) -> tuple[Finding, ...]:
+    """What reading a log's file found; of the times of one that was made of arrays, the same."""
+    if recording.path is not None or recording.findings:
+        return recording.findings
+    clock = Clock(recording.cadence)
+    clock.add(recording.time)
+    return tuple(clock.findings())
+
+
 def _of(name: str, finding: Finding) -> Finding:
     """A finding that says which log it is about."""
     return replace(finding, detail={"recording": name, **finding.detail})
@@ -176,6 +186,16 @@ def _of_trials(trials: Sequence[Trial]) -> list[Finding]:
     """What making the trials found, each kind once a log."""
     found = {(t.name, f.kind): _of(t.name, f) for t in trials for f in t.findings}
     return list(found.values())
+
+
+def _with(quality: list[Finding], more: list[Finding]) -> list[Finding]:
+    """Findings and ``more``, which say better what is said of the same column already."""
+
+    def about(f: Finding) -> tuple[str, str, str]:
+        return f.detail["recording"], f.kind, f.column
+
+    better = {about(f) for f in more}
+    return [f for f in quality if about(f) not in better] + more
 
 
 def has_reference(recording: Recording) -> bool:

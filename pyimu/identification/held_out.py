@@ -154,7 +154,12 @@ def clock_of(inv: Investigation, name: str) -> Clock | None:
 
 def _reference(trial: Trial) -> dict[str, Any]:
     """What was found of a log's reference itself."""
-    seen: dict[str, Any] = {"kind": trial.reference, "band_hz": trial.band_hz}
+    seen: dict[str, Any] = {
+        "kind": trial.reference,
+        "band_hz": trial.band_hz,
+        # A derived rate is used up to a quarter of the rate of its own samples.
+        "sample_rate": None if trial.band_limit is None else 4.0 * trial.band_limit,
+    }
     if trial.up is not None:
         seen["up"] = trial.up.tolist()
     if trial.clock is None:
@@ -174,7 +179,7 @@ def attitudes(
         if held is None or r.ref_q is None or r.accel is None:
             continue
         mounting = np.array(log_state(inv, r.name)["rotation"])
-        first = len(r.time) - len(held.time)
+        first = int(np.searchsorted(r.time, held.time[0]))
         error = attitude_error(r, part, mounting, first, clock_of(inv, r.name))
         found |= {r.name: error} if len(error.total) else {}
     return found

@@ -62,3 +62,26 @@ def test_a_blameless_sensor_is_not_blamed(name):
 def test_an_early_gyro_is_the_clocks():
     log = traps.case("gyro_early_12_5_ms", seed=0, number=0)
     assert traps.names_clock(log, traps.closed(log, "declared"))
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "jitter_20_percent",
+        "slerp_60_to_200_hz",
+        "held_at_20_hz",
+        "outliers",
+        "dropped_rows",
+        "occlusions_and_jumps",
+    ],
+)
+def test_what_is_wrong_with_samples_or_reference_is_named_and_the_sensor_is_examined(name):
+    """One case each: the cause is found, the sensor is not blamed, and what is left of the log is
+    explained to the noise of sensor and reference.
+    """
+    log = traps.case(name, seed=0, number=0)
+    found = traps.closed(log, "declared")
+    assert traps.NAMED[log.cause](log, found)
+    assert not traps.blamed(log, "declared", found)
+    gyro = found.errors["gyro"]
+    assert gyro.after.total < 1.3 * gyro.noise

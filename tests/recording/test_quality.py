@@ -124,6 +124,24 @@ def test_corrupt_row_is_a_spike_in_every_column():
     assert np.argwhere(spikes(values)).tolist() == [[777, 0], [777, 1], [777, 2]]
 
 
+@pytest.mark.parametrize("rows", [[777, 779, 785], [777, 778], [777, 790]])
+def test_spikes_near_each_other_are_found(rows):
+    values = driven()
+    values[rows, 1] += [5, -8, 6][: len(rows)]
+    assert np.argwhere(spikes(values)).tolist() == [[row, 1] for row in rows]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_one_sample_in_200_may_be_a_spike(seed):
+    """Of 300 in three columns some five have three more within a window, or one at the next row but
+    one in another column."""
+    rng, values = np.random.default_rng(seed), driven(seed=seed)
+    hit = rng.random(values.shape) < 0.005
+    values += hit * rng.uniform(3, 30, hit.shape) * rng.choice([-1, 1], hit.shape)
+    found = spikes(values)
+    assert not np.any(found & ~hit) and np.sum(found) > 0.95 * np.sum(hit)
+
+
 def test_shock_is_no_spike():
     """A decaying vibration of all axes after an impact."""
     values = noise()

@@ -661,7 +661,10 @@ def test_repoimu_06_loses_its_last_three_percent():
     reference = reference_rate(recording)
     lost = np.isnan(reference.rate[:, 0])
     assert [f.kind for f in reference.findings] == ["reference_spikes"]
-    assert lost[np.searchsorted(recording.time, 84.9) :].all() and lost.mean() < 0.035
+    assert lost[np.searchsorted(recording.time, 84.9) :].all() and lost.mean() < 0.037
+    # Before its end the reference jumps once: 1.4 deg in one row, 0.4 deg in those beside it.
+    early = recording.time[lost & (recording.time < 80.0)]
+    assert np.abs(early - 48.65).max() < 0.27
     assert np.nanmax(np.abs(reference.rate)) < 12
 
 

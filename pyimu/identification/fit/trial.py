@@ -19,9 +19,12 @@ from pyimu.model.kinds import OWN
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS, SIGNALS, START, SURROUNDINGS
 from pyimu.recording.clock import runs
+from pyimu.recording.complete import completed
+from pyimu.recording.quality.healing import healed, short_runs
 from pyimu.recording.quality.spikes import spikes
 from pyimu.recording.recording import Recording, filled
 from pyimu.recording.reference.rate import reference_rate
+from pyimu.recording.reference.stamps import at_times
 
 SETTLE = 32
 """Rows at the start of a segment that are not counted: nobody knows what a lag or delay remembers
@@ -160,9 +163,14 @@ def gyro_trial(recording: Recording, latitude: float | None = None) -> Trial | N
     """The gyro of a recording against its reference rate; None where the log has no gyro."""
     if recording.gyro is None:
         return None
-    reference = reference_rate(recording, latitude=latitude)
+    recording = completed(recording)
+    bad = bad_samples(recording.gyro)
+    sound = healed(recording.time, recording.gyro, bad, most=1)
+    reference = reference_rate(replace(recording, gyro=sound), latitude=latitude)
     if reference.kind == "none":
         return None
+    if reference.time is not None:
+        recording = at_times(recording, reference.time)
     axes = tuple(
         i
         for i in range(3)
@@ -301,14 +309,19 @@ def _trial(
     findings: tuple[Finding, ...] = (),
     **more,
 ) -> Trial | None:
-    """A trial of the rows that the reference covers; a bad sample is left out, or ends a segment
-    where a band would spread it.
+    """A trial of the rows that the reference covers; a bad sample is left out. Where a band would
+    spread it, its neighbours stand in for it, or, where they cannot, it ends a segment.
     """
     if not axes:
         return None
     own = y[:, list(axes)]
-    repeats = repeated(own)
-    bad = ~np.isfinite(own).all(axis=1) | repeats | spikes(np.nan_to_num(own)).any(axis=1)
+    repeats, bad = repeated(own), bad_samples(own)
+    if band_hz is not None:
+        most = max(1, int(0.25 / (band_hz * recording.sample_period)) - 1)
+        y = np.array(y)
+        y[:, list(axes)] = healed(recording.time, own, bad, most)
+        bad &= ~short_runs(bad, most)
+    bad = bad.any(axis=1)
     inside = covered if band_hz is None else covered & ~bad
     segments = [(a + i, a + j) for a, b in recording.segments for i, j in runs(inside[a:b])]
     if repeats.any():
@@ -329,6 +342,13 @@ def _trial(
         left_out=bad,
         **more,
     )
+
+
+def bad_samples(values: np.ndarray) -> np.ndarray:
+    """Flags (n, k) of samples that are missing, spikes, or repeat the row before."""
+    missing = ~np.isfinite(values)
+    joined = np.nan_to_num(filled(np.arange(len(values)), values))
+    return missing | spikes(joined) | repeated(values)[:, None]
 
 
 def repeated(values: np.ndarray) -> np.ndarray:
@@ -353,22 +373,27 @@ def marked(segments: list[tuple[int, int]], n: int) -> np.ndarray:
 
 
 def rest_noise(trial: Trial) -> np.ndarray:
-    """Standard deviation (3,) of the white noise of the samples, from the quietest quarter of
+    """Standard deviation (3,) of the white noise of the samples, in the quietest seconds."""
+    return (
+        trial.reduction.sample_std if trial.reduction is not None else white_noise(trial, trial.y)
+    )
+
+
+def white_noise(trial: Trial, values: np.ndarray) -> np.ndarray:
+    """Standard deviation (k,) of the white noise of values (n, k), from the quietest quarter of
     second-long segments.
 
     Third differences take out motion up to a tenth of the sample rate; those of white noise have 20
     times its variance.
     """
-    if trial.reduction is not None:
-        return trial.reduction.sample_std
     length = max(8, round(1.0 / trial.h))
     pieces = [
-        trial.y[k : k + length]
+        values[k : k + length]
         for a, b in trial.row_segments
         for k in range(a, b - length + 1, length)
     ]
     if not pieces:
-        return np.full(3, np.nan)
+        return np.full(values.shape[1], np.nan)
     spreads = np.sqrt(np.mean(np.diff(np.array(pieces), n=3, axis=1) ** 2, axis=1) / 20)
     quiet = np.argsort(spreads.sum(axis=1))[: max(1, len(pieces) // 4)]
     return np.sqrt(np.mean(spreads[quiet] ** 2, axis=0))

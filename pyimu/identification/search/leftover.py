@@ -16,7 +16,7 @@ from pyimu.identification.fit.columns import Linear
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Product
 from pyimu.identification.fit.reference_noise import equations
-from pyimu.identification.fit.trial import Trial
+from pyimu.identification.fit.trial import Trial, white_noise
 from pyimu.identification.fit.whiten import RandomWalk, power_less_bias
 from pyimu.identification.search.screen import Projected, dispersion
 from pyimu.model.signals import COLUMNS, N_INPUT, SIGNALS, SURROUNDINGS
@@ -40,6 +40,9 @@ UNEXPLAINED = 1e-3
 DRIFT_GATE = 5.0
 """Log-likelihood [nat] by which a larger random walk must beat the declared one on some axis: 1 %
 in three one-sided tests."""
+
+NOISE = 2.0**0.5
+"""Times its own noise that an input must spread: at least half of its power is then a signal."""
 
 SHARE = 0.03
 """Share of the white variance that rounding must explain before it is named (a step of 0.6 sigma).
@@ -102,11 +105,8 @@ def _products(trials: tuple[Trial, ...]) -> Callable:
     known = frozenset.intersection(*(t.known for t in trials))
     together = np.concatenate([t.u[:, PLACES] for t in trials])
     mean, scale = together.mean(axis=0), together.std(axis=0)
-    usable = [
-        j
-        for j in range(len(SIGNAL_OF))
-        if SIGNAL_OF[j] in known and scale[j] > 1e-9 * (1 + abs(mean[j]))
-    ]
+    least = np.maximum(NOISE * _own_noise(trials), 1e-9 * (1 + np.abs(mean)))
+    usable = [j for j in range(len(SIGNAL_OF)) if SIGNAL_OF[j] in known and scale[j] > least[j]]
     terms = [*combinations_with_replacement(usable, 2), *((j, j, j) for j in usable)]
 
     def add_all(trial: Trial, u: np.ndarray, y: np.ndarray, add: Callable) -> None:
@@ -117,6 +117,12 @@ def _products(trials: tuple[Trial, ...]) -> Callable:
                 add(Product(term, i), i, values)
 
     return add_all
+
+
+def _own_noise(trials: tuple[Trial, ...]) -> np.ndarray:
+    """Standard deviation of the white noise of each input."""
+    each = [[white_noise(t, t.u[:, [place]])[0] for place in PLACES] for t in trials]
+    return np.sqrt(np.mean(np.square(np.nan_to_num(each)), axis=0))
 
 
 @dataclass(frozen=True)

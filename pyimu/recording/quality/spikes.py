@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
+from scipy.ndimage import maximum_filter1d
 
 from pyimu.recording.quality.scatter import WINDOW
 from pyimu.recording.recording import filled
@@ -17,11 +18,17 @@ SPIKE_ISOLATION = 3.0
 
 
 SPIKE_TAIL = 3.0
-"""A spike's residual exceeds the 99 % quantile of its column by this factor."""
+"""A spike's residual exceeds the 99 % quantile of its column by this factor, where the four that a
+spike raises beside its own count as none: one sample in 100 may be a spike, not one in 500."""
 
 
 ROUNDS = 8
 """Each round finds the largest of what is left: from one to the next they halve or better."""
+
+
+TOGETHER = 3
+"""So many spikes may be near each other: of one sample in 200, four are within a window in one of
+2000 cases."""
 
 
 CORRUPT_ISOLATION = 12.0
@@ -58,13 +65,15 @@ def _alone(values: np.ndarray) -> np.ndarray:
     mask = np.zeros(values.shape, bool)
     off = _residuals(values)
     sigma = _local_sigma(off)
-    tail = np.quantile(off, 0.99, axis=0)
+    tail = np.quantile(np.where(off == maximum_filter1d(off, 5, axis=0), off, 0.0), 0.99, axis=0)
     loud = off > SPIKE_SIGMA * sigma
     several = np.count_nonzero(widened(off > 4 * sigma), axis=1) > 1
     for k, column in np.argwhere(loud & (off > SPIKE_TAIL * tail)):
-        mask[k, column] = _isolated(
-            off[:, column], k, CORRUPT_ISOLATION if several[k] else SPIKE_ISOLATION
-        )
+        factor = CORRUPT_ISOLATION if several[k] else SPIKE_ISOLATION
+        if _isolated(off[:, column], k, factor):
+            mask[k, column] = True
+        else:
+            mask[_together(values[:, column], off[:, column], k, factor), column] = True
     return mask
 
 
@@ -101,3 +110,34 @@ def _isolated(off: np.ndarray, k: int, factor: float) -> bool:
     before, after = off[max(k - WINDOW // 2, 0) : max(k - 2, 0)], off[k + 3 : k + 1 + WINDOW // 2]
     others = max(before.max(initial=0.0), after.max(initial=0.0))
     return bool(off[k] == off[max(k - 2, 0) : k + 3].max() and off[k] > factor * others)
+
+
+def _together(v: np.ndarray, off: np.ndarray, k: int, factor: float) -> np.ndarray:
+    """Rows near each other, ``k`` among them, whose samples are off by ``factor`` more than all
+    near them is without these; none where more than ``TOGETHER`` would have to go.
+
+    A shock that rings has more.
+    """
+    first = max(k - WINDOW // 2 - 6, 0)
+    near, rows = v[first : k + WINDOW // 2 + 7], [k - first]
+    inner = np.abs(np.arange(len(near)) - rows[0]) <= WINDOW // 2
+    while off[k] == off[max(k - 2, 0) : k + 3].max() and len(rows) < TOGETHER:
+        rest = _residuals(_without(near, rows)[:, None])[:, 0]
+        # A spike raises the residuals beside its own: what is largest inside may be of one outside.
+        peak = int(np.argmax(np.where(inner, rest, 0.0)))
+        begin = max(peak - 2, 0)
+        rows.append(begin + int(np.argmax(rest[begin : peak + 3])))
+        left = _without(near, rows)
+        size, rest = np.abs(near - left)[rows], _residuals(left[:, None])[inner, 0]
+        if size.min() > factor * rest.max():
+            return np.array(rows) + first
+    return np.zeros(0, dtype=int)
+
+
+def _without(v: np.ndarray, rows: list[int]) -> np.ndarray:
+    """Values (m,) with those of some rows on the line between their neighbours."""
+    kept = np.ones(len(v), bool)
+    kept[rows] = False
+    out = v.copy()
+    out[rows] = np.interp(rows, np.flatnonzero(kept), v[kept])
+    return out

@@ -2,22 +2,40 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 from scipy.spatial.transform import Rotation, RotationSpline
 
 from pyimu.recording.recording import Recording
+from pyimu.recording.reference.jumps import jumps
+from pyimu.recording.reference.nodes import own_samples
 from pyimu.recording.reference.track import Track, fresh
 
 
 def attitude_track(source: Recording) -> Track:
     """The samples of ``ref_q`` that can be differentiated."""
-    q = source.ref_q
+    return Track(source.time, fresh(source.ref_q), partial(_steps, source.ref_q))
 
-    def steps(nodes: np.ndarray) -> np.ndarray:
-        attitude = Rotation.from_quat(q[nodes], scalar_first=True)
-        return (attitude[:-1].inv() * attitude[1:]).as_rotvec()
 
-    return Track(source.time, fresh(q), steps)
+def cut_at_jumps(track: Track, source: Recording, recording: Recording) -> None:
+    """Leave out of the samples of ``ref_q`` what lies near a jump that the gyro does not share."""
+    if recording.gyro is None:
+        return
+    found = [(nodes, _jumps(source, nodes, recording)) for nodes in track.segments]
+    rows = np.concatenate([nodes[at] for nodes, (at, _) in found] or [np.zeros(0, dtype=int)])
+    track.cut(rows, np.concatenate([angles for _, (_, angles) in found] or [np.zeros(0)]))
+
+
+def _jumps(source: Recording, nodes: np.ndarray, recording: Recording):
+    steps = _steps(source.ref_q, nodes)
+    return jumps(recording.time, steps, source.time[nodes], recording.gyro)
+
+
+def _steps(q: np.ndarray, nodes: np.ndarray) -> np.ndarray:
+    """Rotation vectors (m - 1, 3) rad between the attitudes ``q`` at rows ``nodes`` (m,)."""
+    attitude = Rotation.from_quat(q[nodes], scalar_first=True)
+    return (attitude[:-1].inv() * attitude[1:]).as_rotvec()
 
 
 def attitude_curve(source: Recording, nodes: np.ndarray) -> RotationSpline:
@@ -28,7 +46,7 @@ def attitude_curve(source: Recording, nodes: np.ndarray) -> RotationSpline:
 
 def attitude_at(source: Recording, time: np.ndarray) -> np.ndarray:
     """The attitude (n, 4) at times (n,), NaN where the reference does not cover them."""
-    q = np.full((len(time), 4), np.nan)
+    q, source = np.full((len(time), 4), np.nan), own_samples(source)
     for nodes in attitude_track(source).segments:
         rows = within(time, source.time[nodes])
         if len(rows):

@@ -9,6 +9,7 @@ and faults are NaN.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
@@ -19,15 +20,21 @@ from scipy.spatial.transform import Rotation
 from pyimu.errors import Finding, UserError
 from pyimu.recording.clock import runs
 from pyimu.recording.recording import Recording
-from pyimu.recording.reference.attitude import attitude_curve, attitude_track, within
-from pyimu.recording.reference.band import trusted_band
+from pyimu.recording.reference.attitude import attitude_curve, attitude_track, cut_at_jumps, within
+from pyimu.recording.reference.band import coherence, trusted_band
 from pyimu.recording.reference.course import course_of, looks_like_degrees, mounted, upward
+from pyimu.recording.reference.nodes import own_samples
+from pyimu.recording.reference.stamps import at_times, even_times, jitter_of
 from pyimu.recording.reference.track import Track, fresh
 from pyimu.recording.rest import is_at_rest, motion_in
 from pyimu.symbolic.earth import EARTH_RATE
 
 DERIVED = ("attitude", "heading", "course")
 """Kinds of reference whose rate was differentiated."""
+
+CLEARLY = 1.02
+"""Times more that a reference must tell of the gyro on other times than its stamps. Between two
+ways to take the same samples chance makes less than a hundredth."""
 
 VERTICAL = ("heading", "course")
 """Kinds of reference that know only the turn about the vertical."""
@@ -42,7 +49,8 @@ class Reference:
     used, None where the rate was not derived; ``segments`` are the index ranges (start, stop) in
     which every known axis is finite; ``findings`` tell of faults of the reference; ``earth_rate``
     says whether the rate is against inertial space (True), or Earth-relative (False); ``up`` (3,)
-    is the direction upward in the sensor's axes where the rate is only that about it.
+    is the direction upward in the sensor's axes where the rate is only that about it; ``time``
+    (n,) s are the instants of the sensor's samples, where its stamps scatter about these.
     """
 
     rate: np.ndarray
@@ -53,6 +61,7 @@ class Reference:
     earth_rate: bool = True
     band_limit: float | None = None
     up: np.ndarray | None = None
+    time: np.ndarray | None = None
 
 
 def reference_rate(recording: Recording, latitude: float | None = None) -> Reference:
@@ -76,9 +85,9 @@ def reference_rate(recording: Recording, latitude: float | None = None) -> Refer
         return _of_another_clock(recording, source)
     earth = _latitudes(recording, latitude)
     if source.ref_q is not None:
-        return _from_attitude(recording, source, earth)
+        return _at_likeliest_times(_from_attitude, recording, source, earth)
     if source.ref_heading is not None:
-        return _from_heading(recording, source, earth)
+        return _at_likeliest_times(_from_heading, recording, source, earth)
     course = _from_course(recording, source, earth)
     if course is not None:
         return course
@@ -113,10 +122,53 @@ def _latitudes(recording: Recording, latitude: float | None) -> np.ndarray | flo
     return np.interp(recording.time, recording.time[known], recording.latitude[known])
 
 
+def _at_likeliest_times(
+    make: Callable[..., Reference],
+    recording: Recording,
+    source: Recording,
+    latitude: np.ndarray | float | None,
+) -> Reference:
+    """The rate of a reference by the stamps of sensor and reference, or by even times where stamps
+    scatter and the rate then explains clearly more of the gyro.
+
+    A reference may have been looked up at the stamps, and the sensor not.
+    """
+    made = make(recording, source, latitude)
+    even = even_times(recording), even_times(source)
+    if recording.gyro is None or (even[0] is None and even[1] is None):
+        return made
+    best, most, used = made, CLEARLY * _information(recording, made), (False, False)
+    for sensor, reference in ((True, False), (False, True), (True, True)):
+        if (sensor and even[0] is None) or (reference and even[1] is None):
+            continue
+        at, of = _on(recording, even[0], sensor), _on(source, even[1], reference)
+        other = make(at, of, latitude)
+        told = _information(at, other)
+        if told > most:
+            best, most, used = replace(other, time=at.time), told, (sensor, reference)
+    return replace(best, findings=(*best.findings, jitter_of(recording, even[0], *used)))
+
+
+def _on(recording: Recording, even: np.ndarray, wanted: bool) -> Recording:
+    return at_times(recording, even) if wanted else recording
+
+
+def _information(recording: Recording, reference: Reference) -> float:
+    """What the reference tells of the gyro [nat] in a frame of the coherence, below its limit."""
+    seen = np.isfinite(reference.rate).any(axis=0)
+    frequency, share = coherence(recording.time, recording.gyro[:, seen], reference.rate[:, seen])
+    if share is None or reference.band_limit is None:
+        return 0.0
+    inside = (frequency > 0) & (frequency <= reference.band_limit)
+    return float(-np.sum(np.log1p(-np.minimum(share[inside], 1 - 1e-12))))
+
+
 def _from_attitude(
     recording: Recording, source: Recording, latitude: np.ndarray | float | None
 ) -> Reference:
+    source = own_samples(source)
     track, time = attitude_track(source), recording.time
+    cut_at_jumps(track, source, recording)
     rate = np.full((len(recording), 3), np.nan)
     for nodes in track.segments:
         rows, curve = within(time, source.time[nodes]), attitude_curve(source, nodes)

@@ -15,7 +15,12 @@ LEAST_NODES = 8
 
 
 BREAK = 1.5
-"""A step between reference samples above so many of its own usual steps ends a segment."""
+"""A step between reference samples above so many of its own longest usual ones is a gap."""
+
+
+BRIDGED = 2.25
+"""A gap of so many mean steps or less is none: with one sample missing the others still show half
+of what they show elsewhere, and a derived rate is used in no more than that."""
 
 
 SPIKE_ANGLE = 0.05
@@ -77,6 +82,7 @@ class Track:
         # the 90 % quantile, for a reference may fall on every second and third row in turn
         longest = BREAK * float(np.quantile(step, 0.9)) if len(step) else math.nan
         self.period = float(step[step <= longest].mean()) if len(step) else math.nan
+        longest = max(longest, BRIDGED * self.period)
         whole = self._split(known, step > longest)
         self.segments = [
             nodes for nodes in self._without_faults(whole, steps) if len(nodes) >= LEAST_NODES
@@ -137,12 +143,41 @@ class Track:
     def _report(
         self, whole: list[np.ndarray], kept: list[np.ndarray], spikes: list[np.ndarray], gate: float
     ) -> None:
-        lost = np.concatenate([self.time[nodes[~good]] for nodes, good in zip(whole, kept)])
+        lost = np.concatenate([nodes[~good] for nodes, good in zip(whole, kept)])
         count = sum(int(np.sum(s > gate)) for s in spikes)
+        self._tell(count, lost, float(max(s.max() for s in spikes)))
+
+    def cut(self, jumps: np.ndarray, angles: np.ndarray) -> None:
+        """Leave out what lies within ``MARGIN`` of ``jumps`` (j,), rows before which the
+        reference's world turned by ``angles`` (j,) rad.
+        """
+        if not len(jumps):
+            return
+        away = np.full(len(self.time), np.inf)
+        for row in jumps:
+            away = np.minimum(away, np.abs(self.time - self.time[row]))
+        whole, self.segments = self.segments, []
+        for nodes in whole:
+            good = away[nodes] > MARGIN
+            self.segments += self._split(nodes[good], np.diff(np.flatnonzero(good)) > 1)
+        lost = np.concatenate([nodes[away[nodes] <= MARGIN] for nodes in whole])
+        self._tell(len(jumps), lost, float(angles.max()))
+
+    def _tell(self, count: int, lost: np.ndarray, largest: float) -> None:
+        """Add faults to the finding of them: how many, the rows (k,) that they cost, their size."""
+        time = self.time[lost]
         detail = {
             "left_out": len(lost),
-            "largest_angle": float(max(s.max() for s in spikes)),
-            "first": float(lost.min()),
-            "last": float(lost.max()),
+            "largest_angle": largest,
+            "first": float(time.min()),
+            "last": float(time.max()),
         }
-        self.findings.append(Finding("reference_spikes", "", count, detail))
+        for f in self.findings:
+            count += f.count
+            detail = {
+                "left_out": detail["left_out"] + f.detail["left_out"],
+                "largest_angle": max(largest, f.detail["largest_angle"]),
+                "first": min(detail["first"], f.detail["first"]),
+                "last": max(detail["last"], f.detail["last"]),
+            }
+        self.findings = [Finding("reference_spikes", "", count, detail)]

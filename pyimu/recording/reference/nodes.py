@@ -1,0 +1,169 @@
+"""The samples that an attitude was interpolated from along shortest arcs.
+
+Between two of them its rate is constant, and jumps at each: the interpolation, not the motion. The
+samples lie between the rows: by how much of either arc's rate the step that holds one has.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+from scipy.fft import next_fast_len, rfft
+from scipy.spatial.transform import Rotation
+
+from pyimu.recording.columns import GROUPS
+from pyimu.recording.recording import Recording
+
+LEAST = 16
+"""Samples that must be seen."""
+
+LINE = 0.1
+"""Share of their power that the flags of a constant rate have in one line, at least, if they keep
+a rhythm: of what has none, the strongest line has some ten over their number."""
+
+ROUNDS = 3
+
+JUMP = 10.0
+"""Times the changes that are none: by so much a rate must jump to show where."""
+
+REGULAR = 0.05
+"""The meetings lie on an even grid to this part of its spacing."""
+
+HOLDS = 0.95
+"""Share of the changes of rate between two samples of the grid that must be as good as none."""
+
+LINES, ALIKE = 8, 0.8
+"""Lines that are tried, as strong as the strongest but for this factor."""
+
+CLOSE = 0.05
+"""A sample of the grid so near to a row, in rows, counts on either side of it."""
+
+
+def own_samples(source: Recording) -> Recording:
+    """The reference with the samples of ``ref_q`` that its rows were interpolated from, where they
+    were along shortest arcs; else as it is.
+    """
+    known = np.flatnonzero(np.isfinite(source.ref_q).all(axis=1))
+    if len(known) < 4 * LEAST:
+        return source
+    time, q = source.time[known], source.ref_q[known]
+    attitude = Rotation.from_quat(q, scalar_first=True)
+    step = np.diff(time)
+    rate = (attitude[:-1].inv() * attitude[1:]).as_rotvec() / step[:, None]
+    rate[step > 1.5 * np.median(step)] = np.nan
+    grid = _grid(time, rate)
+    if grid is None:
+        return source
+    at, row = _placed(time, grid)
+    # The step before that which holds a sample belongs to the arc that ends at it.
+    good = np.isfinite(rate[row - 1]).all(axis=1) & np.isfinite(rate[row]).all(axis=1)
+    at, row = at[good], row[good]
+    turn = Rotation.from_rotvec(rate[row - 1] * (at - time[row])[:, None])
+    nodes = (attitude[row] * turn).as_quat(scalar_first=True)
+    empty = {g: None for g in GROUPS}
+    return replace(
+        source, time=at, period=None, gaps=None, longest=None, **empty | {"ref_q": nodes}
+    )
+
+
+def _grid(time: np.ndarray, rate: np.ndarray) -> tuple[float, float] | None:
+    """First time [s] and spacing [s] of the samples behind rows at ``time`` (n,) with the mean
+    rates (n - 1, 3) between them; None where there are none.
+    """
+    change = np.linalg.norm(np.diff(rate, axis=0), axis=1)
+    seen = np.isfinite(change)
+    if np.count_nonzero(seen) < 4 * LEAST:
+        return None
+    low, high = np.quantile(change[seen], (0.05, 0.9))
+    least = low ** (2 / 3) * high ** (1 / 3)
+    same = change <= least
+    for rough in _rhythms(time, same, seen):
+        grid: tuple[float, float] | None = rough
+        for _ in range(ROUNDS):
+            grid = _refined(time, rate, grid, JUMP * least) if grid else None
+        if grid and _explains(time, change, seen, grid):
+            return grid
+    return None
+
+
+def _rhythms(time: np.ndarray, same: np.ndarray, seen: np.ndarray) -> Iterator[tuple[float, float]]:
+    """First times and spacings that the samples may have between which changes (n - 2,) are the
+    ``same``: the strongest lines in the spectrum of these flags, where any stands out.
+
+    Flags of rows that keep step with the samples have harmonics as strong.
+    """
+    row = float(np.median(np.diff(time)))
+    place = np.rint((time[1:-1] - time[0]) / row).astype(int)
+    flags = np.zeros(place[-1] + 1)
+    flags[place[seen]] = same[seen] - np.mean(same[seen])
+    size = next_fast_len(4 * len(flags), real=True)
+    spectrum = rfft(flags, size)
+    strength = np.abs(spectrum)
+    strength[:LEAST] = 0.0
+    strongest, power = strength.max(), np.sum(flags**2) * len(flags)
+    for _ in range(LINES):
+        best = int(np.argmax(strength))
+        if strength[best] < max(ALIKE * strongest, np.sqrt(LINE * power)):
+            return
+        frequency = best / (size * row)
+        middle = -np.angle(spectrum[best]) / (2 * np.pi * frequency)
+        yield float(time[0] + middle + 0.5 / frequency), 1 / frequency
+        strength[max(best - LEAST, 0) : best + LEAST] = 0.0
+
+
+def _refined(
+    time: np.ndarray, rate: np.ndarray, grid: tuple[float, float], least: float
+) -> tuple[float, float] | None:
+    """The even grid through the times at which the rate jumps by ``least`` or more, near those of a
+    rough grid; None where they do not lie on one.
+    """
+    at, row = _placed(time, grid)
+    before, inside, after = rate[row - 1], rate[row], rate[np.minimum(row + 1, len(rate) - 1)]
+    jump = before - after
+    power = np.sum(jump**2, axis=1)
+    share = np.sum((inside - after) * jump, axis=1) / np.where(power > 0, power, np.nan)
+    with np.errstate(invalid="ignore"):
+        clear = (power > least**2) & (np.abs(share - 0.5) < 0.6)
+    found = (time[row] + share * (time[row + 1] - time[row]))[clear]
+    if len(found) < LEAST:
+        return None
+    number = np.rint((at[clear] - grid[0]) / grid[1])
+    for _ in range(2):
+        spacing, first = np.polyfit(number, found, 1)
+        off = np.abs(found - first - spacing * number)
+        near = off <= np.median(off) * 5
+        found, number = found[near], number[near]
+    regular = len(found) >= LEAST and np.median(off) < REGULAR * spacing
+    return (float(first), float(spacing)) if regular else None
+
+
+def _explains(
+    time: np.ndarray, change: np.ndarray, seen: np.ndarray, grid: tuple[float, float]
+) -> bool:
+    """Whether the rate has changes (n - 2,) where samples of a grid lie and hardly any elsewhere;
+    these are two rows apart at least, or no arc is seen.
+    """
+    first, spacing = grid
+    row = float(np.median(np.diff(time)))
+    if spacing < 2 * row:
+        return False
+    begin, end = (
+        np.floor((t - first) / spacing) for t in (time[:-2] - CLOSE * row, time[2:] + CLOSE * row)
+    )
+    free = seen & (begin == end)
+    others = seen & ~free
+    if not free.any() or not others.any():
+        return False
+    # Beside a sample that lies at a row itself two changes of three are none as well.
+    jumps = np.quantile(change[others], 0.75)
+    return bool(JUMP * np.quantile(change[free], HOLDS) < jumps)
+
+
+def _placed(time: np.ndarray, grid: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
+    """Times (k,) of the grid from the second row to the last but one, and the rows (k,) before."""
+    first, spacing = grid
+    low, high = (int(np.ceil((t - first) / spacing)) for t in (time[1], time[-1]))
+    at = first + spacing * np.arange(low, high)
+    return at, np.searchsorted(time, at, side="right") - 1
