@@ -96,13 +96,14 @@ def blamed(log: Log, form: str, found: Closed) -> list[str]:
 # Whether the finding names the true cause
 
 
-def _reference(found: Closed, number: int = 0) -> dict:
-    """What was found of the reference of a log."""
-    return found.recordings[number].log_state.get("gyro", {}).get("reference") or {}
+def _reference(found: Closed, name: str, number: int = 0) -> dict | None:
+    """A figure of the reference of a log, as report.json has it."""
+    return found.references[number].get(name) if number < len(found.references) else None
 
 
 def _clock(found: Closed, number: int = 0) -> dict:
-    return _reference(found, number).get("clock") or {}
+    state = found.recordings[number].log_state.get("gyro", {})
+    return (state.get("reference") or {}).get("clock") or {}
 
 
 def _near(value: float | None, truth: float, least: float, share: float = 0.1) -> bool:
@@ -125,27 +126,25 @@ def _lates(log: Log) -> list[float]:
 
 
 def names_skew(log: Log, found: Closed) -> bool:
-    """A clock that wanders by as much as the skew makes of the fitted rows, to half of it."""
-    span = abs(log.figures["skew"]) * 0.7 * log.logs[0]["time"][-1]
-    return _spans(found, span)
+    """The skew to a tenth, or five of its standard errors."""
+    skew = _reference(found, "clock_skew") or {"value": None, "std": 0.0}
+    # A reference that is late by its skew makes the sensor early.
+    return _near(skew["value"], -log.figures["skew"], 5 * skew["std"])
 
 
 def names_slips(log: Log, found: Closed) -> bool:
-    return _spans(found, log.figures["span"])
-
-
-def _spans(found: Closed, span: float) -> bool:
-    c = _clock(found)
-    return bool(c) and _near((c["most"] or 0.0) - (c["least"] or 0.0), span, 0.0, 0.5)
+    """A clock that slips by the reference's sample period, to a fifth."""
+    sizes = [abs(s["size"]) for s in _reference(found, "slips") or ()]
+    return bool(sizes) and _near(sizes[0], log.figures["span"], 0.0, 0.2)
 
 
 def names_rate(log: Log, found: Closed) -> bool:
-    return _near(_number(_reference(found).get("sample_rate")), log.figures["rate"], 0.0, 0.05)
+    return _near(_number(_reference(found, "sample_rate")), log.figures["rate"], 0.0, 0.05)
 
 
 def names_noise(log: Log, found: Closed) -> bool:
     """The reference's noise to a third."""
-    return _near(_number(_reference(found).get("noise")), log.figures["noise"], 0.0, 0.33)
+    return _near(_number(_reference(found, "noise")), log.figures["noise"], 0.0, 0.33)
 
 
 def _number(value) -> float | None:

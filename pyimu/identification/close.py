@@ -1,5 +1,6 @@
-"""Close the loop: recordings in, the effects that the model lacks named and added, the error before
-and after out.
+"""Close the loop.
+
+Recordings in; out what the model lacks, named and added, and the error before and after.
 """
 
 from __future__ import annotations
@@ -64,8 +65,7 @@ def close(
     latitude: float | None = None,
     say: Say = lambda text: None,
 ) -> Closed:
-    """Find what a sensor's model lacks to explain measured logs, and how much of the error that
-    was.
+    """Find what a sensor's model lacks to explain measured logs, and what it is worth.
 
     ``recordings`` are Recordings or paths; ``part`` is a Part, the name of a built-in one, a TOML
     path, or None for the baseline structure with every coefficient estimated. Without ``holdout``
@@ -92,7 +92,24 @@ def close(
     start = declared or undeclared(logs[0].sample_rate)
     say("quality of the raw samples")
     quality = [_of(r.name, f) for r in [*logs, *others] for f in (*_of_reading(r), *inspect(r))]
+    found, of_trials = _investigated(start, declared is not None, logs, others, latitude, say)
+    quality = _with(quality, of_trials)
+    if not found:
+        raise UserError(_nothing_to_compare(logs))
+    return conclude(start, declared, logs, others, found, tuple(quality), say, made_with)
+
+
+def _investigated(
+    start: Part,
+    declared: bool,
+    logs: list[Recording],
+    others: list[Recording],
+    latitude: float | None,
+    say: Say,
+) -> tuple[dict[str, Investigation], list[Finding]]:
+    """What was found of each sensor that has a reference, and what making its trials found."""
     found: dict[str, Investigation] = {}
+    quality: list[Finding] = []
     for kind, make in (("accel", accel_trial), ("gyro", gyro_trial)):
         trials, held = _trials(start.sensor(kind), make, logs, others, latitude)
         if kind == "accel":
@@ -102,16 +119,13 @@ def close(
             turned = turn_trials(start.gyro, logs, others, found.get("accel"))
             trials, held = turned or (trials, held)
         if trials:
-            free = _free(start, declared is not None, start.sensor(kind), trials)
-            trials = _shown(start, declared is not None, free, trials)
+            free = _free(start, declared, start.sensor(kind), trials)
+            trials = _shown(start, declared, free, trials)
             prior = {} if declared else _prior(kind, free)
             found[kind] = investigate(start.sensor(kind), free, trials, held, say, prior)
             quality += late_thermometers(found[kind])
-        quality = _with(quality, _of_trials([*trials, *held]))
-    if not found:
-        raise UserError(_nothing_to_compare(logs))
-    found = {k: found[k] for k in ("gyro", "accel") if k in found}
-    return conclude(start, declared, logs, others, found, tuple(quality), say, made_with)
+        quality += _of_trials([*trials, *held])
+    return {k: found[k] for k in ("gyro", "accel") if k in found}, quality
 
 
 def _file_of(part: Part | str | Path | None) -> list[Path]:
@@ -255,8 +269,9 @@ def _trials(
 
 
 def _free(start: Part, declared: bool, sensor: Sensor, trials: list[Trial]) -> frozenset[Key]:
-    """The coefficients to estimate: those that the part leaves to the data, less what a log's own
-    bias and mounting stand for.
+    """The coefficients to estimate.
+
+    Those that the part leaves to the data, less what a log's own bias and mounting stand for.
     """
     left = [
         s
@@ -302,8 +317,9 @@ def _shown(start: Part, declared: bool, free: frozenset[Key], trials: list[Trial
 
 
 def _prior(kind: str, free: frozenset[Key]) -> dict[Key, float]:
-    """What is known of the coefficients of a part that nobody declared: the typical size in the
-    coarsest class of parts.
+    """What is known of the coefficients of a part that nobody declared.
+
+    The typical size in the coarsest class of parts.
     """
     return {k: magnitudes(k.effect, kind)[CLASSES[-1]].si for k in free}
 

@@ -20,7 +20,7 @@ from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.trial import rest_noise
 from pyimu.identification.fit.whiten import RandomWalk
-from pyimu.identification.found import Added, Changed
+from pyimu.identification.found import Added, Changed, LogEntry
 from pyimu.identification.heading_error import heading_rms
 from pyimu.identification.held_out import at_rest, attitudes, held_trials, scores
 from pyimu.identification.made_with import MadeWith
@@ -69,7 +69,8 @@ def conclude(
     refused = [(kind, r) for kind, inv in found.items() for r in inv.refused]
     say("error on held-out data")
     errors, entries, likelihood = scores(found, logs, others)
-    beside = (errors, attitude, refused, not_examined, lost)
+    heading = heading_rms(found.get("gyro"))
+    beside = (errors, attitude, refused, not_examined, lost, heading)
     together = [*logs, *others]
     said = _said(Evidence(added, changed, unexplained, drifts, found, *beside), together)
     say("the whole model, and what to measure next")
@@ -90,10 +91,7 @@ def conclude(
         log_likelihood=likelihood,
         attitude=attitude,
         quality=quality,
-        recordings=tuple(
-            replace(e, overview=_overview(r, found, quality))
-            for e, r in zip(entries, together, strict=True)
-        ),
+        recordings=_with_overviews(entries, together, found, quality),
         refused=tuple(refused),
         exhibits=_exhibits(found, added),
         band_hz={kind: inv.after.trials[0].band_hz for kind, inv in found.items()},
@@ -104,7 +102,7 @@ def conclude(
         references=references(found, together),
         next=advice(found, model_after, seen, logs, not_examined, not others),
         made_with=made_with,
-        heading=heading_rms(found.get("gyro")),
+        heading=heading,
         at_rest=at_rest(found),
     )
 
@@ -112,9 +110,7 @@ def conclude(
 def _findings(
     start: Part, declared: Part | None, found: Found, model: Model, say: Callable[[str], None]
 ) -> tuple[list[Added], list[Changed], dict[str, dict[int, float]]]:
-    """The effects that were added, the declared values that changed, and by sensor the axes that
-    wander more than declared.
-    """
+    """The effects that were added, the values that changed, and the axes that wander, by sensor."""
     added, changed, drifts = [], [], {}
     for kind, inv in found.items():
         say(f"{kind}: what is left")
@@ -137,6 +133,13 @@ def _said(evidence: Evidence, logs: list[Recording]) -> Verdict:
     if said.word != "reference_unfit":
         return said
     return replace(said, remarks=(*filter(None, [other_order(logs)]), *said.remarks))
+
+
+def _with_overviews(
+    entries: tuple[LogEntry, ...], logs: list[Recording], found: Found, quality: tuple
+) -> tuple[LogEntry, ...]:
+    pairs = zip(entries, logs, strict=True)
+    return tuple(replace(e, overview=_overview(r, found, quality)) for e, r in pairs)
 
 
 def _overview(r: Recording, found: Found, quality: tuple) -> Overview:
@@ -205,19 +208,29 @@ def settled(
         if not kept:
             return found, model, None, said
         was, now = (_pooled(e, kept) for e in (before, after))
-        if not now > WORSE * was:
+        worst = _worst(model.after, inv, logs, kept, now) if now > WORSE * was else None
+        if worst is None:
             return found, model, (was, now), said
-        errors = {
-            name: _pooled(attitudes(_part_without(model.after, name), inv, logs), kept)
-            for name in (s.effect for s in inv.steps if not s.declared)
-            if not is_ceiling(model.after.gyro, name)
-        }
-        worst = min(errors, key=errors.get, default=None)
-        if worst is None or not WORSE * errors[worst] < now:
-            return found, model, (was, now), said
-        degrees = [f"{np.degrees(v):.2f}" for v in (errors[worst], now)]
+        name, error = worst
+        degrees = [f"{np.degrees(v):.2f}" for v in (error, now)]
         reason = f"{TAKEN_BACK}, {degrees[0]} to {degrees[1]} deg"
-        found = found | {"gyro": without(inv, worst, reason)}
+        found = found | {"gyro": without(inv, name, reason)}
+
+
+def _worst(
+    part: Part, inv: Investigation, logs: list[Recording], kept: list[str], now: float
+) -> tuple[str, float] | None:
+    """The added effect without which the attitude is best, and its error then.
+
+    None where it is then hardly better than ``now``.
+    """
+    errors = {
+        name: _pooled(attitudes(_part_without(part, name), inv, logs), kept)
+        for name in (s.effect for s in inv.steps if not s.declared)
+        if not is_ceiling(part.gyro, name)
+    }
+    worst = min(errors, key=errors.get, default=None)
+    return (worst, errors[worst]) if worst and WORSE * errors[worst] < now else None
 
 
 def _part_without(part: Part, effect: str) -> Part:

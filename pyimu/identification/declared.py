@@ -75,9 +75,7 @@ def released(declared: Sensor, fit: Fit, step: Step) -> Changed:
 
 
 def drifting(kind: str, fit: Fit, declared: Sensor) -> dict[str, dict[int, float]]:
-    """By sensor, the axes that walk more than a part that declares its noise says, and the gain
-    [nat] of letting them.
-    """
+    """By sensor, the axes that walk more than declared, and the gain [nat] of letting them."""
     (white, _), (walk, parameter) = WHITE, WALK
     if white not in declared.values or noise_figures(fit) is None:
         return {}

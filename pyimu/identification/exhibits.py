@@ -46,8 +46,10 @@ LONGEST_SPECTRUM = 1024
 
 @dataclass(frozen=True)
 class Trace:
-    """One log's residual (m, 3) before and after, in its band, at ``time`` (m,) s, of which
-    ``segments`` of rows are without gap; ``axes`` are those that its reference covers.
+    """One log's residual (m, 3) before and after, in its band.
+
+    At ``time`` (m,) s, of which ``segments`` of rows are without gap; ``axes`` are those that its
+    reference covers.
     """
 
     name: str
@@ -61,9 +63,10 @@ class Trace:
 
 @dataclass(frozen=True)
 class Driver:
-    """What drives an effect: a signal by name ("time" and "contribution", what the effect adds,
-    among them), one component of it or None, and whether it is its change that counts; ``unit`` is
-    SI.
+    """What drives an effect.
+
+    A signal by name ("time" and "contribution", what the effect adds, among them), one component of
+    it or None, and whether it is its change that counts; ``unit`` is SI.
     """
 
     signal: str
@@ -160,8 +163,9 @@ def _seen(before: Fit, after: Fit, trial: Trial) -> tuple[Trace, Trial, LogState
 
 
 def _judged(before: Fit, after: Fit, trial: Trial) -> tuple[Trace, Trial, LogState]:
-    """The same of rows that are each judged by a fit to the others; one of which these say nothing
-    is met exactly.
+    """The same of rows that are each judged by a fit to the others.
+
+    One of which these say nothing is met exactly.
     """
     first, second = (left_out(fit, trial) for fit in (before, after))
     errors = (np.nan_to_num(one.error)[:, None] * one.along for one in (first, second))

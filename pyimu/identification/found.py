@@ -143,8 +143,9 @@ def _both(one: ErrorSums | None, other: ErrorSums | None) -> ErrorSums | None:
 
 @dataclass(frozen=True)
 class AtRest:
-    """RMS error of gravity at rest in all logs: as measured, and before and after with each of
-    ``folds`` left out of the fit in turn.
+    """RMS error of gravity at rest in all logs.
+
+    As measured, and before and after with each of ``folds`` left out of the fit in turn.
 
     Of an accelerometer it is that of gravity's size, in m/s^2, and a fold is a position; of a gyro
     the angle, in rad, by which its turn from one rest to the next misses gravity's direction, and a

@@ -1,5 +1,6 @@
-"""What a model and a clock are worth to the heading of a vehicle: the integrated gyro against the
-reference's heading or course.
+"""What a model and a clock are worth to the heading of a vehicle.
+
+The integrated gyro against the reference's heading or course.
 """
 
 from __future__ import annotations
@@ -18,9 +19,10 @@ from pyimu.recording.reference.rate import VERTICAL
 
 
 def heading_rms(inv: Investigation | None) -> tuple[float, float] | None:
-    """RMS error [rad] of the gyro's integrated heading over the held-out rows: of the model before
-    with the clock as it was logged, and of the model after with the clock that was found; None
-    where no reference saw a heading.
+    """RMS error [rad] of the gyro's integrated heading over the held-out rows.
+
+    Of the model before with the clock as it was logged, and of the model after with the clock that
+    was found; None where no reference saw a heading.
     """
     held = [t for t in (inv.held if inv is not None else ()) if t.reference in VERTICAL]
     before = _rms([heading_error(inv.before, as_logged(t)) for t in held])
@@ -29,8 +31,9 @@ def heading_rms(inv: Investigation | None) -> tuple[float, float] | None:
 
 
 def heading_error(fit: Fit, trial: Trial) -> np.ndarray:
-    """The heading of a one-axis ``trial`` by the gyro less that of its reference, (m,) rad in its
-    band, over the stretches that are known for longer than ``WINDOW``.
+    """The heading of a one-axis ``trial`` by the gyro less that of its reference, (m,) rad.
+
+    In its band, over the stretches that are known for longer than ``WINDOW``.
 
     What no model knows is taken out: the heading at which a stretch begins, for a vehicle may turn
     on the spot or reverse between, and one constant rate, that of the bias at power-on.
@@ -54,8 +57,7 @@ def as_logged(trial: Trial) -> Trial:
     """The trial with its reference on its own clock again."""
     if trial.clock is None or not trial.clock.taken_out:
         return trial
-    back = replace(trial.clock, late=-trial.clock.late)
-    return replace(shifted(trial, back), clock=None)
+    return replace(shifted(trial, trial.clock.back()), clock=None)
 
 
 def _rms(errors: list[np.ndarray]) -> float | None:

@@ -31,9 +31,7 @@ FOLDS = {"accel": "each position at rest in turn", "gyro": "each turn between re
 def scores(
     found: dict[str, Investigation], logs: list[Recording], others: list[Recording]
 ) -> Scores:
-    """Held-out errors of each sensor, in all and by recording, and the log-likelihood per sample
-    before and after.
-    """
+    """Held-out errors of each sensor, in all and by recording, and log-likelihood per sample."""
     together = [*logs, *others]
     by_log: dict[str, dict[str, Errors]] = {r.name: {} for r in together}
     errors, likelihood = {}, np.zeros(2)
@@ -131,14 +129,16 @@ def held_trials(found: dict[str, Investigation], name: str) -> list[Trial]:
 
 
 def log_state(inv: Investigation, name: str) -> dict[str, Any] | None:
-    """What was estimated of a log itself, under the model after; None for a log that was not
-    looked at.
+    """What was estimated of a log itself, under the model after.
+
+    None for a log that was not looked at.
     """
     trial = next((t for t in (*inv.after.trials, *inv.held) if t.name == name), None)
     if trial is None:
         return None
     state = inv.after.states.get(name) or held_state(inv.after, trial)[0]
-    found = {"bias": state.bias.tolist(), "rotation": state.rotation.tolist()}
+    bias = [float(b) if i in trial.axes else None for i, b in enumerate(state.bias)]
+    found = {"bias": bias, "rotation": state.rotation.tolist()}
     return found | {"reference": _reference(replace(trial, clock=clock_of(inv, name)))}
 
 
@@ -148,8 +148,8 @@ def clock_of(inv: Investigation, name: str) -> Clock | None:
     clock, state = trials[0].clock, inv.after.states.get(name)
     if clock is None or state is None or state.clock is None:
         return clock
-    change = state.clock.significant(inv.after.std.get(LogClock(name, 1), np.inf))
-    return clock.corrected(change, trials[0].time[0], trials[-1].time[-1])
+    std = inv.after.std.get(LogClock(name, 1), np.inf)
+    return clock.corrected(state.clock, std, trials[0].time[0], trials[-1].time[-1])
 
 
 def _reference(trial: Trial) -> dict[str, Any]:
@@ -170,9 +170,7 @@ def _reference(trial: Trial) -> dict[str, Any]:
 def attitudes(
     part: Part, inv: Investigation | None, logs: list[Recording]
 ) -> dict[str, AttitudeError]:
-    """Errors of the attitude filter with a part by log, over the held-out rows that ``ref_q``
-    covers.
-    """
+    """Errors of the attitude filter with a part by log, on held-out rows that ``ref_q`` covers."""
     found = {}
     for r in logs if inv is not None else ():
         held = next((t for t in inv.held if t.name == r.name), None)

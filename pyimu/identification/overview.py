@@ -95,8 +95,9 @@ def overview(r: Recording, held: Iterable[Trial], findings: Iterable[Finding]) -
 
 
 def _at_rest(r: Recording) -> float:
-    """Share of the rows in seconds at rest: as the log says, else steady seconds in which no
-    reference turns.
+    """Share of the rows in seconds at rest.
+
+    As the log says, else steady seconds in which no reference turns.
     """
     if r.stationary is not None:
         return float(np.mean(r.stationary > 0.5))

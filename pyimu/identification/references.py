@@ -31,7 +31,8 @@ def references(
     """The reference of each log, as report.json has it: the gyro's, else the accelerometer's.
 
     ``clock_offset`` is by how much later than the reference says the sensor shows the motion, less
-    what is left to the sensor; it is positive where the sensor is late.
+    what is left to the sensor; it is positive where the sensor is late. ``clock_skew`` is by how
+    much that grows in a second, ``slips`` when it jumps, and by how much.
     """
     noise = {kind: np.sqrt(reference_variance(inv.after)) for kind, inv in found.items()}
     entries = []
@@ -59,7 +60,8 @@ def _entry(
             "kind": t.reference,
             "clock_offset": offset,
             "clock_skew": skew,
-            "slips": None if clock is None else not clock.keeps_step,
+            "slips": None if clock is None else [s.as_dict() | {"unit": "s"} for s in clock.slips],
+            "lag": None if clock is None or clock.keeps_step else _lag(clock),
             "taken_out": clock is not None and clock.taken_out,
             "left_to_sensor": None if clock is None else {"value": clock.own, "unit": "s"},
             "mounting": {
@@ -67,9 +69,7 @@ def _entry(
                 "angle": {"value": turn, "unit": "rad"},
                 "estimated": t.free_rotation,
             },
-            "noise": {"value": noise, "unit": inv.after.sensor.output.unit}
-            if t.band_hz is not None
-            else None,
+            "noise": _noise(t, noise, inv.after.sensor.output.unit),
             "sample_rate": {"value": _own_rate(r, t), "unit": "Hz"},
             "band_hz": t.band_hz,
             "explains": None if clock is None else clock.explained,
@@ -77,13 +77,33 @@ def _entry(
     )
 
 
-def _clock(clock: Clock | None) -> tuple[dict[str, Any] | None, float | None]:
-    """Offset [s], and its slope over the log where the clocks do not keep step."""
+def _clock(clock: Clock | None) -> tuple[dict[str, Any] | None, dict[str, Any] | None]:
+    """Offset [s], and by how much it grows in a second where it does so steadily."""
     if clock is None or not np.isfinite(clock.std):
         return None, None
     offset = {"value": clock.mean, "std": clock.std, "unit": "s"}
     offset |= {"least": float(clock.late.min()), "most": float(clock.late.max())}
-    return offset, None if clock.keeps_step else float(np.polyfit(clock.time, clock.late, 1)[0])
+    if clock.skew is None:
+        return offset, None
+    value, std = clock.skew
+    return offset, {"value": value, "std": std, "unit": "1"}
+
+
+def _lag(clock: Clock) -> dict[str, Any]:
+    """The lag [s] over the log's time [s], where it is not constant."""
+    return {"time": clock.time, "late": clock.late, "unit": "s"}
+
+
+def _noise(t: Trial, in_band: np.ndarray, unit: str) -> dict[str, Any] | None:
+    """Root mean square (3,) of the reference's noise.
+
+    In the band of a derivative, else in each of its rows; None where it has none to speak of.
+    """
+    value = in_band if t.band_hz is not None else None if t.noise is None else t.noise.std(axis=0)
+    if value is None:
+        return None
+    covered = np.isin(np.arange(3), t.axes)
+    return {"value": np.where(covered, value, np.nan), "unit": unit}
 
 
 def _own_rate(r: Recording, t: Trial) -> float | None:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from pyimu.identification.clocks import taken_out
 from pyimu.identification.fit.columns import in_band, residual
 from pyimu.identification.fit.score import held_state
 from pyimu.identification.fit.trial import Trial
@@ -56,7 +57,7 @@ class Evidence:
     """What a verdict goes by.
 
     ``unexamined`` says of each sensor of the logs that was not looked at why not, ``lost`` of which
-    logs the attitude is lost.
+    logs the attitude is lost; ``heading`` is the error before and after.
     """
 
     added: list[Added]
@@ -69,13 +70,15 @@ class Evidence:
     refused: list[tuple[str, Refused]]
     unexamined: dict[str, str]
     lost: tuple[str, ...] = ()
+    heading: tuple[float, float] | None = None
 
 
 def verdict(e: Evidence) -> Verdict:
     """The verdict, with what must be said beside it."""
     found = _verdict(e)
+    clocks = taken_out(e.found, e.heading) if found.word != "reference_unfit" else ""
     beside = (*_growing_attitude(e.attitude), *e.lost, *e.unexamined.values())
-    return replace(found, remarks=found.remarks + beside)
+    return replace(found, remarks=(*filter(None, [clocks]), *found.remarks, *beside))
 
 
 def _verdict(e: Evidence) -> Verdict:
@@ -113,7 +116,8 @@ def _nothing_found(e: Evidence, left: str) -> Verdict:
         return Verdict("unexplained", f"no effect of the catalogue accounts for it: {left}")
     if e.unexamined:
         seen = joined(sorted(e.found))
-        return Verdict("undecidable", f"nothing is missing of the {seen}")
+        rest = f"nothing is missing of the {seen}, and more was not examined"
+        return Verdict("undecidable", rest)
     corrected = "; declared values that the data contradict are listed as changed"
     return Verdict("clean", "nothing is missing" + (corrected if e.changed else ""))
 
@@ -175,8 +179,9 @@ def _growing_attitude(attitude: tuple[float, float] | None) -> list[str]:
 
 
 def _shows_anything(found: Found) -> bool:
-    """Whether some effect would be visible that time alone does not drive: those show in any log,
-    and say nothing about the effects that people ask for.
+    """Whether some effect would be visible that time alone does not drive.
+
+    Those show in any log, and say nothing about the effects that people ask for.
     """
     return any(
         np.isfinite(c.smallest_visible) and "time" not in CATALOGUE[c.effect].signals(kind)

@@ -1,5 +1,6 @@
-"""The band in which a derived reference can be trusted: one linear-phase filter for gyro, reference
-and regressors alike.
+"""The band in which a derived reference can be trusted.
+
+One linear-phase filter for gyro, reference and regressors alike.
 """
 
 from __future__ import annotations

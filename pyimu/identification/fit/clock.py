@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
@@ -21,10 +21,6 @@ class ClockChange:
     offset: float = 0.0
     drift: float = 0.0
 
-    def significant(self, std: float) -> ClockChange:
-        """Without a drift that may be chance, ``std`` being its standard error."""
-        return self if abs(self.drift) > WIDE * std else replace(self, drift=0.0)
-
     def moved(self, order: int, change: float) -> ClockChange:
         if order == 0:
             return replace(self, offset=self.offset + change)
@@ -35,6 +31,18 @@ class ClockChange:
 
 
 @dataclass(frozen=True)
+class Slip:
+    """A clock that jumps by ``size`` s at ``time`` s of the log, which is known to ``std`` s."""
+
+    time: float
+    std: float
+    size: float
+
+    def as_dict(self) -> dict[str, float]:
+        return asdict(self)
+
+
+@dataclass(frozen=True)
 class Clock:
     """How much later than its reference says a sensor shows the motion of a log.
 
@@ -42,7 +50,8 @@ class Clock:
     the standard error in s. ``explained`` is the share of the sensor's power that the reference
     then accounts for. ``own`` s are left beside it for the effects of the sensor that make it
     late; ``taken_out`` says whether ``late`` was taken out of the reference, or is too small for
-    that.
+    that. ``skew`` is by how much ``late`` grows in a second, with its standard error, where it
+    does so steadily but for ``slips``; None where the clocks keep step or the lag wanders.
     """
 
     time: np.ndarray
@@ -51,10 +60,21 @@ class Clock:
     explained: float
     own: float = 0.0
     taken_out: bool = False
+    skew: tuple[float, float] | None = None
+    slips: tuple[Slip, ...] = ()
 
     @property
     def keeps_step(self) -> bool:
         return len(self.late) == 1
+
+    @property
+    def is_seen(self) -> bool:
+        return bool(np.isfinite(self.std))
+
+    @property
+    def is_steady(self) -> bool:
+        """Whether the lag is one number, or a straight line without slips."""
+        return self.keeps_step or (self.skew is not None and not self.slips)
 
     @property
     def mean(self) -> float:
@@ -74,11 +94,22 @@ class Clock:
         drift = {1: WIDE * self.std * np.sqrt(12.0) / seconds}
         return {0: WIDE * self.std, **drift} if self.taken_out and not self.own else drift
 
-    def corrected(self, change: ClockChange, first: float, last: float) -> Clock:
-        """The clock with what a fit found beside it, from ``first`` to ``last`` s."""
+    def corrected(self, change: ClockChange, std: float, first: float, last: float) -> Clock:
+        """The clock with what a fit found beside it, from ``first`` to ``last`` s, ``std`` being
+        the standard error of its drift; a new drift that may be chance is none.
+        """
+        if self.skew is None and abs(change.drift) <= WIDE * std:
+            change = replace(change, drift=0.0)
         drifts = self.keeps_step and change.drift != 0.0
         time = np.array([first, last]) if drifts else self.time
-        return replace(self, time=time, late=self.at(time) + change.at(time))
+        was = None if self.skew is None else self.skew[0]
+        skew = (change.drift + (was or 0.0), std) if drifts or was is not None else None
+        return replace(self, time=time, late=self.at(time) + change.at(time), skew=skew)
+
+    def back(self) -> Clock:
+        """The clock that undoes this one, once it is taken out."""
+        skew = None if self.skew is None else (-self.skew[0], self.skew[1])
+        return replace(self, late=-self.late, skew=skew)
 
     def as_dict(self) -> dict[str, float | bool | None]:
         """Its figures in s, as they were measured, for report.json."""
@@ -93,4 +124,7 @@ class Clock:
         return known | {"taken_out": self.taken_out}
 
     def at(self, time: np.ndarray) -> np.ndarray:
-        return np.interp(time, self.time, self.late)
+        late = np.interp(time, self.time, self.late)
+        if self.skew is None:
+            return late
+        return late + self.skew[0] * (time - np.clip(time, self.time[0], self.time[-1]))

@@ -37,7 +37,7 @@ from pyimu.model.arguments import Parameter
 from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS
-from pyimu.recording.reference.rate import DERIVED
+from pyimu.recording.reference.rate import DERIVED, VERTICAL
 
 THERMOMETER = 30.0
 """s; standard deviation of a thermometer's lag behind the sensor: some seconds on the same die, a
@@ -138,9 +138,13 @@ def initial_state(sensor: Sensor, trial: Trial) -> LogState:
 
 def _clock_to_find(trial: Trial) -> ClockChange | None:
     """What a trial's clock still lacks before anything is known of it, about the middle of its
-    motion; None where too little of the clock is to be seen.
+    motion; None where too little of the clock is to be seen, or it is no straight line.
+
+    A course and a heading turn otherwise than the vehicle, at the point that is tracked.
     """
-    if trial.clock is None or not np.isfinite(trial.clock.std):
+    clock = trial.clock
+    steady = clock is not None and clock.is_seen and clock.is_steady
+    if not steady or trial.reference in VERTICAL:
         return None
     power = np.sum(trial.u[:, COLUMNS[KINDS[trial.kind].own_rate]] ** 2, axis=1)
     power = power * marked(trial.row_segments, len(power))

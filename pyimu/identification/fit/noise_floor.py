@@ -27,8 +27,9 @@ DRAWN = 512
 
 
 def own_noise(fitted: Fit) -> dict[int, RandomWalk]:
-    """The sensor's own noise at the sample rate: as declared, else its white part as its quiet rows
-    show it.
+    """The sensor's own noise at the sample rate.
+
+    As declared, else its white part as its quiet rows show it.
     """
     h = fitted.trials[0].h
     white, walk = (_declared(fitted.sensor, *name) for name in (WHITE, WALK))
@@ -45,8 +46,9 @@ def _declared(sensor: Sensor, effect: str, parameter: str) -> np.ndarray:
 
 
 def floor_noise(fit: Fit) -> dict[int, RandomWalk]:
-    """Noise at the sample rate for the floor: as fitted, or the sensor's own where the reference is
-    derived.
+    """Noise at the sample rate for the floor.
+
+    As fitted, or the sensor's own where the reference is derived.
     """
     return (
         dict(fit.noise)
@@ -56,8 +58,9 @@ def floor_noise(fit: Fit) -> dict[int, RandomWalk]:
 
 
 def reference_variance(fit: Fit) -> np.ndarray:
-    """Variance (3,) in a row of the band that the reference adds to the sensor's own noise; zero
-    where the fitted noise holds both.
+    """Variance (3,) in a row of the band that the reference adds to the sensor's own noise.
+
+    Zero where the fitted noise holds both.
 
     It is read off the quietest quarter of the fitted windows, and is by as much more than these
     show as noise of one level would be.

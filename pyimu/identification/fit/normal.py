@@ -21,8 +21,9 @@ Noise = dict[int, "RandomWalk | Autoregressive | Unit"]
 
 @dataclass
 class Normal:
-    """Normal equations in whitened units, whole and by batch: ``gram`` (P, P), ``score`` (P,), for
-    named columns.
+    """Normal equations in whitened units, whole and by batch.
+
+    ``gram`` (P, P), ``score`` (P,), for named columns.
     """
 
     keys: list[Key]
@@ -90,8 +91,9 @@ def _scaled(gram: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.nd
 
 
 def variances(gram: np.ndarray) -> np.ndarray:
-    """Variances (P,) of the solution; infinite for a coefficient that a direction which the data do
-    not show takes part in.
+    """Variances (P,) of the solution.
+
+    Infinite for a coefficient that a direction which the data do not show takes part in.
     """
     scale, values, vectors, keep = _scaled(gram)
     shown = np.sum(vectors[:, keep] ** 2 / values[keep], axis=1) / scale**2
@@ -100,8 +102,9 @@ def variances(gram: np.ndarray) -> np.ndarray:
 
 
 def solve(gram: np.ndarray, right: np.ndarray) -> np.ndarray:
-    """Least-norm solution of normal equations; directions that the data do not show stay where they
-    are.
+    """Least-norm solution of normal equations.
+
+    Directions that the data do not show stay where they are.
     """
     scale, values, vectors, keep = _scaled(gram)
     turned = vectors[:, keep].T @ (right / (scale if right.ndim == 1 else scale[:, None]))

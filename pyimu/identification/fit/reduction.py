@@ -1,5 +1,6 @@
-"""Trials whose rows are not samples but what whole stretches of a log say: how each row follows the
-sensor's output, and how far each is from what the others predict.
+"""Trials whose rows are not samples but what whole stretches of a log say.
+
+How each row follows the sensor's output, and how far each is from what the others predict.
 
 No row has an equation of its own for every axis, so the few that there are come already weighed:
 their covariance is known before the fit, and the fit sees them white.

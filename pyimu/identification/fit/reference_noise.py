@@ -140,8 +140,10 @@ def _shape(fit: Fit, linears: Sequence[Linear]) -> tuple[float, ...]:
 def _drawn(
     trial: Trial, variance: np.ndarray, shape: tuple[float, ...], rng: np.random.Generator
 ) -> Trial:
-    """The trial with a draw (n, 3) of noise that has a ``variance`` (3,) in its band: white, of the
-    ``shape`` of an autoregression, or as a white attitude has it once it is differentiated.
+    """The trial with a draw (n, 3) of noise that has a ``variance`` (3,) in its band.
+
+    White, of the ``shape`` of an autoregression, or as a white attitude has it once it is
+    differentiated.
 
     A derivative has no more of it than its high differences show: its band hides from the sensor
     what is left beyond.

@@ -88,9 +88,7 @@ def impulse_response(sensor: Sensor, h: float) -> np.ndarray:
 def through_dynamics(
     sensor: Sensor, x: np.ndarray, segments: list[tuple[int, int]], h: float
 ) -> np.ndarray:
-    """Input (n, 3) after the sensor's dynamics, each segment started at rest on its first
-    sample.
-    """
+    """Input (n, 3) after the sensor's dynamics, each segment started at rest on its first row."""
     chain = dynamics(sensor)
     if not chain.effects:
         return x
@@ -141,8 +139,9 @@ class Memoryless:
     def __call__(
         self, u: np.ndarray, p: np.ndarray, h: float
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """For inputs (n, N_INPUT): output (n, 3), its slope against the own input (n, 3, 3), and
-        dy/dp (n, entries).
+        """Output (n, 3) for inputs (n, N_INPUT), and its slopes.
+
+        Against the own input (n, 3, 3), and dy/dp (n, entries).
 
         Entry e of dy/dp belongs to output axis ``self.axis[e]`` and to coefficient
         ``self.slot[e]``.
@@ -155,8 +154,9 @@ class Memoryless:
         return over_rows(self._output, u, np.append(p, h))
 
     def mean_slope(self, u: np.ndarray, p: np.ndarray, h: float) -> np.ndarray:
-        """Mean over the rows (n, N_INPUT) of d(entry)/dx of its own axis, (entries,): how a
-        regressor follows an error of the input.
+        """Mean over the rows (n, N_INPUT) of d(entry)/dx of its own axis, (entries,).
+
+        How a regressor follows an error of the input.
         """
         return over_rows(self._slopes, u, np.append(p, h)).mean(axis=0)
 
@@ -183,8 +183,9 @@ def predict(sensor: Sensor, u: np.ndarray, segments: list[tuple[int, int]], h: f
 def _stepped(
     sensor: Sensor, u: np.ndarray, segments: list[tuple[int, int]], h: float
 ) -> np.ndarray:
-    """Answer (n, 3) sample by sample, each segment from the start; outside of segments the input
-    itself.
+    """Answer (n, 3) sample by sample, each segment from the start.
+
+    Outside of segments the input itself.
     """
     out = np.array(u[:, OWN[sensor.kind]])
     for a, b in segments:

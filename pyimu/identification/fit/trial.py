@@ -1,5 +1,6 @@
-"""One log as one sensor's regression sees it: what was measured, what the reference says went in,
-which rows count.
+"""One log as one sensor's regression sees it.
+
+What was measured, what the reference says went in, which rows count.
 """
 
 from __future__ import annotations
@@ -83,8 +84,9 @@ class Trial:
 
     @property
     def row_segments(self) -> list[tuple[int, int]]:
-        """Ranges of rows that regression draws on: the segments once settled, less what is left
-        out.
+        """Ranges of rows that regression draws on.
+
+        The segments once settled, less what is left out.
         """
         settled = [
             (a + (0 if self.reference == "static" else min(SETTLE, (b - a) // 4)), b)
@@ -129,8 +131,7 @@ class Trial:
         )
 
     def split(self, held_out: float) -> tuple[Trial, Trial]:
-        """The rows to fit and the last ``held_out`` of those that a reference covers to judge
-        by.
+        """The rows to fit, and the last ``held_out`` of those that a reference covers to judge by.
 
         Of rows that are not samples none is held out: each is judged by a fit to the others.
         """
@@ -141,9 +142,7 @@ class Trial:
         return self.part(0, at), self.part(at, len(self.time), parent=self.name)
 
     def head(self) -> tuple[Trial, Trial]:
-        """The rows with the first ``HEAD`` seconds of motion, at most half of the log, and the
-        rest.
-        """
+        """The rows with the first ``HEAD`` seconds of motion, at most half, and the rest."""
         moved = np.cumsum(self._moves()) * self.h
         at = int(np.searchsorted(moved, HEAD)) + 1
         at = min(at, len(self.time) // 2)
@@ -202,9 +201,7 @@ def gyro_trial(recording: Recording, latitude: float | None = None) -> Trial | N
 
 
 def accel_trial(recording: Recording, static: bool) -> Trial | None:
-    """The accelerometer against a reference force, or against its own mean where the log is
-    ``static``; else None.
-    """
+    """The accelerometer against a reference force, or its own mean where ``static``; else None."""
     if recording.accel is None or (recording.ref_force is None and not static):
         return None
     u, known = environment(recording)
@@ -233,8 +230,9 @@ def accel_trial(recording: Recording, static: bool) -> Trial | None:
 
 
 def environment(recording: Recording) -> tuple[np.ndarray, frozenset[str]]:
-    """Inputs (n, N_INPUT) that are not the sensor's own, and which of them are known; the others
-    stand at their start values.
+    """Inputs (n, N_INPUT) that are not the sensor's own, and which of them are known.
+
+    The others stand at their start values.
     """
     u, known = np.tile(START, (len(recording.time), 1)), {"time"}
     u[:, OWN["accel"]] = 0.0
@@ -309,8 +307,10 @@ def _trial(
     findings: tuple[Finding, ...] = (),
     **more,
 ) -> Trial | None:
-    """A trial of the rows that the reference covers; a bad sample is left out. Where a band would
-    spread it, its neighbours stand in for it, or, where they cannot, it ends a segment.
+    """A trial of the rows that the reference covers.
+
+    A bad sample is left out. Where a band would spread it, its neighbours stand in for it, or,
+    where they cannot, it ends a segment.
     """
     if not axes:
         return None
@@ -380,8 +380,9 @@ def rest_noise(trial: Trial) -> np.ndarray:
 
 
 def white_noise(trial: Trial, values: np.ndarray) -> np.ndarray:
-    """Standard deviation (k,) of the white noise of values (n, k), from the quietest quarter of
-    second-long segments.
+    """Standard deviation (k,) of the white noise of values (n, k).
+
+    From the quietest quarter of second-long segments.
 
     Third differences take out motion up to a tenth of the sample rate; those of white noise have 20
     times its variance.

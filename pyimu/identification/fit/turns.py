@@ -1,5 +1,6 @@
-"""Turns between rests as the reference of a gyro: the gravity of one rest, turned by the gyro, must
-be that of the next.
+"""Turns between rests as the reference of a gyro.
+
+The gravity of one rest, turned by the gyro, must be that of the next.
 
 A turn is two rows: where the turned direction misses the measured one, along two axes across it,
 over the turn's time, so that it is a mean rate. A change dw of the rate at time t moves the turned

@@ -30,8 +30,9 @@ CHUNK = 65536
 
 @njit(cache=True)
 def _innovations(values, steps, r, k2, out):
-    """Whiten the columns of ``values`` (m, c) into ``out``; returns the sum of log innovation
-    variances.
+    """Whiten the columns of ``values`` (m, c) into ``out``.
+
+    Returns the sum of log innovation variances.
     """
     m, c = values.shape
     level = np.zeros(c)
@@ -130,8 +131,9 @@ class Autoregressive:
     r: float
 
     def whiten(self, values: np.ndarray, time: np.ndarray, segments: Segments) -> np.ndarray:
-        """Prediction errors (m, c), unit variance; the first rows of a segment, which lack
-        predecessors, are zero.
+        """Prediction errors (m, c), unit variance.
+
+        The first rows of a segment, which lack predecessors, are zero.
         """
         out = np.zeros_like(values)
         taps = np.concatenate([[1.0], -np.array(self.coefficients)])

@@ -1,5 +1,6 @@
-"""Whose delay it is: what the logs' clocks say together, and the logs with their references on the
-sensor's clock.
+"""Whose delay it is.
+
+What the logs' clocks say together, and the logs with their references on the sensor's clock.
 """
 
 from __future__ import annotations
@@ -26,8 +27,9 @@ LONGEST_OWN = 0.05
 
 
 def aligned(trials: Sequence[Trial], held: Sequence[Trial], sensor: Sensor) -> list[Trial]:
-    """All trials, fitted and ``held``, with the reference's clock taken out, as far as it is the
-    reference's; their ``clock`` and ``findings`` say what was taken out.
+    """All trials, fitted and ``held``, with the reference's clock taken out.
+
+    As far as it is the reference's; their ``clock`` and ``findings`` say what was taken out.
 
     A lag may be the sensor's own where all fitted logs have it in common and the sensor is late. It
     is left in then, for the effects that make one. What differs from log to log, wanders, makes the

@@ -1,5 +1,6 @@
-"""The clock of a log's reference against the sensor's: how much later than the reference says the
-sensor shows the motion.
+"""The clock of a log's reference against the sensor's.
+
+How much later than the reference says the sensor shows the motion.
 
 A coarse lag is where the sizes of the two rates correlate best, which no mounting changes. The fine
 one is the coefficient of -dx/dt, x being the reference's rate, in the sensor's output; in windows
@@ -18,7 +19,7 @@ from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.columns import band_time, in_band
 from pyimu.identification.fit.response import through_dynamics
 from pyimu.identification.fit.trial import MOVING, Trial, marked, rest_noise
-from pyimu.identification.reference.track import level_of
+from pyimu.identification.reference.track import Level, level_of
 from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS
@@ -36,6 +37,9 @@ FITTING = 0.3
 
 LEAST_ROWS = 16
 """Moving rows below which a window says nothing."""
+
+SEEN = 3.0
+"""Standard errors of a correlation from which on two slopes show one motion, and not noise."""
 
 MOTION = 5.0
 """Times its own noise that a sensor must show for a reference to be judged by it."""
@@ -71,16 +75,22 @@ def measure(trial: Trial, sensor: Sensor) -> Clock | None:
         if seen is None:
             return replace(clock, std=np.inf, explained=_explained(shifted(trial, clock)))
         time, late, std = seen
-        level = level_of(time, late + clock.at(time), std).between(trial.time[0], trial.time[-1])
-        before, clock = clock, Clock(level.time, level.value, level.std, 0.0)
+        level = level_of(time, late + clock.at(time), std)
+        before, clock = clock, _clock(level)
         if np.abs(clock.at(time) - before.at(time)).max() < 0.1 * clock.std:
             break
     return replace(clock, explained=_explained(shifted(trial, clock)))
 
 
+def _clock(level: Level) -> Clock:
+    found = Clock(level.time, level.value, level.std, 0.0)
+    return replace(found, skew=level.slope, slips=level.steps)
+
+
 def moves(trial: Trial) -> bool:
-    """Whether sensor and reference both show more than the sensor's own noise: a sensor alone that
-    does may follow its temperature.
+    """Whether sensor and reference both show more than the sensor's own noise.
+
+    A sensor alone that does may follow its temperature.
     """
     axes, trial = list(trial.axes), _in_own_band(trial)
     x, y = (in_band(trial, v[:, axes]) for v in (trial.u[:, OWN[trial.kind]], trial.y))
@@ -92,8 +102,9 @@ def moves(trial: Trial) -> bool:
 
 
 def _explained(trial: Trial) -> float:
-    """Share of the sensor's power in the band that the reference accounts for, once turned into the
-    sensor's axes; below zero where it is further off than nothing.
+    """Share of the sensor's power in the band that the reference, once turned, accounts for.
+
+    Below zero where it is further off than nothing.
     """
     trial, axes = _in_own_band(trial), list(trial.axes)
     rows = _rows(trial)
@@ -106,8 +117,9 @@ def _explained(trial: Trial) -> float:
 
 
 def mistaken(trial: Trial) -> str:
-    """What is wrong with the reference of a trial that would fit once that is put right: mirrored
-    axes, or degrees taken for radians; nothing where neither is.
+    """What is wrong with the reference of a trial that would fit once that is put right.
+
+    Mirrored axes, or degrees taken for radians; nothing where neither is.
     """
     trial, axes = _in_own_band(trial), list(trial.axes)
     rows = _rows(trial)
@@ -154,23 +166,27 @@ def shifted(trial: Trial, clock: Clock) -> Trial:
 
 
 def _drift(time: np.ndarray, late: np.ndarray) -> np.ndarray:
-    """Rate (n,) at which a lag grows: an attitude that is read at a pace of its own turns at that
-    pace. A slip is none.
+    """Rate (n,) at which a lag grows.
+
+    An attitude that is read at a pace of its own turns at that pace. A slip is none.
     """
     rate = np.gradient(late, time)
     return np.where(np.abs(rate) < FASTEST_DRIFT, rate, 0.0)
 
 
 def rebanded(trial: Trial) -> Trial:
-    """The trial with the band in which its reference, as it stands now, can be trusted; one whose
-    reference was not derived has none.
+    """The trial with the band in which its reference, as it stands now, can be trusted.
+
+    One whose reference was not derived has none.
     """
     return trial if trial.band_hz is None else _in_own_band(trial)
 
 
 def _interpolated(x: np.ndarray, row: np.ndarray) -> np.ndarray:
-    """Values of ``x`` (n, k) at fractional rows (m,): a sinc under a Kaiser window, so that white
-    noise keeps its size where a line between neighbours would smooth it.
+    """Values of ``x`` (n, k) at fractional rows (m,).
+
+    A sinc under a Kaiser window, so that white noise keeps its size where a line between neighbours
+    would smooth it.
     """
     left = np.floor(row).astype(int)
     out, total = np.zeros((len(row), x.shape[1])), np.zeros(len(row))
@@ -187,8 +203,9 @@ def _interpolated(x: np.ndarray, row: np.ndarray) -> np.ndarray:
 
 
 def _coarse(trial: Trial) -> float:
-    """Lag in s at which the sizes of the two rates correlate best; 0 where that is hardly better
-    than without a lag.
+    """Lag in s at which the sizes of the two rates correlate best.
+
+    0 where that is hardly better than without a lag.
     """
     axes = list(trial.axes)
     counted = marked(trial.row_segments, len(trial.time))
@@ -225,21 +242,20 @@ def _turn(x: np.ndarray, y: np.ndarray) -> np.ndarray:
 
 
 def _windows(trial: Trial, sensor: Sensor):
-    """Middle (k,) s, lag (k,) s and standard error (k,) s of each window that moves; None where too
-    little does.
+    """Middle (k,) s, lag (k,) s and standard error (k,) s of each window that moves.
+
+    None where too little does.
     """
     axes = list(trial.axes)
     rate = trial.u[:, OWN[trial.kind]]
-    slope = np.zeros_like(rate)
-    for a, b in trial.segments:
-        if b - a > 1:
-            slope[a:b] = np.gradient(rate[a:b], trial.time[a:b], axis=0)
     x, slope = (
-        through_dynamics(sensor, v, trial.segments, trial.h)[:, axes] for v in (rate, slope)
+        through_dynamics(sensor, v, trial.segments, trial.h)[:, axes]
+        for v in (rate, _slope(trial, rate))
     )
+    seen = _slope(trial, trial.y[:, axes])
     trial = _in_own_band(trial)
     time, rows = band_time(trial), _rows(trial)
-    x, slope, y = (in_band(trial, v)[rows] for v in (x, slope, trial.y[:, axes]))
+    x, slope, y, seen = (in_band(trial, v)[rows] for v in (x, slope, trial.y[:, axes], seen))
     time = time[rows]
     speed = np.linalg.norm(x - np.median(x, axis=0), axis=1)
     if len(speed) < 4 * LEAST_ROWS or not np.any(speed):
@@ -254,26 +270,42 @@ def _windows(trial: Trial, sensor: Sensor):
         gain = np.linalg.lstsq(known[good], y[good], rcond=1e-6)[0]
         left = y - known @ gain
         turned = slope @ gain[1:]
-        late = -np.sum(turned[good] * left[good]) / max(np.sum(turned[good] ** 2), 1e-300)
+        late = -np.sum(turned[good] * left[good]) / max(np.sum((turned * seen)[good]), 1e-300)
         missed = np.linalg.norm(left + late * turned, axis=1)
         good = moving & (missed < FITTING * speed)
-    return _by_window(trial, time, left, turned, good)
+    return _by_window(trial, time, left, turned, seen, good)
 
 
-def _by_window(trial: Trial, time, left, turned, good):
+def _slope(trial: Trial, values: np.ndarray) -> np.ndarray:
+    """Rate of change of values (n, k), between neighbours on both sides."""
+    out = np.zeros_like(values)
+    for a, b in trial.segments:
+        if b - a > 1:
+            out[a:b] = np.gradient(values[a:b], trial.time[a:b], axis=0)
+    return out
+
+
+def _by_window(trial: Trial, time, left, turned, seen, good):
+    """The lag of each window whose slope sensor and reference both show.
+
+    The slope of the reference holds its noise, and its square would make the lag small: the product
+    with the slope ``seen`` by the sensor, whose noise is another, has the motion's power alone
+    (instrumental variables, Fuller 1987, "Measurement Error Models", section 1.4).
+    """
     length = max(WINDOW, ROWS * trial.band.stride * trial.h)
     window = ((time - trial.time[0]) / length).astype(int)
     middles, lates, stds = [], [], []
     for k in np.unique(window[good]):
         at = good & (window == k)
-        power = np.sum(turned[at] ** 2)
-        if at.sum() < LEAST_ROWS or power == 0.0:
+        power, size = np.sum(turned[at] * seen[at]), np.linalg.norm(turned[at])
+        chance = SEEN * size * np.linalg.norm(seen[at]) / np.sqrt(max(turned[at].size, 1))
+        if at.sum() < LEAST_ROWS or power <= chance:
             continue
         late = -np.sum(turned[at] * left[at]) / power
         rest = left[at] + late * turned[at]
         middles.append(float(time[at].mean()))
         lates.append(late)
-        stds.append(np.sqrt(np.mean(rest**2) / power) + 1e-12)
+        stds.append(np.sqrt(np.mean(rest**2)) * size / power + 1e-12)
     if not middles:
         return None
     return np.array(middles), np.array(lates), np.array(stds)

@@ -38,8 +38,9 @@ WANDER = "bias_instability"
 
 
 def rest_trial(recording: Recording, latitude: float | None = None) -> Trial | None:
-    """The accelerometer of a recording against gravity in its rests; None where the log has no
-    accelerometer, or rests in fewer than ``LEAST_POSITIONS`` positions.
+    """The accelerometer of a recording against gravity in its rests.
+
+    None where the log has no accelerometer, or rests in fewer than ``LEAST_POSITIONS`` positions.
     """
     if recording.accel is None or not np.isfinite(recording.accel).any(axis=0).all():
         return None
@@ -78,8 +79,10 @@ def rest_trials(
     others: Sequence[Recording],
     latitude: float | None,
 ) -> tuple[list[Trial], list[Trial]] | None:
-    """Trials of rests to fit and to judge by; None for a gyro, where a log has a reference of
-    force, and where none has rests in enough positions.
+    """Trials of rests to fit and to judge by.
+
+    None for a gyro, where a log has a reference of force, and where none has rests in enough
+    positions.
     """
     if sensor.kind != "accel" or any(r.ref_force is not None for r in logs):
         return None
@@ -157,16 +160,18 @@ def _reduction(
 
 
 def sample_std(values: np.ndarray, pieces: Sequence[np.ndarray]) -> np.ndarray:
-    """Standard deviation (3,) of a sample's white noise, by the changes from sample to sample: a
-    hand that holds the sensor changes the mean, too (von Neumann 1941).
+    """Standard deviation (3,) of a sample's white noise, by the changes from sample to sample.
+
+    A hand that holds the sensor changes the mean, too (von Neumann 1941).
     """
     squares = sum((np.diff(values[rows], axis=0) ** 2).sum(axis=0) for rows in pieces)
     return np.sqrt(squares / (2 * max(sum(len(rows) - 1 for rows in pieces), 1)))
 
 
 def typical_wander(kind: str) -> float:
-    """By how much a consumer part wanders from rest to rest [SI]; a gyro's output follows the
-    Earth's rate, too, whose direction nobody knows.
+    """By how much a consumer part wanders from rest to rest [SI].
+
+    A gyro's output follows the Earth's rate, too, whose direction nobody knows.
     """
     own = magnitudes(WANDER, kind)[CLASSES[-1]].si
     return float(np.hypot(own, EARTH_RATE)) if kind == "gyro" else own

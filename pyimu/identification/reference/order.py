@@ -24,8 +24,9 @@ of the mounting."""
 
 
 def other_order(logs: Iterable[Recording]) -> str:
-    """The orders of ``ref_q`` that fit the gyro where the one that the columns say does not;
-    nothing where none does.
+    """The orders of ``ref_q`` that fit the gyro where the one that the columns say does not.
+
+    Nothing where none does.
     """
     for r in logs:
         if r.ref_q is None or r.gyro is None:

@@ -43,8 +43,9 @@ def unshown(sensor: Sensor, free: frozenset[Key], trials: Sequence[Trial]) -> li
 
 
 def positions_wanted(sensor: Sensor, free: frozenset[Key], trials: Sequence[Trial]) -> list[str]:
-    """Positions in which further rests would show all the coefficients ``free``, in words; none
-    where not even many do.
+    """Positions in which further rests would show all the coefficients ``free``, in words.
+
+    None where not even many do.
     """
     if not isinstance(trials[0].reduction, Rests):
         return []

@@ -1,4 +1,7 @@
-"""A level that is measured again and again: one number, a straight line, or one that wanders."""
+"""A level that is measured again and again.
+
+One number, or one that drifts steadily, steps, or wanders.
+"""
 
 from __future__ import annotations
 
@@ -9,9 +12,21 @@ from numba import njit
 from scipy.optimize import minimize, minimize_scalar
 from scipy.stats import chi2, f
 
+from pyimu.identification.fit.clock import Slip
+from pyimu.identification.reference.steps import (
+    Line,
+    constant_likelihood,
+    cost,
+    ramp,
+    stepped,
+)
+
 WANDERS = 6.0
 """Gain in log-likelihood [nat] of a level that wanders over one that does not, from which on it is
 taken to: by chance it is as much in 3 of 10,000 logs (half of chi-square on one degree)."""
+
+EDGE = 1e-6
+"""s before and after a step at which its two levels are put."""
 
 LEAST = 8
 """Measurements below which no wandering is looked for."""
@@ -22,66 +37,61 @@ LEAST_LINE = 4
 
 @dataclass(frozen=True)
 class Level:
-    """The level (k,) at ``time`` (k,) s, with ``std`` as its standard error.
+    """The level (k,) at ``time`` (k,) s, one entry where it stands still.
 
-    It has one entry where it stands still, and two where it is a straight line.
+    ``std`` its standard error.
+
+    ``slope``, in a second and with its standard error, is that of a level which drifts steadily but
+    for its ``steps``; None where it stands still or wanders.
     """
 
     time: np.ndarray
     value: np.ndarray
     std: float
-
-    def between(self, first: float, last: float) -> Level:
-        """The level from ``first`` to ``last`` s, which a straight line reaches to."""
-        if len(self.time) != 2:
-            return self
-        ends = np.array([first, last])
-        slope = np.diff(self.value) / np.diff(self.time)
-        return replace(self, time=ends, value=self.value[0] + slope * (ends - self.time[0]))
+    slope: tuple[float, float] | None = None
+    steps: tuple[Slip, ...] = ()
 
 
 def level_of(time: np.ndarray, values: np.ndarray, std: np.ndarray) -> Level:
     """The level behind measurements (k,) with standard errors ``std`` (k,) known up to a factor.
 
-    A slope is one that chance would make once in as many logs as ``WANDERS`` allows (F test of
-    weighted least squares); what is left of it may wander: white errors and a random walk of the
-    level, both by maximum likelihood (local-level model, Durbin and Koopman 2012, chapter 2).
+    White errors about one number, a steady drift, such a drift with steps of one size, or a random
+    walk (local-level model, Durbin and Koopman 2012, chapter 2): one that is ``WANDERS`` better
+    than all that are simpler.
     """
     unit = float(np.median(std))
     values, scaled = values / unit, std / unit
-    slope = _slope(time, values, scaled)
-    line = slope * (time - time[0])
-    q, r = _walk(time, values - line, scaled)
-    if q > 0.0:
-        q, r = _walk(time, values, scaled)
-        line = np.zeros_like(time) if q > 0.0 else line
-    _, level, variance = _smoothed(time, values - line, scaled, q, r)
+    r, q, gain = _walk(time, values, scaled)
+    if len(time) >= LEAST:
+        still = constant_likelihood(values, scaled)
+        drift, steps = ramp(time, values, scaled), stepped(time, values, scaled)
+        steady = drift.likelihood - still
+        if steps and steps.likelihood - still - cost(steps) > max(gain, steady, 0.0) + WANDERS:
+            return _along(steps, time, values, unit)
+        if steady > max(gain, WANDERS):
+            return _along(drift, time, values, unit)
+    elif len(time) >= LEAST_LINE:
+        drift = ramp(time, values, scaled)
+        if _is_slope(drift.likelihood - constant_likelihood(values, scaled), len(time)):
+            return _along(drift, time, values, unit)
+    q = q if gain > WANDERS else 0.0
+    _, level, variance = _smoothed(time, values, scaled, q, r[q > 0.0])
     error = unit * float(np.sqrt(np.mean(variance)))
-    if q > 0.0:
-        return Level(time, unit * level, error)
-    if slope == 0.0:
+    if q == 0.0:
         return Level(time[:1], unit * level[:1], error)
-    return Level(time[[0, -1]], unit * (level + line)[[0, -1]], error)
+    return Level(time, unit * level, error)
 
 
-def _slope(time: np.ndarray, values: np.ndarray, std: np.ndarray) -> float:
-    """The slope of a line through measurements, zero where it may be chance."""
-    if len(time) < LEAST_LINE:
-        return 0.0
-    weighted = np.column_stack([np.ones(len(time)), time - time[0]]) / std[:, None]
-    still = np.linalg.lstsq(weighted[:, :1], values / std)
-    line = np.linalg.lstsq(weighted, values / std)
-    left = float(np.sum((values / std - weighted @ line[0]) ** 2))
-    gained = float(np.sum((values / std - weighted[:, :1] @ still[0]) ** 2)) - left
-    free = len(time) - 2
-    chance = f.sf(gained / max(left / free, 1e-300), 1, free)
-    return float(line[0][1]) if chance < 0.5 * chi2.sf(2 * WANDERS, 1) else 0.0
+def _is_slope(gain: float, count: int) -> bool:
+    """Whether a slope that gains so much [nat] is no chance, by the F test that so few need."""
+    ratio = float(np.expm1(2.0 * gain / count)) * (count - 2)
+    return bool(f.sf(ratio, 1, count - 2) < 0.5 * chi2.sf(2 * WANDERS, 1))
 
 
-def _walk(time: np.ndarray, values: np.ndarray, std: np.ndarray) -> tuple[float, float]:
-    """Variance in a second of the level's walk, zero where it stands still, and the factor on
-    ``std`` squared.
-    """
+def _walk(
+    time: np.ndarray, values: np.ndarray, std: np.ndarray
+) -> tuple[tuple[float, float], float, float]:
+    """Factors on std^2 without and with a walk, the walk's variance in a second, and its gain."""
 
     def constant(log_r: float) -> float:
         return -_smoothed(time, values, std, 0.0, np.exp(log_r))[0]
@@ -91,19 +101,41 @@ def _walk(time: np.ndarray, values: np.ndarray, std: np.ndarray) -> tuple[float,
 
     still = minimize_scalar(constant, bounds=(-6.0, 15.0), method="bounded")
     r = float(np.exp(still.x))
-    if len(time) >= LEAST:
-        starts = [[np.log(r) - 3.0, np.log(r) - 1.0], [np.log(r) - 1.0, 0.0]]
-        walks = [minimize(wandering, s, method="Nelder-Mead") for s in starts]
-        best = min(walks, key=lambda w: w.fun)
-        if still.fun - best.fun > WANDERS:
-            q, r = np.exp(np.clip(best.x, -40, 40)).tolist()
-            return q, r
-    return 0.0, r
+    if len(time) < LEAST:
+        return (r, r), 0.0, 0.0
+    starts = [[np.log(r) - 3.0, np.log(r) - 1.0], [np.log(r) - 1.0, 0.0]]
+    best = min((minimize(wandering, s, method="Nelder-Mead") for s in starts), key=lambda w: w.fun)
+    q, moving = np.exp(np.clip(best.x, -40, 40)).tolist()
+    return (r, moving), q, float(still.fun - best.fun)
+
+
+def _along(line: Line, time: np.ndarray, values: np.ndarray, unit: float) -> Level:
+    """The level along a line: as measured there, and on both sides of each step."""
+    steps = line.steps(time, values)
+    first = int(line.number[0])
+    signs = np.sign([s.size for s in steps]) * np.sign(line.coefficients[2])
+    numbers = first + np.concatenate([[0], np.cumsum(signs)])
+    whole = ~line.inside
+    edges = np.repeat([s.time for s in steps], 2)
+    nodes = np.concatenate([time[whole], edges + np.tile([-EDGE, EDGE], len(steps))])
+    number = np.concatenate(
+        [line.number[whole], np.column_stack([numbers[:-1], numbers[1:]]).ravel()]
+    )
+    order = np.argsort(nodes, kind="stable")
+    level = line.at(nodes[order], number[order])
+    return Level(
+        nodes[order],
+        unit * level,
+        unit * line.std(time),
+        tuple(unit * v for v in line.slope),
+        tuple(replace(s, size=unit * s.size) for s in steps),
+    )
 
 
 @njit(cache=True)
 def _smoothed(time, values, std, q, r):
-    """Log-likelihood given the first value, level (k,) and its variance (k,), by a Kalman smoother;
+    """Log-likelihood given the first value, level (k,) and its variance (k,), by a Kalman smoother.
+
     ``q`` is the walk's variance in a second, ``r`` the factor on std^2.
     """
     n = len(values)

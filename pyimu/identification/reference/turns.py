@@ -1,5 +1,6 @@
-"""The turns between a log's rests as the reference of its gyro: where the accelerometer was
-examined in them, gravity of one must be that of the next.
+"""The turns between a log's rests as the reference of its gyro.
+
+Where the accelerometer was examined in them, gravity of one must be that of the next.
 """
 
 from __future__ import annotations

@@ -1,5 +1,6 @@
-"""Write what the loop found: units of the sensor as it was and as it is now, the report that names
-them, and the model.
+"""Write what the loop found.
+
+Units of the sensor as it was and as it is now, the report that names them, and the model.
 """
 
 from __future__ import annotations
@@ -15,8 +16,9 @@ from pyimu.model.part_file import save_part
 
 
 def check_delivery(out: Path | str) -> None:
-    """Raise UserError now for what would else end ``deliver`` after all the work: a folder that is
-    none, no compiler.
+    """Raise UserError now for what would else end ``deliver`` after all the work.
+
+    A folder that is none, no compiler.
     """
     check_folder(out)
     host_compiler()

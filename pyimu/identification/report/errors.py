@@ -138,7 +138,7 @@ def error_notes(closed: Outcome) -> list[str]:
     for kind, band in closed.band_hz.items():
         if band is not None:
             notes.append(
-                f"The {SENSORS[kind]}'s reference was derived from an attitude and is trusted "
+                f"The {SENSORS[kind]}'s reference is differentiated, and is trusted "
                 f"below {number(band)} Hz. "
                 "Measurement and reference go through the same filter, and every number here is of "
                 "that band."

@@ -15,9 +15,9 @@ from pyimu.identification.outcome import Outcome
 from pyimu.identification.overview import Overview
 from pyimu.identification.reference.align import SIGNIFICANT
 from pyimu.identification.report.errors import BESIDE
-from pyimu.identification.report.strips import strips
+from pyimu.identification.report.strips import lags, strips
 from pyimu.model.part import AXES
-from pyimu.report.numbers import MISSING, in_unit, number, pretty, unit_for, with_error
+from pyimu.report.numbers import MISSING, in_unit, joined, number, pretty, unit_for, with_error
 from pyimu.report.page import Picture, Table, both, file_name, prose
 
 
@@ -62,9 +62,10 @@ def _unbroken(text: str) -> str:
 
 
 def _by_axis(values: np.ndarray, si: str) -> Markup:
-    unit = unit_for(values, si)
-    shown = [f"{a} {number(float(in_unit(v, si, unit)), 2)}" for a, v in zip(AXES, values)]
-    return Markup("<br>").join([*shown[:2], f"{shown[2]} {pretty(unit)}"])
+    unit = unit_for(values[np.isfinite(values)], si)
+    each = [(a, v) for a, v in zip(AXES, values) if np.isfinite(v)]
+    shown = [f"{a} {number(float(in_unit(v, si, unit)), 2)}" for a, v in each]
+    return Markup("<br>").join([*shown[:-1], f"{shown[-1]} {pretty(unit)}"])
 
 
 def _turning(rms: np.ndarray, largest: np.ndarray) -> Markup:
@@ -111,7 +112,8 @@ def log_states(closed: Outcome) -> Table:
     for r in closed.recordings:
         for kind, state in r.log_state.items():
             si = closed.after.sensor(kind).output.unit
-            bias = [both(b, si, unit_for(state["bias"], si)) for b in state["bias"]]
+            unit = unit_for([b for b in state["bias"] if b is not None], si)
+            bias = [both(b, si, unit) for b in state["bias"]]
             turn = _turn(state.get("rotation"))
             table.rows.append((file_name(r.file), SENSORS[kind], *bias, turn))
     return table
@@ -133,6 +135,22 @@ def reference_table(closed: Outcome) -> Table:
             )
         )
     return table
+
+
+def lag_pictures(closed: Outcome) -> list[Picture]:
+    """The lag of each log over its time, where it is not constant."""
+    drawn = [e for e in closed.references if e["lag"]]
+    return [_lags(drawn[k : k + BESIDE]) for k in range(0, len(drawn), BESIDE)]
+
+
+def _lags(entries: Sequence[dict[str, Any]]) -> Picture:
+    logs = [(e["file"], *(np.array(e["lag"][k]) for k in ("time", "late"))) for e in entries]
+    names = ", ".join(name for name, *_ in logs)
+    caption = (
+        f"How late the sensor shows the motion by the clock of the reference of {names}: a slope "
+        "is two clocks at different rates, a jump one that slips."
+    )
+    return Picture(Markup(lags(logs)), caption, f"lag of {names} over time")
 
 
 KINDS_OF_REFERENCE = {
@@ -172,8 +190,22 @@ def _lag(entry: dict[str, Any]) -> tuple[str, str]:
     else:
         said = with_error(late, 1e3 * offset["std"])
     if entry["taken_out"]:
-        return said, "the clocks', taken out"
+        return said, f"the clocks', taken out{_course(entry)}"
     return said, "left to the sensor" if own["value"] else f"within {SIGNIFICANT:g} of its errors"
+
+
+def _course(entry: dict[str, Any]) -> str:
+    """How a lag that is not constant goes on."""
+    skew, slips = entry["clock_skew"], entry["slips"]
+    if skew is None:
+        offset = entry["clock_offset"]
+        return "; it wanders" if offset["least"] != offset["most"] else ""
+    said = f"; it grows by {with_error(1e6 * skew['value'], 1e6 * skew['std'])} ppm"
+    if not slips:
+        return said
+    times = joined([f"{s['time']:.0f}" for s in slips])
+    size = number(1e3 * abs(slips[0]["size"]))
+    return f"{said}, and slips by {size} ms at {times} s"
 
 
 def _turn(rotation: list | None) -> Any:

@@ -18,6 +18,7 @@ from pyimu.identification.report.errors import (
     spectra,
 )
 from pyimu.identification.report.logs import (
+    lag_pictures,
     log_states,
     overview_table,
     overviews,
@@ -53,6 +54,7 @@ def _contents(closed: Outcome, fmus: tuple[str, ...]) -> dict[str, Any]:
         "by_log": by_log_table(closed),
         "log_states": log_states(closed),
         "references": reference_table(closed),
+        "lags": lag_pictures(closed),
         "models": models(closed),
         "legend": LEGEND,
         "added": [added(closed, a) for a in closed.added],

@@ -76,6 +76,17 @@ def strips(logs: Sequence[tuple[str, Overview]]) -> str:
         return svg_of(figure)
 
 
+def lags(logs: Sequence[tuple[str, np.ndarray, np.ndarray]]) -> str:
+    """The lag [s] of each log, by name with its time [s], beside each other."""
+    with matplotlib.rc_context(STYLE):
+        figure, panels = side_by_side(1, [float(np.ptp(time)) for _, time, _ in logs], 1.35)
+        for panel, (name, time, late) in zip(panels[0], logs, strict=True):
+            panel.plot(time, 1e3 * late, color=AFTER, lw=1.2)
+            own_time(panel, name, len(logs))
+        panels[0, 0].set_ylabel("sensor late by [ms]")
+        return svg_of(figure)
+
+
 def _filled(panel: Axes, s: Strip | None, factor: float) -> None:
     if s is not None:
         panel.fill_between(s.time, factor * s.low, factor * s.high, color=AFTER, lw=0.7, zorder=2)

@@ -106,6 +106,8 @@ def _clean(closed: Outcome) -> str:
 
 
 def _undecidable(closed: Outcome) -> str:
+    if closed.not_examined and closed.errors and closed.reason.startswith("nothing is missing"):
+        return f"These logs decide a part of it: {closed.reason}.{_level(closed)}"
     return f"These logs cannot decide it: {closed.reason.rstrip('.') or 'too little to go by'}."
 
 

@@ -21,8 +21,9 @@ from pyimu.model.sensor import Sensor, candidates
 
 @dataclass(frozen=True)
 class Choice:
-    """One way for an effect to explain part of the residual: columns, and for a scan the value that
-    it stands for.
+    """One way for an effect to explain part of the residual.
+
+    Columns, and for a scan the value that it stands for.
     """
 
     columns: tuple[int, ...]
@@ -31,8 +32,9 @@ class Choice:
 
 @dataclass(frozen=True)
 class Group:
-    """The part of an effect that is let in or left out as one: an axis, or the whole where a
-    coefficient is shared.
+    """The part of an effect that is let in or left out as one.
+
+    An axis, or the whole where a coefficient is shared.
     """
 
     effect: str
@@ -57,28 +59,29 @@ def absent(fit: Fit) -> list[Effect]:
     coefficients have slopes or a scan.
 
     A course shows no sensor's delay: a tracked point ``l`` ahead of the axle turns its course l / v
-    before the vehicle turns, and the clock stands for that. Where a log's clock is found beside the
-    model, a clock of the sensor that runs at another rate is the same.
+    before the vehicle turns, and the clock stands for that. Where a reference's clock is seen, a
+    clock of the sensor that runs at another rate is the same.
     """
     known = frozenset.intersection(*(t.known for t in fit.trials))
     present = {name for name in fit.sensor.values if not fit.sensor.is_off(name)}
     twins = set().union(*(equivalent(name) for name in present))
     timed = all(t.reference != "course" for t in fit.trials)
-    free = any(fit.states[t.name].clock is not None for t in fit.trials)
+    clocked = any(t.clock is not None and t.clock.is_seen for t in fit.trials)
     return [
         e
         for e in candidates(fit.sensor.kind, present | twins)
         if not e.per_power_on
         and (timed or e.delay is None)
-        and not (e.clock and (free or not timed))
+        and not (e.clock and (clocked or not timed))
         and has_columns(e, fit.sensor.kind)
         and e.signals(fit.sensor.kind) <= known
     ]
 
 
 def has_columns(e: Effect, kind: str) -> bool:
-    """Whether regression can find an effect: no noise, no memory beyond a filter's, no staircase,
-    no form that nothing scans for.
+    """Whether regression can find an effect.
+
+    No noise, no memory beyond a filter's, no staircase, no form that nothing scans for.
     """
     return not (
         e.stochastic
@@ -89,8 +92,9 @@ def has_columns(e: Effect, kind: str) -> bool:
 
 
 def contestable(fit: Fit, declared: Iterable[str]) -> list[Effect]:
-    """Deterministic effects of ``declared`` whose coefficients are still held: the data may
-    contradict them.
+    """Deterministic effects of ``declared`` whose coefficients are still held.
+
+    The data may contradict them.
     """
     names = set(declared)
     return [
@@ -110,8 +114,9 @@ def scanned(effect: Effect) -> Parameter | None:
 
 
 def scan_columns(fit: Fit, effects: Iterable[Effect]) -> Callable:
-    """Column maker for ``Fit.linearise``: what each scanned value of each effect would change in
-    the output of the fitted model.
+    """Column maker for ``Fit.linearise``.
+
+    What each scanned value of each effect would change in the output of the fitted model.
     """
     found = [(e, n, p) for e in effects for n, p in e.parameters.items() if p.scan]
 

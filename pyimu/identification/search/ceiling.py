@@ -1,5 +1,6 @@
-"""The level at which samples stop (saturation): read off the samples that lie there, which are then
-left out of what is looked for next.
+"""The level at which samples stop (saturation).
+
+Read off the samples that lie there, which are then left out of what is looked for next.
 """
 
 from __future__ import annotations
@@ -41,8 +42,9 @@ def _levels(sensor: Sensor) -> tuple[np.ndarray, Sensor]:
 
 
 def stops_there(fitted: Fit, axis: int) -> bool:
-    """Whether the samples really stop at the level of an axis while the model's input is beyond it:
-    few lie above, and most lie there. A reference that jumps leaves them far below.
+    """Whether the samples really stop at the level of an axis while the model's input is beyond it.
+
+    Few lie above, and most lie there. A reference that jumps leaves them far below.
     """
     levels, unlimited = _levels(fitted.sensor)
     level, beyond, over, under = levels[axis], 0, 0, 0
@@ -60,8 +62,7 @@ def stops_there(fitted: Fit, axis: int) -> bool:
 
 
 def at_samples(fitted: Fit) -> Fit:
-    """Put each level where the raw samples lie while the model's input is well beyond it, and fit
-    the rest again.
+    """Put each level where raw samples lie while the input is well beyond it, and fit the rest.
 
     In the band of a derived reference the ends of a clipped segment are smeared; the samples
     themselves show the level.
@@ -101,8 +102,9 @@ def _beyond(
 
 
 def without_lost(fitted: Fit) -> Fit:
-    """Leave out the samples at the level: they carry no noise and no slope, and would bias what is
-    looked for next.
+    """Leave out the samples at the level.
+
+    They carry no noise and no slope, and would bias what is looked for next.
     """
     levels, unlimited = _levels(fitted.sensor)
     margin = np.array(

@@ -1,5 +1,6 @@
-"""Forward selection for one sensor: screen, fit the best few in full, ask the held-out data, add,
-and look again.
+"""Forward selection for one sensor.
+
+Screen, fit the best few in full, ask the held-out data, add, and look again.
 """
 
 from __future__ import annotations
@@ -55,8 +56,9 @@ anew reorders, but not so far."""
 
 @dataclass(frozen=True)
 class Step:
-    """One effect that was added: the coefficients it brought, its evidence, and who could stand in
-    for it.
+    """One effect that was added.
+
+    The coefficients it brought, its evidence, and who could stand in for it.
 
     ``declared`` says that the effect was in the model already and only its declared values were set
     free.
@@ -98,8 +100,9 @@ class Investigation:
 
 @dataclass(frozen=True)
 class Refined:
-    """A candidate fitted in full; ``gain`` [nat] over the model without it, corrected for scatter
-    and penalised.
+    """A candidate fitted in full.
+
+    ``gain`` [nat] over the model without it, corrected for scatter and penalised.
     """
 
     screened: Screened
@@ -111,8 +114,9 @@ class Refined:
 
 @dataclass
 class Tried:
-    """Candidates beside one model, each fitted in full once; ``impossible`` are those whose
-    coefficients are beyond belief.
+    """Candidates beside one model, each fitted in full once.
+
+    ``impossible`` are those whose coefficients are beyond belief.
     """
 
     current: Fit
@@ -355,8 +359,9 @@ def without(inv: Investigation, effect: str, reason: str) -> Investigation:
 
 
 def _backward(after: Fit, steps: list[Step]) -> tuple[Fit, list[Step]]:
-    """Drop what later additions made superfluous; a ceiling never is, the samples at it having been
-    left out since.
+    """Drop what later additions made superfluous.
+
+    A ceiling never is, the samples at it having been left out since.
     """
     for step in [
         s for s in steps[:-1] if not s.declared and not is_ceiling(after.sensor, s.effect)

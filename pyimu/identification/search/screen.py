@@ -135,8 +135,9 @@ def screen(fit: Fit, declared: Iterable[str], seed: int = 1) -> Screening:
 
 
 def _gains(score: np.ndarray, choice: Choice, gram: np.ndarray) -> np.ndarray:
-    """Gain [nat] of one choice for scores (d, P), the penalty taken off; a scan's amplitude must
-    not be negative.
+    """Gain [nat] of one choice for scores (d, P), the penalty taken off.
+
+    A scan's amplitude must not be negative.
     """
     at = list(choice.columns)
     s = score[:, at]

@@ -1,0 +1,74 @@
+"""What was taken out of the clocks of the logs' references, in words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+import numpy as np
+
+from pyimu.identification.fit.clock import Clock
+from pyimu.identification.fit.trial import Trial
+from pyimu.identification.held_out import clock_of
+from pyimu.identification.search.forward import Investigation
+from pyimu.report.numbers import joined, number
+
+FEW = 3
+"""Up to so many logs are said each by itself."""
+
+Heading = tuple[float, float] | None
+
+
+def taken_out(found: Mapping[str, Investigation], heading: Heading) -> str:
+    """What was wrong with the references' clocks, and what it was worth.
+
+    Nothing where they are right, or where nobody can tell.
+    """
+    seen = {t.name: clock_of(inv, t.name) for inv, t in _trials(found)}
+    clocks = {name: c for name, c in seen.items() if c is not None and c.taken_out}
+    if not clocks:
+        return ""
+    if len(clocks) > FEW:
+        most = max(float(np.abs(c.late).max()) for c in clocks.values())
+        said = f"the clocks of {len(clocks)} references are off by up to {_time(most)}"
+    else:
+        said = joined([_off(name, clock) for name, clock in clocks.items()])
+    return f"{said}: taken out, and no error of the sensor{_worth(heading)}"
+
+
+def _trials(found: Mapping[str, Investigation]) -> Iterable[tuple[Investigation, Trial]]:
+    return ((inv, t) for inv in found.values() for t in (*inv.after.trials, *inv.held))
+
+
+def _off(name: str, clock: Clock) -> str:
+    whose = f"the reference of {name}"
+    if clock.slips:
+        times = len(clock.slips)
+        often = "once" if times == 1 else f"{times} times"
+        return (
+            f"{whose} slips {often} by {_time(abs(clock.slips[0].size))}, its clock being "
+            f"{ppm(clock)} off the sensor's"
+        )
+    if clock.skew is not None:
+        return f"the clock of {whose} is {ppm(clock)} off the sensor's"
+    least, most = float(clock.late.min()), float(clock.late.max())
+    if not clock.keeps_step:
+        return (
+            f"the sensor shows the motion {_time(least)} to {_time(most)} later than {whose} says"
+        )
+    side = "later" if most > 0 else "earlier"
+    return f"the sensor shows the motion {_time(abs(most))} {side} than {whose} says"
+
+
+def ppm(clock: Clock) -> str:
+    return f"{number(1e6 * abs(clock.skew[0]))} ppm" if clock.skew else ""
+
+
+def _time(seconds: float) -> str:
+    return f"{number(seconds)} s" if abs(seconds) >= 0.1 else f"{number(1e3 * seconds)} ms"
+
+
+def _worth(heading: Heading) -> str:
+    if heading is None or not heading[1] < heading[0]:
+        return ""
+    before, after = (number(float(np.degrees(v))) for v in heading)
+    return f"; the heading's error on held-out rows falls from {before} to {after} deg with it"
