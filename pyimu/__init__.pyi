@@ -10,6 +10,8 @@ from .errors import Finding as Finding
 from .errors import UserError as UserError
 from .fmu.package import build as build
 from .identification.close import close as close
+from .identification.plan.plan import plan as plan
+from .identification.plan.result import Plan as Plan
 from .identification.result import Closed as Closed
 from .model.catalogue import add_effects as add_effects
 from .model.effect import Effect as Effect

@@ -225,6 +225,64 @@ def close_command(
     print(f"report: {out / 'report.html'}")
 
 
+@app.command("plan", short_help="The motion that would show an effect of a part, and how well.")
+def plan_command(
+    part: Annotated[str, typer.Argument(help="Built-in part or a TOML file.", show_default=False)],
+    wanted: Annotated[
+        list[str],
+        typer.Option(
+            "--for",
+            metavar="EFFECT",
+            help="Effect to show, as docs/effects.md names it; several by commas or given again.",
+            show_default=False,
+        ),
+    ],
+    sensor: Annotated[
+        str | None,
+        typer.Option("--sensor", help="gyro or accel; else the first that has the effects."),
+    ] = None,
+    within: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--within",
+            metavar="TARGET",
+            help='Standard error to reach, as "0.5 deg/h/K"; with several effects EFFECT=TARGET.',
+        ),
+    ] = None,
+    sigmas: Annotated[
+        float,
+        typer.Option(
+            "--sigmas", help="Without --within: standard errors in the effect's size to reach."
+        ),
+    ] = 8.0,
+    out: Annotated[
+        Path, typer.Option("--out", help="Folder for plan.html, plan.json and motion.csv.")
+    ] = Path("out/plan"),
+    effects: Effects = None,
+) -> None:
+    """Example: pyimu plan mpu6050 --for g_sensitivity --out out/plan
+
+    Of rest, six positions, a rate table, a turn by hand, a drive, a shaker and a climatic chamber,
+    the shortest set of motions that shows the effects of a part that are asked for, with the
+    standard error that pyimu close would report of each coefficient. The size of an effect is what
+    the part declares, or else a typical one. Writes a page, the same as data, and the motion as a
+    recording.
+    """
+    from pyimu.files import check_folder
+    from pyimu.identification.plan.plan import plan
+
+    check_folder(out)
+    _add_effects(effects)
+    names = [name.strip() for text in wanted for name in text.split(",") if name.strip()]
+    with progress("reading") as say:
+        planned = plan(part, names, sensor, within or (), sigmas, say)
+        say("drawing the page")
+        page = planned.write(out)
+    print(planned.report())
+    files = ", ".join(str(out / name) for name in planned.files()[: len(planned.logs)])
+    print(f"page: {page}{f', motion: {files}' if files else ''}")
+
+
 @app.command(short_help="Build the co-simulation units of a part.")
 def build(
     part: Annotated[str, typer.Argument(help="Built-in part or a TOML file.", show_default=False)],

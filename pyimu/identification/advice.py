@@ -1,8 +1,8 @@
 """What to measure next, and how well the model would then be known.
 
-Each proposal is a motion or a temperature that is put through the model and the noise as they were
-fitted: the standard errors follow from its normal equations, the bias estimated beside it, as they
-do for a log (Gauss-Markov theorem).
+Each proposal is a motion or a temperature of the library of ``plan``, put through the model and the
+noise as they were fitted: the standard errors follow from its information, as they do for
+``pyimu.plan``.
 """
 
 from __future__ import annotations
@@ -16,14 +16,17 @@ import numpy as np
 from pyimu.errors import UserError
 from pyimu.files import plain
 from pyimu.identification.estimated import REACH, Estimated
-from pyimu.identification.fit.columns import LogState, linearise
-from pyimu.identification.fit.keys import Coefficient, coefficients_of
+from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.noise_floor import own_noise, reference_variance
-from pyimu.identification.fit.normal import normal_equations, variances
+from pyimu.identification.fit.normal import variances
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.identification.found import Visibility
-from pyimu.identification.plans import lying, noise_at, turning, warming
+from pyimu.identification.plan.apart import separation
+from pyimu.identification.plan.information import Information, information
+from pyimu.identification.plan.motions import Limits, Motion, library
+from pyimu.identification.plan.noise import noise_at
+from pyimu.identification.plan.scene import step_of, trial
 from pyimu.identification.search.candidates import has_columns, scanned
 from pyimu.identification.search.forward import Investigation
 from pyimu.identification.search.screen import VISIBLE
@@ -38,6 +41,12 @@ from pyimu.report.numbers import joined, quantity
 MOST = 5
 """Proposals that are made: nobody reads to the end of more."""
 
+TRIED = {
+    "gyro": ("table_sines", "by_hand", "rest_warmed"),
+    "accel": ("six_positions", "rest_warmed"),
+}
+"""Motions that are proposed to know more; any of the library, to tell effects apart."""
+
 BETTER = 2.0
 """Times by which a coefficient must become better known for a measurement to be proposed."""
 
@@ -46,7 +55,7 @@ BETTER = 2.0
 class Gain:
     """How well a coefficient would be known (SI), as half the width of its 95 % interval.
 
-    ``now`` is None where these logs do not show it.
+    ``now`` is None where these logs do not show it; ``std`` is the standard error itself.
     """
 
     effect: str
@@ -60,25 +69,36 @@ class Gain:
     def factor(self) -> float:
         return np.inf if self.now is None else self.now / self.then
 
+    @property
+    def std(self) -> float:
+        return self.then / REACH
+
 
 @dataclass(frozen=True)
 class Advice:
     """A measurement that is worth making, and what it would show of a sensor.
 
-    ``why`` says what its gain follows from where that is no noise.
+    ``why`` says what its gain follows from where that is no noise. ``motion`` names one of the
+    library of ``pyimu.plan``, which takes ``duration`` s; ``separates`` are effects that it tells
+    apart, by ``distance`` standard errors.
     """
 
     sensor: str
     measure: str
     gains: tuple[Gain, ...] = ()
     why: str = ""
+    motion: str = ""
+    duration: float | None = None
+    separates: tuple[str, ...] = ()
+    distance: float | None = None
 
     @property
     def worth(self) -> float:
-        return max((g.factor for g in self.gains), default=1.0)
+        return np.inf if self.separates else max((g.factor for g in self.gains), default=1.0)
 
     def as_dict(self) -> dict[str, Any]:
-        return plain(asdict(self))
+        gains = [asdict(g) | {"std": g.std} for g in self.gains]
+        return plain(asdict(self) | {"gains": gains})
 
 
 def advice(
@@ -94,6 +114,7 @@ def advice(
     for kind, inv in found.items():
         of_kind = ([v for v in vs if v.sensor == kind] for vs in (entries, seen))
         known = _Known(*of_kind)
+        made += _separated(kind, inv)
         made += _planned(kind, inv, known)
         made += _unlogged(kind, inv, seen)
         made += _confounded(kind, entries)
@@ -142,43 +163,72 @@ class _Known:
 # Measurements that are put through the model
 
 
+def _separated(kind: str, inv: Investigation) -> Iterator[Advice]:
+    """What would tell each effect that was added from those that could stand in for it."""
+    if any(t.reduction is not None for t in inv.after.trials):
+        return
+    for step in inv.steps:
+        others = tuple(n for n in step.alternatives if n not in inv.after.sensor.values)
+        best = separation(inv.after, step.effect, others)
+        if best is not None:
+            often = f"{best.times} times " if best.times > 1 else ""
+            yield Advice(
+                kind,
+                f"{often}{best.motion.text}",
+                motion=best.motion.name,
+                duration=best.duration,
+                separates=(step.effect, *others),
+                distance=best.distance,
+            )
+
+
 def _planned(kind: str, inv: Investigation, known: _Known) -> Iterator[Advice]:
     fit = inv.after
     if any(t.reduction is not None for t in fit.trials):
         return  # the noise of its rows is that of whole rests, not of samples
-    plans = [turning(fit.sensor)] if kind == "gyro" else [lying()]
-    for text, trial, frequency in (*plans, warming(kind)):
-        gains = _gains(fit.sensor, trial, noise_at(fit, frequency, trial.h), known)
+    for motion in (m for m in library(Limits.of(fit.sensor)) if m.name in TRIED[kind]):
+        h = step_of([motion])
+        noise = noise_at(fit, motion.frequency, h)
+        gains = _gains(fit.sensor, motion, noise, known)
         if gains:
-            yield Advice(kind, text, tuple(gains[:3]))
+            yield Advice(
+                kind,
+                motion.text,
+                tuple(gains[:3]),
+                motion=motion.name,
+                duration=motion.duration,
+            )
 
 
 def _gains(
-    sensor: Sensor, trial: Trial, noise: Mapping[int, RandomWalk], known: _Known
+    sensor: Sensor, motion: Motion, noise: Mapping[int, RandomWalk], known: _Known
 ) -> list[Gain]:
-    """The coefficients of which too little is known and that a trial would show.
+    """The coefficients of which too little is known and that a motion would show.
 
     First come those of which nothing is known.
     """
-    trial = replace(trial, axes=tuple(sorted(noise)))
+    names = list(dict.fromkeys(e for e, name in known.half if (e, name) != POWER_ON))
+    one = _trial(sensor, motion, noise, names)
+    told = information(sensor, one, dict(noise), names)
     gains = [
-        _gain(sensor, trial, noise, effect, name, known)
+        _gain(sensor, told, effect, name, known)
         for effect, name in known.half
         if (effect, name) != POWER_ON
     ]
     return sorted((g for g in gains if g is not None), key=lambda g: -g.factor)
 
 
-def _gain(
-    sensor: Sensor,
-    trial: Trial,
-    noise: Mapping[int, RandomWalk],
-    effect: str,
-    name: str,
-    known: _Known,
-) -> Gain | None:
+def _trial(
+    sensor: Sensor, motion: Motion, noise: Mapping[int, RandomWalk], effects: Iterable[str]
+) -> Trial:
+    signals = frozenset().union(*(CATALOGUE[e].signals(sensor.kind) for e in effects))
+    one = trial([motion], sensor, Limits.of(sensor), step_of([motion]), signals)
+    return replace(one, axes=tuple(sorted(noise)))
+
+
+def _gain(sensor: Sensor, told: Information, effect: str, name: str, known: _Known) -> Gain | None:
     present, half = effect in sensor.values, known.half[effect, name]
-    std = _standard_errors(sensor, trial, noise, effect, known)
+    std = _standard_errors(sensor, told, effect, known)
     size = _typical(effect, sensor.kind, name, "tactical" if present else "consumer")
     better: dict[tuple[int, ...], tuple[float, float]] = {}
     for key, error in sorted(std.items()):
@@ -197,28 +247,17 @@ def _gain(
 
 
 def _standard_errors(
-    sensor: Sensor,
-    trial: Trial,
-    noise: Mapping[int, RandomWalk],
-    effect: str,
-    known: _Known,
+    sensor: Sensor, told: Information, effect: str, known: _Known
 ) -> dict[Coefficient, float]:
     """Of an effect's coefficients and of all that the model has, estimated together.
 
-    They come from a trial and from what is known of each now.
+    They come from a motion and from what is known of each now.
     """
-    model = sensor if effect in sensor.values else sensor.with_values(effect)
-    wanted = {
-        k
-        for e in model.values
-        for k in coefficients_of(model, e)
-        if not np.isnan(known.of(k)) and (e, k.parameter) != POWER_ON
-    }
-    normal = normal_equations([linearise(model, trial, LogState(), wanted)], dict(noise))
-    now = [known.of(k) if isinstance(k, Coefficient) else np.inf for k in normal.keys]
-    std = np.sqrt(variances(normal.gram + np.diag((np.array(now) / REACH) ** -2.0)))
-    found = dict(zip(normal.keys, map(float, std), strict=True))
-    return {k: v for k, v in found.items() if isinstance(k, Coefficient)}
+    beside = {*sensor.values, effect}
+    keys = [k for k in told.keys if k.effect in beside and not np.isnan(known.of(k))]
+    now = np.array([known.of(k) for k in keys])
+    std = np.sqrt(variances(told.on(keys).gram + np.diag((now / REACH) ** -2.0)))
+    return dict(zip(keys, map(float, std), strict=True))
 
 
 def _typical(effect: str, kind: str, parameter: str, of: str) -> float:
@@ -238,17 +277,18 @@ def _unexamined(kind: str, logs: Sequence[Recording]) -> Iterator[Advice]:
         yield Advice(kind, "a reference of the rate or of the attitude", why="the log has none")
         return
     r = next(r for r in logs if r.accel is not None)
-    text, trial, _ = lying()
+    motion = next(m for m in library() if m.name == "six_positions")
     white = [seconds_of(c, r.segments, r.sample_period).white for c in r.accel.T]
-    per_row = r.sample_period / trial.h
+    per_row = r.sample_period / step_of([motion])
     noise = {i: RandomWalk(max(w, 1e-9) ** 2 * per_row, 0.0) for i, w in enumerate(white)}
     effects = ("scale_factor", "misalignment")
     known = _Known((), ())
     for effect in effects:
         name, q = next(iter(CATALOGUE[effect].parameters.items()))
         known.half[effect, name] = np.full(q.shape, np.inf)
-    gains = _gains(Sensor(kind), trial, noise, known)
-    yield Advice(kind, text, tuple(gains), "figured from its white noise alone")
+    gains = _gains(Sensor(kind), motion, noise, known)
+    why = "figured from its white noise alone"
+    yield Advice(kind, motion.text, tuple(gains), why, motion.name, motion.duration)
 
 
 def _confounded(kind: str, entries: Iterable[Estimated]) -> Iterator[Advice]:

@@ -5,19 +5,21 @@ from __future__ import annotations
 from pyimu.identification.advice import Advice, Gain
 from pyimu.identification.as_part import SENSORS
 from pyimu.identification.outcome import Outcome
+from pyimu.identification.plan.words import lasting
 from pyimu.identification.report.words import si_of
-from pyimu.report.numbers import quantity
+from pyimu.report.numbers import MISSING, joined, number, quantity
 from pyimu.report.page import Table, prose
 
 
 def next_table(closed: Outcome) -> Table:
     """The measurements that are worth making, the one that gains most first."""
     return Table(
-        ("measure", "for the", "what it gives"),
+        ("measure", "for the", "takes", "what it gives"),
         [
             (
                 prose(f"{a.measure[0].upper()}{a.measure[1:]}."),
                 SENSORS.get(a.sensor, "verdict"),
+                MISSING if a.duration is None else lasting(a.duration),
                 prose("; ".join((*gains(a), *([a.why] if a.why else [])))),
             )
             for a in closed.next
@@ -26,8 +28,17 @@ def next_table(closed: Outcome) -> Table:
 
 
 def gains(a: Advice) -> list[str]:
-    """Each coefficient with how well it would be known, and how well it is."""
-    return [_gain(g) for g in a.gains]
+    """Which effects it tells apart, and each coefficient with how well it would be known, and how
+    well it is.
+    """
+    return [*_separated(a), *map(_gain, a.gains)]
+
+
+def _separated(a: Advice) -> list[str]:
+    if not a.separates:
+        return []
+    first, *others = (n.replace("_", " ") for n in a.separates)
+    return [f"{first} told from {joined(others)}, {number(a.distance, 2)} standard errors apart"]
 
 
 def _gain(g: Gain) -> str:

@@ -1,0 +1,34 @@
+"""The result of ``pyimu.plan``: what it says, and what can be done with it."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+from pyimu.files import staged, write_json, write_text
+from pyimu.identification.plan.outcome import Outcome
+from pyimu.identification.plan.page import page
+from pyimu.identification.plan.words import in_lines
+
+
+@dataclass(frozen=True)
+class Plan(Outcome):
+    """Result of ``pyimu.plan``: motions to make, and what they would show."""
+
+    def report(self) -> str:
+        """A few lines for a terminal or a notebook."""
+        return in_lines(self)
+
+    def write(self, out: str | os.PathLike) -> Path:
+        """Write ``plan.html``, ``plan.json`` and the motions as recordings into the folder ``out``.
+
+        Gives the page's path. Raises UserError where the folder cannot be written.
+        """
+        out = Path(out)
+        with staged(out) as stage:
+            write_text(stage / "plan.html", page(self))
+            write_json(stage / "plan.json", self.as_dict())
+            for name, log in zip(self.files(), self.logs, strict=True):
+                log.recording.write(stage / name)
+        return out / "plan.html"
