@@ -275,7 +275,7 @@ def _rounding(kind: str, inv: Investigation) -> list[Added]:
 
     They must weigh against the noise.
     """
-    sensor, noise = inv.after.sensor, inv.after.noise
+    sensor, noise = inv.after.sensor, inv.after.seen
     walks = all(isinstance(n, RandomWalk) for n in noise.values())
     if sensor.reading("step") is not None or not walks:
         # Against a differentiated reference the steps vanish in its noise; they stay a finding

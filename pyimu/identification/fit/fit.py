@@ -34,6 +34,7 @@ from pyimu.identification.fit.reduction import Unit
 from pyimu.identification.fit.trial import Trial, marked
 from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
 from pyimu.model.arguments import Parameter
+from pyimu.model.catalogue import WALK, WHITE
 from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS
@@ -49,10 +50,11 @@ class Fit:
     """A model fitted to trials: values in ``sensor``, per-log states, noise by axis, log-likelihood
     [nat].
 
-    ``free`` are the keys of the coefficients that are estimated; ``std`` the standard errors by
-    column key; ``prior`` the standard deviations, about the identity, of coefficients that nobody
-    declared; ``echo`` by axis what the reference's noise added to the variance of the innovations
-    of the first model; ``coloured`` says that this noise is not white.
+    ``noise`` is what rows are weighed by: ``seen``, which the residual shows, and at least what the
+    part declares. ``free`` are the keys of the coefficients that are estimated; ``std`` the
+    standard errors by column key; ``prior`` the standard deviations, about the identity, of
+    coefficients that nobody declared; ``echo`` by axis what the reference's noise added to the
+    variance of the innovations of the first model; ``coloured`` says that this noise is not white.
     """
 
     sensor: Sensor
@@ -65,6 +67,7 @@ class Fit:
     prior: Mapping[Coefficient, float] = field(default_factory=dict)
     echo: Mapping[int, float] = field(default_factory=dict)
     coloured: bool = False
+    seen: Noise = field(default_factory=dict)
 
     def linearise(self, candidates: Iterable[str] = (), extra: Iterable = ()) -> list[Linear]:
         """All trials with columns for the free coefficients, the logs' own, and effects
@@ -87,8 +90,42 @@ class Fit:
         return bare(trial, in_band(trial, residual(self.sensor, trial, state)))
 
     def with_noise(self) -> Fit:
-        """The same model with the noise fitted to its present residual."""
-        return replace(self, noise=fit_noise(self.trials, self.residuals(), self.coloured))
+        """The same model with the noise that its present residual shows, and the part declares."""
+        seen = fit_noise(self.trials, self.residuals(), self.coloured)
+        return replace(self, seen=seen, noise=self._at_least_declared(seen))
+
+    def _at_least_declared(self, seen: Noise) -> Noise:
+        white, walk = declared_variances(self.sensor, self.trials[0].h)
+        return {
+            i: RandomWalk(max(n.r, white[i]), max(n.k2, walk[i]))
+            if isinstance(n, RandomWalk)
+            else n
+            for i, n in seen.items()
+        }
+
+    def as_declared(self) -> Fit:
+        """The same model with no more random walk than the part declares, where it does.
+
+        What the model lacks and what wanders look alike; the part's word is that it wanders no
+        more.
+        """
+        _, walk = declared_variances(self.sensor, self.trials[0].h)
+        held = {
+            i: replace(n, k2=walk[i]) if isinstance(n, RandomWalk) and walk[i] > 0.0 else n
+            for i, n in self.noise.items()
+        }
+        return self if held == self.noise else replace(self, noise=held)
+
+
+def declared_variances(sensor: Sensor, h: float) -> tuple[np.ndarray, np.ndarray]:
+    """Variance (3,) of a sample's white noise, and of the random walk in a second; zero where the
+    sensor declares none.
+    """
+    white, walk = (
+        np.asarray(sensor.values[effect][parameter]) if effect in sensor.values else np.zeros(3)
+        for effect, parameter in (WHITE, WALK)
+    )
+    return white**2 / h, walk**2
 
 
 def bare(trial: Trial, r: np.ndarray) -> Linear:

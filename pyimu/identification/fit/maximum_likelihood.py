@@ -6,9 +6,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from pyimu.identification.fit.fit import Fit, gauss_newton, stepped, with_prior
+from pyimu.identification.fit.fit import (
+    Fit,
+    declared_variances,
+    gauss_newton,
+    stepped,
+    with_prior,
+)
 from pyimu.identification.fit.normal import Normal, solve, variances
 from pyimu.identification.fit.reference_noise import equations, has_noise, smoothing
+from pyimu.identification.fit.whiten import RandomWalk
 
 
 def fit(start: Fit) -> Fit:
@@ -33,6 +40,28 @@ def fit_and_normal(start: Fit, rounds: int = 3, steps: int = 6) -> tuple[Fit, No
     # with.
     std = {**start.std, **{k: float(np.sqrt(variance[i])) for i, k in enumerate(normal.keys)}}
     return replace(start, log_likelihood=normal.log_likelihood - smoothing(start), std=std), normal
+
+
+def advantage(larger: Fit, smaller: Fit) -> float:
+    """Log-likelihood [nat] of a fitted model over one that lacks some of its coefficients.
+
+    Where the part declares its random walk, both are judged by the noise that the larger leaves:
+    one fitted to what it explains would take most of it for drift.
+    """
+    _, walk = declared_variances(larger.sensor, larger.trials[0].h)
+    known = [n.k2 for i, n in larger.noise.items() if isinstance(n, RandomWalk) and walk[i] > 0.0]
+    if not known or larger.noise == smaller.noise:
+        return larger.log_likelihood - smaller.log_likelihood
+    other = gauss_newton(replace(smaller, noise=larger.noise), 2)
+    if has_noise(other):
+        normal = with_prior(equations(other), other)
+        other = stepped(other, normal.keys, solve(normal.gram, normal.score))
+    return larger.log_likelihood - _likelihood(other)
+
+
+def _likelihood(fitted: Fit) -> float:
+    normal = with_prior(equations(fitted), fitted)
+    return normal.log_likelihood - smoothing(fitted)
 
 
 def without_reference_noise(fitted: Fit) -> Fit:

@@ -7,11 +7,9 @@ from scipy.linalg import solve_toeplitz
 from scipy.signal import lfilter
 from scipy.stats import chi2
 
-from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.fit import Fit, declared_variances
 from pyimu.identification.fit.trial import rest_noise
 from pyimu.identification.fit.whiten import RandomWalk
-from pyimu.model.catalogue import WALK, WHITE
-from pyimu.model.sensor import Sensor
 
 WINDOW = 64
 """Rows of the windows in which the quiet is looked for."""
@@ -31,18 +29,10 @@ def own_noise(fitted: Fit) -> dict[int, RandomWalk]:
 
     As declared, else its white part as its quiet rows show it.
     """
-    h = fitted.trials[0].h
-    white, walk = (_declared(fitted.sensor, *name) for name in (WHITE, WALK))
-    if white.any():
-        std = white / np.sqrt(h)
-    else:
-        std = np.mean([rest_noise(t) for t in fitted.trials], axis=0)
-    return {i: RandomWalk(float(std[i] ** 2), float(walk[i] ** 2)) for i in fitted.noise}
-
-
-def _declared(sensor: Sensor, effect: str, parameter: str) -> np.ndarray:
-    """A coefficient (3,) of the model, zero where it lacks the effect."""
-    return sensor.values[effect][parameter] if effect in sensor.values else np.zeros(3)
+    white, walk = declared_variances(fitted.sensor, fitted.trials[0].h)
+    if not white.any():
+        white = np.mean([rest_noise(t) for t in fitted.trials], axis=0) ** 2
+    return {i: RandomWalk(float(white[i]), float(walk[i])) for i in fitted.noise}
 
 
 def floor_noise(fit: Fit) -> dict[int, RandomWalk]:

@@ -83,6 +83,15 @@ class RandomWalk:
             _innovations(nothing, np.diff(time, prepend=time[:1]), self.r, self.k2, nothing)
         )
 
+    def variance_along(self, values: np.ndarray, time: np.ndarray, segments: Segments) -> float:
+        """Variance of the sum of products of ``values`` (m,) with this noise.
+
+        The walk that begins at each step goes on through all that follow; it begins at zero.
+        """
+        later = np.cumsum(values[::-1])[::-1]
+        steps = np.diff(time, prepend=time[:1])
+        return float(self.r * np.sum(values**2) + self.k2 * np.sum(steps * later**2))
+
     @classmethod
     def fit(cls, residuals: list[tuple[np.ndarray, np.ndarray, Segments]]) -> RandomWalk:
         """Maximum likelihood over residuals ``(values (m,), time (m,), segments)`` that share the
@@ -147,6 +156,14 @@ class Autoregressive:
         return sum(max(0, b - a - len(self.coefficients)) for a, b in segments) * float(
             np.log(self.r)
         )
+
+    def variance_along(self, values: np.ndarray, time: np.ndarray, segments: Segments) -> float:
+        """Variance of the sum of products of ``values`` (m,) with this noise: the noise is a filter
+        of white noise, and its adjoint acts on the values.
+        """
+        taps = np.concatenate([[1.0], -np.array(self.coefficients)])
+        seen = (lfilter([1.0], taps, values[a:b][::-1]) for a, b in segments)
+        return float(self.r * sum(np.sum(v**2) for v in seen))
 
     @classmethod
     def fit(

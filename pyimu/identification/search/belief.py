@@ -32,7 +32,7 @@ def unbelievable(fit: Fit, keys: Iterable[Coefficient]) -> str:
             if miss > CHANCE * fit.std.get(key, np.inf):
                 return f"{key.parameter} is {value:.3g}, and can be {definition.known:g} alone"
         most = _most(effect.name, fit.sensor.kind, key.parameter)
-        if definition.scan is None and abs(value) > most:
+        if definition.scan is None and abs(value) - CHANCE * fit.std.get(key, 0.0) > most:
             return (
                 f"{key.parameter} is {quantity(value, unit)}, beyond belief: more than "
                 f"{FARTHEST:g} times what is typical of a consumer part"

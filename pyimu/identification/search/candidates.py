@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations
 
 import numpy as np
 
@@ -18,16 +19,24 @@ from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.effect import Effect
 from pyimu.model.sensor import Sensor, candidates
 
+MOST_ENTRIES = 6
+"""Entries of a row of which all combinations are looked at."""
+
 
 @dataclass(frozen=True)
 class Choice:
     """One way for an effect to explain part of the residual.
 
-    Columns, and for a scan the value that it stands for.
+    Columns with their coefficients, and for a scan the value that it stands for.
     """
 
     columns: tuple[int, ...]
     value: float | None = None
+    keys: tuple[Key, ...] = ()
+
+    def at(self, place: Mapping[int, int]) -> Choice:
+        """The same choice, its columns at another place."""
+        return replace(self, columns=tuple(place[c] for c in self.columns))
 
 
 @dataclass(frozen=True)
@@ -40,6 +49,10 @@ class Group:
     effect: str
     keys: tuple[Key, ...]
     choices: tuple[Choice, ...]
+
+    def only(self, choice: Choice) -> Group:
+        """The group with the coefficients of one of its choices."""
+        return replace(self, keys=choice.keys or self.keys)
 
     @property
     def measure(self) -> str | None:
@@ -147,9 +160,11 @@ def _grid(p: Parameter, trial: Trial, y: np.ndarray) -> np.ndarray:
     return p.scan.values(trial.h, float(largest))
 
 
-def groups(normal: Normal, sensor: Sensor, effects: Iterable[Effect]) -> list[Group]:
+def groups(
+    normal: Normal, sensor: Sensor, effects: Iterable[Effect], whole: bool = False
+) -> list[Group]:
     """What selection chooses among, from the columns that are there (a column that no log excites
-    is not).
+    is not); of ``whole`` rows the entries are not let in one by one.
     """
     out = []
     for e in effects:
@@ -157,7 +172,7 @@ def groups(normal: Normal, sensor: Sensor, effects: Iterable[Effect]) -> list[Gr
         out += (
             _scan_groups(normal, sensor, e)
             if scanned(e) and new
-            else _linear_groups(normal, sensor, e)
+            else _linear_groups(normal, sensor, e, whole)
         )
     return out
 
@@ -178,16 +193,30 @@ def _scan_groups(normal: Normal, sensor: Sensor, e: Effect) -> list[Group]:
     ]
 
 
-def _linear_groups(normal: Normal, sensor: Sensor, e: Effect) -> list[Group]:
+def _linear_groups(normal: Normal, sensor: Sensor, e: Effect, whole: bool) -> list[Group]:
+    """A group for each axis of an effect, in which each entry is let in or left out by itself,
+    unless they are to go in as a ``whole``.
+    """
     coefficients = coefficients_of(sensor, e.name)
     present = [k for k in normal.keys if k in coefficients]
     rows: dict[int, list[Key]] = {}
     for key in present:
         rows.setdefault(key.index[0] if key.index else -1, []).append(key)
     return [
-        Group(e.name, tuple(keys), (Choice(tuple(normal.position[k] for k in keys)),))
+        Group(e.name, tuple(keys), tuple(_choice(normal, some) for some in _subsets(keys, whole)))
         for keys in rows.values()
     ]
+
+
+def _choice(normal: Normal, keys: Sequence[Key]) -> Choice:
+    return Choice(tuple(normal.position[k] for k in keys), None, tuple(keys))
+
+
+def _subsets(keys: Sequence[Key], whole: bool) -> list[tuple[Key, ...]]:
+    """All of them together first, then all fewer ones; of a great many, those of one and two."""
+    fewer = range(len(keys) - 1, 0, -1) if len(keys) <= MOST_ENTRIES else (2, 1)
+    sizes = [] if whole else fewer
+    return [tuple(keys), *(some for n in sizes for some in combinations(keys, n))]
 
 
 def equivalent(name: str) -> set[str]:

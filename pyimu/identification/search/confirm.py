@@ -32,13 +32,16 @@ class Evidence:
     """What old and new model leave, by axis (3,).
 
     ``gained`` is the log-likelihood [nat] that held-out rows gain, ``difference`` by how much the
-    models differ on them; ``held`` (2, 3) and ``whole`` (2, 3) are sums of squares, old and new, of
-    the held-out rows and of all; ``noise`` (3,) is what the noise of sensor and reference leaves of
-    ``whole``, None where only the residual itself tells of it.
+    models differ on them; ``apart`` is the sum of squares of what is between the two, and
+    ``chance`` the variance of its product with the noise; ``held`` (2, 3) and ``whole`` (2, 3) are
+    sums of squares, old and new, of the held-out rows and of all; ``noise`` (3,) is what the noise
+    of sensor and reference leaves of ``whole``, None where only the residual itself tells of it.
     """
 
     gained: np.ndarray
     difference: np.ndarray
+    apart: np.ndarray
+    chance: np.ndarray
     held: np.ndarray
     whole: np.ndarray
     noise: np.ndarray | None
@@ -54,6 +57,17 @@ class Evidence:
         return float(np.sqrt(new / old)) - 1.0 if old > 0.0 else 0.0
 
     @property
+    def surprise(self) -> float:
+        """Standard errors by which the held-out sum of squares is larger than a true new model
+        would leave it: old less new is then the square of what is between them, less twice its
+        product with the noise.
+        """
+        old, new = self.held.sum(axis=1)
+        missing = float(self.apart.sum()) - (old - new)
+        chance = 2.0 * float(np.sqrt(self.chance.sum()))
+        return missing / chance if chance > 0.0 else np.inf
+
+    @property
     def share(self) -> float:
         """The largest share on any axis of what was left above the noise that is explained."""
         if self.noise is None:
@@ -65,13 +79,17 @@ class Evidence:
 
 def evidence(old: Fit, new: Fit, held: Sequence[Trial]) -> Evidence:
     """The evidence of all rows for ``new`` over ``old``, judged with the noise of ``new``."""
-    gained, difference, apart = np.zeros(3), np.zeros(3), np.zeros((2, 3))
+    sums = {name: np.zeros(3) for name in ("gained", "difference", "apart", "chance")}
+    held_out = np.zeros((2, 3))
     for trial in held:
         if trial.reduction is not None:
             was, now = left_out(old, trial), left_out(new, trial)
-            gained[0] += now.log_likelihood - was.log_likelihood
-            difference[0] += 0.5 * float(np.nansum((was.error - now.error) ** 2 / now.variance))
-            apart[:, 0] += [np.nansum(was.error**2), np.nansum(now.error**2)]
+            sums["gained"][0] += now.log_likelihood - was.log_likelihood
+            between = was.error - now.error
+            sums["difference"][0] += 0.5 * float(np.nansum(between**2 / now.variance))
+            held_out[:, 0] += [np.nansum(was.error**2), np.nansum(now.error**2)]
+            sums["apart"][0] += float(np.nansum(between**2))
+            sums["chance"][0] += float(np.nansum(between**2 * now.variance))
             continue
         (state_old, rest), (state_new, _) = held_state(old, trial), held_state(new, trial)
         pairs = ((old.sensor, state_old), (new.sensor, state_new))
@@ -79,13 +97,25 @@ def evidence(old: Fit, new: Fit, held: Sequence[Trial]) -> Evidence:
             first, second = (bare(rest, r) for r in rows)
             between = bare(rest, rows[1] - rows[0])
             powers = [_whitened(new, rest, one) for one in (first, second, between)]
-            gained += sign * 0.5 * (powers[0] - powers[1])
-            difference += sign * 0.5 * powers[2]
-            apart += sign * np.array([np.sum(r**2, axis=0) for r in rows])
+            sums["gained"] += sign * 0.5 * (powers[0] - powers[1])
+            sums["difference"] += sign * 0.5 * powers[2]
+            held_out += sign * np.array([np.sum(r**2, axis=0) for r in rows])
+            sums["apart"] += sign * np.sum(between.residual**2, axis=0)
+            if sign > 0:
+                sums["chance"] += _chance(new, between)
     if any(t.reduction is not None for t in held):
-        return Evidence(gained, difference, apart, apart, None)
+        return Evidence(**sums, held=held_out, whole=held_out, noise=None)
     fitted = np.array([_squares(f) for f in (old, new)])
-    return Evidence(gained, difference, apart, apart + fitted, _noise(new, held))
+    return Evidence(**sums, held=held_out, whole=held_out + fitted, noise=_noise(new, held))
+
+
+def _chance(fit: Fit, one: Linear) -> np.ndarray:
+    """Variance (3,) of the product of a fit's noise with the rows of a residual."""
+    out = np.zeros(3)
+    for i, noise in fit.noise.items():
+        if i in one.keys:
+            out[i] = noise.variance_along(one.residual[:, i], one.time, one.segments)
+    return out
 
 
 def _rows(rest: Trial, pairs):

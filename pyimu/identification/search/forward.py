@@ -15,7 +15,7 @@ import numpy as np
 
 from pyimu.identification.fit.fit import Fit, begin
 from pyimu.identification.fit.keys import Coefficient
-from pyimu.identification.fit.maximum_likelihood import fit, fit_and_normal
+from pyimu.identification.fit.maximum_likelihood import advantage, fit, fit_and_normal
 from pyimu.identification.fit.normal import Normal
 from pyimu.identification.fit.reduction import STRUCTURE
 from pyimu.identification.fit.reference_noise import with_reference_noise
@@ -45,6 +45,9 @@ from pyimu.model.sensor import Sensor
 
 SET_WIDTH = 6.0
 """Log-likelihood [nat] within which another effect explains the data as well as the best."""
+
+CHANCE = 3.0
+"""Standard errors by which held-out squares must be more than a true effect would leave."""
 
 MOST_EFFECTS = 8
 MOST_REFINED = 5
@@ -116,12 +119,14 @@ class Refined:
 class Tried:
     """Candidates beside one model, each fitted in full once.
 
-    ``impossible`` are those whose coefficients are beyond belief.
+    ``impossible`` are those whose coefficients are beyond belief. ``as_seen`` says that they were
+    looked for by the noise that the residual shows, not the declared one.
     """
 
     current: Fit
     refined: dict[str, Refined] = field(default_factory=dict)
     impossible: list[Refined] = field(default_factory=list)
+    as_seen: bool = False
 
     def refine(self, c: Screened) -> Refined:
         if c.effect not in self.refined:
@@ -148,14 +153,18 @@ def investigate(
     after = before
     steps: list[Step] = []
     refused: dict[str, Refused] = {}
-    first = last = screen(before, sensor.values)
+    first = last = screen(before.as_declared(), sensor.values)
     tried = Tried(after)
     while len(steps) < MOST_EFFECTS:
         say(f"{sensor.kind}: {len(steps)} added, trying {len(last.candidates)} candidates")
         options = _in_order([c for c in last.above() if c.effect not in refused], after)
         chosen, names = _choose(tried, options, last.gate)
         if chosen is None:
-            break
+            if tried.as_seen or after.as_declared() is after:
+                break
+            # What is left may wander more than the part declares after all.
+            last, tried.as_seen = screen(after, sensor.values), True
+            continue
         chosen, reason = _judged(tried, chosen, held, last.gate)
         name = chosen.screened.effect
         if reason:
@@ -173,7 +182,7 @@ def investigate(
             )
         )
         after = without_lost(chosen.fit) if is_ceiling(chosen.fit.sensor, name) else chosen.fit
-        last, tried = screen(after, sensor.values), Tried(after)
+        last, tried = screen(after.as_declared(), sensor.values), Tried(after)
     after, steps = _backward(after, steps)
     return Investigation(
         before, after, tuple(steps), tuple(refused.values()), first, last, tuple(held)
@@ -220,16 +229,19 @@ def _choose(
 def _form(forms: list[Refined], derived: bool) -> Refined:
     """The one of several forms of an effect that the data speak for.
 
-    It is the one with fewer coefficients unless they speak clearly for the other; a reference that
-    ends below the band in which the two differ cannot speak at all.
+    Unless they speak clearly it is the one with the fewest coefficients, of those the last in the
+    catalogue, which lists a family's plainest form last; a derived reference ends below the band in
+    which delays differ, and cannot speak at all.
     """
     best = reduce(lambda one, other: other if _ahead(other, one) > 0.0 else one, forms)
-    for other in forms:
-        if (derived or _ahead(best, other) < SET_WIDTH) and (
-            len(keys_of(other.screened)) < len(keys_of(best.screened))
-        ):
-            best = other
-    return best
+    blind = derived and CATALOGUE[best.screened.effect].delay is not None
+    near = [other for other in forms if blind or _ahead(best, other) < SET_WIDTH]
+    order = list(CATALOGUE)
+
+    def plainness(r: Refined) -> tuple[int, int]:
+        return -len(keys_of(r.screened)), order.index(r.screened.effect)
+
+    return max(near, key=plainness)
 
 
 def _ahead(one: Refined, other: Refined) -> float:
@@ -262,7 +274,7 @@ def refine(current: Fit, c: Screened) -> Refined:
     spread = fitted_dispersion(normal, keys_of(c))
     fitted = at_samples(fitted) if is_ceiling(sensor, c.effect) else fitted
     fitted = at_threshold(fitted) if is_threshold(sensor, c.effect) else fitted
-    gain = (fitted.log_likelihood - current.log_likelihood) / spread - PENALTY * len(keys_of(c))
+    gain = advantage(fitted, current) / spread - PENALTY * len(keys_of(c))
     return Refined(c, fitted, gain if needed else -np.inf, spread, normal)
 
 
@@ -321,7 +333,7 @@ def _denied(group: Group, chosen: Refined, seen: Evidence) -> bool:
 
 def _against(chosen: Refined, seen: Evidence, gate: float) -> str:
     """What fitted and held-out rows say against a chosen candidate."""
-    if seen.speaks and seen.rise > 0.0:
+    if seen.speaks and seen.rise > 0.0 and seen.surprise > CHANCE:
         return f"raises the error on held-out data by {100 * seen.rise:.2g} %"
     apart = float(seen.gained.sum()) / chosen.dispersion
     if seen.speaks and chosen.gain + apart <= gate:
@@ -336,7 +348,7 @@ def _against(chosen: Refined, seen: Evidence, gate: float) -> str:
 
 def _stands_in(tried: Tried, chosen: Refined, gate: float) -> str:
     """The effect beyond belief that leaves a chosen candidate nothing to explain, if any does."""
-    for other in tried.impossible:
+    for other in (o for o in tried.impossible if o.gain > chosen.gain):
         beside = refine(other.fit, chosen.screened)
         if beside.gain <= gate:
             name = other.screened.effect
@@ -371,8 +383,6 @@ def _backward(after: Fit, steps: list[Step]) -> tuple[Fit, list[Step]]:
         without = fit(
             replace(after, sensor=after.sensor.without(step.effect), free=kept).with_noise()
         )
-        if (after.log_likelihood - without.log_likelihood) / step.dispersion - PENALTY * len(
-            step.keys
-        ) <= step.gate:
+        if advantage(after, without) / step.dispersion - PENALTY * len(step.keys) <= step.gate:
             after, steps = without, rest
     return after, steps

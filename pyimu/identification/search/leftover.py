@@ -139,14 +139,14 @@ def noise_figures(fit: Fit) -> dict[int, NoiseFigure] | None:
     """White noise and random walk of each axis as the residual shows them; None where the reference
     was differentiated.
     """
-    if any(not isinstance(n, RandomWalk) for n in fit.noise.values()):
+    if any(not isinstance(n, RandomWalk) for n in fit.seen.values()):
         return None
     h, rows, residuals = fit.trials[0].h, sum(t.count for t in fit.trials), fit.residuals()
     return {
         i: NoiseFigure(
             np.sqrt(n.r * h), np.sqrt(n.r * h / (2 * rows)), np.sqrt(n.k2), _k_std(residuals, i, n)
         )
-        for i, n in fit.noise.items()
+        for i, n in fit.seen.items()
     }
 
 
@@ -183,7 +183,7 @@ def walk_gain(fit: Fit, declared: np.ndarray) -> np.ndarray:
     (3,).
     """
     residuals, out = fit.residuals(), np.full(3, np.nan)
-    for i, n in fit.noise.items():
+    for i, n in fit.seen.items():
         out[i] = axis_likelihood(residuals, i, n) - axis_likelihood(
             residuals, i, RandomWalk(n.r, float(declared[i] ** 2))
         )
@@ -197,7 +197,7 @@ def drift(fit: Fit, declared_k: np.ndarray) -> dict[int, float]:
     gain = walk_gain(fit, declared_k)
     return {
         i: float(gain[i])
-        for i, n in fit.noise.items()
+        for i, n in fit.seen.items()
         if n.k2 > declared_k[i] ** 2 and gain[i] > DRIFT_GATE
     }
 

@@ -112,22 +112,13 @@ def screen(fit: Fit, declared: Iterable[str], seed: int = 1) -> Screening:
     effects = new + held
     linear = [e.name for e in new if not scanned(e)] + [e.name for e in held]
     normal = with_prior(equations(fit, lambda f: f.linearise(linear, [scan_columns(f, new)])), fit)
-    all_groups = groups(normal, fit.sensor, effects)
+    whole = any(t.reduction is not None for t in fit.trials)
+    all_groups = groups(normal, fit.sensor, effects, whole)
     taken = sorted({c for g in all_groups for choice in g.choices for c in choice.columns})
     base = [i for i in range(len(normal.keys)) if i not in set(taken)]
     projected = Projected.of(normal, base, taken)
     place = {column: i for i, column in enumerate(taken)}
-    moved = [
-        Group(
-            g.effect,
-            g.keys,
-            tuple(
-                Choice(tuple(place[c] for c in choice.columns), choice.value)
-                for choice in g.choices
-            ),
-        )
-        for g in all_groups
-    ]
+    moved = [replace(g, choices=tuple(c.at(place) for c in g.choices)) for g in all_groups]
     gate = _gate(projected, moved, np.random.default_rng(seed))
     by_effect = {e.name: [g for g in moved if g.effect == e.name] for e in effects}
     found = tuple(_screened(name, gs, projected) for name, gs in by_effect.items() if gs)
@@ -173,7 +164,7 @@ def _screened(effect: str, gs: list[Group], projected: Projected) -> Screened:
         ]
         choice, best = max(options, key=lambda o: o[1])
         if best > 0:
-            picked.append(g)
+            picked.append(g.only(choice))
             gain += best
             if choice.value is not None:
                 values[g.keys[0].index] = choice.value
@@ -196,7 +187,7 @@ def _smallest(projected: Projected, g: Group) -> float | None:
     if not seen:
         return None
     if g.measure is None:
-        return 1.0 / seen[0][1]
+        return 1.0 / max(ratio for _, ratio in seen)
     if g.measure == "period":
         return seen[0][0] / seen[0][1]
     if g.measure == "rate":
