@@ -12,7 +12,7 @@ from pyimu.identification.advice import advice
 from pyimu.identification.as_part import as_part, unexamined_left_out
 from pyimu.identification.attitude_error import AttitudeError
 from pyimu.identification.confounds import what_no_log_tells_apart
-from pyimu.identification.declared import changed_noise, drifting, released
+from pyimu.identification.declared import released
 from pyimu.identification.estimated import estimated
 from pyimu.identification.exhibits import Exhibits, exhibits_of
 from pyimu.identification.fates import TAKEN_BACK, Fate, fates
@@ -24,6 +24,7 @@ from pyimu.identification.found import Added, Changed, LogEntry
 from pyimu.identification.heading_error import heading_rms
 from pyimu.identification.held_out import at_rest, attitudes, held_trials, scores
 from pyimu.identification.made_with import MadeWith
+from pyimu.identification.noise.named import Noise, noise_of
 from pyimu.identification.overview import Overview, overview
 from pyimu.identification.reference.gravity import few
 from pyimu.identification.reference.order import other_order
@@ -64,17 +65,22 @@ def conclude(
     say("attitude against the reference")
     found, model, attitude, lost = settled(start, declared, found, others or logs)
     not_examined = _unexamined(found, logs)
-    added, changed, drifts = _findings(start, declared, found, model, say)
+    say("what is random in what is left")
+    noises = {kind: _noise(start, inv, model, len(found)) for kind, inv in found.items()}
+    model = model.with_noise(noises)
+    added, changed, drifts = _findings(start, declared, found, model, noises, say)
     unexplained = tuple(u for u in (lack_of_fit(inv.after) for inv in found.values()) if u)
+    unexplained += tuple(s for n in noises.values() for s in n.shapes)
     refused = [(kind, r) for kind, inv in found.items() for r in inv.refused]
+    refused += [(kind, r) for kind, n in noises.items() for r in n.refused]
     say("error on held-out data")
-    errors, entries, likelihood = scores(found, logs, others)
+    errors, entries, likelihood = scores(found, logs, others, _gained(noises))
     heading = heading_rms(found.get("gyro"))
     beside = (errors, attitude, refused, not_examined, lost, heading)
     together = [*logs, *others]
     said = _said(Evidence(added, changed, unexplained, drifts, found, *beside), together)
     say("the whole model, and what to measure next")
-    model_after = estimated(start, model.after, found, added)
+    model_after = estimated(start, model.after, found, added, noises)
     seen = tuple(v for kind, inv in found.items() for v in visibility(kind, inv))
     return Closed(
         verdict=said.word,
@@ -108,19 +114,35 @@ def conclude(
 
 
 def _findings(
-    start: Part, declared: Part | None, found: Found, model: Model, say: Callable[[str], None]
+    start: Part,
+    declared: Part | None,
+    found: Found,
+    model: Model,
+    noises: dict[str, Noise],
+    say: Callable[[str], None],
 ) -> tuple[list[Added], list[Changed], dict[str, dict[int, float]]]:
     """The effects that were added, the values that changed, and the axes that wander, by sensor."""
     added, changed, drifts = [], [], {}
     for kind, inv in found.items():
         say(f"{kind}: what is left")
-        steps = model.rounding[kind]
-        added += _added(kind, model.after.sensor(kind), inv) + steps
+        added += _added(kind, model.after.sensor(kind), inv) + model.rounding[kind]
+        added += noises[kind].added
         changed += [released(start.sensor(kind), inv.after, s) for s in inv.steps if s.declared]
-        if declared is not None and not steps:
-            changed += changed_noise(start, kind, inv.after)
-            drifts |= drifting(kind, inv.after, start.sensor(kind))
+        changed += noises[kind].changed
+        drifts |= {kind: dict(noises[kind].drift)} if noises[kind].drift else {}
     return added, changed, drifts
+
+
+def _noise(start: Part, inv: Investigation, model: Model, sensors: int) -> Noise:
+    """What is random in what an investigation of a part left."""
+    sensor = start.sensor(inv.after.sensor.kind)
+    free = frozenset(e for kind, e, _ in start.estimate if kind == sensor.kind)
+    rounds = bool(model.rounding[sensor.kind]) or sensor.reading("step") is not None
+    return noise_of(sensor, inv, free, rounds, sensors)
+
+
+def _gained(noises: dict[str, Noise]) -> dict[str, float]:
+    return {kind: n.gained for kind, n in noises.items()}
 
 
 def _fates(kind: str, inv: Investigation, added: list[Added]) -> list[Fate]:
@@ -176,6 +198,16 @@ class Model:
     before: Part
     after: Part
     rounding: dict[str, list[Added]]
+
+    def with_noise(self, noises: dict[str, Noise]) -> Model:
+        """With what was found to be random, by kind of sensor."""
+        after = self.after
+        for kind, noise in noises.items():
+            sensor = after.sensor(kind)
+            for effect, values in noise.values.items():
+                sensor = sensor.with_values(effect, **values)
+            after = after.with_sensor(sensor)
+        return replace(self, after=after)
 
 
 def model_of(start: Part, declared: Part | None, found: Found) -> Model:

@@ -15,6 +15,7 @@ from pyimu.identification.fit.fit import with_prior
 from pyimu.identification.fit.keys import Coefficient, LogBias
 from pyimu.identification.fit.reference_noise import equations
 from pyimu.identification.found import Added
+from pyimu.identification.noise.named import Noise
 from pyimu.identification.search.forward import Investigation
 from pyimu.identification.search.leftover import noise_figures
 from pyimu.identification.search.screen import fitted_dispersion
@@ -85,19 +86,25 @@ Errors = tuple[np.ndarray, np.ndarray]
 
 
 def estimated(
-    start: Part, after: Part, found: Mapping[str, Investigation], added: Iterable[Added]
+    start: Part,
+    after: Part,
+    found: Mapping[str, Investigation],
+    added: Iterable[Added],
+    noises: Mapping[str, Noise],
 ) -> tuple[Estimated, ...]:
-    """The coefficients of the model ``after`` that investigations of the part ``start`` gave."""
+    """The coefficients of the model ``after`` that investigations of the part ``start`` gave, and
+    the noise of each kind of sensor.
+    """
     new = {(a.sensor, a.effect): a for a in added}
     return tuple(
         entry
         for kind in ("gyro", "accel")
-        for entry in _of_sensor(start, after, kind, found.get(kind), new)
+        for entry in _of_sensor(start, after, kind, found.get(kind), new, noises.get(kind, Noise()))
     )
 
 
 def _of_sensor(
-    start: Part, after: Part, kind: str, inv: Investigation | None, new: Mapping
+    start: Part, after: Part, kind: str, inv: Investigation | None, new: Mapping, noise: Noise
 ) -> Iterator[Estimated]:
     sensor = after.sensor(kind)
     errors = None if inv is None else _Regression(inv)
@@ -108,6 +115,8 @@ def _of_sensor(
             key, value = (kind, e.name, name), sensor.values[e.name][name]
             if (kind, e.name) in new:
                 origin, (std, shown) = "added", _of_added(new[kind, e.name], e, name)
+            elif (e.name, name) in noise.std:
+                origin, (std, shown) = "changed", (noise.std[e.name, name], _known(value)[1])
             elif q.reference or not (key in start.estimate or e.name in changed):
                 origin, (std, shown) = "declared", _known(value)
             elif errors is None:

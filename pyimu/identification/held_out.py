@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -29,9 +30,15 @@ FOLDS = {"accel": "each position at rest in turn", "gyro": "each turn between re
 
 
 def scores(
-    found: dict[str, Investigation], logs: list[Recording], others: list[Recording]
+    found: dict[str, Investigation],
+    logs: list[Recording],
+    others: list[Recording],
+    gained: Mapping[str, float],
 ) -> Scores:
-    """Held-out errors of each sensor, in all and by recording, and log-likelihood per sample."""
+    """Held-out errors of each sensor, in all and by recording, and log-likelihood per sample.
+
+    ``gained`` is by sensor what the noise that was named adds to the likelihood after [nat].
+    """
     together = [*logs, *others]
     by_log: dict[str, dict[str, Errors]] = {r.name: {} for r in together}
     errors, likelihood = {}, np.zeros(2)
@@ -42,7 +49,8 @@ def scores(
         each = [e[kind] for e in by_log.values() if kind in e]
         if each:
             errors[kind] = sum(each[1:], start=each[0])
-            likelihood += _per_row(errors[kind])
+            more = ErrorSums(log_likelihood=gained.get(kind, 0.0))
+            likelihood += _per_row(replace(errors[kind], after=errors[kind].after + more))
     entries = tuple(_entry(r, found, by_log[r.name]) for r in together)
     return errors, entries, tuple(likelihood.tolist()) if errors else None
 

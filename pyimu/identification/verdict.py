@@ -95,7 +95,8 @@ def _verdict(e: Evidence) -> Verdict:
         return Verdict("not_confirmed", f"{gain}, but {most.reason}")
     if e.unexplained:
         u = e.unexplained[0]
-        return Verdict("unexplained", f"{u.sensor} {u.axis} depends on {' x '.join(u.depends_on)}")
+        does = f"shows {u.shape}" if u.shape else f"depends on {' x '.join(u.depends_on)}"
+        return Verdict("unexplained", f"{u.sensor} {u.axis} {does}")
     if e.drift:
         return Verdict("drift", "more random walk than declared: an input that nobody logged")
     return _nothing_found(e, left)

@@ -55,8 +55,8 @@ def _found(closed: Outcome) -> Iterator[str]:
     if len(beside) > MOST_CANDIDATES:
         yield f"and {len(beside) - MOST_CANDIDATES} candidates more, on the page"
     for u in closed.unexplained:
-        inputs = " x ".join(u.depends_on)
-        yield f"unexplained: {u.sensor} {u.axis} depends on {inputs} (p = {u.p_value:.1g})"
+        inputs = f"depends on {' x '.join(u.depends_on)} (p = {u.p_value:.1g})"
+        yield f"unexplained: {u.sensor} {u.axis} {f'is {u.shape}' if u.shape else inputs}"
 
 
 def _short(values: np.ndarray) -> str:

@@ -7,6 +7,7 @@ import numpy as np
 from pyimu.identification.as_part import SENSORS
 from pyimu.identification.found import Added, AtRest, Errors
 from pyimu.identification.outcome import Outcome
+from pyimu.identification.search.leftover import Unexplained
 from pyimu.model.arguments import Parameter
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.report.numbers import (
@@ -128,13 +129,14 @@ def judged_on(e: Errors) -> str:
 def dependence(closed: Outcome) -> str:
     """On what the residual still depends."""
     return joined(
-        [
-            f"the {SENSORS[u.sensor]} residual on {u.axis} depends on "
-            f"{joined([_input(d) for d in u.depends_on])} "
-            f"(p = {number(u.p_value, 1)})"
-            for u in closed.unexplained
-        ]
+        [f"the {SENSORS[u.sensor]} residual on {u.axis} {_does(u)}" for u in closed.unexplained]
     )
+
+
+def _does(u: Unexplained) -> str:
+    if u.shape:
+        return f"is {u.shape}: it jumps between two levels at random instants"
+    return f"depends on {joined([_input(d) for d in u.depends_on])} (p = {number(u.p_value, 1)})"
 
 
 def _input(name: str) -> str:

@@ -51,12 +51,15 @@ SHARE = 0.03
 
 @dataclass(frozen=True)
 class Unexplained:
-    """A product of inputs on which a residual depends although no effect of the model says so."""
+    """A product of inputs on which a residual depends although no effect of the model says so, or
+    the ``shape`` of what is random in it and no effect either.
+    """
 
     sensor: str
     axis: str
     depends_on: tuple[str, ...]
     p_value: float
+    shape: str = ""
 
     def as_dict(self) -> dict[str, Any]:
         return asdict(self) | {"depends_on": list(self.depends_on)}

@@ -31,6 +31,11 @@ from pyimu.model.sensor import Sensor
 
 PENALTY = 3.0
 FALSE_ALARM = 0.01
+"""Chance that a command names anything where nothing is missing."""
+
+SHARE = 0.25
+"""Part of that chance which one sensor's effects have: there are two sensors, and noise to name."""
+
 DRAWS = 4000
 VISIBLE = 6.0
 """How many standard errors a coefficient must exceed to count as visible in a log."""
@@ -141,7 +146,7 @@ def _gains(score: np.ndarray, choice: Choice, gram: np.ndarray) -> np.ndarray:
 
 
 def _gate(projected: Projected, all_groups: list[Group], rng: np.random.Generator) -> float:
-    """The 1 - ``FALSE_ALARM`` point of the largest gain over all effects under nothing to find."""
+    """The largest gain over all effects that chance exceeds no oftener than it may."""
     if not all_groups:
         return np.inf
     scale = np.sqrt(np.maximum(np.diag(projected.gram), 1e-300))
@@ -152,7 +157,7 @@ def _gate(projected: Projected, all_groups: list[Group], rng: np.random.Generato
     for g in all_groups:
         best = np.max([_gains(draws, c, projected.gram) for c in g.choices], axis=0)
         total[g.effect] = total.get(g.effect, 0.0) + np.maximum(best, 0.0)
-    return float(np.quantile(np.max(list(total.values()), axis=0), 1.0 - FALSE_ALARM))
+    return float(np.quantile(np.max(list(total.values()), axis=0), 1.0 - SHARE * FALSE_ALARM))
 
 
 def _screened(effect: str, gs: list[Group], projected: Projected) -> Screened:

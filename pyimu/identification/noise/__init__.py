@@ -1,0 +1,1 @@
+"""What is random in a residual, named by likelihood."""

@@ -1,0 +1,108 @@
+"""The residual of one axis of one log at the sample rate, with what its noise may depend on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from pyimu.identification.fit.columns import LogState, in_band, reference_input, residual
+from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.score import held_state
+from pyimu.identification.fit.trial import Trial
+from pyimu.model.kinds import KINDS, OWN
+from pyimu.model.sensor import Sensor
+from pyimu.model.signals import COLUMNS
+
+BRIDGED = 4
+"""Rows that may be missing in a row and are put in between their neighbours for a spectrum."""
+
+MOST_BRIDGED = 2e-3
+"""Share of the rows that may be; more of them would take as much off the white noise."""
+
+SHORTEST = 256
+"""Rows of a stretch without gap that gives a spectrum."""
+
+
+@dataclass(frozen=True)
+class Rows:
+    """Residual ``r`` (n,) of one axis at ``time`` (n,) s, sampled every ``h`` s where nothing is
+    missing; ``x`` (n,) is the axis's own input and ``slope`` (n,) its rate.
+
+    The first ``fitted`` rows were fitted, those after them held out. ``averaged`` says that each is
+    the mean over ``h`` s.
+    """
+
+    time: np.ndarray
+    r: np.ndarray
+    x: np.ndarray
+    slope: np.ndarray
+    h: float
+    fitted: int
+    averaged: bool = False
+
+    @property
+    def steps(self) -> np.ndarray:
+        """Seconds (n,) from the row before, zero for the first."""
+        return np.diff(self.time, prepend=self.time[:1])
+
+    def seen(self) -> Rows:
+        """The rows that were fitted."""
+        n = self.fitted
+        return Rows(self.time[:n], self.r[:n], self.x[:n], self.slope[:n], self.h, n)
+
+    def means(self, seconds: float) -> Rows:
+        """Means over so many seconds of rows, as rows of their own."""
+        m = max(1, round(seconds / self.h))
+        whole = len(self.r) // m * m
+        each = (self.time, self.r, self.x, self.slope)
+        time, r, x, slope = (v[:whole].reshape(-1, m).mean(axis=1) for v in each)
+        return Rows(time, r, x, slope, self.h * m, self.fitted // m, True)
+
+    def stretches(self) -> list[np.ndarray]:
+        """The residual of each stretch that is long enough, single missing rows put in."""
+        apart = np.rint(self.steps / self.h).astype(int)
+        missing = int(np.sum(apart[(apart > 1) & (apart <= BRIDGED + 1)] - 1))
+        most = BRIDGED + 1 if missing <= MOST_BRIDGED * len(self.r) else 1
+        edges = [0, *np.flatnonzero(apart > most).tolist(), len(self.r)]
+        out = []
+        for a, b in zip(edges[:-1], edges[1:], strict=True):
+            at = np.cumsum(apart[a:b]) - apart[a] if b > a else apart[:0]
+            if b - a >= SHORTEST:
+                out.append(np.interp(np.arange(at[-1] + 1), at, self.r[a:b]))
+        return out
+
+
+def rows_of(fit: Fit, held: tuple[Trial, ...]) -> dict[int, list[Rows]]:
+    """By axis the rows of each log, the held-out end of a fitted log behind its fitted rows."""
+    out: dict[int, list[Rows]] = {}
+    ends = {t.parent: t for t in held if t.parent is not None}
+    for trial in fit.trials:
+        made = _columns(fit.sensor, trial, fit.states[trial.name])
+        count = len(made)
+        end = ends.get(trial.name)
+        if end is not None:
+            state, rest = held_state(fit, end)
+            # The bias that suits the fitted rows is one with the walk here.
+            made = np.concatenate([made, _columns(fit.sensor, rest, state)])
+        for i in trial.axes:
+            out.setdefault(i, []).append(_axis(made, i, trial.h, count))
+    for trial in (t for t in held if t.parent is None):
+        state, rest = held_state(fit, trial)
+        made = _columns(fit.sensor, rest, state)
+        for i in rest.axes:
+            out.setdefault(i, []).append(_axis(made, i, rest.h, 0))
+    return out
+
+
+def _columns(sensor: Sensor, trial: Trial, state: LogState) -> np.ndarray:
+    """Time, residual, own signal and its rate (m, 10) of the rows that count."""
+    u, own = reference_input(trial, state), OWN[trial.kind]
+    rate = COLUMNS[KINDS[trial.kind].own_rate]
+    values = (trial.time[:, None], residual(sensor, trial, state), u[:, own], u[:, rate])
+    return in_band(trial, np.column_stack(values))
+
+
+def _axis(made: np.ndarray, i: int, h: float, fitted: int) -> Rows:
+    time, r, x, slope = (np.ascontiguousarray(made[:, c]) for c in (0, 1 + i, 4 + i, 7 + i))
+    return Rows(time, r, x, slope, h, fitted)
