@@ -26,6 +26,11 @@ NAMED = tuple(t for t in TERMS.values() if t.answer != "")
 BELIEVED = 5.0
 """Times the consumer's size up to which an effect is drawn: twice as large is beyond belief."""
 
+QUIETEST = 1e-11
+"""Root density (SI) that a sensor may be given at least: its noise at 100 Hz is then a hundred
+times the last decimal of a reference. An effect that asks for less is the rounding of numbers.
+"""
+
 
 class NotShown(ValueError):
     """An effect does not show in a log, or not at the size that is wanted."""
@@ -86,6 +91,9 @@ class Chain:
         return norm(error[:rows], self.triad, self.scene.h, free)
 
     def quieter(self, share: float) -> Chain:
+        """Raises NotShown where it would be quieter than ``QUIETEST``."""
+        if share * self.triad.n.min() < QUIETEST:
+            raise NotShown("it shows to a sensor alone that has no noise")
         triad = replace(self.triad, n=share * self.triad.n, k=share * self.triad.k)
         return replace(self, triad=triad)
 

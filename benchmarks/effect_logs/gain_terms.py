@@ -28,12 +28,31 @@ def scale_factor_cubic(x, case: Case):
     return x + case.c * x**3
 
 
+def _of_the_others(x):
+    """The product of the two other axes' inputs, for each axis (n, 3)."""
+    return np.roll(x, -1, axis=1) * np.roll(x, -2, axis=1)
+
+
 def anisoinertia(x, case: Case):
-    return x + case.c * np.roll(x, -1, axis=1) * np.roll(x, -2, axis=1)
+    return x + case.c * _of_the_others(x)
 
 
 def vibropendulous(x, case: Case):
     return x + x * (x @ case.c.T)
+
+
+def cross_axis_nonlinearity(x, case: Case):
+    """Squares by the coefficients beside the diagonal, the two others' product by those on it."""
+    return x + x**2 @ _beside_the_diagonal(case.c).T + np.diag(case.c) * _of_the_others(x)
+
+
+def _beside_the_diagonal(c):
+    return c * (1 - np.eye(3))
+
+
+def spin_sensitivity(x, case: Case):
+    rate = case.scene.rate
+    return x + rate * (rate @ case.c.T)
 
 
 def angular_acceleration(x, case: Case):
@@ -50,6 +69,11 @@ def thermal_scale_factor(x, case: Case):
 
 def thermal_misalignment(x, case: Case):
     return x + (case.scene.warmth - T0)[:, None] * (x @ case.c.T)
+
+
+def bias_asymmetry(x, case: Case):
+    """Half the coefficient, with the sign of the input."""
+    return x + case.c / 2 * np.sign(x)
 
 
 DEG, G = np.deg2rad(1.0), 9.80665
@@ -84,13 +108,16 @@ TERMS = (
         parameter="kp",
     ),
     Term(
-        "angular_acceleration",
-        angular_acceleration,
-        {"gyro": 1e-4},
+        "cross_axis_nonlinearity",
+        cross_axis_nonlinearity,
+        {"accel": 5e-3 / G},
         (3, 3),
-        hollow=True,
-        parameter="c",
+        motions=FOR_FORCE,
+        parameter="k",
+        told=_beside_the_diagonal,
     ),
+    Term("spin_sensitivity", spin_sensitivity, {"accel": 0.2e-3 * G}, (3, 3), parameter="s"),
+    _both(angular_acceleration, "c", 1e-4, 0.2e-3 * G, shape=(3, 3), hollow=True),
     Term(
         "scale_factor_g_sensitivity",
         scale_factor_g_sensitivity,
@@ -101,4 +128,5 @@ TERMS = (
     ),
     _both(thermal_scale_factor, "kS", 3.08e-4, 2e-4),
     _both(thermal_misalignment, "mT", 1e-4, 1e-4, shape=(3, 3), hollow=True),
+    Term("bias_asymmetry", bias_asymmetry, {"accel": 5e-3 * G}, motions=FOR_FORCE, parameter="ba"),
 )

@@ -62,7 +62,8 @@ def lag(x, case: Case):
     )
 
 
-def lag_first_order(x, case: Case):
+def first_order_lag(x, case: Case):
+    """A single pole: 1 / (c s + 1)."""
     return _of_the_motion(x, case, _filtered(case.scene, case.kind, [1.0], [case.c, 1.0]))
 
 
@@ -101,12 +102,12 @@ TERMS = (
         told=lambda c: 1 / c,
     ),
     Term(
-        "lag_first_order",
-        lag_first_order,
-        {"gyro": 1 / 264, "accel": 1 / 276},
+        "first_order_lag",
+        first_order_lag,
+        {"gyro": 3.8e-3, "accel": 3.6e-3},
         (),
         signed=False,
-        answer="lag",
+        parameter="tau",
     ),
     Term(
         "time_delay",

@@ -70,6 +70,10 @@ def gauss_markov(x, case: Case):
     return x + _markov(draws, case.c**2 * tau / 2, case.scene.h / tau)
 
 
+def second_gauss_markov(x, case: Case):
+    return gauss_markov(x, case)
+
+
 PER_DECADE = 3
 
 
@@ -128,8 +132,8 @@ def dead_zone(x, case: Case):
     return x - np.clip(x, -case.c, case.c)
 
 
-def dead_zone_hard(x, case: Case):
-    return np.where(np.abs(x) < case.c, 0.0, x)
+def hard_dead_zone(x, case: Case):
+    return np.where(np.abs(x) > case.c, x, 0.0)
 
 
 def _limit(case: Case):
@@ -157,6 +161,11 @@ def angle_quantization(x, case: Case):
 def _tau(rng, scene):
     """2 to 20 s: far shorter than a log, far longer than a sample."""
     return {"tau": float(np.exp(rng.uniform(np.log(2.0), np.log(20.0))))}
+
+
+def _short_tau(rng, scene):
+    """0.3 to 3 s: the faster of two processes, with next to nothing of the other's range."""
+    return {"tau": float(np.exp(rng.uniform(np.log(0.3), np.log(3.0))))}
 
 
 def _term(function, parameter, gyro, accel, **more) -> Term:
@@ -193,6 +202,14 @@ TERMS = (
         gain=_spectral_gain(_gm_density),
     ),
     _term(
+        second_gauss_markov,
+        "q",
+        3.88e-4,
+        0.06,
+        form=_short_tau,
+        gain=_spectral_gain(_gm_density),
+    ),
+    _term(
         bias_instability,
         "B",
         6.93 * DEG / HOUR,
@@ -204,7 +221,7 @@ TERMS = (
 
 OUTPUT = (
     _term(dead_zone, "d", 0.0076 * DEG, 0.06e-3 * G),
-    _term(dead_zone_hard, "", 0.0076 * DEG, 0.06e-3 * G, answer="dead_zone"),
+    _term(hard_dead_zone, "d", 0.0076 * DEG, 0.061e-3 * G),
     _term(angle_quantization, "q", 0.01 * 0.0076 * DEG, 6e-6, by_size=False),
     _term(saturation, "", 0.3, 0.2),
     _term(quantization, "q", 0.00763 * DEG, 6.1e-5 * G, by_size=False),

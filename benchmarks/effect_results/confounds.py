@@ -8,7 +8,13 @@ from __future__ import annotations
 
 CONFOUNDS: dict[frozenset[str], str] = {
     frozenset({"lag", "time_delay"}): (
-        "below a third of its bandwidth a lag is a delay by 2 zeta / wn, or tau"
+        "below a third of its bandwidth a second-order lag is a delay by 2 zeta / wn"
+    ),
+    frozenset({"first_order_lag", "time_delay"}): (
+        "below a third of its bandwidth a single pole is a delay by tau"
+    ),
+    frozenset({"lag", "first_order_lag"}): (
+        "below a third of their bandwidths both are one delay, where tau is 2 zeta / wn"
     ),
     frozenset({"time_delay", "clock_skew"}): (
         "over a short part of a log a clock that runs late is a delay; apart only by its growth"
@@ -31,6 +37,21 @@ CONFOUNDS: dict[frozenset[str], str] = {
     frozenset({"scale_factor_cubic", "saturation"}): (
         "a ceiling that is hardly reached bends the largest inputs as a cubic does"
     ),
+    frozenset({"cross_axis_nonlinearity", "scale_factor_nonlinearity"}): (
+        "where gravity acts alone the squares of the three forces add up to g^2, a bias"
+    ),
+    frozenset({"cross_axis_nonlinearity", "misalignment"}): (
+        "near level the vertical force is g, and its square and its products with the others are "
+        "linear in the forces"
+    ),
+    frozenset({"bias_asymmetry", "dead_zone"}): (
+        "beyond its threshold d a dead zone is a bias of -d sign x; apart only by inputs between "
+        "zero and the bias"
+    ),
+    frozenset({"size_effect", "angular_acceleration"}): (
+        "a lever's parts across an axis answer to angular acceleration as its coefficients do; "
+        "apart only by the products of rates, the less of it where turns are short"
+    ),
     frozenset({"g_sensitivity", "magnetic_sensitivity"}): (
         "without acceleration, turned about the vertical alone, gravity and field keep their angle"
     ),
@@ -39,6 +60,9 @@ CONFOUNDS: dict[frozenset[str], str] = {
     ),
     frozenset({"gauss_markov", "bias_instability"}): (
         "in one log flicker noise is a Gauss-Markov process over the decades that it shows"
+    ),
+    frozenset({"gauss_markov", "second_gauss_markov"}): (
+        "one equation: of a single process nothing says whether it is the first or the second"
     ),
     frozenset({"gauss_markov", "rate_random_walk"}): (
         "a process whose correlation time is as long as the log is a random walk"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
-from pages import DOCS, write_changed
+from pages import DOCS, row, write_changed
 
 from pyimu.model.arguments import Parameter
 from pyimu.model.catalogue import CATALOGUE
@@ -51,7 +51,7 @@ COLUMNS = ("name", "term", "stage", "sensors", "equation", "parameters", "invert
 def documentation() -> str:
     """The page's text: a table with one row per effect, in the order in which they act."""
     effects = CATALOGUE.in_order(CATALOGUE.values())
-    lines = [_row(COLUMNS), _row("---" for _ in COLUMNS), *(_row(_cells(e)) for e in effects)]
+    lines = [row(COLUMNS), row("---" for _ in COLUMNS), *(row(_cells(e)) for e in effects)]
     return (
         HEAD.format(stages=", ".join(STAGES), every_sample=EVERY_SAMPLE, longest=LONGEST_HOLD)
         + "\n".join(lines)
@@ -63,14 +63,14 @@ def documentation() -> str:
 def _sizes(effects: Iterable[Effect]) -> str:
     """How large each effect is in a tactical and in a consumer part, and which document says so."""
     lines = [
-        _row(("name", "sensor", "coefficient", *CLASSES)),
-        _row("---" for _ in range(3 + len(CLASSES))),
+        row(("name", "sensor", "coefficient", *CLASSES)),
+        row("---" for _ in range(3 + len(CLASSES))),
     ]
     for e in effects:
         for kind in e.sensors:
             found = magnitudes(e.name, kind)
             figures = [_size(found[c]) for c in CLASSES]
-            lines.append(_row((f"`{e.name}`", kind, f"`{found[CLASSES[0]].parameter}`", *figures)))
+            lines.append(row((f"`{e.name}`", kind, f"`{found[CLASSES[0]].parameter}`", *figures)))
     keys = [f"- {key}: {text}" for key, text in documents().items()]
     return SIZES + "\n".join(lines) + "\n\nDocuments:\n\n" + "\n".join(keys) + "\n"
 
@@ -110,15 +110,6 @@ def _invertible(e: Effect) -> str:
     if e.invertible:
         return "yes, with its noise zero" if e.stochastic else "yes"
     return "no, left in" if e.left_in else "no, marked"
-
-
-def _row(cells: Iterable[str]) -> str:
-    return f"| {' | '.join(map(_cell, cells))} |"
-
-
-def _cell(text: str) -> str:
-    """A bar inside a cell would end it."""
-    return text.replace("|", r"\vert{}" if text.startswith("$") else r"\|")
 
 
 def write(folder: Path | str) -> list[Path]:

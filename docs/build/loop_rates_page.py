@@ -14,7 +14,7 @@ from pathlib import Path
 import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
-from pages import DOCS, write_changed
+from pages import DOCS, row, write_changed
 
 sys.path.insert(0, str(DOCS.parent / "benchmarks"))
 
@@ -60,7 +60,7 @@ def page(records: list[Record]) -> str:
 
 def _table(head: list[str], body) -> list[str]:
     rule = ["---"] * len(head)
-    return [f"| {' | '.join(cells)} |" for cells in (head, rule, *body)]
+    return [row(cells) for cells in (head, rule, *body)]
 
 
 def _failures(records: list[Record]) -> list[str]:

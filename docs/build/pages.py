@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 
 from pyimu.files import write_text
@@ -16,3 +17,13 @@ def write_changed(page: Path, text: str) -> bool:
         return False
     write_text(page, text)
     return True
+
+
+def row(cells: Iterable[str]) -> str:
+    """One row of a table."""
+    return f"| {' | '.join(map(_cell, cells))} |"
+
+
+def _cell(text: str) -> str:
+    """A bar inside a cell would end it."""
+    return text.replace("|", r"\vert{}" if text.startswith("$") else r"\|")

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 from effect_logs import cases, nameless, noise_terms, whitening
-from effect_logs.chain import NAMED, TERMS, Chain
+from effect_logs.chain import NAMED, TERMS, Chain, NotShown, at_typical, tuned
 from effect_logs.scene import new_scene
 from effect_logs.term import Case
 from generators.instrument import Triad, any_sensor
-from generators.motion import shaker, static, thermal_cycle, tumble
+from generators.motion import rover, shaker, static, table, thermal_cycle, tumble
 
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.part_reader import parse_part
@@ -118,7 +118,7 @@ def test_a_first_order_lag_of_a_sinusoid():
     swung = type(scene)(scene.time, Swung(), scene.warmth, scene.supply, 0.5, scene.cruise)
     tau, w = 0.05, 2 * np.pi
     case = Case("gyro", swung, tau, {}, 1)
-    late = TERMS["lag_first_order"].apply(swung.rate, case)
+    late = TERMS["first_order_lag"].apply(swung.rate, case)
     wanted = np.sin(w * scene.time - np.arctan(w * tau)) / np.hypot(1, w * tau)
     np.testing.assert_allclose(late[500:, 0], wanted[500:], atol=4e-5)
 
@@ -134,6 +134,46 @@ def test_a_play_follows_a_triangle_behind_by_its_half_width():
     signs = np.sign(np.gradient(up))
     np.testing.assert_allclose(moved[rising], -2.0 * signs[rising], atol=1e-9)
     np.testing.assert_allclose(moved[falling], -2.0 * signs[falling], atol=1e-9)
+
+
+def test_a_lever_across_an_axis_is_angular_acceleration_and_spin():
+    """e . (a x r) is a_j r_k - a_k r_j; w x (w x r) is w (w . r) - r w^2, its last term none for
+    a lever without a part along the axis.
+    """
+    scene = new_scene(np.random.default_rng(14), tumble, 20.0)
+    r = np.array([[0.0, 2.0, 3.0], [5.0, 0.0, 7.0], [11.0, 13.0, 0.0]])
+    turned = np.array([[0.0, 3.0, -2.0], [-7.0, 0.0, 5.0], [13.0, -11.0, 0.0]])
+    y = np.zeros_like(scene.force)
+    for name, c in (("angular_acceleration", turned), ("spin_sensitivity", r)):
+        y = TERMS[name].apply(y, Case("accel", scene, c, {}, 1))
+    lever = TERMS["size_effect"].apply(np.zeros_like(y), Case("accel", scene, r, {}, 1))
+    np.testing.assert_allclose(y, lever, atol=1e-9 * np.abs(lever).max())
+
+
+def test_cross_axis_squares_of_gravity_alone_add_up():
+    """f_j^2 + f_k^2 = g^2 - f_i^2, and the product of the others is that of all by its own."""
+    scene = new_scene(np.random.default_rng(15), table, 60.0)
+    term, f = TERMS["cross_axis_nonlinearity"], scene.force
+    squares = term.apply(f, Case("accel", scene, 1 - np.eye(3), {}, 1)) - f
+    np.testing.assert_allclose(squares, 9.80665**2 - f**2, atol=1e-9)
+    products = term.apply(f, Case("accel", scene, np.eye(3), {}, 1)) - f
+    np.testing.assert_allclose(products * f, np.tile(f.prod(axis=1)[:, None], 3), atol=1e-9)
+    assert np.array_equal(term.told(np.ones((3, 3))), 1 - np.eye(3))
+
+
+def test_dead_zones_and_a_bias_with_the_sign():
+    """A soft one is the hard one less d sign x, which is a bias asymmetry of -2 d."""
+    scene = new_scene(np.random.default_rng(16), tumble, 20.0)
+    x, d = scene.force, np.array([0.5, 1.0, 2.0])
+    soft, hard = (
+        TERMS[n].apply(x, Case("accel", scene, d, {}, 1)) for n in ("dead_zone", "hard_dead_zone")
+    )
+    shifted = TERMS["bias_asymmetry"].apply(x, Case("accel", scene, -2 * d, {}, 1))
+    beyond = np.abs(x) > d
+    assert beyond.any(axis=0).all() and (~beyond).any(axis=0).all()
+    assert not soft[~beyond].any() and not hard[~beyond].any()
+    assert np.array_equal(hard[beyond], x[beyond])
+    np.testing.assert_allclose(soft[beyond], shifted[beyond], atol=1e-12)
 
 
 def test_every_effect_of_the_catalogue_has_a_term_or_is_the_bias():
@@ -154,7 +194,7 @@ def test_an_effect_of_no_size_is_nothing(term):
     np.testing.assert_allclose(y, x, atol=1e-6)
 
 
-@pytest.mark.parametrize("name", ["one/8/gyro.g_sensitivity", "one/30/accel.dead_zone_hard"])
+@pytest.mark.parametrize("name", ["one/8/gyro.g_sensitivity", "one/30/accel.hard_dead_zone"])
 def test_a_case_has_its_size_and_depends_on_its_name_alone(name):
     one, other = (cases.make(name, 1, (1.0, 1.5)) for _ in range(2))
     assert one.part == other.part and one.form == other.form == "undeclared"
@@ -177,6 +217,16 @@ def test_the_size_is_that_of_the_difference_it_makes():
     )
     size = chain.size(TERMS["scale_factor_asymmetry"], case)
     assert size == chain.size_of(error)
+
+
+@pytest.mark.parametrize("sized", [tuned, at_typical])
+def test_no_sensor_is_made_so_quiet_that_it_shows_rounding(sized):
+    """The vertical force of a rover has one sign, so that its bias asymmetry is a bias."""
+    scene = new_scene(np.random.default_rng(17), rover, 60.0)
+    assert scene.force[:, 2].min() > 0
+    chain = Chain("accel", scene, any_sensor(np.random.default_rng(18)).accel, 19)
+    with pytest.raises(NotShown):
+        sized(chain, TERMS["bias_asymmetry"], np.array([0.0, 0.0, 1.0]), {}, 8.0)
 
 
 def test_together_and_pairs_have_their_sizes():

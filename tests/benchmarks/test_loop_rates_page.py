@@ -29,6 +29,7 @@ def test_the_page_says_how_few_cases_it_has(tmp_path):
         "| one log, 8 sigmas, right class, nothing beside | 4 of 4, 1.000 (0.510 to 1.000) |"
         in text
     )
+    assert r"x and \|x\| are the same up to their sign |" in text  # a bare one would end the cell
     with Image.open(image) as opened:
         assert min(opened.size) > 100
     assert loop_rates_page.write(tmp_path / "results.jsonl", tmp_path) == []
