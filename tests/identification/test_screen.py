@@ -18,6 +18,7 @@ from pyimu.identification.search.screen import (
     DRAWS,
     FALSE_ALARM,
     PENALTY,
+    SHARE,
     Projected,
     Screening,
     _gains,
@@ -95,7 +96,8 @@ def test_noise_passes_the_gate_as_often_as_it_says():
     passed = sum(gain_of_best(with_score(projected, s), choices()) > gate for s in scores.T)
     # The gate is itself an order statistic of DRAWS draws, so that what lies above it is
     # beta-distributed.
-    spread = betabinom(tries, FALSE_ALARM * (DRAWS + 1), (1 - FALSE_ALARM) * (DRAWS + 1))
+    chance = SHARE * FALSE_ALARM
+    spread = betabinom(tries, chance * (DRAWS + 1), (1 - chance) * (DRAWS + 1))
     assert spread.ppf(ALARM / 2) <= passed <= spread.ppf(1 - ALARM / 2)
 
 

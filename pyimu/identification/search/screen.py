@@ -1,9 +1,9 @@
 """Selection: how much each candidate explains, how much chance alone would, and which to take.
 
 The gain of an effect is the log-likelihood [nat] that its best coefficients add, less a penalty for
-each, summed over the axes where that is positive. The gate is the 99 % point of the largest gain
-of all candidates when there is nothing to find, from scores drawn with the covariance that the
-data's own Gram matrix gives them (max-T).
+each, summed over the axes where that is positive. The gate is what the largest gain of all
+candidates exceeds by chance alone no oftener than it may, from scores drawn with the covariance
+that the data's own Gram matrix gives them (max-T).
 """
 
 from __future__ import annotations
