@@ -52,6 +52,11 @@ LEAST_SEEN = 0.01
 """Share of a column's power that must not be noise of the reference; of the rest there is nothing
 to be seen."""
 
+SMOOTH = 1e-3
+"""Share of white noise's third differences below which what a reference shows in its quiet is a
+slow motion: noise that ends at a tenth of the sample rate has more, motion that ends at a thirtieth
+less."""
+
 CHANCE = 4.0
 """Standard errors by which a variance may be more than it seems."""
 
@@ -86,11 +91,13 @@ def _variance(fit: Fit, linears: Sequence[Linear]) -> np.ndarray:
 
     It is the least of what must be at least as much. A rate shows it by itself in its quiet; what
     the residual has beyond the sensor's own noise is the difference of two large numbers then, and
-    speaks against that only where it is less by more than chance.
+    speaks only where that quiet is more than it may be by chance.
     """
-    derived = any(t.band_hz is not None for t in fit.trials)
-    seen = np.array([_in_quiet(fit, i) for i in range(3)])
-    beyond = beyond_own(fit, 0.0 if derived else CHANCE)
+    beyond, seen = beyond_own(fit), np.array([_in_quiet(fit, i) for i in range(3)])
+    if all(t.band_hz is None for t in fit.trials):
+        rough = np.mean([_high(t, t.u[:, OWN[t.kind]]) ** 2 / 20 for t in fit.trials], axis=0)
+        shown = (seen <= beyond_own(fit, CHANCE)) & (rough > SMOOTH * seen)
+        beyond = np.where(shown, seen, np.where(rough > SMOOTH * seen, beyond, 0.0))
     return np.minimum.reduce([beyond, seen, _unseen(fit, linears)])
 
 
