@@ -8,7 +8,7 @@ from typing import Any
 
 from pyimu.files import plain
 from pyimu.identification.found import Added
-from pyimu.identification.search.candidates import equivalent
+from pyimu.identification.search.candidates import equivalent, has_columns
 from pyimu.identification.search.forward import (
     LEAST_SHARE,
     MOST_EFFECTS,
@@ -17,6 +17,7 @@ from pyimu.identification.search.forward import (
     Investigation,
     Step,
 )
+from pyimu.model.sensor import candidates
 from pyimu.report.numbers import joined, number
 
 TAKEN_BACK = "makes the attitude worse"
@@ -30,7 +31,8 @@ class Fate:
     ``gain`` [nat] is that of the first look, ``last`` that of the last one.
 
     ``outcome`` is "added", "changed" (a declared value set free), "alternative", "explained",
-    "refused", "dropped" or "not taken up"; ``by`` are the effects that stand for it.
+    "refused", "dropped", "not taken up" or "not looked for"; ``by`` are the effects that stand for
+    it.
     """
 
     sensor: str
@@ -59,7 +61,29 @@ def fates(kind: str, inv: Investigation, added: Iterable[Added]) -> list[Fate]:
         for a in added
         if a.effect not in names
     ]
-    return sorted(out, key=lambda f: -max(f.gain or 0.0, f.last or 0.0))
+    out = sorted(out, key=lambda f: -max(f.gain or 0.0, f.last or 0.0))
+    return out + _not_looked_for(kind, inv, {f.effect for f in out})
+
+
+def _not_looked_for(kind: str, inv: Investigation, told: set[str]) -> list[Fate]:
+    """One entry for each effect that the model lacks and that nothing was asked of."""
+    looked = told | {c.effect for c in inv.first.candidates} | set(inv.before.sensor.values)
+    out = []
+    for e in candidates(kind, looked):
+        lacking = sorted(e.signals(kind) - inv.before.trials[0].known)
+        if e.per_power_on or equivalent(e.name) & set(inv.before.sensor.values):
+            continue
+        reason = (
+            "a random error is not told from the sensor's noise"
+            if e.stochastic
+            else f"the log lacks {joined(lacking)}"
+            if lacking
+            else "no way to look for it in these logs"
+            if not has_columns(e, kind)
+            else "no motion excites it"
+        )
+        out.append(Fate(kind, e.name, None, None, "not looked for", reason))
+    return out
 
 
 def _fate(kind: str, inv: Investigation, name: str, first: Any, last: Any) -> Fate:

@@ -20,16 +20,22 @@ AXES = "xyz"
 
 @dataclass(frozen=True)
 class Scan:
-    """A logarithmic grid of ``points`` values for a coefficient without slope at the identity.
+    """Where identification starts its search for a coefficient that it cannot follow a slope to.
 
-    ``low`` and ``high`` count sample periods ("period"), radians a sample ("rate") or shares of the
-    largest input, of which a limit does most where it is small ("range") and a dead zone where it
-    is large ("zone").
+    Of one without slope at the identity it tries a logarithmic grid of ``points`` values: ``low``
+    and ``high`` count sample periods ("period"), radians a sample ("rate") or shares of the largest
+    input, of which a limit does most where it is small ("range") and a dead zone where it is large
+    ("zone").
+
+    One that is a ``form`` is tried with sizes that are linear beside it: a time constant of
+    ``low`` s to ``high`` times the log's length ("span"), shares of the range of the signal that
+    drives the effect ("swing"), instants ``low`` s apart ("instant"), frequencies of at least
+    ``low`` cycles a log ("line") with the angle at power-on ("phase").
     """
 
     measure: str
-    low: float
-    high: float
+    low: float = 0.0
+    high: float = 1.0
     points: int = 8
 
     def values(self, period: float, largest: float) -> np.ndarray:
@@ -37,6 +43,19 @@ class Scan:
         sizes = {"period": period, "rate": 1.0 / period, "range": largest, "zone": largest}
         unit = sizes[self.measure]
         return unit * np.geomspace(self.low, self.high, self.points)
+
+    def forms(self, length: float, swing: float) -> np.ndarray:
+        """The values of a form to try in a log of this length [s] whose driving signal has this
+        range.
+        """
+        if self.measure == "instant":
+            return np.arange(self.low, length, self.low)
+        low, high = (
+            (self.low, self.high * length)
+            if self.measure == "span"
+            else (self.low * swing, self.high * swing)
+        )
+        return np.geomspace(low, high, self.points) if 0.0 < low < high else np.zeros(0)
 
 
 @dataclass(frozen=True)
@@ -48,7 +67,7 @@ class Parameter:
     ``reference`` marks a coefficient that only fixes an origin (a reference temperature): it is
     never estimated. ``form`` marks one that shapes an effect whose size others give (a time
     constant, an instant): it acts only where they do. ``known`` is the one value, beside zero,
-    that it can have. ``scan`` says where identification starts its search where the identity has no
+    that it can have. ``scan`` says where identification starts its search where it has no
     slope to follow. ``reads`` marks one that is read off the raw samples: the level at which they
     stop ("ceiling"), the one below which they are zero ("threshold"), or the step on whose
     multiples they lie ("step"). ``density`` marks the root of a white noise's density, which a data
@@ -71,6 +90,11 @@ class Parameter:
     density: bool = False
     corner: bool = False
     columns: tuple[str, ...] = ()
+
+    @property
+    def sought(self) -> bool:
+        """Whether it must be scanned for because the identity has no slope against it."""
+        return self.scan is not None and not self.form
 
     @cached_property
     def indices(self) -> tuple[tuple[int, ...], ...]:

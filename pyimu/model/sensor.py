@@ -116,7 +116,7 @@ class Sensor:
 
         It has no slope there.
         """
-        found = [(n, p) for n, p in self.effect(name).parameters.items() if p.scan]
+        found = [(n, p) for n, p in self.effect(name).parameters.items() if p.sought]
         return bool(found) and all(np.all(self.values[name][n] == p.start) for n, p in found)
 
     def acts(self, name: str) -> bool:

@@ -262,7 +262,7 @@ DRIVEN = [
 def test_each_effect_has_a_picture_of_what_drives_it(investigation, name):
     inv = investigation
     values = {
-        n: p.scan.values(0.04, 0.7)[4] if p.scan else p.start + 0.01
+        n: p.scan.values(0.04, 0.7)[4] if p.sought else p.start + 0.01
         for n, p in CATALOGUE[name].parameters.items()
     }
     values = {

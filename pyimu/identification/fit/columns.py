@@ -25,14 +25,17 @@ from pyimu.identification.fit.response import (
     before_dynamics,
     behind_dynamics,
     dynamics,
+    is_driven,
     memoryless,
     predict,
     remembers,
     through_dynamics,
+    with_memory,
 )
 from pyimu.identification.fit.trial import Trial
 from pyimu.model.arguments import Parameter
 from pyimu.model.catalogue import CATALOGUE, POWER_ON
+from pyimu.model.chain import Slot
 from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS
@@ -165,8 +168,9 @@ def linearise(
     rows = None if trial.reduction is None else trial.rows(sensor, state.bias)
     u = reference_input(trial, state) if rows is None else rows.u
     own, sensor = OWN[trial.kind], in_log(sensor, state)
-    moved = behind_dynamics(sensor, u, trial.segments, trial.h)
     rest = after_dynamics(sensor)
+    moved = behind_dynamics(sensor, u, trial.segments, trial.h)
+    moved = with_memory(rest, moved, trial.segments, trial.h)
     response = memoryless(rest.chain)
     y, slope, entries = response(moved, rest.p, trial.h)
     if remembers(sensor):
@@ -174,7 +178,7 @@ def linearise(
     out = Regressors(trial)
     for e, (axis, slot) in enumerate(zip(response.axis, response.slot, strict=True)):
         s = rest.slots[slot]
-        if coefficient_of(s) in wanted:
+        if coefficient_of(s) in wanted and not _remembered(s, sensor.kind):
             out.add(coefficient_of(s), int(axis), entries[:, e])
         if (s.effect, s.parameter) == POWER_ON:
             out.add(LogBias(trial.name, s.index[0]), int(axis), entries[:, e])
@@ -182,7 +186,7 @@ def linearise(
     _clock_columns(out, sensor, trial, state, u, slope)
     _thermometer_columns(out, rest, trial, moved)
     _motion_columns(out, sensor, trial, u, slope, wanted)
-    _dynamics_columns(out, sensor, trial, u, wanted)
+    _stepped_columns(out, sensor, trial, u, wanted)
     for function in extra:
         function(trial, u, y, out.add)
     if rows is not None:
@@ -286,7 +290,7 @@ def _motion_columns(
     if not any(coefficient_of(s) in wanted for s in chain.slots):
         return
     before = memoryless(chain.chain)
-    entries = before(u, chain.p, trial.h)[2]
+    entries = before(with_memory(chain, u, trial.segments, trial.h), chain.p, trial.h)[2]
     for number, s in enumerate(chain.slots):
         of_slot = np.flatnonzero(before.slot == number)
         if coefficient_of(s) not in wanted or not len(of_slot):
@@ -300,15 +304,22 @@ def _motion_columns(
             out.add(coefficient_of(s), i, change[:, i])
 
 
-def _dynamics_columns(
+def _remembered(s: Slot, kind: str) -> bool:
+    """Whether a coefficient shapes what its effect remembers."""
+    return s.definition.form and is_driven(CATALOGUE[s.effect], kind)
+
+
+def _stepped_columns(
     out: Regressors, sensor: Sensor, trial: Trial, u: np.ndarray, wanted: frozenset[Key]
 ) -> None:
-    """Slopes against the coefficients of dynamics that are switched on, by central differences,
-    one-sided at a bound.
+    """Slopes against the coefficients of dynamics that are switched on, and of what shapes a
+    memory, by central differences, one-sided at a bound.
     """
-    chain = dynamics(sensor)
-    for s, value in zip(chain.slots, chain.p, strict=True):
-        if coefficient_of(s) not in wanted or sensor.is_off(s.effect):
+    filters = {e.name for e in dynamics(sensor).effects}
+    for s, value in zip(sensor.slots, sensor.p, strict=True):
+        shapes = _remembered(s, sensor.kind) and sensor.acts(s.effect)
+        switched_on = s.effect in filters and not sensor.is_off(s.effect)
+        if coefficient_of(s) not in wanted or not (shapes or switched_on):
             continue
         step = 1e-3 * max(abs(value), 1e-3 * trial.h)
         ends = _clipped(s.definition, value + step), _clipped(s.definition, value - step)

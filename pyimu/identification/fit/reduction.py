@@ -21,6 +21,7 @@ from pyimu.identification.fit.response import (
     behind_dynamics,
     memoryless,
     predict,
+    with_memory,
 )
 from pyimu.model.kinds import OWN
 from pyimu.model.sensor import Sensor
@@ -117,7 +118,7 @@ def compensated(
     response = memoryless(rest.chain)
     u[:, own] = y
     for _ in range(ROUNDS):
-        moved = behind_dynamics(sensor, u, segments, h)
+        moved = with_memory(rest, behind_dynamics(sensor, u, segments, h), segments, h)
         back = _inverse(response(moved, rest.p, h)[1])
         change = np.einsum("nij,nj->ni", back, y - predict(sensor, u, segments, h))
         u[:, own] += change

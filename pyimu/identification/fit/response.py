@@ -2,8 +2,9 @@
 
 The dynamics of a chain are linear and time-invariant, so they act by their impulse response; what
 comes before and what follows has no memory once the noise is off, so casadi evaluates it, and its
-Jacobian, over all samples together. A chain with an effect that remembers in another way is
-stepped through.
+Jacobian, over all samples together. What an effect remembers of other signals than the sensor's own
+follows from these alone: it is stepped through by itself and taken as one more input. A chain with
+an effect that remembers in another way is stepped through as a whole.
 """
 
 from __future__ import annotations
@@ -26,8 +27,59 @@ LONGEST_RESPONSE = 1 << 14
 
 
 def remembers(sensor: Sensor) -> bool:
-    """Whether some effect's memory is more than a filter's (rounding left out)."""
-    return any(e.remembers and not is_step(e, sensor.kind) for e in sensor.effects)
+    """Whether some effect's memory of the sensor's own signal is more than a filter's (rounding
+    left out).
+    """
+    return any(
+        e.remembers and not is_step(e, sensor.kind) and not is_driven(e, sensor.kind)
+        for e in sensor.effects
+    )
+
+
+@cache
+def is_driven(e: Effect, kind: str) -> bool:
+    """Whether an effect remembers, and what it remembers follows from other signals than the
+    sensor's own.
+    """
+    if not e.remembers:
+        return False
+    chain = chain_of(kind, (e,))
+    s = ca.SX.sym("s", len(chain.start))
+    after = chain.step(s, chain.u, chain.p, np.zeros(len(chain.noise)), chain.h)[0]
+    return not ca.depends_on(after, chain.x)
+
+
+def with_memory(
+    rest: Sensor, u: np.ndarray, segments: list[tuple[int, int]], h: float
+) -> np.ndarray:
+    """Inputs (n, N_INPUT + k) of what is ``memoryless``: with the memory that the chain's effects
+    have of other signals as it stands before each sample, each segment from the start.
+    """
+    chain = rest.chain
+    if not has_memory(chain):
+        return u
+    out, step = np.hstack([u, np.tile(chain.start, (len(u), 1))]), _memory(chain)
+    for a, b in segments:
+        none = np.zeros((b - a, 0))
+        before = np.empty((b - a, len(chain.start)))
+        step_through(step, chain.start.copy(), u[a:b], rest.p, none, np.array([h]), before)
+        out[a:b, u.shape[1] :] = before
+    return out
+
+
+def has_memory(chain: Chain) -> bool:
+    """Whether some effect of a chain remembers other signals."""
+    return any(is_driven(e, chain.kind) for e in chain.effects)
+
+
+@lru_cache(maxsize=32)
+def _memory(chain: Chain) -> ca.Function:
+    """The step of a chain's memory alone, whose output is the memory before it."""
+    s, w = ca.SX.sym("s", len(chain.start)), np.zeros(len(chain.noise))
+    after = chain.step(s, chain.u, chain.p, w, chain.h)[0]
+    return ca.Function(
+        "memory", [s, chain.u, chain.p, ca.SX.sym("w", 0), chain.h], [ca.densify(after), s]
+    )
 
 
 def before_dynamics(sensor: Sensor) -> Sensor:
@@ -110,36 +162,39 @@ def behind_dynamics(
     own, before = OWN[sensor.kind], before_dynamics(sensor)
     out = np.array(u)
     if before.effects:
-        out[:, own] = memoryless(before.chain).output(u, before.p, h)
+        known = with_memory(before, u, segments, h)
+        out[:, own] = memoryless(before.chain).output(known, before.p, h)
     out[:, own] = through_dynamics(sensor, out[:, own], segments, h)
     return out
 
 
 class Memoryless:
     """A memoryless part of a chain with its Jacobians, for one structure (which effects, not which
-    values).
+    values). Its inputs are those ``with_memory``.
     """
 
     def __init__(self, chain: Chain) -> None:
-        y = chain.step(chain.start, chain.u, chain.p, np.zeros(len(chain.noise)), chain.h)[1]
+        s = ca.SX.sym("s", len(chain.start)) if has_memory(chain) else chain.start
+        y = chain.step(s, chain.u, chain.p, np.zeros(len(chain.noise)), chain.h)[1]
+        u = ca.vertcat(chain.u, s) if has_memory(chain) else chain.u
         fixed = ca.vertcat(chain.p, chain.h)
         jp = ca.jacobian(y, chain.p)
         self.axis, self.slot = (np.array(i, dtype=int) for i in jp.sparsity().get_triplet())
         outputs = ca.vertcat(y, ca.vec(ca.densify(ca.jacobian(y, chain.x)).T), *jp.nonzeros())
-        self._all = ca.Function("memoryless", [chain.u, fixed], [ca.densify(outputs)])
-        self._output = ca.Function("output", [chain.u, fixed], [ca.densify(y)])
+        self._all = ca.Function("memoryless", [u, fixed], [ca.densify(outputs)])
+        self._output = ca.Function("output", [u, fixed], [ca.densify(y)])
         slopes = [
             ca.jacobian(entry, chain.x[int(i)])
             for entry, i in zip(jp.nonzeros(), self.axis, strict=True)
         ]
         self._slopes = ca.Function(
-            "slopes", [chain.u, fixed], [ca.densify(ca.vertcat(ca.SX(0, 1), *slopes))]
+            "slopes", [u, fixed], [ca.densify(ca.vertcat(ca.SX(0, 1), *slopes))]
         )
 
     def __call__(
         self, u: np.ndarray, p: np.ndarray, h: float
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Output (n, 3) for inputs (n, N_INPUT), and its slopes.
+        """Output (n, 3) for inputs (n, N_INPUT + k), and its slopes.
 
         Against the own input (n, 3, 3), and dy/dp (n, entries).
 
@@ -177,7 +232,8 @@ def predict(sensor: Sensor, u: np.ndarray, segments: list[tuple[int, int]], h: f
             h,
         )
     rest = after_dynamics(sensor)
-    return memoryless(rest.chain).output(behind_dynamics(sensor, u, segments, h), rest.p, h)
+    moved = with_memory(rest, behind_dynamics(sensor, u, segments, h), segments, h)
+    return memoryless(rest.chain).output(moved, rest.p, h)
 
 
 def _stepped(

@@ -1,4 +1,5 @@
-"""Temperature and supply without their own sensors' noise and steps.
+"""What a log tells of a sensor's surroundings: temperature and supply without their own sensors'
+noise and steps, and the rates of the Earth and of the way over it.
 
 A coefficient times the noise of a thermometer is a noise of the model that the sensor never had; it
 meets the same noise in the thermal columns, and chance grows to an effect.
@@ -6,11 +7,17 @@ meets the same noise in the thermal columns, and chance grows to an effect.
 
 from __future__ import annotations
 
+from functools import cache
+
+import casadi as ca
 import numpy as np
 
+from pyimu.block.vectorised import over_rows
 from pyimu.characterization.temperature.averages import Averages
 from pyimu.characterization.temperature.thermometer import smoothed
-from pyimu.recording.recording import Recording
+from pyimu.model.signals import COLUMNS, SIGNALS
+from pyimu.recording.recording import Recording, filled
+from pyimu.recording.reference.rate import Reference
 
 INTERVAL = 1.0
 """s; means over so long are smoothed: surroundings change in seconds, not in samples."""
@@ -49,3 +56,47 @@ def _between(middle: np.ndarray, level: np.ndarray, time: np.ndarray) -> np.ndar
     left = np.clip(np.searchsorted(middle, time) - 1, 0, len(middle) - 2)
     slope = np.diff(level) / np.diff(middle)
     return level[left] + slope[left] * (time - middle[left])
+
+
+PLACE = ("earth_rate", "transport_rate")
+"""Signals that follow from where the body is, how it lies and how it moves over the Earth."""
+
+
+def fill_place(
+    u: np.ndarray, recording: Recording, reference: Reference, latitude: float | None
+) -> frozenset[str]:
+    """Fill the rates of the Earth and of the way over it in where attitude, latitude and velocity
+    are in the log, and give the names of those that a reference does not hold already.
+
+    A rate that was differentiated holds the Earth's where the latitude is known, and never the
+    way's: an attitude is one against east, north and up.
+    """
+    found = set()
+    for name in PLACE:
+        values = [_of_place(recording, part, latitude) for part in SIGNALS[name].of]
+        if any(v is None for v in values):
+            continue
+        u[:, COLUMNS[name]] = over_rows(_follows(name), np.hstack(values), np.zeros(0))
+        if name != "earth_rate" or reference.kind == "rate" or not reference.earth_rate:
+            found.add(name)
+    return frozenset(found)
+
+
+def _of_place(recording: Recording, signal: str, latitude: float | None) -> np.ndarray | None:
+    """A signal (n, k) of the log with its gaps filled; None where nothing is known of it."""
+    if signal == "latitude" and latitude is not None:
+        return np.full((len(recording.time), 1), latitude)
+    values = getattr(recording, SIGNALS[signal].group)
+    if values is None:
+        return None
+    values = values.reshape(len(values), -1)
+    known = np.isfinite(values).any(axis=0).all()
+    return filled(recording.time, values) if known else None
+
+
+@cache
+def _follows(name: str) -> ca.Function:
+    """A derived signal without memory as a function of one row of what it follows from."""
+    parts = [ca.SX.sym(n, SIGNALS[n].size) for n in SIGNALS[name].of]
+    value = SIGNALS[name].advance(ca.SX(0, 1), ca.SX(1), ca.SX(1), *parts)[0]
+    return ca.Function(name, [ca.vertcat(*parts), ca.SX.sym("none", 0)], [ca.densify(value)])

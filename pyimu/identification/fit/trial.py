@@ -15,7 +15,7 @@ from pyimu.errors import Finding
 from pyimu.identification.fit.band import Band
 from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.reduction import Reduction, Rows
-from pyimu.identification.fit.surroundings import without_noise
+from pyimu.identification.fit.surroundings import fill_place, without_noise
 from pyimu.model.kinds import OWN
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS, SIGNALS, START, SURROUNDINGS
@@ -178,6 +178,7 @@ def gyro_trial(recording: Recording, latitude: float | None = None) -> Trial | N
     u, known = environment(recording)
     u[:, OWN["gyro"]] = np.where(np.isfinite(reference.rate), reference.rate, 0.0)
     known = known | {"rate"} | _slope(u, recording, "rate", "angular_acceleration")
+    known = known | fill_place(u, recording, reference, latitude)
     if reference.kind == "static":
         # What an accelerometer at rest shows beside its mean is its own noise, not a force.
         u[:, OWN["accel"]] = u[:, OWN["accel"]].mean(axis=0)

@@ -14,6 +14,7 @@ from pyimu.identification.fit.keys import Key, Scanned, coefficients_of
 from pyimu.identification.fit.normal import Normal
 from pyimu.identification.fit.response import is_step, predict
 from pyimu.identification.fit.trial import Trial
+from pyimu.identification.search.forms import Form, can_be_formed
 from pyimu.model.arguments import Parameter
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.effect import Effect
@@ -61,7 +62,7 @@ class Group:
             (
                 p.scan.measure
                 for p in CATALOGUE[self.effect].parameters.values()
-                if p.scan and self.choices[0].value
+                if p.sought and self.choices[0].value
             ),
             None,
         )
@@ -94,14 +95,16 @@ def absent(fit: Fit) -> list[Effect]:
 def has_columns(e: Effect, kind: str) -> bool:
     """Whether regression can find an effect.
 
-    No noise, no memory beyond a filter's, no staircase, no form that nothing scans for.
+    No noise, no staircase, and no form, nor a memory beyond a filter's, that cannot be tried.
     """
-    return not (
-        e.stochastic
-        or e.remembers
-        or is_step(e, kind)
-        or any(p.form and not p.scan for p in e.parameters.values())
-    )
+    if e.stochastic or is_step(e, kind):
+        return False
+    return can_be_formed(e, kind) or not (e.remembers or has_form(e))
+
+
+def has_form(e: Effect) -> bool:
+    """Whether coefficients of an effect only shape it."""
+    return any(p.form for p in e.parameters.values())
 
 
 def contestable(fit: Fit, declared: Iterable[str]) -> list[Effect]:
@@ -117,13 +120,14 @@ def contestable(fit: Fit, declared: Iterable[str]) -> list[Effect]:
         and not fit.sensor.is_off(e.name)
         and not e.per_power_on
         and has_columns(e, fit.sensor.kind)
+        and not has_form(e)
         and not coefficients_of(fit.sensor, e.name) & fit.free
     ]
 
 
 def scanned(effect: Effect) -> Parameter | None:
     """The coefficient of an effect that must be scanned for, if any."""
-    return next((p for p in effect.parameters.values() if p.scan), None)
+    return next((p for p in effect.parameters.values() if p.sought), None)
 
 
 def scan_columns(fit: Fit, effects: Iterable[Effect]) -> Callable:
@@ -131,7 +135,7 @@ def scan_columns(fit: Fit, effects: Iterable[Effect]) -> Callable:
 
     What each scanned value of each effect would change in the output of the fitted model.
     """
-    found = [(e, n, p) for e in effects for n, p in e.parameters.items() if p.scan]
+    found = [(e, n, p) for e in effects for n, p in e.parameters.items() if p.sought]
 
     def add_all(trial: Trial, u: np.ndarray, y: np.ndarray, add: Callable) -> None:
         if trial.reference == "static" or trial.reduction is not None:
@@ -225,18 +229,20 @@ def equivalent(name: str) -> set[str]:
     return {e.name for e in CATALOGUE.values() if family and e.family == family} - {name}
 
 
-def with_start(sensor: Sensor, group_values: dict[tuple, float], effect: str) -> Sensor:
-    """Sensor with an effect put in, its scanned coefficients at the values given by index, all else
-    at the identity.
+def with_start(
+    sensor: Sensor, group_values: dict[tuple, float], effect: str, form: Form | None = None
+) -> Sensor:
+    """Sensor with an effect put in, its scanned coefficients at the values given by index, its
+    ``form`` as it was found, all else at the identity.
 
     An effect that is there already keeps its values.
     """
     if effect in sensor.values and not sensor.is_off(effect):
         return sensor
     e = CATALOGUE[effect]
-    name = next((n for n, p in e.parameters.items() if p.scan), None)
+    name = next((n for n, p in e.parameters.items() if p.sought), None)
     if name is None:
-        return sensor.with_values(effect)
+        return sensor.with_values(effect, **({} if form is None else form.values))
     array = np.array(e.start()[name])
     for index, value in group_values.items():
         array[index] = value

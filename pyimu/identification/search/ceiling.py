@@ -19,6 +19,15 @@ from pyimu.model.sensor import Sensor
 
 CEILING = "ceiling"
 
+EQUAL = 1e-9
+"""Relative difference below which samples are the same: files round them."""
+
+NEXT = 50
+"""Samples next below the largest: where two of them are equal, the samples are rounded."""
+
+LEAST_EQUAL = 3
+"""Samples that are equal where no others are, and so are no chance."""
+
 LEAST_AT_LEVEL = 5
 """Fewer samples beyond a level do not show that there is one."""
 
@@ -44,7 +53,8 @@ def _levels(sensor: Sensor) -> tuple[np.ndarray, Sensor]:
 def stops_there(fitted: Fit, axis: int) -> bool:
     """Whether the samples really stop at the level of an axis while the model's input is beyond it.
 
-    Few lie above, and most lie there. A reference that jumps leaves them far below.
+    Few lie above, and most lie there. A reference that jumps leaves them far below. Where the input
+    is hardly ever beyond it, samples must lie piled up at the largest of all.
     """
     levels, unlimited = _levels(fitted.sensor)
     level, beyond, over, under = levels[axis], 0, 0, 0
@@ -58,7 +68,30 @@ def stops_there(fitted: Fit, axis: int) -> bool:
             beyond += int(outside.sum())
             over += int((outside & (y[a:b] > most)).sum())
             under += int((outside & (y[a:b] < least)).sum())
-    return beyond >= LEAST_AT_LEVEL and over < 0.2 * beyond and under < 0.5 * beyond
+    if beyond < LEAST_AT_LEVEL:
+        return pile(fitted, axis, level) is not None
+    return over < 0.2 * beyond and under < 0.5 * beyond
+
+
+def pile(fitted: Fit, axis: int, level: float) -> float | None:
+    """The largest size of the samples of an axis, where so many lie exactly there that the output
+    stops, and where it stops close to a fitted ``level``; else None.
+
+    Noise and motion spread samples evenly over so small a range as lies below the largest: of as
+    many again in the next range as wide as one standard deviation, only some would be equal.
+    """
+    rows = [np.abs(t.y[a:b, axis]) for t in fitted.trials for a, b in t.row_segments]
+    y = np.concatenate(rows) if rows else np.zeros(0)
+    if not len(y) or any(t.band_hz is not None or t.reduction is not None for t in fitted.trials):
+        return None
+    top = float(y.max())
+    noise = max(float(rest_noise(t)[axis]) for t in fitted.trials)
+    there, near = int(np.sum(y >= top * (1.0 - EQUAL))), int(np.sum(y > top - noise))
+    below = np.sort(y[y < top * (1.0 - EQUAL)])[-NEXT:]
+    rounded = len(np.unique(below)) < len(below)
+    least = LEAST_AT_LEVEL if rounded else LEAST_EQUAL
+    stops = there >= least and there > near - there
+    return top if stops and abs(top - level) < 4.0 * noise + 0.02 * level else None
 
 
 def at_samples(fitted: Fit) -> Fit:
@@ -76,6 +109,10 @@ def at_samples(fitted: Fit) -> Fit:
         found = [(float(np.median(v)), _median_std(v)) for v in joined if len(v) >= LEAST_AT_LEVEL]
         if found:
             levels[i], std[Coefficient(effect, parameter, (i,))] = max(found)
+            continue
+        top = pile(fitted, i, levels[i])
+        if top is not None:
+            levels[i], std[Coefficient(effect, parameter, (i,))] = top, EQUAL * top
     sensor = fitted.sensor.with_values(effect, **{parameter: levels})
     free = frozenset(k for k in fitted.free if k.effect != effect)
     return fit(replace(fitted, sensor=sensor, free=free, std={**fitted.std, **std}).with_noise())

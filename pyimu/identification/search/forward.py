@@ -30,6 +30,7 @@ from pyimu.identification.search.ceiling import (
     without_lost,
 )
 from pyimu.identification.search.confirm import LEAST_OF_EXCESS, SPEAKS, Evidence, evidence
+from pyimu.identification.search.instants import at_instants
 from pyimu.identification.search.screen import (
     PENALTY,
     Screened,
@@ -262,7 +263,7 @@ def refine(current: Fit, c: Screened) -> Refined:
     Its gain is taken with the noise fitted anew, which a missing effect had disguised, and
     corrected for the scatter of the scores at the fitted values.
     """
-    sensor = with_start(current.sensor, c.values, c.effect)
+    sensor = with_start(current.sensor, c.values, c.effect, c.form)
     fitted, normal = fit_and_normal(
         replace(current, sensor=sensor, free=current.free | keys_of(c)).with_noise()
     )
@@ -274,7 +275,8 @@ def refine(current: Fit, c: Screened) -> Refined:
     spread = fitted_dispersion(normal, keys_of(c))
     fitted = at_samples(fitted) if is_ceiling(sensor, c.effect) else fitted
     fitted = at_threshold(fitted) if is_threshold(sensor, c.effect) else fitted
-    gain = advantage(fitted, current) / spread - PENALTY * len(keys_of(c))
+    fitted = at_instants(fitted, c.effect)
+    gain = advantage(fitted, current) / spread - PENALTY * len(keys_of(c)) - c.toll
     return Refined(c, fitted, gain if needed else -np.inf, spread, normal)
 
 

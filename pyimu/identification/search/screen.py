@@ -26,7 +26,9 @@ from pyimu.identification.search.candidates import (
     groups,
     scan_columns,
     scanned,
+    with_start,
 )
+from pyimu.identification.search.forms import Form, form_of, forms
 from pyimu.model.sensor import Sensor
 
 PENALTY = 3.0
@@ -43,8 +45,8 @@ VISIBLE = 6.0
 
 @dataclass(frozen=True)
 class Screened:
-    """Gain of one effect before any correction, the groups that take part, the scanned values to
-    start from.
+    """Gain of one effect before any correction, the groups that take part, the scanned values and
+    the form to start from.
     """
 
     effect: str
@@ -53,6 +55,12 @@ class Screened:
     values: dict[tuple, float]
     smallest_visible: float
     inseparable_from: tuple[str, ...] = ()
+    form: Form | None = None
+
+    @property
+    def toll(self) -> float:
+        """What the choice of its form is charged [nat]."""
+        return 0.0 if self.form is None else self.form.toll
 
     def only(self, kept: tuple[Group, ...]) -> Screened:
         """The same effect on the axes of some of its groups."""
@@ -114,9 +122,14 @@ def screen(fit: Fit, declared: Iterable[str], seed: int = 1) -> Screening:
     over the fitted model.
     """
     new, held = absent(fit), contestable(fit, declared)
+    found_forms = forms(fit, new, PENALTY)
+    new = [e for e in new if not form_of(e) or e.name in found_forms]
+    scans = scan_columns(fit, new)
+    for name, form in found_forms.items():
+        fit = replace(fit, sensor=with_start(fit.sensor, {}, name, form))
     effects = new + held
     linear = [e.name for e in new if not scanned(e)] + [e.name for e in held]
-    normal = with_prior(equations(fit, lambda f: f.linearise(linear, [scan_columns(f, new)])), fit)
+    normal = with_prior(equations(fit, lambda f: f.linearise(linear, [scans])), fit)
     whole = any(t.reduction is not None for t in fit.trials)
     all_groups = groups(normal, fit.sensor, effects, whole)
     taken = sorted({c for g in all_groups for choice in g.choices for c in choice.columns})
@@ -126,8 +139,16 @@ def screen(fit: Fit, declared: Iterable[str], seed: int = 1) -> Screening:
     moved = [replace(g, choices=tuple(c.at(place) for c in g.choices)) for g in all_groups]
     gate = _gate(projected, moved, np.random.default_rng(seed))
     by_effect = {e.name: [g for g in moved if g.effect == e.name] for e in effects}
-    found = tuple(_screened(name, gs, projected) for name, gs in by_effect.items() if gs)
+    found = tuple(
+        _with_form(_screened(name, gs, projected), found_forms.get(name))
+        for name, gs in by_effect.items()
+        if gs
+    )
     return Screening(tuple(_with_twins(found, by_effect, projected)), gate)
+
+
+def _with_form(one: Screened, form: Form | None) -> Screened:
+    return one if form is None else replace(one, gain=one.gain - form.toll, form=form)
 
 
 def _gains(score: np.ndarray, choice: Choice, gram: np.ndarray) -> np.ndarray:
@@ -281,5 +302,6 @@ def _alike(a: list[int], b: list[int], correlation: np.ndarray, limit: float = 0
 
 
 def keys_of(screened: Screened) -> frozenset[Key]:
-    """Coefficients that an effect brings in: those of the groups that take part."""
-    return frozenset(k for g in screened.groups for k in g.keys)
+    """Coefficients that an effect brings in: of the groups that take part, and of its form."""
+    keys = frozenset(k for g in screened.groups for k in g.keys)
+    return keys if screened.form is None else keys | screened.form.beside(keys)

@@ -2,7 +2,7 @@
 
 import casadi as ca
 
-from pyimu.model.effect import Environment, Law, Parameter, effect
+from pyimu.model.effect import Environment, Law, Parameter, Scan, effect
 
 EVENTS = 4
 """Steps of the bias that one sensor can have."""
@@ -14,7 +14,9 @@ EVENTS = 4
 def warm_up(
     x,
     A: Parameter("{y}", description="bias at power-on that dies away"),
-    tau: Parameter("s", (), 300.0, "time constant", form=True, minimum=1e-6),
+    tau: Parameter(
+        "s", (), 300.0, "time constant", form=True, minimum=1e-6, scan=Scan("span", 1.0, 1.0, 14)
+    ),
     t: Environment("time"),
 ):
     return x + A * ca.exp(-t / tau)
@@ -58,7 +60,13 @@ def bias_step(
         description="change of axis i's bias at event k",
         columns=tuple(f"event {k + 1}" for k in range(EVENTS)),
     ),
-    t0: Parameter("s", (EVENTS,), description="time of event k since power-on", form=True),
+    t0: Parameter(
+        "s",
+        (EVENTS,),
+        description="time of event k since power-on",
+        form=True,
+        scan=Scan("instant", 1.0),
+    ),
     t: Environment("time"),
 ):
     return x + A @ (t >= t0)

@@ -4,7 +4,16 @@ it.
 
 import casadi as ca
 
-from pyimu.model.effect import Environment, Law, Noise, Parameter, SamplePeriod, State, effect
+from pyimu.model.effect import (
+    Environment,
+    Law,
+    Noise,
+    Parameter,
+    SamplePeriod,
+    Scan,
+    State,
+    effect,
+)
 
 POLES = 6
 """Gauss-Markov processes that make up ``bias_instability``, evenly in the logarithm from ``f_low``
@@ -286,8 +295,8 @@ def rate_dependent_noise(
 def vibration_line(
     x,
     A: Parameter("{y}", description="amplitude"),
-    f0: Parameter("Hz", (), 20.0, "frequency", form=True, minimum=0.0),
-    phase: Parameter("rad", description="phase at power-on", form=True),
+    f0: Parameter("Hz", (), 20.0, "frequency", form=True, minimum=0.0, scan=Scan("line", 8.0)),
+    phase: Parameter("rad", description="phase at power-on", form=True, scan=Scan("phase")),
     t: Environment("time"),
 ):
     return x + A * ca.sin(2 * ca.pi * f0 * t + phase)

@@ -2,7 +2,7 @@
 
 import casadi as ca
 
-from pyimu.model.effect import Confound, Environment, Parameter, State, effect
+from pyimu.model.effect import Confound, Environment, Parameter, Scan, State, effect
 
 ORIGIN = Parameter(
     "degC", (), 25.0, "temperature at which the thermal error is zero", reference=True
@@ -97,7 +97,15 @@ def thermal_hysteresis(
     kh: Parameter(
         "{y}/K", description="bias per kelvin by which the play lags behind the temperature"
     ),
-    width: Parameter("K", (), 1.0, "half width of the play", form=True, minimum=0.0),
+    width: Parameter(
+        "K",
+        (),
+        1.0,
+        "half width of the play",
+        form=True,
+        minimum=0.0,
+        scan=Scan("swing", 0.02, 0.45, 10),
+    ),
     T: Environment("temperature"),
     played: State("degC", (), start="T"),
 ):

@@ -1,0 +1,94 @@
+"""Forms of effects that no slope leads to: found in a residual with known noise, and charged for
+the choice.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from loop_cases import inputs, noise, trial
+
+from pyimu.identification.fit.fit import begin
+from pyimu.identification.fit.keys import Coefficient
+from pyimu.identification.fit.maximum_likelihood import fit
+from pyimu.identification.fit.response import is_driven, predict, with_memory
+from pyimu.identification.search.forms import form_of, forms
+from pyimu.identification.search.forward import refine
+from pyimu.identification.search.screen import PENALTY, screen
+from pyimu.model.catalogue import CATALOGUE
+from pyimu.model.kinds import OWN
+from pyimu.model.sensor import Sensor
+from pyimu.model.signals import COLUMNS
+
+R = 1e-4
+H = 0.04
+ERRORS = 4.0
+"""Standard errors; one in 16,000 is farther off."""
+
+CASES = {
+    "warm_up": {"A": [0.02, 0.0, -0.02], "tau": 30.0},
+    "bias_step": {"A": np.c_[[0.01, 0.0, -0.01], np.zeros((3, 3))], "t0": [63.4, 0, 0, 0]},
+    "thermal_hysteresis": {"kh": [0.01, -0.01, 0.0], "width": 2.0},
+    "vibration_line": {"A": [0.004, 0.0, 0.003], "f0": 7.123, "phase": [1.0, 0.0, -2.0]},
+}
+SCANNED = {n: form_of(CATALOGUE[n]) for n in CASES}
+
+
+def world(name: str = "", seed: int = 3):
+    """A fitted trial of three minutes whose sensor has an effect that its model lacks."""
+    rng, time = np.random.default_rng(seed), np.arange(4500) * H
+    u = inputs(rng, time)
+    u[:, COLUMNS["time"].start] = time
+    y = u[:, OWN["gyro"]]
+    if name:
+        y = predict(Sensor("gyro", {name: CASES[name]}), u, [(0, len(u))], H)
+    y = y + noise(rng, time, R, 0.0)
+    known = frozenset({"rate", "specific_force", "temperature", "time"})
+    return fit(begin(Sensor("gyro", {}), frozenset(), [trial(time, y, u, known=known)]))
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_an_effect_is_found_with_its_form(name):
+    seen = {c.effect: c for c in screen(world(name), ()).candidates}
+    best = max(seen.values(), key=lambda c: c.gain)
+    assert best.effect == name
+    refined = refine(world(name), seen[name])
+    parameter = SCANNED[name]
+    found = np.ravel(refined.fit.sensor.values[name][parameter])[0]
+    true = np.ravel(CASES[name][parameter])[0]
+    index = (0,) if CATALOGUE[name].parameters[parameter].shape else ()
+    assert abs(found - true) < ERRORS * refined.fit.std[Coefficient(name, parameter, index)]
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_a_form_costs_more_than_chance_makes_of_it(name):
+    """With nothing to find, one log in a hundred at the most gains so much."""
+    passed = 0
+    for seed in range(12):
+        fitted = world(seed=seed)
+        found = {c.effect: c for c in screen(fitted, ()).candidates}
+        passed += found[name].gain > -np.log(0.01)
+    assert passed <= 1  # P(2 or more of 12 at 1 %) is 0.6 %
+
+
+def test_what_follows_from_other_signals_is_remembered_alone():
+    fitted = world()
+    (t,) = fitted.trials
+    sensor = Sensor("gyro", {"thermal_hysteresis": CASES["thermal_hysteresis"]})
+    assert is_driven(CATALOGUE["thermal_hysteresis"], "gyro")
+    assert not is_driven(CATALOGUE["angle_quantization"], "gyro")
+    assert with_memory(sensor, t.u, t.segments, H).shape[1] > t.u.shape[1]
+    kh, width = 0.01, 2.0
+    played, at = [], t.u[0, COLUMNS["temperature"].start]
+    for now in t.u[:, COLUMNS["temperature"].start]:
+        at = max(now - width, min(now + width, at))
+        played.append(at - now)
+    change = predict(sensor, t.u, t.segments, H) - t.u[:, OWN["gyro"]]
+    np.testing.assert_allclose(change[:, 0], kh * np.array(played), atol=1e-12)
+
+
+def test_forms_are_not_sought_in_rows_that_are_no_samples():
+    fitted = world()
+    (t,) = fitted.trials
+    apart = replace(fitted, trials=(replace(t, reduction=object()),))
+    assert forms(apart, [CATALOGUE["warm_up"]], PENALTY) == {}
