@@ -65,6 +65,7 @@ def _found(made: Made, c: Closed) -> dict[str, Any]:
         "refused": [{"sensor": s} | r.as_dict() for s, r in c.refused],
         "drift": [s for s, axes in c.drift.items() if axes],
         "unexplained": [u.as_dict() for u in c.unexplained],
+        "formulas": [f.as_dict() for f in c.formulas],
         "candidates": [f.as_dict() for f in c.candidates],
         "visible": {f"{v.sensor}.{v.effect}": v.reason for v in c.observability},
         "quality": sorted({f.kind for f in c.quality}),

@@ -5,8 +5,9 @@ Recordings in; out what the model lacks, named and added, and the error before a
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from importlib.resources import files
 from pathlib import Path
 
@@ -16,6 +17,8 @@ from pyimu.errors import Finding, UserError
 from pyimu.identification.conclude import conclude
 from pyimu.identification.fit.keys import Key, coefficient_of
 from pyimu.identification.fit.trial import Trial, accel_trial, gyro_trial
+from pyimu.identification.formula.effect import forget
+from pyimu.identification.formula.search import Look, declared_noise, look
 from pyimu.identification.made_with import called
 from pyimu.identification.reference.align import aligned
 from pyimu.identification.reference.gravity import few, rest_trials
@@ -24,6 +27,7 @@ from pyimu.identification.reference.turns import turn_trials
 from pyimu.identification.result import Closed
 from pyimu.identification.search.forward import Investigation, investigate
 from pyimu.identification.thermometer import late_thermometers
+from pyimu.model.catalogue import WALK, WHITE
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as find_part
 from pyimu.model.part_file import part_names
@@ -92,11 +96,14 @@ def close(
     start = declared or undeclared(logs[0].sample_rate)
     say("quality of the raw samples")
     quality = [_of(r.name, f) for r in [*logs, *others] for f in (*_of_reading(r), *inspect(r))]
-    found, of_trials = _investigated(start, declared is not None, logs, others, latitude, say)
+    forget()
+    found, looks, of_trials = _investigated(
+        start, declared is not None, logs, others, latitude, say
+    )
     quality = _with(quality, of_trials)
     if not found:
         raise UserError(_nothing_to_compare(logs))
-    return conclude(start, declared, logs, others, found, tuple(quality), say, made_with)
+    return conclude(start, declared, logs, others, found, tuple(quality), say, made_with, looks)
 
 
 def _investigated(
@@ -106,9 +113,10 @@ def _investigated(
     others: list[Recording],
     latitude: float | None,
     say: Say,
-) -> tuple[dict[str, Investigation], list[Finding]]:
+) -> tuple[dict[str, Investigation], dict[str, Look], list[Finding]]:
     """What was found of each sensor that has a reference, and what making its trials found."""
     found: dict[str, Investigation] = {}
+    looks: dict[str, Look] = {}
     quality: list[Finding] = []
     for kind, make in (("accel", accel_trial), ("gyro", gyro_trial)):
         trials, held = _trials(start.sensor(kind), make, logs, others, latitude)
@@ -123,9 +131,24 @@ def _investigated(
             trials = _shown(start, declared, free, trials)
             prior = {} if declared else _prior(kind, free)
             found[kind] = investigate(start.sensor(kind), free, trials, held, say, prior)
+            null = declared_noise(found[kind]) if _declares_noise(start, kind) else None
+            looks[kind] = look(found[kind], partial(_again, found[kind], prior), say, null)
+            found[kind] = looks[kind].investigation
             quality += late_thermometers(found[kind])
         quality += _of_trials([*trials, *held])
-    return {k: found[k] for k in ("gyro", "accel") if k in found}, quality
+    return {k: found[k] for k in ("gyro", "accel") if k in found}, looks, quality
+
+
+def _declares_noise(part: Part, kind: str) -> bool:
+    return all((kind, *name) not in part.estimate for name in (WHITE, WALK))
+
+
+def _again(
+    inv: Investigation, prior: Mapping[Key, float], sensor: Sensor, free: frozenset[Key]
+) -> Investigation:
+    """The investigation once more, with a formula in the model from the start."""
+    trials, held = list(inv.before.trials), list(inv.held)
+    return investigate(sensor, free, trials, held, prior=prior)
 
 
 def _file_of(part: Part | str | Path | None) -> list[Path]:

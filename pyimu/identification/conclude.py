@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 
 import numpy as np
 
@@ -20,6 +21,8 @@ from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.trial import rest_noise
 from pyimu.identification.fit.whiten import RandomWalk
+from pyimu.identification.formula.resembles import resembled
+from pyimu.identification.formula.search import Formula, Look
 from pyimu.identification.found import Added, Changed, LogEntry
 from pyimu.identification.heading_error import heading_rms
 from pyimu.identification.held_out import at_rest, attitudes, held_trials, scores
@@ -35,7 +38,6 @@ from pyimu.identification.search.forward import Investigation, without
 from pyimu.identification.search.leftover import (
     NoiseFigure,
     comb_gain,
-    lack_of_fit,
     noise_figures,
     rounding,
 )
@@ -60,8 +62,11 @@ def conclude(
     quality: tuple,
     say: Callable[[str], None],
     made_with: MadeWith | None = None,
+    looks: Mapping[str, Look] = MappingProxyType({}),
 ) -> Closed:
-    """The result of the investigations ``found`` of the sensors of a part."""
+    """The result of the investigations ``found`` of the sensors of a part, with what was made of
+    what they leave.
+    """
     say("attitude against the reference")
     found, model, attitude, lost = settled(start, declared, found, others or logs)
     not_examined = _unexamined(found, logs)
@@ -69,14 +74,15 @@ def conclude(
     noises = {kind: _noise(start, inv, model, len(found)) for kind, inv in found.items()}
     model = model.with_noise(noises)
     added, changed, drifts = _findings(start, declared, found, model, noises, say)
-    unexplained = tuple(u for u in (lack_of_fit(inv.after) for inv in found.values()) if u)
+    unexplained = tuple(k.unexplained for k in looks.values() if k.unexplained)
     unexplained += tuple(s for n in noises.values() for s in n.shapes)
+    formulas = tuple(f for k in looks.values() if k.formula and (f := _kept(k.formula, found)))
     refused = [(kind, r) for kind, inv in found.items() for r in inv.refused]
     refused += [(kind, r) for kind, n in noises.items() for r in n.refused]
     say("error on held-out data")
     errors, entries, likelihood = scores(found, logs, others, _gained(noises))
-    heading = heading_rms(found.get("gyro"))
-    beside = (errors, attitude, refused, not_examined, lost, heading)
+    heading, equations = heading_rms(found.get("gyro")), {f.name: f.said for f in formulas}
+    beside = (errors, attitude, refused, not_examined, lost, heading, equations)
     together = [*logs, *others]
     said = _said(Evidence(added, changed, unexplained, drifts, found, *beside), together)
     say("the whole model, and what to measure next")
@@ -99,7 +105,7 @@ def conclude(
         quality=quality,
         recordings=_with_overviews(entries, together, found, quality),
         refused=tuple(refused),
-        exhibits=_exhibits(found, added),
+        exhibits=_exhibits(found, added, formulas),
         band_hz={kind: inv.after.trials[0].band_hz for kind, inv in found.items()},
         held_out="holdout" if others else "last 30 %",
         estimated=model_after,
@@ -110,7 +116,16 @@ def conclude(
         made_with=made_with,
         heading=heading,
         at_rest=at_rest(found),
+        formulas=formulas,
     )
+
+
+def _kept(formula: Formula, found: Found) -> Formula | None:
+    """A formula with what it resembles, unless it was taken back."""
+    inv = found[formula.sensor]
+    if all(s.effect != formula.name for s in inv.steps):
+        return None
+    return replace(formula, resembles=resembled(inv, formula))
 
 
 def _findings(
@@ -181,9 +196,11 @@ def _unexamined(found: Found, logs: list[Recording]) -> dict[str, str]:
     return {k: reason() for k, reason in reasons.items() if k in there - set(found)}
 
 
-def _exhibits(found: Found, added: list[Added]) -> dict[str, Exhibits]:
+def _exhibits(
+    found: Found, added: list[Added], formulas: tuple[Formula, ...]
+) -> dict[str, Exhibits]:
     return {
-        kind: exhibits_of(inv, [a for a in added if a.sensor == kind])
+        kind: exhibits_of(inv, [a for a in added if a.sensor == kind], formulas)
         for kind, inv in found.items()
     }
 

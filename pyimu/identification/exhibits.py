@@ -26,6 +26,8 @@ from pyimu.identification.fit.noise_floor import floor_noise
 from pyimu.identification.fit.score import held_state
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk
+from pyimu.identification.formula.search import Formula
+from pyimu.identification.formula.terms import values_of
 from pyimu.identification.found import Added
 from pyimu.identification.search.forward import Investigation
 from pyimu.identification.search.screen import Screening
@@ -66,13 +68,15 @@ class Driver:
     """What drives an effect.
 
     A signal by name ("time" and "contribution", what the effect adds, among them), one component of
-    it or None, and whether it is its change that counts; ``unit`` is SI.
+    it or None, and whether it is its change that counts; ``unit`` is SI. What a formula is drawn
+    against has a ``label`` instead.
     """
 
     signal: str
     component: int | None
     unit: str
     change: bool = False
+    label: str = ""
 
 
 @dataclass(frozen=True)
@@ -80,7 +84,7 @@ class Cloud:
     """Residual of one axis without and with an effect, (m,) each, against what drives it (m,).
 
     ``weight`` is what the effect does to the axis; ``outermost`` says that it acts on the largest
-    values.
+    values. ``formula`` (m,) is what a formula adds.
     """
 
     axis: int
@@ -90,6 +94,7 @@ class Cloud:
     with_effect: np.ndarray
     weight: float
     outermost: bool
+    formula: np.ndarray | None = None
 
 
 @dataclass(frozen=True)
@@ -124,8 +129,11 @@ class Exhibits:
     of_effect: dict[str, tuple[Cloud | Comb, ...]] = field(default_factory=dict)
 
 
-def exhibits_of(inv: Investigation, added: Sequence[Added]) -> Exhibits:
-    """What is worth showing of an investigation that added these effects."""
+def exhibits_of(
+    inv: Investigation, added: Sequence[Added], formulas: Sequence[Formula] = ()
+) -> Exhibits:
+    """What is worth showing of an investigation that added these effects, and ``formulas``."""
+    own = {f.name: f for f in formulas if f.sensor == inv.after.sensor.kind}
     seen = [_seen(inv.before, inv.after, t) for t in inv.held or inv.after.trials]
     traces = tuple(trace for trace, _, _ in seen)
     return Exhibits(
@@ -134,7 +142,7 @@ def exhibits_of(inv: Investigation, added: Sequence[Added]) -> Exhibits:
         spectrum=_spectrum(inv, traces, seen[0][1]),
         first=inv.first,
         last=inv.last,
-        of_effect={a.effect: _of_effect(a, inv) for a in added},
+        of_effect={a.effect: _of_effect(a, inv, own.get(a.effect)) for a in added},
     )
 
 
@@ -190,7 +198,7 @@ def _state(fit: Fit, trial: Trial) -> tuple[LogState, Trial]:
 # Residual against what drives an effect
 
 
-def _of_effect(a: Added, inv: Investigation) -> tuple[Cloud | Comb, ...]:
+def _of_effect(a: Added, inv: Investigation, formula: Formula | None) -> tuple[Cloud | Comb, ...]:
     """The axes on which an effect acts, the strongest first.
 
     All rows are shown: what drives an effect may not move enough in the last part of a log.
@@ -212,8 +220,11 @@ def _of_effect(a: Added, inv: Investigation) -> tuple[Cloud | Comb, ...]:
     axes = [int(i) for i in np.argsort(-weight) if weight[i] > LEAST_SHARE * weight.max() > 0.0]
     clouds = []
     for i in axes[:MOST_AXES]:
-        driver = _driver(a, e, i, [trial for _, trial, _ in seen])
-        values = [_values(driver, i, inv.after.sensor, *one) for one in seen]
+        if formula is None:
+            driver = _driver(a, e, i, [trial for _, trial, _ in seen])
+            values = [_values(driver, i, inv.after.sensor, *one) for one in seen]
+        else:
+            driver, values = _along(formula, i, [(trial, state) for _, trial, state in seen])
         clouds.append(
             Cloud(
                 axis=i,
@@ -223,9 +234,25 @@ def _of_effect(a: Added, inv: Investigation) -> tuple[Cloud | Comb, ...]:
                 with_effect=with_effect[:, i],
                 weight=float(weight[i]),
                 outermost=e.stage == "output",
+                formula=None if formula is None else (without - with_effect)[:, i],
             )
         )
     return tuple(clouds)
+
+
+def _along(
+    formula: Formula, axis: int, seen: Sequence[tuple[Trial, LogState]]
+) -> tuple[Driver, list[np.ndarray]]:
+    """What the first term of a formula on an axis is drawn against, log by log."""
+    pairs = zip(formula.terms, formula.axes, strict=True)
+    term = next((t for t, axes in pairs if axis in axes), formula.terms[0])
+    label, code, unit = term.along(KINDS[formula.sensor].unit)
+    values = []
+    for trial, state in seen:
+        u = reference_input(trial, state)
+        x = in_band(trial, values_of(formula.sensor, code, u)[:, [axis]])[:, 0]
+        values.append(x % (2 * np.pi) if term.angle else x)
+    return Driver("formula", axis, unit, label=label), values
 
 
 def _driver(a: Added, e: Effect, i: int, trials: Sequence[Trial]) -> Driver:

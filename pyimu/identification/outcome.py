@@ -12,6 +12,7 @@ from pyimu.identification.estimated import Estimated
 from pyimu.identification.exhibits import Exhibits
 from pyimu.identification.fates import Fate
 from pyimu.identification.fit.score import WINDOW
+from pyimu.identification.formula.search import Formula
 from pyimu.identification.found import Added, AtRest, Changed, Errors, LogEntry, Visibility
 from pyimu.identification.made_with import MadeWith
 from pyimu.identification.search.forward import Refused
@@ -50,6 +51,7 @@ class Outcome:
     made_with: MadeWith | None = None
     heading: tuple[float, float] | None = None
     at_rest: tuple[AtRest, ...] = ()
+    formulas: tuple[Formula, ...] = ()
 
     def as_dict(self, model: str = "model.toml", fmus: tuple[str, ...] = ()) -> dict[str, Any]:
         """The contents of report.json."""
@@ -60,6 +62,7 @@ class Outcome:
             "added": [a.as_dict() for a in self.added],
             "changed": [c.as_dict() for c in self.changed],
             "unexplained": self.unexplained[0].as_dict() if self.unexplained else None,
+            "formulas": [f.as_dict() for f in self.formulas],
             "drift": [
                 {"sensor": s, "axis": "xyz"[i], "gain": gain}
                 for s, axes in self.drift.items()

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -57,7 +58,8 @@ class Evidence:
     """What a verdict goes by.
 
     ``unexamined`` says of each sensor of the logs that was not looked at why not, ``lost`` of which
-    logs the attitude is lost; ``heading`` is the error before and after.
+    logs the attitude is lost; ``heading`` is the error before and after, ``formulas`` by name how a
+    formula is said.
     """
 
     added: list[Added]
@@ -71,6 +73,7 @@ class Evidence:
     unexamined: dict[str, str]
     lost: tuple[str, ...] = ()
     heading: tuple[float, float] | None = None
+    formulas: Mapping[str, str] = field(default_factory=dict)
 
 
 def verdict(e: Evidence) -> Verdict:
@@ -86,6 +89,10 @@ def _verdict(e: Evidence) -> Verdict:
     if unfit:
         return Verdict("reference_unfit", unfit)
     left = _left(e.errors)
+    if e.added and all(a.effect in e.formulas for a in e.added):
+        said = joined([f"{a.sensor}: {e.formulas[a.effect]}" for a in e.added])
+        why = f"no effect of the catalogue describes it, a formula does: {said}"
+        return Verdict("unexplained", why, (left,) if left else ())
     if e.added:
         names = ", ".join(f"{a.sensor} {a.effect}" for a in e.added)
         return Verdict("partly", names, (left,)) if left else Verdict("named", names)

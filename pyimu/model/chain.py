@@ -270,6 +270,11 @@ class Chain:
         out, _ = self._call(e, x, started)
         slope = ca.jacobian(out, x)
         if ca.is_equal(slope, ca.SX.eye(3), 1):
+            # What switches with x has no slope either: at the output as at the input, but for
+            # samples nearer to the switch than its step.
+            added = out - x
+            if ca.depends_on(added, x):
+                return y - ca.substitute(added, x, y)
             return y - ca.substitute(out, x, ca.SX.zeros(3))
         improved = x - _solve(slope, out - y)
         guess = y

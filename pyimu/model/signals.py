@@ -128,6 +128,12 @@ def _to_body(attitude, v):
     return quaternion.rotate(quaternion.conjugate(quaternion.normalized(attitude)), v)
 
 
+def _integral(memory, started, h, now):
+    """A sample that is NaN adds nothing."""
+    total = kept(memory + h * now, memory)
+    return total, total
+
+
 def _earth(memory, started, h, attitude, latitude):
     return _to_body(attitude, earth.earth_rate(latitude)), memory
 
@@ -177,6 +183,14 @@ _DERIVED = {
         ("attitude", "latitude", "velocity"),
         0,
         _transport,
+    ),
+    "turned": Signal(
+        "rad",
+        ZERO,
+        "angle turned about each body axis since power-on",
+        ("rate",),
+        3,
+        _integral,
     ),
 }
 

@@ -8,23 +8,20 @@ import numpy as np
 import pytest
 from scipy.stats import binom
 from world import (
-    K_ACCEL,
     K_GYRO,
-    N_ACCEL,
     N_GYRO,
     best_possible,
     changes,
     drive,
     lambda_of,
     noise,
+    noise_only,
     recording,
     size_for,
 )
 
 import pyimu
 from pyimu.errors import UserError
-from pyimu.model.part import Part
-from pyimu.model.sensor import Sensor
 from pyimu.recording.recording import Recording
 
 BOTH = (
@@ -58,20 +55,6 @@ STRUCTURE = ("scale_factor", "misalignment")
 def world():
     """Three minutes; every effect is made as large as they must be to show it."""
     return drive(minutes=3, seed=3)
-
-
-def noise_only(**gyro_effects) -> Part:
-    """A part that declares its noise, and of the rest what is given."""
-    gyro = Sensor(
-        "gyro",
-        {"angle_random_walk": {"N": N_GYRO}, "rate_random_walk": {"K": K_GYRO}, **gyro_effects},
-    )
-    return Part(
-        "noise",
-        50.0,
-        gyro,
-        Sensor("accel", {"angle_random_walk": {"N": N_ACCEL}, "rate_random_walk": {"K": K_ACCEL}}),
-    )
 
 
 def undeclared(world, kind, name, structure, wanted=40.0):
@@ -201,21 +184,6 @@ def test_input_that_nobody_logged_is_drift(world):
     wander = noise(world, np.zeros(3), 30 * K_GYRO, np.random.default_rng(0))
     closed = pyimu.close(recording(world, gyro_change=lambda v: v + wander, seed=9), noise_only())
     assert closed.verdict == "drift", closed.report()
-
-
-def test_dependence_that_no_effect_describes_is_unexplained(world):
-    product = (
-        3e-5
-        * (world.temperature - world.temperature.mean())[:, None]
-        * world.force[:, :1]
-        * np.array([0.0, 0.0, 1.0])
-    )
-    closed = pyimu.close(recording(world, gyro_change=lambda v: v + product, seed=10))
-    assert closed.verdict == "unexplained", closed.report()
-    assert (closed.unexplained[0].axis, set(closed.unexplained[0].depends_on)) == (
-        "z",
-        {"specific_force_x", "temperature"},
-    )
 
 
 def test_attitude_reference_with_a_turned_mounting_finds_a_delay():

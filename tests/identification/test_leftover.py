@@ -5,20 +5,10 @@ import pytest
 from loop_cases import inputs, trial
 
 from pyimu.identification.fit.trial import white_noise
-from pyimu.identification.search.leftover import INPUT_NAMES, _products
+from pyimu.identification.formula.terms import usable
 from pyimu.model.kinds import OWN
 
 TIME = np.arange(6000) * 0.01
-
-
-def tried(one):
-    """The names of the inputs in the products that a trial's residual is tried against."""
-    seen = set()
-    add = _products((one,))
-    add(
-        one, one.u, one.y, lambda key, axis, values: seen.update(INPUT_NAMES[j] for j in key.inputs)
-    )
-    return seen
 
 
 @pytest.mark.parametrize("share", [0.0, 3.0])
@@ -30,8 +20,8 @@ def test_an_input_counts_where_it_is_more_than_its_own_noise(share):
     own = 0.02 * rng.standard_normal((len(TIME), 3))
     slow = share * 0.02 * np.sqrt(2) * np.sin(2 * np.pi * 0.3 * TIME)[:, None]
     u[:, OWN["accel"]] = [0.0, 0.0, 9.8] + own + slow
-    force = {"specific_force_x", "specific_force_y", "specific_force_z"}
-    assert tried(trial(TIME, np.zeros((len(TIME), 3)), u)) & force == (force if share else set())
+    moving = usable((trial(TIME, np.zeros((len(TIME), 3)), u),))
+    assert moving.get("specific_force", ()) == ((0, 1, 2) if share else ())
 
 
 def test_white_noise_is_told_from_motion():

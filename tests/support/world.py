@@ -13,6 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.signal import lfilter
 
+from pyimu.model.part import Part
+from pyimu.model.sensor import Sensor
 from pyimu.recording.recording import Recording
 
 G0 = 9.80665
@@ -69,6 +71,20 @@ def noise(world: World, n: np.ndarray, k: np.ndarray, rng: np.random.Generator) 
     shape = (len(world.time), 3)
     white = n / np.sqrt(world.h) * rng.standard_normal(shape)
     return white + np.cumsum(k * np.sqrt(world.h) * rng.standard_normal(shape), axis=0)
+
+
+def noise_only(**gyro_effects) -> Part:
+    """A part that declares its noise, and of the rest what is given."""
+    gyro = Sensor(
+        "gyro",
+        {"angle_random_walk": {"N": N_GYRO}, "rate_random_walk": {"K": K_GYRO}, **gyro_effects},
+    )
+    return Part(
+        "noise",
+        50.0,
+        gyro,
+        Sensor("accel", {"angle_random_walk": {"N": N_ACCEL}, "rate_random_walk": {"K": K_ACCEL}}),
+    )
 
 
 def recording(

@@ -95,7 +95,9 @@ def reference_input(trial: Trial, state: LogState) -> np.ndarray:
     if state.clock is not None:
         late = state.clock.at(trial.time)[:, None]
         u[:, own] -= late * u[:, rate]
-    for at in (own, rate):
+    # What is turned is turned by the sensor's own axes, whichever the reference has.
+    turned = (COLUMNS["turned"],) if trial.kind == "gyro" else ()
+    for at in (own, rate, *turned):
         u[:, at] = u[:, at] @ state.rotation.T
     u[:, TEMPERATURE] += state.lag * u[:, ITS_RATE]
     return u

@@ -55,10 +55,13 @@ class Scanned:
 
 
 @dataclass(frozen=True)
-class Product:
-    """A product of inputs, by their places, as it would add to one axis."""
+class Shape:
+    """A column of a term of a formula, by the term's text and its ``number`` there, as it would add
+    to one axis.
+    """
 
-    inputs: tuple[int, ...]
+    term: str
+    number: int
     axis: int
 
 
@@ -71,7 +74,7 @@ class LogLag:
 
 LogKey = LogBias | LogTurn | LogClock | LogLag
 
-Key = Coefficient | LogKey | Scanned | Product
+Key = Coefficient | LogKey | Scanned | Shape
 
 
 def coefficient_of(slot: Slot) -> Coefficient:

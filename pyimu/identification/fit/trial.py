@@ -179,6 +179,7 @@ def gyro_trial(recording: Recording, latitude: float | None = None) -> Trial | N
     u[:, OWN["gyro"]] = np.where(np.isfinite(reference.rate), reference.rate, 0.0)
     known = known | {"rate"} | _slope(u, recording, "rate", "angular_acceleration")
     known = known | fill_place(u, recording, reference, latitude)
+    known = known | (_turned(u, recording) if len(axes) == 3 else set())
     if reference.kind == "static":
         # What an accelerometer at rest shows beside its mean is its own noise, not a force.
         u[:, OWN["accel"]] = u[:, OWN["accel"]].mean(axis=0)
@@ -213,6 +214,7 @@ def accel_trial(recording: Recording, static: bool) -> Trial | None:
     if recording.ref_rate is not None:
         u[:, OWN["gyro"]] = np.nan_to_num(recording.ref_rate)
         known = known | {"rate"} | _slope(u, recording, "rate", "angular_acceleration")
+        known = known | _turned(u, recording)
     if recording.ref_force is None:
         u[:, COLUMNS["vibration"]] = 0.0
     else:
@@ -251,6 +253,9 @@ def environment(recording: Recording) -> tuple[np.ndarray, frozenset[str]]:
             slow = found.shape[1] == 1
             u[:, COLUMNS[name]] = without_noise(recording, found[:, 0])[:, None] if slow else found
             known.add(name)
+    if recording.ref_q is not None and np.isfinite(recording.ref_q).any():
+        u[:, COLUMNS["attitude"]] = np.nan_to_num(filled(recording.time, recording.ref_q))
+        known.add("attitude")
     if "temperature" in known:
         known |= _slope(u, recording, "temperature", "temperature_rate")
     return u, frozenset(known)
@@ -263,6 +268,13 @@ def _slope(u: np.ndarray, recording: Recording, signal: str, into: str) -> set[s
         if b - a > 1:
             u[a:b, COLUMNS[into]] = np.gradient(values[a:b], recording.time[a:b], axis=0)
     return {into}
+
+
+def _turned(u: np.ndarray, recording: Recording) -> set[str]:
+    """Fill in the angle turned about each axis."""
+    steps = recording.sample_period * u[:, COLUMNS["rate"]]
+    u[:, COLUMNS["turned"]] = np.cumsum(steps, axis=0)
+    return {"turned"}
 
 
 def _vibration(force: np.ndarray, recording: Recording) -> np.ndarray:

@@ -10,8 +10,9 @@ from pathlib import Path
 
 from pyimu.files import check_folder, staged, write_json, write_text
 from pyimu.fmu.build import build_fmus, host_compiler
+from pyimu.identification.formula.effect import file_text, put
 from pyimu.identification.outcome import Outcome
-from pyimu.identification.report.page import MODEL, page
+from pyimu.identification.report.page import FORMULA, MODEL, page
 from pyimu.model.part_file import save_part
 
 
@@ -26,12 +27,17 @@ def check_delivery(out: Path | str) -> None:
 
 def deliver(closed: Outcome, out: Path, units: bool, say: Callable[[str], None]) -> Path:
     """What ``Closed.write`` says."""
+    for formula in closed.formulas:
+        put(formula.effect)
     with staged(out) as stage:
         names = _build_units(closed, stage, say) if units else ()
         say("drawing the report")
         write_text(stage / "report.html", page(closed, names))
         write_json(stage / "report.json", closed.as_dict(MODEL, names))
         save_part(closed.after, stage / MODEL)
+        if closed.formulas:
+            text = file_text([f.text for f in closed.formulas], FORMULA)
+            write_text(stage / FORMULA, text)
     return out / "report.html"
 
 

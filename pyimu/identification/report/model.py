@@ -13,7 +13,7 @@ from pyimu.identification.found import Added, Changed
 from pyimu.identification.outcome import Outcome
 from pyimu.identification.report import pictures
 from pyimu.identification.report.coefficients import rows
-from pyimu.identification.report.words import FEW, dependence, si_of
+from pyimu.identification.report.words import FEW, dependence, in_words, si_of
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.part import AXES
 from pyimu.report.numbers import in_unit, number, pretty, si_quantity, unit_for, with_error
@@ -66,8 +66,10 @@ def added(closed: Outcome, a: Added) -> dict[str, Any]:
     e = CATALOGUE[a.effect]
     others = f" The data allow as well: {', '.join(a.alternatives)}." if a.alternatives else ""
     evidence = f"Gain {number(a.gain, 4)} nat, gate {number(a.gate)} nat.{others}"
+    formula = next((f for f in closed.formulas if f.name == a.effect), None)
     return {
         "name": a.effect,
+        "formula": None if formula is None else in_words(formula),
         "term": e.term,
         "sensor": SENSORS[a.sensor],
         "equation": equation(e.equation),

@@ -29,7 +29,7 @@ from pyimu.identification.report.next import next_table
 from pyimu.identification.report.words import headline
 from pyimu.report.page import Table, file_name, prose, quality_table, templates
 
-MODEL = "model.toml"
+MODEL, FORMULA = "model.toml", "found_effect.py"
 
 
 def page(closed: Outcome, fmus: tuple[str, ...] = ()) -> str:
@@ -82,6 +82,9 @@ def _files(closed: Outcome, fmus: tuple[str, ...]) -> Table:
         ("report.json", "everything of this page as data"),
         (MODEL, "the model with what was added, each coefficient with its interval and its source"),
     ]
+    if closed.formulas:
+        use = f"the formula as an effect of your own: {MODEL} needs --effects {FORMULA}"
+        rows.append((FORMULA, use))
     return Table(
         ("file", "what it is"),
         [(name, prose(text)) for name, text in (*rows, *((f, _unit_of(closed, f)) for f in fmus))],

@@ -113,12 +113,25 @@ def cloud(c: Cloud, effect: str, si: str) -> str:
             _points(panel, x, y, colour)
             quartiles = _medians(panel, x, y, edges, colour, said, shift)
             seen += [np.quantile(y, [0.002, 0.998]), quartiles.ravel()]
+        if c.formula is not None:
+            _curve(panel, x, in_unit(c.formula, si, unit), edges)
         _limits(panel.set_xlim, span)
         _limits(panel.set_ylim, np.concatenate(seen))
         panel.locator_params(axis="x", nbins=6)
         panel.set(xlabel=label, ylabel=f"residual {AXES[c.axis]} [{pretty(unit)}]")
-        legend(figure, panel, 2)
+        legend(figure, panel, 2 if c.formula is None else 3)
         return svg_of(figure)
+
+
+def _curve(panel: Axes, x: np.ndarray, y: np.ndarray, edges: np.ndarray) -> None:
+    """The mean of what a formula adds, in bins finer than those of the residual."""
+    fine = np.interp(np.linspace(0, LEVELS, 4 * LEVELS + 1), np.arange(LEVELS + 1), edges)
+    place = np.searchsorted(fine, x) - 1
+    at = [k for k in range(4 * LEVELS) if np.any(place == k)]
+    middles = [0.5 * (fine[k] + fine[k + 1]) for k in at]
+    panel.plot(
+        middles, [y[place == k].mean() for k in at], color=INK, lw=1.4, label="formula", zorder=5
+    )
 
 
 UNITS = {"rate": "deg/s", "specific_force": "g", "temperature": "degC"}
@@ -127,6 +140,10 @@ UNITS = {"rate": "deg/s", "specific_force": "g", "temperature": "degC"}
 
 def _people(driver: Driver, values: np.ndarray, si: str) -> tuple[np.ndarray, str]:
     """The values of a driver in the unit that people use, and the label of their axis."""
+    if driver.signal == "formula":
+        unit = "deg" if driver.unit == "rad" else unit_for(values, driver.unit)
+        shown = values if unit == driver.unit else in_unit(values, driver.unit, unit)
+        return shown, f"{driver.label} [{pretty(unit)}]"
     if driver.signal == "time":
         return values, "time since the first row of the log [s]"
     if driver.signal == "contribution":

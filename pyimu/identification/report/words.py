@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from pyimu.identification.as_part import SENSORS
+from pyimu.identification.formula.effect import TERM, coefficients
+from pyimu.identification.formula.search import Formula
 from pyimu.identification.found import Added, AtRest, Errors
 from pyimu.identification.outcome import Outcome
 from pyimu.identification.search.leftover import Unexplained
@@ -75,12 +77,39 @@ def _were(count: int) -> str:
 
 
 def _unexplained(closed: Outcome) -> str:
+    if closed.formulas:
+        return _by_formula(closed)
     if not closed.unexplained:
         return f"More than noise is left: {closed.reason}.{_level(closed)}"
     return (
         "Something is missing that no effect of the catalogue describes: "
         f"{dependence(closed)}.{_level(closed)}"
     )
+
+
+def _by_formula(closed: Outcome) -> str:
+    """An error that has a formula and no name."""
+    parts = ["Something is missing that no effect of the catalogue describes."]
+    for f in closed.formulas:
+        parts.append(f"Of the {SENSORS[f.sensor]} a formula does, {TERM}: c * ({f.said}).")
+        if f.sensor in closed.errors:
+            parts.append(fall(f.sensor, closed.errors[f.sensor]))
+    return " ".join(parts)
+
+
+def in_words(f: Formula) -> str:
+    """A formula, and what it looks like in the catalogue."""
+    named = coefficients(f.terms)
+    y = "rate" if f.sensor == "gyro" else "specific force"
+    terms = [f"{c} * {t.in_text(k)}" for c, t, k in named]
+    like = [f"{n.replace('_', ' ')} ({r:.2f})" for n, r in f.resembles]
+    looks = (
+        f"In these logs it looks like {joined(like)} (correlation with the best the effect "
+        "could make of it)."
+        if like
+        else "In these logs it looks like no effect of the catalogue."
+    )
+    return f"{y} measured = {y} + {' + '.join(terms)}, on each axis with its own factor. {looks}"
 
 
 def _drift(closed: Outcome) -> str:

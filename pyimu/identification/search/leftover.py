@@ -1,48 +1,23 @@
-"""What remains once no effect of the catalogue helps: dependence on inputs, more noise than
-declared, rounding.
+"""What remains once no effect of the catalogue helps: dependence on inputs (looked for by
+``formula.search``), more noise than declared, rounding.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import asdict, dataclass
-from itertools import combinations_with_replacement
 from typing import Any
 
 import numpy as np
-from scipy.stats import chi2
 
 from pyimu.identification.fit.columns import Linear
 from pyimu.identification.fit.fit import Fit
-from pyimu.identification.fit.keys import Product
-from pyimu.identification.fit.reference_noise import equations
-from pyimu.identification.fit.trial import Trial, white_noise
+from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk, power_less_bias
-from pyimu.identification.search.screen import Projected, dispersion
-from pyimu.model.signals import COLUMNS, N_INPUT, SIGNALS, SURROUNDINGS
 from pyimu.recording.quality.resolution import quantization_step
-
-TRIED = ("rate", "specific_force", *SURROUNDINGS)
-"""The signals that a residual which nothing explains is tried against."""
-
-SIGNAL_OF = tuple(name for name in TRIED for _ in range(SIGNALS[name].size))
-PLACES = np.concatenate([np.arange(N_INPUT)[COLUMNS[name]] for name in TRIED])
-INPUT_NAMES = tuple(
-    name + suffix
-    for name in TRIED
-    for suffix in (("",) if SIGNALS[name].size == 1 else ("_x", "_y", "_z"))
-)
-"""Of each number of those signals: its signal, its place in the input vector, and its name."""
-
-UNEXPLAINED = 1e-3
-"""Family-wise p-value below which a dependence on inputs is reported."""
 
 DRIFT_GATE = 5.0
 """Log-likelihood [nat] by which a larger random walk must beat the declared one on some axis: 1 %
 in three one-sided tests."""
-
-NOISE = 2.0**0.5
-"""Times its own noise that an input must spread: at least half of its power is then a signal."""
 
 SHARE = 0.03
 """Share of the white variance that rounding must explain before it is named (a step of 0.6 sigma).
@@ -51,8 +26,9 @@ SHARE = 0.03
 
 @dataclass(frozen=True)
 class Unexplained:
-    """A product of inputs on which a residual depends although no effect of the model says so, or
-    the ``shape`` of what is random in it and no effect either.
+    """A term of inputs on which a residual depends although no effect of the model says so.
+
+    Or the ``shape`` of what is random in it, which is no effect either.
     """
 
     sensor: str
@@ -63,69 +39,6 @@ class Unexplained:
 
     def as_dict(self) -> dict[str, Any]:
         return asdict(self) | {"depends_on": list(self.depends_on)}
-
-
-def lack_of_fit(fit: Fit) -> Unexplained | None:
-    """The product of two inputs, or the cube of one, on which the residual still depends most
-    clearly, if any does.
-
-    Each product is tried on each axis; its chi-square is corrected for the scatter of the scores
-    and its p-value for the number of trials (Bonferroni).
-    """
-    if all(t.reference == "static" and "temperature" not in t.known for t in fit.trials):
-        return None
-    normal = equations(fit, lambda f: f.linearise((), [_products(fit.trials)]))
-    wanted = [i for i, k in enumerate(normal.keys) if isinstance(k, Product)]
-    if not wanted:
-        return None
-    projected = Projected.of(
-        normal, [i for i in range(len(normal.keys)) if i not in set(wanted)], wanted
-    )
-    found = []
-    for place, column in enumerate(wanted):
-        if projected.gram[place, place] > 0:
-            statistic = (
-                projected.score[place] ** 2
-                / projected.gram[place, place]
-                / dispersion(projected, (place,))
-            )
-            found.append((float(chi2.sf(statistic, 1)) * len(wanted), normal.keys[column]))
-    p_value, key = min(found, key=lambda f: f[0], default=(1.0, None))
-    if p_value >= UNEXPLAINED:
-        return None
-    return Unexplained(
-        fit.sensor.kind,
-        "xyz"[key.axis],
-        tuple(dict.fromkeys(INPUT_NAMES[j] for j in key.inputs)),
-        p_value,
-    )
-
-
-def _products(trials: tuple[Trial, ...]) -> Callable:
-    """Column maker: products of two inputs and cubes of one, each input freed of its mean and
-    scaled over all logs.
-    """
-    known = frozenset.intersection(*(t.known for t in trials))
-    together = np.concatenate([t.u[:, PLACES] for t in trials])
-    mean, scale = together.mean(axis=0), together.std(axis=0)
-    least = np.maximum(NOISE * _own_noise(trials), 1e-9 * (1 + np.abs(mean)))
-    usable = [j for j in range(len(SIGNAL_OF)) if SIGNAL_OF[j] in known and scale[j] > least[j]]
-    terms = [*combinations_with_replacement(usable, 2), *((j, j, j) for j in usable)]
-
-    def add_all(trial: Trial, u: np.ndarray, y: np.ndarray, add: Callable) -> None:
-        z = (trial.u[:, PLACES] - mean) / np.where(scale > 0, scale, 1.0)
-        for term in terms:
-            values = np.prod(z[:, list(term)], axis=1)
-            for i in range(3):
-                add(Product(term, i), i, values)
-
-    return add_all
-
-
-def _own_noise(trials: tuple[Trial, ...]) -> np.ndarray:
-    """Standard deviation of the white noise of each input."""
-    each = [[white_noise(t, t.u[:, [place]])[0] for place in PLACES] for t in trials]
-    return np.sqrt(np.mean(np.square(np.nan_to_num(each)), axis=0))
 
 
 @dataclass(frozen=True)

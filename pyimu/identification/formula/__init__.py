@@ -1,0 +1,1 @@
+"""A formula for an error that no effect of the catalogue describes."""

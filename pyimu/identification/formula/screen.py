@@ -1,0 +1,173 @@
+"""How much each term of the library would explain of what a model leaves, and how much chance.
+
+Columns are whitened with the noise of the fit and have all that the model explains projected out,
+as those of any effect.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.stats import chi2
+
+from pyimu.identification.fit.columns import Linear
+from pyimu.identification.fit.fit import Fit, with_prior
+from pyimu.identification.fit.keys import Shape
+from pyimu.identification.fit.normal import solve
+from pyimu.identification.fit.reference_noise import equations
+from pyimu.identification.formula.terms import Term, columns_of
+from pyimu.identification.search.screen import DRAWS, FALSE_ALARM, PENALTY, Projected, dispersion
+
+CHUNK = 48
+"""Terms whose columns are held at once."""
+
+KEPT_ROWS = 2000
+"""Whitened rows, evenly picked, from which the correlation of the terms is told: to 1 in 45."""
+
+UNEXPLAINED = 1e-3
+"""Family-wise p-value below which a dependence on a term is reported."""
+
+
+@dataclass(frozen=True)
+class Scored:
+    """A term, its gain [nat] less penalties, the axes on which it explains anything, and the
+    smallest p-value of an axis, of this one trial.
+    """
+
+    term: Term
+    gain: float
+    axes: tuple[int, ...]
+    p_value: float
+    axis: int
+
+
+@dataclass(frozen=True)
+class Scores:
+    """All terms, best first, and the gate that chance passes in ``FALSE_ALARM`` of all logs."""
+
+    terms: tuple[Scored, ...]
+    whitened: tuple[tuple[np.ndarray, ...], ...]
+
+    @property
+    def trials(self) -> int:
+        """How many terms were tried on how many axes."""
+        return 3 * len(self.terms)
+
+    @property
+    def p_value(self) -> float:
+        """Family-wise (Bonferroni), of the clearest dependence."""
+        return min((s.p_value for s in self.terms), default=1.0) * self.trials
+
+
+def scored(fit: Fit, terms: Sequence[Term], keep: bool = False) -> Scores:
+    """The terms with what each would explain beside a model."""
+    out: list[Scored] = []
+    kept: list[tuple[np.ndarray, ...]] = []
+    for first in range(0, len(terms), CHUNK):
+        few = list(terms[first : first + CHUNK])
+        seen: list[list[Linear]] = []
+
+        def linearised(f: Fit, few=few, seen=seen) -> list[Linear]:
+            seen.append(f.linearise((), [columns_of(f.sensor.kind, few)]))
+            return seen[-1]
+
+        normal = with_prior(equations(fit, linearised), fit)
+        place = {k: i for i, k in enumerate(normal.keys) if isinstance(k, Shape)}
+        base = [i for i, k in enumerate(normal.keys) if not isinstance(k, Shape)]
+        if not place:
+            continue
+        projected = Projected.of(normal, base, list(place.values()))
+        at = {k: n for n, k in enumerate(place)}
+        out += [_scored(t, projected, at) for t in few]
+        if keep:
+            kept += _whitened(fit, seen[0], few)
+    return Scores(tuple(sorted(out, key=lambda s: -s.gain)), tuple(kept))
+
+
+def _scored(term: Term, projected: Projected, at: dict[Shape, int]) -> Scored:
+    total, axes, best = 0.0, [], (1.0, 0)
+    for i in range(3):
+        columns = [at[k] for n in range(len(term.code)) if (k := Shape(term.text, n, i)) in at]
+        columns = [c for c in columns if projected.gram[c, c] > 0]
+        if not columns:
+            continue
+        s = projected.score[columns]
+        power = float(s @ solve(projected.gram[np.ix_(columns, columns)], s))
+        if 0.5 * power > PENALTY:
+            power /= _dispersion(projected, columns)
+        best = min(best, (float(chi2.sf(power, len(columns))), i))
+        if 0.5 * power > PENALTY * len(columns):
+            total += 0.5 * power - PENALTY * len(columns)
+            axes.append(i)
+    return Scored(term, total, tuple(axes), *best)
+
+
+def _dispersion(projected: Projected, columns: list[int]) -> float:
+    """That of a few of many columns, without the Gram matrices by batch of all of them."""
+    gram = projected.gram[np.ix_(columns, columns)]
+    turn = projected.turn[:, columns]
+    few = Projected(gram, projected.score[columns], turn, projected.normal)
+    return dispersion(few, range(len(columns)))
+
+
+# The gate
+
+
+def _whitened(fit: Fit, linears: list[Linear], terms: list[Term]) -> list[tuple[np.ndarray, ...]]:
+    """By term and axis the directions (rows, columns), orthonormal, in which it acts on some of the
+    whitened rows once the model is projected out.
+    """
+    out: dict[str, list[np.ndarray]] = {t.text: [] for t in terms}
+    for i in sorted(fit.noise):
+        rows, keys = _thinned(fit, linears, i)
+        base = rows[:, [n for n, k in enumerate(keys) if not isinstance(k, Shape)]]
+        base = base / np.maximum(np.linalg.norm(base, axis=0), 1e-300)
+        plane = np.linalg.qr(base)[0] if base.shape[1] else base
+        left = rows - plane @ (plane.T @ rows)
+        lost = np.linalg.norm(left, axis=0) < 1e-4 * np.linalg.norm(rows, axis=0)
+        left[:, lost] = 0.0
+        for t in terms:
+            own = [n for n, k in enumerate(keys) if isinstance(k, Shape) and k.term == t.text]
+            own = [n for n in own if np.any(left[:, n])]
+            if own:
+                out[t.text].append(np.linalg.qr(left[:, own])[0])
+            else:
+                out[t.text].append(np.zeros((len(left), 0)))
+    return [tuple(out[t.text]) for t in terms]
+
+
+def _thinned(fit: Fit, linears: list[Linear], axis: int) -> tuple[np.ndarray, list]:
+    """Some whitened rows of all logs on one axis, and the keys of their columns."""
+    with_axis = [one for one in linears if axis in one.keys]
+    keys = list(dict.fromkeys(k for one in with_axis for k in one.keys[axis]))
+    stride = max(1, sum(len(one.time) for one in with_axis) // KEPT_ROWS)
+    pieces = []
+    for one in with_axis:
+        white = fit.noise[axis].whiten(one.columns[axis], one.time, one.segments)[::stride]
+        full = np.zeros((len(white), len(keys)))
+        full[:, [keys.index(k) for k in one.keys[axis]]] = white
+        pieces.append(full)
+    return np.concatenate(pieces), keys
+
+
+def gate(scores: Scores, seed: int = 1) -> float:
+    """The 1 - ``FALSE_ALARM`` point of the largest gain of all terms where there is nothing to
+    find, from draws with the covariance that the terms' columns have (max-T).
+    """
+    rng = np.random.default_rng(seed)
+    axes = len(scores.whitened[0])
+    total = [0.0] * len(scores.whitened)
+    for i in range(axes):
+        directions = [w[i] for w in scores.whitened]
+        widths = [d.shape[1] for d in directions]
+        together = np.concatenate(directions, axis=1)
+        values, vectors = np.linalg.eigh(together.T @ together)
+        root = vectors * np.sqrt(np.maximum(values, 0.0))
+        draws = rng.standard_normal((DRAWS, len(values))) @ root.T
+        edges = np.cumsum([0, *widths])
+        for n, (a, b) in enumerate(zip(edges[:-1], edges[1:], strict=True)):
+            gain = 0.5 * np.sum(draws[:, a:b] ** 2, axis=1) - PENALTY * (b - a)
+            total[n] = total[n] + np.maximum(gain, 0.0)
+    return float(np.quantile(np.max(total, axis=0), 1.0 - FALSE_ALARM))

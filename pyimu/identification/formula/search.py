@@ -1,0 +1,352 @@
+"""The simplest formula for what no effect of the catalogue describes.
+
+Terms are taken one after another, each beside all that went before, by the rules for effects: gain
+over a gate that chance passes in one log of a hundred, a penalty for each coefficient, held-out
+rows that must gain by it. What the loop had named is then looked for anew beside the formula:
+effects that only mimicked it are not found again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.keys import Coefficient
+from pyimu.identification.fit.maximum_likelihood import fit_and_normal
+from pyimu.identification.fit.normal import Noise
+from pyimu.identification.fit.whiten import RandomWalk
+from pyimu.identification.formula.effect import (
+    coefficients,
+    free_name,
+    function_text,
+    made,
+    plain,
+    put,
+)
+from pyimu.identification.formula.screen import UNEXPLAINED, Scored, Scores, gate, scored
+from pyimu.identification.formula.terms import (
+    LEVELS,
+    Term,
+    at_origin,
+    library,
+    rounded,
+    switch,
+    values_of,
+)
+from pyimu.identification.search.confirm import SPEAKS, Evidence, evidence
+from pyimu.identification.search.forward import SET_WIDTH, Investigation, Step
+from pyimu.identification.search.leftover import Unexplained
+from pyimu.identification.search.screen import PENALTY, fitted_dispersion, fitted_gain
+from pyimu.model.catalogue import CATALOGUE, WALK, WHITE
+from pyimu.model.effect import Effect
+from pyimu.model.signals import COLUMNS, START
+
+MOST_TERMS, MOST_FIRSTS = 3, 3
+"""Terms of a formula, and terms that are tried as its first, at most."""
+
+CONFIRMED = 0.3
+"""Share of what the models differ by on held-out rows that these must gain: all of it in the mean
+where the formula is true, the contrary of it where it is not."""
+
+FINER = 4
+"""Times that a level or an origin is looked for between those on both sides of the best."""
+
+Again = Callable[..., Investigation]
+
+Chosen = list[tuple[Term, tuple[int, ...]]]
+"""The terms of a formula, each with its axes."""
+
+
+@dataclass(frozen=True)
+class Formula:
+    """A formula of one sensor as the effect ``name``: its terms with the axes of each, the text
+    that defines it, and by effect of the catalogue how much it looks like it (correlation in
+    these logs).
+    """
+
+    sensor: str
+    name: str
+    terms: tuple[Term, ...]
+    axes: tuple[tuple[int, ...], ...]
+    effect: Effect
+    text: str
+    resembles: tuple[tuple[str, float], ...] = ()
+
+    @property
+    def said(self) -> str:
+        """Its terms in plain mathematics."""
+        return plain(self.terms)
+
+    def as_dict(self) -> dict[str, object]:
+        return {
+            "sensor": self.sensor,
+            "effect": self.name,
+            "formula": self.said,
+            "resembles": [{"effect": n, "correlation": round(r, 3)} for n, r in self.resembles],
+        }
+
+
+Found = tuple[float, Investigation, Formula]
+
+
+@dataclass(frozen=True)
+class Look:
+    """What was made of what an investigation left."""
+
+    investigation: Investigation
+    formula: Formula | None = None
+    unexplained: Unexplained | None = None
+
+
+def look(
+    inv: Investigation,
+    again: Again,
+    say: Callable[[str], None] = lambda text: None,
+    null: Noise | None = None,
+) -> Look:
+    """Look for a formula for what an investigation left; ``again(sensor, free)`` investigates
+    with one in the model, and ``null`` is the noise of the part, where that is declared.
+    """
+    trials, kind = inv.after.trials, inv.after.sensor.kind
+    if any(t.reduction is not None for t in trials) or all(
+        t.reference == "static" and "temperature" not in t.known for t in trials
+    ):
+        return Look(inv)
+    say(f"{kind}: is anything left that depends on inputs")
+    terms = library(kind, trials)
+    if not terms:
+        return Look(inv)
+    left = scored(_judged_by(inv.after, null), terms, keep=True)
+    fires = left.p_value < UNEXPLAINED
+    if not fires and len([s for s in inv.steps if not s.declared]) < 2:
+        return Look(inv)
+    say(f"{kind}: looking for a formula")
+    starts = [(inv.after, left)] if fires else []
+    if inv.steps:
+        before = _judged_by(inv.before, null)
+        starts.append((inv.before, scored(before, terms, keep=True)))
+    found = [_tried(inv, start, scores, terms, again, null) for start, scores in starts]
+    found = [f for f in found if f is not None]
+    best = max(found, key=lambda f: f[0], default=None)
+    if best is None:
+        return Look(inv, None, _unexplained(kind, left) if fires else None)
+    _, after, formula = best
+    put(formula.effect)
+    rest = scored(_judged_by(after.after, null), terms)
+    return Look(after, formula, _unexplained(kind, rest) if rest.p_value < UNEXPLAINED else None)
+
+
+def declared_noise(inv: Investigation) -> Noise | None:
+    """The noise that the model declares, by axis, where the residual is judged by noise of that
+    kind; None elsewhere.
+    """
+    values, h = inv.before.sensor.values, inv.after.trials[0].h
+    if any(not isinstance(n, RandomWalk) for n in inv.after.noise.values()):
+        return None
+    if WHITE[0] not in values or not np.all(values[WHITE[0]][WHITE[1]]):
+        return None
+    white = values[WHITE[0]][WHITE[1]]
+    walk = values[WALK[0]][WALK[1]] if WALK[0] in values else np.zeros(3)
+    return {i: RandomWalk(float(white[i] ** 2 / h), float(walk[i] ** 2)) for i in inv.after.noise}
+
+
+def _judged_by(fit: Fit, null: Noise | None) -> Fit:
+    """A fit with the random walk that is declared, where the fitted one is larger: what is to be
+    explained has made it so.
+    """
+    if null is None:
+        return fit
+    noise = {i: RandomWalk(n.r, min(n.k2, null[i].k2)) for i, n in fit.noise.items()}
+    return replace(fit, noise=noise)
+
+
+def _unexplained(kind: str, scores: Scores) -> Unexplained:
+    s = min(scores.terms, key=lambda s: s.p_value)
+    return Unexplained(kind, "xyz"[s.axis], s.term.inputs, scores.p_value)
+
+
+def _tried(
+    inv: Investigation, start: Fit, scores: Scores, terms: list[Term], again: Again, null
+) -> Found | None:
+    """The formula that the residual of a fit speaks for and that held-out rows confirm, less the
+    axes on which these speak against it; None where there is none.
+    """
+    name, needed = free_name(), gate(scores)
+    try:
+        for first in _firsts(scores, needed):
+            chosen, fitted = _composed(start, name, first, scores, terms, needed, null)
+            found, kept = _beside(inv, name, chosen, fitted, needed, again)
+            if found is None and 0 < sum(map(len, (a for _, a in kept))) < len(_keys(name, chosen)):
+                fewer = [(t, a) for t, a in kept if a]
+                fitted = _with(start, name, fewer)
+                found, _ = _beside(inv, name, fewer, fitted, needed, again)
+            if found is not None:
+                return found
+        return None
+    finally:
+        if name in CATALOGUE:
+            CATALOGUE.remove(name)
+
+
+def _beside(
+    inv: Investigation, name: str, chosen: Chosen, fitted: Fit, needed: float, again: Again
+) -> tuple[Found | None, Chosen]:
+    """A formula with what is found beside it, and the log-likelihood [nat] that both gain over an
+    investigation; None where they gain too little. Gives the terms with the axes, too, that
+    held-out rows leave them.
+    """
+    keys = _keys(name, chosen)
+    bare = inv.before.sensor.with_values(name, **fitted.sensor.values[name])
+    beside = again(bare, inv.before.free | keys)
+    own = fit_and_normal(beside.after)[1]
+    spread = fitted_dispersion(own, keys)
+    gain = fitted_gain(own, beside.after.sensor, keys)
+    apart = beside.after.log_likelihood - inv.after.log_likelihood
+    ahead = apart / spread - PENALTY * (len(keys) + _count(beside) - _count(inv))
+    seen = evidence(inv.after, beside.after, inv.held)
+    denied = (seen.difference > SPEAKS) & (seen.gained < CONFIRMED * seen.difference)
+    kept = [(t, tuple(i for i in a if not denied[i])) for t, a in chosen]
+    if gain <= needed or ahead <= needed or not _confirmed(seen):
+        return None, kept
+    step = Step(name, keys, gain, needed, (), spread)
+    whole = replace(beside, before=inv.before, steps=(step, *beside.steps), first=inv.first)
+    kind, parts = inv.after.sensor.kind, _parted(chosen)
+    text = function_text(name, kind, parts[0])
+    return (ahead, whole, Formula(kind, name, *parts, CATALOGUE[name], text)), kept
+
+
+def _parted(chosen) -> tuple[tuple[Term, ...], tuple[tuple[int, ...], ...]]:
+    return tuple(t for t, _ in chosen), tuple(a for _, a in chosen)
+
+
+def _count(inv: Investigation) -> int:
+    """Coefficients that the steps of an investigation brought in."""
+    return sum(len(s.keys) for s in inv.steps)
+
+
+def _confirmed(seen: Evidence) -> bool:
+    """Whether held-out rows gain by a formula as they must where it is true."""
+    gained, difference = float(seen.gained.sum()), float(seen.difference.sum())
+    return difference > SET_WIDTH / 2 and gained > CONFIRMED * difference
+
+
+# Terms, one after another
+
+
+def _firsts(scores: Scores, needed: float) -> list[Scored]:
+    """The terms to begin with: the simplest of those that explain as much as the best, and where
+    held-out rows refuse it the next.
+    """
+    if not scores.terms or scores.terms[0].gain <= needed:
+        return []
+    close = [s for s in scores.terms if s.gain > scores.terms[0].gain - SET_WIDTH]
+    return sorted(close, key=_how_simple)[:MOST_FIRSTS]
+
+
+def _how_simple(s: Scored) -> tuple[int, bool, float]:
+    """What is to be taken in; what acts on one axis alone is said by that axis's own names."""
+    return s.term.size, s.term.each and len(s.axes) == 1, -s.gain
+
+
+def _composed(
+    start: Fit,
+    name: str,
+    first: Scored,
+    scores: Scores,
+    terms: list[Term],
+    needed: float,
+    null: Noise | None,
+) -> tuple[Chosen, Fit]:
+    """The terms that explain what a fit leaves, each with its axes, and the fit with them."""
+    chosen: Chosen = []
+    fitted, best = start, first
+    while True:
+        best = _sharpened(_judged_by(fitted, null), best)
+        chosen.append((best.term, best.axes))
+        fitted = _with(start, name, chosen)
+        if len(chosen) == MOST_TERMS:
+            break
+        following = _firsts(scored(_judged_by(fitted, null), terms), needed)
+        if not following:
+            break
+        best = following[0]
+    return _backward(start, name, chosen, fitted, needed)
+
+
+def _sharpened(fit: Fit, best: Scored) -> Scored:
+    """A term with the level of its switch, or the origin of its surrounding, found between those
+    that were tried.
+    """
+    if best.term.switch is not None:
+        return _with_level(fit, best)
+    return best if best.term.origin is None else _with_origin(fit, best)
+
+
+def _with_level(fit: Fit, best: Scored) -> Scored:
+    factor = best.term.switch
+    values = np.sort(_values(fit, factor))
+    share = np.searchsorted(values, best.term.level) / len(values)
+    width = LEVELS[1] - LEVELS[0]
+    for _ in range(FINER):
+        shares = np.clip(np.linspace(share - width, share + width, 11), 0.0, 1.0)
+        levels = dict.fromkeys(switch(factor, float(v)) for v in np.quantile(values, shares))
+        found = scored(fit, list(levels)).terms
+        best = max([best, *found], key=lambda s: s.gain)
+        share = np.searchsorted(values, best.term.level) / len(values)
+        width /= 5
+    return best
+
+
+def _with_origin(fit: Fit, best: Scored) -> Scored:
+    """The origin of the catalogue costs nothing, any other as much as a coefficient."""
+    name = next(f.signal for f in best.term.factors if f.origin is not None)
+    spread = float(np.concatenate([t.u[:, COLUMNS[name]] for t in fit.trials]).std())
+    usual = scored(fit, [at_origin(best.term, float(START[COLUMNS[name]][0]))]).terms
+    width = 3 * spread
+    for _ in range(FINER):
+        about = best.term.origin + np.linspace(-width, width, 11)
+        terms = dict.fromkeys(at_origin(best.term, rounded(float(v), spread)) for v in about)
+        best = max([best, *scored(fit, list(terms)).terms], key=lambda s: s.gain)
+        width /= 4
+    return max([*usual, best], key=lambda s: s.gain - PENALTY * (s not in usual))
+
+
+def _values(fit: Fit, factor) -> np.ndarray:
+    inside = [t.u[a:b] for t in fit.trials for a, b in t.segments]
+    return values_of(fit.sensor.kind, factor.code, np.concatenate(inside))[:, 0]
+
+
+def _keys(name: str, chosen: Chosen) -> frozenset[Coefficient]:
+    axes = {t.text: a for t, a in chosen}
+    named = coefficients([t for t, _ in chosen])
+    return frozenset(Coefficient(name, c, (i,)) for c, t, _ in named for i in axes[t.text])
+
+
+def _with(start: Fit, name: str, chosen: Chosen) -> Fit:
+    """A fit with terms added, at its maximum likelihood."""
+    made(name, start.sensor.kind, [t for t, _ in chosen])
+    sensor = start.sensor.without(name).with_values(name)
+    free = start.free | _keys(name, chosen)
+    return fit_and_normal(replace(start, sensor=sensor, free=free).with_noise())[0]
+
+
+def _backward(
+    start: Fit, name: str, chosen: Chosen, fitted: Fit, needed: float
+) -> tuple[Chosen, Fit]:
+    """The terms less those that later ones made superfluous."""
+    while len(chosen) > 1:
+        normal = fit_and_normal(fitted)[1]
+        named = coefficients([t for t, _ in chosen])
+        gains = []
+        for term, axes in chosen:
+            keys = [Coefficient(name, c, (i,)) for c, t, _ in named if t is term for i in axes]
+            gains.append(fitted_gain(normal, fitted.sensor, keys))
+        least = int(np.argmin(gains))
+        if gains[least] > needed:
+            break
+        chosen = [c for k, c in enumerate(chosen) if k != least]
+        fitted = _with(start, name, chosen)
+    return chosen, fitted
