@@ -23,7 +23,7 @@ from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.identification.found import Visibility
 from pyimu.identification.plan.apart import separation
-from pyimu.identification.plan.information import Information, information
+from pyimu.identification.plan.information import Information, information, is_shaped
 from pyimu.identification.plan.motions import Limits, Motion, library
 from pyimu.identification.plan.noise import noise_at
 from pyimu.identification.plan.scene import step_of, trial
@@ -207,15 +207,18 @@ def _gains(
 
     First come those of which nothing is known.
     """
-    names = list(dict.fromkeys(e for e, name in known.half if (e, name) != POWER_ON))
+    half = [k for k in known.half if k != POWER_ON and _has_slope(sensor, k[0])]
+    names = list(dict.fromkeys(e for e, _ in half))
     one = _trial(sensor, motion, noise, names)
     told = information(sensor, one, dict(noise), names)
-    gains = [
-        _gain(sensor, told, effect, name, known)
-        for effect, name in known.half
-        if (effect, name) != POWER_ON
-    ]
+    gains = [_gain(sensor, told, effect, name, known) for effect, name in half]
     return sorted((g for g in gains if g is not None), key=lambda g: -g.factor)
+
+
+def _has_slope(sensor: Sensor, effect: str) -> bool:
+    """Whether a motion's worth for an effect is known without a guess at the effect's form."""
+    e = CATALOGUE[effect]
+    return not e.stochastic and (effect in sensor.values or not is_shaped(e, sensor.kind))
 
 
 def _trial(

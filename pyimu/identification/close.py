@@ -18,7 +18,7 @@ from pyimu.identification.conclude import conclude
 from pyimu.identification.fit.keys import Key, coefficient_of
 from pyimu.identification.fit.trial import Trial, accel_trial, gyro_trial
 from pyimu.identification.formula.effect import forget
-from pyimu.identification.formula.search import Look, declared_noise, look
+from pyimu.identification.formula.search import Look, look
 from pyimu.identification.made_with import called
 from pyimu.identification.reference.align import aligned
 from pyimu.identification.reference.gravity import few, rest_trials
@@ -27,7 +27,6 @@ from pyimu.identification.reference.turns import turn_trials
 from pyimu.identification.result import Closed
 from pyimu.identification.search.forward import Investigation, investigate
 from pyimu.identification.thermometer import late_thermometers
-from pyimu.model.catalogue import WALK, WHITE
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as find_part
 from pyimu.model.part_file import part_names
@@ -131,16 +130,11 @@ def _investigated(
             trials = _shown(start, declared, free, trials)
             prior = {} if declared else _prior(kind, free)
             found[kind] = investigate(start.sensor(kind), free, trials, held, say, prior)
-            null = declared_noise(found[kind]) if _declares_noise(start, kind) else None
-            looks[kind] = look(found[kind], partial(_again, found[kind], prior), say, null)
+            looks[kind] = look(found[kind], partial(_again, found[kind], prior), say)
             found[kind] = looks[kind].investigation
             quality += late_thermometers(found[kind])
         quality += _of_trials([*trials, *held])
     return {k: found[k] for k in ("gyro", "accel") if k in found}, looks, quality
-
-
-def _declares_noise(part: Part, kind: str) -> bool:
-    return all((kind, *name) not in part.estimate for name in (WHITE, WALK))
 
 
 def _again(

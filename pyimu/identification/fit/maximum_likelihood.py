@@ -29,9 +29,9 @@ def fit_and_normal(start: Fit, rounds: int = 3, steps: int = 6) -> tuple[Fit, No
     The whitening is fitted anew in each round.
     """
     for _ in range(rounds):
-        before = start.sensor.p
+        before = _values(start)
         start = gauss_newton(start, steps).with_noise()
-        if np.allclose(before, start.sensor.p, rtol=1e-4, atol=1e-9):
+        if np.allclose(before, _values(start), rtol=1e-4, atol=1e-9):
             break
     start = without_reference_noise(start)
     normal = with_prior(equations(start), start)
@@ -40,6 +40,14 @@ def fit_and_normal(start: Fit, rounds: int = 3, steps: int = 6) -> tuple[Fit, No
     # with.
     std = {**start.std, **{k: float(np.sqrt(variance[i])) for i, k in enumerate(normal.keys)}}
     return replace(start, log_likelihood=normal.log_likelihood - smoothing(start), std=std), normal
+
+
+def _values(fit: Fit) -> np.ndarray:
+    """The coefficients of a fit and of its logs."""
+    states = fit.states.values()
+    clocks = [(s.clock.offset, s.clock.drift) for s in states if s.clock is not None]
+    own = [np.concatenate([s.bias, s.rotation.ravel(), [s.lag]]) for s in states]
+    return np.concatenate([fit.sensor.p, *own, np.ravel(clocks)])
 
 
 def advantage(larger: Fit, smaller: Fit) -> float:

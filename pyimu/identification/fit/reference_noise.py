@@ -96,8 +96,8 @@ def _variance(fit: Fit, linears: Sequence[Linear]) -> np.ndarray:
     beyond, seen = beyond_own(fit), np.array([_in_quiet(fit, i) for i in range(3)])
     if all(t.band_hz is None for t in fit.trials):
         rough = np.mean([_high(t, t.u[:, OWN[t.kind]]) ** 2 / 20 for t in fit.trials], axis=0)
-        shown = (seen <= beyond_own(fit, CHANCE)) & (rough > SMOOTH * seen)
-        beyond = np.where(shown, seen, np.where(rough > SMOOTH * seen, beyond, 0.0))
+        beyond = np.where(seen <= beyond_own(fit, CHANCE), seen, beyond)
+        beyond = np.where(rough > SMOOTH * beyond, beyond, 0.0)
     return np.minimum.reduce([beyond, seen, _unseen(fit, linears)])
 
 

@@ -16,8 +16,6 @@ import numpy as np
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.maximum_likelihood import fit_and_normal
-from pyimu.identification.fit.normal import Noise
-from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.identification.formula.effect import (
     coefficients,
     free_name,
@@ -37,10 +35,10 @@ from pyimu.identification.formula.terms import (
     values_of,
 )
 from pyimu.identification.search.confirm import SPEAKS, Evidence, evidence
-from pyimu.identification.search.forward import SET_WIDTH, Investigation, Step
+from pyimu.identification.search.forward import SET_WIDTH, Investigation, Step, form_error
 from pyimu.identification.search.leftover import Unexplained
 from pyimu.identification.search.screen import PENALTY, fitted_dispersion, fitted_gain
-from pyimu.model.catalogue import CATALOGUE, WALK, WHITE
+from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.effect import Effect
 from pyimu.model.signals import COLUMNS, START
 
@@ -105,10 +103,10 @@ def look(
     inv: Investigation,
     again: Again,
     say: Callable[[str], None] = lambda text: None,
-    null: Noise | None = None,
 ) -> Look:
-    """Look for a formula for what an investigation left; ``again(sensor, free)`` investigates
-    with one in the model, and ``null`` is the noise of the part, where that is declared.
+    """Look for a formula for what an investigation left.
+
+    ``again(sensor, free)`` investigates with one in the model.
     """
     trials, kind = inv.after.trials, inv.after.sensor.kind
     if any(t.reduction is not None for t in trials) or all(
@@ -119,65 +117,47 @@ def look(
     terms = library(kind, trials)
     if not terms:
         return Look(inv)
-    left = scored(_judged_by(inv.after, null), terms, keep=True)
+    left = scored(inv.after.as_declared(), terms, keep=True)
     fires = left.p_value < UNEXPLAINED
     if not fires and len([s for s in inv.steps if not s.declared]) < 2:
         return Look(inv)
     say(f"{kind}: looking for a formula")
     starts = [(inv.after, left)] if fires else []
     if inv.steps:
-        before = _judged_by(inv.before, null)
+        before = inv.before.as_declared()
         starts.append((inv.before, scored(before, terms, keep=True)))
-    found = [_tried(inv, start, scores, terms, again, null) for start, scores in starts]
+    found = [_tried(inv, start, scores, terms, again) for start, scores in starts]
     found = [f for f in found if f is not None]
     best = max(found, key=lambda f: f[0], default=None)
     if best is None:
-        return Look(inv, None, _unexplained(kind, left) if fires else None)
+        return Look(inv, None, _unexplained(kind, inv.after, terms) if fires else None)
     _, after, formula = best
     put(formula.effect)
-    rest = scored(_judged_by(after.after, null), terms)
-    return Look(after, formula, _unexplained(kind, rest) if rest.p_value < UNEXPLAINED else None)
+    return Look(after, formula, _unexplained(kind, after.after, terms))
 
 
-def declared_noise(inv: Investigation) -> Noise | None:
-    """The noise that the model declares, by axis, where the residual is judged by noise of that
-    kind; None elsewhere.
+def _unexplained(kind: str, fit: Fit, terms: list[Term]) -> Unexplained | None:
+    """The term on which a residual depends most clearly, by the noise that it shows itself.
+
+    One that wanders more than is declared follows many a slow input by chance.
     """
-    values, h = inv.before.sensor.values, inv.after.trials[0].h
-    if any(not isinstance(n, RandomWalk) for n in inv.after.noise.values()):
+    scores = scored(fit, terms)
+    if scores.p_value >= UNEXPLAINED:
         return None
-    if WHITE[0] not in values or not np.all(values[WHITE[0]][WHITE[1]]):
-        return None
-    white = values[WHITE[0]][WHITE[1]]
-    walk = values[WALK[0]][WALK[1]] if WALK[0] in values else np.zeros(3)
-    return {i: RandomWalk(float(white[i] ** 2 / h), float(walk[i] ** 2)) for i in inv.after.noise}
-
-
-def _judged_by(fit: Fit, null: Noise | None) -> Fit:
-    """A fit with the random walk that is declared, where the fitted one is larger: what is to be
-    explained has made it so.
-    """
-    if null is None:
-        return fit
-    noise = {i: RandomWalk(n.r, min(n.k2, null[i].k2)) for i, n in fit.noise.items()}
-    return replace(fit, noise=noise)
-
-
-def _unexplained(kind: str, scores: Scores) -> Unexplained:
     s = min(scores.terms, key=lambda s: s.p_value)
     return Unexplained(kind, "xyz"[s.axis], s.term.inputs, scores.p_value)
 
 
 def _tried(
-    inv: Investigation, start: Fit, scores: Scores, terms: list[Term], again: Again, null
+    inv: Investigation, start: Fit, scores: Scores, terms: list[Term], again: Again
 ) -> Found | None:
     """The formula that the residual of a fit speaks for and that held-out rows confirm, less the
     axes on which these speak against it; None where there is none.
     """
-    name, needed = free_name(), gate(scores)
+    name, needed = free_name(), max(gate(scores), form_error(inv.steps))
     try:
         for first in _firsts(scores, needed):
-            chosen, fitted = _composed(start, name, first, scores, terms, needed, null)
+            chosen, fitted = _composed(start, name, first, scores, terms, needed)
             found, kept = _beside(inv, name, chosen, fitted, needed, again)
             if found is None and 0 < sum(map(len, (a for _, a in kept))) < len(_keys(name, chosen)):
                 fewer = [(t, a) for t, a in kept if a]
@@ -258,18 +238,17 @@ def _composed(
     scores: Scores,
     terms: list[Term],
     needed: float,
-    null: Noise | None,
 ) -> tuple[Chosen, Fit]:
     """The terms that explain what a fit leaves, each with its axes, and the fit with them."""
     chosen: Chosen = []
     fitted, best = start, first
     while True:
-        best = _sharpened(_judged_by(fitted, null), best)
+        best = _sharpened(fitted.as_declared(), best)
         chosen.append((best.term, best.axes))
         fitted = _with(start, name, chosen)
         if len(chosen) == MOST_TERMS:
             break
-        following = _firsts(scored(_judged_by(fitted, null), terms), needed)
+        following = _firsts(scored(fitted.as_declared(), terms), needed)
         if not following:
             break
         best = following[0]

@@ -67,6 +67,10 @@ MOVES = 2.0**0.5
 HARMONICS = 4
 """Highest harmonic of an angle that is tried."""
 
+NAMED = frozenset({"angular_acceleration", "temperature_rate", "time"})
+"""Signals of which a multiple alone is an effect of the catalogue. So is one of the rate of the
+sensor's own signal: a delay, or a clock."""
+
 LEVELS = np.linspace(0.05, 0.95, 19)
 """Shares of the rows below the levels at which a switch is tried."""
 
@@ -255,7 +259,8 @@ def library(kind: str, trials: tuple[Trial, ...]) -> list[Term]:
     terms += [_product((a, a)) for a in warm] + [_product((a, a, a)) for a in warm]
     terms += [_product((a, a, b)) for a in numbers for b in numbers]
     terms += [_product((a, b)) for i, a in enumerate(slopes) for b in numbers]
-    terms += [_product((a,)) for a in slopes]
+    named = NAMED | {KINDS[kind].own_rate}
+    terms += [_product((a,)) for a in slopes if a.signal not in named]
     for name, three in each.items():
         terms += [_product(p) for p in combinations_with_replacement(three, 2)]
         terms += [_product((a, b)) for a in warm for b in three]

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pyimu.identification.fit.columns import LogState, linearise
+from pyimu.identification.fit.columns import LogState, clipped, linearise
 from pyimu.identification.fit.fit import THERMOMETER
 from pyimu.identification.fit.keys import Coefficient, LogLag, coefficients_of
 from pyimu.identification.fit.normal import Noise, normal_equations, variances
@@ -151,7 +151,7 @@ def _ends(sensor: Sensor, key: Coefficient) -> list[tuple[Sensor, float]]:
     value = float(sensor.values[key.effect][key.parameter][key.index])
     definition = sensor.effect(key.effect).parameters[key.parameter]
     step = SMALL * (abs(value) or 1.0)
-    ends = (value + step, value - step)
+    ends = (clipped(definition, value + step), clipped(definition, value - step))
     if definition.scan and definition.scan.measure == "zone":
         ends = (value, definition.start)
     return [(_with(sensor, key, v), v) for v in ends]

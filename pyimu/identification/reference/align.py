@@ -35,9 +35,24 @@ def aligned(trials: Sequence[Trial], held: Sequence[Trial], sensor: Sensor) -> l
     is left in then, for the effects that make one. What differs from log to log, wanders, makes the
     sensor early, or is longer than any sensor's is the clock's.
     """
-    clocks = [measure(t, sensor) for t in (*trials, *held)]
+    clocks = [_level(measure(t, sensor)) for t in (*trials, *held)]
     own = in_common([c for c in clocks[: len(trials)] if c is not None and np.isfinite(c.std)])
     return [_aligned(t, c, own) for t, c in zip((*trials, *held), clocks, strict=True)]
+
+
+def _level(clock: Clock | None) -> Clock | None:
+    """One lag where it changes by little of itself: a lag of the sensor is another at each
+    frequency, and so wherever the motion is another.
+    """
+    if clock is None or clock.keeps_step or not clock.is_seen:
+        return clock
+    apart = float(np.ptp(clock.late))
+    if apart >= ALIKE * abs(clock.mean):
+        return clock
+    std = max(clock.std, apart / float(np.sqrt(12.0)))
+    return replace(
+        clock, time=clock.time[:1], late=np.array([clock.mean]), std=std, skew=None, slips=()
+    )
 
 
 def in_common(clocks: Sequence[Clock]) -> float:

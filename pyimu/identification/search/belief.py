@@ -31,8 +31,8 @@ def unbelievable(fit: Fit, keys: Iterable[Coefficient]) -> str:
             miss = abs(value - definition.known)
             if miss > CHANCE * fit.std.get(key, np.inf):
                 return f"{key.parameter} is {value:.3g}, and can be {definition.known:g} alone"
-        most = _most(effect.name, fit.sensor.kind, key.parameter)
-        if definition.scan is None and abs(value) - CHANCE * fit.std.get(key, 0.0) > most:
+        largest = most(effect.name, fit.sensor.kind, key.parameter)
+        if definition.scan is None and abs(value) - CHANCE * fit.std.get(key, 0.0) > largest:
             return (
                 f"{key.parameter} is {quantity(value, unit)}, beyond belief: more than "
                 f"{FARTHEST:g} times what is typical of a consumer part"
@@ -40,7 +40,7 @@ def unbelievable(fit: Fit, keys: Iterable[Coefficient]) -> str:
     return ""
 
 
-def _most(effect: str, kind: str, parameter: str) -> float:
+def most(effect: str, kind: str, parameter: str) -> float:
     """The largest size in SI units that a coefficient may have; infinite where none is known."""
     try:
         typical = magnitudes(effect, kind)["consumer"]

@@ -188,6 +188,8 @@ class Slow:
         """The likeliest form of an effect, None where no log shows any."""
         name = form_of(e)
         values = e.parameters[name].scan.forms(self.length, self._swing(e))
+        # Finer than the blocks nothing is seen; instants are placed down to the sample later.
+        values = values[:: max(1, -(-len(values) // MOST_BLOCKS))]
         if sum(len(u) for u in self.inputs) < LEAST_BLOCKS or not len(values):
             return None
         tried = self._tried(e, name, values)

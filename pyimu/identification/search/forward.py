@@ -5,7 +5,7 @@ Screen, fit the best few in full, ask the held-out data, add, and look again.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass, field, replace
 from functools import reduce
 from types import MappingProxyType
@@ -40,7 +40,7 @@ from pyimu.identification.search.screen import (
     keys_of,
     screen,
 )
-from pyimu.identification.search.threshold import at_threshold, is_threshold
+from pyimu.identification.search.threshold import at_threshold, is_held_there, is_threshold
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.sensor import Sensor
 
@@ -49,6 +49,10 @@ SET_WIDTH = 6.0
 
 CHANCE = 3.0
 """Standard errors by which held-out squares must be more than a true effect would leave."""
+
+FORM = 0.01
+"""Share of what a lag or a delay explains that its form may leave: a tenth of its amplitude, as the
+sampled form of a pole is off at a quarter of the sample rate."""
 
 MOST_EFFECTS = 8
 MOST_REFINED = 5
@@ -166,7 +170,9 @@ def investigate(
             # What is left may wander more than the part declares after all.
             last, tried.as_seen = screen(after, sensor.values), True
             continue
-        chosen, reason = _judged(tried, chosen, held, last.gate)
+        reason = _within_form(chosen, steps)
+        if not reason:
+            chosen, reason = _judged(tried, chosen, held, last.gate)
         name = chosen.screened.effect
         if reason:
             refused[name] = Refused(name, chosen.gain, reason)
@@ -188,6 +194,19 @@ def investigate(
     return Investigation(
         before, after, tuple(steps), tuple(refused.values()), first, last, tuple(held)
     )
+
+
+def form_error(steps: Iterable[Step]) -> float:
+    """Gain [nat] that the form of dynamics and output in a model may leave: it is not exact."""
+    known = [s.gain for s in steps if CATALOGUE[s.effect].stage in ("dynamics", "output")]
+    return FORM * max(known, default=0.0)
+
+
+def _within_form(chosen: Refined, steps: list[Step]) -> str:
+    """Why a candidate may be nothing but what the form of the model's dynamics leaves."""
+    if chosen.gain > form_error(steps):
+        return ""
+    return f"explains less than {FORM:.0%} of what the lag or delay does, whose form is not exact"
 
 
 def _in_order(options: list[Screened], fit: Fit) -> list[Screened]:
@@ -286,6 +305,8 @@ def _needed(fitted: Fit, normal: Normal, group: Group, declared: bool) -> bool:
     """
     if is_ceiling(fitted.sensor, group.effect):
         return stops_there(fitted, group.keys[0].index[0])
+    if is_threshold(fitted.sensor, group.effect):
+        return is_held_there(fitted, group.keys[0].index[0])
     whole = any(t.reduction is not None for t in fitted.trials) and group.effect in STRUCTURE
     return (
         declared

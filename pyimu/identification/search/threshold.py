@@ -36,6 +36,17 @@ def is_threshold(sensor: Sensor, effect: str) -> bool:
     return found is not None and found[0] == effect
 
 
+def is_held_there(fitted: Fit, axis: int) -> bool:
+    """Whether most samples of an axis that the zone takes in really are one value."""
+    effect, parameter = fitted.sensor.reading(THRESHOLD)
+    sides = [_sides(fitted, t, axis) for t in fitted.trials]
+    x, y = (np.concatenate(values) for values in zip(*sides, strict=True))
+    inside = y[np.abs(x) < fitted.sensor.values[effect][parameter][axis]]
+    if len(inside) < NEAR:
+        return False
+    return bool(np.unique(inside, return_counts=True)[1].max() >= 0.5 * len(inside))
+
+
 def at_threshold(fitted: Fit) -> Fit:
     """Put each threshold where it leaves the least squares, and fit the rest again."""
     effect, parameter = fitted.sensor.reading(THRESHOLD)
