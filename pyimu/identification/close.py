@@ -27,6 +27,7 @@ from pyimu.identification.reference.turns import turn_trials
 from pyimu.identification.result import Closed
 from pyimu.identification.search.forward import Investigation, investigate
 from pyimu.identification.thermometer import late_thermometers
+from pyimu.identification.vibration import vibrations
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as find_part
 from pyimu.model.part_file import part_names
@@ -94,7 +95,10 @@ def close(
     declared = None if part is None else find_part(part)
     start = declared or undeclared(logs[0].sample_rate)
     say("quality of the raw samples")
-    quality = [_of(r.name, f) for r in [*logs, *others] for f in (*_of_reading(r), *inspect(r))]
+    together = [*logs, *others]
+    quality = [
+        _of(r.name, f) for r in together for f in (*_of_reading(r), *inspect(r), *vibrations(r))
+    ]
     forget()
     found, looks, of_trials = _investigated(
         start, declared is not None, logs, others, latitude, say

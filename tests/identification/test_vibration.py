@@ -1,0 +1,32 @@
+"""Vibration that gyro and accelerometer feel together."""
+
+import numpy as np
+import pytest
+
+from pyimu.identification.vibration import vibrations
+from pyimu.recording.recording import Recording
+
+TIME = np.arange(0.0, 60.0, 0.01)
+
+
+def log(frequency, size):
+    """White noise of one unit, a slow turn, and a line of ``size`` units that both feel."""
+    rng = np.random.default_rng(4)
+    wave = size * np.sin(2 * np.pi * frequency * TIME)[:, None] * [1.0, 0.5, -0.3]
+    turn = 30 * np.sin(2 * np.pi * 0.5 * TIME)[:, None]
+    gyro, accel = (rng.standard_normal((len(TIME), 3)) + turn + wave for _ in range(2))
+    return Recording.from_arrays(name="log", time=TIME, gyro=gyro, accel=accel)
+
+
+@pytest.mark.parametrize("frequency", [12.0, 30.0, 45.0])
+def test_a_line_that_both_feel_is_found_where_it_is(frequency):
+    """Frames of 2 s under a Hann window spread a line over 2 Hz."""
+    (found,) = vibrations(log(frequency, 3.0))
+    assert found.kind == "vibration"
+    assert abs(found.detail["least_frequency"] - frequency) <= 2.0
+    assert abs(found.detail["largest_frequency"] - frequency) <= 2.0
+
+
+@pytest.mark.parametrize("frequency, size", [(30.0, 0.0), (5.0, 3.0)])
+def test_noise_and_motion_are_no_vibration(frequency, size):
+    assert not list(vibrations(log(frequency, size)))
