@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-
 from pyimu.errors import Finding
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.band import coherence
