@@ -115,9 +115,11 @@ def _computed(work, keys: Iterable[tuple], jobs: int) -> Iterator[tuple[tuple, R
     with ProcessPoolExecutor(jobs, mp_context=context) as pool:
         try:
             running[pool.submit(work, *first)] = first
-            while running:
+            while True:
                 while len(running) < 2 * jobs and (key := next(rest, None)) is not None:
                     running[pool.submit(work, *key)] = key
+                if not running:
+                    break
                 done, _ = wait(running, return_when=FIRST_COMPLETED)
                 for future in done:
                     yield running.pop(future), future.result()
