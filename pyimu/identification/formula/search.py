@@ -15,7 +15,7 @@ import numpy as np
 
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient
-from pyimu.identification.fit.maximum_likelihood import fit_and_normal
+from pyimu.identification.fit.maximum_likelihood import advantage, fit_and_normal
 from pyimu.identification.formula.effect import (
     coefficients,
     free_name,
@@ -48,6 +48,10 @@ MOST_TERMS, MOST_FIRSTS = 3, 3
 CONFIRMED = 0.3
 """Share of what the models differ by on held-out rows that these must gain: all of it in the mean
 where the formula is true, the contrary of it where it is not."""
+
+DISPLACES = 0.2
+"""Share of what effects with a name explain by which a formula must explain more to take their
+place: near level a product with the vertical force is a multiple of gravity."""
 
 FINER = 4
 """Times that a level or an origin is looked for between those on both sides of the best."""
@@ -184,18 +188,26 @@ def _beside(
     own = fit_and_normal(beside.after)[1]
     spread = fitted_dispersion(own, keys)
     gain = fitted_gain(own, beside.after.sensor, keys)
-    apart = beside.after.log_likelihood - inv.after.log_likelihood
+    apart = advantage(beside.after, inv.after)
     ahead = apart / spread - PENALTY * (len(keys) + _count(beside) - _count(inv))
     seen = evidence(inv.after, beside.after, inv.held)
     denied = (seen.difference > SPEAKS) & (seen.gained < CONFIRMED * seen.difference)
     kept = [(t, tuple(i for i in a if not denied[i])) for t, a in chosen]
-    if gain <= needed or ahead <= needed or not _confirmed(seen):
+    if gain <= needed or ahead <= needed + DISPLACES * _displaced(inv, beside):
+        return None, kept
+    if not _confirmed(seen):
         return None, kept
     step = Step(name, keys, gain, needed, (), spread)
     whole = replace(beside, before=inv.before, steps=(step, *beside.steps), first=inv.first)
     kind, parts = inv.after.sensor.kind, _parted(chosen)
     text = function_text(name, kind, parts[0])
     return (ahead, whole, Formula(kind, name, *parts, CATALOGUE[name], text)), kept
+
+
+def _displaced(inv: Investigation, beside: Investigation) -> float:
+    """Gain [nat] of the effects with a name that a formula would take the place of."""
+    names = {s.effect for s in beside.steps}
+    return sum(s.gain for s in inv.steps if s.effect not in names)
 
 
 def _parted(chosen) -> tuple[tuple[Term, ...], tuple[tuple[int, ...], ...]]:

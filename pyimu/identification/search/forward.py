@@ -371,7 +371,7 @@ def _against(chosen: Refined, seen: Evidence, gate: float) -> str:
 
 def _stands_in(tried: Tried, chosen: Refined, gate: float) -> str:
     """The effect beyond belief that leaves a chosen candidate nothing to explain, if any does."""
-    for other in (o for o in tried.impossible if o.gain > chosen.gain):
+    for other in (o for o in tried.impossible if o.gain > chosen.gain + SET_WIDTH):
         beside = refine(other.fit, chosen.screened)
         if beside.gain <= gate:
             name = other.screened.effect
