@@ -23,7 +23,7 @@ from effect_results import record as kept
 from effect_results.confounds import CONFOUNDS, FINDINGS
 from effect_results.judge import Record, named, outcome, why
 from effect_results.table import confusion_text, failures_text, table_text
-from runs.pool import ROOT, digest, note, run_all
+from runs.pool import ROOT, add_options, digest, note, run_all
 
 import pyimu
 
@@ -57,9 +57,7 @@ def options() -> argparse.ArgumentParser:
     parser.add_argument("--clean", type=int, default=20, help="clean cases a motion (20)")
     parser.add_argument("--only", default="", help="names that hold this text")
     parser.add_argument("--minutes", type=float, nargs=2, default=MINUTES, metavar=("LOW", "HIGH"))
-    parser.add_argument("--jobs", type=int, default=2, help="processes (2)")
-    parser.add_argument("--results", type=Path, default=RESULTS)
-    parser.add_argument("--details", action="store_true", help="one line a case, on stderr")
+    add_options(parser, RESULTS)
     return parser
 
 

@@ -24,7 +24,7 @@ import generators
 import numpy as np
 import trap_logs
 from runs.intervals import shown
-from runs.pool import ROOT, digest, note, run_all
+from runs.pool import ROOT, add_options, digest, note, run_all
 from runs.pool import name as text
 from trap_logs.catalogue import TRAPS
 from trap_logs.log import Log
@@ -246,9 +246,7 @@ def options() -> argparse.ArgumentParser:
     parser.add_argument("--logs", type=int, default=50, help="cases a trap (50)")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--form", choices=FORMS, nargs="*", default=FORMS)
-    parser.add_argument("--jobs", type=int, default=2, help="processes (2)")
-    parser.add_argument("--results", type=Path, default=RESULTS)
-    parser.add_argument("--details", action="store_true", help="one line a case, on stderr")
+    add_options(parser, RESULTS)
     return parser
 
 

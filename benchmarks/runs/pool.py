@@ -7,6 +7,7 @@ are left in the file and not used, so that a figure never mixes two versions.
 
 from __future__ import annotations
 
+import argparse
 import fcntl
 import hashlib
 import json
@@ -126,6 +127,13 @@ def _computed(work, keys: Iterable[tuple], jobs: int) -> Iterator[tuple[tuple, R
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
             raise
+
+
+def add_options(parser: argparse.ArgumentParser, results: Path) -> None:
+    """The options of a run: how many processes, where its results are, and what it tells."""
+    parser.add_argument("--jobs", type=int, default=2, help="processes (2)")
+    parser.add_argument("--results", type=Path, default=results)
+    parser.add_argument("--details", action="store_true", help="one line a case, on stderr")
 
 
 def note(text: str) -> None:

@@ -18,7 +18,6 @@ from pyimu.identification.conclude import conclude
 from pyimu.identification.fit.keys import Key, coefficient_of
 from pyimu.identification.fit.trial import Trial, accel_trial, gyro_trial
 from pyimu.identification.formula.effect import forget
-from pyimu.identification.formula.resembles import resembled
 from pyimu.identification.formula.search import Look, look
 from pyimu.identification.made_with import called
 from pyimu.identification.reference.align import aligned
@@ -29,7 +28,6 @@ from pyimu.identification.result import Closed
 from pyimu.identification.search.forward import Investigation, investigate
 from pyimu.identification.thermometer import late_thermometers
 from pyimu.identification.vibration import vibrations
-from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as find_part
 from pyimu.model.part_file import part_names
@@ -53,9 +51,6 @@ HELD_OUT = 0.3
 BAND_SHARE = 0.75
 """Share of the band in which gyro and derived reference agree that is used: at its edge a tenth of
 the power is noise."""
-
-TWIN = 0.98
-"""Correlation with an effect of the catalogue from which on a formula is nothing new."""
 
 SHORTEST = 64
 """Rows of a log below which nothing can be said of it."""
@@ -139,22 +134,11 @@ def _investigated(
             trials = _shown(start, declared, free, trials)
             prior = {} if declared else _prior(kind, free)
             found[kind] = investigate(start.sensor(kind), free, trials, held, say, prior)
-            looks[kind] = _new(look(found[kind], partial(_again, found[kind], prior), say), found)
+            looks[kind] = look(found[kind], partial(_again, found[kind], prior), say)
             found[kind] = looks[kind].investigation
             quality += late_thermometers(found[kind])
         quality += _of_trials([*trials, *held])
     return {k: found[k] for k in ("gyro", "accel") if k in found}, looks, quality
-
-
-def _new(seen: Look, found: Mapping[str, Investigation]) -> Look:
-    """A look without a formula that says what an effect with a name would say in these logs."""
-    if seen.formula is None:
-        return seen
-    like = resembled(seen.investigation, seen.formula)
-    if not like or like[0][1] < TWIN:
-        return seen
-    CATALOGUE.remove(seen.formula.name)
-    return Look(found[seen.formula.sensor], None, seen.unexplained)
 
 
 def _again(

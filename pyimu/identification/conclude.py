@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
-from types import MappingProxyType
 
 import numpy as np
 
@@ -21,8 +20,8 @@ from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.trial import rest_noise
 from pyimu.identification.fit.whiten import RandomWalk
-from pyimu.identification.formula.resembles import resembled
-from pyimu.identification.formula.search import Formula, Look
+from pyimu.identification.formula.formula import Formula
+from pyimu.identification.formula.search import Look
 from pyimu.identification.found import Added, Changed, LogEntry
 from pyimu.identification.heading_error import heading_rms
 from pyimu.identification.held_out import at_rest, attitudes, held_trials, scores
@@ -62,8 +61,8 @@ def conclude(
     found: Found,
     quality: tuple,
     say: Callable[[str], None],
-    made_with: MadeWith | None = None,
-    looks: Mapping[str, Look] = MappingProxyType({}),
+    made_with: MadeWith,
+    looks: Mapping[str, Look],
 ) -> Closed:
     """The result of the investigations ``found`` of the sensors of a part, with what was made of
     what they leave.
@@ -81,7 +80,7 @@ def conclude(
     added, changed, drifts = _findings(start, declared, found, model, noises, say)
     unexplained = tuple(k.unexplained for k in looks.values() if k.unexplained)
     unexplained += tuple(s for n in noises.values() for s in n.shapes)
-    formulas = tuple(f for k in looks.values() if k.formula and (f := _kept(k.formula, found)))
+    formulas = _kept(looks.values(), found)
     refused = [(kind, r) for kind, inv in found.items() for r in inv.refused]
     refused += [(kind, r) for kind, n in noises.items() for r in n.refused]
     say("error on held-out data")
@@ -125,12 +124,10 @@ def conclude(
     )
 
 
-def _kept(formula: Formula, found: Found) -> Formula | None:
-    """A formula with what it resembles, unless it was taken back."""
-    inv = found[formula.sensor]
-    if all(s.effect != formula.name for s in inv.steps):
-        return None
-    return replace(formula, resembles=resembled(inv, formula))
+def _kept(looks: Iterable[Look], found: Found) -> tuple[Formula, ...]:
+    """The formulas that were found, less those that were taken back."""
+    formulas = (k.formula for k in looks if k.formula)
+    return tuple(f for f in formulas if any(s.effect == f.name for s in found[f.sensor].steps))
 
 
 def _findings(

@@ -26,7 +26,7 @@ from pyimu.identification.fit.noise_floor import floor_noise
 from pyimu.identification.fit.score import held_state
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk
-from pyimu.identification.formula.search import Formula
+from pyimu.identification.formula.formula import Formula
 from pyimu.identification.formula.terms import values_of
 from pyimu.identification.found import Added
 from pyimu.identification.search.forward import Investigation

@@ -12,7 +12,7 @@ from pyimu.identification.estimated import Estimated
 from pyimu.identification.exhibits import Exhibits
 from pyimu.identification.fates import Fate
 from pyimu.identification.fit.score import WINDOW
-from pyimu.identification.formula.search import Formula
+from pyimu.identification.formula.formula import Formula
 from pyimu.identification.found import Added, AtRest, Changed, Errors, LogEntry, Visibility
 from pyimu.identification.made_with import MadeWith
 from pyimu.identification.search.forward import Refused

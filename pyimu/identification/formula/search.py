@@ -21,9 +21,10 @@ from pyimu.identification.formula.effect import (
     free_name,
     function_text,
     made,
-    plain,
     put,
 )
+from pyimu.identification.formula.formula import Formula
+from pyimu.identification.formula.resembles import resembled
 from pyimu.identification.formula.screen import UNEXPLAINED, Scored, Scores, gate, scored
 from pyimu.identification.formula.terms import (
     LEVELS,
@@ -39,7 +40,6 @@ from pyimu.identification.search.forward import SET_WIDTH, Investigation, Step, 
 from pyimu.identification.search.leftover import Unexplained
 from pyimu.identification.search.screen import PENALTY, fitted_dispersion, fitted_gain
 from pyimu.model.catalogue import CATALOGUE
-from pyimu.model.effect import Effect
 from pyimu.model.signals import COLUMNS, START
 
 MOST_TERMS, MOST_FIRSTS = 3, 3
@@ -60,35 +60,6 @@ Again = Callable[..., Investigation]
 
 Chosen = list[tuple[Term, tuple[int, ...]]]
 """The terms of a formula, each with its axes."""
-
-
-@dataclass(frozen=True)
-class Formula:
-    """A formula of one sensor as the effect ``name``: its terms with the axes of each, the text
-    that defines it, and by effect of the catalogue how much it looks like it (correlation in
-    these logs).
-    """
-
-    sensor: str
-    name: str
-    terms: tuple[Term, ...]
-    axes: tuple[tuple[int, ...], ...]
-    effect: Effect
-    text: str
-    resembles: tuple[tuple[str, float], ...] = ()
-
-    @property
-    def said(self) -> str:
-        """Its terms in plain mathematics."""
-        return plain(self.terms)
-
-    def as_dict(self) -> dict[str, object]:
-        return {
-            "sensor": self.sensor,
-            "effect": self.name,
-            "formula": self.said,
-            "resembles": [{"effect": n, "correlation": round(r, 3)} for n, r in self.resembles],
-        }
 
 
 Found = tuple[float, Investigation, Formula]
@@ -121,7 +92,8 @@ def look(
     terms = library(kind, trials)
     if not terms:
         return Look(inv)
-    left = scored(inv.after.as_declared(), terms, keep=True)
+    judged = inv.after.as_declared()
+    left = scored(judged, terms, keep=True)
     fires = left.p_value < UNEXPLAINED
     if not fires and len([s for s in inv.steps if not s.declared]) < 2:
         return Look(inv)
@@ -133,19 +105,23 @@ def look(
     found = [_tried(inv, start, scores, terms, again) for start, scores in starts]
     found = [f for f in found if f is not None]
     best = max(found, key=lambda f: f[0], default=None)
-    if best is None:
-        return Look(inv, None, _unexplained(kind, inv.after, terms) if fires else None)
-    _, after, formula = best
-    put(formula.effect)
-    return Look(after, formula, _unexplained(kind, after.after, terms))
+    if best is not None:
+        _, after, formula = best
+        put(formula.effect)
+        formula = replace(formula, resembles=resembled(after, formula))
+        if formula.is_new:
+            return Look(after, formula, _unexplained(kind, scored(after.after, terms)))
+        CATALOGUE.remove(formula.name)
+    if not fires:
+        return Look(inv)
+    # By the noise that it shows itself: a residual that wanders more than is declared follows many
+    # a slow input by chance.
+    seen = left if judged is inv.after else scored(inv.after, terms)
+    return Look(inv, None, _unexplained(kind, seen))
 
 
-def _unexplained(kind: str, fit: Fit, terms: list[Term]) -> Unexplained | None:
-    """The term on which a residual depends most clearly, by the noise that it shows itself.
-
-    One that wanders more than is declared follows many a slow input by chance.
-    """
-    scores = scored(fit, terms)
+def _unexplained(kind: str, scores: Scores) -> Unexplained | None:
+    """The term on which a residual depends most clearly, if on any."""
     if scores.p_value >= UNEXPLAINED:
         return None
     s = min(scores.terms, key=lambda s: s.p_value)

@@ -6,7 +6,7 @@ import numpy as np
 
 from pyimu.identification.as_part import SENSORS
 from pyimu.identification.formula.effect import TERM, coefficients
-from pyimu.identification.formula.search import Formula
+from pyimu.identification.formula.formula import Formula
 from pyimu.identification.found import Added, AtRest, Errors
 from pyimu.identification.outcome import Outcome
 from pyimu.identification.search.leftover import Unexplained
