@@ -10,21 +10,21 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
-import hashlib
 import os
 import platform
 import shlex
 import shutil
-import stat
 import subprocess
 import sys
 import tempfile
 from collections.abc import Callable
-from functools import cache, lru_cache
+from functools import lru_cache
 from pathlib import Path
 
 import casadi as ca
 import numpy as np
+
+from pyimu.block.cache import keep, kept, key_of
 
 FLAGS = (
     "-std=c11",
@@ -54,9 +54,6 @@ The virtual machine takes 0.6 us and 2 to 4 ns an instruction for a sample, the 
 0.2 to 0.4 ms an instruction: whatever the step, a compiler's time is that of about 100,000
 samples. Half of it, as others will find the library."""
 
-KEPT = 64
-"""Libraries in the cache folder; beyond that the ones that were used longest ago go."""
-
 
 def compiler_command() -> list[str]:
     """The command that compiles for this machine: ``CC``, else ``cc``; empty without a compiler."""
@@ -74,27 +71,6 @@ def source_folder() -> Path:
         if (folder / "noise.c").is_file():
             return folder
     raise FileNotFoundError(f"the C sources fmu_src are neither in {package} nor beside it")
-
-
-def cache_folder() -> Path | None:
-    """The folder in which compiled libraries are kept, None for none.
-
-    It is ``PYIMU_CACHE`` (empty: none), else ``pyimu`` in the user's cache folder of the platform.
-    """
-    given = os.environ.get("PYIMU_CACHE")
-    if given is not None:
-        return Path(given) if given else None
-    home = Path(os.path.expanduser("~"))
-    usual = {"win32": home / "AppData" / "Local", "darwin": home / "Library" / "Caches"}.get(
-        sys.platform, home / ".cache"
-    )
-    named = Path(
-        os.environ.get(
-            {"win32": "LOCALAPPDATA", "darwin": ""}.get(sys.platform, "XDG_CACHE_HOME"), ""
-        )
-    )
-    base = named if named.is_absolute() else usual
-    return base / "pyimu" if base.is_absolute() else None
 
 
 def compiled(step: ca.Function, rows: int) -> Callable | None:
@@ -192,15 +168,8 @@ def _library(source: str, compile_it: bool) -> ctypes.CDLL | None:
 def _key(source: str, compiler: tuple[str, ...]) -> str:
     """Whatever the library's bytes follow from, as a name."""
     hand_written = [(source_folder() / name).read_bytes() for name in HAND_WRITTEN]
-    texts = [source, *FLAGS, *compiler, _version(compiler), sys.platform, platform.machine()]
-    return _digest(b"\0".join([*(t.encode() for t in texts), *hand_written]))
-
-
-@cache
-def _version(compiler: tuple[str, ...]) -> str:
-    return subprocess.run(
-        [*compiler, "--version"], capture_output=True, text=True, errors="replace", check=False
-    ).stdout
+    texts = [source, *FLAGS, sys.platform, platform.machine()]
+    return key_of(compiler, *(t.encode() for t in texts), *hand_written)
 
 
 def _compile(source: str, compiler: list[str], key: str) -> ctypes.CDLL | None:
@@ -216,61 +185,13 @@ def _compile(source: str, compiler: list[str], key: str) -> ctypes.CDLL | None:
             [*compiler, *FLAGS, *files, "-o", str(library), "-lm"], capture_output=True, check=False
         ).returncode:
             return None
-        with contextlib.suppress(
-            OSError
-        ):  # no cache, or none that can be written: compiled again next time
-            _keep(key, library.read_bytes())
+        keep(key, library.read_bytes())
         return ctypes.CDLL(str(library))
 
 
-def _digest(data: bytes) -> str:
-    return hashlib.sha256(data).hexdigest()[:32]
-
-
 def _from_cache(key: str) -> ctypes.CDLL | None:
-    """A library of the cache, if it is whole.
-
-    Its name holds the digest of its bytes, as a truncated one could end the process.
-    """
-    with contextlib.suppress(OSError):
-        for path in _files(f"{key}.*"):
-            if path.suffixes[0] == f".{_digest(path.read_bytes())}":
-                with contextlib.suppress(OSError):
-                    library = ctypes.CDLL(str(path))
-                    os.utime(path)
-                    return library
+    """A library of the cache, if it can be loaded."""
+    for path in kept(key):
+        with contextlib.suppress(OSError):
+            return ctypes.CDLL(str(path))
     return None
-
-
-def _keep(key: str, data: bytes) -> None:
-    """Write a library to the cache under a temporary name and rename it.
-
-    So nobody loads half of it.
-    """
-    folder = cache_folder()
-    if folder is None:
-        return
-    folder.mkdir(parents=True, exist_ok=True, mode=0o700)
-    handle, temporary = tempfile.mkstemp(dir=folder, suffix=".tmp")
-    try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(data)
-        os.replace(temporary, folder / f"{key}.{_digest(data)}.so")
-    except BaseException:
-        os.unlink(temporary)
-        raise
-    for old in sorted(_files("*.*"), key=lambda path: path.stat().st_mtime)[:-KEPT]:
-        old.unlink(missing_ok=True)
-
-
-def _files(pattern: str) -> list[Path]:
-    """Libraries in the cache folder; none where others may write to it, as what is in it is run."""
-    folder = cache_folder()
-    if folder is None or not folder.is_dir():
-        return []
-    about = folder.stat()
-    if hasattr(os, "getuid") and (
-        about.st_uid != os.getuid() or about.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
-    ):
-        return []
-    return list(folder.glob(f"{pattern}.so"))

@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from pyimu.block.block import Block
+from pyimu.block.cache import keep, kept_bytes, key_of
 from pyimu.block.compiled import compiler_command, source_folder
 from pyimu.errors import UserError
 from pyimu.files import whole
@@ -168,51 +169,64 @@ def _compile(
     compiler: list[str],
     work: Path,
 ) -> dict[Form, bytes]:
-    """The shared library of each form, in bytes."""
-    for form in forms:
-        _write_sources(_source_files(generated, form), work, work / _table_folder(form))
-    objects = {form: _objects(form) for form in forms}
+    """The shared library of each form, in bytes; what was made before is not made again."""
+    files = {form: _source_files(generated, form) for form in forms}
+    keys = {form: _library_key(name, files[form], form, platform, compiler) for form in forms}
+    found = {form: made for form, key in keys.items() if (made := kept_bytes(key))}
+    missing = [form for form in forms if form not in found]
+    for form in missing:
+        _write_sources(files[form], work, work / _table_folder(form))
+    objects = {form: _objects(form) for form in missing}
     jobs = {target: job for of_form in objects.values() for target, job in of_form.items()}
-
-    def make(target: str) -> None:
-        source, folder = jobs[target]
-        _run(
-            [
-                *compiler,
-                *FLAGS,
-                "-I",
-                folder,
-                "-I",
-                ".",
-                "-I",
-                str(header_folder()),
-                "-c",
-                source,
-                "-o",
-                target,
-            ],
-            work,
-            source,
-        )
-
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        list(pool.map(make, jobs))
-    return {form: _link(name, list(objects[form]), platform, compiler, work) for form in forms}
+        list(pool.map(lambda target: _make(target, *jobs[target], compiler, work), jobs))
+    for form in missing:
+        found[form] = _link(name, list(objects[form]), platform, compiler, work)
+        keep(keys[form], found[form])
+    return found
+
+
+def _library_key(
+    name: str, files: dict[str, bytes], form: Form, platform: Platform, compiler: list[str]
+) -> str:
+    """Whatever a library's bytes follow from, as a name."""
+    parts = [part for file in sorted(files) for part in (file.encode(), files[file])]
+    texts = (name, str(form), platform.name, *FLAGS)
+    return key_of(compiler, *(t.encode() for t in texts), *parts, *_fmi_headers())
+
+
+def _make(target: str, source: str, folder: str, compiler: list[str], work: Path) -> None:
+    """Compile a ``source`` to the object file ``target``, with the headers of its ``folder`` if it
+    has one, or take the one that was made of the same before.
+    """
+    folders = [".", *([folder] if folder else [])]
+    read = [work / source, *(p for f in folders for p in sorted((work / f).glob("*.h")))]
+    parts = [target.encode(), *(t.encode() for t in FLAGS)]
+    parts += [b for path in read for b in (path.name.encode(), path.read_bytes())]
+    key = key_of(compiler, *parts, *_fmi_headers())
+    made = kept_bytes(key)
+    if made is not None:
+        (work / target).write_bytes(made)
+        return
+    headers = [word for f in (*folders, str(header_folder())) for word in ("-I", f)]
+    _run([*compiler, *FLAGS, *headers, "-c", source, "-o", target], work, source)
+    keep(key, (work / target).read_bytes())
+
+
+def _fmi_headers() -> list[bytes]:
+    return [path.read_bytes() for path in sorted(header_folder().glob("*.h"))]
 
 
 def _objects(form: Form) -> dict[str, tuple[str, str]]:
-    """Each object file of a form, with its source and the folder of its table of variables.
-
-    The table is read by ``block*.c`` alone.
+    """Each object file of a form, with its source and the folder of its table of variables, which
+    ``block*.c`` alone can read.
     """
     sources = [*(file for file in CORE if file.endswith(".c")), LAYER[form], "step.c"]
     folder = _table_folder(form)
     return {
-        f"{f'{folder}_' if file.startswith('block') else ''}{file.removesuffix('.c')}.o": (
-            file,
-            folder,
-        )
+        f"{f'{of_form}_' if of_form else ''}{file.removesuffix('.c')}.o": (file, of_form)
         for file in sources
+        for of_form in [folder if file.startswith("block") else ""]
     }
 
 

@@ -5,6 +5,7 @@ and its absence goes unnoticed.
 import os
 import subprocess
 import sys
+import time
 
 import casadi as ca
 import numpy as np
@@ -13,6 +14,7 @@ from places import same_path
 
 import pyimu
 from pyimu.attitude import attitude_ukf
+from pyimu.block import cache as store
 from pyimu.block import compiled as native
 from pyimu.block.block import CHUNK, Block, Run
 from pyimu.block.normals import normals
@@ -252,7 +254,7 @@ def test_foreign_file_under_a_librarys_name_is_compiled_again(cache, compilation
     """A file whose digest is right and that is no library, as one of another system would be."""
     native.compiled(toy().step, 10)
     (path,) = cache.iterdir()
-    path.rename(path.with_name(f"{compilations[0]}.{native._digest(b'foreign')}.so"))
+    path.rename(path.with_name(f"{compilations[0]}.{store._digest(b'foreign')}.so"))
     next(cache.iterdir()).write_bytes(b"foreign")
     forget()
     assert native.compiled(toy().step, 10) is not None and len(compilations) == 2
@@ -276,12 +278,22 @@ def test_without_a_cache_the_run_is_compiled_all_the_same(tmp_path, monkeypatch,
 
 
 def test_cache_keeps_what_was_used_last(cache, monkeypatch):
-    monkeypatch.setattr(native, "KEPT", 3)
+    monkeypatch.setattr(store, "KEPT", 3)
     for k in range(5):
-        native._keep(f"{k:032x}", bytes([k]))
+        store.keep(f"{k:032x}", bytes([k]))
         (path,) = cache.glob(f"{k:032x}.*")
         os.utime(path, (k, k))
     assert sorted(int(p.name.split(".")[0], 16) for p in cache.iterdir()) == [2, 3, 4]
+
+
+def test_cache_loses_what_a_killed_process_left(cache):
+    cache.mkdir(mode=0o700)
+    for name, age in (("dead.tmp", 2 * store.DEAD), ("alive.tmp", 0.0)):
+        (cache / name).write_bytes(b"half")
+        os.utime(cache / name, (time.time() - age,) * 2)
+    store.keep("0" * 32, b"whole")
+    assert {p.suffix for p in cache.iterdir()} == {".tmp", ".so"}
+    assert [p.name for p in cache.glob("*.tmp")] == ["alive.tmp"]
 
 
 @pytest.mark.parametrize(
@@ -304,4 +316,4 @@ def test_cache_folder_is_the_platforms(monkeypatch, platform, environment, want)
     for name, value in {"HOME": "/h", **environment}.items():
         monkeypatch.setenv(name, value)
     monkeypatch.setattr(sys, "platform", platform)
-    assert str(native.cache_folder()) == want
+    assert str(store.cache_folder()) == want

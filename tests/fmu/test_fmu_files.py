@@ -30,6 +30,7 @@ from pyimu.files import check_folder
 from pyimu.fmu import (
     FORMS,
     PLATFORMS,
+    build,
     build_fmu,
     build_fmus,
     host_platform,
@@ -435,6 +436,20 @@ def test_compilers_that_fail(monkeypatch, tmp_path, compiler, words):
     with pytest.raises(UserError, match=words) as caught:
         build_fmu(BLOCK, tmp_path)
     assert "\n" not in str(caught.value) and not list(tmp_path.iterdir())
+
+
+def test_what_was_compiled_is_not_compiled_again(monkeypatch, tmp_path):
+    """A second build asks for no compiler; one with other start values that table alone."""
+    monkeypatch.setenv("PYIMU_CACHE", str(tmp_path / "cache"))
+    made, run = [], build._run
+    monkeypatch.setattr(build, "_run", lambda c, f, what: made.append(what) or run(c, f, what))
+    first = build_fmu(BLOCK, tmp_path / "a", 3).read_bytes()
+    whole = len(made)
+    assert build_fmu(BLOCK, tmp_path / "b", 3).read_bytes() == first and len(made) == whole
+    start = replace(BLOCK.parameters[0], start=0.25 + BLOCK.parameters[0].start)
+    build_fmu(replace(BLOCK, parameters=(start, *BLOCK.parameters[1:])), tmp_path / "c", 3)
+    again = {m for m in made[whole:] if m.endswith(".c")}
+    assert again == {m for m in made[:whole] if m.startswith("block")}
 
 
 @pytest.mark.skipif(shutil.which("gcc") is None, reason="needs gcc")

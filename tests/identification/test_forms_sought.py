@@ -77,7 +77,7 @@ def test_what_follows_from_other_signals_is_remembered_alone():
     sensor = Sensor("gyro", {"thermal_hysteresis": CASES["thermal_hysteresis"]})
     assert is_driven(CATALOGUE["thermal_hysteresis"], "gyro")
     assert not is_driven(CATALOGUE["angle_quantization"], "gyro")
-    assert with_memory(sensor, t.u, t.segments, H).shape[1] > t.u.shape[1]
+    assert len(with_memory(sensor, list(t.u.T), t.segments, H)) > t.u.shape[1]
     kh, width = 0.01, 2.0
     played, at = [], t.u[0, COLUMNS["temperature"].start]
     for now in t.u[:, COLUMNS["temperature"].start]:

@@ -53,7 +53,12 @@ class Band:
         return np.concatenate(parts) if parts else np.arange(0)
 
     def apply(self, values: np.ndarray, segments: list[tuple[int, int]]) -> np.ndarray:
-        """Filter (n, c) within each segment; gives (m, c), one row for each of ``centres``."""
+        """Filter (n, c) within each segment; gives (m, c), one row for each of ``centres``.
+
+        It may be a view of ``values`` where nothing is filtered.
+        """
+        if len(segments) == 1 and len(self.weights) == 1:
+            return values[slice(*segments[0])]
         if len(self.weights) == 1:
             return np.concatenate([values[a:b] for a, b in segments]) if segments else values[:0]
         parts = [self._one(values[a:b]) for a, b in segments if b - a > 2 * self.half]
@@ -65,6 +70,6 @@ class Band:
         # upfirdn keeps outputs 0, stride, 2 stride ...; dropping whole strides first puts them on
         # the centres.
         lead = (-2 * self.half) % self.stride
-        padded = np.concatenate([np.zeros((lead, values.shape[1])), shifted])
+        padded = np.concatenate([np.zeros((values.shape[1], lead)), shifted.T], axis=1)
         first = (2 * self.half + lead) // self.stride
-        return upfirdn(np.array(self.weights), padded, 1, self.stride, axis=0)[first : first + rows]
+        return upfirdn(np.array(self.weights), padded, 1, self.stride)[:, first : first + rows].T

@@ -21,6 +21,7 @@ from pyimu.identification.fit.keys import (
 )
 from pyimu.identification.fit.reduction import Rows
 from pyimu.identification.fit.response import (
+    Columns,
     after_dynamics,
     before_dynamics,
     behind_dynamics,
@@ -40,7 +41,7 @@ from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS
 
-TEMPERATURE, ITS_RATE = COLUMNS["temperature"], COLUMNS["temperature_rate"]
+TEMPERATURE, ITS_RATE = COLUMNS["temperature"].start, COLUMNS["temperature_rate"].start
 
 SMALL_LAG = 0.1
 """s; a step of a thermometer's lag that changes a temperature by far less than its noise."""
@@ -97,9 +98,10 @@ def reference_input(trial: Trial, state: LogState) -> np.ndarray:
         u[:, own] -= late * u[:, rate]
     # What is turned is turned by the sensor's own axes, whichever the reference has.
     turned = (COLUMNS["turned"],) if trial.kind == "gyro" else ()
-    for at in (own, rate, *turned):
+    for at in () if np.array_equal(state.rotation, np.eye(3)) else (own, rate, *turned):
         u[:, at] = u[:, at] @ state.rotation.T
-    u[:, TEMPERATURE] += state.lag * u[:, ITS_RATE]
+    if state.lag:
+        u[:, TEMPERATURE] += state.lag * u[:, ITS_RATE]
     return u
 
 
@@ -152,8 +154,9 @@ class Regressors:
         columns = {}
         for i in self.trial.axes:
             arrays = [v for _, axis, v in self.items if axis == i]
-            stacked = np.column_stack(arrays) if arrays else np.zeros((len(self.trial.time), 0))
-            columns[i] = in_band(self.trial, stacked)
+            # Each column contiguous, as what filters them one by one wants it.
+            stacked = np.array(arrays).reshape(len(arrays), len(self.trial.time))
+            columns[i] = in_band(self.trial, stacked.T)
         return keys, columns
 
 
@@ -184,7 +187,7 @@ def linearise(
             out.add(coefficient_of(s), int(axis), entries[:, e])
         if (s.effect, s.parameter) == POWER_ON:
             out.add(LogBias(trial.name, s.index[0]), int(axis), entries[:, e])
-    _turn_columns(out, trial, moved[:, own], slope)
+    _turn_columns(out, trial, np.array(moved[own]).T, slope)
     _clock_columns(out, sensor, trial, state, u, slope)
     _thermometer_columns(out, rest, trial, moved)
     _motion_columns(out, sensor, trial, u, slope, wanted)
@@ -200,6 +203,19 @@ def linearise(
         in_band(trial, trial.y - y),
         keys,
         columns,
+    )
+
+
+def with_columns(one: Linear, trial: Trial, state: LogState, extra: Iterable) -> Linear:
+    """A linearised trial of samples with the columns that functions ``(trial, u, add)`` add."""
+    u, out = reference_input(trial, state), Regressors(trial)
+    for function in extra:
+        function(trial, u, out.add)
+    keys, columns = out.filtered()
+    return replace(
+        one,
+        keys={i: one.keys[i] + keys[i] for i in one.keys},
+        columns={i: np.concatenate([one.columns[i], columns[i]], axis=1) for i in one.keys},
     )
 
 
@@ -257,14 +273,14 @@ def _clock_columns(
             out.add(LogClock(trial.name, order), i, turned[:, i])
 
 
-def _thermometer_columns(out: Regressors, rest: Sensor, trial: Trial, moved: np.ndarray) -> None:
+def _thermometer_columns(out: Regressors, rest: Sensor, trial: Trial, moved: Columns) -> None:
     """What a lag of the log's thermometer changes in all that depends on temperature."""
     if not has_thermometer(rest, trial):
         return
     ends = []
     for sign in (1.0, -1.0):
-        later = np.array(moved)
-        later[:, TEMPERATURE] += sign * SMALL_LAG * later[:, ITS_RATE]
+        later = list(moved)
+        later[TEMPERATURE] = moved[TEMPERATURE] + sign * SMALL_LAG * moved[ITS_RATE]
         ends.append(memoryless(rest.chain).output(later, rest.p, trial.h))
     change = (ends[0] - ends[1]) / (2 * SMALL_LAG)
     for i in range(3):
@@ -292,7 +308,8 @@ def _motion_columns(
     if not any(coefficient_of(s) in wanted for s in chain.slots):
         return
     before = memoryless(chain.chain)
-    entries = before(with_memory(chain, u, trial.segments, trial.h), chain.p, trial.h)[2]
+    known = with_memory(chain, list(u.T), trial.segments, trial.h)
+    entries = before(known, chain.p, trial.h)[2]
     for number, s in enumerate(chain.slots):
         of_slot = np.flatnonzero(before.slot == number)
         if coefficient_of(s) not in wanted or not len(of_slot):

@@ -20,6 +20,7 @@ from pyimu.identification.fit.columns import (
     linearise,
     reduced,
     residual,
+    with_columns,
 )
 from pyimu.identification.fit.keys import (
     Coefficient,
@@ -78,6 +79,13 @@ class Fit:
             sensor = sensor if name in sensor.values else sensor.with_values(name)
             wanted |= coefficients_of(sensor, name)
         return [linearise(sensor, t, self.states[t.name], wanted, extra) for t in self.trials]
+
+    def beside(self, linears: Iterable[Linear], extra: Iterable) -> list[Linear]:
+        """All trials as they were linearised, with the columns that functions ``extra`` add."""
+        return [
+            with_columns(one, t, self.states[t.name], extra)
+            for one, t in zip(linears, self.trials, strict=True)
+        ]
 
     def residuals(self) -> list[Linear]:
         """All trials' residuals in their band, without columns."""

@@ -66,17 +66,15 @@ def normal_equations(linears: list[Linear], noise: Noise) -> Normal:
         edges = np.linspace(0, len(one.time), count + 1).astype(int)
         for i, columns in one.columns.items():
             at = np.array([position[k] for k in one.keys[i]], dtype=int)
-            white = noise[i].whiten(
-                np.column_stack([columns, one.residual[:, i]]), one.time, one.segments
-            )
-            power += float(white[:, -1] @ white[:, -1])
+            white = noise[i].whiten(columns, one.time, one.segments)
+            left = noise[i].whiten(one.residual[:, i : i + 1], one.time, one.segments)[:, 0]
+            power += float(left @ left)
             log_det += noise[i].log_det(one.time, one.segments)
-            rows += len(white)
-            parts = (white[a:b] for a, b in zip(edges[:-1], edges[1:], strict=True))
-            wholes = np.array([part.T @ part for part in parts])
+            rows += len(left)
+            parts = [slice(a, b) for a, b in zip(edges[:-1], edges[1:], strict=True)]
             batch = np.arange(first, first + count)
-            gram[np.ix_(batch, at, at)] += wholes[:, :-1, :-1]
-            score[np.ix_(batch, at)] += wholes[:, :-1, -1]
+            gram[np.ix_(batch, at, at)] += np.array([white[p].T @ white[p] for p in parts])
+            score[np.ix_(batch, at)] += np.array([left[p] @ white[p] for p in parts])
         first += count
     return Normal(keys, gram, score, power, rows, log_det)
 

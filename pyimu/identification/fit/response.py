@@ -25,6 +25,9 @@ from pyimu.model.signals import N_INPUT
 
 LONGEST_RESPONSE = 1 << 14
 
+Columns = list[np.ndarray]
+"""Inputs (n,), one after another: what changes one of them leaves the others where they are."""
+
 
 def remembers(sensor: Sensor) -> bool:
     """Whether some effect's memory of the sensor's own signal is more than a filter's (rounding
@@ -50,21 +53,22 @@ def is_driven(e: Effect, kind: str) -> bool:
 
 
 def with_memory(
-    rest: Sensor, u: np.ndarray, segments: list[tuple[int, int]], h: float
-) -> np.ndarray:
-    """Inputs (n, N_INPUT + k) of what is ``memoryless``: with the memory that the chain's effects
-    have of other signals as it stands before each sample, each segment from the start.
+    rest: Sensor, inputs: Columns, segments: list[tuple[int, int]], h: float
+) -> Columns:
+    """Inputs, N_INPUT + k columns (n,), of what is ``memoryless``: with the memory that the chain's
+    effects have of other signals as it stands before each sample, each segment from the start.
     """
     chain = rest.chain
     if not has_memory(chain):
-        return u
-    out, step = np.hstack([u, np.tile(chain.start, (len(u), 1))]), _memory(chain)
+        return inputs
+    u, step = np.column_stack(inputs), _memory(chain)
+    memory = np.tile(chain.start, (len(u), 1))
     for a, b in segments:
         none = np.zeros((b - a, 0))
         before = np.empty((b - a, len(chain.start)))
         step_through(step, chain.start.copy(), u[a:b], rest.p, none, np.array([h]), before)
-        out[a:b, u.shape[1] :] = before
-    return out
+        memory[a:b] = before
+    return [*inputs, *memory.T]
 
 
 def has_memory(chain: Chain) -> bool:
@@ -157,14 +161,15 @@ def through_dynamics(
 
 def behind_dynamics(
     sensor: Sensor, u: np.ndarray, segments: list[tuple[int, int]], h: float
-) -> np.ndarray:
-    """Inputs (n, N_INPUT) with the sensor's own signal as it comes out of the dynamics."""
+) -> Columns:
+    """Inputs (n, N_INPUT), column by column, with the sensor's own signal as it comes out of the
+    dynamics.
+    """
     own, before = OWN[sensor.kind], before_dynamics(sensor)
-    out = np.array(u)
+    out, x = list(u.T), u[:, own]
     if before.effects:
-        known = with_memory(before, u, segments, h)
-        out[:, own] = memoryless(before.chain).output(known, before.p, h)
-    out[:, own] = through_dynamics(sensor, out[:, own], segments, h)
+        x = memoryless(before.chain).output(with_memory(before, out, segments, h), before.p, h)
+    out[own] = through_dynamics(sensor, x, segments, h).T
     return out
 
 
@@ -183,37 +188,23 @@ class Memoryless:
         outputs = ca.vertcat(y, ca.vec(ca.densify(ca.jacobian(y, chain.x)).T), *jp.nonzeros())
         self._all = ca.Function("memoryless", [u, fixed], [ca.densify(outputs)])
         self._output = ca.Function("output", [u, fixed], [ca.densify(y)])
-        slopes = [
-            ca.jacobian(entry, chain.x[int(i)])
-            for entry, i in zip(jp.nonzeros(), self.axis, strict=True)
-        ]
-        self._slopes = ca.Function(
-            "slopes", [u, fixed], [ca.densify(ca.vertcat(ca.SX(0, 1), *slopes))]
-        )
 
     def __call__(
-        self, u: np.ndarray, p: np.ndarray, h: float
+        self, inputs: Columns, p: np.ndarray, h: float
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Output (n, 3) for inputs (n, N_INPUT + k), and its slopes.
+        """Output (n, 3) for inputs, N_INPUT + k columns (n,), and its slopes.
 
         Against the own input (n, 3, 3), and dy/dp (n, entries).
 
         Entry e of dy/dp belongs to output axis ``self.axis[e]`` and to coefficient
         ``self.slot[e]``.
         """
-        flat = over_rows(self._all, u, np.append(p, h))
+        flat = over_rows(self._all, inputs, np.append(p, h))
         return flat[:, :3], flat[:, 3:12].reshape(-1, 3, 3), flat[:, 12:]
 
-    def output(self, u: np.ndarray, p: np.ndarray, h: float) -> np.ndarray:
+    def output(self, inputs: Columns, p: np.ndarray, h: float) -> np.ndarray:
         """Output (n, 3) alone."""
-        return over_rows(self._output, u, np.append(p, h))
-
-    def mean_slope(self, u: np.ndarray, p: np.ndarray, h: float) -> np.ndarray:
-        """Mean over the rows (n, N_INPUT) of d(entry)/dx of its own axis, (entries,).
-
-        How a regressor follows an error of the input.
-        """
-        return over_rows(self._slopes, u, np.append(p, h)).mean(axis=0)
+        return over_rows(self._output, inputs, np.append(p, h))
 
 
 @lru_cache(maxsize=32)

@@ -76,7 +76,7 @@ def fill_place(
         values = [_of_place(recording, part, latitude) for part in SIGNALS[name].of]
         if any(v is None for v in values):
             continue
-        u[:, COLUMNS[name]] = over_rows(_follows(name), np.hstack(values), np.zeros(0))
+        u[:, COLUMNS[name]] = over_rows(_follows(name), np.hstack(values).T, np.zeros(0))
         if name != "earth_rate" or reference.kind == "rate" or not reference.earth_rate:
             found.add(name)
     return frozenset(found)

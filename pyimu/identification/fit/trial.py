@@ -237,7 +237,8 @@ def environment(recording: Recording) -> tuple[np.ndarray, frozenset[str]]:
 
     The others stand at their start values.
     """
-    u, known = np.tile(START, (len(recording.time), 1)), {"time"}
+    # Column by column, as what works on whole signals reads them.
+    u, known = np.repeat(START[:, None], len(recording.time), axis=1).T, {"time"}
     u[:, OWN["accel"]] = 0.0
     u[:, COLUMNS["time"]] = (recording.time - recording.time[0])[:, None]
     force = recording.accel if recording.ref_force is None else recording.ref_force

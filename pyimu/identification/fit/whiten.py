@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numba import njit
 from scipy.optimize import minimize_scalar
-from scipy.signal import lfilter
+from scipy.signal import lfilter, upfirdn
 
 Segments = list[tuple[int, int]]
 
@@ -28,29 +28,59 @@ CHUNK = 65536
 """Rows that are put side by side with their predecessors at once."""
 
 
-@njit(cache=True)
-def _innovations(values, steps, r, k2, out):
-    """Whiten the columns of ``values`` (m, c) into ``out``.
+SIDE_BY_SIDE = 8
+"""Columns that are filtered together: while one waits for its last step the others go on."""
 
-    Returns the sum of log innovation variances.
+
+@njit(cache=True)
+def _gains(steps, r, k2, gain, scale):
+    """Fill the Kalman gain (m,) of each step and one over the root of its innovation's variance.
+
+    Returns the sum of the logarithms of these variances.
     """
-    m, c = values.shape
-    level = np.zeros(c)
     variance, total = 0.0, 0.0
-    for k in range(m):
+    for k in range(len(steps)):
         variance += k2 * steps[k]
         f = variance + r
-        gain, scale = variance / f, 1.0 / np.sqrt(f)
+        gain[k], scale[k] = variance / f, 1.0 / np.sqrt(f)
         total += np.log(f)
-        for j in range(c):
-            v = values[k, j] - level[j]
-            # A column that has long been zero decays into denormal numbers, a hundred times slower
-            # than any other.
-            moved = level[j] + gain * v
-            level[j] = moved if abs(moved) > 1e-200 else 0.0
-            out[k, j] = v * scale
         variance = variance * r / f
     return total
+
+
+@njit(cache=True)
+def _filtered(values, gain, scale, out):
+    """Fill ``out`` with the innovations (c, m) of rows of ``values``."""
+    c, m = values.shape
+    level = np.zeros(SIDE_BY_SIDE)
+    for first in range(0, c, SIDE_BY_SIDE):
+        last = min(first + SIDE_BY_SIDE, c)
+        level[:] = 0.0
+        for k in range(m):
+            for j in range(first, last):
+                v = values[j, k] - level[j - first]
+                # A column that has long been zero decays into denormal numbers, a hundred times
+                # slower than any other.
+                moved = level[j - first] + gain[k] * v
+                level[j - first] = moved if abs(moved) > 1e-200 else 0.0
+                out[j, k] = v * scale[k]
+
+
+def _steps(time: np.ndarray) -> np.ndarray:
+    """Seconds (m,) from each row to the next, none before the first."""
+    return np.diff(time, prepend=time[:1])
+
+
+def _innovations(
+    values: np.ndarray, steps: np.ndarray, r: float, k2: float
+) -> tuple[np.ndarray, float]:
+    """Innovations (m, c) of columns (m, c), and the sum of the logarithms of their variances."""
+    gain, scale = np.empty_like(steps), np.empty_like(steps)
+    total = _gains(steps, r, k2, gain, scale)
+    rows = np.ascontiguousarray(values.T)
+    out = np.empty_like(rows)
+    _filtered(rows, gain, scale, out)
+    return out.T, total
 
 
 def power_less_bias(white: np.ndarray) -> float:
@@ -70,18 +100,11 @@ class RandomWalk:
 
     def whiten(self, values: np.ndarray, time: np.ndarray, segments: Segments) -> np.ndarray:
         """Innovations (m, c), unit variance, of columns (m, c) sampled at ``time`` (m,)."""
-        out = np.empty_like(values)
-        _innovations(
-            np.ascontiguousarray(values), np.diff(time, prepend=time[:1]), self.r, self.k2, out
-        )
-        return out
+        return _innovations(values, _steps(time), self.r, self.k2)[0]
 
     def log_det(self, time: np.ndarray, segments: Segments) -> float:
         """Sum of the logarithms of the innovation variances."""
-        nothing = np.zeros((len(time), 0))
-        return float(
-            _innovations(nothing, np.diff(time, prepend=time[:1]), self.r, self.k2, nothing)
-        )
+        return _innovations(np.zeros((len(time), 0)), _steps(time), self.r, self.k2)[1]
 
     def variance_along(self, values: np.ndarray, time: np.ndarray, segments: Segments) -> float:
         """Variance of the sum of products of ``values`` (m,) with this noise.
@@ -89,8 +112,7 @@ class RandomWalk:
         The walk that begins at each step goes on through all that follow; it begins at zero.
         """
         later = np.cumsum(values[::-1])[::-1]
-        steps = np.diff(time, prepend=time[:1])
-        return float(self.r * np.sum(values**2) + self.k2 * np.sum(steps * later**2))
+        return float(self.r * np.sum(values**2) + self.k2 * np.sum(_steps(time) * later**2))
 
     @classmethod
     def fit(cls, residuals: list[tuple[np.ndarray, np.ndarray, Segments]]) -> RandomWalk:
@@ -100,22 +122,15 @@ class RandomWalk:
         The bias of each log goes with the noise: one that fitted a larger random walk would keep
         that walk alive.
         """
-        parts = [
-            (
-                np.column_stack([v, np.ones(len(v))]),
-                np.diff(t, prepend=t[:1]),
-                np.empty((len(v), 2)),
-            )
-            for v, t, _ in residuals
-        ]
-        count = sum(len(v) for v, _, _ in parts)
-        step = float(np.median(np.concatenate([d[1:] for _, d, _ in parts])))
+        parts = [(np.array([v, np.ones(len(v))]).T, _steps(t)) for v, t, _ in residuals]
+        count = sum(len(v) for v, _ in parts)
+        step = float(np.median(np.concatenate([d[1:] for _, d in parts])))
 
         def concentrated(log_ratio: float) -> tuple[float, float]:
             k2 = np.exp(log_ratio) / step
-            logs = sum(_innovations(v, d, 1.0, k2, out) for v, d, out in parts)
-            power = max(sum(power_less_bias(out) for _, _, out in parts) / count, LEAST_VARIANCE)
-            return 0.5 * logs + 0.5 * count * np.log(power), power
+            white = [_innovations(v, d, 1.0, k2) for v, d in parts]
+            power = max(sum(power_less_bias(w) for w, _ in white) / count, LEAST_VARIANCE)
+            return 0.5 * sum(logs for _, logs in white) + 0.5 * count * np.log(power), power
 
         best = minimize_scalar(
             lambda x: concentrated(x)[0],
@@ -147,7 +162,8 @@ class Autoregressive:
         out = np.zeros_like(values)
         taps = np.concatenate([[1.0], -np.array(self.coefficients)])
         for a, b in segments:
-            out[a:b] = lfilter(taps, [1.0], values[a:b], axis=0) / np.sqrt(self.r)
+            if values[a:b].size:
+                out[a:b] = upfirdn(taps, values[a:b].T)[:, : b - a].T / np.sqrt(self.r)
             out[a : min(b, a + len(self.coefficients))] = 0.0
         return out
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from pyimu.identification.fit.fit import with_prior
+from pyimu.identification.fit.columns import Linear
+from pyimu.identification.fit.fit import Fit, with_prior
 from pyimu.identification.fit.keys import Coefficient, Shape
 from pyimu.identification.fit.normal import solve
 from pyimu.identification.fit.reference_noise import equations
@@ -26,9 +27,13 @@ def resembled(inv: Investigation, formula: Formula) -> tuple[tuple[str, float], 
     """
     before, kind = inv.before, formula.sensor
     effects = [e for e in absent(before) if e.name != formula.name]
-    makers = [scan_columns(before, effects), columns_of(kind, list(formula.terms))]
+    scans, own_columns = scan_columns(before, effects), columns_of(kind, list(formula.terms))
     linear = [e.name for e in effects if all(p.scan is None for p in e.parameters.values())]
-    normal = with_prior(equations(before, lambda f: f.linearise(linear, makers)), before)
+
+    def linearised(f: Fit) -> list[Linear]:
+        return f.beside(f.linearise(linear, [scans]), [own_columns])
+
+    normal = with_prior(equations(before, linearised), before)
     groups = groups_of(normal, before.sensor, effects)
     of_effects = sorted({c for g in groups for choice in g.choices for c in choice.columns})
     own = [i for i, k in enumerate(normal.keys) if isinstance(k, Shape)]

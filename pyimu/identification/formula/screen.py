@@ -6,8 +6,9 @@ as those of any effect.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from scipy.stats import chi2
@@ -45,10 +46,21 @@ class Scored:
 
 @dataclass(frozen=True)
 class Scores:
-    """All terms, best first, and the gate that chance passes in ``FALSE_ALARM`` of all logs."""
+    """All terms, best first, with what each would explain beside the model of ``fit``."""
 
     terms: tuple[Scored, ...]
-    whitened: tuple[tuple[np.ndarray, ...], ...]
+    fit: Fit
+
+    @cached_property
+    def whitened(self) -> list[tuple[np.ndarray, ...]]:
+        """By term and axis the directions (rows, columns), orthonormal, in which it acts on some of
+        the whitened rows once the model is projected out.
+        """
+        out, base = [], self.fit.linearise()
+        for few in _chunks([s.term for s in self.terms]):
+            linears = self.fit.beside(base, [columns_of(self.fit.sensor.kind, few)])
+            out += _whitened(self.fit, linears, few)
+        return out
 
     @property
     def trials(self) -> int:
@@ -61,29 +73,29 @@ class Scores:
         return min((s.p_value for s in self.terms), default=1.0) * self.trials
 
 
-def scored(fit: Fit, terms: Sequence[Term], keep: bool = False) -> Scores:
+def scored(fit: Fit, terms: Sequence[Term]) -> Scores:
     """The terms with what each would explain beside a model."""
     out: list[Scored] = []
-    kept: list[tuple[np.ndarray, ...]] = []
-    for first in range(0, len(terms), CHUNK):
-        few = list(terms[first : first + CHUNK])
-        seen: list[list[Linear]] = []
+    base = fit.linearise()
+    for few in _chunks(terms):
 
-        def linearised(f: Fit, few=few, seen=seen) -> list[Linear]:
-            seen.append(f.linearise((), [columns_of(f.sensor.kind, few)]))
-            return seen[-1]
+        def linearised(f: Fit, few=few) -> list[Linear]:
+            linears = base if f is fit else f.linearise()
+            return f.beside(linears, [columns_of(f.sensor.kind, few)])
 
         normal = with_prior(equations(fit, linearised), fit)
         place = {k: i for i, k in enumerate(normal.keys) if isinstance(k, Shape)}
-        base = [i for i, k in enumerate(normal.keys) if not isinstance(k, Shape)]
+        model = [i for i, k in enumerate(normal.keys) if not isinstance(k, Shape)]
         if not place:
             continue
-        projected = Projected.of(normal, base, list(place.values()))
+        projected = Projected.of(normal, model, list(place.values()))
         at = {k: n for n, k in enumerate(place)}
         out += [_scored(t, projected, at) for t in few]
-        if keep:
-            kept += _whitened(fit, seen[0], few)
-    return Scores(tuple(sorted(out, key=lambda s: -s.gain)), tuple(kept))
+    return Scores(tuple(sorted(out, key=lambda s: -s.gain)), fit)
+
+
+def _chunks(terms: Sequence[Term]) -> Iterator[list[Term]]:
+    return (list(terms[first : first + CHUNK]) for first in range(0, len(terms), CHUNK))
 
 
 def _scored(term: Term, projected: Projected, at: dict[Shape, int]) -> Scored:
@@ -116,9 +128,7 @@ def _dispersion(projected: Projected, columns: list[int]) -> float:
 
 
 def _whitened(fit: Fit, linears: list[Linear], terms: list[Term]) -> list[tuple[np.ndarray, ...]]:
-    """By term and axis the directions (rows, columns), orthonormal, in which it acts on some of the
-    whitened rows once the model is projected out.
-    """
+    """``Scores.whitened`` of a few terms, from their columns beside the model's."""
     out: dict[str, list[np.ndarray]] = {t.text: [] for t in terms}
     for i in sorted(fit.noise):
         rows, keys = _thinned(fit, linears, i)

@@ -93,7 +93,7 @@ def look(
     if not terms:
         return Look(inv)
     judged = inv.after.as_declared()
-    left = scored(judged, terms, keep=True)
+    left = scored(judged, terms)
     fires = left.p_value < UNEXPLAINED
     if not fires and len([s for s in inv.steps if not s.declared]) < 2:
         return Look(inv)
@@ -101,7 +101,7 @@ def look(
     starts = [(inv.after, left)] if fires else []
     if inv.steps:
         before = inv.before.as_declared()
-        starts.append((inv.before, scored(before, terms, keep=True)))
+        starts.append((inv.before, scored(before, terms)))
     found = [_tried(inv, start, scores, terms, again) for start, scores in starts]
     found = [f for f in found if f is not None]
     best = max(found, key=lambda f: f[0], default=None)

@@ -389,12 +389,12 @@ def compiled(kind: str, terms: Iterable[Term]) -> ca.Function:
 
 
 def columns_of(kind: str, terms: list[Term]) -> Callable:
-    """Column maker for ``Fit.linearise``."""
+    """Column maker for ``Fit.beside``."""
     function = compiled(kind, terms)
     keys = [(t.text, k) for t in terms for k in range(len(t.code))]
 
-    def add_all(trial: Trial, u: np.ndarray, y: np.ndarray, add: Callable) -> None:
-        values = over_rows(function, u, np.zeros(0))
+    def add_all(trial: Trial, u: np.ndarray, add: Callable) -> None:
+        values = over_rows(function, u.T, np.zeros(0))
         for column, (text, number) in enumerate(keys):
             for i in range(3):
                 add(Shape(text, number, i), i, values[:, 3 * column + i])
@@ -405,4 +405,4 @@ def columns_of(kind: str, terms: list[Term]) -> Callable:
 def values_of(kind: str, code: str, u: np.ndarray) -> np.ndarray:
     """Values (n, 3) of an expression over inputs (n, N_INPUT), axis by axis."""
     as_term = Term("", (), (code,), (), frozenset(), 0)
-    return over_rows(compiled(kind, [as_term]), u, np.zeros(0))
+    return over_rows(compiled(kind, [as_term]), u.T, np.zeros(0))
