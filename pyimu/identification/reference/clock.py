@@ -54,6 +54,12 @@ percent, and that is no clock to log by."""
 DEGREE, ALIKE = float(np.degrees(1.0)), 0.1
 """Degrees in a radian, and how near a factor must be to one that is a mistake of units."""
 
+BENT = 0.01
+"""Share of the gain, as a standard deviation, that a bias which wanders may be taken for."""
+
+CHI2_MEDIAN = 0.4549
+"""Median of the square of a standard normal."""
+
 ROUNDS = 5
 TAPS, SHAPE = 12, 10.0
 """Samples on either side from which a shifted reference is interpolated, and the shape of their
@@ -302,7 +308,14 @@ def _windows(trial: Trial, sensor: Sensor):
         late = -np.sum(turned[good] * left[good]) / max(np.sum((turned * seen)[good]), 1e-300)
         missed = np.linalg.norm(left + late * turned, axis=1)
         good = moving & (missed < FITTING * speed)
-    return _by_window(trial, time, left, turned, seen, good)
+    length = max(WINDOW, ROWS * trial.band.stride * trial.h)
+    window = ((time[good] - trial.time[0]) / length).astype(int)
+    edges = [*np.flatnonzero(np.diff(window, prepend=-1)), good.sum()]
+    places = [(a, b) for a, b in pairwise(edges) if b - a >= LEAST_ROWS]
+    if not places:
+        return None
+    known = [v[good] for v in (x, slope, y - gain[0], seen)]
+    return _by_window(time[good], *known, gain[1:], late, places)
 
 
 def _slope(trial: Trial, values: np.ndarray) -> np.ndarray:
@@ -314,32 +327,59 @@ def _slope(trial: Trial, values: np.ndarray) -> np.ndarray:
     return out
 
 
-def _by_window(trial: Trial, time, left, turned, seen, good):
-    """The lag of each window whose slope sensor and reference both show.
+def _by_window(time, x, slope, y, seen, gain, late: float, places: list[tuple[int, int]]):
+    """The lag in each of the ``places`` whose slope sensor and reference both show.
 
     The slope of the reference holds its noise, and its square would make the lag small: the product
     with the slope ``seen`` by the sensor, whose noise is another, has the motion's power alone
     (instrumental variables, Fuller 1987, "Measurement Error Models", section 1.4).
+
+    A bias that wanders is no lag, although what turns steadily makes it look like one, in its
+    window, and in all of them by the ``gain`` (k, k) that it bends: as much of each window's mean
+    is taken out as biases may have wandered, and the gain fitted anew to the rest.
     """
-    length = max(WINDOW, ROWS * trial.band.stride * trial.h)
-    time, left, turned, seen = time[good], left[good], turned[good], seen[good]
-    window = ((time - trial.time[0]) / length).astype(int)
-    edges = [*np.flatnonzero(np.diff(window, prepend=-1)), len(window)]
+    share = _mean_share(y - (x - late * slope) @ gain, places)
+    parts = [
+        [v[a:b] - n * v[a:b].mean(axis=0) for v in (x, slope, y, seen)]
+        for (a, b), n in zip(places, share, strict=True)
+    ]
+    gain = _regained(parts, gain)
     middles, lates, stds = [], [], []
-    for a, b in pairwise(edges):
-        at = slice(a, b)
-        power, size = np.sum(turned[at] * seen[at]), np.linalg.norm(turned[at])
-        chance = SEEN * size * np.linalg.norm(seen[at]) / np.sqrt(turned[at].size)
-        if b - a < LEAST_ROWS or power <= chance:
+    for (a, b), (known, rate, measured, to) in zip(places, parts, strict=True):
+        left, by = measured - known @ gain, rate @ gain
+        power, size = np.sum(by * to), np.linalg.norm(by)
+        if power <= SEEN * size * np.linalg.norm(to) / np.sqrt(by.size):
             continue
-        late = -np.sum(turned[at] * left[at]) / power
-        rest = left[at] + late * turned[at]
-        middles.append(float(time[at].mean()))
+        late = -np.sum(by * left) / power
+        middles.append(float(time[a:b].mean()))
         lates.append(late)
-        stds.append(np.sqrt(np.mean(rest**2)) * size / power + 1e-12)
+        stds.append(np.sqrt(np.mean((left + late * by) ** 2)) * size / power + 1e-12)
     if not middles:
         return None
     return np.array(middles), np.array(lates), np.array(stds)
+
+
+def _regained(parts: list[list[np.ndarray]], gain: np.ndarray) -> np.ndarray:
+    """The gain of windows, as far as they show another than ``gain``, which may be bent by
+    ``BENT``.
+    """
+    gram = np.sum([known.T @ known for known, *_ in parts], axis=0)
+    lefts = [(known, measured - known @ gain) for known, _, measured, _ in parts]
+    score = np.sum([known.T @ left for known, left in lefts], axis=0)
+    noise = np.mean(np.concatenate([left for _, left in lefts]) ** 2)
+    return gain + np.linalg.solve(gram + noise / BENT**2 * np.eye(len(gram)), score)
+
+
+def _mean_share(left: np.ndarray, places: list[tuple[int, int]]) -> np.ndarray:
+    """Share (windows, k) of each window's mean that leaves errors of equal size, where a bias of
+    its own is added to white errors (Fuller and Battese 1973, "Transformations for estimation of
+    linear models with nested-error structure", JASA 68).
+    """
+    count = np.array([b - a for a, b in places])[:, None]
+    means = np.array([left[a:b].mean(axis=0) for a, b in places])
+    white = np.mean([left[a:b].var(axis=0) for a, b in places], axis=0)
+    bias = np.maximum(np.median(means**2, axis=0) / CHI2_MEDIAN - white / np.median(count), 0.0)
+    return 1.0 - np.sqrt(white / np.maximum(white + count * bias, 1e-300))
 
 
 def _rows(trial: Trial) -> np.ndarray:
