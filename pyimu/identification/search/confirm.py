@@ -16,6 +16,7 @@ from pyimu.identification.fit.normal import BATCHES
 from pyimu.identification.fit.reference_noise import STEP, changes, has_noise, moved, whitened
 from pyimu.identification.fit.score import held_state
 from pyimu.identification.fit.trial import Trial
+from pyimu.identification.fit.whiten import RandomWalk
 
 SPEAKS = 0.5
 """Log-likelihood [nat] by which two models must differ on held-out rows for these to decide."""
@@ -102,19 +103,34 @@ def evidence(old: Fit, new: Fit, held: Sequence[Trial]) -> Evidence:
             held_out += sign * np.array([np.sum(r**2, axis=0) for r in rows])
             sums["apart"] += sign * np.sum(between.residual**2, axis=0)
             if sign > 0:
-                sums["chance"] += _chance(new, between)
+                sums["chance"] += _chance(new, between, _duration_of_bias(new, trial, rest))
     if any(t.reduction is not None for t in held):
         return Evidence(**sums, held=held_out, whole=held_out, noise=None)
     fitted = np.array([_squares(f) for f in (old, new)])
     return Evidence(**sums, held=held_out, whole=held_out + fitted, noise=_noise(new, held))
 
 
-def _chance(fit: Fit, one: Linear) -> np.ndarray:
-    """Variance (3,) of the product of a fit's noise with the rows of a residual."""
+def _duration_of_bias(fit: Fit, held: Trial, rest: Trial) -> float:
+    """Seconds of the rows from which the bias of held-out rows was taken."""
+    if held.parent is None:
+        return float(rest.time[0] - held.time[0])
+    parent = next(t for t in fit.trials if t.name == held.parent)
+    return float(parent.time[-1] - parent.time[0])
+
+
+def _chance(fit: Fit, one: Linear, duration: float) -> np.ndarray:
+    """Variance (3,) of the product of a fit's noise with the rows of a residual.
+
+    Its level is unknown at the first row: a walk differs there from its mean over the ``duration``
+    [s] before it by a third of that duration's variance.
+    """
     out = np.zeros(3)
     for i, noise in fit.noise.items():
         if i in one.keys:
-            out[i] = noise.variance_along(one.residual[:, i], one.time, one.segments)
+            values = one.residual[:, i]
+            out[i] = noise.variance_along(values, one.time, one.segments)
+            if isinstance(noise, RandomWalk):
+                out[i] += noise.k2 * duration / 3.0 * float(values.sum()) ** 2
     return out
 
 

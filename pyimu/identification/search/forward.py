@@ -33,6 +33,7 @@ from pyimu.identification.search.confirm import LEAST_OF_EXCESS, SPEAKS, Evidenc
 from pyimu.identification.search.instants import at_instants
 from pyimu.identification.search.screen import (
     PENALTY,
+    Scatter,
     Screened,
     Screening,
     fitted_dispersion,
@@ -46,6 +47,10 @@ from pyimu.model.sensor import Sensor
 
 SET_WIDTH = 6.0
 """Log-likelihood [nat] within which another effect explains the data as well as the best."""
+
+ALIKE = 1.0
+"""Log-likelihood [nat] within which the data do not tell two effects apart: both are supported as
+well as the other (two units of Akaike's criterion, Burnham and Anderson 2002, section 2.6)."""
 
 CHANCE = 3.0
 """Standard errors by which held-out squares must be more than a true effect would leave."""
@@ -235,15 +240,21 @@ def _choose(
     family = equivalent(refined[0].screened.effect)
     forms = [r for r in refined if r.screened.effect in family | {refined[0].screened.effect}]
     best = _form(forms, derived)
-    close = [
-        r.screened.effect
-        for r in refined
-        if r is not best and (_ahead(best, r) if r in forms else best.gain - r.gain) <= SET_WIDTH
-    ]
+    best = min((r for r in refined if _ahead(best, r) < ALIKE), key=_how_plain, default=best)
+    close = [r.screened.effect for r in refined if r is not best and _ahead(best, r) <= SET_WIDTH]
     if derived or CATALOGUE[best.screened.effect].delay is not None:
         # Of a reference that ends below the band, or its clock, another form may be the truth.
         close += [c.effect for c in options if c.effect in equivalent(best.screened.effect)]
     return best, tuple(dict.fromkeys(close))
+
+
+def _how_plain(r: Refined) -> tuple[int, int, int]:
+    """What is to be taken in to understand a candidate: its coefficients, and what it follows
+    beside the sensor's own signal; then the order of the catalogue, which goes from plain to bent.
+    """
+    e = CATALOGUE[r.screened.effect]
+    signals = len(e.signals(r.fit.sensor.kind))
+    return len(keys_of(r.screened)), signals, list(CATALOGUE).index(e.name)
 
 
 def _form(forms: list[Refined], derived: bool) -> Refined:
@@ -265,14 +276,15 @@ def _form(forms: list[Refined], derived: bool) -> Refined:
 
 
 def _ahead(one: Refined, other: Refined) -> float:
-    """Log-likelihood [nat] by which one form explains more than another, penalised.
+    """Log-likelihood [nat] by which one candidate explains more than another, penalised.
 
     Both are corrected for the larger scatter: by each its own, what they explain together would
     decide.
     """
     more = len(keys_of(one.screened)) - len(keys_of(other.screened))
     apart = one.fit.log_likelihood - other.fit.log_likelihood
-    return apart / max(one.dispersion, other.dispersion) - PENALTY * more
+    toll = one.screened.toll - other.screened.toll
+    return apart / max(one.dispersion, other.dispersion) - PENALTY * more - toll
 
 
 def refine(current: Fit, c: Screened) -> Refined:
@@ -286,12 +298,11 @@ def refine(current: Fit, c: Screened) -> Refined:
     fitted, normal = fit_and_normal(
         replace(current, sensor=sensor, free=current.free | keys_of(c)).with_noise()
     )
-    needed = tuple(
-        g for g in c.groups if _needed(fitted, normal, g, c.effect in current.sensor.values)
-    )
+    declared = c.effect in current.sensor.values
+    needed = tuple(g for g in c.groups if _needed(fitted, normal, g, declared, c.scatter))
     if needed and len(needed) < len(c.groups):
         return refine(current, c.only(needed))
-    spread = fitted_dispersion(normal, keys_of(c))
+    spread = fitted_dispersion(normal, keys_of(c), c.scatter)
     fitted = at_samples(fitted) if is_ceiling(sensor, c.effect) else fitted
     fitted = at_threshold(fitted) if is_threshold(sensor, c.effect) else fitted
     fitted = at_instants(fitted, c.effect)
@@ -299,7 +310,7 @@ def refine(current: Fit, c: Screened) -> Refined:
     return Refined(c, fitted, gain if needed else -np.inf, spread, normal)
 
 
-def _needed(fitted: Fit, normal: Normal, group: Group, declared: bool) -> bool:
+def _needed(fitted: Fit, normal: Normal, group: Group, declared: bool, scatter: Scatter) -> bool:
     """True where the part of an effect that a group stands for explains something once all is
     fitted together.
     """
@@ -312,7 +323,7 @@ def _needed(fitted: Fit, normal: Normal, group: Group, declared: bool) -> bool:
         declared
         or whole
         or group.measure is not None
-        or fitted_gain(normal, fitted.sensor, group.keys) > 0
+        or fitted_gain(normal, fitted.sensor, group.keys, scatter) > 0
     )
 
 
@@ -350,7 +361,8 @@ def _denied(group: Group, chosen: Refined, seen: Evidence) -> bool:
     axis = group.keys[0].index[0]
     if seen.difference[axis] < SPEAKS or seen.held[1, axis] <= seen.held[0, axis]:
         return False
-    fitted = fitted_gain(chosen.normal, chosen.fit.sensor, group.keys)
+    scatter = chosen.screened.scatter
+    fitted = fitted_gain(chosen.normal, chosen.fit.sensor, group.keys, scatter)
     return fitted + seen.gained[axis] / chosen.dispersion <= 0.0
 
 

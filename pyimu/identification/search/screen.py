@@ -44,6 +44,31 @@ VISIBLE = 6.0
 
 
 @dataclass(frozen=True)
+class Scatter:
+    """How much more scores scatter than the noise model says: the mean over all candidates, and for
+    how many batches it speaks where a single one is judged.
+    """
+
+    mean: float = 1.0
+    batches: float = 0.0
+
+    def with_own(self, own: float, batches: float) -> float:
+        """The scatter of a candidate that shows ``own`` in so many batches, at least 1.
+
+        A few batches say little by themselves: their word is weighed against that of all candidates
+        (empirical Bayes, Efron and Morris 1973, "Stein's estimation rule", JASA 68).
+        """
+        if np.isinf(self.batches):
+            return max(1.0, self.mean)
+        weights = batches + self.batches
+        return max(1.0, (batches * own + self.batches * self.mean) / weights) if weights else 1.0
+
+
+ONE = Scatter()
+"""Of nothing but the candidate itself."""
+
+
+@dataclass(frozen=True)
 class Screened:
     """Gain of one effect before any correction, the groups that take part, the scanned values and
     the form to start from.
@@ -56,6 +81,7 @@ class Screened:
     smallest_visible: float
     inseparable_from: tuple[str, ...] = ()
     form: Form | None = None
+    scatter: Scatter = ONE
 
     @property
     def toll(self) -> float:
@@ -139,8 +165,9 @@ def screen(fit: Fit, declared: Iterable[str], seed: int = 1) -> Screening:
     moved = [replace(g, choices=tuple(c.at(place) for c in g.choices)) for g in all_groups]
     gate = _gate(projected, moved, np.random.default_rng(seed))
     by_effect = {e.name: [g for g in moved if g.effect == e.name] for e in effects}
+    scatter = _scatter(projected)
     found = tuple(
-        _with_form(_screened(name, gs, projected), found_forms.get(name))
+        replace(_with_form(_screened(name, gs, projected), found_forms.get(name)), scatter=scatter)
         for name, gs in by_effect.items()
         if gs
     )
@@ -222,7 +249,7 @@ def _smallest(projected: Projected, g: Group) -> float | None:
     return nearest((v for v, ratio in seen if ratio > 1), default=None)
 
 
-def dispersion(projected: Projected, columns: Sequence[int]) -> float:
+def dispersion(projected: Projected, columns: Sequence[int], scatter: Scatter = ONE) -> float:
     """How much more the scores scatter from batch to batch than the noise model says, at least 1.
 
     A residual whose variance follows the motion, or that is correlated beyond the whitening, makes
@@ -234,20 +261,59 @@ def dispersion(projected: Projected, columns: Sequence[int]) -> float:
     if not np.any(np.diag(gram)):
         return 1.0
     estimate = solve(gram, projected.score[at])
-    rest = projected.batch_score[:, at] - projected.batch_gram[:, at][:, :, at] @ estimate
-    rest = rest - rest.mean(axis=0)
-    return max(1.0, float(np.trace(solve(gram, rest.T @ rest))) / len(at))
+    batch_gram = projected.batch_gram[:, at][:, :, at]
+    rest = projected.batch_score[:, at] - batch_gram @ estimate
+    own = float(np.trace(solve(gram, rest.T @ rest))) / len(at)
+    shares = np.trace(
+        solve(gram, batch_gram.transpose(1, 2, 0).reshape(len(at), -1)).reshape(
+            len(at), len(at), -1
+        )
+    ) / len(at)
+    return scatter.with_own(*_unbiased(own, float(np.sum(shares**2)), len(at)))
 
 
-def fitted_dispersion(normal: Normal, keys: Iterable[Key]) -> float:
+def _unbiased(own: float, concentration: float, coefficients: int = 1) -> tuple[float, float]:
+    """A scatter freed of what the estimate took of it, and the batches that it stands for.
+
+    ``concentration`` is the sum of squares of the batches' shares of what is known.
+    """
+    left = 1.0 - min(concentration, 1.0)
+    return (own / left, coefficients * left / concentration) if left > 1e-6 else (1.0, 0.0)
+
+
+def _scatter(projected: Projected) -> Scatter:
+    """The scatter of all candidates' columns, each by itself, and how much it differs among them
+    beyond what the few batches of each make of it.
+    """
+    gram = np.diag(projected.gram)
+    seen = gram > 0.0
+    batch_gram = np.einsum("bii->bi", projected.batch_gram)[:, seen] / gram[seen]
+    rest = projected.batch_score[:, seen] - batch_gram * projected.score[seen]
+    own = np.sum(rest**2, axis=0) / gram[seen]
+    found = [_unbiased(*v) for v in zip(own, np.sum(batch_gram**2, axis=0), strict=True)]
+    values, batches = np.array(found).reshape(-1, 2).T
+    if not batches.sum() > 0.0:
+        return ONE
+    mean = float(np.average(values, weights=batches))
+    known = batches > 0.0
+    chance = 2.0 * mean**2 / batches[known]
+    between = np.average((values[known] - mean) ** 2 - chance, weights=batches[known])
+    return Scatter(mean, 2.0 * mean**2 / between if between > 0.0 else np.inf)
+
+
+def fitted_dispersion(normal: Normal, keys: Iterable[Key], scatter: Scatter = ONE) -> float:
     """The correction for coefficients that are fitted, from the slopes at their values and the
     noise beside them.
     """
     projected = _projected(normal, keys)
-    return 1.0 if projected is None else dispersion(projected, range(len(projected.gram)))
+    if projected is None:
+        return 1.0
+    return dispersion(projected, range(len(projected.gram)), scatter)
 
 
-def fitted_gain(normal: Normal, sensor: Sensor, keys: Iterable[Key]) -> float:
+def fitted_gain(
+    normal: Normal, sensor: Sensor, keys: Iterable[Key], scatter: Scatter = ONE
+) -> float:
     """Gain [nat] of coefficients that are fitted over their being zero, corrected for scatter and
     penalised.
     """
@@ -257,7 +323,7 @@ def fitted_gain(normal: Normal, sensor: Sensor, keys: Iterable[Key]) -> float:
         return -np.inf
     value = np.array([sensor.values[k.effect][k.parameter][k.index] for k in keys])
     return 0.5 * float(value @ projected.gram @ value) / dispersion(
-        projected, range(len(keys))
+        projected, range(len(keys)), scatter
     ) - PENALTY * len(keys)
 
 
