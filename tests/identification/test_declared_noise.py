@@ -1,5 +1,7 @@
 """The noise that a part declares is what its residual is judged by, until the data say more."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -7,8 +9,9 @@ from scipy.signal import lfilter
 from world import K_ACCEL, K_GYRO, N_ACCEL, N_GYRO, changes, drive, recording, size_for
 
 import pyimu
+from pyimu.identification.fit.columns import Linear
 from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
-from pyimu.identification.search.confirm import Evidence
+from pyimu.identification.search.confirm import Evidence, _chance
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
 
@@ -68,6 +71,22 @@ def test_variance_along_is_that_of_the_dense_covariance(k2):
     covariance = 2.0 * np.eye(40) + k2 * np.minimum.outer(since, since)
     found = RandomWalk(2.0, k2).variance_along(values, time, [(0, 40)])
     assert_allclose(found, values @ covariance @ values, rtol=1e-12)
+
+
+def test_a_walk_before_the_held_out_rows_is_part_of_their_chance():
+    """Against the covariance of a walk's level less its mean over 300 rows before; the sum over
+    rows differs from the integral by one in 300.
+    """
+    before, rows, values = 300, 40, np.random.default_rng(5).standard_normal(40) + 0.3
+    step = np.eye(before + rows)
+    level = np.cumsum(step, axis=0)
+    error = level[before:] - level[:before].mean(axis=0)
+    noise = RandomWalk(2.0, 0.5)
+    fitted = SimpleNamespace(noise={0: noise})
+    one = Linear(np.arange(40.0), [(0, 40)], np.tile(values[:, None], 3), {0: []}, {})
+    found = _chance(fitted, one, float(before))[0]
+    want = 2.0 * values @ values + 0.5 * np.sum((error.T @ values) ** 2)
+    assert_allclose(found, want, rtol=2 / before)
 
 
 def test_variance_along_an_autoregression_is_that_of_its_filter():

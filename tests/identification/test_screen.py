@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from loop_cases import inputs, noise, trial
-from scipy.stats import betabinom, chi2
+from scipy.stats import betabinom, binom, chi2
 
 from pyimu.identification.fit.fit import begin
 from pyimu.identification.fit.keys import Coefficient
@@ -23,6 +23,7 @@ from pyimu.identification.search.screen import (
     Screening,
     _gains,
     _gate,
+    _scatter,
     _screened,
     dispersion,
     fitted_dispersion,
@@ -178,6 +179,33 @@ def test_dispersion_sees_batches_whose_scores_hang_together():
     found = dispersion(Projected.of(normal_of(x, y), [0], [1]), (0,))
     low, high = length * chi2.ppf([ALARM / 2, 1 - ALARM / 2], BATCHES - 1) / BATCHES
     assert 0.98 * low < found < 1.02 * high
+
+
+def test_a_few_batches_do_not_decide_how_scores_scatter():
+    """A column that four batches alone show, in white noise: the scatter that they show is
+    chi-square on three degrees of freedom, above 2 in one draw of nine; weighed against that of the
+    other columns it is not.
+    """
+    x, alone, weighed = design(), [], []
+    x[4 * ROWS // BATCHES :, CANDIDATES[0]] = 0.0
+    for seed in range(200):
+        y = np.random.default_rng(seed).standard_normal(ROWS)
+        projected = Projected.of(normal_of(x, y), [], CANDIDATES)
+        alone.append(dispersion(projected, (0,)))
+        weighed.append(dispersion(projected, (0,), _scatter(projected)))
+    chance = binom(200, chi2.sf(6.0, 3))
+    assert chance.ppf(ALARM) <= sum(v > 2.0 for v in alone) <= chance.isf(ALARM)
+    assert sum(v > 2.0 for v in weighed) <= 3 and np.mean(weighed) < 1.1
+
+
+def test_scatter_that_a_candidate_alone_has_is_its_own():
+    """All batches of one column hang together; that the others' do not is no reason to doubt it."""
+    rng, x = np.random.default_rng(6), design()
+    x[:, CANDIDATES[0]] = 1.0 + 0.01 * rng.standard_normal(ROWS)
+    y = np.repeat(rng.standard_normal(BATCHES), ROWS // BATCHES)
+    projected = Projected.of(normal_of(x, y), [], [CANDIDATES[0], 4, 5])
+    alone = dispersion(projected, (0,))
+    assert dispersion(projected, (0,), _scatter(projected)) > 0.8 * alone > 20.0
 
 
 def test_projection_leaves_the_residual_of_least_squares():
