@@ -38,9 +38,8 @@ def popcorn(x, case: Case):
 
 
 def own_product(x, case: Case):
-    """Bilinear: an axis's rate (or force) times the next axis's."""
-    own = case.scene.own(case.kind)
-    return x + own * np.roll(own, -1, axis=1) * case.c
+    """Bilinear: an axis's rate times the next axis's."""
+    return x + case.scene.rate * np.roll(case.scene.rate, -1, axis=1) * case.c
 
 
 def warm_force(x, case: Case):
@@ -82,9 +81,12 @@ def _beyond(rng, scene):
     return {"beyond": float(rng.uniform(0.02, 0.1))}
 
 
-def _term(function, **more) -> Term:
-    """Of about the size of a consumer part's g-sensitivity, of an accelerometer 5 mg."""
-    sizes = dict(zip(BOTH, (1.7e-3, 5e-2), strict=True))
+SIZES = {"gyro": 1.7e-3, "accel": 5e-2}
+"""About the size of a consumer part's g-sensitivity, of an accelerometer 5 mg."""
+
+
+def _term(function, kinds=BOTH, **more) -> Term:
+    sizes = {kind: SIZES[kind] for kind in kinds}
     return Term(function.__name__, function, sizes, answer="", **more)
 
 
@@ -93,9 +95,10 @@ PERIODIC = (
     _term(heading_locked, form=_phase, needs=("ref_q",)),
     _term(shaft, form=_round),
 )
+# An accelerometer's are in the catalogue: vibropendulous and thermal_misalignment.
 BILINEAR = (
-    _term(own_product, motions=("tumble",)),
-    _term(warm_force, motions=SHAKEN),
+    _term(own_product, ("gyro",), motions=("tumble",)),
+    _term(warm_force, ("gyro",), motions=SHAKEN),
     _term(rate_times_supply, needs=("supply",)),
 )
 SWITCHING = (_term(switched_by_turn, form=_beyond), _term(switched_by_speed))

@@ -44,6 +44,9 @@ CONFOUNDS: dict[frozenset[str], str] = {
         "near level the vertical force is g, and its square and its products with the others are "
         "linear in the forces"
     ),
+    frozenset({"vibropendulous", "misalignment"}): (
+        "near level the vertical force is g, and its products with the others are linear in those"
+    ),
     frozenset({"bias_asymmetry", "dead_zone"}): (
         "beyond its threshold d a dead zone is a bias of -d sign x; apart only by inputs between "
         "zero and the bias"

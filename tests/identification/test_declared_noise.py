@@ -1,7 +1,5 @@
 """The noise that a part declares is what its residual is judged by, until the data say more."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -9,9 +7,8 @@ from scipy.signal import lfilter
 from world import K_ACCEL, K_GYRO, N_ACCEL, N_GYRO, changes, drive, recording, size_for
 
 import pyimu
-from pyimu.identification.fit.columns import Linear
 from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
-from pyimu.identification.search.confirm import Evidence, _chance
+from pyimu.identification.search.confirm import Evidence
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
 
@@ -81,10 +78,11 @@ def test_a_walk_before_the_held_out_rows_is_part_of_their_chance():
     step = np.eye(before + rows)
     level = np.cumsum(step, axis=0)
     error = level[before:] - level[:before].mean(axis=0)
-    noise = RandomWalk(2.0, 0.5)
-    fitted = SimpleNamespace(noise={0: noise})
-    one = Linear(np.arange(40.0), [(0, 40)], np.tile(values[:, None], 3), {0: []}, {})
-    found = _chance(fitted, one, float(before))[0]
+    noise = RandomWalk(2.0, 0.5, before=before / 3.0)
+    found = noise.variance_along(values, np.arange(40.0), [(0, 40)])
+    covariance = 2.0 * np.eye(40) + 0.5 * (before / 3.0 + np.minimum.outer(*[np.arange(40)] * 2))
+    white = noise.whiten(np.eye(40), np.arange(40.0), [(0, 40)])
+    assert_allclose(white @ covariance @ white.T, np.eye(40), atol=1e-9)
     want = 2.0 * values @ values + 0.5 * np.sum((error.T @ values) ** 2)
     assert_allclose(found, want, rtol=2 / before)
 

@@ -46,6 +46,11 @@ THERMOMETER = 30.0
 minute on the same board."""
 
 
+WANDERS_LESS = 0.1
+"""Share of a fitted random walk's K beside which slow effects are looked for: of those of 8 sigmas
+none made K larger than tenfold."""
+
+
 @dataclass(frozen=True)
 class Fit:
     """A model fitted to trials: values in ``sensor``, per-log states, noise by axis, log-likelihood
@@ -123,6 +128,21 @@ class Fit:
             for i, n in self.noise.items()
         }
         return self if held == self.noise else replace(self, noise=held)
+
+    def wandering_less(self) -> Fit:
+        """The same model where the random walk that nobody declared is a tenth of what was fitted.
+
+        A slow effect that is missing is taken for a walk, of any size; to be seen at all it must
+        not be.
+        """
+        _, walk = declared_variances(self.sensor, self.trials[0].h)
+        less = {
+            i: replace(n, k2=WANDERS_LESS**2 * n.k2)
+            if isinstance(n, RandomWalk) and walk[i] == 0.0
+            else n
+            for i, n in self.noise.items()
+        }
+        return self if less == self.noise else replace(self, noise=less)
 
 
 def declared_variances(sensor: Sensor, h: float) -> tuple[np.ndarray, np.ndarray]:

@@ -93,26 +93,35 @@ def power_less_bias(white: np.ndarray) -> float:
 
 @dataclass(frozen=True)
 class RandomWalk:
-    """White noise of variance ``r`` a sample and a random walk that grows by ``k2`` a second."""
+    """White noise of variance ``r`` a sample and a random walk that grows by ``k2`` a second.
+
+    It has walked for ``before`` seconds when the rows begin.
+    """
 
     r: float
     k2: float
+    before: float = 0.0
 
     def whiten(self, values: np.ndarray, time: np.ndarray, segments: Segments) -> np.ndarray:
         """Innovations (m, c), unit variance, of columns (m, c) sampled at ``time`` (m,)."""
-        return _innovations(values, _steps(time), self.r, self.k2)[0]
+        return _innovations(values, self._steps(time), self.r, self.k2)[0]
 
     def log_det(self, time: np.ndarray, segments: Segments) -> float:
         """Sum of the logarithms of the innovation variances."""
-        return _innovations(np.zeros((len(time), 0)), _steps(time), self.r, self.k2)[1]
+        return _innovations(np.zeros((len(time), 0)), self._steps(time), self.r, self.k2)[1]
 
     def variance_along(self, values: np.ndarray, time: np.ndarray, segments: Segments) -> float:
         """Variance of the sum of products of ``values`` (m,) with this noise.
 
-        The walk that begins at each step goes on through all that follow; it begins at zero.
+        The walk that begins at each step goes on through all that follow.
         """
         later = np.cumsum(values[::-1])[::-1]
-        return float(self.r * np.sum(values**2) + self.k2 * np.sum(_steps(time) * later**2))
+        return float(self.r * np.sum(values**2) + self.k2 * np.sum(self._steps(time) * later**2))
+
+    def _steps(self, time: np.ndarray) -> np.ndarray:
+        steps = _steps(time)
+        steps[:1] = self.before
+        return steps
 
     @classmethod
     def fit(cls, residuals: list[tuple[np.ndarray, np.ndarray, Segments]]) -> RandomWalk:

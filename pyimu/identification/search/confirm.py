@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.stats import chi2
 
 from pyimu.identification.fit.columns import Linear, band_time, in_band, residual
-from pyimu.identification.fit.fit import Fit, bare
+from pyimu.identification.fit.fit import Fit, bare, declared_variances
 from pyimu.identification.fit.left_out import left_out
 from pyimu.identification.fit.noise_floor import own_noise, reference_variance
 from pyimu.identification.fit.normal import BATCHES
@@ -17,9 +17,16 @@ from pyimu.identification.fit.reference_noise import STEP, changes, has_noise, m
 from pyimu.identification.fit.score import held_state
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk
+from pyimu.identification.search.leftover import axis_likelihood
 
 SPEAKS = 0.5
 """Log-likelihood [nat] by which two models must differ on held-out rows for these to decide."""
+
+POSSIBLE = 2.0
+"""Log-likelihood [nat] that a size of the random walk may lack: two standard errors."""
+
+LIMITS = 13
+"""Sizes of the walk that are tried, over four decades of its variance."""
 
 LEAST_OF_EXCESS = float(chi2.isf(1e-4, 1)) / BATCHES
 """Share of what is left above the noise of sensor and reference that an effect must explain.
@@ -79,8 +86,11 @@ class Evidence:
 
 
 def evidence(old: Fit, new: Fit, held: Sequence[Trial]) -> Evidence:
-    """The evidence of all rows for ``new`` over ``old``, judged with the noise of ``new``."""
+    """The evidence of all rows for ``new`` over ``old``, judged with the noise of ``new``, or the
+    largest walk that it leaves possible.
+    """
     sums = {name: np.zeros(3) for name in ("gained", "difference", "apart", "chance")}
+    wander = _wandering_most(new, old)
     held_out = np.zeros((2, 3))
     for trial in held:
         if trial.reduction is not None:
@@ -94,43 +104,62 @@ def evidence(old: Fit, new: Fit, held: Sequence[Trial]) -> Evidence:
             continue
         (state_old, rest), (state_new, _) = held_state(old, trial), held_state(new, trial)
         pairs = ((old.sensor, state_old), (new.sensor, state_new))
+        there = _on_held_out(wander, trial, rest)
         for sign, rows in _rows(rest, pairs):
             first, second = (bare(rest, r) for r in rows)
             between = bare(rest, rows[1] - rows[0])
-            powers = [_whitened(new, rest, one) for one in (first, second, between)]
+            powers = [_whitened(there, rest, one) for one in (first, second, between)]
             sums["gained"] += sign * 0.5 * (powers[0] - powers[1])
             sums["difference"] += sign * 0.5 * powers[2]
             held_out += sign * np.array([np.sum(r**2, axis=0) for r in rows])
             sums["apart"] += sign * np.sum(between.residual**2, axis=0)
             if sign > 0:
-                sums["chance"] += _chance(new, between, _duration_of_bias(new, trial, rest))
+                sums["chance"] += _chance(there, between)
     if any(t.reduction is not None for t in held):
         return Evidence(**sums, held=held_out, whole=held_out, noise=None)
     fitted = np.array([_squares(f) for f in (old, new)])
     return Evidence(**sums, held=held_out, whole=held_out + fitted, noise=_noise(new, held))
 
 
-def _duration_of_bias(fit: Fit, held: Trial, rest: Trial) -> float:
-    """Seconds of the rows from which the bias of held-out rows was taken."""
-    if held.parent is None:
-        return float(rest.time[0] - held.time[0])
-    parent = next(t for t in fit.trials if t.name == held.parent)
-    return float(parent.time[-1] - parent.time[0])
-
-
-def _chance(fit: Fit, one: Linear, duration: float) -> np.ndarray:
-    """Variance (3,) of the product of a fit's noise with the rows of a residual.
-
-    Its level is unknown at the first row: a walk differs there from its mean over the ``duration``
-    [s] before it by a third of that duration's variance.
+def _wandering_most(new: Fit, old: Fit) -> Fit:
+    """The new model with as large a random walk as the data leave possible, up to that of the old
+    one, where nobody declared it: an effect that takes a walk's place leaves the smallest.
     """
+    _, walk = declared_variances(new.sensor, new.trials[0].h)
+    residuals, noise = new.residuals(), dict(new.noise)
+    for i, least in new.noise.items():
+        most = old.noise[i]
+        if isinstance(least, RandomWalk) and not walk[i] and most.k2 > least.k2:
+            tried = [replace(least, k2=k2) for k2 in np.geomspace(most.k2 * 1e-4, most.k2, LIMITS)]
+            best = axis_likelihood(residuals, i, least)
+            seen = [n for n in tried if axis_likelihood(residuals, i, n) > best - POSSIBLE]
+            noise[i] = max([least, *seen], key=lambda n: n.k2)
+    return replace(new, noise=noise)
+
+
+def _on_held_out(fit: Fit, held: Trial, rest: Trial) -> Fit:
+    """The model with its noise as it is on held-out rows.
+
+    Their bias is the mean over the rows before them, from which a walk differs at their begin by as
+    much as it walks in a third of the time.
+    """
+    first = held
+    if held.parent is not None:
+        first = next(t for t in fit.trials if t.name == held.parent)
+    before = float(rest.time[0] - first.time[0]) / 3.0 if len(rest.time) else 0.0
+    noise = {
+        i: replace(n, before=before) if isinstance(n, RandomWalk) else n
+        for i, n in fit.noise.items()
+    }
+    return replace(fit, noise=noise)
+
+
+def _chance(fit: Fit, one: Linear) -> np.ndarray:
+    """Variance (3,) of the product of a fit's noise with the rows of a residual."""
     out = np.zeros(3)
     for i, noise in fit.noise.items():
         if i in one.keys:
-            values = one.residual[:, i]
-            out[i] = noise.variance_along(values, one.time, one.segments)
-            if isinstance(noise, RandomWalk):
-                out[i] += noise.k2 * duration / 3.0 * float(values.sum()) ** 2
+            out[i] = noise.variance_along(one.residual[:, i], one.time, one.segments)
     return out
 
 

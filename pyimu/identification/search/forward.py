@@ -129,14 +129,40 @@ class Refined:
 class Tried:
     """Candidates beside one model, each fitted in full once.
 
-    ``impossible`` are those whose coefficients are beyond belief. ``as_seen`` says that they were
-    looked for by the noise that the residual shows, not the declared one.
+    ``impossible`` are those whose coefficients are beyond belief; ``views`` are the model with the
+    noises by which it is still to be looked at, and whether for slow effects alone.
     """
 
     current: Fit
+    declared: Iterable[str]
     refined: dict[str, Refined] = field(default_factory=dict)
     impossible: list[Refined] = field(default_factory=list)
-    as_seen: bool = False
+    views: list[tuple[Fit, bool]] = field(init=False)
+    usual: Screening | None = None
+
+    def __post_init__(self) -> None:
+        held, less = self.current.as_declared(), self.current.wandering_less()
+        self.views = [(held, False)]
+        if held is not self.current:
+            # What is left may wander more than the part declares after all.
+            self.views.append((self.current, False))
+        if less is not self.current:
+            self.views.append((less, True))
+
+    def looked(self) -> tuple[Screening, bool]:
+        """The candidates by the next of the views, and whether only slow effects are among them.
+
+        Beside less than the walk that there is gains are too large and scores scatter too much: it
+        orders the candidates, and the gate and the scatter are those of the view before.
+        """
+        view, slow = self.views.pop(0)
+        seen = screen(view, self.declared, slow=slow)
+        if slow and self.usual is not None:
+            scatter = next((c.scatter for c in self.usual.candidates), Scatter())
+            few = tuple(replace(c, scatter=scatter) for c in seen.candidates)
+            seen = Screening(few, max(seen.gate, self.usual.gate))
+        self.usual = seen
+        return seen, slow
 
     def refine(self, c: Screened) -> Refined:
         if c.effect not in self.refined:
@@ -163,21 +189,21 @@ def investigate(
     after = before
     steps: list[Step] = []
     refused: dict[str, Refused] = {}
-    first = last = screen(before.as_declared(), sensor.values)
-    tried = Tried(after)
+    tried = Tried(after, sensor.values)
+    first = last = seen = tried.looked()[0]
     while len(steps) < MOST_EFFECTS:
-        say(f"{sensor.kind}: {len(steps)} added, trying {len(last.candidates)} candidates")
-        options = _in_order([c for c in last.above() if c.effect not in refused], after)
-        chosen, names = _choose(tried, options, last.gate)
+        say(f"{sensor.kind}: {len(steps)} added, trying {len(seen.candidates)} candidates")
+        options = _in_order([c for c in seen.above() if c.effect not in refused], after)
+        chosen, names = _choose(tried, options, seen.gate)
         if chosen is None:
-            if tried.as_seen or after.as_declared() is after:
+            if not tried.views:
                 break
-            # What is left may wander more than the part declares after all.
-            last, tried.as_seen = screen(after, sensor.values), True
+            seen, slow = tried.looked()
+            last = last if slow else seen
             continue
         reason = _within_form(chosen, steps)
         if not reason:
-            chosen, reason = _judged(tried, chosen, held, last.gate)
+            chosen, reason = _judged(tried, chosen, held, seen.gate)
         name = chosen.screened.effect
         if reason:
             refused[name] = Refused(name, chosen.gain, reason)
@@ -187,14 +213,15 @@ def investigate(
                 name,
                 keys_of(chosen.screened),
                 chosen.gain,
-                last.gate,
+                seen.gate,
                 names,
                 chosen.dispersion,
                 name in before.sensor.values,
             )
         )
         after = without_lost(chosen.fit) if is_ceiling(chosen.fit.sensor, name) else chosen.fit
-        last, tried = screen(after.as_declared(), sensor.values), Tried(after)
+        tried = Tried(after, sensor.values)
+        last = seen = tried.looked()[0]
     after, steps = _backward(after, steps)
     return Investigation(
         before, after, tuple(steps), tuple(refused.values()), first, last, tuple(held)

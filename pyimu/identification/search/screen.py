@@ -29,6 +29,7 @@ from pyimu.identification.search.candidates import (
     with_start,
 )
 from pyimu.identification.search.forms import Form, form_of, forms
+from pyimu.model.effect import Effect
 from pyimu.model.sensor import Sensor
 
 PENALTY = 3.0
@@ -143,11 +144,21 @@ class Projected:
         )
 
 
-def screen(fit: Fit, declared: Iterable[str], seed: int = 1) -> Screening:
+def is_slow(e: Effect) -> bool:
+    """Whether an effect may be slow: a bias that depends on something else than the sensor's own
+    signal, and is no vibration.
+    """
+    line = any(p.scan is not None and p.scan.measure == "line" for p in e.parameters.values())
+    return e.stage == "bias" and not line
+
+
+def screen(fit: Fit, declared: Iterable[str], seed: int = 1, *, slow: bool = False) -> Screening:
     """Rank every absent effect, and those of ``declared`` whose values could be wrong, by the gain
-    over the fitted model.
+    over the fitted model; with ``slow`` those alone that may be slow.
     """
     new, held = absent(fit), contestable(fit, declared)
+    if slow:
+        new, held = [e for e in new if is_slow(e)], []
     found_forms = forms(fit, new, PENALTY)
     new = [e for e in new if not form_of(e) or e.name in found_forms]
     scans = scan_columns(fit, new)
