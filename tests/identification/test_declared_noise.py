@@ -35,6 +35,17 @@ def test_a_slow_effect_is_no_drift_where_the_walk_is_declared(world, name):
     assert name in {a.effect for a in closed.added}, closed.report()
 
 
+@pytest.mark.parametrize("name", ["thermal_bias", "temperature_rate"])
+def test_a_slow_effect_is_seen_beside_a_walk_that_nobody_declared(name):
+    """Ten sigmas gain 50 nat over the walk that there is, a third of them on the held-out rows; by
+    the walk that was fitted in their place they gain nothing.
+    """
+    world = drive(minutes=6, seed=8)
+    change = changes(world, "gyro")[name](size_for(world, "gyro", name, 10.0, True))
+    closed = pyimu.close(recording(world, gyro_change=change, seed=40, kinds=("gyro",)))
+    assert {a.effect for a in closed.added} == {name}, closed.report()
+
+
 def test_a_walk_that_is_larger_than_declared_is_drift_and_no_slow_effect(world):
     rng = np.random.default_rng(24)
     steps = 20 * K_GYRO * np.sqrt(world.h) * rng.standard_normal(world.rate.shape)
