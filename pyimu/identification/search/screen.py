@@ -210,7 +210,10 @@ def _gate(projected: Projected, all_groups: list[Group], rng: np.random.Generato
         return np.inf
     scale = np.sqrt(np.maximum(np.diag(projected.gram), 1e-300))
     values, vectors = np.linalg.eigh(projected.gram / np.outer(scale, scale))
-    root = vectors * np.sqrt(np.maximum(values, 0.0)) * scale[:, None]
+    root = vectors * np.sqrt(np.maximum(values, 0.0))
+    # What the noise of a reference was taken out of is no covariance any more, and the nearest that
+    # is one has larger variances.
+    root *= (scale / np.maximum(np.linalg.norm(root, axis=1), 1e-300))[:, None]
     draws = rng.standard_normal((DRAWS, len(scale))) @ root.T
     total: dict[str, np.ndarray] = {}
     for g in all_groups:
