@@ -1,0 +1,47 @@
+"""What the README shows of ``close`` is what it says today of the demo's recording."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+import pyimu
+from pyimu.rover.demo import recording
+
+README = Path(__file__).parents[2] / "README.md"
+COMMAND = "$ pyimu close out/demo/rover.csv --part imt30"
+NUMBER = re.compile(r"\d+(?:\.\d+)?")
+
+
+def words(line: str) -> str:
+    """A line without its numbers and the widths of its columns."""
+    return " ".join(NUMBER.sub("#", line).split())
+
+
+def shown() -> list[str]:
+    """The lines of the README's sample, less the command and what names the files."""
+    text = README.read_text(encoding="utf-8")
+    sample = text[text.index(COMMAND) :].split("```")[0].splitlines()[1:]
+    return [line for line in sample if line.strip() != "..." and not line.startswith("report:")]
+
+
+@pytest.fixture(scope="module")
+def printed() -> dict[str, str]:
+    lines = pyimu.close(recording(), part="imt30").report().splitlines()
+    return {words(line): line for line in lines}
+
+
+def test_the_sample_of_close_is_what_it_prints(printed):
+    """Word for word; a number may differ in the last place or two, as processors and libraries
+    round differently. What stands in brackets as (...) is left out of a line.
+    """
+    for line in shown():
+        begin, left_out, end = line.partition("(...)")
+        found = [
+            p for w, p in printed.items() if w.startswith(words(begin)) and w.endswith(words(end))
+        ]
+        assert found, f"not printed: {line}"
+        assert left_out or words(found[0]) == words(line), line
+        numbers = [[float(v) for v in NUMBER.findall(x)] for x in (line, found[0])]
+        for old, new in zip(*numbers, strict=False):
+            assert old == pytest.approx(new, rel=0.03), f"{line}\n{found[0]}"
