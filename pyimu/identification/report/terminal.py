@@ -40,7 +40,8 @@ def in_lines(closed: Outcome) -> str:
 
 def _found(closed: Outcome) -> Iterator[str]:
     for a in closed.added:
-        others = f"; the data allow as well: {joined(list(a.alternatives))}" if a.alternatives else ""
+        names = joined(list(a.alternatives))
+        others = f"; the data allow as well: {names}" if names else ""
         yield f"added to the {SENSORS[a.sensor]}: {missing(a)}{others}"
         if a.note:
             yield f"  {a.note}"
