@@ -267,7 +267,8 @@ def _choose(
     family = equivalent(refined[0].screened.effect)
     forms = [r for r in refined if r.screened.effect in family | {refined[0].screened.effect}]
     best = _form(forms, derived)
-    best = min((r for r in refined if _ahead(best, r) < ALIKE), key=_how_plain, default=best)
+    others = [r for r in refined if all(r is not f for f in forms) and _ahead(best, r) < ALIKE]
+    best = min([best, *others], key=_how_plain)
     close = [r.screened.effect for r in refined if r is not best and _ahead(best, r) <= SET_WIDTH]
     if derived or CATALOGUE[best.screened.effect].delay is not None:
         # Of a reference that ends below the band, or its clock, another form may be the truth.
