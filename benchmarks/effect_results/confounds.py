@@ -61,6 +61,10 @@ CONFOUNDS: dict[frozenset[str], str] = {
     frozenset({"g_sensitivity", "g2_sensitivity"}): (
         "near level the vertical force is g, and its products with the others are linear in those"
     ),
+    frozenset({"quantization", "angle_quantization"}): (
+        "a rounded integral makes a comb of the samples, too; apart only by the spectrum of what "
+        "rounding leaves, which a step far below the noise does not show"
+    ),
     frozenset({"gauss_markov", "bias_instability"}): (
         "in one log flicker noise is a Gauss-Markov process over the decades that it shows"
     ),

@@ -19,7 +19,6 @@ from pyimu.identification.fates import TAKEN_BACK, Fate, fates
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.trial import rest_noise
-from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.identification.formula.formula import Formula
 from pyimu.identification.formula.search import Look
 from pyimu.identification.found import Added, Changed, LogEntry
@@ -32,19 +31,14 @@ from pyimu.identification.reference.gravity import few
 from pyimu.identification.reference.order import other_order
 from pyimu.identification.references import references
 from pyimu.identification.result import Closed
+from pyimu.identification.rounding import Rounding, rounding
 from pyimu.identification.search.belief import most
 from pyimu.identification.search.ceiling import is_ceiling
 from pyimu.identification.search.forward import Investigation, form_error, without
-from pyimu.identification.search.leftover import (
-    NoiseFigure,
-    comb_gain,
-    noise_figures,
-    rounding,
-)
-from pyimu.identification.search.screen import PENALTY
+from pyimu.identification.search.leftover import NoiseFigure, noise_figures
 from pyimu.identification.verdict import WORSE, Evidence, Verdict, unfit, verdict
 from pyimu.identification.visibility import visibility
-from pyimu.model.catalogue import CATALOGUE, POWER_ON, WALK, WHITE, read_off
+from pyimu.model.catalogue import CATALOGUE, POWER_ON, WALK, WHITE
 from pyimu.model.effect import Effect
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
@@ -142,7 +136,7 @@ def _findings(
     added, changed, drifts = [], [], {}
     for kind, inv in found.items():
         say(f"{kind}: what is left")
-        added += _added(kind, model.after.sensor(kind), inv) + model.rounding[kind]
+        added += _added(kind, model.after.sensor(kind), inv) + [*model.rounding[kind].added]
         added += noises[kind].added
         changed += [released(start.sensor(kind), inv.after, s) for s in inv.steps if s.declared]
         changed += noises[kind].changed
@@ -155,9 +149,10 @@ def _noise(start: Part, inv: Investigation, model: Model, sensors: int, is_noise
 
     Kinds are told apart where ``is_noise`` says that nothing else is known to be left.
     """
-    sensor = start.sensor(inv.after.sensor.kind)
+    rounded = model.rounding[inv.after.sensor.kind]
+    sensor = rounded.of_increments(start.sensor(inv.after.sensor.kind))
     free = frozenset(e for kind, e, _ in start.estimate if kind == sensor.kind)
-    rounds = bool(model.rounding[sensor.kind]) or sensor.reading("step") is not None
+    rounds = rounded.relevant or sensor.reading("step") is not None
     if is_noise:
         found = noise_of(sensor, inv, free, rounds, sensors)
         if all(_counts(inv, a) for a in found.added):
@@ -246,7 +241,7 @@ class Model:
 
     before: Part
     after: Part
-    rounding: dict[str, list[Added]]
+    rounding: dict[str, Rounding]
 
     def with_noise(self, noises: dict[str, Noise]) -> Model:
         """With what was found to be random, by kind of sensor."""
@@ -262,14 +257,14 @@ class Model:
 def model_of(start: Part, declared: Part | None, found: Found) -> Model:
     """The model that investigations ``found`` of a part amount to."""
     before = after = unexamined_left_out(start, declared, found)
-    rounding = {}
+    rounded = {}
     for kind, inv in found.items():
         before = before.with_sensor(_finished(start, inv.before))
-        sensor, rounding[kind] = _finished(start, inv.after), _rounding(kind, inv)
-        for a in rounding[kind]:
+        sensor, rounded[kind] = _finished(start, inv.after), rounding(kind, inv)
+        for a in rounded[kind].added:
             sensor = sensor.with_values(a.effect, **{n: v for n, (v, _, _) in a.parameters.items()})
         after = after.with_sensor(sensor)
-    return Model(before, after, rounding)
+    return Model(before, after, rounded)
 
 
 def settled(
@@ -349,36 +344,6 @@ def _finished(start: Part, fit: Fit) -> Sensor:
         if (sensor.kind, effect, parameter) in start.estimate:
             sensor = sensor.with_values(effect, **{parameter: value})
     return sensor
-
-
-def _rounding(kind: str, inv: Investigation) -> list[Added]:
-    """Rounding as an added effect, where the raw samples show its steps.
-
-    They must weigh against the noise.
-    """
-    sensor, noise = inv.after.sensor, inv.after.seen
-    walks = all(isinstance(n, RandomWalk) for n in noise.values())
-    if sensor.reading("step") is not None or not walks:
-        # Against a differentiated reference the steps vanish in its noise; they stay a finding
-        # about the raw samples.
-        return []
-    white = np.array([np.sqrt(noise[i].r) if i in noise else np.nan for i in range(3)])
-    steps = rounding(inv.after.trials, white)
-    if not steps:
-        return []
-    effect, parameter = read_off(CATALOGUE.values(), "step")
-    q = np.array([steps.get(i, 0.0) for i in range(3)])
-    return [
-        Added(
-            sensor=kind,
-            effect=effect,
-            alternatives=(),
-            parameters={parameter: (q, np.zeros(3), sensor.unit("{y}"))},
-            gain=comb_gain(inv.after.trials, steps),
-            gate=PENALTY * len(steps),
-            note="every raw sample lies on a comb of these steps",
-        )
-    ]
 
 
 def _added(kind: str, sensor: Sensor, inv: Investigation) -> list[Added]:

@@ -8,6 +8,7 @@ from typing import Any
 
 from pyimu.files import plain
 from pyimu.identification.found import Added
+from pyimu.identification.rounding import HIDDEN, is_read, shows_samples
 from pyimu.identification.search.candidates import equivalent, has_columns
 from pyimu.identification.search.forward import (
     LEAST_SHARE,
@@ -17,6 +18,7 @@ from pyimu.identification.search.forward import (
     Investigation,
     Step,
 )
+from pyimu.model.effect import Effect
 from pyimu.model.sensor import candidates
 from pyimu.report.numbers import joined, number
 
@@ -61,6 +63,12 @@ def fates(kind: str, inv: Investigation, added: Iterable[Added]) -> list[Fate]:
         for a in added
         if a.effect not in names
     ]
+    out += [
+        Fate(kind, other, None, None, "alternative", _as_good(a.effect), (a.effect,))
+        for a in added
+        for other in a.alternatives
+        if a.effect not in names and other not in names
+    ]
     out = sorted(out, key=lambda f: -max(f.gain or 0.0, f.last or 0.0))
     return out + _not_looked_for(kind, inv, {f.effect for f in out})
 
@@ -70,20 +78,22 @@ def _not_looked_for(kind: str, inv: Investigation, told: set[str]) -> list[Fate]
     looked = told | {c.effect for c in inv.first.candidates} | set(inv.before.sensor.values)
     out = []
     for e in candidates(kind, looked):
-        lacking = sorted(e.signals(kind) - inv.before.trials[0].known)
         if e.per_power_on or equivalent(e.name) & set(inv.before.sensor.values):
             continue
-        reason = (
-            "a random error is not told from the sensor's noise"
-            if e.stochastic
-            else f"the log lacks {joined(lacking)}"
-            if lacking
-            else "no way to look for it in these logs"
-            if not has_columns(e, kind)
-            else "no motion excites it"
-        )
-        out.append(Fate(kind, e.name, None, None, "not looked for", reason))
+        if not is_read(e) or not shows_samples(inv):
+            out.append(Fate(kind, e.name, None, None, "not looked for", _why_not(kind, inv, e)))
     return out
+
+
+def _why_not(kind: str, inv: Investigation, e: Effect) -> str:
+    lacking = sorted(e.signals(kind) - inv.before.trials[0].known)
+    if e.stochastic:
+        return "a random error is not told from the sensor's noise"
+    if lacking:
+        return f"the log lacks {joined(lacking)}"
+    if has_columns(e, kind):
+        return "no motion excites it"
+    return HIDDEN if is_read(e) else "no way to look for it in these logs"
 
 
 def _fate(kind: str, inv: Investigation, name: str, first: Any, last: Any) -> Fate:
@@ -114,9 +124,12 @@ def _outcome(
         return _as_another_form(name, of)
     close = [s.effect for s in inv.steps if name in s.alternatives]
     if close:
-        within = f"explains as much as {joined(close)}, to within {SET_WIDTH:g} nat"
-        return "alternative", within, tuple(close)
+        return "alternative", _as_good(joined(close)), tuple(close)
     return _by_the_steps(inv, name, first, last)
+
+
+def _as_good(other: str) -> str:
+    return f"explains as much as {other}, to within {SET_WIDTH:g} nat"
 
 
 def _as_another_form(name: str, of: list[Step]) -> tuple[str, str, tuple[str, ...]]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from pyimu.identification.found import Visibility
+from pyimu.identification.rounding import HIDDEN, is_read, shows_samples
 from pyimu.identification.search.candidates import absent, has_columns
 from pyimu.identification.search.forward import Investigation
 from pyimu.model.catalogue import CATALOGUE
@@ -19,13 +20,9 @@ def visibility(kind: str, inv: Investigation) -> list[Visibility]:
         if kind in e.sensors
         and e.name not in inv.before.sensor.values
         and not e.per_power_on
-        and (has_columns(e, kind) or _rounds(e))
+        and (has_columns(e, kind) or is_read(e))
     ]
     return [_of(e, kind, inv) for e in lacking]
-
-
-def _rounds(e: Effect) -> bool:
-    return any(p.reads == "step" for p in e.parameters.values())
 
 
 def _of(e: Effect, kind: str, inv: Investigation) -> Visibility:
@@ -38,8 +35,8 @@ def _of(e: Effect, kind: str, inv: Investigation) -> Visibility:
 
 
 def _why_not(e: Effect, kind: str, inv: Investigation) -> str:
-    if _rounds(e):
-        return "looked for in the raw samples"
+    if is_read(e):
+        return "looked for in the raw samples" if shows_samples(inv) else HIDDEN
     if e.name in {known.name for known in absent(inv.before)}:
         return "no motion excites it"
     return f"the log lacks {', '.join(sorted(e.signals(kind) - inv.before.trials[0].known))}"

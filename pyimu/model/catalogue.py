@@ -94,6 +94,9 @@ WHITE = _only(lambda e: e.law is not None and e.law.is_plain("white"))
 WALK = _only(lambda e: e.law is not None and e.law.is_plain("walk"))
 """Effect and coefficient of the plain random walk."""
 
+INCREMENTS = _only(lambda e: e.law is not None and e.law.is_plain("rounding"))
+"""Effect and coefficient of the step to which the integral of the output is rounded."""
+
 
 def add_effects(*sources: str | os.PathLike | Effect) -> tuple[Effect, ...]:
     """Add effects of your own to the catalogue, for parts, ``close`` and every other command.

@@ -7,18 +7,29 @@ on that log's fitted rows.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pyimu.identification.fit.columns import LogState, band_segments, in_band, linearise, residual
+from pyimu.identification.fit.columns import (
+    LogState,
+    band_segments,
+    in_band,
+    in_log,
+    linearise,
+    reference_input,
+    residual,
+)
 from pyimu.identification.fit.fit import Fit, bare, initial_state
 from pyimu.identification.fit.keys import LogLag, LogTurn
 from pyimu.identification.fit.noise_floor import simulated
 from pyimu.identification.fit.normal import normal_equations, solve
-from pyimu.identification.fit.trial import Trial
+from pyimu.identification.fit.response import predict
+from pyimu.identification.fit.trial import Trial, marked
 from pyimu.identification.fit.whiten import RandomWalk
+from pyimu.model.sensor import Sensor
 
 WINDOW = 10.0
 """Seconds over which a rate residual is integrated to an angle."""
@@ -143,6 +154,26 @@ def _spread(fit: Fit) -> float:
         return ROTATION_PRIOR
     turns = [Rotation.from_matrix(m @ mountings[0].T).magnitude() for m in mountings[1:]]
     return max(LEAST_PRIOR, float(np.sqrt(np.mean(np.square(turns)))))
+
+
+def compared(fit: Fit, held: Iterable[Trial], axis: int) -> tuple[np.ndarray, np.ndarray]:
+    """The output of an axis by the model, and as it was measured, in the fitted and held-out rows
+    that count.
+    """
+    pairs = [(t, fit.states[t.name]) for t in fit.trials]
+    pairs += [(rest, state) for state, rest in (held_state(fit, t) for t in held)]
+    made = [sides(fit.sensor, t, state, axis) for t, state in pairs]
+    x, y = (np.concatenate(values) for values in zip(*made, strict=True))
+    return x, y
+
+
+def sides(
+    sensor: Sensor, trial: Trial, state: LogState, axis: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """The output of an axis by a sensor, and as measured, in the rows that count."""
+    x = predict(in_log(sensor, state), reference_input(trial, state), trial.segments, trial.h)
+    counted = marked(trial.row_segments, len(x))
+    return x[counted, axis], trial.y[counted, axis]
 
 
 def tally(fit: Fit, trial: Trial) -> ErrorSums:

@@ -5,28 +5,39 @@ Read off the samples that lie there, which are then left out of what is looked f
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
+from scipy.integrate import trapezoid
+from scipy.optimize import brentq
+from scipy.special import erfcx
 
 from pyimu.identification.fit.columns import LogState, reference_input
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient, Key
 from pyimu.identification.fit.maximum_likelihood import fit
 from pyimu.identification.fit.response import predict
+from pyimu.identification.fit.score import compared
 from pyimu.identification.fit.trial import Trial, marked, rest_noise
 from pyimu.model.sensor import Sensor
+from pyimu.recording.quality.resolution import resolution
 
 CEILING = "ceiling"
 
 EQUAL = 1e-9
 """Relative difference below which samples are the same: files round them."""
 
-NEXT = 50
-"""Samples next below the largest: where two of them are equal, the samples are rounded."""
+SHOWN = 3.0
+"""Log-likelihood [nat] by which samples must lie piled up at a level that regression found (95 %).
+"""
 
-LEAST_EQUAL = 3
-"""Samples that are equal where no others are, and so are no chance."""
+NEARLY = 0.8
+"""Share of a level above which an input is about to reach it, whatever the model still lacks."""
+
+FINE = 0.25
+"""Standard deviations of the noise that a step of the samples may have for their density to be seen
+within one of them."""
 
 LEAST_AT_LEVEL = 5
 """Fewer samples beyond a level do not show that there is one."""
@@ -76,22 +87,82 @@ def stops_there(fitted: Fit, axis: int) -> bool:
 def pile(fitted: Fit, axis: int, level: float) -> float | None:
     """The largest size of the samples of an axis, where so many lie exactly there that the output
     stops, and where it stops close to a fitted ``level``; else None.
-
-    Noise and motion spread samples evenly over so small a range as lies below the largest: of as
-    many again in the next range as wide as one standard deviation, only some would be equal.
     """
-    rows = [np.abs(t.y[a:b, axis]) for t in fitted.trials for a, b in t.row_segments]
-    y = np.concatenate(rows) if rows else np.zeros(0)
-    if not len(y) or any(t.band_hz is not None or t.reduction is not None for t in fitted.trials):
+    if not has_samples(fitted.trials):
         return None
-    top = float(y.max())
     noise = max(float(rest_noise(t)[axis]) for t in fitted.trials)
-    there, near = int(np.sum(y >= top * (1.0 - EQUAL))), int(np.sum(y > top - noise))
-    below = np.sort(y[y < top * (1.0 - EQUAL)])[-NEXT:]
-    rounded = len(np.unique(below)) < len(below)
-    least = LEAST_AT_LEVEL if rounded else LEAST_EQUAL
-    stops = there >= least and there > near - there
-    return top if stops and abs(top - level) < 4.0 * noise + 0.02 * level else None
+    top, gain = piled(fitted.trials, axis)
+    return top if gain > SHOWN and abs(top - level) < 4.0 * noise + 0.02 * level else None
+
+
+def has_samples(trials: Iterable[Trial]) -> bool:
+    """Whether all rows of trials are samples as the sensor gave them."""
+    return all(t.band_hz is None and t.reduction is None for t in trials)
+
+
+def piled(trials: Sequence[Trial], axis: int) -> tuple[float, float]:
+    """The largest size of the samples of an axis, and the log-likelihood [nat] by which so many
+    lying exactly there speaks for an output that stops.
+
+    The logarithm of the density of samples with white noise of standard deviation s bends down by
+    no more than 1 / s^2: where it is f and falls by c a step of s, f s M(c) samples lie above, M
+    the ratio of Mills. None does; those at the level, but the one that makes it the largest, all
+    fell into one step of the samples' resolution instead. What lies within s below says how large
+    c is.
+    """
+    y = np.abs(np.concatenate([_rows(t, axis) for t in trials]))
+    noise = min(float(rest_noise(t)[axis]) for t in trials)
+    if not len(y) or not noise > 0.0:
+        return 0.0, -np.inf
+    top = float(y.max())
+    at = y >= top * (1.0 - EQUAL)
+    step = max(resolution(y), 2.0 * EQUAL * top)
+    count = _independent(at, np.diff(y, prepend=np.nan) == 0.0, step / noise)
+    if count < 2 or step > FINE * noise:
+        return top, -np.inf
+    below = int(np.sum((y > top - noise) & ~at))
+    room = noise / step * _mills(_steepness(below * step / (count * noise)))
+    return top, (count - 1) * float(np.log(max(room, 1.0)))
+
+
+def is_reached(fitted: Fit, held: Iterable[Trial], axis: int, top: float) -> bool:
+    """Whether the input of most samples of size ``top`` is as large by the model, too: those that
+    stand for a fault of the log may come at any time.
+    """
+    x, y = compared(fitted, held, axis)
+    return bool(np.median(np.abs(x[np.abs(y) >= top * (1.0 - EQUAL)])) > NEARLY * top)
+
+
+def _rows(trial: Trial, axis: int) -> np.ndarray:
+    return np.concatenate([trial.y[a:b, axis] for a, b in trial.row_segments] or [np.zeros(0)])
+
+
+def _independent(at: np.ndarray, repeats: np.ndarray, step: float) -> int:
+    """Samples ``at`` a level (n,); runs of them where samples ``repeats`` (n,) the one before
+    oftener than white noise does by steps in units of it, and so are held.
+    """
+    elsewhere = repeats & ~at
+    chance = step / (2.0 * np.sqrt(np.pi))
+    expected = len(at) * min(chance, 1.0)
+    held = elsewhere.sum() > 2.0 * expected + 4.0 * np.sqrt(expected) + 1.0
+    return int(np.sum(at & ~repeats)) if held else int(at.sum())
+
+
+def _mills(c: float) -> float:
+    """What exp(-c t - t^2 / 2) holds above zero."""
+    return float(np.sqrt(np.pi / 2.0) * erfcx(c / np.sqrt(2.0)))
+
+
+def _steepness(share: float) -> float:
+    """The fall c at a level below which, within one standard deviation, lie ``share`` times what
+    its density would make of that range.
+    """
+
+    def more(c: float) -> float:
+        t = np.linspace(0.0, 1.0, 65)
+        return float(trapezoid(np.exp(c * t - t**2 / 2.0), t)) - share
+
+    return 0.0 if more(0.0) >= 0.0 else 50.0 if more(50.0) <= 0.0 else brentq(more, 0.0, 50.0)
 
 
 def at_samples(fitted: Fit) -> Fit:
@@ -134,7 +205,8 @@ def _beyond(
     counted = marked(trial.row_segments, len(x))
     y = trial.y[:, axis]
     return tuple(
-        np.abs(y[counted & (sign * x > 1.1 * level) & (sign * y > 0.8 * level)]) for sign in (1, -1)
+        np.abs(y[counted & (sign * x > 1.1 * level) & (sign * y > NEARLY * level)])
+        for sign in (1, -1)
     )
 
 

@@ -20,6 +20,7 @@ from pyimu.identification.fit.normal import Normal
 from pyimu.identification.fit.reduction import STRUCTURE
 from pyimu.identification.fit.reference_noise import with_reference_noise
 from pyimu.identification.fit.trial import Trial
+from pyimu.identification.search.as_sampled import GATE, ceiling_of, threshold_of
 from pyimu.identification.search.belief import unbelievable
 from pyimu.identification.search.candidates import Group, equivalent, with_start
 from pyimu.identification.search.ceiling import (
@@ -74,7 +75,7 @@ class Step:
     The coefficients it brought, its evidence, and who could stand in for it.
 
     ``declared`` says that the effect was in the model already and only its declared values were set
-    free.
+    free, ``as_sampled`` that the samples themselves show it, whatever squares it explains.
     """
 
     effect: str
@@ -84,6 +85,7 @@ class Step:
     alternatives: tuple[str, ...]
     dispersion: float
     declared: bool = False
+    as_sampled: bool = False
 
 
 @dataclass(frozen=True)
@@ -186,8 +188,7 @@ def investigate(
     before = fit(before) if before.echo else before
     if has_ceiling(sensor):
         before = without_lost(before)
-    after = before
-    steps: list[Step] = []
+    after, steps = _as_sampled(before, held)
     refused: dict[str, Refused] = {}
     tried = Tried(after, sensor.values)
     first = last = seen = tried.looked()[0]
@@ -228,9 +229,26 @@ def investigate(
     )
 
 
+def _as_sampled(before: Fit, held: list[Trial]) -> tuple[Fit, list[Step]]:
+    """A model with what the samples themselves say of the output."""
+    after, steps = before, []
+    for look in (threshold_of, ceiling_of):
+        read = look(after, held)
+        if read is not None:
+            after = read.put_in(after)
+            after = without_lost(after) if is_ceiling(after.sensor, read.effect) else after
+            found = (read.effect, read.keys, read.gain, GATE, read.alternatives, 1.0)
+            steps.append(Step(*found, as_sampled=True))
+    return after, steps
+
+
 def form_error(steps: Iterable[Step]) -> float:
     """Gain [nat] that the form of dynamics and output in a model may leave: it is not exact."""
-    known = [s.gain for s in steps if CATALOGUE[s.effect].stage in ("dynamics", "output")]
+    known = [
+        s.gain
+        for s in steps
+        if CATALOGUE[s.effect].stage in ("dynamics", "output") and not s.as_sampled
+    ]
     return FORM * max(known, default=0.0)
 
 
@@ -436,10 +454,12 @@ def without(inv: Investigation, effect: str, reason: str) -> Investigation:
 def _backward(after: Fit, steps: list[Step]) -> tuple[Fit, list[Step]]:
     """Drop what later additions made superfluous.
 
-    A ceiling never is, the samples at it having been left out since.
+    A ceiling never is, the samples at it having been left out since, nor what samples show.
     """
     for step in [
-        s for s in steps[:-1] if not s.declared and not is_ceiling(after.sensor, s.effect)
+        s
+        for s in steps[:-1]
+        if not (s.declared or s.as_sampled or is_ceiling(after.sensor, s.effect))
     ]:
         rest = [s for s in steps if s is not step]
         kept = after.free - step.keys

@@ -1,5 +1,5 @@
 """What remains once no effect of the catalogue helps: dependence on inputs (looked for by
-``formula.search``), more noise than declared, rounding.
+``formula.search``), more noise than declared.
 """
 
 from __future__ import annotations
@@ -11,17 +11,11 @@ import numpy as np
 
 from pyimu.identification.fit.columns import Linear
 from pyimu.identification.fit.fit import Fit
-from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk, power_less_bias
-from pyimu.recording.quality.resolution import quantization_step
 
 DRIFT_GATE = 5.0
 """Log-likelihood [nat] by which a larger random walk must beat the declared one on some axis: 1 %
 in three one-sided tests."""
-
-SHARE = 0.03
-"""Share of the white variance that rounding must explain before it is named (a step of 0.6 sigma).
-"""
 
 
 @dataclass(frozen=True)
@@ -116,37 +110,3 @@ def drift(fit: Fit, declared_k: np.ndarray) -> dict[int, float]:
         for i, n in fit.seen.items()
         if n.k2 > declared_k[i] ** 2 and gain[i] > DRIFT_GATE
     }
-
-
-def rounding(trials: tuple[Trial, ...], white: np.ndarray) -> dict[int, float]:
-    """Steps q by axis on which every raw sample lies and which matter against white noise of
-    standard deviation (3,).
-    """
-    found = {}
-    for i in range(3):
-        steps = [
-            quantization_step(np.concatenate([t.y[a:b, i] for a, b in t.row_segments]))
-            for t in trials
-            if t.count
-        ]
-        if steps and all(s is not None for s in steps) and np.isfinite(white[i]):
-            q = float(np.median(steps))
-            if q**2 / 12 > SHARE * white[i] ** 2:
-                found[i] = q
-    return found
-
-
-def comb_gain(trials: tuple[Trial, ...], steps: dict[int, float]) -> float:
-    """Log-likelihood [nat] by which samples that lie on a comb of step q speak for it, against
-    samples that lie anywhere.
-
-    A sample within m of the nearest multiple has density 1/(2 m) there instead of 1/q: ln(q / 2 m)
-    each.
-    """
-    total = 0.0
-    for i, q in steps.items():
-        values = np.concatenate([t.y[a:b, i] for t in trials for a, b in t.row_segments])
-        offsets = (values - values[0]) / q
-        miss = max(float(np.abs(offsets - np.round(offsets)).max()) * q, 1e-6 * q)
-        total += len(values) * np.log(q / (2 * miss))
-    return total

@@ -4,17 +4,20 @@ samples about it say exactly where it lies.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.optimize import brentq
+from scipy.special import ndtr
 
-from pyimu.identification.fit.columns import in_log, reference_input
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient, Key
 from pyimu.identification.fit.maximum_likelihood import fit
-from pyimu.identification.fit.response import predict
-from pyimu.identification.fit.trial import Trial, marked
+from pyimu.identification.fit.score import compared, sides
+from pyimu.identification.fit.trial import Trial
 from pyimu.model.sensor import Sensor
+from pyimu.recording.quality.resolution import resolution
 
 THRESHOLD = "threshold"
 
@@ -25,6 +28,12 @@ Sample splitting and threshold estimation, Econometrica 68 (2000), table I."""
 NEAR = 10
 """Samples on each side of a threshold whose distances say how far it may lie from the nearest: a
 jump far above the noise lies anywhere between two of them (Chan 1993, a Poisson process)."""
+
+MISTAKEN = 2.0
+"""Times as many inputs may have come into a zone as a model says that still lacks something."""
+
+LEAST_ZEROS = 2
+"""One zero alone is no sign of anything: a log may begin with it."""
 
 ROUNDS = 2
 """Each moves what else is fitted by what the samples in the zone had bent."""
@@ -102,10 +111,96 @@ def _least_squares(x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
     return float(middle), float(max(likely_width / (2 * 1.96), apart))
 
 
+Threshold = tuple[float, float, float]
+"""A threshold, its standard error, and the log-likelihood [nat] by which zeros speak for it."""
+
+
+@dataclass(frozen=True)
+class Zeros:
+    """What zeros of the output of an axis say: the threshold of a ``hard`` dead zone, which passes
+    larger inputs as they are, and of a ``soft`` one, which takes the threshold off.
+
+    ``count`` zeros are there, and ``below`` as many inputs came below the least output.
+    """
+
+    hard: Threshold
+    soft: Threshold
+    count: int
+    below: float
+
+    @property
+    def for_hard(self) -> float:
+        """Log-likelihood [nat] by which they speak for a hard dead zone.
+
+        It leaves no output below its threshold, where a soft one leaves as many as there are inputs
+        so small; these alone make its zeros, where a soft one's are as many as it is wide.
+        """
+        expected = min(MISTAKEN * self.below, self.count)
+        fewer = self.count * np.log(expected / self.count) + self.count - expected
+        return float(fewer + self.below)
+
+
+def zeros(fitted: Fit, held: Iterable[Trial], axis: int) -> Zeros | None:
+    """What an output that is exactly zero now and then in fitted or held-out rows says of a dead
+    zone; None where it is not.
+    """
+    trials = tuple(_with_zeros(t, axis) for t in fitted.trials)
+    held = [_with_zeros(t, axis) for t in held]
+    x, y = compared(replace(fitted, trials=trials), held, axis)
+    zero = y == 0.0
+    count = int(zero.sum())
+    if count < LEAST_ZEROS or len(y) - count <= NEAR:
+        return None
+    left = (y - x)[~zero]
+    chance = _Below(x, 1.4826 * float(np.median(np.abs(left - np.median(left)))))
+    step = resolution(y)
+    least, std = float(np.abs(y[~zero]).min()), max(_least_output(y)[1], step / 2)
+    hard = max(least - std, 0.5 * least)
+    soft = brentq(lambda d: chance.of(d).sum() - count, 0.0, 2.0 * float(np.abs(x).max()))
+    return Zeros(
+        (hard, std, chance.gain(zero, hard, step)),
+        (soft, soft / np.sqrt(count), chance.gain(zero, soft, step)),
+        count,
+        float(chance.of(least).sum()),
+    )
+
+
+@dataclass(frozen=True)
+class _Below:
+    """Inputs ``x`` (n,), each with noise of one standard deviation."""
+
+    x: np.ndarray
+    noise: float
+
+    def of(self, threshold: float) -> np.ndarray:
+        """The probability (n,) of an input below a threshold."""
+        at = (-self.x / self.noise)[:, None] + np.array([threshold, -threshold]) / self.noise
+        return ndtr(at[:, 0]) - ndtr(at[:, 1])
+
+    def gain(self, zero: np.ndarray, threshold: float, step: float) -> float:
+        """Log-likelihood [nat] by which ``zero`` (n,) outputs speak for a threshold, against what
+        speaks better: samples that are rounded to a ``step``, or that were lost at any time.
+        """
+        count, n = int(zero.sum()), len(zero)
+        shown, rounded = (
+            float(np.log(np.maximum(self.of(d)[zero], 1.0 / n)).sum())
+            for d in (threshold, step / 2)
+        )
+        lost = count * np.log(count / n) + (n - count) * np.log1p(-count / n)
+        return shown - max(rounded, float(lost))
+
+
+def _with_zeros(trial: Trial, axis: int) -> Trial:
+    """A trial that counts the zeros of an axis among what was left out where another axis is none:
+    in motion a zero beside others is far off, and looks like a spike.
+    """
+    if trial.left_out is None:
+        return trial
+    zero = (trial.y[:, axis] == 0.0) & (trial.y != 0.0).any(axis=1)
+    return replace(trial, left_out=trial.left_out & ~zero)
+
+
 def _sides(fitted: Fit, trial: Trial, axis: int) -> tuple[np.ndarray, np.ndarray]:
     """What would come without the zone, and what was measured, in the rows that count."""
-    state, effect = fitted.states[trial.name], fitted.sensor.reading(THRESHOLD)[0]
-    whole = in_log(fitted.sensor.without(effect), state)
-    x = predict(whole, reference_input(trial, state), trial.segments, trial.h)
-    counted = marked(trial.row_segments, len(x))
-    return x[counted, axis], trial.y[counted, axis]
+    whole = fitted.sensor.without(fitted.sensor.reading(THRESHOLD)[0])
+    return sides(whole, trial, fitted.states[trial.name], axis)

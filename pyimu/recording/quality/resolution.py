@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 
 from pyimu.recording.quality.scatter import scatter
@@ -12,6 +14,28 @@ CONCENTRATION = 0.8
 
 RELEVANT_STEP = 0.1
 """A step below this part of the noise is the rounding of the file, and does nothing."""
+
+SHARES = (0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.0)
+"""Quantiles of the gaps between levels that are tried as a step, the largest first: of a fine comb
+few levels are taken, and few of them are neighbours."""
+
+LEAST_LEVELS = 100
+"""Fewer levels may lie on some fine comb by chance."""
+
+DISTINCT = 1e-12
+"""Share of the largest value below which two levels are one: arithmetic rounds them."""
+
+TEETH = 0.5
+"""Share of the levels that must be multiples of their own: where most lie closer together than a
+step, they agree on its multiples whatever it is."""
+
+ROUND = 1e-4
+"""Relative difference below which a step is a number of one digit: of any other step some 4 in
+100000 are by chance, for each unit that is asked about."""
+
+SINGLE = 2.0**-22
+"""Share of the largest value up to which a power of two is the last bits of a 32-bit number, whose
+mantissa has 24."""
 
 
 def quantization_step(values: np.ndarray) -> float | None:
@@ -33,6 +57,61 @@ def quantization_step(values: np.ndarray) -> float | None:
     step = _first_step(known, levels)
     if step is None or step < RELEVANT_STEP * scatter(np.abs(np.diff(known, 2)), 0.1) / np.sqrt(6):
         return None
+    return _on_comb(step, known, levels)
+
+
+def comb_step(values: np.ndarray) -> float | None:
+    """The step q of the comb on which ``values`` (n,) lie, however fine it is against their noise.
+
+    None where there is none that the digits of the values resolve.
+    """
+    known = values[np.isfinite(values)]
+    levels = _levels(known)
+    if len(levels) < LEAST_LEVELS:
+        return quantization_step(values)
+    gaps = np.diff(levels)
+    tried = np.unique([np.quantile(gaps, s, method="lower") for s in SHARES])[::-1]
+    for first in map(float, tried):
+        step = _on_comb(first, known, levels)
+        if step and len(np.unique(np.round(levels / step))) > TEETH * len(levels):
+            return step
+    return None
+
+
+def resolution(values: np.ndarray) -> float:
+    """The distance at which two of ``values`` (n,) are told apart: the step of their comb, or else
+    the smallest that there is between any two.
+    """
+    known = values[np.isfinite(values)]
+    levels = _levels(known)
+    return comb_step(known) or (float(np.diff(levels).min()) if len(levels) > 1 else 0.0)
+
+
+def is_written(step: float, largest: float, units: Iterable[float]) -> bool:
+    """Whether a step is the last digit that numbers up to ``largest`` are written with in any of
+    ``units`` (their sizes in the step's unit): a power of ten, or the last bits of 32.
+    """
+    for unit in units:
+        digit = np.log10(step / unit)
+        bit = np.log2(step / unit)
+        if abs(digit - round(digit)) < ROUND / np.log(10.0):
+            return True
+        if abs(bit - round(bit)) < ROUND / np.log(2.0) and step <= SINGLE * largest:
+            return True
+    return False
+
+
+def _levels(known: np.ndarray) -> np.ndarray:
+    """The values that there are, in order, those that are one counted once."""
+    levels = np.unique(known)
+    if not len(levels):
+        return levels
+    apart = np.diff(levels, prepend=-np.inf) > DISTINCT * np.abs(levels[[0, -1]]).max()
+    return levels[apart]
+
+
+def _on_comb(step: float, known: np.ndarray, levels: np.ndarray) -> float | None:
+    """A step refined, if the levels lie on its multiples."""
     centre = levels - levels[np.argmin(np.abs(levels - np.median(known)))]
     step = _refined(step, centre)
     phases = np.exp(2j * np.pi * centre / step)
@@ -48,14 +127,21 @@ def _first_step(known: np.ndarray, levels: np.ndarray) -> float | None:
     return float(np.median(gaps)) if len(gaps) else None
 
 
+def _slope(number: np.ndarray, near: np.ndarray) -> float:
+    """Of the line through levels by number; through the origin where there are too few."""
+    if len(number) < 3:
+        return float(number @ near / (number @ number))
+    return float(np.polyfit(number, near, 1)[0])
+
+
 def _refined(step: float, centre: np.ndarray) -> float:
     reach, size = 8 * step, np.abs(centre)
     while True:
         near = centre[size <= reach]
         number = np.round(near / step)
         if np.any(number):
-            slope = np.polyfit(number, near, 1)[0]
-            step = float(slope) if abs(slope - step) < 0.1 * step else step
+            slope = _slope(number, near)
+            step = slope if abs(slope - step) < 0.1 * step else step
         if reach >= size.max():
             return step
         reach *= 2

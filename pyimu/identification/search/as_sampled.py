@@ -1,0 +1,117 @@
+"""What the samples themselves say of the output, before anything is regressed: where they stop, and
+below which input they are zero.
+
+So few samples may lie there that they hardly change the sum of squares, and yet by chance none
+would.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.keys import Coefficient
+from pyimu.identification.fit.maximum_likelihood import advantage, fit
+from pyimu.identification.fit.trial import Trial
+from pyimu.identification.search.candidates import equivalent, scanned
+from pyimu.identification.search.ceiling import CEILING, EQUAL, has_samples, is_reached, piled
+from pyimu.identification.search.screen import FALSE_ALARM, PENALTY, SHARE
+from pyimu.identification.search.threshold import THRESHOLD, zeros
+from pyimu.model.catalogue import CATALOGUE, read_off
+
+LOOKS = 6
+"""Two effects on three axes."""
+
+GATE = float(np.log(LOOKS / (SHARE * FALSE_ALARM)))
+"""Log-likelihood [nat] that one of them gains by chance as often as it may (Ville 1939: a ratio of
+likelihoods is above 1 / a with a probability of at most a)."""
+
+
+@dataclass(frozen=True)
+class Read:
+    """A coefficient (3,) of an effect that was read off samples, zero on the axes that show none,
+    with its standard errors and the penalised log-likelihood [nat] that it gains.
+
+    ``alternatives`` are effects that the samples do not tell it from.
+    """
+
+    effect: str
+    parameter: str
+    values: np.ndarray
+    std: np.ndarray
+    gain: float
+    alternatives: tuple[str, ...] = ()
+
+    @property
+    def keys(self) -> frozenset[Coefficient]:
+        axes = map(int, np.flatnonzero(self.values))
+        return frozenset(Coefficient(self.effect, self.parameter, (i,)) for i in axes)
+
+    def put_in(self, fitted: Fit) -> Fit:
+        """A fit with the effect, all else fitted again, and the effect too where it has a slope."""
+        sensor = fitted.sensor.with_values(self.effect, **{self.parameter: self.values})
+        std = {**fitted.std, **{k: float(self.std[k.index]) for k in self.keys}}
+        sloped = scanned(CATALOGUE[self.effect]) is None
+        free = fitted.free | (self.keys if sloped else frozenset())
+        return fit(replace(fitted, sensor=sensor, free=free, std=std).with_noise())
+
+
+def threshold_of(fitted: Fit, held: Sequence[Trial]) -> Read | None:
+    """The input below which the output is zero, None where the samples show none.
+
+    Hard or soft say the zeros, and regression, which sees whether larger inputs lose by it.
+    """
+    hard = _looked_for(fitted, held, THRESHOLD)
+    if hard is None:
+        return None
+    seen = {i: zeros(fitted, held, i) for i in fitted.trials[0].axes}
+    found = {i: z for i, z in seen.items() if z is not None}
+    of_hard = _read(hard, {i: z.hard for i, z in found.items()})
+    soft = next(((n, next(iter(CATALOGUE[n].parameters))) for n in equivalent(hard[0])), None)
+    of_soft = soft and _read(soft, {i: z.soft for i, z in found.items()})
+    if of_hard is None or of_soft is None:
+        return of_hard or of_soft
+    lost = advantage(of_soft.put_in(fitted), fitted) - PENALTY * len(of_soft.keys)
+    for_hard = sum(z.for_hard for z in found.values()) - max(lost, 0.0)
+    best, other = (of_hard, of_soft) if for_hard > 0.0 else (of_soft, of_hard)
+    return replace(best, alternatives=() if abs(for_hard) > GATE else (other.effect,))
+
+
+def ceiling_of(fitted: Fit, held: Sequence[Trial]) -> Read | None:
+    """The level at which the output stops, None where the samples show none."""
+    found = _looked_for(fitted, held, CEILING)
+    if found is None:
+        return None
+    tops = {i: piled([*fitted.trials, *held], i) for i in fitted.trials[0].axes}
+    return _read(
+        found,
+        {
+            i: (top, EQUAL * top, gain)
+            for i, (top, gain) in tops.items()
+            if gain > PENALTY and is_reached(fitted, held, i, top)
+        },
+    )
+
+
+def _looked_for(fitted: Fit, held: Sequence[Trial], what: str) -> tuple[str, str] | None:
+    """Effect and coefficient that are read off as ``what``; None where the model has one of that
+    family, or rows are no samples.
+    """
+    kind, had = fitted.sensor.kind, fitted.sensor.values
+    found = read_off((e for e in CATALOGUE.values() if kind in e.sensors), what)
+    if found is None or not has_samples([*fitted.trials, *held]):
+        return None
+    same = {found[0], *equivalent(found[0])} & set(had)
+    return None if any(fitted.sensor.acts(name) for name in same) else found
+
+
+def _read(found: tuple[str, str], axes: Mapping[int, tuple[float, float, float]]) -> Read | None:
+    """What was read of a coefficient, by axis its value, standard error and gain."""
+    values, std, total = np.zeros(3), np.zeros(3), 0.0
+    for i, (value, error, gain) in axes.items():
+        if gain > PENALTY:
+            values[i], std[i], total = value, error, total + gain - PENALTY
+    return Read(*found, values, std, total) if total > GATE else None
