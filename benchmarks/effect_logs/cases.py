@@ -100,19 +100,21 @@ def make(name: str, number: int, minutes: tuple[float, float] = MINUTES) -> Made
     """The case of a name and a number; ``minutes`` are the shortest and longest log.
 
     Where an effect's size jumps over the one that is wanted, or the log does not show it, all is
-    drawn again.
+    drawn again; in the declared form, where no log shows it to a part that declares nothing, as a
+    process that is no random walk for the short time of one.
     """
     rng = np.random.default_rng([zlib.crc32(name.encode()), number])
-    for _ in range(MOST_DRAWS):
-        try:
-            return _drawn(_wanted(name, rng), number, minutes, rng)
-        except NotShown:
-            continue
+    form = _form(_wanted(name, np.random.default_rng(number)), number)
+    for tried in dict.fromkeys((form, "declared")):
+        for _ in range(MOST_DRAWS):
+            try:
+                return _drawn(_wanted(name, rng), tried, minutes, rng)
+            except NotShown:
+                continue
     raise NotShown(f"{name} {number}: no log of {MOST_DRAWS} shows it at its size")
 
 
-def _drawn(wanted: Wanted, number: int, minutes, rng) -> Made:
-    form = _form(wanted, number)
+def _drawn(wanted: Wanted, form: str, minutes, rng) -> Made:
     motions = wanted.motions if wanted.row == "together" else (str(rng.choice(wanted.motions)),)
     scenes = [new_scene(rng, MOTIONS[m], 60 * float(rng.uniform(*minutes))) for m in motions]
     sensor = any_sensor(rng)

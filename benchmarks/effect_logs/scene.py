@@ -80,8 +80,9 @@ class Scene:
 
     @cached_property
     def heading(self) -> np.ndarray:
-        """rad (n,), counter-clockwise from east."""
-        return self.motion.angles(self.time)[:, 2]
+        """rad (n,) of the forward axis over the ground, counter-clockwise from east."""
+        w, x, y, z = self.attitude.T
+        return np.unwrap(np.arctan2(2 * (w * z + x * y), 1 - 2 * (y**2 + z**2)))
 
     def own(self, kind: str, at: np.ndarray | None = None) -> np.ndarray:
         """The signal (n, 3) that a sensor of a kind measures, at other times if given."""

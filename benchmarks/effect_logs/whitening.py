@@ -50,9 +50,11 @@ def _square(e: np.ndarray, r: float, step: float, free: np.ndarray) -> float:
 
 
 def gain_of_variance(extra: np.ndarray, triad: Triad, h: float) -> float:
-    """Size in sigmas of white noise whose variance is larger by ``extra`` (n, 3) in each row."""
+    """Size in sigmas of white noise whose variance is larger by ``extra`` (n, 3) in each row, over
+    white noise of the same mean: where the variance does not change nothing tells the two apart.
+    """
     ratio = 1 + extra / (triad.n**2 / h)
-    return float(np.sqrt(np.sum(ratio - 1 - np.log(ratio))))
+    return float(np.sqrt(max(np.sum(np.log(ratio.mean(axis=0)) - np.log(ratio)), 0.0)))
 
 
 def frequencies(n: int) -> tuple[np.ndarray, np.ndarray]:
@@ -98,6 +100,6 @@ def _whittle(extra, at, r: float, step: float, free: bool) -> float:
     start = np.log([r, step])
     if not free:
         return lost(start)[0]
-    bounds = [(start[0] - 1, start[0] + 10), (start[1] - 5, start[1] + 20)]
-    starts = (start + [0.0, more] for more in (0.0, 3.0, 7.0))
+    bounds = [(start[0] - 1, start[0] + 10), (start[1] - 5, start[1] + 60)]
+    starts = (start + [0.0, more] for more in (0.0, 3.0, 7.0, 15.0, 25.0))
     return min(minimize(lost, s, jac=True, method="L-BFGS-B", bounds=bounds).fun for s in starts)

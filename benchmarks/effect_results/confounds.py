@@ -68,6 +68,9 @@ CONFOUNDS: dict[frozenset[str], str] = {
     frozenset({"gauss_markov", "bias_instability"}): (
         "in one log flicker noise is a Gauss-Markov process over the decades that it shows"
     ),
+    frozenset({"second_gauss_markov", "bias_instability"}): (
+        "the second Gauss-Markov process is the first's equation, and flicker noise as near to it"
+    ),
     frozenset({"gauss_markov", "second_gauss_markov"}): (
         "one equation: of a single process nothing says whether it is the first or the second"
     ),

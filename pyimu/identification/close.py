@@ -19,6 +19,7 @@ from pyimu.identification.fit.keys import Key, coefficient_of
 from pyimu.identification.fit.trial import Trial, accel_trial, gyro_trial
 from pyimu.identification.formula.effect import forget
 from pyimu.identification.formula.search import Look, look
+from pyimu.identification.instead import formula_less_than_noise, less_than_noise
 from pyimu.identification.made_with import called
 from pyimu.identification.reference.align import aligned
 from pyimu.identification.reference.gravity import few, rest_trials
@@ -134,11 +135,28 @@ def _investigated(
             trials = _shown(start, declared, free, trials)
             prior = {} if declared else _prior(kind, free)
             found[kind] = investigate(start.sensor(kind), free, trials, held, say, prior)
-            looks[kind] = look(found[kind], partial(_again, found[kind], prior), say)
+            looks[kind] = _looked(found[kind], prior, _random(start, kind), say)
             found[kind] = looks[kind].investigation
             quality += late_thermometers(found[kind])
         quality += _of_trials([*trials, *held])
     return {k: found[k] for k in ("gyro", "accel") if k in found}, looks, quality
+
+
+def _looked(
+    inv: Investigation, prior: Mapping[Key, float], random: frozenset[str], say: Say
+) -> Look:
+    """What was made of what an investigation left, less what noise would explain as well; the
+    kinds ``random`` of noise are left to the data.
+    """
+    say(f"{inv.after.sensor.kind}: is what was found noise")
+    inv = less_than_noise(inv, random)
+    found = look(inv, partial(_again, inv, prior), say)
+    return Look(inv) if formula_less_than_noise(inv, found, random) else found
+
+
+def _random(start: Part, kind: str) -> frozenset[str]:
+    """The kinds of noise that a part leaves to the data."""
+    return frozenset(e for k, e, _ in start.estimate if k == kind)
 
 
 def _again(

@@ -10,14 +10,8 @@ from pyimu.files import plain
 from pyimu.identification.found import Added
 from pyimu.identification.rounding import HIDDEN, is_read, shows_samples
 from pyimu.identification.search.candidates import equivalent, has_columns
-from pyimu.identification.search.forward import (
-    LEAST_SHARE,
-    MOST_EFFECTS,
-    MOST_REFINED,
-    SET_WIDTH,
-    Investigation,
-    Step,
-)
+from pyimu.identification.search.choice import LEAST_SHARE, MOST_REFINED, SET_WIDTH
+from pyimu.identification.search.forward import MOST_EFFECTS, Investigation, Step
 from pyimu.model.effect import Effect
 from pyimu.model.sensor import candidates
 from pyimu.report.numbers import joined, number
@@ -151,7 +145,8 @@ def _by_the_steps(
         return "dropped", f"no longer needed beside {joined(steps)}", steps
     if last <= inv.last.gate:
         fell = f"its gain fell from {number(first)} to {number(last)} nat"
-        return "explained", f"{fell} once {joined(steps)} {_was(steps)} in", steps
+        once = f"{joined(steps)} {_was(steps)} in" if steps else "what is left was taken for noise"
+        return "explained", f"{fell} once {once}", steps
     return "not taken up", _why_left(inv, name), ()
 
 

@@ -14,7 +14,8 @@ from pyimu.identification.noise.cells import Cells
 from pyimu.identification.noise.rows import rows_of
 from pyimu.identification.noise.spectrum import Bands, bands
 from pyimu.identification.search.ceiling import has_samples
-from pyimu.identification.search.forward import SET_WIDTH, Investigation
+from pyimu.identification.search.choice import SET_WIDTH
+from pyimu.identification.search.forward import Investigation
 from pyimu.identification.search.screen import PENALTY
 from pyimu.model.catalogue import CATALOGUE, INCREMENTS, read_off
 from pyimu.model.effect import Effect

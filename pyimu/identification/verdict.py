@@ -13,7 +13,7 @@ from pyimu.identification.fit.score import held_state
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.found import Added, Errors
 from pyimu.identification.reference.clock import mistaken, moves
-from pyimu.identification.search.forward import Investigation, Refused
+from pyimu.identification.search.forward import AS_NOISE, Investigation, Refused
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.recording.reference.band import COHERENCE, LEAST_BAND
 from pyimu.report.numbers import joined, number
@@ -96,13 +96,18 @@ def _verdict(e: Evidence) -> Verdict:
     if e.added:
         names = ", ".join(f"{a.sensor} {a.effect}" for a in e.added)
         return Verdict("partly", names, (left,)) if left else Verdict("named", names)
-    if e.refused:
-        kind, most = max(e.refused, key=lambda r: r[1].gain)
+    shapes = [u for u in e.unexplained if u.shape]
+    if shapes:
+        u = shapes[0]
+        return Verdict("unexplained", f"{u.sensor} {u.axis} shows {u.shape}")
+    refused = [r for r in e.refused if r[1].reason != AS_NOISE]
+    if refused:
+        kind, most = max(refused, key=lambda r: r[1].gain)
         gain = f"{kind} {most.effect} explains the fitted rows ({most.gain:.0f} nat)"
         return Verdict("not_confirmed", f"{gain}, but {most.reason}")
     if e.unexplained:
         u = e.unexplained[0]
-        does = f"shows {u.shape}" if u.shape else f"depends on {' x '.join(u.depends_on)}"
+        does = f"depends on {' x '.join(u.depends_on)}"
         return Verdict("unexplained", f"{u.sensor} {u.axis} {does}")
     if e.drift:
         return Verdict("drift", "more random walk than declared: an input that nobody logged")

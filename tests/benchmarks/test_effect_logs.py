@@ -6,8 +6,10 @@ from effect_logs import cases, nameless, noise_terms, whitening
 from effect_logs.chain import NAMED, TERMS, Chain, NotShown, at_typical, tuned
 from effect_logs.scene import new_scene
 from effect_logs.term import Case
+from generators import rotation
 from generators.instrument import Triad, any_sensor
 from generators.motion import rover, shaker, static, table, thermal_cycle, tumble
+from scipy.optimize import minimize_scalar
 
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.part_reader import parse_part
@@ -59,8 +61,53 @@ def test_the_size_of_excess_white_noise_is_the_likelihoods():
     extra = 0.3 * triad.n**2 / H
     flat = np.tile(extra, (len(whitening.frequencies(n)[0]), 1))
     found = whitening.gain_of_spectrum(flat, n, triad, H)
-    wanted = whitening.gain_of_variance(np.tile(extra, (n, 1)), triad, H)
+    wanted = np.sqrt(3 * n * (0.3 - np.log(1.3)))
     np.testing.assert_allclose(found, wanted, rtol=1e-3)
+
+
+def test_the_size_of_noise_that_follows_the_motion_is_over_the_likeliest_white_noise():
+    """Twice the log-likelihood lost by one variance for all rows, at its best; nothing where the
+    motion does not change.
+    """
+    n = 500
+    share = np.random.default_rng(9).uniform(0.0, 2.0, (n, 3))
+    extra = share * TRIAD.n**2 / H
+    lost = 0.0
+    for v in (1.0 + share).T:
+        one = minimize_scalar(lambda c, v=v: np.sum(np.log(c / v) + v / c - 1.0), (0.5, 2.0))
+        lost += one.fun
+    np.testing.assert_allclose(
+        whitening.gain_of_variance(extra, TRIAD, H), np.sqrt(lost), rtol=1e-6
+    )
+    flat = np.tile(extra[0], (n, 1))
+    # The root of a sum of n differences that are zero but for rounding.
+    assert whitening.gain_of_variance(flat, TRIAD, H) < 1e-5
+
+
+def test_a_process_of_long_correlation_is_a_walk_to_a_sensor_without_noise():
+    """Of 250 s a process of 20 s is told from a walk in few cells, however quiet the sensor is."""
+    n, tau, quiet = 25_000, 20.0, Triad(np.zeros(3), np.full(3, 1e-9), np.full(3, 1e-11))
+    kept = np.exp(-H / tau)
+    omega = whitening.frequencies(n)[0]
+    shape = (1 - kept**2) / (1 - 2 * kept * np.cos(omega) + kept**2)
+    sizes = [
+        whitening.gain_of_spectrum(np.tile(v * shape[:, None], (1, 3)), n, quiet, H, free=True)
+        for v in (1e-8, 1e-4)
+    ]
+    np.testing.assert_allclose(sizes[0], sizes[1], rtol=1e-2)
+
+
+def test_heading_is_that_of_the_forward_axis_however_the_body_is_turned():
+    scene = new_scene(np.random.default_rng(3), tumble, 60.0)
+    forward = rotation.in_body(scene.attitude * [1, -1, -1, -1], np.tile([1.0, 0, 0], (6000, 1)))
+    level = np.hypot(forward[:, 0], forward[:, 1])
+    seen = level > 1e-3
+    np.testing.assert_allclose(
+        np.cos(scene.heading)[seen], (forward[:, 0] / level)[seen], atol=1e-9
+    )
+    np.testing.assert_allclose(
+        np.sin(scene.heading)[seen], (forward[:, 1] / level)[seen], atol=1e-9
+    )
 
 
 def test_white_noise_and_a_walk_of_another_size_are_nothing_where_they_are_free():

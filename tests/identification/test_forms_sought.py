@@ -12,8 +12,8 @@ from pyimu.identification.fit.fit import begin
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.maximum_likelihood import fit
 from pyimu.identification.fit.response import is_driven, predict, with_memory
+from pyimu.identification.search.choice import refine
 from pyimu.identification.search.forms import form_of, forms
-from pyimu.identification.search.forward import refine
 from pyimu.identification.search.screen import PENALTY, screen
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.kinds import OWN

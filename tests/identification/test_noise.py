@@ -2,6 +2,8 @@
 each kind of noise by name and size.
 """
 
+import itertools
+
 import numpy as np
 import pytest
 from scipy.signal import lfilter
@@ -14,7 +16,8 @@ from pyimu.identification.noise.known import state_of
 from pyimu.identification.noise.laws import kinds
 from pyimu.identification.noise.rows import Rows
 from pyimu.identification.noise.spectrum import bands
-from pyimu.identification.noise.telegraph import telegraph_likelihood
+from pyimu.identification.noise.telegraph import RATES, _likelihood, telegraph_likelihood
+from pyimu.identification.search.screen import PENALTY
 from pyimu.model.sensor import Sensor
 
 H, N, K = 0.01, 1e-3, 2e-5
@@ -204,5 +207,85 @@ def test_likelihood_tells_jumps_between_two_levels_from_a_gauss_markov_process()
     smooth = markov(rng, n, np.sqrt(2 * variance / tau), tau)
     for add, jumping in ((level, True), (smooth, False)):
         one = rows(rng, more=lambda t, x, s, add=add: add).means(0.1)
-        ahead = telegraph_likelihood(one, noise.variance(one)) - noise.likelihood(one).sum()
+        white = noise.variance(one)[:, None]
+        ahead = telegraph_likelihood([one], white, np.array([K**2])) - noise.likelihood(one).sum()
         assert bool(ahead > 12.0) is jumping
+
+
+def dense_telegraph(r, h, white, walk, gap, up, down):
+    """Log-likelihood of differences from the first row, summed over all 2^n ways of two states."""
+    n = len(r)
+    t = np.arange(n) * h
+    whole = walk * np.minimum.outer(t, t) + white * np.eye(n)
+    lift = np.hstack([-np.ones((n - 1, 1)), np.eye(n - 1)])
+    c = lift @ whole @ lift.T
+    inverse, half = np.linalg.inv(c), -0.5 * np.linalg.slogdet(c)[1]
+    moved = -np.expm1(-(up + down) * h) / (up + down)
+    step = np.array([[1 - up * moved, up * moved], [down * moved, 1 - down * moved]])
+    total = 0.0
+    for way in itertools.product((0, 1), repeat=n):
+        share = (down, up)[way[0]] / (up + down)
+        share *= np.prod([step[a, b] for a, b in itertools.pairwise(way)])
+        d = lift @ (r - gap * np.array(way))
+        total += share * np.exp(-0.5 * d @ inverse @ d)
+    return half + np.log(total)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_likelihood_of_a_telegraph_is_the_sum_over_all_ways_of_it(seed):
+    """Given its levels and without a walk the recursion is exact: the sum over 2^8 ways, with the
+    bias integrated out on a grid instead.
+    """
+    rng = np.random.default_rng([31, seed])
+    h, white, gap, up, down = 0.1, 0.04, 0.7, 1.5, 2.5
+    r = gap * (np.arange(8) > 3) + np.sqrt(white) * rng.standard_normal(8)
+    steps = np.full(8, h)
+    biases = np.linspace(-3, 3, 6001)
+    one = np.array([gap])
+    logs = [
+        _likelihood(
+            r[:, None], steps, np.full((8, 1), white), np.zeros(1), np.array([b]), one, up, down
+        )[0]
+        for b in biases
+    ]
+    # Over all biases what is left is the density of the differences, but for a normal's constant.
+    whole = np.log(np.trapezoid(np.exp(np.array(logs)), biases) / np.sqrt(2 * np.pi))
+    assert whole == pytest.approx(dense_telegraph(r, h, white, 0.0, gap, up, down), abs=1e-6)
+
+
+@pytest.mark.parametrize("unit", [1.0, 1e-6])
+def test_telegraph_is_compared_with_other_noise_in_any_unit(unit):
+    """White noise alone is no telegraph, by the same amount in rad/s as in urad/s."""
+    rng = np.random.default_rng(37)
+    r = rng.standard_normal(2000)
+    every = {k.name: k for k in kinds(PART, 0.1, 200.0)}
+    ahead = []
+    for scale in (1.0, unit):
+        t = np.arange(2000) * 0.1
+        one = Rows(t, scale * r, t, t, 0.1, 2000)
+        noise = AxisNoise({every["angle_random_walk"]: (0.1 * scale**2 * r.var(), {})})
+        found = telegraph_likelihood([one], noise.variance(one)[:, None], np.zeros(1))
+        ahead.append(found - noise.likelihood(one).sum())
+    assert ahead[1] == pytest.approx(ahead[0], abs=0.1)
+    assert ahead[0] < PENALTY * (1 + RATES)
+
+
+def test_jumps_that_axes_share_are_seen_where_each_alone_is_lost():
+    """Steps of 1.6 times the noise of a dwell's mean, on three axes at the same instants."""
+    rng = np.random.default_rng(41)
+    n, dwell = 30000, 6.0
+    gap = 1.6 * N / np.sqrt(dwell)
+    jumps = np.cumsum(rng.exponential(dwell, 400))
+    level = gap * (np.searchsorted(jumps, np.arange(n) * H) % 2)
+    logs = [rows(rng, n, more=lambda t, x, s: level).means(0.1) for _ in range(3)]
+    every = {k.name: k for k in kinds(PART, H, 300.0)}
+    tau = dwell / 2
+    sizes = {"angle_random_walk": (N**2, {}), "rate_random_walk": (K**2, {})}
+    sizes["gauss_markov"] = (gap**2 / (2 * tau), {"tau": tau})
+    noise = AxisNoise({every[name]: v for name, v in sizes.items()})
+    white = [noise.variance(one)[:, None] for one in logs]
+    smooth = [noise.likelihood(one).sum() for one in logs]
+    walk = np.full(3, K**2)
+    apart = [telegraph_likelihood([o], w, walk[:1]) for o, w in zip(logs, white, strict=True)]
+    together = telegraph_likelihood(logs, np.hstack(white), walk)
+    assert max(np.array(apart) - smooth) < PENALTY * (1 + RATES) < together - sum(smooth)

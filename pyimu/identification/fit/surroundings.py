@@ -22,6 +22,10 @@ from pyimu.recording.reference.rate import Reference
 INTERVAL = 1.0
 """s; means over so long are smoothed: surroundings change in seconds, not in samples."""
 
+JUMP = 8.0
+"""Standard deviations of the difference of readings beyond which one is no noise: in a log of a
+million rows noise does so once in a billion."""
+
 LEAST = 8
 """Intervals below which there is nothing to tell noise from change by."""
 
@@ -30,12 +34,34 @@ def without_noise(recording: Recording, values: np.ndarray) -> np.ndarray:
     """The slow signal behind ``values`` (n,), which have no gap, at the recording's rows.
 
     It is the expected value given all readings, of the interval means by their likeliest smoothing;
-    between the middles of intervals it is a line.
+    between the middles of intervals it is a line. What is switched, as a supply is, stays a jump.
     """
-    out = np.array(values)
+    out, period = np.array(values), recording.sample_period
     for a, b in recording.segments:
-        out[a:b] = _smoothed(recording.time[a:b], values[a:b], recording.sample_period)
+        edges = [a, *(a + _jumps(values[a:b], max(1, round(INTERVAL / period)))).tolist(), b]
+        for first, last in zip(edges[:-1], edges[1:], strict=True):
+            piece = slice(first, last)
+            out[piece] = _smoothed(recording.time[piece], values[piece], period)
     return out
+
+
+def _jumps(values: np.ndarray, rows: int) -> np.ndarray:
+    """The rows at which a signal jumps from one level to another that lasts for some ``rows``."""
+    differences = np.abs(np.diff(values))
+    moves = differences[differences > 0.0]
+    if not len(moves):
+        return np.zeros(0, dtype=int)
+    # A step of the thermometer's own is no jump; half of the differences are within 0.67 sigma.
+    noise = max(float(np.median(differences)) / 0.6745, float(moves.min()))
+    found = np.flatnonzero(differences > JUMP * noise) + 1
+    kept = (k for k in found if rows <= k <= len(values) - rows)
+    lasts = (
+        k
+        for k in kept
+        if abs(np.median(values[k : k + rows]) - np.median(values[k - rows : k]))
+        > 0.5 * differences[k - 1]
+    )
+    return np.fromiter(lasts, dtype=int)
 
 
 def _smoothed(time: np.ndarray, values: np.ndarray, period: float) -> np.ndarray:

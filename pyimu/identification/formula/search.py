@@ -35,8 +35,9 @@ from pyimu.identification.formula.terms import (
     switch,
     values_of,
 )
+from pyimu.identification.search.choice import SET_WIDTH
 from pyimu.identification.search.confirm import SPEAKS, Evidence, evidence
-from pyimu.identification.search.forward import SET_WIDTH, Investigation, Step, form_error
+from pyimu.identification.search.forward import Investigation, Step, form_error
 from pyimu.identification.search.leftover import Unexplained
 from pyimu.identification.search.screen import PENALTY, fitted_dispersion, fitted_gain
 from pyimu.model.catalogue import CATALOGUE

@@ -13,7 +13,7 @@ from scipy.optimize import minimize_scalar
 from pyimu.identification.noise.cells import Cells
 from pyimu.identification.noise.laws import Form, Kind
 from pyimu.identification.noise.spectrum import Bands
-from pyimu.identification.search.forward import SET_WIDTH
+from pyimu.identification.search.choice import SET_WIDTH
 from pyimu.identification.search.screen import FALSE_ALARM, PENALTY
 
 SHARE = 0.5

@@ -88,6 +88,14 @@ def _is_later(kind: Kind, found: list[Kind], sensor: Sensor) -> bool:
     return kind is not same[0]
 
 
+def names_of(kind: Kind, sensor: Sensor) -> list[str]:
+    """The effects that a kind of noise may be called by: its own, and those of the same law that
+    the sensor lacks.
+    """
+    same = [e for e in CATALOGUE.values() if e.law is kind.effect.law and sensor.kind in e.sensors]
+    return [e.name for e in same if e is kind.effect or e.name not in sensor.values]
+
+
 def _kind(e: Effect, h: float, longest: float) -> Kind | None:
     sizes = [n for n, p in e.parameters.items() if not (p.form or p.reference)]
     # What is read off the raw samples is known better than its variance says.

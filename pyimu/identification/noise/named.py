@@ -2,36 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from pyimu.identification.fit.fit import Fit
-from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.identification.found import Added, Changed
-from pyimu.identification.noise.choose import (
-    Chosen,
-    State,
-    Term,
-    choose,
-    refined,
-    with_form,
-    without,
-)
+from pyimu.identification.noise.choose import Chosen, State, Term, refined
 from pyimu.identification.noise.exact import AxisNoise
-from pyimu.identification.noise.known import state_of
-from pyimu.identification.noise.laws import Kind, kinds
-from pyimu.identification.noise.rows import Rows, rows_of
-from pyimu.identification.noise.telegraph import FINE, NUMBERS, telegraph_likelihood
-from pyimu.identification.search.forward import SET_WIDTH, Investigation, Refused
+from pyimu.identification.noise.explained import Explained
+from pyimu.identification.noise.laws import Kind, names_of
+from pyimu.identification.search.belief import most
+from pyimu.identification.search.forward import Investigation, Refused
 from pyimu.identification.search.leftover import Unexplained
-from pyimu.identification.search.screen import PENALTY
 from pyimu.model.catalogue import WALK, WHITE
 from pyimu.model.sensor import Sensor
 
-RELEVANT = 0.02
-"""Share of a declared noise by which data must differ from it before it is said."""
+RELEVANT = 0.005
+"""Share of a declared noise by which data must differ from it before it is said: half a unit of the
+last of three digits, with which parts declare it."""
 
 POPCORN = "random telegraph (popcorn) noise"
 """What jumps between two levels at random instants."""
@@ -69,134 +58,19 @@ def noise_of(
     rate of false alarms. Nothing is said where the reference was differentiated, or where rows are
     no samples.
     """
-    fit = inv.after
-    if any(not isinstance(n, RandomWalk) for n in fit.seen.values()):
+    known = _Named.of(sensor, inv.after, inv.held, free, rounds)
+    if known is None:
         return Noise()
-    fitted = {i: n for i, n in fit.seen.items() if isinstance(n, RandomWalk)}
-    logs = rows_of(fit, inv.held)
-    longest = max(float(one.time[-1] - one.time[0]) for each in logs.values() for one in each)
-    every = kinds(sensor, fit.trials[0].h, longest)
-    loose = free | ({WHITE[0]} if rounds else set())
-    start = state_of(sensor, logs, fitted, every, frozenset(loose), np.zeros(3))
-    if not start.axes:
-        return Noise()
-    tried = [k for k in every if k.name not in loose]
-    known = _Found(sensor, fit, logs, every, frozenset(loose), fitted, start, start)
-    found = known.chosen_of(tried, sensors)
+    found = known.chosen_of(sensors)
     jumps = found.popcorn()
     if jumps:
-        rest = State({i: a for i, a in start.axes.items() if i not in jumps})
-        found = replace(known, state=rest).chosen_of(tried, sensors)
+        rest = State({i: a for i, a in known.state.axes.items() if i not in jumps})
+        found = replace(known, state=rest).chosen_of(sensors)
     return found.confirmed().told(jumps)
 
 
-@dataclass(frozen=True)
-class _Found:
-    """What was chosen, on the way to what is said of it."""
-
-    sensor: Sensor
-    fit: Fit
-    logs: dict[int, list[Rows]]
-    kinds: Sequence[Kind]
-    free: frozenset[str]
-    fitted: Mapping[int, RandomWalk]
-    start: State
-    state: State
-    chosen: tuple[Chosen, ...] = ()
-    refused: tuple[Refused, ...] = ()
-
-    def chosen_of(self, tried: Sequence[Kind], sensors: int) -> _Found:
-        """With the kinds of ``tried`` that the axes have, their forms refined."""
-        state, chosen = choose(self.state, tried, sensors)
-        for i in state.axes:
-            for term in state.found.get(i, ()):
-                if term.kind.scans and not term.kind.shares_form:
-                    state = with_form(state, i, term, refined(state, i, term)[0])
-        return replace(self, state=state, chosen=tuple(chosen))
-
-    # Sizes
-
-    def sizes(self, state: State, i: int) -> AxisNoise:
-        """The noise of an axis under a state, for the exact likelihood."""
-        axis, out = state.axes[i], {}
-        spectrum, motion = axis.spectrum.fit()[0], None
-        if axis.motion is not None:
-            motion = axis.motion.fit()[0]
-        loose = [k for k in self.kinds if k.name in self._loose(i)]
-        for kind in self.kinds:
-            square = axis.had.get(kind.name, 0.0) ** 2
-            form = _form(self.sensor, kind, i)
-            if kind in loose:
-                square += spectrum[loose.index(kind)]
-            for term in state.found.get(i, ()):
-                if term.kind is kind:
-                    square += (motion if kind.follows else spectrum)[term.place]
-                    form = term.form
-            out[kind] = (square, form)
-        if motion is not None and any(t.kind.follows for t in state.found.get(i, ())):
-            white = next(k for k in self.kinds if k.name == WHITE[0])
-            out[white] = (self._white(i, motion), {})
-        return AxisNoise({k: v for k, v in out.items() if v[0] > 0.0})
-
-    def _loose(self, i: int) -> list[str]:
-        """The kinds that are left to the data on an axis, in the order of their columns."""
-        had = self.sensor.values.get(WHITE[0], {}).get(WHITE[1], np.zeros(3))[i]
-        names = [k.name for k in self.kinds if k.name in (WHITE[0], WALK[0])]
-        return [n for n in names if n in self.free or (n == WHITE[0] and not had)]
-
-    def _white(self, i: int, motion: np.ndarray) -> float:
-        """N squared beside noise that follows the motion."""
-        return float((1.0 + motion[0]) * self.fitted[i].r * self.logs[i][0].h)
-
-    # What speaks against it
-
-    def popcorn(self) -> dict[int, float]:
-        """The axes whose residual jumps between two levels, and the log-likelihood [nat] by which
-        that is likelier than the slow noise that was chosen for them.
-        """
-        ahead = {}
-        for i in self.state.axes:
-            if not any(_is_slow(t.kind) for t in self.state.found.get(i, ())):
-                continue
-            noise = self.sizes(self.state, i)
-            seen = [one.seen().means(FINE) for one in self.logs[i] if one.fitted]
-            smooth = sum(float(noise.likelihood(one).sum()) for one in seen)
-            jumps = sum(telegraph_likelihood(one, noise.variance(one)) for one in seen)
-            ahead[i] = jumps - smooth - PENALTY * NUMBERS * len(seen)
-        ahead = {i: gain for i, gain in ahead.items() if gain > 0.0}
-        return ahead if sum(ahead.values()) > SET_WIDTH else {}
-
-    def _less(self, terms: Sequence[Term], i: int) -> _Found:
-        state = self.state
-        for term in terms:
-            state = without(state, term.kind, i)
-        names = {t.kind.name for t in terms}
-        kept = (
-            replace(c, axes=tuple(a for a in c.axes if a != i)) if c.kind.name in names else c
-            for c in self.chosen
-        )
-        return replace(self, state=state, chosen=tuple(c for c in kept if c.axes))
-
-    def confirmed(self) -> _Found:
-        """Less what held-out rows speak against."""
-        out = self
-        for one in self.chosen:
-            if self._is_declared(one.kind):
-                continue
-            fewer = out
-            for i in one.axes:
-                fewer = fewer._less([t for t in out.state.found[i] if t.kind is one.kind], i)
-            gained = sum(out.held(out.state, i) - out.held(fewer.state, i) for i in one.axes)
-            if one.gain + gained <= one.gate:
-                reason = f"held-out data lose {-gained:.2g} nat by it"
-                refused = Refused(one.kind.name, one.gain, reason)
-                out = replace(fewer, refused=(*out.refused, refused))
-        return out
-
-    def held(self, state: State, i: int) -> float:
-        """Log-likelihood [nat] of the held-out rows of an axis, given those before them."""
-        noise = self.sizes(state, i)
-        return sum(float(noise.likelihood(one)[one.fitted :].sum()) for one in self.logs[i])
+class _Named(Explained):
+    """What explains a residual, and what is said of it."""
 
     def _held_as_fitted(self, i: int) -> float:
         walk = self.fitted[i]
@@ -204,13 +78,6 @@ class _Found:
         squares = {WHITE[0]: walk.r * self.logs[i][0].h, WALK[0]: walk.k2}
         noise = AxisNoise({by_name[n]: (s, {}) for n, s in squares.items() if s > 0.0})
         return sum(float(noise.likelihood(one)[one.fitted :].sum()) for one in self.logs[i])
-
-    # What is said
-
-    def _is_declared(self, kind: Kind) -> bool:
-        """Whether the part has the kind, on some axis, so that its value changes."""
-        values = self.sensor.values.get(kind.name)
-        return values is not None and bool(np.any(values[kind.parameter]))
 
     def told(self, jumps: Mapping[int, float]) -> Noise:
         added = [self._added(c) for c in self.chosen if not self._is_declared(c.kind)]
@@ -261,15 +128,27 @@ class _Found:
                     at = (i,) if p.shape else ()
                     value[at], std[at] = form[name], error
             parameters[name] = (value, std, self.sensor.unit(p.unit))
+        name, others = self._names(one, float(np.max(parameters[one.kind.parameter][0])))
         return Added(
             self.sensor.kind,
-            one.kind.name,
-            one.alternatives,
+            name,
+            others,
             parameters,
             one.gain,
             one.gate,
             "random: its samples are drawn anew each time, and none can be taken off",
         )
+
+    def _names(self, one: Chosen, size: float) -> tuple[str, tuple[str, ...]]:
+        """The name of what was added, of several of one law the first of which it may be the size,
+        and the names that could stand in for it.
+        """
+        same = names_of(one.kind, self.sensor)
+        kind, parameter = self.sensor.kind, one.kind.parameter
+        name = next((n for n in same if most(n, kind, parameter) >= size), same[0])
+        kinds = (k for other in one.alternatives for k in self.kinds if k.name == other)
+        others = [n for k in kinds for n in names_of(k, self.sensor)]
+        return name, tuple(n for n in dict.fromkeys((*same, *others)) if n != name)
 
     def _term(self, kind: Kind, i: int) -> Term:
         return next(t for t in self.state.found[i] if t.kind is kind)
@@ -344,15 +223,3 @@ class _Found:
                     gain = cells.fit()[1] - less.fit()[1]
                     out |= {i: gain} if square > 0.0 else {}
         return out
-
-
-def _is_slow(kind: Kind) -> bool:
-    return bool(kind.effect.law.walk or kind.effect.law.markov)
-
-
-def _form(sensor: Sensor, kind: Kind, i: int) -> dict[str, float]:
-    """The form that a part declares of a kind on an axis, or the first that is tried."""
-    values = sensor.values.get(kind.name)
-    if values is None:
-        return dict(kind.forms[0])
-    return {n: float(v[i] if np.ndim(v) else v) for n, v in values.items() if n != kind.parameter}

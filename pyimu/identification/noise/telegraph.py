@@ -1,10 +1,13 @@
 """Random telegraph (popcorn) noise: a bias that jumps between two levels at random instants.
 
 Its spectrum is that of a Gauss-Markov process (Machlup 1954), so that no spectrum tells the two
-apart; the likelihood of the samples does.
+apart; the likelihood of the samples does: that of a hidden Markov chain of two states, on one axis
+or on several that jump together.
 """
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 import numpy as np
 from numba import njit
@@ -13,64 +16,116 @@ from scipy.optimize import minimize
 from pyimu.identification.noise.rows import Rows
 
 SHORT = 0.5
-"""s; means over which levels are looked for at first."""
+"""s; means from which levels are guessed."""
 
 FINE = 0.1
 """s; means in which jumps are looked for: levels that last less are as good as white noise."""
 
-NUMBERS = 2
-"""How many numbers a telegraph has more than a Gauss-Markov process: four with its two levels, of
-which one is the bias."""
+DWELLS = (2.0, 8.0, 32.0)
+"""s; how long a level lasts where the search begins."""
+
+FEWEST = 4.0
+"""Jumps that a telegraph must have more of: so many instants a ``bias_step`` has, and of so few
+nothing says that more will come."""
+
+RATES = 2
+"""Numbers that a telegraph has beside its steps: how often it jumps up, and down."""
 
 
 @njit(cache=True)
-def _likelihood(r, steps, white, low, high, up, down):
-    """Log-likelihood of residuals beside two levels; ``up`` and ``down`` are jumps a second."""
-    share, total, both = up / (up + down), 0.0, up + down
-    for k in range(len(r)):
-        if k > 0:
-            settled = up / both
-            share = settled + (share - settled) * np.exp(-both * steps[k])
-        a = -0.5 * (r[k] - low) ** 2 / white[k]
-        b = -0.5 * (r[k] - high) ** 2 / white[k]
-        top = max(a, b)
-        lower, upper = (1.0 - share) * np.exp(a - top), share * np.exp(b - top)
-        mixed = lower + upper
-        total += top + np.log(mixed) - 0.5 * np.log(white[k])
-        share = upper / mixed
-    return total
+def _likelihood(r, steps, white, walk, low, gap, up, down):
+    """Log-likelihood [nat, constant left out] of residuals (n, m) beside a bias that goes between
+    ``low`` and ``low + gap`` (m,), ``up`` and ``down`` being jumps a second; and what the rows tell
+    of each axis's bias, one over its variance, (m,).
 
-
-def telegraph_likelihood(rows: Rows, white: np.ndarray) -> float:
-    """The largest log-likelihood [nat, constant left out] of a telegraph beside white noise of
-    variance ``white`` (n,) a sample.
+    The bias walks by ``walk`` (m,) a second. What is known of it in either state is one normal
+    each, of one variance: after each row the two that lead to a state are put together in their
+    mean (Kim 1994).
     """
-    low, high, rate = _guess(rows)
-    if not high > low:
+    n, m = r.shape
+    both, share, total = up + down, up / (up + down), 0.0
+    mean, variance = np.zeros((2, m)), np.zeros(m)
+    told, constant = np.zeros(m), np.ones(m)
+    f, gain = np.ones(m), np.zeros(m)
+    for a in range(m):
+        mean[:, a] = low[a]
+    weight, moved = np.zeros((2, 2)), np.zeros((2, m))
+    for k in range(n):
+        kept = np.exp(-both * steps[k])
+        rise, fall = up / both * (1.0 - kept), down / both * (1.0 - kept)
+        weight[0, 0], weight[0, 1] = (1.0 - share) * (1.0 - rise), (1.0 - share) * rise
+        weight[1, 0], weight[1, 1] = share * fall, share * (1.0 - fall)
+        for a in range(m):
+            variance[a] += walk[a] * steps[k]
+            f[a] = variance[a] + white[k, a]
+            gain[a] = variance[a] / f[a]
+            variance[a] *= white[k, a] / f[a]
+            told[a] += constant[a] ** 2 / f[a]
+            constant[a] *= 1.0 - gain[a]
+            total -= 0.5 * np.log(f[a])
+        best = -np.inf
+        logs = np.zeros((2, 2))
+        for i in range(2):
+            for j in range(2):
+                for a in range(m):
+                    v = r[k, a] - mean[i, a] - j * gap[a]
+                    logs[i, j] -= 0.5 * v * v / f[a]
+                best = max(best, logs[i, j])
+        for i in range(2):
+            for j in range(2):
+                weight[i, j] *= np.exp(logs[i, j] - best)
+        mixed = max(weight.sum(), 1e-300)
+        total += best + np.log(mixed)
+        for j in range(2):
+            into = max(weight[0, j] + weight[1, j], 1e-300)
+            for a in range(m):
+                moved[j, a] = 0.0
+                for i in range(2):
+                    v = r[k, a] - mean[i, a] - j * gap[a]
+                    moved[j, a] += weight[i, j] / into * (mean[i, a] + gain[a] * v)
+        mean[:] = moved
+        share = (weight[0, 1] + weight[1, 1]) / mixed
+    return total, told
+
+
+def telegraph_likelihood(axes: Sequence[Rows], white: np.ndarray, walk: np.ndarray) -> float:
+    """The largest log-likelihood [nat, constant left out] of a telegraph of which the axes of one
+    log show the same jumps, each with a step of its own, given their first rows.
+
+    ``white`` (n, m) is the variance of a sample and ``walk`` (m,) what the bias walks in a second.
+    """
+    r = np.column_stack([one.r for one in axes])
+    r = r - r.mean(axis=0)
+    gap = _gaps(axes, white)
+    if not np.any(gap):
         return -np.inf
-    gap = high - low
+    m, size, steps = len(axes), np.abs(gap).max(), axes[0].steps
 
     def lost(p: np.ndarray) -> float:
-        rates = np.exp(np.clip(p[2:], -12.0, 6.0))
-        ends = low + gap * p[0], high + gap * p[1]
-        return -_likelihood(rows.r, rows.steps, white, *ends, *rates)
+        up, down = np.exp(np.clip(p[2 * m :], -12.0, 6.0))
+        low, step = size * p[:m], size * p[m : 2 * m]
+        found, told = _likelihood(r, steps, white, walk, low, step, up, down)
+        # The bias is as unknown as that of other noises, whose first row shows it.
+        return 0.5 * float(np.log(told).sum()) - found
 
-    start = np.array([0.0, 0.0, np.log(rate), np.log(rate)])
-    simplex = start + np.vstack([np.zeros(4), np.diag([0.1, 0.1, 0.7, 0.7])])
-    options = {"initial_simplex": simplex, "xatol": 1e-3, "fatol": 0.05, "maxfev": 160}
-    return -float(minimize(lost, start, method="Nelder-Mead", options=options).fun)
+    def start(dwell: float) -> np.ndarray:
+        return np.concatenate([-0.5 * gap / size, gap / size, np.full(2, -np.log(dwell))])
+
+    first = min((start(d) for d in DWELLS), key=lost)
+    simplex = first + np.vstack([np.zeros(len(first)), np.diag([0.2] * 2 * m + [0.7, 0.7])])
+    options = {"initial_simplex": simplex, "xatol": 1e-2, "fatol": 0.05, "maxfev": 150 * len(first)}
+    found = minimize(lost, first, method="Nelder-Mead", options=options)
+    up, down = np.exp(np.clip(found.x[2 * m :], -12.0, 6.0))
+    jumps = 2 * up * down / (up + down) * float(steps.sum())
+    return -float(found.fun) if jumps > FEWEST else -np.inf
 
 
-def _guess(rows: Rows) -> tuple[float, float, float]:
-    """Two levels and the jumps a second between them, from short means in two groups."""
-    length = max(1, round(SHORT / rows.h))
-    whole = len(rows.r) // length * length
-    means = rows.r[:whole].reshape(-1, length).mean(axis=1)
-    low, high = np.quantile(means, [0.1, 0.9])
-    for _ in range(20):
-        above = means > 0.5 * (low + high)
-        if above.all() or not above.any():
-            return low, low, 1.0
-        low, high = float(means[~above].mean()), float(means[above].mean())
-    jumps = max(1, int(np.sum(above[1:] != above[:-1])))
-    return low, high, 2 * jumps / (len(means) * length * rows.h)
+def _gaps(axes: Sequence[Rows], white: np.ndarray) -> np.ndarray:
+    """The steps (m,) of a telegraph that is as long up as down and explains what short means vary
+    together beyond white noise; zero where they do not.
+    """
+    length = max(1, round(SHORT / axes[0].h))
+    short = np.column_stack([one.means(SHORT).r for one in axes])
+    scale = np.sqrt(white.mean(axis=0) / length)
+    values, vectors = np.linalg.eigh(np.atleast_2d(np.cov((short / scale).T)))
+    return 2.0 * np.sqrt(max(values[-1] - 1.0, 0.0)) * scale * vectors[:, -1]

@@ -6,66 +6,42 @@ Screen, fit the best few in full, ask the held-out data, add, and look again.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import asdict, dataclass, field, replace
-from functools import reduce
+from dataclasses import asdict, dataclass, replace
 from types import MappingProxyType
 from typing import Any
 
-import numpy as np
-
 from pyimu.identification.fit.fit import Fit, begin
 from pyimu.identification.fit.keys import Coefficient
-from pyimu.identification.fit.maximum_likelihood import advantage, fit, fit_and_normal
-from pyimu.identification.fit.normal import Normal
+from pyimu.identification.fit.maximum_likelihood import advantage, fit
 from pyimu.identification.fit.reduction import STRUCTURE
 from pyimu.identification.fit.reference_noise import with_reference_noise
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.search.as_sampled import GATE, ceiling_of, threshold_of
-from pyimu.identification.search.belief import unbelievable
-from pyimu.identification.search.candidates import Group, equivalent, with_start
 from pyimu.identification.search.ceiling import (
-    at_samples,
     has_ceiling,
     is_ceiling,
-    stops_there,
     without_lost,
 )
-from pyimu.identification.search.confirm import LEAST_OF_EXCESS, SPEAKS, Evidence, evidence
-from pyimu.identification.search.instants import at_instants
+from pyimu.identification.search.choice import Refined, Tried, chosen_of
+from pyimu.identification.search.judge import judged
 from pyimu.identification.search.screen import (
     PENALTY,
-    Scatter,
     Screened,
     Screening,
-    fitted_dispersion,
-    fitted_gain,
     keys_of,
     screen,
 )
-from pyimu.identification.search.threshold import at_threshold, is_held_there, is_threshold
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.sensor import Sensor
-
-SET_WIDTH = 6.0
-"""Log-likelihood [nat] within which another effect explains the data as well as the best."""
-
-ALIKE = 1.0
-"""Log-likelihood [nat] within which the data do not tell two effects apart: both are supported as
-well as the other (two units of Akaike's criterion, Burnham and Anderson 2002, section 2.6)."""
-
-CHANCE = 3.0
-"""Standard errors by which held-out squares must be more than a true effect would leave."""
 
 FORM = 0.01
 """Share of what a lag or a delay explains that its form may leave: a tenth of its amplitude, as the
 sampled form of a pole is off at a quarter of the sample rate."""
 
 MOST_EFFECTS = 8
-MOST_REFINED = 5
 
-LEAST_SHARE = 0.1
-"""Share of the best gain at first look below which a candidate is not fitted in full: noise fitted
-anew reorders, but not so far."""
+AS_NOISE = "explains no more than random noise would"
+"""The reason for which an effect is taken back that is not told from noise."""
 
 
 @dataclass(frozen=True)
@@ -113,65 +89,6 @@ class Investigation:
     held: tuple[Trial, ...]
 
 
-@dataclass(frozen=True)
-class Refined:
-    """A candidate fitted in full.
-
-    ``gain`` [nat] over the model without it, corrected for scatter and penalised.
-    """
-
-    screened: Screened
-    fit: Fit
-    gain: float
-    dispersion: float
-    normal: Normal
-
-
-@dataclass
-class Tried:
-    """Candidates beside one model, each fitted in full once.
-
-    ``impossible`` are those whose coefficients are beyond belief; ``views`` are the model with the
-    noises by which it is still to be looked at, and whether for slow effects alone.
-    """
-
-    current: Fit
-    declared: Iterable[str]
-    refined: dict[str, Refined] = field(default_factory=dict)
-    impossible: list[Refined] = field(default_factory=list)
-    views: list[tuple[Fit, bool]] = field(init=False)
-    usual: Screening | None = None
-
-    def __post_init__(self) -> None:
-        held, less = self.current.as_declared(), self.current.wandering_less()
-        self.views = [(held, False)]
-        if held is not self.current:
-            # What is left may wander more than the part declares after all.
-            self.views.append((self.current, False))
-        if less is not self.current:
-            self.views.append((less, True))
-
-    def looked(self) -> tuple[Screening, bool]:
-        """The candidates by the next of the views, and whether only slow effects are among them.
-
-        Beside less than the walk that there is gains are too large and scores scatter too much: it
-        orders the candidates, and the gate and the scatter are those of the view before.
-        """
-        view, slow = self.views.pop(0)
-        seen = screen(view, self.declared, slow=slow)
-        if slow and self.usual is not None:
-            scatter = next((c.scatter for c in self.usual.candidates), Scatter())
-            few = tuple(replace(c, scatter=scatter) for c in seen.candidates)
-            seen = Screening(few, max(seen.gate, self.usual.gate))
-        self.usual = seen
-        return seen, slow
-
-    def refine(self, c: Screened) -> Refined:
-        if c.effect not in self.refined:
-            self.refined[c.effect] = refine(self.current, c)
-        return self.refined[c.effect]
-
-
 def investigate(
     sensor: Sensor,
     free: frozenset,
@@ -195,7 +112,7 @@ def investigate(
     while len(steps) < MOST_EFFECTS:
         say(f"{sensor.kind}: {len(steps)} added, trying {len(seen.candidates)} candidates")
         options = _in_order([c for c in seen.above() if c.effect not in refused], after)
-        chosen, names = _choose(tried, options, seen.gate)
+        chosen, names = chosen_of(tried, options, seen.gate)
         if chosen is None:
             if not tried.views:
                 break
@@ -204,7 +121,7 @@ def investigate(
             continue
         reason = _within_form(chosen, steps)
         if not reason:
-            chosen, reason = _judged(tried, chosen, held, seen.gate)
+            chosen, reason = judged(tried, chosen, held, seen.gate)
         name = chosen.screened.effect
         if reason:
             refused[name] = Refused(name, chosen.gain, reason)
@@ -268,173 +185,6 @@ def _in_order(options: list[Screened], fit: Fit) -> list[Screened]:
     if all(t.reduction is None for t in fit.trials):
         return options
     return [c for c in options if c.effect in STRUCTURE] or options
-
-
-def _choose(
-    tried: Tried, options: list[Screened], gate: float
-) -> tuple[Refined | None, tuple[str, ...]]:
-    """The candidate that explains most once fitted in full, and the names of those that explain as
-    much.
-    """
-    worth = [c for c in options[:MOST_REFINED] if c.gain > LEAST_SHARE * options[0].gain]
-    refined = sorted(map(tried.refine, worth), key=lambda r: -r.gain)
-    refined = [r for r in refined if r.gain > gate]
-    if not refined:
-        return None, ()
-    derived = any(t.band_hz is not None for t in tried.current.trials)
-    family = equivalent(refined[0].screened.effect)
-    forms = [r for r in refined if r.screened.effect in family | {refined[0].screened.effect}]
-    best = _form(forms, derived)
-    others = [r for r in refined if all(r is not f for f in forms) and _ahead(best, r) < ALIKE]
-    best = min([best, *others], key=_how_plain)
-    close = [r.screened.effect for r in refined if r is not best and _ahead(best, r) <= SET_WIDTH]
-    if derived or CATALOGUE[best.screened.effect].delay is not None:
-        # Of a reference that ends below the band, or its clock, another form may be the truth.
-        close += [c.effect for c in options if c.effect in equivalent(best.screened.effect)]
-    return best, tuple(dict.fromkeys(close))
-
-
-def _how_plain(r: Refined) -> tuple[int, int, int]:
-    """What is to be taken in to understand a candidate: its coefficients, and what it follows
-    beside the sensor's own signal; then the order of the catalogue, which goes from plain to bent.
-    """
-    e = CATALOGUE[r.screened.effect]
-    signals = len(e.signals(r.fit.sensor.kind))
-    return len(keys_of(r.screened)), signals, list(CATALOGUE).index(e.name)
-
-
-def _form(forms: list[Refined], derived: bool) -> Refined:
-    """The one of several forms of an effect that the data speak for.
-
-    Unless they speak clearly it is the one with the fewest coefficients, of those the last in the
-    catalogue, which lists a family's plainest form last; a derived reference ends below the band in
-    which delays differ, and cannot speak at all.
-    """
-    best = reduce(lambda one, other: other if _ahead(other, one) > 0.0 else one, forms)
-    blind = derived and CATALOGUE[best.screened.effect].delay is not None
-    near = [other for other in forms if blind or _ahead(best, other) < SET_WIDTH]
-    order = list(CATALOGUE)
-
-    def plainness(r: Refined) -> tuple[int, int]:
-        return -len(keys_of(r.screened)), order.index(r.screened.effect)
-
-    return max(near, key=plainness)
-
-
-def _ahead(one: Refined, other: Refined) -> float:
-    """Log-likelihood [nat] by which one candidate explains more than another, penalised.
-
-    Both are corrected for the larger scatter: by each its own, what they explain together would
-    decide.
-    """
-    more = len(keys_of(one.screened)) - len(keys_of(other.screened))
-    apart = one.fit.log_likelihood - other.fit.log_likelihood
-    toll = one.screened.toll - other.screened.toll
-    return apart / max(one.dispersion, other.dispersion) - PENALTY * more - toll
-
-
-def refine(current: Fit, c: Screened) -> Refined:
-    """Fit a candidate in full beside everything that is free already, less the axes that turn out
-    not to need it.
-
-    Its gain is taken with the noise fitted anew, which a missing effect had disguised, and
-    corrected for the scatter of the scores at the fitted values.
-    """
-    sensor = with_start(current.sensor, c.values, c.effect, c.form)
-    fitted, normal = fit_and_normal(
-        replace(current, sensor=sensor, free=current.free | keys_of(c)).with_noise()
-    )
-    declared = c.effect in current.sensor.values
-    needed = tuple(g for g in c.groups if _needed(fitted, normal, g, declared, c.scatter))
-    if needed and len(needed) < len(c.groups):
-        return refine(current, c.only(needed))
-    spread = fitted_dispersion(normal, keys_of(c), c.scatter)
-    fitted = at_samples(fitted) if is_ceiling(sensor, c.effect) else fitted
-    fitted = at_threshold(fitted) if is_threshold(sensor, c.effect) else fitted
-    fitted = at_instants(fitted, c.effect)
-    gain = advantage(fitted, current) / spread - PENALTY * len(keys_of(c)) - c.toll
-    return Refined(c, fitted, gain if needed else -np.inf, spread, normal)
-
-
-def _needed(fitted: Fit, normal: Normal, group: Group, declared: bool, scatter: Scatter) -> bool:
-    """True where the part of an effect that a group stands for explains something once all is
-    fitted together.
-    """
-    if is_ceiling(fitted.sensor, group.effect):
-        return stops_there(fitted, group.keys[0].index[0])
-    if is_threshold(fitted.sensor, group.effect):
-        return is_held_there(fitted, group.keys[0].index[0])
-    whole = any(t.reduction is not None for t in fitted.trials) and group.effect in STRUCTURE
-    return (
-        declared
-        or whole
-        or group.measure is not None
-        or fitted_gain(normal, fitted.sensor, group.keys, scatter) > 0
-    )
-
-
-def _judged(tried: Tried, chosen: Refined, held: list[Trial], gate: float) -> tuple[Refined, str]:
-    """A chosen candidate on the axes that held-out rows leave it, and why it is refused all the
-    same; nothing where it is not.
-    """
-    old = tried.current
-    if chosen.screened.effect not in old.sensor.values:
-        reason = unbelievable(chosen.fit, keys_of(chosen.screened))
-        if reason:
-            tried.impossible.append(chosen)
-            return chosen, reason
-    chosen, seen = _confirmed(old, chosen, held)
-    return chosen, _against(chosen, seen, gate) or _stands_in(tried, chosen, gate)
-
-
-def _confirmed(old: Fit, chosen: Refined, held: list[Trial]) -> tuple[Refined, Evidence]:
-    """The chosen candidate less the axes on which held-out and fitted rows together speak against
-    it, and the evidence for what is left.
-    """
-    seen = evidence(old, chosen.fit, held)
-    groups = chosen.screened.groups
-    kept = tuple(g for g in groups if not _denied(g, chosen, seen))
-    if not seen.speaks or len(kept) in (0, len(groups)):
-        return chosen, seen
-    fewer = refine(old, chosen.screened.only(kept))
-    return fewer, evidence(old, fewer.fit, held)
-
-
-def _denied(group: Group, chosen: Refined, seen: Evidence) -> bool:
-    """True where held-out rows lose more on the axis of a group than fitted rows gain by it."""
-    if len(chosen.screened.groups) < 2 or not group.keys[0].index:
-        return False
-    axis = group.keys[0].index[0]
-    if seen.difference[axis] < SPEAKS or seen.held[1, axis] <= seen.held[0, axis]:
-        return False
-    scatter = chosen.screened.scatter
-    fitted = fitted_gain(chosen.normal, chosen.fit.sensor, group.keys, scatter)
-    return fitted + seen.gained[axis] / chosen.dispersion <= 0.0
-
-
-def _against(chosen: Refined, seen: Evidence, gate: float) -> str:
-    """What fitted and held-out rows say against a chosen candidate."""
-    if seen.speaks and seen.rise > 0.0 and seen.surprise > CHANCE:
-        return f"raises the error on held-out data by {100 * seen.rise:.2g} %"
-    apart = float(seen.gained.sum()) / chosen.dispersion
-    if seen.speaks and chosen.gain + apart <= gate:
-        return f"held-out data lose {-apart:.0f} nat by it"
-    if seen.share < LEAST_OF_EXCESS:
-        return (
-            f"explains {seen.share:.0%} of what is left above the noise, where something unknown "
-            f"may look like {LEAST_OF_EXCESS:.0%}"
-        )
-    return ""
-
-
-def _stands_in(tried: Tried, chosen: Refined, gate: float) -> str:
-    """The effect beyond belief that leaves a chosen candidate nothing to explain, if any does."""
-    for other in (o for o in tried.impossible if o.gain > chosen.gain + SET_WIDTH):
-        beside = refine(other.fit, chosen.screened)
-        if beside.gain <= gate:
-            name = other.screened.effect
-            return f"explains what {name} would explain, whose size is beyond belief"
-    return ""
 
 
 def without(inv: Investigation, effect: str, reason: str) -> Investigation:

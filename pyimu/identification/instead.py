@@ -1,0 +1,75 @@
+"""Effects that a kind of noise would explain as well: what wanders follows many a slow input."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from functools import partial
+
+from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.maximum_likelihood import fit
+from pyimu.identification.fit.whiten import RandomWalk
+from pyimu.identification.formula.search import Look
+from pyimu.identification.noise.explained import likelihood_of
+from pyimu.identification.rounding import rounding
+from pyimu.identification.search.forward import AS_NOISE, Investigation, Step, without
+from pyimu.identification.search.screen import PENALTY
+
+WANDERS = 0.5
+"""Share of what an effect explains that is left once the residual may walk as it likes, below which
+the effect is held against noise: what follows the motion keeps nearly all."""
+
+
+def less_than_noise(inv: Investigation, free: frozenset[str]) -> Investigation:
+    """An investigation less the effects that explain no more than noise of some kind would;
+    ``free`` are the kinds of noise that the part leaves to the data.
+    """
+    suspects = [s for s in inv.steps if not s.declared and _may_be_noise(inv, s)]
+    for some in [suspects, *([s] for s in reversed(suspects))]:
+        left = [s for s in some if s in inv.steps]
+        if left and _as_noise(inv, _refitted(inv, left), _count(left), free):
+            for s in left:
+                inv = without(inv, s.effect, AS_NOISE)
+    return inv
+
+
+def formula_less_than_noise(inv: Investigation, found: Look, free: frozenset[str]) -> bool:
+    """Whether noise explains what an investigation left as well as the formula that was found."""
+    larger = found.investigation
+    own = [s for s in larger.steps if found.formula and s.effect == found.formula.name]
+    more = _count(larger.steps) - _count(inv.steps)
+    return bool(own) and _may_be_noise(larger, own[0]) and _as_noise(larger, inv.after, more, free)
+
+
+def _may_be_noise(inv: Investigation, step: Step) -> bool:
+    """Whether a residual that walks as it likes explains most of what an effect does."""
+    if any(not isinstance(n, RandomWalk) for n in inv.after.seen.values()):
+        return False
+    apart = inv.after.log_likelihood - _refitted(inv, [step]).log_likelihood
+    cost = PENALTY * len(step.keys)
+    return apart / step.dispersion - cost < WANDERS * (step.gain + cost)
+
+
+def _refitted(inv: Investigation, steps: Iterable[Step]) -> Fit:
+    """The model without some effects, and the noise that it then shows."""
+    sensor, free = inv.after.sensor, inv.after.free
+    for s in steps:
+        sensor, free = sensor.without(s.effect), free - s.keys
+    return fit(replace(inv.after, sensor=sensor, free=free).with_noise())
+
+
+def _count(steps: Iterable[Step]) -> int:
+    return sum(len(s.keys) for s in steps)
+
+
+def _as_noise(larger: Investigation, smaller: Fit, more: int, free: frozenset[str]) -> bool:
+    """Whether the smaller model, beside its noise, is as likely as the larger one beside its own,
+    which has some ``more`` coefficients.
+    """
+    sensor = larger.before.sensor
+    rounds = sensor.reading("step") is not None or rounding(sensor.kind, larger).relevant
+    likelihood = partial(likelihood_of, sensor, held=larger.held, free=free, rounds=rounds)
+    with_effects, with_noise = likelihood(fit=larger.after), likelihood(fit=smaller)
+    if with_effects is None or with_noise is None:
+        return False
+    return with_noise >= with_effects - PENALTY * more

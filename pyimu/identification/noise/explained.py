@@ -1,0 +1,240 @@
+"""The kinds of noise that explain a residual, their sizes, and how likely it is by them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Self
+
+import numpy as np
+
+from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.trial import Trial
+from pyimu.identification.fit.whiten import RandomWalk
+from pyimu.identification.noise.choose import (
+    Chosen,
+    State,
+    Term,
+    choose,
+    refined,
+    with_form,
+    without,
+)
+from pyimu.identification.noise.exact import AxisNoise
+from pyimu.identification.noise.known import state_of
+from pyimu.identification.noise.laws import Kind, kinds
+from pyimu.identification.noise.rows import Rows, rows_of
+from pyimu.identification.noise.telegraph import FINE, RATES, telegraph_likelihood
+from pyimu.identification.search.choice import SET_WIDTH
+from pyimu.identification.search.forward import Refused
+from pyimu.identification.search.screen import PENALTY
+from pyimu.model.catalogue import WALK, WHITE
+from pyimu.model.sensor import Sensor
+
+
+def likelihood_of(
+    sensor: Sensor, fit: Fit, held: tuple[Trial, ...], free: frozenset[str], rounds: bool
+) -> float | None:
+    """Log-likelihood [nat], penalised, of the fitted and the held-out rows of a model beside the
+    kinds of noise that explain most of its residual; None where ``noise_of`` says nothing.
+    """
+    known = Explained.of(sensor, fit, held, free, rounds)
+    if known is None:
+        return None
+    found = known.chosen_of(1)
+    jumps = found.popcorn()
+    return found.explained() + sum(jumps.values())
+
+
+@dataclass(frozen=True)
+class Explained:
+    """The residual of a fit by axis and log, what was known of its noise at the ``start``, and the
+    kinds that were ``chosen``.
+    """
+
+    sensor: Sensor
+    fit: Fit
+    logs: dict[int, list[Rows]]
+    kinds: Sequence[Kind]
+    free: frozenset[str]
+    fitted: Mapping[int, RandomWalk]
+    start: State
+    state: State
+    chosen: tuple[Chosen, ...] = ()
+    refused: tuple[Refused, ...] = ()
+
+    @classmethod
+    def of(
+        cls,
+        sensor: Sensor,
+        fit: Fit,
+        held: tuple[Trial, ...],
+        free: frozenset[str],
+        rounds: bool,
+    ) -> Self | None:
+        """The residual of a fit under the noise that is known beforehand; None where the reference
+        was differentiated, or where rows are no samples.
+        """
+        if any(not isinstance(n, RandomWalk) for n in fit.seen.values()):
+            return None
+        fitted = {i: n for i, n in fit.seen.items() if isinstance(n, RandomWalk)}
+        logs = rows_of(fit, held)
+        longest = max(float(one.time[-1] - one.time[0]) for each in logs.values() for one in each)
+        every = kinds(sensor, fit.trials[0].h, longest)
+        loose = frozenset(free | ({WHITE[0]} if rounds else set()))
+        start = state_of(sensor, logs, fitted, every, loose, np.zeros(3))
+        return cls(sensor, fit, logs, every, loose, fitted, start, start) if start.axes else None
+
+    def chosen_of(self, sensors: int) -> Self:
+        """With the kinds that the axes have, their forms refined."""
+        tried = [k for k in self.kinds if k.name not in self.free]
+        state, chosen = choose(self.state, tried, sensors)
+        for i in state.axes:
+            for term in state.found.get(i, ()):
+                if term.kind.scans and not term.kind.shares_form:
+                    state = with_form(state, i, term, refined(state, i, term)[0])
+        return replace(self, state=state, chosen=tuple(chosen))
+
+    # Sizes
+
+    def sizes(self, state: State, i: int) -> AxisNoise:
+        """The noise of an axis under a state, for the exact likelihood."""
+        axis, out = state.axes[i], {}
+        spectrum, motion = axis.spectrum.fit()[0], None
+        if axis.motion is not None:
+            motion = axis.motion.fit()[0]
+        loose = [k for k in self.kinds if k.name in self._loose(i)]
+        for kind in self.kinds:
+            square = axis.had.get(kind.name, 0.0) ** 2
+            form = _form(self.sensor, kind, i)
+            if kind in loose:
+                square += spectrum[loose.index(kind)]
+            for term in state.found.get(i, ()):
+                if term.kind is kind:
+                    square += (motion if kind.follows else spectrum)[term.place]
+                    form = term.form
+            out[kind] = (square, form)
+        if motion is not None and any(t.kind.follows for t in state.found.get(i, ())):
+            white = next(k for k in self.kinds if k.name == WHITE[0])
+            out[white] = (self._white(i, motion), {})
+        return AxisNoise({k: v for k, v in out.items() if v[0] > 0.0})
+
+    def _loose(self, i: int) -> list[str]:
+        """The kinds that are left to the data on an axis, in the order of their columns."""
+        had = self.sensor.values.get(WHITE[0], {}).get(WHITE[1], np.zeros(3))[i]
+        names = [k.name for k in self.kinds if k.name in (WHITE[0], WALK[0])]
+        return [n for n in names if n in self.free or (n == WHITE[0] and not had)]
+
+    def _white(self, i: int, motion: np.ndarray) -> float:
+        """N squared beside noise that follows the motion."""
+        return float((1.0 + motion[0]) * self.fitted[i].r * self.logs[i][0].h)
+
+    def explained(self) -> float:
+        """Log-likelihood [nat] of all rows, the numbers of what was chosen penalised."""
+        total = 0.0
+        for i in self.state.axes:
+            noise, terms = self.sizes(self.state, i), self.state.found.get(i, ())
+            each = (float(noise.likelihood(one).sum()) for one in self.logs[i])
+            total += sum(each) - PENALTY * sum(1 + t.kind.scans for t in terms)
+        return total
+
+    # What speaks against it
+
+    def popcorn(self) -> dict[int, float]:
+        """The axes whose residual jumps between two levels, each at instants of its own or all
+        together, and the log-likelihood [nat] by which that is likelier than the slow noise that
+        was chosen for them.
+        """
+        slow = [i for i in self.state.axes if self._wanders(i)]
+        apart = {i: ahead for i in slow if (ahead := self._jumps([i])) > 0.0}
+        together = self._jumps(slow) if len(slow) > 1 else 0.0
+        if together > sum(apart.values()):
+            apart = dict.fromkeys(slow, together / len(slow))
+        return apart if sum(apart.values()) > SET_WIDTH else {}
+
+    def _slow(self, i: int) -> list[Term]:
+        return [t for t in self.state.found.get(i, ()) if _is_slow(t.kind)]
+
+    def _wanders(self, i: int) -> bool:
+        """Whether an axis has more slow noise than is known of it beforehand."""
+        return bool(self._slow(i)) or (WALK[0] in self._loose(i) and self.fitted[i].k2 > 0.0)
+
+    def _jumps(self, axes: list[int]) -> float:
+        """Log-likelihood [nat], penalised, by which jumps of ``axes`` at the same instants are
+        likelier than the slow noise that was chosen for them.
+        """
+        noises = [self.sizes(self.state, i) for i in axes]
+        walk = np.array([self._walk(i) for i in axes])
+        ahead = 0.0
+        for logs in zip(*(self.logs[i] for i in axes), strict=True):
+            if not logs[0].fitted:
+                continue
+            seen = [one.seen().means(FINE) for one in logs]
+            each = list(zip(noises, seen, strict=True))
+            smooth = sum(float(noise.likelihood(one).sum()) for noise, one in each)
+            white = np.column_stack([noise.variance(one) for noise, one in each])
+            ahead += telegraph_likelihood(seen, white, walk) - smooth
+            ahead -= PENALTY * (len(axes) + RATES)
+        return ahead + PENALTY * sum(self._numbers(i) for i in axes)
+
+    def _numbers(self, i: int) -> int:
+        """Of the slow noise of an axis, whose numbers are those of all logs."""
+        loose = WALK[0] in self._loose(i)
+        return loose + sum(1 + t.kind.scans for t in self._slow(i))
+
+    def _walk(self, i: int) -> float:
+        """The random walk that is known of an axis; none where it is left to the data, in which
+        jumps make one.
+        """
+        if WALK[0] in self._loose(i):
+            return 0.0
+        return self.start.axes[i].had.get(WALK[0], 0.0) ** 2
+
+    def _less(self, terms: Sequence[Term], i: int) -> Self:
+        state = self.state
+        for term in terms:
+            state = without(state, term.kind, i)
+        names = {t.kind.name for t in terms}
+        kept = (
+            replace(c, axes=tuple(a for a in c.axes if a != i)) if c.kind.name in names else c
+            for c in self.chosen
+        )
+        return replace(self, state=state, chosen=tuple(c for c in kept if c.axes))
+
+    def confirmed(self) -> Self:
+        """Less what held-out rows speak against."""
+        out = self
+        for one in self.chosen:
+            if self._is_declared(one.kind):
+                continue
+            fewer = out
+            for i in one.axes:
+                fewer = fewer._less([t for t in out.state.found[i] if t.kind is one.kind], i)
+            gained = sum(out.held(out.state, i) - out.held(fewer.state, i) for i in one.axes)
+            if one.gain + gained <= one.gate:
+                reason = f"held-out data lose {-gained:.2g} nat by it"
+                refused = Refused(one.kind.name, one.gain, reason)
+                out = replace(fewer, refused=(*out.refused, refused))
+        return out
+
+    def held(self, state: State, i: int) -> float:
+        """Log-likelihood [nat] of the held-out rows of an axis, given those before them."""
+        noise = self.sizes(state, i)
+        return sum(float(noise.likelihood(one)[one.fitted :].sum()) for one in self.logs[i])
+
+    def _is_declared(self, kind: Kind) -> bool:
+        """Whether the part has the kind, on some axis, so that its value changes."""
+        values = self.sensor.values.get(kind.name)
+        return values is not None and bool(np.any(values[kind.parameter]))
+
+
+def _is_slow(kind: Kind) -> bool:
+    return bool(kind.effect.law.walk or kind.effect.law.markov)
+
+
+def _form(sensor: Sensor, kind: Kind, i: int) -> dict[str, float]:
+    """The form that a part declares of a kind on an axis, or the first that is tried."""
+    values = sensor.values.get(kind.name)
+    if values is None:
+        return dict(kind.forms[0])
+    return {n: float(v[i] if np.ndim(v) else v) for n, v in values.items() if n != kind.parameter}

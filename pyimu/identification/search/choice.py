@@ -1,0 +1,210 @@
+"""Which candidate to take: each of the best few fitted in full, the forms of one effect against
+each other, and of those that the data do not tell apart the plainest.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+from functools import reduce
+
+import numpy as np
+
+from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.maximum_likelihood import advantage, fit_and_normal
+from pyimu.identification.fit.normal import Normal
+from pyimu.identification.fit.reduction import STRUCTURE
+from pyimu.identification.search.candidates import Group, equivalent, with_start
+from pyimu.identification.search.ceiling import (
+    at_samples,
+    is_ceiling,
+    stops_there,
+)
+from pyimu.identification.search.instants import at_instants
+from pyimu.identification.search.screen import (
+    PENALTY,
+    Scatter,
+    Screened,
+    Screening,
+    fitted_dispersion,
+    fitted_gain,
+    keys_of,
+    screen,
+)
+from pyimu.identification.search.threshold import at_threshold, is_held_there, is_threshold
+from pyimu.model.catalogue import CATALOGUE
+
+SET_WIDTH = 6.0
+"""Log-likelihood [nat] within which another effect explains the data as well as the best."""
+
+ALIKE = 1.0
+"""Log-likelihood [nat] within which the data do not tell two effects apart: both are supported as
+well as the other (two units of Akaike's criterion, Burnham and Anderson 2002, section 2.6)."""
+
+MOST_REFINED = 5
+
+LEAST_SHARE = 0.1
+"""Share of the best gain at first look below which a candidate is not fitted in full: noise fitted
+anew reorders, but not so far."""
+
+
+@dataclass(frozen=True)
+class Refined:
+    """A candidate fitted in full.
+
+    ``gain`` [nat] over the model without it, corrected for scatter and penalised.
+    """
+
+    screened: Screened
+    fit: Fit
+    gain: float
+    dispersion: float
+    normal: Normal
+
+
+@dataclass
+class Tried:
+    """Candidates beside one model, each fitted in full once.
+
+    ``impossible`` are those whose coefficients are beyond belief; ``views`` are the model with the
+    noises by which it is still to be looked at, and whether for slow effects alone.
+    """
+
+    current: Fit
+    declared: Iterable[str]
+    refined: dict[str, Refined] = field(default_factory=dict)
+    impossible: list[Refined] = field(default_factory=list)
+    views: list[tuple[Fit, bool]] = field(init=False)
+    usual: Screening | None = None
+
+    def __post_init__(self) -> None:
+        held, less = self.current.as_declared(), self.current.wandering_less()
+        self.views = [(held, False)]
+        if held is not self.current:
+            # What is left may wander more than the part declares after all.
+            self.views.append((self.current, False))
+        if less is not self.current:
+            self.views.append((less, True))
+
+    def looked(self) -> tuple[Screening, bool]:
+        """The candidates by the next of the views, and whether only slow effects are among them.
+
+        Beside less than the walk that there is gains are too large and scores scatter too much: it
+        orders the candidates, and the gate and the scatter are those of the view before.
+        """
+        view, slow = self.views.pop(0)
+        seen = screen(view, self.declared, slow=slow)
+        if slow and self.usual is not None:
+            scatter = next((c.scatter for c in self.usual.candidates), Scatter())
+            few = tuple(replace(c, scatter=scatter) for c in seen.candidates)
+            seen = Screening(few, max(seen.gate, self.usual.gate))
+        self.usual = seen
+        return seen, slow
+
+    def refine(self, c: Screened) -> Refined:
+        if c.effect not in self.refined:
+            self.refined[c.effect] = refine(self.current, c)
+        return self.refined[c.effect]
+
+
+def chosen_of(
+    tried: Tried, options: list[Screened], gate: float
+) -> tuple[Refined | None, tuple[str, ...]]:
+    """The candidate that explains most once fitted in full, and the names of those that explain as
+    much.
+    """
+    worth = [c for c in options[:MOST_REFINED] if c.gain > LEAST_SHARE * options[0].gain]
+    refined = sorted(map(tried.refine, worth), key=lambda r: -r.gain)
+    refined = [r for r in refined if r.gain > gate]
+    if not refined:
+        return None, ()
+    derived = any(t.band_hz is not None for t in tried.current.trials)
+    family = equivalent(refined[0].screened.effect)
+    forms = [r for r in refined if r.screened.effect in family | {refined[0].screened.effect}]
+    best = _form(forms, derived)
+    others = [r for r in refined if all(r is not f for f in forms) and _ahead(best, r) < ALIKE]
+    best = min([best, *others], key=_how_plain)
+    close = [r.screened.effect for r in refined if r is not best and _ahead(best, r) <= SET_WIDTH]
+    if derived or CATALOGUE[best.screened.effect].delay is not None:
+        # Of a reference that ends below the band, or its clock, another form may be the truth.
+        close += [c.effect for c in options if c.effect in equivalent(best.screened.effect)]
+    return best, tuple(dict.fromkeys(close))
+
+
+def _how_plain(r: Refined) -> tuple[int, int, int]:
+    """What is to be taken in to understand a candidate: its coefficients, and what it follows
+    beside the sensor's own signal; then the order of the catalogue, which goes from plain to bent.
+    """
+    e = CATALOGUE[r.screened.effect]
+    signals = len(e.signals(r.fit.sensor.kind))
+    return len(keys_of(r.screened)), signals, list(CATALOGUE).index(e.name)
+
+
+def _form(forms: list[Refined], derived: bool) -> Refined:
+    """The one of several forms of an effect that the data speak for.
+
+    Unless they speak clearly it is the one with the fewest coefficients, of those the last in the
+    catalogue, which lists a family's plainest form last; a derived reference ends below the band in
+    which delays differ, and cannot speak at all.
+    """
+    best = reduce(lambda one, other: other if _ahead(other, one) > 0.0 else one, forms)
+    blind = derived and CATALOGUE[best.screened.effect].delay is not None
+    near = [other for other in forms if blind or _ahead(best, other) < SET_WIDTH]
+    order = list(CATALOGUE)
+
+    def plainness(r: Refined) -> tuple[int, int]:
+        return -len(keys_of(r.screened)), order.index(r.screened.effect)
+
+    return max(near, key=plainness)
+
+
+def _ahead(one: Refined, other: Refined) -> float:
+    """Log-likelihood [nat] by which one candidate explains more than another, penalised.
+
+    Both are corrected for the larger scatter: by each its own, what they explain together would
+    decide.
+    """
+    more = len(keys_of(one.screened)) - len(keys_of(other.screened))
+    apart = one.fit.log_likelihood - other.fit.log_likelihood
+    toll = one.screened.toll - other.screened.toll
+    return apart / max(one.dispersion, other.dispersion) - PENALTY * more - toll
+
+
+def refine(current: Fit, c: Screened) -> Refined:
+    """Fit a candidate in full beside everything that is free already, less the axes that turn out
+    not to need it.
+
+    Its gain is taken with the noise fitted anew, which a missing effect had disguised, and
+    corrected for the scatter of the scores at the fitted values.
+    """
+    sensor = with_start(current.sensor, c.values, c.effect, c.form)
+    fitted, normal = fit_and_normal(
+        replace(current, sensor=sensor, free=current.free | keys_of(c)).with_noise()
+    )
+    declared = c.effect in current.sensor.values
+    needed = tuple(g for g in c.groups if _needed(fitted, normal, g, declared, c.scatter))
+    if needed and len(needed) < len(c.groups):
+        return refine(current, c.only(needed))
+    spread = fitted_dispersion(normal, keys_of(c), c.scatter)
+    fitted = at_samples(fitted) if is_ceiling(sensor, c.effect) else fitted
+    fitted = at_threshold(fitted) if is_threshold(sensor, c.effect) else fitted
+    fitted = at_instants(fitted, c.effect)
+    gain = advantage(fitted, current) / spread - PENALTY * len(keys_of(c)) - c.toll
+    return Refined(c, fitted, gain if needed else -np.inf, spread, normal)
+
+
+def _needed(fitted: Fit, normal: Normal, group: Group, declared: bool, scatter: Scatter) -> bool:
+    """True where the part of an effect that a group stands for explains something once all is
+    fitted together.
+    """
+    if is_ceiling(fitted.sensor, group.effect):
+        return stops_there(fitted, group.keys[0].index[0])
+    if is_threshold(fitted.sensor, group.effect):
+        return is_held_there(fitted, group.keys[0].index[0])
+    whole = any(t.reduction is not None for t in fitted.trials) and group.effect in STRUCTURE
+    return (
+        declared
+        or whole
+        or group.measure is not None
+        or fitted_gain(normal, fitted.sensor, group.keys, scatter) > 0
+    )

@@ -1,0 +1,81 @@
+"""Whether a chosen candidate stands: belief, held-out rows, and what else would explain as much."""
+
+from __future__ import annotations
+
+from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.trial import Trial
+from pyimu.identification.search.belief import unbelievable
+from pyimu.identification.search.candidates import Group
+from pyimu.identification.search.choice import SET_WIDTH, Refined, Tried, refine
+from pyimu.identification.search.confirm import LEAST_OF_EXCESS, SPEAKS, Evidence, evidence
+from pyimu.identification.search.screen import (
+    fitted_gain,
+    keys_of,
+)
+
+CHANCE = 3.0
+"""Standard errors by which held-out squares must be more than a true effect would leave."""
+
+
+def judged(tried: Tried, chosen: Refined, held: list[Trial], gate: float) -> tuple[Refined, str]:
+    """A chosen candidate on the axes that held-out rows leave it, and why it is refused all the
+    same; nothing where it is not.
+    """
+    old = tried.current
+    if chosen.screened.effect not in old.sensor.values:
+        reason = unbelievable(chosen.fit, keys_of(chosen.screened))
+        if reason:
+            tried.impossible.append(chosen)
+            return chosen, reason
+    chosen, seen = _confirmed(old, chosen, held)
+    return chosen, _against(chosen, seen, gate) or _stands_in(tried, chosen, gate)
+
+
+def _confirmed(old: Fit, chosen: Refined, held: list[Trial]) -> tuple[Refined, Evidence]:
+    """The chosen candidate less the axes on which held-out and fitted rows together speak against
+    it, and the evidence for what is left.
+    """
+    seen = evidence(old, chosen.fit, held)
+    groups = chosen.screened.groups
+    kept = tuple(g for g in groups if not _denied(g, chosen, seen))
+    if not seen.speaks or len(kept) in (0, len(groups)):
+        return chosen, seen
+    fewer = refine(old, chosen.screened.only(kept))
+    return fewer, evidence(old, fewer.fit, held)
+
+
+def _denied(group: Group, chosen: Refined, seen: Evidence) -> bool:
+    """True where held-out rows lose more on the axis of a group than fitted rows gain by it."""
+    if len(chosen.screened.groups) < 2 or not group.keys[0].index:
+        return False
+    axis = group.keys[0].index[0]
+    if seen.difference[axis] < SPEAKS or seen.held[1, axis] <= seen.held[0, axis]:
+        return False
+    scatter = chosen.screened.scatter
+    fitted = fitted_gain(chosen.normal, chosen.fit.sensor, group.keys, scatter)
+    return fitted + seen.gained[axis] / chosen.dispersion <= 0.0
+
+
+def _against(chosen: Refined, seen: Evidence, gate: float) -> str:
+    """What fitted and held-out rows say against a chosen candidate."""
+    if seen.speaks and seen.rise > 0.0 and seen.surprise > CHANCE:
+        return f"raises the error on held-out data by {100 * seen.rise:.2g} %"
+    apart = float(seen.gained.sum()) / chosen.dispersion
+    if seen.speaks and chosen.gain + apart <= gate:
+        return f"held-out data lose {-apart:.0f} nat by it"
+    if seen.share < LEAST_OF_EXCESS:
+        return (
+            f"explains {seen.share:.0%} of what is left above the noise, where something unknown "
+            f"may look like {LEAST_OF_EXCESS:.0%}"
+        )
+    return ""
+
+
+def _stands_in(tried: Tried, chosen: Refined, gate: float) -> str:
+    """The effect beyond belief that leaves a chosen candidate nothing to explain, if any does."""
+    for other in (o for o in tried.impossible if o.gain > chosen.gain + SET_WIDTH):
+        beside = refine(other.fit, chosen.screened)
+        if beside.gain <= gate:
+            name = other.screened.effect
+            return f"explains what {name} would explain, whose size is beyond belief"
+    return ""

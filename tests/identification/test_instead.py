@@ -1,0 +1,52 @@
+"""Random errors that look like something else, on cases of the benchmark."""
+
+import pytest
+from effect_logs.cases import make
+from effect_results.record import closed
+
+from pyimu.identification.noise.laws import kinds, names_of
+from pyimu.identification.noise.named import POPCORN
+from pyimu.identification.search.forward import AS_NOISE
+from pyimu.model.sensor import Sensor
+
+MINUTES = (5.0, 8.0)
+
+
+def test_a_walk_that_a_step_explains_on_the_fitted_rows_is_a_walk():
+    """Held-out rows walk on; the step explained 35 nat of the fitted ones."""
+    found = closed(make("one/8/gyro.rate_random_walk", 0, MINUTES))
+    assert not found.added, found.report()
+    assert found.verdict == "drift"
+    assert [(r.effect, r.reason) for _, r in found.refused] == [("bias_step", AS_NOISE)]
+    assert [c.effect for c in found.changed] == ["rate_random_walk"]
+
+
+@pytest.mark.parametrize("name, number", [("gyro", 3), ("accel", 1)])
+def test_jumps_are_said_where_a_walk_is_left_to_the_data(name, number):
+    found = closed(make(f"unknown/30/{name}.popcorn", number, MINUTES))
+    assert not found.added, found.report()
+    assert found.verdict == "unexplained"
+    assert {u.shape for u in found.unexplained} == {POPCORN}
+
+
+def test_a_process_too_large_for_one_effect_is_called_by_another_of_its_law():
+    """q is 5.6e-4: a consumer part's is 3.9e-5, that of a second, faster process 3.9e-4."""
+    found = closed(make("one/8/gyro.second_gauss_markov", 0, MINUTES))
+    (added,) = found.added
+    assert added.effect == "second_gauss_markov", found.report()
+    assert "gauss_markov" in added.alternatives
+
+
+def test_white_noise_that_is_larger_by_its_third_digit_is_said():
+    """By 1.5 to 1.9 % on each axis, three to four standard errors, together 32 nat."""
+    found = closed(make("one/8/gyro.angle_random_walk", 0, MINUTES))
+    assert [c.effect for c in found.changed] == ["angle_random_walk"], found.report()
+
+
+def test_effects_of_one_law_share_their_names_as_far_as_a_part_lacks_them():
+    first, second = "gauss_markov", "second_gauss_markov"
+    both = {first: {"q": [1e-4] * 3, "tau": [5.0] * 3}}
+    for values, known in ((({}, [first, second])), (both, [second])):
+        sensor = Sensor("gyro", values)
+        kind = {k.name: k for k in kinds(sensor, 0.01, 100.0)}[known[0]]
+        assert names_of(kind, sensor) == known
