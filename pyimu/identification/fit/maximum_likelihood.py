@@ -10,6 +10,7 @@ from pyimu.identification.fit.fit import (
     Fit,
     declared_variances,
     gauss_newton,
+    power,
     stepped,
     with_prior,
 )
@@ -77,4 +78,8 @@ def without_reference_noise(fitted: Fit) -> Fit:
     if not has_noise(fitted):
         return fitted
     normal = with_prior(equations(fitted), fitted)
-    return stepped(fitted, normal.keys, solve(normal.gram, normal.score)).with_noise()
+    moved = stepped(fitted, normal.keys, solve(normal.gram, normal.score))
+    # What the noise leaves of a column may be so little that the step goes beyond all bounds.
+    with np.errstate(all="ignore"):
+        power_left = power(moved)
+    return (moved if np.isfinite(power_left) else fitted).with_noise()

@@ -16,6 +16,9 @@ BATCHES = 80
 """Batches into which all rows are cut to see how much the scores really scatter."""
 
 
+DEAD = 1e-9
+"""Share of a column's power below which what others leave of it is rounding."""
+
 Noise = dict[int, "RandomWalk | Autoregressive | Unit"]
 
 
@@ -85,7 +88,7 @@ def _scaled(gram: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.nd
     """
     scale = np.sqrt(np.maximum(np.diag(gram), 1e-300))
     values, vectors = np.linalg.eigh(gram / np.outer(scale, scale))
-    return scale, values, vectors, values > 1e-9 * max(values.max(initial=0.0), 1e-300)
+    return scale, values, vectors, values > DEAD * max(values.max(initial=0.0), 1e-300)
 
 
 def variances(gram: np.ndarray) -> np.ndarray:

@@ -12,7 +12,7 @@ import numpy as np
 from pyimu.identification.fit.fit import Fit, with_prior
 from pyimu.identification.fit.keys import Coefficient, Key, Scanned
 from pyimu.identification.fit.maximum_likelihood import fit
-from pyimu.identification.fit.normal import Normal, normal_equations, solve
+from pyimu.identification.fit.normal import DEAD, Normal, normal_equations, solve
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.search.forms import BLOCK, UNUSED, form_of
 from pyimu.identification.search.threshold import LIKELY
@@ -98,4 +98,6 @@ def _of_axis(normal: Normal, own: Coefficient, size: float) -> np.ndarray:
     back = solve(g[np.ix_(base, base)], g[np.ix_(base, places)])
     power = np.diag(g)[places] - np.sum(g[np.ix_(base, places)] * back, axis=0)
     left = score[places] - back.T @ score[base]
-    return 0.5 * left**2 / np.maximum(power, 1e-300)
+    # A step that another event makes already explains nothing beside it.
+    apart = power > DEAD * np.diag(g)[places]
+    return np.where(apart, 0.5 * left**2 / np.where(apart, power, 1.0), 0.0)

@@ -16,7 +16,7 @@ import numpy as np
 
 from pyimu.identification.fit.fit import Fit, with_prior
 from pyimu.identification.fit.keys import Key
-from pyimu.identification.fit.normal import Normal, solve
+from pyimu.identification.fit.normal import DEAD, Normal, solve
 from pyimu.identification.fit.reference_noise import equations
 from pyimu.identification.search.candidates import (
     Choice,
@@ -57,12 +57,14 @@ class Scatter:
         """The scatter of a candidate that shows ``own`` in so many batches, at least 1.
 
         A few batches say little by themselves: their word is weighed against that of all candidates
-        (empirical Bayes, Efron and Morris 1973, "Stein's estimation rule", JASA 68).
+        (empirical Bayes, Efron and Morris 1973, "Stein's estimation rule", JASA 68). These never
+        speak for more scatter: what is missing beside each of them makes theirs large.
         """
         if np.isinf(self.batches):
-            return max(1.0, self.mean)
+            return max(1.0, min(own, self.mean))
         weights = batches + self.batches
-        return max(1.0, (batches * own + self.batches * self.mean) / weights) if weights else 1.0
+        weighed = (batches * own + self.batches * self.mean) / weights if weights else 1.0
+        return max(1.0, min(own, weighed))
 
 
 ONE = Scatter()
@@ -128,7 +130,7 @@ class Projected:
         raw = np.diag(g)[wanted]
         gram = turn.T @ g @ turn
         # A column that the model explains up to rounding carries nothing; leave it exactly nothing.
-        dead = np.diag(gram) < 1e-9 * raw
+        dead = np.diag(gram) < DEAD * raw
         turn[:, dead] = 0.0
         gram[dead] = gram[:, dead] = 0.0
         return cls(gram, turn.T @ normal.score, turn, normal)
