@@ -54,6 +54,10 @@ percent, and that is no clock to log by."""
 DEGREE, ALIKE = float(np.degrees(1.0)), 0.1
 """Degrees in a radian, and how near a factor must be to one that is a mistake of units."""
 
+LEAST_SLIP = 0.2
+"""Sample periods of the sensor by which a clock slips at least: it slips by a sample, of the sensor
+or of a reference up to five times faster."""
+
 BENT = 0.01
 """Share of the gain, as a standard deviation, that a bias which wanders may be taken for."""
 
@@ -88,7 +92,7 @@ def measure(trial: Trial, sensor: Sensor) -> Clock | None:
         if seen is None:
             return replace(clock, std=np.inf, explained=_explained(shifted(trial, clock)))
         time, late, std = seen
-        level = level_of(time, late + clock.at(time), std)
+        level = level_of(time, late + clock.at(time), std, LEAST_SLIP * trial.h)
         before, clock = clock, _clock(level)
         if np.abs(clock.at(time) - before.at(time)).max() < 0.1 * clock.std:
             break

@@ -52,12 +52,12 @@ class Level:
     steps: tuple[Slip, ...] = ()
 
 
-def level_of(time: np.ndarray, values: np.ndarray, std: np.ndarray) -> Level:
+def level_of(time: np.ndarray, values: np.ndarray, std: np.ndarray, least: float = 0.0) -> Level:
     """The level behind measurements (k,) with standard errors ``std`` (k,) known up to a factor.
 
     White errors about one number, a steady drift, such a drift with steps of one size, or a random
     walk (local-level model, Durbin and Koopman 2012, chapter 2): one that is ``WANDERS`` better
-    than all that are simpler.
+    than all that are simpler. Steps of less than ``least`` are none.
     """
     unit = float(np.median(std))
     values, scaled = values / unit, std / unit
@@ -67,7 +67,10 @@ def level_of(time: np.ndarray, values: np.ndarray, std: np.ndarray) -> Level:
         drift, steps = ramp(time, values, scaled), stepped(time, values, scaled)
         steady = drift.likelihood - still
         if steps and steps.likelihood - still - cost(steps) > max(gain, steady, 0.0) + WANDERS:
-            return _along(steps, time, values, unit)
+            level = _along(steps, time, values, unit)
+            if all(abs(s.size) >= least for s in level.steps):
+                return level
+            gain = 0.0
         if steady > max(gain, WANDERS):
             return _along(drift, time, values, unit)
     elif len(time) >= LEAST_LINE:
