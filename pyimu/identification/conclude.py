@@ -46,6 +46,9 @@ from pyimu.recording.recording import Recording
 
 Found = dict[str, Investigation]
 
+MORE_THAN_NOISE = "kinds of noise are told apart only where nothing else is left"
+AS_FORM = "what noise was found is no more than the form of an effect may leave"
+
 
 def conclude(
     start: Part,
@@ -82,7 +85,9 @@ def conclude(
     heading, equations = heading_rms(found.get("gyro")), {f.name: f.said for f in formulas}
     beside = (errors, attitude, refused, not_examined, lost, heading, equations)
     together = [*logs, *others]
-    said = _said(Evidence(added, changed, unexplained, drifts, found, *beside), together)
+    became = tuple(f for kind in found for f in _fates(kind, found[kind], added, noises[kind]))
+    evidence = Evidence(added, changed, unexplained, drifts, found, *beside, became)
+    said = _said(evidence, together)
     say("the whole model, and what to measure next")
     model_after = estimated(start, model.after, found, added, noises)
     seen = tuple(v for kind, inv in found.items() for v in visibility(kind, inv))
@@ -108,7 +113,7 @@ def conclude(
         held_out="holdout" if others else "last 30 %",
         estimated=model_after,
         not_examined=not_examined,
-        candidates=tuple(f for kind, inv in found.items() for f in _fates(kind, inv, added)),
+        candidates=became,
         references=references(found, together),
         next=advice(found, model_after, seen, logs, not_examined, not others),
         made_with=made_with,
@@ -153,15 +158,18 @@ def _noise(start: Part, inv: Investigation, model: Model, sensors: int, is_noise
     sensor = rounded.of_increments(start.sensor(inv.after.sensor.kind))
     free = frozenset(e for kind, e, _ in start.estimate if kind == sensor.kind)
     rounds = rounded.relevant or sensor.reading("step") is not None
+    unasked = MORE_THAN_NOISE
     if is_noise:
         found = noise_of(sensor, inv, free, rounds, sensors)
         if all(_counts(inv, a) for a in found.added):
             return found
+        unasked = found.unasked or AS_FORM
     if rounds or free & {WHITE[0], WALK[0]}:
-        return Noise()
+        return Noise(unasked=unasked)
     return Noise(
         changed=changed_noise(start, sensor.kind, inv.after),
         drift=drifting(sensor.kind, inv.after, sensor).get(sensor.kind, {}),
+        unasked=unasked,
     )
 
 
@@ -187,8 +195,8 @@ def _gained(noises: dict[str, Noise]) -> dict[str, float]:
     return {kind: n.gained for kind, n in noises.items()}
 
 
-def _fates(kind: str, inv: Investigation, added: list[Added]) -> list[Fate]:
-    return fates(kind, inv, [a for a in added if a.sensor == kind])
+def _fates(kind: str, inv: Investigation, added: list[Added], noise: Noise) -> list[Fate]:
+    return fates(kind, inv, [a for a in added if a.sensor == kind], noise.unasked)
 
 
 def _said(evidence: Evidence, logs: list[Recording]) -> Verdict:

@@ -8,16 +8,19 @@ from typing import Any
 
 from pyimu.files import plain
 from pyimu.identification.found import Added
-from pyimu.identification.rounding import HIDDEN, is_read, shows_samples
-from pyimu.identification.search.candidates import equivalent, has_columns
+from pyimu.identification.rounding import is_read, shows_samples
+from pyimu.identification.search.candidates import equivalent
 from pyimu.identification.search.choice import LEAST_SHARE, MOST_REFINED, SET_WIDTH
 from pyimu.identification.search.forward import MOST_EFFECTS, Investigation, Step
-from pyimu.model.effect import Effect
+from pyimu.identification.unasked import why_unasked
 from pyimu.model.sensor import candidates
 from pyimu.report.numbers import joined, number
 
 TAKEN_BACK = "makes the attitude worse"
 """How the reason begins for which an effect is taken back after the search has ended."""
+
+NOT_LOOKED_FOR = "not looked for"
+"""The outcome for an effect of which nothing was asked."""
 
 
 @dataclass(frozen=True)
@@ -43,10 +46,11 @@ class Fate:
         return plain(asdict(self))
 
 
-def fates(kind: str, inv: Investigation, added: Iterable[Added]) -> list[Fate]:
+def fates(kind: str, inv: Investigation, added: Iterable[Added], noise: str) -> list[Fate]:
     """One entry for each candidate that passed the gate at either look or was decided on.
 
-    The largest gain comes first.
+    The largest gain comes first. ``noise`` is why kinds of noise were not told apart, if they were
+    not.
     """
     first, last = ({c.effect: c for c in s.candidates} for s in (inv.first, inv.last))
     names = [c.effect for s in (inv.first, inv.last) for c in s.above()]
@@ -64,30 +68,20 @@ def fates(kind: str, inv: Investigation, added: Iterable[Added]) -> list[Fate]:
         if a.effect not in names and other not in names
     ]
     out = sorted(out, key=lambda f: -max(f.gain or 0.0, f.last or 0.0))
-    return out + _not_looked_for(kind, inv, {f.effect for f in out})
+    return out + _not_looked_for(kind, inv, {f.effect for f in out}, noise)
 
 
-def _not_looked_for(kind: str, inv: Investigation, told: set[str]) -> list[Fate]:
+def _not_looked_for(kind: str, inv: Investigation, told: set[str], noise: str) -> list[Fate]:
     """One entry for each effect that the model lacks and that nothing was asked of."""
     looked = told | {c.effect for c in inv.first.candidates} | set(inv.before.sensor.values)
     out = []
     for e in candidates(kind, looked):
         if e.per_power_on or equivalent(e.name) & set(inv.before.sensor.values):
             continue
-        if not is_read(e) or not shows_samples(inv):
-            out.append(Fate(kind, e.name, None, None, "not looked for", _why_not(kind, inv, e)))
+        reason = why_unasked(kind, inv, e, noise)
+        if reason and not (is_read(e) and shows_samples(inv)):
+            out.append(Fate(kind, e.name, None, None, NOT_LOOKED_FOR, reason))
     return out
-
-
-def _why_not(kind: str, inv: Investigation, e: Effect) -> str:
-    lacking = sorted(e.signals(kind) - inv.before.trials[0].known)
-    if e.stochastic:
-        return "a random error is not told from the sensor's noise"
-    if lacking:
-        return f"the log lacks {joined(lacking)}"
-    if has_columns(e, kind):
-        return "no motion excites it"
-    return HIDDEN if is_read(e) else "no way to look for it in these logs"
 
 
 def _fate(kind: str, inv: Investigation, name: str, first: Any, last: Any) -> Fate:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pyimu.identification.fit.trial import Trial
+from pyimu.identification.fit.trial import Trial, counted
 from pyimu.identification.fit.whiten import LEAST_VARIANCE, RandomWalk
 from pyimu.identification.found import Added
 from pyimu.identification.noise.cells import Cells
@@ -101,7 +101,7 @@ def _steps(trials: tuple[Trial, ...], white: np.ndarray) -> dict[int, float]:
     """
     found = {}
     for i in (i for i in range(3) if np.isfinite(white[i])):
-        columns = [values for t in trials if len(values := _column(t, i))]
+        columns = [values for t in trials if len(values := counted(t, i))]
         steps = [comb_step(values) for values in columns]
         if steps and all(s is not None for s in steps):
             q, largest = float(np.median(steps)), max(float(np.abs(v).max()) for v in columns)
@@ -112,10 +112,6 @@ def _steps(trials: tuple[Trial, ...], white: np.ndarray) -> dict[int, float]:
 
 def _counts(q: float, white: float) -> bool:
     return q**2 / 12 > SHARE * white**2
-
-
-def _column(trial: Trial, axis: int) -> np.ndarray:
-    return np.concatenate([trial.y[a:b, axis] for a, b in trial.row_segments] or [np.zeros(0)])
 
 
 def _units(trial: Trial) -> list[float]:
@@ -133,7 +129,7 @@ def _comb_gain(trials: tuple[Trial, ...], steps: Mapping[int, float]) -> float:
     """
     total = 0.0
     for i, q in steps.items():
-        values = np.concatenate([_column(t, i) for t in trials])
+        values = np.concatenate([counted(t, i) for t in trials])
         offsets = (values - values[0]) / q
         miss = max(float(np.abs(offsets - np.round(offsets)).max()) * q, 1e-6 * q)
         total += len(values) * float(np.log(q / (2 * miss)))

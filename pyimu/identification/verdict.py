@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from pyimu.identification.clocks import taken_out
+from pyimu.identification.fates import NOT_LOOKED_FOR, Fate
 from pyimu.identification.fit.columns import in_band, residual
 from pyimu.identification.fit.score import held_state
 from pyimu.identification.fit.trial import Trial
@@ -26,6 +27,9 @@ UNFIT = 0.5
 
 SHORT = 500
 """Fitted rows below which finding nothing says nothing."""
+
+FEW = 3
+"""Effects of which each is named in a remark; of more their number is said."""
 
 WORSE = 1.02
 """Ratio of the attitude errors after and before from which on the model is worse for attitude."""
@@ -57,9 +61,9 @@ class Verdict:
 class Evidence:
     """What a verdict goes by.
 
-    ``unexamined`` says of each sensor of the logs that was not looked at why not, ``lost`` of which
-    logs the attitude is lost; ``heading`` is the error before and after, ``formulas`` by name how a
-    formula is said.
+    ``fates`` says what became of the candidates, ``unexamined`` of each sensor of the logs that was
+    not looked at why not, ``lost`` of which logs the attitude is lost; ``heading`` is the error
+    before and after, ``formulas`` by name how a formula is said.
     """
 
     added: list[Added]
@@ -74,6 +78,7 @@ class Evidence:
     lost: tuple[str, ...] = ()
     heading: tuple[float, float] | None = None
     formulas: Mapping[str, str] = field(default_factory=dict)
+    fates: tuple[Fate, ...] = ()
 
 
 def verdict(e: Evidence) -> Verdict:
@@ -132,7 +137,24 @@ def _nothing_found(e: Evidence, left: str) -> Verdict:
         rest = f"nothing is missing of the {seen}, and more was not examined"
         return Verdict("undecidable", rest)
     corrected = "; declared values that the data contradict are listed as changed"
-    return Verdict("clean", "nothing is missing" + (corrected if e.changed else ""))
+    said = "nothing is missing" + (corrected if e.changed else "")
+    return Verdict("clean", said, _not_looked_for(e.fates))
+
+
+def _not_looked_for(fates: Iterable[Fate]) -> tuple[str, ...]:
+    """Which effects may be missing all the same, and why nothing was asked of them."""
+    by_reason: dict[tuple[str, str], list[str]] = {}
+    for f in fates:
+        if f.outcome == NOT_LOOKED_FOR:
+            by_reason.setdefault((f.sensor, f.reason), []).append(f.effect)
+    return tuple(
+        f"not looked for, of the {kind}: {_named(effects)} ({reason})"
+        for (kind, reason), effects in by_reason.items()
+    )
+
+
+def _named(effects: list[str]) -> str:
+    return joined(effects) if len(effects) <= FEW else f"{len(effects)} effects"
 
 
 def unfit(found: Found) -> str:

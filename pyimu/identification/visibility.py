@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from pyimu.identification.found import Visibility
-from pyimu.identification.rounding import HIDDEN, is_read, shows_samples
-from pyimu.identification.search.candidates import absent, has_columns
+from pyimu.identification.rounding import is_read
+from pyimu.identification.search.candidates import has_columns
 from pyimu.identification.search.forward import Investigation
+from pyimu.identification.unasked import why_unasked
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.effect import Effect
 
@@ -31,12 +32,4 @@ def _of(e: Effect, kind: str, inv: Investigation) -> Visibility:
     seen = next((c for c in inv.first.candidates if c.effect == e.name), None)
     if seen is not None and np.isfinite(seen.smallest_visible):
         return Visibility(kind, e.name, seen.smallest_visible, unit, seen.inseparable_from)
-    return Visibility(kind, e.name, None, unit, (), _why_not(e, kind, inv))
-
-
-def _why_not(e: Effect, kind: str, inv: Investigation) -> str:
-    if is_read(e):
-        return "looked for in the raw samples" if shows_samples(inv) else HIDDEN
-    if e.name in {known.name for known in absent(inv.before)}:
-        return "no motion excites it"
-    return f"the log lacks {', '.join(sorted(e.signals(kind) - inv.before.trials[0].known))}"
+    return Visibility(kind, e.name, None, unit, (), why_unasked(kind, inv, e))

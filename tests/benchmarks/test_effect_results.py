@@ -40,7 +40,7 @@ def result(truth="lag", *found, verdict="clean", name="one/8/gyro.x", **more):
         "drift": [],
         "unexplained": [],
         "candidates": [],
-        "visible": {"gyro.lag": "", "gyro.earth_rate": "the log lacks earth_rate"},
+        "visible": {"gyro.lag": "", "gyro.earth_rate": "the log lacks latitude"},
         "quality": [],
         "errors": {"gyro": {"before": 3.0, "after": 2.1, "true": 2.0}},
     }
@@ -79,7 +79,7 @@ def test_a_failure_says_why():
     assert why(result("lag", refused=refused)) == "refused: held-out data lose"
     assert why(result("lag")) == "clean"
     assert "gyro.warm_up is not looked for;" in why(result("warm_up"))
-    assert "not looked for, the log lacks earth_rate" in why(result("earth_rate"))
+    assert "not looked for, the log lacks latitude" in why(result("earth_rate"))
     assert why(nameless()) == "clean"
     assert why({"truths": [], "failed": "IndexError in f: g"}) == "IndexError in f: g"
 

@@ -155,11 +155,12 @@ def test_a_step_far_below_the_noise_is_one_or_the_other():
     (added,) = told.added
     assert added.effect == "quantization" and added.alternatives == ("angle_quantization",)
     assert not told.relevant, "it adds nothing to the noise"
-    (other,) = [f for f in fates("gyro", inv, [added]) if f.effect == "angle_quantization"]
+    (other,) = [f for f in fates("gyro", inv, [added], "") if f.effect == "angle_quantization"]
     assert (other.outcome, other.by) == ("alternative", ("quantization",))
 
 
 def test_what_was_looked_for_is_not_said_to_be_not():
     inv = found(noisy(14))
     assert not inv.steps and not rounding("gyro", inv).added
-    assert not {"quantization", "angle_quantization"} & {f.effect for f in fates("gyro", inv, [])}
+    told = {f.effect for f in fates("gyro", inv, [], "")}
+    assert not {"quantization", "angle_quantization"} & told

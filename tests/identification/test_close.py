@@ -169,6 +169,11 @@ def test_declared_value_that_the_data_contradict_is_changed_not_blamed(world):
     (changed,) = closed.changed
     assert (changed.effect, changed.parameter) == ("scale_factor", "s")
     assert abs(changed.fitted[0]) < 5 * changed.std[0] < 0.004
+    said = [r for r in closed.remarks if r.startswith("not looked for")]
+    assert any("the log lacks" in r for r in said)
+    unasked = {c.effect: c.reason for c in closed.candidates if c.outcome == "not looked for"}
+    assert unasked["earth_rate"] == "the log lacks attitude and latitude"
+    assert "gauss_markov" not in unasked
 
 
 def test_larger_white_noise_than_declared_is_changed_not_blamed(world):

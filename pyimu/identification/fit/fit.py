@@ -47,8 +47,8 @@ minute on the same board."""
 
 
 WANDERS_LESS = 0.1
-"""Share of a fitted random walk's K beside which slow effects are looked for: of those of 8 sigmas
-none made K larger than tenfold."""
+"""Share of a fitted random walk's K beside which slow effects are looked for: one of 8 sigmas that
+nothing else stands for makes K 7 to 22 times as large."""
 
 
 @dataclass(frozen=True)

@@ -5,6 +5,7 @@ What was measured, what the reference says went in, which rows count.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import casadi as ca
@@ -179,6 +180,7 @@ def gyro_trial(recording: Recording, latitude: float | None = None) -> Trial | N
     u[:, OWN["gyro"]] = np.where(np.isfinite(reference.rate), reference.rate, 0.0)
     known = known | {"rate"} | _slope(u, recording, "rate", "angular_acceleration")
     known = known | fill_place(u, recording, reference, latitude)
+    known = known | (set() if latitude is None else {"latitude"})
     known = known | (_turned(u, recording) if len(axes) == 3 else set())
     if reference.kind == "static":
         # What an accelerometer at rest shows beside its mean is its own noise, not a force.
@@ -376,6 +378,16 @@ def repeated(values: np.ndarray) -> np.ndarray:
         if 0 < same.mean() < 0.2 and same.mean() > 10 * np.prod(by_axis)
         else np.zeros(len(values), dtype=bool)
     )
+
+
+def known_to_all(trials: Iterable[Trial]) -> frozenset[str]:
+    """The signals that every one of trials knows."""
+    return frozenset.intersection(*(t.known for t in trials))
+
+
+def counted(trial: Trial, axis: int) -> np.ndarray:
+    """The samples (k,) of an axis that regression draws on."""
+    return np.concatenate([trial.y[a:b, axis] for a, b in trial.row_segments] or [np.zeros(0)])
 
 
 def marked(segments: list[tuple[int, int]], n: int) -> np.ndarray:

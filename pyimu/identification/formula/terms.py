@@ -15,7 +15,7 @@ import numpy as np
 
 from pyimu.block.vectorised import over_rows
 from pyimu.identification.fit.keys import Shape
-from pyimu.identification.fit.trial import Trial, white_noise
+from pyimu.identification.fit.trial import Trial, known_to_all, white_noise
 from pyimu.model.arguments import AXES
 from pyimu.model.kinds import KINDS
 from pyimu.model.signals import COLUMNS, N_INPUT, SIGNALS, START
@@ -153,7 +153,7 @@ class Factor:
 
 def usable(trials: tuple[Trial, ...]) -> dict[str, tuple[int, ...]]:
     """The components of the known signals that move in the logs by more than their own noise."""
-    known = frozenset.intersection(*(t.known for t in trials))
+    known = known_to_all(trials)
     found = {}
     for name in SYMBOLS:
         if name not in known:

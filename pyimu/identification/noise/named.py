@@ -25,6 +25,8 @@ last of three digits, with which parts declare it."""
 POPCORN = "random telegraph (popcorn) noise"
 """What jumps between two levels at random instants."""
 
+DIFFERENTIATED = "the noise of the reference, or of means over rows, hides kinds of noise"
+
 Values = dict[str, dict[str, np.ndarray]]
 
 
@@ -35,7 +37,7 @@ class Noise:
     ``values`` are coefficients that the model gets, by effect, and ``std`` their standard errors by
     effect and coefficient; ``drift`` the gain [nat] by axis of a larger random walk; ``gained``
     the log-likelihood [nat] that held-out rows gain over noise as ``before`` said, and their
-    number.
+    number. ``unasked`` is why its kinds were not told apart; empty where they were.
     """
 
     added: tuple[Added, ...] = ()
@@ -46,6 +48,7 @@ class Noise:
     values: Values = field(default_factory=dict)
     std: Mapping[tuple[str, str], np.ndarray] = field(default_factory=dict)
     gained: float = 0.0
+    unasked: str = ""
 
 
 def noise_of(
@@ -60,7 +63,7 @@ def noise_of(
     """
     known = _Named.of(sensor, inv.after, inv.held, free, rounds)
     if known is None:
-        return Noise()
+        return Noise(unasked=DIFFERENTIATED)
     found = known.chosen_of(sensors)
     jumps = found.popcorn()
     if jumps:

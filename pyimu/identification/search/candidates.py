@@ -13,7 +13,7 @@ from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Key, Scanned, coefficients_of
 from pyimu.identification.fit.normal import Normal
 from pyimu.identification.fit.response import is_step, predict
-from pyimu.identification.fit.trial import Trial
+from pyimu.identification.fit.trial import Trial, known_to_all
 from pyimu.identification.search.forms import Form, can_be_formed
 from pyimu.model.arguments import Parameter
 from pyimu.model.catalogue import CATALOGUE
@@ -76,7 +76,7 @@ def absent(fit: Fit) -> list[Effect]:
     before the vehicle turns, and the clock stands for that. Where a reference's clock is seen, a
     clock of the sensor that runs at another rate is the same.
     """
-    known = frozenset.intersection(*(t.known for t in fit.trials))
+    known = known_to_all(fit.trials)
     present = {name for name in fit.sensor.values if not fit.sensor.is_off(name)}
     twins = set().union(*(equivalent(name) for name in present))
     timed = all(t.reference != "course" for t in fit.trials)

@@ -19,7 +19,7 @@ from pyimu.identification.fit.keys import Coefficient, Key
 from pyimu.identification.fit.maximum_likelihood import fit
 from pyimu.identification.fit.response import predict
 from pyimu.identification.fit.score import compared
-from pyimu.identification.fit.trial import Trial, marked, rest_noise
+from pyimu.identification.fit.trial import Trial, counted, marked, rest_noise
 from pyimu.model.sensor import Sensor
 from pyimu.recording.quality.resolution import resolution
 
@@ -110,7 +110,7 @@ def piled(trials: Sequence[Trial], axis: int) -> tuple[float, float]:
     fell into one step of the samples' resolution instead. What lies within s below says how large
     c is.
     """
-    y = np.abs(np.concatenate([_rows(t, axis) for t in trials]))
+    y = np.abs(np.concatenate([counted(t, axis) for t in trials]))
     noise = min(float(rest_noise(t)[axis]) for t in trials)
     if not len(y) or not noise > 0.0:
         return 0.0, -np.inf
@@ -131,10 +131,6 @@ def is_reached(fitted: Fit, held: Iterable[Trial], axis: int, top: float) -> boo
     """
     x, y = compared(fitted, held, axis)
     return bool(np.median(np.abs(x[np.abs(y) >= top * (1.0 - EQUAL)])) > NEARLY * top)
-
-
-def _rows(trial: Trial, axis: int) -> np.ndarray:
-    return np.concatenate([trial.y[a:b, axis] for a, b in trial.row_segments] or [np.zeros(0)])
 
 
 def _independent(at: np.ndarray, repeats: np.ndarray, step: float) -> int:
@@ -202,10 +198,10 @@ def _beyond(
     % beyond the level.
     """
     x = predict(unlimited, reference_input(trial, state), trial.segments, trial.h)[:, axis]
-    counted = marked(trial.row_segments, len(x))
+    inside = marked(trial.row_segments, len(x))
     y = trial.y[:, axis]
     return tuple(
-        np.abs(y[counted & (sign * x > 1.1 * level) & (sign * y > NEARLY * level)])
+        np.abs(y[inside & (sign * x > 1.1 * level) & (sign * y > NEARLY * level)])
         for sign in (1, -1)
     )
 

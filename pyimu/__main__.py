@@ -1,0 +1,5 @@
+"""``python -m pyimu``: the command line."""
+
+from pyimu.cli import main
+
+main()

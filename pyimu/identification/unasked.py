@@ -1,0 +1,38 @@
+"""Why nothing was asked of an effect that a model lacks."""
+
+from __future__ import annotations
+
+from pyimu.identification.fit.trial import known_to_all
+from pyimu.identification.rounding import HIDDEN, is_read, shows_samples
+from pyimu.identification.search.candidates import absent, has_columns
+from pyimu.identification.search.forward import Investigation
+from pyimu.model.effect import Effect
+from pyimu.model.signals import inputs_of
+from pyimu.report.numbers import joined
+
+
+def why_unasked(kind: str, inv: Investigation, e: Effect, noise: str = "") -> str:
+    """Why an effect was not looked for by regression; empty where nothing speaks against it.
+
+    ``noise`` is why kinds of noise were not told apart, empty where they were.
+    """
+    if is_read(e):
+        return "looked for in the raw samples" if shows_samples(inv) else HIDDEN
+    if e.stochastic:
+        return noise
+    lacking = e.signals(kind) - known_to_all(inv.before.trials)
+    if lacking:
+        return _lacking(lacking, known_to_all(inv.before.trials))
+    if not has_columns(e, kind):
+        return "no way to look for it in these logs"
+    if e in absent(inv.before):
+        return "no motion excites it"
+    return "the clock of the reference shows the same, and is estimated anyway"
+
+
+def _lacking(signals: frozenset[str], known: frozenset[str]) -> str:
+    """What a log would need for the signals that it does not know."""
+    inputs = sorted(inputs_of(signals) - known)
+    if inputs:
+        return f"the log lacks {joined(inputs)}"
+    return f"the reference holds the {joined(sorted(signals)).replace('_', ' ')} already"
