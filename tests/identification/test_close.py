@@ -162,6 +162,16 @@ def test_clean_logs_are_blamed_no_more_often_than_the_gate_allows():
     assert len(blamed) <= binom.ppf(0.9999, 2 * count, 0.01), blamed
 
 
+def test_samples_at_the_level_do_not_bend_the_model_before(world):
+    change = undeclared(world, "gyro", "saturation", structure=True, wanted=400.0)
+    closed = pyimu.close(recording(world, gyro_change=change, seed=5, kinds=("gyro",)))
+    before, after = (p.gyro.values["scale_factor"]["s"] for p in (closed.before, closed.after))
+    assert "saturation" in {a.effect for a in closed.added}
+    # Both are fitted to the samples below the level; all samples together make the factor 6e-3 low.
+    np.testing.assert_allclose(before, after, atol=1e-6)
+    assert closed.errors["gyro"].before.total > 5 * closed.errors["gyro"].after.total
+
+
 def test_declared_value_that_the_data_contradict_is_changed_not_blamed(world):
     part = noise_only(scale_factor={"s": [0.004, 0.0, 0.0]})
     closed = pyimu.close(recording(world, seed=8), part)

@@ -197,7 +197,11 @@ def _count(inv: Investigation) -> int:
 
 
 def _confirmed(seen: Evidence) -> bool:
-    """Whether held-out rows gain by a formula as they must where it is true."""
+    """Whether held-out rows gain by a formula as they must where it is true, and all rows as much
+    as an effect with a name must.
+    """
+    if seen.raises or seen.is_little:
+        return False
     gained, difference = float(seen.gained.sum()), float(seen.difference.sum())
     return difference > SET_WIDTH / 2 and gained > CONFIRMED * difference
 

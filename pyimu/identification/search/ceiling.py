@@ -223,3 +223,21 @@ def without_lost(fitted: Fit) -> Fit:
         lost = ((levels > 0) & (np.abs(x) > levels - margin)).any(axis=1)
         trials.append(replace(t, left_out=lost if t.left_out is None else lost | t.left_out))
     return fit(replace(fitted, trials=tuple(trials)).with_noise())
+
+
+def unbent(before: Fit, after: Fit) -> Fit:
+    """A model without the level that ``after`` has, its coefficients from the samples that do not
+    lie there: those that do would make the scale factor small.
+    """
+    if has_ceiling(before.sensor) or not has_ceiling(after.sensor):
+        return before
+    effect, parameter = after.sensor.reading(CEILING)
+    levels = after.sensor.values[effect][parameter]
+    limited = before.sensor.with_values(effect, **{parameter: levels})
+    fitted = fit(replace(before, sensor=limited, trials=after.trials).with_noise())
+    return replace(
+        before,
+        sensor=fitted.sensor.without(effect),
+        states=fitted.states,
+        std=fitted.std,
+    )

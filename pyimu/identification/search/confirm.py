@@ -22,6 +22,9 @@ from pyimu.identification.search.leftover import axis_likelihood
 SPEAKS = 0.5
 """Log-likelihood [nat] by which two models must differ on held-out rows for these to decide."""
 
+CHANCE = 3.0
+"""Standard errors by which held-out squares must be more than a true effect would leave."""
+
 POSSIBLE = 2.0
 """Log-likelihood [nat] that a size of the random walk may lack: two standard errors."""
 
@@ -74,6 +77,16 @@ class Evidence:
         missing = float(self.apart.sum()) - (old - new)
         chance = 2.0 * float(np.sqrt(self.chance.sum()))
         return missing / chance if chance > 0.0 else np.inf
+
+    @property
+    def raises(self) -> bool:
+        """Whether the held-out error rises by more than chance."""
+        return self.speaks and self.rise > 0.0 and self.surprise > CHANCE
+
+    @property
+    def is_little(self) -> bool:
+        """Whether so little is explained that something unknown may look like it."""
+        return self.share < LEAST_OF_EXCESS
 
     @property
     def share(self) -> float:

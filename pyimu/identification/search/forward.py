@@ -20,6 +20,7 @@ from pyimu.identification.search.as_sampled import GATE, ceiling_of, threshold_o
 from pyimu.identification.search.ceiling import (
     has_ceiling,
     is_ceiling,
+    unbent,
     without_lost,
 )
 from pyimu.identification.search.choice import Refined, Tried, chosen_of
@@ -142,7 +143,13 @@ def investigate(
         last = seen = tried.looked()[0]
     after, steps = _backward(after, steps)
     return Investigation(
-        before, after, tuple(steps), tuple(refused.values()), first, last, tuple(held)
+        unbent(before, after),
+        after,
+        tuple(steps),
+        tuple(refused.values()),
+        first,
+        last,
+        tuple(held),
     )
 
 

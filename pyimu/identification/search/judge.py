@@ -13,9 +13,6 @@ from pyimu.identification.search.screen import (
     keys_of,
 )
 
-CHANCE = 3.0
-"""Standard errors by which held-out squares must be more than a true effect would leave."""
-
 
 def judged(tried: Tried, chosen: Refined, held: list[Trial], gate: float) -> tuple[Refined, str]:
     """A chosen candidate on the axes that held-out rows leave it, and why it is refused all the
@@ -58,12 +55,12 @@ def _denied(group: Group, chosen: Refined, seen: Evidence) -> bool:
 
 def _against(chosen: Refined, seen: Evidence, gate: float) -> str:
     """What fitted and held-out rows say against a chosen candidate."""
-    if seen.speaks and seen.rise > 0.0 and seen.surprise > CHANCE:
+    if seen.raises:
         return f"raises the error on held-out data by {100 * seen.rise:.2g} %"
     apart = float(seen.gained.sum()) / chosen.dispersion
     if seen.speaks and chosen.gain + apart <= gate:
         return f"held-out data lose {-apart:.0f} nat by it"
-    if seen.share < LEAST_OF_EXCESS:
+    if seen.is_little:
         return (
             f"explains {seen.share:.0%} of what is left above the noise, where something unknown "
             f"may look like {LEAST_OF_EXCESS:.0%}"
