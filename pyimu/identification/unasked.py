@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pyimu.identification.fit.surroundings import PLACE
 from pyimu.identification.fit.trial import known_to_all
 from pyimu.identification.rounding import HIDDEN, is_read, shows_samples
 from pyimu.identification.search.candidates import absent, has_columns
@@ -35,4 +36,5 @@ def _lacking(signals: frozenset[str], known: frozenset[str]) -> str:
     inputs = sorted(inputs_of(signals) - known)
     if inputs:
         return f"the log lacks {joined(inputs)}"
-    return f"the reference holds the {joined(sorted(signals)).replace('_', ' ')} already"
+    does = "holds the {} already" if signals & set(PLACE) else "shows no {}"
+    return "the reference " + does.format(joined(sorted(signals)).replace("_", " "))

@@ -29,7 +29,7 @@ SHORT = 500
 """Fitted rows below which finding nothing says nothing."""
 
 FEW = 3
-"""Effects of which each is named in a remark; of more their number is said."""
+"""Effects, and reasons, of which each is named in a remark; of more their number is said."""
 
 WORSE = 1.02
 """Ratio of the attitude errors after and before from which on the model is worse for attitude."""
@@ -142,15 +142,26 @@ def _nothing_found(e: Evidence, left: str) -> Verdict:
 
 
 def _not_looked_for(fates: Iterable[Fate]) -> tuple[str, ...]:
-    """Which effects may be missing all the same, and why nothing was asked of them."""
-    by_reason: dict[tuple[str, str], list[str]] = {}
-    for f in fates:
-        if f.outcome == NOT_LOOKED_FOR:
-            by_reason.setdefault((f.sensor, f.reason), []).append(f.effect)
+    """Which effects may be missing of each sensor all the same, and why nothing was asked of
+    them.
+    """
+    unasked = [f for f in fates if f.outcome == NOT_LOOKED_FOR]
     return tuple(
-        f"not looked for, of the {kind}: {_named(effects)} ({reason})"
-        for (kind, reason), effects in by_reason.items()
+        f"not looked for, of the {kind}: {_by_reason([f for f in unasked if f.sensor == kind])}"
+        for kind in dict.fromkeys(f.sensor for f in unasked)
     )
+
+
+def _by_reason(fates: list[Fate]) -> str:
+    """Effects by the reason for which they were not looked for, the commonest first."""
+    groups: dict[str, list[str]] = {}
+    for f in fates:
+        groups.setdefault(f.reason, []).append(f.effect)
+    order = sorted(groups.items(), key=lambda item: -len(item[1]))
+    said = [f"{_named(effects)} ({reason})" for reason, effects in order[:FEW]]
+    rest = sum(len(effects) for _, effects in order[FEW:])
+    more = [f"and {rest} more for reasons that the list of candidates has"] if rest else []
+    return "; ".join(said + more)
 
 
 def _named(effects: list[str]) -> str:

@@ -18,12 +18,10 @@ from scipy.special import logsumexp
 from scipy.stats import norm
 
 from pyimu.identification.fit.fit import Fit, begin, gauss_newton
-from pyimu.identification.fit.keys import Key, coefficients_of
 from pyimu.identification.fit.normal import normal_equations
-from pyimu.identification.fit.reduction import STRUCTURE
+from pyimu.identification.fit.structure import prior_of, with_structure
 from pyimu.identification.fit.trial import Trial
 from pyimu.model.sensor import Sensor
-from pyimu.model.typical import CLASSES, magnitudes
 
 STEPS = 8
 """Of Gauss and Newton, to the model beside which the wander is estimated."""
@@ -45,10 +43,8 @@ def weighed(trials: Sequence[Trial], sensor: Sensor, typical: float) -> list[Tri
     """The trials, whose ``wander`` is that of a ``typical`` sensor [its unit], with the wander that
     they show together.
     """
-    for name in STRUCTURE:
-        sensor = sensor if name in sensor.values else sensor.with_values(name)
-    free: frozenset[Key] = frozenset().union(*(coefficients_of(sensor, n) for n in STRUCTURE))
-    prior = {k: magnitudes(k.effect, sensor.kind)[CLASSES[-1]].si for k in free}
+    sensor, free = with_structure(sensor)
+    prior = prior_of(sensor, free)
     shapes = [t.reduction.wander / typical**2 for t in trials]
     for _ in range(2):
         fitted = gauss_newton(begin(sensor, free, trials, prior), STEPS)

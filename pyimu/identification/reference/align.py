@@ -12,9 +12,14 @@ import numpy as np
 
 from pyimu.errors import Finding
 from pyimu.identification.fit.clock import Clock
-from pyimu.identification.fit.trial import Trial
+from pyimu.identification.fit.fit import Fit, begin
+from pyimu.identification.fit.maximum_likelihood import advantage, fit
+from pyimu.identification.fit.structure import prior_of, with_structure
+from pyimu.identification.fit.trial import Trial, marked
 from pyimu.identification.reference.clock import measure, rebanded, shifted
+from pyimu.identification.reference.track import WANDERS
 from pyimu.model.sensor import Sensor
+from pyimu.recording.clock import runs
 
 SIGNIFICANT = 5.0
 """Standard errors from which on a lag is no chance."""
@@ -35,7 +40,7 @@ def aligned(trials: Sequence[Trial], held: Sequence[Trial], sensor: Sensor) -> l
     is left in then, for the effects that make one. What differs from log to log, wanders, makes the
     sensor early, or is longer than any sensor's is the clock's.
     """
-    clocks = [_level(measure(t, sensor)) for t in (*trials, *held)]
+    clocks = [_borne_out(t, _level(measure(t, sensor)), sensor) for t in (*trials, *held)]
     own = in_common([c for c in clocks[: len(trials)] if c is not None and np.isfinite(c.std)])
     return [_aligned(t, c, own) for t, c in zip((*trials, *held), clocks, strict=True)]
 
@@ -49,10 +54,29 @@ def _level(clock: Clock | None) -> Clock | None:
     apart = float(np.ptp(clock.late))
     if apart >= ALIKE * abs(clock.mean):
         return clock
-    std = max(clock.std, apart / float(np.sqrt(12.0)))
-    return replace(
-        clock, time=clock.time[:1], late=np.array([clock.mean]), std=std, skew=None, slips=()
-    )
+    return clock.kept_in_step()
+
+
+def _borne_out(trial: Trial, clock: Clock | None, sensor: Sensor) -> Clock | None:
+    """One lag where a lag that changes by less than a sample does not explain the samples better.
+
+    Windows weigh a bias that wanders by its size alone; all rows together know its spectrum.
+    """
+    if clock is None or clock.keeps_step or not clock.is_seen:
+        return clock
+    steady = clock.kept_in_step()
+    if float(np.ptp(clock.late)) >= trial.h:
+        return clock
+    changes, keeps = (rebanded(shifted(trial, c)) for c in (clock, steady))
+    both = marked(changes.segments, len(trial.time)) & marked(keeps.segments, len(trial.time))
+    fits = [_fitted(replace(t, segments=runs(both)), sensor) for t in (changes, keeps)]
+    return clock if advantage(*fits) > WANDERS else steady
+
+
+def _fitted(trial: Trial, sensor: Sensor) -> Fit:
+    """The structure of a sensor, its bias and its noise, fitted to a trial."""
+    sensor, free = with_structure(sensor)
+    return fit(begin(sensor, free, [trial], prior_of(sensor, free)))
 
 
 def in_common(clocks: Sequence[Clock]) -> float:
