@@ -22,9 +22,10 @@ the effect is held against noise: what follows the motion keeps nearly all."""
 
 def less_than_noise(inv: Investigation, free: frozenset[str]) -> Investigation:
     """An investigation less the effects that explain no more than noise of some kind would;
-    ``free`` are the kinds of noise that the part leaves to the data.
+    ``free`` are the kinds of noise that the part leaves to the data. No noise piles samples up,
+    where these themselves show an effect.
     """
-    suspects = [s for s in inv.steps if not s.declared and _may_be_noise(inv, s)]
+    suspects = [s for s in inv.steps if not (s.declared or s.as_sampled) and _may_be_noise(inv, s)]
     for some in [suspects, *([s] for s in reversed(suspects))]:
         left = [s for s in some if s in inv.steps]
         if left and _as_noise(inv, _refitted(inv, left), _count(left), free):

@@ -50,3 +50,10 @@ def test_effects_of_one_law_share_their_names_as_far_as_a_part_lacks_them():
         sensor = Sensor("gyro", values)
         kind = {k.name: k for k in kinds(sensor, 0.01, 100.0)}[known[0]]
         assert names_of(kind, sensor) == known
+
+
+@pytest.mark.parametrize("effect", ["hard_dead_zone", "saturation"])
+def test_what_samples_show_is_no_noise(effect):
+    """So few lie at the level or at zero that a walk explains their squares as well."""
+    found = closed(make(f"one/8/gyro.{effect}", 5, MINUTES))
+    assert [a.effect for a in found.added] == [effect], found.report()
