@@ -25,6 +25,7 @@ from scipy.spatial.transform import Rotation
 
 import pyimu
 from pyimu.attitude import run
+from pyimu.attitude.error import angle_between, root_mean_square
 
 SCORED = (
     "broad_02_undisturbed_slow_rotation_B",
@@ -73,7 +74,7 @@ def main() -> None:
             inclination(q[scored], log.ref_q[scored], mounted=log.moving is None)
             for q in (ours.q, theirs)
         ]
-        rms, most = [np.sqrt(np.mean(e**2)) for e in errors], [np.percentile(e, 95) for e in errors]
+        rms, most = [root_mean_square(e) for e in errors], [np.percentile(e, 95) for e in errors]
         print(
             f"{path.name.split('.')[0]:42s}{rms[0]:8.3f}{rms[1]:8.3f}{rms[0] / rms[1]:8.3f}"
             f"{most[0]:13.3f}{most[1]:8.3f}"
@@ -115,12 +116,7 @@ def inclination(q: np.ndarray, reference: np.ndarray, mounted: bool = False) -> 
         turned = Rotation.align_vectors(up[kept], true_up[kept])[0].apply(true_up)
         off = np.linalg.norm(up - turned, axis=1)
         kept = off < np.percentile(off, 90)
-    return np.degrees(
-        2
-        * np.arcsin(
-            np.minimum(1, np.linalg.norm(up - (turned if mounted else true_up), axis=1) / 2)
-        )
-    )
+    return np.degrees(angle_between(up, turned if mounted else true_up))
 
 
 if __name__ == "__main__":

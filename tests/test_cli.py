@@ -104,7 +104,7 @@ def uncompiled(monkeypatch):
 
 
 def in_a_process(*words):
-    command = [sys.executable, "-m", "pyimu.cli", *map(str, words)]
+    command = [sys.executable, "-m", "pyimu", *map(str, words)]
     return subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
 
 

@@ -97,7 +97,7 @@ def test_installed_package_builds_fmus(installed, tmp_path, tmp_path_factory):
     assert len(places) == 2 and all(p.is_relative_to(installed) for p in places), (
         said.stdout + said.stderr
     )
-    done = isolated(installed, tmp_path, "-m", "pyimu.cli", "build", "imt30", "--out", "x")
+    done = isolated(installed, tmp_path, "-m", "pyimu", "build", "imt30", "--out", "x")
     assert (done.returncode, done.stderr) == (0, "")
     assert done.stdout.split() == [
         f"x/{n}.{form}.fmu"

@@ -24,6 +24,15 @@ NEWTON = 2
 """Steps by which rate and force are found where the errors depend on signals that are made of them;
 one step is exact where the errors are affine in rate and force."""
 
+NOT_UNDONE = "not undone, and in no standard deviation but that of rounding"
+"""What is said of the errors that the filter leaves in."""
+
+
+def left_in(part: Part) -> tuple[str, ...]:
+    """The errors of a part that its filter leaves in, as ``time_delay of the gyro``."""
+    sensors = (part.gyro, part.accel)
+    return tuple(f"{name} of the {s.kind}" for s in sensors for name in s.left_in)
+
 
 # Compensation
 

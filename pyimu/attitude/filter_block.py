@@ -5,6 +5,7 @@ from __future__ import annotations
 import casadi as ca
 
 from pyimu.attitude import late_heading
+from pyimu.attitude.compensation import NOT_UNDONE, left_in
 from pyimu.attitude.layout import Layout
 from pyimu.attitude.memory import start
 from pyimu.attitude.updates import outputs
@@ -34,14 +35,8 @@ def filter_block(name: str, title: str, layout: Layout, step: ca.Function) -> Bl
 
 def _left_in(part: Part) -> str:
     """Which of the sensors' errors the filter leaves in, for the description."""
-    left = [
-        f"{name} of the {sensor.kind}"
-        for sensor in (part.gyro, part.accel)
-        for name in sensor.left_in
-    ]
-    if not left:
-        return ""
-    return f"; not undone, and in no standard deviation but that of rounding: {', '.join(left)}"
+    left = left_in(part)
+    return f"; {NOT_UNDONE}: {', '.join(left)}" if left else ""
 
 
 def step_function(layout: Layout, symbols: list[ca.MX], estimate, memory, yaw, y) -> ca.Function:

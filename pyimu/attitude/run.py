@@ -18,7 +18,7 @@ from pyimu.attitude.columns import (
     number,
     settings_of,
 )
-from pyimu.attitude.compensation import clock_error, noise_of
+from pyimu.attitude.compensation import clock_error, left_in, noise_of
 from pyimu.attitude.input_grid import CHUNK, InputGrid
 from pyimu.attitude.memory import BIAS_VARIANCE
 from pyimu.attitude.rest import find_rest
@@ -31,11 +31,12 @@ from pyimu.block.variables import Variable
 from pyimu.errors import UserError
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as part_of
+from pyimu.recording.log import Given, recording_of
 from pyimu.recording.recording import Recording
 
 
 def run(
-    recording: Recording,
+    recording: Given,
     part: Part | str | os.PathLike | None = None,
     *,
     latitude: float | None = None,
@@ -47,7 +48,8 @@ def run(
 ) -> AttitudeResult:
     """The attitude of a recording, by the filter of ``part``.
 
-    ``part`` is a ``Part``, the name of one, or a TOML file.
+    ``recording`` is a ``Recording``, the path of a file, or a data frame; ``part`` a ``Part``, the
+    name of one, or a TOML file.
 
     Without a part, the filter knows of the sensors only their noise at rest. ``latitude`` in rad is
     else the recording's; without either, no Earth rate is subtracted. ``q0`` (4,) is the attitude
@@ -58,16 +60,19 @@ def run(
     estimate, and the row after it has bit 1 of the status. A clock of the gyro that the part knows
     to be off is undone by its samples' times; the accelerometer's is taken for the same.
 
-    Raises UserError for a recording without gyro or with one row, a latitude beyond -pi/2 to pi/2,
-    a quaternion without length, other than so many finite numbers, and a setting that is unknown or
-    outside its bounds.
+    Raises UserError for a recording that cannot be read, is without gyro or has one row, a latitude
+    beyond -pi/2 to pi/2, a quaternion without length, ``heading0`` beside ``q0``, other than so
+    many finite numbers, and a setting that is unknown or outside its bounds.
     """
+    recording = recording_of(recording)
     if recording.gyro is None:
         raise UserError(f"{recording.name}: no gyro, an attitude needs gyro_x, gyro_y, gyro_z")
     if len(recording.time) < 2:
         raise UserError(f"{recording.name}: one sample, an attitude over time needs two or more")
     latitude = latitude_of(recording, latitude)
     heading0 = None if heading0 is None else number("heading0", heading0)
+    if q0 is not None and heading0 is not None:
+        raise UserError("heading0 beside q0, which has a heading of its own: give one of the two")
     rest = find_rest(recording)
     known = nominal_part(recording, rest) if part is None else part_of(part)
     block = attitude_ukf(known)
@@ -90,8 +95,16 @@ def run(
     if retiming is not None:
         outputs = retiming.to_rows(outputs)
     parameters = {v.name: value for v, value in zip(block.parameters, p.tolist(), strict=True)}
-    name = getattr(recording, "name", "recording")
-    return AttitudeResult(name, recording.time, **outputs, rest=rest, parameters=parameters)
+    return AttitudeResult(
+        recording.name,
+        recording.time,
+        **outputs,
+        recording=recording,
+        rest=rest,
+        parameters=parameters,
+        part="" if part is None else known.name,
+        left_in=left_in(known),
+    )
 
 
 def _turned(recording: Recording, row: int, part: Part, latitude: float, bias0, settings) -> float:
@@ -184,6 +197,7 @@ OUTPUTS = {
     "quasi_static": (0, bool),
     "nis": (0, float),
     "status": (0, np.uint8),
+    "heading_std": (0, float),
 }
 """The block's outputs that a result keeps, how many numbers each has (0: one, without an axis), and
 their type."""

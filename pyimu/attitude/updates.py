@@ -131,6 +131,7 @@ def _status(flags: Flags, report: list, variances):
 def outputs(x: Estimate, quasi_static, nis, status) -> ca.SX:
     """The block's outputs (``pyimu.attitude.variables.OUTPUTS``) as a column."""
     std = [ca.sqrt(ca.fmax(x.covariance[i, i], 0)) for i in range(6)]
-    return ca.densify(
-        ca.vertcat(x.q, quaternion.to_euler(x.q), x.bias, *std, quasi_static, nis, status)
-    )
+    up, pp = quaternion.to_matrix(x.q)[2, :].T, x.covariance[:3, :3]
+    heading_std = ca.sqrt(ca.fmax(ca.dot(up, pp @ up), 0))
+    angles = quaternion.to_euler(x.q)
+    return ca.densify(ca.vertcat(x.q, angles, x.bias, *std, quasi_static, nis, status, heading_std))

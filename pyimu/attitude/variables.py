@@ -27,6 +27,18 @@ STATUS = {
 }
 """Bits of the output ``status`` and what each says; 0 is well."""
 
+STATUS_NAMES = {
+    1: "input missing",
+    2: "at a limit",
+    4: "stuck",
+    8: "gravity contradicted",
+    16: "heading too old",
+    32: "heading not used",
+    64: "heading contradicted",
+    128: "variance lost",
+}
+"""The same bits in two or three words, for pictures."""
+
 UNKNOWN_LATITUDE = 10.0
 """rad; stands for "not known", as does every value outside -pi/2 to pi/2 and NaN. No Earth rate is
 then subtracted."""
@@ -104,6 +116,11 @@ OUTPUTS = (
     ),
     Variable(
         "status", "1", "; ".join(f"{bit}: {text}" for bit, text in STATUS.items()), kind="integer"
+    ),
+    Variable(
+        "heading_std",
+        "rad",
+        "standard deviation of the attitude error about the vertical, however the body is tilted",
     ),
 )
 """The outputs of every filter, in the order of the block."""

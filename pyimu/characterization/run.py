@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from pathlib import Path
 
 from pyimu.characterization.allan.moments import TERMS
 from pyimu.characterization.evidence import evidence
@@ -21,12 +20,12 @@ from pyimu.characterization.result import Characterization
 from pyimu.characterization.sensor import SensorAnalysis
 from pyimu.characterization.store import Store
 from pyimu.errors import Finding, UserError
-from pyimu.recording.log import Log, open_log
+from pyimu.recording.log import Given, Log, is_one, open_log, recording_of
 from pyimu.recording.names import distinct_names
 from pyimu.recording.recording import Recording
 from pyimu.report.numbers import joined
 
-Source = Recording | Log | str | os.PathLike
+Source = Log | Given
 
 
 def characterize(
@@ -36,28 +35,32 @@ def characterize(
 ) -> Characterization:
     """Characterise a sensor at rest: its noise, its temperature effect, the quality of its samples.
 
-    ``recording`` is one log of a part, or several: a recording, a log opened by ``open_log``, or a
-    file. ``level`` is the probability of all intervals; ``say(text, share)`` hears what is being
-    done and which share of it, or None. The result's ``report()`` is for reading, its ``part()``
-    for ``pyimu.build`` and ``pyimu.close``; its ``write(folder)`` writes a page, data and the part.
+    ``recording`` is one log of a part, or several: a recording, a log opened by ``open_log``, a
+    file, or a data frame. ``level`` is the probability of all intervals; ``say(text, share)`` hears
+    what is being done and which share of it, or None. The result's ``report()`` is for reading, its
+    ``part()`` for ``pyimu.build`` and ``pyimu.close``; its ``write(folder)`` writes a page, data
+    and the part.
 
     Raises UserError where no channel can be characterised, because they have too few samples or are
     constant, and where the times of a log are too coarse or of two sample rates.
     """
     if not 0 < level < 1:
         raise UserError(f"level {level:g}: must lie between 0 and 1")
-    sources = (
-        [recording]
-        if isinstance(recording, (Recording, Log, str, os.PathLike))
-        else list(recording)
-    )
+    sources = [recording] if is_one(recording) else list(recording)
     if not sources:
         raise UserError("no log to characterise")
-    opened = [open_log(Path(s)) if isinstance(s, (str, os.PathLike)) else s for s in sources]
+    opened = [_opened(s) for s in sources]
     logs: list[LogResult] = []
     for source, name in zip(opened, distinct_names(opened), strict=True):
         logs.append(_log(source, name, level, _origin(logs), say))
     return Characterization(tuple(logs), level, _summaries(logs, level))
+
+
+def _opened(source: Source) -> Recording | Log:
+    """A file is read in pieces, for it may be larger than memory."""
+    if isinstance(source, Log):
+        return source
+    return open_log(source) if isinstance(source, (str, os.PathLike)) else recording_of(source)
 
 
 def _origin(logs: Iterable[LogResult]) -> float | None:

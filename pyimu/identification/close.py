@@ -35,10 +35,9 @@ from pyimu.model.part_file import part_names
 from pyimu.model.part_reader import parse_part
 from pyimu.model.sensor import Sensor
 from pyimu.model.typical import CLASSES, magnitudes
-from pyimu.recording.clock import Clock
-from pyimu.recording.log import read_recording
+from pyimu.recording.log import Given, is_one, recording_of
 from pyimu.recording.names import distinct_names
-from pyimu.recording.quality.inspect import inspect
+from pyimu.recording.quality.inspect import inspect, of_reading
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.course import has_course
 from pyimu.recording.reference.file import read_reference, with_references
@@ -56,29 +55,28 @@ the power is noise."""
 SHORTEST = 64
 """Rows of a log below which nothing can be said of it."""
 
-Log = Recording | str | Path
-
 Say = Callable[[str], None]
 
 
 def close(
-    recordings: Sequence[Log] | Log,
+    recordings: Sequence[Given] | Given,
     part: Part | str | Path | None = None,
-    holdout: Sequence[Log] | Log | None = None,
+    holdout: Sequence[Given] | Given | None = None,
     *,
-    reference: Sequence[Log] | Log | None = None,
+    reference: Sequence[Given] | Given | None = None,
     latitude: float | None = None,
     say: Say = lambda text: None,
 ) -> Closed:
     """Find what a sensor's model lacks to explain measured logs, and what it is worth.
 
-    ``recordings`` are Recordings or paths; ``part`` is a Part, the name of a built-in one, a TOML
-    path, or None for the baseline structure with every coefficient estimated. Without ``holdout``
-    the last 30 % of each log is held out. ``reference`` are references in recordings or files of
-    their own, at their own rate and on their own clock: one for each log in order, then one for
-    each log of ``holdout``; a log without one has its own. ``latitude`` [rad] adds the Earth's rate
-    to a reference rate derived from an attitude. Raises UserError for logs that cannot be read, are
-    too short, do not overlap their reference, or do not excite what the part asks to be estimated.
+    ``recordings`` are Recordings, paths or data frames; ``part`` is a Part, the name of a built-in
+    one, a TOML path, or None for the baseline structure with every coefficient estimated. Without
+    ``holdout`` the last 30 % of each log is held out. ``reference`` are references in recordings or
+    files of their own, at their own rate and on their own clock: one for each log in order, then
+    one for each log of ``holdout``; a log without one has its own. ``latitude`` [rad] adds the
+    Earth's rate to a reference rate derived from an attitude. Raises UserError for logs that cannot
+    be read, are too short, do not overlap their reference, or do not excite what the part asks to
+    be estimated.
     """
     own = _references(reference)
     logs, others = _named(*_with_references(_many(recordings), _many(holdout), own))
@@ -98,7 +96,7 @@ def close(
     say("quality of the raw samples")
     together = [*logs, *others]
     quality = [
-        _of(r.name, f) for r in together for f in (*_of_reading(r), *inspect(r), *vibrations(r))
+        _of(r.name, f) for r in together for f in (*of_reading(r), *inspect(r), *vibrations(r))
     ]
     forget()
     found, looks, of_trials = _investigated(
@@ -181,15 +179,14 @@ def undeclared(sample_rate: float) -> Part:
 # The logs
 
 
-def _many(logs: Sequence[Log] | Log | None) -> list[Recording]:
+def _many(logs: Sequence[Given] | Given | None) -> list[Recording]:
     if logs is None:
         return []
-    return [_read(r) for r in ([logs] if isinstance(logs, (Recording, str, Path)) else logs)]
+    return [_read(r) for r in ([logs] if is_one(logs) else logs)]
 
 
-def _references(given: Sequence[Log] | Log | None) -> list[Recording]:
-    single = isinstance(given, (Recording, str, Path))
-    each = [] if given is None else [given] if single else given
+def _references(given: Sequence[Given] | Given | None) -> list[Recording]:
+    each = [] if given is None else [given] if is_one(given) else given
     return [r if isinstance(r, Recording) else read_reference(r) for r in each]
 
 
@@ -200,8 +197,8 @@ def _with_references(
     return together[: len(logs)], together[len(logs) :]
 
 
-def _read(log: Log) -> Recording:
-    recording = log if isinstance(log, Recording) else read_recording(log)
+def _read(log: Given) -> Recording:
+    recording = recording_of(log)
     if len(recording.time) < SHORTEST:
         raise UserError(
             f"{recording.name}: too short to say anything: {len(recording.time)} rows, at least "
@@ -219,15 +216,6 @@ def _named(
     together = [*logs, *others]
     named = [replace(r, name=n) for r, n in zip(together, distinct_names(together), strict=True)]
     return named[: len(logs)], named[len(logs) :]
-
-
-def _of_reading(recording: Recording) -> tuple[Finding, ...]:
-    """What reading a log's file found; of the times of one that was made of arrays, the same."""
-    if recording.path is not None or recording.findings:
-        return recording.findings
-    clock = Clock(recording.cadence)
-    clock.add(recording.time)
-    return tuple(clock.findings())
 
 
 def _of(name: str, finding: Finding) -> Finding:

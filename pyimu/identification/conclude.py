@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from pyimu.attitude.error import AttitudeError
 from pyimu.identification.advice import advice
 from pyimu.identification.as_part import as_part, unexamined_left_out
-from pyimu.identification.attitude_error import AttitudeError
 from pyimu.identification.confounds import what_no_log_tells_apart
 from pyimu.identification.declared import changed_noise, drifting, released
 from pyimu.identification.estimated import estimated

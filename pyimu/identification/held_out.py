@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from pyimu.identification.attitude_error import AttitudeError, attitude_error
+from pyimu.attitude.error import AttitudeError
+from pyimu.identification.attitude_error import attitude_error
 from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.keys import LogClock
 from pyimu.identification.fit.left_out import as_measured, left_out

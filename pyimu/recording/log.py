@@ -8,11 +8,14 @@ from dataclasses import replace
 from functools import cached_property
 from itertools import chain
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from pyimu.errors import Finding
+from pyimu.errors import Finding, UserError
 from pyimu.recording.clock import Cadence, Clock, cadence_of
+from pyimu.recording.column_map import ForeignMap
+from pyimu.recording.formats.frame import FrameReader, is_frame
 from pyimu.recording.formats.suffix import stem
 from pyimu.recording.gaps import GapFinder
 from pyimu.recording.recording import Recording, copied, join
@@ -215,3 +218,30 @@ def read_recording(path: str | os.PathLike, columns: str | os.PathLike | None = 
     for what cannot be used; what can is listed in ``Recording.findings``.
     """
     return Log(Source.open(Path(path), None if columns is None else Path(columns))).read()
+
+
+Given = Recording | str | os.PathLike | Any
+"""What is taken for a recording: one, the path of its file, or a data frame."""
+
+
+def is_one(given: Given | Iterable[Given]) -> bool:
+    """Whether ``given`` is taken for one recording, not for several."""
+    return isinstance(given, (Recording, Log, str, os.PathLike)) or is_frame(given)
+
+
+def recording_of(given: Given) -> Recording:
+    """A recording: itself, that in a file, or that in a data frame.
+
+    The columns of a frame are named as those of a file, ``gyro_x [deg/s]``. Raises UserError as
+    ``read_recording`` does, and for anything else.
+    """
+    if isinstance(given, Recording):
+        return given
+    if isinstance(given, (str, os.PathLike)):
+        return read_recording(given)
+    if not is_frame(given):
+        raise UserError(
+            f"a {type(given).__name__} is no recording: give a Recording, the path of a file, or "
+            "a data frame with columns as 'time [s]', 'gyro_x [rad/s]'"
+        )
+    return replace(Log(Source.of(FrameReader.of(given), ForeignMap())).read(), path=None)

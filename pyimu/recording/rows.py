@@ -60,19 +60,20 @@ class Source:
         sensor.
         """
         foreign = read_map(columns) if columns is not None else ForeignMap()
-        reader = open_reader(path, foreign.topics)
-        return cls(
-            reader,
-            Header(
-                path,
-                foreign.rename(path, reader.header),
-                foreign.scale,
-                reader.crowded,
-                reader.skipped,
-                reference,
-            ),
-            foreign,
+        return cls.of(open_reader(path, foreign.topics), foreign, reference)
+
+    @classmethod
+    def of(cls, reader: Reader, foreign: ForeignMap, reference: bool = False) -> Source:
+        """What ``reader`` has opened. Raises UserError as ``open`` does."""
+        header = Header(
+            reader.path,
+            foreign.rename(reader.path, reader.header),
+            foreign.scale,
+            reader.crowded,
+            reader.skipped,
+            reference,
         )
+        return cls(reader, header, foreign)
 
 
 class Rows:

@@ -47,6 +47,9 @@ STYLE = {
     "axes.facecolor": "none",
 }
 
+TIMES = ((3 * 3600.0, 3600.0, "h"), (600.0, 60.0, "min"))
+"""Units of time and their seconds, by the duration [s] above which they are used instead of s."""
+
 BINS = 420
 """Columns of a time series; each shows the smallest and the largest sample that falls into it, so
 that spikes survive."""
@@ -106,6 +109,11 @@ def plain_logarithm(axis: Axis) -> None:
     axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if high < 100 * low else (1.0,)))
     axis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}"))
     axis.set_minor_formatter(NullFormatter())
+
+
+def unit_of_time(duration: float) -> tuple[float, str]:
+    """Seconds and name of the unit in which an axis shows so many s."""
+    return next(((size, unit) for least, size, unit in TIMES if duration > least), (1.0, "s"))
 
 
 def envelope(

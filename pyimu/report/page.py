@@ -14,27 +14,8 @@ from latex2mathml.converter import convert as latex_to_mathml
 from markupsafe import Markup, escape
 
 from pyimu.errors import Finding
-from pyimu.report.numbers import MISSING, in_unit, number, pretty, quantity, si_quantity, unit_for
-
-SAMPLE = (
-    "level",
-    "step",
-    "least",
-    "largest",
-    "value",
-    "amplitude",
-    "span",
-    "accel_x",
-    "accel_y",
-    "accel_z",
-)
-"""Details of findings that have the unit of the column."""
-
-SECONDS, SECONDS_OF_TIME = (
-    ("time_constant", "period", "late", "least_late", "most_late", "late_std"),
-    ("longest", "total", "rms", "first", "origin"),
-)
-"""Details of findings that are times; the latter those of the column ``time`` only."""
+from pyimu.report.findings import detail
+from pyimu.report.numbers import MISSING, in_unit, number, pretty, si_quantity, unit_for
 
 
 @dataclass(frozen=True)
@@ -103,27 +84,3 @@ def quality_table(findings: Iterable[Finding]) -> Table:
             for f in findings
         ],
     )
-
-
-def detail(f: Finding) -> str:
-    """The finding's numbers with their units."""
-    sample = {"gyro": "rad/s", "accel": "m/s^2"}.get(f.column.partition("_")[0])
-    parts = []
-    for name, value in f.detail.items():
-        text = (
-            f"{value:,}"
-            if isinstance(value, int)
-            else str(value)
-            if np.ndim(value) or isinstance(value, str)
-            else number(float(value), 4)
-        )
-        if sample and name in SAMPLE:
-            text = quantity(float(value), sample)
-        elif name == "share":
-            text = quantity(float(value), "1")
-        elif name in ("rate", "other_rate", "least_frequency", "largest_frequency"):
-            text = f"{value:.6g} Hz"
-        elif name in SECONDS or (f.column == "time" and name in SECONDS_OF_TIME):
-            text = f"{text} s"
-        parts.append(f"{name.replace('_', ' ')} {text}")
-    return ", ".join(parts)

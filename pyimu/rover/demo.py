@@ -17,8 +17,9 @@ from matplotlib.figure import Figure
 from scipy.ndimage import gaussian_filter1d
 from scipy.spatial.transform import Rotation
 
+from pyimu.attitude.error import AttitudeError
 from pyimu.files import whole
-from pyimu.identification.attitude_error import AttitudeError, attitude_error
+from pyimu.identification.attitude_error import attitude_error
 from pyimu.identification.close import close
 from pyimu.identification.report.deliver import check_delivery
 from pyimu.identification.result import Closed

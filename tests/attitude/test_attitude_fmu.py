@@ -49,7 +49,7 @@ def test_fmu_with_the_results_parameters_gives_its_bits(fmus, form):
         else simulate(fmus[form], rows(recording), **given)
     )
     block = attitude_ukf(part())
-    for name in ("q", "gyro_bias", "std", "quasi_static", "nis", "status"):
+    for name in ("q", "gyro_bias", "std", "quasi_static", "nis", "status", "heading_std"):
         np.testing.assert_array_equal(output(block, y[1:], name), getattr(result, name))
 
 

@@ -170,7 +170,7 @@ def test_pieces_of_a_long_recording_are_its_whole(monkeypatch):
     for module in ("input_grid", "run"):
         monkeypatch.setattr(sys.modules[f"pyimu.attitude.{module}"], "CHUNK", 64)
     pieces = run(cut, part())
-    for name in ("q", "gyro_bias", "std", "quasi_static", "nis", "status"):
+    for name in ("q", "gyro_bias", "std", "quasi_static", "nis", "status", "heading_std"):
         np.testing.assert_array_equal(getattr(pieces, name), getattr(whole, name))
 
 
@@ -227,6 +227,7 @@ def test_what_cannot_be_used_is_refused_with_its_reason():
         ({"q0": [np.inf, 0, 0, 0]}, "q0 is .* expected four finite numbers"),
         ({"q0": "level"}, "q0 is level"),
         ({"heading0": np.nan}, "heading0 is 'nan'"),
+        ({"heading0": 0.1, "q0": [1, 0, 0, 0]}, "heading0 beside q0"),
         ({"latitude": "45"}, "latitude is '45'"),
         ({"latitude": np.nan}, "latitude is 'nan'"),
         ({"bias0": "none"}, "bias0 is none"),
@@ -250,19 +251,31 @@ def test_what_cannot_be_used_is_refused_with_its_reason():
 def test_written_result_has_a_column_for_each_number_with_its_unit(tmp_path):
     result = run(recorded(drive(rover_rate(300))), part())
     path = result.write(tmp_path / "new")
-    table = parquet.read_table(path)
+    assert path.name == "report.html"
+    table = parquet.read_table(path.with_name("attitude.parquet"))
     for names, values in (
         ([f"q_{n} [1]" for n in "wxyz"], result.q),
         ([f"gyro_bias_{n} [rad/s]" for n in "xyz"], result.gyro_bias),
         ([f"std_{n} [rad{'/s' if n > 3 else ''}]" for n in range(1, 7)], result.std),
         (["time [s]", "quasi_static [1]"], np.column_stack([result.time, result.quasi_static])),
         (["nis [1]", "status [1]"], np.column_stack([result.nis, result.status])),
+        (["heading_std [rad]"], result.heading_std[:, None]),
     ):
         np.testing.assert_array_equal(np.column_stack([table[n] for n in names]), values)
-    assert table.num_columns == 1 + 4 + 3 + 6 + 3
+    assert table.num_columns == 1 + 4 + 3 + 6 + 4
     (tmp_path / "file").write_text("")
-    with pytest.raises(UserError, match="cannot be written"):
+    with pytest.raises(UserError, match="cannot write there"):
         result.write(tmp_path / "file")
+
+
+def test_a_path_or_a_frame_is_taken_for_a_recording(tmp_path):
+    import pandas as pd
+
+    recording = recorded(drive(rover_rate(300)))
+    path = recording.write(tmp_path / "log.csv")
+    want = run(recording, part())
+    for given in (path, str(path), pd.read_csv(path)):
+        np.testing.assert_array_equal(run(given, part()).q, want.q)
 
 
 def test_a_part_is_taken_by_its_name():

@@ -5,8 +5,11 @@ that its covariance claims.
 import numpy as np
 import pytest
 from attitude_cases import (
+    GRAVITY,
     WHITE,
     Drive,
+    H,
+    N,
     covariance_of,
     drive,
     error,
@@ -97,6 +100,33 @@ def test_normalised_innovations_squared_are_white_chi2_of_three(block):
     within_chi2(nis[updated].sum(), 3 * updated.sum())
     z = chi2.cdf(nis[updated], 3) - 0.5
     assert abs(np.sum(z[1:] * z[:-1])) < 4.5 * np.sqrt(len(z)) / 12
+
+
+def test_heading_std_is_that_of_the_covariance_about_the_vertical(block):
+    """On a tilted body no one of its axes is vertical: the covariance as a whole is needed."""
+    start = Rotation.from_euler("ZYX", [0.5, -1.0, 0.9])
+    world = drive(rover_rate(300), start)
+    gyro, accel, _ = measured(world, np.random.default_rng(1), np.zeros(3))
+    p = parameters(block, q0=start.as_quat(scalar_first=True), std0=STD0)
+    y, state = block.run(inputs(300, gyro=gyro, accel=accel), p=p)
+    last = Rotation.from_quat(output(block, y, "q")[-1], scalar_first=True)
+    up = last.apply([0, 0, 1], inverse=True)
+    assert np.abs(up).min() > 0.1
+    variance = up @ covariance_of(state)[:3, :3] @ up
+    assert output(block, y, "heading_std")[-1] == pytest.approx(np.sqrt(variance), rel=1e-12)
+
+
+@pytest.mark.parametrize("start", [[0, 0, 0], [0, 0, 1.2], [0, -1.3, 0], [1.0, 0.7, 3.0]])
+def test_heading_without_a_heading_walks_by_the_gyros_white_noise(start):
+    """Its variance grows by N^2 in a second about the vertical, however the body lies; gravity
+    says nothing of it.
+    """
+    n, block, attitude = 2000, attitude_ukf(part(k=0)), Rotation.from_euler("ZYX", start)
+    q0, std0 = attitude.as_quat(scalar_first=True), [0.02, 0.02, 0.02, 0, 0, 0]
+    force = attitude.apply([0, 0, GRAVITY], inverse=True)
+    y, _ = block.run(inputs(n, accel=force), p=parameters(block, q0=q0, std0=std0))
+    variance = output(block, y, "heading_std")[-1] ** 2
+    assert variance == pytest.approx(0.02**2 + N**2 * n * H, rel=1e-3)
 
 
 def test_output_std_is_the_root_of_the_covariances_diagonal(block):

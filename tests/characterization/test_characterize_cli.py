@@ -261,7 +261,7 @@ def test_an_interrupt_leaves_earlier_results_and_nothing_else(tmp_path):
     scratch.mkdir()
     (out / "report.html").write_text("earlier")
     run = subprocess.Popen(
-        [sys.executable, "-m", "pyimu.cli", "characterize", str(log), "--out", str(out)],
+        [sys.executable, "-m", "pyimu", "characterize", str(log), "--out", str(out)],
         stderr=subprocess.PIPE,
         text=True,
         env={**os.environ, "TMPDIR": str(scratch), "PYTHONUNBUFFERED": "1"},

@@ -31,8 +31,9 @@ from pyimu.identification.verdict import VERDICTS as ALL_VERDICTS
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.part_file import part
 from pyimu.recording.recording import Recording
+from pyimu.report.findings import detail
 from pyimu.report.numbers import CORNER, SHOWN, number, pretty, quantity, with_error
-from pyimu.report.page import detail, equation
+from pyimu.report.page import equation
 from pyimu.units import same_dimension
 
 FILES = ("report.html", "report.json", "model.toml")

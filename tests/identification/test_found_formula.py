@@ -69,7 +69,7 @@ def test_the_file_of_a_formula_goes_with_the_model(bilinear, tmp_path):
     assert report["verdict"] == "unexplained" and report["added"][0]["effect"] == NAME
     page = (tmp_path / "out/report.html").read_text()
     assert "found in these data, no physical name" in page
-    command = [sys.executable, "-m", "pyimu.cli", "build", str(tmp_path / "out/model.toml")]
+    command = [sys.executable, "-m", "pyimu", "build", str(tmp_path / "out/model.toml")]
     command += ["--effects", str(tmp_path / "out/found_effect.py"), "--fmu", "sensor"]
     command += ["--fmi", "3", "--out", str(tmp_path / "fmus")]
     done = subprocess.run(command, capture_output=True, text=True)

@@ -218,6 +218,17 @@ def test_gravity_down_unless_declared():
     assert not found(recording(accel=accel, frame_declared=True), "gravity_down")
 
 
+def test_a_gravity_of_one_is_a_log_in_g():
+    """Whichever axis it is on, and in motion too; not where it is in m/s^2, or near nothing."""
+    rng = np.random.default_rng(3)
+    moved = 0.3 * np.sin(np.arange(4000) / 30)[:, None] * (np.arange(4000) > 2000)[:, None]
+    accel = moved + 1e-3 * rng.standard_normal((4000, 3)) + np.array([0.6, 0.0, -0.8])
+    (finding,) = found(recording(accel=accel), "force_in_g").values()
+    assert finding.detail["magnitude"] == pytest.approx(1.0, abs=0.01)
+    for other in (G * accel, accel - [0.6, 0.0, -0.8], 1.62 * accel):
+        assert not found(recording(accel=other), "force_in_g")
+
+
 def test_jitter_of_the_times():
     rng = np.random.default_rng(0)
     time = np.arange(20_000) * 0.01 + 5e-4 * rng.uniform(-1, 1, 20_000)

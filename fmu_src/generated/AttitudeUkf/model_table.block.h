@@ -7,21 +7,21 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN "{bd5a3654-3de7-0ff9-c8cf-245f89532f99}"
+#define MODEL_TOKEN "{5582ef43-a7fb-17e0-3d08-608d9964d26d}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
 enum {
     N_INPUTS = 12,
     N_PARAMETERS = 39,
-    N_OUTPUTS = 19,
+    N_OUTPUTS = 20,
     N_STATES = 182,
     N_NOISE = 0,
-    N_VARIABLES = 54
+    N_VARIABLES = 55
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 44, WORK_RES = 17, WORK_IW = 0, WORK_W = 1370 };
+enum { WORK_ARG = 44, WORK_RES = 17, WORK_IW = 0, WORK_W = 1372 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };
@@ -78,6 +78,7 @@ static const BlockVariable variables[] = {
     {"quasi_static", KIND_BOOLEAN, ROLE_OUTPUT, 16, 1, -INFINITY, INFINITY},
     {"nis", KIND_REAL, ROLE_OUTPUT, 17, 1, -INFINITY, INFINITY},
     {"status", KIND_INTEGER, ROLE_OUTPUT, 18, 1, -INFINITY, INFINITY},
+    {"heading_std", KIND_REAL, ROLE_OUTPUT, 19, 1, -INFINITY, INFINITY},
     {"sample_period", KIND_REAL, ROLE_FIXED, 0, 1, 0.0, INFINITY},
     {"seed", KIND_UNSIGNED, ROLE_FIXED, 1, 1, 0.0, INFINITY},
     {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 16777216.0},
@@ -85,8 +86,8 @@ static const BlockVariable variables[] = {
 
 /* Value references that mean something to every block. */
 enum {
-    SAMPLE_PERIOD = 51,
-    SEED = 52
+    SAMPLE_PERIOD = 52,
+    SEED = 53
 };
 
 static const double input_starts[] = {0.0, 0.0, 0.0, 0.0, 0.0, 9.80665, 25.0, 0.0, 0.0, 0.0, 0.0, 0.0};

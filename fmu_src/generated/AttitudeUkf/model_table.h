@@ -7,21 +7,21 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN "{2245e9ca-cf8a-01ed-f2d5-3764f7d32efd}"
+#define MODEL_TOKEN "{e47bd5b9-e8e9-7d80-551e-e6e8d2164853}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
 enum {
     N_INPUTS = 12,
     N_PARAMETERS = 39,
-    N_OUTPUTS = 19,
+    N_OUTPUTS = 20,
     N_STATES = 182,
     N_NOISE = 0,
-    N_VARIABLES = 73
+    N_VARIABLES = 74
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 44, WORK_RES = 17, WORK_IW = 0, WORK_W = 1370 };
+enum { WORK_ARG = 44, WORK_RES = 17, WORK_IW = 0, WORK_W = 1372 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
@@ -98,14 +98,15 @@ static const BlockVariable variables[] = {
     {"quasi_static", KIND_BOOLEAN, ROLE_OUTPUT, 16, 1, -INFINITY, INFINITY},
     {"nis", KIND_REAL, ROLE_OUTPUT, 17, 1, -INFINITY, INFINITY},
     {"status", KIND_INTEGER, ROLE_OUTPUT, 18, 1, -INFINITY, INFINITY},
+    {"heading_std", KIND_REAL, ROLE_OUTPUT, 19, 1, -INFINITY, INFINITY},
     {"sample_period", KIND_REAL, ROLE_FIXED, 0, 1, 0.0, INFINITY},
     {"seed", KIND_UNSIGNED, ROLE_FIXED, 1, 1, 0.0, INFINITY},
 };
 
 /* Value references that mean something to every block. */
 enum {
-    SAMPLE_PERIOD = 71,
-    SEED = 72
+    SAMPLE_PERIOD = 72,
+    SEED = 73
 };
 
 static const double input_starts[] = {0.0, 0.0, 0.0, 0.0, 0.0, 9.80665, 25.0, 0.0, 0.0, 0.0, 0.0, 0.0};

@@ -7,9 +7,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from pyimu.characterization.outcome import SAMPLE, SI, Channel, Outcome, SensorResult
-from pyimu.characterization.report.coefficients import SENSORS, UNITS, value_or_bound
+from pyimu.characterization.report.coefficients import UNITS, value_or_bound
 from pyimu.characterization.spectrum.lines import Line
 from pyimu.model.part import AXES
+from pyimu.report.findings import SENSORS
 from pyimu.report.numbers import in_unit, number, pretty, quantity, unit_for
 
 BAND = 0.1

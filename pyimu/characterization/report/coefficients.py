@@ -7,9 +7,6 @@ import numpy as np
 from pyimu.characterization.noise.coefficients import Coefficient
 from pyimu.report.numbers import MISSING, SCRIPTS, in_unit, number
 
-SENSORS = {"gyro": "gyro", "accel": "accelerometer"}
-"""Names of the sensors."""
-
 READING_ORDER = "NBKQR"
 """Letters of the coefficients in the order in which people read them."""
 

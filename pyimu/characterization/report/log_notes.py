@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator
 
 import numpy as np
 
 from pyimu.characterization.outcome import LogResult, Outcome
-from pyimu.characterization.report.coefficients import SENSORS
 from pyimu.errors import Finding
+from pyimu.report.findings import SENSORS
 from pyimu.report.numbers import number
-from pyimu.report.page import detail
 
 TIMES = ((86400.0, "d"), (3600.0, "h"), (60.0, "min"), (0.0, "s"))
 """Seconds of the units of time, the largest first."""
@@ -143,26 +142,3 @@ def _matters(log: LogResult, f: Finding) -> bool:
         return f.count * f.detail["largest"] ** 2 * s.h > NOTICED * N**2 * s.samples
     # As a jump of the bias by one standard deviation, for as long as it lasts.
     return f.kind != "stuck_samples" or f.detail["longest"] ** 2 > NOTICED * s.samples
-
-
-def grouped(findings: Iterable[Finding]) -> list[tuple[str, str, int, str]]:
-    """Findings as (kind, columns, count, detail).
-
-    Those that differ in the axis alone are one: ``gyro x, y, z``.
-    """
-    rows: dict[tuple, list[Finding]] = {}
-    for f in findings:
-        sensor = f.column.partition("_")[0] if f.column.startswith(tuple(SENSORS)) else f.column
-        rows.setdefault((f.kind, sensor, f.count, detail(f)), []).append(f)
-    return [
-        (kind.replace("_", " "), _axes(sensor, found), count, text)
-        for (kind, sensor, count, text), found in rows.items()
-    ]
-
-
-def _axes(sensor: str, found: Sequence[Finding]) -> str:
-    return (
-        f"{sensor} {', '.join(f.column[-1] for f in found)}"
-        if sensor in SENSORS
-        else sensor.replace("_", " ")
-    )

@@ -17,7 +17,6 @@ from pyimu.characterization.report.channel_notes import (
     spectrum_note,
     thermal_sentence,
 )
-from pyimu.characterization.report.coefficients import SENSORS
 from pyimu.characterization.report.log_notes import about, notes
 from pyimu.characterization.report.pictures.allan import allan_picture, deviations_picture
 from pyimu.characterization.report.pictures.evidence import evidence_picture
@@ -31,6 +30,7 @@ from pyimu.characterization.report.tables import (
     quality_table,
 )
 from pyimu.model.part import AXES
+from pyimu.report.findings import SENSORS
 from pyimu.report.page import Picture, Table, templates
 
 PART = "part.toml"

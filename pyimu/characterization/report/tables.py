@@ -22,9 +22,9 @@ from pyimu.characterization.report.coefficients import (
     with_interval,
     with_interval_si,
 )
-from pyimu.characterization.report.log_notes import grouped
 from pyimu.characterization.spectrum.lines import Line
 from pyimu.model.part import AXES
+from pyimu.report.findings import grouped
 from pyimu.report.numbers import MISSING, in_unit, number, pretty, unit_for
 from pyimu.report.page import Table, prose
 

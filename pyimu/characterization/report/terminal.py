@@ -14,13 +14,13 @@ from pyimu.characterization.report.channel_notes import (
 )
 from pyimu.characterization.report.coefficients import (
     READING_ORDER,
-    SENSORS,
     TERM_NAMES,
     UNITS,
     with_interval,
 )
-from pyimu.characterization.report.log_notes import about, grouped, notes
+from pyimu.characterization.report.log_notes import about, notes
 from pyimu.model.part import AXES
+from pyimu.report.findings import SENSORS, in_line
 from pyimu.report.lines import in_columns
 from pyimu.report.numbers import MISSING, in_unit, number, quantity
 
@@ -40,7 +40,9 @@ def in_lines(c: Outcome) -> str:
     if len(c.logs) > 1:
         lines.append(f"Means over {len(c.logs)} logs; ± is the standard deviation of the logs.")
     for log in c.logs:
-        lines += [f"{log.name}: {text}" for text in (*_lines(log), *_thermal(log), *_quality(log))]
+        lines += [
+            f"{log.name}: {text}" for text in (*_lines(log), *_thermal(log), *in_line(log.findings))
+        ]
     return "\n".join(lines)
 
 
@@ -88,11 +90,3 @@ def _thermal(log: LogResult) -> Iterator[str]:
             h = ch.thermal.hysteresis
             loop = f"; {loop_sentence(ch)}" if h is not None and h.warranted else ""
             yield f"{ch.name}: {thermal_sentence(ch)}{loop}"
-
-
-def _quality(log: LogResult) -> Iterator[str]:
-    for kind, columns, count, text in grouped(log.findings):
-        yield (
-            f"{kind}{f' of {columns}' if columns not in ('time', '') else ''}: "
-            f"{count:,}{f' ({text})' if text else ''}"
-        )

@@ -49,7 +49,7 @@ class ParquetReader(Reader):
         ):
             fields = [file.schema_arrow.field(position) for position in positions]
             for position, field in zip(positions, fields):
-                self._must_be_numbers(position, field.type)
+                must_be_numbers(self.path, self.header[position], field.type)
             done = 0
             for batch in file.iter_batches(
                 BATCH, columns=[field.name for field in fields], use_threads=True
@@ -64,13 +64,12 @@ class ParquetReader(Reader):
     def count(self, long: int) -> int:
         return self.rows
 
-    def _must_be_numbers(self, position: int, kind: pa.DataType) -> None:
-        if not any(
-            test(kind) for test in (pa.types.is_floating, pa.types.is_integer, pa.types.is_boolean)
-        ):
-            raise UserError(
-                f"{self.path}: column {self.header[position]} holds {kind}, expected numbers"
-            )
+
+def must_be_numbers(path: Path, name: str, kind: pa.DataType) -> None:
+    """Raises UserError for a column ``name`` of another ``kind``."""
+    numbers = (pa.types.is_floating, pa.types.is_integer, pa.types.is_boolean)
+    if not any(test(kind) for test in numbers):
+        raise UserError(f"{path}: column {name} holds {kind}, expected numbers")
 
 
 @contextmanager

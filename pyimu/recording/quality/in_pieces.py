@@ -8,13 +8,26 @@ from __future__ import annotations
 from dataclasses import replace
 
 from pyimu.errors import Finding
-from pyimu.recording.quality.inspect import inspect
+from pyimu.recording.quality.inspect import inspect, of_reading
 from pyimu.recording.quality.tally import Tally
 from pyimu.recording.recording import Recording, copied, join
 
 WINDOW_ROWS = 1 << 18
 """Samples of a window. Rare things need many samples to stand out from; a window takes some tens of
 MB and a third of a second."""
+
+OF_MOST = ("gravity_down", "force_in_g")
+"""Kinds that concern the log as a whole."""
+
+
+def quality(recording: Recording) -> tuple[Finding, ...]:
+    """What reading a recording found, and what its samples show, of any length of it."""
+    inspector, cadence = Inspector(), recording.cadence
+    whole = len(recording) < 1.5 * WINDOW_ROWS
+    inspector.add(
+        recording if whole else replace(recording, period=cadence.period, longest=cadence.longest)
+    )
+    return (*of_reading(recording), *inspector.findings())
 
 
 class Inspector:
@@ -24,7 +37,7 @@ class Inspector:
     samples (the last one of half to one and a half of it), so that a log of one window gives
     exactly what ``inspect`` does; counts are added up, and a row is one of the log. What concerns a
     whole column is judged over the windows: ``constant_channel`` where it is in all of them (else
-    these are stuck samples), ``gravity_down`` in most.
+    these are stuck samples), those of ``OF_MOST`` in most.
     """
 
     def __init__(self) -> None:
@@ -55,7 +68,7 @@ class Inspector:
         for (kind, _), found in self._found.items():
             if kind == "constant_channel":
                 tally.add(self._constant(found))
-            elif kind != "gravity_down":
+            elif kind not in OF_MOST:
                 tally.add(_moved(finding, start) for start, finding in found)
             elif 2 * len(found) > self._windows:
                 tally.add([found[0][1]])

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from pyimu.errors import Finding
+from pyimu.recording.clock import Clock
 from pyimu.recording.quality.clipping import clipped, clipping_findings
 from pyimu.recording.quality.resolution import quantization_step
 from pyimu.recording.quality.spikes import spikes, widened
@@ -27,8 +28,8 @@ def inspect(recording: Recording) -> tuple[Finding, ...]:
     """The findings from raw gyro and accelerometer samples and their times.
 
     ``constant_channel``, ``wrapped``, ``clipping``, ``stuck_samples``, ``held_samples``,
-    ``spikes``, ``quantization_step`` for each column; ``jitter`` and ``gravity_down`` for the
-    recording.
+    ``spikes``, ``quantization_step`` for each column; ``jitter``, ``gravity_down`` and
+    ``force_in_g`` for the recording.
     """
     names, values = _channels(recording)
     columns = [
@@ -36,7 +37,17 @@ def inspect(recording: Recording) -> tuple[Finding, ...]:
         for name, column in zip(names, values.T)
         for finding in _column(name, np.ascontiguousarray(column))
     ]
-    return (*columns, *_spikes(recording), *_jitter(recording), *_gravity_down(recording))
+    of_gravity = (*_gravity_down(recording), *_force_in_g(recording))
+    return (*columns, *_spikes(recording), *_jitter(recording), *of_gravity)
+
+
+def of_reading(recording: Recording) -> tuple[Finding, ...]:
+    """What reading a log's file found; of the times of one that was made of arrays, the same."""
+    if recording.path is not None or recording.findings:
+        return recording.findings
+    clock = Clock(recording.cadence)
+    clock.add(recording.time)
+    return tuple(clock.findings())
 
 
 def _channels(recording: Recording) -> tuple[list[str], np.ndarray]:
@@ -104,10 +115,20 @@ def _gravity_down(recording: Recording) -> Iterator[Finding]:
         )
 
 
-def quietest_force(recording: Recording) -> np.ndarray | None:
+def _force_in_g(recording: Recording) -> Iterator[Finding]:
+    """A gravity of 1 m/s^2: probably a log in g whose header says m/s^2."""
+    if recording.accel is None:
+        return
+    rest = quietest_force(recording, gravity=1.0)
+    if rest is not None:
+        detail = {"magnitude": float(np.linalg.norm(rest)), "stated": "m/s^2", "as": "g"}
+        yield Finding("force_in_g", "accel", 1, detail)
+
+
+def quietest_force(recording: Recording, gravity: float = STANDARD_GRAVITY) -> np.ndarray | None:
     """The median specific force (3,) over the quietest tenth of the seconds.
 
-    None where it is not gravity. A log need not be at rest for that.
+    None where it is not ``gravity`` [m/s^2], to a tenth. A log need not be at rest for that.
     """
     length = max(4, min(round(recording.sample_rate), len(recording) // 10))
     count = len(recording) // length
@@ -118,5 +139,4 @@ def quietest_force(recording: Recording) -> np.ndarray | None:
     spread = seconds.std(axis=1).sum(axis=1)
     quietest = seconds[spread <= np.quantile(spread, 0.1)].mean(axis=1)
     force = np.median(quietest, axis=0)
-    off = abs(np.linalg.norm(force) - STANDARD_GRAVITY)
-    return force if off < 0.1 * STANDARD_GRAVITY else None
+    return force if abs(np.linalg.norm(force) - gravity) < 0.1 * gravity else None

@@ -8,18 +8,13 @@ from matplotlib.axes import Axes
 from pyimu.characterization.outcome import SAMPLE, Channel, LogResult
 from pyimu.characterization.report.coefficients import SAMPLE_UNIT
 from pyimu.characterization.report.pictures.panels import axis_panels
-from pyimu.report.figures import AFTER, BEFORE, STYLE, legend, svg_of
+from pyimu.report.figures import AFTER, BEFORE, STYLE, legend, svg_of, unit_of_time
 from pyimu.report.numbers import in_unit, pretty
-
-TIMES = ((3 * 3600.0, 3600.0, "h"), (600.0, 60.0, "min"))
-"""Units of time and their seconds, by the duration [s] above which they are used instead of s."""
 
 
 def overview_picture(log: LogResult, kind: str) -> str:
     """Least, mean and largest samples over time, and the warm-up where there is one, as an SVG."""
-    second, label = next(
-        ((size, unit) for least, size, unit in TIMES if log.duration > least), (1.0, "s")
-    )
+    second, label = unit_of_time(log.duration)
     with matplotlib.rc_context(STYLE):
         figure, panels = axis_panels(1.3)
         for ch, panel in zip(log.sensors[kind].channels, panels, strict=True):

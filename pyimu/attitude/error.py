@@ -1,0 +1,60 @@
+"""How far an estimated attitude is from a reference: inclination, total and heading error."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+LOST = 0.5
+"""rad; root mean square from which on an attitude is lost: which of two lost ones is further off is
+chance."""
+
+
+@dataclass(frozen=True)
+class AttitudeError:
+    """Error of an attitude against a reference, heading set right at the first row.
+
+    ``time`` (m,) s; ``total`` (m,) rad, angle of the error rotation; ``heading`` (m,) rad, its part
+    about the vertical; ``inclination`` (m,) rad, angle between the two verticals, in which no
+    heading is. All are only at rows that the reference covers.
+    """
+
+    time: np.ndarray
+    total: np.ndarray
+    heading: np.ndarray
+    inclination: np.ndarray
+
+    @property
+    def rms(self) -> float:
+        return root_mean_square(self.total)
+
+    @property
+    def is_lost(self) -> bool:
+        return self.rms > LOST
+
+
+def error_against(time: np.ndarray, q: np.ndarray, reference: Rotation) -> AttitudeError:
+    """The error of the attitudes ``q`` (m, 4) at ``time`` (m,) against as many of a reference."""
+    if not len(time):
+        return AttitudeError(*(np.zeros(0),) * 4)
+    error = Rotation.from_quat(q, scalar_first=True) * reference.inv()
+    error = Rotation.from_euler("z", -error[0].as_euler("ZYX")[0]) * error
+    up = np.array([0.0, 0.0, 1.0])
+    return AttitudeError(
+        time,
+        error.magnitude(),
+        np.unwrap(error.as_euler("ZYX")[:, 0]),
+        angle_between(error.apply(up), up),
+    )
+
+
+def angle_between(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Angle (n,) in rad between unit vectors (n, 3), exact for small ones too."""
+    return 2 * np.arcsin(np.minimum(1, np.linalg.norm(a - b, axis=-1) / 2))
+
+
+def root_mean_square(values: np.ndarray) -> float:
+    """NaN of no values."""
+    return float(np.sqrt(np.mean(values**2))) if len(values) else float("nan")

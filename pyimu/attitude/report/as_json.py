@@ -1,0 +1,71 @@
+"""A run of the attitude filter as data, the contents of report.json."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from pyimu.attitude.error import AttitudeError
+from pyimu.attitude.outcome import NIS_BOUNDS, Outcome
+from pyimu.attitude.report.words import ALIGNED, error_sizes, nis_inside, notes
+from pyimu.files import plain
+
+
+def contents(a: Outcome) -> dict[str, Any]:
+    """The contents of report.json, in SI.
+
+    ``name``, ``rows``, ``duration`` [s], ``sample_period`` [s], ``part`` (null without one),
+    ``left_in``, ``notes``; ``rest``: the ``duration`` [s] of the rest at the start, or null;
+    ``last``: {``time``, ``q``, ``euler``, ``gyro_bias``, ``std``, ``heading_std``};
+    ``quasi_static``: its share of the samples; ``nis``: {``updates``, ``mean``, ``inside``, the
+    share within ``bounds``}; ``status``: [{``bit``, ``text``, ``samples``, ``first`` and ``last``
+    [s]}]; ``error``: {``rows``, ``assumed``, ``inclination`` and ``total``: {``rms``, ``p95``,
+    ``unit``}}, null without a reference; ``quality`` as in the report of ``pyimu close``;
+    ``parameters`` with which the unit AttitudeUkf gives the same. The estimates are in
+    attitude.parquet.
+    """
+    nis = a.nis[a.updates]
+    return plain(
+        {
+            "name": a.name,
+            "rows": len(a.time),
+            "duration": a.duration,
+            "sample_period": a.recording.sample_period,
+            "part": a.part or None,
+            "left_in": a.left_in,
+            "notes": notes(a),
+            "rest": a.rest.duration if a.rest is not None and a.rest.seen else None,
+            "last": _last(a),
+            "quasi_static": np.mean(a.quasi_static),
+            "nis": {
+                "updates": len(nis),
+                "mean": nis.mean() if len(nis) else None,
+                "inside": nis_inside(a),
+                "bounds": NIS_BOUNDS,
+            },
+            "status": [vars(event) | {"text": event.text} for event in a.events],
+            "error": None if a.error is None else _error(a.error),
+            "quality": [f.as_dict() for f in a.findings],
+            "parameters": a.parameters,
+        }
+    )
+
+
+def _last(a: Outcome) -> dict[str, Any]:
+    return {
+        "time": a.time[-1],
+        "q": a.q[-1],
+        "euler": a.euler[-1],
+        "gyro_bias": a.gyro_bias[-1],
+        "std": a.std[-1],
+        "heading_std": a.heading_std[-1],
+    }
+
+
+def _error(error: AttitudeError) -> dict[str, Any]:
+    sizes = {
+        name: {"rms": rms, "p95": most, "unit": "rad"}
+        for name, (rms, most) in error_sizes(error).items()
+    }
+    return {"rows": len(error.time), "assumed": ALIGNED} | sizes

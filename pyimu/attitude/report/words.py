@@ -1,0 +1,90 @@
+"""Sentences about a run of the attitude filter, for the terminal and the page."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from pyimu.attitude.compensation import NOT_UNDONE
+from pyimu.attitude.error import AttitudeError, root_mean_square
+from pyimu.attitude.outcome import NIS_BOUNDS, Outcome
+from pyimu.report.numbers import joined, number
+
+ALIGNED = (
+    "the reference's body axes are assumed to be the sensor's, and the heading is set right at "
+    "its first row"
+)
+
+FREEDOM = "3 degrees of freedom, if accelerations are as accel_std"
+
+
+def about(a: Outcome) -> str:
+    """What was run over what."""
+    seen = a.rest is not None and a.rest.seen
+    start = f"{a.rest.duration:.1f} s at rest" if seen else "in motion"
+    part = f"part {a.part}" if a.part else "no part, noise as in the log"
+    return (
+        f"{len(a.time):,} samples, {a.duration:.1f} s at {a.recording.sample_rate:.4g} Hz, starts "
+        f"{start}; {part}"
+    )
+
+
+def notes(a: Outcome) -> list[str]:
+    """What must be known before the figures are read."""
+    found = []
+    if a.left_in:
+        found.append(f"left in, {NOT_UNDONE}: {joined(a.left_in)}")
+    in_g = next((f for f in a.findings if f.kind == "force_in_g"), None)
+    if in_g is not None:
+        found.append(
+            f"the accelerometer shows a gravity of {number(in_g.detail['magnitude'])} m/s^2, as "
+            "one in g does: gravity corrected nothing; write accel_x [g] in the log's header, or "
+            "map it there with --columns"
+        )
+    return found
+
+
+def last_attitude(a: Outcome) -> str:
+    roll, pitch, yaw = np.degrees(a.euler[-1])
+    std = ", ".join(f"{s:.2f}" for s in np.degrees(a.std[-1, :3]))
+    return (
+        f"roll {roll:z.2f}, pitch {pitch:z.2f}, yaw {yaw:z.2f} deg; std {std} deg (body x, y, z), "
+        f"of the heading {np.degrees(a.heading_std[-1]):.2f} deg"
+    )
+
+
+def last_bias(a: Outcome) -> str:
+    pairs = np.degrees([a.gyro_bias[-1], a.std[-1, 3:]]).T
+    return f"{', '.join(f'{b:z.4f} ± {s:.4f}' for b, s in pairs)} deg/s"
+
+
+def gravity_used(a: Outcome) -> str:
+    """How often gravity was used, and how well it fitted."""
+    text, nis = f"{np.mean(a.quasi_static):.1%} of the samples", a.nis[a.updates]
+    if not len(nis):
+        return text
+    low, high = NIS_BOUNDS
+    return (
+        f"{text}, mean NIS {nis.mean():.3g} ({FREEDOM}), {nis_inside(a):.1%} within their 95 % "
+        f"bounds {low:.3g} to {high:.3g}"
+    )
+
+
+def nis_inside(a: Outcome) -> float:
+    """Share of the normalised innovations squared within their bounds."""
+    nis, (low, high) = a.nis[a.updates], NIS_BOUNDS
+    return float(np.mean((nis >= low) & (nis <= high))) if len(nis) else float("nan")
+
+
+def error_sizes(error: AttitudeError) -> dict[str, tuple[float, float]]:
+    """RMS and 95 % [rad] of the error's inclination and of all of it, by name."""
+    sides = {"inclination": error.inclination, "total": error.total}
+    return {n: (root_mean_square(v), float(np.percentile(v, 95))) for n, v in sides.items()}
+
+
+def error_words(error: AttitudeError) -> str:
+    """The error against the reference in a line."""
+    sizes = [
+        f"{name} {number(np.degrees(rms))} deg RMS, 95 % below {number(np.degrees(most))} deg"
+        for name, (rms, most) in error_sizes(error).items()
+    ]
+    return f"{'; '.join(sizes)} ({len(error.time):,} rows; {ALIGNED})"

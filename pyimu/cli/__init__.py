@@ -1,0 +1,102 @@
+"""The command line: each command a thin layer over the function of the same name."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable
+from typing import Annotated
+
+import typer
+
+from pyimu.cli.logs import attitude_command, characterize_command, close_command, demo
+from pyimu.cli.models import build, derive_command, parts, plan_command
+from pyimu.errors import UserError
+from pyimu.interrupt import Interrupts, ignore_at_exit
+
+# The matrices here are small: BLAS threads would wait for each other longer than they compute.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+app = typer.Typer(
+    add_completion=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    help=(
+        "Example: pyimu demo\n\nMEMS inertial sensors, from a measured log to FMI co-simulation "
+        "units and back."
+    ),
+)
+
+INTERRUPTED = 130
+"""Exit status of a run that was broken off from the keyboard."""
+
+
+def main() -> None:
+    """Entry point of the command line.
+
+    An error that the user can mend ends with one line on stderr and exit status 2.
+    """
+    interrupts = Interrupts()
+    try:
+        with interrupts:
+            code = app(prog_name="pyimu", standalone_mode=False)
+        if code == INTERRUPTED:  # the parser's own way to say it
+            raise KeyboardInterrupt
+    except (KeyboardInterrupt, typer.Abort):
+        code = _interrupted()
+    except UserError as error:
+        code = _interrupted() if interrupts.asked else _refuse(str(error))
+    except Exception as error:
+        # The command line parser's own errors know how to say themselves in a line.
+        if interrupts.asked:
+            code = _interrupted()
+        elif hasattr(error, "format_message"):
+            command = getattr(getattr(error, "ctx", None), "command_path", None) or "pyimu"
+            code = _refuse(f"{error.format_message()} ({command} --help shows what is possible)")
+        else:
+            raise
+    ignore_at_exit()
+    sys.exit(code if isinstance(code, int) else 0)
+
+
+def _interrupted() -> int:
+    return _refuse("interrupted; earlier results are as they were", INTERRUPTED)
+
+
+def _refuse(text: str, code: int = 2) -> int:
+    print(f"pyimu: {' '.join(text.split())}", file=sys.stderr)
+    return code
+
+
+@app.callback(invoke_without_command=True)
+def _top(
+    context: typer.Context,
+    version: Annotated[
+        bool, typer.Option("--version", help="Print the version and leave.")
+    ] = False,
+) -> None:
+    if version:
+        from pyimu import __version__
+
+        print(__version__)
+        raise typer.Exit
+    if context.invoked_subcommand is None:
+        print(context.get_help())
+
+
+def _add(name: str, command: Callable, text: str) -> None:
+    app.command(name, short_help=text)(command)
+
+
+_add("demo", demo, "The whole loop on a built-in recording.")
+_add(
+    "characterize",
+    characterize_command,
+    "Noise, temperature effect and quality of a sensor at rest.",
+)
+_add("close", close_command, "Find what a sensor's model lacks to explain measured logs.")
+_add("attitude", attitude_command, "The attitude filter over a log, with its page.")
+_add("plan", plan_command, "The motion that would show an effect of a part, and how well.")
+_add("build", build, "Build the co-simulation units of a part.")
+_add("parts", parts, "The built-in parts, or one part with the source of each figure.")
+_add("derive", derive_command, "The symbolic results, and what each was checked against.")

@@ -1,0 +1,189 @@
+"""The commands that take a log."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from pyimu.cli.options import Columns, Effects, Out, add_effects, progress, radians
+
+
+def demo(out: Out = Path("out/demo")) -> None:
+    """Example: pyimu demo
+
+    The whole loop on a built-in recording: a rover with an IMT30 whose gyros have a scale factor
+    error that no data sheet declares. Finds it, adds it, and shows the heading error before and
+    after.
+    """
+    from pyimu.rover.demo import run_demo
+
+    with progress("simulating the rover") as say:
+        shown = run_demo(out, say)
+    print(shown.report())
+    print(f"report: {out / 'report.html'}, picture: {out / 'heading.png'}")
+
+
+def characterize_command(
+    logs: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="LOG", help="Recordings of one part at rest; of any length.", show_default=False
+        ),
+    ],
+    out: Annotated[
+        Path, typer.Option("--out", help="Folder for report.html, report.json and part.toml.")
+    ] = Path("out/characterize"),
+    columns: Columns = None,
+    level: Annotated[float, typer.Option("--level", help="Probability of the intervals.")] = 0.95,
+) -> None:
+    """Example: pyimu characterize static.csv --out out/static
+
+    Allan deviation, spectrum, temperature effect and quality of the samples of a sensor at rest:
+    its noise coefficients with intervals, the pictures of a data sheet, and a part file for pyimu
+    build and pyimu close. Several logs of one part give means and their spread. The samples wait in
+    temporary files (TMPDIR says where), so that a log may be larger than memory.
+    """
+    from pyimu.characterization.run import characterize
+    from pyimu.files import check_folder
+    from pyimu.recording.log import open_log
+
+    check_folder(out)
+    with progress("reading") as say:
+        found = characterize([open_log(path, columns) for path in logs], level, say)
+        say("drawing the report")
+        page = found.write(out)
+    print(found.report())
+    print(f"report: {page}, part: {page.with_name('part.toml')}")
+
+
+def close_command(
+    logs: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="LOG",
+            help="Recordings: CSV(.gz), Parquet, MAT, HDF5, ROS bag or MCAP.",
+            show_default=False,
+        ),
+    ],
+    out: Annotated[
+        Path,
+        typer.Option("--out", help="Folder for report.html, report.json, model.toml and the FMUs."),
+    ] = Path("out/close"),
+    part: Annotated[
+        str | None,
+        typer.Option("--part", help="Built-in part or a TOML file; without it all is estimated."),
+    ] = None,
+    holdout: Annotated[
+        list[Path] | None,
+        typer.Option("--holdout", help="Log to judge by; else the last 30 % of each."),
+    ] = None,
+    columns: Columns = None,
+    reference: Annotated[
+        list[Path] | None,
+        typer.Option(
+            "--reference",
+            help="Reference in a file of its own: one for each LOG, then for each --holdout.",
+        ),
+    ] = None,
+    reference_columns: Annotated[
+        Path | None, typer.Option("--reference-columns", help="TOML that renames its columns.")
+    ] = None,
+    latitude: Annotated[
+        float | None,
+        typer.Option("--latitude", help="Degrees; adds the Earth's rate to a derived reference."),
+    ] = None,
+    effects: Effects = None,
+) -> None:
+    """Example: pyimu close rover.csv --part imt30 --out out/rover
+
+    Compare a sensor's model with measured logs, find the effects that it lacks, add them, and
+    report the error before and after on data that was not fitted, with the model as a part file and
+    as FMUs.
+    """
+    from pyimu.identification.close import close
+    from pyimu.identification.report.deliver import check_delivery
+    from pyimu.recording.log import read_recording
+    from pyimu.recording.reference.file import read_reference
+
+    at = radians("--latitude", latitude, 90)
+    check_delivery(out)
+    add_effects(effects)
+    with progress("reading") as say:
+        recordings, judges = (
+            [read_recording(p, columns) for p in paths] for paths in (logs, holdout or [])
+        )
+        closed = close(
+            recordings,
+            part,
+            judges or None,
+            reference=[read_reference(p, reference_columns) for p in reference or []],
+            latitude=at,
+            say=say,
+        )
+        closed = closed.by_command(sys.argv[1:])
+        closed.write(out, say=say)
+    print(closed.report())
+    print(f"report: {out / 'report.html'}")
+
+
+def attitude_command(
+    log: Annotated[
+        Path,
+        typer.Argument(
+            metavar="LOG",
+            help="Recording: CSV(.gz), Parquet, MAT, HDF5, ROS bag or MCAP.",
+            show_default=False,
+        ),
+    ],
+    out: Annotated[
+        Path,
+        typer.Option("--out", help="Folder for report.html, report.json and attitude.parquet."),
+    ] = Path("out/attitude"),
+    part: Annotated[
+        str | None,
+        typer.Option(
+            "--part", help="Built-in part or a TOML file; without it the noise is the log's own."
+        ),
+    ] = None,
+    columns: Columns = None,
+    latitude: Annotated[
+        float | None,
+        typer.Option(
+            "--latitude",
+            help="Degrees; else the log's. Without either, no Earth rate is taken off.",
+        ),
+    ] = None,
+    heading0: Annotated[
+        float | None,
+        typer.Option(
+            "--heading0",
+            help="Degrees counter-clockwise from east at the start; else the first recorded one, "
+            "or 0.",
+        ),
+    ] = None,
+    effects: Effects = None,
+) -> None:
+    """Example: pyimu attitude rover.csv --part imt30 --out out/attitude
+
+    Roll, pitch, yaw and gyro bias over a log with their standard deviations, by an unscented filter
+    with the errors of a part undone: when gravity was used and how well it fitted, what
+    contradicted the estimate, and, where the log has a reference attitude, the error against it.
+    """
+    from pyimu.attitude.run import run
+    from pyimu.files import check_folder
+    from pyimu.recording.log import read_recording
+
+    at, heading = radians("--latitude", latitude, 90), radians("--heading0", heading0, 360)
+    check_folder(out)
+    add_effects(effects)
+    with progress("reading") as say:
+        recording = read_recording(log, columns)
+        say("running the filter")
+        found = run(recording, part, latitude=at, heading0=heading)
+        say("drawing the report")
+        page = found.write(out)
+    print(found.report())
+    print(f"report: {page}, estimates: {page.with_name('attitude.parquet')}")

@@ -1,0 +1,162 @@
+"""The commands that take a part, or nothing."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from pyimu.cli.options import Effects, Out, add_effects, progress
+from pyimu.errors import UserError
+
+
+def plan_command(
+    part: Annotated[str, typer.Argument(help="Built-in part or a TOML file.", show_default=False)],
+    wanted: Annotated[
+        list[str],
+        typer.Option(
+            "--for",
+            metavar="EFFECT",
+            help="Effect to show, as docs/effects.md names it; several by commas or given again.",
+            show_default=False,
+        ),
+    ],
+    sensor: Annotated[
+        str | None,
+        typer.Option("--sensor", help="gyro or accel; else the first that has the effects."),
+    ] = None,
+    within: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--within",
+            metavar="TARGET",
+            help='Standard error to reach, as "0.5 deg/h/K"; with several effects EFFECT=TARGET.',
+        ),
+    ] = None,
+    sigmas: Annotated[
+        float,
+        typer.Option(
+            "--sigmas", help="Without --within: standard errors in the effect's size to reach."
+        ),
+    ] = 8.0,
+    out: Annotated[
+        Path, typer.Option("--out", help="Folder for plan.html, plan.json and motion.csv.")
+    ] = Path("out/plan"),
+    effects: Effects = None,
+) -> None:
+    """Example: pyimu plan mpu6050 --for g_sensitivity --out out/plan
+
+    Of rest, six positions, a rate table, a turn by hand, a drive, a shaker and a climatic chamber,
+    the shortest set of motions that shows the effects of a part that are asked for, with the
+    standard error that pyimu close would report of each coefficient. The size of an effect is what
+    the part declares, or else a typical one. Writes a page, the same as data, and the motion as a
+    recording.
+    """
+    from pyimu.files import check_folder
+    from pyimu.identification.plan.plan import plan
+
+    check_folder(out)
+    add_effects(effects)
+    names = [name.strip() for text in wanted for name in text.split(",") if name.strip()]
+    with progress("reading") as say:
+        planned = plan(part, names, sensor, within or (), sigmas, say)
+        say("drawing the page")
+        page = planned.write(out)
+    print(planned.report())
+    files = ", ".join(str(out / name) for name in planned.files()[: len(planned.logs)])
+    print(f"page: {page}{f', motion: {files}' if files else ''}")
+
+
+def build(
+    part: Annotated[str, typer.Argument(help="Built-in part or a TOML file.", show_default=False)],
+    out: Out = Path("out/fmus"),
+    fmu: Annotated[
+        str, typer.Option("--fmu", help="Which, separated by commas: sensor, ukf.")
+    ] = "sensor,ukf",
+    fmi: Annotated[
+        str,
+        typer.Option(
+            "--fmi",
+            help="Which forms, separated by commas: 2, 3, block (FMI 3, many samples a step).",
+        ),
+    ] = "2,3,block",
+    platform: Annotated[
+        str, typer.Option("--platform", help="host, all (needs ziglang), or one platform by name.")
+    ] = "host",
+    effects: Effects = None,
+) -> None:
+    """Example: pyimu build imt30 --out out/fmus
+
+    Build the FMI co-simulation units of a part: the sensor with its errors, and the attitude filter
+    that goes with it.
+    """
+    from pyimu.fmu.package import build as build_part
+    from pyimu.fmu.sources import Form
+
+    forms: dict[str, Form] = {"2": 2, "3": 3, "block": "block"}
+    names = [name.strip() for name in fmi.split(",")]
+    if not all(name in forms for name in names):
+        raise UserError(f"--fmi {fmi}: unknown; known are {', '.join(forms)}, separated by commas")
+    add_effects(effects)
+    with progress(f"compiling {part}"):
+        paths = build_part(
+            part,
+            out,
+            [f.strip() for f in fmu.split(",")],
+            [forms[name] for name in names],
+            platform,
+        )
+    for path in paths:
+        print(path)
+
+
+def parts(
+    name: Annotated[
+        str | None,
+        typer.Argument(
+            metavar="PART",
+            help="Built-in part or a TOML file; without it all are listed.",
+            show_default=False,
+        ),
+    ] = None,
+    effects: Effects = None,
+) -> None:
+    """Example: pyimu parts mpu6050
+
+    List the built-in parts with their noise and range, or print one part: every coefficient, the
+    figure as its data sheet quotes it, and the source. N is the root of the two-sided density; a
+    dash stands where the part has no figure.
+    """
+    from pyimu.report.parts_table import detail, listing, terminal_width
+
+    add_effects(effects)
+    print(detail(name, terminal_width()) if name is not None else listing(width=terminal_width()))
+
+
+def derive_command(
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            "--out", help="Folder for derivations.txt, .tex and .md; else they are only printed."
+        ),
+    ] = None,
+) -> None:
+    """Example: pyimu derive --out out/derivations
+
+    Print the symbolic results that the package computes with: kinematics, attitude error, Earth
+    rate, transition matrix and process noise. Each comes as text and LaTeX, with what it was
+    checked against and the difference that was found just now.
+    """
+    from pyimu.derivations import derive
+    from pyimu.files import check_folder
+
+    if out is not None:
+        check_folder(out)
+    with progress("deriving") as say:
+        derived = derive(say)
+    print(derived.report(), end="")
+    for path in derived.write(out) if out is not None else []:
+        print(path)
+    if not derived.passed:
+        raise typer.Exit(1)

@@ -1,0 +1,86 @@
+"""Findings of a log in words: their details with units, those of several axes as one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+
+import numpy as np
+
+from pyimu.errors import Finding
+from pyimu.report.numbers import number, quantity
+
+SENSORS = {"gyro": "gyro", "accel": "accelerometer"}
+"""Names of the sensors."""
+
+SAMPLE = (
+    "level",
+    "step",
+    "least",
+    "largest",
+    "value",
+    "amplitude",
+    "span",
+    "accel_x",
+    "accel_y",
+    "accel_z",
+)
+"""Details of findings that have the unit of the column."""
+
+SECONDS, SECONDS_OF_TIME = (
+    ("time_constant", "period", "late", "least_late", "most_late", "late_std"),
+    ("longest", "total", "rms", "first", "origin"),
+)
+"""Details of findings that are times; the latter those of the column ``time`` only."""
+
+
+def detail(f: Finding) -> str:
+    """The finding's numbers with their units."""
+    sample = {"gyro": "rad/s", "accel": "m/s^2"}.get(f.column.partition("_")[0])
+    parts = []
+    for name, value in f.detail.items():
+        text = (
+            f"{value:,}"
+            if isinstance(value, int)
+            else str(value)
+            if np.ndim(value) or isinstance(value, str)
+            else number(float(value), 4)
+        )
+        if sample and name in SAMPLE:
+            text = quantity(float(value), sample)
+        elif name == "share":
+            text = quantity(float(value), "1")
+        elif name in ("rate", "other_rate", "least_frequency", "largest_frequency"):
+            text = f"{value:.6g} Hz"
+        elif name in SECONDS or (f.column == "time" and name in SECONDS_OF_TIME):
+            text = f"{text} s"
+        parts.append(f"{name.replace('_', ' ')} {text}")
+    return ", ".join(parts)
+
+
+def grouped(findings: Iterable[Finding]) -> list[tuple[str, str, int, str]]:
+    """Findings as (kind, columns, count, detail).
+
+    Those that differ in the axis alone are one: ``gyro x, y, z``.
+    """
+    rows: dict[tuple, list[Finding]] = {}
+    for f in findings:
+        sensor = f.column.partition("_")[0] if f.column.startswith(tuple(SENSORS)) else f.column
+        rows.setdefault((f.kind, sensor, f.count, detail(f)), []).append(f)
+    return [
+        (kind.replace("_", " "), _axes(sensor, found), count, text)
+        for (kind, sensor, count, text), found in rows.items()
+    ]
+
+
+def _axes(sensor: str, found: Sequence[Finding]) -> str:
+    axes = [axis for f in found if (axis := f.column.partition("_")[2])]
+    if sensor in SENSORS:
+        return f"{sensor} {', '.join(axes)}".rstrip()
+    return sensor.replace("_", " ")
+
+
+def in_line(findings: Iterable[Finding]) -> Iterator[str]:
+    """Each in a line for a terminal."""
+    for kind, columns, count, text in grouped(findings):
+        where = f" of {columns}" if columns not in ("time", "") else ""
+        yield f"{kind}{where}: {count:,}{f' ({text})' if text else ''}"
