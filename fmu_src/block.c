@@ -237,7 +237,8 @@ static void hold_outputs(struct BlockState *now, uint64_t made) {
 
 bool block_evaluate_initial(Block *block) {
     struct BlockState *now = block->now;
-    block->arg[0] = now->parameters;
+    block->arg[0] = block_inputs(now, 0);
+    block->arg[1] = now->parameters;
     block->res[0] = now->state;
     block->res[1] = block_outputs(now, 0);
     block->outputs_stale = false;

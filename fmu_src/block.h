@@ -20,7 +20,7 @@
 PRIVATE_FROM_HERE
 
 typedef enum { KIND_REAL, KIND_BOOLEAN, KIND_INTEGER, KIND_UNSIGNED } Kind;
-typedef enum { ROLE_TIME, ROLE_INPUT, ROLE_TUNABLE, ROLE_FIXED, ROLE_OUTPUT, ROLE_STRUCTURAL } Role;
+typedef enum { ROLE_TIME, ROLE_INPUT, ROLE_TUNABLE, ROLE_FIXED, ROLE_SAMPLING, ROLE_OUTPUT, ROLE_STRUCTURAL } Role;
 
 /* One variable; its value reference is its place in the table.  It has `count` columns among the inputs, parameters or
    outputs, from column `first` on; a matrix has its elements row by row.  Without bounds these are infinite. */

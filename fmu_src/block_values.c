@@ -10,6 +10,7 @@ static const unsigned settable[] = {
     [ROLE_INPUT] = ALIVE,
     [ROLE_TUNABLE] = ALIVE,
     [ROLE_FIXED] = BEFORE_STEPPING,
+    [ROLE_SAMPLING] = BEFORE_STEPPING,
     [ROLE_OUTPUT] = 0,
     [ROLE_STRUCTURAL] = IN(CONFIGURATION),
 };
@@ -40,7 +41,7 @@ static bool may_set(Block *block, uint32_t reference, Kind kind) {
                         phases ? " while " : "", phases ? block_phase_name(block) : "");
 }
 
-/* Before the first sample the outputs follow from the parameters, so they are computed when somebody looks. */
+/* Before the first sample the outputs follow from inputs and parameters, so they are computed when somebody looks. */
 static bool may_get(Block *block, uint32_t reference, Kind kind) {
     if (!block_allowed(block, GET) || !has_kind(block, reference, kind)) {
         return false;
@@ -63,8 +64,9 @@ static View view(const Block *block, uint32_t reference) {
     switch (v->role) {
         case ROLE_INPUT: return (View) {block_inputs(now, 0) + v->first, now->rows, v->count, N_INPUTS};
         case ROLE_OUTPUT: return (View) {block_outputs(now, 0) + v->first, now->rows, v->count, N_OUTPUTS};
-        case ROLE_TUNABLE: return (View) {now->parameters + v->first, 1, v->count, 0};
-        case ROLE_FIXED: return (View) {&now->sample_period, 1, 1, 0};
+        case ROLE_TUNABLE:
+        case ROLE_FIXED: return (View) {now->parameters + v->first, 1, v->count, 0};
+        case ROLE_SAMPLING: return (View) {&now->sample_period, 1, 1, 0};
         default: return (View) {&now->time, 1, 1, 0};
     }
 }
@@ -134,12 +136,15 @@ bool block_get_unsigned(Block *block, uint32_t reference, uint64_t *value) {
     return true;
 }
 
-/* A parameter keeps its bounds, and is a number where it has any.  Inputs are the model's affair, sample by sample. */
+/* A parameter is a finite number within its bounds.  Inputs are the model's affair, sample by sample. */
 static bool is_bounded(const BlockVariable *v) {
-    return v->role == ROLE_TUNABLE && (isfinite(v->minimum) || isfinite(v->maximum));
+    return v->role == ROLE_TUNABLE || v->role == ROLE_FIXED;
 }
 
 static bool in_bounds(Block *block, const BlockVariable *v, double value) {
+    if (!isfinite(value)) {
+        return block_refuse(block, "%s: variable %s must be finite, not %g", MODEL_NAME, v->name, value);
+    }
     return (value >= v->minimum && value <= v->maximum)
            || block_refuse(block, "%s: variable %s must lie in %g to %g, not %g", MODEL_NAME, v->name, v->minimum, v->maximum, value);
 }

@@ -21,7 +21,6 @@ from pyimu.model.signals import SIGNALS
 from pyimu.recording.recording import Recording
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.earth import EARTH_RATE, earth_rate
-from pyimu.units import STANDARD_GRAVITY
 
 TILT_STD = 0.01
 """rad; tilt of an attitude levelled at rest: an accelerometer's turn-on bias of 10 mg."""
@@ -170,7 +169,7 @@ def _compensated(
 
     They are as after a long time at rest; the force is None where it is not gravity.
     """
-    force = np.array([0, 0, STANDARD_GRAVITY]) if rest.force is None else rest.force
+    force = np.array([0, 0, rest.gravity]) if rest.force is None else rest.force
     known = {
         "rate": rest.rate,
         "specific_force": force,

@@ -1,6 +1,6 @@
 """What the attitude filter takes from a recording beside its samples.
 
-The part that stands for an unknown one, columns with their defaults, and when a sensor is stuck.
+The part that stands for an unknown one, and columns with their defaults.
 """
 
 from __future__ import annotations
@@ -15,7 +15,6 @@ from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import SIGNALS
 from pyimu.recording.quality.clipping import clipping_level
-from pyimu.recording.quality.resolution import quantization_step
 from pyimu.recording.recording import Recording
 
 NOMINAL_K = 2e-5
@@ -26,20 +25,8 @@ NOMINAL_RATE_NOISE = 4.5e-3
 turns of the order of 0.2 s. It was chosen by hand-held recordings
 (``benchmarks/attitude_real.py``)."""
 
-LEAST_STUCK, LEAST_STUCK_SAMPLES, STUCK_RUNS = 0.5, 20, 5
-"""A triad is called stuck after that many s, that many samples, and that many times the longest run
-of equal samples in its rest, whichever is longest."""
-
-COARSE = 1.7
-"""Steps are coarse if they are larger than this many standard deviations of a sample at rest. With
-noise of half a step that standard deviation is 0.58 of a step; where a sample with next to no noise
-changes between two values it is half a step at most."""
-
 HEADING_STD = 0.035
 """rad; of a recorded heading that comes without a standard deviation."""
-
-FIRST = 65_536
-"""Samples in which the step of a sensor is looked for."""
 
 
 def nominal_part(recording: Recording, rest: Rest) -> Part:
@@ -105,44 +92,6 @@ def extra_column(recording: Recording, part: Part, signal: str) -> np.ndarray | 
             f"of {part.name} depend"
         )
     return column
-
-
-def settings_of(recording: Recording, part: Part, rest: Rest) -> dict[str, float]:
-    """Settings that follow from the log's own samples: how long a triad must repeat to be stuck.
-
-    Never (0) where sensors have no noise, or steps coarser than their noise: equal samples then say
-    nothing.
-    """
-    longest, coarse = 0, False
-    for sensor, values, std in (
-        (part.gyro, recording.gyro, rest.rate_std),
-        (part.accel, recording.accel, rest.force_std),
-    ):
-        if values is not None:
-            longest = max(longest, _longest_run(values[rest.rows]))
-            coarse |= bool(np.all(_step(sensor, values) > COARSE * std))
-    h, at_rest = recording.sample_period, rest.rows.stop - rest.rows.start
-    if coarse or longest > at_rest / 4:
-        return {"stuck_time": 0.0}
-    return {"stuck_time": max(LEAST_STUCK, LEAST_STUCK_SAMPLES * h, STUCK_RUNS * longest * h)}
-
-
-def _longest_run(values: np.ndarray) -> int:
-    """The largest number of rows (n, 3) in succession that equal the row before them."""
-    same = np.all(np.diff(values, axis=0) == 0, axis=1)
-    ends = np.flatnonzero(~np.concatenate([[False], same, [False]]))
-    return int(np.diff(ends).max(initial=1)) - 1
-
-
-def _step(sensor: Sensor, values: np.ndarray) -> np.ndarray:
-    """The step (3,) between the values that an output can have, 0 where there is none.
-
-    It is that of the first samples, or the sensor's declared one if that is larger.
-    """
-    found = [quantization_step(column) or 0.0 for column in values[:FIRST].T]
-    declared = sensor.reading("step")
-    step = 0.0 if declared is None else sensor.values[declared[0]][declared[1]]
-    return np.maximum(found, step)
 
 
 def _clipped(values: np.ndarray | None) -> dict[str, dict[str, np.ndarray]]:

@@ -123,11 +123,12 @@ def _column(name: str, signals: dict, marks: dict) -> tuple[np.ndarray | None, f
 def _grid(recording: Recording) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Sample number (n,) of each row on a regular grid, the rows before a gap, the s left out.
 
-    The last is (gaps,): what each gap exceeds its missing samples by.
+    The last is (gaps,): what each gap exceeds its missing samples by. A gap is where samples are
+    missing, as ``Recording.segments`` has it: a stamp that is late by itself is none.
     """
     period = recording.sample_period
     steps = np.diff(recording.time) / period
-    gaps = np.flatnonzero(steps > recording.cadence.longest / period)
+    gaps = np.array([stop - 1 for _, stop in recording.segments[:-1]], dtype=int)
     if not len(gaps):
         return np.arange(len(recording.time)), gaps, np.zeros(0)
     # Only a gap counts: jitter of the time stamps neither drops nor adds a sample.

@@ -38,10 +38,11 @@ class Memory:
     """What is kept from sample to sample, in the order of the state.
 
     ``held`` is the last good gyro (3), accel (3), temperature and further inputs. ``lost_for`` (3,)
-    is how many s each gyro axis has been lost, ``same_for`` (2,) how many s gyro and accelerometer
-    have not changed. ``sensors`` is the compensation's memory. ``vertical_noise`` is the variance
-    in rad^2 that was added about the vertical since the start. ``place`` (2,) is where the newest
-    entry stands in the rings of past yaws and past ``vertical_noise``. The rings follow.
+    is how many s each gyro axis has been lost, ``same_for`` (8,) how many s gyro and accelerometer
+    have not changed, and then each of their axes, while others of its triad did. ``sensors`` is the
+    compensation's memory. ``vertical_noise`` is the variance in rad^2 that was added about the
+    vertical since the start. ``place`` (2,) is where the newest entry stands in the rings of past
+    yaws and past ``vertical_noise``. The rings follow.
     """
 
     estimate: Estimate
@@ -83,7 +84,7 @@ class Memory:
 def memory_sizes(compensation: Compensation) -> tuple[int, ...]:
     """Sizes of what ``Memory.pack_memory`` packs, in its order."""
     held = 7 + sum(SIGNALS[n].size for n in compensation.extra)
-    return 1, 1, 3, 1, 1, held, 3, 2, len(compensation.start), 1, 2
+    return 1, 1, 3, 1, 1, held, 3, 8, len(compensation.start), 1, 2
 
 
 def start(compensation: Compensation, p) -> tuple[Estimate, ca.SX]:
@@ -97,7 +98,7 @@ def start(compensation: Compensation, p) -> tuple[Estimate, ca.SX]:
         MeanForce(ca.SX.zeros(3), ca.SX(0), ca.SX(0)),
         held=ca.vertcat(0, 0, 0, 0, 0, at["gravity"], 25, *held),
         lost_for=ca.SX.zeros(3),
-        same_for=ca.SX.zeros(2),
+        same_for=ca.SX.zeros(8),
         sensors=ca.SX(ca.DM(compensation.start)),
         vertical_noise=ca.SX(0),
         place=ca.vertcat(late_heading.SLOTS - 1, late_heading.NEVER),

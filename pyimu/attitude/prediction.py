@@ -84,7 +84,7 @@ def added_noise(at: Instant, sample: Sample):
     still, least = (h * settings.scalar["stationary_std"]) ** 2, LEAST_N**2 * h
     turned = ca.diag(noise[:3, :3]) + relative
     if sample.gyro_lost is not False:
-        lost = _lost_variance(at.memory.lost_for, settings, h)
+        lost = _lost_variance(at.memory.lost_for, sample.lost_for, settings)
         turned = turned + ca.if_else(sample.gyro_lost, lost, 0)
     return (
         least + still + at.moving * (turned - still),
@@ -93,13 +93,13 @@ def added_noise(at: Instant, sample: Sample):
     )
 
 
-def _lost_variance(lost_for, settings: Settings, h):
+def _lost_variance(before, after, settings: Settings):
     """Growth in a sample of the variance (3,) rad^2 of the angle about an axis of unknown rate.
 
     Over a loss of duration T the unknown rate is one number of variance s^2: the variance of the
-    angle grows as s^2 T^2.
+    angle grows as s^2 T^2. T is ``before`` and ``after`` the sample.
     """
-    return settings.scalar["lost_rate_std"] ** 2 * ((lost_for + h) ** 2 - lost_for**2)
+    return settings.scalar["lost_rate_std"] ** 2 * (after**2 - before**2)
 
 
 def predicted(at: Instant, sample: Sample, x: Estimate, turned, noise) -> list[ca.SX]:

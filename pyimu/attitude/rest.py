@@ -21,7 +21,8 @@ SHORTEST = 0.5
 
 FORCE_OFF = 2.0
 """m/s^2; a mean force whose magnitude differs more from gravity is not gravity: no accelerometer
-at rest is off by 0.2 g."""
+at rest is off by 0.2 g of the Earth. On the Moon that is more than gravity, so that it may not
+differ by more than half of that either."""
 
 
 @dataclass(frozen=True)
@@ -33,7 +34,7 @@ class Rest:
     ``seen`` is False where no rest was found: the rows are then those of the shortest window.
     ``declared`` says that the recording's own column ``stationary`` marks it. ``force`` is None
     where no accelerometer measures gravity. ``rate_std`` and ``force_std`` are those of a sample's
-    white noise, ``rate_mean_std`` that of the mean rate.
+    white noise, ``rate_mean_std`` that of the mean rate. ``gravity`` in m/s^2 is that of the place.
     """
 
     seen: bool
@@ -44,11 +45,14 @@ class Rest:
     rate_std: np.ndarray
     force_std: np.ndarray
     rate_mean_std: np.ndarray
+    gravity: float
     declared: bool = False
 
 
-def find_rest(recording: Recording) -> Rest:
+def find_rest(recording: Recording, gravity: float = STANDARD_GRAVITY) -> Rest:
     """The longest rest of up to 30 s at the start of a recording.
+
+    ``gravity`` in m/s^2 is that of the place.
 
     Where the recording has a column ``stationary``, that decides.
 
@@ -57,12 +61,12 @@ def find_rest(recording: Recording) -> Rest:
     """
     declared = _declared(recording)
     if declared is not None and declared > 1:
-        return _rest(recording, declared, seen=True, declared=True)
+        return _rest(recording, declared, gravity, seen=True, declared=True)
     for length in LENGTHS if declared is None else ():
         stop = _still_until(recording, length)
-        if stop > 3 and _is_level(recording, stop):
-            return _rest(recording, stop, seen=True)
-    return _rest(recording, max(2, _rows(recording, SHORTEST)), seen=False)
+        if stop > 3 and _is_level(recording, stop, gravity):
+            return _rest(recording, stop, gravity, seen=True)
+    return _rest(recording, max(2, _rows(recording, SHORTEST)), gravity, seen=False)
 
 
 def _rows(recording: Recording, seconds: float) -> int:
@@ -98,28 +102,32 @@ def _finite(values: np.ndarray | None, stop: int) -> np.ndarray:
     return rows[np.isfinite(rows).all(axis=1)]
 
 
-def _is_gravity(force: np.ndarray, off: float) -> bool:
-    """Whether the mean force has the magnitude of gravity, to ``off`` m/s^2."""
-    return bool(len(force)) and abs(np.linalg.norm(force.mean(axis=0)) - STANDARD_GRAVITY) < off
+def _is_gravity(force: np.ndarray, gravity: float, off: float) -> bool:
+    """Whether the mean force has the magnitude of ``gravity``, to ``off`` m/s^2 and to half."""
+    if not len(force):
+        return False
+    return abs(np.linalg.norm(force.mean(axis=0)) - gravity) < min(off, gravity / 2)
 
 
-def _is_level(recording: Recording, stop: int) -> bool:
+def _is_level(recording: Recording, stop: int, gravity: float) -> bool:
     """Whether the rows before ``stop`` have rates and gravity.
 
     A force of zeros alone says nothing about it.
     """
     rate, force = (_finite(v, stop) for v in (recording.gyro, recording.accel))
-    return bool(len(rate)) and (not np.any(force) or _is_gravity(force, FORCE_OFF))
+    return bool(len(rate)) and (not np.any(force) or _is_gravity(force, gravity, FORCE_OFF))
 
 
-def _rest(recording: Recording, stop: int, seen: bool, declared: bool = False) -> Rest:
+def _rest(
+    recording: Recording, stop: int, gravity: float, seen: bool, declared: bool = False
+) -> Rest:
     """The rest of the rows before ``stop``."""
     rate, force = (_finite(v, stop) for v in (recording.gyro, recording.accel))
     mean, mean_std = np.zeros(3), np.zeros(3)
     if len(rate):
         mean, mean_std = rate.mean(axis=0), rate.std(axis=0) / np.sqrt(len(rate))
     # In motion even a force of half the magnitude of gravity is a better direction than none.
-    usable = _is_gravity(force, FORCE_OFF if seen else STANDARD_GRAVITY / 2)
+    usable = _is_gravity(force, gravity, FORCE_OFF if seen else np.inf)
     return Rest(
         seen and len(rate) > 1,
         slice(0, stop),
@@ -129,6 +137,7 @@ def _rest(recording: Recording, stop: int, seen: bool, declared: bool = False) -
         _white_std(rate),
         _white_std(force),
         np.hypot(mean_std, 1e-6),
+        gravity,
         declared,
     )
 

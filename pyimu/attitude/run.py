@@ -16,7 +16,6 @@ from pyimu.attitude.columns import (
     latitude_of,
     nominal_part,
     number,
-    settings_of,
 )
 from pyimu.attitude.compensation import clock_error, left_in, noise_of
 from pyimu.attitude.input_grid import CHUNK, InputGrid
@@ -24,6 +23,7 @@ from pyimu.attitude.memory import BIAS_VARIANCE
 from pyimu.attitude.rest import find_rest
 from pyimu.attitude.result import AttitudeResult
 from pyimu.attitude.retiming import Retiming
+from pyimu.attitude.stuck import stuck_times
 from pyimu.attitude.ukf import attitude_ukf
 from pyimu.attitude.variables import LEAST_K, OWN_PARAMETERS
 from pyimu.block.block import Block, Run
@@ -33,6 +33,7 @@ from pyimu.model.part import Part
 from pyimu.model.part_file import part as part_of
 from pyimu.recording.log import Given, recording_of
 from pyimu.recording.recording import Recording
+from pyimu.units import STANDARD_GRAVITY
 
 
 def run(
@@ -73,7 +74,8 @@ def run(
     heading0 = None if heading0 is None else number("heading0", heading0)
     if q0 is not None and heading0 is not None:
         raise UserError("heading0 beside q0, which has a heading of its own: give one of the two")
-    rest = find_rest(recording)
+    gravity = (settings or {}).get("gravity", STANDARD_GRAVITY)
+    rest = find_rest(recording, number("gravity", gravity))
     known = nominal_part(recording, rest) if part is None else part_of(part)
     block = attitude_ukf(known)
 
@@ -81,7 +83,7 @@ def run(
         return _turned(recording, row, known, latitude, bias0, settings)
 
     yaw = initial_yaw(recording, rest, heading0, turned) if q0 is None else Yaw()
-    values = settings_of(recording, known, rest)
+    values = stuck_times(recording, known, rest)
     values |= initial_values(recording, known, rest, latitude, q0, yaw)
     values |= _numbered("bias0", bias0, 3) | _numbered("std0", std0, 6)
     if part is None:
@@ -153,7 +155,7 @@ def _parameters(block: Block, values: Mapping[str, float]) -> np.ndarray:
             raise UserError(
                 f"unknown setting '{name}' of the attitude filter; known are {', '.join(at)}"
             )
-        p[at[name]] = value if name == "latitude" else _bounded(block.parameters[at[name]], value)
+        p[at[name]] = _bounded(block.parameters[at[name]], value)
     return p
 
 

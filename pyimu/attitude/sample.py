@@ -23,6 +23,9 @@ LARGEST_KEPT = 1e100
 GYRO, ACCEL = slice(0, 3), slice(3, 6)
 """Where a measured column has the two triads."""
 
+AXES = slice(2, 8)
+"""Where ``Memory.same_for`` has the six axes."""
+
 
 @dataclass(frozen=True)
 class Sample:
@@ -30,7 +33,7 @@ class Sample:
 
     ``held`` is what was measured, in place of a bad number its last good one; ``rate`` (3,) rad/s
     and ``force`` (3,) m/s^2 are compensated. ``sensors`` is the compensation's memory after the
-    row, ``same_for`` (2,) and ``lost_for`` (3,) are those of ``Memory``. ``gyro_lost`` (3,) marks
+    row, ``same_for`` (8,) and ``lost_for`` (3,) are those of ``Memory``. ``gyro_lost`` (3,) marks
     the axes without a rate, ``force_valid`` whether the force can be used. ``missing``,
     ``at_limit`` and ``stuck`` make the status. What is known beforehand of an ordinary row is a
     Python value, and costs nothing in the generated code.
@@ -58,23 +61,18 @@ def read(
     compensation: Compensation, memory: Memory, u, settings: Settings, h
 ) -> tuple[Sample, ca.SX]:
     """The sample as if it were ordinary, and whether it is."""
-    raw, longest = raw_of(u), settings.scalar["stuck_time"]
+    raw = raw_of(u)
     sensors, rate, force, gyro_lost, accel_lost = _compensated(
         compensation, memory, raw, settings, h
     )
-    same_for = ca.vertcat(
-        *[
-            (memory.same_for[i] + h) * (ca.sumsqr(raw[triad] - memory.held[triad]) <= 0)
-            for i, triad in enumerate((GYRO, ACCEL))
-        ]
-    )
-    stuck = (longest > 0) * (same_for[0] + same_for[1] >= longest)
+    same_for = _same_for([raw[i] == memory.held[i] for i in range(6)], memory, h)
     lost = ca.sum1(gyro_lost) + ca.sum1(accel_lost)
     ordinary = (
         (ca.sumsqr(raw) <= ABSURD**2)
         * (ca.sumsqr(rate) <= _fastest(h) ** 2)
         * (ca.sumsqr(force) <= ABSURD**2)
-        * (1 - stuck)
+        * (ca.dot(_beyond(same_for, settings), _stuck_times(settings)) <= 0)
+        * (1 - _before_the_first(raw, memory))
     )
     if compensation.start:
         ordinary = ordinary * (ca.sumsqr(sensors) <= LARGEST_KEPT)
@@ -100,15 +98,19 @@ def look_closely(compensation: Compensation, memory: Memory, u, settings: Settin
     rate, force = ca.if_else(rate_good, rate, 0), ca.if_else(force_good, force, 0)
     if compensation.start:
         sensors = ca.if_else(ca.fabs(sensors) <= LARGEST_KEPT, sensors, ca.DM(compensation.start))
-    same_for, stuck = _stuck(held, good, memory, settings, h)
+    # A missing sample counts as another, although its last good value is held.
+    same_for = _same_for([good[i] * (held[i] == memory.held[i]) for i in range(6)], memory, h)
+    stuck = _stuck(same_for, settings)
     fastest = _fastest(h)
     beyond = ca.fabs(rate) > fastest
     lost = _any_of(
-        ca.logic_not(good[GYRO]), stuck[0], ca.logic_not(rate_good), gyro_lost > 0.5, beyond
+        ca.logic_not(good[GYRO]), stuck[GYRO], ca.logic_not(rate_good), gyro_lost > 0.5, beyond
     )
     unusable = _any_of(
-        ca.logic_not(good[ACCEL]), stuck[1], ca.logic_not(force_good), accel_lost > 0.5
+        ca.logic_not(good[ACCEL]), stuck[ACCEL], ca.logic_not(force_good), accel_lost > 0.5
     )
+    # An axis that is found to be stuck has been lost since then.
+    since = ca.if_else(stuck[GYRO], ca.fmax(same_for[0], same_for[AXES][GYRO]), 0)
     at_limit = ca.fmax(ca.mmax(gyro_lost), ca.mmax(accel_lost)) > 0.5
     return Sample(
         held,
@@ -116,13 +118,21 @@ def look_closely(compensation: Compensation, memory: Memory, u, settings: Settin
         force,
         sensors,
         same_for,
-        lost_for=ca.if_else(lost, memory.lost_for + h, 0),
+        lost_for=ca.if_else(lost, ca.fmax(memory.lost_for + h, since), 0),
         gyro_lost=lost,
-        force_valid=ca.logic_not(ca.mmax(unusable)),
+        force_valid=ca.logic_not(ca.logic_or(ca.mmax(unusable), _before_the_first(raw, memory))),
         missing=ca.logic_not(ca.mmin(good)),
         at_limit=ca.logic_or(at_limit, ca.mmax(beyond)),
-        stuck=ca.fmax(stuck[0], stuck[1]),
+        stuck=ca.mmax(stuck),
     )
+
+
+def _before_the_first(raw, memory: Memory):
+    """Whether an accelerometer shows exactly zero and no force has been seen yet.
+
+    That is no sample: a unit in a simulation may show zeros before its first one.
+    """
+    return (ca.sumsqr(raw[ACCEL]) <= 0) * (memory.mean.span <= 0)
 
 
 def _fastest(h):
@@ -154,17 +164,39 @@ def _compensated(compensation: Compensation, memory: Memory, raw, settings: Sett
     return compensation.apply(memory.sensors, known, settings.gyro_p, settings.accel_p, h)
 
 
-def _stuck(held, good, memory: Memory, settings: Settings, h):
-    """How long (2,) s gyro and accelerometer have repeated their samples, and whether too long.
+def _same_for(same: list, memory: Memory, h):
+    """How long (8,) s gyro, accelerometer and their six axes have repeated their samples.
 
-    A missing sample counts as another, although its last good value is held.
+    ``same`` (6) says which axes repeat now. Where the whole triad does, as in a log with more rows
+    than the sensor has samples, nothing is learnt of its axes.
     """
-    same = [
-        ca.logic_and(ca.mmin(good[triad]), ca.sumsqr(held[triad] - memory.held[triad]) <= 0)
-        for triad in (GYRO, ACCEL)
-    ]
-    same_for = ca.vertcat(
-        *[ca.if_else(flag, memory.same_for[i] + h, 0) for i, flag in enumerate(same)]
-    )
+    triads, axes = [], []
+    for i, triad in enumerate((GYRO, ACCEL)):
+        every = same[triad][0] * same[triad][1] * same[triad][2]
+        triads.append((memory.same_for[i] + h) * every)
+        own = h * (1 - every)
+        axes += [
+            (before + own) * now
+            for before, now in zip(
+                ca.vertsplit(memory.same_for[AXES][triad]), same[triad], strict=True
+            )
+        ]
+    return ca.vertcat(*triads, *axes)
+
+
+def _stuck_times(settings: Settings):
+    """The settings (8,) s for gyro, accelerometer and their six axes."""
     longest = settings.scalar["stuck_time"]
-    return same_for, ca.logic_and(longest > 0, same_for >= longest)
+    axes = [settings.scalar[f"axis_stuck_time[{i + 1}]"] for i in range(6)]
+    return ca.vertcat(longest, longest, *axes)
+
+
+def _beyond(same_for, settings: Settings):
+    """Which (8,) have repeated their samples for the settings' time, or have none."""
+    return same_for >= _stuck_times(settings)
+
+
+def _stuck(same_for, settings: Settings):
+    """Which (6,) axes are stuck, by themselves or as part of a triad."""
+    stuck = ca.logic_and(_beyond(same_for, settings), _stuck_times(settings) > 0)
+    return ca.logic_or(stuck[AXES], ca.vertcat(*[stuck[0]] * 3, *[stuck[1]] * 3))

@@ -97,7 +97,7 @@ def _reading(layout: Layout, symbols: list[ca.SX]) -> ca.Function:
 
 def _unpacked(reading, u) -> Sample:
     """The ordinary sample that ``_reading`` packed."""
-    return Sample(raw_of(u), reading[:3], reading[3:6], reading[8:], reading[6:8], ca.SX.zeros(3))
+    return Sample(raw_of(u), reading[:3], reading[3:6], reading[14:], reading[6:14], ca.SX.zeros(3))
 
 
 def _row(name: str, at: Instant, sample: Sample, symbols: list[ca.SX]) -> ca.Function:

@@ -15,7 +15,7 @@ STATUS = {
         "variance was not above zero"
     ),
     2: "a sample was at a sensor's limit, or said of more than half a turn in a sample period",
-    4: "a sensor is stuck, its samples have not changed for stuck_time",
+    4: "a sensor or an axis is stuck, its samples have not changed for its stuck time",
     8: "gravity contradicted the attitude, and was weighed less",
     16: "a heading was older than heading_memory, or than the run, and not used",
     32: (
@@ -40,8 +40,8 @@ STATUS_NAMES = {
 """The same bits in two or three words, for pictures."""
 
 UNKNOWN_LATITUDE = 10.0
-"""rad; stands for "not known", as does every value outside -pi/2 to pi/2 and NaN. No Earth rate is
-then subtracted."""
+"""rad; stands for "not known", as does every finite value outside -pi/2 to pi/2. No Earth rate is
+then subtracted. NaN and infinity are refused like those of every parameter."""
 
 ABSURD = 1e6
 """SI; a larger input is treated like one that is not finite, because its square might not be."""
@@ -223,6 +223,16 @@ SETTINGS = (
         "equal samples of a triad for so long mean that it is stuck; 0: never",
         0.0,
     ),
+    *_bounded(
+        array(
+            "axis_stuck_time",
+            "s",
+            "equal samples of an axis (gyro, then accelerometer) for so long, while the others of "
+            "its triad change, mean that it is stuck; 0: never",
+            (0.0,) * 6,
+        ),
+        0.0,
+    ),
     _setting(
         "heading_memory",
         "s",
@@ -234,38 +244,50 @@ SETTINGS = (
 recordings of ``benchmarks/attitude_real.py``: a slow vehicle accelerates less, and would do better
 with smaller ones."""
 
+START_VALUES = tuple(
+    replace(v, fixed=True)
+    for v in (
+        *_bounded(
+            array("q0", "1", "attitude before the first sample", (1.0, 0.0, 0.0, 0.0)), -ABSURD
+        ),
+        *_bounded(
+            array("bias0", "rad/s", "gyro bias before the first sample"),
+            -LARGEST_BIAS,
+            LARGEST_BIAS,
+        ),
+        *_bounded(
+            array(
+                "std0",
+                "rad",
+                "standard deviation of the attitude before the first sample",
+                (0.1, 0.1, 0.1),
+            ),
+            0.0,
+        ),
+        *_bounded(
+            (
+                Variable(
+                    f"std0[{i}]",
+                    "rad/s",
+                    "standard deviation of the bias before the first sample",
+                    0.01,
+                )
+                for i in (4, 5, 6)
+            ),
+            0.0,
+        ),
+    )
+)
+"""What the estimate is before the first sample; later it has no effect."""
+
 OWN_PARAMETERS = (
     Variable(
         "latitude",
         "rad",
-        "latitude; a value outside -pi/2 to pi/2 is unknown: no Earth rate",
+        "latitude; a finite value outside -pi/2 to pi/2 is unknown: no Earth rate",
         UNKNOWN_LATITUDE,
     ),
-    *_bounded(array("q0", "1", "attitude before the first sample", (1.0, 0.0, 0.0, 0.0)), -ABSURD),
-    *_bounded(
-        array("bias0", "rad/s", "gyro bias before the first sample"), -LARGEST_BIAS, LARGEST_BIAS
-    ),
-    *_bounded(
-        array(
-            "std0",
-            "rad",
-            "standard deviation of the attitude before the first sample",
-            (0.1, 0.1, 0.1),
-        ),
-        0.0,
-    ),
-    *_bounded(
-        (
-            Variable(
-                f"std0[{i}]",
-                "rad/s",
-                "standard deviation of the bias before the first sample",
-                0.01,
-            )
-            for i in (4, 5, 6)
-        ),
-        0.0,
-    ),
+    *START_VALUES,
     *SETTINGS,
 )
 """The filter's own parameters; the coefficients of the part's sensors follow."""

@@ -16,6 +16,7 @@ import numpy as np
 from pyimu.block.compiled import compiled
 from pyimu.block.stepping import step_through
 from pyimu.block.variables import Limits, NoiseChannel, Variable, sample_period_of, seed_of
+from pyimu.errors import UserError
 
 CHUNK = 4096
 """Samples whose normals are made at a time where the virtual machine does the work."""
@@ -26,9 +27,9 @@ class Block:
     """A sampled system ``(s, u, p, w, h) -> (s_next, y)`` with named scalars.
 
     ``step`` maps state (ns,), input (nu,), parameter (np,), standard normals (nw,) and sample
-    period (1,) to the next state and the output (ny,). ``initial`` maps the parameters to the
-    state before the first sample and to the outputs shown before it. Where the parameters break
-    ``limits`` no run begins.
+    period (1,) to the next state and the output (ny,). ``initial`` maps the inputs at the start
+    and the parameters to the state before the first sample and to the outputs shown before it; the
+    state depends on the parameters alone. Where the parameters break ``limits`` no run begins.
     """
 
     name: str
@@ -51,9 +52,20 @@ class Block:
                 f"its variables say {want} and {len(self.outputs)}"
             )
 
+        shown = tuple(self.initial.numel_in(i) for i in range(self.initial.n_in()))
+        if shown != want[:2]:
+            raise ValueError(
+                f"block {self.name}: initial takes {shown}, not inputs and parameters {want[:2]}"
+            )
+
     @property
     def n_state(self) -> int:
         return self.step.numel_in(0)
+
+    @cached_property
+    def start_inputs(self) -> np.ndarray:
+        """Start values of the inputs, shape (nu,)."""
+        return np.array([v.start for v in self.inputs], dtype=float)
 
     @cached_property
     def start(self) -> np.ndarray:
@@ -98,7 +110,7 @@ class Run:
     run.
 
     Raises UserError for a seed that is no integer of 64 bits, a sample period that is not positive
-    and finite, and parameters that break the block's limits.
+    and finite, and parameters that are not finite or break the block's limits.
     """
 
     def __init__(
@@ -121,9 +133,10 @@ class Run:
         self.p = _vector(
             block, "parameters", block.start if p is None else p, len(block.parameters)
         )
-        self.state = _vector(
-            block, "state", block.initial(self.p)[0] if state is None else state, block.n_state
-        )
+        _check_finite(block, self.p)
+        if state is None:
+            state = block.initial(block.start_inputs, self.p)[0]
+        self.state = _vector(block, "state", state, block.n_state)
         if block.limits:
             block.limits.check(self.p, h, f"block {block.name}")
         self.h = np.array([h])
@@ -165,6 +178,14 @@ class Run:
         )  # loads numba, which takes a while and which compiled runs do without
 
         return normals(self.seed, self.channels, self.sample + rows.start, n)
+
+
+def _check_finite(block: Block, p: np.ndarray) -> None:
+    """Raise UserError for the first parameter that is not finite, as the block's FMU refuses it."""
+    bad = np.flatnonzero(~np.isfinite(p))
+    if len(bad):
+        name, value = block.parameters[bad[0]].name, p[bad[0]]
+        raise UserError(f"block {block.name}: parameter {name} must be finite, not {value:g}")
 
 
 def _vector(block: Block, what: str, values, size: int) -> np.ndarray:

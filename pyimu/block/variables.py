@@ -18,7 +18,8 @@ Kind = Literal["real", "boolean", "integer"]
 class Variable:
     """One scalar of a block.
 
-    ``name`` is its FMI name (``gyro_error.g_sensitivity.G[1,2]``), ``unit`` an SI spelling.
+    ``name`` is its FMI name (``gyro_error.g_sensitivity.G[1,2]``), ``unit`` an SI spelling. A
+    parameter that acts on the start alone is ``fixed``, and cannot be set during a run.
     """
 
     name: str
@@ -28,6 +29,7 @@ class Variable:
     kind: Kind = "real"
     minimum: float | None = None
     maximum: float | None = None
+    fixed: bool = False
 
 
 @dataclass(frozen=True)

@@ -68,7 +68,7 @@ def _as_array(group: Sequence[Variable]) -> list[Array]:
     base, _ = split_name(group[0].name)
     indices = [split_name(v.name)[1] for v in group]
     shape = indices[-1]
-    alike = len({(v.unit, v.kind, v.minimum, v.maximum) for v in group}) == 1
+    alike = len({(v.unit, v.kind, v.minimum, v.maximum, v.fixed) for v in group}) == 1
     if (
         shape
         and alike

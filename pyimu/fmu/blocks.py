@@ -52,11 +52,12 @@ def simulate_blocks(
 
     They are to the bit those of ``simulate`` on a scalar form.
 
-    Columns are in the order of the scalar form's inputs and outputs. Row 0 is the start value and
-    row k the answer to row k - 1. ``start_values`` maps names of parameters to values: arrays as a
-    whole (``G``), or their elements as in the scalar form (``G[1,2]``). Without a
-    ``sample_period`` [s] or a ``block_size`` the FMU's own holds. ``progress`` is called after
-    each block with the number of samples made and that of all.
+    Columns are in the order of the scalar form's inputs and outputs. Row 0 is what is shown before
+    the first sample, for the first row of inputs, and row k the answer to row k - 1.
+    ``start_values`` maps names of parameters to values: arrays as a whole (``G``), or their
+    elements as in the scalar form (``G[1,2]``). Without a ``sample_period`` [s] or a ``block_size``
+    the FMU's own holds. ``progress`` is called after each block with the number of samples made
+    and that of all.
 
     Raises ValueError where the FMU has no blocks or the inputs have the wrong shape, UserError,
     which is one, for a start value that has no parameter, and for a seed or a sample period that is
@@ -64,6 +65,7 @@ def simulate_blocks(
     """
     inputs = np.atleast_2d(inputs)
     with _opened(fmu_path, sample_period, start_values, start_time, block_size) as unit:
+        unit.begin(inputs[:1])
         outputs = np.empty((len(inputs) + 1, unit.outputs.columns))
         unit.outputs.get(outputs[:1])
         for made in unit.answer(inputs, outputs[1:]):
@@ -90,6 +92,7 @@ def stream_blocks(
     arguments and errors are those of it.
     """
     with _opened(fmu_path, sample_period, start_values, start_time, block_size) as unit:
+        unit.begin()
         for chunk in chunks:
             inputs = np.atleast_2d(chunk)
             outputs = np.empty((len(inputs), unit.outputs.columns))
@@ -100,7 +103,7 @@ def stream_blocks(
 
 @dataclass
 class _Unit:
-    """An initialized instance and the number of samples made.
+    """An instance with its parameters, and the number of samples made.
 
     Its inputs and outputs are tables of ``size`` rows.
     """
@@ -114,19 +117,30 @@ class _Unit:
     start_time: float
     sample: int = 0
 
+    def begin(self, first: np.ndarray | None = None) -> None:
+        """Initialize, with the inputs (1, nu) of the ``first`` sample or their start values."""
+        if first is not None and len(first):
+            self._check(first)
+            self.inputs.set(first)
+        self.fmu.enterInitializationMode(startTime=self.start_time)
+        self.fmu.exitInitializationMode()
+
     def answer(self, inputs: np.ndarray, outputs: np.ndarray) -> Iterator[int]:
         """Fill ``outputs`` (n, ny) from ``inputs`` (n, nu) block by block.
 
         Gives after each block how many of the rows are done.
         """
-        if inputs.ndim != 2 or inputs.shape[1] != self.inputs.columns:
-            raise ValueError(
-                f"inputs of {self.name} have shape {inputs.shape}, not (n, {self.inputs.columns})"
-            )
+        self._check(inputs)
         for first in range(0, len(inputs), self.size):
             rows = slice(first, min(first + self.size, len(inputs)))
             self._step(inputs[rows], outputs[rows])
             yield rows.stop
+
+    def _check(self, inputs: np.ndarray) -> None:
+        if inputs.ndim != 2 or inputs.shape[1] != self.inputs.columns:
+            raise ValueError(
+                f"inputs of {self.name} have shape {inputs.shape}, not (n, {self.inputs.columns})"
+            )
 
     def _step(self, inputs: np.ndarray, outputs: np.ndarray) -> None:
         self.inputs.set(inputs)
@@ -211,7 +225,7 @@ def _opened(
     start_time: float,
     block_size: int | None,
 ) -> Iterator[_Unit]:
-    """An instance through its initialization; it and its folder are gone afterwards."""
+    """An instance, not yet initialized; it and its folder are gone afterwards."""
     description = read_model_description(str(fmu_path), validate=False)
     own = {v.name: v for v in description.modelVariables}
     if BLOCK_SIZE not in own:
@@ -220,7 +234,7 @@ def _opened(
     values = _parameters(description, {**(start_values or {}), **period})
     size = int(own[BLOCK_SIZE].start if block_size is None else block_size)
     with _instance(fmu_path, description) as fmu:
-        _initialize(fmu, own, values, size, start_time)
+        _configure(fmu, own, values, size)
         tables = {
             c: _Table(fmu, [v for v in description.modelVariables if v.causality == c], size)
             for c in ("input", "output")
@@ -261,20 +275,15 @@ def _instance(fmu_path: Path | str, description: ModelDescription) -> Iterator[F
         shutil.rmtree(folder, ignore_errors=True)
 
 
-def _initialize(
-    fmu: FMU3Slave,
-    own: Mapping[str, ModelVariable],
-    values: Mapping[str, np.ndarray],
-    size: int,
-    start_time: float,
+def _configure(
+    fmu: FMU3Slave, own: Mapping[str, ModelVariable], values: Mapping[str, np.ndarray], size: int
 ) -> None:
+    """Set the size of a block, and the parameters."""
     fmu.enterConfigurationMode()
     fmu.setUInt64([own[BLOCK_SIZE].valueReference], [size])
     fmu.exitConfigurationMode()
     for name, value in values.items():
         getattr(fmu, f"set{own[name].type}")([own[name].valueReference], value.ravel().tolist())
-    fmu.enterInitializationMode(startTime=start_time)
-    fmu.exitInitializationMode()
 
 
 def _parameters(description: ModelDescription, given: Mapping[str, Any]) -> dict[str, np.ndarray]:

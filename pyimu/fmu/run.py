@@ -28,11 +28,12 @@ def simulate(
 ) -> np.ndarray:
     """Outputs (n / samples_per_step + 1, ny) of an FMU to ``inputs`` (n, nu), a row per sample.
 
-    Columns are in the order of the FMU's inputs and outputs. Row 0 is the start value and row k
-    the answer to row k - 1 of the inputs; with ``samples_per_step`` of m, to row m (k - 1), held
-    over the m samples of the step. ``start_values`` maps names of parameters to values, ``seed``
-    among them; ``sample_period`` [s] is set, too. A row of NaN reaches the row before it as well:
-    fmpy weighs the next row by zero, and zero times NaN is NaN.
+    Columns are in the order of the FMU's inputs and outputs. Row 0 is what is shown before the
+    first sample, for the first row of inputs, and row k the answer to row k - 1 of the inputs; with
+    ``samples_per_step`` of m, to row m (k - 1), held over the m samples of the step.
+    ``start_values`` maps names of parameters to values, ``seed`` among them; ``sample_period`` [s]
+    is set, too. A row of NaN reaches the row before it as well: fmpy weighs the next row by zero,
+    and zero times NaN is NaN.
 
     Raises ValueError where the inputs have the wrong shape, UserError, which is one, for a start
     value that has no parameter, and for a seed or a sample period that is none; fmpy's exceptions

@@ -35,6 +35,7 @@ _CAUSALITY = {
     "input": {"causality": "input", "variability": "continuous"},
     "tunable": {"causality": "parameter", "variability": "tunable", "initial": "exact"},
     "fixed": {"causality": "parameter", "variability": "fixed", "initial": "exact"},
+    "sampling": {"causality": "parameter", "variability": "fixed", "initial": "exact"},
     "structural": {"causality": "structuralParameter", "variability": "fixed", "initial": "exact"},
     "output": {"causality": "output", "variability": "discrete", "initial": "calculated"},
 }
@@ -46,11 +47,17 @@ _TYPES = {
     "unsigned": ("Integer", "UInt64"),
 }
 
+PARAMETERS = ("tunable", "fixed")
+"""Roles of the block's own parameters, which can be set during a run or only before it. Sample
+period and seed, which no function of the block takes for a parameter, have the role "sampling".
+"""
+
 _ROLE_TEXTS = {
     "time": "independent",
     "input": "input",
     "tunable": "parameter, tunable",
     "fixed": "parameter, fixed",
+    "sampling": "parameter, fixed",
     "output": "output",
     "structural": "structural parameter",
 }
@@ -79,8 +86,8 @@ class Entry:
     rows_reference: int | None = None
     """Value reference of the parameter that says how many rows there are."""
     initial_dependencies: tuple[int, ...] = ()
-    """Value references of the parameters that an output's value before the first sample follows
-    from."""
+    """Value references of inputs and parameters that an output's value before the first sample
+    follows from."""
     sample_dependencies: tuple[str, ...] = ()
     """Names of the inputs that an output's value at a sample follows from."""
     causality: dict[str, str] = field(init=False)
@@ -193,15 +200,21 @@ def default_block_size(block: Block) -> int:
 
 
 def entries(block: Block, in_blocks: bool) -> list[Entry]:
-    """The table of variables: time, inputs, parameters, outputs, sample period, seed.
+    """The table of variables: time, inputs, parameters, outputs, sample period.
 
-    In blocks it has their size, too.
+    With noise it has the seed, in blocks their size, too.
     """
     rows = _rows(block, in_blocks)
     size = {"rows": default_block_size(block), "rows_reference": len(rows) - 1} if in_blocks else {}
-    tunable = [i for i, r in enumerate(rows) if r.role == "tunable" for _ in r.array.elements]
-    inputs = [r.array.name for r in rows if r.role == "input" for _ in r.array.elements]
-    initial, sample = _dependencies(block.initial, 1, 0), _dependencies(block.step, 1, 1)
+    parameters = [i for i, r in enumerate(rows) if r.role in PARAMETERS for _ in r.array.elements]
+    inputs = [i for i, r in enumerate(rows) if r.role == "input" for _ in r.array.elements]
+    initial = [
+        [*(inputs[i] for i in of_inputs), *(parameters[i] for i in of_parameters)]
+        for of_inputs, of_parameters in zip(
+            *(_dependencies(block.initial, 1, argument) for argument in (0, 1)), strict=True
+        )
+    ]
+    sample = _dependencies(block.step, 1, 1)
     return [
         Entry(
             reference,
@@ -210,8 +223,10 @@ def entries(block: Block, in_blocks: bool) -> list[Entry]:
             row.array,
             row.first,
             **(size if row.role in ("input", "output") else {}),
-            initial_dependencies=_unique(tunable[i] for c in row.outputs for i in initial[c]),
-            sample_dependencies=_unique(inputs[i] for c in row.outputs for i in sample[c]),
+            initial_dependencies=_unique(i for c in row.outputs for i in initial[c]),
+            sample_dependencies=_unique(
+                rows[inputs[i]].array.name for c in row.outputs for i in sample[c]
+            ),
         )
         for reference, row in enumerate(rows)
     ]
@@ -239,14 +254,19 @@ def _rows(block: Block, in_blocks: bool) -> list[_Row]:
     parts = [
         ("time", scalars([time])),
         ("input", group(block.inputs)),
-        ("tunable", group(block.parameters)),
+        ("parameter", group(block.parameters)),
         ("output", group(block.outputs)),
-        ("fixed", scalars([_period(block), SEED])),
+        ("sampling", scalars([_period(block), *[SEED] * bool(block.noise)])),
         ("structural", scalars([_size(block)] * in_blocks)),
     ]
     unsigned = (SEED.name, BLOCK_SIZE)
     return [
-        _Row(role, "unsigned" if array.name in unsigned else array.elements[0].kind, array, first)
+        _Row(
+            PARAMETERS[array.elements[0].fixed] if role == "parameter" else role,
+            "unsigned" if array.name in unsigned else array.elements[0].kind,
+            array,
+            first,
+        )
         for role, arrays in parts
         for array, first in _with_columns(arrays)
     ]

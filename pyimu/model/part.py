@@ -131,9 +131,14 @@ def _imu_sensor(part: Part) -> Block:
         ["s_next", "y"],
     )
     start = np.concatenate([np.zeros(derived.size), *[sensor.chain.start for sensor in sensors]])
-    all_p = ca.SX.sym("p", p[0].numel() + p[1].numel())
+    # Before the first sample: the ideal measurement of the inputs, without the part's errors.
+    ideal = ca.vertcat(*[given[sensor.output.own] for sensor in sensors])
     initial = ca.Function(
-        "initial", [all_p], [ca.SX(ca.DM(start)), ca.SX.zeros(6)], ["p"], ["s", "y"]
+        "initial",
+        [ca.vertcat(*given.values()), ca.vertcat(*p)],
+        [ca.SX(ca.DM(start)), ideal],
+        ["u", "p"],
+        ["s", "y"],
     )
     return Block(
         name="ImuSensor",

@@ -34,6 +34,7 @@ MINUTES = 6_000
 BIAS = np.array([0.004, -0.003, 0.002])
 SETTINGS = {
     "stuck_time": 0.2,
+    "axis_stuck_time": np.full(6, 0.2),
     "std0": np.array([0.01, 0.01, 0.01, 1e-3, 1e-3, 1e-3]),
     "bias0": BIAS,
 }
@@ -84,6 +85,8 @@ FAULTS = [
     Fault("absurd number", 50, put(0, 1e200), 1),
     Fault("gyro stuck while the body turns", 500, hold(GYRO), 4),
     Fault("accelerometer stuck", 500, hold(ACCEL), 4, widens=False),
+    Fault("one gyro axis stuck", 500, hold(1), 4),
+    Fault("one accelerometer axis stuck", 500, hold(4), 4, widens=False),
     Fault("gyro at its limit", 400, put(2, 0.6), 2, part={"saturation": {"limit": 0.6}}),
     Fault("a hundred wrong samples of force", 100, wrong_force, 0, widens=False),
     Fault("a second of free fall", 100, falling, 0, widens=False),

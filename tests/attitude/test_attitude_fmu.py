@@ -2,18 +2,21 @@
 another process, refusals and messages.
 """
 
+import re
 import subprocess
 import sys
 
 import numpy as np
 import pytest
-from attitude_cases import H, eventful_recording, inputs, output, part
+from attitude_cases import GRAVITY, H, eventful_recording, inputs, output, parameters, part
 from built import built
+from fmpy.fmi1 import FMICallException
 from fmu_toy import Unit
 from places import same_path
 from test_attitude_faults import log
 
 from pyimu.attitude import attitude_ukf, run
+from pyimu.errors import UserError
 from pyimu.fmu import FORMS, simulate, simulate_blocks
 from pyimu.recording.recording import Recording
 
@@ -68,6 +71,61 @@ def test_state_taken_back_makes_the_same_run_again(fmus, form):
 @pytest.fixture(params=(2, 3), ids=("fmi2", "fmi3"))
 def path(request, fmus):
     return fmus[request.param]
+
+
+def test_start_values_are_fixed_and_there_is_no_seed(path):
+    """After initialization they would have no effect, so that setting them is refused."""
+    with Unit(path) as unit:
+        variability = {v.name: v.variability for v in unit.description.modelVariables}
+        start = [n for n in variability if n.startswith(("q0[", "bias0[", "std0["))]
+        assert len(start) == 13 and {variability[n] for n in start} == {"fixed"}
+        assert variability["latitude"] == variability["gravity"] == "tunable"
+        assert "seed" not in variability
+        unit.set("bias0[1]", 0.5)
+        unit.start()
+        assert unit.get("gyro_bias[1]") == 0.5
+        with pytest.raises(FMICallException):
+            unit.set("bias0[1]", 0.1)
+        assert unit.messages[-1][0] == "logStatusError"
+        assert "bias0[1] cannot be set while stepping" in unit.messages[-1][1]
+
+
+@pytest.mark.parametrize("value", (np.nan, np.inf, -np.inf))
+def test_a_parameter_that_is_not_finite_is_refused_by_fmu_and_python(path, value):
+    for name in ("latitude", "gravity", "gyro_error.rate_random_walk.K[2]"):
+        with Unit(path).start() as unit:
+            before = unit.get(name)
+            with pytest.raises(FMICallException):
+                unit.set(name, value)
+            assert f"{name} must be finite" in unit.messages[-1][1]
+            assert unit.get(name) == before
+        block = attitude_ukf(part())
+        with pytest.raises(UserError, match=re.escape(f"{name} must be finite")):
+            block.run(inputs(3), p=parameters(block, **{name: value}))
+    with pytest.raises(UserError, match="latitude"):
+        run(eventful_recording(300), part(), settings={"latitude": value})
+
+
+def test_sensor_and_filter_together_are_as_sure_as_the_filter_on_a_log(path, tmp_path_factory):
+    """Both step, then exchange: at its first sample the filter has what the sensor shows before its
+    own, which is the ideal measurement at rest.
+    """
+    block = attitude_ukf(part())
+    sensor = built(part().block, tmp_path_factory)[2 if "fmi2" in path.name else 3]
+    with Unit(sensor).start(seed=5) as source, Unit(path).start() as unit:
+        seen, y = [], []
+        for k in range(100):
+            seen.append(source.outputs())
+            source.step(k * H, (k + 1) * H - k * H)
+            y.append(unit.run(inputs(1, gyro=seen[-1][:3], accel=seen[-1][3:]), k, H)[0])
+    assert seen[0] == [0, 0, 0, 0, 0, GRAVITY] and np.std(seen[1:], axis=0).min() > 0
+    measured = np.array(seen[1:])
+    log, _ = block.run(inputs(99, gyro=measured[:, :3], accel=measured[:, 3:]))
+    pair = output(block, np.array(y), "std")
+    # Both have had as many samples; their noise makes hardly a difference to how sure they are.
+    np.testing.assert_allclose(pair[9, :2], output(block, log, "std")[9, :2], rtol=1e-3)
+    np.testing.assert_allclose(pair[98, :2], output(block, log, "std")[98, :2], rtol=1e-3)
+    assert output(block, np.array(y), "quasi_static").all()
 
 
 def test_step_back_in_time_is_refused_and_changes_nothing(path):

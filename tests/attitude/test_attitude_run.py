@@ -27,7 +27,6 @@ from scipy.spatial.transform import Rotation
 import pyimu
 from pyimu.attitude import attitude_ukf, run
 from pyimu.attitude.input_grid import InputGrid
-from pyimu.attitude.rest import find_rest
 from pyimu.errors import UserError
 from pyimu.recording.recording import Recording
 
@@ -286,30 +285,6 @@ def test_a_part_is_taken_by_its_name():
 # What the samples say of the sensors
 
 
-@pytest.mark.parametrize("declared", [True, False])
-def test_a_gyro_that_rests_on_a_coarse_step_is_not_called_stuck(declared):
-    """At the edge of a step its samples change, in the middle they do not: drift takes it from one
-    to the other.
-    """
-    q, n = 0.005, 6000
-    rng = np.random.default_rng(0)
-    drift = np.where(np.arange(n) < 3500, q / 2, q)[:, None]
-    gyro = q * np.round((drift + q / 8 * rng.standard_normal((n, 3))) / q)
-    recording = recorded(drive(np.zeros((n, 3))))
-    coarse = Recording.from_arrays(time=recording.time, gyro=gyro, accel=recording.accel)
-    assert find_rest(coarse).seen and len(np.unique(gyro[:3000])) > 1
-    result = run(
-        coarse, part(q / 8 * np.sqrt(H), **({"quantization": {"q": q}} if declared else {}))
-    )
-    assert not np.any(result.status & 4)
-
-
-def test_a_gyro_that_stops_is_called_stuck():
-    recording = recorded(drive(np.zeros((4000, 3))))
-    recording.gyro[3200:] = recording.gyro[3200]
-    assert np.all(run(recording, part()).status[3400:] & 4)
-
-
 def test_without_a_part_samples_at_the_level_where_they_pile_up_are_at_a_limit():
     limit, t = 3.0, H * np.arange(6000)[:, None]
     world = drive(np.where(t < 31, 0, [4.0, 0.5, 0.5] * np.sin(3 * (t - 31))))
@@ -320,3 +295,41 @@ def test_without_a_part_samples_at_the_level_where_they_pile_up_are_at_a_limit()
     beyond = np.abs(recording.gyro[:, 0]) >= limit
     assert not np.any(free.status & 2) and beyond.sum() > 500
     np.testing.assert_array_equal(result.status & 2 > 0, np.abs(recording.gyro[:, 0]) >= limit)
+
+
+def test_stamps_that_come_late_are_no_gaps_and_change_nothing():
+    """A fifth of a period of jitter makes one step in a hundred longer than 1.5 periods."""
+    world = drive(rover_rate(6000, still=1500))
+    recording = recorded(world)
+    rng = np.random.default_rng(1)
+    late = Recording.from_arrays(
+        time=recording.time + 0.2 * H * rng.standard_normal(6000).clip(-2.4, 2.4),
+        gyro=recording.gyro,
+        accel=recording.accel,
+    )
+    assert np.sum(np.diff(late.time) > 1.5 * H) > 50
+    result, right = run(late, part()), run(recording, part())
+    assert not np.any(result.status & 1)
+    # The period differs by what the jitter of the first and last stamp makes of it.
+    np.testing.assert_allclose(result.q, right.q, atol=1e-3)
+
+
+def test_a_gap_among_late_stamps_is_still_a_gap():
+    recording = recorded(drive(np.zeros((3000, 3))))
+    jitter = 0.2 * H * np.random.default_rng(1).standard_normal(3000).clip(-2.4, 2.4)
+    rows = np.r_[:1500, 1800:3000]
+    cut = Recording.from_arrays(
+        time=(recording.time + jitter)[rows], gyro=recording.gyro[rows], accel=recording.accel[rows]
+    )
+    assert np.flatnonzero(run(cut, part()).status & 1).tolist() == [1500]
+
+
+@pytest.mark.parametrize("gravity", [1.62, 3.71])
+def test_rest_is_seen_on_the_moon_and_on_mars(gravity):
+    truth = Rotation.from_euler("ZYX", [0.0, 0.2, -0.3])
+    world = drive(rover_rate(3000, still=1500), truth)
+    recording = recorded(replace(world, force=world.force * gravity / GRAVITY))
+    result = run(recording, part(), settings={"gravity": gravity})
+    assert result.rest.seen and result.rest.force is not None
+    # The tilt of white noise over the rest, and the noise of a sample of less gravity.
+    assert tilt_error(result, world.attitude).max() < 0.01 * GRAVITY / gravity

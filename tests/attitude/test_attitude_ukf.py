@@ -51,7 +51,7 @@ def test_earth_rate_alone_turns_nothing_at_a_known_latitude():
     settings = {"q0": start.as_quat(scalar_first=True), "std0": np.zeros(6)}
     known, _ = block.run(u, p=parameters(block, latitude=-0.6, **settings))
     assert np.abs(error(output(block, known, "q"), world.attitude)).max() < 1e-13
-    for unknown in (UNKNOWN_LATITUDE, np.nan):
+    for unknown in (UNKNOWN_LATITUDE, -1.6):
         y, _ = block.run(u, p=parameters(block, latitude=unknown, **settings))
         turned = np.linalg.norm(error(output(block, y, "q")[-1:], start))
         np.testing.assert_allclose(turned, EARTH * 500 * H, rtol=1e-9)
@@ -144,7 +144,8 @@ def test_tilt_converges_to_gravitys_direction(start, wrong):
 def test_start_values_are_the_given_attitude(block):
     q0 = Rotation.from_euler("ZYX", [0.3, -0.2, 3.0])
     _, y = block.initial(
-        parameters(block, q0=2 * q0.as_quat(scalar_first=True), bias0=[1e-3, 2e-3, 3e-3])
+        block.start_inputs,
+        parameters(block, q0=2 * q0.as_quat(scalar_first=True), bias0=[1e-3, 2e-3, 3e-3]),
     )
     y = np.array(y).T
     assert np.abs(error(output(block, y, "q"), q0)).max() < 1e-15
@@ -152,6 +153,25 @@ def test_start_values_are_the_given_attitude(block):
         [output(block, y, n)[0] for n in ("yaw", "pitch", "roll")], [0.3, -0.2, 3.0], atol=1e-14
     )
     np.testing.assert_array_equal(output(block, y, "gyro_bias")[0], [1e-3, 2e-3, 3e-3])
+
+
+@pytest.mark.parametrize("rows", [1, 20])
+def test_zeros_before_the_first_sample_are_no_free_fall(block, rows):
+    """As sure afterwards as a filter that started later by so many samples."""
+    rng = np.random.default_rng(3)
+    u = inputs(100, gyro=N / np.sqrt(H) * rng.standard_normal((100, 3)))
+    u[:, 3:6] += N_ACCEL / np.sqrt(H) * rng.standard_normal((100, 3))
+    after, _ = block.run(np.vstack([inputs(rows, accel=0.0), u]))
+    plain, _ = block.run(u)
+    for name in ("quasi_static", "status"):
+        np.testing.assert_array_equal(
+            output(block, after, name)[rows:], output(block, plain, name), err_msg=name
+        )
+    # What gyro noise and the bias's standard deviation of 0.01 rad/s add while nothing is known.
+    added = np.hypot(N * np.sqrt(rows * H), 0.01 * rows * H)
+    std = (output(block, y, "std")[-1, :2] for y in (after[rows:], plain))
+    np.testing.assert_allclose(*std, rtol=0.01, atol=added)
+    assert not output(block, after, "quasi_static")[:rows].any()
 
 
 def test_bias_across_gravity_is_found(block):

@@ -63,7 +63,7 @@ def toy():
     step = ca.Function(
         "step", [s, u, p, w, h], [following, ca.vertcat(u[0] * s[39] + s[0], u[1] + w[1])]
     )
-    initial = ca.Function("initial", [p], [ca.SX.zeros(40), ca.SX.zeros(2)])
+    initial = ca.Function("initial", [u, p], [ca.SX.zeros(40), ca.SX.zeros(2)])
     scalars = [
         tuple(Variable(f"{n}[{i + 1}]", start=1.0) for i in range(k))
         for n, k in (("u", 2), ("p", 1), ("y", 2))
@@ -100,7 +100,7 @@ def test_compiled_step_equals_the_virtual_machine_bit_for_bit(block):
     rng = np.random.default_rng(1)
     u, w = inputs(block, 400, rng), rng.standard_normal((400, len(block.noise)))
     last, want = (
-        np.array(block.initial(block.start)[0], dtype=float).ravel(),
+        np.array(block.initial(block.start_inputs, block.start)[0], dtype=float).ravel(),
         np.empty((400, len(block.outputs))),
     )
     step_through(block.step, last, u, block.start, w, np.array([block.sample_period]), want)

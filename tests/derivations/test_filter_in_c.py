@@ -60,7 +60,7 @@ class FilterInC:
         quasi-static), by name.
         """
         parameters = list({**self.p, **p}.values())
-        state, out = self.initial(parameters)[0], []
+        state, out = self.initial(np.zeros(len(self.names["input"])), parameters)[0], []
         for row in u:
             inputs = {
                 "accel[1]": 50.0,

@@ -11,7 +11,9 @@ void BEGIN(void) {
     unit = fmi2Instantiate("unit", fmi2CoSimulation, TOKEN, "", &callbacks, fmi2False, fmi2False);
     fmi2SetupExperiment(unit, fmi2False, 0, 0, fmi2False, 0);
     fmi2EnterInitializationMode(unit);
+#ifdef SEED
     fmi2SetInteger(unit, &(fmi2ValueReference) {SEED}, 1, &(fmi2Integer) {3});
+#endif
     fmi2ExitInitializationMode(unit);
 }
 void STEP(double time, double size) {

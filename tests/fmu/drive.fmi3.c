@@ -7,7 +7,9 @@ void BEGIN(void) {
     unit = fmi3InstantiateCoSimulation("unit", TOKEN, "", fmi3False, fmi3False, fmi3False, false,
                                        NULL, 0, NULL, NULL, NULL);
     fmi3EnterInitializationMode(unit, fmi3False, 0, 0, fmi3False, 0);
+#ifdef SEED
     fmi3SetUInt64(unit, &(fmi3ValueReference) {SEED}, 1, &(fmi3UInt64) {3}, 1);
+#endif
     fmi3ExitInitializationMode(unit);
 }
 void STEP(double time, double size) {

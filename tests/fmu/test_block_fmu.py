@@ -194,7 +194,7 @@ def vectors():
         [ca.SX.sym("s", 0), u, p, none, ca.SX.sym("h")],
         [ca.SX.zeros(0), ca.vertcat(u, 2 * u)],
     )
-    initial = ca.Function("initial", [p], [ca.SX.zeros(0), ca.SX.zeros(6)])
+    initial = ca.Function("initial", [u, p], [ca.SX.zeros(0), ca.SX.zeros(6)])
     names = [
         tuple(Variable(f"{n}[{i + 1}]", start=start) for i, start in enumerate((0.0, -1.0, 9.5)))
         for n in ("u", "y", "z")
@@ -317,7 +317,7 @@ def test_model_structure_names_whole_arrays(path):
     }
     assert {u.variable.name: [v.name for v in u.dependencies] for u in model.initialUnknowns} == {
         "y[1]": ["b0"],
-        "y[2]": ["M"],
+        "y[2]": ["temperature", "M"],
         "positive": ["b0"],
         "ticks": [],
     }

@@ -160,7 +160,7 @@ def test_model_structure(description):
     }
     assert initial == {
         "y[1]": ["b0"],
-        "y[2]": ["M[1,2]", "M[2,1]"],
+        "y[2]": ["temperature", "M[1,2]", "M[2,1]"],
         "positive": ["b0"],
         "ticks": [],
     }
@@ -339,7 +339,7 @@ def gain(outputs=1, inputs=1, parameters=1, sample="u", **changes):
         [ca.SX.sym("s", 0), u, p, ca.SX.sym("w", 0), ca.SX.sym("h")],
         [ca.SX.zeros(0), ca.densify(y)],
     )
-    initial = ca.Function("initial", [p], [ca.SX.zeros(0), ca.SX.zeros(outputs)])
+    initial = ca.Function("initial", [u, p], [ca.SX.zeros(0), ca.SX.zeros(outputs)])
     block = Block(
         "Gain",
         "",
@@ -376,7 +376,9 @@ def test_matrix_expressions_equal_python(tmp_path):
     A = ca.reshape(p, 2, 2)
     following = ca.solve(A, s + h * u) + ca.repmat(w, 2, 1)
     step = ca.Function("step", [s, u, p, w, h], [following, ca.sin(ca.mtimes(A, following))])
-    initial = ca.Function("initial", [p], [ca.densify(ca.MX.zeros(2)), ca.densify(ca.MX.zeros(2))])
+    initial = ca.Function(
+        "initial", [u, p], [ca.densify(ca.MX.zeros(2)), ca.densify(ca.MX.zeros(2))]
+    )
     names = [
         tuple(Variable(f"{n}[{i + 1}]", start=start) for i, start in enumerate(starts))
         for n, starts in (("u", [0, 0]), ("A", [2, 0.5, -0.25, 3]), ("y", [0, 0]))
@@ -412,14 +414,14 @@ def test_blocks_that_cannot_become_an_fmu(changes, words):
 
 def test_sparse_blocks_are_refused():
     block = gain()
-    sparse = ca.Function("initial", [ca.SX.sym("p")], [ca.SX.zeros(0), ca.SX(1, 1)])
+    sparse = ca.Function("initial", [ca.SX.sym("u"), ca.SX.sym("p")], [ca.SX.zeros(0), ca.SX(1, 1)])
     with pytest.raises(ValueError, match="sparse"):
         texts(replace(block, initial=sparse))
 
 
 def test_functions_need_two_names():
     block = gain()
-    again = ca.Function("step", [ca.SX.sym("p")], [ca.SX.zeros(0), ca.SX.zeros(1)])
+    again = ca.Function("step", [ca.SX.sym("u"), ca.SX.sym("p")], [ca.SX.zeros(0), ca.SX.zeros(1)])
     with pytest.raises(ValueError, match="names of their own, not step, step"):
         texts(replace(block, initial=again))
 
@@ -455,7 +457,8 @@ def test_what_was_compiled_is_not_compiled_again(monkeypatch, tmp_path):
 @pytest.mark.skipif(shutil.which("gcc") is None, reason="needs gcc")
 def test_first_error_of_the_compiler_is_shown(tmp_path):
     block = gain()
-    broken = ca.Function("model_step", [ca.SX.sym("p")], [ca.SX.zeros(0), ca.SX.zeros(1)])
+    arguments = [ca.SX.sym("u"), ca.SX.sym("p")]
+    broken = ca.Function("model_step", arguments, [ca.SX.zeros(0), ca.SX.zeros(1)])
     with pytest.raises(UserError, match="error.*model_step"):
         build_fmu(replace(block, initial=broken), tmp_path)
 

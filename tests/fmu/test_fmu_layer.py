@@ -83,8 +83,10 @@ def test_seed_of_64_bits(toys):
 
 def test_row_0_is_the_start_value(path):
     start = {"b0": 0.75, "M[1,2]": 3.0, "M[2,1]": -1.5}
-    outputs = simulate(path, drive(2), sample_period=PERIOD, start_values=start)
-    np.testing.assert_array_equal(outputs[0], [0.75, 3.0 - -1.5, 1.0, 0.0])
+    inputs = drive(2)
+    outputs = simulate(path, inputs, sample_period=PERIOD, start_values=start)
+    shown = [0.75, 3.0 - -1.5 + inputs[0, 1] - 25, 1.0, 0.0]
+    np.testing.assert_array_equal(outputs[0], shown)
 
 
 def test_matrix_goes_row_by_row(path):
@@ -374,6 +376,17 @@ def test_outputs_before_the_first_sample_follow_the_parameters(path):
         assert unit.outputs() == [-3.0, 0.25 + 0.5, 0.0, 0.0]
 
 
+def test_outputs_before_the_first_sample_follow_the_inputs(path):
+    """As they are when initialization ends; an input that is set later changes them no more."""
+    with Unit(path) as unit:
+        unit.set("temperature", 30.0)
+        assert unit.outputs()[1] == 0.75 + 5.0
+        unit.start(temperature=20.0)
+        assert unit.outputs()[1] == 0.75 - 5.0
+        unit.set("temperature", 0.0)
+        assert unit.outputs()[1] == 0.75 - 5.0
+
+
 def test_time_is_the_communication_point(path):
     with Unit(path).start(start_time=2.0) as unit:
         unit.step(2.0, 0.0075)
@@ -411,17 +424,21 @@ def test_sample_period_must_be_positive(path, period):
 def test_a_parameter_keeps_its_bounds(path, value):
     """Before and during a run; what was there stays."""
     with Unit(path) as unit:
-        refused(unit, lambda: unit.set("noise.N", value), "noise.N must lie in 0 to inf, not")
+        refused(unit, lambda: unit.set("noise.N", value), "noise.N must ", f"not {value:g}")
         unit.start(**{"noise.N": 0.0})
-        refused(unit, lambda: unit.set("noise.N", value), "noise.N must lie in 0 to inf, not")
+        refused(unit, lambda: unit.set("noise.N", value), "noise.N must ", f"not {value:g}")
         assert unit.get("noise.N") == 0.0
 
 
-@pytest.mark.parametrize("value", (-1.0, math.inf, math.nan))
-def test_a_parameter_without_bounds_may_be_anything(path, value):
+@pytest.mark.parametrize("value", (-math.inf, math.inf, math.nan))
+def test_a_parameter_without_bounds_is_any_finite_number(path, value):
+    """Before and during a run; what was there stays."""
     with Unit(path) as unit:
-        unit.set("noise.K", value)
-        np.testing.assert_equal(unit.get("noise.K"), value)
+        unit.set("noise.K", -1.0)
+        refused(unit, lambda: unit.set("noise.K", value), "noise.K must be finite")
+        unit.start()
+        refused(unit, lambda: unit.set("noise.K", value), "noise.K must be finite")
+        assert unit.get("noise.K") == -1.0
 
 
 BAD = (

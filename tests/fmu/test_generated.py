@@ -191,7 +191,6 @@ def test_variables_are_named_as_agreed(path):
         *array("bias0", 3),
         *array("std0", 6),
         "sample_period",
-        "seed",
         "gyro_error.angle_random_walk.N[1]",
     } <= set(causes["parameter"])
 

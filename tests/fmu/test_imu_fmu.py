@@ -15,6 +15,7 @@ from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.part_file import part
 from pyimu.model.signals import COLUMNS, inputs_for
 from pyimu.model.simulate import simulate as simulate_in_python
+from pyimu.units import STANDARD_GRAVITY
 
 N = 600
 VERSIONS = (2, 3)
@@ -73,6 +74,22 @@ def without_noise(part_):
     for sensor in (part_.gyro, part_.accel):
         part_ = part_.with_sensor(sensor.without(*[e.name for e in sensor.effects if e.stochastic]))
     return part_
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_before_the_first_sample_it_shows_the_ideal_measurement_of_the_start_inputs(
+    full, fmus, form
+):
+    """Without any of the part's errors; of start values that means at rest and level."""
+    u = motion(1)
+    _, y = full.block.initial(inputs(u, full)[0], full.block.start)
+    np.testing.assert_array_equal(np.array(y).ravel(), u[0, :6])
+    np.testing.assert_array_equal(through(fmus, form, inputs(u, full))[0], u[0, :6])
+    with Unit(fmus[form]) as unit:
+        assert unit.outputs() == [0, 0, 0, 0, 0, STANDARD_GRAVITY]
+        unit.set("specific_force[2]", 1.5)
+        unit.start(**{"rate[3]": 0.25})
+        assert unit.outputs() == [0, 0, 0.25, 0, 1.5, STANDARD_GRAVITY]
 
 
 @pytest.mark.parametrize("version", VERSIONS)

@@ -58,8 +58,12 @@ def answer(path):
     """Outputs (ROWS + 1, ny) with noise."""
     block = BLOCKS[path.name.partition(".")[0]]
     run = simulate_blocks if path.name.endswith("block.fmu") else simulate
-    u, seed = moving(block), {"seed": 3}
-    return run(path, u, sample_period=block.sample_period, start_values=seed)
+    return run(path, moving(block), sample_period=block.sample_period, start_values=seed_of(block))
+
+
+def seed_of(block):
+    """The seed among the start values, for a block that has one."""
+    return {"seed": 3} if block.noise else {}
 
 
 def sources_of(fmu, folder):
@@ -211,7 +215,7 @@ def objects(fmu, form, folder, include):
         "STEP": f"{name}_step",
         "NAME": f'"{name}"',
         "TOKEN": f'"{description.guid}"',
-        "SEED": of["seed"].valueReference,
+        **({"SEED": of["seed"].valueReference} if "seed" in of else {}),
         "OUTPUTS": ",".join(str(v.valueReference) for v in outputs),
         "N_VALUES": sum(int(np.prod(v.shape or (1,))) for v in outputs),
     }
@@ -241,7 +245,7 @@ def expected(fmu, form, steps):
     rows = round(1 / block.sample_period) if form == "block" else 1
     u = np.tile([v.start for v in block.inputs], (steps * rows, 1))
     run = simulate_blocks if form == "block" else simulate
-    y = run(fmu, u, sample_period=block.sample_period, start_values={"seed": 3})[1:]
+    y = run(fmu, u, sample_period=block.sample_period, start_values=seed_of(block))[1:]
     columns = [i for i, v in enumerate(block.outputs) if v.kind == "real"]
     return rows, y[:, columns]
 

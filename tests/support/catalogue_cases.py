@@ -120,8 +120,8 @@ def outputs(kind: str) -> slice:
 def alone(sensor: Sensor) -> Block:
     """A sensor as a block of its own that takes every signal as an input, the derived ones too."""
     names = tuple(Variable(f"u[{i}]") for i in range(sensor.chain.u.numel()))
-    p = ca.SX.sym("p", len(sensor.slots))
-    initial = ca.Function("initial", [p], [ca.SX(ca.DM(sensor.chain.start)), ca.SX.zeros(3)])
+    u, p = ca.SX.sym("u", len(names)), ca.SX.sym("p", len(sensor.slots))
+    initial = ca.Function("initial", [u, p], [ca.SX(ca.DM(sensor.chain.start)), ca.SX.zeros(3)])
     return Block(
         "alone",
         "",

@@ -35,7 +35,9 @@ def toy(name="Toy", sample_period=1 / RATE, unit="rad/s") -> Block:
     )
     step = ca.Function("step", [s, u, p, w, h], [following, ca.vertcat(y, y[0] > 0, following[2])])
     initial = ca.Function(
-        "initial", [p], [ca.vertcat(b0, ca.SX(0.1), 0), ca.vertcat(b0, p[1] - p[2], b0 > 0, 0)]
+        "initial",
+        [u, p],
+        [ca.vertcat(b0, 0.1, 0), ca.vertcat(b0, p[1] - p[2] + temperature - 25, b0 > 0, 0)],
     )
     matrix = tuple(
         Variable(f"M[{i + 1},{j + 1}]", "1", "gain <1>", start=start)

@@ -7,21 +7,21 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN "{5582ef43-a7fb-17e0-3d08-608d9964d26d}"
+#define MODEL_TOKEN "{599cc1de-c1ea-5815-947a-d8b0de3992c1}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
 enum {
     N_INPUTS = 12,
-    N_PARAMETERS = 39,
+    N_PARAMETERS = 45,
     N_OUTPUTS = 20,
-    N_STATES = 182,
+    N_STATES = 188,
     N_NOISE = 0,
     N_VARIABLES = 55
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 44, WORK_RES = 17, WORK_IW = 0, WORK_W = 1372 };
+enum { WORK_ARG = 44, WORK_RES = 17, WORK_IW = 0, WORK_W = 1426 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };
@@ -37,14 +37,14 @@ static const BlockVariable variables[] = {
     {"heading_age", KIND_REAL, ROLE_INPUT, 10, 1, -INFINITY, INFINITY},
     {"stationary", KIND_BOOLEAN, ROLE_INPUT, 11, 1, -INFINITY, INFINITY},
     {"latitude", KIND_REAL, ROLE_TUNABLE, 0, 1, -INFINITY, INFINITY},
-    {"q0", KIND_REAL, ROLE_TUNABLE, 1, 4, -1000000.0, 1000000.0},
-    {"bias0", KIND_REAL, ROLE_TUNABLE, 5, 3, -100.0, 100.0},
-    {"std0[1]", KIND_REAL, ROLE_TUNABLE, 8, 1, 0.0, 1000000.0},
-    {"std0[2]", KIND_REAL, ROLE_TUNABLE, 9, 1, 0.0, 1000000.0},
-    {"std0[3]", KIND_REAL, ROLE_TUNABLE, 10, 1, 0.0, 1000000.0},
-    {"std0[4]", KIND_REAL, ROLE_TUNABLE, 11, 1, 0.0, 1000000.0},
-    {"std0[5]", KIND_REAL, ROLE_TUNABLE, 12, 1, 0.0, 1000000.0},
-    {"std0[6]", KIND_REAL, ROLE_TUNABLE, 13, 1, 0.0, 1000000.0},
+    {"q0", KIND_REAL, ROLE_FIXED, 1, 4, -1000000.0, 1000000.0},
+    {"bias0", KIND_REAL, ROLE_FIXED, 5, 3, -100.0, 100.0},
+    {"std0[1]", KIND_REAL, ROLE_FIXED, 8, 1, 0.0, 1000000.0},
+    {"std0[2]", KIND_REAL, ROLE_FIXED, 9, 1, 0.0, 1000000.0},
+    {"std0[3]", KIND_REAL, ROLE_FIXED, 10, 1, 0.0, 1000000.0},
+    {"std0[4]", KIND_REAL, ROLE_FIXED, 11, 1, 0.0, 1000000.0},
+    {"std0[5]", KIND_REAL, ROLE_FIXED, 12, 1, 0.0, 1000000.0},
+    {"std0[6]", KIND_REAL, ROLE_FIXED, 13, 1, 0.0, 1000000.0},
     {"gravity", KIND_REAL, ROLE_TUNABLE, 14, 1, 0.0, INFINITY},
     {"accel_std", KIND_REAL, ROLE_TUNABLE, 15, 1, 0.0, INFINITY},
     {"accel_correlation_time", KIND_REAL, ROLE_TUNABLE, 16, 1, 0.0, INFINITY},
@@ -59,11 +59,12 @@ static const BlockVariable variables[] = {
     {"stationary_std", KIND_REAL, ROLE_TUNABLE, 25, 1, 0.0, INFINITY},
     {"lost_rate_std", KIND_REAL, ROLE_TUNABLE, 26, 1, 0.0, INFINITY},
     {"stuck_time", KIND_REAL, ROLE_TUNABLE, 27, 1, 0.0, INFINITY},
-    {"heading_memory", KIND_REAL, ROLE_TUNABLE, 28, 1, 0.0, INFINITY},
-    {"gyro_error.thermal_bias.kT", KIND_REAL, ROLE_TUNABLE, 29, 3, -INFINITY, INFINITY},
-    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 32, 1, -INFINITY, INFINITY},
-    {"gyro_error.angle_random_walk.N", KIND_REAL, ROLE_TUNABLE, 33, 3, 0.0, INFINITY},
-    {"gyro_error.rate_random_walk.K", KIND_REAL, ROLE_TUNABLE, 36, 3, 0.0, INFINITY},
+    {"axis_stuck_time", KIND_REAL, ROLE_TUNABLE, 28, 6, 0.0, 1000000.0},
+    {"heading_memory", KIND_REAL, ROLE_TUNABLE, 34, 1, 0.0, INFINITY},
+    {"gyro_error.thermal_bias.kT", KIND_REAL, ROLE_TUNABLE, 35, 3, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 38, 1, -INFINITY, INFINITY},
+    {"gyro_error.angle_random_walk.N", KIND_REAL, ROLE_TUNABLE, 39, 3, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K", KIND_REAL, ROLE_TUNABLE, 42, 3, 0.0, INFINITY},
     {"q", KIND_REAL, ROLE_OUTPUT, 0, 4, -INFINITY, INFINITY},
     {"roll", KIND_REAL, ROLE_OUTPUT, 4, 1, -INFINITY, INFINITY},
     {"pitch", KIND_REAL, ROLE_OUTPUT, 5, 1, -INFINITY, INFINITY},
@@ -79,19 +80,18 @@ static const BlockVariable variables[] = {
     {"nis", KIND_REAL, ROLE_OUTPUT, 17, 1, -INFINITY, INFINITY},
     {"status", KIND_INTEGER, ROLE_OUTPUT, 18, 1, -INFINITY, INFINITY},
     {"heading_std", KIND_REAL, ROLE_OUTPUT, 19, 1, -INFINITY, INFINITY},
-    {"sample_period", KIND_REAL, ROLE_FIXED, 0, 1, 0.0, INFINITY},
-    {"seed", KIND_UNSIGNED, ROLE_FIXED, 1, 1, 0.0, INFINITY},
+    {"sample_period", KIND_REAL, ROLE_SAMPLING, 0, 1, 0.0, INFINITY},
     {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 16777216.0},
 };
 
 /* Value references that mean something to every block. */
 enum {
-    SAMPLE_PERIOD = 52,
-    SEED = 53
+    SAMPLE_PERIOD = 53,
+    SEED = N_VARIABLES, /* none: there is no noise */
 };
 
 static const double input_starts[] = {0.0, 0.0, 0.0, 0.0, 0.0, 9.80665, 25.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-static const double parameter_starts[] = {10.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.1, 0.1, 0.1, 0.01, 0.01, 0.01, 9.80665, 0.1, 0.5, 0.2, 0.25, 1.0, 0.3, 1.0, 0.06, 0.1, 0.0, 1e-05, 1.0, 0.0, 0.5, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
+static const double parameter_starts[] = {10.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.1, 0.1, 0.1, 0.01, 0.01, 0.01, 9.80665, 0.1, 0.5, 0.2, 0.25, 1.0, 0.3, 1.0, 0.06, 0.1, 0.0, 1e-05, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
 
 /* The noise stream of each channel; there is none. */
 static const uint64_t noise_channels[] = {

@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "ImuSensor"
-#define MODEL_TOKEN "{35813a12-117c-2adf-0fff-ed4e93477b91}"
+#define MODEL_TOKEN "{08f07a0d-1d3f-f78b-99f9-5bcc54cdf2f3}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -37,15 +37,15 @@ static const BlockVariable variables[] = {
     {"gyro_error.rate_random_walk.K", KIND_REAL, ROLE_TUNABLE, 7, 3, 0.0, INFINITY},
     {"gyro", KIND_REAL, ROLE_OUTPUT, 0, 3, -INFINITY, INFINITY},
     {"accel", KIND_REAL, ROLE_OUTPUT, 3, 3, -INFINITY, INFINITY},
-    {"sample_period", KIND_REAL, ROLE_FIXED, 0, 1, 0.0, INFINITY},
-    {"seed", KIND_UNSIGNED, ROLE_FIXED, 1, 1, 0.0, INFINITY},
+    {"sample_period", KIND_REAL, ROLE_SAMPLING, 0, 1, 0.0, INFINITY},
+    {"seed", KIND_UNSIGNED, ROLE_SAMPLING, 1, 1, 0.0, INFINITY},
     {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 16777216.0},
 };
 
 /* Value references that mean something to every block. */
 enum {
     SAMPLE_PERIOD = 10,
-    SEED = 11
+    SEED = 11,
 };
 
 static const double input_starts[] = {0.0, 0.0, 0.0, 0.0, 0.0, 9.80665, 25.0};

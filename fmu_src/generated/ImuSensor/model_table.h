@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "ImuSensor"
-#define MODEL_TOKEN "{967e319c-1169-2c53-20be-45709f5896a7}"
+#define MODEL_TOKEN "{358a8020-97e0-379f-62af-5ab73182a79f}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -51,14 +51,14 @@ static const BlockVariable variables[] = {
     {"accel[1]", KIND_REAL, ROLE_OUTPUT, 3, 1, -INFINITY, INFINITY},
     {"accel[2]", KIND_REAL, ROLE_OUTPUT, 4, 1, -INFINITY, INFINITY},
     {"accel[3]", KIND_REAL, ROLE_OUTPUT, 5, 1, -INFINITY, INFINITY},
-    {"sample_period", KIND_REAL, ROLE_FIXED, 0, 1, 0.0, INFINITY},
-    {"seed", KIND_UNSIGNED, ROLE_FIXED, 1, 1, 0.0, INFINITY},
+    {"sample_period", KIND_REAL, ROLE_SAMPLING, 0, 1, 0.0, INFINITY},
+    {"seed", KIND_UNSIGNED, ROLE_SAMPLING, 1, 1, 0.0, INFINITY},
 };
 
 /* Value references that mean something to every block. */
 enum {
     SAMPLE_PERIOD = 24,
-    SEED = 25
+    SEED = 25,
 };
 
 static const double input_starts[] = {0.0, 0.0, 0.0, 0.0, 0.0, 9.80665, 25.0};

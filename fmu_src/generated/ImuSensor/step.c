@@ -221,18 +221,24 @@ CASADI_SYMBOL_EXPORT int step_work_bytes(casadi_int *sz_arg, casadi_int* sz_res,
   return 0;
 }
 
-/* initial:(p[10])->(s[3],y[6]) */
+/* initial:(u[7],p[10])->(s[3],y[6]) */
 static int casadi_f1(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   casadi_real a0;
   a0=0.;
   if (res[0]!=0) res[0][0]=a0;
   if (res[0]!=0) res[0][1]=a0;
   if (res[0]!=0) res[0][2]=a0;
+  a0=arg[0]? arg[0][0] : 0;
   if (res[1]!=0) res[1][0]=a0;
+  a0=arg[0]? arg[0][1] : 0;
   if (res[1]!=0) res[1][1]=a0;
+  a0=arg[0]? arg[0][2] : 0;
   if (res[1]!=0) res[1][2]=a0;
+  a0=arg[0]? arg[0][3] : 0;
   if (res[1]!=0) res[1][3]=a0;
+  a0=arg[0]? arg[0][4] : 0;
   if (res[1]!=0) res[1][4]=a0;
+  a0=arg[0]? arg[0][5] : 0;
   if (res[1]!=0) res[1][5]=a0;
   return 0;
 }
@@ -254,7 +260,7 @@ CASADI_SYMBOL_EXPORT void initial_incref(void) {
 CASADI_SYMBOL_EXPORT void initial_decref(void) {
 }
 
-CASADI_SYMBOL_EXPORT casadi_int initial_n_in(void) { return 1;}
+CASADI_SYMBOL_EXPORT casadi_int initial_n_in(void) { return 2;}
 
 CASADI_SYMBOL_EXPORT casadi_int initial_n_out(void) { return 2;}
 
@@ -266,7 +272,8 @@ CASADI_SYMBOL_EXPORT casadi_real initial_default_in(casadi_int i) {
 
 CASADI_SYMBOL_EXPORT const char* initial_name_in(casadi_int i) {
   switch (i) {
-    case 0: return "p";
+    case 0: return "u";
+    case 1: return "p";
     default: return 0;
   }
 }
@@ -281,7 +288,8 @@ CASADI_SYMBOL_EXPORT const char* initial_name_out(casadi_int i) {
 
 CASADI_SYMBOL_EXPORT const casadi_int* initial_sparsity_in(casadi_int i) {
   switch (i) {
-    case 0: return casadi_s2;
+    case 0: return casadi_s1;
+    case 1: return casadi_s2;
     default: return 0;
   }
 }
@@ -295,7 +303,7 @@ CASADI_SYMBOL_EXPORT const casadi_int* initial_sparsity_out(casadi_int i) {
 }
 
 CASADI_SYMBOL_EXPORT int initial_work(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 1;
+  if (sz_arg) *sz_arg = 2;
   if (sz_res) *sz_res = 2;
   if (sz_iw) *sz_iw = 0;
   if (sz_w) *sz_w = 0;
@@ -303,7 +311,7 @@ CASADI_SYMBOL_EXPORT int initial_work(casadi_int *sz_arg, casadi_int* sz_res, ca
 }
 
 CASADI_SYMBOL_EXPORT int initial_work_bytes(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 1*sizeof(const casadi_real*);
+  if (sz_arg) *sz_arg = 2*sizeof(const casadi_real*);
   if (sz_res) *sz_res = 2*sizeof(casadi_real*);
   if (sz_iw) *sz_iw = 0*sizeof(casadi_int);
   if (sz_w) *sz_w = 0*sizeof(casadi_real);

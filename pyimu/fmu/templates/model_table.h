@@ -37,9 +37,12 @@ static const BlockVariable variables[] = {
 
 /* Value references that mean something to every block. */
 enum {
-{% for v in variables if v.role == "fixed" %}
-    {{ v.name | upper }} = {{ v.reference }}{{ "," if not loop.last }}
+{% for v in variables if v.role == "sampling" %}
+    {{ v.name | upper }} = {{ v.reference }},
 {% endfor %}
+{% if not noise %}
+    SEED = N_VARIABLES, /* none: there is no noise */
+{% endif %}
 };
 
 {% for what, starts in (("input", input_starts), ("parameter", parameter_starts)) %}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -60,8 +60,27 @@ def _repeat_chance(repeats: np.ndarray, starts: np.ndarray, stops: np.ndarray) -
     low, high = np.maximum(starts - NEIGHBOURS, 0), np.minimum(stops + NEIGHBOURS, len(repeats) - 1)
     count = repeats[high] - repeats[low] - (stops - starts - 1)
     size = (high - low) - (stops - starts)
+    return _at_most(count, size)
+
+
+def _at_most(count: np.ndarray, size: np.ndarray) -> np.ndarray:
+    """The probability of what was seen ``count`` times in ``size``, with three standard deviations
+    of its estimate.
+    """
     p = (count + 1) / (size + 2)
     return np.minimum(p + 3 * np.sqrt(p * (1 - p) / (size + 2)), 1.0)
+
+
+def longest_chance_run(windows: Sequence[np.ndarray], samples: int) -> float:
+    """The repeats in succession that chance does not make in so many ``samples``; may be infinite.
+
+    By the law of ``stuck_runs``, with p of the window that repeats most. ``windows`` say of
+    successive samples which repeat the one before.
+    """
+    count, size = np.array([(np.sum(w), len(w)) for w in windows]).T
+    chance = _at_most(count, size).max()
+    with np.errstate(divide="ignore"):
+        return float(np.log(FALSE_ALARMS / (samples * (1 - chance))) / np.log(chance))
 
 
 def _clean_chance(repeats: np.ndarray, starts: np.ndarray, stops: np.ndarray) -> float:
