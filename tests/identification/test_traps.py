@@ -85,3 +85,13 @@ def test_what_is_wrong_with_samples_or_reference_is_named_and_the_sensor_is_exam
     assert not traps.blamed(log, "declared", found)
     gyro = found.errors["gyro"]
     assert gyro.after.total < 1.3 * gyro.noise
+
+
+def test_a_reference_as_noisy_as_the_motion_stops_nothing():
+    """What its noise leaves of some columns is next to nothing: a step by the equations without
+    that noise went to 3e132.
+    """
+    log = traps.case("rate_with_correlated_noise", seed=7, number=2)
+    found = traps.closed(log, "declared")
+    assert not traps.blamed(log, "declared", found)
+    assert np.isfinite(found.errors["gyro"].after.total)

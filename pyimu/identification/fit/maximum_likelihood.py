@@ -18,6 +18,10 @@ from pyimu.identification.fit.normal import Normal, solve, variances
 from pyimu.identification.fit.reference_noise import equations, has_noise, smoothing
 from pyimu.identification.fit.whiten import RandomWalk
 
+MOST_NOISE = 100.0
+"""Power of a reference's noise over that of its motion up to which coefficients are freed of it: an
+error c times the motion leaves at most so many times more of c times the noise."""
+
 
 def fit(start: Fit) -> Fit:
     """The model at its maximum likelihood."""
@@ -81,5 +85,5 @@ def without_reference_noise(fitted: Fit) -> Fit:
     moved = stepped(fitted, normal.keys, solve(normal.gram, normal.score))
     # What the noise leaves of a column may be so little that the step goes beyond all bounds.
     with np.errstate(all="ignore"):
-        power_left = power(moved)
-    return (moved if np.isfinite(power_left) else fitted).with_noise()
+        is_step = power(moved) < MOST_NOISE * power(fitted)
+    return (moved if is_step else fitted).with_noise()
