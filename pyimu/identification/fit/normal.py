@@ -26,7 +26,8 @@ Noise = dict[int, "RandomWalk | Autoregressive | Unit"]
 class Normal:
     """Normal equations in whitened units, whole and by batch.
 
-    ``gram`` (P, P), ``score`` (P,), for named columns.
+    ``gram`` (P, P), ``score`` (P,), for named columns. ``seen`` (P, P) is the Gram matrix of the
+    columns as they are, where the noise of a reference was taken out of ``gram``.
     """
 
     keys: list[Key]
@@ -35,6 +36,7 @@ class Normal:
     power: float
     rows: int
     log_det: float
+    seen: np.ndarray | None = None
 
     @cached_property
     def gram(self) -> np.ndarray:

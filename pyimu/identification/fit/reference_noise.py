@@ -230,7 +230,8 @@ def equations(fit: Fit, linearised: Callable[[Fit], list[Linear]] = Fit.linearis
     whole, seen = gram.sum(axis=0), found.gram
     hidden = np.diag(whole) <= LEAST_SEEN * np.diag(seen)
     score[:, hidden] = gram[:, hidden] = gram[:, :, hidden] = 0.0
-    return replace(found, batch_gram=gram, batch_score=score, power=found.power - noise.power)
+    power = found.power - noise.power
+    return replace(found, batch_gram=gram, batch_score=score, power=power, seen=seen)
 
 
 def _on(like: Normal, other: Normal) -> Normal:

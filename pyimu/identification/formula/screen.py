@@ -106,7 +106,7 @@ def _scored(term: Term, projected: Projected, at: dict[Shape, int]) -> Scored:
         if not columns:
             continue
         s = projected.score[columns]
-        power = float(s @ solve(projected.gram[np.ix_(columns, columns)], s))
+        power = float(s @ solve(projected.variance[np.ix_(columns, columns)], s))
         if 0.5 * power > PENALTY:
             power /= _dispersion(projected, columns)
         best = min(best, (float(chi2.sf(power, len(columns))), i))
@@ -118,7 +118,7 @@ def _scored(term: Term, projected: Projected, at: dict[Shape, int]) -> Scored:
 
 def _dispersion(projected: Projected, columns: list[int]) -> float:
     """That of a few of many columns, without the Gram matrices by batch of all of them."""
-    gram = projected.gram[np.ix_(columns, columns)]
+    gram = projected.variance[np.ix_(columns, columns)]
     turn = projected.turn[:, columns]
     few = Projected(gram, projected.score[columns], turn, projected.normal)
     return dispersion(few, range(len(columns)))

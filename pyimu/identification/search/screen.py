@@ -17,7 +17,7 @@ import numpy as np
 from pyimu.identification.fit.fit import Fit, with_prior
 from pyimu.identification.fit.keys import Key
 from pyimu.identification.fit.normal import DEAD, Normal, solve
-from pyimu.identification.fit.reference_noise import equations
+from pyimu.identification.fit.reference_noise import LEAST_SEEN, equations
 from pyimu.identification.search.candidates import (
     Choice,
     Group,
@@ -131,6 +131,10 @@ class Projected:
         gram = turn.T @ g @ turn
         # A column that the model explains up to rounding carries nothing; leave it exactly nothing.
         dead = np.diag(gram) < DEAD * raw
+        if normal.seen is not None:
+            # What is left of it may be the noise of the reference.
+            left = np.sum(turn * (normal.seen @ turn), axis=0)
+            dead |= np.diag(gram) <= LEAST_SEEN * left
         turn[:, dead] = 0.0
         gram[dead] = gram[:, dead] = 0.0
         return cls(gram, turn.T @ normal.score, turn, normal)
@@ -138,6 +142,14 @@ class Projected:
     @cached_property
     def batch_score(self) -> np.ndarray:
         return self.normal.batch_score @ self.turn
+
+    @cached_property
+    def variance(self) -> np.ndarray:
+        """Covariance of ``score``: what the noise of a reference adds to a column is no slope, but
+        scatters its score as much as any.
+        """
+        seen = self.normal.seen
+        return self.gram if seen is None else self.turn.T @ seen @ self.turn
 
     @cached_property
     def batch_gram(self) -> np.ndarray:
