@@ -83,7 +83,8 @@ def settings(block, update: bool) -> np.ndarray:
     at, p = {v.name: i for i, v in enumerate(block.parameters)}, block.start.copy()
     for name in ("gravity_tolerance", "motion_tolerance", "steady_tolerance"):
         p[at[name]] = 1e3 if update else 0.0
-    p[at["mean_time"]] = 1.0 if update else 0.0
+    # A tilt that is not known has no velocity for a measurement of gravity.
+    p[[at[f"std0[{i}]"] for i in (1, 2, 3)]] = 0.01 if update else 0.15
     p[[at[f"std0[{i}]"] for i in (4, 5, 6)]] = 1e-4
     return p
 

@@ -20,9 +20,8 @@ HEADING_STD = 0.02
 CHUNK = 200_000
 """Samples that are made at a time."""
 
-WHITE = {"accel_std": 0.0, "accel_correlation_time": 0.0, "mean_time": 0.0}
-"""Settings under which a sample of specific force is gravity and white noise, and nothing else is
-used."""
+WHITE = {"accel_std": 0.0, "accel_correlation_time": 0.0}
+"""Settings under which a sample of specific force is gravity and white noise alone."""
 
 
 @dataclass(frozen=True)

@@ -17,13 +17,15 @@ from pyimu.model.signals import SIGNALS
 from pyimu.recording.quality.clipping import clipping_level
 from pyimu.recording.recording import Recording
 
-NOMINAL_K = 2e-5
-"""rad/s/sqrt(s); rate random walk of a gyro of which nothing is known, 4 deg/h/sqrt(s)."""
+NOMINAL_K = 3e-4
+"""rad/s/sqrt(s); rate random walk of a gyro of whose wander nothing is known. In motion that is
+what its model lacks, ten times and more of what it does at rest. Chosen on recordings moved by hand
+(``benchmarks/attitude_real.py``); from 2e-4 to 1e-3 it makes little difference."""
 
-NOMINAL_RATE_NOISE = 4.5e-3
+NOMINAL_RATE_NOISE = 2e-3
 """sqrt(s); the setting ``rate_noise`` for such a gyro: scale factors and axes off by a percent, for
-turns of the order of 0.2 s. It was chosen by hand-held recordings
-(``benchmarks/attitude_real.py``)."""
+turns of the order of 0.04 s. It was chosen together with ``NOMINAL_K``, which has the part that
+lasts."""
 
 HEADING_STD = 0.035
 """rad; of a recorded heading that comes without a standard deviation."""
@@ -43,6 +45,15 @@ def nominal_part(recording: Recording, rest: Rest) -> Part:
         Sensor("gyro", gyro | _clipped(recording.gyro)),
         Sensor("accel", accel | _clipped(recording.accel)),
     )
+
+
+def wandering(part: Part) -> Part:
+    """The part, with the nominal rate random walk where it says nothing of its gyro's wander."""
+    laws = [e.law for e in part.gyro.effects if e.law is not None]
+    if any(law.walk or law.markov for law in laws):
+        return part
+    walk, strength = WALK
+    return part.with_sensor(part.gyro.with_values(walk, **{strength: NOMINAL_K}))
 
 
 def number(name: str, value) -> float:

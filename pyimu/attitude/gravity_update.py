@@ -1,18 +1,23 @@
-"""The update by gravity: the force that measures it, its weight, and its innovation gate.
+"""The updates by gravity: what measures it, its weight, and its innovation gate.
 
-Gravity is a sample of the specific force while the body is quasi-static, and in motion the mean
-force of the last second (``pyimu.attitude.quasi_static``).
+While the tilt is known to a few degrees, the velocity of a body that stays in its place measures
+gravity (``pyimu.attitude.velocity``). Until then it is a sample of the specific force while the
+body is quasi-static, and in motion the mean force of the last second
+(``pyimu.attitude.quasi_static``).
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import casadi as ca
 
 from pyimu.attitude.layout import GravityMeasurement
 from pyimu.attitude.memory import ESTIMATE, Memory
 from pyimu.attitude.quasi_static import (
+    MEAN_TIME,
+    MEAN_TOLERANCE,
     MeanForce,
     QuasiStatic,
     average,
@@ -24,8 +29,9 @@ from pyimu.attitude.quasi_static import (
 )
 from pyimu.attitude.sample import Sample
 from pyimu.attitude.settings import Settings
-from pyimu.attitude.unscented import Estimate, N
+from pyimu.attitude.unscented import Estimate
 from pyimu.attitude.variables import LEAST_ACCEL_STD
+from pyimu.attitude.velocity import DRIFT_GAIN, Motion, Push, at_rest, covariance_of_motion
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import symmetric
 
@@ -38,40 +44,111 @@ RECOVERY = 0.2
 in this time."""
 
 
+SLOW_TIME = 0.3
+"""s; velocity over acceleration of a slow motion by hand, of three rad/s."""
+
+KNOWN_TILT = 0.05
+"""rad; standard deviation of the tilt up to which the velocity measures gravity: what is not linear
+in the tilt is then below 0.025 m/s^2."""
+
+
 @dataclass(frozen=True)
 class Inclination:
     """What a sample of the accelerometer says of the inclination.
 
-    The estimators after it, the ``measurement`` of gravity, whether that is ``usable``, and whether
-    the body is ``quasi_static``.
+    The estimators after it, the ``measurement`` of gravity, whether that is ``usable`` by itself,
+    whether the ``velocity`` is, and whether the body is ``quasi_static``.
     """
 
     quasi: QuasiStatic
     mean: MeanForce
     measurement: GravityMeasurement
     usable: ca.SX
+    velocity: ca.SX
     quasi_static: ca.SX
 
 
-def inclination(memory: Memory, sample: Sample, turned, settings: Settings, h) -> Inclination:
+def inclination(
+    memory: Memory, sample: Sample, x: Estimate, motion: Motion, turned, settings: Settings, h
+) -> Inclination:
     """The quasi-static estimator and the mean force one sample later, and the gravity they measure.
 
-    ``turned`` (3, 3) is the body's turn in inertial space in the period ``h`` s, from old axes to
-    new.
+    ``x`` is the propagated estimate, ``motion`` how the body moves, ``turned`` (3, 3) its turn in
+    inertial space in the period ``h`` s, from old axes to new.
     """
     at, valid = settings.scalar, sample.force_valid
     white = _white_variance(settings, h)
-    noise = at["accel_std"] ** 2 * (1 + 2 * at["accel_correlation_time"] * (1 / h)) + white
+    noise = _acceleration_variance(settings, h) + white
     magnitude = ca.norm_2(sample.force)
     quasi = follow(memory.quasi, magnitude, at["gravity_walk"] ** 2 * h, ca.sum1(noise) / 3, valid)
     carried = True if sample.gyro_lost is False else ca.logic_not(ca.mmax(sample.gyro_lost))
-    mean = average(memory.mean, sample.force, turned, at["mean_time"], h, valid, carried)
+    mean = average(memory.mean, sample.force, turned, MEAN_TIME, h, valid, carried)
     steady = is_quasi_static(
         quasi, magnitude, at["gravity"], at["gravity_tolerance"], at["motion_tolerance"]
     ) * (mean.scatter <= at["steady_tolerance"] ** 2 + 2 * ca.sum1(white))
-    measurement = _measurement(sample.force, mean, steady, noise, white, settings, h)
-    usable = where(valid, 1 - (1 - steady) * (1 - _is_mean_gravity(mean, settings)))
-    return Inclination(quasi, mean, measurement, usable, where(valid, steady))
+    plausible = where(valid, 1 - (1 - steady) * (1 - _is_mean_gravity(mean, settings)))
+    known = is_tilt_known(x)
+    given = _measurement(sample.force, mean, steady, noise, white, settings, h)
+    against = _contradicts(given.force, mean, x, white, settings)
+    given = replace(
+        given,
+        motion=ca.vertcat(motion.across, motion.along),
+        lasting=2 * at["motion_time"] / h,
+        coloured=2 * h * at["accel_correlation_time"] * at["accel_std"] ** 2,
+        plausible=plausible,
+        contradicts=plausible * against,
+    )
+    return Inclination(
+        quasi, mean, given, plausible * (1 - known), where(valid, known), where(valid, steady)
+    )
+
+
+def _contradicts(force, mean: MeanForce, x: Estimate, white, settings: Settings):
+    """Whether a ``force`` (3,) that may be gravity is too far off the vertical of ``x``.
+
+    A tilt that is wrong from the start or by a fault makes a velocity that looks like motion; the
+    force in itself tells them apart.
+    """
+    up = vertical(x)
+    off = ca.sumsqr(force) - ca.dot(up, force) ** 2
+    own = settings.scalar["gravity"] ** 2 * tilt_variance(x.covariance, up)
+    spread = ca.sum1(white) / 3 + settings.scalar["accel_std"] ** 2 + SLOW_TIME**2 * mean.scatter
+    return off > INNOVATION_GATE * (own + spread)
+
+
+def is_tilt_known(x: Estimate):
+    """Whether the tilt is known well enough for the velocity to be linear in its error, 0 or 1."""
+    return tilt_variance(x.covariance, vertical(x)) <= KNOWN_TILT**2
+
+
+def push(memory: Memory, sample: Sample, settings: Settings, h) -> Push:
+    """What the sample changes of the velocity.
+
+    A force that is lost is taken for gravity, with the scatter that it had: for as long as the body
+    may keep an acceleration the unknown change of the velocity grows as its time.
+    """
+    at, valid = settings.scalar, sample.force_valid
+    white = _white_variance(settings, h)
+    declared = _acceleration_variance(settings, h)
+    lost_for = ca.fmin(ca.fmax(MEAN_TIME - memory.mean.span, 0), at["motion_time"])
+    lost = memory.mean.scatter * (1 + 2 * lost_for / h)
+    drift = DRIFT_GAIN * memory.motion.drift * h / (at["motion_time"] + h)
+    return Push(
+        where(valid, h * sample.force),
+        where(valid, h * at["gravity"]),
+        h**2 * (where(valid, white, lost) + declared) + drift,
+    )
+
+
+def _acceleration_variance(settings: Settings, h):
+    """Variance in (m/s^2)^2 of white noise in a sample that stands for the acceleration.
+
+    An acceleration that lasts for a correlation time T has the density 2 T sigma^2, so that a
+    sample of white noise that stands for it has the variance 2 T sigma^2 / h: a faster log is not
+    trusted more.
+    """
+    at = settings.scalar
+    return at["accel_std"] ** 2 * (1 + 2 * at["accel_correlation_time"] * (1 / h))
 
 
 def _white_variance(settings: Settings, h):
@@ -84,10 +161,10 @@ def _is_mean_gravity(mean: MeanForce, settings: Settings):
     """Whether the mean force spans enough time, and has the magnitude of gravity."""
     at = settings.scalar
     # A push that lasts causes no scatter, so that for it the tolerance stays narrow.
-    tolerance = at["gravity_tolerance"] + at["mean_tolerance"] * ca.sqrt(mean.scatter)
+    tolerance = at["gravity_tolerance"] + MEAN_TOLERANCE * ca.sqrt(mean.scatter)
     return (
-        (at["mean_time"] > 0)
-        * (2 * mean.span > at["mean_time"])
+        (at["accel_std"] > 0)
+        * (2 * mean.span > MEAN_TIME)
         * is_near(mean.force, at["gravity"], tolerance)
     )
 
@@ -98,32 +175,71 @@ def _measurement(
     """The sampled force (3,) where the body is ``steady``, else the mean force.
 
     ``noise`` (3,) is the variance of the sampled force, ``white`` (3,) its part that is white
-    noise. An acceleration that lasts for a correlation time T has the density 2 T sigma^2, so that
-    a sample of white noise that stands for it has the variance 2 T sigma^2 / h: a faster log is not
-    trusted more. In a single sample the acceleration has its own variance, however long it lasts;
-    that one decides whether a sample contradicts the attitude.
+    noise. In a single sample the acceleration has its own variance, however long it lasts; that one
+    decides whether a sample contradicts the attitude.
     """
     at = settings.scalar
     scatter = mean.scatter + at["accel_std"] ** 2
-    in_motion = mean_variance(scatter, at["mean_time"] + h, at["motion_time"], h) + white
+    noise = noise + 2 * at["accel_std"] ** 2 * at["motion_time"] / h
+    in_motion = mean_variance(scatter, MEAN_TIME + h, h) + white
     force = mean.force + steady * (sampled - mean.force)
     variance = in_motion + steady * (noise - in_motion)
-    lasting = at["mean_time"] + steady * (at["accel_correlation_time"] - at["mean_time"])
+    lasting = MEAN_TIME + steady * (at["accel_correlation_time"] + at["motion_time"] - MEAN_TIME)
     of_sample = variance - (1 - 1 / (1 + 2 * lasting * (1 / h))) * (variance - white)
-    return GravityMeasurement(force, variance, at["gravity"], h, of_sample)
+    none = ca.SX(0)
+    return GravityMeasurement(
+        force, variance, at["gravity"], h, of_sample, ca.SX.zeros(2), none, none, none, none
+    )
 
 
 def corrected(working, given: GravityMeasurement, x: Estimate, nis, weight):
-    """The working estimate after the update by gravity.
+    """The working estimate after the update by a force that is gravity.
 
-    The update gave ``x``, the normalised innovation squared ``nis`` and its ``weight``.
+    The update gave ``x``, the normalised innovation squared ``nis`` and its ``weight``. The
+    velocity begins anew, as that of the motion.
 
     A few wrong samples change little. An attitude that is far off, such as one given upside down,
     becomes uncertain in time for gravity to correct it, without its error being taken for bias.
     """
-    beyond = weight < 1
-    tilt = tilt_variance(x.covariance, vertical(x)) * (beyond * given.period / RECOVERY)
-    after = Estimate(x.q, x.bias, _with_tilt_variance(x.covariance, vertical(x), tilt))
+    up, beyond = vertical(x), weight < 1
+    moving = covariance_of_motion(given.motion[0], given.motion[1], up)
+    after = at_rest(_less_sure(x, up, beyond * given.period), moving)
+    return _reported(working, after, nis, beyond)
+
+
+def by_velocity(working, given: GravityMeasurement, correct: Callable):
+    """The working estimate after the update by the velocity of a body that stays in its place.
+
+    That is measured as zero, with the variance of the motion. ``correct`` is the correction of one
+    of the filters, by its arguments (``unscented.correct``). A velocity beyond all of the motion
+    contradicts the attitude only where the force may be gravity.
+    """
+    x = Memory.estimate_of(working)
+    up, own = quaternion.to_matrix(x.q)[2, :].T, x.covariance[6:, 6:]
+    moving = covariance_of_motion(given.motion[0], given.motion[1], up)
+    after, nis, weight = correct(
+        x,
+        -x.velocity,
+        own + given.lasting * moving,
+        x.covariance[:, 6:],
+        up,
+        INNOVATION_GATE,
+        own + moving - given.coloured * ca.SX.eye(3),
+        given.plausible,
+    )
+    contradicted = 1 - (1 - (weight < 1) * given.plausible) * (1 - given.contradicts)
+    after = _less_sure(after, up, contradicted * given.period)
+    return _reported(working, after, nis, contradicted)
+
+
+def _less_sure(x: Estimate, up, time) -> Estimate:
+    """The estimate with a tilt that was contradicted for ``time`` s less sure."""
+    tilt = tilt_variance(x.covariance, up) * (time / RECOVERY)
+    return replace(x, covariance=_with_tilt_variance(x.covariance, up, tilt))
+
+
+def _reported(working, after: Estimate, nis, beyond):
+    """The ``working`` estimate with ``after`` in place of its estimate, and with its report."""
     yaw, others = working[ESTIMATE - 1], working[ESTIMATE + 2 :]
     return ca.vertcat(Memory.pack_estimate(after), yaw, nis, beyond, others)
 
@@ -131,7 +247,7 @@ def corrected(working, given: GravityMeasurement, x: Estimate, nis, weight):
 def _with_tilt_variance(covariance, up, variance):
     """The covariance with ``variance`` added to the tilt, independent of the bias."""
     return symmetric(
-        N,
+        covariance.shape[0],
         lambda i, j: (
             covariance[i, j] + variance * ((i == j) - up[i] * up[j]) if j < 3 else covariance[i, j]
         ),

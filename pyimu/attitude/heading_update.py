@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import casadi as ca
 
@@ -11,7 +11,7 @@ from pyimu.attitude.gravity_update import tilt_variance, vertical
 from pyimu.attitude.layout import Layout
 from pyimu.attitude.memory import ESTIMATE, WORKING, Memory
 from pyimu.attitude.settings import Settings
-from pyimu.attitude.unscented import Estimate, N, measure
+from pyimu.attitude.unscented import WHOLE, Estimate, N, measure
 from pyimu.attitude.variables import ABSURD, INPUTS, LEAST_HEADING_STD
 from pyimu.symbolic import mrp, quaternion
 from pyimu.symbolic.linear import cholesky, forward, symmetric
@@ -35,13 +35,15 @@ class Heading:
     """A heading of the inputs.
 
     ``angle`` in rad and its ``variance``, whether they are usable numbers (``good``), the sample
-    ``period`` in s, and the gyro's squared rate random walk ``walk`` (3,) in (rad/s)^2/s.
+    ``period`` in s, ``rate_variance`` in (rad/s)^2 of the gyro's white noise about two axes in a
+    sample, and its squared rate random walk ``walk`` (3,) in (rad/s)^2/s.
     """
 
     angle: ca.SX
     variance: ca.SX
     good: ca.SX
     period: ca.SX
+    rate_variance: ca.SX
     walk: ca.SX
 
     def pack(self) -> ca.SX:
@@ -49,10 +51,10 @@ class Heading:
 
     @classmethod
     def unpack(cls, column) -> Heading:
-        return cls(*ca.vertsplit(column[:4]), column[4:])
+        return cls(*ca.vertsplit(column[:5]), column[5:])
 
 
-HEADING = 7
+HEADING = 8
 """Numbers of a ``Heading``."""
 
 
@@ -90,7 +92,8 @@ def _read(layout: Layout) -> ca.Function:
     good = ca.mmin(ca.vertcat(ca.fabs(given) <= ABSURD, given[1] > 0, given[2] >= 0))
     given = ca.if_else(good, given, 0)
     variance = given[1] + LEAST_HEADING_STD**2
-    heading = Heading(given[0], variance, good, h, settings.gyro.walk**2)
+    rate_variance = ca.sumsqr(settings.gyro.white) * (2 / 3) / h
+    heading = Heading(given[0], variance, good, h, rate_variance, settings.gyro.walk**2)
     samples = ca.floor(given[2] / h + 0.5)
     each = late_heading.samples_per_slot(settings.scalar["heading_memory"], h)
     return ca.Function("heading", [u, p, h], [heading.pack(), samples, each], OPTIONS)
@@ -182,7 +185,10 @@ def _corrected(x: Estimate, heading: Heading, past: PastYaw, rate):
     walk = ca.dot(up * up, heading.walk)
     variance, cross, separable = _aged(x, variance, cross, up, past, walk)
     # Beyond the first order: a tilt error changes the yaw by as much as the body has tilted since.
-    tilted = tilt_variance(x.covariance, up) * ca.sumsqr(ca.cross(up, rate - x.bias)) * past.age**2
+    # The error lasts for longer than the age, so that all headings of that time share it.
+    square = ca.fmax(ca.sumsqr(ca.cross(up, rate - x.bias)) - heading.rate_variance, 0)
+    tilted = tilt_variance(x.covariance, up) * square * past.age**2
+    tilted *= ca.fmax(1, past.age / heading.period)
     innovation = late_heading.wrapped(heading.angle - past.yaw) - mean
     after, _, weight = unscented.correct(
         x, innovation, variance + (heading.variance + tilted), cross, up, INNOVATION_GATE
@@ -191,7 +197,7 @@ def _corrected(x: Estimate, heading: Heading, past: PastYaw, rate):
 
 
 def _aged(x: Estimate, variance, cross, up, past: PastYaw, walk):
-    """Variance of the past yaw and its covariance (6,) with the present error; whether separable.
+    """Variance of the past yaw and its covariance (9,) with the present error; whether separable.
 
     They are made from those of the present yaw.
 
@@ -207,23 +213,24 @@ def _aged(x: Estimate, variance, cross, up, past: PastYaw, walk):
     same.
     """
     age, since = past.age, past.since
-    leaked = age * (x.covariance[:, 3:] @ up)
-    variance = variance + age * (2 * ca.dot(up, cross[3:]) + ca.dot(up, leaked[3:]))
+    leaked = age * (x.covariance[:, 3:N] @ up)
+    variance = variance + age * (2 * ca.dot(up, cross[3:N]) + ca.dot(up, leaked[3:N]))
     cross = cross + leaked
     along = ca.vertcat(ca.horzcat(up, ca.SX(3, 1)), ca.horzcat(ca.SX(3, 1), up))
     noise = ca.vertcat(
         ca.horzcat(since + walk * age**3 / 3, -walk * age**2 / 2),
         ca.horzcat(-walk * age**2 / 2, walk * age),
     )
-    root = cholesky(x.covariance)
+    root = cholesky(x.covariance[:N, :N])
     whitened = forward(root, along)
-    slope = whitened.T @ forward(root, cross)
+    slope = whitened.T @ forward(root, cross[:N])
     shares = noise @ (whitened.T @ whitened)
     separable = ca.logic_and(
         ca.trace(shares) < 2,
         ca.trace(shares) - (shares[0, 0] * shares[1, 1] - shares[0, 1] * shares[1, 0]) < 1,
     )
-    return variance - ca.dot(slope, noise @ slope), cross - along @ (noise @ slope), separable
+    told = ca.vertcat(along, ca.SX(3, 2)) @ (noise @ slope)
+    return variance - ca.dot(slope, noise @ slope), cross - told, separable
 
 
 def _with_less_known_yaw(x: Estimate, beyond) -> Estimate:
@@ -236,9 +243,10 @@ def _with_less_known_yaw(x: Estimate, beyond) -> Estimate:
     up, covariance = vertical(x), x.covariance
     yaw = beyond * ca.dot(up, covariance[:3, :3] @ up)
     wider = symmetric(
-        N, lambda i, j: covariance[i, j] + yaw * up[i] * up[j] if j < 3 else covariance[i, j]
+        WHOLE,
+        lambda i, j: covariance[i, j] + yaw * up[i] * up[j] if j < 3 else covariance[i, j],
     )
-    return Estimate(x.q, x.bias, wider)
+    return replace(x, covariance=wider)
 
 
 def _forward(x: Estimate):

@@ -13,7 +13,7 @@ from pyimu.attitude.memory import ESTIMATE, WORKING, memory_sizes
 from pyimu.attitude.variables import INPUTS, OWN_PARAMETERS
 from pyimu.block.variables import Variable
 
-GRAVITY = 11
+GRAVITY = 17
 """Numbers of a ``GravityMeasurement``."""
 
 
@@ -23,7 +23,11 @@ class GravityMeasurement:
 
     ``force`` (3,) m/s^2 in body axes; ``variance`` (3,) (m/s^2)^2 by which it is weighed;
     ``magnitude`` of gravity in m/s^2; the sample ``period`` in s; ``sample_variance`` (3,), that of
-    one sample, by which the innovation is normalised.
+    one sample, by which the innovation is normalised. Where the velocity is measured instead:
+    ``motion`` (2,) (m/s)^2 is its variance across and along the vertical, ``lasting`` how many
+    samples a value of it lasts, ``coloured`` (m/s)^2 what a sample's variance has in it because the
+    acceleration lasts. ``plausible`` says whether the force may be gravity,
+    ``contradicts`` whether it then contradicts the tilt.
     """
 
     force: ca.SX
@@ -31,18 +35,22 @@ class GravityMeasurement:
     magnitude: ca.SX
     period: ca.SX
     sample_variance: ca.SX
+    motion: ca.SX
+    lasting: ca.SX
+    coloured: ca.SX
+    plausible: ca.SX
+    contradicts: ca.SX
 
     def pack(self) -> ca.SX:
-        return ca.vertcat(
-            self.force, self.variance, self.magnitude, self.period, self.sample_variance
-        )
+        return ca.densify(ca.vertcat(*vars(self).values()))
 
     @classmethod
     def unpack(cls, column) -> GravityMeasurement:
-        return cls(column[:3], column[3:6], column[6], column[7], column[8:])
+        ends = [0, 3, 6, 7, 8, 11, 13, 14, 15, 16, 17]
+        return cls(*ca.vertsplit(column, ends))
 
 
-FLAGS = 9
+FLAGS = 10
 """Numbers of ``Flags``."""
 
 
@@ -50,14 +58,16 @@ FLAGS = 9
 class Flags:
     """What the prediction says to the updates.
 
-    ``which`` updates are needed, 0: none, 1: gravity's alone, 2: others. Whether ``gravity``
-    corrects, whether the body is ``quasi_static``, whether its attitude may be ``lost``, whether a
-    ``heading`` and a zero rate (``stationary``) correct, whether an input was ``missing``.
-    ``faults`` are the other bits of the status; ``vertical_noise`` is that of ``Memory``.
+    ``which`` updates are needed, 0: none, 1: the velocity's alone, 2: others. Whether ``gravity``
+    corrects, whether the ``velocity`` does, whether the body is ``quasi_static``, whether its
+    attitude may be ``lost``, whether a ``heading`` and a zero rate (``stationary``) correct,
+    whether an input was ``missing``. ``faults`` are the other bits of the status;
+    ``vertical_noise`` is that of ``Memory``.
     """
 
     which: ca.SX
     gravity: ca.SX
+    velocity: ca.SX
     quasi_static: ca.SX
     lost: ca.SX
     heading: ca.SX

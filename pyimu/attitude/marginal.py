@@ -11,11 +11,13 @@ left, whose odd and even parts are written out. Both functions give what
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import factorial
 
 import casadi as ca
 
 from pyimu.attitude.unscented import SPREAD, Estimate, N, moved
+from pyimu.attitude.velocity import Push, pushed
 from pyimu.symbolic import mrp, quaternion
 from pyimu.symbolic.linear import FLOOR, symmetric
 
@@ -71,14 +73,15 @@ def mean_jacobian(angle, k):
     return (1 - c * square) * ca.SX.eye(3) - b * ca.skew(angle) + outer
 
 
-def propagate(x: Estimate, rate, earth, moving, noise, h) -> tuple[Estimate, ca.SX]:
+def propagate(x: Estimate, rate, earth, moving, noise, push: Push, h) -> tuple[Estimate, ca.SX]:
     """The estimate one period ``h`` s later, and the body's turn (3, 3) in inertial space.
 
     The turn is from the old body axes to the new.
 
     ``rate`` (3,) rad/s is the compensated rate, ``earth`` (3,) rad/s the Earth's in body axes,
     ``moving`` 0 or 1 whether the body turns at all. ``noise`` is the variance that is added to the
-    attitude, to attitude and bias together, and to the bias, (3,) each. With R the turn and G = -h
+    attitude, to attitude and bias together, and to the bias, (3,) each; ``push``
+    changes the velocity. With R the turn and G = -h
     J the error becomes R^T p + G b + R^T p x G b / 2, and the mean of the last term is the mean
     error. The quaternion keeps its length however large that mean is: the updates that follow rely
     on a vertical of unit length.
@@ -88,13 +91,15 @@ def propagate(x: Estimate, rate, earth, moving, noise, h) -> tuple[Estimate, ca.
     angle *= ca.sumsqr(angle) <= LARGEST_TURN**2
     centre, k = turn(angle)
     own = quaternion.to_matrix(quaternion.product(centre, ca.vertcat(1, earth * step / 2))).T
-    covariance, mixed = _propagated(x.covariance, own, -step * mean_jacobian(angle, k), noise)
+    leak = -step * mean_jacobian(angle, k)
+    covariance, mixed = _propagated(x.covariance, own, leak, noise)
     mean = (
         ca.vertcat(mixed[1, 2] - mixed[2, 1], mixed[2, 0] - mixed[0, 2], mixed[0, 1] - mixed[1, 0])
         / 2
     )
     q = quaternion.product(quaternion.product(x.q, centre), mrp.to_quaternion(mean))
-    return Estimate(q, x.bias, covariance), own
+    after = Estimate(q, x.bias, x.velocity, covariance)
+    return pushed(x, after, own, leak, push), own
 
 
 def _propagated(covariance, own, g, noise):
@@ -104,7 +109,7 @@ def _propagated(covariance, own, g, noise):
 
     ``own`` is R^T, ``g`` is G.
     """
-    pp, pb, bb = covariance[:3, :3], covariance[:3, 3:], covariance[3:, 3:]
+    pp, pb, bb = covariance[:3, :3], covariance[:3, 3:N], covariance[3:N, 3:N]
     turned, leaked = own @ pb, g @ bb
     mixed, both = (turned + leaked / 2) @ g.T, turned + leaked
     half = own @ pp
@@ -146,7 +151,7 @@ def factors(matrix, columns: int):
 
 
 def measure_gravity(x: Estimate, axes, magnitude):
-    """Predicted force (3,), its covariance (3, 3), and its covariance with the error state (6, 3).
+    """Predicted force (3,), its covariance (3, 3), and its covariance with the error state (n, 3).
 
     The measurement is of gravity of ``magnitude`` m/s^2.
 
@@ -181,7 +186,7 @@ def measure_gravity(x: Estimate, axes, magnitude):
 
 
 def correct(
-    x: Estimate, innovation, variance, cross, up, innovation_gate, gate_variance
+    x: Estimate, innovation, variance, cross, up, innovation_gate, gate_variance, beyond=1
 ) -> tuple[Estimate, ca.SX, ca.SX]:
     """The estimate after a measurement of three numbers, its NIS, and its weight.
 
@@ -200,16 +205,16 @@ def correct(
             _solved(own_lower, [innovation[i] for i in range(3)]), own_pivots, strict=True
         )
     )
-    weight = ca.if_else(nis > innovation_gate, innovation_gate / nis, 1)
+    weight = ca.if_else(nis > innovation_gate, beyond * innovation_gate / nis, 1)
     scaled = [g * (d * weight) for g, d in zip(gain, inverse, strict=True)]
     change = sum(g * w for g, w in zip(scaled, white, strict=True))
     covariance = symmetric(
-        N,
+        cross.shape[0],
         lambda i, j: (
             x.covariance[i, j] - sum(g[i] * s[j] for g, s in zip(gain, scaled, strict=True))
         ),
     )
-    return moved(Estimate(x.q, x.bias, covariance), change, up), nis, weight
+    return moved(replace(x, covariance=covariance), change, up), nis, weight
 
 
 def _solved(lower, values: list) -> list:

@@ -12,13 +12,15 @@ from pyimu.attitude.compensation import Compensation
 from pyimu.attitude.quasi_static import MeanForce, QuasiStatic
 from pyimu.attitude.unscented import LARGEST_STD, Estimate, N
 from pyimu.attitude.variables import LARGEST_BIAS, LEAST_ACCEL_STD, LEAST_K, LEAST_N, OWN_PARAMETERS
+from pyimu.attitude.velocity import Motion
 from pyimu.model.signals import SIGNALS
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import pack, unpack
 
-ESTIMATE = 29
-"""Numbers of the state that the updates change: q (4), bias (3), the upper triangle of the
-covariance (21), and the sum in rad of all corrections of yaw by headings."""
+ESTIMATE = 56
+"""Numbers of the state that the updates change: q (4), bias (3), the upper triangle of their
+covariance (21), velocity (3), its covariance with them (18) and its own upper triangle (6), and the
+sum in rad of all corrections of yaw by headings."""
 
 REPORTED = 6
 """Numbers by which the updates report: gravity's normalised innovation squared and whether it
@@ -48,6 +50,7 @@ class Memory:
     estimate: Estimate
     quasi: QuasiStatic
     mean: MeanForce
+    motion: Motion
     held: ca.SX
     lost_for: ca.SX
     same_for: ca.SX
@@ -57,45 +60,60 @@ class Memory:
 
     @staticmethod
     def pack_estimate(x: Estimate) -> ca.SX:
-        """q, bias and the upper triangle of the covariance as a column (28,)."""
-        return ca.densify(ca.vertcat(x.q, x.bias, pack(x.covariance)))
+        """The estimate as a column (55,)."""
+        turning, moving = pack(x.covariance[:N, :N]), pack(x.covariance[N:, N:])
+        both = ca.vec(x.covariance[:N, N:])
+        return ca.densify(ca.vertcat(x.q, x.bias, turning, x.velocity, both, moving))
 
     @staticmethod
     def estimate_of(column) -> Estimate:
         """The estimate that a column of the state or a working estimate begins with."""
-        return Estimate(column[:4], column[4:7], unpack(column[7:28], N))
+        both = ca.reshape(column[31:49], N, 3)
+        turning, moving = unpack(column[7:28], N), unpack(column[49:55], 3)
+        covariance = ca.blockcat([[turning, both], [both.T, moving]])
+        return Estimate(column[:4], column[4:7], column[28:31], covariance)
+
+    @staticmethod
+    def attitude_of(column) -> Estimate:
+        """The same without the velocity."""
+        return Estimate(column[:4], column[4:7], ca.SX(0, 1), unpack(column[7:28], N))
 
     def pack_memory(self) -> ca.SX:
         """All but the estimate as a column."""
         quasi = (self.quasi.magnitude, self.quasi.variance)
         mean = (self.mean.force, self.mean.scatter, self.mean.span)
+        motion = (self.motion.across, self.motion.along, self.motion.slow, self.motion.drift)
         sensors = (self.held, self.lost_for, self.same_for, self.sensors)
-        return ca.densify(ca.vertcat(*quasi, *mean, *sensors, self.vertical_noise, self.place))
+        return ca.densify(
+            ca.vertcat(*quasi, *mean, *motion, *sensors, self.vertical_noise, self.place)
+        )
 
     @classmethod
     def unpack(cls, estimate, column, compensation: Compensation) -> Memory:
         """The inverse of ``pack_estimate`` and ``pack_memory``."""
         ends = np.cumsum([0, *memory_sizes(compensation)]).tolist()
-        magnitude, variance, force, scatter, span, *others = ca.vertsplit(column, ends)
-        quasi, mean = QuasiStatic(magnitude, variance), MeanForce(force, scatter, span)
-        return cls(cls.estimate_of(estimate), quasi, mean, *others)
+        parts = ca.vertsplit(column, ends)
+        quasi, mean = QuasiStatic(*parts[:2]), MeanForce(*parts[2:5])
+        return cls(cls.estimate_of(estimate), quasi, mean, Motion(*parts[5:9]), *parts[9:])
 
 
 def memory_sizes(compensation: Compensation) -> tuple[int, ...]:
     """Sizes of what ``Memory.pack_memory`` packs, in its order."""
     held = 7 + sum(SIGNALS[n].size for n in compensation.extra)
-    return 1, 1, 3, 1, 1, held, 3, 8, len(compensation.start), 1, 2
+    return 1, 1, 3, 1, 1, 1, 1, 3, 1, held, 3, 8, len(compensation.start), 1, 2
 
 
 def start(compensation: Compensation, p) -> tuple[Estimate, ca.SX]:
     """The estimate before the first sample, from the parameters, and the whole state."""
     at = {v.name: p[i] for i, v in enumerate(OWN_PARAMETERS)}
     estimate = _first_estimate(at)
+    least = (at["accel_std"] * at["motion_time"]) ** 2
     held = [v for name in compensation.extra for v in SIGNALS[name].start]
     memory = Memory(
         estimate,
         QuasiStatic(at["gravity"], ca.fmax(at["accel_std"], LEAST_ACCEL_STD) ** 2),
         MeanForce(ca.SX.zeros(3), ca.SX(0), ca.SX(0)),
+        Motion(least, least, ca.SX.zeros(3), ca.SX(0)),
         held=ca.vertcat(0, 0, 0, 0, 0, at["gravity"], 25, *held),
         lost_for=ca.SX.zeros(3),
         same_for=ca.SX.zeros(8),
@@ -120,4 +138,6 @@ def _first_estimate(at: dict) -> Estimate:
     q = quaternion.normalized(ca.if_else(usable, q0, ca.SX([1, 0, 0, 0])))
     std = ca.vertcat(ca.fmin(ca.fmax(std0[:3], LEAST_N), LARGEST_STD), ca.fmax(std0[3:], LEAST_K))
     bias = ca.fmin(ca.fmax(bias0, -LARGEST_BIAS), LARGEST_BIAS)
-    return Estimate(q, bias, ca.densify(ca.diag(std * std)))
+    moving = (at["accel_std"] * at["motion_time"]) ** 2 * ca.SX.ones(3)
+    covariance = ca.densify(ca.diag(ca.vertcat(std * std, moving)))
+    return Estimate(q, bias, ca.SX.zeros(3), covariance)

@@ -8,13 +8,15 @@ import casadi as ca
 
 from pyimu.attitude import late_heading
 from pyimu.attitude.compensation import clock_error
-from pyimu.attitude.gravity_update import Inclination, inclination
+from pyimu.attitude.gravity_update import Inclination, inclination, is_tilt_known
 from pyimu.attitude.layout import Flags, Layout
 from pyimu.attitude.memory import ESTIMATE, REPORTED, Memory
+from pyimu.attitude.quasi_static import where
 from pyimu.attitude.sample import Sample
 from pyimu.attitude.settings import Settings
 from pyimu.attitude.unscented import LARGEST_STD, LARGEST_TILT_STD, Estimate
 from pyimu.attitude.variables import INPUTS, LEAST_K, LEAST_N
+from pyimu.attitude.velocity import followed
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.process_noise import process_noise
 
@@ -111,7 +113,11 @@ def predicted(at: Instant, sample: Sample, x: Estimate, turned, noise) -> list[c
     ``x`` is the propagated estimate, ``turned`` (3, 3) the turn in inertial space from old body
     axes to new, ``noise`` that of ``added_noise``.
     """
-    force = inclination(at.memory, sample, turned, at.settings, at.h)
+    scalar, kept = at.settings.scalar, at.memory
+    used = where(sample.force_valid, is_tilt_known(x))
+    floor = scalar["accel_std"] * scalar["motion_time"]
+    motion = followed(kept.motion, x, turned, used, floor, scalar["motion_time"], at.h)
+    force = inclination(kept, sample, x, motion, turned, at.settings, at.h)
     vertical_noise = at.memory.vertical_noise + _about_the_vertical(x, noise[0])
     slot, within = at.memory.place[0], at.memory.place[1]
     span = at.settings.scalar["heading_memory"]
@@ -120,6 +126,7 @@ def predicted(at: Instant, sample: Sample, x: Estimate, turned, noise) -> list[c
         x,
         force.quasi,
         force.mean,
+        motion,
         sample.held,
         sample.lost_for,
         sample.same_for,
@@ -138,8 +145,10 @@ def _flags(at: Instant, sample: Sample, x: Estimate, force: Inclination, vertica
         stationary = ca.logic_and(stationary, ca.logic_not(ca.mmax(sample.gyro_lost)))
     lost = sum((x.covariance[i, i] > LARGEST_TILT_STD**2 for i in range(3)), 0) > 0
     return Flags(
-        which=force.usable + (lost + heading + stationary > 0) * (2 - force.usable),
+        which=force.velocity
+        + (lost + heading + stationary + force.usable > 0) * (2 - force.velocity),
         gravity=force.usable,
+        velocity=force.velocity,
         quasi_static=force.quasi_static,
         lost=lost,
         heading=heading,

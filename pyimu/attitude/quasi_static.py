@@ -4,9 +4,9 @@ A scalar Kalman filter follows the magnitude of the specific force, x+ = x- + K 
 that does not accelerate measures the magnitude of gravity (Hidalgo 2012, section 5). The magnitude
 hardly changes with an acceleration across gravity. Therefore a mean of the force over a second is
 kept as well, turned along with the body as the gyro measures: what a sample differs from that mean
-is acceleration. In motion the mean itself is the measurement of gravity, because a body that stays
-in its place has no mean acceleration (Laidig and Seel 2023 average in the same way, in the frame of
-the gyro alone).
+is acceleration. For a body in motion whose tilt is not known yet the mean itself is the measurement
+of gravity, because a body that stays in its place has no mean acceleration (Laidig and Seel 2023
+average in the same way, in the frame of the gyro alone).
 """
 
 from __future__ import annotations
@@ -14,6 +14,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import casadi as ca
+
+MEAN_TIME = 1.0
+"""s; time constant of the mean force."""
+
+MEAN_TOLERANCE = 0.1
+"""By which share of the force's root mean square against its mean the mean may differ from gravity
+beyond its tolerance."""
+
+HAND_TIME = 0.06
+"""s; velocity over acceleration of a hand's motion, chosen by hand-held recordings
+(``benchmarks/attitude_real.py``)."""
 
 SCATTER_TIME = 0.3
 """s; time constant of the mean square of the samples' differences from the mean force."""
@@ -94,12 +105,12 @@ def average(x: MeanForce, force, turn, time, h, valid, turned) -> MeanForce:
     return MeanForce(mean, x.scatter + gain * (ca.sumsqr(force - mean) - x.scatter), span)
 
 
-def mean_variance(scatter, time, motion_time, h):
+def mean_variance(scatter, time, h):
     """Variance in (m/s^2)^2 of each sample's mean force as a measurement of gravity in motion.
 
     The mean over ``time`` T of an acceleration is the change of velocity over T. If the standard
-    deviation of the velocity is s_v = ``motion_time`` times that of the acceleration, the mean's
+    deviation of the velocity is s_v = ``HAND_TIME`` times that of the acceleration, the mean's
     variance is (s_v / T)^2. The mean changes in a time of about T: a sample of white noise that
     stands for it has the variance 2 T (s_v / T)^2 / h.
     """
-    return 2 * motion_time**2 * scatter / (time * h)
+    return 2 * HAND_TIME**2 * scatter / (time * h)

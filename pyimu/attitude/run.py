@@ -16,6 +16,7 @@ from pyimu.attitude.columns import (
     latitude_of,
     nominal_part,
     number,
+    wandering,
 )
 from pyimu.attitude.compensation import clock_error, left_in, noise_of
 from pyimu.attitude.input_grid import CHUNK, InputGrid
@@ -52,7 +53,8 @@ def run(
     ``recording`` is a ``Recording``, the path of a file, or a data frame; ``part`` a ``Part``, the
     name of one, or a TOML file.
 
-    Without a part, the filter knows of the sensors only their noise at rest. ``latitude`` in rad is
+    Without a part, the filter knows of the sensors only their noise at rest; of a part that says
+    nothing of its gyro's wander, the nominal one is assumed. ``latitude`` in rad is
     else the recording's; without either, no Earth rate is subtracted. ``q0`` (4,) is the attitude
     and ``heading0`` in rad the yaw of the first sample, ``bias0`` (3,) the gyro bias in rad/s,
     ``std0`` (6,) the standard deviations of attitude in body axes in rad and of bias in rad/s. What
@@ -76,7 +78,7 @@ def run(
         raise UserError("heading0 beside q0, which has a heading of its own: give one of the two")
     gravity = (settings or {}).get("gravity", STANDARD_GRAVITY)
     rest = find_rest(recording, number("gravity", gravity))
-    known = nominal_part(recording, rest) if part is None else part_of(part)
+    known = nominal_part(recording, rest) if part is None else wandering(part_of(part))
     block = attitude_ukf(known)
 
     def turned(row: int) -> float:

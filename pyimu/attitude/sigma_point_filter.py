@@ -12,15 +12,17 @@ from collections.abc import Callable
 
 import casadi as ca
 
+from pyimu.attitude import marginal
 from pyimu.attitude.compensation import Compensation
 from pyimu.attitude.filter_block import filter_block, step_function
-from pyimu.attitude.gravity_update import INNOVATION_GATE, corrected
+from pyimu.attitude.gravity_update import INNOVATION_GATE, by_velocity, corrected, push
 from pyimu.attitude.layout import GRAVITY, Flags, GravityMeasurement, Layout
 from pyimu.attitude.memory import ESTIMATE, WORKING, Memory
 from pyimu.attitude.prediction import ARGUMENTS, Instant, added_noise, predicted
 from pyimu.attitude.sample import look_closely
-from pyimu.attitude.unscented import Estimate, correct, measure, sigma_points
+from pyimu.attitude.unscented import Estimate, N, correct, measure, sigma_points
 from pyimu.attitude.updates import after_gravity, bounded_where_lost, finish, where
+from pyimu.attitude.velocity import pushed
 from pyimu.block.block import Block
 from pyimu.model.part import Part
 from pyimu.symbolic import mrp, quaternion
@@ -47,6 +49,7 @@ def _step(layout: Layout) -> ca.Function:
     flags = Flags.unpack(packed)
     x = bounded_where_lost(x, flags)
     x = where(flags.gravity, _by_gravity(), x, gravity)
+    x = where(flags.velocity, _by_velocity(), x, gravity)
     x = after_gravity(layout, x, s, u, p, h, rate, flags)
     estimate, yaw, y = finish()(x, packed)
     return step_function(layout, symbols, estimate, memory, yaw, y)
@@ -70,6 +73,10 @@ def _predict(layout: Layout) -> ca.Function:
         return at.moving * (rate - quaternion.rotate(quaternion.conjugate(error), at.earth))
 
     x = propagate(before, sample.rate, turn, _matrix(noise), at.h)
+    angle = at.h * turn(sample.rate - before.bias, ca.SX([1, 0, 0, 0]))
+    own = quaternion.to_matrix(quaternion.exponential(angle)).T
+    leak = -at.h * at.moving * marginal.mean_jacobian(angle, marginal.turn(angle)[1])
+    x = pushed(before, x, own, leak, push(at.memory, sample, at.settings, at.h))
     in_inertial_space = quaternion.exponential(at.moving * (sample.rate - before.bias) * at.h)
     turned = quaternion.to_matrix(in_inertial_space).T
     return ca.Function("predict", symbols, predicted(at, sample, x, turned, noise), {"cse": True})
@@ -88,7 +95,7 @@ def propagate(x: Estimate, rate, turn: Callable, noise, h) -> Estimate:
     error (quaternion); ``noise`` (6, 6) is added. Every sigma point turns by its own rate; what is
     left against the centre's turn is its new error (Crassidis and Markley 2003, eqs. 31 to 38).
     """
-    sigma = sigma_points(x.covariance)
+    sigma = sigma_points(x.covariance[:N, :N])
     centre = quaternion.exponential(turn(rate - x.bias, ca.SX([1, 0, 0, 0])) * h)
     errors = []
     for point in sigma.points:
@@ -99,10 +106,17 @@ def propagate(x: Estimate, rate, turn: Callable, noise, h) -> Estimate:
     mean = ca.vertcat(sigma.mean(errors)[:3], ca.SX(3, 1))
     covariance = sigma.variance([e - mean for e in errors]) + noise
     q = quaternion.product(quaternion.product(x.q, centre), mrp.to_quaternion(mean[:3]))
-    return Estimate(quaternion.normalized(q), x.bias, covariance)
+    return Estimate(quaternion.normalized(q), x.bias, x.velocity, covariance)
 
 
 # Gravity
+
+
+def _by_velocity() -> ca.Function:
+    """``x, gravity -> x``: the velocity of a body that stays in its place."""
+    symbols = working, packed = [ca.SX.sym("x", WORKING), ca.SX.sym("gravity", GRAVITY)]
+    out = by_velocity(working, GravityMeasurement.unpack(packed), correct)
+    return ca.Function("by_velocity", symbols, [out], {"cse": True})
 
 
 def _by_gravity() -> ca.Function:
@@ -114,7 +128,7 @@ def _by_gravity() -> ca.Function:
     followed by a turn about the vertical.
     """
     symbols = working, packed = [ca.SX.sym("x", WORKING), ca.SX.sym("gravity", GRAVITY)]
-    x, given = Memory.estimate_of(working), GravityMeasurement.unpack(packed)
+    x, given = Memory.attitude_of(working), GravityMeasurement.unpack(packed)
     up = quaternion.to_matrix(x.q)[2, :].T
 
     def force(p):

@@ -22,7 +22,7 @@ import casadi as ca
 from pyimu.attitude import marginal
 from pyimu.attitude.compensation import Compensation
 from pyimu.attitude.filter_block import filter_block, step_function
-from pyimu.attitude.gravity_update import INNOVATION_GATE, corrected
+from pyimu.attitude.gravity_update import INNOVATION_GATE, by_velocity, corrected, push
 from pyimu.attitude.layout import GRAVITY, Flags, GravityMeasurement, Layout
 from pyimu.attitude.memory import ESTIMATE, WORKING, Memory
 from pyimu.attitude.prediction import ARGUMENTS, Instant, added_noise, predicted
@@ -104,7 +104,13 @@ def _row(name: str, at: Instant, sample: Sample, symbols: list[ca.SX]) -> ca.Fun
     """The prediction of one sample."""
     noise = added_noise(at, sample)
     x, turned = marginal.propagate(
-        at.memory.estimate, sample.rate, at.earth, at.moving, noise, at.h
+        at.memory.estimate,
+        sample.rate,
+        at.earth,
+        at.moving,
+        noise,
+        push(at.memory, sample, at.settings, at.h),
+        at.h,
     )
     return ca.Function(name, symbols, predicted(at, sample, x, turned, noise), OPTIONS)
 
@@ -115,21 +121,22 @@ def _row(name: str, at: Instant, sample: Sample, symbols: list[ca.SX]) -> ca.Fun
 def _updates(layout: Layout) -> ca.Function:
     """``which, x, s, u, p, h, rate, gravity, flags -> estimate, yaw, y``: the updates of a sample.
 
-    There is none, gravity's alone, or whichever are needed.
+    There is none, the velocity's alone, or whichever are needed.
 
     The two usual cases are one function each, because every call from one function to another
     copies the estimate.
     """
     names = "x s u p h rate gravity flags"
     x, s, u, p, h, rate, gravity, flags = symbols = layout.symbols(ca.MX, names)
-    by_gravity, finished, asked = _by_gravity(), finish(), Flags.unpack(flags)
+    velocity, finished, asked = _by_velocity(), finish(), Flags.unpack(flags)
     x = bounded_where_lost(x, asked)
-    x = where(asked.gravity, by_gravity, x, gravity)
+    x = where(asked.gravity, _by_gravity(), x, gravity)
+    x = where(asked.velocity, velocity, x, gravity)
     x = after_gravity(layout, x, s, u, p, h, rate, asked)
     every = ca.Function("every_update", symbols, finished(x, flags))
 
     x, _, _, _, _, _, gravity, flags = plain = layout.symbols(ca.SX, names)
-    after = by_gravity.call([x, gravity], True, False)[0]
+    after = velocity.call([x, gravity], True, False)[0]
     none, usual = (
         ca.Function(name, plain, finished.call([value, flags], True, False), OPTIONS)
         for name, value in (("no_update", x), ("usual_update", after))
@@ -137,10 +144,17 @@ def _updates(layout: Layout) -> ca.Function:
     return ca.Function.conditional("updates", [none, usual], every)
 
 
+def _by_velocity() -> ca.Function:
+    """``x, gravity -> x``: the velocity of a body that stays in its place."""
+    symbols = working, packed = [ca.SX.sym("x", WORKING), ca.SX.sym("gravity", GRAVITY)]
+    out = by_velocity(working, GravityMeasurement.unpack(packed), marginal.correct)
+    return ca.Function("by_velocity", symbols, [out], OPTIONS)
+
+
 def _by_gravity() -> ca.Function:
     """``x, gravity -> x``: the force against gravity in body axes, R_nb^T [0, 0, g]."""
     symbols = working, packed = [ca.SX.sym("x", WORKING), ca.SX.sym("gravity", GRAVITY)]
-    x, given = Memory.estimate_of(working), GravityMeasurement.unpack(packed)
+    x, given = Memory.attitude_of(working), GravityMeasurement.unpack(packed)
     axes = quaternion.to_matrix(x.q)
     mean, variance, cross = marginal.measure_gravity(x, axes, given.magnitude)
     after, nis, weight = marginal.correct(

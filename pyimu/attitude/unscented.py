@@ -1,17 +1,19 @@
-"""The parts of an unscented filter of attitude and gyro bias, as casadi expressions.
+"""The parts of an unscented filter of attitude, gyro bias and velocity, as casadi expressions.
 
 The estimate, its sigma points, measurement and correction.
 
-The error state is x = (p, b). p (3,) is the small rotation in body axes that turns the estimate
+The error state is x = (p, b, v). p (3,) is the small rotation in body axes that turns the estimate
 into the truth, ``q_true = q p``, as modified Rodrigues parameters scaled to rad; b (3,) is the
-error of the gyro bias in rad/s. The quaternion carries the attitude itself, so that the mean of p
-is zero between the steps (Crassidis and Markley 2003, sections III and IV).
+error of the gyro bias in rad/s, v (3,) that of the velocity in m/s in body axes. The quaternion
+carries the attitude itself, so that the mean of p is zero between the steps (Crassidis and Markley
+2003, sections III and IV). The velocity is linear in p and b, and has no sigma points
+(``pyimu.attitude.velocity``).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import pi, tan
 
 import casadi as ca
@@ -20,7 +22,10 @@ from pyimu.symbolic import mrp, quaternion
 from pyimu.symbolic.linear import cholesky, forward, symmetric
 
 N = 6
-"""Size of the error state."""
+"""Size of the error state that has sigma points: attitude and bias."""
+
+WHOLE = 9
+"""Size of the error state with the velocity."""
 
 SPREAD = 1.0
 """lambda >= 0 of the sigma points; the centre has the weight lambda/(n + lambda)."""
@@ -36,10 +41,14 @@ horizontal part of gravity falls again, and at half a turn its slope is lost."""
 
 @dataclass(frozen=True)
 class Estimate:
-    """Attitude ``q`` (4,), gyro ``bias`` (3,) rad/s and the covariance (6, 6) of their errors."""
+    """Attitude ``q`` (4,), gyro ``bias`` (3,) rad/s, ``velocity`` (3,) m/s in body axes.
+
+    ``covariance`` (9, 9) is that of their errors; (6, 6) where the velocity is left out.
+    """
 
     q: ca.SX
     bias: ca.SX
+    velocity: ca.SX
     covariance: ca.SX
 
 
@@ -77,17 +86,17 @@ def sigma_points(covariance) -> Sigma:
 
 
 def bounded(covariance):
-    """The covariance (6, 6) with the standard deviations of attitude at most ``LARGEST_STD``.
+    """The covariance (9, 9) with the standard deviations of attitude at most ``LARGEST_STD``.
 
     An axis beyond is shrunk together with its correlations and filled up again with independent
     variance: an angle that may be anything says nothing of the bias. The result is definite where
     ``covariance`` is.
     """
     largest = LARGEST_STD**2
-    shrink = ca.vertcat(*[ca.fmin(1, largest / covariance[i, i]) for i in range(3)], 1, 1, 1)
+    shrink = ca.vertcat(*[ca.fmin(1, largest / covariance[i, i]) for i in range(3)], ca.SX.ones(6))
     refill = largest * (1 - shrink)
     return symmetric(
-        N, lambda i, j: covariance[i, j] * shrink[i] * shrink[j] + (refill[i] if i == j else 0)
+        WHOLE, lambda i, j: covariance[i, j] * shrink[i] * shrink[j] + (refill[i] if i == j else 0)
     )
 
 
@@ -107,23 +116,27 @@ def bounded_tilt(x: Estimate) -> Estimate:
             * world[i, :].T
             @ world[i, :]
         )
-    whole = ca.diagcat(axes, ca.SX.eye(3))
+    whole = ca.diagcat(axes, ca.SX.eye(6))
     covariance = whole @ x.covariance @ whole.T
-    return Estimate(x.q, x.bias, symmetric(N, lambda i, j: covariance[i, j]))
+    return replace(x, covariance=symmetric(WHOLE, lambda i, j: covariance[i, j]))
 
 
 def measure(x: Estimate, function: Callable):
-    """Predicted measurement (m,), its covariance (m, m), and that with the error state (6, m).
+    """Predicted measurement (m,), its covariance (m, m), and that with the error state (n, m).
 
     They are made by sigma points.
 
-    ``function(p)`` is the measurement for the attitude error ``p`` (3,).
+    ``function(p)`` is the measurement for the attitude error ``p`` (3,). It tells of the velocity
+    what the velocity has in common with p.
     """
-    sigma = sigma_points(x.covariance)
+    sigma = sigma_points(x.covariance[:N, :N])
     values = [function(point[:3]) for point in sigma.points]
     mean = sigma.mean(values)
     deviations = [v - mean for v in values]
-    return mean, sigma.variance(deviations), sigma.covariance(sigma.points, deviations)
+    cross = sigma.covariance(sigma.points, deviations)
+    root = cholesky(x.covariance[:3, :3])
+    shared = forward(root, x.covariance[:3, N:]).T @ forward(root, cross[:3, :])
+    return mean, sigma.variance(deviations), ca.vertcat(cross, shared)
 
 
 def correct(
@@ -134,16 +147,18 @@ def correct(
     up,
     innovation_gate: float | None = None,
     gate_variance=None,
+    beyond=1,
 ) -> tuple[Estimate, ca.SX, ca.SX]:
     """The estimate after a measurement, its normalised innovation squared, and its weight.
 
-    ``variance`` (m, m) is that of the ``innovation`` (m,), ``cross`` (6, m) the covariance of the
+    ``variance`` (m, m) is that of the ``innovation`` (m,), ``cross`` (n, m) the covariance of the
     innovation with the error state, ``up`` as for ``moved``. With L the Cholesky factor of the
     variance, gain times innovation is (L^-1 cross^T)^T (L^-1 innovation), and K S K^T is a sum of
     squares. Up to ``innovation_gate`` the weight is 1. Beyond, the gain is smaller by the factor
     that brings the normalised innovation squared back to the gate, and the covariance falls by no
     more than that. Where ``gate_variance`` (m, m) is given, it normalises the innovation instead of
-    ``variance``.
+    ``variance``. ``beyond`` is a further factor of the weight there: at 0 what contradicts is not
+    used.
     """
     root = cholesky(variance)
     whitened, gain = forward(root, innovation), forward(root, cross.T).T
@@ -151,17 +166,17 @@ def correct(
     nis = ca.dot(own, own)
     weight = 1
     if innovation_gate is not None:
-        weight = ca.fmin(1, innovation_gate / ca.fmax(nis, innovation_gate))
+        weight = ca.if_else(nis > innovation_gate, beyond * innovation_gate / nis, 1)
     change = weight * (gain @ whitened)
     covariance = symmetric(
-        N, lambda i, j: x.covariance[i, j] - weight * ca.dot(gain[i, :], gain[j, :])
+        cross.shape[0], lambda i, j: x.covariance[i, j] - weight * ca.dot(gain[i, :], gain[j, :])
     )
-    after = moved(Estimate(x.q, x.bias, covariance), change, up)
-    return Estimate(quaternion.normalized(after.q), after.bias, after.covariance), nis, weight
+    after = moved(replace(x, covariance=covariance), change, up)
+    return replace(after, q=quaternion.normalized(after.q)), nis, weight
 
 
 def moved(x: Estimate, change, up) -> Estimate:
-    """The estimate with ``change`` (6,) of its errors added.
+    """The estimate with ``change`` (n,) of its errors added.
 
     ``up`` (3,) is the vertical in its body axes before that.
 
@@ -174,8 +189,9 @@ def moved(x: Estimate, change, up) -> Estimate:
     axes = quaternion.to_matrix(mrp.to_quaternion(turn)).T
     half, cross = axes @ x.covariance[:3, :3], axes @ x.covariance[:3, 3:]
     own = {(i, j): ca.dot(half[i, :], axes[j, :]) for i in range(3) for j in range(i, 3)}
-    both = {(i, j + 3): cross[i, j] for i in range(3) for j in range(3)}
-    covariance = symmetric(N, lambda i, j: (own | both).get((i, j), x.covariance[i, j]))
-    return Estimate(
-        quaternion.product(x.q, mrp.to_quaternion(change[:3])), x.bias + change[3:], covariance
-    )
+    size = x.covariance.shape[0]
+    both = {(i, j + 3): cross[i, j] for i in range(3) for j in range(size - 3)}
+    covariance = symmetric(size, lambda i, j: (own | both).get((i, j), x.covariance[i, j]))
+    q = quaternion.product(x.q, mrp.to_quaternion(change[:3]))
+    velocity = x.velocity if size == N else x.velocity + change[N:]
+    return Estimate(q, x.bias + change[3:N], velocity, covariance)

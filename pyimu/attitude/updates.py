@@ -38,14 +38,15 @@ def bounded_where_lost(x: ca.MX, flags: Flags) -> ca.MX:
 
     Where gravity is about to correct it, those of the tilt are bounded so that it can.
     """
-    return where(flags.lost * flags.gravity, _bounding_tilt(), where(flags.lost, _bounding(), x))
+    by_force = flags.gravity + flags.velocity
+    return where(flags.lost * by_force, _bounding_tilt(), where(flags.lost, _bounding(), x))
 
 
 def _bounding() -> ca.Function:
     """``x -> x`` with the standard deviation about each axis bounded."""
     s = ca.SX.sym("x", WORKING)
     x = Memory.estimate_of(s)
-    after = Estimate(x.q, x.bias, bounded(x.covariance))
+    after = replace(x, covariance=bounded(x.covariance))
     return ca.Function("bounding", [s], [_with_estimate(s, after)], OPTIONS)
 
 
@@ -82,7 +83,7 @@ def _by_zero_rate(layout: Layout) -> ca.Function:
     s, rate, p, h = symbols = layout.symbols(ca.SX, "x rate p h")
     x, settings = Memory.estimate_of(s), Settings.of(layout.compensation, p)
     earth = quaternion.rotate(quaternion.conjugate(x.q), settings.earth)
-    slope = ca.horzcat(ca.skew(earth), ca.SX.eye(3))
+    slope = ca.horzcat(ca.skew(earth), ca.SX.eye(3), ca.SX(3, 3))
     cross = x.covariance @ slope.T
     noise = settings.gyro.white**2 / h + settings.scalar["stationary_std"] ** 2
     after, _, _ = unscented.correct(

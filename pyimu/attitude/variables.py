@@ -143,11 +143,9 @@ SETTINGS = (
     _setting(
         "accel_std",
         "m/s^2",
-        "standard deviation of the acceleration that passes as quasi-static. Not in it, and in no "
-        "std of the attitude: "
-        "a force that lasts much longer than accel_correlation_time, as in a long turn of a "
-        "vehicle or by a constant error of the "
-        "accelerometer, tilts the attitude by its share of gravity",
+        "standard deviation of the acceleration that passes as quasi-static; 0: the body never "
+        "accelerates. Not in it, and in no std of the attitude: a constant error of the "
+        "accelerometer tilts the attitude by its share of gravity",
         0.1,
     ),
     _setting(
@@ -181,23 +179,11 @@ SETTINGS = (
         0.3,
     ),
     _setting(
-        "mean_time",
-        "s",
-        "time constant of the mean force that stands for gravity in motion; 0: no such update",
-        1.0,
-    ),
-    _setting(
         "motion_time",
         "s",
-        "velocity over acceleration of the motion, by which the mean force is weighed",
-        0.06,
-    ),
-    _setting(
-        "mean_tolerance",
-        "1",
-        "by which share of the force's root mean square against its mean that tolerance is wider "
-        "for the mean",
-        0.1,
+        "correlation time of the velocity of a body that stays in its place. How large that is the "
+        "run finds out, over ten times this time; not below accel_std * motion_time",
+        1.0,
     ),
     _setting(
         "rate_noise",
@@ -240,9 +226,9 @@ SETTINGS = (
         0.5,
     ),
 )
-"""Parameters that are one number. Those of accelerations were chosen once for all hand-held
-recordings of ``benchmarks/attitude_real.py``: a slow vehicle accelerates less, and would do better
-with smaller ones."""
+"""Parameters that are one number. Those of accelerations were chosen on hand-held recordings of
+``benchmarks/attitude_real.py``, and say what is not motion; how much a body moves, the run finds
+out."""
 
 START_VALUES = tuple(
     replace(v, fixed=True)

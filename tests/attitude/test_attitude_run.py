@@ -26,6 +26,7 @@ from scipy.spatial.transform import Rotation
 
 import pyimu
 from pyimu.attitude import attitude_ukf, run
+from pyimu.attitude.columns import NOMINAL_K
 from pyimu.attitude.input_grid import InputGrid
 from pyimu.errors import UserError
 from pyimu.recording.recording import Recording
@@ -64,6 +65,16 @@ def test_rest_levels_the_attitude_and_gives_the_bias(start):
 def test_without_a_part_the_noise_at_rest_stands_for_it():
     world = drive(rover_rate(3000, still=1000))
     assert tilt_error(run(recorded(world)), world.attitude).max() < 0.01
+
+
+def test_a_part_that_is_silent_of_its_gyros_wander_is_given_the_nominal_one():
+    """Declared as zero it is zero: s_b^2 + K^2 t."""
+    recording = recorded(drive(np.zeros((500, 3))))
+    std0 = np.array([0.01, 0.01, 0.01, 1e-5, 1e-5, 1e-5])
+    silent = part().with_sensor(part().gyro.without("rate_random_walk"))
+    for known, k in ((silent, NOMINAL_K), (part(k=0), 0.0)):
+        result = run(recording, known, std0=std0)
+        np.testing.assert_allclose(result.std[-1, 5], np.hypot(1e-5, k * np.sqrt(5)), rtol=1e-2)
 
 
 def test_earth_rate_is_not_taken_for_bias_at_a_known_latitude():

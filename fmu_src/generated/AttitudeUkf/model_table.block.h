@@ -7,21 +7,21 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN "{599cc1de-c1ea-5815-947a-d8b0de3992c1}"
+#define MODEL_TOKEN "{7ecd2b9d-36cf-49ae-5a13-a4e496108436}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
 enum {
     N_INPUTS = 12,
-    N_PARAMETERS = 45,
+    N_PARAMETERS = 43,
     N_OUTPUTS = 20,
-    N_STATES = 188,
+    N_STATES = 221,
     N_NOISE = 0,
-    N_VARIABLES = 55
+    N_VARIABLES = 53
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 44, WORK_RES = 17, WORK_IW = 0, WORK_W = 1426 };
+enum { WORK_ARG = 44, WORK_RES = 18, WORK_IW = 0, WORK_W = 1738 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };
@@ -52,19 +52,17 @@ static const BlockVariable variables[] = {
     {"gravity_tolerance", KIND_REAL, ROLE_TUNABLE, 18, 1, 0.0, INFINITY},
     {"motion_tolerance", KIND_REAL, ROLE_TUNABLE, 19, 1, 0.0, INFINITY},
     {"steady_tolerance", KIND_REAL, ROLE_TUNABLE, 20, 1, 0.0, INFINITY},
-    {"mean_time", KIND_REAL, ROLE_TUNABLE, 21, 1, 0.0, INFINITY},
-    {"motion_time", KIND_REAL, ROLE_TUNABLE, 22, 1, 0.0, INFINITY},
-    {"mean_tolerance", KIND_REAL, ROLE_TUNABLE, 23, 1, 0.0, INFINITY},
-    {"rate_noise", KIND_REAL, ROLE_TUNABLE, 24, 1, 0.0, INFINITY},
-    {"stationary_std", KIND_REAL, ROLE_TUNABLE, 25, 1, 0.0, INFINITY},
-    {"lost_rate_std", KIND_REAL, ROLE_TUNABLE, 26, 1, 0.0, INFINITY},
-    {"stuck_time", KIND_REAL, ROLE_TUNABLE, 27, 1, 0.0, INFINITY},
-    {"axis_stuck_time", KIND_REAL, ROLE_TUNABLE, 28, 6, 0.0, 1000000.0},
-    {"heading_memory", KIND_REAL, ROLE_TUNABLE, 34, 1, 0.0, INFINITY},
-    {"gyro_error.thermal_bias.kT", KIND_REAL, ROLE_TUNABLE, 35, 3, -INFINITY, INFINITY},
-    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 38, 1, -INFINITY, INFINITY},
-    {"gyro_error.angle_random_walk.N", KIND_REAL, ROLE_TUNABLE, 39, 3, 0.0, INFINITY},
-    {"gyro_error.rate_random_walk.K", KIND_REAL, ROLE_TUNABLE, 42, 3, 0.0, INFINITY},
+    {"motion_time", KIND_REAL, ROLE_TUNABLE, 21, 1, 0.0, INFINITY},
+    {"rate_noise", KIND_REAL, ROLE_TUNABLE, 22, 1, 0.0, INFINITY},
+    {"stationary_std", KIND_REAL, ROLE_TUNABLE, 23, 1, 0.0, INFINITY},
+    {"lost_rate_std", KIND_REAL, ROLE_TUNABLE, 24, 1, 0.0, INFINITY},
+    {"stuck_time", KIND_REAL, ROLE_TUNABLE, 25, 1, 0.0, INFINITY},
+    {"axis_stuck_time", KIND_REAL, ROLE_TUNABLE, 26, 6, 0.0, 1000000.0},
+    {"heading_memory", KIND_REAL, ROLE_TUNABLE, 32, 1, 0.0, INFINITY},
+    {"gyro_error.thermal_bias.kT", KIND_REAL, ROLE_TUNABLE, 33, 3, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 36, 1, -INFINITY, INFINITY},
+    {"gyro_error.angle_random_walk.N", KIND_REAL, ROLE_TUNABLE, 37, 3, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K", KIND_REAL, ROLE_TUNABLE, 40, 3, 0.0, INFINITY},
     {"q", KIND_REAL, ROLE_OUTPUT, 0, 4, -INFINITY, INFINITY},
     {"roll", KIND_REAL, ROLE_OUTPUT, 4, 1, -INFINITY, INFINITY},
     {"pitch", KIND_REAL, ROLE_OUTPUT, 5, 1, -INFINITY, INFINITY},
@@ -86,12 +84,12 @@ static const BlockVariable variables[] = {
 
 /* Value references that mean something to every block. */
 enum {
-    SAMPLE_PERIOD = 53,
+    SAMPLE_PERIOD = 51,
     SEED = N_VARIABLES, /* none: there is no noise */
 };
 
 static const double input_starts[] = {0.0, 0.0, 0.0, 0.0, 0.0, 9.80665, 25.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-static const double parameter_starts[] = {10.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.1, 0.1, 0.1, 0.01, 0.01, 0.01, 9.80665, 0.1, 0.5, 0.2, 0.25, 1.0, 0.3, 1.0, 0.06, 0.1, 0.0, 1e-05, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
+static const double parameter_starts[] = {10.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.1, 0.1, 0.1, 0.01, 0.01, 0.01, 9.80665, 0.1, 0.5, 0.2, 0.25, 1.0, 0.3, 1.0, 0.0, 1e-05, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
 
 /* The noise stream of each channel; there is none. */
 static const uint64_t noise_channels[] = {

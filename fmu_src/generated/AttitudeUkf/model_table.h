@@ -7,21 +7,21 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN "{52cd2a7a-9eca-80c5-40e2-cb654d5006b9}"
+#define MODEL_TOKEN "{3108cdf6-8710-69af-7671-fbb2a079580b}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
 enum {
     N_INPUTS = 12,
-    N_PARAMETERS = 45,
+    N_PARAMETERS = 43,
     N_OUTPUTS = 20,
-    N_STATES = 188,
+    N_STATES = 221,
     N_NOISE = 0,
-    N_VARIABLES = 79
+    N_VARIABLES = 77
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 44, WORK_RES = 17, WORK_IW = 0, WORK_W = 1426 };
+enum { WORK_ARG = 44, WORK_RES = 18, WORK_IW = 0, WORK_W = 1738 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
@@ -61,30 +61,28 @@ static const BlockVariable variables[] = {
     {"gravity_tolerance", KIND_REAL, ROLE_TUNABLE, 18, 1, 0.0, INFINITY},
     {"motion_tolerance", KIND_REAL, ROLE_TUNABLE, 19, 1, 0.0, INFINITY},
     {"steady_tolerance", KIND_REAL, ROLE_TUNABLE, 20, 1, 0.0, INFINITY},
-    {"mean_time", KIND_REAL, ROLE_TUNABLE, 21, 1, 0.0, INFINITY},
-    {"motion_time", KIND_REAL, ROLE_TUNABLE, 22, 1, 0.0, INFINITY},
-    {"mean_tolerance", KIND_REAL, ROLE_TUNABLE, 23, 1, 0.0, INFINITY},
-    {"rate_noise", KIND_REAL, ROLE_TUNABLE, 24, 1, 0.0, INFINITY},
-    {"stationary_std", KIND_REAL, ROLE_TUNABLE, 25, 1, 0.0, INFINITY},
-    {"lost_rate_std", KIND_REAL, ROLE_TUNABLE, 26, 1, 0.0, INFINITY},
-    {"stuck_time", KIND_REAL, ROLE_TUNABLE, 27, 1, 0.0, INFINITY},
-    {"axis_stuck_time[1]", KIND_REAL, ROLE_TUNABLE, 28, 1, 0.0, 1000000.0},
-    {"axis_stuck_time[2]", KIND_REAL, ROLE_TUNABLE, 29, 1, 0.0, 1000000.0},
-    {"axis_stuck_time[3]", KIND_REAL, ROLE_TUNABLE, 30, 1, 0.0, 1000000.0},
-    {"axis_stuck_time[4]", KIND_REAL, ROLE_TUNABLE, 31, 1, 0.0, 1000000.0},
-    {"axis_stuck_time[5]", KIND_REAL, ROLE_TUNABLE, 32, 1, 0.0, 1000000.0},
-    {"axis_stuck_time[6]", KIND_REAL, ROLE_TUNABLE, 33, 1, 0.0, 1000000.0},
-    {"heading_memory", KIND_REAL, ROLE_TUNABLE, 34, 1, 0.0, INFINITY},
-    {"gyro_error.thermal_bias.kT[1]", KIND_REAL, ROLE_TUNABLE, 35, 1, -INFINITY, INFINITY},
-    {"gyro_error.thermal_bias.kT[2]", KIND_REAL, ROLE_TUNABLE, 36, 1, -INFINITY, INFINITY},
-    {"gyro_error.thermal_bias.kT[3]", KIND_REAL, ROLE_TUNABLE, 37, 1, -INFINITY, INFINITY},
-    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 38, 1, -INFINITY, INFINITY},
-    {"gyro_error.angle_random_walk.N[1]", KIND_REAL, ROLE_TUNABLE, 39, 1, 0.0, INFINITY},
-    {"gyro_error.angle_random_walk.N[2]", KIND_REAL, ROLE_TUNABLE, 40, 1, 0.0, INFINITY},
-    {"gyro_error.angle_random_walk.N[3]", KIND_REAL, ROLE_TUNABLE, 41, 1, 0.0, INFINITY},
-    {"gyro_error.rate_random_walk.K[1]", KIND_REAL, ROLE_TUNABLE, 42, 1, 0.0, INFINITY},
-    {"gyro_error.rate_random_walk.K[2]", KIND_REAL, ROLE_TUNABLE, 43, 1, 0.0, INFINITY},
-    {"gyro_error.rate_random_walk.K[3]", KIND_REAL, ROLE_TUNABLE, 44, 1, 0.0, INFINITY},
+    {"motion_time", KIND_REAL, ROLE_TUNABLE, 21, 1, 0.0, INFINITY},
+    {"rate_noise", KIND_REAL, ROLE_TUNABLE, 22, 1, 0.0, INFINITY},
+    {"stationary_std", KIND_REAL, ROLE_TUNABLE, 23, 1, 0.0, INFINITY},
+    {"lost_rate_std", KIND_REAL, ROLE_TUNABLE, 24, 1, 0.0, INFINITY},
+    {"stuck_time", KIND_REAL, ROLE_TUNABLE, 25, 1, 0.0, INFINITY},
+    {"axis_stuck_time[1]", KIND_REAL, ROLE_TUNABLE, 26, 1, 0.0, 1000000.0},
+    {"axis_stuck_time[2]", KIND_REAL, ROLE_TUNABLE, 27, 1, 0.0, 1000000.0},
+    {"axis_stuck_time[3]", KIND_REAL, ROLE_TUNABLE, 28, 1, 0.0, 1000000.0},
+    {"axis_stuck_time[4]", KIND_REAL, ROLE_TUNABLE, 29, 1, 0.0, 1000000.0},
+    {"axis_stuck_time[5]", KIND_REAL, ROLE_TUNABLE, 30, 1, 0.0, 1000000.0},
+    {"axis_stuck_time[6]", KIND_REAL, ROLE_TUNABLE, 31, 1, 0.0, 1000000.0},
+    {"heading_memory", KIND_REAL, ROLE_TUNABLE, 32, 1, 0.0, INFINITY},
+    {"gyro_error.thermal_bias.kT[1]", KIND_REAL, ROLE_TUNABLE, 33, 1, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.kT[2]", KIND_REAL, ROLE_TUNABLE, 34, 1, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.kT[3]", KIND_REAL, ROLE_TUNABLE, 35, 1, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 36, 1, -INFINITY, INFINITY},
+    {"gyro_error.angle_random_walk.N[1]", KIND_REAL, ROLE_TUNABLE, 37, 1, 0.0, INFINITY},
+    {"gyro_error.angle_random_walk.N[2]", KIND_REAL, ROLE_TUNABLE, 38, 1, 0.0, INFINITY},
+    {"gyro_error.angle_random_walk.N[3]", KIND_REAL, ROLE_TUNABLE, 39, 1, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K[1]", KIND_REAL, ROLE_TUNABLE, 40, 1, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K[2]", KIND_REAL, ROLE_TUNABLE, 41, 1, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K[3]", KIND_REAL, ROLE_TUNABLE, 42, 1, 0.0, INFINITY},
     {"q[1]", KIND_REAL, ROLE_OUTPUT, 0, 1, -INFINITY, INFINITY},
     {"q[2]", KIND_REAL, ROLE_OUTPUT, 1, 1, -INFINITY, INFINITY},
     {"q[3]", KIND_REAL, ROLE_OUTPUT, 2, 1, -INFINITY, INFINITY},
@@ -110,12 +108,12 @@ static const BlockVariable variables[] = {
 
 /* Value references that mean something to every block. */
 enum {
-    SAMPLE_PERIOD = 78,
+    SAMPLE_PERIOD = 76,
     SEED = N_VARIABLES, /* none: there is no noise */
 };
 
 static const double input_starts[] = {0.0, 0.0, 0.0, 0.0, 0.0, 9.80665, 25.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-static const double parameter_starts[] = {10.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.1, 0.1, 0.1, 0.01, 0.01, 0.01, 9.80665, 0.1, 0.5, 0.2, 0.25, 1.0, 0.3, 1.0, 0.06, 0.1, 0.0, 1e-05, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
+static const double parameter_starts[] = {10.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.1, 0.1, 0.1, 0.01, 0.01, 0.01, 9.80665, 0.1, 0.5, 0.2, 0.25, 1.0, 0.3, 1.0, 0.0, 1e-05, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
 
 /* The noise stream of each channel; there is none. */
 static const uint64_t noise_channels[] = {
