@@ -2,9 +2,10 @@
 
 For each sample it does the following, in this order: replace what is not finite by the last good
 value; undo the sensors' own errors; turn by the measured rate less bias and Earth rate; correct by
-the direction of gravity, by a heading, and by a zero rate. Gravity is a sample of the specific
-force while the body is quasi-static, else the mean force. Sources: Hidalgo 2012, sections 4 and 5;
-Crassidis and Markley 2003.
+the direction of gravity, by a heading, and by a zero rate. Gravity shows in the velocity of a body
+that stays in its place; until the tilt is known it is a sample of the specific force while the body
+is quasi-static, else the mean force. Sources: Hidalgo 2012, sections 4 and 5; Crassidis and Markley
+2003; Groves 2013, section 15.3.
 
 The sample of a rate stands for the period that ends with it. The bias is what remains of the
 compensated rate.

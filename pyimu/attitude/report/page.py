@@ -120,8 +120,8 @@ def _nis(a: Outcome) -> Picture:
 
 def _status(a: Outcome) -> Picture:
     caption = (
-        "Which share of the samples is quasi-static, so that a sample of the force is taken for "
-        "gravity (else a mean of the force is, where that may be gravity)"
+        "Which share of the samples is quasi-static, so that a sample of the force shows gravity "
+        "(in motion a velocity that stays bounded tells tilt from acceleration)"
         + (", and where a bit of the status was set." if a.events else "; no bit of the status.")
     )
     return _picture(status_picture, a, caption, "quasi-static samples and status over time")

@@ -30,6 +30,10 @@ GATE = float(np.log(LOOKS / (SHARE * FALSE_ALARM)))
 likelihoods is above 1 / a with a probability of at most a)."""
 
 
+DENIED = 2.0
+"""Standard errors from nothing below which regression denies what zeros may say by chance."""
+
+
 @dataclass(frozen=True)
 class Read:
     """A coefficient (3,) of an effect that was read off samples, zero on the axes that show none,
@@ -57,6 +61,17 @@ class Read:
         sloped = scanned(CATALOGUE[self.effect]) is None
         free = fitted.free | (self.keys if sloped else frozenset())
         return fit(replace(fitted, sensor=sensor, free=free, std=std).with_noise())
+
+    def borne_out(self, fitted: Fit) -> Read | None:
+        """The coefficient on the axes on which ``fitted``, in which it was put, does not deny it:
+        where regression sees its slope, it is no more than two standard errors from nothing.
+        """
+        values = np.array(self.values)
+        for key in self.keys & fitted.free:
+            left = fitted.sensor.values[self.effect][self.parameter][key.index]
+            if left < DENIED * fitted.std.get(key, 0.0):
+                values[key.index] = 0.0
+        return replace(self, values=values) if values.any() else None
 
 
 def threshold_of(fitted: Fit, held: Sequence[Trial]) -> Read | None:
