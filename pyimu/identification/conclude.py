@@ -351,7 +351,10 @@ def _finished(start: Part, fit: Fit) -> Sensor:
     for (effect, parameter), value in ((POWER_ON, bias), (WHITE, white), (WALK, walk)):
         if (sensor.kind, effect, parameter) in start.estimate:
             sensor = sensor.with_values(effect, **{parameter: value})
-    return sensor
+    # A walk that the logs do not show is not known to be none.
+    shown = np.any(sensor.values.get(WALK[0], {}).get(WALK[1], 0.0))
+    hidden = not shown and (sensor.kind, *WALK) in start.estimate
+    return sensor.without(WALK[0]) if hidden else sensor
 
 
 def _added(kind: str, sensor: Sensor, inv: Investigation) -> list[Added]:
