@@ -5,6 +5,28 @@ only wait for each other, and a sum's bits would follow the number of cores.
 """
 
 import os
+import sys
+
+import pytest
 
 for name in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
     os.environ.setdefault(name, "1")
+
+
+@pytest.fixture
+def pyimu(monkeypatch, capsys, tmp_path):
+    """Runs the command line in this process, in an empty folder.
+
+    It gives exit status, stdout and stderr.
+    """
+    from pyimu.cli import main
+
+    monkeypatch.chdir(tmp_path)
+
+    def run(*words):
+        monkeypatch.setattr(sys, "argv", ["pyimu", *map(str, words)])
+        with pytest.raises(SystemExit) as end:
+            main()
+        return (end.value.code, *capsys.readouterr())
+
+    return run

@@ -12,7 +12,6 @@ import pytest
 from fmu_toy import Unit
 
 from pyimu import Recording, __version__, part
-from pyimu.cli import main
 from pyimu.fmu import simulate
 
 RATE = 50.0
@@ -80,19 +79,6 @@ def here(logs, tmp_path, monkeypatch):
         (results / name).write_bytes(b"earlier " + name.encode())
     monkeypatch.chdir(tmp_path)
     return tmp_path
-
-
-@pytest.fixture
-def pyimu(monkeypatch, capsys):
-    """Run the command line in this process; gives exit status, stdout and stderr."""
-
-    def run(*words):
-        monkeypatch.setattr(sys, "argv", ["pyimu", *map(str, words)])
-        with pytest.raises(SystemExit) as end:
-            main()
-        return (end.value.code, *capsys.readouterr())
-
-    return run
 
 
 @pytest.fixture

@@ -13,8 +13,8 @@ from dataclasses import dataclass, replace
 
 import casadi as ca
 
-from pyimu.attitude.layout import GravityMeasurement
-from pyimu.attitude.memory import ESTIMATE, Memory
+from pyimu.attitude.layout import GRAVITY, GravityMeasurement
+from pyimu.attitude.memory import ESTIMATE, WORKING, Memory
 from pyimu.attitude.quasi_static import (
     MEAN_TIME,
     MEAN_TOLERANCE,
@@ -88,15 +88,16 @@ def inclination(
     ) * (mean.scatter <= at["steady_tolerance"] ** 2 + 2 * ca.sum1(white))
     plausible = where(valid, 1 - (1 - steady) * (1 - _is_mean_gravity(mean, settings)))
     known = is_tilt_known(x)
-    given = _measurement(sample.force, mean, steady, noise, white, settings, h)
-    against = _contradicts(given.force, mean, x, white, settings)
-    given = replace(
-        given,
+    measured = _measured(sample.force, mean, steady, noise, white, settings, h)
+    given = GravityMeasurement(
+        *measured,
+        magnitude=at["gravity"],
+        period=h,
         motion=ca.vertcat(motion.across, motion.along),
         lasting=2 * at["motion_time"] / h,
         coloured=2 * h * at["accel_correlation_time"] * at["accel_std"] ** 2,
         plausible=plausible,
-        contradicts=plausible * against,
+        contradicts=plausible * _contradicts(measured[0], mean, x, white, settings),
     )
     return Inclination(
         quasi, mean, given, plausible * (1 - known), where(valid, known), where(valid, steady)
@@ -169,10 +170,9 @@ def _is_mean_gravity(mean: MeanForce, settings: Settings):
     )
 
 
-def _measurement(
-    sampled, mean: MeanForce, steady, noise, white, settings: Settings, h
-) -> GravityMeasurement:
-    """The sampled force (3,) where the body is ``steady``, else the mean force.
+def _measured(sampled, mean: MeanForce, steady, noise, white, settings: Settings, h):
+    """The sampled force (3,) where the body is ``steady``, else the mean force, with its variance
+    and that of one sample.
 
     ``noise`` (3,) is the variance of the sampled force, ``white`` (3,) its part that is white
     noise. In a single sample the acceleration has its own variance, however long it lasts; that one
@@ -186,10 +186,7 @@ def _measurement(
     variance = in_motion + steady * (noise - in_motion)
     lasting = MEAN_TIME + steady * (at["accel_correlation_time"] + at["motion_time"] - MEAN_TIME)
     of_sample = variance - (1 - 1 / (1 + 2 * lasting * (1 / h))) * (variance - white)
-    none = ca.SX(0)
-    return GravityMeasurement(
-        force, variance, at["gravity"], h, of_sample, ca.SX.zeros(2), none, none, none, none
-    )
+    return force, variance, of_sample
 
 
 def corrected(working, given: GravityMeasurement, x: Estimate, nis, weight):
@@ -207,14 +204,16 @@ def corrected(working, given: GravityMeasurement, x: Estimate, nis, weight):
     return _reported(working, after, nis, beyond)
 
 
-def by_velocity(working, given: GravityMeasurement, correct: Callable):
-    """The working estimate after the update by the velocity of a body that stays in its place.
+def by_velocity(correct: Callable) -> ca.Function:
+    """``x, gravity -> x``: the working estimate after the update by the velocity of a body that
+    stays in its place.
 
     That is measured as zero, with the variance of the motion. ``correct`` is the correction of one
     of the filters, by its arguments (``unscented.correct``). A velocity beyond all of the motion
     contradicts the attitude only where the force may be gravity.
     """
-    x = Memory.estimate_of(working)
+    symbols = working, packed = [ca.SX.sym("x", WORKING), ca.SX.sym("gravity", GRAVITY)]
+    x, given = Memory.estimate_of(working), GravityMeasurement.unpack(packed)
     up, own = quaternion.to_matrix(x.q)[2, :].T, x.covariance[6:, 6:]
     moving = covariance_of_motion(given.motion[0], given.motion[1], up)
     after, nis, weight = correct(
@@ -229,7 +228,8 @@ def by_velocity(working, given: GravityMeasurement, correct: Callable):
     )
     contradicted = 1 - (1 - (weight < 1) * given.plausible) * (1 - given.contradicts)
     after = _less_sure(after, up, contradicted * given.period)
-    return _reported(working, after, nis, contradicted)
+    out = _reported(working, after, nis, contradicted)
+    return ca.Function("by_velocity", symbols, [out], {"cse": True})
 
 
 def _less_sure(x: Estimate, up, time) -> Estimate:

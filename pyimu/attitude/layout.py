@@ -22,19 +22,19 @@ class GravityMeasurement:
     """A force that stands for gravity, as the update by gravity takes it.
 
     ``force`` (3,) m/s^2 in body axes; ``variance`` (3,) (m/s^2)^2 by which it is weighed;
-    ``magnitude`` of gravity in m/s^2; the sample ``period`` in s; ``sample_variance`` (3,), that of
-    one sample, by which the innovation is normalised. Where the velocity is measured instead:
-    ``motion`` (2,) (m/s)^2 is its variance across and along the vertical, ``lasting`` how many
-    samples a value of it lasts, ``coloured`` (m/s)^2 what a sample's variance has in it because the
-    acceleration lasts. ``plausible`` says whether the force may be gravity,
+    ``sample_variance`` (3,), that of one sample, by which the innovation is normalised;
+    ``magnitude`` of gravity in m/s^2; the sample ``period`` in s. Where the velocity is measured
+    instead: ``motion`` (2,) (m/s)^2 is its variance across and along the vertical, ``lasting`` how
+    many samples a value of it lasts, ``coloured`` (m/s)^2 what a sample's variance has in it
+    because the acceleration lasts. ``plausible`` says whether the force may be gravity,
     ``contradicts`` whether it then contradicts the tilt.
     """
 
     force: ca.SX
     variance: ca.SX
+    sample_variance: ca.SX
     magnitude: ca.SX
     period: ca.SX
-    sample_variance: ca.SX
     motion: ca.SX
     lasting: ca.SX
     coloured: ca.SX
@@ -46,7 +46,7 @@ class GravityMeasurement:
 
     @classmethod
     def unpack(cls, column) -> GravityMeasurement:
-        ends = [0, 3, 6, 7, 8, 11, 13, 14, 15, 16, 17]
+        ends = [0, 3, 6, 9, 10, 11, 13, 14, 15, 16, 17]
         return cls(*ca.vertsplit(column, ends))
 
 

@@ -80,11 +80,10 @@ def propagate(x: Estimate, rate, earth, moving, noise, push: Push, h) -> tuple[E
 
     ``rate`` (3,) rad/s is the compensated rate, ``earth`` (3,) rad/s the Earth's in body axes,
     ``moving`` 0 or 1 whether the body turns at all. ``noise`` is the variance that is added to the
-    attitude, to attitude and bias together, and to the bias, (3,) each; ``push``
-    changes the velocity. With R the turn and G = -h
-    J the error becomes R^T p + G b + R^T p x G b / 2, and the mean of the last term is the mean
-    error. The quaternion keeps its length however large that mean is: the updates that follow rely
-    on a vertical of unit length.
+    attitude, to attitude and bias together, and to the bias, (3,) each; ``push`` changes the
+    velocity. With R the turn and G = -h J the error becomes R^T p + G b + R^T p x G b / 2, and the
+    mean of the last term is the mean error. The quaternion keeps its length however large that mean
+    is: the updates that follow rely on a vertical of unit length.
     """
     step = h * moving
     angle = (rate - x.bias - earth) * step

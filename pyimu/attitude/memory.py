@@ -12,7 +12,7 @@ from pyimu.attitude.compensation import Compensation
 from pyimu.attitude.quasi_static import MeanForce, QuasiStatic
 from pyimu.attitude.unscented import LARGEST_STD, Estimate, N
 from pyimu.attitude.variables import LARGEST_BIAS, LEAST_ACCEL_STD, LEAST_K, LEAST_N, OWN_PARAMETERS
-from pyimu.attitude.velocity import Motion
+from pyimu.attitude.velocity import Motion, least_std
 from pyimu.model.signals import SIGNALS
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import pack, unpack
@@ -107,7 +107,7 @@ def start(compensation: Compensation, p) -> tuple[Estimate, ca.SX]:
     """The estimate before the first sample, from the parameters, and the whole state."""
     at = {v.name: p[i] for i, v in enumerate(OWN_PARAMETERS)}
     estimate = _first_estimate(at)
-    least = (at["accel_std"] * at["motion_time"]) ** 2
+    least = least_std(at) ** 2
     held = [v for name in compensation.extra for v in SIGNALS[name].start]
     memory = Memory(
         estimate,
@@ -138,6 +138,6 @@ def _first_estimate(at: dict) -> Estimate:
     q = quaternion.normalized(ca.if_else(usable, q0, ca.SX([1, 0, 0, 0])))
     std = ca.vertcat(ca.fmin(ca.fmax(std0[:3], LEAST_N), LARGEST_STD), ca.fmax(std0[3:], LEAST_K))
     bias = ca.fmin(ca.fmax(bias0, -LARGEST_BIAS), LARGEST_BIAS)
-    moving = (at["accel_std"] * at["motion_time"]) ** 2 * ca.SX.ones(3)
+    moving = least_std(at) ** 2 * ca.SX.ones(3)
     covariance = ca.densify(ca.diag(ca.vertcat(std * std, moving)))
     return Estimate(q, bias, ca.SX.zeros(3), covariance)

@@ -16,7 +16,7 @@ from pyimu.attitude.sample import Sample
 from pyimu.attitude.settings import Settings
 from pyimu.attitude.unscented import LARGEST_STD, LARGEST_TILT_STD, Estimate
 from pyimu.attitude.variables import INPUTS, LEAST_K, LEAST_N
-from pyimu.attitude.velocity import followed
+from pyimu.attitude.velocity import followed, least_std
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.process_noise import process_noise
 
@@ -115,8 +115,8 @@ def predicted(at: Instant, sample: Sample, x: Estimate, turned, noise) -> list[c
     """
     scalar, kept = at.settings.scalar, at.memory
     used = where(sample.force_valid, is_tilt_known(x))
-    floor = scalar["accel_std"] * scalar["motion_time"]
-    motion = followed(kept.motion, x, turned, used, floor, scalar["motion_time"], at.h)
+    time = scalar["motion_time"]
+    motion = followed(kept.motion, x, turned, used, least_std(scalar), time, at.h)
     force = inclination(kept, sample, x, motion, turned, at.settings, at.h)
     vertical_noise = at.memory.vertical_noise + _about_the_vertical(x, noise[0])
     slot, within = at.memory.place[0], at.memory.place[1]

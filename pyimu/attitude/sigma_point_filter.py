@@ -49,7 +49,7 @@ def _step(layout: Layout) -> ca.Function:
     flags = Flags.unpack(packed)
     x = bounded_where_lost(x, flags)
     x = where(flags.gravity, _by_gravity(), x, gravity)
-    x = where(flags.velocity, _by_velocity(), x, gravity)
+    x = where(flags.velocity, by_velocity(correct), x, gravity)
     x = after_gravity(layout, x, s, u, p, h, rate, flags)
     estimate, yaw, y = finish()(x, packed)
     return step_function(layout, symbols, estimate, memory, yaw, y)
@@ -110,13 +110,6 @@ def propagate(x: Estimate, rate, turn: Callable, noise, h) -> Estimate:
 
 
 # Gravity
-
-
-def _by_velocity() -> ca.Function:
-    """``x, gravity -> x``: the velocity of a body that stays in its place."""
-    symbols = working, packed = [ca.SX.sym("x", WORKING), ca.SX.sym("gravity", GRAVITY)]
-    out = by_velocity(working, GravityMeasurement.unpack(packed), correct)
-    return ca.Function("by_velocity", symbols, [out], {"cse": True})
 
 
 def _by_gravity() -> ca.Function:

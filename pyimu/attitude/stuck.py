@@ -7,6 +7,7 @@ import numpy as np
 from pyimu.attitude.rest import Rest
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
+from pyimu.recording.clock import runs
 from pyimu.recording.quality.resolution import quantization_step
 from pyimu.recording.quality.stuck import longest_chance_run
 from pyimu.recording.recording import Recording
@@ -83,17 +84,15 @@ def _windows(values: np.ndarray, axis: int) -> list[np.ndarray]:
         column = rows[np.append(True, np.any(np.diff(rows, axis=0) != 0, axis=1)), axis]
         column = column[np.isfinite(column)]
         same = np.diff(column) == 0
-        run, others = _longest_run(same), np.flatnonzero(np.concatenate([[True], ~same, [True]]))
-        first = others[np.argmax(np.diff(others))]
-        if len(column) >= LEAST_SAMPLES and 2 * run <= len(column):
-            found.append(np.delete(column, slice(first, first + run)))
+        first, stop = max(runs(same), key=lambda run: run[1] - run[0], default=(0, 0))
+        if len(column) >= LEAST_SAMPLES and 2 * (stop - first) <= len(column):
+            found.append(np.delete(column, slice(first, stop)))
     return found
 
 
 def _longest_run(same: np.ndarray) -> int:
     """The largest number of flags (n,) in succession that hold."""
-    ends = np.flatnonzero(~np.concatenate([[False], same, [False]]))
-    return int(np.diff(ends).max(initial=1)) - 1
+    return max((stop - start for start, stop in runs(same)), default=0)
 
 
 def _step(sensor: Sensor, values: np.ndarray) -> np.ndarray:

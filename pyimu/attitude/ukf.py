@@ -129,7 +129,8 @@ def _updates(layout: Layout) -> ca.Function:
     """
     names = "x s u p h rate gravity flags"
     x, s, u, p, h, rate, gravity, flags = symbols = layout.symbols(ca.MX, names)
-    velocity, finished, asked = _by_velocity(), finish(), Flags.unpack(flags)
+    finished, asked = finish(), Flags.unpack(flags)
+    velocity = by_velocity(marginal.correct)
     x = bounded_where_lost(x, asked)
     x = where(asked.gravity, _by_gravity(), x, gravity)
     x = where(asked.velocity, velocity, x, gravity)
@@ -143,13 +144,6 @@ def _updates(layout: Layout) -> ca.Function:
         for name, value in (("no_update", x), ("usual_update", after))
     )
     return ca.Function.conditional("updates", [none, usual], every)
-
-
-def _by_velocity() -> ca.Function:
-    """``x, gravity -> x``: the velocity of a body that stays in its place."""
-    symbols = working, packed = [ca.SX.sym("x", WORKING), ca.SX.sym("gravity", GRAVITY)]
-    out = by_velocity(working, GravityMeasurement.unpack(packed), marginal.correct)
-    return ca.Function("by_velocity", symbols, [out], OPTIONS)
 
 
 def _by_gravity() -> ca.Function:

@@ -13,6 +13,7 @@ order.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import casadi as ca
@@ -90,6 +91,11 @@ def pushed(before: Estimate, after: Estimate, own, leak, push: Push) -> Estimate
 
     velocity = own @ before.velocity + push.change - push.gravity * up
     return Estimate(after.q, after.bias, velocity, symmetric(9, entry))
+
+
+def least_std(at: Mapping[str, ca.SX]):
+    """Standard deviation [m/s] of the velocity that a body has at least, by the settings ``at``."""
+    return at["accel_std"] * at["motion_time"]
 
 
 def at_rest(x: Estimate, motion) -> Estimate:

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from pyimu.cli.options import Columns, Effects, Out, add_effects, progress, radians
+from pyimu.cli.options import FORMATS, Columns, Effects, Out, add_effects, progress, radians
 
 
 def demo(out: Out = Path("out/demo")) -> None:
@@ -64,7 +64,7 @@ def close_command(
         list[Path],
         typer.Argument(
             metavar="LOG",
-            help="Recordings: CSV(.gz), Parquet, MAT, HDF5, ROS bag or MCAP.",
+            help=f"Recordings: {FORMATS}.",
             show_default=False,
         ),
     ],
@@ -134,7 +134,7 @@ def attitude_command(
         Path,
         typer.Argument(
             metavar="LOG",
-            help="Recording: CSV(.gz), Parquet, MAT, HDF5, ROS bag or MCAP.",
+            help=f"Recording: {FORMATS}.",
             show_default=False,
         ),
     ],

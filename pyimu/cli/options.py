@@ -17,6 +17,9 @@ Out = Annotated[
     Path, typer.Option("--out", help="Folder for what is written; made if it is missing.")
 ]
 
+FORMATS = "CSV(.gz), Parquet, MAT, HDF5, ROS bag or MCAP"
+"""Files that a recording may be."""
+
 Columns = Annotated[
     Path | None, typer.Option("--columns", help="TOML that renames a foreign log's columns.")
 ]

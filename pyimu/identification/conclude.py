@@ -285,20 +285,30 @@ def settled(
     """
     while True:
         model, inv = model_of(start, declared, found), found.get("gyro")
-        before, after = (attitudes(p, inv, logs) for p in (model.before, model.after))
+        old, new = (_as_filed(p, declared) for p in (model.before, model.after))
+        before, after = (attitudes(p, inv, logs) for p in (old, new))
         lost = [n for n in before if before[n].is_lost and after[n].is_lost]
         said = tuple(_lost(n, before[n], after[n]) for n in lost)
         kept = [n for n in before if n not in lost]
         if not kept:
             return found, model, None, said
         was, now = (_pooled(e, kept) for e in (before, after))
-        worst = _worst(model.after, inv, logs, kept, now) if now > WORSE * was else None
+        worst = _worst(new, inv, logs, kept, now) if now > WORSE * was else None
         if worst is None:
             return found, model, (was, now), said
         name, error = worst
         degrees = [f"{np.degrees(v):.2f}" for v in (error, now)]
         reason = f"{TAKEN_BACK}, {degrees[0]} to {degrees[1]} deg"
         found = found | {"gyro": without(inv, name, reason)}
+
+
+def _as_filed(part: Part, declared: Part | None) -> Part:
+    """The part with its gyro's walk as ``as_part`` will have it: left out where nobody declared one
+    and the logs do not show it.
+    """
+    if declared is not None or WALK[0] not in part.gyro.values or part.gyro.acts(WALK[0]):
+        return part
+    return _part_without(part, WALK[0])
 
 
 def _worst(
@@ -351,10 +361,7 @@ def _finished(start: Part, fit: Fit) -> Sensor:
     for (effect, parameter), value in ((POWER_ON, bias), (WHITE, white), (WALK, walk)):
         if (sensor.kind, effect, parameter) in start.estimate:
             sensor = sensor.with_values(effect, **{parameter: value})
-    # A walk that the logs do not show is not known to be none.
-    shown = np.any(sensor.values.get(WALK[0], {}).get(WALK[1], 0.0))
-    hidden = not shown and (sensor.kind, *WALK) in start.estimate
-    return sensor.without(WALK[0]) if hidden else sensor
+    return sensor
 
 
 def _added(kind: str, sensor: Sensor, inv: Investigation) -> list[Added]:

@@ -1,7 +1,6 @@
 """``pyimu attitude`` on good logs and bad ones: what it writes, what it says, and how it ends."""
 
 import json
-import sys
 
 import numpy as np
 import pytest
@@ -9,26 +8,8 @@ from attitude_cases import H, drive, measured, rover_rate
 from pyarrow import parquet
 
 from pyimu import Recording, attitude, read_recording
-from pyimu.cli import main
 
 LATITUDE = 0.7
-
-
-@pytest.fixture
-def pyimu(monkeypatch, capsys, tmp_path):
-    """Runs the command line in this process, in an empty folder.
-
-    It gives exit status, stdout and stderr.
-    """
-    monkeypatch.chdir(tmp_path)
-
-    def run(*words):
-        monkeypatch.setattr(sys, "argv", ["pyimu", *map(str, words)])
-        with pytest.raises(SystemExit) as end:
-            main()
-        return (end.value.code, *capsys.readouterr())
-
-    return run
 
 
 @pytest.fixture

@@ -14,26 +14,8 @@ import numpy as np
 import pytest
 
 from pyimu import Recording
-from pyimu.cli import main
 
 ROWS, H = 4000, 0.01
-
-
-@pytest.fixture
-def pyimu(monkeypatch, capsys, tmp_path):
-    """Runs the command line in this process, in an empty folder.
-
-    It gives exit status, stdout and stderr.
-    """
-    monkeypatch.chdir(tmp_path)
-
-    def run(*words):
-        monkeypatch.setattr(sys, "argv", ["pyimu", *map(str, words)])
-        with pytest.raises(SystemExit) as end:
-            main()
-        return (end.value.code, *capsys.readouterr())
-
-    return run
 
 
 @pytest.fixture

@@ -5,6 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation, RotationSpline
 
 import pyimu
+from pyimu.identification import conclude
 from pyimu.recording.recording import Recording
 
 H, NOISE = 0.005, 2e-3
@@ -58,3 +59,21 @@ def test_each_log_has_its_own_reference(tmp_path):
     np.testing.assert_allclose(clocks, [0.4, -0.2], atol=5e-4)
     with pytest.raises(pyimu.UserError, match="3 references for 2 logs"):
         pyimu.close(a, holdout=b, reference=[seen_a, file, file])
+
+
+def test_the_attitude_is_compared_with_the_part_as_its_file_has_it(monkeypatch):
+    """A walk that the log does not show is left out of the file, so the filter goes without it."""
+    parts = []
+
+    def attitudes(part, *rest):
+        parts.append(part)
+        return original(part, *rest)
+
+    original = conclude.attitudes
+    monkeypatch.setattr(conclude, "attitudes", attitudes)
+    log, mocap = pair(4, 0.0, 60.0)
+    closed = pyimu.close(log, reference=mocap)
+    assert closed.attitude and parts
+    assert "rate_random_walk" not in closed.after.gyro.values
+    for part in parts:
+        assert "rate_random_walk" not in part.gyro.values

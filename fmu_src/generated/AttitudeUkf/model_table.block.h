@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN "{7ecd2b9d-36cf-49ae-5a13-a4e496108436}"
+#define MODEL_TOKEN "{f63fa177-43d9-d861-e2ae-f27321254086}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

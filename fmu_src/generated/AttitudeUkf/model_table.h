@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN "{3108cdf6-8710-69af-7671-fbb2a079580b}"
+#define MODEL_TOKEN "{d38c253f-0c7c-b553-afdd-8946ace471c8}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

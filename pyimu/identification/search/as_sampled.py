@@ -62,16 +62,20 @@ class Read:
         free = fitted.free | (self.keys if sloped else frozenset())
         return fit(replace(fitted, sensor=sensor, free=free, std=std).with_noise())
 
-    def borne_out(self, fitted: Fit) -> Read | None:
-        """The coefficient on the axes on which ``fitted``, in which it was put, does not deny it:
-        where regression sees its slope, it is no more than two standard errors from nothing.
+    def borne_out(self, before: Fit) -> tuple[Read | None, Fit]:
+        """The coefficient on the axes on which regression does not deny it, None where it denies
+        all, and the fit with it. It does where it sees a slope, and leaves no more than two
+        standard errors.
         """
-        values = np.array(self.values)
+        values, fitted = np.array(self.values), self.put_in(before)
         for key in self.keys & fitted.free:
             left = fitted.sensor.values[self.effect][self.parameter][key.index]
             if left < DENIED * fitted.std.get(key, 0.0):
                 values[key.index] = 0.0
-        return replace(self, values=values) if values.any() else None
+        if not values.any():
+            return None, before
+        fewer = replace(self, values=values)
+        return fewer, fitted if fewer.keys == self.keys else fewer.put_in(before)
 
 
 def threshold_of(fitted: Fit, held: Sequence[Trial]) -> Read | None:

@@ -158,9 +158,9 @@ def _as_sampled(before: Fit, held: list[Trial]) -> tuple[Fit, list[Step]]:
     after, steps = before, []
     for look in (threshold_of, ceiling_of):
         read = look(after, held)
-        read = None if read is None else read.borne_out(read.put_in(after))
         if read is not None:
-            after = read.put_in(after)
+            read, after = read.borne_out(after)
+        if read is not None:
             after = without_lost(after) if is_ceiling(after.sensor, read.effect) else after
             found = (read.effect, read.keys, read.gain, GATE, read.alternatives, 1.0)
             steps.append(Step(*found, as_sampled=True))
