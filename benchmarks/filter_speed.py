@@ -166,7 +166,7 @@ def exponential(angle):
 
 def turned_error(x, h):
     """A sigma point of attitude error and bias after a turn, as
-    ``pyimu.attitude.sigma_point_filter.propagate`` has it.
+    ``pyimu.attitude.filter.sigma_point_filter.propagate`` has it.
     """
     left = product(
         product(exponential(-RATE * h), from_rodrigues(x[:3])), exponential((RATE - x[3:]) * h)

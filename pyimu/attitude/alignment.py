@@ -10,11 +10,11 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from pyimu.attitude.columns import extra_column, recorded_heading, temperature_of
-from pyimu.attitude.compensation import Compensation, noise_of
-from pyimu.attitude.heading_update import LEVEL
+from pyimu.attitude.filter.compensation import Compensation, noise_of
+from pyimu.attitude.filter.heading_update import LEVEL
+from pyimu.attitude.filter.unscented import LARGEST_STD
+from pyimu.attitude.filter.variables import ABSURD, EXTRA_INPUTS
 from pyimu.attitude.rest import Rest
-from pyimu.attitude.unscented import LARGEST_STD
-from pyimu.attitude.variables import ABSURD, EXTRA_INPUTS
 from pyimu.errors import UserError
 from pyimu.model.part import Part
 from pyimu.model.signals import SIGNALS

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from pyimu.attitude.filter.variables import UNKNOWN_LATITUDE
 from pyimu.attitude.rest import Rest
-from pyimu.attitude.variables import UNKNOWN_LATITUDE
 from pyimu.errors import UserError
 from pyimu.model.catalogue import CATALOGUE, WALK, WHITE, read_off
 from pyimu.model.part import Part

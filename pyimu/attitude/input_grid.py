@@ -8,8 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from pyimu.attitude.columns import extra_column, recorded_heading, temperature_of
+from pyimu.attitude.filter.variables import EXTRA_INPUTS
 from pyimu.attitude.retiming import Retiming
-from pyimu.attitude.variables import EXTRA_INPUTS
 from pyimu.model.part import Part
 from pyimu.recording.recording import Recording
 

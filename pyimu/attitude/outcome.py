@@ -11,8 +11,8 @@ from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
 from pyimu.attitude.error import AttitudeError, error_against
+from pyimu.attitude.filter.variables import STATUS
 from pyimu.attitude.rest import Rest
-from pyimu.attitude.variables import STATUS
 from pyimu.errors import Finding
 from pyimu.recording.quality.in_pieces import quality
 from pyimu.recording.recording import Recording

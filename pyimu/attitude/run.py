@@ -18,15 +18,15 @@ from pyimu.attitude.columns import (
     number,
     wandering,
 )
-from pyimu.attitude.compensation import clock_error, left_in, noise_of
+from pyimu.attitude.filter.compensation import clock_error, left_in, noise_of
+from pyimu.attitude.filter.memory import BIAS_VARIANCE
+from pyimu.attitude.filter.ukf import attitude_ukf
+from pyimu.attitude.filter.variables import LEAST_K, OWN_PARAMETERS
 from pyimu.attitude.input_grid import CHUNK, InputGrid
-from pyimu.attitude.memory import BIAS_VARIANCE
 from pyimu.attitude.rest import find_rest
 from pyimu.attitude.result import AttitudeResult
 from pyimu.attitude.retiming import Retiming
 from pyimu.attitude.stuck import stuck_times
-from pyimu.attitude.ukf import attitude_ukf
-from pyimu.attitude.variables import LEAST_K, OWN_PARAMETERS
 from pyimu.block.block import Block, Run
 from pyimu.block.variables import Variable
 from pyimu.errors import UserError

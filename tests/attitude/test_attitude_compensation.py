@@ -9,7 +9,7 @@ from attitude_cases import H, drive, error, output, parameters, rover_rate
 from catalogue_cases import CASES, everything, excited
 
 from pyimu.attitude import attitude_ukf
-from pyimu.attitude.compensation import noise_of
+from pyimu.attitude.filter.compensation import noise_of
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor

@@ -7,8 +7,8 @@ import pytest
 from attitude_cases import GRAVITY, H, covariance_of, inputs, output, parameters, part
 
 from pyimu.attitude import attitude_ukf
-from pyimu.attitude.sigma_point_filter import sigma_point_filter
-from pyimu.attitude.unscented import LARGEST_STD
+from pyimu.attitude.filter.sigma_point_filter import sigma_point_filter
+from pyimu.attitude.filter.unscented import LARGEST_STD
 
 
 @pytest.fixture(scope="module")

@@ -20,7 +20,7 @@ from scipy.linalg import solve_continuous_are
 from scipy.spatial.transform import Rotation
 
 from pyimu.attitude import attitude_ukf
-from pyimu.attitude.unscented import WHOLE
+from pyimu.attitude.filter.unscented import WHOLE
 
 ROWS = 12_000
 SETTLED = slice(3_000, None)

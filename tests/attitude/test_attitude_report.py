@@ -14,9 +14,9 @@ from scipy.stats import norm
 
 from pyimu.attitude import STATUS, run
 from pyimu.attitude.error import error_against
+from pyimu.attitude.filter.variables import STATUS_NAMES
 from pyimu.attitude.outcome import NIS_BOUNDS
 from pyimu.attitude.report.pictures import euler_std
-from pyimu.attitude.variables import STATUS_NAMES
 from pyimu.recording.recording import Recording
 
 OUTSIDE = norm.isf(1e-5)

@@ -24,7 +24,7 @@ from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
 from pyimu.attitude import attitude_ukf
-from pyimu.attitude.variables import UNKNOWN_LATITUDE
+from pyimu.attitude.filter.variables import UNKNOWN_LATITUDE
 
 OUTSIDE = 1e-4
 """Probability on either side of a band."""

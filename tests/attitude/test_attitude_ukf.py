@@ -23,8 +23,8 @@ from attitude_cases import (
 from scipy.spatial.transform import Rotation
 
 from pyimu.attitude import attitude_ukf
-from pyimu.attitude.unscented import LARGEST_STD
-from pyimu.attitude.variables import UNKNOWN_LATITUDE
+from pyimu.attitude.filter.unscented import LARGEST_STD
+from pyimu.attitude.filter.variables import UNKNOWN_LATITUDE
 from pyimu.model.simulate import simulate
 
 

@@ -16,7 +16,7 @@ from attitude_cases import (
 from scipy.spatial.transform import Rotation
 
 from pyimu.attitude import attitude_ukf
-from pyimu.attitude.sigma_point_filter import sigma_point_filter
+from pyimu.attitude.filter.sigma_point_filter import sigma_point_filter
 
 FILTERS = (attitude_ukf, sigma_point_filter)
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from pyimu.attitude.compensation import NOT_UNDONE
 from pyimu.attitude.error import AttitudeError, root_mean_square
+from pyimu.attitude.filter.compensation import NOT_UNDONE
 from pyimu.attitude.outcome import NIS_BOUNDS, Outcome
 from pyimu.report.numbers import joined, number
 

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.linalg import expm
 from scipy.spatial.transform import Rotation
 
-from pyimu.attitude import marginal
+from pyimu.attitude.filter import marginal
 from pyimu.derivations.cases import rotations, vectors
 from pyimu.derivations.independent import cross_matrix, same_sign, scalar_first
 from pyimu.derivations.model import EPS, Check, Derivation, Equation, call, library

@@ -20,15 +20,15 @@ from functools import lru_cache
 
 import casadi as ca
 
-from pyimu.attitude import marginal
-from pyimu.attitude.compensation import Compensation
-from pyimu.attitude.filter_block import filter_block, step_function
-from pyimu.attitude.gravity_update import INNOVATION_GATE, by_velocity, corrected, push
-from pyimu.attitude.layout import GRAVITY, Flags, GravityMeasurement, Layout
-from pyimu.attitude.memory import ESTIMATE, WORKING, Memory
-from pyimu.attitude.prediction import ARGUMENTS, Instant, added_noise, predicted
-from pyimu.attitude.sample import Sample, look_closely, raw_of, read
-from pyimu.attitude.updates import after_gravity, bounded_where_lost, finish, where
+from pyimu.attitude.filter import marginal
+from pyimu.attitude.filter.compensation import Compensation
+from pyimu.attitude.filter.filter_block import filter_block, step_function
+from pyimu.attitude.filter.gravity_update import INNOVATION_GATE, by_velocity, corrected, push
+from pyimu.attitude.filter.layout import GRAVITY, Flags, GravityMeasurement, Layout
+from pyimu.attitude.filter.memory import ESTIMATE, WORKING, Memory
+from pyimu.attitude.filter.prediction import ARGUMENTS, Instant, added_noise, predicted
+from pyimu.attitude.filter.sample import Sample, look_closely, raw_of, read
+from pyimu.attitude.filter.updates import after_gravity, bounded_where_lost, finish, where
 from pyimu.block.block import Block
 from pyimu.model.effect import Effect
 from pyimu.model.part import Part
@@ -44,10 +44,10 @@ def attitude_ukf(part: Part) -> Block:
 
     What ``Sensor.left_in`` names, such as a lag or a delay, is not undone: the estimate is late by
     it, and its standard deviations do not contain it. The state begins with q (4), bias (3) and the
-    upper triangle of the covariance (21); ``pyimu.attitude.memory`` has the rest.
+    upper triangle of the covariance (21); ``pyimu.attitude.filter.memory`` has the rest.
 
-    The equations are those of ``pyimu.attitude.sigma_point_filter`` in their marginalised form
-    (``pyimu.attitude.marginal``).
+    The equations are those of ``pyimu.attitude.filter.sigma_point_filter`` in their marginalised
+    form (``pyimu.attitude.filter.marginal``).
     """
     return _of(part, part.gyro.effects, part.accel.effects)
 

@@ -6,17 +6,17 @@ from dataclasses import dataclass
 
 import casadi as ca
 
-from pyimu.attitude import late_heading
-from pyimu.attitude.compensation import clock_error
-from pyimu.attitude.gravity_update import Inclination, inclination, is_tilt_known
-from pyimu.attitude.layout import Flags, Layout
-from pyimu.attitude.memory import ESTIMATE, REPORTED, Memory
-from pyimu.attitude.quasi_static import where
-from pyimu.attitude.sample import Sample
-from pyimu.attitude.settings import Settings
-from pyimu.attitude.unscented import LARGEST_STD, LARGEST_TILT_STD, Estimate
-from pyimu.attitude.variables import INPUTS, LEAST_K, LEAST_N
-from pyimu.attitude.velocity import followed, least_std
+from pyimu.attitude.filter import late_heading
+from pyimu.attitude.filter.compensation import clock_error
+from pyimu.attitude.filter.gravity_update import Inclination, inclination, is_tilt_known
+from pyimu.attitude.filter.layout import Flags, Layout
+from pyimu.attitude.filter.memory import ESTIMATE, REPORTED, Memory
+from pyimu.attitude.filter.quasi_static import where
+from pyimu.attitude.filter.sample import Sample
+from pyimu.attitude.filter.settings import Settings
+from pyimu.attitude.filter.unscented import LARGEST_STD, LARGEST_TILT_STD, Estimate
+from pyimu.attitude.filter.variables import INPUTS, LEAST_K, LEAST_N
+from pyimu.attitude.filter.velocity import followed, least_std
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.process_noise import process_noise
 

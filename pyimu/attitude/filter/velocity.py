@@ -18,7 +18,7 @@ from dataclasses import dataclass
 
 import casadi as ca
 
-from pyimu.attitude.unscented import Estimate
+from pyimu.attitude.filter.unscented import Estimate
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import symmetric
 

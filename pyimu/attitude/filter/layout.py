@@ -7,10 +7,10 @@ from functools import cached_property
 
 import casadi as ca
 
-from pyimu.attitude import late_heading
-from pyimu.attitude.compensation import Compensation
-from pyimu.attitude.memory import ESTIMATE, WORKING, memory_sizes
-from pyimu.attitude.variables import INPUTS, OWN_PARAMETERS
+from pyimu.attitude.filter import late_heading
+from pyimu.attitude.filter.compensation import Compensation
+from pyimu.attitude.filter.memory import ESTIMATE, WORKING, memory_sizes
+from pyimu.attitude.filter.variables import INPUTS, OWN_PARAMETERS
 from pyimu.block.variables import Variable
 
 GRAVITY = 17

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import casadi as ca
 
-from pyimu.attitude.variables import EXTRA_INPUTS
+from pyimu.attitude.filter.variables import EXTRA_INPUTS
 from pyimu.block.variables import Variable
 from pyimu.model.part import Part, input_variables
 from pyimu.model.sensor import Sensor

@@ -7,7 +7,7 @@ into the truth, ``q_true = q p``, as modified Rodrigues parameters scaled to rad
 error of the gyro bias in rad/s, v (3,) that of the velocity in m/s in body axes. The quaternion
 carries the attitude itself, so that the mean of p is zero between the steps (Crassidis and Markley
 2003, sections III and IV). The velocity is linear in p and b, and has no sigma points
-(``pyimu.attitude.velocity``).
+(``pyimu.attitude.filter.velocity``).
 """
 
 from __future__ import annotations

@@ -7,12 +7,18 @@ from dataclasses import dataclass
 import casadi as ca
 import numpy as np
 
-from pyimu.attitude import late_heading
-from pyimu.attitude.compensation import Compensation
-from pyimu.attitude.quasi_static import MeanForce, QuasiStatic
-from pyimu.attitude.unscented import LARGEST_STD, Estimate, N
-from pyimu.attitude.variables import LARGEST_BIAS, LEAST_ACCEL_STD, LEAST_K, LEAST_N, OWN_PARAMETERS
-from pyimu.attitude.velocity import Motion, least_std
+from pyimu.attitude.filter import late_heading
+from pyimu.attitude.filter.compensation import Compensation
+from pyimu.attitude.filter.quasi_static import MeanForce, QuasiStatic
+from pyimu.attitude.filter.unscented import LARGEST_STD, Estimate, N
+from pyimu.attitude.filter.variables import (
+    LARGEST_BIAS,
+    LEAST_ACCEL_STD,
+    LEAST_K,
+    LEAST_N,
+    OWN_PARAMETERS,
+)
+from pyimu.attitude.filter.velocity import Motion, least_std
 from pyimu.model.signals import SIGNALS
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import pack, unpack

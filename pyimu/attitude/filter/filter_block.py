@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import casadi as ca
 
-from pyimu.attitude import late_heading
-from pyimu.attitude.compensation import NOT_UNDONE, left_in
-from pyimu.attitude.layout import Layout
-from pyimu.attitude.memory import start
-from pyimu.attitude.updates import outputs
-from pyimu.attitude.variables import OUTPUTS
+from pyimu.attitude.filter import late_heading
+from pyimu.attitude.filter.compensation import NOT_UNDONE, left_in
+from pyimu.attitude.filter.layout import Layout
+from pyimu.attitude.filter.memory import start
+from pyimu.attitude.filter.updates import outputs
+from pyimu.attitude.filter.variables import OUTPUTS
 from pyimu.block.block import Block
 from pyimu.model.part import Part
 

@@ -6,13 +6,13 @@ from dataclasses import replace
 
 import casadi as ca
 
-from pyimu.attitude import late_heading, unscented
-from pyimu.attitude.gravity_update import vertical
-from pyimu.attitude.heading_update import LEVEL, by_heading
-from pyimu.attitude.layout import FLAGS, Flags, Layout
-from pyimu.attitude.memory import ESTIMATE, WORKING, Memory
-from pyimu.attitude.settings import Settings
-from pyimu.attitude.unscented import Estimate, bounded, bounded_tilt
+from pyimu.attitude.filter import late_heading, unscented
+from pyimu.attitude.filter.gravity_update import vertical
+from pyimu.attitude.filter.heading_update import LEVEL, by_heading
+from pyimu.attitude.filter.layout import FLAGS, Flags, Layout
+from pyimu.attitude.filter.memory import ESTIMATE, WORKING, Memory
+from pyimu.attitude.filter.settings import Settings
+from pyimu.attitude.filter.unscented import Estimate, bounded, bounded_tilt
 from pyimu.symbolic import quaternion
 
 OPTIONS = {"cse": True}
@@ -130,7 +130,7 @@ def _status(flags: Flags, report: list, variances):
 
 
 def outputs(x: Estimate, quasi_static, nis, status) -> ca.SX:
-    """The block's outputs (``pyimu.attitude.variables.OUTPUTS``) as a column."""
+    """The block's outputs (``pyimu.attitude.filter.variables.OUTPUTS``) as a column."""
     std = [ca.sqrt(ca.fmax(x.covariance[i, i], 0)) for i in range(6)]
     up, pp = quaternion.to_matrix(x.q)[2, :].T, x.covariance[:3, :3]
     heading_std = ca.sqrt(ca.fmax(ca.dot(up, pp @ up), 0))

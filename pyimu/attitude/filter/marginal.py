@@ -6,7 +6,8 @@ The error of the rate is bilinear in attitude error and bias, so that the propag
 covariance have a closed form; the sigma points of attitude of the 13-point filter cancel to the
 fourth order of the standard deviations. Gravity depends on the tilt alone: two pairs of points are
 left, whose odd and even parts are written out. Both functions give what
-``pyimu.attitude.sigma_point_filter`` gives, with a fifth of its arithmetic, and neither branches.
+``pyimu.attitude.filter.sigma_point_filter`` gives, with a fifth of its arithmetic, and neither
+branches.
 """
 
 from __future__ import annotations
@@ -16,8 +17,8 @@ from math import factorial
 
 import casadi as ca
 
-from pyimu.attitude.unscented import SPREAD, Estimate, N, moved
-from pyimu.attitude.velocity import Push, pushed
+from pyimu.attitude.filter.unscented import SPREAD, Estimate, N, moved
+from pyimu.attitude.filter.velocity import Push, pushed
 from pyimu.symbolic import mrp, quaternion
 from pyimu.symbolic.linear import FLOOR, symmetric
 

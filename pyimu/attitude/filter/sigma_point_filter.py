@@ -1,8 +1,8 @@
 """The unscented attitude filter with all of its sigma points, 13 for six states.
 
-It is written to be read, and the tests hold the fast filter (``pyimu.attitude.ukf``) against it,
-which makes the same estimates with a fifth of the arithmetic. The two differ in propagation and in
-the measurement of gravity; the other steps are functions that both use. Sources: Hidalgo 2012,
+It is written to be read, and the tests hold the fast filter (``pyimu.attitude.filter.ukf``) against
+it, which makes the same estimates with a fifth of the arithmetic. The two differ in propagation and
+in the measurement of gravity; the other steps are functions that both use. Sources: Hidalgo 2012,
 section 4; Crassidis and Markley 2003.
 """
 
@@ -12,17 +12,17 @@ from collections.abc import Callable
 
 import casadi as ca
 
-from pyimu.attitude import marginal
-from pyimu.attitude.compensation import Compensation
-from pyimu.attitude.filter_block import filter_block, step_function
-from pyimu.attitude.gravity_update import INNOVATION_GATE, by_velocity, corrected, push
-from pyimu.attitude.layout import GRAVITY, Flags, GravityMeasurement, Layout
-from pyimu.attitude.memory import ESTIMATE, WORKING, Memory
-from pyimu.attitude.prediction import ARGUMENTS, Instant, added_noise, predicted
-from pyimu.attitude.sample import look_closely
-from pyimu.attitude.unscented import Estimate, N, correct, measure, sigma_points
-from pyimu.attitude.updates import after_gravity, bounded_where_lost, finish, where
-from pyimu.attitude.velocity import pushed
+from pyimu.attitude.filter import marginal
+from pyimu.attitude.filter.compensation import Compensation
+from pyimu.attitude.filter.filter_block import filter_block, step_function
+from pyimu.attitude.filter.gravity_update import INNOVATION_GATE, by_velocity, corrected, push
+from pyimu.attitude.filter.layout import GRAVITY, Flags, GravityMeasurement, Layout
+from pyimu.attitude.filter.memory import ESTIMATE, WORKING, Memory
+from pyimu.attitude.filter.prediction import ARGUMENTS, Instant, added_noise, predicted
+from pyimu.attitude.filter.sample import look_closely
+from pyimu.attitude.filter.unscented import Estimate, N, correct, measure, sigma_points
+from pyimu.attitude.filter.updates import after_gravity, bounded_where_lost, finish, where
+from pyimu.attitude.filter.velocity import pushed
 from pyimu.block.block import Block
 from pyimu.model.part import Part
 from pyimu.symbolic import mrp, quaternion

@@ -6,13 +6,13 @@ from dataclasses import dataclass, replace
 
 import casadi as ca
 
-from pyimu.attitude import late_heading, unscented
-from pyimu.attitude.gravity_update import tilt_variance, vertical
-from pyimu.attitude.layout import Layout
-from pyimu.attitude.memory import ESTIMATE, WORKING, Memory
-from pyimu.attitude.settings import Settings
-from pyimu.attitude.unscented import WHOLE, Estimate, N, measure
-from pyimu.attitude.variables import ABSURD, INPUTS, LEAST_HEADING_STD
+from pyimu.attitude.filter import late_heading, unscented
+from pyimu.attitude.filter.gravity_update import tilt_variance, vertical
+from pyimu.attitude.filter.layout import Layout
+from pyimu.attitude.filter.memory import ESTIMATE, WORKING, Memory
+from pyimu.attitude.filter.settings import Settings
+from pyimu.attitude.filter.unscented import WHOLE, Estimate, N, measure
+from pyimu.attitude.filter.variables import ABSURD, INPUTS, LEAST_HEADING_STD
 from pyimu.symbolic import mrp, quaternion
 from pyimu.symbolic.linear import cholesky, forward, symmetric
 

@@ -11,10 +11,10 @@ from dataclasses import dataclass
 
 import casadi as ca
 
-from pyimu.attitude.compensation import Compensation
-from pyimu.attitude.memory import Memory
-from pyimu.attitude.settings import Settings
-from pyimu.attitude.variables import ABSURD, INPUTS
+from pyimu.attitude.filter.compensation import Compensation
+from pyimu.attitude.filter.memory import Memory
+from pyimu.attitude.filter.settings import Settings
+from pyimu.attitude.filter.variables import ABSURD, INPUTS
 from pyimu.model.signals import SIGNALS
 
 LARGEST_KEPT = 1e100

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import casadi as ca
 import numpy as np
 
-from pyimu.attitude import marginal
-from pyimu.attitude.compensation import Compensation, TriadNoise, noise_of, share_added
-from pyimu.attitude.variables import OWN_PARAMETERS
+from pyimu.attitude.filter import marginal
+from pyimu.attitude.filter.compensation import Compensation, TriadNoise, noise_of, share_added
+from pyimu.attitude.filter.variables import OWN_PARAMETERS
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.earth import earth_rate
 

@@ -1,9 +1,9 @@
 """The updates by gravity: what measures it, its weight, and its innovation gate.
 
 While the tilt is known to a few degrees, the velocity of a body that stays in its place measures
-gravity (``pyimu.attitude.velocity``). Until then it is a sample of the specific force while the
-body is quasi-static, and in motion the mean force of the last second
-(``pyimu.attitude.quasi_static``).
+gravity (``pyimu.attitude.filter.velocity``). Until then it is a sample of the specific force while
+the body is quasi-static, and in motion the mean force of the last second
+(``pyimu.attitude.filter.quasi_static``).
 """
 
 from __future__ import annotations
@@ -13,9 +13,9 @@ from dataclasses import dataclass, replace
 
 import casadi as ca
 
-from pyimu.attitude.layout import GRAVITY, GravityMeasurement
-from pyimu.attitude.memory import ESTIMATE, WORKING, Memory
-from pyimu.attitude.quasi_static import (
+from pyimu.attitude.filter.layout import GRAVITY, GravityMeasurement
+from pyimu.attitude.filter.memory import ESTIMATE, WORKING, Memory
+from pyimu.attitude.filter.quasi_static import (
     MEAN_TIME,
     MEAN_TOLERANCE,
     MeanForce,
@@ -27,11 +27,11 @@ from pyimu.attitude.quasi_static import (
     mean_variance,
     where,
 )
-from pyimu.attitude.sample import Sample
-from pyimu.attitude.settings import Settings
-from pyimu.attitude.unscented import Estimate
-from pyimu.attitude.variables import LEAST_ACCEL_STD
-from pyimu.attitude.velocity import DRIFT_GAIN, Motion, Push, at_rest, covariance_of_motion
+from pyimu.attitude.filter.sample import Sample
+from pyimu.attitude.filter.settings import Settings
+from pyimu.attitude.filter.unscented import Estimate
+from pyimu.attitude.filter.variables import LEAST_ACCEL_STD
+from pyimu.attitude.filter.velocity import DRIFT_GAIN, Motion, Push, at_rest, covariance_of_motion
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import symmetric
 
