@@ -9,7 +9,12 @@ import casadi as ca
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pyimu.attitude.columns import extra_column, recorded_heading, temperature_of
+from pyimu.attitude.columns import (
+    extra_column,
+    recorded_age,
+    recorded_heading,
+    temperature_of,
+)
 from pyimu.attitude.filter.compensation import Compensation, noise_of
 from pyimu.attitude.filter.heading_update import LEVEL
 from pyimu.attitude.filter.unscented import LARGEST_STD
@@ -223,10 +228,12 @@ def initial_yaw(
     rows = np.flatnonzero((np.abs(heading) <= ABSURD) & (np.abs(std) <= ABSURD) & (std != 0))
     if not len(rows):
         return Yaw()
-    first = int(rows[0])
+    seen = float(heading[rows[0]])
+    true_at = recording.time[rows[0]] - recorded_age(recording)[rows[0]]
+    first = int(np.searchsorted(recording.time, true_at))
     if first == 0 or rest.seen and first < rest.rows.stop:
-        return Yaw(float(heading[first]), REUSED * max(float(std[first]), YAW_STD), known=True)
-    return Yaw(float(heading[first]) - turned(first), LARGEST_STD)
+        return Yaw(seen, REUSED * max(float(std[rows[0]]), YAW_STD), known=True)
+    return Yaw(seen - turned(first), LARGEST_STD)
 
 
 def _tilt_std(rest: Rest, force: np.ndarray | None) -> float:

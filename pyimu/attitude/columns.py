@@ -124,3 +124,21 @@ def recorded_heading(recording: Recording) -> tuple[np.ndarray, np.ndarray]:
         return np.full(n, np.nan), np.full(n, np.nan)
     std = getattr(recording, "heading_std", None)
     return recording.heading, np.full(n, HEADING_STD) if std is None else std
+
+
+def recorded_age(recording: Recording) -> np.ndarray:
+    """How many s (n,) before its row each recorded heading was true; 0 where that is not said.
+
+    Raises UserError for an age below zero.
+    """
+    age = getattr(recording, "heading_age", None)
+    if age is None:
+        return np.zeros(len(recording.time))
+    age = np.nan_to_num(age)
+    if age.min() < 0:
+        row = int(np.argmin(age))
+        raise UserError(
+            f"{recording.name}: heading_age is {age[row]:g} s at {recording.time[row]:g} s, "
+            "expected 0 or more"
+        )
+    return age

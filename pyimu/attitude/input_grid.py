@@ -7,7 +7,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pyimu.attitude.columns import extra_column, recorded_heading, temperature_of
+from pyimu.attitude.columns import (
+    extra_column,
+    recorded_age,
+    recorded_heading,
+    temperature_of,
+)
 from pyimu.attitude.filter.variables import EXTRA_INPUTS
 from pyimu.attitude.retiming import Retiming
 from pyimu.model.part import Part
@@ -103,6 +108,7 @@ def _marks(recording: Recording) -> dict[str, np.ndarray | None]:
         "heading": np.where(valid, heading, 0),
         "heading_variance": np.where(valid, std**2, 0),
         "heading_valid": valid,
+        "heading_age": recorded_age(recording),
     }
 
 

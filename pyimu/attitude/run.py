@@ -16,6 +16,7 @@ from pyimu.attitude.columns import (
     latitude_of,
     nominal_part,
     number,
+    recorded_age,
     wandering,
 )
 from pyimu.attitude.filter.compensation import clock_error, left_in, noise_of
@@ -60,8 +61,9 @@ def run(
     ``std0`` (6,) the standard deviations of attitude in body axes in rad and of bias in rad/s. What
     is not given comes from the first seconds at rest; yaw from the first recorded heading, or it is
     zero. ``settings`` are values of other parameters of the block, by name. A gap widens the
-    estimate, and the row after it has bit 1 of the status. A clock of the gyro that the part knows
-    to be off is undone by its samples' times; the accelerometer's is taken for the same.
+    estimate, and the row after it has bit 1 of the status. Headings with an age in the recording's
+    column ``heading_age`` correct what the attitude was then. A clock of the gyro that the part
+    knows to be off is undone by its samples' times; the accelerometer's is taken for the same.
 
     Raises UserError for a recording that cannot be read, is without gyro or has one row, a latitude
     beyond -pi/2 to pi/2, a quaternion without length, ``heading0`` beside ``q0``, other than so
@@ -88,6 +90,8 @@ def run(
     values = stuck_times(recording, known, rest)
     values |= initial_values(recording, known, rest, latitude, q0, yaw)
     values |= _numbered("bias0", bias0, 3) | _numbered("std0", std0, 6)
+    if oldest := float(recorded_age(recording).max()):
+        values["heading_memory"] = oldest
     if part is None:
         values["rate_noise"] = NOMINAL_RATE_NOISE
     p = _parameters(block, values | dict(settings or {}))

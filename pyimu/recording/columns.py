@@ -78,6 +78,7 @@ GROUPS: Mapping[str, Group] = MappingProxyType(
         "stationary": Group("1", "mark of rows at rest"),
         "heading": Group("rad", "measured heading, counter-clockwise from east"),
         "heading_std": Group("rad", "standard deviation of the measured heading"),
+        "heading_age": Group("s", "time since the measured heading was true"),
     }
 )
 """What a recording can hold beside its time, by name. The signals on which a sensor's errors may

@@ -1,0 +1,317 @@
+"""Bodies in the cases that attitude filters are bad at, by numpy and scipy alone.
+
+Truth, samples and reference filters share no code with the package: motions are splines of
+``generators.motion``, samples of the gyro are the turns between their instants over the period, and
+sensors have white noise, a bias and a random walk that the filter is told of.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+from generators import rotation
+from generators.instrument import Triad
+from generators.motion import (
+    GRAVITY,
+    KNOTS,
+    Motion,
+    busy_spans,
+    eased,
+    grid,
+    motion_of,
+    smooth_noise,
+)
+from scipy.signal import lfilter
+
+H = 0.01
+N, K, BIAS = 3e-4, 1e-5, 0.005
+"""rad/sqrt(s), rad/s/sqrt(s), rad/s: white noise, random walk and turn-on bias of a consumer's
+gyro."""
+
+N_ACCEL = 1e-3
+"""m/s^2 sqrt(s); of its accelerometer."""
+
+EARTH = 7.292115e-5
+HEADING_STD = 0.035
+
+
+@dataclass(frozen=True)
+class Log:
+    """What is recorded and what is true, a row a sample.
+
+    ``time`` (n,) s as recorded; ``gyro``, ``accel`` (n, 3); the true attitude ``q`` (n, 4) at the
+    sample, the true gyro ``bias`` (n, 3). ``heading``, ``heading_std``, ``heading_age`` (n,), NaN
+    where there is none. ``told`` are arguments of the filter.
+    """
+
+    time: np.ndarray
+    gyro: np.ndarray
+    accel: np.ndarray
+    q: np.ndarray
+    bias: np.ndarray
+    heading: dict[str, np.ndarray] = field(default_factory=dict)
+    told: dict = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Case:
+    """How a log is made, and what is looked at.
+
+    ``make(rng)`` gives a log; ``since`` s of it are not scored. ``pushed`` (m/s^2, s) is by how
+    much the body accelerates and for how long, for the plain filter beside, which is told so.
+    ``headed`` says that headings come, so that the error of heading is scored as it is, else
+    against the heading at ``since``. ``free`` says that the samples have errors that nobody
+    declared: no consistency is asked then but that errors stay below what is claimed.
+    """
+
+    name: str
+    make: Callable[[np.random.Generator], Log]
+    pushed: tuple[float, float] = (0.05, 0.1)
+    since: float = 10.0
+    headed: bool = False
+
+
+# Samples
+
+
+def record(
+    rng,
+    motion: Motion,
+    duration: float,
+    times: np.ndarray | None = None,
+    stamps: np.ndarray | None = None,
+    n: float = N,
+    latitude: float | None = None,
+    gravity: float = GRAVITY,
+    **told,
+) -> Log:
+    """Samples of a motion at ``times`` (m,) that are recorded as ``stamps`` (m,)."""
+    times = np.arange(0, duration, H) if times is None else times
+    stamps = times if stamps is None else stamps
+    before = np.append(2 * times[0] - times[1], times)
+    q, period = motion.attitude(before), np.diff(before)
+    if latitude is not None:
+        # The Earth turns below: the body's turn against inertial space has that as well.
+        world = EARTH * np.array([0, np.cos(latitude), np.sin(latitude)])
+        turned = rotation.product(rotation.from_vector(world * before[:, None]), q)
+    else:
+        turned = q
+    rate = rotation.to_vector(rotation.product(rotation.inverse(turned[:-1]), turned[1:]))
+    rate /= period[:, None]
+    up = np.array([0.0, 0.0, gravity])
+    force = rotation.in_body(q[1:], motion.acceleration(times) + up)
+    walk = np.cumsum(K * np.sqrt(period)[:, None] * rng.standard_normal((len(times), 3)), axis=0)
+    bias = BIAS * rng.standard_normal(3) + walk
+    white = n / np.sqrt(period)[:, None] * rng.standard_normal((len(times), 3))
+    accel = Triad(np.zeros(3), np.full(3, N_ACCEL), np.zeros(3)).measure(rng, force, H)
+    return Log(stamps, rate + bias + white, accel, q[1:], bias, told=told)
+
+
+def yaw_of(q: np.ndarray) -> np.ndarray:
+    w, x, y, z = q.T
+    return np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+
+
+def with_headings(rng, log: Log, every: float = 1.0, since: float = 0.0, age: float = 0.0) -> Log:
+    """The log with headings ``every`` s that were true ``age`` s before."""
+    rows = np.zeros(len(log.time), dtype=bool)
+    rows[:: round(every / H)] = True
+    rows &= (log.time >= since) & (log.time >= age)
+    late = round(age / H)
+    truth = np.roll(yaw_of(log.q), late)
+    heading = np.where(rows, truth + HEADING_STD * rng.standard_normal(len(rows)), np.nan)
+    columns = {"heading": heading, "heading_std": np.where(rows, HEADING_STD, np.nan)}
+    if age:
+        columns["heading_age"] = np.where(rows, late * H, np.nan)
+    return Log(log.time, log.gyro, log.accel, log.q, log.bias, columns, log.told)
+
+
+# Motions
+
+
+def still_start(t: np.ndarray, until: float = 5.0) -> np.ndarray:
+    """0 for a rest at the start, 1 after it."""
+    return eased(t, [(until, t[-1] + 10.0)], 1.0)[:, None]
+
+
+def turning(rng, duration: float, speed: float = 0.5) -> tuple[np.ndarray, np.ndarray]:
+    """Times, and slopes (n, 3) of a body that turns in place after a rest."""
+    t = grid(duration)
+    slopes = speed * smooth_noise(rng, t, 3, 0.02, 0.5) * [0.5, 0.5, 1.0] * still_start(t)
+    return t, slopes
+
+
+def pushed_by_hand(rng, duration: float, size: float, low: float, high: float, turn: float):
+    t, slopes = turning(rng, duration, turn)
+    pushed = size * smooth_noise(rng, t, 3, low, high) * still_start(t)
+    return motion_of("hand", t, slopes, pushed)
+
+
+def tapped(rng, duration: float):
+    """Taps of some 0.1 s, one or two a second, each of which is there and back."""
+    t, slopes = turning(rng, duration, 0.1)
+    hits = np.zeros((len(t), 3))
+    for at in np.arange(8.0, duration, 0.8):
+        first = int((at + rng.uniform(0, 0.5) + 5.0) * KNOTS)
+        hits[first : first + 6] += np.outer([1, 1, -1, -1, 0, 0], rng.normal(0, 4.0, 3))
+    return motion_of("tapped", t, slopes, hits)
+
+
+def vehicle(rng, duration: float, push: float, lasting: tuple[float, float], speed0: float = 8.0):
+    """A car on flat ground: along-track accelerations of ``push`` m/s^2 that last so many s, turns
+    with their centripetal force.
+    """
+    t = grid(duration)
+    along, at = np.zeros_like(t), 6.0
+    while at < duration:
+        span = rng.uniform(*lasting)
+        along += push * rng.choice([-1, 1]) * eased(t, [(at, at + span)], 0.5)
+        at += span + rng.uniform(1.0, 4.0)
+    speed = speed0 + np.cumsum(along) / KNOTS
+    # Not through standstill: the push turns round before.
+    speed = np.abs(speed - speed.min() + 2.0) if speed.min() < 2.0 else speed
+    turn = 0.04 * smooth_noise(rng, t, 1, 0.0, 0.1) * still_start(t)
+    yaw = np.cumsum(turn[:, 0]) / KNOTS
+    heading = np.column_stack([np.cos(yaw), np.sin(yaw), np.zeros_like(yaw)])
+    across = np.column_stack([-np.sin(yaw), np.cos(yaw), np.zeros_like(yaw)])
+    pushed = along[:, None] * heading + (speed * turn[:, 0])[:, None] * across
+    slopes = np.column_stack([0 * t, 0 * t, turn[:, 0]])
+    return motion_of("vehicle", t, slopes, pushed * still_start(t))
+
+
+def markov(rng, t: np.ndarray, size: float, tau: float) -> np.ndarray:
+    """A Gauss-Markov process (n, 3)."""
+    keep = np.exp(-1 / (KNOTS * tau))
+    drawn = size * np.sqrt(1 - keep**2) * rng.standard_normal((len(t), 3))
+    return lfilter([1.0], [1.0, -keep], drawn, axis=0)
+
+
+def driven_by_noise(rng, duration: float, size: float, tau: float):
+    """A body whose acceleration is a Gauss-Markov process: its velocity has no bound."""
+    t, slopes = turning(rng, duration, 0.3)
+    return motion_of("noise-like", t, slopes, markov(rng, t, size, tau) * still_start(t))
+
+
+def resting_between(rng, duration: float):
+    """Turned by hand for 10 to 30 s, then put down for 10 to 20 s, again and again."""
+    t = grid(duration)
+    busy = eased(t, busy_spans(rng, duration, (10, 30), (10, 20)))[:, None]
+    slopes = 0.8 * smooth_noise(rng, t, 3, 0.02, 0.8) * [0.3, 0.3, 1.0] * busy
+    return motion_of("rests", t, slopes, 0.5 * smooth_noise(rng, t, 3, 0.3, 2.0) * busy)
+
+
+def slow_start(rng, duration: float):
+    """No rest at the start: a slow turn instead, of 0.5 to 3 deg/s about an axis of its own."""
+    t, slopes = turning(rng, duration, 0.5)
+    axis = rng.standard_normal(3)
+    axis *= np.deg2rad(rng.uniform(0.5, 3.0)) / np.linalg.norm(axis)
+    return motion_of("slow start", t, slopes + (1 - still_start(t, 12.0)) * axis)
+
+
+# Cases
+
+
+def matched(rng, duration: float = 120.0, **more) -> Log:
+    t, slopes = turning(rng, duration)
+    return record(rng, motion_of("turning", t, slopes), duration, **more)
+
+
+def still(rng) -> Log:
+    t = grid(120.0)
+    return record(rng, motion_of("still", t, np.zeros((len(t), 3))), 120.0)
+
+
+def hand(size: float, low: float, high: float, turn: float) -> Callable[..., Log]:
+    return lambda rng: record(rng, pushed_by_hand(rng, 120.0, size, low, high, turn), 120.0)
+
+
+def car(push: float, lasting: tuple[float, float]) -> Callable[..., Log]:
+    return lambda rng: record(rng, vehicle(rng, 180.0, push, lasting), 180.0)
+
+
+def lost_yaw(rng) -> Log:
+    log = with_headings(rng, matched(rng))
+    log.gyro[4000:4200] = np.nan
+    return log
+
+
+def unknown_yaw(rng) -> Log:
+    return with_headings(rng, matched(rng), since=10.0)
+
+
+def wandering_rate(rng) -> Log:
+    share = np.cumsum(rng.standard_normal(13_000)) * 0.002
+    period = H * (1 + 0.1 * np.sin(share))
+    times = np.cumsum(period)
+    return matched(rng, times=times[times < 119.0])
+
+
+def jittered(rng) -> Log:
+    """The samples are taken evenly, their stamps are late by up to 0.4 of a period."""
+    times = np.arange(0, 120.0, H)
+    return matched(rng, times=times, stamps=times + H * rng.uniform(0, 0.4, len(times)))
+
+
+def elsewhere(gravity: float) -> Callable[..., Log]:
+    return lambda rng: matched(rng, gravity=gravity, settings={"gravity": gravity})
+
+
+def stuck_axis(rng) -> Log:
+    log = with_headings(rng, matched(rng))
+    axis = rng.integers(3)
+    log.gyro[5000:, axis] = log.gyro[5000, axis]
+    return log
+
+
+def clipped(rng) -> Log:
+    """The gyro's range is left now and then, by a third of its size, and nobody declared it."""
+    t, slopes = turning(rng, 120.0, 2.0)
+    log = with_headings(rng, record(rng, motion_of("clipped", t, slopes), 120.0))
+    level = 0.75 * np.nanmax(np.abs(log.gyro))
+    np.clip(log.gyro, -level, level, out=log.gyro)
+    return log
+
+
+def late_headings(rng) -> Log:
+    return with_headings(rng, matched(rng), age=0.5)
+
+
+def untold_latitude(rng) -> Log:
+    return with_headings(rng, matched(rng, n=1e-5, latitude=0.8), every=5.0)
+
+
+CASES = (
+    Case("rest", still),
+    Case("turning in place", matched),
+    Case("turning, headings", lambda rng: with_headings(rng, matched(rng)), headed=True),
+    Case("hand turns and sways", hand(0.1, 0.2, 1.0, 0.3), (0.1, 0.3)),
+    Case("hand translates", hand(2.0, 0.3, 2.0, 0.2), (2.0, 0.1)),
+    Case("hand turns fast", hand(1.0, 0.3, 2.0, 2.0), (1.0, 0.1)),
+    Case("taps", lambda rng: record(rng, tapped(rng, 120.0), 120.0), (1.0, 0.02)),
+    Case("vibration", hand(3.0, 8.0, 20.0, 0.2), (3.0, 0.01)),
+    Case("vehicle, 0.5 m/s^2 for 3 to 8 s", car(0.5, (3.0, 8.0)), (0.5, 3.0)),
+    Case("vehicle, 0.5 m/s^2 for 20 s", car(0.5, (18.0, 22.0)), (0.5, 10.0)),
+    Case(
+        "driven like noise, 0.5 m/s^2, 1 s",
+        lambda rng: record(rng, driven_by_noise(rng, 120.0, 0.5, 1.0), 120.0),
+        (0.5, 1.0),
+    ),
+    Case(
+        "10 min with rests",
+        lambda rng: record(rng, resting_between(rng, 600.0), 600.0),
+        (0.5, 0.2),
+    ),
+    Case("slow turn at the start", lambda rng: record(rng, slow_start(rng, 120.0), 120.0)),
+    Case("yaw lost for 2 s", lost_yaw, since=42.5, headed=True),
+    Case("heading after 10 s", unknown_yaw, since=10.5, headed=True),
+    Case("headings 0.5 s late", late_headings, headed=True),
+    Case("rate wanders by 10 %", wandering_rate),
+    Case("stamps jitter by 40 %", jittered),
+    Case("Mars", elsewhere(3.71)),
+    Case("Moon", elsewhere(1.62)),
+    Case("an axis sticks", stuck_axis, since=51.0, headed=True),
+    Case("undeclared clip", clipped, headed=True),
+    Case("latitude not told", untold_latitude, headed=True),
+)
