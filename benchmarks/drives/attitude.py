@@ -20,8 +20,9 @@ HEADING_STD = 0.02
 CHUNK = 200_000
 """Samples that are made at a time."""
 
-WHITE = {"accel_std": 0.0, "accel_correlation_time": 0.0}
-"""Settings under which a sample of specific force is gravity and white noise alone."""
+WHITE = {"accel_std": 0.0, "accel_correlation_time": 0.0, "rest_time": 0.0}
+"""Settings under which a sample of specific force is gravity and white noise alone, and no rest is
+looked for."""
 
 
 @dataclass(frozen=True)

@@ -43,11 +43,6 @@ REUSED = 10.0
 """Factor on the standard deviation of what the filter will take from the same rows once more: of
 that information a hundredth counts twice."""
 
-SEEN_AGAIN = np.sqrt(2)
-"""The same factor for the bias of a rest that is not declared. Gravity gives again at most what the
-mean of the rest has given, N^2/T, so that the variance of both together is between 2/3 and 2 times
-what it should be."""
-
 
 @dataclass(frozen=True)
 class Yaw:
@@ -123,20 +118,18 @@ def _bias(
     """Bias (3,) of a gyro at rest and its standard deviation (3,), rad/s.
 
     ``earth`` (3,) is what is known of the Earth's rate in world axes, ``unknown`` (3,) the standard
-    deviation of the rest. A body that turns steadily about the vertical measures the same as one at
-    rest with that bias. Unless the rest is declared, the standard deviation about the vertical is
-    therefore at least half the mean rate: a turn, the rarer of the two, is two standard deviations
-    away. Where no gravity confirms that the body stays ``levelled``, that holds for each axis.
+    deviation of the rest. A body that turns steadily about the vertical, no faster than a bias may
+    be, measures the same as one at rest and is taken for that. Where no gravity confirms that the
+    body stays ``levelled``, the standard deviation is at least half the mean rate: a turn is two
+    standard deviations away.
     """
     axes = attitude.inv().as_matrix()
     bias = rate - axes @ earth
     variance = mean_bias_std(part, rest) ** 2 + axes**2 @ unknown**2
-    # The zero-rate updates of a declared rest find the same bias in the same rows; else gravity
-    # does, as far as it is precise enough.
-    if rest.declared:
+    if rest.declared or levelled:
+        # The zero-rate updates find the same bias in the same rows.
         return bias, REUSED * np.sqrt(variance)
-    turning = (axes[:, 2] * (axes[:, 2] @ bias) / 2) ** 2 if levelled else (bias / 2) ** 2
-    return bias, np.sqrt(SEEN_AGAIN**2 * variance + turning)
+    return bias, np.sqrt(variance + (bias / 2) ** 2)
 
 
 def _earth(latitude: float, oriented: bool, headed: bool) -> tuple[np.ndarray, np.ndarray]:

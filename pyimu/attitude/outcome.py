@@ -44,10 +44,10 @@ class Outcome:
     (n, 6), of the attitude error in body axes in rad and of the bias in rad/s; ``quasi_static``
     (n,) bool; ``nis`` (n,) the normalised innovation squared of gravity, 0 without its update;
     ``status`` (n,) int, bits of ``pyimu.attitude.STATUS``; ``heading_std`` (n,) rad, of the
-    attitude error about the vertical. ``rest`` is the rest at the start. ``parameters`` are the
-    values by name with which the block ``AttitudeUkf`` gives the same. ``part`` is the name of the
-    part, empty without one; ``left_in`` what of its errors is not undone. ``recording`` is what the
-    filter ran over.
+    attitude error about the vertical; ``at_rest`` (n,) bool. ``rest`` is the rest at the start.
+    ``parameters`` are the values by name with which the block ``AttitudeUkf`` gives the same.
+    ``part`` is the name of the part, empty without one; ``left_in`` what of its errors is not
+    undone. ``recording`` is what the filter ran over.
     """
 
     name: str
@@ -59,6 +59,7 @@ class Outcome:
     nis: np.ndarray = field(repr=False)
     status: np.ndarray = field(repr=False)
     heading_std: np.ndarray = field(repr=False)
+    at_rest: np.ndarray = field(repr=False)
     recording: Recording = field(repr=False)
     rest: Rest | None = None
     parameters: Mapping[str, float] = field(default_factory=dict, repr=False)

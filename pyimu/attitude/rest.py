@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.stats import f
 
 from pyimu.recording.recording import Recording
 from pyimu.recording.rest import still_rows
@@ -18,6 +19,19 @@ LENGTHS = (1.0, 0.25)
 
 SHORTEST = 0.5
 """s; of the rows that are looked at where there is no rest."""
+
+PARTS = 10
+"""Means of the force over a rest, by which a turn is looked for."""
+
+BY_CHANCE = 1e-4
+"""Probability that a rest is taken for a turn."""
+
+STEADY = 2e-3
+"""m/s^3; change of an accelerometer at rest, that of a consumer part that warms up by 0.2 K in a
+second (1 mg/K)."""
+
+SHORTER = 0.7
+"""A rest that turns is looked at once more over so much of it: it may have begun to turn later."""
 
 FORCE_OFF = 2.0
 """m/s^2; a mean force whose magnitude differs more from gravity is not gravity: no accelerometer
@@ -63,7 +77,7 @@ def find_rest(recording: Recording, gravity: float = STANDARD_GRAVITY) -> Rest:
     if declared is not None and declared > 1:
         return _rest(recording, declared, gravity, seen=True, declared=True)
     for length in LENGTHS if declared is None else ():
-        stop = _still_until(recording, length)
+        stop = _without_turn(recording, _still_until(recording, length))
         if stop > 3 and _is_level(recording, stop, gravity):
             return _rest(recording, stop, gravity, seen=True)
     return _rest(recording, max(2, _rows(recording, SHORTEST)), gravity, seen=False)
@@ -80,6 +94,42 @@ def _still_until(recording: Recording, length: float) -> int:
     found = still_rows(recording.slice(0, _rows(recording, LONGEST + 2 * length)), length)
     stop = found[0][1] if found and found[0][0] == 0 else 0
     return min(stop, _rows(recording, LONGEST))
+
+
+def _without_turn(recording: Recording, stop: int) -> int:
+    """The row, at most ``stop``, before which gravity does not turn in the body's axes; 0 without.
+
+    A slow turn that is no faster than a bias shows there, unless it is about the vertical: the
+    slope of the force over time is tested against what the scatter of its means allows. Where it
+    turns over the whole, a part without a turn counts if it would have shown that one.
+    """
+    whole = None
+    while stop > 3 and recording.time[stop - 1] - recording.time[0] >= SHORTEST:
+        slope, least = _slope(recording, stop)
+        whole = slope if whole is None else whole
+        if slope @ slope <= least and (slope is whole or whole @ whole > least):
+            return stop
+        stop = int(SHORTER * stop)
+    return 0
+
+
+def _slope(recording: Recording, stop: int) -> tuple[np.ndarray, float]:
+    """The slope (3,) m/s^3 of the force before ``stop``, and the square that shows a turn."""
+    force = recording.accel
+    if force is None:
+        return np.zeros(3), np.inf
+    rows = np.flatnonzero(np.isfinite(force[:stop]).all(axis=1))
+    parts = [p for p in np.array_split(rows, PARTS) if len(p)]
+    if len(parts) < PARTS:
+        return np.zeros(3), np.inf
+    time = np.array([recording.time[p].mean() for p in parts])
+    means = np.array([force[p].mean(axis=0) for p in parts])
+    away = time - time.mean()
+    slope = away @ means / (away @ away)
+    left = means - means.mean(axis=0) - np.outer(away, slope)
+    degrees = 3 * (PARTS - 2)
+    variance = np.sum(left**2) / degrees / (away @ away)
+    return slope, 3 * f.isf(BY_CHANCE, 3, degrees) * variance + STEADY**2
 
 
 def _declared(recording: Recording) -> int | None:

@@ -65,6 +65,7 @@ class AttitudeResult(Outcome):
         return table | {
             "heading_std [rad]": self.heading_std,
             "quasi_static [1]": self.quasi_static,
+            "at_rest [1]": self.at_rest,
             "nis [1]": self.nis,
             "status [1]": self.status,
         }

@@ -89,6 +89,8 @@ def run(
     yaw = initial_yaw(recording, rest, heading0, turned) if q0 is None else Yaw()
     values = stuck_times(recording, known, rest)
     values |= initial_values(recording, known, rest, latitude, q0, yaw)
+    if getattr(recording, "stationary", None) is not None:
+        values["rest_time"] = 0.0
     values |= _numbered("bias0", bias0, 3) | _numbered("std0", std0, 6)
     if oldest := float(recorded_age(recording).max()):
         values["heading_memory"] = oldest
@@ -206,6 +208,7 @@ OUTPUTS = {
     "nis": (0, float),
     "status": (0, np.uint8),
     "heading_std": (0, float),
+    "at_rest": (0, bool),
 }
 """The block's outputs that a result keeps, how many numbers each has (0: one, without an axis), and
 their type."""

@@ -16,8 +16,9 @@ GRAVITY = 9.80665
 H = 0.01
 EARTH = 7.292115e-5
 N, K, N_ACCEL = 1e-3, 2e-4, 1e-2
-WHITE = {"accel_std": 0.0, "accel_correlation_time": 0.0}
-"""Settings under which the filter's model of the specific force is white noise alone."""
+WHITE = {"accel_std": 0.0, "accel_correlation_time": 0.0, "rest_time": 0.0}
+"""Settings under which the filter's model of the specific force is white noise alone, and no rest
+is looked for."""
 
 
 def part(n: float = N, k: float = K, n_accel: float = N_ACCEL, **more) -> Part:

@@ -107,7 +107,8 @@ def test_rounding_counts_as_white_noise_and_what_is_not_undone_is_said():
     ]
     u = np.tile([v.start for v in blocks[0].inputs], (200, 1))
     grown = [
-        output(b, b.run(u, p=parameters(b, std0=np.full(6, 1e-9)))[0], "std")[-1, 2] ** 2
+        output(b, b.run(u, p=parameters(b, std0=np.full(6, 1e-9), rest_time=0))[0], "std")[-1, 2]
+        ** 2
         for b in blocks
     ]
     np.testing.assert_allclose(grown[0] - grown[1], 0.02**2 * H / 12 * 200 * H, rtol=1e-3)

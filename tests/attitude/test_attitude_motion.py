@@ -92,7 +92,7 @@ def test_more_motion_makes_the_tilt_less_sure_and_rest_makes_it_sure_again(block
     acceleration = sines(5.0, 3.0)
     acceleration[:3000], acceleration[6000:] = 0, 0
     u, _ = moved(acceleration, turning=False)
-    y, _ = block.run(u, p=parameters(block, std0=STD0))
+    y, _ = block.run(u, p=parameters(block, std0=STD0, rest_time=0))
     std = output(block, y, "std")[:, 0]
     assert std[5990] > 1.5 * std[2990]
     assert std[-1] < 1.1 * std[2990]

@@ -73,7 +73,7 @@ def test_a_part_that_is_silent_of_its_gyros_wander_is_given_the_nominal_one():
     std0 = np.array([0.01, 0.01, 0.01, 1e-5, 1e-5, 1e-5])
     silent = part().with_sensor(part().gyro.without("rate_random_walk"))
     for known, k in ((silent, NOMINAL_K), (part(k=0), 0.0)):
-        result = run(recording, known, std0=std0)
+        result = run(recording, known, std0=std0, settings={"rest_time": 0})
         np.testing.assert_allclose(result.std[-1, 5], np.hypot(1e-5, k * np.sqrt(5)), rtol=1e-2)
 
 
@@ -155,7 +155,7 @@ def test_times_that_are_rounded_have_no_gaps():
     recording = Recording.from_arrays(
         time=time, gyro=np.zeros((5000, 3)), accel=np.tile([0, 0, GRAVITY], (5000, 1))
     )
-    result = run(recording, "imt30")
+    result = run(recording, "imt30", settings={"rest_time": 0})
     assert not result.status.any() and np.all(np.diff(result.std[:, 2]) >= 0)
 
 
@@ -270,9 +270,10 @@ def test_written_result_has_a_column_for_each_number_with_its_unit(tmp_path):
         (["time [s]", "quasi_static [1]"], np.column_stack([result.time, result.quasi_static])),
         (["nis [1]", "status [1]"], np.column_stack([result.nis, result.status])),
         (["heading_std [rad]"], result.heading_std[:, None]),
+        (["at_rest [1]"], result.at_rest[:, None]),
     ):
         np.testing.assert_array_equal(np.column_stack([table[n] for n in names]), values)
-    assert table.num_columns == 1 + 4 + 3 + 6 + 4
+    assert table.num_columns == 1 + 4 + 3 + 6 + 5
     (tmp_path / "file").write_text("")
     with pytest.raises(UserError, match="cannot write there"):
         result.write(tmp_path / "file")
@@ -344,3 +345,30 @@ def test_rest_is_seen_on_the_moon_and_on_mars(gravity):
     assert result.rest.seen and result.rest.force is not None
     # The tilt of white noise over the rest, and the noise of a sample of less gravity.
     assert tilt_error(result, world.attitude).max() < 0.01 * GRAVITY / gravity
+
+
+def test_headings_of_a_log_may_be_late():
+    """With their ages the log gives what it gives with headings of the instant, to what half a
+    second more of the gyro's noise makes; without, they contradict a body that turns.
+    """
+    world, late = drive(rover_rate(3000, still=300)), 50
+    rng = np.random.default_rng(8)
+    gyro, accel, _ = measured(world, rng, np.array([0.01, -0.01, 0.005]))
+    yaw, rows = world.attitude.as_euler("ZYX")[:, 0], np.arange(3000) % 100 == 99
+    heading = np.where(rows, np.roll(yaw, late) + 0.02 * rng.standard_normal(3000), np.nan)
+    columns = {"heading": heading, "heading_std": np.where(rows, 0.02, np.nan)}
+    off = []
+    for age in (np.where(rows, late * H, np.nan), None):
+        log = Recording.from_arrays(
+            time=H * np.arange(3000), gyro=gyro, accel=accel, heading_age=age, **columns
+        )
+        result = run(log, part())
+        left = result.euler[:, 2] - yaw
+        off.append(np.sqrt(np.mean((left[600:] / result.heading_std[600:]) ** 2)))
+    assert off[0] < 1.5 and off[1] > 3.0
+
+
+def test_a_heading_from_the_future_is_an_error():
+    log = recorded(drive(rover_rate(300)), heading=np.zeros(300), heading_age=np.full(300, -0.1))
+    with pytest.raises(UserError, match=r"heading_age is -0\.1 s at 0 s, expected 0 or more"):
+        run(log, part())

@@ -124,7 +124,7 @@ def test_heading_without_a_heading_walks_by_the_gyros_white_noise(start):
     n, block, attitude = 2000, attitude_ukf(part(k=0)), Rotation.from_euler("ZYX", start)
     q0, std0 = attitude.as_quat(scalar_first=True), [0.02, 0.02, 0.02, 0, 0, 0]
     force = attitude.apply([0, 0, GRAVITY], inverse=True)
-    y, _ = block.run(inputs(n, accel=force), p=parameters(block, q0=q0, std0=std0))
+    y, _ = block.run(inputs(n, accel=force), p=parameters(block, q0=q0, std0=std0, rest_time=0))
     variance = output(block, y, "heading_std")[-1] ** 2
     assert variance == pytest.approx(0.02**2 + N**2 * n * H, rel=1e-3)
 

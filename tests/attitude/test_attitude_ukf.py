@@ -62,7 +62,7 @@ def test_heading_variance_without_heading_grows_as_hidalgos_q():
     of noise alone.
     """
     block, n, std0 = attitude_ukf(part()), 3000, np.array([0.01, 0.01, 0.02, 1e-3, 1e-3, 1e-4])
-    y, _ = block.run(inputs(n), p=parameters(block, std0=std0))
+    y, _ = block.run(inputs(n), p=parameters(block, std0=std0, rest_time=0))
     t = H * np.arange(1, n + 1)
     expected = std0[2] ** 2 + N**2 * t + K**2 * t**3 / 3 + (std0[5] * t) ** 2
     np.testing.assert_allclose(output(block, y, "std")[:, 2] ** 2, expected, rtol=1e-3)

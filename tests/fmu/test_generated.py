@@ -184,6 +184,7 @@ def test_variables_are_named_as_agreed(path):
         "nis",
         "status",
         "heading_std",
+        "at_rest",
     ]
     assert {
         "latitude",

@@ -7,21 +7,21 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN "{f63fa177-43d9-d861-e2ae-f27321254086}"
+#define MODEL_TOKEN "{0fea6d93-0eb0-c0ef-1bec-f21da9eac0f7}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
 enum {
     N_INPUTS = 12,
-    N_PARAMETERS = 43,
-    N_OUTPUTS = 20,
-    N_STATES = 221,
+    N_PARAMETERS = 46,
+    N_OUTPUTS = 21,
+    N_STATES = 236,
     N_NOISE = 0,
-    N_VARIABLES = 53
+    N_VARIABLES = 57
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 44, WORK_RES = 18, WORK_IW = 0, WORK_W = 1738 };
+enum { WORK_ARG = 44, WORK_RES = 20, WORK_IW = 0, WORK_W = 1832 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };
@@ -55,14 +55,17 @@ static const BlockVariable variables[] = {
     {"motion_time", KIND_REAL, ROLE_TUNABLE, 21, 1, 0.0, INFINITY},
     {"rate_noise", KIND_REAL, ROLE_TUNABLE, 22, 1, 0.0, INFINITY},
     {"stationary_std", KIND_REAL, ROLE_TUNABLE, 23, 1, 0.0, INFINITY},
-    {"lost_rate_std", KIND_REAL, ROLE_TUNABLE, 24, 1, 0.0, INFINITY},
-    {"stuck_time", KIND_REAL, ROLE_TUNABLE, 25, 1, 0.0, INFINITY},
-    {"axis_stuck_time", KIND_REAL, ROLE_TUNABLE, 26, 6, 0.0, 1000000.0},
-    {"heading_memory", KIND_REAL, ROLE_TUNABLE, 32, 1, 0.0, INFINITY},
-    {"gyro_error.thermal_bias.kT", KIND_REAL, ROLE_TUNABLE, 33, 3, -INFINITY, INFINITY},
-    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 36, 1, -INFINITY, INFINITY},
-    {"gyro_error.angle_random_walk.N", KIND_REAL, ROLE_TUNABLE, 37, 3, 0.0, INFINITY},
-    {"gyro_error.rate_random_walk.K", KIND_REAL, ROLE_TUNABLE, 40, 3, 0.0, INFINITY},
+    {"rest_time", KIND_REAL, ROLE_TUNABLE, 24, 1, 0.0, INFINITY},
+    {"rest_rate_tolerance", KIND_REAL, ROLE_TUNABLE, 25, 1, 0.0, INFINITY},
+    {"rest_force_tolerance", KIND_REAL, ROLE_TUNABLE, 26, 1, 0.0, INFINITY},
+    {"lost_rate_std", KIND_REAL, ROLE_TUNABLE, 27, 1, 0.0, INFINITY},
+    {"stuck_time", KIND_REAL, ROLE_TUNABLE, 28, 1, 0.0, INFINITY},
+    {"axis_stuck_time", KIND_REAL, ROLE_TUNABLE, 29, 6, 0.0, 1000000.0},
+    {"heading_memory", KIND_REAL, ROLE_TUNABLE, 35, 1, 0.0, INFINITY},
+    {"gyro_error.thermal_bias.kT", KIND_REAL, ROLE_TUNABLE, 36, 3, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 39, 1, -INFINITY, INFINITY},
+    {"gyro_error.angle_random_walk.N", KIND_REAL, ROLE_TUNABLE, 40, 3, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K", KIND_REAL, ROLE_TUNABLE, 43, 3, 0.0, INFINITY},
     {"q", KIND_REAL, ROLE_OUTPUT, 0, 4, -INFINITY, INFINITY},
     {"roll", KIND_REAL, ROLE_OUTPUT, 4, 1, -INFINITY, INFINITY},
     {"pitch", KIND_REAL, ROLE_OUTPUT, 5, 1, -INFINITY, INFINITY},
@@ -78,18 +81,19 @@ static const BlockVariable variables[] = {
     {"nis", KIND_REAL, ROLE_OUTPUT, 17, 1, -INFINITY, INFINITY},
     {"status", KIND_INTEGER, ROLE_OUTPUT, 18, 1, -INFINITY, INFINITY},
     {"heading_std", KIND_REAL, ROLE_OUTPUT, 19, 1, -INFINITY, INFINITY},
+    {"at_rest", KIND_BOOLEAN, ROLE_OUTPUT, 20, 1, -INFINITY, INFINITY},
     {"sample_period", KIND_REAL, ROLE_SAMPLING, 0, 1, 0.0, INFINITY},
     {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 16777216.0},
 };
 
 /* Value references that mean something to every block. */
 enum {
-    SAMPLE_PERIOD = 51,
+    SAMPLE_PERIOD = 55,
     SEED = N_VARIABLES, /* none: there is no noise */
 };
 
 static const double input_starts[] = {0.0, 0.0, 0.0, 0.0, 0.0, 9.80665, 25.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-static const double parameter_starts[] = {10.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.1, 0.1, 0.1, 0.01, 0.01, 0.01, 9.80665, 0.1, 0.5, 0.2, 0.25, 1.0, 0.3, 1.0, 0.0, 1e-05, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
+static const double parameter_starts[] = {10.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.1, 0.1, 0.1, 0.01, 0.01, 0.01, 9.80665, 0.1, 0.5, 0.2, 0.25, 1.0, 0.3, 1.0, 0.0, 1e-05, 1.5, 0.005, 0.2, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
 
 /* The noise stream of each channel; there is none. */
 static const uint64_t noise_channels[] = {

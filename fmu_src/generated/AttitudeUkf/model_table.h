@@ -7,21 +7,21 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN "{d38c253f-0c7c-b553-afdd-8946ace471c8}"
+#define MODEL_TOKEN "{90523794-1bff-0b0a-3895-14ca6ca9ee44}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
 enum {
     N_INPUTS = 12,
-    N_PARAMETERS = 43,
-    N_OUTPUTS = 20,
-    N_STATES = 221,
+    N_PARAMETERS = 46,
+    N_OUTPUTS = 21,
+    N_STATES = 236,
     N_NOISE = 0,
-    N_VARIABLES = 77
+    N_VARIABLES = 81
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 44, WORK_RES = 18, WORK_IW = 0, WORK_W = 1738 };
+enum { WORK_ARG = 44, WORK_RES = 20, WORK_IW = 0, WORK_W = 1832 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
@@ -64,25 +64,28 @@ static const BlockVariable variables[] = {
     {"motion_time", KIND_REAL, ROLE_TUNABLE, 21, 1, 0.0, INFINITY},
     {"rate_noise", KIND_REAL, ROLE_TUNABLE, 22, 1, 0.0, INFINITY},
     {"stationary_std", KIND_REAL, ROLE_TUNABLE, 23, 1, 0.0, INFINITY},
-    {"lost_rate_std", KIND_REAL, ROLE_TUNABLE, 24, 1, 0.0, INFINITY},
-    {"stuck_time", KIND_REAL, ROLE_TUNABLE, 25, 1, 0.0, INFINITY},
-    {"axis_stuck_time[1]", KIND_REAL, ROLE_TUNABLE, 26, 1, 0.0, 1000000.0},
-    {"axis_stuck_time[2]", KIND_REAL, ROLE_TUNABLE, 27, 1, 0.0, 1000000.0},
-    {"axis_stuck_time[3]", KIND_REAL, ROLE_TUNABLE, 28, 1, 0.0, 1000000.0},
-    {"axis_stuck_time[4]", KIND_REAL, ROLE_TUNABLE, 29, 1, 0.0, 1000000.0},
-    {"axis_stuck_time[5]", KIND_REAL, ROLE_TUNABLE, 30, 1, 0.0, 1000000.0},
-    {"axis_stuck_time[6]", KIND_REAL, ROLE_TUNABLE, 31, 1, 0.0, 1000000.0},
-    {"heading_memory", KIND_REAL, ROLE_TUNABLE, 32, 1, 0.0, INFINITY},
-    {"gyro_error.thermal_bias.kT[1]", KIND_REAL, ROLE_TUNABLE, 33, 1, -INFINITY, INFINITY},
-    {"gyro_error.thermal_bias.kT[2]", KIND_REAL, ROLE_TUNABLE, 34, 1, -INFINITY, INFINITY},
-    {"gyro_error.thermal_bias.kT[3]", KIND_REAL, ROLE_TUNABLE, 35, 1, -INFINITY, INFINITY},
-    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 36, 1, -INFINITY, INFINITY},
-    {"gyro_error.angle_random_walk.N[1]", KIND_REAL, ROLE_TUNABLE, 37, 1, 0.0, INFINITY},
-    {"gyro_error.angle_random_walk.N[2]", KIND_REAL, ROLE_TUNABLE, 38, 1, 0.0, INFINITY},
-    {"gyro_error.angle_random_walk.N[3]", KIND_REAL, ROLE_TUNABLE, 39, 1, 0.0, INFINITY},
-    {"gyro_error.rate_random_walk.K[1]", KIND_REAL, ROLE_TUNABLE, 40, 1, 0.0, INFINITY},
-    {"gyro_error.rate_random_walk.K[2]", KIND_REAL, ROLE_TUNABLE, 41, 1, 0.0, INFINITY},
-    {"gyro_error.rate_random_walk.K[3]", KIND_REAL, ROLE_TUNABLE, 42, 1, 0.0, INFINITY},
+    {"rest_time", KIND_REAL, ROLE_TUNABLE, 24, 1, 0.0, INFINITY},
+    {"rest_rate_tolerance", KIND_REAL, ROLE_TUNABLE, 25, 1, 0.0, INFINITY},
+    {"rest_force_tolerance", KIND_REAL, ROLE_TUNABLE, 26, 1, 0.0, INFINITY},
+    {"lost_rate_std", KIND_REAL, ROLE_TUNABLE, 27, 1, 0.0, INFINITY},
+    {"stuck_time", KIND_REAL, ROLE_TUNABLE, 28, 1, 0.0, INFINITY},
+    {"axis_stuck_time[1]", KIND_REAL, ROLE_TUNABLE, 29, 1, 0.0, 1000000.0},
+    {"axis_stuck_time[2]", KIND_REAL, ROLE_TUNABLE, 30, 1, 0.0, 1000000.0},
+    {"axis_stuck_time[3]", KIND_REAL, ROLE_TUNABLE, 31, 1, 0.0, 1000000.0},
+    {"axis_stuck_time[4]", KIND_REAL, ROLE_TUNABLE, 32, 1, 0.0, 1000000.0},
+    {"axis_stuck_time[5]", KIND_REAL, ROLE_TUNABLE, 33, 1, 0.0, 1000000.0},
+    {"axis_stuck_time[6]", KIND_REAL, ROLE_TUNABLE, 34, 1, 0.0, 1000000.0},
+    {"heading_memory", KIND_REAL, ROLE_TUNABLE, 35, 1, 0.0, INFINITY},
+    {"gyro_error.thermal_bias.kT[1]", KIND_REAL, ROLE_TUNABLE, 36, 1, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.kT[2]", KIND_REAL, ROLE_TUNABLE, 37, 1, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.kT[3]", KIND_REAL, ROLE_TUNABLE, 38, 1, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 39, 1, -INFINITY, INFINITY},
+    {"gyro_error.angle_random_walk.N[1]", KIND_REAL, ROLE_TUNABLE, 40, 1, 0.0, INFINITY},
+    {"gyro_error.angle_random_walk.N[2]", KIND_REAL, ROLE_TUNABLE, 41, 1, 0.0, INFINITY},
+    {"gyro_error.angle_random_walk.N[3]", KIND_REAL, ROLE_TUNABLE, 42, 1, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K[1]", KIND_REAL, ROLE_TUNABLE, 43, 1, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K[2]", KIND_REAL, ROLE_TUNABLE, 44, 1, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K[3]", KIND_REAL, ROLE_TUNABLE, 45, 1, 0.0, INFINITY},
     {"q[1]", KIND_REAL, ROLE_OUTPUT, 0, 1, -INFINITY, INFINITY},
     {"q[2]", KIND_REAL, ROLE_OUTPUT, 1, 1, -INFINITY, INFINITY},
     {"q[3]", KIND_REAL, ROLE_OUTPUT, 2, 1, -INFINITY, INFINITY},
@@ -103,17 +106,18 @@ static const BlockVariable variables[] = {
     {"nis", KIND_REAL, ROLE_OUTPUT, 17, 1, -INFINITY, INFINITY},
     {"status", KIND_INTEGER, ROLE_OUTPUT, 18, 1, -INFINITY, INFINITY},
     {"heading_std", KIND_REAL, ROLE_OUTPUT, 19, 1, -INFINITY, INFINITY},
+    {"at_rest", KIND_BOOLEAN, ROLE_OUTPUT, 20, 1, -INFINITY, INFINITY},
     {"sample_period", KIND_REAL, ROLE_SAMPLING, 0, 1, 0.0, INFINITY},
 };
 
 /* Value references that mean something to every block. */
 enum {
-    SAMPLE_PERIOD = 76,
+    SAMPLE_PERIOD = 80,
     SEED = N_VARIABLES, /* none: there is no noise */
 };
 
 static const double input_starts[] = {0.0, 0.0, 0.0, 0.0, 0.0, 9.80665, 25.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-static const double parameter_starts[] = {10.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.1, 0.1, 0.1, 0.01, 0.01, 0.01, 9.80665, 0.1, 0.5, 0.2, 0.25, 1.0, 0.3, 1.0, 0.0, 1e-05, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
+static const double parameter_starts[] = {10.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.1, 0.1, 0.1, 0.01, 0.01, 0.01, 9.80665, 0.1, 0.5, 0.2, 0.25, 1.0, 0.3, 1.0, 0.0, 1e-05, 1.5, 0.005, 0.2, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
 
 /* The noise stream of each channel; there is none. */
 static const uint64_t noise_channels[] = {

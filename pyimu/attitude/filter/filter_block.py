@@ -19,7 +19,7 @@ def filter_block(name: str, title: str, layout: Layout, step: ca.Function) -> Bl
     part = layout.compensation.part
     p = ca.SX.sym("p", len(layout.parameters))
     estimate, state = start(layout.compensation, p)
-    u, shown = ca.SX.sym("u", len(layout.inputs)), outputs(estimate, 0, 0, 0)
+    u, shown = ca.SX.sym("u", len(layout.inputs)), outputs(estimate, 0, 0, 0, 0)
     initial = ca.Function("initial", [u, p], [state, shown], ["u", "p"], ["s", "y"])
     return Block(
         name=name,

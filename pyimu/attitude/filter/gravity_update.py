@@ -77,7 +77,7 @@ def inclination(
     inertial space in the period ``h`` s, from old axes to new.
     """
     at, valid = settings.scalar, sample.force_valid
-    white = _white_variance(settings, h)
+    white = white_variance(settings, h)
     noise = _acceleration_variance(settings, h) + white
     magnitude = ca.norm_2(sample.force)
     quasi = follow(memory.quasi, magnitude, at["gravity_walk"] ** 2 * h, ca.sum1(noise) / 3, valid)
@@ -129,7 +129,7 @@ def push(memory: Memory, sample: Sample, settings: Settings, h) -> Push:
     may keep an acceleration the unknown change of the velocity grows as its time.
     """
     at, valid = settings.scalar, sample.force_valid
-    white = _white_variance(settings, h)
+    white = white_variance(settings, h)
     declared = _acceleration_variance(settings, h)
     lost_for = ca.fmin(ca.fmax(MEAN_TIME - memory.mean.span, 0), at["motion_time"])
     lost = memory.mean.scatter * (1 + 2 * lost_for / h)
@@ -152,7 +152,7 @@ def _acceleration_variance(settings: Settings, h):
     return at["accel_std"] ** 2 * (1 + 2 * at["accel_correlation_time"] * (1 / h))
 
 
-def _white_variance(settings: Settings, h):
+def white_variance(settings: Settings, h):
     """Variance (3,) in (m/s^2)^2 of the white noise in a sample of the force."""
     accel, gravity = settings.accel, settings.scalar["gravity"]
     return (accel.white**2 + accel.relative**2 * gravity**2) * (1 / h) + LEAST_ACCEL_STD**2

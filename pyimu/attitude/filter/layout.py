@@ -50,7 +50,7 @@ class GravityMeasurement:
         return cls(*ca.vertsplit(column, ends))
 
 
-FLAGS = 10
+FLAGS = 12
 """Numbers of ``Flags``."""
 
 
@@ -60,8 +60,9 @@ class Flags:
 
     ``which`` updates are needed, 0: none, 1: the velocity's alone, 2: others. Whether ``gravity``
     corrects, whether the ``velocity`` does, whether the body is ``quasi_static``, whether its
-    attitude may be ``lost``, whether a ``heading`` and a zero rate (``stationary``) correct,
-    whether an input was ``missing``. ``faults`` are the other bits of the status;
+    attitude may be ``lost``, whether a ``heading`` and a zero rate (``stationary`` by its input,
+    ``resting`` as found) correct, the variance (rad/s)^2 that ``sway`` then adds to that of a
+    sample, whether an input was ``missing``. ``faults`` are the other bits of the status;
     ``vertical_noise`` is that of ``Memory``.
     """
 
@@ -72,6 +73,8 @@ class Flags:
     lost: ca.SX
     heading: ca.SX
     stationary: ca.SX
+    resting: ca.SX
+    sway: ca.SX
     missing: ca.SX
     faults: ca.SX
     vertical_noise: ca.SX

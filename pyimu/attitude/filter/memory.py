@@ -10,6 +10,8 @@ import numpy as np
 from pyimu.attitude.filter import late_heading
 from pyimu.attitude.filter.compensation import Compensation
 from pyimu.attitude.filter.quasi_static import MeanForce, QuasiStatic
+from pyimu.attitude.filter.stillness import SIZES as STILLNESS
+from pyimu.attitude.filter.stillness import Stillness
 from pyimu.attitude.filter.unscented import LARGEST_STD, Estimate, N
 from pyimu.attitude.filter.variables import (
     LARGEST_BIAS,
@@ -57,6 +59,7 @@ class Memory:
     quasi: QuasiStatic
     mean: MeanForce
     motion: Motion
+    stillness: Stillness
     held: ca.SX
     lost_for: ca.SX
     same_for: ca.SX
@@ -90,8 +93,9 @@ class Memory:
         mean = (self.mean.force, self.mean.scatter, self.mean.span)
         motion = (self.motion.across, self.motion.along, self.motion.slow, self.motion.drift)
         sensors = (self.held, self.lost_for, self.same_for, self.sensors)
+        still = self.stillness.pack()
         return ca.densify(
-            ca.vertcat(*quasi, *mean, *motion, *sensors, self.vertical_noise, self.place)
+            ca.vertcat(*quasi, *mean, *motion, *still, *sensors, self.vertical_noise, self.place)
         )
 
     @classmethod
@@ -100,13 +104,14 @@ class Memory:
         ends = np.cumsum([0, *memory_sizes(compensation)]).tolist()
         parts = ca.vertsplit(column, ends)
         quasi, mean = QuasiStatic(*parts[:2]), MeanForce(*parts[2:5])
-        return cls(cls.estimate_of(estimate), quasi, mean, Motion(*parts[5:9]), *parts[9:])
+        motion, still = Motion(*parts[5:9]), Stillness(*parts[9:16])
+        return cls(cls.estimate_of(estimate), quasi, mean, motion, still, *parts[16:])
 
 
 def memory_sizes(compensation: Compensation) -> tuple[int, ...]:
     """Sizes of what ``Memory.pack_memory`` packs, in its order."""
     held = 7 + sum(SIGNALS[n].size for n in compensation.extra)
-    return 1, 1, 3, 1, 1, 1, 1, 3, 1, held, 3, 8, len(compensation.start), 1, 2
+    return 1, 1, 3, 1, 1, 1, 1, 3, 1, *STILLNESS, held, 3, 8, len(compensation.start), 1, 2
 
 
 def start(compensation: Compensation, p) -> tuple[Estimate, ca.SX]:
@@ -120,6 +125,7 @@ def start(compensation: Compensation, p) -> tuple[Estimate, ca.SX]:
         QuasiStatic(at["gravity"], ca.fmax(at["accel_std"], LEAST_ACCEL_STD) ** 2),
         MeanForce(ca.SX.zeros(3), ca.SX(0), ca.SX(0)),
         Motion(least, least, ca.SX.zeros(3), ca.SX(0)),
+        Stillness.start(),
         held=ca.vertcat(0, 0, 0, 0, 0, at["gravity"], 25, *held),
         lost_for=ca.SX.zeros(3),
         same_for=ca.SX.zeros(8),

@@ -2,18 +2,32 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import casadi as ca
 
 from pyimu.attitude.filter import late_heading
 from pyimu.attitude.filter.compensation import clock_error
-from pyimu.attitude.filter.gravity_update import Inclination, inclination, is_tilt_known
+from pyimu.attitude.filter.gravity_update import (
+    Inclination,
+    inclination,
+    is_tilt_known,
+    vertical,
+    white_variance,
+)
 from pyimu.attitude.filter.layout import Flags, Layout
 from pyimu.attitude.filter.memory import ESTIMATE, REPORTED, Memory
 from pyimu.attitude.filter.quasi_static import where
 from pyimu.attitude.filter.sample import Sample
 from pyimu.attitude.filter.settings import Settings
+from pyimu.attitude.filter.stillness import (
+    Stillness,
+    is_rest,
+    is_still,
+    share_of_noise,
+    sway,
+)
+from pyimu.attitude.filter.stillness import followed as still_followed
 from pyimu.attitude.filter.unscented import LARGEST_STD, LARGEST_TILT_STD, Estimate
 from pyimu.attitude.filter.variables import INPUTS, LEAST_K, LEAST_N
 from pyimu.attitude.filter.velocity import followed, least_std
@@ -59,23 +73,64 @@ class Instant:
         return self.u[STATIONARY] > 0.5
 
     @property
-    def moving(self):
-        """The contrary as a factor: casadi would draw a choice into every product."""
-        return 1 - self.stationary
-
-    @property
     def earth(self):
         """The Earth's rate (3,) in body axes, rad/s."""
         world_to_body = quaternion.conjugate(self.memory.estimate.q)
         return quaternion.rotate(world_to_body, self.settings.earth)
 
 
-def added_noise(at: Instant, sample: Sample):
+@dataclass(frozen=True)
+class Rest:
+    """What a sample says of rest.
+
+    How ``still`` the body has been, whether it is ``resting``, and which share of the measured turn
+    is one (``moving``): none where the body is called stationary, at rest what is not noise. These
+    are factors: casadi would draw a choice into every product.
+    """
+
+    still: Stillness
+    resting: ca.SX
+    moving: ca.SX
+
+
+def rest_of(at: Instant, sample: Sample) -> Rest:
+    """The rest as the sample shows it; a body is at rest from the sample after the first that may
+    be one.
+    """
+    settings, before, scalar = at.settings, at.memory.stillness, at.settings.scalar
+    tolerance = scalar["rest_rate_tolerance"], scalar["rest_force_tolerance"]
+    noise = settings.gyro.white**2 / at.h, white_variance(settings, at.h)
+    alike = is_still(before, sample.rate, sample.force, tolerance, noise, at.h)
+    alike = where(sample.force_valid, alike)
+    if sample.gyro_lost is not False:
+        alike = alike * (1 - ca.mmax(sample.gyro_lost))
+    still = still_followed(before, sample.rate, sample.force, alike, at.h)
+    long = (before.span >= scalar["rest_time"]) * (scalar["rest_time"] > 0)
+    resting = alike * long * before.rests * (1 - at.stationary)
+    kept = 1 - resting * share_of_noise(still, _density(settings))
+    return Rest(still, resting, (1 - at.stationary) * kept)
+
+
+def _density(settings: Settings):
+    """Density in (rad/s)^2 s of the gyro's white noise, the mean of its axes."""
+    return ca.sumsqr(settings.gyro.white) / 3 + LEAST_N**2
+
+
+def _decided(at: Instant, x: Estimate, rest: Rest) -> Stillness:
+    """The stillness, which as soon as it is long enough is a rest or none by the estimate ``x``."""
+    still, time = rest.still, at.settings.scalar["rest_time"]
+    begins = (at.memory.stillness.span < time) * (still.span >= time)
+    rate = still.slow - x.bias - at.earth
+    found = is_rest(rate, x.covariance[3:6, 3:6], vertical(x), _density(at.settings), still.span)
+    return replace(still, rests=ca.if_else(begins, found, still.rests * (still.span > 0)))
+
+
+def added_noise(at: Instant, sample: Sample, moving):
     """Variance (3,) that a sample adds to the attitude, to attitude and bias together, to the bias.
 
     To that of the gyro's noise comes the noise that grows with the rate, and the angle about an
     axis whose gyro is lost. A body that is called stationary does not turn by the gyro, and its
-    attitude has the noise of ``stationary_std``.
+    attitude has the noise of ``stationary_std``. ``moving`` is that of ``Rest``.
     """
     settings, h = at.settings, at.h
     noise = process_noise(settings.gyro.white, settings.gyro.walk, h)
@@ -89,8 +144,8 @@ def added_noise(at: Instant, sample: Sample):
         lost = _lost_variance(at.memory.lost_for, sample.lost_for, settings)
         turned = turned + ca.if_else(sample.gyro_lost, lost, 0)
     return (
-        least + still + at.moving * (turned - still),
-        at.moving * ca.diag(noise[:3, 3:]),
+        least + (1 - moving) * at.stationary * still + moving * turned,
+        moving * ca.diag(noise[:3, 3:]),
         ca.diag(noise[3:, 3:]) + LEAST_K**2 * h,
     )
 
@@ -104,7 +159,7 @@ def _lost_variance(before, after, settings: Settings):
     return settings.scalar["lost_rate_std"] ** 2 * (after**2 - before**2)
 
 
-def predicted(at: Instant, sample: Sample, x: Estimate, turned, noise) -> list[ca.SX]:
+def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, noise) -> list[ca.SX]:
     """The outputs of a prediction, each as a column.
 
     The working estimate, the memory after the sample, the compensated rate, the measurement of
@@ -114,10 +169,11 @@ def predicted(at: Instant, sample: Sample, x: Estimate, turned, noise) -> list[c
     axes to new, ``noise`` that of ``added_noise``.
     """
     scalar, kept = at.settings.scalar, at.memory
-    used = where(sample.force_valid, is_tilt_known(x))
+    used = where(sample.force_valid, is_tilt_known(x)) * (1 - rest.resting)
     time = scalar["motion_time"]
     motion = followed(kept.motion, x, turned, used, least_std(scalar), time, at.h)
     force = inclination(kept, sample, x, motion, turned, at.settings, at.h)
+    still = _decided(at, x, rest)
     vertical_noise = at.memory.vertical_noise + _about_the_vertical(x, noise[0])
     slot, within = at.memory.place[0], at.memory.place[1]
     span = at.settings.scalar["heading_memory"]
@@ -127,6 +183,7 @@ def predicted(at: Instant, sample: Sample, x: Estimate, turned, noise) -> list[c
         force.quasi,
         force.mean,
         motion,
+        still,
         sample.held,
         sample.lost_for,
         sample.same_for,
@@ -135,24 +192,28 @@ def predicted(at: Instant, sample: Sample, x: Estimate, turned, noise) -> list[c
         ca.vertcat(*place),
     )
     working = ca.vertcat(Memory.pack_estimate(x), at.estimate[ESTIMATE - 1], ca.SX.zeros(REPORTED))
-    flags = _flags(at, sample, x, force, vertical_noise)
+    flags = _flags(at, sample, rest, x, force, vertical_noise)
     return [working, after.pack_memory(), sample.rate, force.measurement.pack(), flags.pack()]
 
 
-def _flags(at: Instant, sample: Sample, x: Estimate, force: Inclination, vertical_noise) -> Flags:
+def _flags(
+    at: Instant, sample: Sample, rest: Rest, x: Estimate, force: Inclination, vertical_noise
+) -> Flags:
     heading, stationary = at.u[HEADING_VALID] > 0.5, at.stationary
     if sample.gyro_lost is not False:
         stationary = ca.logic_and(stationary, ca.logic_not(ca.mmax(sample.gyro_lost)))
     lost = sum((x.covariance[i, i] > LARGEST_TILT_STD**2 for i in range(3)), 0) > 0
     return Flags(
         which=force.velocity
-        + (lost + heading + stationary + force.usable > 0) * (2 - force.velocity),
+        + (lost + heading + stationary + rest.resting + force.usable > 0) * (2 - force.velocity),
         gravity=force.usable,
         velocity=force.velocity,
         quasi_static=force.quasi_static,
         lost=lost,
         heading=heading,
         stationary=stationary,
+        resting=rest.resting,
+        sway=sway(rest.still, _density(at.settings)) / at.h,
         missing=sample.missing,
         faults=2 * sample.at_limit + 4 * sample.stuck,
         vertical_noise=vertical_noise,

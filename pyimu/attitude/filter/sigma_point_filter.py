@@ -18,7 +18,7 @@ from pyimu.attitude.filter.filter_block import filter_block, step_function
 from pyimu.attitude.filter.gravity_update import INNOVATION_GATE, by_velocity, corrected, push
 from pyimu.attitude.filter.layout import GRAVITY, Flags, GravityMeasurement, Layout
 from pyimu.attitude.filter.memory import ESTIMATE, WORKING, Memory
-from pyimu.attitude.filter.prediction import ARGUMENTS, Instant, added_noise, predicted
+from pyimu.attitude.filter.prediction import ARGUMENTS, Instant, added_noise, predicted, rest_of
 from pyimu.attitude.filter.sample import look_closely
 from pyimu.attitude.filter.unscented import Estimate, N, correct, measure, sigma_points
 from pyimu.attitude.filter.updates import after_gravity, bounded_where_lost, finish, where
@@ -67,19 +67,23 @@ def _predict(layout: Layout) -> ca.Function:
     symbols = layout.symbols(ca.SX, ARGUMENTS)
     at = Instant.of(layout, symbols)
     sample = look_closely(layout.compensation, at.memory, at.u, at.settings, at.h)
-    noise, before = added_noise(at, sample), at.memory.estimate
+    rest = rest_of(at, sample)
+    moving, noise = rest.moving, added_noise(at, sample, rest.moving)
+    before = at.memory.estimate
 
     def turn(rate, error):
-        return at.moving * (rate - quaternion.rotate(quaternion.conjugate(error), at.earth))
+        return moving * (rate - quaternion.rotate(quaternion.conjugate(error), at.earth))
 
     x = propagate(before, sample.rate, turn, _matrix(noise), at.h)
     angle = at.h * turn(sample.rate - before.bias, ca.SX([1, 0, 0, 0]))
     own = quaternion.to_matrix(quaternion.exponential(angle)).T
-    leak = -at.h * at.moving * marginal.mean_jacobian(angle, marginal.turn(angle)[1])
+    leak = -at.h * moving * marginal.mean_jacobian(angle, marginal.turn(angle)[1])
     x = pushed(before, x, own, leak, push(at.memory, sample, at.settings, at.h))
-    in_inertial_space = quaternion.exponential(at.moving * (sample.rate - before.bias) * at.h)
+    in_inertial_space = quaternion.exponential(moving * (sample.rate - before.bias) * at.h)
     turned = quaternion.to_matrix(in_inertial_space).T
-    return ca.Function("predict", symbols, predicted(at, sample, x, turned, noise), {"cse": True})
+    return ca.Function(
+        "predict", symbols, predicted(at, sample, rest, x, turned, noise), {"cse": True}
+    )
 
 
 def _matrix(noise):

@@ -26,7 +26,7 @@ from pyimu.attitude.filter.filter_block import filter_block, step_function
 from pyimu.attitude.filter.gravity_update import INNOVATION_GATE, by_velocity, corrected, push
 from pyimu.attitude.filter.layout import GRAVITY, Flags, GravityMeasurement, Layout
 from pyimu.attitude.filter.memory import ESTIMATE, WORKING, Memory
-from pyimu.attitude.filter.prediction import ARGUMENTS, Instant, added_noise, predicted
+from pyimu.attitude.filter.prediction import ARGUMENTS, Instant, added_noise, predicted, rest_of
 from pyimu.attitude.filter.sample import Sample, look_closely, raw_of, read
 from pyimu.attitude.filter.updates import after_gravity, bounded_where_lost, finish, where
 from pyimu.block.block import Block
@@ -103,17 +103,18 @@ def _unpacked(reading, u) -> Sample:
 
 def _row(name: str, at: Instant, sample: Sample, symbols: list[ca.SX]) -> ca.Function:
     """The prediction of one sample."""
-    noise = added_noise(at, sample)
+    rest = rest_of(at, sample)
+    noise = added_noise(at, sample, rest.moving)
     x, turned = marginal.propagate(
         at.memory.estimate,
         sample.rate,
         at.earth,
-        at.moving,
+        rest.moving,
         noise,
         push(at.memory, sample, at.settings, at.h),
         at.h,
     )
-    return ca.Function(name, symbols, predicted(at, sample, x, turned, noise), OPTIONS)
+    return ca.Function(name, symbols, predicted(at, sample, rest, x, turned, noise), OPTIONS)
 
 
 # Updates

@@ -71,25 +71,30 @@ def after_gravity(layout: Layout, x, s, u, p, h, rate, flags: Flags) -> ca.MX:
     These are by a heading and by a zero rate, where the ``flags`` ask for them.
     """
     x = where(flags.heading, by_heading(layout), x, s, u, p, h, rate, flags.vertical_noise)
-    return where(flags.stationary, _by_zero_rate(layout), x, rate, p, h)
+    rest = ca.vertcat(flags.resting, flags.sway)
+    at_rest = flags.stationary + flags.resting > 0
+    return where(at_rest, _by_zero_rate(layout), x, rate, p, h, rest)
 
 
 def _by_zero_rate(layout: Layout) -> ca.Function:
-    """``x, rate, p, h -> x``: the gyro of a body that does not turn against the Earth.
+    """``x, rate, p, h, rest -> x``: the gyro of a body that does not turn against the Earth.
 
     It measures bias and Earth rate, z = b + R_nb^T w_e + n. To first order R_nb^T w_e of the true
-    attitude is w_b + w_b x p, with w_b that of the estimate: linear in the error state.
+    attitude is w_b + w_b x p, with w_b that of the estimate: linear in the error state. ``rest``
+    (2,) says whether it was found, and with what sway, as ``Flags`` have them.
     """
-    s, rate, p, h = symbols = layout.symbols(ca.SX, "x rate p h")
+    rest = ca.SX.sym("rest", 2)
+    s, rate, p, h = layout.symbols(ca.SX, "x rate p h")
     x, settings = Memory.estimate_of(s), Settings.of(layout.compensation, p)
     earth = quaternion.rotate(quaternion.conjugate(x.q), settings.earth)
     slope = ca.horzcat(ca.skew(earth), ca.SX.eye(3), ca.SX(3, 3))
     cross = x.covariance @ slope.T
-    noise = settings.gyro.white**2 / h + settings.scalar["stationary_std"] ** 2
+    slow = ca.if_else(rest[0], rest[1], settings.scalar["stationary_std"] ** 2)
+    noise = settings.gyro.white**2 / h + slow
     after, _, _ = unscented.correct(
         x, rate - x.bias - earth, slope @ cross + ca.diag(noise), cross, vertical(x)
     )
-    return ca.Function("by_zero_rate", symbols, [_with_estimate(s, after)], OPTIONS)
+    return ca.Function("by_zero_rate", [s, rate, p, h, rest], [_with_estimate(s, after)], OPTIONS)
 
 
 # Outputs
@@ -105,7 +110,8 @@ def finish() -> ca.Function:
     q = quaternion.normalized(x.q)
     nis, *report = ca.vertsplit(given[ESTIMATE:])
     status = _status(flags, report, ca.diag(x.covariance))
-    y = outputs(replace(x, q=q), flags.quasi_static, nis * flags.quasi_static, status)
+    at_rest = flags.stationary + flags.resting > 0
+    y = outputs(replace(x, q=q), flags.quasi_static, nis * flags.quasi_static, status, at_rest)
     level = (1 - 2 * (q[2] * q[2] + q[3] * q[3])) ** 2 + (
         2 * (q[1] * q[2] + q[0] * q[3])
     ) ** 2 > LEVEL**2
@@ -129,10 +135,11 @@ def _status(flags: Flags, report: list, variances):
     )
 
 
-def outputs(x: Estimate, quasi_static, nis, status) -> ca.SX:
+def outputs(x: Estimate, quasi_static, nis, status, at_rest) -> ca.SX:
     """The block's outputs (``pyimu.attitude.filter.variables.OUTPUTS``) as a column."""
     std = [ca.sqrt(ca.fmax(x.covariance[i, i], 0)) for i in range(6)]
     up, pp = quaternion.to_matrix(x.q)[2, :].T, x.covariance[:3, :3]
     heading_std = ca.sqrt(ca.fmax(ca.dot(up, pp @ up), 0))
     angles = quaternion.to_euler(x.q)
-    return ca.densify(ca.vertcat(x.q, angles, x.bias, *std, quasi_static, nis, status, heading_std))
+    flags = (quasi_static, nis, status, heading_std, at_rest)
+    return ca.densify(ca.vertcat(x.q, angles, x.bias, *std, *flags))

@@ -122,6 +122,9 @@ OUTPUTS = (
         "rad",
         "standard deviation of the attitude error about the vertical, however the body is tilted",
     ),
+    Variable(
+        "at_rest", "1", "the body does not move, as the input or the run says", kind="boolean"
+    ),
 )
 """The outputs of every filter, in the order of the block."""
 
@@ -196,6 +199,24 @@ SETTINGS = (
         "rad/s",
         "standard deviation of the rate of a body that is called stationary",
         1e-5,
+    ),
+    _setting(
+        "rest_time",
+        "s",
+        "a body of which no sample differs from the others for so long is at rest; 0: never",
+        1.5,
+    ),
+    _setting(
+        "rest_rate_tolerance",
+        "rad/s",
+        "largest difference of a sample's rate from the others' mean at rest, beside white noise",
+        0.005,
+    ),
+    _setting(
+        "rest_force_tolerance",
+        "m/s^2",
+        "largest difference of a sample's force from the mean at rest, beside white noise",
+        0.2,
     ),
     _setting(
         "lost_rate_std",

@@ -18,11 +18,11 @@ def contents(a: Outcome) -> dict[str, Any]:
     ``name``, ``rows``, ``duration`` [s], ``sample_period`` [s], ``part`` (null without one),
     ``left_in``, ``notes``; ``rest``: the ``duration`` [s] of the rest at the start, or null;
     ``last``: {``time``, ``q``, ``euler``, ``gyro_bias``, ``std``, ``heading_std``};
-    ``quasi_static``: its share of the samples; ``nis``: {``updates``, ``mean``, ``inside``, the
-    share within ``bounds``}; ``status``: [{``bit``, ``text``, ``samples``, ``first`` and ``last``
-    [s]}]; ``error``: {``rows``, ``assumed``, ``inclination`` and ``total``: {``rms``, ``p95``,
-    ``unit``}}, null without a reference; ``quality`` as in the report of ``pyimu close``;
-    ``parameters`` with which the unit AttitudeUkf gives the same. The estimates are in
+    ``quasi_static`` and ``at_rest``: their shares of the samples; ``nis``: {``updates``, ``mean``,
+    ``inside``, the share within ``bounds``}; ``status``: [{``bit``, ``text``, ``samples``,
+    ``first`` and ``last`` [s]}]; ``error``: {``rows``, ``assumed``, ``inclination`` and ``total``:
+    {``rms``, ``p95``, ``unit``}}, null without a reference; ``quality`` as in the report of ``pyimu
+    close``; ``parameters`` with which the unit AttitudeUkf gives the same. The estimates are in
     attitude.parquet.
     """
     nis = a.nis[a.updates]
@@ -38,6 +38,7 @@ def contents(a: Outcome) -> dict[str, Any]:
             "rest": a.rest.duration if a.rest is not None and a.rest.seen else None,
             "last": _last(a),
             "quasi_static": np.mean(a.quasi_static),
+            "at_rest": np.mean(a.at_rest),
             "nis": {
                 "updates": len(nis),
                 "mean": nis.mean() if len(nis) else None,

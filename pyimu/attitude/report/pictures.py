@@ -187,7 +187,7 @@ def _draw_error(a: Outcome, panel: Axes) -> None:
 def _draw_status(a: Outcome, panel: Axes) -> None:
     """Over time the share of the samples that are quasi-static, and where a bit was set."""
     second, bins = unit_of_time(a.duration)[0], 2 * BINS
-    rows = [("quasi-static", a.quasi_static, AFTER)]
+    rows = [("quasi-static", a.quasi_static, AFTER), ("at rest", a.at_rest, AFTER)]
     rows += [(STATUS_NAMES[e.bit], a.status & e.bit > 0, BEFORE) for e in a.events]
     edges = np.linspace(0, a.duration, bins + 1) / second
     for k, (_, marks, colour) in enumerate(reversed(rows)):

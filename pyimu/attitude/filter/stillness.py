@@ -1,0 +1,136 @@
+"""Rest within a run: how a body at rest is told from one that moves, and what that may get wrong.
+
+At rest no sample differs from the mean of those before it by more than noise, neither the rate nor
+the force. The gyro then measures its own bias, and what noise it has since the last sample is no
+turn. A body that turns steadily about the vertical looks the same; it is taken for one at rest
+only where the bias is not known better.
+
+A body that is held still sways. Below ``1 / FAST`` Hz the density of the rate beyond the gyro's own
+is that of the sway, by which a sample is trusted less.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import casadi as ca
+
+FAST, SLOW = 0.3, 3.0
+"""s; time constants of two means of the rate. Their difference shows what is slower than noise."""
+
+SHARE = (SLOW - FAST) ** 2 / (2 * FAST * SLOW * (FAST + SLOW))
+"""Mean square in 1/s of that difference for noise of density 1: each mean alone has the variance
+1/(2 T), the two together 1/(T1 + T2)."""
+
+SWAY_TIME = 10.0
+"""s; time constant of the density of the sway: some thirty independent values of that difference,
+on three axes."""
+
+LONGEST = 100.0
+"""s; a rest is not counted on beyond this."""
+
+OUTLIER = 30.0
+"""Squared noise of three axes over the variance of one, which a sample exceeds with a probability
+of 1.4e-6."""
+
+GATE = 25.0
+"""Squared difference of rate and bias over its variance beyond which a body turns steadily."""
+
+STEADY = 0.1
+"""Share of the tolerance of a sample that is one of the mean: gravity that turns in the body's axes
+by 2e-3 rad changes the mean by 0.02 m/s^2."""
+
+
+@dataclass(frozen=True)
+class Stillness:
+    """What the samples since the last that moved show.
+
+    Of the rate (3,) rad/s and the force (3,) m/s^2 a ``fast`` and a ``slow`` mean; ``density``
+    (rad/s)^2 s is that of the rate at low frequency, ``span`` s how long nothing has moved.
+    ``rests`` says that this is a rest and no steady turn.
+    """
+
+    fast: ca.SX
+    slow: ca.SX
+    fast_force: ca.SX
+    slow_force: ca.SX
+    density: ca.SX
+    span: ca.SX
+    rests: ca.SX
+
+    @classmethod
+    def start(cls) -> Stillness:
+        return cls(*(ca.SX.zeros(size) for size in SIZES))
+
+    def pack(self) -> tuple:
+        return tuple(vars(self).values())
+
+
+SIZES = (3, 3, 3, 3, 1, 1, 1)
+"""Of what ``Stillness.pack`` gives."""
+
+
+def is_still(x: Stillness, rate, force, tolerance, noise, h):
+    """Whether a ``rate`` (3,) rad/s and a ``force`` (3,) m/s^2 are like those before, 0 or 1.
+
+    ``tolerance`` are by how much the two may be off beside white ``noise``, each (3,) of the
+    variance of a sample.
+    """
+    rate_off, force_off = tolerance
+    rate_noise, force_noise = (OUTLIER / 3 * ca.sum1(v) for v in noise)
+    return (
+        (ca.sumsqr(rate - x.slow) <= rate_off**2 + rate_noise)
+        * (ca.sumsqr(force - x.slow_force) <= force_off**2 + force_noise)
+        * (
+            ca.sumsqr(x.fast_force - x.slow_force)
+            <= (STEADY * force_off) ** 2 + force_noise * SHARE * h
+        )
+    )
+
+
+def followed(x: Stillness, rate, force, still, h) -> Stillness:
+    """The same after one more sample, which ``still`` (0 or 1) says to be like the others.
+
+    Whether it ``rests`` is left as it is.
+    """
+    span = ca.fmin(still * (x.span + h), LONGEST)
+    share = h / ca.fmax(span, h)
+
+    def mean(before, value, time):
+        return before + ca.fmax(share, h / (time + h)) * (value - before)
+
+    fast, slow = mean(x.fast, rate, FAST), mean(x.slow, rate, SLOW)
+    seen = ca.sumsqr(fast - slow) / (3 * SHARE)
+    return Stillness(
+        fast,
+        slow,
+        mean(x.fast_force, force, FAST),
+        mean(x.slow_force, force, SLOW),
+        still * mean(x.density, seen, SWAY_TIME),
+        span,
+        x.rests,
+    )
+
+
+def is_rest(rate, covariance, up, noise, span):
+    """Whether a body that has been still for ``span`` s rests, 0 or 1.
+
+    ``rate`` (3,) rad/s is its mean rate less the bias as it was known, with this ``covariance`` (3,
+    3); ``up`` (3,) is the vertical, ``noise`` (rad/s)^2 s the density of the gyro's white noise.
+    """
+    along, own, white = ca.dot(up, rate), ca.dot(up, covariance @ up), noise / span
+    level = ca.sumsqr(rate) - along**2 <= GATE * (ca.trace(covariance) - own + 2 * white)
+    return level * (along**2 <= GATE * (own + white))
+
+
+def share_of_noise(x: Stillness, noise):
+    """Which share of a sample's rate less bias is noise, in a rest.
+
+    ``noise`` (rad/s)^2 s is the density of the gyro's own.
+    """
+    return noise / (noise + sway(x, noise))
+
+
+def sway(x: Stillness, noise):
+    """Density in (rad/s)^2 s of the rate that is no ``noise`` of the gyro."""
+    return ca.fmax(x.density - noise, 0)

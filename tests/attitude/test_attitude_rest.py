@@ -1,0 +1,152 @@
+"""Rest that the filter finds by itself, all through a run."""
+
+import numpy as np
+import pytest
+from attitude_cases import (
+    GRAVITY,
+    H,
+    N,
+    drive,
+    error,
+    inputs,
+    measured,
+    output,
+    parameters,
+    part,
+    rover_rate,
+)
+from scipy.spatial.transform import Rotation
+from scipy.stats import chi2
+
+from pyimu.attitude import attitude_ukf
+from pyimu.attitude.filter.sigma_point_filter import sigma_point_filter
+from pyimu.attitude.rest import find_rest
+from pyimu.recording.recording import Recording
+
+OUTSIDE = 1e-4
+"""Probability on either side of a band."""
+
+STD0 = np.array([0.02, 0.02, 0.02, 0.01, 0.01, 0.01])
+STOPS, GOES = 2000, 3500
+
+
+@pytest.fixture(scope="module")
+def block():
+    return attitude_ukf(part())
+
+
+def stop_and_go(extra=0.0) -> np.ndarray:
+    """Rates (n, 3): 20 s of driving, 15 s of rest with ``extra`` (n, 3) or (3,), 15 s of driving
+    once more.
+    """
+    rate = rover_rate(GOES + 1500)
+    rate[STOPS:GOES] = extra
+    return rate
+
+
+def one(block, world, seed: int, std0=STD0, bias0=None):
+    """Outputs and true bias (n, 3) of a draw of noise, with the initial error of the covariance."""
+    rng = np.random.default_rng(seed)
+    first = std0 * rng.standard_normal(6)
+    gyro, accel, bias = measured(world, rng, first[3:])
+    q0 = Rotation.from_rotvec(first[:3]).inv().as_quat(scalar_first=True)
+    y, _ = block.run(
+        inputs(len(gyro), gyro=gyro, accel=accel), p=parameters(block, q0=q0, std0=std0)
+    )
+    return y, bias
+
+
+def test_a_stop_gives_the_bias_and_holds_the_heading(block):
+    """Errors over claimed variances are chi-square but for what the sway, which is none here, is
+    allowed: it makes the claims up to a third larger.
+    """
+    world, draws = drive(stop_and_go()), 30
+    squares = {"bias": 0.0, "heading": 0.0}
+    for seed in range(draws):
+        y, bias = one(block, world, seed)
+        off = (bias - output(block, y, "gyro_bias"))[GOES - 1]
+        squares["bias"] += np.sum((off / output(block, y, "std")[GOES - 1, 3:]) ** 2)
+        turn = world.attitude[-1].apply(error(output(block, y, "q")[-1:], world.attitude[-1:])[0])
+        squares["heading"] += (turn[2] / output(block, y, "heading_std")[-1]) ** 2
+        assert output(block, y, "at_rest")[STOPS + 200 : GOES].all()
+        assert not output(block, y, "at_rest")[:STOPS].any()
+        assert not output(block, y, "at_rest")[GOES + 10 :].any()
+    for what, degrees in (("bias", 3 * draws), ("heading", draws)):
+        low, high = chi2.ppf([OUTSIDE, 1 - OUTSIDE], degrees)
+        assert low * 2 / 3 < squares[what] < high, what
+    std = output(block, y, "std")
+    assert std[GOES - 1, 5] < 1.1 * np.hypot(N / np.sqrt(15), 2e-4 * np.sqrt(15 / 3))
+    heading = output(block, y, "heading_std")
+    assert heading[GOES - 1] < 1.01 * heading[STOPS + 200]
+
+
+@pytest.mark.parametrize(
+    "turn", [[0, 0, 0.02], [0, 0, -0.05], [0.02, 0, 0]], ids=["slow", "faster", "tilting"]
+)
+def test_a_steady_turn_is_no_rest_once_the_bias_is_known(block, turn):
+    """A turn of 15 and more standard deviations of the bias that a first rest has shown."""
+    rate = np.vstack([np.zeros((1500, 3)), stop_and_go(turn)])
+    world = drive(rate)
+    y, _ = one(block, world, 1)
+    at_rest = output(block, y, "at_rest")
+    assert at_rest[300:1500].all()
+    assert not at_rest[1510:].any()
+
+
+def test_a_body_that_is_held_still_may_sway(block):
+    """A sway of 0.3 deg at half a hertz is no error of the heading: it is followed."""
+    t = H * np.arange(GOES - STOPS)[:, None]
+    sway = 2e-3 * np.sin(2 * np.pi * np.array([0.5, 0.7, 0.4]) * t)
+    world = drive(stop_and_go(sway))
+    y, _ = one(block, world, 3)
+    resting = output(block, y, "at_rest") > 0
+    off = np.linalg.norm(error(output(block, y, "q"), world.attitude), axis=1)[resting]
+    whole = np.linalg.norm(output(block, y, "std")[resting, :3], axis=1)
+    assert resting.sum() > 500
+    assert np.all(off < 4 * whole)
+
+
+def test_a_vehicle_at_even_speed_on_a_rough_road_is_not_at_rest(block):
+    rng = np.random.default_rng(2)
+    world = drive(np.zeros((3000, 3)))
+    gyro, accel, _ = measured(world, rng, np.zeros(3))
+    y, _ = block.run(
+        inputs(3000, gyro=gyro, accel=accel + 0.5 * rng.standard_normal(accel.shape)),
+        p=parameters(block, std0=STD0),
+    )
+    assert not output(block, y, "at_rest").any()
+
+
+def test_both_forms_of_the_filter_find_the_same_rest(block):
+    world, rng = drive(stop_and_go()), np.random.default_rng(4)
+    gyro, accel, _ = measured(world, rng, np.array([0.01, -0.01, 0.005]))
+    found = []
+    for b in (block, sigma_point_filter(part())):
+        y, _ = b.run(inputs(len(gyro), gyro=gyro, accel=accel), p=parameters(b, std0=STD0))
+        found.append(y)
+    np.testing.assert_array_equal(*(output(block, y, "at_rest") for y in found))
+    # Their errors of attitude differ to second order of its standard deviation of 0.02 rad.
+    np.testing.assert_allclose(*(output(block, y, "q") for y in found), rtol=0, atol=0.02**2)
+    np.testing.assert_allclose(*(output(block, y, "std") for y in found), rtol=0.1**2)
+
+
+def test_a_log_that_begins_with_a_slow_turn_has_no_rest_there():
+    """No faster than a bias may be, but gravity turns with it."""
+    rng = np.random.default_rng(5)
+    for rate, rests in ((0.01, False), (0.0, True)):
+        axis = np.array([0.6, -0.64, 0.48])
+        world = drive(np.tile(rate * axis, (1500, 1)), Rotation.from_euler("x", 0.2))
+        gyro, accel, _ = measured(world, rng, 0.01 * rng.standard_normal(3))
+        recording = Recording.from_arrays(time=H * np.arange(1500), gyro=gyro, accel=accel)
+        assert find_rest(recording).seen is rests
+
+
+def test_a_rest_before_the_turn_begins_is_kept():
+    """Eight seconds of rest, then a slow turn: what is found is within the eight."""
+    rng = np.random.default_rng(6)
+    rate = np.zeros((1500, 3))
+    rate[800:] = [0.01, 0.0, 0.0]
+    gyro, accel, _ = measured(drive(rate), rng, np.zeros(3))
+    rest = find_rest(Recording.from_arrays(time=H * np.arange(1500), gyro=gyro, accel=accel))
+    assert rest.seen and 3.0 < rest.duration < 8.5
+    assert abs(np.linalg.norm(rest.force) - GRAVITY) < 0.01
