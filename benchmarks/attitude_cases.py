@@ -1,11 +1,12 @@
 """Is the attitude filter honest, and as good as its peers, where attitude filters are bad?
 
-``python benchmarks/attitude_cases.py [--runs N] [--only TEXT] [--seed S] [--jobs J]`` prints a row
-for each case of ``drives/cases.py``: the RMS error of inclination and heading in degrees of the
-package's filter, of vqf (Laidig and Seel 2023, the peer; left out where it is not installed) and of
-a plain extended Kalman filter that is told the size of the motion, and the mean normalised
-estimation error squared (NEES) of tilt, heading and bias, 1 where the filter is as good as it says.
-The filter is told the noise of its part and what a case says, nothing of the motion.
+``python benchmarks/attitude_cases.py [--runs N] [--only TEXT] [--seed S] [--jobs J]
+[--results FILE]`` prints a row for each case of ``drives/cases.py``: the RMS error of inclination
+and heading in degrees of the package's filter, of vqf (Laidig and Seel 2023, the peer; left out
+where it is not installed) and of a plain extended Kalman filter that is told the size of the
+motion, and the mean normalised estimation error squared (NEES) of tilt, heading and bias, 1 where
+the filter is as good as it says. The filter is told the noise of its part and what a case says,
+nothing of the motion.
 
 NEES is the mean over runs and instants of the squared error over the claimed variance. ``loses``
 marks an error above both peers', ``says too little`` a NEES above 1.3 (too sure) and ``too much``
@@ -34,6 +35,9 @@ try:
 except ImportError:
     VQF = None
 
+RESULTS = Path(tempfile.gettempdir()) / "pyimu_attitude_cases.jsonl"
+"""Where finished runs are kept, so that a table can go on where it was stopped."""
+
 LOW, HIGH = 0.8, 1.3
 """Between which a NEES is right."""
 
@@ -49,12 +53,12 @@ def main() -> None:
     parser.add_argument("--only", default="")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--results", type=Path, default=RESULTS, help="file of finished runs")
     told = parser.parse_args()
     cases = [c for c in CASES if told.only in c.name]
     keys = [(c.name.replace(" ", "_"), told.seed, i) for c in cases for i in range(told.runs)]
-    results = Path(tempfile.gettempdir()) / "pyimu_attitude_cases.jsonl"
     code = "-".join(digest(s) for s in SOURCES)
-    found = run_all(one, keys, results, code, told.jobs)
+    found = run_all(one, keys, told.results, code, told.jobs)
     print(
         f"{'':36s}{'inclination [deg]':>24s}{'heading [deg]':>24s}{'NEES':>24s}\n"
         f"{'case':36s}" + f"{'pyimu':>8s}{'vqf':>8s}{'EKF':>8s}" * 2 + "    tilt heading    bias"

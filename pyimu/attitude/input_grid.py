@@ -22,6 +22,14 @@ LONGEST_GAP = 60.0
 """s; of a gap so much becomes missing samples, by which the attitude is lost; over the rest of it
 only the bias still walks."""
 
+SPAN = 0.25
+"""s; so long the sample period is taken for one number where it wanders: of a wander over 10 s that
+misses a part in a thousand."""
+
+WANDERS = 1.0
+"""Sample periods by which the stamps, as means over ``SPAN``, must leave the even grid before the
+period is taken to wander: until then a turn is off by no more than what it makes in a period."""
+
 CHUNK = 65_536
 """Samples that are run at a time, so that a long log takes no more memory than its results do."""
 
@@ -30,13 +38,15 @@ class Piece(NamedTuple):
     """The inputs (m, nu) of successive samples, in an array that is used again.
 
     ``rows`` are the recording's rows among them, ``at`` the samples of ``inputs`` where these
-    stand, ``left_out`` the s of a gap that are left out before the first.
+    stand, ``left_out`` the s of a gap that are left out before the first, ``period`` s that of the
+    samples.
     """
 
     inputs: np.ndarray
     rows: slice
     at: np.ndarray
     left_out: float
+    period: float
 
 
 class InputGrid:
@@ -58,6 +68,8 @@ class InputGrid:
     ) -> None:
         self.rows, gaps, self.left_out = _grid(recording)
         self.after_gap = 1 + gaps
+        self.period = recording.sample_period
+        self.spans = _wandering(recording, self.rows, gaps, self.left_out)
         signals, marks = _signals(recording, part), _marks(recording)
         if retiming is not None:
             marks = _at_instants(marks, retiming.nearest_row())
@@ -73,8 +85,18 @@ class InputGrid:
                 u[:, i] = otherwise
                 if values is not None:
                     u[at, i] = values[rows]
-            yield Piece(u[:size], rows, at, left_out)
+            yield Piece(u[:size], rows, at, left_out, self._period(first, size))
             start = stop
+
+    def _period(self, first: int, size: int) -> float:
+        """The period in s of the samples from ``first`` on."""
+        if self.spans is None:
+            return self.period
+        samples, late = self.spans
+        return (
+            self.period
+            + float(np.diff(np.interp([first - 1, first + size - 1], samples, late))[0]) / size
+        )
 
     def _cuts(self) -> Iterator[tuple[int, int, float]]:
         """First sample and size of each piece, and the s left out before it.
@@ -85,9 +107,10 @@ class InputGrid:
         starts = [0, *self.rows[self.after_gap[long]].tolist()]
         ends = [*starts[1:], int(self.rows[-1]) + 1]
         before = [0.0, *self.left_out[long].tolist()]
+        step = CHUNK if self.spans is None else max(1, round(SPAN / self.period))
         for start, end, left_out in zip(starts, ends, before, strict=True):
-            for first in range(start, end, CHUNK):
-                yield first, min(CHUNK, end - first), left_out if first == start else 0.0
+            for first in range(start, end, step):
+                yield first, min(step, end - first), left_out if first == start else 0.0
 
 
 def _signals(recording: Recording, part: Part) -> dict[str, np.ndarray | None]:
@@ -124,6 +147,29 @@ def _column(name: str, signals: dict, marks: dict) -> tuple[np.ndarray | None, f
         return marks.get(name), 0.0
     values = signals[signal]
     return (values if values is None or not axis else values[:, int(axis[:-1]) - 1]), np.nan
+
+
+def _wandering(
+    recording: Recording, rows: np.ndarray, gaps: np.ndarray, left_out: np.ndarray
+) -> tuple[np.ndarray, np.ndarray] | None:
+    """Samples (m,), ``SPAN`` apart, and by how many s (m,) the stamps are late there against the
+    even grid; None where they are nowhere by a period.
+
+    A stamp may be late by itself, which says nothing of its sample: their mean
+    counts. Before the first and after the last mean the period goes on as it is there.
+    """
+    period = recording.sample_period
+    over_gaps = np.zeros(len(rows))
+    over_gaps[1 + gaps] = left_out
+    even = recording.time[0] + rows * period + np.cumsum(over_gaps)
+    length = max(1, round(SPAN / period))
+    groups = np.array_split(np.arange(len(rows)), max(1, len(rows) // length))
+    late = np.array([np.mean(recording.time[g] - even[g]) for g in groups])
+    samples = np.array([np.mean(rows[g]) for g in groups])
+    if np.ptp(late) <= WANDERS * period:
+        return None
+    samples, late = (np.array([2 * v[0] - v[1], *v, 2 * v[-1] - v[-2]]) for v in (samples, late))
+    return samples, late
 
 
 def _grid(recording: Recording) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

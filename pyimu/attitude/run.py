@@ -250,7 +250,7 @@ def _outputs(block: Block, grid: InputGrid, steps: Run, walk: np.ndarray) -> dic
             steps.state[list(BIAS_VARIANCE)] += walk * piece.left_out
             buffers.reverse()
             y = buffers[0][: len(piece.inputs)]
-            steps.advance(piece.inputs, y=y)
+            steps.advance(piece.inputs, y=y, sample_period=piece.period)
             if before is not None:
                 before.result()
             before = second.submit(kept.keep, y, piece.rows, piece.at)

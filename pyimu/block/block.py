@@ -144,13 +144,19 @@ class Run:
         self._native = compiled(block.step, rows)
 
     def advance(
-        self, u: np.ndarray, w: np.ndarray | None = None, y: np.ndarray | None = None
+        self,
+        u: np.ndarray,
+        w: np.ndarray | None = None,
+        y: np.ndarray | None = None,
+        sample_period: float | None = None,
     ) -> np.ndarray:
         """Outputs (n, ny) to the next inputs (n, nu).
 
         They are written into ``y`` where that is given; the normals are ``w`` (n, nw) where these
-        are given.
+        are given. ``sample_period`` in s is that of these samples and those to come.
         """
+        if sample_period is not None:
+            self.h[:] = sample_period
         n, block = len(u), self.block
         u = _rows(block, "inputs", u, n, len(block.inputs))
         w = None if w is None else _rows(block, "normals", w, n, len(block.noise))

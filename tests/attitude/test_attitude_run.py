@@ -372,3 +372,41 @@ def test_a_heading_from_the_future_is_an_error():
     log = recorded(drive(rover_rate(300)), heading=np.zeros(300), heading_age=np.full(300, -0.1))
     with pytest.raises(UserError, match=r"heading_age is -0\.1 s at 0 s, expected 0 or more"):
         run(log, part())
+
+
+@pytest.mark.parametrize("share", [0.1, -0.1])
+def test_a_sample_rate_that_wanders_is_integrated_by_the_stamps(share):
+    """A fast turn one way while the period is long and back while it is short: by one period for
+    the whole log the heading would be off by 2 rad.
+    """
+    n, k = 6000, np.arange(6000)
+    wave = np.sin(2 * np.pi * k / 3000)
+    time = np.cumsum(H * (1 + share * wave))
+    period = np.diff(time, prepend=0.0)
+    rate = np.zeros((n, 3))
+    rate[:, 2] = wave
+    yaw = np.cumsum(rate[:, 2] * period)
+    jitter = H * np.random.default_rng(3).uniform(0, 0.3, n)
+    even = np.cumsum(rate[:, 2] * period.mean())
+    assert np.ptp(even - yaw) > 1.0
+    log = Recording.from_arrays(
+        time=time + jitter, gyro=rate, accel=np.tile([0.0, 0.0, GRAVITY], (n, 1))
+    )
+    off = run(log, part(), settings={"rest_time": 0}).euler[:, 2] - yaw
+    off = (off - off[0] + np.pi) % (2 * np.pi) - np.pi
+    # The mean of stamps is late by that of the jitter, 0.15 of a period, and within a quarter of a
+    # second the period is one number.
+    assert np.abs(off).max() < 2 * H
+
+
+def test_stamps_that_are_late_one_by_one_do_not_wander():
+    n, rng = 3000, np.random.default_rng(4)
+    gyro = 0.5 * rng.standard_normal((n, 3))
+    even = H * np.arange(n)
+    want, found = (
+        run(
+            Recording.from_arrays(time=t, gyro=gyro, accel=np.tile([0, 0, GRAVITY], (n, 1))), part()
+        )
+        for t in (even, even + H * rng.uniform(0, 0.4, n) * (np.arange(n) % (n - 1) > 0))
+    )
+    np.testing.assert_allclose(found.q, want.q, atol=1e-9)
