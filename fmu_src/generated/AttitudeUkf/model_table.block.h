@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN "{0fea6d93-0eb0-c0ef-1bec-f21da9eac0f7}"
+#define MODEL_TOKEN "{8f9e326b-5195-6989-34b1-6624049f1fed}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -21,7 +21,7 @@ enum {
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 44, WORK_RES = 20, WORK_IW = 0, WORK_W = 1832 };
+enum { WORK_ARG = 44, WORK_RES = 20, WORK_IW = 0, WORK_W = 1801 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };

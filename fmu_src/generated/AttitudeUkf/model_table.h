@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN "{90523794-1bff-0b0a-3895-14ca6ca9ee44}"
+#define MODEL_TOKEN "{f89be156-4c3e-2a08-0866-a76c5cee86ca}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -21,7 +21,7 @@ enum {
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 44, WORK_RES = 20, WORK_IW = 0, WORK_W = 1832 };
+enum { WORK_ARG = 44, WORK_RES = 20, WORK_IW = 0, WORK_W = 1801 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };

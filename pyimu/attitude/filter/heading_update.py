@@ -11,7 +11,7 @@ from pyimu.attitude.filter.gravity_update import tilt_variance, vertical
 from pyimu.attitude.filter.layout import Layout
 from pyimu.attitude.filter.memory import ESTIMATE, WORKING, Memory
 from pyimu.attitude.filter.settings import Settings
-from pyimu.attitude.filter.unscented import WHOLE, Estimate, N, measure
+from pyimu.attitude.filter.unscented import WHOLE, Estimate, N
 from pyimu.attitude.filter.variables import ABSURD, INPUTS, LEAST_HEADING_STD
 from pyimu.symbolic import mrp, quaternion
 from pyimu.symbolic.linear import cholesky, forward, symmetric
@@ -173,15 +173,9 @@ def _corrected(x: Estimate, heading: Heading, past: PastYaw, rate):
     axes, b the bias error and w the angle about it that the noise made. As w is in the present
     error as well, it lessens the variance of the innovation and its covariance with the error.
     """
-    now, up = _forward(x), vertical(x)
-
-    def yaw_from_centre(p):
-        return angle(
-            now,
-            quaternion.rotate(quaternion.product(x.q, mrp.to_quaternion(p)), ca.vertcat(1, 0, 0)),
-        )
-
-    mean, variance, cross = measure(x, yaw_from_centre)
+    up, slope = vertical(x), yaw_slope(x)
+    cross = x.covariance[:, :3] @ slope.T
+    variance = slope @ cross[:3]
     walk = ca.dot(up * up, heading.walk)
     variance, cross, separable = _aged(x, variance, cross, up, past, walk)
     # Beyond the first order: a tilt error changes the yaw by as much as the body has tilted since.
@@ -189,11 +183,24 @@ def _corrected(x: Estimate, heading: Heading, past: PastYaw, rate):
     square = ca.fmax(ca.sumsqr(ca.cross(up, rate - x.bias)) - heading.rate_variance, 0)
     tilted = tilt_variance(x.covariance, up) * square * past.age**2
     tilted *= ca.fmax(1, past.age / heading.period)
-    innovation = late_heading.wrapped(heading.angle - past.yaw) - mean
+    innovation = mrp.F * ca.tan(late_heading.wrapped(heading.angle - past.yaw) / mrp.F)
     after, _, weight = unscented.correct(
         x, innovation, variance + (heading.variance + tilted), cross, up, INNOVATION_GATE
     )
     return _with_less_known_yaw(after, weight < 1), weight, separable
+
+
+def yaw_slope(x: Estimate):
+    """The slope (1, 3) of yaw over the attitude error p, at none.
+
+    A turn about the vertical by an angle y changes the yaw by y and p by F tan(y/F) along the
+    vertical: with that for the innovation the measurement is linear in a yaw that is off by any
+    angle. Sigma points of a yaw that is hardly known would lie where the angle wraps.
+    """
+    axes = quaternion.to_matrix(x.q)
+    change = -axes @ ca.skew(ca.vertcat(1, 0, 0))
+    east, north = axes[0, 0], axes[1, 0]
+    return (east * change[1, :] - north * change[0, :]) / (east * east + north * north)
 
 
 def _aged(x: Estimate, variance, cross, up, past: PastYaw, walk):
