@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN "{8f9e326b-5195-6989-34b1-6624049f1fed}"
+#define MODEL_TOKEN "{5d3e2537-4b20-f06b-f20b-5667b71a1e40}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -15,13 +15,13 @@ enum {
     N_INPUTS = 12,
     N_PARAMETERS = 46,
     N_OUTPUTS = 21,
-    N_STATES = 236,
+    N_STATES = 242,
     N_NOISE = 0,
     N_VARIABLES = 57
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 44, WORK_RES = 20, WORK_IW = 0, WORK_W = 1801 };
+enum { WORK_ARG = 44, WORK_RES = 20, WORK_IW = 0, WORK_W = 1831 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };

@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN "{f89be156-4c3e-2a08-0866-a76c5cee86ca}"
+#define MODEL_TOKEN "{cfce5fb0-8930-b201-a33a-6c2580595839}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -15,13 +15,13 @@ enum {
     N_INPUTS = 12,
     N_PARAMETERS = 46,
     N_OUTPUTS = 21,
-    N_STATES = 236,
+    N_STATES = 242,
     N_NOISE = 0,
     N_VARIABLES = 81
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 44, WORK_RES = 20, WORK_IW = 0, WORK_W = 1801 };
+enum { WORK_ARG = 44, WORK_RES = 20, WORK_IW = 0, WORK_W = 1831 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };

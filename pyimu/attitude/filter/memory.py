@@ -104,8 +104,8 @@ class Memory:
         ends = np.cumsum([0, *memory_sizes(compensation)]).tolist()
         parts = ca.vertsplit(column, ends)
         quasi, mean = QuasiStatic(*parts[:2]), MeanForce(*parts[2:5])
-        motion, still = Motion(*parts[5:9]), Stillness(*parts[9:16])
-        return cls(cls.estimate_of(estimate), quasi, mean, motion, still, *parts[16:])
+        motion, still = Motion(*parts[5:9]), Stillness(*parts[9:18])
+        return cls(cls.estimate_of(estimate), quasi, mean, motion, still, *parts[18:])
 
 
 def memory_sizes(compensation: Compensation) -> tuple[int, ...]:

@@ -85,12 +85,14 @@ class Rest:
 
     How ``still`` the body has been, whether it is ``resting``, and which share of the measured turn
     is one (``moving``): none where the body is called stationary, at rest what is not noise. These
-    are factors: casadi would draw a choice into every product.
+    are factors: casadi would draw a choice into every product. ``before`` is the estimate before
+    the sample: where a rest ends, with the bias as it was before its last samples.
     """
 
     still: Stillness
     resting: ca.SX
     moving: ca.SX
+    before: Estimate
 
 
 def rest_of(at: Instant, sample: Sample) -> Rest:
@@ -104,11 +106,14 @@ def rest_of(at: Instant, sample: Sample) -> Rest:
     alike = where(sample.force_valid, alike)
     if sample.gyro_lost is not False:
         alike = alike * (1 - ca.mmax(sample.gyro_lost))
-    still = still_followed(before, sample.rate, sample.force, alike, at.h)
+    x = at.memory.estimate
+    still = still_followed(before, sample.rate, sample.force, x.bias, alike, at.h)
     long = (before.span >= scalar["rest_time"]) * (scalar["rest_time"] > 0)
-    resting = alike * long * before.rests * (1 - at.stationary)
+    rests = long * before.rests * (1 - at.stationary)
+    resting = alike * rests
     kept = 1 - resting * share_of_noise(still, _density(settings))
-    return Rest(still, resting, (1 - at.stationary) * kept)
+    x = replace(x, bias=ca.if_else(rests > resting, before.safe, x.bias))
+    return Rest(still, resting, (1 - at.stationary) * kept, x)
 
 
 def _density(settings: Settings):

@@ -69,7 +69,7 @@ def _predict(layout: Layout) -> ca.Function:
     sample = look_closely(layout.compensation, at.memory, at.u, at.settings, at.h)
     rest = rest_of(at, sample)
     moving, noise = rest.moving, added_noise(at, sample, rest.moving)
-    before = at.memory.estimate
+    before = rest.before
 
     def turn(rate, error):
         return moving * (rate - quaternion.rotate(quaternion.conjugate(error), at.earth))

@@ -26,9 +26,6 @@ SWAY_TIME = 10.0
 """s; time constant of the density of the sway: some thirty independent values of that difference,
 on three axes."""
 
-LONGEST = 100.0
-"""s; a rest is not counted on beyond this."""
-
 OUTLIER = 30.0
 """Squared noise of three axes over the variance of one, which a sample exceeds with a probability
 of 1.4e-6."""
@@ -36,9 +33,10 @@ of 1.4e-6."""
 GATE = 25.0
 """Squared difference of rate and bias over its variance beyond which a body turns steadily."""
 
-STEADY = 0.1
-"""Share of the tolerance of a sample that is one of the mean: gravity that turns in the body's axes
-by 2e-3 rad changes the mean by 0.02 m/s^2."""
+STEADY, SLOW_SWAY = 0.1, 0.5
+"""Shares of a sample's tolerance that are those of the mean, of force and rate: gravity that turns
+in the body's axes by 2e-3 rad changes the mean force by 0.02 m/s^2. The mean shows that a motion
+begins while its samples are still lost in noise."""
 
 
 @dataclass(frozen=True)
@@ -47,7 +45,9 @@ class Stillness:
 
     Of the rate (3,) rad/s and the force (3,) m/s^2 a ``fast`` and a ``slow`` mean; ``density``
     (rad/s)^2 s is that of the rate at low frequency, ``span`` s how long nothing has moved.
-    ``rests`` says that this is a rest and no steady turn.
+    ``rests`` says that this is a rest and no steady turn. ``safe`` and ``later`` (3,) rad/s are the
+    bias as it was ``FAST`` to twice that before, and up to that: the last samples before one that
+    shows a motion may be of that motion.
     """
 
     fast: ca.SX
@@ -57,6 +57,8 @@ class Stillness:
     density: ca.SX
     span: ca.SX
     rests: ca.SX
+    safe: ca.SX
+    later: ca.SX
 
     @classmethod
     def start(cls) -> Stillness:
@@ -66,7 +68,7 @@ class Stillness:
         return tuple(vars(self).values())
 
 
-SIZES = (3, 3, 3, 3, 1, 1, 1)
+SIZES = (3, 3, 3, 3, 1, 1, 1, 3, 3)
 """Of what ``Stillness.pack`` gives."""
 
 
@@ -85,15 +87,17 @@ def is_still(x: Stillness, rate, force, tolerance, noise, h):
             ca.sumsqr(x.fast_force - x.slow_force)
             <= (STEADY * force_off) ** 2 + force_noise * SHARE * h
         )
+        * (ca.sumsqr(x.fast - x.slow) <= (SLOW_SWAY * rate_off) ** 2 + rate_noise * SHARE * h)
     )
 
 
-def followed(x: Stillness, rate, force, still, h) -> Stillness:
+def followed(x: Stillness, rate, force, bias, still, h) -> Stillness:
     """The same after one more sample, which ``still`` (0 or 1) says to be like the others.
 
-    Whether it ``rests`` is left as it is.
+    ``bias`` (3,) rad/s is that before the sample. Whether it ``rests`` is left as it is.
     """
-    span = ca.fmin(still * (x.span + h), LONGEST)
+    span = still * (x.span + h)
+    keep = ca.floor(span / FAST) > ca.floor(x.span / FAST)
     share = h / ca.fmax(span, h)
 
     def mean(before, value, time):
@@ -109,6 +113,8 @@ def followed(x: Stillness, rate, force, still, h) -> Stillness:
         still * mean(x.density, seen, SWAY_TIME),
         span,
         x.rests,
+        ca.if_else(keep, x.later, x.safe),
+        ca.if_else(keep, bias, x.later),
     )
 
 

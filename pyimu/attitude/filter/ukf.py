@@ -106,7 +106,7 @@ def _row(name: str, at: Instant, sample: Sample, symbols: list[ca.SX]) -> ca.Fun
     rest = rest_of(at, sample)
     noise = added_noise(at, sample, rest.moving)
     x, turned = marginal.propagate(
-        at.memory.estimate,
+        rest.before,
         sample.rate,
         at.earth,
         rest.moving,
