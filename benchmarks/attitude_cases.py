@@ -11,6 +11,8 @@ nothing of the motion.
 NEES is the mean over runs and instants of the squared error over the claimed variance. ``loses``
 marks an error above both peers', ``says too little`` a NEES above 1.3 (too sure) and ``too much``
 one below 0.8. Of a case whose samples have errors that nobody declared only ``too little`` counts.
+With ``--smooth`` it is the smoothed attitude, each sample by the whole log, and vqf's
+``offlineVQF`` is the peer; the extended Kalman filter stays one.
 """
 
 from __future__ import annotations
@@ -31,7 +33,7 @@ from pyimu.attitude import run
 from pyimu.recording.recording import Recording
 
 try:
-    from vqf import VQF
+    from vqf import VQF, offlineVQF
 except ImportError:
     VQF = None
 
@@ -53,10 +55,12 @@ def main() -> None:
     parser.add_argument("--only", default="")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--smooth", action="store_true")
     parser.add_argument("--results", type=Path, default=RESULTS, help="file of finished runs")
     told = parser.parse_args()
     cases = [c for c in CASES if told.only in c.name]
-    keys = [(c.name.replace(" ", "_"), told.seed, i) for c in cases for i in range(told.runs)]
+    how = "smoothed" if told.smooth else "filtered"
+    keys = [(c.name.replace(" ", "_"), told.seed, i, how) for c in cases for i in range(told.runs)]
     code = "-".join(digest(s) for s in SOURCES)
     found = run_all(one, keys, told.results, code, told.jobs)
     print(
@@ -85,17 +89,18 @@ def _rms(values: list[float]) -> float:
     return float(np.sqrt(np.mean(np.square(values)))) if values else np.nan
 
 
-def one(case_name: str, seed: int, index: int) -> dict:
-    """Errors in degrees and NEES of a run."""
+def one(case_name: str, seed: int, index: int, how: str) -> dict:
+    """Errors in degrees and NEES of a run, ``smoothed`` or ``filtered``."""
     case = BY_NAME[case_name.replace("_", " ")]
     log = case.make(np.random.default_rng([seed, index, list(BY_NAME).index(case.name)]))
     at = log.time >= log.time[0] + case.since
-    ours, gravity = filtered(log), log.told.get("settings", {}).get("gravity", GRAVITY)
+    smooth = how == "smoothed"
+    ours, gravity = estimated(log, smooth), log.told.get("settings", {}).get("gravity", GRAVITY)
     others = {"mekf": mekf(log, N, K, N_ACCEL, case.pushed, gravity)}
     if VQF is not None:
         gyro = np.where(np.isfinite(log.gyro), log.gyro, 0.0)
         period = float(np.median(np.diff(log.time)))
-        others["vqf"] = VQF(period).updateBatch(np.ascontiguousarray(gyro), log.accel)["quat6D"]
+        others["vqf"] = peer(np.ascontiguousarray(gyro), log.accel, period, smooth)["quat6D"]
     tilt, heading = errors(ours.q, log, at, case.headed)
     result = {"pyimu": {"tilt": _deg(tilt), "heading": _deg(heading)}}
     for who, q in others.items():
@@ -114,8 +119,15 @@ def one(case_name: str, seed: int, index: int) -> dict:
     return result
 
 
-def filtered(log: Log):
-    """The package's filter over a log, with the part's noise."""
+def peer(gyro: np.ndarray, accel: np.ndarray, period: float, smooth: bool) -> dict:
+    """vqf over a log, offline where it is to be smoothed."""
+    if smooth:
+        return offlineVQF(gyro, np.ascontiguousarray(accel), None, period)
+    return VQF(period).updateBatch(gyro, accel)
+
+
+def estimated(log: Log, smooth: bool):
+    """The package's filter over a log, with the part's noise, and where asked its smoother."""
     recording = Recording.from_arrays(time=log.time, gyro=log.gyro, accel=log.accel, **log.heading)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "part.toml"
@@ -125,7 +137,7 @@ def filtered(log: Log):
             f'[gyro.rate_random_walk]\nK = {{value = {K}, unit = "rad/s/sqrt(s)"}}\n'
             f'[accel.angle_random_walk]\nN = {{value = {N_ACCEL}, unit = "m/s/sqrt(s)"}}\n'
         )
-        return run(recording, path, **log.told)
+        return run(recording, path, smooth=smooth, **log.told)
 
 
 def errors(q: np.ndarray, log: Log, at: np.ndarray, headed: bool):

@@ -9,6 +9,8 @@ is matched and the initial errors are drawn from the initial covariance, so ever
 filter's model is wider than the noise, as for correlated noise in its few states, the mean only has
 to stay below the upper end of its band. ``--sol [runs]`` does the same over 24.6 h at 100 Hz, each
 in one run, and also looks at the definiteness of the covariance and the length of the quaternion.
+``--smooth [drives]`` is the table of the smoothed estimates of the scenarios whose model is
+matched: each instant is then estimated by all 120 s. The innovation stays the filter's.
 """
 
 import sys
@@ -31,6 +33,9 @@ from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
 from pyimu.attitude import attitude_ukf, run
+from pyimu.attitude.filter.passed import AFTER
+from pyimu.attitude.filter.smoother import last_belief, smoother
+from pyimu.attitude.filter.ukf import recorded_ukf
 from pyimu.block.block import Run
 from pyimu.recording.recording import Recording
 
@@ -89,19 +94,22 @@ SCENARIOS = (
     Scenario("swaying", noise=Noise(sway=(4.0, 0.06)), bounded=ERRORS, fixed={}),
 )
 
+MATCHED = tuple(s for s in SCENARIOS if not s.bounded)
+"""Those whose noise is what the filter's model says, no less and no more."""
 
-def main(drives: int = DRIVES) -> bool:
+
+def main(drives: int = DRIVES, smooth: bool = False) -> bool:
     print(
-        f"{drives} drives of {INSTANTS[-1]:g} s at {1 / H:g} Hz; mean squares over degrees of "
-        f"freedom, bands of {FAMILY:.0%} for all together"
+        f"{'smoothed, ' * smooth}{drives} drives of {INSTANTS[-1]:g} s at {1 / H:g} Hz; mean "
+        f"squares over degrees of freedom, bands of {FAMILY:.0%} for all together"
     )
-    bands = Bands(len(SCENARIOS) * len(INSTANTS) * len(KINDS))
+    scenarios = MATCHED if smooth else SCENARIOS
+    bands = Bands(len(scenarios) * len(INSTANTS) * len(KINDS))
     right = True
-    for scenario in SCENARIOS:
-        sums = simulate(scenario, drives, INSTANTS)
+    for scenario in scenarios:
+        sums = (simulate_smoothed if smooth else simulate)(scenario, drives, INSTANTS)
         right &= table(scenario, INSTANTS, sums, bands)
-    right &= rest_table()
-    return right
+    return right if smooth else right & rest_table()
 
 
 # Statistics
@@ -206,29 +214,21 @@ def expected_at_rest(t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 # Simulation
 
 
+def start_of(block, scenario: Scenario, drive: Drive) -> np.ndarray:
+    """The parameters with which the filter of a drive starts."""
+    q0 = drive.q0.as_quat(scalar_first=True)
+    return parameters(block, q0=q0, std0=STD0, latitude=LATITUDE, **scenario.fixed)
+
+
 def simulate(scenario: Scenario, drives: int, instants: np.ndarray, first_seed: int = 0) -> Sums:
     """Squares summed over ``drives``, whose motion, noise and initial error all follow from their
     seed.
     """
     block, stops = attitude_ukf(part(scenario.noise)), np.round(instants / H).astype(int)
-    sums = Sums(
-        *(np.zeros((len(stops), len(KINDS))) for _ in range(2)),
-        np.zeros(len(stops)),
-        np.zeros(len(stops)),
-    )
+    sums = no_sums(len(stops))
     for seed in range(first_seed, first_seed + drives):
         drive = Drive(scenario, seed)
-        steps = Run(
-            block,
-            stops[-1],
-            p=parameters(
-                block,
-                q0=drive.q0.as_quat(scalar_first=True),
-                std0=STD0,
-                latitude=LATITUDE,
-                **scenario.fixed,
-            ),
-        )
+        steps = Run(block, stops[-1], p=start_of(block, scenario, drive))
         for i, rows in enumerate(np.diff(stops, prepend=0)):
             for u, truth, bias in drive.rows(rows):
                 for start in range(0, len(u), OFTEN):
@@ -239,6 +239,59 @@ def simulate(scenario: Scenario, drives: int, instants: np.ndarray, first_seed: 
                     )
             score(sums, i, steps.state, y[-1, 17], truth, bias)
     return sums
+
+
+def no_sums(instants: int) -> Sums:
+    return Sums(
+        *(np.zeros((instants, len(KINDS))) for _ in range(2)),
+        np.zeros(instants),
+        np.zeros(instants),
+    )
+
+
+def simulate_smoothed(scenario: Scenario, drives: int, instants: np.ndarray) -> Sums:
+    """The same of the smoothed estimates: each instant by all samples up to the last one."""
+    block, stops = recorded_ukf(part(scenario.noise)), np.round(instants / H).astype(int)
+    sums = no_sums(len(stops))
+    for seed in range(drives):
+        drive = Drive(scenario, seed)
+        pieces = [list(drive.rows(count)) for count in np.diff(stops, prepend=0)]
+        u = np.vstack([u for several in pieces for u, _, _ in several])
+        rows, _ = block.run(u, p=start_of(block, scenario, drive))
+        for i, state in smoothed_states(rows, stops):
+            _, truth, bias = pieces[i][-1]
+            sums.norm = max(sums.norm, abs(np.linalg.norm(state[:4]) - 1))
+            sums.least_eigenvalue = min(sums.least_eigenvalue, least_eigenvalue(state))
+            score(sums, i, state, rows[stops[i] - 1, 17], truth, bias)
+    return sums
+
+
+def smoothed_states(rows: np.ndarray, stops: np.ndarray):
+    """Number, and smoothed q (4), bias (3) and packed covariance (21), of each of the ``stops``.
+
+    ``rows`` are those of the recorded filter.
+    """
+    belief = np.array(last_belief()(rows[-1, AFTER])).ravel()
+    back = Run(smoother(), len(rows), state=belief)
+    for i in reversed(range(len(stops))):
+        after = rows[stops[i] - 1, AFTER]
+        yield i, smoothed_state(after, back.state)
+        back.advance(rows[stops[i - 1] if i else 0 : stops[i]][::-1])
+
+
+def smoothed_state(after: np.ndarray, belief: np.ndarray) -> np.ndarray:
+    """A filter's estimate ``after`` a sample with what a smoother knows of its error."""
+    q, size = Rotation.from_quat(after[:4], scalar_first=True), np.linalg.norm(belief[:3])
+    error = belief[:3] * (4 * np.arctan(size / 4) / size if size else 1)
+    up = q.as_matrix()[2]
+    axes, covariance = np.eye(6), np.zeros((9, 9))
+    # The vertical is turned along, and the covariance with it.
+    axes[:3, :3] = Rotation.from_rotvec(error - up * (up @ error)).as_matrix().T
+    covariance[np.triu_indices(9)] = belief[9:]
+    covariance += np.triu(covariance, 1).T
+    turned = axes @ covariance[:6, :6] @ axes.T
+    q = (q * Rotation.from_rotvec(error)).as_quat(scalar_first=True)
+    return np.concatenate([q, after[4:7] + belief[3:6], turned[np.triu_indices(6)]])
 
 
 def aligned(scenario: Scenario, drives: int, instants: np.ndarray, **more) -> np.ndarray:
@@ -334,5 +387,6 @@ def sol(runs: int = SOL_RUNS) -> bool:
 
 
 if __name__ == "__main__":
-    numbers = [int(a) for a in sys.argv[1:] if a != "--sol"]
-    sys.exit(not (sol if "--sol" in sys.argv else main)(*numbers))
+    numbers = [int(a) for a in sys.argv[1:] if not a.startswith("--")]
+    smoothed = {"smooth": True} if "--smooth" in sys.argv else {}
+    sys.exit(not (sol if "--sol" in sys.argv else main)(*numbers, **smoothed))

@@ -34,19 +34,27 @@ CHUNK = 65_536
 """Samples that are run at a time, so that a long log takes no more memory than its results do."""
 
 
+class Cut(NamedTuple):
+    """A piece before it is made: its first sample, how many it has, the s left out before it."""
+
+    first: int
+    size: int
+    left_out: float
+
+
 class Piece(NamedTuple):
     """The inputs (m, nu) of successive samples, in an array that is used again.
 
     ``rows`` are the recording's rows among them, ``at`` the samples of ``inputs`` where these
-    stand, ``left_out`` the s of a gap that are left out before the first, ``period`` s that of the
-    samples.
+    stand, ``left_out`` the s of a gap that are left out before the first, ``periods`` which samples
+    have which period in s.
     """
 
     inputs: np.ndarray
     rows: slice
     at: np.ndarray
     left_out: float
-    period: float
+    periods: list[tuple[slice, float]]
 
 
 class InputGrid:
@@ -77,40 +85,49 @@ class InputGrid:
 
     def pieces(self) -> Iterator[Piece]:
         """The inputs piece by piece."""
-        u, start = np.empty((CHUNK, len(self.columns))), 0
-        for first, size, left_out in self._cuts():
-            stop = int(np.searchsorted(self.rows, first + size))
-            rows, at = slice(start, stop), self.rows[start:stop] - first
-            for i, (values, otherwise) in enumerate(self.columns):
-                u[:, i] = otherwise
-                if values is not None:
-                    u[at, i] = values[rows]
-            yield Piece(u[:size], rows, at, left_out, self._period(first, size))
-            start = stop
+        u = np.empty((CHUNK, len(self.columns)))
+        for cut in self.cuts(CHUNK):
+            yield self.piece(cut, u)
 
-    def _period(self, first: int, size: int) -> float:
-        """The period in s of the samples from ``first`` on."""
-        if self.spans is None:
-            return self.period
-        samples, late = self.spans
-        return (
-            self.period
-            + float(np.diff(np.interp([first - 1, first + size - 1], samples, late))[0]) / size
-        )
-
-    def _cuts(self) -> Iterator[tuple[int, int, float]]:
-        """First sample and size of each piece, and the s left out before it.
-
-        A piece ends where a long gap does.
+    def cuts(self, most: int) -> list[Cut]:
+        """The grid in pieces of at ``most`` so many samples, each of which ends where a long gap
+        does.
         """
         long = np.flatnonzero(self.left_out)
         starts = [0, *self.rows[self.after_gap[long]].tolist()]
         ends = [*starts[1:], int(self.rows[-1]) + 1]
         before = [0.0, *self.left_out[long].tolist()]
-        step = CHUNK if self.spans is None else max(1, round(SPAN / self.period))
-        for start, end, left_out in zip(starts, ends, before, strict=True):
-            for first in range(start, end, step):
-                yield first, min(step, end - first), left_out if first == start else 0.0
+        return [
+            Cut(first, min(most, end - first), left_out if first == start else 0.0)
+            for start, end, left_out in zip(starts, ends, before, strict=True)
+            for first in range(start, end, most)
+        ]
+
+    def piece(self, cut: Cut, u: np.ndarray) -> Piece:
+        """The inputs of a cut, in the array ``u`` (size or more, nu)."""
+        start, stop = np.searchsorted(self.rows, [cut.first, cut.first + cut.size]).tolist()
+        rows, at = slice(start, stop), self.rows[start:stop] - cut.first
+        for i, (values, otherwise) in enumerate(self.columns):
+            u[:, i] = otherwise
+            if values is not None:
+                u[at, i] = values[rows]
+        return Piece(u[: cut.size], rows, at, cut.left_out, self._periods(cut))
+
+    def _periods(self, cut: Cut) -> list[tuple[slice, float]]:
+        """The samples of a cut that have one period, and that in s.
+
+        Where the period wanders it is that of each ``SPAN`` of the grid, wherever it is cut.
+        """
+        if self.spans is None:
+            return [(slice(0, cut.size), self.period)]
+        samples, late = self.spans
+        step, end = max(1, round(SPAN / self.period)), cut.first + cut.size
+        found = []
+        for span in range(cut.first // step * step, end, step):
+            within = slice(max(span, cut.first) - cut.first, min(span + step, end) - cut.first)
+            change = np.diff(np.interp([span - 1, span + step - 1], samples, late))[0]
+            found.append((within, self.period + float(change) / step))
+        return found
 
 
 def _signals(recording: Recording, part: Part) -> dict[str, np.ndarray | None]:

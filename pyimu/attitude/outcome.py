@@ -48,6 +48,11 @@ class Outcome:
     ``parameters`` are the values by name with which the block ``AttitudeUkf`` gives the same.
     ``part`` is the name of the part, empty without one; ``left_in`` what of its errors is not
     undone. ``recording`` is what the filter ran over.
+
+    Where it is ``smoothed``, ``q``, ``gyro_bias``, ``std`` and ``heading_std`` are by all rows, not
+    only by those up to each. ``quasi_static``, ``nis``, ``status`` and ``at_rest`` stay what the
+    filter found on its way: of a status that says that gravity or a heading contradicted, the
+    attitude before knows nothing.
     """
 
     name: str
@@ -65,6 +70,7 @@ class Outcome:
     parameters: Mapping[str, float] = field(default_factory=dict, repr=False)
     part: str = ""
     left_in: tuple[str, ...] = ()
+    smoothed: bool = False
 
     @property
     def euler(self) -> np.ndarray:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import casadi as ca
@@ -20,13 +19,14 @@ from pyimu.attitude.columns import (
     wandering,
 )
 from pyimu.attitude.filter.compensation import clock_error, left_in, noise_of
-from pyimu.attitude.filter.memory import BIAS_VARIANCE
-from pyimu.attitude.filter.ukf import attitude_ukf
+from pyimu.attitude.filter.ukf import attitude_ukf, recorded_ukf
 from pyimu.attitude.filter.variables import LEAST_K, OWN_PARAMETERS
-from pyimu.attitude.input_grid import CHUNK, InputGrid
+from pyimu.attitude.input_grid import InputGrid
+from pyimu.attitude.outputs import filtered
 from pyimu.attitude.rest import find_rest
 from pyimu.attitude.result import AttitudeResult
 from pyimu.attitude.retiming import Retiming
+from pyimu.attitude.smoothing import smoothed
 from pyimu.attitude.stuck import stuck_times
 from pyimu.block.block import Block, Run
 from pyimu.block.variables import Variable
@@ -48,6 +48,7 @@ def run(
     bias0: np.ndarray | None = None,
     std0: np.ndarray | None = None,
     settings: Mapping[str, float] | None = None,
+    smooth: bool = False,
 ) -> AttitudeResult:
     """The attitude of a recording, by the filter of ``part``.
 
@@ -64,6 +65,11 @@ def run(
     estimate, and the row after it has bit 1 of the status. Headings with an age in the recording's
     column ``heading_age`` correct what the attitude was then. A clock of the gyro that the part
     knows to be off is undone by its samples' times; the accelerometer's is taken for the same.
+
+    With ``smooth`` each row is estimated from the whole recording, also from the rows that follow
+    (``pyimu.attitude.filter.smoother``): attitude, bias and all standard deviations are those of
+    the smoother, ``quasi_static``, ``nis``, ``status`` and ``at_rest`` stay those of the filter
+    that went forward, and the last row is the filter's.
 
     Raises UserError for a recording that cannot be read, is without gyro or has one row, a latitude
     beyond -pi/2 to pi/2, a quaternion without length, ``heading0`` beside ``q0``, other than so
@@ -100,7 +106,11 @@ def run(
     retiming = _retiming(recording, known, p)
     grid = InputGrid(recording, known, [v.name for v in block.inputs], retiming)
     steps = Run(block, grid.rows[-1] + 1, p=p, sample_period=recording.sample_period)
-    outputs = _outputs(block, grid, steps, _bias_walk(known, p))
+    walk = _bias_walk(known, p)
+    if smooth:
+        outputs = smoothed(recorded_ukf(known), grid, steps, walk)
+    else:
+        outputs = filtered(block, grid, steps, walk)
     outputs["status"][grid.after_gap] |= 1
     if retiming is not None:
         outputs = retiming.to_rows(outputs)
@@ -114,6 +124,7 @@ def run(
         parameters=parameters,
         part="" if part is None else known.name,
         left_in=left_in(known),
+        smoothed=smooth,
     )
 
 
@@ -195,64 +206,3 @@ def _bias_walk(part: Part, p: np.ndarray) -> np.ndarray:
     """Variance (3,) in (rad/s)^2/s by which the gyro's bias walks, as the filter models it."""
     walk = noise_of(part.gyro, _gyro_p(part, p), 1 / part.sample_rate).walk
     return np.array(ca.evalf(walk), dtype=float).ravel() ** 2 + LEAST_K**2
-
-
-# Outputs
-
-
-OUTPUTS = {
-    "q": (4, float),
-    "gyro_bias": (3, float),
-    "std": (6, float),
-    "quasi_static": (0, bool),
-    "nis": (0, float),
-    "status": (0, np.uint8),
-    "heading_std": (0, float),
-    "at_rest": (0, bool),
-}
-"""The block's outputs that a result keeps, how many numbers each has (0: one, without an axis), and
-their type."""
-
-
-class Kept:
-    """The outputs at the recording's rows, (n,) or (n, size) by name in ``arrays``."""
-
-    def __init__(self, block: Block, rows: int) -> None:
-        names = [v.name for v in block.outputs]
-        self.first = {n: names.index(f"{n}[1]" if size else n) for n, (size, _) in OUTPUTS.items()}
-        self.arrays = {
-            n: np.empty((rows, size) if size else rows, dtype=kind)
-            for n, (size, kind) in OUTPUTS.items()
-        }
-
-    def keep(self, y: np.ndarray, rows: slice, at: np.ndarray) -> None:
-        """The ``rows`` from the outputs (m, ny) of a piece, in which they stand ``at`` (r,)."""
-        found = y if len(at) == len(y) else y[at]
-        for n, (size, _) in OUTPUTS.items():
-            first = self.first[n]
-            self.arrays[n][rows] = found[:, first : first + size] if size else found[:, first]
-
-
-def _outputs(block: Block, grid: InputGrid, steps: Run, walk: np.ndarray) -> dict[str, np.ndarray]:
-    """The outputs at the recording's rows.
-
-    Over what a gap exceeds its missing samples by, the bias walks on with the variance ``walk``
-    (3,) in a second.
-
-    A second thread puts away what has been made, because memory that is touched for the first time
-    can cost more than the filter.
-    """
-    kept, width = Kept(block, len(grid.rows)), len(block.outputs)
-    buffers = [np.empty((min(CHUNK, grid.rows[-1] + 1), width)) for _ in range(2)]
-    with ThreadPoolExecutor(1) as second:
-        before = None
-        for piece in grid.pieces():
-            steps.state[list(BIAS_VARIANCE)] += walk * piece.left_out
-            buffers.reverse()
-            y = buffers[0][: len(piece.inputs)]
-            steps.advance(piece.inputs, y=y, sample_period=piece.period)
-            if before is not None:
-                before.result()
-            before = second.submit(kept.keep, y, piece.rows, piece.at)
-        before.result()
-    return kept.arrays

@@ -164,6 +164,10 @@ def attitude_command(
             "or 0.",
         ),
     ] = None,
+    smooth: Annotated[
+        bool,
+        typer.Option("--smooth", help="Estimate each sample by all of the log, not by its past."),
+    ] = False,
     effects: Effects = None,
 ) -> None:
     """Example: pyimu attitude rover.csv --part imt30 --out out/attitude
@@ -182,7 +186,7 @@ def attitude_command(
     with progress("reading") as say:
         recording = read_recording(log, columns)
         say("running the filter")
-        found = run(recording, part, latitude=at, heading0=heading)
+        found = run(recording, part, latitude=at, heading0=heading, smooth=smooth)
         say("drawing the report")
         page = found.write(out)
     print(found.report())

@@ -11,15 +11,27 @@ from pyimu.attitude.filter.memory import start
 from pyimu.attitude.filter.updates import outputs
 from pyimu.attitude.filter.variables import OUTPUTS
 from pyimu.block.block import Block
+from pyimu.block.variables import Variable
 from pyimu.model.part import Part
 
 
-def filter_block(name: str, title: str, layout: Layout, step: ca.Function) -> Block:
-    """The block ``name`` of a filter with this ``step``; ``title`` begins its description."""
+def filter_block(
+    name: str,
+    title: str,
+    layout: Layout,
+    step: ca.Function,
+    names: tuple[Variable, ...] = OUTPUTS,
+) -> Block:
+    """The block ``name`` of a filter with this ``step``; ``title`` begins its description.
+
+    ``names`` are its outputs; other ones than those of the unit show nothing before the first
+    sample.
+    """
     part = layout.compensation.part
     p = ca.SX.sym("p", len(layout.parameters))
     estimate, state = start(layout.compensation, p)
-    u, shown = ca.SX.sym("u", len(layout.inputs)), outputs(estimate, 0, 0, 0, 0)
+    u = ca.SX.sym("u", len(layout.inputs))
+    shown = outputs(estimate, 0, 0, 0, 0) if names is OUTPUTS else ca.SX.zeros(len(names))
     initial = ca.Function("initial", [u, p], [state, shown], ["u", "p"], ["s", "y"])
     return Block(
         name=name,
@@ -28,7 +40,7 @@ def filter_block(name: str, title: str, layout: Layout, step: ca.Function) -> Bl
         initial=initial,
         inputs=layout.inputs,
         parameters=layout.parameters,
-        outputs=OUTPUTS,
+        outputs=names,
         noise=(),
         sample_period=1.0 / part.sample_rate,
     )

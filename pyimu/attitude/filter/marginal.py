@@ -74,6 +74,21 @@ def mean_jacobian(angle, k):
     return (1 - c * square) * ca.SX.eye(3) - b * ca.skew(angle) + outer
 
 
+def turned(x: Estimate, rate, earth, moving, h):
+    """The turn of the body in a period, by the arguments of ``propagate``, and what errors become.
+
+    The quaternion (4,) of its turn against the world, the turn R^T (3, 3) in inertial space from
+    the old body axes to the new, which is that of an attitude error, and G = -h J (3, 3), the
+    attitude error that an error of the bias makes.
+    """
+    step = h * moving
+    angle = (rate - x.bias - earth) * step
+    angle *= ca.sumsqr(angle) <= LARGEST_TURN**2
+    centre, k = turn(angle)
+    own = quaternion.to_matrix(quaternion.product(centre, ca.vertcat(1, earth * step / 2))).T
+    return centre, own, -step * mean_jacobian(angle, k)
+
+
 def propagate(x: Estimate, rate, earth, moving, noise, push: Push, h) -> tuple[Estimate, ca.SX]:
     """The estimate one period ``h`` s later, and the body's turn (3, 3) in inertial space.
 
@@ -86,12 +101,7 @@ def propagate(x: Estimate, rate, earth, moving, noise, push: Push, h) -> tuple[E
     mean of the last term is the mean error. The quaternion keeps its length however large that mean
     is: the updates that follow rely on a vertical of unit length.
     """
-    step = h * moving
-    angle = (rate - x.bias - earth) * step
-    angle *= ca.sumsqr(angle) <= LARGEST_TURN**2
-    centre, k = turn(angle)
-    own = quaternion.to_matrix(quaternion.product(centre, ca.vertcat(1, earth * step / 2))).T
-    leak = -step * mean_jacobian(angle, k)
+    centre, own, leak = turned(x, rate, earth, moving, h)
     covariance, mixed = _propagated(x.covariance, own, leak, noise)
     mean = (
         ca.vertcat(mixed[1, 2] - mixed[2, 1], mixed[2, 0] - mixed[0, 2], mixed[0, 1] - mixed[1, 0])

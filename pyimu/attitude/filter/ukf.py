@@ -26,6 +26,7 @@ from pyimu.attitude.filter.filter_block import filter_block, step_function
 from pyimu.attitude.filter.gravity_update import INNOVATION_GATE, by_velocity, corrected, push
 from pyimu.attitude.filter.layout import GRAVITY, Flags, GravityMeasurement, Layout
 from pyimu.attitude.filter.memory import ESTIMATE, WORKING, Memory
+from pyimu.attitude.filter.passed import PASSED, Transition, passed
 from pyimu.attitude.filter.prediction import ARGUMENTS, Instant, added_noise, predicted, rest_of
 from pyimu.attitude.filter.sample import Sample, look_closely, raw_of, read
 from pyimu.attitude.filter.updates import after_gravity, bounded_where_lost, finish, where
@@ -59,20 +60,40 @@ def _of(part: Part, *effects: tuple[Effect, ...]) -> Block:
     return filter_block("AttitudeUkf", "Unscented attitude filter", layout, _step(layout))
 
 
-def _step(layout: Layout) -> ca.Function:
+def recorded_ukf(part: Part) -> Block:
+    """The same filter whose outputs are the rows (``PASSED``,) that a smoother goes back over.
+
+    They are what ``pyimu.attitude.filter.passed.Passed`` packs.
+    """
+    return _recorded(part, part.gyro.effects, part.accel.effects)
+
+
+@lru_cache(maxsize=16)
+def _recorded(part: Part, *effects: tuple[Effect, ...]) -> Block:
+    layout, title = Layout(Compensation(part)), "Unscented attitude filter, recorded"
+    step = _step(layout, recorded=True)
+    return filter_block("AttitudeRecorded", title, layout, step, PASSED)
+
+
+def _step(layout: Layout, recorded: bool = False) -> ca.Function:
+    """The step of the filter; its outputs are those of the unit, or all that a smoother needs."""
     s, u, p, h = symbols = layout.symbols(ca.MX, "s u p h")
-    x, memory, rate, gravity, flags = _predict(layout)(
+    x, memory, rate, gravity, flags, *transition = _predict(layout, recorded)(
         s[:ESTIMATE], s[ESTIMATE : layout.rings], u, p, h
     )
     estimate, yaw, y = _updates(layout)(flags[0], x, s, u, p, h, rate, gravity, flags)
+    if recorded:
+        y = passed(y, estimate, x, transition[0], Flags.unpack(flags))
     return step_function(layout, symbols, estimate, memory, yaw, y)
 
 
 # Prediction
 
 
-def _predict(layout: Layout) -> ca.Function:
+def _predict(layout: Layout, recorded: bool = False) -> ca.Function:
     """``estimate, memory, u, p, h -> x, memory, rate, gravity, flags``, as ``predicted`` has them.
+
+    Where it is ``recorded``, the transition of the error follows.
 
     An ordinary sample is taken as it was read; any other is looked at number by number.
     """
@@ -80,8 +101,8 @@ def _predict(layout: Layout) -> ca.Function:
     at, reading = Instant.of(layout, symbols), _reading(layout, symbols)
     packed = ca.SX.sym("reading", reading.numel_out(0))
     closely = look_closely(layout.compensation, at.memory, at.u, at.settings, at.h)
-    ordinary = _row("ordinary_row", at, _unpacked(packed, at.u), [*symbols, packed])
-    other = _row("other_row", at, closely, [*symbols, packed])
+    ordinary = _row("ordinary_row", at, _unpacked(packed, at.u), [*symbols, packed], recorded)
+    other = _row("other_row", at, closely, [*symbols, packed], recorded)
     given = layout.symbols(ca.MX, ARGUMENTS)
     sample, is_ordinary = reading(*given)
     outputs = ca.Function.if_else("row", ordinary, other)(is_ordinary, *given, sample)
@@ -101,20 +122,21 @@ def _unpacked(reading, u) -> Sample:
     return Sample(raw_of(u), reading[:3], reading[3:6], reading[14:], reading[6:14], ca.SX.zeros(3))
 
 
-def _row(name: str, at: Instant, sample: Sample, symbols: list[ca.SX]) -> ca.Function:
+def _row(
+    name: str, at: Instant, sample: Sample, symbols: list[ca.SX], recorded: bool
+) -> ca.Function:
     """The prediction of one sample."""
     rest = rest_of(at, sample)
     noise = added_noise(at, sample, rest.moving)
-    x, turned = marginal.propagate(
-        rest.before,
-        sample.rate,
-        at.earth,
-        rest.moving,
-        noise,
-        push(at.memory, sample, at.settings, at.h),
-        at.h,
-    )
-    return ca.Function(name, symbols, predicted(at, sample, rest, x, turned, noise), OPTIONS)
+    pushed = push(at.memory, sample, at.settings, at.h)
+    turn = (sample.rate, at.earth, rest.moving)
+    x, turned = marginal.propagate(rest.before, *turn, noise, pushed, at.h)
+    out = predicted(at, sample, rest, x, turned, noise)
+    if recorded:
+        _, own, leak = marginal.turned(rest.before, *turn, at.h)
+        set_back = rest.before.bias - at.memory.estimate.bias
+        out.append(Transition.of(own, leak, x, pushed, noise, set_back).pack())
+    return ca.Function(name, symbols, out, OPTIONS)
 
 
 # Updates

@@ -92,12 +92,17 @@ def bounded(covariance):
     variance: an angle that may be anything says nothing of the bias. The result is definite where
     ``covariance`` is.
     """
-    largest = LARGEST_STD**2
-    shrink = ca.vertcat(*[ca.fmin(1, largest / covariance[i, i]) for i in range(3)], ca.SX.ones(6))
-    refill = largest * (1 - shrink)
+    shrink = shrunk(covariance)
+    refill = LARGEST_STD**2 * (1 - shrink)
     return symmetric(
         WHOLE, lambda i, j: covariance[i, j] * shrink[i] * shrink[j] + (refill[i] if i == j else 0)
     )
+
+
+def shrunk(covariance):
+    """The factors (9,) by which ``bounded`` shrinks the errors."""
+    largest = LARGEST_STD**2
+    return ca.vertcat(*[ca.fmin(1, largest / covariance[i, i]) for i in range(3)], ca.SX.ones(6))
 
 
 def bounded_tilt(x: Estimate) -> Estimate:

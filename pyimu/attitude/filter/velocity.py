@@ -72,7 +72,7 @@ def pushed(before: Estimate, after: Estimate, own, leak, push: Push) -> Estimate
     g h [u] p with u the vertical and p the attitude error after the period, linearly.
     """
     up = quaternion.to_matrix(after.q)[2, :].T
-    tilting = -push.gravity * ca.skew(up)
+    tilting = tilted(up, push)
     vp, vb, vv = (before.covariance[6:, at] for at in (slice(0, 3), slice(3, 6), slice(6, 9)))
     turned = own @ vp
     carried, biased = turned @ own.T + (own @ vb) @ leak.T, own @ vb
@@ -91,6 +91,11 @@ def pushed(before: Estimate, after: Estimate, own, leak, push: Push) -> Estimate
 
     velocity = own @ before.velocity + push.change - push.gravity * up
     return Estimate(after.q, after.bias, velocity, symmetric(9, entry))
+
+
+def tilted(up, push: Push):
+    """The error (3, 3) of the velocity that a tilt makes in a period; ``up`` is the vertical."""
+    return -push.gravity * ca.skew(up)
 
 
 def least_std(at: Mapping[str, ca.SX]):

@@ -16,7 +16,8 @@ def contents(a: Outcome) -> dict[str, Any]:
     """The contents of report.json, in SI.
 
     ``name``, ``rows``, ``duration`` [s], ``sample_period`` [s], ``part`` (null without one),
-    ``left_in``, ``notes``; ``rest``: the ``duration`` [s] of the rest at the start, or null;
+    ``smoothed``, whether each row is estimated by all rows, ``left_in``, ``notes``; ``rest``: the
+    ``duration`` [s] of the rest at the start, or null;
     ``last``: {``time``, ``q``, ``euler``, ``gyro_bias``, ``std``, ``heading_std``};
     ``quasi_static`` and ``at_rest``: their shares of the samples; ``nis``: {``updates``, ``mean``,
     ``inside``, the share within ``bounds``}; ``status``: [{``bit``, ``text``, ``samples``,
@@ -33,6 +34,7 @@ def contents(a: Outcome) -> dict[str, Any]:
             "duration": a.duration,
             "sample_period": a.recording.sample_period,
             "part": a.part or None,
+            "smoothed": a.smoothed,
             "left_in": a.left_in,
             "notes": notes(a),
             "rest": a.rest.duration if a.rest is not None and a.rest.seen else None,

@@ -80,7 +80,7 @@ def _error(a: Outcome) -> dict[str, Any] | None:
     ]
     caption = (
         "Error against the reference, from the least to the largest of the samples that share a "
-        "column of the picture, and the root mean square that the filter claims of the inclination."
+        "column of the picture, and the root mean square that is claimed of the inclination."
     )
     return {
         "assumed": f"Over {len(a.error.time):,} rows: {ALIGNED}.",
@@ -95,8 +95,9 @@ def _picture(draw: Callable[[Outcome], str], a: Outcome, caption: str, alt: str)
 
 def _angles(a: Outcome) -> Picture:
     reference = " and that of the reference" if a.error is not None else ""
+    kind = "Smoothed attitude" if a.smoothed else "Attitude"
     caption = (
-        f"Attitude, body to world (east-north-up){reference}, without jumps by whole turns. The "
+        f"{kind}, body to world (east-north-up){reference}, without jumps by whole turns. The "
         "band is two standard deviations to either side, to first order, with the tilt's for both "
         "of its axes; it is large for roll and yaw where the nose points up or down."
     )
@@ -104,14 +105,18 @@ def _angles(a: Outcome) -> Picture:
 
 
 def _bias(a: Outcome) -> Picture:
-    caption = "Gyro bias, what remains of the compensated rate, and two standard deviations."
+    caption = (
+        f"{'Smoothed gyro' if a.smoothed else 'Gyro'} bias, what remains of the compensated rate, "
+        "and two standard deviations."
+    )
     return _picture(bias_picture, a, caption, "gyro bias over time")
 
 
 def _nis(a: Outcome) -> Picture:
     low, high = NIS_BOUNDS
     caption = (
-        f"Normalised innovation squared of gravity's updates on a quasi-static body ({FREEDOM}): "
+        f"Normalised innovation squared of gravity's updates on a quasi-static body ({FREEDOM})"
+        f"{', of the filter before it was smoothed' if a.smoothed else ''}: "
         f"95 % of them should lie between {low:.3g} and {high:.3g}. Lower, the accelerometer is "
         "better than the filter takes it for; higher, worse."
     )

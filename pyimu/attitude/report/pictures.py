@@ -220,7 +220,7 @@ def _band(panel: Axes, a: Outcome, values: np.ndarray, std: np.ndarray, colour: 
     panel.fill_between(
         at / second, low, high, color=colour, alpha=0.22, lw=0, label=f"± {WIDER:g} std"
     )
-    _line(panel, a, a.time, values, colour, "estimate")
+    _line(panel, a, a.time, values, colour, "smoothed" if a.smoothed else "estimate")
     least, most = values.min(), values.max()
     room = 1.1 * WIDER * np.percentile(std, SHOWN) + 0.05 * (most - least) + 1e-12
     panel.set_ylim(least - room, most + room)

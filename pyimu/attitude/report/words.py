@@ -14,6 +14,9 @@ ALIGNED = (
     "its first row"
 )
 
+SMOOTHED = "each sample is smoothed by all of the log, also by what follows it"
+"""Said of a smoothed attitude."""
+
 FREEDOM = "3 degrees of freedom, if accelerations are as accel_std"
 
 
@@ -22,15 +25,20 @@ def about(a: Outcome) -> str:
     seen = a.rest is not None and a.rest.seen
     start = f"{a.rest.duration:.1f} s at rest" if seen else "in motion"
     part = f"part {a.part}" if a.part else "no part, noise as in the log"
+    smoothed = "; smoothed" if a.smoothed else ""
     return (
         f"{len(a.time):,} samples, {a.duration:.1f} s at {a.recording.sample_rate:.4g} Hz, starts "
-        f"{start}; {part}"
+        f"{start}; {part}{smoothed}"
     )
 
 
 def notes(a: Outcome) -> list[str]:
     """What must be known before the figures are read."""
     found = []
+    if a.smoothed:
+        found.append(
+            f"{SMOOTHED}; quasi-static, NIS, status and rests are those of the filter before that"
+        )
     if a.left_in:
         found.append(f"left in, {NOT_UNDONE}: {joined(a.left_in)}")
     in_g = next((f for f in a.findings if f.kind == "force_in_g"), None)
