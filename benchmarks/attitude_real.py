@@ -74,7 +74,7 @@ def main() -> None:
     )
     for path in paths:
         log = pyimu.read_recording(path)
-        scored = np.isfinite(log.ref_q).all(axis=1) & _phase(log)
+        scored = np.isfinite(log.ref_q).all(axis=1) & moving_rows(log)
         ours = run(log)
         theirs = VQF(log.sample_period).updateBatch(
             np.ascontiguousarray(log.gyro), np.ascontiguousarray(log.accel)
@@ -103,7 +103,7 @@ def smoothed_table(paths: list[Path]) -> None:
     found = []
     for path in paths:
         log = pyimu.read_recording(path)
-        scored = np.isfinite(log.ref_q).all(axis=1) & _phase(log)
+        scored = np.isfinite(log.ref_q).all(axis=1) & moving_rows(log)
         ours = run(log, smooth=True)
         gyro, accel = (np.ascontiguousarray(v) for v in (log.gyro, log.accel))
         theirs = offlineVQF(gyro, accel, None, log.sample_period)["quat6D"]
@@ -121,7 +121,7 @@ def _smoothed_row(name: str, rms, claimed: str) -> None:
     print(f"{name:42s}{rms[0]:8.3f}{rms[1]:8.3f}{ratio:8.3f}{claimed:9s} {verdict(rms)}")
 
 
-def _phase(log) -> np.ndarray:
+def moving_rows(log) -> np.ndarray:
     if log.moving is not None:
         return log.moving > 0.5
     return (log.time > log.time[0] + SKIPPED) & (

@@ -12,6 +12,7 @@ from scipy.stats import chi2
 
 from pyimu.attitude.error import AttitudeError, error_against
 from pyimu.attitude.filter.variables import STATUS
+from pyimu.attitude.filters import OWN
 from pyimu.attitude.rest import Rest
 from pyimu.errors import Finding
 from pyimu.recording.quality.in_pieces import quality
@@ -45,9 +46,10 @@ class Outcome:
     (n,) bool; ``nis`` (n,) the normalised innovation squared of gravity, 0 without its update;
     ``status`` (n,) int, bits of ``pyimu.attitude.STATUS``; ``heading_std`` (n,) rad, of the
     attitude error about the vertical; ``at_rest`` (n,) bool. ``rest`` is the rest at the start.
-    ``parameters`` are the values by name with which the block ``AttitudeUkf`` gives the same.
-    ``part`` is the name of the part, empty without one; ``left_in`` what of its errors is not
-    undone. ``recording`` is what the filter ran over.
+    ``parameters`` are the values by name with which the filter's block gives the same. ``part`` is
+    the name of the part, empty without one; ``left_in`` what of its errors is not undone;
+    ``method`` the name of the filter (``pyimu.attitude.filters``). ``recording`` is what the filter
+    ran over.
 
     Where it is ``smoothed``, ``q``, ``gyro_bias``, ``std`` and ``heading_std`` are by all rows, not
     only by those up to each. ``quasi_static``, ``nis``, ``status`` and ``at_rest`` stay what the
@@ -70,6 +72,7 @@ class Outcome:
     parameters: Mapping[str, float] = field(default_factory=dict, repr=False)
     part: str = ""
     left_in: tuple[str, ...] = ()
+    method: str = OWN
     smoothed: bool = False
 
     @property

@@ -19,8 +19,9 @@ from pyimu.attitude.columns import (
     wandering,
 )
 from pyimu.attitude.filter.compensation import clock_error, left_in, noise_of
-from pyimu.attitude.filter.ukf import attitude_ukf, recorded_ukf
-from pyimu.attitude.filter.variables import LEAST_K, OWN_PARAMETERS
+from pyimu.attitude.filter.ukf import recorded_ukf
+from pyimu.attitude.filter.variables import LEAST_K
+from pyimu.attitude.filters import FILTERS, OWN, Settings, chosen
 from pyimu.attitude.input_grid import InputGrid
 from pyimu.attitude.outputs import filtered
 from pyimu.attitude.rest import find_rest
@@ -47,7 +48,7 @@ def run(
     heading0: float | None = None,
     bias0: np.ndarray | None = None,
     std0: np.ndarray | None = None,
-    settings: Mapping[str, float] | None = None,
+    settings: Settings = None,
     smooth: bool = False,
 ) -> AttitudeResult:
     """The attitude of a recording, by the filter of ``part``.
@@ -61,10 +62,12 @@ def run(
     and ``heading0`` in rad the yaw of the first sample, ``bias0`` (3,) the gyro bias in rad/s,
     ``std0`` (6,) the standard deviations of attitude in body axes in rad and of bias in rad/s. What
     is not given comes from the first seconds at rest; yaw from the first recorded heading, or it is
-    zero. ``settings`` are values of other parameters of the block, by name. A gap widens the
-    estimate, and the row after it has bit 1 of the status. Headings with an age in the recording's
-    column ``heading_age`` correct what the attitude was then. A clock of the gyro that the part
-    knows to be off is undone by its samples' times; the accelerometer's is taken for the same.
+    zero. ``settings`` are values of other parameters of the block by name, or a filter's name:
+    ``"hidalgo2012"`` is the one as published; as the value ``filter`` a name goes with others. A
+    gap widens the estimate, and the row after it has bit 1 of the status. Headings with an age in
+    the recording's column ``heading_age`` correct what the attitude was then. A clock of the gyro
+    that the part knows to be off is undone by its samples' times; the accelerometer's is taken for
+    the same.
 
     With ``smooth`` each row is estimated from the whole recording, also from the rows that follow
     (``pyimu.attitude.filter.smoother``): attitude, bias and all standard deviations are those of
@@ -84,10 +87,13 @@ def run(
     heading0 = None if heading0 is None else number("heading0", heading0)
     if q0 is not None and heading0 is not None:
         raise UserError("heading0 beside q0, which has a heading of its own: give one of the two")
-    gravity = (settings or {}).get("gravity", STANDARD_GRAVITY)
-    rest = find_rest(recording, number("gravity", gravity))
+    method, given = chosen(settings)
+    if smooth and method != OWN:
+        raise UserError(f"smooth with the filter {method}: only {OWN} can be smoothed")
+    gravity = number("gravity", given.get("gravity", STANDARD_GRAVITY))
+    rest = find_rest(recording, gravity or STANDARD_GRAVITY)
     known = nominal_part(recording, rest) if part is None else wandering(part_of(part))
-    block = attitude_ukf(known)
+    block = FILTERS[method](known)
 
     def turned(row: int) -> float:
         return _turned(recording, row, known, latitude, bias0, settings)
@@ -102,7 +108,8 @@ def run(
         values["heading_memory"] = oldest
     if part is None:
         values["rate_noise"] = NOMINAL_RATE_NOISE
-    p = _parameters(block, values | dict(settings or {}))
+    has = {v.name for v in block.parameters}
+    p = _parameters(block, {n: v for n, v in values.items() if n in has} | given)
     retiming = _retiming(recording, known, p)
     grid = InputGrid(recording, known, [v.name for v in block.inputs], retiming)
     steps = Run(block, grid.rows[-1] + 1, p=p, sample_period=recording.sample_period)
@@ -124,6 +131,7 @@ def run(
         parameters=parameters,
         part="" if part is None else known.name,
         left_in=left_in(known),
+        method=method,
         smoothed=smooth,
     )
 
@@ -162,7 +170,7 @@ def _numbered(name: str, values, size: int) -> dict[str, float]:
     return {f"{name}[{i + 1}]": float(v) for i, v in enumerate(array)}
 
 
-def _parameters(block: Block, values: Mapping[str, float]) -> np.ndarray:
+def _parameters(block: Block, values: Mapping[str, float | str]) -> np.ndarray:
     """The block's parameters with ``values`` by name.
 
     Raises UserError for an unknown name, and for a value outside its bounds.
@@ -192,7 +200,7 @@ def _bounded(variable: Variable, value) -> float:
 
 def _gyro_p(part: Part, p: np.ndarray) -> ca.SX:
     """The gyro's coefficients among the block's parameters."""
-    first = len(OWN_PARAMETERS)
+    first = len(p) - len(part.gyro.slots) - len(part.accel.slots)
     return ca.SX(ca.DM(p[first : first + len(part.gyro.slots)]))
 
 

@@ -164,6 +164,14 @@ def attitude_command(
             "or 0.",
         ),
     ] = None,
+    settings: Annotated[
+        str | None,
+        typer.Option(
+            "--settings",
+            help="Filter: ukf, the package's own, or hidalgo2012, as published.",
+            show_default="ukf",
+        ),
+    ] = None,
     smooth: Annotated[
         bool,
         typer.Option("--smooth", help="Estimate each sample by all of the log, not by its past."),
@@ -176,6 +184,7 @@ def attitude_command(
     with the errors of a part undone: when gravity was used and how well it fitted, what
     contradicted the estimate, and, where the log has a reference attitude, the error against it.
     """
+    from pyimu.attitude.filters import chosen
     from pyimu.attitude.run import run
     from pyimu.files import check_folder
     from pyimu.recording.log import read_recording
@@ -183,10 +192,12 @@ def attitude_command(
     at, heading = radians("--latitude", latitude, 90), radians("--heading0", heading0, 360)
     check_folder(out)
     add_effects(effects)
+    chosen(settings)
     with progress("reading") as say:
         recording = read_recording(log, columns)
         say("running the filter")
-        found = run(recording, part, latitude=at, heading0=heading, smooth=smooth)
+        chosen = {"settings": settings, "smooth": smooth}
+        found = run(recording, part, latitude=at, heading0=heading, **chosen)
         say("drawing the report")
         page = found.write(out)
     print(found.report())

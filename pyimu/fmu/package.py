@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from pyimu.attitude import attitude_ukf
+from pyimu.attitude.filters import FILTERS
 from pyimu.block.block import Block
 from pyimu.errors import UserError
 from pyimu.files import check_folder
@@ -16,7 +16,7 @@ from pyimu.model.part_file import part as find_part
 
 BLOCKS: dict[str, Callable[[Part], Block]] = {
     "sensor": lambda part: part.block,
-    "ukf": attitude_ukf,
+    **FILTERS,
 }
 """What ``--fmu`` names."""
 
@@ -30,9 +30,9 @@ def build(
 ) -> list[Path]:
     """Build the FMUs of a part into ``out``; gives their paths.
 
-    ``fmu`` names blocks ("sensor", "ukf"), ``fmi`` forms (2, 3, "block"), ``platform`` the machine
-    ("host", "all", or one by name). Raises UserError for an unknown name, a part that cannot be
-    read, a folder that cannot be made, or a missing compiler.
+    ``fmu`` names blocks ("sensor", "ukf", "hidalgo2012"), ``fmi`` forms (2, 3, "block"),
+    ``platform`` the machine ("host", "all", or one by name). Raises UserError for an unknown name,
+    a part that cannot be read, a folder that cannot be made, or a missing compiler.
     """
     unknown = [f for f in fmu if f not in BLOCKS]
     if unknown:

@@ -52,6 +52,24 @@ def cholesky(matrix):
     return lower
 
 
+def triangular(wide):
+    """Lower triangular L (n, n) with L L^T = A A^T for A = ``wide`` (n, m), m >= n.
+
+    The product A A^T, which squares the condition, is never formed: L is that of A = L Q with
+    orthogonal rows of Q, by modified Gram-Schmidt on the rows (Golub and Van Loan 2013, section
+    5.2.8, of A^T; L is as exact as by reflections).
+    """
+    size = wide.shape[0]
+    rows, lower = [wide[i, :] for i in range(size)], type(wide)(size, size)
+    for j in range(size):
+        lower[j, j] = ca.sqrt(ca.fmax(ca.sumsqr(rows[j]), FLOOR))
+        unit = rows[j] / lower[j, j]
+        for i in range(j + 1, size):
+            lower[i, j] = ca.dot(rows[i], unit)
+            rows[i] = rows[i] - lower[i, j] * unit
+    return lower
+
+
 def forward(lower, b):
     """L^-1 b for lower triangular L (n, n) and b (n, m)."""
     rows: list = []

@@ -35,7 +35,7 @@ def filter_block(
     initial = ca.Function("initial", [u, p], [state, shown], ["u", "p"], ["s", "y"])
     return Block(
         name=name,
-        description=f"{title} of the part {part.name}{_left_in(part)}",
+        description=f"{title} of the part {part.name}{left_in_words(part)}",
         step=step,
         initial=initial,
         inputs=layout.inputs,
@@ -46,7 +46,7 @@ def filter_block(
     )
 
 
-def _left_in(part: Part) -> str:
+def left_in_words(part: Part) -> str:
     """Which of the sensors' errors the filter leaves in, for the description."""
     left = left_in(part)
     return f"; {NOT_UNDONE}: {', '.join(left)}" if left else ""

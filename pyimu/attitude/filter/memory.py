@@ -117,7 +117,7 @@ def memory_sizes(compensation: Compensation) -> tuple[int, ...]:
 def start(compensation: Compensation, p) -> tuple[Estimate, ca.SX]:
     """The estimate before the first sample, from the parameters, and the whole state."""
     at = {v.name: p[i] for i, v in enumerate(OWN_PARAMETERS)}
-    estimate = _first_estimate(at)
+    estimate = first_estimate(at)
     least = least_std(at) ** 2
     held = [v for name in compensation.extra for v in SIGNALS[name].start]
     memory = Memory(
@@ -137,7 +137,7 @@ def start(compensation: Compensation, p) -> tuple[Estimate, ca.SX]:
     return estimate, ca.vertcat(Memory.pack_estimate(estimate), 0, memory.pack_memory(), rings)
 
 
-def _first_estimate(at: dict) -> Estimate:
+def first_estimate(at: dict) -> Estimate:
     """Attitude, bias and standard deviations of the parameters, within what the filter bears.
 
     ``q0`` without length stands for no rotation.

@@ -146,7 +146,7 @@ def added_noise(at: Instant, sample: Sample, moving):
     still, least = (h * settings.scalar["stationary_std"]) ** 2, LEAST_N**2 * h
     turned = ca.diag(noise[:3, :3]) + relative
     if sample.gyro_lost is not False:
-        lost = _lost_variance(at.memory.lost_for, sample.lost_for, settings)
+        lost = lost_variance(at.memory.lost_for, sample.lost_for, settings)
         turned = turned + ca.if_else(sample.gyro_lost, lost, 0)
     return (
         least + (1 - moving) * at.stationary * still + moving * turned,
@@ -155,7 +155,7 @@ def added_noise(at: Instant, sample: Sample, moving):
     )
 
 
-def _lost_variance(before, after, settings: Settings):
+def lost_variance(before, after, settings: Settings):
     """Growth in a sample of the variance (3,) rad^2 of the angle about an axis of unknown rate.
 
     Over a loss of duration T the unknown rate is one number of variance s^2: the variance of the

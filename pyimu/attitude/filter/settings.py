@@ -10,6 +10,7 @@ import numpy as np
 from pyimu.attitude.filter import marginal
 from pyimu.attitude.filter.compensation import Compensation, TriadNoise, noise_of, share_added
 from pyimu.attitude.filter.variables import OWN_PARAMETERS
+from pyimu.block.variables import Variable
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.earth import earth_rate
 
@@ -34,10 +35,12 @@ class Settings:
     accel: TriadNoise
 
     @classmethod
-    def of(cls, compensation: Compensation, p) -> Settings:
-        """From the block's parameters ``p`` as a column."""
-        part, own = compensation.part, len(OWN_PARAMETERS)
-        scalar = {v.name: p[i] for i, v in enumerate(OWN_PARAMETERS)}
+    def of(
+        cls, compensation: Compensation, p, names: tuple[Variable, ...] = OWN_PARAMETERS
+    ) -> Settings:
+        """From the block's parameters ``p`` as a column; ``names`` are the block's own."""
+        part, own = compensation.part, len(names)
+        scalar = {v.name: p[i] for i, v in enumerate(names)}
         gyro_p, accel_p = ca.vertsplit(p[own:], [0, len(part.gyro.slots), p.numel() - own])
         known = ca.fabs(scalar["latitude"]) <= np.pi / 2
         latitude = ca.if_else(known, scalar["latitude"], 0)

@@ -12,20 +12,36 @@ from collections.abc import Callable
 
 import casadi as ca
 
-from pyimu.attitude.filter import marginal
 from pyimu.attitude.filter.compensation import Compensation
 from pyimu.attitude.filter.filter_block import filter_block, step_function
 from pyimu.attitude.filter.gravity_update import INNOVATION_GATE, by_velocity, corrected, push
 from pyimu.attitude.filter.layout import GRAVITY, Flags, GravityMeasurement, Layout
 from pyimu.attitude.filter.memory import ESTIMATE, WORKING, Memory
-from pyimu.attitude.filter.prediction import ARGUMENTS, Instant, added_noise, predicted, rest_of
-from pyimu.attitude.filter.sample import look_closely
-from pyimu.attitude.filter.unscented import Estimate, N, correct, measure, sigma_points
+from pyimu.attitude.filter.prediction import (
+    ARGUMENTS,
+    Instant,
+    Rest,
+    added_noise,
+    predicted,
+    rest_of,
+)
+from pyimu.attitude.filter.sample import Sample, look_closely
+from pyimu.attitude.filter.unscented import (
+    SPREAD,
+    WHOLE,
+    Estimate,
+    N,
+    Sigma,
+    correct,
+    measure,
+    points_of,
+    sigma_points,
+)
 from pyimu.attitude.filter.updates import after_gravity, bounded_where_lost, finish, where
-from pyimu.attitude.filter.velocity import pushed
 from pyimu.block.block import Block
 from pyimu.model.part import Part
 from pyimu.symbolic import mrp, quaternion
+from pyimu.symbolic.linear import cholesky, symmetric
 
 
 def sigma_point_filter(part: Part) -> Block:
@@ -68,71 +84,103 @@ def _predict(layout: Layout) -> ca.Function:
     at = Instant.of(layout, symbols)
     sample = look_closely(layout.compensation, at.memory, at.u, at.settings, at.h)
     rest = rest_of(at, sample)
-    moving, noise = rest.moving, added_noise(at, sample, rest.moving)
-    before = rest.before
+    q, velocity, w, turned = deviations_after(at, sample, rest, cholesky(rest.before.covariance))
+    whole = symmetric(WHOLE, lambda i, j: ca.dot(w[i, :], w[j, :]))
+    x, noise = Estimate(q, rest.before.bias, velocity, whole), added_noise(at, sample, rest.moving)
+    outputs = predicted(at, sample, rest, x, turned, noise)
+    return ca.Function("predict", symbols, outputs, {"cse": True})
+
+
+def deviations_after(
+    at: Instant, sample: Sample, rest: Rest, root
+) -> tuple[ca.SX, ca.SX, ca.SX, ca.SX]:
+    """Attitude and velocity one sample later, W (9, 25) with the covariance W W^T, and the turn.
+
+    ``root`` (9, 9) is the Cholesky factor of the covariance before. Its first six columns are the
+    sigma points, in which attitude and bias take along what the velocity has in common with them;
+    what it has alone, the last three columns, is linear. The velocity's error turns with the body,
+    and a tilt adds to it -g h [u] p, u the vertical (``pyimu.attitude.filter.velocity``). Together
+    in one matrix they are definite however uncertain the attitude is. The turn (3, 3) is that in
+    inertial space, from old body axes to new.
+    """
+    before, change = rest.before, push(at.memory, sample, at.settings, at.h)
 
     def turn(rate, error):
-        return moving * (rate - quaternion.rotate(quaternion.conjugate(error), at.earth))
+        return rest.moving * (rate - quaternion.rotate(quaternion.conjugate(error), at.earth))
 
-    x = propagate(before, sample.rate, turn, _matrix(noise), at.h)
-    angle = at.h * turn(sample.rate - before.bias, ca.SX([1, 0, 0, 0]))
-    own = quaternion.to_matrix(quaternion.exponential(angle)).T
-    leak = -at.h * moving * marginal.mean_jacobian(angle, marginal.turn(angle)[1])
-    x = pushed(before, x, own, leak, push(at.memory, sample, at.settings, at.h))
-    in_inertial_space = quaternion.exponential(moving * (sample.rate - before.bias) * at.h)
-    turned = quaternion.to_matrix(in_inertial_space).T
-    return ca.Function(
-        "predict", symbols, predicted(at, sample, rest, x, turned, noise), {"cse": True}
+    sigma = points_of(root)
+    q, errors = turned_points(before, sigma, sample.rate, turn, at.h)
+    rate, up = sample.rate - before.bias, quaternion.to_matrix(q)[2, :].T
+    own, turned = (
+        quaternion.to_matrix(quaternion.exponential(r * at.h)).T
+        for r in (turn(rate, ca.SX([1, 0, 0, 0])), rest.moving * rate)
     )
+    tilting = -change.gravity * ca.skew(up)
+    moved = [own @ p[N:] + tilting @ e[:3] for p, e in zip(sigma.points, errors, strict=True)]
+    points = [ca.vertcat(e, v) for e, v in zip(errors, moved, strict=True)]
+    noise = _root_of(added_noise(at, sample, rest.moving))
+    alone = ca.horzcat(own @ root[N:, N:], ca.diag(ca.sqrt(change.variance)))
+    w = ca.horzcat(
+        *weighed(sigma, points),
+        ca.vertcat(noise, tilting @ noise[:3, :]),
+        ca.vertcat(ca.SX(N, 6), alone),
+    )
+    return q, own @ before.velocity + change.change - change.gravity * up, w, turned
 
 
-def _matrix(noise):
-    """The covariance (6, 6) of the noise that a sample adds, from its three diagonals."""
-    attitude, cross, bias = (ca.diag(v) for v in noise)
-    return ca.vertcat(ca.horzcat(attitude, cross), ca.horzcat(cross, bias))
+def weighed(sigma: Sigma, values: list) -> list:
+    """The values by the roots of their weights."""
+    return [w**0.5 * v for w, v in zip(sigma.weights, values, strict=True)]
 
 
-def propagate(x: Estimate, rate, turn: Callable, noise, h) -> Estimate:
+def _root_of(noise):
+    """The factor (6, 6) of the noise that a sample adds, from its three diagonals."""
+    attitude, cross, bias = noise
+    own = ca.sqrt(attitude)
+    shared = cross / own
+    upper = ca.horzcat(ca.diag(own), ca.SX(3, 3))
+    return ca.vertcat(upper, ca.horzcat(ca.diag(shared), ca.diag(ca.sqrt(bias - shared**2))))
+
+
+def propagate(x: Estimate, rate, turn: Callable, noise, h, spread=SPREAD) -> Estimate:
     """The estimate one sample period ``h`` s later, with the compensated rate (3,) rad/s.
 
     ``turn(rate, error)`` is the body's rate against the world for a rate less bias and an attitude
-    error (quaternion); ``noise`` (6, 6) is added. Every sigma point turns by its own rate; what is
-    left against the centre's turn is its new error (Crassidis and Markley 2003, eqs. 31 to 38).
+    error (quaternion); ``noise`` (6, 6) is added; ``spread`` is lambda. Every sigma point turns by
+    its own rate; what is left against the centre's turn is its new error (Crassidis and Markley
+    2003, eqs. 31 to 38).
     """
-    sigma = sigma_points(x.covariance[:N, :N])
+    sigma = sigma_points(x.covariance[:N, :N], spread)
+    q, deviations = turned_points(x, sigma, rate, turn, h)
+    return Estimate(q, x.bias, x.velocity, sigma.variance(deviations) + noise)
+
+
+def turned_points(x: Estimate, sigma: Sigma, rate, turn: Callable, h) -> tuple[ca.SX, list]:
+    """The attitude one sample period later, and the deviations (6,) of the sigma points from it.
+
+    The arguments are those of ``propagate``.
+    """
     centre = quaternion.exponential(turn(rate - x.bias, ca.SX([1, 0, 0, 0])) * h)
     errors = []
     for point in sigma.points:
         error = mrp.to_quaternion(point[:3])
-        own = quaternion.exponential(turn(rate - x.bias - point[3:], error) * h)
+        own = quaternion.exponential(turn(rate - x.bias - point[3:N], error) * h)
         left = quaternion.product(quaternion.conjugate(centre), quaternion.product(error, own))
-        errors.append(ca.vertcat(mrp.from_quaternion(left), point[3:]))
+        errors.append(ca.vertcat(mrp.from_quaternion(left), point[3:N]))
     mean = ca.vertcat(sigma.mean(errors)[:3], ca.SX(3, 1))
-    covariance = sigma.variance([e - mean for e in errors]) + noise
     q = quaternion.product(quaternion.product(x.q, centre), mrp.to_quaternion(mean[:3]))
-    return Estimate(quaternion.normalized(q), x.bias, x.velocity, covariance)
+    return quaternion.normalized(q), [e - mean for e in errors]
 
 
 # Gravity
 
 
 def _by_gravity() -> ca.Function:
-    """``x, gravity -> x``: the update by gravity in body axes, R_nb^T [0, 0, g].
-
-    Each sigma point turns gravity by its own attitude error.
-
-    The part of an error along the vertical does not change gravity: the error is taken as a tilt,
-    followed by a turn about the vertical.
-    """
+    """``x, gravity -> x``: the update by gravity in body axes, R_nb^T [0, 0, g]."""
     symbols = working, packed = [ca.SX.sym("x", WORKING), ca.SX.sym("gravity", GRAVITY)]
     x, given = Memory.attitude_of(working), GravityMeasurement.unpack(packed)
     up = quaternion.to_matrix(x.q)[2, :].T
-
-    def force(p):
-        tilt = mrp.to_quaternion(p - ca.dot(up, p) * up)
-        return given.magnitude * quaternion.rotate(quaternion.conjugate(tilt), up)
-
-    mean, variance, cross = measure(x, force)
+    mean, variance, cross = measure(x, gravity_seen(up, given.magnitude))
     after, nis, weight = correct(
         x,
         given.force - mean,
@@ -144,3 +192,17 @@ def _by_gravity() -> ca.Function:
     )
     out = corrected(working, given, after, nis, weight)
     return ca.Function("by_gravity", symbols, [out], {"cse": True})
+
+
+def gravity_seen(up, magnitude) -> Callable:
+    """Gravity in body axes as a sigma point's attitude error (3,) turns it.
+
+    The part of an error along the vertical, ``up`` (3,), does not change gravity: the error is
+    taken as a tilt, followed by a turn about the vertical.
+    """
+
+    def force(p):
+        tilt = mrp.to_quaternion(p - ca.dot(up, p) * up)
+        return magnitude * quaternion.rotate(quaternion.conjugate(tilt), up)
+
+    return force

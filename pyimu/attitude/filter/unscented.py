@@ -57,7 +57,7 @@ class Sigma:
     """The 13 sigma points as deviations (6,) from the mean, and their weights."""
 
     points: list[ca.SX]
-    weights: tuple[float, ...]
+    weights: tuple
 
     def mean(self, values: list):
         """Weighted mean of a value for each point."""
@@ -74,35 +74,42 @@ class Sigma:
         )
 
 
-def sigma_points(covariance) -> Sigma:
-    """The centre and the 12 columns of +-sqrt((n + lambda) P).
+def sigma_points(covariance, spread=SPREAD) -> Sigma:
+    """The centre and the 12 columns of +-sqrt((n + lambda) P); ``spread`` is lambda.
 
     Hidalgo 2012, section 4; Crassidis and Markley 2003, eq. 6.
     """
-    root = (N + SPREAD) ** 0.5 * cholesky(covariance)
+    return points_of(cholesky(covariance), spread)
+
+
+def points_of(factor, spread=SPREAD) -> Sigma:
+    """The sigma points along the first six columns of a Cholesky ``factor`` (n, n)."""
+    root = (N + spread) ** 0.5 * factor
     columns = [root[:, i] for i in range(N)]
-    centre, other = SPREAD / (N + SPREAD), 0.5 / (N + SPREAD)
-    return Sigma([ca.SX(N, 1), *columns, *[-c for c in columns]], (centre, *[other] * 2 * N))
+    centre, other = spread / (N + spread), 0.5 / (N + spread)
+    return Sigma(
+        [ca.SX(factor.shape[0], 1), *columns, *[-c for c in columns]], (centre, *[other] * 2 * N)
+    )
 
 
 def bounded(covariance):
-    """The covariance (9, 9) with the standard deviations of attitude at most ``LARGEST_STD``.
+    """The covariance (n, n) with the standard deviations of attitude at most ``LARGEST_STD``.
 
     An axis beyond is shrunk together with its correlations and filled up again with independent
     variance: an angle that may be anything says nothing of the bias. The result is definite where
     ``covariance`` is.
     """
-    shrink = shrunk(covariance)
+    shrink, size = shrunk(covariance), covariance.shape[0]
     refill = LARGEST_STD**2 * (1 - shrink)
     return symmetric(
-        WHOLE, lambda i, j: covariance[i, j] * shrink[i] * shrink[j] + (refill[i] if i == j else 0)
+        size, lambda i, j: covariance[i, j] * shrink[i] * shrink[j] + (refill[i] if i == j else 0)
     )
 
 
 def shrunk(covariance):
-    """The factors (9,) by which ``bounded`` shrinks the errors."""
-    largest = LARGEST_STD**2
-    return ca.vertcat(*[ca.fmin(1, largest / covariance[i, i]) for i in range(3)], ca.SX.ones(6))
+    """The factors (n,) by which ``bounded`` shrinks the errors."""
+    largest, kept = LARGEST_STD**2, ca.SX.ones(covariance.shape[0] - 3)
+    return ca.vertcat(*[ca.fmin(1, largest / covariance[i, i]) for i in range(3)], kept)
 
 
 def bounded_tilt(x: Estimate) -> Estimate:
@@ -126,15 +133,15 @@ def bounded_tilt(x: Estimate) -> Estimate:
     return replace(x, covariance=symmetric(WHOLE, lambda i, j: covariance[i, j]))
 
 
-def measure(x: Estimate, function: Callable):
+def measure(x: Estimate, function: Callable, spread=SPREAD):
     """Predicted measurement (m,), its covariance (m, m), and that with the error state (n, m).
 
     They are made by sigma points.
 
-    ``function(p)`` is the measurement for the attitude error ``p`` (3,). It tells of the velocity
-    what the velocity has in common with p.
+    ``function(p)`` is the measurement for the attitude error ``p`` (3,), ``spread`` lambda. It
+    tells of the velocity what the velocity has in common with p.
     """
-    sigma = sigma_points(x.covariance[:N, :N])
+    sigma = sigma_points(x.covariance[:N, :N], spread)
     values = [function(point[:3]) for point in sigma.points]
     mean = sigma.mean(values)
     deviations = [v - mean for v in values]
@@ -180,6 +187,12 @@ def correct(
     return replace(after, q=quaternion.normalized(after.q)), nis, weight
 
 
+def turned_axes(change, up):
+    """The turn (3, 3) of the estimated vertical by ``change`` (n,), from old body axes to new."""
+    turn = change[:3] - ca.dot(up, change[:3]) * up
+    return quaternion.to_matrix(mrp.to_quaternion(turn)).T
+
+
 def moved(x: Estimate, change, up) -> Estimate:
     """The estimate with ``change`` (n,) of its errors added.
 
@@ -190,8 +203,7 @@ def moved(x: Estimate, change, up) -> Estimate:
     uncertainty of a heading would lie askew by the correction of the tilt, and gravity would seem
     to reduce it. A turn about the vertical leaves tilt and bias in body axes as they are.
     """
-    turn = change[:3] - ca.dot(up, change[:3]) * up
-    axes = quaternion.to_matrix(mrp.to_quaternion(turn)).T
+    axes = turned_axes(change, up)
     half, cross = axes @ x.covariance[:3, :3], axes @ x.covariance[:3, 3:]
     own = {(i, j): ca.dot(half[i, :], axes[j, :]) for i in range(3) for j in range(i, 3)}
     size = x.covariance.shape[0]

@@ -16,14 +16,14 @@ def contents(a: Outcome) -> dict[str, Any]:
     """The contents of report.json, in SI.
 
     ``name``, ``rows``, ``duration`` [s], ``sample_period`` [s], ``part`` (null without one),
-    ``smoothed``, whether each row is estimated by all rows, ``left_in``, ``notes``; ``rest``: the
-    ``duration`` [s] of the rest at the start, or null;
+    ``filter``, its name, ``smoothed``, whether each row is estimated by all rows, ``left_in``,
+    ``notes``; ``rest``: the ``duration`` [s] of the rest at the start, or null;
     ``last``: {``time``, ``q``, ``euler``, ``gyro_bias``, ``std``, ``heading_std``};
     ``quasi_static`` and ``at_rest``: their shares of the samples; ``nis``: {``updates``, ``mean``,
     ``inside``, the share within ``bounds``}; ``status``: [{``bit``, ``text``, ``samples``,
     ``first`` and ``last`` [s]}]; ``error``: {``rows``, ``assumed``, ``inclination`` and ``total``:
     {``rms``, ``p95``, ``unit``}}, null without a reference; ``quality`` as in the report of ``pyimu
-    close``; ``parameters`` with which the unit AttitudeUkf gives the same. The estimates are in
+    close``; ``parameters`` with which the filter's unit gives the same. The estimates are in
     attitude.parquet.
     """
     nis = a.nis[a.updates]
@@ -34,6 +34,7 @@ def contents(a: Outcome) -> dict[str, Any]:
             "duration": a.duration,
             "sample_period": a.recording.sample_period,
             "part": a.part or None,
+            "filter": a.method,
             "smoothed": a.smoothed,
             "left_in": a.left_in,
             "notes": notes(a),

@@ -6,6 +6,7 @@ import numpy as np
 
 from pyimu.attitude.error import AttitudeError, root_mean_square
 from pyimu.attitude.filter.compensation import NOT_UNDONE
+from pyimu.attitude.filters import OWN, UNUSED
 from pyimu.attitude.outcome import NIS_BOUNDS, Outcome
 from pyimu.report.numbers import joined, number
 
@@ -25,6 +26,8 @@ def about(a: Outcome) -> str:
     seen = a.rest is not None and a.rest.seen
     start = f"{a.rest.duration:.1f} s at rest" if seen else "in motion"
     part = f"part {a.part}" if a.part else "no part, noise as in the log"
+    if a.method != OWN:
+        part = f"filter {a.method}, {part}"
     smoothed = "; smoothed" if a.smoothed else ""
     return (
         f"{len(a.time):,} samples, {a.duration:.1f} s at {a.recording.sample_rate:.4g} Hz, starts "
@@ -41,6 +44,9 @@ def notes(a: Outcome) -> list[str]:
         )
     if a.left_in:
         found.append(f"left in, {NOT_UNDONE}: {joined(a.left_in)}")
+    unused = [n for n in UNUSED.get(a.method, ()) if getattr(a.recording, n, None) is not None]
+    if unused:
+        found.append(f"the filter {a.method} uses no column {joined(unused)}")
     in_g = next((f for f in a.findings if f.kind == "force_in_g"), None)
     if in_g is not None:
         found.append(
