@@ -32,8 +32,8 @@ once in {longest:g} s, follows from its last two different values.
 
 "Invertible" says what compensation makes of an effect: its input again ("yes", of a noise effect
 with its noise zero), marks on the samples that say nothing of it ("no, marked"), or neither, so
-that what the effect did stays in ("no, left in"). An input that is NaN gives NaN; a memory keeps
-what it held.
+that what the effect did stays in ("no, left in"); of a delay, a lag and a clock the attitude filter
+undoes it by the samples' times. An input that is NaN gives NaN; a memory keeps what it held.
 
 """
 

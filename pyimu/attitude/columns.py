@@ -56,6 +56,49 @@ def wandering(part: Part) -> Part:
     return part.with_sensor(part.gyro.with_values(walk, **{strength: NOMINAL_K}))
 
 
+def informed(part: Part, recording: Recording) -> Part:
+    """The part as the filter takes it over a recording.
+
+    Where it says nothing of its gyro's wander it has the nominal one. The samples of a real sensor
+    also show where they pile up, at a level that the part does not say: beyond it no sample says
+    how far the body turned.
+    """
+    part = wandering(part)
+    if not of_a_sensor(part):
+        return part
+    effect, parameter = read_off(CATALOGUE.values(), "ceiling")
+    for sensor, values in ((part.gyro, recording.gyro), (part.accel, recording.accel)):
+        for seen in _clipped(values).values():
+            known = sensor.values.get(effect, {}).get(parameter, np.zeros(3))
+            limits = [np.where(v > 0, v, np.inf) for v in (known, seen[parameter])]
+            least = np.minimum(*limits)
+            limit = np.where(np.isfinite(least), least, 0.0)
+            part = part.with_sensor(sensor.with_values(effect, **{parameter: limit}))
+    return part
+
+
+def of_a_sensor(part: Part) -> bool:
+    """Whether somebody measured or quoted the figures of the part's gyro, or leaves them to data.
+
+    A part without sources is what a program made of it.
+    """
+    return bool(part.estimate) or any(kind == "gyro" for kind, *_ in part.notes)
+
+
+def rate_noise(part: Part | None) -> float:
+    """sqrt(s); the setting ``rate_noise`` for a part, or for an unknown one.
+
+    The part of a real sensor leaves out of the rate in motion as much as is left out without it:
+    how scale factors change with rate and temperature, axes, the sensor's timing. Chosen on
+    recordings 02, 11 and 26 of BROAD, whose parts by ``close`` have scale factors that differ by
+    0.3 % from the slow logs to the fast ones. It is not added where the part itself has such noise.
+    """
+    if part is None:
+        return NOMINAL_RATE_NOISE
+    known = any(e.law is not None and e.law.needs("x") for e in part.gyro.effects)
+    return NOMINAL_RATE_NOISE if of_a_sensor(part) and not known else 0.0
+
+
 def number(name: str, value) -> float:
     """``value`` as a float. Raises UserError where it is no finite number."""
     if isinstance(value, (int, float, np.number)) and np.isfinite(value):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -29,6 +29,23 @@ class AttitudeError:
     @property
     def rms(self) -> float:
         return root_mean_square(self.total)
+
+    def in_windows(self, span: float) -> AttitudeError:
+        """The same with heading set right at the first row of each ``span`` s.
+
+        A heading that nothing measures drifts with the bias, by chance: over minutes that is larger
+        than what the sensors' errors make of the attitude. The rotation is that about the vertical
+        and then the tilt: cos(total/2) = cos(heading/2) cos(inclination/2).
+        """
+        if not len(self.time):
+            return self
+        window = np.floor((self.time - self.time[0]) / span)
+        first = np.flatnonzero(np.diff(window, prepend=-1.0))
+        start = np.repeat(self.heading[first], np.diff([*first, len(window)]))
+        heading = self.heading - start
+        half = np.cos(heading / 2) * np.cos(self.inclination / 2)
+        total = 2 * np.arccos(np.clip(np.abs(half), 0, 1))
+        return replace(self, total=total, heading=heading)
 
     @property
     def is_lost(self) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 
 from pyimu.attitude.filter.hidalgo2012 import attitude_hidalgo2012
 from pyimu.attitude.filter.ukf import attitude_ukf
@@ -19,6 +20,11 @@ FILTERS: dict[str, Callable[[Part], Block]] = {
     "hidalgo2012": attitude_hidalgo2012,
 }
 """The package's own, and the one that Hidalgo 2012 published."""
+
+OF_LOGS: dict[str, Callable[[Part], Block]] = FILTERS | {
+    "ukf": partial(attitude_ukf, shows_now=False)
+}
+"""The same with the estimates of the instants at which the samples were taken."""
 
 OWN = "ukf"
 

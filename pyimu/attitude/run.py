@@ -11,17 +11,18 @@ import numpy as np
 
 from pyimu.attitude.alignment import Yaw, initial_values, initial_yaw
 from pyimu.attitude.columns import (
-    NOMINAL_RATE_NOISE,
+    informed,
     latitude_of,
     nominal_part,
     number,
+    rate_noise,
     recorded_age,
-    wandering,
 )
-from pyimu.attitude.filter.compensation import clock_error, left_in, noise_of
+from pyimu.attitude.filter.compensation import left_in, noise_of
+from pyimu.attitude.filter.timing import clock_error, latency
 from pyimu.attitude.filter.ukf import recorded_ukf
 from pyimu.attitude.filter.variables import LEAST_K
-from pyimu.attitude.filters import FILTERS, OWN, Settings, chosen
+from pyimu.attitude.filters import OF_LOGS, OWN, Settings, chosen
 from pyimu.attitude.input_grid import InputGrid
 from pyimu.attitude.outputs import filtered
 from pyimu.attitude.rest import find_rest
@@ -56,18 +57,18 @@ def run(
     ``recording`` is a ``Recording``, the path of a file, or a data frame; ``part`` a ``Part``, the
     name of one, or a TOML file.
 
-    Without a part, the filter knows of the sensors only their noise at rest; of a part that says
-    nothing of its gyro's wander, the nominal one is assumed. ``latitude`` in rad is
-    else the recording's; without either, no Earth rate is subtracted. ``q0`` (4,) is the attitude
-    and ``heading0`` in rad the yaw of the first sample, ``bias0`` (3,) the gyro bias in rad/s,
-    ``std0`` (6,) the standard deviations of attitude in body axes in rad and of bias in rad/s. What
-    is not given comes from the first seconds at rest; yaw from the first recorded heading, or it is
-    zero. ``settings`` are values of other parameters of the block by name, or a filter's name:
-    ``"hidalgo2012"`` is the one as published; as the value ``filter`` a name goes with others. A
-    gap widens the estimate, and the row after it has bit 1 of the status. Headings with an age in
-    the recording's column ``heading_age`` correct what the attitude was then. A clock of the gyro
-    that the part knows to be off is undone by its samples' times; the accelerometer's is taken for
-    the same.
+    Without a part, the filter knows of the sensors only their noise at rest; what a part is silent
+    of is assumed as without it (``pyimu.attitude.columns``: ``informed``, ``rate_noise``).
+    ``latitude`` in rad is else the recording's; without either, no Earth rate is subtracted. ``q0``
+    (4,) is the attitude and ``heading0`` in rad the yaw of the first sample, ``bias0`` (3,) the
+    gyro bias in rad/s, ``std0`` (6,) the standard deviations of attitude in body axes in rad and of
+    bias in rad/s. What is not given comes from the first seconds at rest; yaw from the first
+    recorded heading, or it is zero. ``settings`` are values of other parameters of the block by
+    name, or a filter's name: ``"hidalgo2012"`` is the one as published; as the value ``filter`` a
+    name goes with others. A gap widens the estimate, and the row after it has bit 1 of the status.
+    Headings with an age in the recording's column ``heading_age`` correct what the attitude was
+    then. A clock of the gyro that the part knows to be off, and a delay or a lag, are undone by its
+    samples' times; an accelerometer of which the part says no delay is taken to be as late.
 
     With ``smooth`` each row is estimated from the whole recording, also from the rows that follow
     (``pyimu.attitude.filter.smoother``): attitude, bias and all standard deviations are those of
@@ -92,8 +93,8 @@ def run(
         raise UserError(f"smooth with the filter {method}: only {OWN} can be smoothed")
     gravity = number("gravity", given.get("gravity", STANDARD_GRAVITY))
     rest = find_rest(recording, gravity or STANDARD_GRAVITY)
-    known = nominal_part(recording, rest) if part is None else wandering(part_of(part))
-    block = FILTERS[method](known)
+    known = nominal_part(recording, rest) if part is None else informed(part_of(part), recording)
+    block = OF_LOGS[method](known)
 
     def turned(row: int) -> float:
         return _turned(recording, row, known, latitude, bias0, settings)
@@ -104,10 +105,9 @@ def run(
     if getattr(recording, "stationary", None) is not None:
         values["rest_time"] = 0.0
     values |= _numbered("bias0", bias0, 3) | _numbered("std0", std0, 6)
+    values["rate_noise"] = rate_noise(None if part is None else known)
     if oldest := float(recorded_age(recording).max()):
         values["heading_memory"] = oldest
-    if part is None:
-        values["rate_noise"] = NOMINAL_RATE_NOISE
     has = {v.name for v in block.parameters}
     p = _parameters(block, {n: v for n, v in values.items() if n in has} | given)
     retiming = _retiming(recording, known, p)
@@ -130,7 +130,7 @@ def run(
         rest=rest,
         parameters=parameters,
         part="" if part is None else known.name,
-        left_in=left_in(known),
+        left_in=left_in(known, retimed=True),
         method=method,
         smoothed=smooth,
     )
@@ -205,9 +205,12 @@ def _gyro_p(part: Part, p: np.ndarray) -> ca.SX:
 
 
 def _retiming(recording: Recording, part: Part, p: np.ndarray) -> Retiming | None:
-    """How the gyro's samples lie in time; None where its clock is right."""
-    skew = float(ca.evalf(ca.SX(clock_error(part.gyro, _gyro_p(part, p)))))
-    return Retiming(recording.time, skew, recording.sample_period) if skew else None
+    """How the gyro's samples lie in time; None where they belong to their rows."""
+    own = _gyro_p(part, p)
+    skew, delay = (float(ca.evalf(ca.SX(f(part.gyro, own)))) for f in (clock_error, latency))
+    if not skew and not delay:
+        return None
+    return Retiming(recording.time, skew, recording.sample_period, delay)
 
 
 def _bias_walk(part: Part, p: np.ndarray) -> np.ndarray:

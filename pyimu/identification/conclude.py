@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from pyimu.attitude.error import AttitudeError
 from pyimu.identification.advice import advice
-from pyimu.identification.as_part import as_part, unexamined_left_out
+from pyimu.identification.as_part import as_part
 from pyimu.identification.confounds import what_no_log_tells_apart
 from pyimu.identification.declared import changed_noise, drifting, released
 from pyimu.identification.estimated import estimated
@@ -18,33 +18,32 @@ from pyimu.identification.exhibits import Exhibits, exhibits_of
 from pyimu.identification.fates import TAKEN_BACK, Fate, fates
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient
-from pyimu.identification.fit.trial import rest_noise
 from pyimu.identification.formula.formula import Formula
 from pyimu.identification.formula.search import Look
 from pyimu.identification.found import Added, Changed, LogEntry
 from pyimu.identification.heading_error import heading_rms
 from pyimu.identification.held_out import at_rest, attitudes, held_trials, scores
 from pyimu.identification.made_with import MadeWith
+from pyimu.identification.model_of import Found, Model, model_of
 from pyimu.identification.noise.named import Noise, noise_of
 from pyimu.identification.overview import Overview, overview
 from pyimu.identification.reference.gravity import few
 from pyimu.identification.reference.order import other_order
 from pyimu.identification.references import references
 from pyimu.identification.result import Closed
-from pyimu.identification.rounding import Rounding, rounding
 from pyimu.identification.search.belief import most
 from pyimu.identification.search.ceiling import is_ceiling
 from pyimu.identification.search.forward import Investigation, form_error, without
-from pyimu.identification.search.leftover import NoiseFigure, noise_figures
 from pyimu.identification.verdict import WORSE, Evidence, Verdict, unfit, verdict
 from pyimu.identification.visibility import visibility
-from pyimu.model.catalogue import CATALOGUE, POWER_ON, WALK, WHITE
+from pyimu.model.catalogue import CATALOGUE, WALK, WHITE
 from pyimu.model.effect import Effect
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
 from pyimu.recording.recording import Recording
 
-Found = dict[str, Investigation]
+CALIBRATION = ("scale_factor", "misalignment")
+"""Effects of the baseline that turn the gyro's rate into that of the body."""
 
 MORE_THAN_NOISE = "kinds of noise are told apart only where nothing else is left"
 AS_FORM = "what noise was found is no more than the form of an effect may leave"
@@ -240,39 +239,7 @@ def _exhibits(
     }
 
 
-# Models
-
-
-@dataclass(frozen=True)
-class Model:
-    """The part before and after what was found, and the rounding among that by kind of sensor."""
-
-    before: Part
-    after: Part
-    rounding: dict[str, Rounding]
-
-    def with_noise(self, noises: dict[str, Noise]) -> Model:
-        """With what was found to be random, by kind of sensor."""
-        after = self.after
-        for kind, noise in noises.items():
-            sensor = after.sensor(kind)
-            for effect, values in noise.values.items():
-                sensor = sensor.with_values(effect, **values)
-            after = after.with_sensor(sensor)
-        return replace(self, after=after)
-
-
-def model_of(start: Part, declared: Part | None, found: Found) -> Model:
-    """The model that investigations ``found`` of a part amount to."""
-    before = after = unexamined_left_out(start, declared, found)
-    rounded = {}
-    for kind, inv in found.items():
-        before = before.with_sensor(_finished(start, inv.before))
-        sensor, rounded[kind] = _finished(start, inv.after), rounding(kind, inv)
-        for a in rounded[kind].added:
-            sensor = sensor.with_values(a.effect, **{n: v for n, (v, _, _) in a.parameters.items()})
-        after = after.with_sensor(sensor)
-    return Model(before, after, rounded)
+# Attitude
 
 
 def settled(
@@ -295,11 +262,41 @@ def settled(
         was, now = (_pooled(e, kept) for e in (before, after))
         worst = _worst(new, inv, logs, kept, now) if now > WORSE * was else None
         if worst is None:
-            return found, model, (was, now), said
+            model, now, more = _less_calibration(model, declared, inv, logs, kept, now)
+            return found, model, (was, now), said + more
         name, error = worst
         degrees = [f"{np.degrees(v):.2f}" for v in (error, now)]
         reason = f"{TAKEN_BACK}, {degrees[0]} to {degrees[1]} deg"
         found = found | {"gyro": without(inv, name, reason)}
+
+
+def _less_calibration(
+    model: Model,
+    declared: Part | None,
+    inv: Investigation,
+    logs: list[Recording],
+    kept: list[str],
+    now: float,
+) -> tuple[Model, float, tuple[str, ...]]:
+    """The model less the scale factors and axes by which the attitude is worse than without them.
+
+    They are the baseline's, which nobody declared, and what a gyro that is not quite linear shows
+    at the speed of the fitted logs: at another one they may be further off than none. Gives the
+    error [rad] of the attitude that is left, too, and what is to be said.
+    """
+    names = [n for n in CALIBRATION if declared is None and n in model.after.gyro.values]
+    if not names:
+        return model, now, ()
+    bare = replace(model, after=model.after.with_sensor(model.after.gyro.without(*names)))
+    error = _pooled(attitudes(_as_filed(bare.after, declared), inv, logs), kept)
+    if WORSE * error >= now:
+        return model, now, ()
+    degrees = [f"{np.degrees(v):.2f}" for v in (now, error)]
+    said = (
+        f"the gyro's {' and '.join(n.replace('_', ' ') for n in names)} are left out of the model: "
+        f"the attitude is better without them, {degrees[0]} to {degrees[1]} deg"
+    )
+    return bare, error, (said,)
 
 
 def _as_filed(part: Part, declared: Part | None) -> Part:
@@ -344,24 +341,7 @@ def _lost(name: str, before: AttitudeError, after: AttitudeError) -> str:
     )
 
 
-def _finished(start: Part, fit: Fit) -> Sensor:
-    """The fitted sensor with the bias and the noise found, where they are left to the data."""
-    figures = noise_figures(fit)
-    if figures:
-        none = NoiseFigure(0, 0, 0, 0)
-        white = np.array([figures.get(i, none).N for i in range(3)])
-        walk = np.array([figures.get(i, none).K for i in range(3)])
-    else:
-        # A differentiated reference hides the sensor's own noise; its quiet rows show the white
-        # part only.
-        rest = np.mean([rest_noise(t) for t in fit.trials], axis=0)
-        white, walk = np.nan_to_num(rest) * np.sqrt(fit.trials[0].h), np.zeros(3)
-    bias = np.mean([fit.states[t.name].bias for t in fit.trials], axis=0)
-    sensor = fit.sensor
-    for (effect, parameter), value in ((POWER_ON, bias), (WHITE, white), (WALK, walk)):
-        if (sensor.kind, effect, parameter) in start.estimate:
-            sensor = sensor.with_values(effect, **{parameter: value})
-    return sensor
+# Effects that were added
 
 
 def _added(kind: str, sensor: Sensor, inv: Investigation) -> list[Added]:

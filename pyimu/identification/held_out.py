@@ -14,7 +14,7 @@ from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.keys import LogClock
 from pyimu.identification.fit.left_out import as_measured, left_out
 from pyimu.identification.fit.noise_floor import floor_noise, reference_variance
-from pyimu.identification.fit.score import ErrorSums, floor, held_state, tally
+from pyimu.identification.fit.score import WINDOW, ErrorSums, floor, held_state, tally
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.identification.found import AtRest, Errors, LogEntry
@@ -179,7 +179,10 @@ def _reference(trial: Trial) -> dict[str, Any]:
 def attitudes(
     part: Part, inv: Investigation | None, logs: list[Recording]
 ) -> dict[str, AttitudeError]:
-    """Errors of the attitude filter with a part by log, on held-out rows that ``ref_q`` covers."""
+    """Errors of the attitude filter with a part by log, on held-out rows that ``ref_q`` covers.
+
+    Without recorded headings that of each ``WINDOW`` s begins anew.
+    """
     found = {}
     for r in logs if inv is not None else ():
         held = next((t for t in inv.held if t.name == r.name), None)
@@ -188,5 +191,6 @@ def attitudes(
         mounting = np.array(log_state(inv, r.name)["rotation"])
         first = int(np.searchsorted(r.time, held.time[0]))
         error = attitude_error(r, part, mounting, first, clock_of(inv, r.name))
+        error = error if r.heading is not None else error.in_windows(WINDOW)
         found |= {r.name: error} if len(error.total) else {}
     return found

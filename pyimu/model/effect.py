@@ -82,11 +82,12 @@ class Effect:
     effects of one ``family`` are forms of one error: a model has one of them, that for which the
     data speak. No log tells an effect from its ``confound``, which is said beside
     it wherever it is named (of ``mounting`` only where the reference's axes are not known).
-    ``delay(**parameters)`` is the delay [s] by which an effect
-    holds slow input back, ``clock(**parameters)`` the relative error of the sensor's clock: both
-    say when a sample was taken, not what it holds. ``symptom`` says what a sensor does that has the
-    effect ("clips"), and ``phrase`` how the effect is said before its coefficient ("saturation
-    at").
+    ``grows`` is True where the inverse, solved sample by sample, feeds on what it restored before
+    and can grow without bound: the attitude filter then solves it in rounds.
+    ``delay(**parameters)`` is the delay [s] by which an effect holds slow input back,
+    ``clock(**parameters)`` the relative error of the sensor's clock: both say when a sample was
+    taken, not what it holds. ``symptom`` says what a sensor does that has the effect ("clips"), and
+    ``phrase`` how the effect is said before its coefficient ("saturation at").
     """
 
     name: str
@@ -100,6 +101,7 @@ class Effect:
     invertible: bool
     lost: Callable[..., Any] | None
     restore: Callable[..., Any] | None
+    grows: bool
     limits: Mapping[str, Callable[..., Any]]
     law: Law | None
     per_power_on: bool
@@ -182,6 +184,7 @@ def effect(
     invertible: bool = True,
     lost: Callable | None = None,
     restore: Callable | None = None,
+    grows: bool = False,
     limits: Mapping[str, Callable] = MappingProxyType({}),
     law: Law | None = None,
     per_power_on: bool = False,
@@ -220,6 +223,7 @@ def effect(
             invertible=invertible,
             lost=lost,
             restore=restore,
+            grows=grows,
             limits=MappingProxyType(dict(limits)),
             law=law,
             per_power_on=per_power_on,

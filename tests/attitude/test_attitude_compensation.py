@@ -24,8 +24,7 @@ UNDONE = [
     if not CATALOGUE[name].stochastic and CATALOGUE[name].invertible and name not in WORLD_ALONE
 ]
 SMALL = {"angular_acceleration": 0.005}
-"""Shares for effects whose inverse is unstable where they are larger: beyond half a sample of
-delay."""
+"""Shares for effects that are undone in rounds, which leave the fourth power of their size."""
 
 
 @pytest.fixture(scope="module")
@@ -94,7 +93,6 @@ def test_rounding_counts_as_white_noise_and_what_is_not_undone_is_said():
         {
             "angle_random_walk": {"N": 1e-3},
             "quantization": {"q": 0.02},
-            "lag": {"wn": 60.0, "zeta": 0.7},
         },
     )
     noise = noise_of(sensor, ca.SX(ca.DM(sensor.p)), H)
@@ -112,7 +110,9 @@ def test_rounding_counts_as_white_noise_and_what_is_not_undone_is_said():
         for b in blocks
     ]
     np.testing.assert_allclose(grown[0] - grown[1], 0.02**2 * H / 12 * 200 * H, rtol=1e-3)
-    assert "lag of the gyro" in blocks[0].description and "lag" not in blocks[1].description
+    assert "quantization of the gyro" in blocks[0].description
+    assert "quantization" not in blocks[1].description
+    assert "lag" not in attitude_ukf(part_of("gyro", excited("lag", "gyro"))).description
 
 
 def test_filter_of_a_part_with_every_effect_at_once_stays_finite(world):

@@ -7,12 +7,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import casadi as ca
+import numpy as np
 
+from pyimu.attitude.filter.timing import coefficients, latency, own_coefficients, timed, untimed
 from pyimu.attitude.filter.variables import EXTRA_INPUTS
 from pyimu.block.variables import Variable
+from pyimu.model.effect import Effect
+from pyimu.model.kinds import KINDS
 from pyimu.model.part import Part, input_variables
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import SIGNALS, Derived, vector
+from pyimu.symbolic import quaternion
 
 TRUE = ("rate", "specific_force")
 """What gyro and accelerometer measure."""
@@ -24,14 +29,32 @@ NEWTON = 2
 """Steps by which rate and force are found where the errors depend on signals that are made of them;
 one step is exact where the errors are affine in rate and force."""
 
+ROUNDS = 3
+"""Rounds in which effects of differences are undone: what is left is the fourth power of their
+share."""
+
+RATES = 6
+"""Numbers that the memory has of late samples: the rate, and its mean."""
+
+SHORT = 1e-9
+"""s; what is not late by more is not late."""
+
 NOT_UNDONE = "not undone, and in no standard deviation but that of rounding"
 """What is said of the errors that the filter leaves in."""
 
 
-def left_in(part: Part) -> tuple[str, ...]:
-    """The errors of a part that its filter leaves in, as ``time_delay of the gyro``."""
-    sensors = (part.gyro, part.accel)
-    return tuple(f"{name} of the {s.kind}" for s in sensors for name in s.left_in)
+def left_in(part: Part, retimed: bool = False, delayed: bool = False) -> tuple[str, ...]:
+    """The errors of a part that its filter leaves in, as ``quantization of the gyro``.
+
+    A delay or a lag is among them only where the estimate stays ``delayed``. The error of a clock
+    is none where samples are ``retimed``.
+    """
+    left = []
+    for s in (part.gyro, part.accel):
+        late = {e.name for e in (() if delayed else timed(s))}
+        late |= {e.name for e in s.effects if retimed and e.clock}
+        left += [f"{name} of the {s.kind}" for name in s.left_in if name not in late]
+    return tuple(left)
 
 
 # Compensation
@@ -44,16 +67,43 @@ class Compensation:
     """
 
     part: Part
+    now: bool = True
+
+    @property
+    def shows_now(self) -> bool:
+        """Whether the estimate is of earlier than now, and what is shown of it shall not be."""
+        return self.now and bool(timed(self.part.gyro))
+
+    @property
+    def gyro(self) -> Sensor:
+        """The part's gyro less what counts as a delay."""
+        return untimed(self.part.gyro)
+
+    @property
+    def accel(self) -> Sensor:
+        """The part's accelerometer less what counts as a delay."""
+        return untimed(self.part.accel)
 
     @property
     def signals(self) -> frozenset[str]:
         """Names in ``SIGNALS`` of what it needs beside what the sensors measure."""
-        return needed_signals(self.part.gyro) | needed_signals(self.part.accel)
+        return needed_signals(self.gyro) | needed_signals(self.accel)
+
+    @property
+    def late(self) -> bool:
+        """Whether the samples of a sensor are late."""
+        return bool(timed(self.part.gyro) or timed(self.part.accel))
 
     @property
     def derived(self) -> Derived:
         """The signals on which effects depend and that are made from the inputs."""
-        return Derived.of(self.signals)
+        return Derived.of(self.signals - {*self.slopes.names})
+
+    @property
+    def slopes(self) -> Derived:
+        """Of these the differences that are taken in rounds."""
+        growing = (s for s in (self.gyro, self.accel) if any(_grows(e, s.kind) for e in s.effects))
+        return Derived.of(KINDS[s.kind].own_rate for s in growing)
 
     @property
     def extra(self) -> tuple[str, ...]:
@@ -67,25 +117,31 @@ class Compensation:
 
     @property
     def implicit(self) -> bool:
-        """Whether the errors depend on what is only known without them: on a signal that is made of
-        rate or force, or those of each sensor on the input of the other.
+        """Whether the errors depend on what is only known without them, slopes apart: on a signal
+        that is made of rate or force, or those of each sensor on the input of the other.
         """
-        course = {of for name in self.signals for of in SIGNALS[name].of} & {
-            "rate",
-            "specific_force",
-        }
+        course = {of for name in self.derived.names for of in SIGNALS[name].of} & {*TRUE}
         return bool(course) or (
-            "rate" in needed_signals(self.part.accel)
-            and "specific_force" in needed_signals(self.part.gyro)
+            "rate" in needed_signals(self.accel) and "specific_force" in needed_signals(self.gyro)
+        )
+
+    @property
+    def sizes(self) -> tuple[int, ...]:
+        """Numbers of the memory: derived signals, slopes, gyro, accelerometer, rates."""
+        return (
+            self.derived.size,
+            ROUNDS * self.slopes.size,
+            len(self.gyro.chain.start),
+            len(self.accel.chain.start),
+            RATES * self.late,
         )
 
     @property
     def start(self) -> list[float]:
         """The memory before the first sample; empty where none is needed."""
-        return [0.0] * self.derived.size + [
-            *self.part.gyro.chain.start,
-            *self.part.accel.chain.start,
-        ]
+        derived, slopes, *_, rates = self.sizes
+        sensors = [*self.gyro.chain.start, *self.accel.chain.start]
+        return [0.0] * (derived + slopes) + sensors + [0.0] * rates
 
     def apply(self, memory, measured: dict, gyro_p, accel_p, h):
         """The memory after the sample, rate and force (3,) without the sensors' errors, and marks
@@ -93,47 +149,84 @@ class Compensation:
 
         ``measured`` has ``rate`` and ``specific_force`` (3,) as measured, and of the other signals
         what is known: the attitude is the filter's own; the velocity is not known and taken as
-        zero.
+        zero. All are of the gyro's instant, which is ``latency`` ago.
+
+        The ``slopes`` are those of what the round before restored: what feeds on its own past can
+        grow from sample to sample, as the inverse of y = x + c dx/dt does where c < -h/2, and this
+        cannot. Each round leaves the error of the one before times the effect's share.
         """
+        derived, slopes, gyro, accel, rates = ca.vertsplit(
+            memory, [0, *np.cumsum(self.sizes).tolist()]
+        )
+        p = (
+            own_coefficients(self.part.gyro, self.gyro, gyro_p),
+            own_coefficients(self.part.accel, self.accel, accel_p),
+        )
+        true, kept = {n: measured[n] for n in TRUE}, []
+        size = self.slopes.size
+        for before in ca.vertsplit(slopes, size) if size else [slopes]:
+            after, slope = self.slopes.advance(before, true, h)
+            found = self._round((derived, gyro, accel), measured | slope, true, p, h)
+            true = dict(zip(TRUE, found[3:5], strict=True))
+            kept.append(after)
+        rate, force = true.values()
+        if self.late:
+            rates = self._followed(rates, rate, gyro_p, h)
+            force = self._at_the_gyros_instant(force, rate, gyro_p, accel_p)
+        memory = ca.vertcat(found[0], *kept, found[1], found[2], rates)
+        return memory, rate, force, *found[5:]
+
+    def _round(self, memory: tuple, measured: dict, true: dict, p: tuple, h) -> tuple:
+        """``_undone`` from the ``true`` rate and force of the round before."""
 
         def undone(true: dict):
-            return self._undone(memory, measured, true, gyro_p, accel_p, h)
+            return self._undone(memory, measured, true, p, h)
 
-        true = {n: measured[n] for n in TRUE}
         if self.implicit:
             true = _solved(
-                lambda z: undone(dict(zip(TRUE, ca.vertsplit(z, 3), strict=True)))[1:3],
+                lambda z: undone(dict(zip(TRUE, ca.vertsplit(z, 3), strict=True)))[3:5],
                 ca.vertcat(*true.values()),
             )
         return undone(true)
 
-    def _undone(self, memory, measured: dict, true: dict, gyro_p, accel_p, h):
-        """The same as ``apply``, where the signals on which errors depend follow from the ``true``
-        rate and force, as far as they are not found on the way.
+    def _undone(self, memory: tuple, measured: dict, true: dict, p: tuple, h) -> tuple:
+        """The memory of derived signals, gyro and accelerometer after the sample, and the rest as
+        of ``apply``, where the signals on which errors depend follow from the ``true`` rate and
+        force, as far as they are not found on the way.
 
         That sensor goes first on whose input the errors of the other depend.
         """
-        gyro, accel = self.part.gyro, self.part.accel
-        size, of_gyro = self.derived.size, self.derived.size + len(gyro.chain.start)
-        before, gyro_state, accel_state = ca.vertsplit(memory, [0, size, of_gyro, memory.numel()])
+        before, gyro_state, accel_state = memory
         unknown = ("attitude", "latitude", "velocity", *EXTRA_INPUTS)
         at = {n: ca.DM(SIGNALS[n].start) for n in unknown} | measured | true
         after, made = self.derived.advance(before, at, h)
         at |= self._where_known(made, measured)
         ways = {
-            "rate": (gyro, gyro_state, gyro_p),
-            "specific_force": (accel, accel_state, accel_p),
+            "rate": (self.gyro, gyro_state, p[0]),
+            "specific_force": (self.accel, accel_state, p[1]),
         }
         out = {}
-        for name in TRUE if "rate" in needed_signals(accel) else reversed(TRUE):
-            sensor, state, p = ways[name]
-            out[name] = sensor.compensation(state, measured[name], vector(at), p, h)
+        for name in TRUE if "rate" in needed_signals(self.accel) else reversed(TRUE):
+            sensor, state, own = ways[name]
+            out[name] = sensor.compensation(state, measured[name], vector(at), own, h)
             at = at | {name: out[name][1]}
         (gyro_after, rate, gyro_lost), (accel_after, force, accel_lost) = (out[n] for n in TRUE)
-        # casadi makes a row of nothing out of a slice of one number, and counts it when it is
-        # stacked.
-        kept = ca.vertcat(after[:size], gyro_after, accel_after)
-        return kept, rate, force, gyro_lost, accel_lost
+        return after, gyro_after, accel_after, rate, force, gyro_lost, accel_lost
+
+    def _followed(self, rates, rate, gyro_p, h):
+        """The compensated ``rate`` and its mean over about the gyro's delay, as a column (6,)."""
+        mean, delay = rates[3:], latency(self.part.gyro, gyro_p)
+        return ca.vertcat(rate, mean - ca.expm1(-h / ca.fmax(delay, SHORT)) * (rate - mean))
+
+    def _at_the_gyros_instant(self, force, rate, gyro_p, accel_p):
+        """The force in the body's axes as they were when the gyro's sample was taken.
+
+        An accelerometer of which nothing is known to be late is as late as the gyro beside it.
+        """
+        if not timed(self.part.accel):
+            return force
+        older = latency(self.part.accel, accel_p) - latency(self.part.gyro, gyro_p)
+        return quaternion.rotate(quaternion.conjugate(quaternion.exponential(older * rate)), force)
 
     @staticmethod
     def _where_known(made: dict, measured: dict) -> dict:
@@ -158,6 +251,11 @@ def _solved(undone, start) -> dict:
     return dict(zip(TRUE, ca.vertsplit(start, 3), strict=True))
 
 
+def _grows(effect: Effect, kind: str) -> bool:
+    """Whether the inverse of an effect on this kind of sensor may grow from sample to sample."""
+    return effect.grows and effect.invertible and KINDS[kind].own_rate in effect.signals(kind)
+
+
 # Noise
 
 
@@ -172,22 +270,6 @@ class TriadNoise:
     white: ca.SX
     walk: ca.SX
     relative: ca.SX
-
-
-def coefficients(sensor: Sensor, p, effect: str) -> dict[str, ca.SX]:
-    """The coefficients of an effect out of the sensor's parameters ``p``, each as a column."""
-    found: dict[str, list] = {}
-    for i, slot in enumerate(sensor.slots):
-        if slot.effect == effect:
-            found.setdefault(slot.parameter, []).append(p[i])
-    return {name: ca.vertcat(*values) for name, values in found.items()}
-
-
-def clock_error(sensor: Sensor, p):
-    """The relative error of a sensor's clock: its sample k was taken (1 + it) k periods after the
-    start. 0 where no effect has one.
-    """
-    return sum(e.clock(**coefficients(sensor, p, e.name)) for e in sensor.effects if e.clock)
 
 
 def share_added(sensor: Sensor, p, signal: str):

@@ -5,9 +5,10 @@ from __future__ import annotations
 import casadi as ca
 
 from pyimu.attitude.filter import late_heading
+from pyimu.attitude.filter.ahead import headings_of_the_sample, shown_now
 from pyimu.attitude.filter.compensation import NOT_UNDONE, left_in
 from pyimu.attitude.filter.layout import Layout
-from pyimu.attitude.filter.memory import start
+from pyimu.attitude.filter.memory import ESTIMATE, start
 from pyimu.attitude.filter.updates import outputs
 from pyimu.attitude.filter.variables import OUTPUTS
 from pyimu.block.block import Block
@@ -46,10 +47,21 @@ def filter_block(
     )
 
 
-def left_in_words(part: Part) -> str:
-    """Which of the sensors' errors the filter leaves in, for the description."""
-    left = left_in(part)
+def left_in_words(part: Part, delayed: bool = False) -> str:
+    """Which of the sensors' errors the filter leaves in, for the description.
+
+    Delays are among them where the outputs are ``delayed``.
+    """
+    left = left_in(part, delayed=delayed)
     return f"; {NOT_UNDONE}: {', '.join(left)}" if left else ""
+
+
+def inputs_of_the_sample(layout: Layout, symbols: list[ca.MX]) -> ca.MX:
+    """The inputs as they were when the gyro's sample was taken; ``symbols`` are s, u, p and h."""
+    s, u, p, _ = symbols
+    if not layout.compensation.shows_now:
+        return u
+    return headings_of_the_sample(layout)(s[:ESTIMATE], s[ESTIMATE : layout.rings], u, p)
 
 
 def step_function(layout: Layout, symbols: list[ca.MX], estimate, memory, yaw, y) -> ca.Function:
@@ -59,6 +71,8 @@ def step_function(layout: Layout, symbols: list[ca.MX], estimate, memory, yaw, y
     ``yaw`` and its variance about the vertical take their slot in the rings.
     """
     s, u, p, h = symbols
+    if layout.compensation.shows_now:
+        y = shown_now(layout)(estimate, memory, y, p, h)
     vertical_noise, slot = memory[-3], memory[-2]
     rings = s[layout.rings :]
     rings.nz[slot + ca.DM([0, late_heading.SLOTS])] = ca.vertcat(yaw, vertical_noise)

@@ -48,7 +48,7 @@ from math import pi
 
 import casadi as ca
 
-from pyimu.attitude.filter.compensation import Compensation, clock_error
+from pyimu.attitude.filter.compensation import Compensation
 from pyimu.attitude.filter.filter_block import left_in_words
 from pyimu.attitude.filter.hidalgo2012_state import (
     ESTIMATE,
@@ -64,6 +64,7 @@ from pyimu.attitude.filter.quasi_static import follow
 from pyimu.attitude.filter.sample import Sample, look_closely
 from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.sigma_point_filter import propagate
+from pyimu.attitude.filter.timing import clock_error
 from pyimu.attitude.filter.unscented import Estimate, N, bounded, measure
 from pyimu.attitude.filter.updates import outputs, where
 from pyimu.attitude.filter.variables import INPUTS, LEAST_ACCEL_STD, LEAST_K, LEAST_N, OUTPUTS
@@ -85,9 +86,10 @@ def attitude_hidalgo2012(part: Part) -> Block:
 
     The part has ``gyro`` and ``accel`` (``Sensor``) and ``sample_rate`` in Hz. Its inputs are
     ``gyro``, ``accel``, ``temperature``, and what else the part's errors depend on; its outputs are
-    those of ``AttitudeUkf``.
+    those of ``AttitudeUkf``, at
+    the instant at which a gyro that is late took its sample.
     """
-    layout = Layout(Compensation(part))
+    layout = Layout(Compensation(part, now=False))
     p = ca.SX.sym("p", len(layout.parameters))
     first = layout.start(p)
     shown = outputs(first.estimate, 0, 0, 0, 0)
@@ -96,7 +98,7 @@ def attitude_hidalgo2012(part: Part) -> Block:
         name="AttitudeHidalgo2012",
         description=(
             f"Unscented attitude filter as of Hidalgo 2012 of the part {part.name}"
-            f"{left_in_words(part)}"
+            f"{left_in_words(part, delayed=True)}"
         ),
         step=_step(layout),
         initial=ca.Function("initial", [u, p], [first.pack(), shown], ["u", "p"], ["s", "y"]),

@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 import casadi as ca
 
 from pyimu.attitude.filter import late_heading
-from pyimu.attitude.filter.compensation import clock_error
 from pyimu.attitude.filter.gravity_update import (
     Inclination,
     inclination,
@@ -28,6 +27,7 @@ from pyimu.attitude.filter.stillness import (
     sway,
 )
 from pyimu.attitude.filter.stillness import followed as still_followed
+from pyimu.attitude.filter.timing import clock_error
 from pyimu.attitude.filter.unscented import LARGEST_STD, LARGEST_TILT_STD, Estimate
 from pyimu.attitude.filter.variables import INPUTS, LEAST_K, LEAST_N
 from pyimu.attitude.filter.velocity import followed, least_std

@@ -13,7 +13,11 @@ from collections.abc import Callable
 import casadi as ca
 
 from pyimu.attitude.filter.compensation import Compensation
-from pyimu.attitude.filter.filter_block import filter_block, step_function
+from pyimu.attitude.filter.filter_block import (
+    filter_block,
+    inputs_of_the_sample,
+    step_function,
+)
 from pyimu.attitude.filter.gravity_update import INNOVATION_GATE, by_velocity, corrected, push
 from pyimu.attitude.filter.layout import GRAVITY, Flags, GravityMeasurement, Layout
 from pyimu.attitude.filter.memory import ESTIMATE, WORKING, Memory
@@ -58,7 +62,8 @@ def sigma_point_filter(part: Part) -> Block:
 
 def _step(layout: Layout) -> ca.Function:
     """Check each sample number by number, predict, and correct by what its flags ask for."""
-    s, u, p, h = symbols = layout.symbols(ca.MX, "s u p h")
+    s, _, p, h = symbols = layout.symbols(ca.MX, "s u p h")
+    u = inputs_of_the_sample(layout, symbols)
     x, memory, rate, gravity, packed = _predict(layout)(
         s[:ESTIMATE], s[ESTIMATE : layout.rings], u, p, h
     )

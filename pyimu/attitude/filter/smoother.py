@@ -42,7 +42,7 @@ from pyimu.attitude.filter.memory import Memory
 from pyimu.attitude.filter.passed import PACKED, PASSED, Passed
 from pyimu.attitude.filter.unscented import WHOLE, Estimate, N, bounded, moved, shrunk
 from pyimu.attitude.filter.updates import outputs, where
-from pyimu.attitude.filter.variables import OUTPUTS
+from pyimu.attitude.filter.variables import FOUND, OUTPUTS
 from pyimu.block.block import Block
 from pyimu.symbolic import mrp, quaternion
 from pyimu.symbolic.linear import pack, symmetric, unpack
@@ -54,11 +54,6 @@ OPTIONS = {"cse": True}
 
 TURNING, BIAS = list(range(N)), list(range(3, N))
 """Which errors are those of attitude and bias, and of the bias alone."""
-
-FOUND = [
-    [v.name for v in OUTPUTS].index(name) for name in ("quasi_static", "nis", "status", "at_rest")
-]
-"""Which of the outputs stay what the filter found."""
 
 
 @lru_cache(maxsize=1)

@@ -22,7 +22,11 @@ import casadi as ca
 
 from pyimu.attitude.filter import marginal
 from pyimu.attitude.filter.compensation import Compensation
-from pyimu.attitude.filter.filter_block import filter_block, step_function
+from pyimu.attitude.filter.filter_block import (
+    filter_block,
+    inputs_of_the_sample,
+    step_function,
+)
 from pyimu.attitude.filter.gravity_update import INNOVATION_GATE, by_velocity, corrected, push
 from pyimu.attitude.filter.layout import GRAVITY, Flags, GravityMeasurement, Layout
 from pyimu.attitude.filter.memory import ESTIMATE, WORKING, Memory
@@ -38,46 +42,49 @@ from pyimu.symbolic import quaternion
 OPTIONS = {"cse": True}
 
 
-def attitude_ukf(part: Part) -> Block:
+def attitude_ukf(part: Part, shows_now: bool = True) -> Block:
     """The filter ``AttitudeUkf`` of a part, a block.
 
     The part has ``gyro`` and ``accel`` (``Sensor``) and ``sample_rate`` in Hz.
 
-    What ``Sensor.left_in`` names, such as a lag or a delay, is not undone: the estimate is late by
-    it, and its standard deviations do not contain it. The state begins with q (4), bias (3) and the
+    Where the gyro's samples are late, the outputs are turned on over its delay, as
+    ``pyimu.attitude.filter.ahead`` says; without ``shows_now`` they are those of the instants at
+    which the samples were taken. What ``Sensor.left_in`` names beside is not undone, and the
+    standard deviations do not contain it. The state begins with q (4), bias (3) and the
     upper triangle of the covariance (21); ``pyimu.attitude.filter.memory`` has the rest.
 
     The equations are those of ``pyimu.attitude.filter.sigma_point_filter`` in their marginalised
     form (``pyimu.attitude.filter.marginal``).
     """
-    return _of(part, part.gyro.effects, part.accel.effects)
+    return _of(part, shows_now, part.gyro.effects, part.accel.effects)
 
 
 @lru_cache(maxsize=16)
-def _of(part: Part, *effects: tuple[Effect, ...]) -> Block:
+def _of(part: Part, shows_now: bool, *effects: tuple[Effect, ...]) -> Block:
     """The filter of a part with these ``effects``: parts are equal where their numbers are."""
-    layout = Layout(Compensation(part))
+    layout = Layout(Compensation(part, shows_now))
     return filter_block("AttitudeUkf", "Unscented attitude filter", layout, _step(layout))
 
 
 def recorded_ukf(part: Part) -> Block:
     """The same filter whose outputs are the rows (``PASSED``,) that a smoother goes back over.
 
-    They are what ``pyimu.attitude.filter.passed.Passed`` packs.
+    They are what ``pyimu.attitude.filter.passed.Passed`` packs, at the instants of the samples.
     """
     return _recorded(part, part.gyro.effects, part.accel.effects)
 
 
 @lru_cache(maxsize=16)
 def _recorded(part: Part, *effects: tuple[Effect, ...]) -> Block:
-    layout, title = Layout(Compensation(part)), "Unscented attitude filter, recorded"
+    layout, title = Layout(Compensation(part, False)), "Unscented attitude filter, recorded"
     step = _step(layout, recorded=True)
     return filter_block("AttitudeRecorded", title, layout, step, PASSED)
 
 
 def _step(layout: Layout, recorded: bool = False) -> ca.Function:
     """The step of the filter; its outputs are those of the unit, or all that a smoother needs."""
-    s, u, p, h = symbols = layout.symbols(ca.MX, "s u p h")
+    s, _, p, h = symbols = layout.symbols(ca.MX, "s u p h")
+    u = inputs_of_the_sample(layout, symbols)
     x, memory, rate, gravity, flags, *transition = _predict(layout, recorded)(
         s[:ESTIMATE], s[ESTIMATE : layout.rings], u, p, h
     )

@@ -128,6 +128,11 @@ OUTPUTS = (
 )
 """The outputs of every filter, in the order of the block."""
 
+FOUND = [
+    [v.name for v in OUTPUTS].index(name) for name in ("quasi_static", "nis", "status", "at_rest")
+]
+"""Which of the outputs are no estimates, but what the filter found on its way to them."""
+
 
 def _bounded(
     variables: Iterable[Variable], minimum: float, maximum: float = ABSURD

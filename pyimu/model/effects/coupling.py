@@ -91,6 +91,9 @@ def spin_sensitivity(
 @effect(
     stage="gain",
     term="angular acceleration sensitivity",
+    # Of a gyro it is y = x + c dx/dt, whose inverse has the poles l / (1 + l), l = eig(c) / h; as
+    # c has no diagonal, some l is below zero, and below -1/2 the pole is beyond 1.
+    grows=True,
     equation=r"y_i = x_i + \sum_{j \ne i} c_{ij} \dot\omega_j",
     source=(
         "IEEE Std 528-2001, 2.11, angular acceleration sensitivity; of an accelerometer the "

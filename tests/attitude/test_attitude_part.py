@@ -1,0 +1,63 @@
+"""What a part leaves out is what is left out without it: a part only ever adds knowledge."""
+
+import numpy as np
+import pytest
+from attitude_cases import H, drive, part, rover_rate
+from scipy.spatial.transform import Rotation
+
+from pyimu.attitude import run
+from pyimu.attitude.columns import NOMINAL_K, NOMINAL_RATE_NOISE, informed, rate_noise
+from pyimu.attitude.error import error_against
+from pyimu.model.part_file import parse_part
+from pyimu.recording.recording import Recording
+
+MEASURED = """name = "measured"
+sample_rate = {value = 100.0, unit = "Hz"}
+[gyro.angle_random_walk]
+N = {value = 1e-4, unit = "rad/sqrt(s)", source = "a log at rest"}
+"""
+GROWING = """[gyro.rate_dependent_noise]
+k = {value = 1e-3, unit = "sqrt(s)", source = "a turntable"}
+"""
+
+
+def log(clipped: float = np.inf) -> Recording:
+    world = drive(3 * rover_rate(3000))
+    rng = np.random.default_rng(0)
+    gyro = np.clip(world.rate + 1e-3 * rng.standard_normal((3000, 3)), -clipped, clipped)
+    return Recording("log", time=H * np.arange(1, 3001), gyro=gyro, accel=world.force)
+
+
+def test_a_measured_part_leaves_out_as_much_of_the_rate_as_no_part():
+    """A part that says how its noise grows with the rate, and one that a program made, say all."""
+    measured = parse_part(MEASURED, "part.toml")
+    assert rate_noise(measured) == rate_noise(None) == NOMINAL_RATE_NOISE
+    assert rate_noise(parse_part(MEASURED + GROWING, "part.toml")) == rate_noise(part()) == 0
+    parameters = run(log(), measured).parameters
+    assert parameters["rate_noise"] == NOMINAL_RATE_NOISE
+    assert parameters["gyro_error.rate_random_walk.K[1]"] == NOMINAL_K
+
+
+def test_where_samples_pile_up_a_measured_part_clips_though_it_does_not_say():
+    seen = informed(parse_part(MEASURED, "part.toml"), log(0.5)).gyro.values["saturation"]["limit"]
+    np.testing.assert_allclose(seen[seen > 0], 0.5)
+    assert (seen > 0).any()
+    assert "saturation" not in informed(parse_part(MEASURED, "part.toml"), log()).gyro.values
+    assert "saturation" not in informed(part(), log(0.5)).gyro.values
+
+
+def test_a_heading_that_drifts_is_set_right_in_each_window():
+    """Of an error of 0.01 rad/s about the vertical and a tilt of 0.02 rad: the largest heading is
+    that of a window, the rest of the total is the tilt.
+    """
+    time = np.arange(0, 100, 0.1)
+    tilt = Rotation.from_rotvec([0.02, 0, 0])
+    q = Rotation.from_rotvec(0.01 * time[:, None] * [0, 0, 1]) * tilt
+    error = error_against(time, q.as_quat(scalar_first=True), Rotation.identity(len(time)))
+    found = error.in_windows(10.0)
+    assert error.heading.max() == pytest.approx(0.01 * 99.9)
+    assert found.heading.max() == pytest.approx(0.01 * 9.9, abs=1e-9)
+    in_window = Rotation.from_rotvec(0.01 * (time % 10)[:, None] * [0, 0, 1]) * tilt
+    # A heading of exactly the window's end may round into either window.
+    apart = np.abs(found.total - in_window.magnitude())
+    assert np.sort(apart)[-10] < 1e-4
