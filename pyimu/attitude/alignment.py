@@ -206,10 +206,25 @@ def _mean(column, rest: Rest, otherwise) -> np.ndarray:
 # Attitude
 
 
+@dataclass(frozen=True)
+class MagneticNorth:
+    """The ``declination`` in rad and the ``std`` in T of a field across the magnetic north."""
+
+    declination: float
+    std: float
+
+
 def initial_yaw(
-    recording: Recording, rest: Rest, heading0: float | None, turned: Callable[[int], float]
+    recording: Recording,
+    rest: Rest,
+    heading0: float | None,
+    turned: Callable[[int], float],
+    north: MagneticNorth | None = None,
 ) -> Yaw:
-    """The yaw to start with: ``heading0`` in rad, else by the first recorded heading, else zero.
+    """The yaw to start with.
+
+    It is ``heading0`` in rad, else by the first recorded heading, else by the magnetometer where
+    the magnetic ``north`` is given, else zero.
 
     A heading during the rest, or of the first sample, is that of the start. Before a later one the
     body has turned by ``turned(row)`` rad, as the gyro measures: the filter starts so that this
@@ -220,13 +235,29 @@ def initial_yaw(
     heading, std = recorded_heading(recording)
     rows = np.flatnonzero((np.abs(heading) <= ABSURD) & (np.abs(std) <= ABSURD) & (std != 0))
     if not len(rows):
-        return Yaw()
+        return Yaw() if north is None else _magnetic_yaw(recording, rest, north)
     seen = float(heading[rows[0]])
     true_at = recording.time[rows[0]] - recorded_age(recording)[rows[0]]
     first = int(np.searchsorted(recording.time, true_at))
     if first == 0 or rest.seen and first < rest.rows.stop:
         return Yaw(seen, REUSED * max(float(std[rows[0]]), YAW_STD), known=True)
     return Yaw(seen - turned(first), LARGEST_STD)
+
+
+def _magnetic_yaw(recording: Recording, rest: Rest, north: MagneticNorth) -> Yaw:
+    """The yaw at which the mean field of the rest, levelled, points to the magnetic north.
+
+    The filter takes the same samples again.
+    """
+    rows = recording.mag[rest.rows]
+    rows = rows[np.isfinite(rows).all(axis=1) & np.any(rows != 0, axis=1)]
+    if not len(rows):
+        return Yaw(0.0, LARGEST_STD)
+    east, ahead, up = _levelled(rest.force, 0.0).apply(rows.mean(axis=0))
+    level = max(float(np.hypot(east, ahead)), 1e-12)
+    angle = np.pi / 2 - north.declination - np.arctan2(ahead, east)
+    std = np.hypot(north.std, _tilt_std(rest, rest.force) * up) / level
+    return Yaw(float(angle), min(REUSED * max(std, YAW_STD), LARGEST_STD), known=True)
 
 
 def _tilt_std(rest: Rest, force: np.ndarray | None) -> float:

@@ -13,6 +13,7 @@ from scipy.stats import chi2
 from pyimu.attitude.error import AttitudeError, error_against
 from pyimu.attitude.filter.variables import STATUS
 from pyimu.attitude.filters import OWN
+from pyimu.attitude.magnetometer import Magnetometer
 from pyimu.attitude.rest import Rest
 from pyimu.errors import Finding
 from pyimu.recording.quality.in_pieces import quality
@@ -21,6 +22,10 @@ from pyimu.recording.recording import Recording
 NIS_BOUNDS = tuple(float(v) for v in chi2.ppf([0.025, 0.975], 3))
 """Between which 95 % of the normalised innovations squared of gravity lie, chi-squared of 3 degrees
 of freedom."""
+
+
+DISTURBED = 256
+"""The bit of ``STATUS`` of a disturbed magnetic field."""
 
 
 @dataclass(frozen=True)
@@ -48,8 +53,8 @@ class Outcome:
     attitude error about the vertical; ``at_rest`` (n,) bool. ``rest`` is the rest at the start.
     ``parameters`` are the values by name with which the filter's block gives the same. ``part`` is
     the name of the part, empty without one; ``left_in`` what of its errors is not undone;
-    ``method`` the name of the filter (``pyimu.attitude.filters``). ``recording`` is what the filter
-    ran over.
+    ``method`` the name of the filter (``pyimu.attitude.filters``). ``magnetometer`` says whether
+    one was used, and what speaks against it. ``recording`` is what the filter ran over.
 
     Where it is ``smoothed``, ``q``, ``gyro_bias``, ``std`` and ``heading_std`` are by all rows, not
     only by those up to each. ``quasi_static``, ``nis``, ``status`` and ``at_rest`` stay what the
@@ -71,6 +76,7 @@ class Outcome:
     rest: Rest | None = None
     parameters: Mapping[str, float] = field(default_factory=dict, repr=False)
     part: str = ""
+    magnetometer: Magnetometer = Magnetometer()
     left_in: tuple[str, ...] = ()
     method: str = OWN
     smoothed: bool = False
@@ -98,7 +104,12 @@ class Outcome:
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
         """What reading the recording found, and what its samples show."""
-        return quality(self.recording)
+        return (*quality(self.recording), *self.magnetometer.findings)
+
+    @property
+    def disturbed(self) -> float:
+        """Share of the samples in which the magnetic field was disturbed."""
+        return float(np.mean(self.status & DISTURBED > 0))
 
     @cached_property
     def error(self) -> AttitudeError | None:

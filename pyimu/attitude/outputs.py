@@ -16,7 +16,7 @@ KEPT = {
     "std": (6, float),
     "quasi_static": (0, bool),
     "nis": (0, float),
-    "status": (0, np.uint8),
+    "status": (0, np.uint16),
     "heading_std": (0, float),
     "at_rest": (0, bool),
 }

@@ -9,7 +9,7 @@ from dataclasses import replace
 import casadi as ca
 import numpy as np
 
-from pyimu.attitude.alignment import Yaw, initial_values, initial_yaw
+from pyimu.attitude.alignment import MagneticNorth, Yaw, initial_values, initial_yaw
 from pyimu.attitude.columns import (
     informed,
     latitude_of,
@@ -24,6 +24,7 @@ from pyimu.attitude.filter.ukf import recorded_ukf
 from pyimu.attitude.filter.variables import LEAST_K
 from pyimu.attitude.filters import OF_LOGS, OWN, Settings, chosen
 from pyimu.attitude.input_grid import InputGrid
+from pyimu.attitude.magnetometer import magnetometer_of
 from pyimu.attitude.outputs import filtered
 from pyimu.attitude.rest import find_rest
 from pyimu.attitude.result import AttitudeResult
@@ -47,6 +48,7 @@ def run(
     latitude: float | None = None,
     q0: np.ndarray | None = None,
     heading0: float | None = None,
+    magnetometer: bool = True,
     bias0: np.ndarray | None = None,
     std0: np.ndarray | None = None,
     settings: Settings = None,
@@ -63,12 +65,16 @@ def run(
     (4,) is the attitude and ``heading0`` in rad the yaw of the first sample, ``bias0`` (3,) the
     gyro bias in rad/s, ``std0`` (6,) the standard deviations of attitude in body axes in rad and of
     bias in rad/s. What is not given comes from the first seconds at rest; yaw from the first
-    recorded heading, or it is zero. ``settings`` are values of other parameters of the block by
-    name, or a filter's name: ``"hidalgo2012"`` is the one as published; as the value ``filter`` a
-    name goes with others. A gap widens the estimate, and the row after it has bit 1 of the status.
-    Headings with an age in the recording's column ``heading_age`` correct what the attitude was
-    then. A clock of the gyro that the part knows to be off, and a delay or a lag, are undone by its
-    samples' times; an accelerometer of which the part says no delay is taken to be as late.
+    recorded heading, else from the magnetometer, or it is zero. ``magnetometer`` says whether the
+    recording's ``mag`` is used, where it can be: it corrects the yaw beside the headings, each by
+    its own weight, and yaw is then against true north by the setting ``declination``.
+
+    ``settings`` are values of other parameters of the block by name, or a filter's name:
+    ``"hidalgo2012"`` is the one as published; as the value ``filter`` a name goes with others. A
+    gap widens the estimate, and the row after it has bit 1 of the status. Headings with an age in
+    the recording's column ``heading_age`` correct what the attitude was then. A clock of the gyro
+    that the part knows to be off, and a delay or a lag, are undone by its samples' times; an
+    accelerometer of which the part says no delay is taken to be as late.
 
     With ``smooth`` each row is estimated from the whole recording, also from the rows that follow
     (``pyimu.attitude.filter.smoother``): attitude, bias and all standard deviations are those of
@@ -93,14 +99,18 @@ def run(
         raise UserError(f"smooth with the filter {method}: only {OWN} can be smoothed")
     gravity = number("gravity", given.get("gravity", STANDARD_GRAVITY))
     rest = find_rest(recording, gravity or STANDARD_GRAVITY)
+    field = magnetometer_of(recording, magnetometer and method == OWN)
     known = nominal_part(recording, rest) if part is None else informed(part_of(part), recording)
     block = OF_LOGS[method](known)
 
     def turned(row: int) -> float:
         return _turned(recording, row, known, latitude, bias0, settings)
 
-    yaw = initial_yaw(recording, rest, heading0, turned) if q0 is None else Yaw()
     values = stuck_times(recording, known, rest)
+    if recording.mag is not None and not field.used:
+        values["field_tolerance"] = 0.0
+    north = _north(block, given) if field.used else None
+    yaw = initial_yaw(recording, rest, heading0, turned, north) if q0 is None else Yaw()
     values |= initial_values(recording, known, rest, latitude, q0, yaw)
     if getattr(recording, "stationary", None) is not None:
         values["rest_time"] = 0.0
@@ -133,6 +143,7 @@ def run(
         left_in=left_in(known, retimed=True),
         method=method,
         smoothed=smooth,
+        magnetometer=field,
     )
 
 
@@ -147,8 +158,14 @@ def _turned(recording: Recording, row: int, part: Part, latitude: float, bias0, 
         longest=cadence.longest,
     )
     known = latitude if abs(latitude) <= np.pi / 2 else None
-    result = run(before, part, latitude=known, bias0=bias0, settings=settings)
+    result = run(before, part, latitude=known, magnetometer=False, bias0=bias0, settings=settings)
     return float(result.euler[-1, 2])
+
+
+def _north(block: Block, settings: Mapping[str, float | str]) -> MagneticNorth:
+    """What the settings say of the magnetic north."""
+    start = {v.name: v.start for v in block.parameters} | dict(settings)
+    return MagneticNorth(*(number(n, start[n]) for n in ("declination", "field_turning_std")))
 
 
 # Parameters

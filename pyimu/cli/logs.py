@@ -161,7 +161,21 @@ def attitude_command(
         typer.Option(
             "--heading0",
             help="Degrees counter-clockwise from east at the start; else the first recorded one, "
-            "or 0.",
+            "or the magnetometer's, or 0.",
+        ),
+    ] = None,
+    magnetometer: Annotated[
+        bool,
+        typer.Option(
+            "--magnetometer/--no-magnetometer",
+            help="Whether the log's magnetometer corrects the heading.",
+        ),
+    ] = True,
+    declination: Annotated[
+        float | None,
+        typer.Option(
+            "--declination",
+            help="Degrees by which magnetic north is east of true north; else 0.",
         ),
     ] = None,
     settings: Annotated[
@@ -190,14 +204,23 @@ def attitude_command(
     from pyimu.recording.log import read_recording
 
     at, heading = radians("--latitude", latitude, 90), radians("--heading0", heading0, 360)
+    north = radians("--declination", declination, 180)
+    method, given = chosen(settings)
+    given |= {"filter": method} | ({} if north is None else {"declination": north})
     check_folder(out)
     add_effects(effects)
-    chosen(settings)
     with progress("reading") as say:
         recording = read_recording(log, columns)
         say("running the filter")
-        chosen = {"settings": settings, "smooth": smooth}
-        found = run(recording, part, latitude=at, heading0=heading, **chosen)
+        found = run(
+            recording,
+            part,
+            latitude=at,
+            heading0=heading,
+            magnetometer=magnetometer,
+            settings=given,
+            smooth=smooth,
+        )
         say("drawing the report")
         page = found.write(out)
     print(found.report())

@@ -38,7 +38,8 @@ def attitude_error(
         * Rotation.from_matrix(mounting).inv()
     )
     first = reference[0].as_euler("ZYX")[0]
-    found = run(recording, part, heading0=first if rows[0] == 0 else None)
+    # The reference's north need not be the magnetic one.
+    found = run(recording, part, heading0=first if rows[0] == 0 else None, magnetometer=False)
     return error_against(recording.time[rows], found.q[rows], reference)
 
 

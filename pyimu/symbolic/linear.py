@@ -76,3 +76,13 @@ def forward(lower, b):
     for i in range(lower.shape[0]):
         rows.append((b[i, :] - sum((lower[i, k] * rows[k] for k in range(i)), 0)) / lower[i, i])
     return ca.vertcat(*rows)
+
+
+def backward(lower, b):
+    """L^-T b for lower triangular L (n, n) and b (n, m)."""
+    size = lower.shape[0]
+    rows: dict = {}
+    for i in reversed(range(size)):
+        rest = sum((lower[k, i] * rows[k] for k in range(i + 1, size)), 0)
+        rows[i] = (b[i, :] - rest) / lower[i, i]
+    return ca.vertcat(*[rows[i] for i in range(size)])

@@ -35,7 +35,7 @@ def block():
 def moved(
     acceleration: np.ndarray, turning: bool = True, seed: int = 0
 ) -> tuple[np.ndarray, Rotation]:
-    """Inputs (n, 12) of a body that has this ``acceleration`` (n, 3) in world axes, and its
+    """Inputs (n, 15) of a body that has this ``acceleration`` (n, 3) in world axes, and its
     attitude: level, or ``turning``.
     """
     rng, rate = np.random.default_rng(0), turning * rover_rate(len(acceleration))

@@ -98,7 +98,7 @@ def test_still_body_gets_the_least_squares_of_all_samples():
     std0 = SMALL * np.array([3.0, 3.0, 4.0, 5.0, 5.0, 5.0])
     heading_std = SMALL * 0.7
     block = recorded_ukf(part(n, k, n_accel))
-    u = np.zeros((size, 12))
+    u = np.zeros((size, len(block.inputs)))
     u[:, :3], u[:, 5], u[:, 6] = gyro, GRAVITY, 25.0
     # A level body that is rolled and pitched by small angles, roll about x and pitch about y.
     u[:, 3:5] = GRAVITY * np.column_stack([-tilt[:, 1], tilt[:, 0]])

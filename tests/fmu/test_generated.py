@@ -131,8 +131,8 @@ def path(request, fmus):
 
 
 def rover(n=600):
-    """Inputs (n, 12) of a drive: turns about z, bumps, warming up, a heading now and then and late,
-    rests that are called so.
+    """Inputs (n, 15) of a drive: turns about z, bumps, warming up, a heading now and then and late,
+    rests that are called so, a magnetometer that is slower and is disturbed in the end.
     """
     rng, time = np.random.default_rng(7), PERIOD * np.arange(n)
     moves = (time % 0.2 > 0.05)[:, None]
@@ -151,8 +151,17 @@ def rover(n=600):
             valid,
             PERIOD * rng.integers(0, 100, n),
             ~moves,
+            _field(rng, n),
         ]
     )
+
+
+def _field(rng, n):
+    """A horizontal field (n, 3) that turns, of which each sample is held for four rows."""
+    angle = 0.4 * PERIOD * np.arange(n) // 4 * 4
+    field = np.column_stack([2e-5 * np.sin(angle), 2e-5 * np.cos(angle), np.full(n, -4e-5)])
+    field[-n // 5 :, 0] += 3e-5
+    return np.repeat((field + rng.normal(0, 5e-7, (n, 3)))[::4], 4, axis=0)[:n]
 
 
 def array(name, count):
@@ -172,6 +181,7 @@ def test_variables_are_named_as_agreed(path):
         "heading_valid",
         "heading_age",
         "stationary",
+        *array("mag", 3),
     ]
     assert causes["output"] == [
         *array("q", 4),
@@ -213,6 +223,8 @@ def test_units_and_kinds_are_as_agreed(path):
         "gyro[1]": "rad/s",
         "accel[1]": "m/s^2",
         "temperature": "degC",
+        "mag[1]": "T",
+        "field_noise": "T*sqrt(s)",
     }
     assert {name: of[name].unit for name in units} == units
     assert [of[n].type for n in ("heading_valid", "stationary", "quasi_static")] == ["Boolean"] * 3

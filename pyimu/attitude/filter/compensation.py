@@ -112,8 +112,8 @@ class Compensation:
 
     @property
     def extra_inputs(self) -> tuple[Variable, ...]:
-        """The variables of those signals."""
-        return input_variables(self.extra)
+        """The variables of those signals, less those that are inputs for every part."""
+        return input_variables(tuple(n for n in self.extra if n != "mag"))
 
     @property
     def implicit(self) -> bool:

@@ -64,22 +64,24 @@ def inputs_of_the_sample(layout: Layout, symbols: list[ca.MX]) -> ca.MX:
     return headings_of_the_sample(layout)(s[:ESTIMATE], s[ESTIMATE : layout.rings], u, p)
 
 
-def step_function(layout: Layout, symbols: list[ca.MX], estimate, memory, yaw, y) -> ca.Function:
+def step_function(
+    layout: Layout, symbols: list[ca.MX], estimate, memory, yaw, field, y
+) -> ca.Function:
     """The step ``(s, u, p, w, h) -> (s_next, y)`` of the block, without noise.
 
-    ``symbols`` are s, u, p and h. ``estimate`` and ``memory`` are the columns after the sample; its
-    ``yaw`` and its variance about the vertical take their slot in the rings.
+    ``symbols`` are s, u, p and h. ``estimate``, ``memory`` and ``field`` are the columns after the
+    sample; its ``yaw`` and its variance about the vertical take their slot in the rings.
     """
     s, u, p, h = symbols
     if layout.compensation.shows_now:
         y = shown_now(layout)(estimate, memory, y, p, h)
-    vertical_noise, slot = memory[-3], memory[-2]
-    rings = s[layout.rings :]
+    vertical_noise, slot = memory[-4], memory[-3]
+    rings = s[layout.rings : layout.field]
     rings.nz[slot + ca.DM([0, late_heading.SLOTS])] = ca.vertcat(yaw, vertical_noise)
     return ca.Function(
         "step",
         [s, u, p, ca.MX(0, 1), h],
-        [ca.vertcat(estimate, memory, rings), y],
+        [ca.vertcat(estimate, memory, rings, field), y],
         ["s", "u", "p", "w", "h"],
         ["s_next", "y"],
     )

@@ -72,8 +72,8 @@ def by_heading(layout: Layout) -> ca.Function:
         s,
         layout.rings,
         ca.fmin(ca.fmax(samples, 1), late_heading.oldest(each)),
+        s[layout.rings - 3],
         s[layout.rings - 2],
-        s[layout.rings - 1],
         each,
     )
     after = _past_heading()(x, neighbours, heading, samples, each, rate, vertical_noise)
@@ -131,7 +131,10 @@ def _past_heading() -> ca.Function:
         ca.logic_and(used, weight < 1),
     )
     out = ca.vertcat(
-        ca.if_else(used, estimate, working[:ESTIMATE]), working[ESTIMATE : ESTIMATE + 2], *report
+        ca.if_else(used, estimate, working[:ESTIMATE]),
+        working[ESTIMATE : ESTIMATE + 2],
+        *report,
+        working[ESTIMATE + 6 :],
     )
     return ca.Function("past_heading", symbols, [out], OPTIONS)
 

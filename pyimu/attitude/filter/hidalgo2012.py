@@ -67,7 +67,7 @@ from pyimu.attitude.filter.sigma_point_filter import propagate
 from pyimu.attitude.filter.timing import clock_error
 from pyimu.attitude.filter.unscented import Estimate, N, bounded, measure
 from pyimu.attitude.filter.updates import outputs, where
-from pyimu.attitude.filter.variables import INPUTS, LEAST_ACCEL_STD, LEAST_K, LEAST_N, OUTPUTS
+from pyimu.attitude.filter.variables import LEAST_ACCEL_STD, LEAST_K, LEAST_N, OUTPUTS
 from pyimu.block.block import Block
 from pyimu.model.effects.dynamics import lag
 from pyimu.model.part import Part
@@ -143,7 +143,7 @@ def _predict(layout: Layout) -> ca.Function:
     settings = Settings.of(layout.compensation, p, OWN_PARAMETERS)
     at, gravity = settings.scalar, gravity_of(settings)
     h = period * (1 + clock_error(layout.compensation.part.gyro, settings.gyro_p))
-    row = ca.vertcat(u[:7], ca.SX.zeros(len(INPUTS) - 7), u[7:])
+    row = layout.row(u)
     sample = look_closely(layout.compensation, before.memory, row, settings, h)
     rate, force, passed = _low_passed(before, sample, at["low_pass"], h)
     x = _propagated(before, sample, settings, h)

@@ -12,7 +12,7 @@ from pyimu.attitude.filter.quasi_static import MeanForce, QuasiStatic
 from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.stillness import Stillness
 from pyimu.attitude.filter.unscented import SPREAD, Estimate, N
-from pyimu.attitude.filter.variables import INPUTS, LEAST_ACCEL_STD, SETTINGS, START_VALUES
+from pyimu.attitude.filter.variables import INPUTS, LEAST_ACCEL_STD, MAG, SETTINGS, START_VALUES
 from pyimu.attitude.filter.variables import OWN_PARAMETERS as OURS
 from pyimu.attitude.filter.velocity import Motion
 from pyimu.block.variables import Variable
@@ -112,6 +112,7 @@ class State:
             sensors=self.sensors,
             vertical_noise=ca.SX(0),
             place=ca.SX.zeros(2),
+            field=ca.SX(0),
         )
 
 
@@ -133,7 +134,17 @@ class Layout:
 
     @property
     def inputs(self) -> tuple[Variable, ...]:
-        return (*INPUTS[:7], *self.compensation.extra_inputs)
+        return (*INPUTS[:7], *self._mag, *self.compensation.extra_inputs)
+
+    @property
+    def _mag(self) -> tuple[Variable, ...]:
+        return INPUTS[MAG] if "mag" in self.compensation.extra else ()
+
+    def row(self, u) -> ca.SX:
+        """The inputs ``u`` among those of the package's own filter, the others zero."""
+        mag = u[7 : 7 + len(self._mag)] if self._mag else ca.SX.zeros(3)
+        others = ca.SX.zeros(len(INPUTS) - 10)
+        return ca.vertcat(u[:7], others, mag, u[7 + len(self._mag) :])
 
     @property
     def parameters(self) -> tuple[Variable, ...]:

@@ -9,6 +9,7 @@ import casadi as ca
 
 from pyimu.attitude.filter import late_heading
 from pyimu.attitude.filter.compensation import Compensation
+from pyimu.attitude.filter.field import FIELD
 from pyimu.attitude.filter.memory import ESTIMATE, WORKING, memory_sizes
 from pyimu.attitude.filter.variables import INPUTS, OWN_PARAMETERS
 from pyimu.block.variables import Variable
@@ -50,7 +51,7 @@ class GravityMeasurement:
         return cls(*ca.vertsplit(column, ends))
 
 
-FLAGS = 12
+FLAGS = 13
 """Numbers of ``Flags``."""
 
 
@@ -62,7 +63,8 @@ class Flags:
     corrects, whether the ``velocity`` does, whether the body is ``quasi_static``, whether its
     attitude may be ``lost``, whether a ``heading`` and a zero rate (``stationary`` by its input,
     ``resting`` as found) correct, the variance (rad/s)^2 that ``sway`` then adds to that of a
-    sample, whether an input was ``missing``. ``faults`` are the other bits of the status;
+    sample, whether an input was ``missing``, whether a magnetometer has been seen (``field``).
+    ``faults`` are the other bits of the status;
     ``vertical_noise`` is that of ``Memory``.
     """
 
@@ -77,6 +79,7 @@ class Flags:
     sway: ca.SX
     missing: ca.SX
     faults: ca.SX
+    field: ca.SX
     vertical_noise: ca.SX
 
     def pack(self) -> ca.SX:
@@ -110,6 +113,11 @@ class Layout:
         return ESTIMATE + sum(memory_sizes(self.compensation))
 
     @cached_property
+    def field(self) -> int:
+        """Where in the state the memory of the magnetic field begins."""
+        return self.rings + 2 * late_heading.SLOTS
+
+    @cached_property
     def sizes(self) -> dict[str, int]:
         """The size of each argument by name.
 
@@ -120,7 +128,7 @@ class Layout:
         return {
             "estimate": ESTIMATE,
             "memory": self.rings - ESTIMATE,
-            "s": self.rings + 2 * late_heading.SLOTS,
+            "s": self.field + FIELD,
             "x": WORKING,
             "u": len(self.inputs),
             "p": len(self.parameters),

@@ -9,6 +9,7 @@ import numpy as np
 
 from pyimu.attitude.filter import late_heading
 from pyimu.attitude.filter.compensation import Compensation
+from pyimu.attitude.filter.field import Field
 from pyimu.attitude.filter.quasi_static import MeanForce, QuasiStatic
 from pyimu.attitude.filter.stillness import SIZES as STILLNESS
 from pyimu.attitude.filter.stillness import Stillness
@@ -30,10 +31,10 @@ ESTIMATE = 56
 covariance (21), velocity (3), its covariance with them (18) and its own upper triangle (6), and the
 sum in rad of all corrections of yaw by headings."""
 
-REPORTED = 6
+REPORTED = 7
 """Numbers by which the updates report: gravity's normalised innovation squared and whether it
 exceeded the innovation gate; whether a heading was too old, was no usable number, was held back,
-exceeded its innovation gate."""
+exceeded its innovation gate; whether the magnetic field was disturbed."""
 
 WORKING = ESTIMATE + REPORTED
 """Numbers of the working estimate, which the updates take and give."""
@@ -52,7 +53,8 @@ class Memory:
     have not changed, and then each of their axes, while others of its triad did. ``sensors`` is the
     compensation's memory. ``vertical_noise`` is the variance in rad^2 that was added about the
     vertical since the start. ``place`` (2,) is where the newest entry stands in the rings of past
-    yaws and past ``vertical_noise``. The rings follow.
+    yaws and past ``vertical_noise``; ``field`` 0 or 1, whether a magnetometer has been seen. The
+    rings and the memory of the magnetic field follow.
     """
 
     estimate: Estimate
@@ -66,6 +68,7 @@ class Memory:
     sensors: ca.SX
     vertical_noise: ca.SX
     place: ca.SX
+    field: ca.SX
 
     @staticmethod
     def pack_estimate(x: Estimate) -> ca.SX:
@@ -95,7 +98,16 @@ class Memory:
         sensors = (self.held, self.lost_for, self.same_for, self.sensors)
         still = self.stillness.pack()
         return ca.densify(
-            ca.vertcat(*quasi, *mean, *motion, *still, *sensors, self.vertical_noise, self.place)
+            ca.vertcat(
+                *quasi,
+                *mean,
+                *motion,
+                *still,
+                *sensors,
+                self.vertical_noise,
+                self.place,
+                self.field,
+            )
         )
 
     @classmethod
@@ -111,7 +123,8 @@ class Memory:
 def memory_sizes(compensation: Compensation) -> tuple[int, ...]:
     """Sizes of what ``Memory.pack_memory`` packs, in its order."""
     held = 7 + sum(SIGNALS[n].size for n in compensation.extra)
-    return 1, 1, 3, 1, 1, 1, 1, 3, 1, *STILLNESS, held, 3, 8, len(compensation.start), 1, 2
+    own = held, 3, 8, len(compensation.start), 1, 2, 1
+    return 1, 1, 3, 1, 1, 1, 1, 3, 1, *STILLNESS, *own
 
 
 def start(compensation: Compensation, p) -> tuple[Estimate, ca.SX]:
@@ -132,9 +145,11 @@ def start(compensation: Compensation, p) -> tuple[Estimate, ca.SX]:
         sensors=ca.SX(ca.DM(compensation.start)),
         vertical_noise=ca.SX(0),
         place=ca.vertcat(late_heading.SLOTS - 1, late_heading.NEVER),
+        field=ca.SX(0),
     )
-    rings = late_heading.empty()
-    return estimate, ca.vertcat(Memory.pack_estimate(estimate), 0, memory.pack_memory(), rings)
+    rings, field = late_heading.empty(), Field.start(at).pack()
+    state = (Memory.pack_estimate(estimate), 0, memory.pack_memory(), rings, field)
+    return estimate, ca.vertcat(*state)
 
 
 def first_estimate(at: dict) -> Estimate:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import casadi as ca
 
 from pyimu.attitude.filter import late_heading
+from pyimu.attitude.filter.field import is_magnetometer
 from pyimu.attitude.filter.gravity_update import (
     Inclination,
     inclination,
@@ -29,7 +30,7 @@ from pyimu.attitude.filter.stillness import (
 from pyimu.attitude.filter.stillness import followed as still_followed
 from pyimu.attitude.filter.timing import clock_error
 from pyimu.attitude.filter.unscented import LARGEST_STD, LARGEST_TILT_STD, Estimate
-from pyimu.attitude.filter.variables import INPUTS, LEAST_K, LEAST_N
+from pyimu.attitude.filter.variables import INPUTS, LEAST_K, LEAST_N, MAG
 from pyimu.attitude.filter.velocity import followed, least_std
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.process_noise import process_noise
@@ -180,6 +181,7 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
     force = inclination(kept, sample, x, motion, turned, at.settings, at.h)
     still = _decided(at, x, rest)
     vertical_noise = at.memory.vertical_noise + _about_the_vertical(x, noise[0])
+    field = ca.fmax(kept.field, is_magnetometer(at.u[MAG], at.settings))
     slot, within = at.memory.place[0], at.memory.place[1]
     span = at.settings.scalar["heading_memory"]
     place = late_heading.following(slot, within, span, at.h)
@@ -195,14 +197,15 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
         sample.sensors,
         vertical_noise,
         ca.vertcat(*place),
+        field,
     )
     working = ca.vertcat(Memory.pack_estimate(x), at.estimate[ESTIMATE - 1], ca.SX.zeros(REPORTED))
-    flags = _flags(at, sample, rest, x, force, vertical_noise)
+    flags = _flags(at, sample, rest, x, force, field, vertical_noise)
     return [working, after.pack_memory(), sample.rate, force.measurement.pack(), flags.pack()]
 
 
 def _flags(
-    at: Instant, sample: Sample, rest: Rest, x: Estimate, force: Inclination, vertical_noise
+    at: Instant, sample: Sample, rest: Rest, x: Estimate, force: Inclination, field, vertical_noise
 ) -> Flags:
     heading, stationary = at.u[HEADING_VALID] > 0.5, at.stationary
     if sample.gyro_lost is not False:
@@ -210,7 +213,8 @@ def _flags(
     lost = sum((x.covariance[i, i] > LARGEST_TILT_STD**2 for i in range(3)), 0) > 0
     return Flags(
         which=force.velocity
-        + (lost + heading + stationary + rest.resting + force.usable > 0) * (2 - force.velocity),
+        + (lost + heading + stationary + rest.resting + force.usable + field > 0)
+        * (2 - force.velocity),
         gravity=force.usable,
         velocity=force.velocity,
         quasi_static=force.quasi_static,
@@ -221,6 +225,7 @@ def _flags(
         sway=sway(rest.still, _density(at.settings)) / at.h,
         missing=sample.missing,
         faults=2 * sample.at_limit + 4 * sample.stuck,
+        field=field,
         vertical_noise=vertical_noise,
     )
 

@@ -14,7 +14,7 @@ import casadi as ca
 from pyimu.attitude.filter.compensation import Compensation
 from pyimu.attitude.filter.memory import Memory
 from pyimu.attitude.filter.settings import Settings
-from pyimu.attitude.filter.variables import ABSURD, INPUTS
+from pyimu.attitude.filter.variables import ABSURD, INPUTS, MAG
 from pyimu.model.signals import SIGNALS
 
 LARGEST_KEPT = 1e100
@@ -52,16 +52,24 @@ class Sample:
     stuck: ca.SX | float = 0
 
 
-def raw_of(u):
+def raw_of(compensation: Compensation, u):
     """What is measured: gyro (3), accel (3), temperature, and further signals of the part."""
-    return ca.vertcat(u[:7], u[len(INPUTS) :])
+    at = len(INPUTS)
+    extra = []
+    for name in compensation.extra:
+        if name == "mag":
+            extra.append(u[MAG])
+        else:
+            extra.append(u[at : at + SIGNALS[name].size])
+            at += SIGNALS[name].size
+    return ca.vertcat(u[:7], *extra)
 
 
 def read(
     compensation: Compensation, memory: Memory, u, settings: Settings, h
 ) -> tuple[Sample, ca.SX]:
     """The sample as if it were ordinary, and whether it is."""
-    raw = raw_of(u)
+    raw = raw_of(compensation, u)
     sensors, rate, force, gyro_lost, accel_lost = _compensated(
         compensation, memory, raw, settings, h
     )
@@ -86,7 +94,7 @@ def look_closely(compensation: Compensation, memory: Memory, u, settings: Settin
 
     The last good value replaces what is not finite, and what is lost is marked.
     """
-    raw = raw_of(u)
+    raw = raw_of(compensation, u)
     good = ca.fabs(raw) <= ABSURD
     held = ca.if_else(good, raw, memory.held)
     sensors, rate, force, gyro_lost, accel_lost = _compensated(

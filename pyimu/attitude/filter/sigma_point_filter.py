@@ -13,6 +13,7 @@ from collections.abc import Callable
 import casadi as ca
 
 from pyimu.attitude.filter.compensation import Compensation
+from pyimu.attitude.filter.field_update import after_others
 from pyimu.attitude.filter.filter_block import (
     filter_block,
     inputs_of_the_sample,
@@ -68,12 +69,14 @@ def _step(layout: Layout) -> ca.Function:
         s[:ESTIMATE], s[ESTIMATE : layout.rings], u, p, h
     )
     flags = Flags.unpack(packed)
+    before = x
     x = bounded_where_lost(x, flags)
     x = where(flags.gravity, _by_gravity(), x, gravity)
     x = where(flags.velocity, by_velocity(correct), x, gravity)
     x = after_gravity(layout, x, s, u, p, h, rate, flags)
+    x, field = after_others(layout, x, before, s, u, p, h, rate, packed)
     estimate, yaw, y = finish()(x, packed)
-    return step_function(layout, symbols, estimate, memory, yaw, y)
+    return step_function(layout, symbols, estimate, memory, yaw, field, y)
 
 
 # Prediction

@@ -36,6 +36,7 @@ from dataclasses import dataclass, replace
 import casadi as ca
 
 from pyimu.attitude.filter.compensation import Compensation
+from pyimu.attitude.filter.field_update import after_others
 from pyimu.attitude.filter.filter_block import filter_block, step_function
 from pyimu.attitude.filter.gravity_update import (
     INNOVATION_GATE,
@@ -93,16 +94,19 @@ def _step(layout: Layout) -> ca.Function:
     x, memory, rate, gravity, packed = _predict(layout)(
         s[:ESTIMATE], s[ESTIMATE : layout.rings], u, p, h
     )
-    flags = Flags.unpack(packed)
+    flags, before = Flags.unpack(packed), _to_covariance()(x)
     x = where(flags.lost, _bounded_where_lost(), x, packed)
     x = where(flags.gravity, _by_gravity(), x, gravity)
     x = where(flags.velocity, _by_velocity(), x, gravity)
     others = _after_gravity(layout)
     asked = flags.heading + flags.stationary + flags.resting > 0
     x = where(asked, others, x, s, u, p, h, rate, packed)
-    shown, yaw, y = finish()(_to_covariance()(x), packed)
+    whole = _to_covariance()(x)
+    whole, field = after_others(layout, whole, before, s, u, p, h, rate, packed)
+    x = where(flags.field, _factor_of(), x, whole)
+    shown, yaw, y = finish()(whole, packed)
     estimate = ca.vertcat(shown[:4], x[4:ESTIMATE])
-    return step_function(layout, symbols, estimate, memory, yaw, y)
+    return step_function(layout, symbols, estimate, memory, yaw, field, y)
 
 
 # The estimate and its factor
@@ -157,6 +161,13 @@ def _to_factor() -> ca.Function:
     """``x -> x``: the inverse of ``_to_covariance``."""
     x = ca.SX.sym("x", WORKING)
     return ca.Function("to_factor", [x], [ca.vertcat(_factored(x), x[ESTIMATE - 1 :])], OPTIONS)
+
+
+def _factor_of() -> ca.Function:
+    """``x, whole -> x``: the working estimate with the factor of that with a covariance."""
+    x, whole = ca.SX.sym("x", WORKING), ca.SX.sym("whole", WORKING)
+    factor = ca.vertcat(_factored(whole), whole[ESTIMATE - 1 :])
+    return ca.Function("factor_of", [x, whole], [factor], OPTIONS)
 
 
 # Prediction

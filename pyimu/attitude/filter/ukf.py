@@ -22,6 +22,7 @@ import casadi as ca
 
 from pyimu.attitude.filter import marginal
 from pyimu.attitude.filter.compensation import Compensation
+from pyimu.attitude.filter.field_update import after_others
 from pyimu.attitude.filter.filter_block import (
     filter_block,
     inputs_of_the_sample,
@@ -88,10 +89,10 @@ def _step(layout: Layout, recorded: bool = False) -> ca.Function:
     x, memory, rate, gravity, flags, *transition = _predict(layout, recorded)(
         s[:ESTIMATE], s[ESTIMATE : layout.rings], u, p, h
     )
-    estimate, yaw, y = _updates(layout)(flags[0], x, s, u, p, h, rate, gravity, flags)
+    estimate, yaw, y, field = _updates(layout)(flags[0], x, s, u, p, h, rate, gravity, flags)
     if recorded:
         y = passed(y, estimate, x, transition[0], Flags.unpack(flags))
-    return step_function(layout, symbols, estimate, memory, yaw, y)
+    return step_function(layout, symbols, estimate, memory, yaw, field, y)
 
 
 # Prediction
@@ -108,8 +109,13 @@ def _predict(layout: Layout, recorded: bool = False) -> ca.Function:
     at, reading = Instant.of(layout, symbols), _reading(layout, symbols)
     packed = ca.SX.sym("reading", reading.numel_out(0))
     closely = look_closely(layout.compensation, at.memory, at.u, at.settings, at.h)
-    ordinary = _row("ordinary_row", at, _unpacked(packed, at.u), [*symbols, packed], recorded)
-    other = _row("other_row", at, closely, [*symbols, packed], recorded)
+    ordinary, other = (
+        _row(name, at, sample, [*symbols, packed], recorded)
+        for name, sample in (
+            ("ordinary_row", _unpacked(layout, packed, at.u)),
+            ("other_row", closely),
+        )
+    )
     given = layout.symbols(ca.MX, ARGUMENTS)
     sample, is_ordinary = reading(*given)
     outputs = ca.Function.if_else("row", ordinary, other)(is_ordinary, *given, sample)
@@ -124,9 +130,10 @@ def _reading(layout: Layout, symbols: list[ca.SX]) -> ca.Function:
     return ca.Function("reading", symbols, [packed, ordinary], OPTIONS)
 
 
-def _unpacked(reading, u) -> Sample:
+def _unpacked(layout: Layout, reading, u) -> Sample:
     """The ordinary sample that ``_reading`` packed."""
-    return Sample(raw_of(u), reading[:3], reading[3:6], reading[14:], reading[6:14], ca.SX.zeros(3))
+    raw = raw_of(layout.compensation, u)
+    return Sample(raw, reading[:3], reading[3:6], reading[14:], reading[6:14], ca.SX.zeros(3))
 
 
 def _row(
@@ -150,7 +157,7 @@ def _row(
 
 
 def _updates(layout: Layout) -> ca.Function:
-    """``which, x, s, u, p, h, rate, gravity, flags -> estimate, yaw, y``: the updates of a sample.
+    """``which, x, s, u, p, h, rate, gravity, flags -> estimate, yaw, y, field``: the updates.
 
     There is none, the velocity's alone, or whichever are needed.
 
@@ -161,16 +168,23 @@ def _updates(layout: Layout) -> ca.Function:
     x, s, u, p, h, rate, gravity, flags = symbols = layout.symbols(ca.MX, names)
     finished, asked = finish(), Flags.unpack(flags)
     velocity = by_velocity(marginal.correct)
+    predicted_x = x
     x = bounded_where_lost(x, asked)
     x = where(asked.gravity, _by_gravity(), x, gravity)
     x = where(asked.velocity, velocity, x, gravity)
     x = after_gravity(layout, x, s, u, p, h, rate, asked)
-    every = ca.Function("every_update", symbols, finished(x, flags))
+    x, field = after_others(layout, x, predicted_x, s, u, p, h, rate, flags)
+    every = ca.Function("every_update", symbols, [*finished(x, flags), field])
 
-    x, _, _, _, _, _, gravity, flags = plain = layout.symbols(ca.SX, names)
+    x, s, _, _, _, _, gravity, flags = plain = layout.symbols(ca.SX, names)
     after = velocity.call([x, gravity], True, False)[0]
     none, usual = (
-        ca.Function(name, plain, finished.call([value, flags], True, False), OPTIONS)
+        ca.Function(
+            name,
+            plain,
+            [*finished.call([value, flags], True, False), s[layout.field :]],
+            OPTIONS,
+        )
         for name, value in (("no_update", x), ("usual_update", after))
     )
     return ca.Function.conditional("updates", [none, usual], every)

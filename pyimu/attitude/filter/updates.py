@@ -122,7 +122,7 @@ def finish() -> ca.Function:
 
 def _status(flags: Flags, report: list, variances):
     """The bits of ``STATUS`` from the prediction's flags and the updates' report."""
-    gravity_beyond, old, unusable, held_back, heading_beyond = report
+    gravity_beyond, old, unusable, held_back, heading_beyond, field_off = report
     no_variance = 1 - ca.mmin(variances > 0)
     not_finite = flags.missing + unusable - flags.missing * unusable
     return flags.faults + (
@@ -132,6 +132,7 @@ def _status(flags: Flags, report: list, variances):
         + 32 * held_back
         + 64 * heading_beyond
         + 128 * no_variance
+        + 256 * field_off
     )
 
 

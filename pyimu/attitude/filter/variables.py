@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import replace
 
@@ -24,6 +25,10 @@ STATUS = {
     ),
     64: "a heading contradicted the attitude, and was weighed less",
     128: "a variance was not above zero, and its std is shown as 0",
+    256: (
+        "the magnetic field was not the place's in strength or dip, and not used, or its direction "
+        "contradicted the heading"
+    ),
 }
 """Bits of the output ``status`` and what each says; 0 is well."""
 
@@ -36,6 +41,7 @@ STATUS_NAMES = {
     32: "heading not used",
     64: "heading contradicted",
     128: "variance lost",
+    256: "field disturbed",
 }
 """The same bits in two or three words, for pictures."""
 
@@ -89,8 +95,12 @@ INPUTS = (
         "left out then adds up, and std is too small",
     ),
     Variable("stationary", "1", "the body does not turn against the Earth", kind="boolean"),
+    *array("mag", "T", "measured magnetic flux density, body axes; zeros or NaN: none"),
 )
 """The inputs for every part; ``EXTRA_INPUTS`` follow where the part needs them."""
+
+MAG = slice(len(INPUTS) - 3, len(INPUTS))
+"""Where the inputs have the magnetometer."""
 
 OUTPUTS = (
     *array(
@@ -145,6 +155,41 @@ def _setting(name: str, unit: str, text: str, start: float) -> Variable:
     """A parameter that is not below zero."""
     return Variable(name, unit, text, start, minimum=0.0)
 
+
+FIELD_SETTINGS = (
+    Variable(
+        "declination",
+        "rad",
+        "declination of the magnetic field, positive to the east: yaw is against true north",
+        minimum=-math.pi,
+        maximum=math.pi,
+    ),
+    _setting(
+        "field_std",
+        "T",
+        "standard deviation of what the place's field has across its horizontal direction: the "
+        "error of the declination, and the surroundings",
+        2e-7,
+    ),
+    _setting("field_time", "s", "correlation time of that difference", 300.0),
+    _setting(
+        "field_turning_std",
+        "T",
+        "standard deviation of a component of what differs from one attitude of the body to "
+        "another, as the magnetometer's bias does, before the run itself shows it; 0: nothing "
+        "does",
+        1e-6,
+    ),
+    _setting("field_noise", "T*sqrt(s)", "root density of the magnetometer's white noise", 1e-7),
+    _setting(
+        "field_tolerance",
+        "1",
+        "share of the field's strength by which strength or dip may differ from what the run has "
+        "learnt of them; 0: no magnetometer is used",
+        0.13,
+    ),
+)
+"""Parameters of the magnetometer's update (``pyimu.attitude.filter.field_update``)."""
 
 SETTINGS = (
     _setting("gravity", "m/s^2", "magnitude of gravity", STANDARD_GRAVITY),
@@ -251,6 +296,7 @@ SETTINGS = (
         "largest heading_age; beyond 63 samples the course in between is interpolated",
         0.5,
     ),
+    *FIELD_SETTINGS,
 )
 """Parameters that are one number. Those of accelerations were chosen on hand-held recordings of
 ``benchmarks/attitude_real.py``, and say what is not motion; how much a body moves, the run finds

@@ -20,10 +20,12 @@ def contents(a: Outcome) -> dict[str, Any]:
     ``notes``; ``rest``: the ``duration`` [s] of the rest at the start, or null;
     ``last``: {``time``, ``q``, ``euler``, ``gyro_bias``, ``std``, ``heading_std``};
     ``quasi_static`` and ``at_rest``: their shares of the samples; ``nis``: {``updates``, ``mean``,
-    ``inside``, the share within ``bounds``}; ``status``: [{``bit``, ``text``, ``samples``,
-    ``first`` and ``last`` [s]}]; ``error``: {``rows``, ``assumed``, ``inclination`` and ``total``:
-    {``rms``, ``p95``, ``unit``}}, null without a reference; ``quality`` as in the report of ``pyimu
-    close``; ``parameters`` with which the filter's unit gives the same. The estimates are in
+    ``inside``, the share within ``bounds``}; ``magnetometer``: {``used``, the median ``strength``
+    [T] of its samples, ``disturbed``: the share of the samples with a disturbed field, null where
+    it is not used}; ``status``: [{``bit``, ``text``, ``samples``, ``first`` and ``last`` [s]}];
+    ``error``: {``rows``, ``assumed``, ``inclination``, ``total`` and ``heading``: {``rms``,
+    ``p95``, ``unit``}}, null without a reference; ``quality`` as in the report of ``pyimu close``;
+    ``parameters`` with which the filter's unit gives the same. The estimates are in
     attitude.parquet.
     """
     nis = a.nis[a.updates]
@@ -47,6 +49,11 @@ def contents(a: Outcome) -> dict[str, Any]:
                 "mean": nis.mean() if len(nis) else None,
                 "inside": nis_inside(a),
                 "bounds": NIS_BOUNDS,
+            },
+            "magnetometer": {
+                "used": a.magnetometer.used,
+                "strength": a.magnetometer.strength,
+                "disturbed": a.disturbed if a.magnetometer.used else None,
             },
             "status": [vars(event) | {"text": event.text} for event in a.events],
             "error": None if a.error is None else _error(a.error),

@@ -22,6 +22,7 @@ from pyimu.attitude.report.words import (
     about,
     error_sizes,
     gravity_used,
+    heading_from,
     last_attitude,
     last_bias,
     notes,
@@ -68,6 +69,8 @@ def _summary(a: Outcome) -> Table:
         ("last gyro bias", prose(last_bias(a))),
         ("quasi-static", prose(gravity_used(a))),
     ]
+    if a.magnetometer.used:
+        rows.append(("heading", prose(heading_from(a))))
     return Table(("", "at the end, and over the log"), rows)
 
 

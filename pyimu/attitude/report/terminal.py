@@ -9,6 +9,7 @@ from pyimu.attitude.report.words import (
     about,
     error_words,
     gravity_used,
+    heading_from,
     last_attitude,
     last_bias,
     notes,
@@ -26,6 +27,8 @@ def _indented(a: Outcome) -> Iterator[str]:
     yield f"  last attitude   {last_attitude(a)}"
     yield f"  last gyro bias  {last_bias(a)}"
     yield f"  quasi-static    {gravity_used(a)}"
+    if a.magnetometer.used:
+        yield f"  heading         {heading_from(a)}"
     if a.error is not None:
         yield f"  error           {error_words(a.error)}"
     for event in a.events:

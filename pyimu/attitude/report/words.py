@@ -8,7 +8,8 @@ from pyimu.attitude.error import AttitudeError, root_mean_square
 from pyimu.attitude.filter.compensation import NOT_UNDONE
 from pyimu.attitude.filters import OWN, UNUSED
 from pyimu.attitude.outcome import NIS_BOUNDS, Outcome
-from pyimu.report.numbers import joined, number
+from pyimu.errors import Finding
+from pyimu.report.numbers import joined, number, quantity
 
 ALIGNED = (
     "the reference's body axes are assumed to be the sensor's, and the heading is set right at "
@@ -54,7 +55,40 @@ def notes(a: Outcome) -> list[str]:
             "one in g does: gravity corrected nothing; write accel_x [g] in the log's header, or "
             "map it there with --columns"
         )
-    return found
+    return found + [_about_field(f) for f in a.magnetometer.findings]
+
+
+def _about_field(finding: Finding) -> str:
+    """What a finding about the magnetometer means to the heading."""
+    detail = finding.detail
+    if finding.kind == "mag_zeros":
+        return "the magnetometer shows zeros alone, and was not used"
+    if finding.kind == "mag_missing":
+        return "the magnetometer has no sample, and was not used"
+    if finding.kind == "mag_axis_missing":
+        return f"the magnetometer's axis {detail['axes']} shows zeros alone: it was not used"
+    shown = (
+        f"the magnetometer shows a field of {quantity(detail['strength'], 'T')}, the Earth's has "
+        "22 to 67 uT: it was not used"
+    )
+    if finding.kind == "mag_strength":
+        return shown
+    return (
+        f"{shown}; numbers in {detail['as']} under a header of {detail['stated']} look so: write "
+        f"mag_x [{detail['as']}] in the log's header, or map it there with --columns"
+    )
+
+
+def heading_from(a: Outcome) -> str:
+    """What told the heading beside the gyro."""
+    if not a.magnetometer.used:
+        return ""
+    headings = getattr(a.recording, "heading", None) is not None
+    start = ", beside the headings, by which it starts" if headings else ""
+    return (
+        f"magnetometer{start}; field disturbed in {a.disturbed:.1%} of the samples, median "
+        f"strength {number(1e6 * a.magnetometer.strength)} uT"
+    )
 
 
 def last_attitude(a: Outcome) -> str:
@@ -90,9 +124,9 @@ def nis_inside(a: Outcome) -> float:
 
 
 def error_sizes(error: AttitudeError) -> dict[str, tuple[float, float]]:
-    """RMS and 95 % [rad] of the error's inclination and of all of it, by name."""
-    sides = {"inclination": error.inclination, "total": error.total}
-    return {n: (root_mean_square(v), float(np.percentile(v, 95))) for n, v in sides.items()}
+    """RMS and 95 % [rad] of the error's inclination, of all of it and of its heading, by name."""
+    sides = {"inclination": error.inclination, "total": error.total, "heading": error.heading}
+    return {n: (root_mean_square(v), float(np.percentile(np.abs(v), 95))) for n, v in sides.items()}
 
 
 def error_words(error: AttitudeError) -> str:

@@ -11,7 +11,7 @@ from pyimu.identification.fit.score import WINDOW
 from pyimu.identification.found import Errors
 from pyimu.identification.outcome import Outcome
 from pyimu.identification.report import pictures
-from pyimu.identification.report.words import QUANTITIES, gravity_at_rest
+from pyimu.identification.report.words import AS_SET_RIGHT, QUANTITIES, gravity_at_rest
 from pyimu.report.numbers import MISSING, number, quantity, unit_for
 from pyimu.report.page import Picture, Table, both, file_name, prose
 
@@ -78,7 +78,7 @@ def error_table(closed: Outcome) -> Table:
             )
     for name, pair, si in (
         ("log-likelihood [nat/sample]", closed.log_likelihood, ""),
-        ("attitude", closed.attitude, "rad"),
+        (f"attitude ({AS_SET_RIGHT})", closed.attitude, "rad"),
         ("heading", closed.heading, "rad"),
     ):
         if pair is not None:

@@ -10,7 +10,13 @@ from pyimu.identification.as_part import SENSORS
 from pyimu.identification.outcome import Outcome
 from pyimu.identification.report.coefficients import LEGEND, rows
 from pyimu.identification.report.next import gains
-from pyimu.identification.report.words import QUANTITIES, gravity_at_rest, missing, si_of
+from pyimu.identification.report.words import (
+    AS_SET_RIGHT,
+    QUANTITIES,
+    gravity_at_rest,
+    missing,
+    si_of,
+)
 from pyimu.report.lines import in_columns
 from pyimu.report.numbers import in_unit, joined, number, unit_for
 
@@ -85,10 +91,11 @@ def _errors(closed: Outcome) -> Iterator[str]:
         rows = e.data or where
         yield f"{QUANTITIES[kind]} residual on {rows}: {_fall(values, e.unit)}{left}{floor}"
     yield from map(gravity_at_rest, closed.at_rest)
-    for name in ("attitude", "heading"):
+    for name, note in (("attitude", f" ({AS_SET_RIGHT})"), ("heading", "")):
         pair = getattr(closed, name)
         if pair is not None:
-            yield f"{name} error: {_fall(pair, 'rad')}, {number(pair[1] / pair[0], 2)} of it"
+            ratio = number(pair[1] / pair[0], 2)
+            yield f"{name} error{note}: {_fall(pair, 'rad')}, {ratio} of it"
 
 
 def _fall(values: tuple[float, float], si: str) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from pyimu.identification.as_part import SENSORS
+from pyimu.identification.fit.score import WINDOW
 from pyimu.identification.formula.effect import TERM, coefficients
 from pyimu.identification.formula.formula import Formula
 from pyimu.identification.found import Added, AtRest, Errors
@@ -21,6 +22,9 @@ from pyimu.report.numbers import (
     quantity,
     unit_for,
 )
+
+AS_SET_RIGHT = f"heading set right every {WINDOW:g} s where none is recorded"
+"""What the attitude before and after is compared as."""
 
 QUANTITIES = {"gyro": "rate", "accel": "specific force"}
 

@@ -1,0 +1,182 @@
+"""What the run learns of the magnetic field from a sample: strength and dip, delay, a new place."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import casadi as ca
+
+from pyimu.attitude.filter.field import PARTS, Field
+from pyimu.attitude.filter.gravity_update import tilt_variance, vertical
+from pyimu.attitude.filter.layout import Layout
+from pyimu.attitude.filter.prediction import STATIONARY
+from pyimu.attitude.filter.settings import Settings
+from pyimu.attitude.filter.timing import clock_error
+from pyimu.attitude.filter.unscented import LARGEST_STD, WHOLE, Estimate
+from pyimu.symbolic import quaternion
+
+TURN = 1.0
+"""rad; correlation angle of what is fixed to the body. A bias turns the direction by a cosine of
+the body's attitude, whose autocorrelation has fallen to 1/e after 1.2 rad; soft iron has twice the
+angle."""
+
+ATTITUDES = 60.0
+"""Attitudes, each a turn of ``TURN`` from the last, over which strength and dip are averaged."""
+
+WINDOW = 20.0
+"""Attitudes over which the mean square of what turns with the body is averaged: it is then known to
+a fifth."""
+
+SMOOTHED = 0.2
+"""s; over which noise is averaged out of strength, dip and direction."""
+
+MEAN = 0.25
+"""Share of the variance of what is fixed to the body that lasts all the same, because the body does
+not take every attitude."""
+
+FAST = 1.0
+"""s; correlation time that stands for what changes faster than the body turns by ``TURN``. Chosen
+on recordings 02, 11 and 26 of ``benchmarks/attitude_real.py``; from 0.5 to 4 s it makes little
+difference."""
+
+NEW_PLACE = 20.0
+"""s; a field that differs from the known one, and stays as it is for so long, is that of a new
+place."""
+
+BEYOND = 3.0
+"""Standard deviations, of what turns with the body and of the tilt, by which strength and dip may
+differ."""
+
+TINY = 1e-30
+"""Keeps divisors from zero."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """What there is of a sample: its settings, its period ``h`` in s by the gyro's clock, and the
+    body's ``turn`` (3,) rad in the period, against the world.
+
+    ``attitudes`` is how much of ``TURN`` that is, beside the gyro's noise.
+    """
+
+    settings: Settings
+    h: ca.SX
+    turn: ca.SX
+    attitudes: ca.SX
+
+    @classmethod
+    def of(cls, layout: Layout, x: Estimate, u, p, h, rate) -> Step:
+        """Of the inputs, with the compensated ``rate`` (3,) rad/s and the estimate ``x``."""
+        settings = Settings.of(layout.compensation, p)
+        h = h * (1 + clock_error(layout.compensation.part.gyro, settings.gyro_p))
+        earth = quaternion.rotate(quaternion.conjugate(x.q), settings.earth)
+        turned = (rate - x.bias - earth) * h * (u[STATIONARY] <= 0.5)
+        noise = 4 * ca.sumsqr(settings.gyro.white) * h
+        size = ca.sqrt(ca.fmax(ca.sumsqr(turned) - noise, 0))
+        return cls(settings, h, turned, size / TURN)
+
+    def __getitem__(self, name: str):
+        return self.settings.scalar[name]
+
+
+def stationary(kept: Field, step: Step):
+    """The covariance (2, 2) in rad^2 of the parts of which nothing is known."""
+    lasting = step["field_std"] ** 2 + MEAN * kept.scatter
+    return ca.diag(direction_variance(kept.known, ca.vertcat(kept.scatter, lasting)))
+
+
+def direction_variance(known, square):
+    """Variance in rad^2 that ``square`` T^2 across the ``known`` field (2,) gives its direction."""
+    return ca.fmin(square / ca.fmax(known[0], 1e-12) ** 2, LARGEST_STD**2)
+
+
+def parts_of(seen):
+    """Horizontal and upward part (2,) of the field ``seen`` (3,) in world axes."""
+    return ca.vertcat(ca.norm_2(seen[:2]), seen[2])
+
+
+def delayed(kept: Field, now, slope, x: Estimate, dt, step: Step) -> Field:
+    """The memory with the magnetometer's delay, as strength and dip ``now`` (2,) show it.
+
+    Through the attitude of now a field F of d s ago is F + d w x F, with w the body's rate: a
+    regression on its ``slope`` (2,), of which an error of the tilt must not be taken for delay.
+    """
+    tilt = tilt_variance(x.covariance, vertical(x)) * ca.sumsqr(kept.known)
+    weight = dt / (density(kept, step) + 2 * FAST * tilt + TINY)
+    known = kept.late[1] + weight * ca.sumsqr(slope)
+    change = weight * ca.dot(slope, now - kept.known) / known
+    return replace(kept, late=ca.vertcat(kept.late[0] + change, known))
+
+
+def density(kept: Field, step: Step):
+    """Density in T^2 s of what changes within seconds."""
+    return step["field_noise"] ** 2 + 2 * FAST * kept.scatter
+
+
+def begun(kept: Field, now, usable, step: Step) -> Field:
+    """The memory with the field of the first sample, where there was none."""
+    first = usable * (kept.learnt <= 0)
+    begun = replace(kept, known=now, smooth=now)
+    begun = replace(begun, covariance=stationary(begun, step))
+    return chosen(first, begun, kept)
+
+
+def chosen(flag, a: Field, b: Field) -> Field:
+    """``a`` where the flag holds, else ``b``."""
+    return Field(
+        *(ca.if_else(flag, v, w) for v, w in zip(vars(a).values(), vars(b).values(), strict=True))
+    )
+
+
+def followed(kept: Field, now, usable, x: Estimate, dt, step: Step) -> tuple[Field, ca.SX]:
+    """The memory after horizontal and upward part ``now`` (2,), and whether the field is good."""
+    size = ca.sumsqr(kept.known)
+    tilt = tilt_variance(x.covariance, vertical(x))
+    wide = ca.fmax(size * step["field_tolerance"] ** 2, 2 * BEYOND**2 * kept.scatter)
+    tolerance = wide + BEYOND**2 * size * tilt
+    off = usable * (ca.sumsqr(now - kept.known) > tolerance)
+    good = usable - off
+    looks = good * (step.attitudes + dt / step["field_time"])
+    smooth = kept.smooth + good * dt / (SMOOTHED + dt) * (now - kept.smooth)
+    difference = smooth - kept.known
+    known = kept.known + looks / (kept.learnt + looks + TINY) * difference
+    noise = step["field_noise"] ** 2 / (2 * SMOOTHED) + tilt * size / 2
+    excess = ca.sumsqr(difference) / 2 - noise - kept.scatter
+    scatter = ca.fmax(kept.scatter + looks / (WINDOW + looks) * excess, 0)
+    kept = replace(
+        kept,
+        known=known,
+        learnt=ca.fmin(kept.learnt + looks, ATTITUDES),
+        smooth=smooth,
+        scatter=(step["field_turning_std"] > 0) * scatter,
+        off=ca.if_else(usable, off, kept.off),
+    )
+    return in_new_place(kept, now, off, good, tolerance, dt, step), good
+
+
+def in_new_place(kept: Field, now, off, good, tolerance, dt, step: Step) -> Field:
+    """The memory with the ``other`` field after a sample, and with that as the known one if it has
+    lasted.
+
+    Its direction differs from the known one's by as much as strength and dip do.
+    """
+    change = now - kept.other
+    begins = ca.logic_or(kept.other_for <= 0, ca.sumsqr(change) > tolerance)
+    gain = ca.if_else(begins, 1, dt / (kept.other_for + dt))
+    lasted = ca.if_else(begins, dt, kept.other_for + dt)
+    other = kept.other + off * gain * change
+    lasted = ca.if_else(off, lasted, ca.fmax(kept.other_for - good * dt, 0))
+    new = lasted > NEW_PLACE
+    between = ca.sumsqr(other - kept.known) / 2
+    square = ca.vertcat(kept.scatter, step["field_std"] ** 2 + MEAN * kept.scatter + between)
+    here = replace(
+        kept,
+        known=other,
+        learnt=ca.SX(1),
+        smooth=other,
+        beside=ca.SX(0),
+        turned=ca.SX.zeros(PARTS),
+        covariance=ca.diag(direction_variance(other, square)),
+        shared=ca.SX.zeros(WHOLE, PARTS),
+    )
+    return replace(chosen(new, here, kept), other=other, other_for=lasted * (1 - new))

@@ -1,0 +1,68 @@
+"""Whether a recording's magnetometer can tell the heading, and what speaks against it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from pyimu.errors import Finding
+from pyimu.recording.recording import Recording
+from pyimu.units import parse
+
+EARTH = (22e-6, 67e-6)
+"""T; least and largest strength of the Earth's field at its surface (World Magnetic Model 2020)."""
+
+ROOM = 2.0
+"""Factor by which a field indoors, or of a magnetometer that is not calibrated, may be outside."""
+
+UNITS = ("T", "gauss", "mT", "uT", "nT")
+"""Units in which magnetometers are logged."""
+
+
+@dataclass(frozen=True)
+class Magnetometer:
+    """A recording's magnetometer: whether it is ``used``, and the ``findings`` about it.
+
+    ``strength`` is the median of its samples' length in T, NaN without any.
+    """
+
+    used: bool = False
+    strength: float = float("nan")
+    findings: tuple[Finding, ...] = ()
+
+
+def magnetometer_of(recording: Recording, wanted: bool) -> Magnetometer:
+    """The magnetometer of a recording, not used where it is not ``wanted`` or cannot be."""
+    mag = recording.mag
+    if mag is None or not wanted:
+        return Magnetometer()
+    rows = mag[np.isfinite(mag).all(axis=1)]
+    there = rows[np.any(rows != 0, axis=1)]
+    if not len(there):
+        kind = "mag_missing" if not len(rows) else "mag_zeros"
+        return Magnetometer(findings=(Finding(kind, "mag", len(mag)),))
+    strength = float(np.median(np.linalg.norm(there, axis=1)))
+    dead = [n for n, v in zip("xyz", there.T, strict=True) if not v.any()]
+    if dead:
+        detail = {"axes": ", ".join(dead)}
+        return Magnetometer(
+            False, strength, (Finding("mag_axis_missing", "mag", len(mag), detail),)
+        )
+    if EARTH[0] / ROOM <= strength <= EARTH[1] * ROOM:
+        return Magnetometer(True, strength)
+    return Magnetometer(False, strength, (_other_size(strength),))
+
+
+def _other_size(strength: float) -> Finding:
+    """The finding about a field whose ``strength`` in T is not the Earth's.
+
+    Numbers in gauss under a header of tesla, say, are 10^4 times too large.
+    """
+    detail: dict[str, float | str] = {"strength": strength}
+    for stated in UNITS:
+        for right in UNITS:
+            true = strength * parse(right).factor / parse(stated).factor
+            if EARTH[0] <= true <= EARTH[1]:
+                return Finding("mag_unit", "mag", 1, detail | {"stated": stated, "as": right})
+    return Finding("mag_strength", "mag", 1, detail)

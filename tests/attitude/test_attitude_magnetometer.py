@@ -1,0 +1,256 @@
+"""The magnetometer in the attitude filter: its heading converges and is honest, a disturbance is
+rejected and said, a new field is learnt.
+
+The world is made by numpy and scipy alone.
+"""
+
+import numpy as np
+import pytest
+from attitude_cases import (
+    GRAVITY,
+    N_ACCEL,
+    H,
+    K,
+    N,
+    attitude_after,
+    inputs,
+    output,
+    parameters,
+    part,
+)
+from scipy.spatial.transform import Rotation
+from scipy.stats import chi2, norm
+
+from pyimu.attitude import attitude_ukf, run
+from pyimu.recording.recording import Recording
+
+FIELD = np.array([0.0, 19e-6, -45e-6])
+"""T; east, north, up, of a dip of 67 degrees."""
+
+ROWS, RUNS = 4000, 40
+STD0 = np.array([0.01, 0.01, 0.5, 2e-3, 2e-3, 2e-3])
+NOISE, LASTING, TURNING = 5e-8, 3e-7, 1e-6
+SETTINGS = {
+    "accel_std": 0.0,
+    "accel_correlation_time": 0.0,
+    "field_noise": NOISE,
+    "field_std": LASTING,
+    "field_turning_std": TURNING,
+}
+DISTURBED = 256
+
+
+@pytest.fixture(scope="module")
+def block():
+    return attitude_ukf(part())
+
+
+class World:
+    """A body that turns in place by hand, and what its sensors show of one draw of their errors."""
+
+    def __init__(self, seed: int, rows: int = ROWS, still: int = 0) -> None:
+        self.rng, self.rows = np.random.default_rng(seed), rows
+        t = np.arange(rows)[:, None, None] * H
+        omega, phase = self.rng.uniform(0.5, 2.5, (3, 2)), self.rng.uniform(0, 2 * np.pi, (3, 2))
+        self.rate = np.sum(0.7 * np.sin(omega * t + phase), axis=2)
+        self.rate[:still] = 0
+        self.attitude = Rotation.from_euler("z", self.rng.uniform(-3, 3)) * attitude_after(
+            self.rate
+        )
+        normal = self.rng.standard_normal
+        bias = STD0[3:] * normal(3) + K * np.sqrt(H) * np.cumsum(normal((rows, 3)), axis=0)
+        self.gyro = self.rate + bias + N / np.sqrt(H) * normal((rows, 3))
+        self.accel = self.attitude.apply([0, 0, GRAVITY], inverse=True)
+        self.accel += N_ACCEL / np.sqrt(H) * normal((rows, 3))
+        self.start = self.attitude[0] * Rotation.from_rotvec(STD0[:3] * normal(3)).inv()
+
+    def mag(self, field=FIELD, turning: float = 0.0, lasting: float = 0.0) -> np.ndarray:
+        """The magnetometer (n, 3) in a field (3,) or (n, 3), with a bias and a world of its own."""
+        normal = self.rng.standard_normal
+        field = field + [lasting * normal(), 0, 0]
+        seen = self.attitude.apply(field, inverse=True) + turning * normal(3)
+        return seen + NOISE / np.sqrt(H) * normal((self.rows, 3))
+
+    def run(self, block, mag, **more):
+        """Outputs of the filter, which starts with an error of ``STD0``."""
+        u = inputs(self.rows, gyro=self.gyro, accel=self.accel, mag=mag)
+        q0 = self.start.as_quat(scalar_first=True)
+        p = parameters(block, **(SETTINGS | {"q0": q0, "std0": STD0} | more))
+        return block.run(u, p=p)[0]
+
+    def heading_error(self, block, y) -> np.ndarray:
+        """Error (n,) rad about the vertical."""
+        q = Rotation.from_quat(output(block, y, "q"), scalar_first=True)
+        return (self.attitude * q.inv()).as_rotvec()[:, 2]
+
+
+def nees(block, rows, make, **more) -> np.ndarray:
+    """Normalised heading errors squared (RUNS, len(rows)) at ``rows``."""
+    found = []
+    for seed in range(RUNS):
+        world = World(seed)
+        y = world.run(block, make(world), **more)
+        found.append((world.heading_error(block, y) / output(block, y, "heading_std"))[rows] ** 2)
+    return np.array(found)
+
+
+def test_heading_converges_to_the_truth(block):
+    """From half a radian off to what is claimed, far less; without a field it stays off."""
+    world = World(101)
+    y = world.run(block, world.mag(), field_std=0, field_turning_std=0)
+    off, std = world.heading_error(block, y), output(block, y, "heading_std")
+    assert abs(off[-1]) < 4 * std[-1] < 0.02
+    alone = world.run(block, 0.0)
+    assert output(block, alone, "heading_std")[-1] > 0.4
+
+
+LEVEL = 0.0005
+"""Probability of a bound of a statistic on either side."""
+
+
+def test_heading_is_honest_with_what_lasts_of_the_field(block):
+    """The field's lasting angle is the larger part of the error, and no sample tells it from yaw.
+    Its draws are quantiles of its distribution, so that the mean of their squares is 1.
+    """
+    draws = iter(norm.ppf((np.arange(RUNS) + 0.5) / RUNS))
+
+    def make(world):
+        return world.mag(FIELD + [LASTING * next(draws), 0, 0])
+
+    found = nees(block, [200, 1000, 3999], make, field_turning_std=0).mean(axis=0)
+    low, high = chi2.ppf([LEVEL, 1 - LEVEL], RUNS) / RUNS
+    assert np.all((low < found) & (found < high)), found
+
+
+def test_heading_is_honest_with_a_bias_of_the_magnetometer(block):
+    """What it turns changes as the body does, and does not average out over few attitudes."""
+    found = nees(block, [1000, 2000, 3999], lambda w: w.mag(FIELD, TURNING, LASTING)).mean(axis=0)
+    low, high = chi2.ppf([LEVEL, 1 - LEVEL], RUNS) / RUNS
+    assert np.all((low < found) & (found < high)), found
+
+
+def test_a_sample_held_for_a_faster_gyro_counts_once(block):
+    """Held rows give the bits of rows without a sample."""
+    world = World(102)
+    mag = world.mag()
+    held = np.repeat(mag[::5], 5, axis=0)
+    gaps = np.where((np.arange(ROWS) % 5 == 0)[:, None], mag, np.nan)
+    np.testing.assert_array_equal(world.run(block, held), world.run(block, gaps))
+
+
+def test_a_log_with_each_sample_twice_is_no_more_precise(block):
+    """Interpolated to a faster clock the same field tells the same: what it is off lasts."""
+    world = World(103)
+    mag = world.mag(turning=TURNING)
+    rows = np.arange(ROWS)
+    coarse = np.column_stack([np.interp(rows, rows[::4], column[::4]) for column in mag.T])
+    full, filled = (
+        output(block, world.run(block, m), "heading_std")[[500, 2000, -1]] for m in (mag, coarse)
+    )
+    np.testing.assert_allclose(filled, full, rtol=0.1)
+
+
+def test_a_missing_field_changes_nothing_and_is_no_fault(block):
+    world = World(104)
+    zeros, missing = world.run(block, 0.0), world.run(block, np.nan)
+    np.testing.assert_array_equal(zeros, missing)
+    assert not output(block, missing, "status").astype(int).__and__(1).any()
+
+
+def test_the_field_does_not_tilt(block):
+    """The first sample turns the attitude by a good part of a radian, about the vertical alone."""
+    world = World(105)
+    up = [
+        Rotation.from_quat(output(block, world.run(block, m), "q")[0], scalar_first=True).apply(
+            [0, 0, 1], inverse=True
+        )
+        for m in (world.mag(), 0.0)
+    ]
+    np.testing.assert_allclose(*up, rtol=0, atol=1e-12)
+
+
+def test_a_disturbance_is_said_and_rejected(block):
+    """For ten seconds a field of 30 uT more, across and down, would turn the heading by 53 deg."""
+    world = World(106)
+    field, off = np.tile(FIELD, (ROWS, 1)), slice(2000, 3000)
+    field[off] += [25e-6, 0, -17e-6]
+    y = world.run(block, world.mag(field))
+    said = output(block, y, "status").astype(int) & DISTURBED > 0
+    assert said[off].all() and not said[1000:2000].any() and not said[3000:].any()
+    error, std = world.heading_error(block, y), output(block, y, "heading_std")
+    assert np.abs(error[1000:] / std[1000:]).max() < 4
+
+
+def test_a_new_place_is_learnt(block):
+    """Another strength and dip to the same north: disturbed at first, then used again."""
+    world, rows = World(107, rows=8000), np.arange(8000)
+    field = np.where((rows < 2000)[:, None], FIELD, [0, 30e-6, -30e-6])
+    y = world.run(block, world.mag(field))
+    said = output(block, y, "status").astype(int) & DISTURBED > 0
+    assert said[2000:3900].all() and not said[4500:].any()
+    error, std = world.heading_error(block, y), output(block, y, "heading_std")
+    assert np.abs(error / std)[1000:].max() < 4 and std[-1] < std[3900]
+
+
+def recording(world: World, mag, **more) -> Recording:
+    time = H * np.arange(world.rows)
+    return Recording.from_arrays(
+        time=time,
+        gyro=world.gyro,
+        accel=world.accel,
+        mag=np.broadcast_to(mag, (world.rows, 3)),
+        **more,
+    )
+
+
+def test_run_and_unit_agree():
+    """With the result's parameters the block gives its bits, from the heading of the first rest."""
+    world = World(108, still=300)
+    log = recording(world, world.mag())
+    found = run(log, part())
+    u = inputs(world.rows, gyro=world.gyro, accel=world.accel, mag=log.mag)
+    unit = attitude_ukf(part())
+    y, _ = unit.run(u, p=parameters(unit, **found.parameters), sample_period=log.sample_period)
+    for name in ("q", "std", "status", "heading_std"):
+        np.testing.assert_array_equal(output(unit, y, name), getattr(found, name))
+    yaw = Rotation.from_quat(found.q[0], scalar_first=True) * world.attitude[0].inv()
+    assert found.magnetometer.used and abs(yaw.as_rotvec()[2]) < 0.1
+
+
+def test_without_its_magnetometer_a_log_gives_the_bits_of_one_that_has_none():
+    world = World(109, still=300)
+    log = recording(world, world.mag())
+    plain = Recording.from_arrays(time=log.time, gyro=log.gyro, accel=log.accel)
+    one, other = run(log, part(), magnetometer=False), run(plain, part())
+    np.testing.assert_array_equal(one.q, other.q)
+    np.testing.assert_array_equal(one.std, other.std)
+    assert not one.magnetometer.used
+
+
+def test_declination_turns_the_heading():
+    world = World(110, still=300)
+    log, angle = recording(world, world.mag()), 0.3
+    east, true = (run(log, part(), settings={"declination": d}) for d in (angle, 0.0))
+    turned = (
+        Rotation.from_quat(true.q, scalar_first=True)
+        * Rotation.from_quat(east.q, scalar_first=True).inv()
+    )
+    np.testing.assert_allclose(turned[-1].as_rotvec()[2], angle, atol=1e-6)
+
+
+WRONG = {
+    "zeros": (0.0, 1, "zeros alone"),
+    "one axis": ([1, 0, 0], 1, "axis y, z shows zeros"),
+    "gauss": (1, 1e4, "numbers in gauss under a header of T"),
+    "nT": (1, 1e9, "numbers in nT under a header of T"),
+}
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_a_magnetometer_that_cannot_be_right_is_said_and_not_used(case):
+    axes, factor, said = WRONG[case]
+    world = World(111, rows=500, still=300)
+    found = run(recording(world, world.mag() * axes * factor), part())
+    assert not found.magnetometer.used and said in found.report()
+    plain = run(recording(world, world.mag()), part(), magnetometer=False)
+    np.testing.assert_array_equal(found.q, plain.q)
