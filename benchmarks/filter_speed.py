@@ -60,11 +60,11 @@ def main(samples: int = SAMPLES, hours: int = FOUR_HOURS) -> None:
 
 
 def drive(n: int) -> np.ndarray:
-    """Inputs (n, 15) of a slow motion about all axes at 976 Hz, with white noise; no heading, no
+    """Inputs (n, 18) of a slow motion about all axes at 976 Hz, with white noise; no heading, no
     magnetometer, never called stationary.
     """
     rng, t = np.random.default_rng(1), np.arange(n) / 976.0
-    u = np.zeros((n, 15))
+    u = np.zeros((n, 18))
     for i, (size, omega) in enumerate(((0.3, 0.5), (0.2, 0.7), (0.4, 0.3))):
         u[:, i] = size * np.sin(omega * t)
     u[:, 3:6] = [0.0, 0.0, GRAVITY]

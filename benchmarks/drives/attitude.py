@@ -112,7 +112,7 @@ class Drive:
         return Rotation.from_euler("ZYX", angles)
 
     def rows(self, n: int) -> Iterator[tuple[np.ndarray, Rotation, np.ndarray]]:
-        """Inputs (m, 15) of the next ``n`` samples in pieces, and attitude and bias (3,) at the end
+        """Inputs (m, 18) of the next ``n`` samples in pieces, and attitude and bias (3,) at the end
         of each.
         """
         for start in range(0, n, CHUNK):
@@ -128,7 +128,7 @@ class Drive:
         # Of a bias that walks within a period the mean counts, and its noise is that of N; the
         # filter's Q has both.
         mean = np.vstack([self.bias, bias[:-1]]) / 2 + bias / 2
-        u = np.zeros((n, 15))
+        u = np.zeros((n, 18))
         slow = self._correlated(0, n, *own.correlated)
         u[:, :3] = (
             rate

@@ -8,7 +8,7 @@ sensors have white noise, a bias and a random walk that the filter is told of.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from generators import rotation
@@ -169,16 +169,27 @@ def vehicle(rng, duration: float, push: float, lasting: tuple[float, float], spe
         span = rng.uniform(*lasting)
         along += push * rng.choice([-1, 1]) * eased(t, [(at, at + span)], 0.5)
         at += span + rng.uniform(1.0, 4.0)
-    speed = speed0 + np.cumsum(along) / KNOTS
-    # Not through standstill: the push turns round before.
-    speed = np.abs(speed - speed.min() + 2.0) if speed.min() < 2.0 else speed
-    turn = 0.04 * smooth_noise(rng, t, 1, 0.0, 0.1) * still_start(t)
+    driving = still_start(t)
+    along *= driving[:, 0]
+    speed = np.cumsum(along) / KNOTS
+    # Not through standstill.
+    speed += max(speed0, 2.0 - speed.min())
+    turn = 0.04 * smooth_noise(rng, t, 1, 0.0, 0.1) * driving
     yaw = np.cumsum(turn[:, 0]) / KNOTS
     heading = np.column_stack([np.cos(yaw), np.sin(yaw), np.zeros_like(yaw)])
     across = np.column_stack([-np.sin(yaw), np.cos(yaw), np.zeros_like(yaw)])
     pushed = along[:, None] * heading + (speed * turn[:, 0])[:, None] * across
     slopes = np.column_stack([0 * t, 0 * t, turn[:, 0]])
-    return motion_of("vehicle", t, slopes, pushed * still_start(t))
+    return motion_of("vehicle", t, slopes, pushed, speed)
+
+
+def with_speed(rng, push: float, lasting: tuple[float, float]) -> Log:
+    """The car with the speed of its wheels, ten times a second, to 0.05 m/s."""
+    motion = vehicle(rng, 180.0, push, lasting)
+    log = record(rng, motion, 180.0)
+    speed = motion.speed(log.time) + 0.05 * rng.standard_normal(len(log.time))
+    speed[np.arange(len(speed)) % 10 > 0] = np.nan
+    return replace(log, heading={"speed": speed})
 
 
 def markov(rng, t: np.ndarray, size: float, tau: float) -> np.ndarray:
@@ -293,6 +304,16 @@ CASES = (
     Case("vibration", hand(3.0, 8.0, 20.0, 0.2), (3.0, 0.01)),
     Case("vehicle, 0.5 m/s^2 for 3 to 8 s", car(0.5, (3.0, 8.0)), (0.5, 3.0)),
     Case("vehicle, 0.5 m/s^2 for 20 s", car(0.5, (18.0, 22.0)), (0.5, 10.0)),
+    Case(
+        "vehicle with its speed, 3 to 8 s",
+        lambda rng: with_speed(rng, 0.5, (3.0, 8.0)),
+        (0.5, 3.0),
+    ),
+    Case(
+        "vehicle with its speed, 20 s",
+        lambda rng: with_speed(rng, 0.5, (18.0, 22.0)),
+        (0.5, 10.0),
+    ),
     Case(
         "driven like noise, 0.5 m/s^2, 1 s",
         lambda rng: record(rng, driven_by_noise(rng, 120.0, 0.5, 1.0), 120.0),

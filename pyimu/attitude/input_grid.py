@@ -13,6 +13,7 @@ from pyimu.attitude.columns import (
     recorded_heading,
     temperature_of,
 )
+from pyimu.attitude.driven import recorded_speed
 from pyimu.attitude.filter.variables import EXTRA_INPUTS
 from pyimu.attitude.retiming import Retiming
 from pyimu.model.part import Part
@@ -138,17 +139,23 @@ def _signals(recording: Recording, part: Part) -> dict[str, np.ndarray | None]:
 
 
 def _marks(recording: Recording) -> dict[str, np.ndarray | None]:
-    """The columns (n,) of headings and ``stationary`` by name; they are zero between the rows."""
+    """The columns (n,) of headings, speeds and ``stationary`` by name, zero between the rows."""
     marks = {"stationary": getattr(recording, "stationary", None)}
-    if getattr(recording, "heading", None) is None:
-        return marks
-    heading, std = recorded_heading(recording)
-    valid = np.isfinite(heading) & np.isfinite(std)
-    return marks | {
-        "heading": np.where(valid, heading, 0),
-        "heading_variance": np.where(valid, std**2, 0),
-        "heading_valid": valid,
-        "heading_age": recorded_age(recording),
+    if getattr(recording, "heading", None) is not None:
+        marks |= _measured("heading", *recorded_heading(recording))
+        marks["heading_age"] = recorded_age(recording)
+    if getattr(recording, "speed", None) is not None:
+        marks |= _measured("speed", *recorded_speed(recording))
+    return marks
+
+
+def _measured(name: str, values: np.ndarray, std: np.ndarray) -> dict[str, np.ndarray]:
+    """The columns (n,) of a measurement, with what stands where there is none."""
+    valid = np.isfinite(values) & np.isfinite(std)
+    return {
+        name: np.where(valid, values, 0),
+        f"{name}_variance": np.where(valid, std**2, 0),
+        f"{name}_valid": valid,
     }
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
+from pyimu.attitude.driven import speed_findings
 from pyimu.attitude.error import AttitudeError, error_against
 from pyimu.attitude.filter.variables import STATUS
 from pyimu.attitude.filters import OWN
@@ -104,7 +105,8 @@ class Outcome:
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
         """What reading the recording found, and what its samples show."""
-        return (*quality(self.recording), *self.magnetometer.findings)
+        found = (*self.magnetometer.findings, *speed_findings(self.recording))
+        return (*quality(self.recording), *found)
 
     @property
     def disturbed(self) -> float:

@@ -18,6 +18,7 @@ from pyimu.attitude.columns import (
     rate_noise,
     recorded_age,
 )
+from pyimu.attitude.driven import speed_findings
 from pyimu.attitude.filter.compensation import left_in, noise_of
 from pyimu.attitude.filter.timing import clock_error, latency
 from pyimu.attitude.filter.ukf import recorded_ukf
@@ -65,9 +66,11 @@ def run(
     (4,) is the attitude and ``heading0`` in rad the yaw of the first sample, ``bias0`` (3,) the
     gyro bias in rad/s, ``std0`` (6,) the standard deviations of attitude in body axes in rad and of
     bias in rad/s. What is not given comes from the first seconds at rest; yaw from the first
-    recorded heading, else from the magnetometer, or it is zero. ``magnetometer`` says whether the
-    recording's ``mag`` is used, where it can be: it corrects the yaw beside the headings, each by
-    its own weight, and yaw is then against true north by the setting ``declination``.
+    recorded heading, else from the magnetometer, or it is zero. A recorded ``speed`` takes out the
+    forces by which a vehicle speeds up and turns; it is along the body's x axis. ``magnetometer``
+    says whether the recording's ``mag`` is used, where it can be: it corrects the yaw beside the
+    headings, each by its own weight, and yaw is then against true north by the setting
+    ``declination``.
 
     ``settings`` are values of other parameters of the block by name, or a filter's name:
     ``"hidalgo2012"`` is the one as published; as the value ``filter`` a name goes with others. A
@@ -121,7 +124,8 @@ def run(
     has = {v.name for v in block.parameters}
     p = _parameters(block, {n: v for n, v in values.items() if n in has} | given)
     retiming = _retiming(recording, known, p)
-    grid = InputGrid(recording, known, [v.name for v in block.inputs], retiming)
+    used = replace(recording, speed=None) if speed_findings(recording) else recording
+    grid = InputGrid(used, known, [v.name for v in block.inputs], retiming)
     steps = Run(block, grid.rows[-1] + 1, p=p, sample_period=recording.sample_period)
     walk = _bias_walk(known, p)
     if smooth:

@@ -79,6 +79,8 @@ GROUPS: Mapping[str, Group] = MappingProxyType(
         "heading": Group("rad", "measured heading, counter-clockwise from east"),
         "heading_std": Group("rad", "standard deviation of the measured heading"),
         "heading_age": Group("s", "time since the measured heading was true"),
+        "speed": Group("m/s", "measured speed over the ground along the body's x axis"),
+        "speed_std": Group("m/s", "standard deviation of the measured speed"),
     }
 )
 """What a recording can hold beside its time, by name. The signals on which a sensor's errors may

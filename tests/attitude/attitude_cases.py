@@ -38,8 +38,8 @@ def parameters(block, **values) -> np.ndarray:
 
 
 def inputs(n: int, **values) -> np.ndarray:
-    """Rows of the block's inputs (n, 15), level and at rest, with some replaced."""
-    u = np.zeros((n, 15))
+    """Rows of the block's inputs (n, 18), level and at rest, with some replaced."""
+    u = np.zeros((n, 18))
     u[:, 5], u[:, 6] = GRAVITY, 25.0
     columns = {
         "gyro": slice(0, 3),
@@ -50,7 +50,10 @@ def inputs(n: int, **values) -> np.ndarray:
         "heading_valid": 9,
         "heading_age": 10,
         "stationary": 11,
-        "mag": slice(12, 15),
+        "speed": 12,
+        "speed_variance": 13,
+        "speed_valid": 14,
+        "mag": slice(15, 18),
     }
     for name, value in values.items():
         u[:, columns[name]] = value

@@ -95,7 +95,7 @@ FAULTS = [
 
 
 def log(fault: Fault | None) -> tuple[np.ndarray, Rotation]:
-    """Inputs (n, 15) with the fault, and the true attitude."""
+    """Inputs (n, 18) with the fault, and the true attitude."""
     rng = np.random.default_rng(4)
     rate = rover_rate(ROWS)
     truth = attitude_after(rate)
@@ -169,7 +169,7 @@ def test_sample_that_is_missing_now_and_then_does_no_harm(plain):
 
 
 def upside_down(rate: float, seconds: float, seed: int = 0) -> tuple[np.ndarray, float]:
-    """Inputs (n, 15) of a body that lies upside down, and the sample period."""
+    """Inputs (n, 18) of a body that lies upside down, and the sample period."""
     rng, h, n = np.random.default_rng(seed), 1 / rate, round(seconds * rate)
     accel = np.array([0, 0, -GRAVITY]) + N_ACCEL / np.sqrt(h) * rng.standard_normal((n, 3))
     return inputs(n, accel=accel, gyro=N / np.sqrt(h) * rng.standard_normal((n, 3))), h

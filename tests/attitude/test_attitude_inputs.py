@@ -20,7 +20,7 @@ BAD = [np.nan, np.inf, -np.inf, 1e300]
 
 
 @pytest.mark.parametrize("bad", BAD)
-@pytest.mark.parametrize("column", range(15))
+@pytest.mark.parametrize("column", range(18))
 def test_input_that_is_not_finite_never_poisons_the_state(block, column, bad):
     u = inputs(
         60,
@@ -38,7 +38,7 @@ def test_input_that_is_not_finite_never_poisons_the_state(block, column, bad):
 
 
 def test_everything_lost_from_the_first_sample_on_leaves_an_honest_attitude(block):
-    u = np.full((3000, 15), np.nan)
+    u = np.full((3000, 18), np.nan)
     y, state = block.run(u)
     assert np.isfinite(y).all() and np.isfinite(state).all()
     np.testing.assert_allclose(output(block, y, "std")[-1, :3], LARGEST_STD, rtol=1e-3)

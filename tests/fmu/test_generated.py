@@ -131,7 +131,7 @@ def path(request, fmus):
 
 
 def rover(n=600):
-    """Inputs (n, 15) of a drive: turns about z, bumps, warming up, a heading now and then and late,
+    """Inputs (n, 18) of a drive: turns about z, bumps, warming up, a heading now and then and late,
     rests that are called so, a magnetometer that is slower and is disturbed in the end.
     """
     rng, time = np.random.default_rng(7), PERIOD * np.arange(n)
@@ -151,6 +151,9 @@ def rover(n=600):
             valid,
             PERIOD * rng.integers(0, 100, n),
             ~moves,
+            0.3 + 0.1 * np.sin(3 * time),
+            np.full(n, 1e-2),
+            np.arange(n) % 7 < 2 * (np.arange(n) < n // 2),
             _field(rng, n),
         ]
     )
@@ -181,6 +184,9 @@ def test_variables_are_named_as_agreed(path):
         "heading_valid",
         "heading_age",
         "stationary",
+        "speed",
+        "speed_variance",
+        "speed_valid",
         *array("mag", 3),
     ]
     assert causes["output"] == [

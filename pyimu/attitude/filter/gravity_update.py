@@ -200,8 +200,8 @@ def corrected(working, given: GravityMeasurement, x: Estimate, nis, weight):
     """
     up, beyond = vertical(x), weight < 1
     moving = covariance_of_motion(given.motion[0], given.motion[1], up)
-    after = at_rest(_less_sure(x, up, beyond * given.period), moving)
-    return _reported(working, after, nis, beyond)
+    after = at_rest(less_sure(x, up, beyond * given.period), moving)
+    return reported(working, after, nis, beyond)
 
 
 def by_velocity(correct: Callable) -> ca.Function:
@@ -227,18 +227,18 @@ def by_velocity(correct: Callable) -> ca.Function:
         given.plausible,
     )
     contradicted = 1 - (1 - (weight < 1) * given.plausible) * (1 - given.contradicts)
-    after = _less_sure(after, up, contradicted * given.period)
-    out = _reported(working, after, nis, contradicted)
+    after = less_sure(after, up, contradicted * given.period)
+    out = reported(working, after, nis, contradicted)
     return ca.Function("by_velocity", symbols, [out], {"cse": True})
 
 
-def _less_sure(x: Estimate, up, time) -> Estimate:
+def less_sure(x: Estimate, up, time) -> Estimate:
     """The estimate with a tilt that was contradicted for ``time`` s less sure."""
     tilt = tilt_variance(x.covariance, up) * (time / RECOVERY)
     return replace(x, covariance=_with_tilt_variance(x.covariance, up, tilt))
 
 
-def _reported(working, after: Estimate, nis, beyond):
+def reported(working, after: Estimate, nis, beyond):
     """The ``working`` estimate with ``after`` in place of its estimate, and with its report."""
     yaw, others = working[ESTIMATE - 1], working[ESTIMATE + 2 :]
     return ca.vertcat(Memory.pack_estimate(after), yaw, nis, beyond, others)

@@ -110,6 +110,7 @@ class State:
             lost_for=self.lost_for,
             same_for=self.same_for,
             sensors=self.sensors,
+            speed_for=ca.SX(0),
             vertical_noise=ca.SX(0),
             place=ca.SX.zeros(2),
             field=ca.SX(0),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import casadi as ca
@@ -51,7 +51,7 @@ class GravityMeasurement:
         return cls(*ca.vertsplit(column, ends))
 
 
-FLAGS = 13
+FLAGS = 16
 """Numbers of ``Flags``."""
 
 
@@ -64,8 +64,8 @@ class Flags:
     attitude may be ``lost``, whether a ``heading`` and a zero rate (``stationary`` by its input,
     ``resting`` as found) correct, the variance (rad/s)^2 that ``sway`` then adds to that of a
     sample, whether an input was ``missing``, whether a magnetometer has been seen (``field``).
-    ``faults`` are the other bits of the status;
-    ``vertical_noise`` is that of ``Memory``.
+    Whether a ``speed`` corrects, whether the body is ``driven``, and whether its velocity begins
+    ``anew``. ``faults`` are the other bits of the status; ``vertical_noise`` is that of ``Memory``.
     """
 
     which: ca.SX
@@ -79,8 +79,18 @@ class Flags:
     sway: ca.SX
     missing: ca.SX
     faults: ca.SX
+    speed: ca.SX
+    driven: ca.SX
+    anew: ca.SX
     field: ca.SX
     vertical_noise: ca.SX
+
+    def with_speed(self, speed, driven, anew) -> Flags:
+        """The flags of a body that may be driven: it is then none that stays in its place."""
+        velocity = self.velocity * (1 - driven)
+        others = self.which > 1
+        which = velocity + (others + anew + speed > 0) * (2 - velocity)
+        return replace(self, which=which, velocity=velocity, speed=speed, driven=driven, anew=anew)
 
     def pack(self) -> ca.SX:
         return ca.densify(ca.vertcat(*vars(self).values()))

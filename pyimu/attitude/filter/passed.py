@@ -109,10 +109,11 @@ AFTER = slice(ENDS[1], ENDS[2])
 def passed(y, estimate, predicted, transition, flags: Flags):
     """The columns of ``Passed`` from those of a step.
 
-    The velocity begins anew where a force is taken for gravity (``gravity_update.corrected``); an
-    attitude that may be lost is bounded unless a force is about to correct it
-    (``updates.bounded_where_lost``).
+    The velocity begins anew where a force is taken for gravity (``gravity_update.corrected``), and
+    with the first speed and after the last; an attitude that may be lost is bounded unless a force
+    is about to correct it (``updates.bounded_where_lost``).
     """
     bounded = flags.lost * (1 - flags.gravity) * (1 - flags.velocity)
-    rows = (y, estimate[:PACKED], predicted[:PACKED], transition, flags.gravity, bounded)
+    begins = 1 - (1 - flags.gravity) * (1 - flags.anew)
+    rows = (y, estimate[:PACKED], predicted[:PACKED], transition, begins, bounded)
     return ca.vertcat(*rows)

@@ -30,14 +30,18 @@ from pyimu.attitude.filter.stillness import (
 from pyimu.attitude.filter.stillness import followed as still_followed
 from pyimu.attitude.filter.timing import clock_error
 from pyimu.attitude.filter.unscented import LARGEST_STD, LARGEST_TILT_STD, Estimate
-from pyimu.attitude.filter.variables import INPUTS, LEAST_K, LEAST_N, MAG
+from pyimu.attitude.filter.variables import ABSURD, INPUTS, LEAST_K, LEAST_N, MAG
 from pyimu.attitude.filter.velocity import followed, least_std
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.process_noise import process_noise
 
-STATIONARY, HEADING_VALID = (
-    [v.name for v in INPUTS].index(name) for name in ("stationary", "heading_valid")
+STATIONARY, HEADING_VALID, SPEED, SPEED_VALID = (
+    [v.name for v in INPUTS].index(name)
+    for name in ("stationary", "heading_valid", "speed", "speed_valid")
 )
+
+HOLD = 1.0
+"""s; so long after a speed the body still drives."""
 
 
 ARGUMENTS = "estimate memory u p h"
@@ -175,7 +179,11 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
     axes to new, ``noise`` that of ``added_noise``.
     """
     scalar, kept = at.settings.scalar, at.memory
-    used = where(sample.force_valid, is_tilt_known(x)) * (1 - rest.resting)
+    known = is_tilt_known(x)
+    speed = (at.u[SPEED_VALID] > 0.5) * (ca.fabs(at.u[SPEED]) <= ABSURD) * known
+    speed_for = ca.if_else(speed, 0, kept.speed_for + at.h)
+    driven = speed_for < HOLD
+    used = where(sample.force_valid, known) * (1 - rest.resting) * (1 - driven)
     time = scalar["motion_time"]
     motion = followed(kept.motion, x, turned, used, least_std(scalar), time, at.h)
     force = inclination(kept, sample, x, motion, turned, at.settings, at.h)
@@ -195,12 +203,15 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
         sample.lost_for,
         sample.same_for,
         sample.sensors,
+        speed_for,
         vertical_noise,
         ca.vertcat(*place),
         field,
     )
     working = ca.vertcat(Memory.pack_estimate(x), at.estimate[ESTIMATE - 1], ca.SX.zeros(REPORTED))
     flags = _flags(at, sample, rest, x, force, field, vertical_noise)
+    was = kept.speed_for < HOLD
+    flags = flags.with_speed(speed, driven, was + driven - 2 * was * driven)
     return [working, after.pack_memory(), sample.rate, force.measurement.pack(), flags.pack()]
 
 
@@ -225,6 +236,9 @@ def _flags(
         sway=sway(rest.still, _density(at.settings)) / at.h,
         missing=sample.missing,
         faults=2 * sample.at_limit + 4 * sample.stuck,
+        speed=ca.SX(0),
+        driven=ca.SX(0),
+        anew=ca.SX(0),
         field=field,
         vertical_noise=vertical_noise,
     )

@@ -73,7 +73,7 @@ def _step(layout: Layout) -> ca.Function:
     x = bounded_where_lost(x, flags)
     x = where(flags.gravity, _by_gravity(), x, gravity)
     x = where(flags.velocity, by_velocity(correct), x, gravity)
-    x = after_gravity(layout, x, s, u, p, h, rate, flags)
+    x = after_gravity(layout, x, s, u, p, h, rate, gravity, flags)
     x, field = after_others(layout, x, before, s, u, p, h, rate, packed)
     estimate, yaw, y = finish()(x, packed)
     return step_function(layout, symbols, estimate, memory, yaw, field, y)

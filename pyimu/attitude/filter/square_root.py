@@ -99,8 +99,8 @@ def _step(layout: Layout) -> ca.Function:
     x = where(flags.gravity, _by_gravity(), x, gravity)
     x = where(flags.velocity, _by_velocity(), x, gravity)
     others = _after_gravity(layout)
-    asked = flags.heading + flags.stationary + flags.resting > 0
-    x = where(asked, others, x, s, u, p, h, rate, packed)
+    asked = flags.heading + flags.stationary + flags.resting + flags.speed + flags.anew > 0
+    x = where(asked, others, x, s, u, p, h, rate, gravity, packed)
     whole = _to_covariance()(x)
     whole, field = after_others(layout, whole, before, s, u, p, h, rate, packed)
     x = where(flags.field, _factor_of(), x, whole)
@@ -289,7 +289,9 @@ def _bounded_where_lost() -> ca.Function:
 
 def _after_gravity(layout: Layout) -> ca.Function:
     """``x, s, u, p, h, rate, flags -> x``: the updates that follow gravity's."""
-    x, s, u, p, h, rate, packed = symbols = layout.symbols(ca.MX, "x s u p h rate flags")
+    x, s, u, p, h, rate, gravity, packed = symbols = layout.symbols(
+        ca.MX, "x s u p h rate gravity flags"
+    )
     whole = _to_covariance()(x)
-    after = after_gravity(layout, whole, s, u, p, h, rate, Flags.unpack(packed))
+    after = after_gravity(layout, whole, s, u, p, h, rate, gravity, Flags.unpack(packed))
     return ca.Function("after_gravity", symbols, [_to_factor()(after)])

@@ -172,7 +172,7 @@ def _updates(layout: Layout) -> ca.Function:
     x = bounded_where_lost(x, asked)
     x = where(asked.gravity, _by_gravity(), x, gravity)
     x = where(asked.velocity, velocity, x, gravity)
-    x = after_gravity(layout, x, s, u, p, h, rate, asked)
+    x = after_gravity(layout, x, s, u, p, h, rate, gravity, asked)
     x, field = after_others(layout, x, predicted_x, s, u, p, h, rate, flags)
     every = ca.Function("every_update", symbols, [*finished(x, flags), field])
 

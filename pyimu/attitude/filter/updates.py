@@ -12,7 +12,8 @@ from pyimu.attitude.filter.heading_update import LEVEL, by_heading
 from pyimu.attitude.filter.layout import FLAGS, Flags, Layout
 from pyimu.attitude.filter.memory import ESTIMATE, WORKING, Memory
 from pyimu.attitude.filter.settings import Settings
-from pyimu.attitude.filter.unscented import Estimate, bounded, bounded_tilt
+from pyimu.attitude.filter.speed_update import by_speed, velocity_anew
+from pyimu.attitude.filter.unscented import Estimate, N, bounded, bounded_tilt
 from pyimu.symbolic import quaternion
 
 OPTIONS = {"cse": True}
@@ -65,11 +66,13 @@ def _with_estimate(working, x: Estimate):
 # Heading and zero rate
 
 
-def after_gravity(layout: Layout, x, s, u, p, h, rate, flags: Flags) -> ca.MX:
+def after_gravity(layout: Layout, x, s, u, p, h, rate, gravity, flags: Flags) -> ca.MX:
     """The working estimate after the updates that follow gravity's.
 
-    These are by a heading and by a zero rate, where the ``flags`` ask for them.
+    These are by a speed, by a heading and by a zero rate, where the ``flags`` ask for them.
     """
+    x = where(flags.anew, velocity_anew(layout), x, gravity, u, p, flags.driven)
+    x = where(flags.speed * (1 - flags.anew), by_speed(layout), x, gravity, u, p)
     x = where(flags.heading, by_heading(layout), x, s, u, p, h, rate, flags.vertical_noise)
     rest = ca.vertcat(flags.resting, flags.sway)
     at_rest = flags.stationary + flags.resting > 0
@@ -109,7 +112,7 @@ def finish() -> ca.Function:
     x, flags = Memory.estimate_of(given), Flags.unpack(packed)
     q = quaternion.normalized(x.q)
     nis, *report = ca.vertsplit(given[ESTIMATE:])
-    status = _status(flags, report, ca.diag(x.covariance))
+    status = _status(flags, report, ca.diag(x.covariance)[:N])
     at_rest = flags.stationary + flags.resting > 0
     y = outputs(replace(x, q=q), flags.quasi_static, nis * flags.quasi_static, status, at_rest)
     level = (1 - 2 * (q[2] * q[2] + q[3] * q[3])) ** 2 + (

@@ -65,6 +65,9 @@ LEAST_K = 1e-10
 LEAST_ACCEL_STD = 1e-4
 """m/s^2; least standard deviation of a sample of specific force."""
 
+LEAST_SPEED_STD = 1e-6
+"""m/s; least standard deviation of a speed and of the slip."""
+
 LEAST_HEADING_STD = 1e-6
 """rad; least standard deviation of a heading."""
 
@@ -95,6 +98,9 @@ INPUTS = (
         "left out then adds up, and std is too small",
     ),
     Variable("stationary", "1", "the body does not turn against the Earth", kind="boolean"),
+    Variable("speed", "m/s", "speed over the ground along the body's x axis, backwards below zero"),
+    Variable("speed_variance", "m^2/s^2", "variance of the speed"),
+    Variable("speed_valid", "1", "use the speed of this sample", kind="boolean"),
     *array("mag", "T", "measured magnetic flux density, body axes; zeros or NaN: none"),
 )
 """The inputs for every part; ``EXTRA_INPUTS`` follow where the part needs them."""
@@ -267,6 +273,12 @@ SETTINGS = (
         "m/s^2",
         "largest difference of a sample's force from the mean at rest, beside white noise",
         0.2,
+    ),
+    _setting(
+        "slip_std",
+        "m/s",
+        "standard deviation of the velocity across and upwards of a body whose speed is given",
+        0.1,
     ),
     _setting(
         "lost_rate_std",

@@ -55,6 +55,11 @@ def notes(a: Outcome) -> list[str]:
             "one in g does: gravity corrected nothing; write accel_x [g] in the log's header, or "
             "map it there with --columns"
         )
+    if any(f.kind == "speed_sign" for f in a.findings):
+        found.append(
+            "the forces say that the speed has the wrong sign, or is not along the body's x axis: "
+            "it was not used; turn its sign, or the axes"
+        )
     return found + [_about_field(f) for f in a.magnetometer.findings]
 
 

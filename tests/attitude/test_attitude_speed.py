@@ -1,0 +1,138 @@
+"""A vehicle whose speed is measured: pushes and turns do not tilt its attitude."""
+
+import numpy as np
+import pytest
+from attitude_cases import (
+    GRAVITY,
+    Drive,
+    H,
+    error,
+    inputs,
+    measured,
+    output,
+    parameters,
+    part,
+)
+from scipy.spatial.transform import Rotation
+from scipy.stats import chi2
+
+from pyimu.attitude import attitude_ukf, run
+from pyimu.attitude.filter.sigma_point_filter import sigma_point_filter
+from pyimu.recording.recording import Recording
+
+STD0 = np.array([0.02, 0.02, 0.02, 0.005, 0.005, 0.005])
+SPEED_STD, ROWS = 0.05, 6000
+EVERY = 10
+"""Samples from one speed to the next."""
+
+
+@pytest.fixture(scope="module")
+def block():
+    return attitude_ukf(part())
+
+
+def vehicle(rows: int = ROWS) -> tuple[Drive, np.ndarray]:
+    """A drive on a ramp of 0.1 rad and back: pushes of 0.8 m/s^2 for 5 s, turns of 0.3 rad/s at 3
+    to 9 m/s, and the speed (n,) after each row.
+    """
+    t = H * np.arange(1, rows + 1)
+    along = 0.8 * np.sin(2 * np.pi * t / 20)
+    speed = 3.0 + np.cumsum(along) * H
+    rate = np.zeros((rows, 3))
+    rate[:, 2] = 0.3 * np.sin(2 * np.pi * t / 33)
+    rate[:, 1] = 0.1 * 2 * np.pi / 25 * np.sin(2 * np.pi * t / 25)
+    turns = Rotation.from_rotvec(rate * H)
+    attitude, q = [], Rotation.identity()
+    for turn in turns:
+        q = q * turn
+        attitude.append(q.as_quat())
+    attitude = Rotation.from_quat(attitude)
+    # f = v' + w x v + R^T g, with v the mean speed of the period along x.
+    forward = np.column_stack([speed - along * H / 2, 0 * t, 0 * t])
+    force = np.column_stack([along, 0 * t, 0 * t]) + np.cross(rate, forward)
+    force += attitude.apply([0, 0, GRAVITY], inverse=True)
+    return Drive(rate, attitude, force, rate), speed
+
+
+def filtered(block, world: Drive, speed, seed: int, told=True, until=ROWS, **settings):
+    """Outputs, final state and the true bias of a draw, with an initial error of ``STD0``."""
+    rng = np.random.default_rng(seed)
+    first = STD0 * rng.standard_normal(6)
+    gyro, accel, bias = measured(world, rng, first[3:])
+    q0 = Rotation.from_rotvec(first[:3]).inv().as_quat(scalar_first=True)
+    n = len(gyro)
+    seen = speed + SPEED_STD * rng.standard_normal(n)
+    valid = (np.arange(n) % EVERY == 0) & told & (np.arange(n) < until)
+    u = inputs(
+        n, gyro=gyro, accel=accel, speed=seen, speed_variance=SPEED_STD**2, speed_valid=valid
+    )
+    y, state = block.run(u, p=parameters(block, q0=q0, std0=STD0, slip_std=0.0, **settings))
+    return y, state, bias
+
+
+def test_pushes_and_turns_do_not_tilt_a_vehicle_whose_speed_is_known(block):
+    """The squared error of tilt and bias over the claimed variances is chi-square, up to what
+    accelerations beside the drive's are allowed for: these are none here.
+    """
+    world, speed = vehicle()
+    draws, at, squares = 20, np.array([1500, 3000, 4500, 5999]), []
+    up = world.attitude.apply([0, 0, 1], inverse=True)
+    for seed in range(draws):
+        y, _, bias = filtered(block, world, speed, seed)
+        off = error(output(block, y, "q"), world.attitude)[at]
+        level = off - np.sum(off * up[at], axis=1)[:, None] * up[at]
+        std = output(block, y, "std")[at]
+        whole = np.sum(std[:, :3] ** 2, axis=1) - output(block, y, "heading_std")[at] ** 2
+        squares.append(np.sum(level**2, axis=1) / (whole / 2))
+        shown = np.degrees(np.sqrt(np.mean(np.sum(level**2, axis=1))))
+        assert shown < 0.5
+    total = np.sum(squares, axis=0)
+    assert np.all(total < chi2.ppf(1 - 1e-4 / len(at), 2 * draws))
+    without, _, _ = filtered(block, world, speed, 0, told=False)
+    lost = error(output(block, without, "q"), world.attitude)[1000:]
+    assert np.degrees(np.sqrt(np.mean(np.sum(lost[:, :2] ** 2, axis=1)))) > 1.5
+
+
+def test_after_the_last_speed_the_body_is_one_that_stays_in_its_place(block):
+    """Its tilt is then less sure than with speeds, and no contradiction is seen."""
+    world, speed = vehicle()
+    y, state, _ = filtered(block, world, speed, 3, until=3000)
+    whole = filtered(block, world, speed, 3)[0]
+    np.testing.assert_array_equal(y[:3000], whole[:3000])
+    status = output(block, y, "status")[3000:]
+    assert np.mean(status.astype(int) & 8 > 0) < 0.02
+    assert np.all(output(block, y, "std")[-1, :2] > output(block, whole, "std")[-1, :2])
+    assert np.isfinite(state).all()
+
+
+def test_both_forms_of_the_filter_take_a_speed_alike(block):
+    world, speed = vehicle(3000)
+    one, two = (filtered(b, world, speed, 1)[0] for b in (block, sigma_point_filter(part())))
+    np.testing.assert_allclose(output(block, one, "q"), output(block, two, "q"), atol=2e-4)
+    np.testing.assert_allclose(output(block, one, "std"), output(block, two, "std"), rtol=1e-2)
+
+
+def log(world: Drive, speed: np.ndarray, sign: float = 1.0) -> Recording:
+    rng = np.random.default_rng(5)
+    gyro, accel, _ = measured(world, rng, np.zeros(3))
+    seen = np.where(np.arange(len(speed)) % EVERY == 0, sign * speed, np.nan)
+    return Recording.from_arrays(time=H * np.arange(len(speed)), gyro=gyro, accel=accel, speed=seen)
+
+
+def test_a_log_with_speeds_is_run_with_them():
+    world, speed = vehicle()
+    result = run(log(world, speed), part())
+    found = Rotation.from_quat(result.q, scalar_first=True)
+    ups = [q.apply([0, 0, 1], inverse=True)[1000:] for q in (found, world.attitude)]
+    off = np.linalg.norm(ups[0] - ups[1], axis=1)
+    assert np.degrees(np.sqrt(np.mean(off**2))) < 0.5
+    assert not [f for f in result.findings if f.kind == "speed_sign"]
+
+
+def test_a_speed_of_the_wrong_sign_is_said_and_not_used():
+    world, speed = vehicle()
+    wrong, right = log(world, speed, -1.0), log(world, speed)
+    result = run(wrong, part())
+    assert "the speed has the wrong sign" in result.report()
+    plain = run(Recording.from_arrays(time=right.time, gyro=right.gyro, accel=right.accel), part())
+    np.testing.assert_array_equal(result.q, plain.q)
