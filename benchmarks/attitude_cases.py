@@ -127,7 +127,10 @@ def peer(gyro: np.ndarray, accel: np.ndarray, period: float, smooth: bool) -> di
 
 
 def estimated(log: Log, smooth: bool):
-    """The package's filter over a log, with the part's noise, and where asked its smoother."""
+    """The package's filter over a log, with the part's noise, and where asked its smoother.
+
+    The simulated gyro has no error that grows with the rate, and the filter is told so.
+    """
     recording = Recording.from_arrays(time=log.time, gyro=log.gyro, accel=log.accel, **log.heading)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "part.toml"
@@ -137,7 +140,8 @@ def estimated(log: Log, smooth: bool):
             f'[gyro.rate_random_walk]\nK = {{value = {K}, unit = "rad/s/sqrt(s)"}}\n'
             f'[accel.angle_random_walk]\nN = {{value = {N_ACCEL}, unit = "m/s/sqrt(s)"}}\n'
         )
-        return run(recording, path, smooth=smooth, **log.told)
+        told = log.told | {"settings": {"rate_noise": 0.0} | log.told.get("settings", {})}
+        return run(recording, path, smooth=smooth, **told)
 
 
 def errors(q: np.ndarray, log: Log, at: np.ndarray, headed: bool):

@@ -136,3 +136,12 @@ def test_a_speed_of_the_wrong_sign_is_said_and_not_used():
     assert "the speed has the wrong sign" in result.report()
     plain = run(Recording.from_arrays(time=right.time, gyro=right.gyro, accel=right.accel), part())
     np.testing.assert_array_equal(result.q, plain.q)
+
+
+def test_a_car_that_drives_evenly_is_not_at_rest_if_its_speed_is_known(block):
+    """Straight on, without a bump, it looks as if at rest."""
+    zero, force = np.zeros((1500, 3)), np.tile([0.0, 0.0, GRAVITY], (1500, 1))
+    world = Drive(zero, Rotation.identity(1500), force, zero)
+    for told in (True, False):
+        y, _, _ = filtered(block, world, np.full(1500, 8.0), 1, told=told)
+        assert output(block, y, "at_rest")[300:].any() == (not told)

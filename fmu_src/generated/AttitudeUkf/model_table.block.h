@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN "{05697b84-8e50-aa12-d7d4-c71d63c4c54b}"
+#define MODEL_TOKEN "{ab5273e2-e146-b4a4-ea0e-56d1a4776551}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

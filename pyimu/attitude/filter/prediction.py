@@ -43,6 +43,9 @@ STATIONARY, HEADING_VALID, SPEED, SPEED_VALID = (
 HOLD = 1.0
 """s; so long after a speed the body still drives."""
 
+DRIVES = 0.2
+"""m/s; a body of which speeds say more is not at rest, however even its drive."""
+
 
 ARGUMENTS = "estimate memory u p h"
 """Of a prediction, by their names in ``Layout``."""
@@ -105,13 +108,14 @@ def rest_of(at: Instant, sample: Sample) -> Rest:
     be one.
     """
     settings, before, scalar = at.settings, at.memory.stillness, at.settings.scalar
+    x = at.memory.estimate
     tolerance = scalar["rest_rate_tolerance"], scalar["rest_force_tolerance"]
     noise = settings.gyro.white**2 / at.h, white_variance(settings, at.h)
     alike = is_still(before, sample.rate, sample.force, tolerance, noise, at.h)
-    alike = where(sample.force_valid, alike)
+    drives = (at.memory.speed_for < HOLD) * (ca.sumsqr(x.velocity) > DRIVES**2)
+    alike = where(sample.force_valid, alike) * (1 - drives)
     if sample.gyro_lost is not False:
         alike = alike * (1 - ca.mmax(sample.gyro_lost))
-    x = at.memory.estimate
     still = still_followed(before, sample.rate, sample.force, x.bias, alike, at.h)
     long = (before.span >= scalar["rest_time"]) * (scalar["rest_time"] > 0)
     rests = long * before.rests * (1 - at.stationary)
