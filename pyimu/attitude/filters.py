@@ -28,7 +28,7 @@ OF_LOGS: dict[str, Callable[[Part], Block]] = FILTERS | {
 
 OWN = "ukf"
 
-UNUSED = {"hidalgo2012": ("heading", "stationary", "mag")}
+UNUSED = {"hidalgo2012": ("heading", "stationary", "mag", "speed")}
 """Columns of a recording that a filter knows no update for."""
 
 
