@@ -56,16 +56,19 @@ def wandering(part: Part) -> Part:
     return part.with_sensor(part.gyro.with_values(walk, **{strength: NOMINAL_K}))
 
 
-def informed(part: Part, recording: Recording) -> Part:
+def informed(part: Part, recording: Recording, rest: Rest) -> Part:
     """The part as the filter takes it over a recording.
 
     Where it says nothing of its gyro's wander it has the nominal one. The samples of a real sensor
-    also show where they pile up, at a level that the part does not say: beyond it no sample says
-    how far the body turned.
+    also show its white noise at ``rest``, where the part has none: a sensor without noise would
+    never be still. And they show where they pile up, at a level that the part does not say: beyond
+    it no sample says how far the body turned.
     """
     part = wandering(part)
     if not of_a_sensor(part):
         return part
+    for sensor, std in ((part.gyro, rest.rate_std), (part.accel, rest.force_std)):
+        part = part.with_sensor(_noisy(sensor, std * np.sqrt(recording.sample_period)))
     effect, parameter = read_off(CATALOGUE.values(), "ceiling")
     for sensor, values in ((part.gyro, recording.gyro), (part.accel, recording.accel)):
         for seen in _clipped(values).values():
@@ -75,6 +78,14 @@ def informed(part: Part, recording: Recording) -> Part:
             limit = np.where(np.isfinite(least), least, 0.0)
             part = part.with_sensor(sensor.with_values(effect, **{parameter: limit}))
     return part
+
+
+def _noisy(sensor: Sensor, density: np.ndarray) -> Sensor:
+    """The sensor, with white noise of this root ``density`` (3,) where it has none of its own."""
+    if any(e.law is not None and e.law.white is not None for e in sensor.effects):
+        return sensor
+    white, parameter = WHITE
+    return sensor.with_values(white, **{parameter: density})
 
 
 def of_a_sensor(part: Part) -> bool:

@@ -13,10 +13,10 @@ from scipy.spatial.transform import Rotation
 
 
 class Retiming:
-    """The instants ``taken`` (n,) s of the samples whose rows say ``time`` (n,) s.
+    """The instants ``taken`` (n,) s of the estimates after samples whose rows say ``time`` (n,) s.
 
     The clock is off by the share ``skew``; power-on is one ``period`` s before the first row. All
-    samples are late by ``delay`` s.
+    estimates are late by ``delay`` s, early where it is below zero.
     """
 
     def __init__(self, time: np.ndarray, skew: float, period: float, delay: float = 0.0) -> None:

@@ -20,7 +20,7 @@ from pyimu.attitude.columns import (
 )
 from pyimu.attitude.driven import speed_findings
 from pyimu.attitude.filter.compensation import left_in, noise_of
-from pyimu.attitude.filter.timing import clock_error, latency
+from pyimu.attitude.filter.timing import clock_error, estimate_latency
 from pyimu.attitude.filter.ukf import recorded_ukf
 from pyimu.attitude.filter.variables import LEAST_K
 from pyimu.attitude.filters import OF_LOGS, OWN, Settings, chosen
@@ -103,7 +103,10 @@ def run(
     gravity = number("gravity", given.get("gravity", STANDARD_GRAVITY))
     rest = find_rest(recording, gravity or STANDARD_GRAVITY)
     field = magnetometer_of(recording, magnetometer and method == OWN)
-    known = nominal_part(recording, rest) if part is None else informed(part_of(part), recording)
+    if part is None:
+        known = nominal_part(recording, rest)
+    else:
+        known = informed(part_of(part), recording, rest)
     block = OF_LOGS[method](known)
 
     def turned(row: int) -> float:
@@ -226,12 +229,13 @@ def _gyro_p(part: Part, p: np.ndarray) -> ca.SX:
 
 
 def _retiming(recording: Recording, part: Part, p: np.ndarray) -> Retiming | None:
-    """How the gyro's samples lie in time; None where they belong to their rows."""
+    """How the estimates lie in time; None where they belong to their rows."""
     own = _gyro_p(part, p)
-    skew, delay = (float(ca.evalf(ca.SX(f(part.gyro, own)))) for f in (clock_error, latency))
+    skew, period = float(ca.evalf(ca.SX(clock_error(part.gyro, own)))), recording.sample_period
+    delay = float(ca.evalf(estimate_latency(part.gyro, own, period * (1 + skew))))
     if not skew and not delay:
         return None
-    return Retiming(recording.time, skew, recording.sample_period, delay)
+    return Retiming(recording.time, skew, period, delay)
 
 
 def _bias_walk(part: Part, p: np.ndarray) -> np.ndarray:

@@ -6,6 +6,7 @@ from attitude_cases import GRAVITY, H, output, parameters
 from scipy.spatial.transform import Rotation
 
 from pyimu.attitude import attitude_ukf, run
+from pyimu.attitude.filter.timing import timed
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
 from pyimu.recording.recording import Recording
@@ -33,11 +34,18 @@ def angle(t):
     return np.where(t > REST, SWING * (1 - np.cos(PULSATION * (t - REST))), 0)
 
 
-def swing() -> tuple[np.ndarray, np.ndarray, np.ndarray, Rotation]:
-    """Time (N,), true rate and force (N, 3), and attitude at the rows."""
+def rate_at(t):
+    return np.where(t > REST, SWING * PULSATION * np.sin(PULSATION * (t - REST)), 0)
+
+
+def swing(instant: bool = True) -> tuple[np.ndarray, np.ndarray, np.ndarray, Rotation]:
+    """Time (N,), true rate and force (N, 3), and attitude at the rows.
+
+    The rate is that of the row's ``instant``, else the mean of the period that it ends.
+    """
     time = H * np.arange(1, N + 1)
     rate = np.zeros((N, 3))
-    rate[:, 0] = (angle(time) - angle(time - H)) / H
+    rate[:, 0] = rate_at(time) if instant else (angle(time) - angle(time - H)) / H
     attitude = Rotation.from_euler("x", angle(time)[:, None])
     return time, rate, attitude.inv().apply([0, 0, GRAVITY]), attitude
 
@@ -52,7 +60,11 @@ def part(gyro: dict, accel: dict, n: float = 1e-5) -> Part:
 
 
 def measured(late: Part, seed: int | None = None):
-    time, rate, force, attitude = swing()
+    """The recording, and the attitude at its rows.
+
+    A gyro of which the part says no delay, or whose lag is inverted, has mean rates of periods.
+    """
+    time, rate, force, attitude = swing(instant=bool(timed(late.gyro)))
     block = late.block
     u = np.hstack([rate, force, np.full((N, 1), 25.0)])
     y, _ = block.run(u, seed=seed) if seed is not None else block.run(u)
@@ -85,6 +97,38 @@ def test_a_late_sensor_is_brought_to_its_rows(kind, without_delay):
     assert off(result.q, truth)[AFTER].max() < 1.2 * without_delay + EVEN_TURN + third
     assert off(run(log, part({}, {}), q0=[1, 0, 0, 0]).q, truth)[AFTER].max() > 0.05
     assert result.left_in == ()
+
+
+SHORT = {"time_delay": {"td": 0.2 * H}}
+"""A delay below half a period: the sum of period times rates is the turn until later than the last
+row."""
+
+
+@pytest.mark.parametrize("accel", [{}, SHORT], ids=["unsaid", "as late"])
+def test_a_delay_below_half_a_period_is_brought_to_the_rows(accel, without_delay):
+    """To what the filter errs by without it, the turn between two samples, and what the rate of its
+    middle leaves out of a period's turn, h^2/24 of the rate's change. An accelerometer of which
+    nothing is said is of its row then.
+    """
+    late = part(SHORT, accel)
+    log, truth = measured(late)
+    middle = H**2 / 24 * FASTER
+    found = off(run(log, late, q0=[1, 0, 0, 0]).q, truth)[AFTER]
+    assert found.max() < 1.2 * without_delay + EVEN_TURN + middle
+    assert off(run(log, part({}, {}), q0=[1, 0, 0, 0]).q, truth)[AFTER].max() > 0.008
+
+
+def test_a_unit_with_a_delay_below_half_a_period_turns_back():
+    """To the second order, (h/2 - d)^2 w'/2, and within its standard deviations."""
+    late = part(SHORT, SHORT)
+    log, truth = measured(late)
+    block = attitude_ukf(late)
+    u = np.tile([v.start for v in block.inputs], (N, 1))
+    u[:, :6] = np.hstack([log.gyro, log.accel])
+    y, _ = block.run(u, p=parameters(block, std0=np.array([1e-3] * 3 + [1e-6] * 3)))
+    error = off(output(block, y, "q"), truth)[AFTER]
+    assert error.max() < 1.2 * (0.3 * H) ** 2 * FASTER / 2 + EVEN_TURN
+    assert (error < 3 * output(block, y, "std")[AFTER, 0]).all()
 
 
 def test_an_accelerometer_of_another_delay_is_brought_to_the_gyros_instant():

@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
-from attitude_cases import H, drive, part, rover_rate
+from attitude_cases import GRAVITY, H, drive, part, rover_rate
 from scipy.spatial.transform import Rotation
 
 from pyimu.attitude import run
 from pyimu.attitude.columns import NOMINAL_K, NOMINAL_RATE_NOISE, informed, rate_noise
 from pyimu.attitude.error import error_against
+from pyimu.attitude.rest import find_rest
 from pyimu.model.part_file import parse_part
 from pyimu.recording.recording import Recording
 
@@ -15,6 +16,9 @@ MEASURED = """name = "measured"
 sample_rate = {value = 100.0, unit = "Hz"}
 [gyro.angle_random_walk]
 N = {value = 1e-4, unit = "rad/sqrt(s)", source = "a log at rest"}
+"""
+SAID = """[accel.angle_random_walk]
+N = {value = 1e-2, unit = "m/s/sqrt(s)", source = "a log at rest"}
 """
 GROWING = """[gyro.rate_dependent_noise]
 k = {value = 1e-3, unit = "sqrt(s)", source = "a turntable"}
@@ -38,12 +42,52 @@ def test_a_measured_part_leaves_out_as_much_of_the_rate_as_no_part():
     assert parameters["gyro_error.rate_random_walk.K[1]"] == NOMINAL_K
 
 
+def as_taken(part, recording):
+    return informed(part, recording, find_rest(recording))
+
+
+def resting(seconds: float = 20.0) -> Recording:
+    """A gyro and an accelerometer with noise and bias that rest."""
+    n, rng = round(seconds / H), np.random.default_rng(1)
+    gyro = [2e-3, -1e-3, 3e-3] + 1e-3 * rng.standard_normal((n, 3))
+    accel = [0, 0, GRAVITY] + NOISE * rng.standard_normal((n, 3))
+    return Recording("rest", time=H * np.arange(1, n + 1), gyro=gyro, accel=accel)
+
+
+NOISE = 0.1
+"""m/s^2; standard deviation of the accelerometer's samples. The three axes are then together off by
+more than ``rest_force_tolerance``, 0.2, in every fourth sample."""
+
+
+def test_the_accelerometers_noise_is_that_at_rest_where_a_measured_part_does_not_say():
+    """To five standard errors of a standard deviation of 2000 samples."""
+    recording, white = resting(), "angle_random_walk"
+    accel = as_taken(parse_part(MEASURED, "part.toml"), recording).accel
+    n = NOISE * np.sqrt(H)
+    np.testing.assert_allclose(accel.values[white]["N"], n, rtol=5 / np.sqrt(2 * 2000))
+    said = parse_part(MEASURED + SAID, "part.toml")
+    np.testing.assert_allclose(as_taken(said, recording).accel.values[white]["N"], 1e-2)
+    made = part()
+    made = made.with_sensor(made.accel.without(white))
+    assert white not in as_taken(made, recording).accel.values
+
+
+def test_a_measured_part_without_accelerometer_finds_rests():
+    """As without a part: the body rests from when it has been still for as long as a rest takes."""
+    recording, measured = resting(), parse_part(MEASURED, "part.toml")
+    found, without = (run(recording, p) for p in (measured, None))
+    assert without.at_rest.mean() > 0.8
+    assert found.at_rest.mean() == pytest.approx(without.at_rest.mean(), abs=0.05)
+    assert (found.std[-1, 3:] < 2 * without.std[-1, 3:]).all()
+
+
 def test_where_samples_pile_up_a_measured_part_clips_though_it_does_not_say():
-    seen = informed(parse_part(MEASURED, "part.toml"), log(0.5)).gyro.values["saturation"]["limit"]
+    measured = parse_part(MEASURED, "part.toml")
+    seen = as_taken(measured, log(0.5)).gyro.values["saturation"]["limit"]
     np.testing.assert_allclose(seen[seen > 0], 0.5)
     assert (seen > 0).any()
-    assert "saturation" not in informed(parse_part(MEASURED, "part.toml"), log()).gyro.values
-    assert "saturation" not in informed(part(), log(0.5)).gyro.values
+    assert "saturation" not in as_taken(measured, log()).gyro.values
+    assert "saturation" not in as_taken(part(), log(0.5)).gyro.values
 
 
 def test_a_heading_that_drifts_is_set_right_in_each_window():

@@ -57,11 +57,11 @@ def left_in_words(part: Part, delayed: bool = False) -> str:
 
 
 def inputs_of_the_sample(layout: Layout, symbols: list[ca.MX]) -> ca.MX:
-    """The inputs as they were when the gyro's sample was taken; ``symbols`` are s, u, p and h."""
-    s, u, p, _ = symbols
+    """The inputs as they were at the estimate's instant; ``symbols`` are s, u, p and h."""
+    s, u, p, h = symbols
     if not layout.compensation.shows_now:
         return u
-    return headings_of_the_sample(layout)(s[:ESTIMATE], s[ESTIMATE : layout.rings], u, p)
+    return headings_of_the_sample(layout)(s[:ESTIMATE], s[ESTIMATE : layout.rings], u, p, h)
 
 
 def step_function(

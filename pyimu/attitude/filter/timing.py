@@ -5,6 +5,11 @@ filter estimates the attitude of that instant, and its outputs are turned on ove
 brought to the rows that they belong to (a log). That also serves for the lags, to the second order
 in the motion's frequency times d: their inverses, y + tau dy/dt and the like, would amplify the
 noise of a sample without bound as the lag grows.
+
+A sample is turned by as the mean rate of the period that it ends. Where a part says how late its
+gyro is, that is against the rate of an instant, y(t) = x(t - d); period times such rates adds up to
+the turn until half a period after the last one (the midpoint rule). Of a gyro of which nothing is
+said the delay is taken for that half period, as of the mean rate of a period.
 """
 
 from __future__ import annotations
@@ -66,3 +71,13 @@ def latency(sensor: Sensor, p):
     """
     delays = [e.delay(**coefficients(sensor, p, e.name)) for e in timed(sensor)]
     return sum(ca.sum1(d) / d.numel() for d in map(ca.SX, delays))
+
+
+def estimate_latency(gyro: Sensor, p, h):
+    """s; by how much the estimate is late after a sample of the gyro, of period ``h`` s.
+
+    Where the sample's instant is known, the estimate's is half a period later, so that this can be
+    below zero.
+    """
+    late = latency(gyro, p)
+    return ca.if_else(late > 0, late - h / 2, 0)
