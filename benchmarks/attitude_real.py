@@ -21,6 +21,10 @@ of them drive an axis of its gyro to the limit, the first one over and over: by 
 meanwhile nobody knows, and both filters lose the attitude. The reference has an unknown mounting
 rotation, fitted for each filter to the nine tenths of the rows that agree best.
 
+A last table has the same with the magnetometer calibrated by the log itself, and by each other log
+of the set that turns enough. The recordings come with a magnetometer that is calibrated already,
+in a room whose field is not the same everywhere.
+
 A second table has the smoothed attitude of the recordings of BROAD, of which each sample is
 estimated by all others, beside vqf's ``offlineVQF``, with what the smoother claims of its error.
 The smoother has no constant of its own.
@@ -37,6 +41,7 @@ import pyimu
 from pyimu.attitude import run
 from pyimu.attitude.error import angle_between, root_mean_square
 from pyimu.attitude.outcome import DISTURBED
+from pyimu.characterization.magnetometer.estimate import magnetometer_fit
 
 SCORED = (
     "broad_02_undisturbed_slow_rotation_B",
@@ -96,7 +101,9 @@ def main() -> None:
             f"{np.mean(ours.quasi_static[scored]):12.0%} {verdict(rms)}"
         )
     smoothed_table(paths[: len(SCORED)])
-    nine_axes([log for log in logs.values() if log.mag is not None], VQF)
+    magnetic = [log for log in logs.values() if log.mag is not None]
+    nine_axes(magnetic, VQF)
+    calibrated_table(magnetic)
 
 
 def nine_axes(logs: list, peer) -> None:
@@ -125,6 +132,34 @@ def nine_axes(logs: list, peer) -> None:
             f"{'mean':42s}{mean[0]:8.3f}{mean[1]:8.3f}{mean[2]:9.3f}{mean[3]:8.3f} "
             f"{verdict(mean[:2])}{verdict(mean[2:])}"
         )
+
+
+def calibrated_table(logs: list) -> None:
+    """Total and heading error with the magnetometer as it is, by the calibration of the log itself
+    and by that of each other log that gives one.
+
+    Heading errors have their mean taken off in the last column: a calibration cannot know what the
+    field's direction is in a place, and takes part of what the place bends for soft iron.
+    """
+    found = {}
+    for log in logs:
+        try:
+            fitted = magnetometer_fit(log, run(log, magnetometer=False, smooth=True))
+            found[log.name.split("_")[1]] = fitted.calibration
+        except pyimu.UserError as error:
+            print(error)
+    print(
+        f"\n{'nine axes, calibrated by, RMS [deg]':42s}{'total':>8s}{'heading':>9s}{'varying':>9s}"
+    )
+    for log in logs:
+        scored = np.isfinite(log.ref_q).all(axis=1) & moving_rows(log)
+        for name, calibration in ({"nothing": True} | found).items():
+            q = run(log, magnetometer=calibration).q
+            total, heading = total_and_heading(q[scored], log.ref_q[scored])
+            own = " (itself)" if name == log.name.split("_")[1] else ""
+            rms = (root_mean_square(total), root_mean_square(heading), np.std(heading))
+            cells = "".join(f"{np.degrees(v):9.3f}" for v in rms)
+            print(f"{log.name.split('.')[0][:20] + ' by ' + name + own:41s}{cells}")
 
 
 def _nine_axes_row(log, ours, theirs: np.ndarray) -> np.ndarray:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pyimu.attitude.calibration import MagnetometerCalibration
 from pyimu.errors import Finding
 from pyimu.recording.recording import Recording
 from pyimu.units import parse
@@ -24,12 +25,14 @@ UNITS = ("T", "gauss", "mT", "uT", "nT")
 class Magnetometer:
     """A recording's magnetometer: whether it is ``used``, and the ``findings`` about it.
 
-    ``strength`` is the median of its samples' length in T, NaN without any.
+    ``strength`` is the median of its samples' length in T, NaN without any; ``calibration`` the one
+    that was undone before, or None.
     """
 
     used: bool = False
     strength: float = float("nan")
     findings: tuple[Finding, ...] = ()
+    calibration: MagnetometerCalibration | None = None
 
 
 def magnetometer_of(recording: Recording, wanted: bool) -> Magnetometer:

@@ -184,15 +184,15 @@ def _rest(
         float(recording.time[stop - 1] - recording.time[0]),
         mean,
         force.mean(axis=0) if usable else None,
-        _white_std(rate),
-        _white_std(force),
+        white_std(rate),
+        white_std(force),
         np.hypot(mean_std, 1e-6),
         gravity,
         declared,
     )
 
 
-def _white_std(values: np.ndarray) -> np.ndarray:
+def white_std(values: np.ndarray) -> np.ndarray:
     """Standard deviation (3,) of a sample's white noise.
 
     It is taken from the differences of neighbours, so that motion and drift are not in it.

@@ -10,6 +10,11 @@ import casadi as ca
 import numpy as np
 
 from pyimu.attitude.alignment import MagneticNorth, Yaw, initial_values, initial_yaw
+from pyimu.attitude.calibration import (
+    MagnetometerCalibration,
+    calibrated,
+    calibration_of,
+)
 from pyimu.attitude.columns import (
     informed,
     latitude_of,
@@ -25,9 +30,9 @@ from pyimu.attitude.filter.ukf import recorded_ukf
 from pyimu.attitude.filter.variables import LEAST_K
 from pyimu.attitude.filters import OF_LOGS, OWN, Settings, chosen
 from pyimu.attitude.input_grid import InputGrid
-from pyimu.attitude.magnetometer import magnetometer_of
+from pyimu.attitude.magnetometer import Magnetometer, magnetometer_of
 from pyimu.attitude.outputs import filtered
-from pyimu.attitude.rest import find_rest
+from pyimu.attitude.rest import Rest, find_rest
 from pyimu.attitude.result import AttitudeResult
 from pyimu.attitude.retiming import Retiming
 from pyimu.attitude.smoothing import smoothed
@@ -49,7 +54,7 @@ def run(
     latitude: float | None = None,
     q0: np.ndarray | None = None,
     heading0: float | None = None,
-    magnetometer: bool = True,
+    magnetometer: bool | MagnetometerCalibration | str | os.PathLike = True,
     bias0: np.ndarray | None = None,
     std0: np.ndarray | None = None,
     settings: Settings = None,
@@ -67,10 +72,13 @@ def run(
     gyro bias in rad/s, ``std0`` (6,) the standard deviations of attitude in body axes in rad and of
     bias in rad/s. What is not given comes from the first seconds at rest; yaw from the first
     recorded heading, else from the magnetometer, or it is zero. A recorded ``speed`` takes out the
-    forces by which a vehicle speeds up and turns; it is along the body's x axis. ``magnetometer``
-    says whether the recording's ``mag`` is used, where it can be: it corrects the yaw beside the
-    headings, each by its own weight, and yaw is then against true north by the setting
-    ``declination``.
+    forces by which a vehicle speeds up and turns; it is along the body's x axis.
+
+    ``magnetometer`` says whether the recording's ``mag`` is used, where it can be: it corrects the
+    yaw beside the headings, each by its own weight, and yaw is then against true north by the
+    setting ``declination``. A ``MagnetometerCalibration``, or the path of its file, is undone
+    first; ``pyimu.characterize`` finds one in a log that turns. It is not found in the log itself:
+    in a room it takes what the place bends for the sensor's (``benchmarks/attitude_real.py``).
 
     ``settings`` are values of other parameters of the block by name, or a filter's name:
     ``"hidalgo2012"`` is the one as published; as the value ``filter`` a name goes with others. A
@@ -102,28 +110,23 @@ def run(
         raise UserError(f"smooth with the filter {method}: only {OWN} can be smoothed")
     gravity = number("gravity", given.get("gravity", STANDARD_GRAVITY))
     rest = find_rest(recording, gravity or STANDARD_GRAVITY)
-    field = magnetometer_of(recording, magnetometer and method == OWN)
-    if part is None:
-        known = nominal_part(recording, rest)
-    else:
-        known = informed(part_of(part), recording, rest)
+    as_given, calibration = recording, calibration_of(magnetometer)
+    if calibration is not None:
+        recording = calibrated(recording, calibration)
+    wanted = calibration is not None or bool(magnetometer)
+    field = magnetometer_of(recording, wanted and method == OWN)
+    known = _known(part, recording, rest)
     block = OF_LOGS[method](known)
 
     def turned(row: int) -> float:
         return _turned(recording, row, known, latitude, bias0, settings)
 
-    values = stuck_times(recording, known, rest)
-    if recording.mag is not None and not field.used:
-        values["field_tolerance"] = 0.0
     north = _north(block, given) if field.used else None
     yaw = initial_yaw(recording, rest, heading0, turned, north) if q0 is None else Yaw()
+    values = _of_the_log(recording, known, rest, field)
     values |= initial_values(recording, known, rest, latitude, q0, yaw)
-    if getattr(recording, "stationary", None) is not None:
-        values["rest_time"] = 0.0
     values |= _numbered("bias0", bias0, 3) | _numbered("std0", std0, 6)
     values["rate_noise"] = rate_noise(None if part is None else known)
-    if oldest := float(recorded_age(recording).max()):
-        values["heading_memory"] = oldest
     has = {v.name for v in block.parameters}
     p = _parameters(block, {n: v for n, v in values.items() if n in has} | given)
     retiming = _retiming(recording, known, p)
@@ -143,15 +146,22 @@ def run(
         recording.name,
         recording.time,
         **outputs,
-        recording=recording,
+        recording=as_given,
         rest=rest,
         parameters=parameters,
         part="" if part is None else known.name,
         left_in=left_in(known, retimed=True),
         method=method,
         smoothed=smooth,
-        magnetometer=field,
+        magnetometer=replace(field, calibration=calibration),
     )
+
+
+def _known(part: Part | str | os.PathLike | None, recording: Recording, rest: Rest) -> Part:
+    """What is known of the sensors: the part, and of what it is silent the recording."""
+    if part is None:
+        return nominal_part(recording, rest)
+    return informed(part_of(part), recording, rest)
 
 
 def _turned(recording: Recording, row: int, part: Part, latitude: float, bias0, settings) -> float:
@@ -176,6 +186,20 @@ def _north(block: Block, settings: Mapping[str, float | str]) -> MagneticNorth:
 
 
 # Parameters
+
+
+def _of_the_log(
+    recording: Recording, known: Part, rest: Rest, field: Magnetometer
+) -> dict[str, float]:
+    """The settings that follow from what a recording has."""
+    values = stuck_times(recording, known, rest)
+    if recording.mag is not None and not field.used:
+        values["field_tolerance"] = 0.0
+    if getattr(recording, "stationary", None) is not None:
+        values["rest_time"] = 0.0
+    if oldest := float(recorded_age(recording).max()):
+        values["heading_memory"] = oldest
+    return values
 
 
 def _numbered(name: str, values, size: int) -> dict[str, float]:

@@ -10,6 +10,7 @@ import numpy as np
 
 from pyimu.characterization.allan.readings import Floor
 from pyimu.characterization.evidence import Evidence
+from pyimu.characterization.magnetometer.estimate import MagnetometerFit
 from pyimu.characterization.noise.coefficients import Coefficient
 from pyimu.characterization.noise.fit import ChannelFit
 from pyimu.characterization.spectrum.lines import Line
@@ -151,7 +152,9 @@ class SensorResult:
 class LogResult:
     """One log: its rows, its ``duration`` [s], its sensors by kind, and its quality.
 
-    ``evidence`` has what illustrates a finding, by its kind and column.
+    ``evidence`` has what illustrates a finding, by its kind and column. ``magnetometer`` is what
+    the log shows of its magnetometer's calibration; it is None, and ``magnetometer_reason`` says
+    why, where it does not, and that is empty where the log does not turn or has none.
     """
 
     name: str
@@ -160,6 +163,8 @@ class LogResult:
     sensors: Mapping[str, SensorResult]
     findings: tuple[Finding, ...]
     evidence: Mapping[tuple[str, str], Evidence]
+    magnetometer: MagnetometerFit | None = None
+    magnetometer_reason: str = ""
 
     @property
     def channels(self) -> Iterator[Channel]:
@@ -195,6 +200,12 @@ class Outcome:
     def kinds(self) -> tuple[str, ...]:
         """The sensors that at least one log holds."""
         return tuple(k for k in SI if any(k in log.sensors for log in self.logs))
+
+    @property
+    def magnetometer(self) -> MagnetometerFit | None:
+        """The calibration of the log that knows the direction of a field best; None without one."""
+        found = [log.magnetometer for log in self.logs if log.magnetometer is not None]
+        return min(found, key=lambda f: f.direction_std, default=None)
 
     @property
     def findings(self) -> tuple[Finding, ...]:

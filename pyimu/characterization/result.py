@@ -10,7 +10,7 @@ from typing import Any
 from pyimu.characterization.outcome import Outcome
 from pyimu.characterization.report.as_json import contents
 from pyimu.characterization.report.as_part import part_of
-from pyimu.characterization.report.page import PART, page
+from pyimu.characterization.report.page import MAGNETOMETER, PART, page
 from pyimu.characterization.report.terminal import in_lines
 from pyimu.files import staged, write_json, write_text
 from pyimu.model.part import Part
@@ -46,6 +46,8 @@ class Characterization(Outcome):
     def write(self, out: str | os.PathLike) -> Path:
         """Write ``report.html``, ``report.json`` and ``part.toml`` into the folder ``out``.
 
+        ``magnetometer.toml`` is beside them where a log calibrates its magnetometer.
+
         All take the place of earlier ones together, once all are made. Gives the page's path.
         Raises UserError where the folder cannot be written.
         """
@@ -54,6 +56,8 @@ class Characterization(Outcome):
             write_text(stage / "report.html", page(self))
             write_json(stage / "report.json", self.as_dict())
             save_part(self.part(self._part_name), stage / PART)
+            if self.magnetometer is not None:
+                self.magnetometer.calibration.write(stage / MAGNETOMETER)
         return out / "report.html"
 
     @property

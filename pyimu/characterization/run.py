@@ -11,9 +11,11 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping, Sequence
 
+from pyimu.attitude.run import run as attitude
 from pyimu.characterization.allan.moments import TERMS
 from pyimu.characterization.evidence import evidence
 from pyimu.characterization.log_samples import Say, read_samples
+from pyimu.characterization.magnetometer.estimate import MagnetometerFit, magnetometer_fit
 from pyimu.characterization.noise.coefficients import Coefficient, mean_coefficient
 from pyimu.characterization.outcome import LogResult, SensorResult, Summary
 from pyimu.characterization.result import Characterization
@@ -34,6 +36,9 @@ def characterize(
     say: Say = lambda text, share=None: None,
 ) -> Characterization:
     """Characterise a sensor at rest: its noise, its temperature effect, the quality of its samples.
+
+    Of a log that turns about all axes and has a magnetometer, that is calibrated: hard and soft
+    iron, and how its axes lie against the accelerometer's.
 
     ``recording`` is one log of a part, or several: a recording, a log opened by ``open_log``, a
     file, or a data frame. ``level`` is the probability of all intervals; ``say(text, share)`` hears
@@ -82,7 +87,23 @@ def _log(source: Recording | Log, name: str, level: float, T0: float | None, say
         findings = (*read.findings, *moving)
         shown = evidence(findings, read.sensors)
         findings = (*findings, *_warm_ups(results.values()))
-        return LogResult(name, read.rows, read.duration, results, findings, shown)
+        field = _magnetometer(source, moving, say)
+        return LogResult(name, read.rows, read.duration, results, findings, shown, *field)
+
+
+def _magnetometer(
+    source: Recording | Log, moving: Iterable[Finding], say: Say
+) -> tuple[MagnetometerFit | None, str]:
+    """The calibration of the magnetometer of a log that turns, and why there is none."""
+    turns = any(f.column.startswith("gyro") for f in moving)
+    if not turns or not {"mag", "gyro", "accel"} <= set(source.groups):
+        return None, ""
+    say(f"magnetometer of {source.name}", None)
+    whole = source.read() if isinstance(source, Log) else source
+    try:
+        return magnetometer_fit(whole, attitude(whole, magnetometer=False, smooth=True)), ""
+    except UserError as error:
+        return None, str(error)
 
 
 def _warm_ups(sensors: Iterable[SensorResult]) -> list[Finding]:

@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from pyimu.cli.options import FORMATS, Columns, Effects, Out, add_effects, progress, radians
+from pyimu.errors import UserError
 
 
 def demo(out: Out = Path("out/demo")) -> None:
@@ -43,7 +44,8 @@ def characterize_command(
 
     Allan deviation, spectrum, temperature effect and quality of the samples of a sensor at rest:
     its noise coefficients with intervals, the pictures of a data sheet, and a part file for pyimu
-    build and pyimu close. Several logs of one part give means and their spread. The samples wait in
+    build and pyimu close. A log in which it turns every way calibrates its magnetometer as well
+    (magnetometer.toml). Several logs of one part give means and their spread. The samples wait in
     temporary files (TMPDIR says where), so that a log may be larger than memory.
     """
     from pyimu.characterization.run import characterize
@@ -165,12 +167,19 @@ def attitude_command(
         ),
     ] = None,
     magnetometer: Annotated[
+        Path | None,
+        typer.Option(
+            "--magnetometer",
+            help="Calibration of the log's magnetometer, as characterize writes it.",
+        ),
+    ] = None,
+    no_magnetometer: Annotated[
         bool,
         typer.Option(
-            "--magnetometer/--no-magnetometer",
-            help="Whether the log's magnetometer corrects the heading.",
+            "--no-magnetometer",
+            help="Leave the log's magnetometer out; else it corrects the heading.",
         ),
-    ] = True,
+    ] = False,
     declination: Annotated[
         float | None,
         typer.Option(
@@ -198,6 +207,7 @@ def attitude_command(
     with the errors of a part undone: when gravity was used and how well it fitted, what
     contradicted the estimate, and, where the log has a reference attitude, the error against it.
     """
+    from pyimu.attitude.calibration import MagnetometerCalibration
     from pyimu.attitude.filters import chosen
     from pyimu.attitude.run import run
     from pyimu.files import check_folder
@@ -207,9 +217,12 @@ def attitude_command(
     north = radians("--declination", declination, 180)
     method, given = chosen(settings)
     given |= {"filter": method} | ({} if north is None else {"declination": north})
+    if magnetometer is not None and no_magnetometer:
+        raise UserError("--magnetometer beside --no-magnetometer: give one of the two")
     check_folder(out)
     add_effects(effects)
     with progress("reading") as say:
+        undone = None if magnetometer is None else MagnetometerCalibration.read(magnetometer)
         recording = read_recording(log, columns)
         say("running the filter")
         found = run(
@@ -217,7 +230,7 @@ def attitude_command(
             part,
             latitude=at,
             heading0=heading,
-            magnetometer=magnetometer,
+            magnetometer=undone or not no_magnetometer,
             settings=given,
             smooth=smooth,
         )

@@ -21,14 +21,15 @@ def contents(a: Outcome) -> dict[str, Any]:
     ``last``: {``time``, ``q``, ``euler``, ``gyro_bias``, ``std``, ``heading_std``};
     ``quasi_static`` and ``at_rest``: their shares of the samples; ``nis``: {``updates``, ``mean``,
     ``inside``, the share within ``bounds``}; ``magnetometer``: {``used``, the median ``strength``
-    [T] of its samples, ``disturbed``: the share of the samples with a disturbed field, null where
+    [T] of its samples, the ``calibration`` that was undone, {``bias`` [T], ``matrix``}, null
+    without one, ``disturbed``: the share of the samples with a disturbed field, null where
     it is not used}; ``status``: [{``bit``, ``text``, ``samples``, ``first`` and ``last`` [s]}];
     ``error``: {``rows``, ``assumed``, ``inclination``, ``total`` and ``heading``: {``rms``,
     ``p95``, ``unit``}}, null without a reference; ``quality`` as in the report of ``pyimu close``;
     ``parameters`` with which the filter's unit gives the same. The estimates are in
     attitude.parquet.
     """
-    nis = a.nis[a.updates]
+    nis, calibration = a.nis[a.updates], a.magnetometer.calibration
     return plain(
         {
             "name": a.name,
@@ -53,6 +54,7 @@ def contents(a: Outcome) -> dict[str, Any]:
             "magnetometer": {
                 "used": a.magnetometer.used,
                 "strength": a.magnetometer.strength,
+                "calibration": calibration and vars(calibration),
                 "disturbed": a.disturbed if a.magnetometer.used else None,
             },
             "status": [vars(event) | {"text": event.text} for event in a.events],

@@ -90,8 +90,9 @@ def heading_from(a: Outcome) -> str:
         return ""
     headings = getattr(a.recording, "heading", None) is not None
     start = ", beside the headings, by which it starts" if headings else ""
+    undone = ", calibrated" if a.magnetometer.calibration is not None else ""
     return (
-        f"magnetometer{start}; field disturbed in {a.disturbed:.1%} of the samples, median "
+        f"magnetometer{undone}{start}; field disturbed in {a.disturbed:.1%} of the samples, median "
         f"strength {number(1e6 * a.magnetometer.strength)} uT"
     )
 

@@ -17,6 +17,7 @@ from pyimu.characterization.outcome import (
     Outcome,
     SensorResult,
 )
+from pyimu.characterization.report.magnetometer import magnetometer_entry
 from pyimu.characterization.spectrum.lines import Line
 from pyimu.characterization.temperature.fit import NAMES
 from pyimu.characterization.temperature.hysteresis import Hysteresis
@@ -28,8 +29,13 @@ def contents(c: Outcome) -> dict[str, Any]:
     """The contents of report.json.
 
     ``level``, the probability of the intervals; ``logs``, a list of {``name``, ``rows``,
-    ``duration`` [s], ``quality`` (as in the report of ``pyimu close``), ``sensors``}; ``part``:
-    {channel: {letter: coefficient + ``spread`` over the logs, null for one}}.
+    ``duration`` [s], ``quality`` (as in the report of ``pyimu close``), ``sensors``,
+    ``magnetometer``, null where ``magnetometer_reason`` says why, or where there is none};
+    ``part``: {channel: {letter: coefficient + ``spread`` over the logs, null for one}}.
+
+    ``magnetometer``: {``bias``, ``matrix``, ``misalignment``, ``strength``, ``dip`` and ``delay``,
+    each {``value``, ``std``, ``unit``}; ``noise``, ``along`` and ``across``: {``value``, ``unit``};
+    ``covariance`` of bias and matrix; ``attitudes``}.
 
     ``sensors``: {``gyro`` and ``accel``: {``sample_period`` [s], ``samples``, ``segments``,
     ``segments_used``, ``psd``: {``frequency`` [Hz], ``density`` by channel, one-sided},
@@ -61,6 +67,8 @@ def _log(log: LogResult) -> dict[str, Any]:
         "duration": log.duration,
         "quality": [f.as_dict() for f in log.findings],
         "sensors": {k: _sensor(s) for k, s in log.sensors.items()},
+        "magnetometer": log.magnetometer and magnetometer_entry(log.magnetometer),
+        "magnetometer_reason": log.magnetometer_reason or None,
     }
 
 

@@ -18,6 +18,7 @@ from pyimu.characterization.report.channel_notes import (
     thermal_sentence,
 )
 from pyimu.characterization.report.log_notes import about, notes
+from pyimu.characterization.report.magnetometer import magnetometer_lines
 from pyimu.characterization.report.pictures.allan import allan_picture, deviations_picture
 from pyimu.characterization.report.pictures.evidence import evidence_picture
 from pyimu.characterization.report.pictures.overview import overview_picture
@@ -35,6 +36,9 @@ from pyimu.report.page import Picture, Table, templates
 
 PART = "part.toml"
 """Name of the part's file."""
+
+MAGNETOMETER = "magnetometer.toml"
+"""Name of the file of the magnetometer's calibration."""
 
 
 def page(c: Outcome) -> str:
@@ -56,6 +60,7 @@ def _contents(c: Outcome) -> dict[str, Any]:
         "sensors": [_sensor(c, kind) for kind in c.kinds],
         "thermal": _thermal(c),
         "thermal_reasons": _thermal_reasons(c),
+        "magnetometer": magnetometer_lines(c),
         "quality": quality_table(c),
         "evidence": _evidence(c),
         "overviews": [_overview(log, kind) for log in c.logs for kind in log.sensors],
@@ -65,6 +70,9 @@ def _contents(c: Outcome) -> dict[str, Any]:
             [
                 ("report.json", "everything of this page as data, and all curves"),
                 (PART, "the part, for pyimu build, pyimu close and pyimu parts"),
+                *[(MAGNETOMETER, "the calibration, for pyimu attitude --magnetometer")][
+                    : c.magnetometer is not None
+                ],
             ],
         ),
     }

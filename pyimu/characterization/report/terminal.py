@@ -19,6 +19,7 @@ from pyimu.characterization.report.coefficients import (
     with_interval,
 )
 from pyimu.characterization.report.log_notes import about, notes
+from pyimu.characterization.report.magnetometer import magnetometer_lines
 from pyimu.model.part import AXES
 from pyimu.report.findings import SENSORS, in_line
 from pyimu.report.lines import in_columns
@@ -43,7 +44,7 @@ def in_lines(c: Outcome) -> str:
         lines += [
             f"{log.name}: {text}" for text in (*_lines(log), *_thermal(log), *in_line(log.findings))
         ]
-    return "\n".join(lines)
+    return "\n".join([*lines, *magnetometer_lines(c)])
 
 
 def _rows(c: Outcome, kind: str) -> list[tuple[str, ...]]:
