@@ -24,6 +24,7 @@ from pathlib import Path
 import casadi as ca
 import numpy as np
 
+from pyimu.block.c_code import c_code
 from pyimu.block.cache import keep, kept, key_of
 
 FLAGS = (
@@ -104,9 +105,7 @@ class _MachineCode:
 
 
 def _source(step: ca.Function) -> str:
-    """The step in C, as casadi writes it, and the loop around it."""
-    generator = ca.CodeGenerator("step.c")
-    generator.add(step)
+    """The step in C and the loop around it."""
     sizes = {
         "NS": step.numel_in(0),
         "NU": step.numel_in(1),
@@ -117,7 +116,7 @@ def _source(step: ca.Function) -> str:
         "STEP": step.name(),
     }
     return (
-        generator.dump()
+        c_code("step.c", [step])
         + "".join(f"#define {name} {value}\n" for name, value in sizes.items())
         + '#include "loop.h"\n'
     )

@@ -24,6 +24,7 @@ import casadi as ca
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from pyimu.block.block import Block
+from pyimu.block.c_code import c_code
 from pyimu.fmu.variables import (
     BLOCK_SIZE,
     DEFAULT_SEED,
@@ -208,14 +209,11 @@ def _base_unit(name: str) -> dict[str, str] | None:
 
 
 def _functions_in_c(block: Block) -> str:
-    """The block's functions in C, as casadi writes them.
+    """The block's functions in C.
 
     Casadi's own integer type is kept, as its loader needs it.
     """
-    generator = ca.CodeGenerator(block.name)
-    for function in _functions(block):
-        generator.add(function)
-    return generator.dump()
+    return c_code(block.name, _functions(block))
 
 
 def _functions(block: Block) -> tuple[ca.Function, ...]:

@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 import time
+from dataclasses import replace
 
 import casadi as ca
 import numpy as np
@@ -108,6 +109,20 @@ def test_compiled_step_equals_the_virtual_machine_bit_for_bit(block):
     y, state = block.run(u, w=w)
     np.testing.assert_array_equal(y, want)
     np.testing.assert_array_equal(state, last)
+
+
+def test_greater_and_lesser_of_nan_infinity_and_zeros_are_those_of_the_virtual_machine():
+    values = [np.nan, np.inf, -np.inf, 0.0, -0.0, 1.0, -1.0]
+    u = np.array([(a, b) for a in values for b in values])
+    symbols = [ca.SX.sym(n, k) for n, k in (("s", 1), ("u", 2), ("p", 1), ("w", 2), ("h", 1))]
+    s, (a, b) = symbols[0], ca.vertsplit(symbols[1])
+    step = ca.Function("step", symbols, [s, ca.vertcat(ca.fmax(a, b), ca.fmin(a, b))])
+    block = replace(toy(), step=step)
+    start, p, h = np.zeros(1), block.start, np.array([0.01])
+    want = np.empty((len(u), 2))
+    step_through(step, start, u, p, np.zeros((len(u), 2)), h, want)
+    got, _ = block.run(u, state=start)
+    assert got.tobytes() == want.tobytes()
 
 
 @pytest.mark.parametrize("compiler", [True, False], ids=("compiled", "virtual machine"))

@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "ImuSensor"
-#define MODEL_TOKEN "{08f07a0d-1d3f-f78b-99f9-5bcc54cdf2f3}"
+#define MODEL_TOKEN "{3d3e398e-b37d-9faf-63ca-2322ad7f89ed}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "ImuSensor"
-#define MODEL_TOKEN "{358a8020-97e0-379f-62af-5ab73182a79f}"
+#define MODEL_TOKEN "{ff427821-6709-6949-4047-109bedd5a260}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

@@ -59,9 +59,9 @@ degrees."""
 
 
 def after_others(
-    layout: Layout, x: ca.MX, before: ca.MX, s, u, p, h, rate, flags
+    layout: Layout, field: ca.Function, x: ca.MX, before: ca.MX, s, u, p, h, rate, flags
 ) -> tuple[ca.MX, ca.MX]:
-    """The working estimate ``x`` after all other updates and the update by the field; its memory.
+    """The working estimate ``x`` after all other updates and that by the ``field``; its memory.
 
     ``before`` is the working estimate as it was predicted.
     """
@@ -69,7 +69,7 @@ def after_others(
     symbols = [ca.MX.sym(f"i{i}", v.numel()) for i, v in enumerate(given)]
     same = ca.Function("without_field", symbols, [symbols[0]])
     seen = Flags.unpack(flags).field
-    out = ca.Function.if_else("perhaps_field", by_field(layout), same)(seen, *given)
+    out = ca.Function.if_else("perhaps_field", field, same)(seen, *given)
     return out[:WORKING], out[WORKING:]
 
 

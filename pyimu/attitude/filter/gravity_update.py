@@ -33,7 +33,7 @@ from pyimu.attitude.filter.unscented import Estimate
 from pyimu.attitude.filter.variables import LEAST_ACCEL_STD
 from pyimu.attitude.filter.velocity import DRIFT_GAIN, Motion, Push, at_rest, covariance_of_motion
 from pyimu.symbolic import quaternion
-from pyimu.symbolic.linear import symmetric
+from pyimu.symbolic.linear import reciprocal, symmetric
 
 INNOVATION_GATE = 25.0
 """Normalised innovation squared of three degrees of freedom, above which a measurement gets less
@@ -80,7 +80,9 @@ def inclination(
     white = white_variance(settings, h)
     noise = _acceleration_variance(settings, h) + white
     magnitude = ca.norm_2(sample.force)
-    quasi = follow(memory.quasi, magnitude, at["gravity_walk"] ** 2 * h, ca.sum1(noise) / 3, valid)
+    quasi = follow(
+        memory.quasi, magnitude, at["gravity_walk"] ** 2 * h, ca.sum1(noise) * (1 / 3), valid
+    )
     carried = True if sample.gyro_lost is False else ca.logic_not(ca.mmax(sample.gyro_lost))
     mean = average(memory.mean, sample.force, turned, MEAN_TIME, h, valid, carried)
     steady = is_quasi_static(
@@ -94,7 +96,7 @@ def inclination(
         magnitude=at["gravity"],
         period=h,
         motion=ca.vertcat(motion.across, motion.along),
-        lasting=2 * at["motion_time"] / h,
+        lasting=2 * at["motion_time"] * reciprocal(h),
         coloured=2 * h * at["accel_correlation_time"] * at["accel_std"] ** 2,
         plausible=plausible,
         contradicts=plausible * _contradicts(measured[0], mean, x, white, settings),
@@ -113,7 +115,9 @@ def _contradicts(force, mean: MeanForce, x: Estimate, white, settings: Settings)
     up = vertical(x)
     off = ca.sumsqr(force) - ca.dot(up, force) ** 2
     own = settings.scalar["gravity"] ** 2 * tilt_variance(x.covariance, up)
-    spread = ca.sum1(white) / 3 + settings.scalar["accel_std"] ** 2 + SLOW_TIME**2 * mean.scatter
+    spread = (
+        ca.sum1(white) * (1 / 3) + settings.scalar["accel_std"] ** 2 + SLOW_TIME**2 * mean.scatter
+    )
     return off > INNOVATION_GATE * (own + spread)
 
 
@@ -132,7 +136,7 @@ def push(memory: Memory, sample: Sample, settings: Settings, h) -> Push:
     white = white_variance(settings, h)
     declared = _acceleration_variance(settings, h)
     lost_for = ca.fmin(ca.fmax(MEAN_TIME - memory.mean.span, 0), at["motion_time"])
-    lost = memory.mean.scatter * (1 + 2 * lost_for / h)
+    lost = memory.mean.scatter * (1 + 2 * lost_for * reciprocal(h))
     drift = DRIFT_GAIN * memory.motion.drift * h / (at["motion_time"] + h)
     return Push(
         where(valid, h * sample.force),
@@ -149,13 +153,13 @@ def _acceleration_variance(settings: Settings, h):
     trusted more.
     """
     at = settings.scalar
-    return at["accel_std"] ** 2 * (1 + 2 * at["accel_correlation_time"] * (1 / h))
+    return at["accel_std"] ** 2 * (1 + 2 * at["accel_correlation_time"] * reciprocal(h))
 
 
 def white_variance(settings: Settings, h):
     """Variance (3,) in (m/s^2)^2 of the white noise in a sample of the force."""
     accel, gravity = settings.accel, settings.scalar["gravity"]
-    return (accel.white**2 + accel.relative**2 * gravity**2) * (1 / h) + LEAST_ACCEL_STD**2
+    return (accel.white**2 + accel.relative**2 * gravity**2) * reciprocal(h) + LEAST_ACCEL_STD**2
 
 
 def _is_mean_gravity(mean: MeanForce, settings: Settings):
@@ -180,12 +184,12 @@ def _measured(sampled, mean: MeanForce, steady, noise, white, settings: Settings
     """
     at = settings.scalar
     scatter = mean.scatter + at["accel_std"] ** 2
-    noise = noise + 2 * at["accel_std"] ** 2 * at["motion_time"] / h
+    noise = noise + 2 * at["accel_std"] ** 2 * at["motion_time"] * reciprocal(h)
     in_motion = mean_variance(scatter, MEAN_TIME + h, h) + white
     force = mean.force + steady * (sampled - mean.force)
     variance = in_motion + steady * (noise - in_motion)
     lasting = MEAN_TIME + steady * (at["accel_correlation_time"] + at["motion_time"] - MEAN_TIME)
-    of_sample = variance - (1 - 1 / (1 + 2 * lasting * (1 / h))) * (variance - white)
+    of_sample = variance - (1 - 1 / (1 + 2 * lasting * reciprocal(h))) * (variance - white)
     return force, variance, of_sample
 
 

@@ -51,6 +51,9 @@ class GravityMeasurement:
         return cls(*ca.vertsplit(column, ends))
 
 
+EVERY = 5
+"""Of ``Flags.which``: any of the updates."""
+
 FLAGS = 16
 """Numbers of ``Flags``."""
 
@@ -59,13 +62,14 @@ FLAGS = 16
 class Flags:
     """What the prediction says to the updates.
 
-    ``which`` updates are needed, 0: none, 1: the velocity's alone, 2: others. Whether ``gravity``
-    corrects, whether the ``velocity`` does, whether the body is ``quasi_static``, whether its
-    attitude may be ``lost``, whether a ``heading`` and a zero rate (``stationary`` by its input,
-    ``resting`` as found) correct, the variance (rad/s)^2 that ``sway`` then adds to that of a
-    sample, whether an input was ``missing``, whether a magnetometer has been seen (``field``).
-    Whether a ``speed`` corrects, whether the body is ``driven``, and whether its velocity begins
-    ``anew``. ``faults`` are the other bits of the status; ``vertical_noise`` is that of ``Memory``.
+    ``which`` updates are needed, 0: none, 1: the velocity's, and with it 2: a zero rate's, 3: the
+    magnetic field's, 4: both; ``EVERY``: any. Whether ``gravity`` corrects, whether the
+    ``velocity`` does, whether the body is ``quasi_static``, whether its attitude may be ``lost``,
+    whether a ``heading`` and a zero rate (``stationary`` by its input, ``resting`` as found)
+    correct, the variance (rad/s)^2 that ``sway`` then adds to that of a sample, whether an input
+    was ``missing``, whether a magnetometer has been seen (``field``). Whether a ``speed`` corrects,
+    whether the body is ``driven``, and whether its velocity begins ``anew``. ``faults`` are the
+    other bits of the status; ``vertical_noise`` is that of ``Memory``.
     """
 
     which: ca.SX
@@ -85,11 +89,16 @@ class Flags:
     field: ca.SX
     vertical_noise: ca.SX
 
+    @property
+    def rest(self):
+        """``resting`` and ``sway`` (2,), as the update by a zero rate takes them."""
+        return ca.vertcat(self.resting, self.sway)
+
     def with_speed(self, speed, driven, anew) -> Flags:
         """The flags of a body that may be driven: it is then none that stays in its place."""
         velocity = self.velocity * (1 - driven)
-        others = self.which > 1
-        which = velocity + (others + anew + speed > 0) * (2 - velocity)
+        changed, asked = driven + anew + speed > 0, (self.which > 1) + anew + speed > 0
+        which = self.which + changed * (asked * EVERY - self.which)
         return replace(self, which=which, velocity=velocity, speed=speed, driven=driven, anew=anew)
 
     def pack(self) -> ca.SX:

@@ -20,7 +20,7 @@ import casadi as ca
 from pyimu.attitude.filter.unscented import SPREAD, Estimate, N, moved
 from pyimu.attitude.filter.velocity import Push, pushed
 from pyimu.symbolic import mrp, quaternion
-from pyimu.symbolic.linear import FLOOR, symmetric
+from pyimu.symbolic.linear import FLOOR, reciprocal, symmetric
 
 SCALE = N + SPREAD
 """A sigma point is the root of this many times the covariance."""
@@ -149,7 +149,7 @@ def factors(matrix, columns: int):
         pivot = (
             ca.fabs(matrix[j, j] - sum((lower[k][j] ** 2 * pivots[k] for k in range(j)), 0)) + FLOOR
         )
-        inverse = 1 / pivot
+        inverse = reciprocal(pivot)
         rest = [
             (matrix[i, j] - sum((lower[k][i] * (lower[k][j] * pivots[k]) for k in range(j)), 0))
             * inverse
@@ -196,7 +196,14 @@ def measure_gravity(x: Estimate, axes, magnitude):
 
 
 def correct(
-    x: Estimate, innovation, variance, cross, up, innovation_gate, gate_variance, beyond=1
+    x: Estimate,
+    innovation,
+    variance,
+    cross,
+    up,
+    innovation_gate: float | None = None,
+    gate_variance=None,
+    beyond=1,
 ) -> tuple[Estimate, ca.SX, ca.SX]:
     """The estimate after a measurement of three numbers, its NIS, and its weight.
 
@@ -205,17 +212,21 @@ def correct(
     The same as ``unscented.correct``, with factors L D L^T in place of roots.
     """
     pivots, lower = factors(variance, 3)
-    inverse = [1 / p for p in pivots]
+    inverse = [reciprocal(p) for p in pivots]
     white = _solved(lower, [innovation[i] for i in range(3)])
     gain = _solved(lower, [cross[:, i] for i in range(3)])
-    own_pivots, own_lower = factors(gate_variance, 3)
+    own_pivots, own_lower = (pivots, lower) if gate_variance is None else factors(gate_variance, 3)
     nis = sum(
-        w * w / d
+        w * w * reciprocal(d)
         for w, d in zip(
             _solved(own_lower, [innovation[i] for i in range(3)]), own_pivots, strict=True
         )
     )
-    weight = ca.if_else(nis > innovation_gate, beyond * innovation_gate / nis, 1)
+    weight = (
+        1
+        if innovation_gate is None
+        else ca.if_else(nis > innovation_gate, beyond * innovation_gate / nis, 1)
+    )
     scaled = [g * (d * weight) for g, d in zip(gain, inverse, strict=True)]
     change = sum(g * w for g, w in zip(scaled, white, strict=True))
     covariance = symmetric(
@@ -228,7 +239,7 @@ def correct(
 
 
 def _solved(lower, values: list) -> list:
-    """L^-1 applied to three numbers or rows."""
+    """L^-1 applied to numbers or rows; ``lower`` are the columns of L as ``factors`` gives them."""
     out: list = []
     for i, value in enumerate(values):
         out.append(value - sum((lower[k][i] * out[k] for k in range(i)), 0))

@@ -15,7 +15,7 @@ from pyimu.attitude.filter.gravity_update import (
     vertical,
     white_variance,
 )
-from pyimu.attitude.filter.layout import Flags, Layout
+from pyimu.attitude.filter.layout import EVERY, Flags, Layout
 from pyimu.attitude.filter.memory import ESTIMATE, REPORTED, Memory
 from pyimu.attitude.filter.quasi_static import where
 from pyimu.attitude.filter.sample import Sample
@@ -33,6 +33,7 @@ from pyimu.attitude.filter.unscented import LARGEST_STD, LARGEST_TILT_STD, Estim
 from pyimu.attitude.filter.variables import ABSURD, INPUTS, LEAST_K, LEAST_N, MAG
 from pyimu.attitude.filter.velocity import followed, least_std
 from pyimu.symbolic import quaternion
+from pyimu.symbolic.linear import reciprocal
 from pyimu.symbolic.process_noise import process_noise
 
 STATIONARY, HEADING_VALID, SPEED, SPEED_VALID = (
@@ -110,7 +111,7 @@ def rest_of(at: Instant, sample: Sample) -> Rest:
     settings, before, scalar = at.settings, at.memory.stillness, at.settings.scalar
     x = at.memory.estimate
     tolerance = scalar["rest_rate_tolerance"], scalar["rest_force_tolerance"]
-    noise = settings.gyro.white**2 / at.h, white_variance(settings, at.h)
+    noise = settings.gyro.white**2 * reciprocal(at.h), white_variance(settings, at.h)
     alike = is_still(before, sample.rate, sample.force, tolerance, noise, at.h)
     drives = (at.memory.speed_for < HOLD) * (ca.sumsqr(x.velocity) > DRIVES**2)
     alike = where(sample.force_valid, alike) * (1 - drives)
@@ -127,7 +128,7 @@ def rest_of(at: Instant, sample: Sample) -> Rest:
 
 def _density(settings: Settings):
     """Density in (rad/s)^2 s of the gyro's white noise, the mean of its axes."""
-    return ca.sumsqr(settings.gyro.white) / 3 + LEAST_N**2
+    return ca.sumsqr(settings.gyro.white) * (1 / 3) + LEAST_N**2
 
 
 def _decided(at: Instant, x: Estimate, rest: Rest) -> Stillness:
@@ -226,10 +227,10 @@ def _flags(
     if sample.gyro_lost is not False:
         stationary = ca.logic_and(stationary, ca.logic_not(ca.mmax(sample.gyro_lost)))
     lost = sum((x.covariance[i, i] > LARGEST_TILT_STD**2 for i in range(3)), 0) > 0
+    at_rest, other = stationary + rest.resting > 0, lost + heading + force.usable > 0
+    usual, asked = force.velocity * (1 - other), other + at_rest + field > 0
     return Flags(
-        which=force.velocity
-        + (lost + heading + stationary + rest.resting + force.usable + field > 0)
-        * (2 - force.velocity),
+        which=usual * (1 + at_rest + 2 * field) + (1 - usual) * asked * EVERY,
         gravity=force.usable,
         velocity=force.velocity,
         quasi_static=force.quasi_static,
@@ -237,7 +238,7 @@ def _flags(
         heading=heading,
         stationary=stationary,
         resting=rest.resting,
-        sway=sway(rest.still, _density(at.settings)) / at.h,
+        sway=sway(rest.still, _density(at.settings)) * reciprocal(at.h),
         missing=sample.missing,
         faults=2 * sample.at_limit + 4 * sample.stuck,
         speed=ca.SX(0),

@@ -15,6 +15,8 @@ from dataclasses import dataclass
 
 import casadi as ca
 
+from pyimu.symbolic.linear import reciprocal
+
 MEAN_TIME = 1.0
 """s; time constant of the mean force."""
 
@@ -113,4 +115,4 @@ def mean_variance(scatter, time, h):
     variance is (s_v / T)^2. The mean changes in a time of about T: a sample of white noise that
     stands for it has the variance 2 T (s_v / T)^2 / h.
     """
-    return 2 * HAND_TIME**2 * scatter / (time * h)
+    return 2 * HAND_TIME**2 * scatter / time * reciprocal(h)

@@ -13,7 +13,7 @@ from collections.abc import Callable
 import casadi as ca
 
 from pyimu.attitude.filter.compensation import Compensation
-from pyimu.attitude.filter.field_update import after_others
+from pyimu.attitude.filter.field_update import after_others, by_field
 from pyimu.attitude.filter.filter_block import (
     filter_block,
     inputs_of_the_sample,
@@ -42,7 +42,13 @@ from pyimu.attitude.filter.unscented import (
     points_of,
     sigma_points,
 )
-from pyimu.attitude.filter.updates import after_gravity, bounded_where_lost, finish, where
+from pyimu.attitude.filter.updates import (
+    after_gravity,
+    bounded_where_lost,
+    by_zero_rate,
+    finish,
+    where,
+)
 from pyimu.block.block import Block
 from pyimu.model.part import Part
 from pyimu.symbolic import mrp, quaternion
@@ -73,8 +79,8 @@ def _step(layout: Layout) -> ca.Function:
     x = bounded_where_lost(x, flags)
     x = where(flags.gravity, _by_gravity(), x, gravity)
     x = where(flags.velocity, by_velocity(correct), x, gravity)
-    x = after_gravity(layout, x, s, u, p, h, rate, gravity, flags)
-    x, field = after_others(layout, x, before, s, u, p, h, rate, packed)
+    x = after_gravity(layout, by_zero_rate(layout), x, s, u, p, h, rate, gravity, flags)
+    x, field = after_others(layout, by_field(layout), x, before, s, u, p, h, rate, packed)
     estimate, yaw, y = finish()(x, packed)
     return step_function(layout, symbols, estimate, memory, yaw, field, y)
 

@@ -36,7 +36,7 @@ from dataclasses import dataclass, replace
 import casadi as ca
 
 from pyimu.attitude.filter.compensation import Compensation
-from pyimu.attitude.filter.field_update import after_others
+from pyimu.attitude.filter.field_update import after_others, by_field
 from pyimu.attitude.filter.filter_block import filter_block, step_function
 from pyimu.attitude.filter.gravity_update import (
     INNOVATION_GATE,
@@ -60,7 +60,13 @@ from pyimu.attitude.filter.unscented import (
     points_of,
     turned_axes,
 )
-from pyimu.attitude.filter.updates import after_gravity, bounded_where_lost, finish, where
+from pyimu.attitude.filter.updates import (
+    after_gravity,
+    bounded_where_lost,
+    by_zero_rate,
+    finish,
+    where,
+)
 from pyimu.attitude.filter.velocity import covariance_of_motion
 from pyimu.block.block import Block
 from pyimu.model.part import Part
@@ -102,7 +108,7 @@ def _step(layout: Layout) -> ca.Function:
     asked = flags.heading + flags.stationary + flags.resting + flags.speed + flags.anew > 0
     x = where(asked, others, x, s, u, p, h, rate, gravity, packed)
     whole = _to_covariance()(x)
-    whole, field = after_others(layout, whole, before, s, u, p, h, rate, packed)
+    whole, field = after_others(layout, by_field(layout), whole, before, s, u, p, h, rate, packed)
     x = where(flags.field, _factor_of(), x, whole)
     shown, yaw, y = finish()(whole, packed)
     estimate = ca.vertcat(shown[:4], x[4:ESTIMATE])
@@ -293,5 +299,7 @@ def _after_gravity(layout: Layout) -> ca.Function:
         ca.MX, "x s u p h rate gravity flags"
     )
     whole = _to_covariance()(x)
-    after = after_gravity(layout, whole, s, u, p, h, rate, gravity, Flags.unpack(packed))
+    after = after_gravity(
+        layout, by_zero_rate(layout), whole, s, u, p, h, rate, gravity, Flags.unpack(packed)
+    )
     return ca.Function("after_gravity", symbols, [_to_factor()(after)])

@@ -97,14 +97,14 @@ def followed(x: Stillness, rate, force, bias, still, h) -> Stillness:
     ``bias`` (3,) rad/s is that before the sample. Whether it ``rests`` is left as it is.
     """
     span = still * (x.span + h)
-    keep = ca.floor(span / FAST) > ca.floor(x.span / FAST)
+    keep = ca.floor(span * (1 / FAST)) > ca.floor(x.span * (1 / FAST))
     share = h / ca.fmax(span, h)
 
     def mean(before, value, time):
         return before + ca.fmax(share, h / (time + h)) * (value - before)
 
     fast, slow = mean(x.fast, rate, FAST), mean(x.slow, rate, SLOW)
-    seen = ca.sumsqr(fast - slow) / (3 * SHARE)
+    seen = ca.sumsqr(fast - slow) * (1 / (3 * SHARE))
     return Stillness(
         fast,
         slow,

@@ -22,7 +22,7 @@ import casadi as ca
 
 from pyimu.attitude.filter import marginal
 from pyimu.attitude.filter.compensation import Compensation
-from pyimu.attitude.filter.field_update import after_others
+from pyimu.attitude.filter.field_update import after_others, by_field
 from pyimu.attitude.filter.filter_block import (
     filter_block,
     inputs_of_the_sample,
@@ -34,7 +34,13 @@ from pyimu.attitude.filter.memory import ESTIMATE, WORKING, Memory
 from pyimu.attitude.filter.passed import PASSED, Transition, passed
 from pyimu.attitude.filter.prediction import ARGUMENTS, Instant, added_noise, predicted, rest_of
 from pyimu.attitude.filter.sample import Sample, look_closely, raw_of, read
-from pyimu.attitude.filter.updates import after_gravity, bounded_where_lost, finish, where
+from pyimu.attitude.filter.updates import (
+    after_gravity,
+    bounded_where_lost,
+    by_zero_rate,
+    finish,
+    where,
+)
 from pyimu.block.block import Block
 from pyimu.model.effect import Effect
 from pyimu.model.part import Part
@@ -159,22 +165,35 @@ def _row(
 def _updates(layout: Layout) -> ca.Function:
     """``which, x, s, u, p, h, rate, gravity, flags -> estimate, yaw, y, field``: the updates.
 
-    There is none, the velocity's alone, or whichever are needed.
+    There is none, the velocity's alone or with those of a zero rate and of the field, or whichever
+    are needed.
 
     The two usual cases are one function each, because every call from one function to another
-    copies the estimate.
+    copies the estimate, and so does an update that is passed by.
     """
     names = "x s u p h rate gravity flags"
-    x, s, u, p, h, rate, gravity, flags = symbols = layout.symbols(ca.MX, names)
-    finished, asked = finish(), Flags.unpack(flags)
-    velocity = by_velocity(marginal.correct)
-    predicted_x = x
-    x = bounded_where_lost(x, asked)
-    x = where(asked.gravity, _by_gravity(), x, gravity)
-    x = where(asked.velocity, velocity, x, gravity)
-    x = after_gravity(layout, x, s, u, p, h, rate, gravity, asked)
-    x, field = after_others(layout, x, predicted_x, s, u, p, h, rate, flags)
-    every = ca.Function("every_update", symbols, [*finished(x, flags), field])
+    finished, velocity = finish(), by_velocity(marginal.correct)
+    zero_rate, field = by_zero_rate(layout, marginal.correct), by_field(layout)
+
+    def every() -> ca.Function:
+        x, s, u, p, h, rate, gravity, flags = symbols = layout.symbols(ca.MX, names)
+        before, asked = x, Flags.unpack(flags)
+        x = bounded_where_lost(x, asked)
+        x = where(asked.gravity, _by_gravity(), x, gravity)
+        x = where(asked.velocity, velocity, x, gravity)
+        x = after_gravity(layout, zero_rate, x, s, u, p, h, rate, gravity, asked)
+        x, kept = after_others(layout, field, x, before, s, u, p, h, rate, flags)
+        return ca.Function("every_update", symbols, [*finished(x, flags), kept])
+
+    def usual_and(name: str, at_rest: bool, in_field: bool) -> ca.Function:
+        before, s, u, p, h, rate, gravity, flags = symbols = layout.symbols(ca.MX, names)
+        x, kept = velocity(before, gravity), s[layout.field :]
+        if at_rest:
+            x = zero_rate(x, rate, p, h, Flags.unpack(flags).rest)
+        if in_field:
+            both = field(ca.vertcat(x, kept), before, u, p, h, rate, flags)
+            x, kept = both[:WORKING], both[WORKING:]
+        return ca.Function(name, symbols, [*finished(x, flags), kept])
 
     x, s, _, _, _, _, gravity, flags = plain = layout.symbols(ca.SX, names)
     after = velocity.call([x, gravity], True, False)[0]
@@ -187,7 +206,12 @@ def _updates(layout: Layout) -> ca.Function:
         )
         for name, value in (("no_update", x), ("usual_update", after))
     )
-    return ca.Function.conditional("updates", [none, usual], every)
+    with_more = [
+        usual_and("update_at_rest", True, False),
+        usual_and("update_in_field", False, True),
+        usual_and("update_at_rest_in_field", True, True),
+    ]
+    return ca.Function.conditional("updates", [none, usual, *with_more], every())
 
 
 def _by_gravity() -> ca.Function:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import casadi as ca
@@ -15,6 +16,7 @@ from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.speed_update import by_speed, velocity_anew
 from pyimu.attitude.filter.unscented import Estimate, N, bounded, bounded_tilt
 from pyimu.symbolic import quaternion
+from pyimu.symbolic.linear import reciprocal
 
 OPTIONS = {"cse": True}
 
@@ -66,25 +68,27 @@ def _with_estimate(working, x: Estimate):
 # Heading and zero rate
 
 
-def after_gravity(layout: Layout, x, s, u, p, h, rate, gravity, flags: Flags) -> ca.MX:
+def after_gravity(
+    layout: Layout, zero_rate: ca.Function, x, s, u, p, h, rate, gravity, flags: Flags
+) -> ca.MX:
     """The working estimate after the updates that follow gravity's.
 
-    These are by a speed, by a heading and by a zero rate, where the ``flags`` ask for them.
+    These are by a speed, by a heading and by a ``zero_rate``, where the ``flags`` ask for them.
     """
     x = where(flags.anew, velocity_anew(layout), x, gravity, u, p, flags.driven)
     x = where(flags.speed * (1 - flags.anew), by_speed(layout), x, gravity, u, p)
     x = where(flags.heading, by_heading(layout), x, s, u, p, h, rate, flags.vertical_noise)
-    rest = ca.vertcat(flags.resting, flags.sway)
     at_rest = flags.stationary + flags.resting > 0
-    return where(at_rest, _by_zero_rate(layout), x, rate, p, h, rest)
+    return where(at_rest, zero_rate, x, rate, p, h, flags.rest)
 
 
-def _by_zero_rate(layout: Layout) -> ca.Function:
+def by_zero_rate(layout: Layout, correct: Callable = unscented.correct) -> ca.Function:
     """``x, rate, p, h, rest -> x``: the gyro of a body that does not turn against the Earth.
 
     It measures bias and Earth rate, z = b + R_nb^T w_e + n. To first order R_nb^T w_e of the true
     attitude is w_b + w_b x p, with w_b that of the estimate: linear in the error state. ``rest``
-    (2,) says whether it was found, and with what sway, as ``Flags`` have them.
+    (2,) says whether it was found, and with what sway, as ``Flags`` have them. ``correct`` is the
+    correction of one of the filters.
     """
     rest = ca.SX.sym("rest", 2)
     s, rate, p, h = layout.symbols(ca.SX, "x rate p h")
@@ -93,8 +97,8 @@ def _by_zero_rate(layout: Layout) -> ca.Function:
     slope = ca.horzcat(ca.skew(earth), ca.SX.eye(3), ca.SX(3, 3))
     cross = x.covariance @ slope.T
     slow = ca.if_else(rest[0], rest[1], settings.scalar["stationary_std"] ** 2)
-    noise = settings.gyro.white**2 / h + slow
-    after, _, _ = unscented.correct(
+    noise = settings.gyro.white**2 * reciprocal(h) + slow
+    after, _, _ = correct(
         x, rate - x.bias - earth, slope @ cross + ca.diag(noise), cross, vertical(x)
     )
     return ca.Function("by_zero_rate", [s, rate, p, h, rest], [_with_estimate(s, after)], OPTIONS)
@@ -110,7 +114,7 @@ def finish() -> ca.Function:
     """
     given, packed = ca.SX.sym("x", WORKING), ca.SX.sym("flags", FLAGS)
     x, flags = Memory.estimate_of(given), Flags.unpack(packed)
-    q = quaternion.normalized(x.q)
+    q = x.q * reciprocal(ca.norm_2(x.q))
     nis, *report = ca.vertsplit(given[ESTIMATE:])
     status = _status(flags, report, ca.diag(x.covariance)[:N])
     at_rest = flags.stationary + flags.resting > 0

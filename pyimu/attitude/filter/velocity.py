@@ -140,6 +140,8 @@ def followed(motion: Motion, x: Estimate, turned, used, std, time, h) -> Motion:
     along = ca.fmax(mean(motion.along, above - own_along), floor)
     carried = turned @ motion.slow
     slow = used * (carried + h / (SLOW * time + h) * (v - carried))
-    left = (ca.dot(slow, slow) - ca.dot(up, slow) ** 2) / 2 - (across + own_across) / (1 + SLOW)
+    left = (ca.dot(slow, slow) - ca.dot(up, slow) ** 2) / 2 - (across + own_across) * (
+        1 / (1 + SLOW)
+    )
     moves = std > 0
     return Motion(moves * across, moves * along, slow, moves * mean(motion.drift, left))
