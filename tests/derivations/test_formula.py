@@ -8,7 +8,7 @@ import re
 import casadi as ca
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from pyimu.derivations import DERIVATIONS
@@ -213,9 +213,12 @@ def expressions():
 def test_text_and_latex_of_any_expression_read_back_to_its_value(source):
     values = {"a": ca.DM(0.7), "b": ca.DM(1.3), "tau": ca.DM(0.45)}
     formula = Formula(source)
-    expected = float(ca.DM(formula.evaluate(values)))
-    if not np.isfinite(expected):
-        return
+    try:
+        expected = float(ca.DM(formula.evaluate(values)))
+    except ZeroDivisionError:
+        # Of numbers alone, where casadi has no part in it.
+        expected = np.inf
+    assume(np.isfinite(expected))
     own = {n: values[n] for n in formula.names}
     # Quotients of differences may be any multiple of rounding; the readings differ from the value
     # by none.

@@ -1,6 +1,6 @@
 """Is the attitude filter honest, and as good as its peers, where attitude filters are bad?
 
-``python benchmarks/attitude_cases.py [--runs N] [--only TEXT] [--seed S] [--jobs J]
+``python benchmarks/attitude_honesty.py [--runs N] [--only TEXT] [--seed S] [--jobs J]
 [--results FILE]`` prints a row for each case of ``drives/cases.py``: the RMS error of inclination
 and heading in degrees of the package's filter, of vqf (Laidig and Seel 2023, the peer; left out
 where it is not installed) and of a plain extended Kalman filter that is told the size of the
@@ -37,7 +37,7 @@ try:
 except ImportError:
     VQF = None
 
-RESULTS = Path(tempfile.gettempdir()) / "pyimu_attitude_cases.jsonl"
+RESULTS = Path(tempfile.gettempdir()) / "pyimu_attitude_honesty.jsonl"
 """Where finished runs are kept, so that a table can go on where it was stopped."""
 
 LOW, HIGH = 0.8, 1.3
