@@ -145,3 +145,11 @@ def test_a_car_that_drives_evenly_is_not_at_rest_if_its_speed_is_known(block):
     for told in (True, False):
         y, _, _ = filtered(block, world, np.full(1500, 8.0), 1, told=told)
         assert output(block, y, "at_rest")[300:].any() == (not told)
+
+
+@pytest.mark.parametrize("bad", [np.nan, -1.0, np.inf])
+def test_a_speed_without_a_usable_variance_is_none(block, bad):
+    u = inputs(400, speed=5.0, speed_variance=bad, speed_valid=1)
+    none = inputs(400)
+    p = parameters(block, std0=STD0)
+    np.testing.assert_array_equal(block.run(u, p=p)[0], block.run(none, p=p)[0])

@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN "{2c35e3e5-a7a4-14a0-4c66-cb1c74b390db}"
+#define MODEL_TOKEN "{622a6e91-e330-48a5-d8f3-26250545d9b7}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN "{ad77ba41-bfb0-5cd0-3686-e5c4eb41ab93}"
+#define MODEL_TOKEN "{03fb77c7-9b9a-1676-2292-8ee1e1f647ca}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

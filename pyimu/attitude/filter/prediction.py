@@ -36,9 +36,9 @@ from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import reciprocal
 from pyimu.symbolic.process_noise import process_noise
 
-STATIONARY, HEADING_VALID, SPEED, SPEED_VALID = (
+STATIONARY, HEADING_VALID, SPEED, SPEED_VARIANCE, SPEED_VALID = (
     [v.name for v in INPUTS].index(name)
-    for name in ("stationary", "heading_valid", "speed", "speed_valid")
+    for name in ("stationary", "heading_valid", "speed", "speed_variance", "speed_valid")
 )
 
 HOLD = 1.0
@@ -185,7 +185,9 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
     """
     scalar, kept = at.settings.scalar, at.memory
     known = is_tilt_known(x)
-    speed = (at.u[SPEED_VALID] > 0.5) * (ca.fabs(at.u[SPEED]) <= ABSURD) * known
+    usable = (ca.fabs(at.u[SPEED]) <= ABSURD) * (ca.fabs(at.u[SPEED_VARIANCE]) <= ABSURD)
+    usable *= at.u[SPEED_VARIANCE] >= 0
+    speed = (at.u[SPEED_VALID] > 0.5) * usable * known
     speed_for = ca.if_else(speed, 0, kept.speed_for + at.h)
     driven = speed_for < HOLD
     used = where(sample.force_valid, known) * (1 - rest.resting) * (1 - driven)
