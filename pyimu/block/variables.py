@@ -20,6 +20,10 @@ class Variable:
 
     ``name`` is its FMI name (``gyro_error.g_sensitivity.G[1,2]``), ``unit`` an SI spelling. A
     parameter that acts on the start alone is ``fixed``, and cannot be set during a run.
+
+    Inputs or outputs of one ``terminal`` are the members of a bus that a tool can wire at once;
+    ``member`` is the name there, if it is not the variable's own. A ``corner`` is a natural
+    frequency in rad/s, which people say in Hz.
     """
 
     name: str
@@ -30,6 +34,9 @@ class Variable:
     minimum: float | None = None
     maximum: float | None = None
     fixed: bool = False
+    terminal: str = ""
+    member: str = ""
+    corner: bool = False
 
 
 @dataclass(frozen=True)

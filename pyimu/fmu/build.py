@@ -22,7 +22,17 @@ from pyimu.block.cache import keep, kept_bytes, key_of
 from pyimu.block.compiled import compiler_command, source_folder
 from pyimu.errors import UserError
 from pyimu.files import whole
-from pyimu.fmu.sources import CORE, DESCRIPTION, LAYER, PAGE, TABLE, Form, template_folder, texts
+from pyimu.fmu.sources import (
+    CORE,
+    DESCRIPTION,
+    LAYER,
+    PAGE,
+    TABLE,
+    TERMINALS,
+    Form,
+    template_folder,
+    texts,
+)
 
 FLAGS = (
     "-std=c11",
@@ -282,21 +292,17 @@ def _write(entries: dict[str, bytes], target: Path) -> Path:
 
 def _contents(generated: dict[str, str], form: Form) -> dict[str, bytes]:
     """What an FMU holds beside its libraries: path in the archive to bytes."""
-    static = {
-        name: (template_folder() / name).read_bytes()
-        for name in ("license.txt", "terminalsAndIcons.xml")
-    }
     entries = {
         "modelDescription.xml": generated[DESCRIPTION[form]].encode(),
         "documentation/index.html": generated[PAGE[form]].encode(),
-        "documentation/licenses/license.txt": static["license.txt"],
+        "documentation/licenses/license.txt": (template_folder() / "license.txt").read_bytes(),
     }
     entries |= {f"sources/{file}": data for file, data in _source_files(generated, form).items()}
     if form == 2:
         return entries | {"model.png": icon()}
     return entries | {
         "sources/buildDescription.xml": generated["buildDescription.xml"].encode(),
-        "terminalsAndIcons/terminalsAndIcons.xml": static["terminalsAndIcons.xml"],
+        "terminalsAndIcons/terminalsAndIcons.xml": generated[TERMINALS[form]].encode(),
         "terminalsAndIcons/icon.png": icon(),
     }
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from pyimu.block.variables import Variable
-from pyimu.model.signals import SURROUNDINGS
+from pyimu.model.signals import IMU, SURROUNDINGS
 from pyimu.units import STANDARD_GRAVITY
 
 STATUS = {
@@ -82,33 +82,53 @@ def array(
     return tuple(Variable(f"{name}[{i + 1}]", unit, text, float(v)) for i, v in enumerate(start))
 
 
+def _together(terminal: str, *variables: Variable) -> tuple[Variable, ...]:
+    """The same as members of one terminal."""
+    return tuple(replace(v, terminal=terminal) for v in variables)
+
+
 INPUTS = (
-    *array("gyro", "rad/s", "measured rate against inertial space, body axes"),
-    *array("accel", "m/s^2", "measured specific force, body axes", (0.0, 0.0, STANDARD_GRAVITY)),
-    Variable("temperature", "degC", "temperature of the part", 25.0),
-    Variable("heading", "rad", "heading, counter-clockwise from east"),
-    Variable("heading_variance", "rad^2", "variance of the heading, above zero"),
-    Variable("heading_valid", "1", "use the heading of this sample", kind="boolean"),
-    Variable(
-        "heading_age",
-        "s",
-        "time since the heading was true, counted in whole samples; at most heading_memory. An age "
-        "of some tenths of a "
-        "second takes no heading more precise than about 1e-3 rad many times a second: what is "
-        "left out then adds up, and std is too small",
+    *_together(
+        IMU,
+        *array("gyro", "rad/s", "measured rate against inertial space, body axes"),
+        *array(
+            "accel", "m/s^2", "measured specific force, body axes", (0.0, 0.0, STANDARD_GRAVITY)
+        ),
+        Variable("temperature", "degC", "temperature of the part", 25.0),
+    ),
+    *_together(
+        "heading",
+        Variable("heading", "rad", "heading, counter-clockwise from east"),
+        Variable("heading_variance", "rad^2", "variance of the heading, above zero"),
+        Variable("heading_valid", "1", "use the heading of this sample", kind="boolean"),
+        Variable(
+            "heading_age",
+            "s",
+            "time since the heading was true, counted in whole samples; at most heading_memory. An "
+            "age of some tenths of a second takes no heading more precise than about 1e-3 rad many "
+            "times a second: what is left out then adds up, and std is too small",
+        ),
     ),
     Variable("stationary", "1", "the body does not turn against the Earth", kind="boolean"),
-    Variable("speed", "m/s", "speed over the ground along the body's x axis, backwards below zero"),
-    Variable("speed_variance", "m^2/s^2", "variance of the speed"),
-    Variable("speed_valid", "1", "use the speed of this sample", kind="boolean"),
-    *array("mag", "T", "measured magnetic flux density, body axes; zeros or NaN: none"),
+    *_together(
+        "speed",
+        Variable(
+            "speed", "m/s", "speed over the ground along the body's x axis, backwards below zero"
+        ),
+        Variable("speed_variance", "m^2/s^2", "variance of the speed"),
+        Variable("speed_valid", "1", "use the speed of this sample", kind="boolean"),
+    ),
+    *_together(
+        IMU, *array("mag", "T", "measured magnetic flux density, body axes; zeros or NaN: none")
+    ),
 )
 """The inputs for every part; ``EXTRA_INPUTS`` follow where the part needs them."""
 
 MAG = slice(len(INPUTS) - 3, len(INPUTS))
 """Where the inputs have the magnetometer."""
 
-OUTPUTS = (
+OUTPUTS = _together(
+    "attitude",
     *array(
         "q",
         "1",
