@@ -369,7 +369,7 @@ bool block_exit_initialization(Block *block) {
     now->phase = STEPPING;
     forget_noise(block);
     tell(block, "%s: initialized at %.17g s, sample period %.17g s, seed %llu%s", MODEL_NAME, now->time,
-         now->sample_period, (unsigned long long) now->seed, now->seed ? "" : ": the noise is that of the instance's name");
+         now->sample_period, (unsigned long long) now->seed, now->seed || !N_NOISE ? "" : ": the noise is that of the instance's name");
     return true;
 }
 

@@ -13,6 +13,10 @@ from pyimu.errors import UserError
 
 Kind = Literal["real", "boolean", "integer"]
 
+MOTION, IMU = "motion", "imu"
+"""Terminals of the units, which can be wired as a whole: the truth in which a sensor moves, and
+what it measures."""
+
 
 @dataclass(frozen=True)
 class Variable:

@@ -51,7 +51,7 @@ SCALAR_FORMS: tuple[Form, ...] = (2, 3)
 FORMS: tuple[Form, ...] = (2, 3, "block")
 """Every form of an FMU, in the order in which they are built."""
 
-_ZIP_TIME = (1980, 1, 1, 0, 0, 0)
+ZIP_TIME = (1980, 1, 1, 0, 0, 0)
 
 
 @dataclass(frozen=True)
@@ -325,7 +325,7 @@ def _binaries(
 def _zip(file: BinaryIO, entries: dict[str, bytes]) -> None:
     with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
         for path in sorted(entries):
-            info = zipfile.ZipInfo(path, _ZIP_TIME)
+            info = zipfile.ZipInfo(path, ZIP_TIME)
             info.compress_type = zipfile.ZIP_DEFLATED
             info.external_attr = 0o644 << 16
             info.create_system = 3  # the same bytes on every system

@@ -87,7 +87,7 @@ def texts(block: Block) -> dict[str, str]:
     unit is unknown.
     """
     _check(block)
-    step = _render_one("step.c", _names(block) | {"functions": _functions_in_c(block)})
+    step = render("step.c", _names(block) | {"functions": _functions_in_c(block)})
     # A token stands for the content: what differs in any generated file gets another one, and so
     # does each table.
     contexts = {
@@ -98,7 +98,7 @@ def texts(block: Block) -> dict[str, str]:
         for table, context in contexts.items()
         for text in _render(table, context | {"token": ""}).values()
     ]
-    files = {"step.c": step, "model_prefix.h": _render_one("model_prefix.h", _names(block))}
+    files = {"step.c": step, "model_prefix.h": render("model_prefix.h", _names(block))}
     for table, context in contexts.items():
         files |= _render(table, context | {"token": _token([table, step, *blank])})
     return files
@@ -237,10 +237,11 @@ _TEMPLATES: dict[str, dict[str, str]] = {
 
 
 def _render(table: str, context: dict) -> dict[str, str]:
-    return {name: _render_one(of, context) for name, of in _TEMPLATES[table].items()}
+    return {name: render(of, context) for name, of in _TEMPLATES[table].items()}
 
 
-def _render_one(template: str, context: dict) -> str:
+def render(template: str, context: dict) -> str:
+    """A text from one of the package's templates."""
     return _environment().get_template(template).render(context)
 
 
@@ -252,7 +253,7 @@ def _environment() -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
         keep_trailing_newline=True,
-        autoescape=lambda name: name is not None and name.endswith(("xml", "html")),
+        autoescape=lambda name: name is not None and name.endswith(("xml", "html", "ssd", "ssv")),
     )
     environment.filters |= {
         "xml_number": xml_number,

@@ -11,11 +11,11 @@ import casadi as ca
 import numpy as np
 
 from pyimu.block.block import Block
-from pyimu.block.variables import Limits, Variable
+from pyimu.block.variables import IMU, MOTION, Limits, Variable
 from pyimu.errors import UserError
 from pyimu.model.arguments import AXES
 from pyimu.model.sensor import Sensor
-from pyimu.model.signals import EVERY_SAMPLE, IMU, MOTION, SIGNALS, Derived, inputs_for, vector
+from pyimu.model.signals import EVERY_SAMPLE, SIGNALS, Derived, inputs_for, vector
 from pyimu.model.truth import measured_recording
 from pyimu.recording.recording import Recording
 

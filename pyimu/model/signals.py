@@ -27,10 +27,6 @@ LONGEST_HOLD = 60.0
 once a minute a thermometer misses the changes for which data sheets state a sensitivity (some
 K/min), and a step after a night's rest is no slope of a night."""
 
-MOTION, IMU = "motion", "imu"
-"""Terminals of the units, which can be wired as a whole: the truth in which a sensor moves, and
-what it measures."""
-
 EVERY_SAMPLE = "wants new inputs at every sample"
 """What is said of an effect that follows from the difference of successive inputs, wherever it is
 described."""

@@ -6,8 +6,8 @@ import math
 from collections.abc import Iterable
 from dataclasses import replace
 
-from pyimu.block.variables import Variable
-from pyimu.model.signals import IMU, SURROUNDINGS
+from pyimu.block.variables import IMU, Variable
+from pyimu.model.signals import SURROUNDINGS
 from pyimu.units import STANDARD_GRAVITY
 
 STATUS = {
