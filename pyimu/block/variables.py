@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Literal
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from typing import Any, Literal
 
 import casadi as ca
 import numpy as np
@@ -41,6 +42,23 @@ class Variable:
     terminal: str = ""
     member: str = ""
     corner: bool = False
+
+
+def array(
+    name: str, unit: str, text: str, start: Iterable[float] = (0.0, 0.0, 0.0), **more: Any
+) -> tuple[Variable, ...]:
+    """The scalars of a vector, numbered from one; ``more`` is of ``Variable``."""
+    return tuple(
+        Variable(f"{name}[{i + 1}]", unit, text, float(v), **more) for i, v in enumerate(start)
+    )
+
+
+def in_terminal(terminal: str, *variables: Variable, prefix: str = "") -> tuple[Variable, ...]:
+    """The same as members of one terminal, there without the ``prefix`` of their names."""
+    return tuple(
+        replace(v, terminal=terminal, member=v.member or v.name.removeprefix(prefix))
+        for v in variables
+    )
 
 
 @dataclass(frozen=True)

@@ -72,7 +72,11 @@ def build(
     part: Annotated[str, typer.Argument(help="Built-in part or a TOML file.", show_default=False)],
     out: Out = Path("out/fmus"),
     fmu: Annotated[
-        str, typer.Option("--fmu", help="Which, separated by commas: sensor, ukf, hidalgo2012.")
+        str,
+        typer.Option(
+            "--fmu",
+            help="Which, separated by commas: sensor, ukf, hidalgo2012, rover, low-pass.",
+        ),
     ] = "sensor,ukf",
     fmi: Annotated[
         str,
@@ -85,11 +89,21 @@ def build(
         str, typer.Option("--platform", help="host, all (needs ziglang), or one platform by name.")
     ] = "host",
     effects: Effects = None,
+    ssp: Annotated[
+        str | None,
+        typer.Option(
+            "--ssp",
+            metavar="DRIVE",
+            help="Also Rover.ssp, the system of drive, sensor, low-pass and filter: straight, "
+            "obstacle, ackermann, turn_on_spot or free.",
+            show_default=False,
+        ),
+    ] = None,
 ) -> None:
     """Example: pyimu build imt30 --out out/fmus
 
-    Build the FMI co-simulation units of a part: the sensor with its errors, and the attitude filter
-    that goes with it.
+    Build the FMI co-simulation units of a part: the sensor with its errors, the attitude filter
+    that goes with it, and of the system around them the true motion of a rover and a low-pass.
     """
     from pyimu.fmu.package import build as build_part
     from pyimu.fmu.sources import Form
@@ -99,14 +113,22 @@ def build(
     if not all(name in forms for name in names):
         raise UserError(f"--fmi {fmi}: unknown; known are {', '.join(forms)}, separated by commas")
     add_effects(effects)
+    chosen = [forms[name] for name in names]
     with progress(f"compiling {part}"):
         paths = build_part(
             part,
             out,
             [f.strip() for f in fmu.split(",")],
-            [forms[name] for name in names],
+            chosen,
             platform,
         )
+        if ssp is not None:
+            from pyimu.rover.system import write_rover
+
+            form = next((f for f in forms.values() if f in chosen and f != "block"), None)
+            if form is None:
+                raise UserError(f"--ssp: a system is wired of units of FMI 2 or 3, not --fmi {fmi}")
+            paths.append(write_rover(part, out, ssp, form=form, platform=platform))
     for path in paths:
         print(path)
 

@@ -24,15 +24,12 @@ from pyimu.errors import UserError
 from pyimu.fmu.system import Component, System
 
 
-def cosimulate(
-    system: System, steps: int, wanted: Sequence[str] = (), *, zero_inputs: bool = False
-) -> dict[str, np.ndarray]:
+def cosimulate(system: System, steps: int, wanted: Sequence[str] = ()) -> dict[str, np.ndarray]:
     """Outputs (steps + 1,) by name, ``Filter.roll``, of a system that makes so many steps.
 
-    Row 0 is what is shown after initialization, row k what is after step k; in that step the inputs
-    are the outputs of row k - 1. With ``zero_inputs`` those of the first step are zero instead, as
-    simulators have it that do not exchange before it. Without names in ``wanted`` all outputs are
-    kept.
+    Row 0 is what is shown after initialization, in which values are exchanged until each unit has
+    seen what all others start with; row k is what is shown after step k, whose inputs are the
+    outputs of row k - 1. Without names in ``wanted`` all outputs are kept.
 
     Raises UserError for an output that is none, and where a unit refuses, with its message.
     """
@@ -43,18 +40,30 @@ def cosimulate(
     }
     with ExitStack() as stack:
         running = {c.name: stack.enter_context(_running(c)) for c in system.components}
-        for unit in running.values():
-            unit.start()
+        _initialize(system, running)
         for k in range(steps + 1):
             if k:
                 for unit in running.values():
                     unit.step((k - 1) * system.step_size, system.step_size)
             for name, (c, v) in kept.items():
                 rows[name][k] = running[c.name].get(v)
-            for wire in system.wires if k < steps else ():
-                value = running[wire.start.name].get(wire.output)
-                running[wire.end.name].set(wire.input, 0 if zero_inputs and not k else value)
+            _exchange(system, running)
     return rows
+
+
+def _initialize(system: System, running: Mapping[str, _Unit]) -> None:
+    for unit in running.values():
+        unit.enter_initialization()
+    for _ in system.components:  # a chain of all of them is passed through then
+        _exchange(system, running)
+    for unit in running.values():
+        unit.exit_initialization()
+
+
+def _exchange(system: System, running: Mapping[str, _Unit]) -> None:
+    values = [running[w.start.name].get(w.output) for w in system.wires]
+    for wire, value in zip(system.wires, values, strict=True):
+        running[wire.end.name].set(wire.input, value)
 
 
 class _Unit:
@@ -68,13 +77,16 @@ class _Unit:
     def hear(self, *message: Any) -> None:
         self.said = message[-1].decode()
 
-    def start(self) -> None:
+    def enter_initialization(self) -> None:
         with self._refusals():
             if isinstance(self.fmu, FMU2Slave):
                 self.fmu.setupExperiment(startTime=0.0)
             for name, value in self.component.parameters.items():
                 self.set(self.component.variables[name], value)
             self.fmu.enterInitializationMode()
+
+    def exit_initialization(self) -> None:
+        with self._refusals():
             self.fmu.exitInitializationMode()
 
     def step(self, time: float, size: float) -> None:

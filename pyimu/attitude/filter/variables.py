@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable
 from dataclasses import replace
 
-from pyimu.block.variables import IMU, Variable
+from pyimu.block.variables import IMU, Variable, array, in_terminal
 from pyimu.model.signals import SURROUNDINGS
 from pyimu.units import STANDARD_GRAVITY
 
@@ -75,20 +75,8 @@ EXTRA_INPUTS = tuple(n for n in SURROUNDINGS if n != "temperature")
 """Signals that become inputs of the filter where effects of the part depend on them."""
 
 
-def array(
-    name: str, unit: str, text: str, start: Iterable[float] = (0.0, 0.0, 0.0)
-) -> tuple[Variable, ...]:
-    """The scalars of a vector, numbered from one."""
-    return tuple(Variable(f"{name}[{i + 1}]", unit, text, float(v)) for i, v in enumerate(start))
-
-
-def _together(terminal: str, *variables: Variable) -> tuple[Variable, ...]:
-    """The same as members of one terminal."""
-    return tuple(replace(v, terminal=terminal) for v in variables)
-
-
 INPUTS = (
-    *_together(
+    *in_terminal(
         IMU,
         *array("gyro", "rad/s", "measured rate against inertial space, body axes"),
         *array(
@@ -96,7 +84,7 @@ INPUTS = (
         ),
         Variable("temperature", "degC", "temperature of the part", 25.0),
     ),
-    *_together(
+    *in_terminal(
         "heading",
         Variable("heading", "rad", "heading, counter-clockwise from east"),
         Variable("heading_variance", "rad^2", "variance of the heading, above zero"),
@@ -110,7 +98,7 @@ INPUTS = (
         ),
     ),
     Variable("stationary", "1", "the body does not turn against the Earth", kind="boolean"),
-    *_together(
+    *in_terminal(
         "speed",
         Variable(
             "speed", "m/s", "speed over the ground along the body's x axis, backwards below zero"
@@ -118,7 +106,7 @@ INPUTS = (
         Variable("speed_variance", "m^2/s^2", "variance of the speed"),
         Variable("speed_valid", "1", "use the speed of this sample", kind="boolean"),
     ),
-    *_together(
+    *in_terminal(
         IMU, *array("mag", "T", "measured magnetic flux density, body axes; zeros or NaN: none")
     ),
 )
@@ -127,7 +115,7 @@ INPUTS = (
 MAG = slice(len(INPUTS) - 3, len(INPUTS))
 """Where the inputs have the magnetometer."""
 
-OUTPUTS = _together(
+OUTPUTS = in_terminal(
     "attitude",
     *array(
         "q",
