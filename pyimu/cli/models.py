@@ -107,6 +107,7 @@ def build(
     """
     from pyimu.fmu.package import build as build_part
     from pyimu.fmu.sources import Form
+    from pyimu.rover.system import check_drive, write_rover
 
     forms: dict[str, Form] = {"2": 2, "3": 3, "block": "block"}
     names = [name.strip() for name in fmi.split(",")]
@@ -114,6 +115,9 @@ def build(
         raise UserError(f"--fmi {fmi}: unknown; known are {', '.join(forms)}, separated by commas")
     add_effects(effects)
     chosen = [forms[name] for name in names]
+    wired = next((form for form in forms.values() if form in chosen), "block")
+    if ssp is not None:
+        check_drive(ssp, wired)
     with progress(f"compiling {part}"):
         paths = build_part(
             part,
@@ -123,12 +127,7 @@ def build(
             platform,
         )
         if ssp is not None:
-            from pyimu.rover.system import write_rover
-
-            form = next((f for f in forms.values() if f in chosen and f != "block"), None)
-            if form is None:
-                raise UserError(f"--ssp: a system is wired of units of FMI 2 or 3, not --fmi {fmi}")
-            paths.append(write_rover(part, out, ssp, form=form, platform=platform))
+            paths.append(write_rover(part, out, ssp, form=wired, platform=platform))
     for path in paths:
         print(path)
 

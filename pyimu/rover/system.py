@@ -55,12 +55,7 @@ def rover_system(
     Raises UserError for a drive, a part, a parameter or a form that is none, and where a unit
     cannot be built.
     """
-    if drive not in DRIVES:
-        raise UserError(
-            f"drive '{drive}': unknown{did_you_mean(drive, DRIVES)}; known are {', '.join(DRIVES)}"
-        )
-    if form not in (2, 3):
-        raise UserError(f"a system is wired of units of FMI 2 or 3, not {form}")
+    check_drive(drive, form)
     found = find_part(part)
     h = whole_nanoseconds(found.sample_period)
     rover = rover_drive(found.sample_period)
@@ -89,6 +84,16 @@ def rover_system(
         h,
         duration(drive, place),
     )
+
+
+def check_drive(drive: str, form: Form) -> None:
+    """Raise UserError for a drive that is unknown, and a form that cannot be wired."""
+    if drive not in DRIVES:
+        raise UserError(
+            f"drive '{drive}': unknown{did_you_mean(drive, DRIVES)}; known are {', '.join(DRIVES)}"
+        )
+    if form not in (2, 3):
+        raise UserError(f"a system is wired of units of FMI 2 or 3, not of form {form}")
 
 
 def connections(
