@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import casadi as ca
+import numpy as np
 
 from pyimu.block.block import Block
 from pyimu.block.variables import Limits, Variable
@@ -67,6 +68,19 @@ def rover_drive(
 def _known(what: str, name: str, names: Mapping[str, object]) -> None:
     if name not in names:
         raise UserError(f"{what} '{name}': unknown; known are {', '.join(names)}")
+
+
+def end_of_drive(block: Block, values: np.ndarray) -> float:
+    """When a drive of the block with parameters ``values`` (np,) is over, in s from the start.
+
+    Of a free drive, which its commands end, it is 0.
+    """
+    p = by_name(block.parameters, ca.DM(values))
+    if p["drive"] == DRIVES["free"]:
+        return 0.0
+    once = float(_pace(p)[2] + p["ramp_time"])
+    back = float(p["pause"]) + once if p["drive"] == DRIVES["turn_on_spot"] else 0.0
+    return float(p["start_time"]) + once + back
 
 
 def by_name(variables: tuple[Variable, ...], p) -> dict:
