@@ -28,9 +28,10 @@ def bounded(variable: Variable, value: Any) -> float:
     """
     value, low, high = number(variable.name, value), variable.minimum, variable.maximum
     if low is not None and value < low or high is not None and value > high:
+        unit = "" if variable.unit == "1" else f" {variable.unit}"
         raise UserError(
-            f"{variable.name} is {value:g} {variable.unit}, expected "
-            + " to ".join(f"{v:g}" for v in (low, high) if v is not None)
+            f"{variable.name} is {value:g}{unit}, expected "
+            + " to ".join(f"{v:.9g}" for v in (low, high) if v is not None)
             + (" or more" if high is None else "")
         )
     if variable.kind == "integer" and value != int(value):

@@ -183,9 +183,8 @@ def _scripted(time, p: dict) -> tuple:
 def _shown(time, planes: tuple, found, p: dict, rocker: Rocker):
     """The outputs at a motion in the plane."""
     symbols = [ca.SX.sym(name, PLANE) for name in ("plane", "first", "second")]
-    at, rate, force, speed = motion(*symbols, found, p, rocker)
-    q, rate, force, position, speed = ca.substitute(
-        [at.q, rate, force, at.position, speed], symbols, list(planes)
+    q, position, rate, force, speed = ca.substitute(
+        list(motion(*symbols, found, p, rocker)), symbols, list(planes)
     )
     back = quaternion.conjugate(q)
     angle = sky.hour_angle(time, p["hour_angle"], p["solar_day"])

@@ -182,7 +182,10 @@ def _read(path: Path) -> np.ndarray:
             raise UserError(f"{path}: column '{name} [{si}]' is missing")
     positions = [found[name][0] for name in COMMANDS]
     parts = [columns for columns, _ in reader.batches(positions, positions[0])]
-    columns = [np.concatenate([np.asarray(p[i], dtype=float) for p in parts]) for i in range(3)]
+    columns = [
+        np.concatenate([np.zeros(0), *[np.asarray(p[i], dtype=float) for p in parts]])
+        for i in range(len(COMMANDS))
+    ]
     return np.column_stack(
         [
             convert(column, found[name][1], si)
