@@ -6,6 +6,8 @@ import math
 
 import casadi as ca
 
+from pyimu.symbolic.linear import reciprocal
+
 PRIME = 67108859
 """The largest prime below 2^26. A product of two residues is a whole number below 2^53, exact in
 a double; and as it is 2 modulo 3, the cube is a permutation of the residues."""
@@ -52,15 +54,47 @@ def waves(terrain) -> ca.SX:
     return ca.vertcat(*found)
 
 
-def wavy(found, east, north):
-    """Height at a place of the ground of ``waves``."""
-    return sum(
-        (
-            found[i + 3] * ca.sin(found[i] * east + found[i + 1] * north + found[i + 2])
-            for i in range(0, 4 * WAVES, 4)
-        ),
-        0,
-    )
+def wavy(found, place, heading, offsets, moving) -> list[tuple]:
+    """Height at ``offsets`` (forward, left) m from a place, and its first two derivatives in time.
+
+    ``found`` are the ``waves``, ``place`` is (east, north) and the offsets lie along ``heading``;
+    ``moving`` are the velocity and the acceleration (2,) of each offset's end.
+
+    The phase at an offset is that of the place, plus one for the way forward, plus one for the way
+    to the left: their sines and cosines are taken once, and multiplied as complex numbers.
+    """
+    c, s = ca.cos(heading), ca.sin(heading)
+    totals = [(0, 0, 0)] * len(offsets)
+    for i in range(0, 4 * WAVES, 4):
+        east, north, phase, amplitude = (found[i + j] for j in range(4))
+        here = _turn(east * place[0] + north * place[1] + phase)
+        forward = _turns(c * east + s * north, [x for x, _ in offsets])
+        left = _turns(c * north - s * east, [y for _, y in offsets])
+        for j, (x, y) in enumerate(offsets):
+            cosine, sine = _product(_product(here, left[y]), forward[x])
+            first, second = (east * v[0] + north * v[1] for v in moving[j])
+            along, across = amplitude * cosine, amplitude * sine
+            totals[j] = (
+                totals[j][0] + across,
+                totals[j][1] + along * first,
+                totals[j][2] + along * second - across * first * first,
+            )
+    return totals
+
+
+def _turn(angle) -> tuple:
+    """Cosine and sine."""
+    return ca.cos(angle), ca.sin(angle)
+
+
+def _turns(number, lengths) -> dict[float, tuple]:
+    """Cosine and sine of ``number`` rad/m times each length, of opposite ones taken once."""
+    found = {abs(x): _turn(number * abs(x)) if x else (1, 0) for x in lengths}
+    return {x: (found[abs(x)][0], math.copysign(1, x) * found[abs(x)][1]) for x in lengths}
+
+
+def _product(a: tuple, b: tuple) -> tuple:
+    return a[0] * b[0] - a[1] * b[1], a[1] * b[0] + a[0] * b[1]
 
 
 def boulder(east, north, height, width):
@@ -69,5 +103,5 @@ def boulder(east, north, height, width):
     height (1 - (2 r / width)^2)^4 within ``width``, 0 around: what the centre of a wheel follows,
     whose radius rounds off the boulder's edges. Three derivatives are continuous.
     """
-    inside = ca.fmax(1 - 4 * (east * east + north * north) / (width * width), 0)
+    inside = ca.fmax(1 - (east * east + north * north) * reciprocal(width * width / 4), 0)
     return height * inside * inside * inside * inside

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import casadi as ca
+import numpy as np
 
 from pyimu.block.block import Block
 from pyimu.block.variables import Limits, Variable
@@ -67,6 +68,19 @@ def rover_drive(
 def _known(what: str, name: str, names: Mapping[str, object]) -> None:
     if name not in names:
         raise UserError(f"{what} '{name}': unknown; known are {', '.join(names)}")
+
+
+def end_of_drive(block: Block, values: np.ndarray) -> float:
+    """When a drive of the block with parameters ``values`` (np,) is over, in s from the start.
+
+    Of a free drive, which its commands end, it is 0.
+    """
+    p = by_name(block.parameters, ca.DM(values))
+    if p["drive"] == DRIVES["free"]:
+        return 0.0
+    once = float(_pace(p)[2] + p["ramp_time"])
+    back = float(p["pause"]) + once if p["drive"] == DRIVES["turn_on_spot"] else 0.0
+    return float(p["start_time"]) + once + back
 
 
 def by_name(variables: tuple[Variable, ...], p) -> dict:
@@ -169,9 +183,8 @@ def _scripted(time, p: dict) -> tuple:
 def _shown(time, planes: tuple, found, p: dict, rocker: Rocker):
     """The outputs at a motion in the plane."""
     symbols = [ca.SX.sym(name, PLANE) for name in ("plane", "first", "second")]
-    at, rate, force, speed = motion(*symbols, found, p, rocker)
-    q, rate, force, position, speed = ca.substitute(
-        [at.q, rate, force, at.position, speed], symbols, list(planes)
+    q, position, rate, force, speed = ca.substitute(
+        list(motion(*symbols, found, p, rocker)), symbols, list(planes)
     )
     back = quaternion.conjugate(q)
     angle = sky.hour_angle(time, p["hour_angle"], p["solar_day"])

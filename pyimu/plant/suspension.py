@@ -66,10 +66,10 @@ class Rocker:
         the bogie's axle.
         """
         long = self.front - self.middle
-        sine = (front - middle) / long
+        sine = (front - middle) * (1 / long)
         axle_of_bogie = (front + middle) / 2 + self.bogie * ca.sqrt(1 - sine * sine)
         link, lean = self._link
-        rise = ca.asin((axle_of_bogie - rear) / link) - lean
+        rise = ca.asin((axle_of_bogie - rear) * (1 / link)) - lean
         return rise, rear - self.rear * ca.sin(rise) + self.axle * (ca.cos(rise) - 1)
 
     def pose(self, heights) -> tuple:
