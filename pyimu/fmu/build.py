@@ -103,11 +103,17 @@ def build_fmus(
             raise UserError(f"FMI version {form} is not one of {', '.join(map(str, LAYER))}")
     platforms = _platforms(platform)
     generated = texts(block)
-    with tempfile.TemporaryDirectory(prefix="pyimu-") as work:
-        libraries = {
-            p: _compile(block.name, generated, forms, p, compiler, Path(work, p.name))
-            for p, compiler in platforms
-        }
+    try:
+        with tempfile.TemporaryDirectory(prefix="pyimu-") as work:
+            libraries = {
+                p: _compile(block.name, generated, forms, p, compiler, Path(work, p.name))
+                for p, compiler in platforms
+            }
+    except OSError as error:
+        raise UserError(
+            f"{tempfile.gettempdir()}: cannot be written ({error.strerror or error}); TMPDIR names "
+            "another folder for temporary files"
+        ) from None
     return [
         _write(
             _contents(generated, form) | _binaries(block.name, form, libraries),

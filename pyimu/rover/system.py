@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from pyimu.attitude import attitude_ukf
+from pyimu.block.parameters import with_values
 from pyimu.block.variables import Variable
 from pyimu.errors import UserError
 from pyimu.files import check_folder
@@ -22,15 +23,13 @@ from pyimu.fmu.system import Component, System
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as find_part
 from pyimu.plant.low_pass import low_pass
-from pyimu.plant.rover_drive import rover_drive
+from pyimu.plant.rover_drive import end_of_drive, rover_drive
 from pyimu.plant.rover_variables import DRIVES
+from pyimu.rover.drives import REST
 from pyimu.units import did_you_mean
 
-REST = 10.0
-"""s of rest at the end, in which the filter settles."""
-
 FREE_TIME = 60.0
-"""s of a free drive, which ends when nobody commands it any more."""
+"""s of a free drive, which has no end of its own."""
 
 MOTION = {"attitude": "q"}
 """What a sensor's inputs are called among the outputs of the drive, where they differ."""
@@ -72,7 +71,9 @@ def rover_system(
         if name not in bound:
             raise UserError(f"the rover's system has no unit {name}{did_you_mean(name, bound)}")
         bound[name] |= more
-    place = {v.name: v.start for v in rover.parameters} | bound["Drive"]
+    own = {name: x for name, x in bound["Drive"].items() if name != "sample_period"}
+    p = with_values(rover, own)
+    place = dict(zip((v.name for v in rover.parameters), p.tolist(), strict=True))
     bound["Filter"] = {n: place[n] for n in ("latitude", "gravity")} | bound["Filter"]
     return System(
         "Rover",
@@ -82,7 +83,7 @@ def rover_system(
         ),
         connections(rover.outputs, found.block.inputs),
         h,
-        duration(drive, place),
+        float(round(end_of_drive(rover, p) + REST)) if drive != "free" else FREE_TIME,
     )
 
 
@@ -114,19 +115,6 @@ def connections(
         ("LowPass.filtered_accel", "Filter.accel"),
         ("Sensor.measured_temperature", "Filter.temperature"),
     )
-
-
-def duration(drive: str, p: Mapping[str, float]) -> float:
-    """s from the start of a drive with parameters ``p`` to the end of the rest after it."""
-    ways = {
-        "straight": p["length"] / p["cruise_speed"],
-        "obstacle": p["length"] / p["cruise_speed"],
-        "ackermann": p["radius"] * p["angle"] / p["cruise_speed"],
-        "turn_on_spot": 2 * p["angle"] / p["spot_turn_rate"] + p["ramp_time"] + p["pause"],
-    }
-    if drive not in ways:
-        return FREE_TIME
-    return float(round(p["start_time"] + ways[drive] + p["ramp_time"] + REST))
 
 
 def write_rover(
