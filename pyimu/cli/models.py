@@ -84,12 +84,21 @@ def build(
     platform: Annotated[
         str, typer.Option("--platform", help="host, all (needs ziglang), or one platform by name.")
     ] = "host",
+    specimen: Annotated[
+        int | None,
+        typer.Option(
+            "--specimen",
+            metavar="SEED",
+            help="Draw one specimen from the part's tolerances; the sensor starts at its values.",
+        ),
+    ] = None,
     effects: Effects = None,
 ) -> None:
     """Example: pyimu build imt30 --out out/fmus
 
     Build the FMI co-simulation units of a part: the sensor with its errors, and the attitude filter
-    that goes with it.
+    that goes with it. With --specimen the sensor is one of the production, as its data sheet's
+    tolerances allow (pyimu parts NAME shows them), and the filter still knows the data sheet alone.
     """
     from pyimu.fmu.package import build as build_part
     from pyimu.fmu.sources import Form
@@ -106,6 +115,7 @@ def build(
             [f.strip() for f in fmu.split(",")],
             [forms[name] for name in names],
             platform,
+            specimen,
         )
     for path in paths:
         print(path)
