@@ -136,7 +136,8 @@ def parts(
 
     List the built-in parts with their noise and range, or print one part: every coefficient, the
     figure as its data sheet quotes it, and the source. N is the root of the two-sided density; a
-    dash stands where the part has no figure.
+    dash stands where the part has no figure. Tolerances follow, from which pyimu build draws a
+    specimen: uniform is anywhere within the figure, normal has it for one standard deviation.
     """
     from pyimu.report.parts_table import detail, listing, terminal_width
 

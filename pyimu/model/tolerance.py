@@ -18,7 +18,7 @@ from pyimu.errors import UserError
 from pyimu.model.arguments import Parameter
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.kinds import KINDS
-from pyimu.model.part_entry import FigureScale, Key, format_array
+from pyimu.model.part_entry import FigureScale, Key, nested
 from pyimu.model.part_value import EXACT, PartValue, with_values
 from pyimu.model.sensor import Sensor
 
@@ -104,17 +104,14 @@ class Tolerance:
         ]
         return _placed(q, drawn)
 
-    def said(self) -> str:
-        """The size as a part file would hold it, as "+-20 deg/s (uniform)"."""
+    def size(self, digits: int = 12) -> str:
+        """The size as a data sheet would print it, as "+-20 deg/s" or "1 sigma 0.1 deg/s/g"."""
         unit = self.unit or self.si
         figures = FigureScale(unit, self.si).guess(np.array(self.sizes))
-        # Some units lose the last bit on their way to SI and back.
-        texts = [f"{v:.12g}" for v in figures]
-        text = texts[0] if len(set(texts)) == 1 else format_array(figures)
-        return (
-            f"{'+-' if self.distribution == 'uniform' else '1 sigma '}{text}"
-            f"{'' if unit == '1' else f' {unit}'} ({self.distribution})"
-        )
+        texts = [f"{v:.{digits}g}" for v in figures]
+        text = texts[0] if len(set(texts)) == 1 else nested(texts, figures.shape)
+        sign = "+-" if self.distribution == "uniform" else "1 sigma "
+        return f"{sign}{text}" + ("" if unit == "1" else f" {unit}")
 
 
 def specimen_of(
@@ -129,7 +126,8 @@ def specimen_of(
         kind, effect, parameter = t.key
         if kind == sensor.kind:
             value = declared(sensor, t.key) + t.deviation(seed)
-            source = f"drawn, specimen {seed}, of {t.said()}{', ' if t.source else ''}{t.source}"
+            source = f"drawn, specimen {seed}, of {t.size()} ({t.distribution})"
+            source += f", {t.source}" if t.source else ""
             drawn.append(PartValue(effect, parameter, value, t.unit or t.si, source, EXACT))
     return with_values(sensor, drawn)
 
