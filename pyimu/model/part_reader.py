@@ -232,7 +232,7 @@ class _Reader:
         self._table(where, entry, f'{{value = 1.0, unit = "{self._si(key, q)}", ... }}')
         self._known(f"{where}.", entry, _TOLERANCE_KEYS)
         distribution = entry.get("distribution")
-        if distribution not in DISTRIBUTIONS:
+        if not isinstance(distribution, str) or distribution not in DISTRIBUTIONS:
             fault = "is missing"
             if distribution is not None:
                 near = meant(str(distribution), DISTRIBUTIONS)
