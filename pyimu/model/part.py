@@ -56,6 +56,8 @@ class Part:
             sensor.check(period, f"part {self.name}")
         for t in self.tolerances:
             t.check(declared(self.sensor(t.key[0]), t.key))
+        if len({t.key for t in self.tolerances}) < len(self.tolerances):
+            raise UserError(f"part {self.name}: two tolerances of one coefficient")
         in_order = sorted(self.tolerances, key=lambda t: t.place)
         object.__setattr__(self, "tolerances", tuple(in_order))
 
@@ -73,6 +75,14 @@ class Part:
     def signals(self) -> frozenset[str]:
         """Names in ``SIGNALS`` of what its effects need beside what the sensors measure."""
         return self.gyro.signals | self.accel.signals
+
+    @property
+    def start_values(self) -> dict[str, float]:
+        """Its coefficients by their names in a unit, as ``pyimu.fmu.simulate`` takes them.
+
+        Those of a specimen make the unit of its part that specimen, without another build.
+        """
+        return {v.name: v.start for v in self.gyro.variables + self.accel.variables}
 
     @property
     def nominal(self) -> Part:

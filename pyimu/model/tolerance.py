@@ -7,6 +7,7 @@ attitude filter or ``close``, knows more of a specimen by it.
 
 from __future__ import annotations
 
+import math
 import zlib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
@@ -21,6 +22,7 @@ from pyimu.model.kinds import KINDS
 from pyimu.model.part_entry import FigureScale, Key, nested
 from pyimu.model.part_value import EXACT, PartValue, with_values
 from pyimu.model.sensor import Sensor
+from pyimu.units import did_you_mean
 
 DISTRIBUTIONS = {
     "uniform": "anywhere within +-value",
@@ -38,7 +40,9 @@ class Tolerance:
 
     ``key`` names it (sensor, effect, parameter); ``sizes`` holds the value in SI of every free
     element, row by row, whose meaning is that of ``distribution``. ``unit``, ``source`` and
-    ``quoted`` are what stands beside it in the file.
+    ``quoted`` are what stands beside it in the file. Raises UserError for an effect, a parameter or
+    a distribution that does not exist, and for sizes that are not one for each element, finite and
+    not negative.
     """
 
     key: Key
@@ -47,6 +51,21 @@ class Tolerance:
     unit: str = field(default="", compare=False)
     source: str = field(default="", compare=False)
     quoted: str = field(default="", compare=False)
+
+    def __post_init__(self) -> None:
+        kind, effect, name = self.key
+        known = CATALOGUE.of(kind, effect).parameters
+        where = f"tolerance.{'.'.join(self.key)}"
+        if name not in known:
+            raise UserError(f"{where}: no parameter of {effect}{did_you_mean(name, known)}")
+        if self.distribution not in DISTRIBUTIONS:
+            raise UserError(
+                f"{where}: unknown distribution {self.distribution!r}; known are "
+                f"{', '.join(DISTRIBUTIONS)}"
+            )
+        free = len(known[name].indices)
+        if len(self.sizes) != free or not all(0.0 <= v < math.inf for v in self.sizes):
+            raise UserError(f"{where}: needs {free} finite sizes from 0 on, not {self.sizes}")
 
     @property
     def parameter(self) -> Parameter:

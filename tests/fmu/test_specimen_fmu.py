@@ -110,9 +110,8 @@ def test_the_unit_of_a_specimen_gives_the_bits_of_its_simulation(of_a_specimen, 
 def test_a_specimen_set_by_hand_is_the_same_specimen(of_the_part, motion):
     """The part's own unit with the drawn values as parameters, as a campaign sets them."""
     made = part(PART).specimen(SEED)
-    values = {v.name: v.start for v in made.block.parameters}
     np.testing.assert_array_equal(
-        through(of_the_part["block"], "block", motion, seed=3, **values),
+        through(of_the_part["block"], "block", motion, seed=3, **made.start_values),
         in_python(made, motion, 3),
     )
 

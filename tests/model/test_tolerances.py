@@ -1,6 +1,7 @@
 """Tolerances of parts: what files say of them, and the specimens that are drawn from them."""
 
 import math
+import pickle
 import re
 import zlib
 
@@ -10,6 +11,7 @@ from scipy import stats
 
 from pyimu import units
 from pyimu.errors import UserError
+from pyimu.identification.as_part import as_part
 from pyimu.model.part import Part
 from pyimu.model.part_file import part, part_names
 from pyimu.model.part_reader import parse_part
@@ -184,6 +186,35 @@ def test_errors_name_the_key(body):
         read(body)
 
 
+@pytest.mark.parametrize(
+    ("key", "sizes", "distribution", "message"),
+    [
+        (("gyro", "scale_facto", "s"), (1,) * 3, "normal", "did you mean scale_factor"),
+        (("accel", "g_sensitivity", "G"), (1,) * 9, "normal", "does not belong to a accel"),
+        (("gyro", "scale_factor", "S"), (1,) * 3, "normal", "no parameter of scale_factor"),
+        (("gyro", "scale_factor", "s"), (1,) * 3, "norma", "unknown distribution 'norma'"),
+        (("gyro", "scale_factor", "s"), (1,) * 2, "normal", "needs 3 finite sizes from 0 on"),
+        (("gyro", "scale_factor", "s"), (1, -1, 1), "normal", "needs 3 finite sizes from 0 on"),
+        (("gyro", "scale_factor", "s"), (1, math.nan, 1), "normal", "needs 3 finite sizes"),
+    ],
+)
+def test_a_tolerance_made_in_python_is_checked(key, sizes, distribution, message):
+    with pytest.raises(UserError, match=message):
+        Tolerance(key, sizes, distribution)
+
+
+def test_a_coefficient_has_one_tolerance():
+    t = Tolerance(("gyro", "scale_factor", "s"), (1.0,) * 3, "normal")
+    with pytest.raises(UserError, match="part a: two tolerances of one coefficient"):
+        Part("a", 100.0, tolerances=(t, t))
+
+
+def test_a_part_goes_to_another_process_with_its_tolerances():
+    p = part("mpu6050")
+    again = pickle.loads(pickle.dumps(p))
+    assert again == p and hash(again) == hash(p) and again.specimen(2) == p.specimen(2)
+
+
 # Draws
 
 
@@ -342,6 +373,11 @@ def test_nothing_of_a_part_but_its_specimens_knows_its_tolerances(name):
     p = part(name)
     plain = Part(p.name, p.sample_rate, p.gyro, p.accel, p.estimate, p.notes, p.description)
     assert p.block.parameters == plain.block.parameters and p.signals == plain.signals
+
+
+def test_the_model_that_close_writes_is_of_one_specimen_and_has_none():
+    p = part("mpu6050")
+    assert as_part(p, [], p, {}).tolerances == ()
 
 
 @pytest.mark.parametrize("name", ["mpu6050", "stim300"])
