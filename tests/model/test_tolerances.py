@@ -22,7 +22,7 @@ from pyimu.model.tolerance import Tolerance
 
 HEAD = 'name = "a"\nsample_rate = {value = 100.0, unit = "Hz"}\n'
 ALL = [(name, t) for name in part_names() for t in part(name).tolerances]
-FIGURE = re.compile(r"^(?P<sign>\+-)?(?P<numbers>\[[\d., ]+\]|[\d.]+) (?P<unit>\S+)")
+FIGURE = re.compile(r"^(?P<sign>\+-|<)?(?P<numbers>\[[\d., ]+\]|[\d.]+) (?P<unit>\S+)")
 SPAN = re.compile(r"over (?P<low>-?\d+) to (?P<high>\d+) degC, taken as reached (?P<far>\d+) K")
 RANGE = re.compile(r"of (?P<size>\d+) (?P<unit>\S+), nonlinearity")
 PLACE = re.compile(r"table|page|section", re.IGNORECASE)
@@ -51,7 +51,7 @@ def test_a_tolerance_names_document_and_place(name, t):
 
 @pytest.mark.parametrize(("name", "t"), ALL, ids=named)
 def test_a_limit_is_uniform_and_a_size_without_sign_is_one_sigma(name, t):
-    sigma = "1 sigma" in t.quoted or "1 sigma" in t.source
+    sigma = "1 sigma" in t.quoted or "1 sigma" in t.source or "standard deviation" in t.source
     signed = FIGURE.match(t.quoted)["sign"] and not sigma
     assert t.distribution == ("uniform" if signed else "normal")
 
