@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "RoverDrive"
-#define MODEL_TOKEN "{63fbe6c0-42aa-3248-a240-531e3d3c8c61}"
+#define MODEL_TOKEN "{3a7c9d37-f78d-8bf5-b8c3-3b88b5d19e8b}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263

@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "RoverDrive"
-#define MODEL_TOKEN "{e078bd8b-2259-e452-2fdb-0362eb8406de}"
+#define MODEL_TOKEN "{40d2f63e-4fa9-dd88-b7e8-efdc516f489e}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
