@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import casadi as ca
@@ -37,6 +37,7 @@ from pyimu.attitude.result import AttitudeResult
 from pyimu.attitude.retiming import Retiming
 from pyimu.attitude.smoothing import smoothed
 from pyimu.attitude.stuck import stuck_times
+from pyimu.attitude.world_field import Date, WorldField, checked_place, world_field
 from pyimu.block.block import Block, Run
 from pyimu.block.variables import Variable
 from pyimu.errors import UserError
@@ -52,6 +53,8 @@ def run(
     part: Part | str | os.PathLike | None = None,
     *,
     latitude: float | None = None,
+    place: Sequence[float] | None = None,
+    date: Date | None = None,
     q0: np.ndarray | None = None,
     heading0: float | None = None,
     magnetometer: bool | MagnetometerCalibration | str | os.PathLike = True,
@@ -79,6 +82,10 @@ def run(
     setting ``declination``. A ``MagnetometerCalibration``, or the path of its file, is undone
     first; ``pyimu.characterize`` finds one in a log that turns. It is not found in the log itself:
     in a room it takes what the place bends for the sensor's (``benchmarks/attitude_real.py``).
+    ``place`` is latitude and longitude in rad, and the height in m if it is known, ``date`` the day
+    of the recording: the World Magnetic Model then tells declination, strength and dip, each as
+    well as it knows them, and the latitude is that of the place. Where the samples show another
+    field, it is disturbed until they have shown it for a while.
 
     ``settings`` are values of other parameters of the block by name, or a filter's name:
     ``"hidalgo2012"`` is the one as published; as the value ``filter`` a name goes with others. A
@@ -94,18 +101,20 @@ def run(
 
     Raises UserError for a recording that cannot be read, is without gyro or has one row, a latitude
     beyond -pi/2 to pi/2, a quaternion without length, ``heading0`` beside ``q0``, other than so
-    many finite numbers, and a setting that is unknown or outside its bounds.
+    many finite numbers, and a setting that is unknown or outside its bounds; a place without date,
+    beside a latitude, or beside a setting of what it tells.
     """
     recording = recording_of(recording)
     if recording.gyro is None:
         raise UserError(f"{recording.name}: no gyro, an attitude needs gyro_x, gyro_y, gyro_z")
     if len(recording.time) < 2:
         raise UserError(f"{recording.name}: one sample, an attitude over time needs two or more")
-    latitude = latitude_of(recording, latitude)
+    method, given = chosen(settings)
+    world = _world(place, date, latitude, given)
+    latitude = latitude_of(recording, latitude if place is None else float(place[0]))
     heading0 = None if heading0 is None else number("heading0", heading0)
     if q0 is not None and heading0 is not None:
         raise UserError("heading0 beside q0, which has a heading of its own: give one of the two")
-    method, given = chosen(settings)
     if smooth and method != OWN:
         raise UserError(f"smooth with the filter {method}: only {OWN} can be smoothed")
     gravity = number("gravity", given.get("gravity", STANDARD_GRAVITY))
@@ -121,9 +130,10 @@ def run(
     def turned(row: int) -> float:
         return _turned(recording, row, known, latitude, bias0, settings)
 
-    north = _north(block, given) if field.used else None
+    told = {} if world is None else world.settings()
+    north = _north(block, given | told) if field.used else None
     yaw = initial_yaw(recording, rest, heading0, turned, north) if q0 is None else Yaw()
-    values = _of_the_log(recording, known, rest, field)
+    values = told | _of_the_log(recording, known, rest, field)
     values |= initial_values(recording, known, rest, latitude, q0, yaw)
     values |= _numbered("bias0", bias0, 3) | _numbered("std0", std0, 6)
     values["rate_noise"] = rate_noise(None if part is None else known)
@@ -153,7 +163,7 @@ def run(
         left_in=left_in(known, retimed=True),
         method=method,
         smoothed=smooth,
-        magnetometer=replace(field, calibration=calibration),
+        magnetometer=replace(field, calibration=calibration).in_world(world),
     )
 
 
@@ -182,7 +192,35 @@ def _turned(recording: Recording, row: int, part: Part, latitude: float, bias0, 
 def _north(block: Block, settings: Mapping[str, float | str]) -> MagneticNorth:
     """What the settings say of the magnetic north."""
     start = {v.name: v.start for v in block.parameters} | dict(settings)
-    return MagneticNorth(*(number(n, start[n]) for n in ("declination", "field_turning_std")))
+    names = ("declination", "field_turning_std", "field_strength", "field_dip")
+    declination, std, strength, dip = (number(n, start[n]) for n in names)
+    parts = strength * np.array([np.cos(dip), -np.sin(dip)])
+    return MagneticNorth(declination, std, parts if strength > 0 else None)
+
+
+def _world(
+    place: Sequence[float] | None,
+    date: Date | None,
+    latitude: float | None,
+    settings: Mapping[str, float | str],
+) -> WorldField | None:
+    """The magnetic field of the place, None without one.
+
+    Raises UserError where only one of place and date is given, and for what is given twice.
+    """
+    if (place is None) != (date is None):
+        there, lacking = ("place", "date") if date is None else ("date", "place")
+        raise UserError(f"{there} without {lacking}: the magnetic field takes both")
+    if place is None or date is None:
+        return None
+    checked_place(place)
+    if latitude is not None:
+        raise UserError("latitude beside place, which has one: give one of the two")
+    found = world_field(place, date)
+    for name in found.settings():
+        if name in settings:
+            raise UserError(f"{name} beside place, by which it is known: give one of the two")
+    return found
 
 
 # Parameters
