@@ -14,6 +14,7 @@ from pyimu.attitude.calibration import (
     MagnetometerCalibration,
     calibrated,
     calibration_of,
+    of_sensor,
 )
 from pyimu.attitude.columns import (
     informed,
@@ -41,6 +42,7 @@ from pyimu.attitude.world_field import Date, WorldField, checked_place, world_fi
 from pyimu.block.block import Block, Run
 from pyimu.block.variables import Variable
 from pyimu.errors import UserError
+from pyimu.model.catalogue import WHITE
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as part_of
 from pyimu.recording.log import Given, recording_of
@@ -87,6 +89,10 @@ def run(
     well as it knows them, and the latitude is that of the place. Where the samples show another
     field, it is disturbed until they have shown it for a while.
 
+    What a part knows of its magnetometer (``[mag.turn_on_bias]``, ``scale_factor``,
+    ``misalignment``) is undone as a calibration is where none is given; its white noise is the
+    setting ``field_noise``.
+
     ``settings`` are values of other parameters of the block by name, or a filter's name:
     ``"hidalgo2012"`` is the one as published; as the value ``filter`` a name goes with others. A
     gap widens the estimate, and the row after it has bit 1 of the status. Headings with an age in
@@ -119,12 +125,15 @@ def run(
         raise UserError(f"smooth with the filter {method}: only {OWN} can be smoothed")
     gravity = number("gravity", given.get("gravity", STANDARD_GRAVITY))
     rest = find_rest(recording, gravity or STANDARD_GRAVITY)
+    declared = None if part is None else part_of(part)
     as_given, calibration = recording, calibration_of(magnetometer)
+    if calibration is None and declared is not None and bool(magnetometer):
+        calibration = None if recording.mag is None else of_sensor(declared.mag)
     if calibration is not None:
         recording = calibrated(recording, calibration)
     wanted = calibration is not None or bool(magnetometer)
     field = magnetometer_of(recording, wanted and method == OWN)
-    known = _known(part, recording, rest)
+    known = _known(declared, recording, rest)
     block = OF_LOGS[method](known)
 
     def turned(row: int) -> float:
@@ -136,7 +145,7 @@ def run(
     values = told | _of_the_log(recording, known, rest, field)
     values |= initial_values(recording, known, rest, latitude, q0, yaw)
     values |= _numbered("bias0", bias0, 3) | _numbered("std0", std0, 6)
-    values["rate_noise"] = rate_noise(None if part is None else known)
+    values["rate_noise"] = rate_noise(None if declared is None else known)
     has = {v.name for v in block.parameters}
     p = _parameters(block, {n: v for n, v in values.items() if n in has} | given)
     retiming = _retiming(recording, known, p)
@@ -159,7 +168,7 @@ def run(
         recording=as_given,
         rest=rest,
         parameters=parameters,
-        part="" if part is None else known.name,
+        part="" if declared is None else known.name,
         left_in=left_in(known, retimed=True),
         method=method,
         smoothed=smooth,
@@ -167,11 +176,11 @@ def run(
     )
 
 
-def _known(part: Part | str | os.PathLike | None, recording: Recording, rest: Rest) -> Part:
+def _known(part: Part | None, recording: Recording, rest: Rest) -> Part:
     """What is known of the sensors: the part, and of what it is silent the recording."""
     if part is None:
         return nominal_part(recording, rest)
-    return informed(part_of(part), recording, rest)
+    return informed(part, recording, rest)
 
 
 def _turned(recording: Recording, row: int, part: Part, latitude: float, bias0, settings) -> float:
@@ -233,6 +242,8 @@ def _of_the_log(
     values = stuck_times(recording, known, rest)
     if recording.mag is not None and not field.used:
         values["field_tolerance"] = 0.0
+    if WHITE[0] in known.mag.values:
+        values["field_noise"] = float(np.sqrt(np.mean(known.mag.values[WHITE[0]][WHITE[1]] ** 2)))
     if getattr(recording, "stationary", None) is not None:
         values["rest_time"] = 0.0
     if oldest := float(recorded_age(recording).max()):

@@ -22,9 +22,11 @@ from pyimu.recording.recording import Recording
 
 @dataclass(frozen=True)
 class Part:
-    """A sensor as data: name, sample rate [Hz], and the effects of gyro and accelerometer.
+    """A sensor as data: name, sample rate [Hz], and the effects of its triads.
 
-    The effects are those of two ``Sensor``, with the values of their coefficients.
+    The effects are those of two ``Sensor``, gyro and accelerometer, with the values of their
+    coefficients. Those of a magnetometer, a third one, are undone by ``pyimu.attitude``; the part's
+    block has no magnetometer.
 
     ``estimate`` names the coefficients ``(sensor, effect, parameter)`` that the part leaves to the
     data; ``notes`` keeps what the file says beside a value: its source, the figure as quoted.
@@ -41,6 +43,7 @@ class Part:
     estimate: frozenset[tuple[str, str, str]] = frozenset()
     notes: dict[tuple[str, str, str], dict[str, str]] = field(default_factory=dict, compare=False)
     description: str = ""
+    mag: Sensor = field(default_factory=lambda: Sensor("mag"))
 
     def __post_init__(self) -> None:
         period = _inverse(self.sample_rate)
@@ -49,7 +52,7 @@ class Part:
                 f"part {self.name}: the sample rate must be a positive and finite number of Hz, "
                 f"not {self.sample_rate!r}"
             )
-        for sensor in (self.gyro, self.accel):
+        for sensor in (self.gyro, self.accel, self.mag):
             sensor.check(period, f"part {self.name}")
 
     @property
@@ -57,7 +60,7 @@ class Part:
         return 1.0 / self.sample_rate
 
     def sensor(self, kind: str) -> Sensor:
-        return {"gyro": self.gyro, "accel": self.accel}[kind]
+        return {"gyro": self.gyro, "accel": self.accel, "mag": self.mag}[kind]
 
     def with_sensor(self, sensor: Sensor) -> Part:
         return replace(self, **{sensor.kind: sensor})

@@ -16,7 +16,7 @@ from pyimu.errors import UserError
 from pyimu.model.arguments import Parameter
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.effect import Effect
-from pyimu.model.kinds import KINDS
+from pyimu.model.kinds import TRIADS
 from pyimu.model.part import Part
 from pyimu.model.part_entry import (
     DENSITIES,
@@ -30,7 +30,7 @@ from pyimu.model.part_entry import (
 )
 from pyimu.model.sensor import Sensor
 
-_TOP_KEYS = ("name", "description", "sample_rate", *KINDS)
+_TOP_KEYS = ("name", "description", "sample_rate", *TRIADS)
 
 
 _ENTRY_KEYS = ("value", "start", *NOTE_KEYS)
@@ -58,7 +58,7 @@ class _Reader:
 
     def part(self, data: Mapping[str, Any]) -> Part:
         self._known("", data, _TOP_KEYS)
-        sensors = {kind: self._sensor(kind, data.get(kind, {})) for kind in KINDS}
+        sensors = {kind: self._sensor(kind, data.get(kind, {})) for kind in TRIADS}
         name, rate, description = (
             self._required_text(data, "name"),
             self._sample_rate(data),
@@ -127,9 +127,9 @@ class _Reader:
         e = CATALOGUE.get(name)
         if e is None:
             raise self.error(f"{kind}.{name}", f"unknown effect; {meant(name, CATALOGUE)}")
-        if kind not in e.sensors:
+        if kind not in e.triads:
             raise self.error(
-                f"{kind}.{name}", f"is an effect of {' and '.join(e.sensors)}, not of {kind}"
+                f"{kind}.{name}", f"is an effect of {' and '.join(e.triads)}, not of {kind}"
             )
         return e
 
