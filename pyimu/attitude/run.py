@@ -28,7 +28,7 @@ from pyimu.attitude.driven import speed_findings
 from pyimu.attitude.filter.compensation import left_in, noise_of
 from pyimu.attitude.filter.timing import clock_error, estimate_latency
 from pyimu.attitude.filter.ukf import recorded_ukf
-from pyimu.attitude.filter.variables import LEAST_K
+from pyimu.attitude.filter.variables import FIELD_SETTINGS, LEAST_K
 from pyimu.attitude.filters import OF_LOGS, OWN, Settings, chosen
 from pyimu.attitude.input_grid import InputGrid
 from pyimu.attitude.magnetometer import Magnetometer, magnetometer_of
@@ -48,6 +48,9 @@ from pyimu.model.part_file import part as part_of
 from pyimu.recording.log import Given, recording_of
 from pyimu.recording.recording import Recording
 from pyimu.units import STANDARD_GRAVITY
+
+FIELD_NOISE = next(v.start for v in FIELD_SETTINGS if v.name == "field_noise")
+"""T*sqrt(s); the filter's where no part says of more."""
 
 
 def run(
@@ -91,7 +94,8 @@ def run(
 
     What a part knows of its magnetometer (``[mag.turn_on_bias]``, ``scale_factor``,
     ``misalignment``) is undone as a calibration is where none is given; its white noise is the
-    setting ``field_noise``.
+    setting ``field_noise``, which is not below its start value: that stands for what is fast in the
+    surroundings, too.
 
     ``settings`` are values of other parameters of the block by name, or a filter's name:
     ``"hidalgo2012"`` is the one as published; as the value ``filter`` a name goes with others. A
@@ -243,7 +247,8 @@ def _of_the_log(
     if recording.mag is not None and not field.used:
         values["field_tolerance"] = 0.0
     if WHITE[0] in known.mag.values:
-        values["field_noise"] = float(np.sqrt(np.mean(known.mag.values[WHITE[0]][WHITE[1]] ** 2)))
+        white = float(np.sqrt(np.mean(known.mag.values[WHITE[0]][WHITE[1]] ** 2)))
+        values["field_noise"] = max(white, FIELD_NOISE)
     if getattr(recording, "stationary", None) is not None:
         values["rest_time"] = 0.0
     if oldest := float(recorded_age(recording).max()):

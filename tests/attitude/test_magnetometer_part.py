@@ -103,9 +103,13 @@ def test_the_filter_undoes_what_the_part_knows(log):
     np.testing.assert_array_equal(none.q, run(seen, part(), magnetometer=False).q)
 
 
-def test_the_parts_noise_is_the_filters(log):
-    found = run(log[1], with_mag(angle_random_walk={"N": [3e-8, 4e-8, 5e-8]}))
-    assert found.parameters["field_noise"] == pytest.approx(np.sqrt(50 / 3) * 1e-8)
+def test_the_parts_noise_is_the_filters_but_for_less_than_it_has(log):
+    noisy, quiet = (
+        run(log[1], with_mag(angle_random_walk={"N": size * np.array([3.0, 4.0, 5.0])}))
+        for size in (1e-7, 1e-9)
+    )
+    assert noisy.parameters["field_noise"] == pytest.approx(np.sqrt(50 / 3) * 1e-7)
+    np.testing.assert_array_equal(quiet.q, run(log[1], with_mag()).q)
 
 
 def test_a_part_with_a_magnetometer_goes_with_a_log_that_has_none(log):
