@@ -78,7 +78,7 @@ def _drive(drive: str) -> tuple[Variable, ...]:
             "start_time",
             "s",
             "rest before the drive, not before a free one. After 60 s at rest a gyro of 0.2 "
-            "deg/sqrt(h) has its bias to 1.6 deg/h",
+            "deg/sqrt(h) has its bias to 1.5 deg/h",
             60.0,
             0.0,
         ),
@@ -101,7 +101,12 @@ def _drive(drive: str) -> tuple[Variable, ...]:
 
 
 def _ground() -> tuple[Variable, ...]:
-    """The ground: waves, and boulders that are in the way of the left and of the right wheels."""
+    """The ground: waves, and boulders that are in the way of the left and of the right wheels.
+
+    The paper says nothing of its ground. The waves are assumed to be those of raked sand; the
+    boulders are three fifths as high as what the Mars Exploration Rovers were made to climb, 0.25 m
+    (Lindemann et al. 2006), of whose size the suspension is.
+    """
     height, width, forward, left = (
         "height of the boulders as a wheel feels it, 0: none",
         "width of the boulders as a wheel feels it",
@@ -165,7 +170,10 @@ def _place(body: CelestialBody) -> tuple[Variable, ...]:
 
 
 def _sensor() -> tuple[Variable, ...]:
-    """Where the sensor is, its temperature, and how it is shaken."""
+    """Where the sensor is, its temperature, and how it is shaken.
+
+    Nothing shakes unless it is asked for: no source gives amplitudes of the paper's rover.
+    """
     motor, wheel = "of the motors' line", "of the line of the wheels' treads at cruise_speed"
     return (
         *array(

@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "RoverDrive"
-#define MODEL_TOKEN "{851b5791-8199-c8e7-cac1-2f52b9a0ab43}"
+#define MODEL_TOKEN "{3a7c9d37-f78d-8bf5-b8c3-3b88b5d19e8b}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -22,7 +22,7 @@ enum {
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 5, WORK_RES = 2, WORK_IW = 0, WORK_W = 653 };
+enum { WORK_ARG = 5, WORK_RES = 2, WORK_IW = 0, WORK_W = 656 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };
