@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "RoverDrive"
-#define MODEL_TOKEN "{897cec14-d20a-c297-b972-c0f37993fdd2}"
+#define MODEL_TOKEN "{cf573bd5-e853-7421-305b-a5b872cf488a}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263

@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "RoverDrive"
-#define MODEL_TOKEN "{a0e540a5-5a9e-45a5-761b-c983ab0eb1ae}"
+#define MODEL_TOKEN "{97394dee-f329-7c19-80c5-dd33ab03aa48}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
