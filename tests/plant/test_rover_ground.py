@@ -181,6 +181,13 @@ def test_the_pose_is_the_whole_suspension_but_for_the_leaning_of_its_sides(heigh
     assert abs(roll - found[1]) <= 2 * share * tall / rocker.track + 1e-10
 
 
+@given(st.tuples(*[st.floats(0.0, 1.0, exclude_max=True)] * 6), st.sampled_from([ROCKER, UNEVEN]))
+def test_wheels_within_reach_of_the_suspension_have_a_pose(heights, rocker):
+    """Which is what the limits of the unit's parameters promise."""
+    pose = rocker.pose(ca.DM(heights) * rocker.reach * (1 - 1e-9))
+    assert np.isfinite([float(x) for x in pose]).all()
+
+
 def test_level_ground_has_no_tilt_and_a_plane_its_own():
     flat = [float(x) for x in ROCKER.pose(ca.DM.zeros(6) + 0.02)]
     np.testing.assert_allclose(flat, [0.0, 0.0, 0.02], atol=1e-15)
