@@ -8,7 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from pyimu.rover.drives import drive, free_drive
+from pyimu.block.parameters import with_values
+from pyimu.rover.drives import block, drive, free_drive
 
 ROUGH = {"roughness": 0.01, "terrain": 11, "lever_arm": (0.2, -0.1, 0.4), "heading0": 0.7}
 SHAKEN = {
@@ -252,12 +253,21 @@ def test_force_and_rate_of_a_free_drive_are_those_of_its_motion():
 
 
 def test_a_missing_command_is_the_last_one():
-    from pyimu.rover.drives import block
-
     made = block(50.0)
-    p = made.start.copy()
-    p[0] = 0
+    p = with_values(made, {"drive": 0})
     u = np.tile([0.02, 0.01], (100, 1))
     holes = u.copy()
     holes[20:40, 0], holes[50, 1], holes[60, 0] = np.nan, np.nan, np.inf
     np.testing.assert_array_equal(made.run(holes, p=p)[0], made.run(u, p=p)[0])
+
+
+@pytest.mark.parametrize("number", range(5))
+def test_half_and_half_is_the_whole_run(number):
+    made = block(50.0)
+    p = with_values(made, {"drive": number, "start_time": 1.0, **ROUGH, **SHAKEN})
+    u = np.random.default_rng(2).standard_normal((600, 2)) * 0.01
+    whole, last = made.run(u, p=p)
+    first, state = made.run(u[:250], p=p)
+    second, end = made.run(u[250:], p=p, state=state)
+    np.testing.assert_array_equal(np.vstack([first, second]), whole)
+    np.testing.assert_array_equal(end, last)
