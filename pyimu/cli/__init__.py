@@ -88,7 +88,7 @@ def _add(name: str, command: Callable, text: str) -> None:
     app.command(name, short_help=text)(command)
 
 
-_add("demo", demo, "The whole loop on a built-in recording.")
+_add("demo", demo, "The whole loop on a simulated recording.")
 _add(
     "characterize",
     characterize_command,

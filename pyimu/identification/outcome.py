@@ -17,6 +17,7 @@ from pyimu.identification.found import Added, AtRest, Changed, Errors, LogEntry,
 from pyimu.identification.made_with import MadeWith
 from pyimu.identification.search.forward import Refused
 from pyimu.identification.search.leftover import Unexplained
+from pyimu.identification.simulated import Simulated
 from pyimu.model.part import Part
 
 
@@ -52,6 +53,7 @@ class Outcome:
     heading: tuple[float, float] | None = None
     at_rest: tuple[AtRest, ...] = ()
     formulas: tuple[Formula, ...] = ()
+    simulated: Simulated | None = None
 
     def as_dict(self, model: str = "model.toml", fmus: tuple[str, ...] = ()) -> dict[str, Any]:
         """The contents of report.json."""
@@ -82,7 +84,8 @@ class Outcome:
             "fmus": list(fmus),
             "made_with": self.made_with and self.made_with.as_dict(),
         }
-        return plain(found)
+        known = {"simulated": self.simulated.as_dict()} if self.simulated else {}
+        return plain(found | known)
 
     def _error(self) -> dict[str, Any]:
         rate, force = self.errors.get("gyro"), self.errors.get("accel")
