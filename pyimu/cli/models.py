@@ -72,7 +72,11 @@ def build(
     part: Annotated[str, typer.Argument(help="Built-in part or a TOML file.", show_default=False)],
     out: Out = Path("out/fmus"),
     fmu: Annotated[
-        str, typer.Option("--fmu", help="Which, separated by commas: sensor, ukf, hidalgo2012.")
+        str,
+        typer.Option(
+            "--fmu",
+            help="Which, separated by commas: sensor, ukf, hidalgo2012, rover, low-pass.",
+        ),
     ] = "sensor,ukf",
     fmi: Annotated[
         str,
@@ -88,8 +92,8 @@ def build(
 ) -> None:
     """Example: pyimu build imt30 --out out/fmus
 
-    Build the FMI co-simulation units of a part: the sensor with its errors, and the attitude filter
-    that goes with it.
+    Build the FMI co-simulation units of a part: the sensor with its errors, the attitude filter
+    that goes with it, and of the system around them the true motion of a rover and a low-pass.
     """
     from pyimu.fmu.package import build as build_part
     from pyimu.fmu.sources import Form

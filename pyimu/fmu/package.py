@@ -1,4 +1,4 @@
-"""FMUs of a part: the sensor, and the attitude filter that goes with it."""
+"""FMUs of a part: the sensor, the attitude filter that goes with it, and the system around them."""
 
 from __future__ import annotations
 
@@ -13,12 +13,16 @@ from pyimu.fmu.build import FORMS, build_fmus
 from pyimu.fmu.sources import Form
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as find_part
+from pyimu.plant.low_pass import low_pass
+from pyimu.plant.rover_drive import rover_drive
 
 BLOCKS: dict[str, Callable[[Part], Block]] = {
     "sensor": lambda part: part.block,
     **FILTERS,
+    "rover": lambda part: rover_drive(part.sample_period),
+    "low-pass": lambda part: low_pass(part.sample_period),
 }
-"""What ``--fmu`` names."""
+"""What ``--fmu`` names. The rover's motion and the low-pass have the sample period of the part."""
 
 
 def build(
@@ -30,9 +34,10 @@ def build(
 ) -> list[Path]:
     """Build the FMUs of a part into ``out``; gives their paths.
 
-    ``fmu`` names blocks ("sensor", "ukf", "hidalgo2012"), ``fmi`` forms (2, 3, "block"),
-    ``platform`` the machine ("host", "all", or one by name). Raises UserError for an unknown name,
-    a part that cannot be read, a folder that cannot be made, or a missing compiler.
+    ``fmu`` names blocks ("sensor", "ukf", "hidalgo2012", "rover", "low-pass"), ``fmi`` forms
+    (2, 3, "block"), ``platform`` the machine ("host", "all", or one by name).
+    Raises UserError for an unknown name, a part that cannot be read, a folder that cannot be made,
+    or a missing compiler.
     """
     unknown = [f for f in fmu if f not in BLOCKS]
     if unknown:
