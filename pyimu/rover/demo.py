@@ -16,8 +16,6 @@ import matplotlib
 import numpy as np
 from markupsafe import Markup
 from matplotlib.figure import Figure
-from scipy.ndimage import gaussian_filter1d
-from scipy.spatial.transform import Rotation
 
 from pyimu.attitude import run
 from pyimu.files import whole
@@ -34,6 +32,7 @@ from pyimu.recording.log import read_recording
 from pyimu.recording.recording import Recording
 from pyimu.report.figures import AFTER, BEFORE, FLOOR, STYLE, legend, svg_of
 from pyimu.report.page import Picture
+from pyimu.rover.optical import optical_reference
 from pyimu.rover.trajectory import Motion, ackermann, drive, stop, straight, turn_on_spot
 
 SAMPLE_RATE = 50.0
@@ -45,11 +44,12 @@ LATITUDE = np.deg2rad(52.22)
 UNDECLARED = np.array([-0.018, 0.011, -6.5 / 180.0])
 """Scale factor errors of the gyros; about the vertical what makes 6.5 deg of 180."""
 
-REFERENCE_WANDER = np.deg2rad(0.1)
-"""rad; slow error of the optical reference, Hidalgo 2012: 0.1 to 0.2 deg."""
+TURN_ON_BIAS = np.deg2rad([0.05, -0.03, 0.04])
+"""rad/s; of the gyros. Assumed; the paper says nothing of it."""
 
-REFERENCE_NOISE = np.deg2rad(0.01)
-"""rad; its white noise from sample to sample."""
+ASSUMED_ACCEL = {"N": 5e-4, "b0": np.array([0.004, -0.003, 0.002])}
+"""White noise in m/s/sqrt(s) and turn-on bias in m/s^2 of the accelerometer, of which the paper
+gives nothing."""
 
 MADE = (
     "This rover is simulated, so that the truth is known: a drive of 24 minutes with the IMT30 of "
@@ -69,13 +69,13 @@ def true_part() -> Part:
     """The IMT30 as it really is here: the paper's tables, a scale factor, and an accelerometer."""
     known = part("imt30")
     gyro = known.gyro.with_values("scale_factor", s=UNDECLARED)
-    accel = known.accel.with_values("angle_random_walk", N=5e-4).with_values(
-        "turn_on_bias", b0=[0.004, -0.003, 0.002]
+    accel = known.accel.with_values("angle_random_walk", N=ASSUMED_ACCEL["N"]).with_values(
+        "turn_on_bias", b0=ASSUMED_ACCEL["b0"]
     )
     return Part(
         "imt30 with a scale factor",
         SAMPLE_RATE,
-        gyro.with_values("turn_on_bias", b0=np.deg2rad([0.05, -0.03, 0.04])),
+        gyro.with_values("turn_on_bias", b0=TURN_ON_BIAS),
         accel,
     )
 
@@ -117,21 +117,9 @@ def recording(seed: int = 2012) -> Recording:
         gyro=gyro,
         accel=accel,
         temperature=temperature,
-        ref_q=_seen(m, rng),
+        ref_q=optical_reference(m.q, SAMPLE_RATE, rng),
         stationary=m.standing,
         latitude=np.full(len(m.time), LATITUDE),
-    )
-
-
-def _seen(m: Motion, rng: np.random.Generator) -> np.ndarray:
-    """The attitude (n, 4) as the optical reference gives it.
-
-    It is right to a tenth of a degree, wandering over 20 s.
-    """
-    slow = gaussian_filter1d(rng.standard_normal((len(m.time), 3)), 20.0 * SAMPLE_RATE, axis=0)
-    error = REFERENCE_WANDER * slow / slow.std() + REFERENCE_NOISE * rng.standard_normal(slow.shape)
-    return (Rotation.from_rotvec(error) * Rotation.from_quat(m.q, scalar_first=True)).as_quat(
-        scalar_first=True
     )
 
 

@@ -9,6 +9,7 @@ from pyimu.identification.put_in import put_in
 from pyimu.identification.report.page import page
 from pyimu.identification.simulated import Simulated
 from pyimu.rover import demo
+from pyimu.rover.optical import WANDER
 
 
 @pytest.fixture(scope="module")
@@ -54,7 +55,7 @@ def test_the_last_turn_shows_the_scale_factor_halfway_and_noise_at_its_end(close
     """
     turn = demo.last_turn(closed, demo.recording())
     half = int(np.argmax(np.abs(turn.before)))
-    reference = 2 * demo.REFERENCE_WANDER
+    reference = 2 * WANDER
     assert abs(turn.before[half] - np.pi * demo.UNDECLARED[2]) < 4 * np.hypot(
         turn.std[half], reference
     )
