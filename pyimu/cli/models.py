@@ -18,7 +18,7 @@ def rover_command(
     ] = Path("out/rover"),
     seeds: Annotated[
         int, typer.Option("--seeds", min=1, help="Noises that each drive is simulated with.")
-    ] = 5,
+    ] = 3,
 ) -> None:
     """Example: pyimu rover --part imt30 --out out/rover
 

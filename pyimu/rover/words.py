@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from pyimu.report.lines import in_columns
-from pyimu.report.numbers import number
+from pyimu.report.numbers import joined, number
 from pyimu.rover.outcome import WALK_UNIT, DriveRuns, RoverOutcome, walk_in_people
 from pyimu.rover.paper import ANGLES
 
@@ -63,10 +63,12 @@ def findings(o: RoverOutcome) -> list[str]:
 
 def _scale(o: RoverOutcome) -> Iterator[str]:
     put_in, found = o.scale
+    others = joined([n for a in o.closed.added for n in a.alternatives])
     yield (
         f"Scale factor about the vertical: {_percent(put_in)} put in, {_percent(found)} found by "
         f"the loop on turns on the spot that are in no row ({o.closed.verdict}"
-        f"{f': {o.closed.reason}' if o.closed.reason else ''})."
+        f"{f': {o.closed.reason}' if o.closed.reason else ''}"
+        f"{f'; the data allow as well: {others}' if others else ''})."
     )
     for r in o.runs:
         if r.paper.name == "turn_on_spot":
@@ -141,7 +143,7 @@ def _turns(spot: DriveRuns, arc: DriveRuns) -> str:
     return (
         "Both turns are of 180 deg, so that one scale factor gives both the same error: with the "
         f"{_percent(scale)} of the turn on the spot Ackermann steering has a median of "
-        f"{number(float(np.median(largest)), 2)} deg, and {within} of drives are within the {paper:g} deg that table 6 prints. The two figures contradict "
-        "each other unless the scale factor changes with the rate of turn, 1.15 deg/s on the spot "
-        "and 0.46 deg/s in the arc."
+        f"{number(float(np.median(largest)), 2)} deg, and {within} of drives are within the "
+        f"{paper:g} deg that table 6 prints. The two figures contradict each other unless the "
+        "scale factor changes with the rate of turn: 1.15 deg/s on the spot, 0.46 in the arc."
     )
