@@ -15,9 +15,12 @@ from pyimu.identification.fit.score import WINDOW
 from pyimu.identification.formula.formula import Formula
 from pyimu.identification.found import Added, AtRest, Changed, Errors, LogEntry, Visibility
 from pyimu.identification.made_with import MadeWith
+from pyimu.identification.magnetometer.examine import Examined
+from pyimu.identification.magnetometer.words import as_dict as magnetic
 from pyimu.identification.search.forward import Refused
 from pyimu.identification.search.leftover import Unexplained
 from pyimu.identification.simulated import Simulated
+from pyimu.model.kinds import MAGNETOMETER
 from pyimu.model.part import Part
 
 
@@ -54,6 +57,7 @@ class Outcome:
     at_rest: tuple[AtRest, ...] = ()
     formulas: tuple[Formula, ...] = ()
     simulated: Simulated | None = None
+    magnetometer: Examined | None = None
 
     def as_dict(self, model: str = "model.toml", fmus: tuple[str, ...] = ()) -> dict[str, Any]:
         """The contents of report.json."""
@@ -85,11 +89,14 @@ class Outcome:
             "made_with": self.made_with and self.made_with.as_dict(),
         }
         known = {"simulated": self.simulated.as_dict()} if self.simulated else {}
+        if self.magnetometer is not None:
+            known["magnetometer"] = magnetic(self.magnetometer)
         return plain(found | known)
 
     def _error(self) -> dict[str, Any]:
         rate, force = self.errors.get("gyro"), self.errors.get("accel")
-        return {
+        field = self.errors.get(MAGNETOMETER)
+        found = {
             "data": self.held_out,
             "rate": rate and rate.as_dict(),
             "angle": rate and rate.angle_dict(WINDOW),
@@ -101,6 +108,7 @@ class Outcome:
             "gravity": self._gravity("accel"),
             "gravity_direction": self._gravity("gyro"),
         }
+        return found | ({} if field is None else {"magnetic_field": field.as_dict()})
 
     def _gravity(self, kind: str) -> dict[str, Any] | None:
         return next((g.as_dict() for g in self.at_rest if g.sensor == kind), None)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import casadi as ca
 
+from pyimu.symbolic.linear import reciprocal
 from pyimu.symbolic.quaternion import sinc
 
 
@@ -32,15 +33,16 @@ def progress(time, duration, ramp) -> tuple:
     rises in the first ``ramp`` s, stays at 1 until ``duration``, and falls in ``ramp`` s more: both
     ramps together count as long as one of them at full speed, so that the end is ``duration``.
     """
-    start, end = _between(time / ramp, 1), _between((time - duration) / ramp, 1)
+    per_ramp = reciprocal(ramp)
+    start, end = _between(time * per_ramp, 1), _between((time - duration) * per_ramp, 1)
     up, up_slope, up_bend, risen = smooth_step(start)
     down, down_slope, down_bend, fallen = smooth_step(end)
     steady = _between(time - ramp, duration - ramp)
     return (
         steady + ramp * (risen + (end - fallen)),
         up - down,
-        (up_slope - down_slope) / ramp,
-        (up_bend - down_bend) / (ramp * ramp),
+        (up_slope - down_slope) * per_ramp,
+        (up_bend - down_bend) * (per_ramp * per_ramp),
     )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from pyimu.block.variables import Variable, array
+from pyimu.block.variables import MOTION, Variable, array, in_terminal
 from pyimu.plant.bodies import CelestialBody
 from pyimu.plant.ground import PRIME
 
@@ -34,15 +34,20 @@ OUTPUTS = (
     Variable("roll", "rad", "roll of Rz(yaw) Ry(pitch) Rx(roll)"),
     Variable("pitch", "rad", "pitch, nose down is positive"),
     Variable("yaw", "rad", "yaw, counter-clockwise from east, from -pi to pi"),
-    *array("rate", "rad/s", "rate against inertial space, body axes"),
-    *array("specific_force", "m/s^2", "specific force at the sensor, body axes"),
+    *in_terminal(
+        MOTION,
+        *array("rate", "rad/s", "rate against inertial space, body axes"),
+        *array("specific_force", "m/s^2", "specific force at the sensor, body axes"),
+    ),
     *array("position", "m", "position of the body's origin: east, north, up of the start"),
     Variable("speed", "m/s", "speed of the body's origin along the body's x axis"),
     Variable("turn_rate", "rad/s", "turn rate about the vertical"),
-    Variable("temperature", "degC", "temperature of the sensor"),
+    Variable("temperature", "degC", "temperature of the sensor", terminal=MOTION),
     *array("sun", "1", "unit vector to the sun, body axes, also where it is below the horizon"),
     Variable("sun_visible", "1", "the sun is above the horizon", kind="boolean"),
-    *array("mag", "T", "magnetic flux density, body axes; zeros where there is none"),
+    *in_terminal(
+        MOTION, *array("mag", "T", "magnetic flux density, body axes; zeros where there is none")
+    ),
     Variable("standing", "1", "the rover stands", kind="boolean"),
 )
 
@@ -73,7 +78,7 @@ def _drive(drive: str) -> tuple[Variable, ...]:
             "start_time",
             "s",
             "rest before the drive, not before a free one. After 60 s at rest a gyro of 0.2 "
-            "deg/sqrt(h) has its bias to 1.6 deg/h",
+            "deg/sqrt(h) has its bias to 1.5 deg/h",
             60.0,
             0.0,
         ),
@@ -96,7 +101,12 @@ def _drive(drive: str) -> tuple[Variable, ...]:
 
 
 def _ground() -> tuple[Variable, ...]:
-    """The ground: waves, and boulders that are in the way of the left and of the right wheels."""
+    """The ground: waves, and boulders that are in the way of the left and of the right wheels.
+
+    The paper says nothing of its ground. The waves are assumed to be those of raked sand; the
+    boulders are three fifths as high as what the Mars Exploration Rovers were made to climb, 0.25 m
+    (Lindemann et al. 2006), of whose size the suspension is.
+    """
     height, width, forward, left = (
         "height of the boulders as a wheel feels it, 0: none",
         "width of the boulders as a wheel feels it",
@@ -160,7 +170,10 @@ def _place(body: CelestialBody) -> tuple[Variable, ...]:
 
 
 def _sensor() -> tuple[Variable, ...]:
-    """Where the sensor is, its temperature, and how it is shaken."""
+    """Where the sensor is, its temperature, and how it is shaken.
+
+    Nothing shakes unless it is asked for: no source gives amplitudes of the paper's rover.
+    """
     motor, wheel = "of the motors' line", "of the line of the wheels' treads at cruise_speed"
     return (
         *array(
@@ -180,7 +193,13 @@ def _sensor() -> tuple[Variable, ...]:
             "hour angle of the sun when the day is warmest",
             math.pi / 6,
         ),
-        _fixed("motor_frequency", "Hz", "frequency of the motors' line", 80.0, LEAST),
+        _fixed(
+            "motor_frequency",
+            "Hz",
+            "frequency of the motors' line; above half the sample rate it folds",
+            80.0,
+            LEAST,
+        ),
         *array("motor_rate", "rad/s", f"amplitude {motor} in rate", fixed=True, minimum=0.0),
         *array(
             "motor_force", "m/s^2", f"amplitude {motor} in specific force", fixed=True, minimum=0.0

@@ -21,7 +21,8 @@ class Rocker:
     ``front``, ``middle`` and ``rear`` are how far ahead of the rockers' axle the wheels are;
     ``track`` is between the wheels of both sides; ``axle`` and ``bogie`` are the heights of the
     rockers' axle and of the bogies' above the centres of the wheels. The bogie's axle is halfway
-    between its wheels.
+    between its wheels. The values are round figures of the size of the Mars Exploration Rovers; of
+    its own the paper gives none.
     """
 
     front: float = 0.7

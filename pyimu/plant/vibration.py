@@ -10,6 +10,8 @@ import math
 
 import casadi as ca
 
+from pyimu.symbolic.linear import reciprocal
+
 CREEP = 1e-3
 """m/s; speed of the wheels at which the motors' lines have half their amplitude."""
 
@@ -38,8 +40,8 @@ def motor_line(time, frequency, on, rate, force) -> tuple:
     where the motors run (``on`` = 1).
     """
     omega = 2 * math.pi * frequency
-    angle = omega * time
-    return on * rate / omega * ca.sin(angle), -on * force / (omega * omega) * ca.cos(angle)
+    angle, period = omega * time, reciprocal(omega)
+    return on * rate * period * ca.sin(angle), -on * force * (period * period) * ca.cos(angle)
 
 
 def wheel_line(distances, spacing, speed, rate, force) -> tuple:
@@ -51,5 +53,5 @@ def wheel_line(distances, spacing, speed, rate, force) -> tuple:
     """
     number = 2 * math.pi / spacing
     wave = sum((ca.sin(number * d) for d in distances), 0) / len(distances)
-    omega = number * speed
-    return rate / omega * wave, -force / (omega * omega) * wave
+    period = reciprocal(number * speed)
+    return rate * period * wave, -force * (period * period) * wave
