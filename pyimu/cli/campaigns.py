@@ -57,4 +57,4 @@ def campaign_command(
     with progress("preparing") as say:
         done = run(settings, runs, out, scheduler=scheduler, workers=workers, say=say)
     print(done.report())
-    print(f"table: {done.folder.runs}")
+    print(f"table: {done.folder.runs}, report: {done.folder.page}")

@@ -10,7 +10,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from pyimu.errors import UserError
+from pyimu.rover.campaign.report.deliver import deliver
+from pyimu.rover.campaign.report.words import lines
 from pyimu.rover.campaign.settings import Settings
+from pyimu.rover.campaign.summary import Summary
 from pyimu.rover.campaign.table import Folder, batches
 from pyimu.rover.campaign.workers import Batch, here, on_dask
 
@@ -25,11 +28,13 @@ class Done:
     count: int
     computed: int
     seconds: float
+    summary: Summary
 
     def report(self) -> str:
-        """What was done in a line."""
+        """What was done, and what it says, line by line."""
         speed = f", {self.computed / self.seconds:.1f} runs/s" if self.computed else ""
-        return f"{self.count} runs, {self.computed} of them now in {self.seconds:.0f} s{speed}"
+        made = f"{self.count} runs, {self.computed} of them now in {self.seconds:.0f} s{speed}"
+        return "\n".join([made, *lines(self.summary)])
 
 
 def run(
@@ -69,7 +74,8 @@ def run(
     computed = sum(len(batch) for batch in missing)
     seconds = time.monotonic() - started
     folder.finish(runs)
-    return Done(folder, runs, computed, seconds)
+    say("drawing the report")
+    return Done(folder, runs, computed, seconds, deliver(folder))
 
 
 def _source(

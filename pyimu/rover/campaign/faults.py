@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -18,68 +17,42 @@ OF_RANGE = 0.9
 
 NONE = "none"
 
-
-@dataclass(frozen=True)
-class Fault:
-    """What fails, from ``time`` s on, and on which ``axis``."""
-
-    name: str = NONE
-    time: float = float("nan")
-    axis: int = 0
-
-
-@dataclass
-class Samples:
-    """What the sensors gave: ``gyro`` and ``accel`` (n, 3) each ``period`` s; ``heading`` (m,)
-    and whether it is ``valid`` (m,), at ``time`` (m,) s.
-    """
-
-    gyro: np.ndarray
-    accel: np.ndarray
-    period: float
-    heading: np.ndarray
-    valid: np.ndarray
-    time: np.ndarray
-
-
-def _lost_axis(fault: Fault, samples: Samples) -> None:
-    samples.gyro[round(fault.time / samples.period) :, fault.axis] = np.nan
-
-
-def _stuck(fault: Fault, samples: Samples) -> None:
-    first = round(fault.time / samples.period)
-    samples.gyro[first : first + round(STUCK_FOR / samples.period)] = samples.gyro[first]
-
-
-def _in_the_sensor(fault: Fault, samples: Samples) -> None:
-    """Nothing more: the sensor itself has it."""
-
-
-def _heading_lost(fault: Fault, samples: Samples) -> None:
-    samples.valid[samples.time >= fault.time] = 0.0
-
-
-def _heading_wrong(fault: Fault, samples: Samples) -> None:
-    samples.heading[samples.time >= fault.time] += WRONG_BY
-
-
-FAULTS: dict[str, Callable[[Fault, Samples], None]] = {
-    "lost-axis": _lost_axis,
-    "stuck": _stuck,
-    "saturating": _in_the_sensor,
-    "heading-lost": _heading_lost,
-    "heading-wrong": _heading_wrong,
-}
-"""What fails: an axis of the gyro gives nothing any more; the gyro repeats a sample for
-``STUCK_FOR``; its range ends below the drive's rates; the heading sensor gives nothing any more,
-or is wrong by ``WRONG_BY``."""
-
 SATURATING = "saturating"
+
+FAULTS = {
+    "lost-axis": "an axis of the gyro gives nothing any more",
+    "stuck": f"the gyro gives one sample for {STUCK_FOR:g} s",
+    SATURATING: f"the gyro's range ends at {OF_RANGE:.0%} of the drive's largest rate",
+    "heading-lost": "the heading sensor gives nothing any more",
+    "heading-wrong": f"the heading sensor is wrong by {np.rad2deg(WRONG_BY):g} deg",
+}
+"""The faults by name. That of the range begins with the run, the others some time in the drive."""
 
 NEEDS_HEADING = ("heading-lost", "heading-wrong")
 
 
-def fail(fault: Fault, samples: Samples) -> None:
-    """Change the samples into those of the sensor that failed."""
-    if fault.name != NONE:
-        FAULTS[fault.name](fault, samples)
+@dataclass
+class Fault:
+    """What fails, from ``time`` s on, and on which ``axis``; ``held`` is what a stuck gyro gives."""
+
+    name: str = NONE
+    time: float = float("nan")
+    axis: int = 0
+    held: np.ndarray | None = field(default=None, compare=False)
+
+    def in_gyro(self, gyro: np.ndarray, time: np.ndarray) -> None:
+        """Change successive samples (n, 3) of the gyro, taken at ``time`` (n,) s."""
+        if self.name == "lost-axis":
+            gyro[time >= self.time, self.axis] = np.nan
+        if self.name == "stuck":
+            rows = np.flatnonzero((time >= self.time) & (time < self.time + STUCK_FOR))
+            if len(rows):
+                self.held = gyro[rows[0]].copy() if self.held is None else self.held
+                gyro[rows] = self.held
+
+    def in_heading(self, heading: np.ndarray, valid: np.ndarray, time: np.ndarray) -> None:
+        """Change headings (n,) rad and whether they are ``valid`` (n,)."""
+        if self.name == "heading-lost":
+            valid[time >= self.time] = 0.0
+        if self.name == "heading-wrong":
+            heading[time >= self.time] += WRONG_BY

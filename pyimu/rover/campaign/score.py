@@ -10,6 +10,7 @@ from scipy.spatial.transform import Rotation
 from pyimu.rover.campaign.run import Drive, driven
 from pyimu.rover.campaign.settings import Settings
 from pyimu.rover.campaign.specimen import values_of
+from pyimu.rover.campaign.system import STD0
 
 ANGLES = ("roll", "pitch", "heading")
 """The angles of an attitude in the order of ``Truth.euler``."""
@@ -28,7 +29,8 @@ def row_of(settings: Settings, number: int) -> Row:
 def row(drive: Drive) -> Row:
     """The row of a run, by the names of its columns."""
     draws, first = drive.draws, drive.truth.first
-    status = drive.outputs[:, drive.names.index("status")].astype(int)
+    status = drive.output("status").astype(int)
+    start = draws.start_error * STD0[:3]
     return (
         {
             "run": draws.number,
@@ -38,20 +40,22 @@ def row(drive: Drive) -> Row:
             "fault": draws.fault.name,
             "fault_time [s]": draws.fault.time,
             "fault_axis": draws.fault.axis,
+            "start_roll_error [rad]": float(start[0]),
+            "start_pitch_error [rad]": float(start[1]),
+            "start_heading_error [rad]": float(start[2]),
             "steps": len(drive.inputs),
             "status": int(np.bitwise_or.reduce(status[first:])),
         }
         | draws.profile
         | _errors(drive, first)
         | _normalised(drive)
-        | values_of(drive.part, drive.specimen)
+        | values_of(drive.system.part, drive.system.specimen(draws.specimen_seed))
     )
 
 
 def errors(drive: Drive) -> np.ndarray:
     """Errors (m, 3) rad of roll, pitch and heading: the estimate less the truth."""
-    at = drive.names.index("roll")
-    return (drive.outputs[:, at : at + 3] - drive.truth.euler + np.pi) % (2 * np.pi) - np.pi
+    return (drive.output("roll", 3) - drive.truth.euler + np.pi) % (2 * np.pi) - np.pi
 
 
 def _errors(drive: Drive, first: int) -> dict[str, float]:

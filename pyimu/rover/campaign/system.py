@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
-from scipy.signal import butter, sosfilt, sosfilt_zi
+from scipy.signal import butter
 
 from pyimu.attitude.alignment import BIAS_STD, TILT_STD, YAW_STD
 from pyimu.attitude.filter.ukf import attitude_ukf
@@ -28,7 +28,9 @@ STD0 = np.array([TILT_STD, TILT_STD, YAW_STD, BIAS_STD, BIAS_STD, BIAS_STD])
 
 @dataclass(frozen=True)
 class System:
-    """The blocks of a campaign: the ``sensor`` and the ``filter``, and the part that it knows.
+    """The blocks of a campaign: the ``sensor``, the ``nominal`` one, and the ``filter``.
+
+    ``part`` is what the filter knows.
 
     ``sections`` are the low-pass's (1, 6), None without one.
     """
@@ -36,6 +38,7 @@ class System:
     settings: Settings
     part: Part
     sensor: Block
+    nominal: Block
     filter: Block
     sections: np.ndarray | None
 
@@ -47,13 +50,6 @@ class System:
     def specimen(self, seed: int) -> Part:
         """The part that a run has."""
         return specimen_of(self.part, seed) if self.settings.specimens else self.part
-
-    def passed(self, samples: np.ndarray) -> np.ndarray:
-        """The samples (n, k) behind the low-pass, which starts as if the first had always been."""
-        if self.sections is None:
-            return samples
-        start = sosfilt_zi(self.sections)[:, :, None] * samples[0]
-        return sosfilt(self.sections, samples, axis=0, zi=start)[0]
 
     def parameters(self, q0: np.ndarray, limit: np.ndarray | None) -> np.ndarray:
         """The filter's, with which it starts; ``limit`` (3,) rad/s is the gyro's range."""
@@ -86,7 +82,7 @@ def system_of(settings: Settings) -> System:
     sections = None
     if settings.low_pass:
         sections = butter(2, CUT_OFF, fs=settings.sensor_rate, output="sos")
-    return System(settings, part, drawn.block, attitude_ukf(known), sections)
+    return System(settings, part, drawn.block, part.block, attitude_ukf(known), sections)
 
 
 def with_values(block: Block, p: np.ndarray, values: dict[str, float]) -> np.ndarray:

@@ -42,6 +42,10 @@ class Folder:
     def runs(self) -> Path:
         return self.path / "runs.parquet"
 
+    @property
+    def page(self) -> Path:
+        return self.path / "report.html"
+
     def check(self) -> None:
         """Raise UserError where the folder holds another campaign, or cannot be written to."""
         check_folder(self.path)
