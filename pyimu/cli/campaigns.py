@@ -7,7 +7,8 @@ from typing import Annotated
 
 import typer
 
-from pyimu.cli.options import Out, progress
+from pyimu.cli.options import Out, progress, radians
+from pyimu.errors import UserError
 
 
 def campaign_command(
@@ -37,9 +38,29 @@ def campaign_command(
         str,
         typer.Option(
             "--faults",
-            help="Separated by commas: lost-axis, stuck, saturating, heading-lost, heading-wrong.",
+            help="A run has one of these or none: lost-axis, stuck, saturating, heading-lost, "
+            "heading-wrong, separated by commas.",
         ),
     ] = "",
+    sol: Annotated[
+        bool,
+        typer.Option("--sol", help="Sols without and with a heading once an hour, side by side."),
+    ] = False,
+    heading_every: Annotated[
+        float, typer.Option("--heading-every", help="Seconds between headings; 0: none.")
+    ] = 0.0,
+    heading_std: Annotated[
+        float, typer.Option("--heading-std", help="Degrees, of a heading.")
+    ] = 0.5,
+    rate: Annotated[
+        float | None,
+        typer.Option("--rate", help="Hz of the sensors; else the part's, and 5 for a sol."),
+    ] = None,
+    terrains: Annotated[int, typer.Option("--terrains", help="Grounds among the runs.")] = 4,
+    number: Annotated[
+        int | None,
+        typer.Option("--run", help="Only this run, with its log and picture; under --out."),
+    ] = None,
 ) -> None:
     """Example: pyimu campaign imt30 --drive turn-on-spot --runs 1000 --out out/campaign
 
@@ -50,11 +71,36 @@ def campaign_command(
     """
     from pyimu.model.part_file import part as part_of
     from pyimu.rover.campaign.campaign import run
+    from pyimu.rover.campaign.repeat import repeat
     from pyimu.rover.campaign.settings import Settings
+    from pyimu.rover.campaign.sol import sols
 
-    names = tuple(name.strip() for name in faults.split(",") if name.strip())
-    settings = Settings(part_of(part), drive, seed=seed, specimens=specimens, faults=names)
+    if sol and (heading_every or number is not None or drive not in ("turn-on-spot", "sol")):
+        raise UserError("--sol goes without --drive, --heading-every and --run: it sets them")
+    settings = Settings(
+        part_of(part),
+        "sol" if sol else drive,
+        seed=seed,
+        specimens=specimens,
+        faults=tuple(name.strip() for name in faults.split(",") if name.strip()),
+        terrains=terrains,
+        rate=rate,
+        heading_every=heading_every,
+        heading_std=radians("--heading-std", heading_std, 180.0) or 0.0,
+    )
+    if number is not None:
+        with progress(f"run {number}"):
+            folder = repeat(settings, number, out)
+        print(f"log: {folder / 'log.parquet'}, picture: {folder / 'errors.png'}")
+        return
     with progress("preparing") as say:
-        done = run(settings, runs, out, scheduler=scheduler, workers=workers, say=say)
+        if sol:
+            both = sols(settings, runs, out, scheduler=scheduler, workers=workers, say=say)
+        else:
+            done = run(settings, runs, out, scheduler=scheduler, workers=workers, say=say)
+    if sol:
+        print(both.report())
+        print(f"reports: {out / 'without-heading'}, {out / 'heading-hourly'}")
+        return
     print(done.report())
     print(f"table: {done.folder.runs}, report: {done.folder.page}")

@@ -33,7 +33,7 @@ NEEDS_HEADING = ("heading-lost", "heading-wrong")
 
 @dataclass
 class Fault:
-    """What fails, from ``time`` s on, and on which ``axis``; ``held`` is what a stuck gyro gives."""
+    """What fails from ``time`` s on, and on which ``axis``; ``held`` is what a stuck gyro gives."""
 
     name: str = NONE
     time: float = float("nan")

@@ -14,7 +14,7 @@ from pyimu.block.block import Run
 from pyimu.rover.campaign.draws import Draws
 from pyimu.rover.campaign.faults import OF_RANGE, SATURATING, Fault
 from pyimu.rover.campaign.motion import Truth
-from pyimu.rover.campaign.system import System, coefficients, with_values
+from pyimu.rover.campaign.system import WHITE, System, coefficients, with_values
 
 PIECE = 512
 """Samples of the filter in a piece."""
@@ -70,7 +70,7 @@ class _Bias:
 
     def __init__(self, system: System, rows: int, p: np.ndarray, seed: int) -> None:
         names = [v.name for v in system.sensor.parameters]
-        quiet = {n: 0.0 for n in names if n.startswith("gyro_error.angle_random_walk.N")}
+        quiet = {n: 0.0 for n in names if n.startswith(f"gyro_error.{WHITE}.")}
         self.real = Run(system.sensor, rows, p=with_values(system.sensor, p, quiet), seed=seed)
         self.nominal = Run(system.nominal, rows)
 

@@ -13,14 +13,13 @@ from pyimu.attitude.filter.ukf import attitude_ukf
 from pyimu.attitude.stuck import LEAST
 from pyimu.block.block import Block
 from pyimu.model.part import Part
-from pyimu.model.sensor import Sensor
 from pyimu.rover.campaign.faults import SATURATING
 from pyimu.rover.campaign.motion import LATITUDE
 from pyimu.rover.campaign.settings import CUT_OFF, Settings
 from pyimu.rover.campaign.specimen import specimen_of
 
-WHITE = ("angle_random_walk", "N")
-"""The white noise of a gyro, which is no part of its bias."""
+WHITE = "angle_random_walk"
+"""White noise: it is no part of a bias, and makes successive samples differ."""
 
 STD0 = np.array([TILT_STD, TILT_STD, YAW_STD, BIAS_STD, BIAS_STD, BIAS_STD])
 """Standard deviations (6,) before the first sample: attitude rad, bias rad/s."""
@@ -62,13 +61,9 @@ class System:
 
     @property
     def stuck_time(self) -> float:
-        """s of equal samples that mean a stuck sensor; 0, never, where one has no noise."""
-        noisy = all(s.acts(WHITE[0]) for s in (self.part.gyro, self.part.accel) if _has(s))
-        return LEAST if noisy and _has(self.part.gyro) and _has(self.part.accel) else 0.0
-
-
-def _has(sensor: Sensor) -> bool:
-    return WHITE[0] in sensor.values
+        """s of equal samples that mean a stuck sensor; 0, never, where one has no white noise."""
+        sensors = (self.part.gyro, self.part.accel)
+        return LEAST if all(WHITE in s.values and s.acts(WHITE) for s in sensors) else 0.0
 
 
 @lru_cache(maxsize=4)

@@ -39,7 +39,7 @@ def contents(settings: Settings, s: Summary) -> dict[str, Any]:
                     "fault": name,
                     "runs": len(s.of_fault(name, "run")),
                     "errors": _errors(s, name),
-                    "status": {words: _share(f) for words, f in s.flags(name).items()},
+                    "status": {words: share_of(f) for words, f in s.flags(name).items()},
                 }
                 for name in s.fault_names
             ],
@@ -58,10 +58,11 @@ def _errors(s: Summary, fault: str) -> dict[str, Any]:
 
 
 def _claim(s: Summary) -> dict[str, Any]:
-    return {"within": CLAIM, "end": _share(s.within("end")), "always": _share(s.within("max"))}
+    return {"within": CLAIM, "end": share_of(s.within("end")), "always": share_of(s.within("max"))}
 
 
-def _share(f: Share) -> dict[str, Any]:
+def share_of(f: Share) -> dict[str, Any]:
+    """A share as plain types: count, runs, share and its interval."""
     low, high = f.interval
     return {"count": f.count, "runs": f.runs, "share": f.value, "low": low, "high": high}
 
@@ -72,7 +73,7 @@ def _honesty(s: Summary, name: str) -> dict[str, Any]:
         "freedom": h.freedom,
         "mean": h.mean,
         "bounds": h.bounds,
-        "inside": _share(h.inside),
+        "inside": share_of(h.inside),
         "over_time": h.over_time,
     }
 

@@ -37,13 +37,14 @@ def _errors(s: Summary, name: str, panel: Axes) -> None:
     column = f"{name}_error_max [rad]"
     values = np.rad2deg(s.of_fault(NONE, column))
     panel.hist(values, _bins(values), color=AFTER, alpha=0.75)
-    for q, style in zip(s.quantiles(column)[::2], ("-", "--"), strict=True):
-        value = np.rad2deg(q.value)
-        panel.axvline(value, color=INK, lw=1, ls=style, label=f"{q.p:.0%}: {value:.3g} deg")
+    shown = list(zip(s.quantiles(column)[::2], ("-", "--"), strict=True))
+    for q, style in shown:
+        panel.axvline(np.rad2deg(q.value), color=INK, lw=1, ls=style)
     if values.max() > np.rad2deg(CLAIM):
-        panel.axvline(np.rad2deg(CLAIM), color=BEFORE, lw=1.4, label="2 deg")
+        panel.axvline(np.rad2deg(CLAIM), color=BEFORE, lw=1.4)
+    said = ", ".join(f"{q.p:.0%} below {np.rad2deg(q.value):.3g}" for q, _ in shown)
+    panel.set_title(said, fontsize=8.5)
     panel.set(xlabel=f"largest {name} error [deg]", xlim=(0, None))
-    panel.legend(fontsize=7.5, loc="upper right")
     if name == "heading":
         panel.set_ylabel("runs")
 
