@@ -135,12 +135,11 @@ def _difference(there: dict, mine: dict) -> str:
 
 def _groups(tables: Iterator[pa.Table]) -> Iterator[pa.Table]:
     """The rows of ``tables`` in order, ``GROUP`` of them in each table but the last."""
-    waiting: list[pa.Table] = []
+    waiting = None
     for table in tables:
-        waiting.append(table)
-        if sum(len(t) for t in waiting) >= GROUP:
-            both = pa.concat_tables(waiting)
-            yield both[:GROUP].combine_chunks()
-            waiting = [both[GROUP:]]
-    if sum(len(t) for t in waiting):
-        yield pa.concat_tables(waiting).combine_chunks()
+        waiting = table if waiting is None else pa.concat_tables([waiting, table])
+        while len(waiting) >= GROUP:
+            yield waiting[:GROUP].combine_chunks()
+            waiting = waiting[GROUP:]
+    if waiting is not None and len(waiting):
+        yield waiting.combine_chunks()
