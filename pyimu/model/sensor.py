@@ -173,6 +173,7 @@ class Sensor:
                 float(v),
                 minimum=s.definition.minimum,
                 maximum=s.definition.maximum,
+                corner=s.definition.corner,
             )
             for s, v in zip(self.slots, self.p, strict=True)
         )

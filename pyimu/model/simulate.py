@@ -65,7 +65,7 @@ def simulate(
     arrays = {name: _numbers(name, given[name]) for name in names}
     if arrays["rate"].ndim != 2:
         raise UserError(f"rate has shape {arrays['rate'].shape}, expected (n, 3)")
-    y = measure(part.block, arrays, len(arrays["rate"]), {}, seed, h)
+    y = measure(part.block, arrays, len(arrays["rate"]), {}, seed, h, ("gyro", "accel"))
     return y["gyro"], y["accel"]
 
 

@@ -378,7 +378,7 @@ def made(case: Case, rate: float, n: int) -> np.ndarray:
     part = Part("own", rate, **{kind: Sensor(kind, {case.effect: dict(case.values)})})
     u, column = np.zeros((n + 1, 7)), 3 * KINDS.index(kind)
     u[:, column] = case.start + case.slope * np.arange(n + 1) / rate
-    return (part.block.run(u, seed=1)[0] - u[:, :6])[1:, column]
+    return (part.block.run(u, seed=1)[0][:, :6] - u[:, :6])[1:, column]
 
 
 @pytest.mark.parametrize("noise_of", [hum, drift, wander])

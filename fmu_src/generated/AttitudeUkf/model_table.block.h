@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN "{622a6e91-e330-48a5-d8f3-26250545d9b7}"
+#define MODEL_TOKEN "{9d4ae8c6-f68f-5c64-b929-4f21b3362701}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

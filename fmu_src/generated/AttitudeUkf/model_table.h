@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN "{03fb77c7-9b9a-1676-2292-8ee1e1f647ca}"
+#define MODEL_TOKEN "{78ebc3ce-4574-2012-d992-fc7da5806f70}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
