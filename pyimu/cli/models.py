@@ -125,7 +125,7 @@ def build(
         raise UserError(f"--fmi {fmi}: unknown; known are {', '.join(forms)}, separated by commas")
     add_effects(effects)
     chosen = [forms[name] for name in names]
-    wired = next((form for form in forms.values() if form in chosen), "block")
+    wired: Form = next((form for form in forms.values() if form in chosen), "block")
     if ssp is not None:
         check_drive(ssp, wired)
     with progress(f"compiling {part}"):

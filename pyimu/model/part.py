@@ -23,9 +23,11 @@ from pyimu.recording.recording import Recording
 
 @dataclass(frozen=True)
 class Part:
-    """A sensor as data: name, sample rate [Hz], and the effects of gyro and accelerometer.
+    """A sensor as data: name, sample rate [Hz], and the effects of its triads.
 
-    The effects are those of two ``Sensor``, with the values of their coefficients.
+    The effects are those of two ``Sensor``, gyro and accelerometer, with the values of their
+    coefficients. Those of a magnetometer, a third one, are undone by ``pyimu.attitude``; the part's
+    block has no magnetometer.
 
     ``estimate`` names the coefficients ``(sensor, effect, parameter)`` that the part leaves to the
     data; ``notes`` keeps what the file says beside a value: its source, the figure as quoted.
@@ -44,6 +46,7 @@ class Part:
     notes: dict[tuple[str, str, str], dict[str, str]] = field(default_factory=dict, compare=False)
     description: str = ""
     tolerances: tuple[Tolerance, ...] = ()
+    mag: Sensor = field(default_factory=lambda: Sensor("mag"))
 
     def __post_init__(self) -> None:
         period = _inverse(self.sample_rate)
@@ -52,7 +55,7 @@ class Part:
                 f"part {self.name}: the sample rate must be a positive and finite number of Hz, "
                 f"not {self.sample_rate!r}"
             )
-        for sensor in (self.gyro, self.accel):
+        for sensor in (self.gyro, self.accel, self.mag):
             sensor.check(period, f"part {self.name}")
         for t in self.tolerances:
             t.check(declared(self.sensor(t.key[0]), t.key))
@@ -66,7 +69,7 @@ class Part:
         return 1.0 / self.sample_rate
 
     def sensor(self, kind: str) -> Sensor:
-        return {"gyro": self.gyro, "accel": self.accel}[kind]
+        return {"gyro": self.gyro, "accel": self.accel, "mag": self.mag}[kind]
 
     def with_sensor(self, sensor: Sensor) -> Part:
         return replace(self, **{sensor.kind: sensor})

@@ -13,6 +13,7 @@ from functools import lru_cache
 import numpy as np
 
 from pyimu.errors import UserError
+from pyimu.model.kinds import MAGNETOMETER
 from pyimu.model.measure import measure
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as find_part
@@ -107,6 +108,8 @@ def simulate_recording(
 
     Raises UserError for a truth that the recording lacks and the model needs, naming the column.
     """
+    if isinstance(model, Sensor) and model.kind == MAGNETOMETER:
+        raise UserError("a magnetometer is not simulated: only gyro and accelerometer are")
     if isinstance(model, Part):
         return model.simulate(recording, seed=seed)
     return measured_recording(_alone(model).block, (model,), recording, None, seed)

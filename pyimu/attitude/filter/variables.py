@@ -179,6 +179,27 @@ FIELD_SETTINGS = (
         maximum=math.pi,
     ),
     _setting(
+        "field_strength",
+        "T",
+        "strength of the place's magnetic field; 0: not known, the run learns it with the dip from "
+        "its samples alone",
+        0.0,
+    ),
+    Variable(
+        "field_dip",
+        "rad",
+        "dip of that field below the horizon",
+        minimum=-math.pi / 2,
+        maximum=math.pi / 2,
+    ),
+    _setting(
+        "field_strength_std",
+        "T",
+        "standard deviation of the horizontal and of the vertical part of that field; what the "
+        "samples show is weighed against it",
+        1.4e-7,
+    ),
+    _setting(
         "field_std",
         "T",
         "standard deviation of what the place's field has across its horizontal direction: the "
