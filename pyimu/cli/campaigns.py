@@ -15,7 +15,7 @@ def campaign_command(
     part: Annotated[str, typer.Argument(help="Built-in part or a TOML file.", show_default=False)],
     out: Out = Path("out/campaign"),
     drive: Annotated[
-        str, typer.Option("--drive", help="turn-on-spot, straight, ackermann or sol.")
+        str, typer.Option("--drive", help="turn-on-spot, straight, obstacle, ackermann or sol.")
     ] = "turn-on-spot",
     runs: Annotated[int, typer.Option("--runs", help="Runs, from number 0 on.")] = 1000,
     seed: Annotated[int, typer.Option("--seed", help="Begins all draws.")] = 0,
@@ -32,8 +32,13 @@ def campaign_command(
         typer.Option("--workers", help="Processes; 0: this one alone. Else one for each core."),
     ] = None,
     specimens: Annotated[
-        bool, typer.Option("--specimens/--no-specimens", help="Each run has a part of its own.")
-    ] = True,
+        bool | None,
+        typer.Option(
+            "--specimens/--no-specimens",
+            help="Each run has a part of its own; else where the part has tolerances.",
+            show_default=False,
+        ),
+    ] = None,
     faults: Annotated[
         str,
         typer.Option(
@@ -55,6 +60,10 @@ def campaign_command(
     rate: Annotated[
         float | None,
         typer.Option("--rate", help="Hz of the sensors; else the part's, and 5 for a sol."),
+    ] = None,
+    body: Annotated[
+        str | None,
+        typer.Option("--body", help="Earth, Mars or Moon; else the Earth, and of a sol Mars."),
     ] = None,
     terrains: Annotated[int, typer.Option("--terrains", help="Grounds among the runs.")] = 4,
     number: Annotated[
@@ -85,6 +94,7 @@ def campaign_command(
         faults=tuple(name.strip() for name in faults.split(",") if name.strip()),
         terrains=terrains,
         rate=rate,
+        body=body,
         heading_every=heading_every,
         heading_std=radians("--heading-std", heading_std, 180.0) or 0.0,
     )

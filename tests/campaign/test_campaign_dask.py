@@ -22,7 +22,7 @@ RUNS = 6 * BATCH
 
 
 def settings():
-    return Settings(pyimu.part("imt30"), specimens=False, rate=25.0, terrains=1)
+    return Settings(pyimu.part("imt30"), rate=25.0, terrains=1)
 
 
 @pytest.fixture(scope="module")
@@ -34,7 +34,7 @@ def alone(tmp_path_factory):
 
 @pytest.fixture
 def scheduler():
-    """The address of a scheduler in another process, with a worker in a third."""
+    """Address and process of a scheduler, with a worker in another process."""
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         address = f"tcp://127.0.0.1:{free.getsockname()[1]}"
@@ -45,7 +45,7 @@ def scheduler():
     started = [subprocess.Popen([*dask, *words], **quiet)]
     worker = ["worker", address, "--nthreads", "1", "--no-dashboard", "--no-nanny"]
     started.append(subprocess.Popen([*dask, *worker], **quiet))
-    yield address
+    yield address, started[0].pid
     for process in started:
         process.kill()  # a worker that is asked to end waits for its scheduler
         process.wait()
@@ -80,9 +80,23 @@ def _one_of_my_workers():
     return found[-1]
 
 
-def test_a_scheduler_reached_by_its_address_gives_the_same(alone, scheduler, tmp_path):
-    done = run(settings(), RUNS, tmp_path, scheduler=scheduler)
+def test_a_scheduler_reached_by_its_address_gives_the_same(alone, scheduler, tmp_path, monkeypatch):
+    """Then the scheduler is lost, which is one line, and what was computed is kept."""
+    address, process = scheduler
+    done = run(settings(), RUNS, tmp_path / "whole", scheduler=address)
     assert done.folder.runs.read_bytes() == alone
+
+    monkeypatch.setattr(room, "AWAY", 1.0)
+    with pytest.raises(UserError, match=f"{address}: lost .*the same command goes on"):
+        run(
+            settings(),
+            RUNS,
+            tmp_path / "lost",
+            scheduler=address,
+            say=lambda *said: os.kill(process, signal.SIGKILL),
+        )
+    done = run(settings(), RUNS, tmp_path / "lost", workers=0)
+    assert done.computed < RUNS and done.folder.runs.read_bytes() == alone
 
 
 def test_a_scheduler_that_does_not_answer_is_one_line(pyimu, monkeypatch, tmp_path):
@@ -91,7 +105,7 @@ def test_a_scheduler_that_does_not_answer_is_one_line(pyimu, monkeypatch, tmp_pa
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
     address = f"tcp://127.0.0.1:{port}"
-    words = ["campaign", "imt30", "--no-specimens", "--runs", "5", "--scheduler", address]
+    words = ["campaign", "imt30", "--runs", "5", "--scheduler", address]
     code, out, err = pyimu(*words)
     assert (code, out) == (2, "")
     assert err.startswith(f"pyimu: --scheduler {address}: no Dask scheduler answers there")
@@ -108,10 +122,15 @@ def test_a_scheduler_without_workers_is_one_line(monkeypatch, tmp_path):
             run(settings(), 5, tmp_path, scheduler=cluster.scheduler_address)
 
 
-def test_another_version_on_the_workers_is_one_line(monkeypatch, scheduler, tmp_path):
-    monkeypatch.setattr(room, "version", lambda name: "0.0.1")
-    with pytest.raises(UserError, match="not 0.0.1: runs would not be the same"):
-        run(settings(), 5, tmp_path, scheduler=scheduler)
+def test_another_version_on_the_workers_is_one_line(monkeypatch, tmp_path):
+    """Of a worker of this process, as another one would take seconds to start."""
+    theirs = iter(["0.0.1", "0.0.2"])
+    monkeypatch.setattr(room, "version", lambda name: next(theirs))
+    with distributed.LocalCluster(
+        n_workers=1, dashboard_address=None, processes=False, protocol="tcp"
+    ) as cluster:
+        with pytest.raises(UserError, match="has pyimu 0.0.2, not 0.0.1: runs would not be"):
+            run(settings(), 5, tmp_path, scheduler=cluster.scheduler_address)
 
 
 def test_without_dask_is_one_line(monkeypatch, tmp_path):

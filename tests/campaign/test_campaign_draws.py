@@ -18,7 +18,7 @@ CHANCE = 1e-4
 
 
 def settings(**more):
-    return Settings(pyimu.part("imt30"), **{"specimens": False, "rate": 25.0, **more})
+    return Settings(pyimu.part("imt30"), **{"rate": 25.0, **more})
 
 
 def test_a_draw_is_the_digest_of_its_name_and_stays_so():
@@ -53,7 +53,7 @@ def test_each_choice_is_as_likely_as_another():
 
 def test_a_run_has_one_fault_or_none_within_its_drive():
     campaign = settings(faults=tuple(FAULTS), heading_every=10.0)
-    faults = [draws_of(campaign, i).fault for i in range(1200)]
+    faults = [draws_of(campaign, i).fault(60.0, 390.0) for i in range(1200)]
     counts = [sum(f.name == name for f in faults) for name in (NONE, *FAULTS)]
     assert np.sum((np.array(counts) - 200) ** 2 / 200) < chi2.isf(CHANCE, len(FAULTS))
     assert all(60 < f.time < 390 for f in faults if f.name not in (NONE, "saturating"))
@@ -78,6 +78,8 @@ def test_what_is_drawn_beside_does_not_change_a_draw():
         ({"terrains": 0}, "terrains 0"),
         ({"rate": 0.0}, "rate 0.0"),
         ({"seed": -1}, "seed -1"),
+        ({"body": "mars"}, "Mars"),
+        ({"specimens": True}, "has no tolerances"),
         ({"heading_every": float("nan")}, "heading_every nan"),
         ({"heading_every": 5.0, "heading_std": 0.0}, "heading_std 0"),
     ],
@@ -96,4 +98,4 @@ def test_what_decides_on_the_runs_is_in_the_key():
     assert settings().key() == settings().key()
     other = pyimu.part("imt30")
     other = other.with_sensor(other.gyro.with_values("scale_factor", s=1e-3))
-    assert Settings(other, specimens=False, rate=25.0).key() not in keys
+    assert Settings(other, rate=25.0).key() not in keys

@@ -19,7 +19,8 @@ CHANCE = 1e-4
 
 
 def settings(part="imt30", **more):
-    return Settings(pyimu.part(part), **{"specimens": False, "rate": 25.0, "terrains": 2, **more})
+    """Of a part by name, or as it is."""
+    return Settings(pyimu.part(part), **{"rate": 25.0, "terrains": 2, **more})
 
 
 def noisy():
@@ -76,7 +77,7 @@ def test_the_drive_begins_and_ends_where_it_should():
 
 def test_of_a_matched_part_the_normalised_errors_of_the_bias_are_chi_square():
     """The sum over independent runs of 3 degrees of freedom each (Bar-Shalom and others, 5.4)."""
-    campaign, runs = Settings(noisy(), specimens=False, rate=25.0, terrains=1), 40
+    campaign, runs = Settings(noisy(), rate=25.0, terrains=1), 40
     bias = sum(row_of(campaign, i)["nees_bias_end [1]"] for i in range(runs))
     low, high = chi2.ppf([CHANCE / 2, 1 - CHANCE / 2], 3 * runs)
     assert low < bias < high
@@ -101,6 +102,31 @@ def test_a_stuck_gyro_gives_one_sample_for_its_time():
     assert np.array_equal(gyro, want)
 
 
+def test_each_run_has_the_specimen_of_its_seed():
+    part = pyimu.part("stim300")
+    drive = driven(settings("stim300"), 4)
+    found, want = row(drive), part.specimen(drive.draws.specimen_seed).start_values
+    drawn = {
+        k.partition(" [")[0]: v for k, v in found.items() if k.startswith(("gyro_e", "accel_e"))
+    }
+    assert len(drawn) >= 40 and all(want[name] == value for name, value in drawn.items())
+    # What the specimen's gyro is off by at rest is its bias to the filter: b0 and the walk since.
+    b0 = [want[f"gyro_error.turn_on_bias.b0[{i}]"] for i in (1, 2, 3)]
+    assert np.linalg.norm(drive.bias[0] - b0) < 0.5 * np.linalg.norm(b0)
+    nominal = row_of(settings("stim300", specimens=False), 4)
+    assert nominal["noise_seed"] == found["noise_seed"]
+    assert nominal["heading_error_end [rad]"] != found["heading_error_end [rad]"]
+
+
+def test_on_mars_the_ground_turns_and_the_filter_takes_that_for_bias():
+    """The rate of Mars is 350.892 deg a day (Archinal and others 2018), the latitude 52.22 deg."""
+    earth, mars = (driven(settings(noisy(), body=b), 1) for b in ("Earth", "Mars"))
+    up = (mars.bias - earth.bias)[-1, 2]  # at the end it is level but for the ground's waves
+    assert up == pytest.approx(np.deg2rad(350.892 / 86400) * np.sin(np.deg2rad(52.22)), rel=0.02)
+    assert np.linalg.norm(mars.truth.force[0]) == pytest.approx(3.728, rel=1e-3)
+    assert row(mars)["heading_error_max [rad]"] < 0.05
+
+
 @pytest.mark.parametrize(
     ("fault", "bit"), [("lost-axis", 1), ("saturating", 2), ("heading-wrong", 64)]
 )
@@ -118,7 +144,7 @@ def test_a_heading_sensor_that_fails_says_nothing_any_more():
     valid = [v.name for v in drives[0].system.filter.inputs].index("heading_valid")
     for drive in drives:
         times = drive.truth.time[drive.inputs[:, valid] > 0]
-        end = drive.draws.fault.time if drive.draws.fault.name != "none" else np.inf
+        end = drive.fault.time if drive.fault.name != "none" else np.inf
         assert np.diff(times) == pytest.approx(5.0)
         assert end - 5 <= times[-1] < end if np.isfinite(end) else times[-1] > 374
 

@@ -26,9 +26,7 @@ RUNS = 2 * BATCH + 5
 
 
 def settings(**more):
-    return Settings(
-        pyimu.part("imt30"), **{"specimens": False, "rate": 25.0, "terrains": 1, **more}
-    )
+    return Settings(pyimu.part("imt30"), **{"rate": 25.0, "terrains": 1, **more})
 
 
 @pytest.fixture(scope="module")
@@ -122,7 +120,7 @@ def test_a_folder_of_another_campaign_is_refused(whole, other, words):
 def test_a_folder_of_another_part_is_refused(whole):
     with pytest.raises(UserError, match="of another part"):
         run(
-            Settings(pyimu.part("stim300"), specimens=False, rate=25.0, terrains=1),
+            Settings(pyimu.part("stim300"), rate=25.0, terrains=1),
             RUNS,
             whole,
             workers=0,
@@ -149,7 +147,7 @@ def test_a_full_disk_is_one_line_and_leaves_what_is_whole(whole, tmp_path, monke
 
 
 def test_a_command_that_is_killed_goes_on_where_it_was(whole, tmp_path):
-    words = ["imt30", "--no-specimens", "--rate", "25", "--terrains", "1", "--workers", "0"]
+    words = ["imt30", "--rate", "25", "--terrains", "1", "--workers", "0"]
     command = [sys.executable, "-m", "pyimu", "campaign", *words, "--runs", str(RUNS)]
     command += ["--out", str(tmp_path)]
     process = subprocess.Popen(command, cwd=CHECKOUT, stdout=subprocess.DEVNULL)

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
-from pyimu.rover.trajectory import Manoeuvre, ackermann, drive, stop, straight, turn_on_spot
+from pyimu.plant.bodies import BODIES
+from pyimu.plant.rover_variables import LATITUDE
+from pyimu.rover.drives import drive, free_drive
 
 BEFORE = 60.0
 """s that a rover stands before it drives; what the filter is of its start is not scored."""
@@ -19,48 +19,32 @@ AFTER = 5.0
 
 SOL = "sol"
 
-SOL_DURATION = 88775.0
-"""s; a mean solar day of Mars, 24.6 h (Hidalgo 2012, section 7; Allison and McEwen 2000: 88775.244
-s)."""
+SOL_DURATION = BODIES["Mars"].solar_day
+"""s of a sol, 24.6 h."""
 
 MORNING = 10 * 3600.0
 """s from local midnight, where a sol begins here, until the rover drives."""
 
-LEGS = 20
-"""Straight lines of 5 m in a sol: 100 m, in the "2-4 h traveling" of Hidalgo 2012, section 7."""
+LEGS, LEG, SPEED, TURN_RATE, PAUSE = 20, 5.0, 0.01, 0.02, 10.0
+"""A sol's drive: so many straight lines of so many m, a turn on the spot before each, at so many
+m/s and rad/s, with rests of so many s: 100 m, in the "2-4 h traveling" of Hidalgo 2012, section 7,
+with the speeds of section 6.1."""
 
 TURNS = np.deg2rad([45.0, -60.0, 30.0, -45.0, 60.0, -30.0])
-"""rad by which it turns on the spot between them, one after the other and again."""
+"""rad by which it turns, one after the other and again: no way leads straight on among rocks."""
 
-LATITUDE = np.deg2rad(52.22)
-"""rad; Noordwijk, where the paper's rover drove."""
+TEST_DRIVES = {
+    "turn-on-spot": "turn_on_spot",
+    "straight": "straight",
+    "obstacle": "obstacle",
+    "ackermann": "ackermann",
+}
+"""The test drives of Hidalgo 2012, section 6.1, and their names in ``RoverDrive``."""
+
+DRIVES = (*TEST_DRIVES, SOL)
 
 KEPT = 6
 """Motions that a process keeps."""
-
-
-def _sol() -> list[Manoeuvre]:
-    """A sol: the night, the morning, 100 m in legs with turns between them, and the evening."""
-    parts = [stop(MORNING)]
-    for i in range(LEGS):
-        angle = TURNS[i % len(TURNS)]
-        turn = Manoeuvre("turn", abs(angle) / 0.02, turn=np.sign(angle) * 0.02)
-        parts += [turn, stop(10.0), *straight(), stop(10.0)]
-    driven = sum(m.duration for m in parts)
-    return [*parts, stop(SOL_DURATION - driven)]
-
-
-def _short(manoeuvres: Callable[[], Sequence[Manoeuvre]]) -> Callable[[], list[Manoeuvre]]:
-    return lambda: [stop(BEFORE), *manoeuvres(), stop(AFTER)]
-
-
-DRIVES: dict[str, Callable[[], list[Manoeuvre]]] = {
-    "turn-on-spot": _short(turn_on_spot),
-    "straight": _short(straight),
-    "ackermann": _short(ackermann),
-    SOL: _sol,
-}
-"""The drives of a campaign: those of Hidalgo 2012, section 6.1, and a sol."""
 
 
 @dataclass(frozen=True)
@@ -68,8 +52,8 @@ class Truth:
     """True motion: of n samples of the sensors what they measure, of m of the filter the attitude.
 
     ``rate`` rad/s and ``force`` m/s^2 (n, 3); every ``every``-th sample is one of the filter:
-    ``q`` (m, 4), ``euler`` (m, 3) rad roll, pitch, yaw, ``standing`` (m,). ``first`` is the
-    filter's sample with which the drive begins, ``period`` s that of the sensors.
+    ``q`` (m, 4), ``euler`` (m, 3) rad roll, pitch, yaw, ``standing`` (m,). With the filter's sample
+    ``first`` the drive begins; ``period`` is that of the sensors in s, ``latitude`` in rad.
     """
 
     rate: np.ndarray
@@ -80,6 +64,7 @@ class Truth:
     first: int
     every: int
     period: float
+    latitude: float
 
     @property
     def time(self) -> np.ndarray:
@@ -87,20 +72,42 @@ class Truth:
         return np.arange(1, len(self.q) + 1) * self.every * self.period
 
 
+def sol_commands() -> np.ndarray:
+    """The commands (k, 3) of a sol: time s, speed m/s, turn rate rad/s."""
+    rows, time = [], MORNING
+    for i in range(LEGS):
+        angle = TURNS[i % len(TURNS)]
+        for duration, speed, turn_rate in (
+            (abs(angle) / TURN_RATE, 0.0, np.sign(angle) * TURN_RATE),
+            (PAUSE, 0.0, 0.0),
+            (LEG / SPEED, SPEED, 0.0),
+            (PAUSE, 0.0, 0.0),
+        ):
+            rows.append((time, speed, turn_rate))
+            time += duration
+    return np.array([*rows, (time, 0.0, 0.0)])
+
+
 @lru_cache(maxsize=KEPT)
-def truth(name: str, ground: int, rate: float, every: int) -> Truth:
-    """The drive ``name`` over the ``ground`` of that number, at ``rate`` Hz."""
-    motion = drive(DRIVES[name](), rate, LATITUDE, ground)
+def truth(name: str, ground: int, rate: float, every: int, body: str) -> Truth:
+    """The drive ``name`` over the ground of that number on a ``body``, at ``rate`` Hz."""
+    if name == SOL:
+        commands = sol_commands()
+        rest = SOL_DURATION - commands[-1, 0]
+        motion = free_drive(commands, sample_rate=rate, body=body, rest=rest, terrain=ground)
+    else:
+        given = {"terrain": ground, "start_time": BEFORE}
+        motion = drive(TEST_DRIVES[name], sample_rate=rate, body=body, rest=AFTER, **given)
     rows = slice(every - 1, len(motion.time) // every * every, every)
-    attitude = Rotation.from_quat(motion.q[rows], scalar_first=True)
-    standing = motion.standing[rows]
+    standing = motion.standing[rows].copy()
     return Truth(
-        motion.rate,
-        motion.force,
-        motion.q[rows],
-        attitude.as_euler("ZYX")[:, ::-1].copy(),
+        motion.rate.copy(),
+        motion.specific_force.copy(),
+        motion.q[rows].copy(),
+        np.column_stack([motion.roll, motion.pitch, motion.yaw])[rows],
         standing,
         int(np.argmax(standing == 0)),
         every,
         1.0 / rate,
+        LATITUDE,
     )

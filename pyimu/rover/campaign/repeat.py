@@ -13,7 +13,6 @@ from pyimu.errors import UserError
 from pyimu.files import staged, write_json
 from pyimu.recording.recording import Recording
 from pyimu.report.figures import AFTER, BEFORE, STYLE, new_figure, unit_of_time
-from pyimu.rover.campaign.motion import LATITUDE
 from pyimu.rover.campaign.run import Drive, driven
 from pyimu.rover.campaign.score import ANGLES, errors, row
 from pyimu.rover.campaign.settings import Settings
@@ -50,7 +49,7 @@ def log_of(drive: Drive) -> Recording:
         "temperature": inputs["temperature"],
         "stationary": inputs["stationary"],
         "ref_q": drive.truth.q,
-        "latitude": np.full(len(drive.inputs), LATITUDE),
+        "latitude": np.full(len(drive.inputs), drive.truth.latitude),
     }
     valid = inputs["heading_valid"] > 0
     if valid.any():
@@ -77,7 +76,7 @@ def errors_figure(drive: Drive) -> Figure:
     panels[3].set_ylabel("true\nheading [deg]")
     _status(drive, time, panels[4])
     panels[4].set_xlabel(f"time [{unit}]")
-    fault = drive.draws.fault
+    fault = drive.fault
     if np.isfinite(fault.time):
         for panel in panels:
             panel.axvline(fault.time / size, color=BEFORE, ls="--", lw=1)

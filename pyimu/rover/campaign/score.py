@@ -9,8 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from pyimu.rover.campaign.run import Drive, driven
 from pyimu.rover.campaign.settings import Settings
-from pyimu.rover.campaign.specimen import values_of
-from pyimu.rover.campaign.system import STD0
+from pyimu.rover.campaign.specimen import drawn_values
 
 ANGLES = ("roll", "pitch", "heading")
 """The angles of an attitude in the order of ``Truth.euler``."""
@@ -30,16 +29,16 @@ def row(drive: Drive) -> Row:
     """The row of a run, by the names of its columns."""
     draws, first = drive.draws, drive.truth.first
     status = drive.output("status").astype(int)
-    start = draws.start_error * STD0[:3]
+    start = draws.start_error * drive.system.start_std[:3]
     return (
         {
             "run": draws.number,
             "noise_seed": draws.noise_seed,
             "specimen_seed": draws.specimen_seed,
             "terrain": draws.terrain,
-            "fault": draws.fault.name,
-            "fault_time [s]": draws.fault.time,
-            "fault_axis": draws.fault.axis,
+            "fault": drive.fault.name,
+            "fault_time [s]": drive.fault.time,
+            "fault_axis": drive.fault.axis,
             "start_roll_error [rad]": float(start[0]),
             "start_pitch_error [rad]": float(start[1]),
             "start_heading_error [rad]": float(start[2]),
@@ -49,7 +48,7 @@ def row(drive: Drive) -> Row:
         | draws.profile
         | _errors(drive, first)
         | _normalised(drive)
-        | values_of(drive.system.part, drive.system.specimen(draws.specimen_seed))
+        | drawn_values(drive.system.part, drive.specimen)
     )
 
 

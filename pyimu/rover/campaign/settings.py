@@ -14,6 +14,8 @@ from pyimu.block.variables import seed_of
 from pyimu.errors import UserError
 from pyimu.model.part import Part
 from pyimu.model.part_writer import format_part
+from pyimu.plant.bodies import BODIES
+from pyimu.plant.low_pass import CUTOFF
 from pyimu.rover.campaign.faults import FAULTS, NEEDS_HEADING
 from pyimu.rover.campaign.motion import DRIVES, SOL
 from pyimu.units import did_you_mean
@@ -24,10 +26,7 @@ FORMAT = 1
 SOL_RATE = 5.0
 """Hz at which a sol is simulated: see docs/campaign.md for what does not depend on it."""
 
-CUT_OFF = 10.0
-"""Hz; the rover's low-pass, Hidalgo 2012, section 6.1."""
-
-PER_CUT_OFF = 10
+PER_CUTOFF = 10
 """Samples of the filter in a period of the cut-off frequency, at least. A Butterworth low-pass of
 second order lets a hundredth through of what is folded down there."""
 
@@ -37,10 +36,11 @@ class Settings:
     """A campaign of a ``part`` on a ``drive``, a name in ``DRIVES``.
 
     ``seed`` begins all draws. With ``specimens`` each run has a part of its own, else the nominal
-    one. ``faults`` are names in ``FAULTS``: a run has one of them or none, each as likely.
-    ``terrains`` is how many grounds there are. ``rate`` Hz is that of the sensors; None is the
-    part's, and of a sol ``SOL_RATE``. Every ``heading_every`` s, 0 for never, there is a heading,
-    of a standard deviation of ``heading_std`` rad.
+    one; None is with, where the part has tolerances. ``faults`` are names in ``FAULTS``: a run has
+    one of them or none, each as likely. ``terrains`` is how many grounds there are. ``rate`` Hz is
+    that of the sensors; None is the part's, and of a sol ``SOL_RATE``. ``body`` is a name in
+    ``BODIES``; None is the Earth, and of a sol Mars. Every ``heading_every`` s, 0 for never, there
+    is a heading, of a standard deviation of ``heading_std`` rad.
 
     Raises UserError for a value that is none.
     """
@@ -48,10 +48,11 @@ class Settings:
     part: Part
     drive: str = "turn-on-spot"
     seed: int = 0
-    specimens: bool = True
+    specimens: bool | None = None
     faults: tuple[str, ...] = ()
     terrains: int = 4
     rate: float | None = None
+    body: str | None = None
     heading_every: float = 0.0
     heading_std: float = float(np.deg2rad(0.5))
 
@@ -59,7 +60,10 @@ class Settings:
         _known("drive", self.drive, DRIVES)
         for name in self.faults:
             _known("fault", name, FAULTS)
+        _known("body", self.on, BODIES)
         seed_of(self.seed)
+        if self.specimens:
+            self.part.specimen(0)
         if isinstance(self.terrains, bool) or not int(self.terrains) >= 1:
             raise UserError(f"terrains {self.terrains!r}: expected 1 or more")
         for name in ("heading_every", "heading_std"):
@@ -76,6 +80,16 @@ class Settings:
             raise UserError(f"rate {self.rate!r}: expected a positive number of Hz")
 
     @property
+    def draws_specimens(self) -> bool:
+        """Whether each run has a part of its own."""
+        return bool(self.part.tolerances) if self.specimens is None else self.specimens
+
+    @property
+    def on(self) -> str:
+        """The celestial body of the drives."""
+        return self.body or ("Mars" if self.drive == SOL else "Earth")
+
+    @property
     def sensor_rate(self) -> float:
         """Hz of the sensors' samples."""
         usual = SOL_RATE if self.drive == SOL else self.part.sample_rate
@@ -84,17 +98,26 @@ class Settings:
     @property
     def every(self) -> int:
         """Samples of the sensors for one of the filter."""
-        return max(1, math.floor(self.sensor_rate / (PER_CUT_OFF * CUT_OFF)))
+        return max(1, math.floor(self.sensor_rate / (PER_CUTOFF * CUTOFF)))
 
     @property
     def low_pass(self) -> bool:
         """Whether the low-pass is in: not where it would cut off above half the sample rate."""
-        return self.sensor_rate > 2 * CUT_OFF
+        return self.sensor_rate > 2 * CUTOFF
 
     def contents(self) -> dict[str, Any]:
         """The settings as plain types, which make the campaign what it is."""
         own = {f.name: getattr(self, f.name) for f in fields(self)}
-        return {"format": FORMAT} | own | {"part": format_part(self.part), "rate": self.sensor_rate}
+        return (
+            {"format": FORMAT}
+            | own
+            | {
+                "part": format_part(self.part),
+                "rate": self.sensor_rate,
+                "specimens": self.draws_specimens,
+                "body": self.on,
+            }
+        )
 
     def key(self) -> str:
         """A name for the campaign: equal where all that decides on its runs is."""

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
-from importlib.metadata import PackageNotFoundError, version
+from concurrent.futures import CancelledError
+from contextlib import contextmanager, suppress
+from importlib.metadata import version
+from queue import Empty, SimpleQueue
 from typing import Any
 
 from pyimu.errors import UserError
@@ -21,6 +23,9 @@ ARRIVAL = 30.0
 AHEAD = 3
 """Batches that are given out for each thread of the workers: none then waits for the next, and few
 are lost when all ends."""
+
+LOOK, AWAY = 1.0, 20.0
+"""s between two looks at whether the scheduler is still there, and s that it may be away."""
 
 ATTEMPTS = 10
 """Workers that may die with one batch before the campaign gives up: it may be the batch's fault."""
@@ -53,6 +58,11 @@ def on_dask(
             _check_workers(client, scheduler)
         try:
             yield from _computed(client, settings, batches)
+        except (ConnectionError, CancelledError) as error:
+            raise UserError(
+                f"--scheduler {scheduler}: lost ({error}); what it has computed is kept, and the "
+                "same command goes on from there"
+            ) from None
         except _failures() as error:
             raise UserError(
                 f"a batch of runs was lost with its worker {ATTEMPTS} times ({error}): give fewer "
@@ -61,26 +71,38 @@ def on_dask(
 
 
 def _computed(client: Any, settings: Settings, batches: list[range]) -> Iterator[Batch]:
-    from distributed import as_completed
-
     [given] = client.scatter([settings], broadcast=True)
-    waiting, runs = iter(batches), {}
+    waiting, runs, done = iter(batches), {}, SimpleQueue()
 
-    def submit() -> Any:
+    def submit() -> None:
         batch = next(waiting, None)
-        if batch is None:
-            return None
-        future = client.submit(rows_of, given, batch, pure=False)
-        runs[future.key] = batch
-        return future
+        if batch is not None:
+            future = client.submit(rows_of, given, batch, pure=False)
+            runs[future.key] = batch, future
+            future.add_done_callback(done.put)
 
-    threads = max(1, sum(client.nthreads().values()))
-    done = as_completed([f for f in (submit() for _ in range(AHEAD * threads)) if f is not None])
-    for future in done:
-        yield runs.pop(future.key), future.result()
-        following = submit()
-        if following is not None:
-            done.add(following)
+    for _ in range(AHEAD * max(1, sum(client.nthreads().values()))):
+        submit()
+    while runs:
+        future = _next_of(client, done)
+        batch, _ = runs.pop(future.key)
+        yield batch, future.result()
+        submit()
+
+
+def _next_of(client: Any, done: SimpleQueue) -> Any:
+    """The next future that is done.
+
+    Raises ConnectionError where the scheduler has been away for ``AWAY`` s: a client waits for it
+    forever.
+    """
+    away = 0.0
+    while True:
+        with suppress(Empty):
+            return done.get(timeout=LOOK)
+        away = 0.0 if client.status == "running" else away + LOOK
+        if away >= AWAY:
+            raise ConnectionError("the scheduler does not answer any more")
 
 
 @contextmanager
@@ -159,12 +181,3 @@ def _failures() -> tuple[type[BaseException], ...]:
     from distributed.scheduler import KilledWorker
 
     return (KilledWorker,)
-
-
-def is_installed(name: str) -> bool:
-    """Whether a distribution of that name is there."""
-    try:
-        version(name)
-    except PackageNotFoundError:
-        return False
-    return True

@@ -59,7 +59,7 @@ def about(settings: Settings, s: Summary) -> str:
         if settings.heading_every
         else "no heading sensor"
     )
-    parts = "a specimen of the part each" if settings.specimens else "the nominal part"
+    parts = "a specimen of the part each" if settings.draws_specimens else "the nominal part"
     return (
         f"{s.runs:,} drives, {parts}; sensors at {settings.sensor_rate:g} Hz, the filter at "
         f"{filtered:.4g} Hz, {heading}. Seed {settings.seed}: pyimu campaign repeats a run with "
