@@ -50,7 +50,7 @@ def test_a_run_follows_from_its_number_alone():
 
 
 def test_errors_are_the_angles_between_estimate_and_truth():
-    drive = driven(settings(), 3)
+    drive = driven(settings(), 3, keep=True)
     found, first = row(drive), drive.truth.first
     truth = Rotation.from_quat(drive.truth.q[first:], scalar_first=True).as_euler("ZYX")
     estimate = Rotation.from_quat(drive.output("q[1]", 4)[first:], scalar_first=True)
@@ -70,7 +70,7 @@ def test_the_drive_begins_and_ends_where_it_should():
     drive = driven(settings(), 0)
     assert not drive.truth.standing[drive.truth.first]
     assert drive.truth.standing[: drive.truth.first].all()
-    assert drive.instants[-1] == len(drive.inputs)
+    assert drive.instants[-1] == len(drive.errors)
     # 0 to 180 deg and back
     assert np.rad2deg(np.abs(drive.truth.euler[:, 2]).max()) == pytest.approx(180, abs=0.5)
 
@@ -140,7 +140,7 @@ def test_the_status_says_what_failed(fault, bit):
 
 def test_a_heading_sensor_that_fails_says_nothing_any_more():
     campaign = settings(faults=("heading-lost",), heading_every=5.0)
-    drives = [driven(campaign, i) for i in range(6)]
+    drives = [driven(campaign, i, keep=True) for i in range(6)]
     valid = [v.name for v in drives[0].system.filter.inputs].index("heading_valid")
     for drive in drives:
         times = drive.truth.time[drive.inputs[:, valid] > 0]
@@ -153,7 +153,7 @@ def test_a_run_once_more_has_its_row_and_a_log_that_the_filter_takes(tmp_path):
     campaign = settings(heading_every=30.0)
     folder = repeat(campaign, 3, tmp_path)
     log = pyimu.read_recording(folder / "log.parquet")
-    drive = driven(campaign, 3)
+    drive = driven(campaign, 3, keep=True)
     assert np.array_equal(log.gyro, drive.inputs[:, :3])
     # A reader brings quaternions to length one.
     assert np.abs(log.ref_q - drive.truth.q).max() < 1e-15

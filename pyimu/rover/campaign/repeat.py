@@ -14,7 +14,7 @@ from pyimu.files import staged, write_json
 from pyimu.recording.recording import Recording
 from pyimu.report.figures import AFTER, BEFORE, STYLE, new_figure, unit_of_time
 from pyimu.rover.campaign.run import Drive, driven
-from pyimu.rover.campaign.score import ANGLES, errors, row
+from pyimu.rover.campaign.score import ANGLES, row
 from pyimu.rover.campaign.settings import Settings
 
 BAND = 2.0
@@ -29,7 +29,7 @@ def repeat(settings: Settings, number: int, out: Path | str) -> Path:
     """
     if number < 0:
         raise UserError(f"run {number}: runs are numbered from 0 on")
-    drive = driven(settings, number)
+    drive = driven(settings, number, keep=True)
     folder = Path(out) / f"run-{number:06d}"
     with staged(folder) as stage:
         log_of(drive).write(stage / "log.parquet")
@@ -62,7 +62,7 @@ def errors_figure(drive: Drive) -> Figure:
     """Errors of heading, pitch and roll [deg] with what the filter says of them, and its status."""
     figure, panels = new_figure(8.4, 7.6, 5)
     size, unit = unit_of_time(drive.truth.time[-1])
-    time, found = drive.truth.time / size, np.rad2deg(errors(drive))
+    time, found = drive.truth.time / size, np.rad2deg(drive.errors)
     # To first order of a rover that is nearly level: about its own axes.
     stds = np.rad2deg(np.column_stack([drive.output("std[1]", 2), drive.output("heading_std")]))
     for i, panel in zip((2, 1, 0), panels, strict=False):
@@ -87,7 +87,7 @@ def errors_figure(drive: Drive) -> Figure:
 
 def _status(drive: Drive, time: np.ndarray, panel) -> None:
     """When each bit of the status was set that ever was."""
-    status = drive.output("status").astype(int)
+    status = drive.status
     names = [(bit, words) for bit, words in STATUS_NAMES.items() if (status & bit).any()]
     for place, (bit, _) in enumerate(names):
         at = (status & bit) != 0

@@ -28,7 +28,6 @@ def row_of(settings: Settings, number: int) -> Row:
 def row(drive: Drive) -> Row:
     """The row of a run, by the names of its columns."""
     draws, first = drive.draws, drive.truth.first
-    status = drive.output("status").astype(int)
     start = draws.start_error * drive.system.start_std[:3]
     return (
         {
@@ -42,8 +41,8 @@ def row(drive: Drive) -> Row:
             "start_roll_error [rad]": float(start[0]),
             "start_pitch_error [rad]": float(start[1]),
             "start_heading_error [rad]": float(start[2]),
-            "steps": len(drive.inputs),
-            "status": int(np.bitwise_or.reduce(status[first:])),
+            "steps": len(drive.errors),
+            "status": int(np.bitwise_or.reduce(drive.status[first:])),
         }
         | draws.profile
         | _errors(drive, first)
@@ -52,14 +51,9 @@ def row(drive: Drive) -> Row:
     )
 
 
-def errors(drive: Drive) -> np.ndarray:
-    """Errors (m, 3) rad of roll, pitch and heading: the estimate less the truth."""
-    return (drive.output("roll", 3) - drive.truth.euler + np.pi) % (2 * np.pi) - np.pi
-
-
 def _errors(drive: Drive, first: int) -> dict[str, float]:
     """The largest, the root mean square and the last error of each angle from ``first`` on."""
-    out, found = {}, errors(drive)[first:]
+    out, found = {}, drive.errors[first:]
     for i, name in reversed(list(enumerate(ANGLES))):
         e = found[:, i]
         out |= {

@@ -1,11 +1,10 @@
 """From the true motion of a run to the samples behind the low-pass, piece by piece.
 
-A piece stays in the processor's cache: arrays of a whole drive would cost more than the sensor.
+The pieces stay in the processor's cache: to touch new memory for a whole drive costs more than the
+sensor.
 """
 
 from __future__ import annotations
-
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -18,52 +17,33 @@ from pyimu.rover.campaign.motion import Truth
 from pyimu.rover.campaign.specimen import WHITE
 from pyimu.rover.campaign.system import System
 
-PIECE = 512
-"""Samples of the filter in a piece."""
 
+class Sensing:
+    """What a run's specimen measures, successive samples of the filter at a time."""
 
-@dataclass(frozen=True)
-class Sensed:
-    """The samples (m, 6) of gyro and accelerometer as the filter gets them.
+    def __init__(
+        self, system: System, true: Truth, draws: Draws, specimen: Part, fault: Fault
+    ) -> None:
+        values = specimen.start_values | system.of_range(range_of(fault, true))
+        rows, seed, block = len(true.q) * true.every, draws.noise_seed, system.sensor
+        self.true, self.draws, self.fault = true, draws, fault
+        self.sensor = Run(block, rows, p=with_values(block, values), seed=seed)
+        self.quiet = Run(block, rows, p=_without_white(block, values), seed=seed)
+        self.nominal = Run(system.nominal, rows)
+        self.low_pass = Run(system.low_pass, rows) if system.low_pass else None
 
-    ``temperature`` (m,) degC goes with them; ``bias`` (k, 3) rad/s is that at the instants that
-    were asked for.
-    """
+    def advance(self, kept: slice) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Gyro and accelerometer (k, 6) behind the low-pass, temperature (k,) degC, and the bias.
 
-    samples: np.ndarray
-    temperature: np.ndarray
-    bias: np.ndarray
-
-
-def sensed(
-    system: System,
-    true: Truth,
-    draws: Draws,
-    specimen: Part,
-    fault: Fault,
-    instants: np.ndarray,
-) -> Sensed:
-    """What a run's specimen measures; ``instants`` (k,) are numbers of the filter's samples."""
-    values = specimen.start_values | system.of_range(range_of(fault, true))
-    rows, seed = len(true.q) * true.every, draws.noise_seed
-    sensor = Run(system.sensor, rows, p=with_values(system.sensor, values), seed=seed)
-    quiet = Run(system.sensor, rows, p=_without_white(system.sensor, values), seed=seed)
-    nominal = Run(system.nominal, rows)
-    low_pass = Run(system.low_pass, rows) if system.low_pass else None
-    samples, temperature = np.empty((len(true.q), 6)), np.empty(len(true.q))
-    bias = np.empty((len(instants), 3))
-    for first in range(0, len(true.q), PIECE):
-        kept = slice(first, min(first + PIECE, len(true.q)))
-        u, time = _inputs(true, draws, kept)
-        y = sensor.advance(u)[:, :6]
-        at = (instants > kept.start) & (instants <= kept.stop)
-        left = quiet.advance(u)[:, :3] - nominal.advance(u)[:, :3]
-        bias[at] = left[(instants[at] - kept.start) * true.every - 1]
-        fault.in_gyro(y[:, :3], time)
-        y = low_pass.advance(y) if low_pass else y
-        samples[kept] = y[true.every - 1 :: true.every]
-        temperature[kept] = u[true.every - 1 :: true.every, 6]
-    return Sensed(samples, temperature, bias)
+        They are those of the filter's samples ``kept``; the bias (3,) rad/s is that of the last.
+        """
+        u, time = _inputs(self.true, self.draws, kept)
+        y = self.sensor.advance(u)[:, :6]
+        bias = self.quiet.advance(u)[-1, :3] - self.nominal.advance(u)[-1, :3]
+        self.fault.in_gyro(y[:, :3], time)
+        y = self.low_pass.advance(y) if self.low_pass else y
+        every = self.true.every
+        return y[every - 1 :: every], u[every - 1 :: every, 6], bias
 
 
 def range_of(fault: Fault, true: Truth) -> np.ndarray | None:
