@@ -9,8 +9,8 @@ from scipy.stats import chi2
 
 import pyimu
 from pyimu.rover.campaign.faults import STUCK_FOR, Fault
+from pyimu.rover.campaign.one_run import driven
 from pyimu.rover.campaign.repeat import repeat
-from pyimu.rover.campaign.run import driven
 from pyimu.rover.campaign.score import row, row_of
 from pyimu.rover.campaign.settings import Settings
 

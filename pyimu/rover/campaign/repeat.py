@@ -13,7 +13,7 @@ from pyimu.errors import UserError
 from pyimu.files import staged, write_json
 from pyimu.recording.recording import Recording
 from pyimu.report.figures import AFTER, BEFORE, STYLE, new_figure, unit_of_time
-from pyimu.rover.campaign.run import Drive, driven
+from pyimu.rover.campaign.one_run import Drive, driven
 from pyimu.rover.campaign.score import ANGLES, row
 from pyimu.rover.campaign.settings import Settings
 

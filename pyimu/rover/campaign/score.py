@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pyimu.rover.campaign.run import Drive, driven
+from pyimu.rover.campaign.one_run import Drive, driven
 from pyimu.rover.campaign.settings import Settings
 from pyimu.rover.campaign.specimen import drawn_values
 
