@@ -8,7 +8,7 @@ from scipy.stats import binom, chi2
 from pyimu.rover.campaign.report.words import lines
 from pyimu.rover.campaign.score import ANGLES, FREEDOM
 from pyimu.rover.campaign.sensitivity import LEVEL, chance, indices
-from pyimu.rover.campaign.summary import CLAIM, Share, Summary, quantile
+from pyimu.rover.campaign.summary import CLAIM, Share, Summary, explained, quantile
 
 pytest.importorskip("SALib", reason="the indices are SALib's")
 
@@ -80,6 +80,17 @@ def test_what_chance_makes_of_a_parameter_without_effect():
         ]
         beyond += max(values) > chance(n, 5)
     assert beyond < binom.isf(1e-4, 300, 1 - LEVEL)
+
+
+def test_many_parameters_without_effect_explain_nothing():
+    """An index of n runs is off by 2 sqrt(10)/n, the sum of 40 independent ones by sqrt(40) of that.
+
+    Those above zero alone would add up to 40/sqrt(2 pi) of that, a quarter of the variance.
+    """
+    rng, n = np.random.default_rng(9), 400
+    found = indices({f"x{i}": rng.normal(size=n) for i in range(40)}, rng.normal(size=n))
+    assert explained(found) < 4 * np.sqrt(40) * 2 * np.sqrt(10) / n < 0.42
+    assert sum(max(0.0, i.value) for i in found) > explained(found)
 
 
 def test_the_cause_of_an_error_is_named():

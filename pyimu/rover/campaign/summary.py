@@ -164,5 +164,8 @@ def quantile(ordered: np.ndarray, p: float) -> Quantile:
 
 
 def explained(causes: Iterable[Index]) -> float:
-    """The share of the variance that the factors explain one by one."""
-    return min(1.0, sum(max(0.0, i.value) for i in causes))
+    """The share of the variance that the factors explain one by one, from 0 to 1.
+
+    The indices below zero are in the sum: without them what chance makes of many would add up.
+    """
+    return min(1.0, max(0.0, sum(i.value for i in causes)))
