@@ -83,7 +83,7 @@ def test_what_chance_makes_of_a_parameter_without_effect():
 
 
 def test_many_parameters_without_effect_explain_nothing():
-    """An index of n runs is off by 2 sqrt(10)/n, the sum of 40 independent ones by sqrt(40) of that.
+    """An index of n runs is off by 2 sqrt(10)/n, the sum of 40 of them by sqrt(40) times that.
 
     Those above zero alone would add up to 40/sqrt(2 pi) of that, a quarter of the variance.
     """
