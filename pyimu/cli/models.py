@@ -138,7 +138,8 @@ def build(
             specimen,
         )
         if ssp is not None:
-            paths.append(write_rover(part, out, ssp, form=wired, platform=platform))
+            rover = write_rover(part, out, ssp, form=wired, platform=platform, specimen=specimen)
+            paths.append(rover)
     for path in paths:
         print(path)
 
