@@ -9,6 +9,7 @@ from typing import Annotated
 
 import typer
 
+from pyimu.cli.campaigns import campaign_command
 from pyimu.cli.logs import attitude_command, characterize_command, close_command, demo
 from pyimu.cli.models import build, derive_command, parts, plan_command, rover_command
 from pyimu.errors import UserError
@@ -100,4 +101,9 @@ _add("plan", plan_command, "The motion that would show an effect of a part, and 
 _add("rover", rover_command, "The paper's four test drives of a rover beside its table 6.")
 _add("build", build, "Build the co-simulation units of a part.")
 _add("parts", parts, "The built-in parts, or one part with the source of each figure.")
+_add(
+    "campaign",
+    campaign_command,
+    "Many varied drives of a rover, on Dask: how large errors are, and why.",
+)
 _add("derive", derive_command, "The symbolic results, and what each was checked against.")
