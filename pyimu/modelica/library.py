@@ -1,0 +1,65 @@
+"""The generated files of the Modelica library."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from pyimu.model.effects import EFFECTS
+from pyimu.modelica.bench import benches
+from pyimu.modelica.effect_text import effect_text
+from pyimu.modelica.names import pascal
+from pyimu.modelica.signal_text import DERIVED, signal_text
+from pyimu.modelica.text import GENERATED, rendered
+
+FOLDERS = ("Effects", "Signals", "Examples/Benches")
+"""Folders of the library that hold generated files only."""
+
+
+def library() -> dict[str, str]:
+    """Path below ``PyImu`` to text of every generated file."""
+    effects = {pascal(e.name): effect_text(e) for e in EFFECTS}
+    signals = {pascal(name): signal_text(name) for name in DERIVED}
+    return {
+        **_package(
+            "Effects",
+            "Errors of sensors: each a package of its functions and blocks",
+            "Each package holds the functions of one effect, which are printed from its "
+            "definition, and a block of them for each kind of sensor that can have it. An effect "
+            "without memory has a form in continuous time as well.",
+            effects,
+        ),
+        **_package(
+            "Signals",
+            "Signals that follow from the course of others",
+            "What some effects depend on besides the inputs of a sensor: rates of change, mean "
+            "squares, what follows from attitude and place.",
+            signals,
+        ),
+        **_package(
+            "Examples/Benches",
+            "Each effect alone, with inputs that excite its branches",
+            "One model for each effect. Their values are compared in the tests with those of the "
+            "definition, sample by sample.",
+            benches(),
+        ),
+    }
+
+
+def _package(
+    folder: str, description: str, text: str, classes: Mapping[str, str]
+) -> dict[str, str]:
+    """The files of a package with these classes in this order."""
+    *above, name = Path(folder).parts
+    package = GENERATED + rendered(
+        "package.mo",
+        within=".".join(("PyImu", *above)),
+        name=name,
+        description=description,
+        documentation=text,
+    )
+    return {
+        f"{folder}/package.mo": package,
+        f"{folder}/package.order": "".join(f"{name}\n" for name in classes),
+        **{f"{folder}/{name}.mo": text for name, text in classes.items()},
+    }

@@ -1,0 +1,56 @@
+"""Compiling and simulating classes of the Modelica library with rumoca."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+from places import CHECKOUT
+
+LIBRARY = CHECKOUT / "modelica"
+NAMES = CHECKOUT / "tests" / "support" / "modelica_names"
+"""The few names of the Modelica Standard Library that the library uses."""
+
+
+@cache
+def compiler():
+    """rumoca, and its session with the library loaded."""
+    rumoca = pytest.importorskip("rumoca", reason="rumoca has no wheel for this Python")
+    return rumoca, rumoca.Session(roots=[str(NAMES), str(LIBRARY)])
+
+
+def simulated(model, stop, period, text=None):
+    """Rows 0 to stop / period of every variable: name to array; a row is what holds after its
+    sample.
+
+    ``text`` is the source of ``model`` where it is not in the library.
+    """
+    rumoca, session = compiler()
+    if text is None:
+        compiled = session.load(str(path_of(model)), model=model)
+    else:
+        compiled = session.loads(text, model=model, filename=f"{model}.mo")
+    result = compiled.simulate(t=stop, dt=period, config=rumoca.SimConfig(solver="rk-like"))
+    last = np.round(np.array(result.time) / period).astype(int)
+    rows = np.searchsorted(last, np.arange(round(stop / period) + 1), side="right") - 1
+    return {name: np.array(result[name])[rows] for name in result.names}
+
+
+def path_of(model):
+    """The file of a class of the library."""
+    return LIBRARY.joinpath(*model.split(".")).with_suffix(".mo")
+
+
+def vector(rows, name, size=3):
+    """The columns of an array (n, size)."""
+    return np.column_stack([rows[f"{name}[{i + 1}]"] for i in range(size)])
+
+
+def ulps(a, b, *summands):
+    """The largest distance of two arrays in units in the last place.
+
+    The unit is that of the larger number, or of a summand of which both were made, whose rounding
+    they have.
+    """
+    a, b = np.asarray(a), np.asarray(b)
+    largest = np.max(np.abs(np.stack(np.broadcast_arrays(a, b, *summands))), axis=0)
+    return float(np.max(np.abs(a - b) / np.spacing(largest), initial=0.0))
