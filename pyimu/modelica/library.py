@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
+from pyimu.block.normals import edges
 from pyimu.model.effects import EFFECTS
 from pyimu.modelica.bench import benches
 from pyimu.modelica.effect_text import effect_text
@@ -43,7 +44,15 @@ def library() -> dict[str, str]:
             "definition, sample by sample.",
             benches(),
         ),
+        "Noise/layerEdge.mo": _edges(),
     }
+
+
+def _edges() -> str:
+    """The table of the ziggurat as a function."""
+    found = [repr(x) for x in edges().tolist()[:-1]]
+    lines = [", ".join(found[i : i + 4]) + "," for i in range(0, len(found), 4)]
+    return GENERATED + rendered("layerEdge.mo", lines=lines)
 
 
 def _package(

@@ -1,6 +1,10 @@
 """Compiling and simulating classes of the Modelica library with rumoca."""
 
+import atexit
+import shutil
+import tempfile
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,7 +19,12 @@ NAMES = CHECKOUT / "tests" / "support" / "modelica_names"
 def compiler():
     """rumoca, and its session with the library loaded."""
     rumoca = pytest.importorskip("rumoca", reason="rumoca has no wheel for this Python")
-    return rumoca, rumoca.Session(roots=[str(NAMES), str(LIBRARY)])
+    # One root for both: of several it reads only those that a model names itself.
+    root = Path(tempfile.mkdtemp(prefix="pyimu-modelica-"))
+    atexit.register(shutil.rmtree, root, ignore_errors=True)
+    for folder in (NAMES / "Modelica", LIBRARY / "PyImu"):
+        (root / folder.name).symlink_to(folder, target_is_directory=True)
+    return rumoca, rumoca.Session(roots=[str(root)])
 
 
 def simulated(model, stop, period, text=None):
