@@ -10,10 +10,11 @@ from pyimu.model.effects import EFFECTS
 from pyimu.modelica.bench import benches
 from pyimu.modelica.effect_text import effect_text
 from pyimu.modelica.names import pascal
+from pyimu.modelica.sensors import part_texts, sensor_texts
 from pyimu.modelica.signal_text import DERIVED, signal_text
 from pyimu.modelica.text import GENERATED, rendered
 
-FOLDERS = ("Effects", "Signals", "Examples/Benches")
+FOLDERS = ("Effects", "Signals", "Examples/Benches", "Sensors/Parts")
 """Folders of the library that hold generated files only."""
 
 
@@ -44,6 +45,14 @@ def library() -> dict[str, str]:
             "definition, sample by sample.",
             benches(),
         ),
+        **_package(
+            "Sensors/Parts",
+            "The built-in parts",
+            "A package for each part: its gyroscope, its accelerometer, and both as a measurement "
+            "unit. A part has the effects of which its data sheet says something.",
+            part_texts(),
+        ),
+        **{f"Sensors/{name}.mo": text for name, text in sensor_texts().items()},
         "Noise/layerEdge.mo": _edges(),
     }
 

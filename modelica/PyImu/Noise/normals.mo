@@ -1,10 +1,6 @@
 within PyImu.Noise;
-function normals "The standard normals of a sample of several channels"
-  extends Modelica.Icons.Function;
-  input Real seed;
-  input Real channel[:];
-  input Real sample;
-  output Real y[size(channel, 1)];
+function normals "The standard normals of a sample of several channels, in Modelica"
+  extends PyImu.Interfaces.NormalsFunction;
 algorithm
   for i in 1:size(channel, 1) loop
     y[i] := normal(seed, channel[i], sample);

@@ -21,6 +21,16 @@ package Modelica "Stand-in for the few names of the Modelica Standard Library th
       type Length = Real(quantity="Length", unit="m");
     end SI;
   end Units;
+  package Utilities
+    package Strings
+      function hashString
+        input String string;
+        output Integer hash;
+      algorithm
+        hash := 0;
+      end hashString;
+    end Strings;
+  end Utilities;
   package Blocks
     package Interfaces
       connector RealInput = input Real;
