@@ -194,7 +194,6 @@ def _documentation(part: Part) -> str:
     """What the part is, and the source of its sample rate."""
     rate = part.notes.get(RATE_KEY, {}).get("source", "no source")
     text = part.description or f"Inertial measurement unit {part.name}"
-    return (
-        f"<p>{html.escape(text)}.</p>\n<p>Sampled at {part.sample_rate:g} Hz ({html.escape(rate)}). "
-        "Each coefficient is in SI units; its source stands behind the block that has it.</p>"
-    )
+    sampled = f"Sampled at {part.sample_rate:g} Hz ({rate})."
+    sources = "Coefficients are in SI units; their sources stand behind the blocks that have them."
+    return f"<p>{html.escape(text)}.</p>\n<p>{html.escape(sampled)} {sources}</p>"

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from catalogue_cases import CASES, excited, run
-from modelica_cases import simulated, ulps, vector
+from modelica_cases import LAST_PLACES, simulated, ulps, vector
 
 from pyimu.model.effects import EFFECTS
 from pyimu.model.kinds import KINDS
@@ -14,9 +14,6 @@ from pyimu.modelica.names import pascal
 
 TRANSCENDENTAL = ("exp(", "log(", "sin(", "cos(", "expm1(")
 """Functions of which two libraries may give values that differ in the last bit."""
-
-LAST_PLACES = 4
-"""Units in the last place by which an effect with these functions may differ."""
 
 SHARES = {"angle_quantization": 0.005, "hard_dead_zone": 0.15, "saturation": 0.03}
 """Coefficients in a share of the natural size where the usual one, 0.05, would hide the effect: a

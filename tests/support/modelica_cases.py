@@ -14,6 +14,9 @@ LIBRARY = CHECKOUT / "modelica"
 NAMES = CHECKOUT / "tests" / "support" / "modelica_names"
 """The few names of the Modelica Standard Library that the library uses."""
 
+LAST_PLACES = 4
+"""Units in the last place by which two libraries' exp, log, sin and cos may make values differ."""
+
 
 @cache
 def compiler():
