@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from pyimu.cli.logs import attitude_command, characterize_command, close_command, demo
-from pyimu.cli.models import build, derive_command, parts, plan_command
+from pyimu.cli.models import build, derive_command, modelica_command, parts, plan_command
 from pyimu.errors import UserError
 from pyimu.interrupt import Interrupts, ignore_at_exit
 
@@ -98,5 +98,6 @@ _add("close", close_command, "Find what a sensor's model lacks to explain measur
 _add("attitude", attitude_command, "The attitude filter over a log, with its page.")
 _add("plan", plan_command, "The motion that would show an effect of a part, and how well.")
 _add("build", build, "Build the co-simulation units of a part.")
+_add("modelica", modelica_command, "A part as a Modelica class.")
 _add("parts", parts, "The built-in parts, or one part with the source of each figure.")
 _add("derive", derive_command, "The symbolic results, and what each was checked against.")

@@ -15,6 +15,11 @@ from pyimu.modelica.names import identifier, pascal
 from pyimu.modelica.text import GENERATED, capital, comment, number, rendered, wrapped
 from pyimu.modelica.unit_names import modelica_unit
 
+_UNITS = (
+    "<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values "
+    "of its coefficients the effect is the identity.</p>"
+)
+
 BLOCKS = {"gyro": "Gyro", "accel": "Accel"}
 """Name of the block of an effect for each kind of sensor."""
 
@@ -187,8 +192,7 @@ def _documentation(e: Effect) -> str:
         "<table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>",
         rows,
         "</table>",
-        "<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>",
-        "<p>At the start values of its coefficients the effect is the identity.</p>",
+        _UNITS,
         *(f"<p>{note}</p>" for note in notes),
     ]
     return "\n".join(paragraphs)

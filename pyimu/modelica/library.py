@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
+from pyimu.block.compiled import source_folder
 from pyimu.block.normals import edges
 from pyimu.model.effects import EFFECTS
 from pyimu.modelica.bench import benches
@@ -13,6 +14,9 @@ from pyimu.modelica.names import pascal
 from pyimu.modelica.sensors import part_texts, sensor_texts
 from pyimu.modelica.signal_text import DERIVED, signal_text
 from pyimu.modelica.text import GENERATED, rendered
+
+SOURCES = ("noise.c", "noise.h", "prefix.h")
+"""Hand-written C of the units that the library brings along."""
 
 FOLDERS = ("Effects", "Signals", "Examples/Benches", "Sensors/Parts")
 """Folders of the library that hold generated files only."""
@@ -54,6 +58,10 @@ def library() -> dict[str, str]:
         ),
         **{f"Sensors/{name}.mo": text for name, text in sensor_texts().items()},
         "Noise/layerEdge.mo": _edges(),
+        **{
+            f"Resources/C-Sources/{name}": (source_folder() / name).read_text(encoding="utf-8")
+            for name in SOURCES
+        },
     }
 
 

@@ -80,7 +80,7 @@ def _nested(text: str) -> list[str]:
     """The package of an effect as a class within that of a part."""
     lines = text.splitlines()
     first = next(i for i, line in enumerate(lines) if line.startswith("package "))
-    return lines[first:]
+    return [line for line in lines[first:] if line]
 
 
 def _connector(name: str, place: int = 0) -> str:
@@ -121,7 +121,7 @@ def _triad(part: Part, sensor: Sensor) -> Triad:
     )
     connections = []
     for name in derived:
-        block = identifier(camel(name))
+        block = f"{camel(name)}Signal"
         declarations.append(
             f"PyImu.Signals.{pascal(name)}.Signal {block}(samplePeriod=samplePeriod);"
         )
@@ -132,7 +132,7 @@ def _triad(part: Part, sensor: Sensor) -> Triad:
         connections.append(f"connect({last}, sampler.x);")
         last = "sampler.y"
     for e in sensor.effects:
-        block = camel(e.name)
+        block = _block(e)
         declarations += _effect(part, sensor, e)
         connections.append(f"connect({last}, {block}.x);")
         connections += [
@@ -154,13 +154,20 @@ def _triad(part: Part, sensor: Sensor) -> Triad:
 def _source(signal: str) -> str:
     """Where a signal comes from in a triad."""
     if SIGNALS[signal].derived:
-        return f"{identifier(camel(signal))}.y"
+        return f"{camel(signal)}Signal.y"
     return CONNECTORS.get(signal, identifier(camel(signal)))
+
+
+def _block(e: Effect) -> str:
+    """Name of an effect's block in a triad, which no connector or parameter has."""
+    name = camel(e.name)
+    taken = {"y", "y0", "seed", "samplePeriod", "globalSeed", "sampler"}
+    return f"{name}Effect" if name in taken | {camel(n) for n in SIGNALS} else identifier(name)
 
 
 def _effect(part: Part, sensor: Sensor, e: Effect) -> Iterator[str]:
     """The declarations of an effect's block with its coefficients, and of its normals."""
-    block = camel(e.name)
+    block = _block(e)
     package = "PyImu.Effects." if e in EFFECTS else ""
     values = "".join(
         f", {identifier(n)}={numbers(v.tolist())}" for n, v in sensor.values[e.name].items()

@@ -8,7 +8,7 @@ from pyimu.model.part_file import part, part_names
 from pyimu.model.signals import ALWAYS, inputs_for
 from pyimu.modelica.names import camel, pascal
 from pyimu.modelica.part_text import part_text
-from pyimu.modelica.text import GENERATED, comment, rendered
+from pyimu.modelica.text import GENERATED, comment, number, rendered
 
 DEFAULT = "imt30"
 """The part that a sensor is unless another is chosen."""
@@ -31,7 +31,10 @@ def sensor_texts() -> dict[str, str]:
         extra = set(inputs_for(p.signals)) - set(ALWAYS)
         if extra:
             raise UserError(f"part {p.name} needs {', '.join(extra)}, which Sensors.Imu lacks")
-    listed = [{"name": name, "block": camel(p.name)} for name, p in found.items()]
+    listed = [
+        {"name": name, "block": camel(p.name), "period": number(p.sample_period)}
+        for name, p in found.items()
+    ]
     literals = ",\n    ".join(f"{name}{comment(p.description)}" for name, p in found.items())
 
     def selected(name: str, interface: str, what: str, unit: str, outputs: tuple[str, ...]) -> str:

@@ -32,12 +32,12 @@ def signal_functions(name: str) -> tuple[Function, Function | None]:
     arguments.append(array("h", (), h))
     own = camel(name)
     output = function(
-        f"{own}Output", signal.text, arguments, value, _shape(name), what, positive={"h"}
+        f"{own}Signal", signal.text, arguments, value, _shape(name), what, positive={"h"}
     )
     if not signal.memory:
         return output, None
     return output, function(
-        f"{own}NextMemory",
+        f"{own}SignalNextMemory",
         "memory of the next sample",
         arguments,
         after,

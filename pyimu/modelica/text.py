@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import textwrap
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -20,7 +21,7 @@ LINE = 100
 
 def rendered(template: str, **values: Any) -> str:
     """A template filled in."""
-    return _templates().get_template(template).render(**values).lstrip("\n")
+    return _templates().get_template(template).render(**values).strip("\n") + "\n"
 
 
 def wrapped(line: str, width: int = LINE - 6) -> list[str]:
@@ -59,6 +60,20 @@ def number(value: float) -> str:
     return str(int(value)) if value == int(value) and abs(value) < 1e6 else repr(value)
 
 
+def _folded(line: str, indent: int) -> str:
+    """A line of a class, in several where it is long."""
+    return ("\n" + " " * indent).join(wrapped(line.strip(), LINE - indent))
+
+
+def _page(text: str) -> str:
+    """HTML as a Modelica string, each paragraph in lines that are not too long."""
+    lines = (
+        textwrap.wrap(p, LINE, break_long_words=False, break_on_hyphens=False)
+        for p in text.splitlines()
+    )
+    return string("\n".join(line for paragraph in lines for line in paragraph))
+
+
 @cache
 def _templates() -> Environment:
     found = Environment(
@@ -68,5 +83,5 @@ def _templates() -> Environment:
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
-    found.filters.update(text=string, comment=comment, capital=capital)
+    found.filters.update(text=string, comment=comment, capital=capital, folded=_folded, page=_page)
     return found

@@ -45,13 +45,10 @@ def tables(part, seed, n):
 
 
 def declared(name, seed, n, block="imu"):
-    """The declaration of a ``PyImu.Sensors.Imu`` that is a built-in part."""
-    part, fed = PARTS[name], tables(PARTS[name], seed, n)
+    """The declaration of a ``PyImu.Sensors.Imu`` that is a built-in part, at its own rate."""
+    fed = tables(PARTS[name], seed, n)
     chosen = f", {camel(name)}({fed})" if fed else ""
-    return (
-        f"PyImu.Sensors.Imu {block}(part=PyImu.Sensors.Part.{name}, seed={seed}, "
-        f"samplePeriod={part.sample_period!r}{chosen});"
-    )
+    return f"PyImu.Sensors.Imu {block}(part=PyImu.Sensors.Part.{name}, seed={seed}{chosen});"
 
 
 def vehicle(declarations, period, blocks=("imu",)):

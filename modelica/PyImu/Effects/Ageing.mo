@@ -31,7 +31,8 @@ package Ageing "Ageing of bias and scale factor"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), kb(each unit="m/s3")) "Ageing of bias and scale factor, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), kb(each unit="m/s3"))
+    "Ageing of bias and scale factor, of an accelerometer";
 
   block GyroContinuous "Ageing of bias and scale factor, of a gyro, without samples"
     extends PyImu.Interfaces.ContinuousEffect(x(each unit="rad/s"), y(each unit="rad/s"));
@@ -46,8 +47,8 @@ package Ageing "Ageing of bias and scale factor"
     y = ageingOutput(x, kb, ks, age, t);
   end GyroContinuous;
 
-  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), kb(each unit="m/s3"))
-    "Ageing of bias and scale factor, of an accelerometer, without samples";
+  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), kb(each
+    unit="m/s3")) "Ageing of bias and scale factor, of an accelerometer, without samples";
 
   annotation(Documentation(info="<html>
 <p>Ageing of bias and scale factor; stage: bias.</p>
@@ -58,7 +59,7 @@ package Ageing "Ageing of bias and scale factor"
 <tr><td>ks</td><td>1/s</td><td>relative scale factor error per time since calibration</td></tr>
 <tr><td>age</td><td>s</td><td>time from calibration to power-on</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end Ageing;

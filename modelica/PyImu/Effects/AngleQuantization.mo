@@ -42,16 +42,18 @@ package AngleQuantization "Quantization of angle (velocity) increments"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), q(each unit="m/s")) "Quantization of angle (velocity) increments, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), q(each unit="m/s"))
+    "Quantization of angle (velocity) increments, of an accelerometer";
 
   annotation(Documentation(info="<html>
 <p>Quantization of angle (velocity) increments; stage: output.</p>
-<p>Equation (LaTeX): <code>y = q\\, (\\lfloor \\theta_k / q + 1/2 \\rfloor - \\lfloor \\theta_{k-1} / q + 1/2 \\rfloor) / h,\\; \\dot\\theta = x</code></p>
+<p>Equation (LaTeX): <code>y = q\\, (\\lfloor \\theta_k / q + 1/2 \\rfloor - \\lfloor \\theta_{k-1} / q +
+1/2 \\rfloor) / h,\\; \\dot\\theta = x</code></p>
 <p>Source: Hidalgo 2012, table 3, quantization noise with Q = q / sqrt(12).</p>
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
 <tr><td>q</td><td>{Y}</td><td>step of the integrated output; 0 switches rounding off</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end AngleQuantization;

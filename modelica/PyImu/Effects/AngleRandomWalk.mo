@@ -31,7 +31,8 @@ package AngleRandomWalk "Angle (velocity) random walk"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2")) "Angle (velocity) random walk, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"))
+    "Angle (velocity) random walk, of an accelerometer";
 
   annotation(Documentation(info="<html>
 <p>Angle (velocity) random walk; stage: noise.</p>
@@ -40,7 +41,7 @@ package AngleRandomWalk "Angle (velocity) random walk"
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
 <tr><td>N</td><td>{Y}/sqrt(s)</td><td>root of the two-sided white noise density</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end AngleRandomWalk;

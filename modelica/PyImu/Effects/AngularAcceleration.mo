@@ -29,7 +29,8 @@ package AngularAcceleration "Angular acceleration sensitivity"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), c(each unit="m/rad")) "Angular acceleration sensitivity, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), c(each unit="m/rad"))
+    "Angular acceleration sensitivity, of an accelerometer";
 
   block GyroContinuous "Angular acceleration sensitivity, of a gyro, without samples"
     extends PyImu.Interfaces.ContinuousEffect(x(each unit="rad/s"), y(each unit="rad/s"));
@@ -45,18 +46,20 @@ package AngularAcceleration "Angular acceleration sensitivity"
     y = angularAccelerationOutput(x, c, acceleration);
   end GyroContinuous;
 
-  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), c(each unit="m/rad"))
-    "Angular acceleration sensitivity, of an accelerometer, without samples";
+  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), c(each
+    unit="m/rad")) "Angular acceleration sensitivity, of an accelerometer, without samples";
 
   annotation(Documentation(info="<html>
 <p>Angular acceleration sensitivity; stage: gain.</p>
 <p>Equation (LaTeX): <code>y_i = x_i + \\sum_{j \\ne i} c_{ij} \\dot\\omega_j</code></p>
-<p>Source: IEEE Std 528-2001, 2.11, angular acceleration sensitivity; of an accelerometer the angular-acceleration coefficient of IEEE Std 1293, whose text was not checked.</p>
+<p>Source: IEEE Std 528-2001, 2.11, angular acceleration sensitivity; of an accelerometer the
+angular-acceleration coefficient of IEEE Std 1293, whose text was not checked.</p>
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
-<tr><td>c</td><td>{y}/(rad/s^2)</td><td>output of axis i per angular acceleration about axis j</td></tr>
+<tr><td>c</td><td>{y}/(rad/s^2)</td><td>output of axis i per angular acceleration about axis
+j</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 <p>It wants new inputs at every sample: the difference of held ones is zero.</p>
 </html>"));
 end AngularAcceleration;

@@ -38,7 +38,7 @@ package Anisoinertia "Anisoinertia, product of the cross-axis rates"
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
 <tr><td>c</td><td>1/({y})</td><td>drift per product of the rates about the two other axes</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end Anisoinertia;

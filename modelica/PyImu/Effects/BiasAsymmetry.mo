@@ -38,7 +38,7 @@ package BiasAsymmetry "Bias asymmetry"
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
 <tr><td>ba</td><td>{y}</td><td>bias for positive less bias for negative input, K0&#x27;</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end BiasAsymmetry;

@@ -176,18 +176,21 @@ package BiasInstability "Bias instability, flicker noise"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), B(each unit="m/s2")) "Bias instability, flicker noise, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), B(each unit="m/s2"))
+    "Bias instability, flicker noise, of an accelerometer";
 
   annotation(Documentation(info="<html>
 <p>Bias instability, flicker noise; stage: noise.</p>
 <p>Equation (LaTeX): <code>y = x + \\sum_k b_k,\\; S(f) \\approx \\frac{B^2}{2 \\pi f}</code></p>
-<p>Source: Hidalgo 2012, table 3 for the density; no source for this sum of Gauss-Markov processes, one a decade.</p>
+<p>Source: Hidalgo 2012, table 3 for the density; no source for this sum of Gauss-Markov processes,
+one a decade.</p>
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
-<tr><td>B</td><td>{y}</td><td>coefficient of the 1/f noise; the Allan deviation&#x27;s floor is 0.664 B</td></tr>
+<tr><td>B</td><td>{y}</td><td>coefficient of the 1/f noise; the Allan deviation&#x27;s floor is
+0.664 B</td></tr>
 <tr><td>f_low</td><td>Hz</td><td>lower end of the band in which the density is 1/f</td></tr>
 <tr><td>f_high</td><td>Hz</td><td>upper end of that band, 2 to 5 decades above</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end BiasInstability;

@@ -29,7 +29,8 @@ package BiasStep "Bias steps, shock shifts"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), A(each unit="m/s2")) "Bias steps, shock shifts, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), A(each unit="m/s2"))
+    "Bias steps, shock shifts, of an accelerometer";
 
   block GyroContinuous "Bias steps, shock shifts, of a gyro, without samples"
     extends PyImu.Interfaces.ContinuousEffect(x(each unit="rad/s"), y(each unit="rad/s"));
@@ -42,8 +43,8 @@ package BiasStep "Bias steps, shock shifts"
     y = biasStepOutput(x, A, t0, t);
   end GyroContinuous;
 
-  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), A(each unit="m/s2"))
-    "Bias steps, shock shifts, of an accelerometer, without samples";
+  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), A(each
+    unit="m/s2")) "Bias steps, shock shifts, of an accelerometer, without samples";
 
   annotation(Documentation(info="<html>
 <p>Bias steps, shock shifts; stage: bias.</p>
@@ -53,7 +54,7 @@ package BiasStep "Bias steps, shock shifts"
 <tr><td>A</td><td>{y}</td><td>change of axis i&#x27;s bias at event k</td></tr>
 <tr><td>t0</td><td>s</td><td>time of event k since power-on</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end BiasStep;

@@ -56,12 +56,14 @@ package ClockSkew "Clock skew"
   annotation(Documentation(info="<html>
 <p>Clock skew; stage: gain.</p>
 <p>Equation (LaTeX): <code>y = x + \\epsilon t \\dot x</code></p>
-<p>Source: no source; first order in the time by which the clock is off, short against the motion.</p>
+<p>Source: no source; first order in the time by which the clock is off, short against the
+motion.</p>
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
-<tr><td>eps</td><td>1</td><td>relative error of the clock&#x27;s rate; eps t must stay short against the motion</td></tr>
+<tr><td>eps</td><td>1</td><td>relative error of the clock&#x27;s rate; eps t must stay short against
+the motion</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 <p>It wants new inputs at every sample: the difference of held ones is zero.</p>
 </html>"));
 end ClockSkew;

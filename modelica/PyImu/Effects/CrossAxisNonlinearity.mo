@@ -49,10 +49,12 @@ package CrossAxisNonlinearity "Cross-axis nonlinearity, second order"
 <p>Equation (LaTeX): <code>y_i = x_i + \\sum_{j \\ne i} k_{ij} x_j^2 + k_{x,i} x_j x_k</code></p>
 <p>Source: coefficients K_pp, K_oo and K_po of IEEE Std 1293, whose text was not checked.</p>
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
-<tr><td>k</td><td>1/({y})</td><td>output of axis i per squared force along axis j: K_pp, K_oo</td></tr>
-<tr><td>kx</td><td>1/({y})</td><td>output per product of the forces along the two other axes: K_po</td></tr>
+<tr><td>k</td><td>1/({y})</td><td>output of axis i per squared force along axis j: K_pp,
+K_oo</td></tr>
+<tr><td>kx</td><td>1/({y})</td><td>output per product of the forces along the two other axes:
+K_po</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end CrossAxisNonlinearity;

@@ -24,7 +24,8 @@ package DeadZone "Dead zone, threshold"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), d(each unit="m/s2")) "Dead zone, threshold, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), d(each unit="m/s2"))
+    "Dead zone, threshold, of an accelerometer";
 
   block GyroContinuous "Dead zone, threshold, of a gyro, without samples"
     extends PyImu.Interfaces.ContinuousEffect(x(each unit="rad/s"), y(each unit="rad/s"));
@@ -35,8 +36,8 @@ package DeadZone "Dead zone, threshold"
     y = deadZoneOutput(x, d);
   end GyroContinuous;
 
-  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), d(each unit="m/s2"))
-    "Dead zone, threshold, of an accelerometer, without samples";
+  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), d(each
+    unit="m/s2")) "Dead zone, threshold, of an accelerometer, without samples";
 
   annotation(Documentation(info="<html>
 <p>Dead zone, threshold; stage: output.</p>
@@ -45,7 +46,7 @@ package DeadZone "Dead zone, threshold"
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
 <tr><td>d</td><td>{y}</td><td>largest input without output</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end DeadZone;

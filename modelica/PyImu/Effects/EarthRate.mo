@@ -44,9 +44,10 @@ package EarthRate "Earth rate not modelled"
 <p>Equation (LaTeX): <code>y = x + k\\, R_{nb}^T \\Omega_n(\\varphi)</code></p>
 <p>Source: Hidalgo 2012, Earth rotation vector; Groves 2013, eq. 2.123.</p>
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
-<tr><td>k</td><td>1</td><td>share of the Earth rate that is added; 1 where it had been left out</td></tr>
+<tr><td>k</td><td>1</td><td>share of the Earth rate that is added; 1 where it had been left
+out</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end EarthRate;

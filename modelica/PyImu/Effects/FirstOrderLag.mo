@@ -85,16 +85,19 @@ package FirstOrderLag "Bandwidth, first-order lag"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2")) "Bandwidth, first-order lag, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"))
+    "Bandwidth, first-order lag, of an accelerometer";
 
   annotation(Documentation(info="<html>
 <p>Bandwidth, first-order lag; stage: dynamics.</p>
-<p>Equation (LaTeX): <code>y = \\frac{1}{1 + \\tau s} x,\\quad s \\to \\frac{11 - 18 z^{-1} + 9 z^{-2} - 2 z^{-3}}{6 h}</code></p>
-<p>Source: no source for the coefficient; single-pole low-pass, an exponential average in continuous time, its derivative by the backward difference of third order.</p>
+<p>Equation (LaTeX): <code>y = \\frac{1}{1 + \\tau s} x,\\quad s \\to \\frac{11 - 18 z^{-1} + 9 z^{-2} -
+2 z^{-3}}{6 h}</code></p>
+<p>Source: no source for the coefficient; single-pole low-pass, an exponential average in continuous
+time, its derivative by the backward difference of third order.</p>
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
 <tr><td>tau</td><td>s</td><td>time constant of the single pole; 0 switches the lag off</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end FirstOrderLag;

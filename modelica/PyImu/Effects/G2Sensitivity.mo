@@ -48,11 +48,13 @@ package G2Sensitivity "Acceleration-squared-sensitive drift, anisoelastic"
   annotation(Documentation(info="<html>
 <p>Acceleration-squared-sensitive drift, anisoelastic; stage: bias.</p>
 <p>Equation (LaTeX): <code>y = x + Q\\, [f_x^2, f_y^2, f_z^2, f_y f_z, f_z f_x, f_x f_y]^T</code></p>
-<p>Source: IEEE Std 528-2019, acceleration-squared-sensitive drift rate: squares and products of components.</p>
+<p>Source: IEEE Std 528-2019, acceleration-squared-sensitive drift rate: squares and products of
+components.</p>
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
-<tr><td>Q</td><td>{y}/(m/s^2)^2</td><td>drift of axis i per product of forces: xx, yy, zz, yz, zx, xy</td></tr>
+<tr><td>Q</td><td>{y}/(m/s^2)^2</td><td>drift of axis i per product of forces: xx, yy, zz, yz, zx,
+xy</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end G2Sensitivity;

@@ -44,7 +44,7 @@ package GSensitivity "Acceleration-sensitive drift (g-sensitivity)"
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
 <tr><td>G</td><td>{y}/(m/s^2)</td><td>drift of axis i per specific force along axis j</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end GSensitivity;

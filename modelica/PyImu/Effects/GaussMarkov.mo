@@ -68,17 +68,20 @@ package GaussMarkov "Exponentially correlated (Gauss-Markov) noise"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2")) "Exponentially correlated (Gauss-Markov) noise, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"))
+    "Exponentially correlated (Gauss-Markov) noise, of an accelerometer";
 
   annotation(Documentation(info="<html>
 <p>Exponentially correlated (Gauss-Markov) noise; stage: noise.</p>
 <p>Equation (LaTeX): <code>y = x + b,\\; \\dot b = -b / \\tau_c + q w</code></p>
-<p>Source: first-order Gauss-Markov process, exponentially correlated noise of IEEE Std 952; its text was not checked.</p>
+<p>Source: first-order Gauss-Markov process, exponentially correlated noise of IEEE Std 952; its
+text was not checked.</p>
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
-<tr><td>q</td><td>{y}/sqrt(s)</td><td>root of the two-sided density of the noise that drives it</td></tr>
+<tr><td>q</td><td>{y}/sqrt(s)</td><td>root of the two-sided density of the noise that drives
+it</td></tr>
 <tr><td>tau</td><td>s</td><td>correlation time, tau_c of the equation</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end GaussMarkov;

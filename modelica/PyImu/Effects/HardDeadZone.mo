@@ -24,7 +24,8 @@ package HardDeadZone "Dead band, hard"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), d(each unit="m/s2")) "Dead band, hard, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), d(each unit="m/s2"))
+    "Dead band, hard, of an accelerometer";
 
   block GyroContinuous "Dead band, hard, of a gyro, without samples"
     extends PyImu.Interfaces.ContinuousEffect(x(each unit="rad/s"), y(each unit="rad/s"));
@@ -35,17 +36,19 @@ package HardDeadZone "Dead band, hard"
     y = hardDeadZoneOutput(x, d);
   end GyroContinuous;
 
-  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), d(each unit="m/s2"))
-    "Dead band, hard, of an accelerometer, without samples";
+  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), d(each
+    unit="m/s2")) "Dead band, hard, of an accelerometer, without samples";
 
   annotation(Documentation(info="<html>
 <p>Dead band, hard; stage: output.</p>
 <p>Equation (LaTeX): <code>y = x\\ (|x| &gt; d),\\quad 0\\ (|x| \\le d)</code></p>
-<p>Source: no source for the form; dead band and threshold of IEEE Std 528, whose text was not checked, as firmware that suppresses small outputs leaves it.</p>
+<p>Source: no source for the form; dead band and threshold of IEEE Std 528, whose text was not
+checked, as firmware that suppresses small outputs leaves it.</p>
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
-<tr><td>d</td><td>{y}</td><td>largest input whose output is zero; larger ones pass as they are</td></tr>
+<tr><td>d</td><td>{y}</td><td>largest input whose output is zero; larger ones pass as they
+are</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end HardDeadZone;

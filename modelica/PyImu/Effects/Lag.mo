@@ -117,17 +117,19 @@ package Lag "Bandwidth, second-order lag"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2")) "Bandwidth, second-order lag, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"))
+    "Bandwidth, second-order lag, of an accelerometer";
 
   annotation(Documentation(info="<html>
 <p>Bandwidth, second-order lag; stage: dynamics.</p>
 <p>Equation (LaTeX): <code>y = \\frac{\\omega_n^2}{s^2 + 2 \\zeta \\omega_n s + \\omega_n^2} x</code></p>
-<p>Source: no source for the coefficients; second-order low-pass of a read-out: its poles exactly, its gain to second order in s.</p>
+<p>Source: no source for the coefficients; second-order low-pass of a read-out: its poles exactly,
+its gain to second order in s.</p>
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
 <tr><td>wn</td><td>rad/s</td><td>natural frequency; 0 switches the lag off</td></tr>
 <tr><td>zeta</td><td>1</td><td>damping ratio</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end Lag;

@@ -27,7 +27,8 @@ package MagneticSensitivity "Magnetic sensitivity"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), C(each unit="m/(s2.T)")) "Magnetic sensitivity, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), C(each unit="m/(s2.T)"))
+    "Magnetic sensitivity, of an accelerometer";
 
   block GyroContinuous "Magnetic sensitivity, of a gyro, without samples"
     extends PyImu.Interfaces.ContinuousEffect(x(each unit="rad/s"), y(each unit="rad/s"));
@@ -41,17 +42,18 @@ package MagneticSensitivity "Magnetic sensitivity"
     y = magneticSensitivityOutput(x, C, B);
   end GyroContinuous;
 
-  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), C(each unit="m/(s2.T)"))
-    "Magnetic sensitivity, of an accelerometer, without samples";
+  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), C(each
+    unit="m/(s2.T)")) "Magnetic sensitivity, of an accelerometer, without samples";
 
   annotation(Documentation(info="<html>
 <p>Magnetic sensitivity; stage: bias.</p>
 <p>Equation (LaTeX): <code>y = x + C B</code></p>
-<p>Source: IEEE Std 528-2019, acceleration-insensitive drift rate, note on magnetic influences; no source for the linear form.</p>
+<p>Source: IEEE Std 528-2019, acceleration-insensitive drift rate, note on magnetic influences; no
+source for the linear form.</p>
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
 <tr><td>C</td><td>{y}/T</td><td>bias of axis i per flux density along axis j</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end MagneticSensitivity;

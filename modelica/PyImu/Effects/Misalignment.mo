@@ -25,7 +25,8 @@ package Misalignment "Misalignment, nonorthogonality"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2")) "Misalignment, nonorthogonality, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"))
+    "Misalignment, nonorthogonality, of an accelerometer";
 
   block GyroContinuous "Misalignment, nonorthogonality, of a gyro, without samples"
     extends PyImu.Interfaces.ContinuousEffect(x(each unit="rad/s"), y(each unit="rad/s"));
@@ -47,7 +48,7 @@ package Misalignment "Misalignment, nonorthogonality"
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
 <tr><td>m</td><td>rad</td><td>small angle: part of axis j seen by axis i</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end Misalignment;

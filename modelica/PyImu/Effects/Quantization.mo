@@ -24,7 +24,8 @@ package Quantization "Resolution, quantization"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), q(each unit="m/s2")) "Resolution, quantization, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), q(each unit="m/s2"))
+    "Resolution, quantization, of an accelerometer";
 
   block GyroContinuous "Resolution, quantization, of a gyro, without samples"
     extends PyImu.Interfaces.ContinuousEffect(x(each unit="rad/s"), y(each unit="rad/s"));
@@ -35,8 +36,8 @@ package Quantization "Resolution, quantization"
     y = quantizationOutput(x, q);
   end GyroContinuous;
 
-  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), q(each unit="m/s2"))
-    "Resolution, quantization, of an accelerometer, without samples";
+  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), q(each
+    unit="m/s2")) "Resolution, quantization, of an accelerometer, without samples";
 
   annotation(Documentation(info="<html>
 <p>Resolution, quantization; stage: output.</p>
@@ -45,7 +46,7 @@ package Quantization "Resolution, quantization"
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
 <tr><td>q</td><td>{y}</td><td>step of the output; 0 switches rounding off</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end Quantization;

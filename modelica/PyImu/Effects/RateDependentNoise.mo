@@ -31,7 +31,8 @@ package RateDependentNoise "Rate-dependent noise, scale factor noise"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2")) "Rate-dependent noise, scale factor noise, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"))
+    "Rate-dependent noise, scale factor noise, of an accelerometer";
 
   annotation(Documentation(info="<html>
 <p>Rate-dependent noise, scale factor noise; stage: noise.</p>
@@ -40,7 +41,7 @@ package RateDependentNoise "Rate-dependent noise, scale factor noise"
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
 <tr><td>k</td><td>sqrt(s)</td><td>root of the two-sided density of the relative error</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end RateDependentNoise;

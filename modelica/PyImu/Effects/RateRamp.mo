@@ -25,7 +25,8 @@ package RateRamp "Rate (acceleration) ramp"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), R(each unit="m/s3")) "Rate (acceleration) ramp, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), R(each unit="m/s3"))
+    "Rate (acceleration) ramp, of an accelerometer";
 
   block GyroContinuous "Rate (acceleration) ramp, of a gyro, without samples"
     extends PyImu.Interfaces.ContinuousEffect(x(each unit="rad/s"), y(each unit="rad/s"));
@@ -37,8 +38,8 @@ package RateRamp "Rate (acceleration) ramp"
     y = rateRampOutput(x, R, t);
   end GyroContinuous;
 
-  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), R(each unit="m/s3"))
-    "Rate (acceleration) ramp, of an accelerometer, without samples";
+  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), R(each
+    unit="m/s3")) "Rate (acceleration) ramp, of an accelerometer, without samples";
 
   annotation(Documentation(info="<html>
 <p>Rate (acceleration) ramp; stage: bias.</p>
@@ -47,7 +48,7 @@ package RateRamp "Rate (acceleration) ramp"
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
 <tr><td>R</td><td>{y}/s</td><td>bias that grows with time</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end RateRamp;

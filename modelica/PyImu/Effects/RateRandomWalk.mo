@@ -44,16 +44,18 @@ package RateRandomWalk "Rate (acceleration) random walk"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2")) "Rate (acceleration) random walk, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"))
+    "Rate (acceleration) random walk, of an accelerometer";
 
   annotation(Documentation(info="<html>
 <p>Rate (acceleration) random walk; stage: noise.</p>
 <p>Equation (LaTeX): <code>y = x + b,\\; \\dot b = K w</code></p>
 <p>Source: Hidalgo 2012, section 3.2 and table 3.</p>
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
-<tr><td>K</td><td>{y}/sqrt(s)</td><td>root of the two-sided density of the bias&#x27;s derivative</td></tr>
+<tr><td>K</td><td>{y}/sqrt(s)</td><td>root of the two-sided density of the bias&#x27;s
+derivative</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end RateRandomWalk;

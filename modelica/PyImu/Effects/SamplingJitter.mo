@@ -31,7 +31,8 @@ package SamplingJitter "Sampling jitter"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2")) "Sampling jitter, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"))
+    "Sampling jitter, of an accelerometer";
 
   annotation(Documentation(info="<html>
 <p>Sampling jitter; stage: noise.</p>
@@ -40,8 +41,8 @@ package SamplingJitter "Sampling jitter"
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
 <tr><td>sj</td><td>s</td><td>standard deviation of the instant of sampling</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 <p>It wants new inputs at every sample: the difference of held ones is zero.</p>
 </html>"));
 end SamplingJitter;

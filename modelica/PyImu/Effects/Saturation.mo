@@ -24,7 +24,8 @@ package Saturation "Input range, saturation"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), limit(each unit="m/s2")) "Input range, saturation, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), limit(each unit="m/s2"))
+    "Input range, saturation, of an accelerometer";
 
   block GyroContinuous "Input range, saturation, of a gyro, without samples"
     extends PyImu.Interfaces.ContinuousEffect(x(each unit="rad/s"), y(each unit="rad/s"));
@@ -35,8 +36,8 @@ package Saturation "Input range, saturation"
     y = saturationOutput(x, limit);
   end GyroContinuous;
 
-  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), limit(each unit="m/s2"))
-    "Input range, saturation, of an accelerometer, without samples";
+  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), limit(each
+    unit="m/s2")) "Input range, saturation, of an accelerometer, without samples";
 
   annotation(Documentation(info="<html>
 <p>Input range, saturation; stage: output.</p>
@@ -45,7 +46,7 @@ package Saturation "Input range, saturation"
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
 <tr><td>limit</td><td>{y}</td><td>largest output; 0 switches the limit off</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end Saturation;

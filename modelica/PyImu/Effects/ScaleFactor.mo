@@ -22,7 +22,8 @@ package ScaleFactor "Scale factor error"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2")) "Scale factor error, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"))
+    "Scale factor error, of an accelerometer";
 
   block GyroContinuous "Scale factor error, of a gyro, without samples"
     extends PyImu.Interfaces.ContinuousEffect(x(each unit="rad/s"), y(each unit="rad/s"));
@@ -41,7 +42,7 @@ package ScaleFactor "Scale factor error"
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
 <tr><td>s</td><td>1</td><td>relative scale factor error</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end ScaleFactor;

@@ -23,7 +23,8 @@ package ScaleFactorAsymmetry "Scale factor asymmetry"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2")) "Scale factor asymmetry, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"))
+    "Scale factor asymmetry, of an accelerometer";
 
   block GyroContinuous "Scale factor asymmetry, of a gyro, without samples"
     extends PyImu.Interfaces.ContinuousEffect(x(each unit="rad/s"), y(each unit="rad/s"));
@@ -39,11 +40,13 @@ package ScaleFactorAsymmetry "Scale factor asymmetry"
   annotation(Documentation(info="<html>
 <p>Scale factor asymmetry; stage: gain.</p>
 <p>Equation (LaTeX): <code>y = x + s_a |x|</code></p>
-<p>Source: scale factor asymmetry of IEEE Std 528, whose text was not checked; here half the difference of the slopes.</p>
+<p>Source: scale factor asymmetry of IEEE Std 528, whose text was not checked; here half the
+difference of the slopes.</p>
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
-<tr><td>sa</td><td>1</td><td>half the difference of the slopes for positive and negative input</td></tr>
+<tr><td>sa</td><td>1</td><td>half the difference of the slopes for positive and negative
+input</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end ScaleFactorAsymmetry;

@@ -23,7 +23,8 @@ package ScaleFactorCubic "Scale factor nonlinearity, third order"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), s3(each unit="s4/m2")) "Scale factor nonlinearity, third order, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), s3(each unit="s4/m2"))
+    "Scale factor nonlinearity, third order, of an accelerometer";
 
   block GyroContinuous "Scale factor nonlinearity, third order, of a gyro, without samples"
     extends PyImu.Interfaces.ContinuousEffect(x(each unit="rad/s"), y(each unit="rad/s"));
@@ -33,17 +34,18 @@ package ScaleFactorCubic "Scale factor nonlinearity, third order"
     y = scaleFactorCubicOutput(x, s3);
   end GyroContinuous;
 
-  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), s3(each unit="s4/m2"))
-    "Scale factor nonlinearity, third order, of an accelerometer, without samples";
+  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), s3(each
+    unit="s4/m2")) "Scale factor nonlinearity, third order, of an accelerometer, without samples";
 
   annotation(Documentation(info="<html>
 <p>Scale factor nonlinearity, third order; stage: gain.</p>
 <p>Equation (LaTeX): <code>y = x + s_3 x^3</code></p>
-<p>Source: no source for a gyro; of an accelerometer K3 of IEEE Std 1293, whose text was not checked.</p>
+<p>Source: no source for a gyro; of an accelerometer K3 of IEEE Std 1293, whose text was not
+checked.</p>
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
 <tr><td>s3</td><td>1/({y})^2</td><td>relative change of the scale factor per squared input</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end ScaleFactorCubic;

@@ -42,9 +42,10 @@ package ScaleFactorGSensitivity "Scale factor acceleration sensitivity"
 <p>Equation (LaTeX): <code>y = (1 + P f)\\, x</code></p>
 <p>Source: no source for the equation; data sheets state its coefficient in ppm/g (STIM300).</p>
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
-<tr><td>P</td><td>1/(m/s^2)</td><td>relative scale factor error of axis i per force along axis j</td></tr>
+<tr><td>P</td><td>1/(m/s^2)</td><td>relative scale factor error of axis i per force along axis
+j</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end ScaleFactorGSensitivity;

@@ -42,13 +42,15 @@ package Sculling "Sculling from undersampling"
 
   annotation(Documentation(info="<html>
 <p>Sculling from undersampling; stage: motion.</p>
-<p>Equation (LaTeX): <code>y = x - c \\tfrac{h}{12} (\\omega_{k-1} \\times x_k + x_{k-1} \\times \\omega_k) = x + c \\tfrac{h^2}{12} (\\dot\\omega \\times x + \\dot f \\times \\omega)</code></p>
-<p>Source: two-sample correction of the velocity increment, as in Savage; no source checked for the factor 1/12; c = 1 is a read-out without it.</p>
+<p>Equation (LaTeX): <code>y = x - c \\tfrac{h}{12} (\\omega_{k-1} \\times x_k + x_{k-1} \\times
+\\omega_k) = x + c \\tfrac{h^2}{12} (\\dot\\omega \\times x + \\dot f \\times \\omega)</code></p>
+<p>Source: two-sample correction of the velocity increment, as in Savage; no source checked for the
+factor 1/12; c = 1 is a read-out without it.</p>
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
 <tr><td>c</td><td>1</td><td>share of the sculling correction that is missing</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 <p>It wants new inputs at every sample: the difference of held ones is zero.</p>
 </html>"));
 end Sculling;

@@ -52,13 +52,15 @@ package SizeEffect "Size effect, lever arm"
 
   annotation(Documentation(info="<html>
 <p>Size effect, lever arm; stage: motion.</p>
-<p>Equation (LaTeX): <code>y_i = x_i + e_i \\cdot (\\alpha \\times r_i + \\omega \\times (\\omega \\times r_i))</code></p>
+<p>Equation (LaTeX): <code>y_i = x_i + e_i \\cdot (\\alpha \\times r_i + \\omega \\times (\\omega \\times
+r_i))</code></p>
 <p>Source: rigid-body kinematics.</p>
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
-<tr><td>r</td><td>m</td><td>position of element i from the point whose force is meant, along axis j</td></tr>
+<tr><td>r</td><td>m</td><td>position of element i from the point whose force is meant, along axis
+j</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 <p>It wants new inputs at every sample: the difference of held ones is zero.</p>
 </html>"));
 end SizeEffect;

@@ -42,11 +42,14 @@ package SpinSensitivity "Spin-rate sensitivity, anisoinertia"
   annotation(Documentation(info="<html>
 <p>Spin-rate sensitivity, anisoinertia; stage: gain.</p>
 <p>Equation (LaTeX): <code>y_i = x_i + \\omega_i \\sum_j s_{ij} \\omega_j</code></p>
-<p>Source: IEEE Std 528-2019, anisoinertia (A), the product of the rates about input and pendulous axis, and spin-rate terms of IEEE Std 1293, whose text was not checked; no source for the square.</p>
+<p>Source: IEEE Std 528-2019, anisoinertia (A), the product of the rates about input and pendulous
+axis, and spin-rate terms of IEEE Std 1293, whose text was not checked; no source for the
+square.</p>
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
-<tr><td>s</td><td>{y}/(rad/s)^2</td><td>output of axis i per product of the rates about axes i and j; i = j: spin</td></tr>
+<tr><td>s</td><td>{y}/(rad/s)^2</td><td>output of axis i per product of the rates about axes i and
+j; i = j: spin</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end SpinSensitivity;

@@ -29,7 +29,8 @@ package SupplySensitivity "Supply sensitivity"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), kV(each unit="m/(s2.V)")) "Supply sensitivity, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), kV(each unit="m/(s2.V)"))
+    "Supply sensitivity, of an accelerometer";
 
   block GyroContinuous "Supply sensitivity, of a gyro, without samples"
     extends PyImu.Interfaces.ContinuousEffect(x(each unit="rad/s"), y(each unit="rad/s"));
@@ -42,18 +43,19 @@ package SupplySensitivity "Supply sensitivity"
     y = supplySensitivityOutput(x, kV, V0, V);
   end GyroContinuous;
 
-  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), kV(each unit="m/(s2.V)"))
-    "Supply sensitivity, of an accelerometer, without samples";
+  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), kV(each
+    unit="m/(s2.V)")) "Supply sensitivity, of an accelerometer, without samples";
 
   annotation(Documentation(info="<html>
 <p>Supply sensitivity; stage: bias.</p>
 <p>Equation (LaTeX): <code>y = x + k_V (V - V_0)</code></p>
-<p>Source: no source for the equation; data sheets state its coefficient per volt (ADIS16460 rev. B, table 1).</p>
+<p>Source: no source for the equation; data sheets state its coefficient per volt (ADIS16460 rev. B,
+table 1).</p>
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
 <tr><td>kV</td><td>{y}/V</td><td>bias per volt</td></tr>
 <tr><td>V0</td><td>V</td><td>supply at which the error is zero</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end SupplySensitivity;

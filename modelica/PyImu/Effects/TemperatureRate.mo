@@ -25,7 +25,8 @@ package TemperatureRate "Bias temperature-gradient sensitivity"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), kd(each unit="m/(s.K)")) "Bias temperature-gradient sensitivity, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), kd(each unit="m/(s.K)"))
+    "Bias temperature-gradient sensitivity, of an accelerometer";
 
   block GyroContinuous "Bias temperature-gradient sensitivity, of a gyro, without samples"
     extends PyImu.Interfaces.ContinuousEffect(x(each unit="rad/s"), y(each unit="rad/s"));
@@ -37,17 +38,18 @@ package TemperatureRate "Bias temperature-gradient sensitivity"
     y = temperatureRateOutput(x, kd, Td);
   end GyroContinuous;
 
-  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), kd(each unit="m/(s.K)"))
-    "Bias temperature-gradient sensitivity, of an accelerometer, without samples";
+  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), kd(each
+    unit="m/(s.K)")) "Bias temperature-gradient sensitivity, of an accelerometer, without samples";
 
   annotation(Documentation(info="<html>
 <p>Bias temperature-gradient sensitivity; stage: bias.</p>
 <p>Equation (LaTeX): <code>y = x + k_d \\dot T</code></p>
-<p>Source: no source for the equation; data sheets state its coefficient per K/min (STIM300, bias over temperature gradients).</p>
+<p>Source: no source for the equation; data sheets state its coefficient per K/min (STIM300, bias
+over temperature gradients).</p>
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
 <tr><td>kd</td><td>{y}*s/K</td><td>bias per rate of temperature</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end TemperatureRate;

@@ -29,7 +29,8 @@ package ThermalBias "Bias temperature sensitivity"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), kT(each unit="m/(s2.K)")) "Bias temperature sensitivity, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), kT(each unit="m/(s2.K)"))
+    "Bias temperature sensitivity, of an accelerometer";
 
   block GyroContinuous "Bias temperature sensitivity, of a gyro, without samples"
     extends PyImu.Interfaces.ContinuousEffect(x(each unit="rad/s"), y(each unit="rad/s"));
@@ -42,8 +43,8 @@ package ThermalBias "Bias temperature sensitivity"
     y = thermalBiasOutput(x, kT, T0, T);
   end GyroContinuous;
 
-  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), kT(each unit="m/(s2.K)"))
-    "Bias temperature sensitivity, of an accelerometer, without samples";
+  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), kT(each
+    unit="m/(s2.K)")) "Bias temperature sensitivity, of an accelerometer, without samples";
 
   annotation(Documentation(info="<html>
 <p>Bias temperature sensitivity; stage: bias.</p>
@@ -53,7 +54,7 @@ package ThermalBias "Bias temperature sensitivity"
 <tr><td>kT</td><td>{y}/K</td><td>bias per kelvin</td></tr>
 <tr><td>T0</td><td>degC</td><td>temperature at which the thermal error is zero</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end ThermalBias;

@@ -30,7 +30,8 @@ package ThermalBiasCubic "Bias temperature sensitivity, third order"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), k3(each unit="m/(s2.K3)")) "Bias temperature sensitivity, third order, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), k3(each unit="m/(s2.K3)"))
+    "Bias temperature sensitivity, third order, of an accelerometer";
 
   block GyroContinuous "Bias temperature sensitivity, third order, of a gyro, without samples"
     extends PyImu.Interfaces.ContinuousEffect(x(each unit="rad/s"), y(each unit="rad/s"));
@@ -43,18 +44,20 @@ package ThermalBiasCubic "Bias temperature sensitivity, third order"
     y = thermalBiasCubicOutput(x, k3, T0, T);
   end GyroContinuous;
 
-  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), k3(each unit="m/(s2.K3)"))
+  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), k3(each
+    unit="m/(s2.K3)"))
     "Bias temperature sensitivity, third order, of an accelerometer, without samples";
 
   annotation(Documentation(info="<html>
 <p>Bias temperature sensitivity, third order; stage: bias.</p>
 <p>Equation (LaTeX): <code>y = x + k_3 (T - T_0)^3</code></p>
-<p>Source: polynomial of third order as autopilots fit it (ArduPilot, pull request 16262; PX4, parameters TC_G).</p>
+<p>Source: polynomial of third order as autopilots fit it (ArduPilot, pull request 16262; PX4,
+parameters TC_G).</p>
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
 <tr><td>k3</td><td>{y}/K^3</td><td>bias per kelvin cubed</td></tr>
 <tr><td>T0</td><td>degC</td><td>temperature at which the thermal error is zero</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end ThermalBiasCubic;

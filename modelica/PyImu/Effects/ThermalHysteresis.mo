@@ -46,17 +46,20 @@ package ThermalHysteresis "Bias thermal hysteresis"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), kh(each unit="m/(s2.K)")) "Bias thermal hysteresis, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), kh(each unit="m/(s2.K)"))
+    "Bias thermal hysteresis, of an accelerometer";
 
   annotation(Documentation(info="<html>
 <p>Bias thermal hysteresis; stage: bias.</p>
 <p>Equation (LaTeX): <code>y = x + k_h (\\mathrm{play}_w(T) - T)</code></p>
-<p>Source: no source for the play operator as a model of a sensor; the operator: Visintin, Differential Models of Hysteresis, 1994.</p>
+<p>Source: no source for the play operator as a model of a sensor; the operator: Visintin,
+Differential Models of Hysteresis, 1994.</p>
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
-<tr><td>kh</td><td>{y}/K</td><td>bias per kelvin by which the play lags behind the temperature</td></tr>
+<tr><td>kh</td><td>{y}/K</td><td>bias per kelvin by which the play lags behind the
+temperature</td></tr>
 <tr><td>width</td><td>K</td><td>half width of the play</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end ThermalHysteresis;

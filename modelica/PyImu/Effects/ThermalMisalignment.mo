@@ -32,7 +32,8 @@ package ThermalMisalignment "Misalignment temperature sensitivity"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2")) "Misalignment temperature sensitivity, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"))
+    "Misalignment temperature sensitivity, of an accelerometer";
 
   block GyroContinuous "Misalignment temperature sensitivity, of a gyro, without samples"
     extends PyImu.Interfaces.ContinuousEffect(x(each unit="rad/s"), y(each unit="rad/s"));
@@ -54,12 +55,13 @@ package ThermalMisalignment "Misalignment temperature sensitivity"
   annotation(Documentation(info="<html>
 <p>Misalignment temperature sensitivity; stage: gain.</p>
 <p>Equation (LaTeX): <code>y = x + (T - T_0) M_T x,\\; \\mathrm{diag}\\, M_T = 0</code></p>
-<p>Source: no source for the equation; the linear term of a misalignment that follows temperature.</p>
+<p>Source: no source for the equation; the linear term of a misalignment that follows
+temperature.</p>
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
 <tr><td>mT</td><td>rad/K</td><td>part of axis j seen by axis i, per kelvin</td></tr>
 <tr><td>T0</td><td>degC</td><td>temperature at which the thermal error is zero</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end ThermalMisalignment;

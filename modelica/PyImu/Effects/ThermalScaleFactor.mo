@@ -29,7 +29,8 @@ package ThermalScaleFactor "Scale factor temperature sensitivity"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2")) "Scale factor temperature sensitivity, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"))
+    "Scale factor temperature sensitivity, of an accelerometer";
 
   block GyroContinuous "Scale factor temperature sensitivity, of a gyro, without samples"
     extends PyImu.Interfaces.ContinuousEffect(x(each unit="rad/s"), y(each unit="rad/s"));
@@ -48,12 +49,13 @@ package ThermalScaleFactor "Scale factor temperature sensitivity"
   annotation(Documentation(info="<html>
 <p>Scale factor temperature sensitivity; stage: gain.</p>
 <p>Equation (LaTeX): <code>y = (1 + k_S (T - T_0))\\, x</code></p>
-<p>Source: no source for the equation; data sheets state its coefficient per K (ADIS16460 rev. B, table 1).</p>
+<p>Source: no source for the equation; data sheets state its coefficient per K (ADIS16460 rev. B,
+table 1).</p>
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
 <tr><td>kS</td><td>1/K</td><td>relative scale factor error per kelvin</td></tr>
 <tr><td>T0</td><td>degC</td><td>temperature at which the thermal error is zero</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end ThermalScaleFactor;

@@ -370,16 +370,18 @@ package TimeDelay "Time delay, timestamp offset"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2")) "Time delay, timestamp offset, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"))
+    "Time delay, timestamp offset, of an accelerometer";
 
   annotation(Documentation(info="<html>
 <p>Time delay, timestamp offset; stage: dynamics.</p>
 <p>Equation (LaTeX): <code>y(t) = x(t - t_d)</code></p>
 <p>Source: no source for the coefficient; third-order Lagrange interpolation between samples.</p>
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
-<tr><td>td</td><td>s</td><td>delay of the output behind the motion, at most 30 sample periods</td></tr>
+<tr><td>td</td><td>s</td><td>delay of the output behind the motion, at most 30 sample
+periods</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end TimeDelay;

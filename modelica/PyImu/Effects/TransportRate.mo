@@ -44,9 +44,10 @@ package TransportRate "Transport rate not modelled"
 <p>Equation (LaTeX): <code>y = x + k\\, R_{nb}^T [-v_N, v_E, v_E \\tan\\varphi] / R</code></p>
 <p>Source: Groves 2013, eq. 5.44, for a sphere.</p>
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
-<tr><td>k</td><td>1</td><td>share of the transport rate that is added; 1 where it had been left out</td></tr>
+<tr><td>k</td><td>1</td><td>share of the transport rate that is added; 1 where it had been left
+out</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end TransportRate;

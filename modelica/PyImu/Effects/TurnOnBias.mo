@@ -23,7 +23,8 @@ package TurnOnBias "Turn-on bias"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), b0(each unit="m/s2")) "Turn-on bias, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), b0(each unit="m/s2"))
+    "Turn-on bias, of an accelerometer";
 
   block GyroContinuous "Turn-on bias, of a gyro, without samples"
     extends PyImu.Interfaces.ContinuousEffect(x(each unit="rad/s"), y(each unit="rad/s"));
@@ -33,8 +34,8 @@ package TurnOnBias "Turn-on bias"
     y = turnOnBiasOutput(x, b0);
   end GyroContinuous;
 
-  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), b0(each unit="m/s2"))
-    "Turn-on bias, of an accelerometer, without samples";
+  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), b0(each
+    unit="m/s2")) "Turn-on bias, of an accelerometer, without samples";
 
   annotation(Documentation(info="<html>
 <p>Turn-on bias; stage: bias.</p>
@@ -43,7 +44,7 @@ package TurnOnBias "Turn-on bias"
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
 <tr><td>b0</td><td>{y}</td><td>turn-on bias, a new draw at each power-on</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end TurnOnBias;

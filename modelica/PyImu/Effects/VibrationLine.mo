@@ -31,7 +31,8 @@ package VibrationLine "Sinusoidal noise, vibration line"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), A(each unit="m/s2")) "Sinusoidal noise, vibration line, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), A(each unit="m/s2"))
+    "Sinusoidal noise, vibration line, of an accelerometer";
 
   block GyroContinuous "Sinusoidal noise, vibration line, of a gyro, without samples"
     extends PyImu.Interfaces.ContinuousEffect(x(each unit="rad/s"), y(each unit="rad/s"));
@@ -46,8 +47,8 @@ package VibrationLine "Sinusoidal noise, vibration line"
     y = vibrationLineOutput(x, A, f0, phase, t);
   end GyroContinuous;
 
-  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), A(each unit="m/s2"))
-    "Sinusoidal noise, vibration line, of an accelerometer, without samples";
+  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), A(each
+    unit="m/s2")) "Sinusoidal noise, vibration line, of an accelerometer, without samples";
 
   annotation(Documentation(info="<html>
 <p>Sinusoidal noise, vibration line; stage: bias.</p>
@@ -58,7 +59,7 @@ package VibrationLine "Sinusoidal noise, vibration line"
 <tr><td>f0</td><td>Hz</td><td>frequency</td></tr>
 <tr><td>phase</td><td>rad</td><td>phase at power-on</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end VibrationLine;

@@ -27,7 +27,8 @@ package VibrationRectification "Vibration rectification error"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), V(each unit="s2/m")) "Vibration rectification error, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), V(each unit="s2/m"))
+    "Vibration rectification error, of an accelerometer";
 
   block GyroContinuous "Vibration rectification error, of a gyro, without samples"
     extends PyImu.Interfaces.ContinuousEffect(x(each unit="rad/s"), y(each unit="rad/s"));
@@ -41,17 +42,19 @@ package VibrationRectification "Vibration rectification error"
     y = vibrationRectificationOutput(x, V, square);
   end GyroContinuous;
 
-  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), V(each unit="s2/m"))
-    "Vibration rectification error, of an accelerometer, without samples";
+  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), V(each
+    unit="s2/m")) "Vibration rectification error, of an accelerometer, without samples";
 
   annotation(Documentation(info="<html>
 <p>Vibration rectification error; stage: bias.</p>
 <p>Equation (LaTeX): <code>y = x + V \\langle f_\\mathrm{vib}^2 \\rangle</code></p>
-<p>Source: no source for the equation; data sheets state its coefficient per g^2 (ADIS16460 rev. B, table 1).</p>
+<p>Source: no source for the equation; data sheets state its coefficient per g^2 (ADIS16460 rev. B,
+table 1).</p>
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
-<tr><td>V</td><td>{y}/(m/s^2)^2</td><td>bias of axis i per mean square vibration along axis j</td></tr>
+<tr><td>V</td><td>{y}/(m/s^2)^2</td><td>bias of axis i per mean square vibration along axis
+j</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end VibrationRectification;

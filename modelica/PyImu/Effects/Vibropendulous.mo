@@ -38,11 +38,13 @@ package Vibropendulous "Vibropendulous error, cross coupling"
   annotation(Documentation(info="<html>
 <p>Vibropendulous error, cross coupling; stage: gain.</p>
 <p>Equation (LaTeX): <code>y_i = x_i + \\sum_{j \\ne i} k_{ij} x_i x_j</code></p>
-<p>Source: cross-coupling coefficients K_ip and K_io of IEEE Std 1293, whose text was not checked.</p>
+<p>Source: cross-coupling coefficients K_ip and K_io of IEEE Std 1293, whose text was not
+checked.</p>
 <table><tr><th>coefficient</th><th>unit</th><th>meaning</th></tr>
-<tr><td>kp</td><td>1/({y})</td><td>relative change of axis i&#x27;s scale factor per force along axis j</td></tr>
+<tr><td>kp</td><td>1/({y})</td><td>relative change of axis i&#x27;s scale factor per force along
+axis j</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end Vibropendulous;

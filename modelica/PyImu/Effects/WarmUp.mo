@@ -30,7 +30,8 @@ package WarmUp "Warm-up transient"
     end when;
   end Gyro;
 
-  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), A(each unit="m/s2")) "Warm-up transient, of an accelerometer";
+  block Accel = Gyro(x(each unit="m/s2"), y(each unit="m/s2"), A(each unit="m/s2"))
+    "Warm-up transient, of an accelerometer";
 
   block GyroContinuous "Warm-up transient, of a gyro, without samples"
     extends PyImu.Interfaces.ContinuousEffect(x(each unit="rad/s"), y(each unit="rad/s"));
@@ -44,8 +45,8 @@ package WarmUp "Warm-up transient"
     y = warmUpOutput(x, A, tau, t);
   end GyroContinuous;
 
-  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), A(each unit="m/s2"))
-    "Warm-up transient, of an accelerometer, without samples";
+  block AccelContinuous = GyroContinuous(x(each unit="m/s2"), y(each unit="m/s2"), A(each
+    unit="m/s2")) "Warm-up transient, of an accelerometer, without samples";
 
   annotation(Documentation(info="<html>
 <p>Warm-up transient; stage: bias.</p>
@@ -55,7 +56,7 @@ package WarmUp "Warm-up transient"
 <tr><td>A</td><td>{y}</td><td>bias at power-on that dies away</td></tr>
 <tr><td>tau</td><td>s</td><td>time constant</td></tr>
 </table>
-<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s.</p>
-<p>At the start values of its coefficients the effect is the identity.</p>
+<p>{y} is rad/s of a gyro and m/s^2 of an accelerometer, {Y} rad and m/s. At the start values of its
+coefficients the effect is the identity.</p>
 </html>"));
 end WarmUp;

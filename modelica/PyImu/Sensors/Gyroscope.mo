@@ -1,9 +1,23 @@
 // Written by `make generate` from the definitions in pyimu; do not edit.
 within PyImu.Sensors;
 block Gyroscope "Gyroscope of a built-in part"
-  extends PyImu.Interfaces.Triad;
+  extends PyImu.Interfaces.Triad(samplePeriod=partPeriods[part]);
   parameter PyImu.Sensors.Part part = PyImu.Sensors.Part.Imt30 "Which part"
     annotation(Evaluate=true);
+  constant Modelica.Units.SI.Time partPeriods[PyImu.Sensors.Part] = {
+    0.001220703125,
+    0.0005,
+    0.00023529411764705883,
+    0.0025,
+    0.0008888888888888889,
+    0.001,
+    0.0010245901639344263,
+    0.002403846153846154,
+    0.002403846153846154,
+    0.001,
+    0.001,
+    0.0005,
+    0.001} "Sample period of each part";
   Modelica.Blocks.Interfaces.RealOutput y[3](each unit="rad/s") "Output, body axes"
     annotation(Placement(transformation(extent={{100,-10},{120,10}})));
   PyImu.Sensors.Parts.Adis16405.Gyroscope adis16405(samplePeriod=samplePeriod, seed=seed)
@@ -87,7 +101,6 @@ equation
   connect(stim300.y, y);
   annotation(Documentation(info="<html>
 <p>One of the built-in parts, chosen by <code>part</code>, with its own effects and no others. The
-sample period is not the part's own: give it, as the part's data sheet has it or as the model needs
-it.</p>
+sample period is the part's own unless another is given.</p>
 </html>"));
 end Gyroscope;

@@ -1,9 +1,23 @@
 // Written by `make generate` from the definitions in pyimu; do not edit.
 within PyImu.Sensors;
 block Imu "Inertial measurement unit of a built-in part"
-  extends PyImu.Interfaces.Imu;
+  extends PyImu.Interfaces.Imu(samplePeriod=partPeriods[part]);
   parameter PyImu.Sensors.Part part = PyImu.Sensors.Part.Imt30 "Which part"
     annotation(Evaluate=true);
+  constant Modelica.Units.SI.Time partPeriods[PyImu.Sensors.Part] = {
+    0.001220703125,
+    0.0005,
+    0.00023529411764705883,
+    0.0025,
+    0.0008888888888888889,
+    0.001,
+    0.0010245901639344263,
+    0.002403846153846154,
+    0.002403846153846154,
+    0.001,
+    0.001,
+    0.0005,
+    0.001} "Sample period of each part";
   PyImu.Sensors.Parts.Adis16405.Imu adis16405(samplePeriod=samplePeriod, seed=seed)
     if part == PyImu.Sensors.Part.Adis16405;
   PyImu.Sensors.Parts.Adis16470.Imu adis16470(samplePeriod=samplePeriod, seed=seed)
@@ -98,7 +112,6 @@ equation
   connect(stim300.accel, accel);
   annotation(Documentation(info="<html>
 <p>One of the built-in parts, chosen by <code>part</code>, with its own effects and no others. The
-sample period is not the part's own: give it, as the part's data sheet has it or as the model needs
-it.</p>
+sample period is the part's own unless another is given.</p>
 </html>"));
 end Imu;

@@ -3,7 +3,7 @@ within PyImu.Signals;
 package AngularAcceleration "Rate of the angular rate, body axes"
   extends PyImu.Icons.SignalPackage;
 
-  function angularAccelerationOutput "rate of the angular rate, body axes"
+  function angularAccelerationSignal "rate of the angular rate, body axes"
     extends Modelica.Icons.Function;
     input Real rate[3], memory[3];
     input Boolean started;
@@ -13,7 +13,7 @@ package AngularAcceleration "Rate of the angular rate, body axes"
     y[1] := (rate[1] - (if started then memory[1] else rate[1]))/h;
     y[2] := (rate[2] - (if started then memory[2] else rate[2]))/h;
     y[3] := (rate[3] - (if started then memory[3] else rate[3]))/h;
-  end angularAccelerationOutput;
+  end angularAccelerationSignal;
 
   block Signal "Rate of the angular rate, body axes"
     extends PyImu.Interfaces.Sampled;
@@ -28,13 +28,14 @@ package AngularAcceleration "Rate of the angular rate, body axes"
     Boolean started(start=false, fixed=true);
   equation
     when sample(samplePeriod, samplePeriod) then
-      y = angularAccelerationOutput(rate, pre(memory), pre(started), samplePeriod);
+      y = angularAccelerationSignal(rate, pre(memory), pre(started), samplePeriod);
       memory = rate;
       started = true;
     end when;
   end Signal;
 
   annotation(Documentation(info="<html>
-<p>Rate of the angular rate, body axes, sample by sample, from rate. At the first sample it is zero.</p>
+<p>Rate of the angular rate, body axes, sample by sample, from rate. At the first sample it is
+zero.</p>
 </html>"));
 end AngularAcceleration;

@@ -3,7 +3,7 @@ within PyImu.Signals;
 package EarthRate "The Earth's rotation, body axes"
   extends PyImu.Icons.SignalPackage;
 
-  function earthRateOutput "the Earth's rotation, body axes"
+  function earthRateSignal "the Earth's rotation, body axes"
     extends Modelica.Icons.Function;
     input Real attitude[4], latitude;
     output Real y[3];
@@ -24,7 +24,7 @@ package EarthRate "The Earth's rotation, body axes"
     y[1] := v2*v7 + (v3*v9 - v5*v10);
     y[2] := v4 + v2*v9 + (v8*v10 - v3*v7);
     y[3] := v6 + v2*v10 + (v5*v7 - v8*v9);
-  end earthRateOutput;
+  end earthRateSignal;
 
   block Signal "The Earth's rotation, body axes"
     extends PyImu.Interfaces.Sampled;
@@ -38,7 +38,7 @@ package EarthRate "The Earth's rotation, body axes"
       annotation(Placement(transformation(extent={{100,-10},{120,10}})));
   equation
     when sample(samplePeriod, samplePeriod) then
-      y = earthRateOutput(attitude, latitude);
+      y = earthRateSignal(attitude, latitude);
     end when;
   end Signal;
 

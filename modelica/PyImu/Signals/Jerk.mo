@@ -3,7 +3,7 @@ within PyImu.Signals;
 package Jerk "Rate of the specific force, body axes"
   extends PyImu.Icons.SignalPackage;
 
-  function jerkOutput "rate of the specific force, body axes"
+  function jerkSignal "rate of the specific force, body axes"
     extends Modelica.Icons.Function;
     input Real specificForce[3], memory[3];
     input Boolean started;
@@ -13,7 +13,7 @@ package Jerk "Rate of the specific force, body axes"
     y[1] := (specificForce[1] - (if started then memory[1] else specificForce[1]))/h;
     y[2] := (specificForce[2] - (if started then memory[2] else specificForce[2]))/h;
     y[3] := (specificForce[3] - (if started then memory[3] else specificForce[3]))/h;
-  end jerkOutput;
+  end jerkSignal;
 
   block Signal "Rate of the specific force, body axes"
     extends PyImu.Interfaces.Sampled;
@@ -28,13 +28,14 @@ package Jerk "Rate of the specific force, body axes"
     Boolean started(start=false, fixed=true);
   equation
     when sample(samplePeriod, samplePeriod) then
-      y = jerkOutput(specificForce, pre(memory), pre(started), samplePeriod);
+      y = jerkSignal(specificForce, pre(memory), pre(started), samplePeriod);
       memory = specificForce;
       started = true;
     end when;
   end Signal;
 
   annotation(Documentation(info="<html>
-<p>Rate of the specific force, body axes, sample by sample, from specificForce. At the first sample it is zero.</p>
+<p>Rate of the specific force, body axes, sample by sample, from specificForce. At the first sample
+it is zero.</p>
 </html>"));
 end Jerk;

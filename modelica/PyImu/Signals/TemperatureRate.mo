@@ -3,7 +3,7 @@ within PyImu.Signals;
 package TemperatureRate "Rate of the temperature"
   extends PyImu.Icons.SignalPackage;
 
-  function temperatureRateOutput "rate of the temperature"
+  function temperatureRateSignal "rate of the temperature"
     extends Modelica.Icons.Function;
     input Real temperature, memory[4];
     input Boolean started;
@@ -15,9 +15,9 @@ package TemperatureRate "Rate of the temperature"
     v1 := if started then memory[1] else temperature;
     y := if temperature <> v1 then (temperature - v1)/(min(memory[2] + 1, max(1, floor(60/h)))*h)
       else if memory[4] > 0 then memory[3] else 0;
-  end temperatureRateOutput;
+  end temperatureRateSignal;
 
-  function temperatureRateNextMemory "memory of the next sample"
+  function temperatureRateSignalNextMemory "memory of the next sample"
     extends Modelica.Icons.Function;
     input Real temperature, memory[4];
     input Boolean started;
@@ -37,7 +37,7 @@ package TemperatureRate "Rate of the temperature"
     following[3] := if v2 then (temperature - v1)/(v4*h) else if memory[4] > 0 then memory[3] else
       0;
     following[4] := max((if v2 then v4 else memory[4]) - 1, 0);
-  end temperatureRateNextMemory;
+  end temperatureRateSignalNextMemory;
 
   block Signal "Rate of the temperature"
     extends PyImu.Interfaces.Sampled;
@@ -51,13 +51,15 @@ package TemperatureRate "Rate of the temperature"
     Boolean started(start=false, fixed=true);
   equation
     when sample(samplePeriod, samplePeriod) then
-      y = temperatureRateOutput(temperature, pre(memory), pre(started), samplePeriod);
-      memory = temperatureRateNextMemory(temperature, pre(memory), pre(started), samplePeriod);
+      y = temperatureRateSignal(temperature, pre(memory), pre(started), samplePeriod);
+      memory = temperatureRateSignalNextMemory(temperature, pre(memory), pre(started),
+        samplePeriod);
       started = true;
     end when;
   end Signal;
 
   annotation(Documentation(info="<html>
-<p>Rate of the temperature, sample by sample, from temperature. A temperature that has rested for more than 60 s changes as if it had rested so long.</p>
+<p>Rate of the temperature, sample by sample, from temperature. A temperature that has rested for
+more than 60 s changes as if it had rested so long.</p>
 </html>"));
 end TemperatureRate;

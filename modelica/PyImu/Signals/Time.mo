@@ -3,21 +3,21 @@ within PyImu.Signals;
 package Time "Time since power-on"
   extends PyImu.Icons.SignalPackage;
 
-  function timeOutput "time since power-on"
+  function timeSignal "time since power-on"
     extends Modelica.Icons.Function;
     input Real memory[1], h;
     output Real y;
   algorithm
     y := (memory[1] + 1)*h;
-  end timeOutput;
+  end timeSignal;
 
-  function timeNextMemory "memory of the next sample"
+  function timeSignalNextMemory "memory of the next sample"
     extends Modelica.Icons.Function;
     input Real memory[1];
     output Real following[1];
   algorithm
     following[1] := memory[1] + 1;
-  end timeNextMemory;
+  end timeSignalNextMemory;
 
   block Signal "Time since power-on"
     extends PyImu.Interfaces.Sampled;
@@ -27,8 +27,8 @@ package Time "Time since power-on"
     discrete Real memory[1](each start=0, each fixed=true);
   equation
     when sample(samplePeriod, samplePeriod) then
-      y = timeOutput(pre(memory), samplePeriod);
-      memory = timeNextMemory(pre(memory));
+      y = timeSignal(pre(memory), samplePeriod);
+      memory = timeSignalNextMemory(pre(memory));
     end when;
   end Signal;
 

@@ -3,7 +3,7 @@ within PyImu.Signals;
 package TransportRate "Rotation of east-north-up along the way over the Earth, body axes"
   extends PyImu.Icons.SignalPackage;
 
-  function transportRateOutput "rotation of east-north-up along the way over the Earth, body axes"
+  function transportRateSignal "rotation of east-north-up along the way over the Earth, body axes"
     extends Modelica.Icons.Function;
     input Real attitude[4], latitude, velocity[3];
     output Real y[3];
@@ -25,7 +25,7 @@ package TransportRate "Rotation of east-north-up along the way over the Earth, b
     y[1] := v2*v7 - v8 + (v3*v10 - v5*v11);
     y[2] := v4 + v2*v10 + (v9*v11 - v3*v7);
     y[3] := v6 + v2*v11 + (v5*v7 - v9*v10);
-  end transportRateOutput;
+  end transportRateSignal;
 
   block Signal "Rotation of east-north-up along the way over the Earth, body axes"
     extends PyImu.Interfaces.Sampled;
@@ -42,11 +42,12 @@ package TransportRate "Rotation of east-north-up along the way over the Earth, b
       annotation(Placement(transformation(extent={{100,-10},{120,10}})));
   equation
     when sample(samplePeriod, samplePeriod) then
-      y = transportRateOutput(attitude, latitude, velocity);
+      y = transportRateSignal(attitude, latitude, velocity);
     end when;
   end Signal;
 
   annotation(Documentation(info="<html>
-<p>Rotation of east-north-up along the way over the Earth, body axes, sample by sample, from attitude, latitude, velocity.</p>
+<p>Rotation of east-north-up along the way over the Earth, body axes, sample by sample, from
+attitude, latitude, velocity.</p>
 </html>"));
 end TransportRate;

@@ -3,7 +3,7 @@ within PyImu.Signals;
 package Turned "Angle turned about each body axis since power-on"
   extends PyImu.Icons.SignalPackage;
 
-  function turnedOutput "angle turned about each body axis since power-on"
+  function turnedSignal "angle turned about each body axis since power-on"
     extends Modelica.Icons.Function;
     input Real rate[3], memory[3], h;
     output Real y[3];
@@ -11,9 +11,9 @@ package Turned "Angle turned about each body axis since power-on"
     y[1] := memory[1] + h*rate[1];
     y[2] := memory[2] + h*rate[2];
     y[3] := memory[3] + h*rate[3];
-  end turnedOutput;
+  end turnedSignal;
 
-  function turnedNextMemory "memory of the next sample"
+  function turnedSignalNextMemory "memory of the next sample"
     extends Modelica.Icons.Function;
     input Real rate[3], memory[3], h;
     output Real following[3];
@@ -21,7 +21,7 @@ package Turned "Angle turned about each body axis since power-on"
     following[1] := memory[1] + h*rate[1];
     following[2] := memory[2] + h*rate[2];
     following[3] := memory[3] + h*rate[3];
-  end turnedNextMemory;
+  end turnedSignalNextMemory;
 
   block Signal "Angle turned about each body axis since power-on"
     extends PyImu.Interfaces.Sampled;
@@ -35,8 +35,8 @@ package Turned "Angle turned about each body axis since power-on"
     discrete Real memory[3](each start=0, each fixed=true);
   equation
     when sample(samplePeriod, samplePeriod) then
-      y = turnedOutput(rate, pre(memory), samplePeriod);
-      memory = turnedNextMemory(rate, pre(memory), samplePeriod);
+      y = turnedSignal(rate, pre(memory), samplePeriod);
+      memory = turnedSignalNextMemory(rate, pre(memory), samplePeriod);
     end when;
   end Signal;
 

@@ -3,7 +3,7 @@ within PyImu.Signals;
 package Vibration "Mean square of the specific force's vibration, body axes"
   extends PyImu.Icons.SignalPackage;
 
-  function vibrationOutput "mean square of the specific force's vibration, body axes"
+  function vibrationSignal "mean square of the specific force's vibration, body axes"
     extends Modelica.Icons.Function;
     input Real specificForce[3], memory[6];
     input Boolean started;
@@ -22,9 +22,9 @@ package Vibration "Mean square of the specific force's vibration, body axes"
       v3))) - memory[5]);
     y[3] := memory[6] + v1*(PyImu.Math.square(specificForce[3] - (v4 + v1*(specificForce[3] -
       v4))) - memory[6]);
-  end vibrationOutput;
+  end vibrationSignal;
 
-  function vibrationNextMemory "memory of the next sample"
+  function vibrationSignalNextMemory "memory of the next sample"
     extends Modelica.Icons.Function;
     input Real specificForce[3], memory[6];
     input Boolean started;
@@ -46,7 +46,7 @@ package Vibration "Mean square of the specific force's vibration, body axes"
     following[4] := memory[4] + v2*(PyImu.Math.square(specificForce[1] - v3) - memory[4]);
     following[5] := memory[5] + v2*(PyImu.Math.square(specificForce[2] - v5) - memory[5]);
     following[6] := memory[6] + v2*(PyImu.Math.square(specificForce[3] - v7) - memory[6]);
-  end vibrationNextMemory;
+  end vibrationSignalNextMemory;
 
   block Signal "Mean square of the specific force's vibration, body axes"
     extends PyImu.Interfaces.Sampled;
@@ -61,13 +61,14 @@ package Vibration "Mean square of the specific force's vibration, body axes"
     Boolean started(start=false, fixed=true);
   equation
     when sample(samplePeriod, samplePeriod) then
-      y = vibrationOutput(specificForce, pre(memory), pre(started), samplePeriod);
-      memory = vibrationNextMemory(specificForce, pre(memory), pre(started), samplePeriod);
+      y = vibrationSignal(specificForce, pre(memory), pre(started), samplePeriod);
+      memory = vibrationSignalNextMemory(specificForce, pre(memory), pre(started), samplePeriod);
       started = true;
     end when;
   end Signal;
 
   annotation(Documentation(info="<html>
-<p>Mean square of the specific force's vibration, body axes, sample by sample, from specificForce. Both means have a time constant of 1 s.</p>
+<p>Mean square of the specific force's vibration, body axes, sample by sample, from specificForce.
+Both means have a time constant of 1 s.</p>
 </html>"));
 end Vibration;

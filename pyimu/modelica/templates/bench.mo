@@ -11,6 +11,6 @@ equation
   annotation(
     experiment(StopTime={{ stop }}, Interval={{ period }}),
     Documentation(info="<html>
-<p>{{ documentation | text }}</p>
+{{ ("<p>" ~ documentation ~ "</p>") | page }}
 </html>"));
 end {{ name }};

@@ -30,7 +30,8 @@ package {{ name }} "{{ effect.term | capital | text }}"
   end {{ first.name }};
 {% for block in others %}
 
-  block {{ block.name }} = {{ first.name }}({{ block.modifications }}) "{{ block.description | text }}";
+{% set line = "block " ~ block.name ~ " = " ~ first.name ~ "(" ~ block.modifications ~ ")" ~ block.description | comment ~ ";" %}
+  {{ line | folded(2) }}
 {% endfor %}
 {% if continuous %}
 
@@ -47,12 +48,12 @@ package {{ name }} "{{ effect.term | capital | text }}"
   end {{ first.name }}Continuous;
 {% for block in others %}
 
-  block {{ block.name }}Continuous = {{ first.name }}Continuous({{ block.modifications }})
-    "{{ block.description | text }}, without samples";
+{% set line = "block " ~ block.name ~ "Continuous = " ~ first.name ~ "Continuous(" ~ block.modifications ~ ")" ~ (block.description ~ ", without samples") | comment ~ ";" %}
+  {{ line | folded(2) }}
 {% endfor %}
 {% endif %}
 
   annotation(Documentation(info="<html>
-{{ documentation | text }}
+{{ documentation | page }}
 </html>"));
 end {{ name }};

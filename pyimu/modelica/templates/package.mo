@@ -2,6 +2,6 @@ within {{ within }};
 package {{ name }} "{{ description | text }}"
   extends Modelica.Icons.Package;
   annotation(Documentation(info="<html>
-<p>{{ documentation | text }}</p>
+{{ ("<p>" ~ documentation ~ "</p>") | page }}
 </html>"));
 end {{ name }};

@@ -38,6 +38,6 @@ package {{ name }} "{{ description | text }}"
   end Imu;
 
   annotation({% if uses %}uses(PyImu(version="{{ version }}"), Modelica(version="4.0.0")), {% endif %}Documentation(info="<html>
-{{ documentation | text }}
+{{ documentation | page }}
 </html>"));
 end {{ name }};

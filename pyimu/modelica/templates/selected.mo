@@ -1,8 +1,12 @@
 within PyImu.Sensors;
 block {{ name }} "{{ description | text }}"
-  extends PyImu.Interfaces.{{ interface }};
+  extends PyImu.Interfaces.{{ interface }}(samplePeriod=partPeriods[part]);
   parameter PyImu.Sensors.Part part = PyImu.Sensors.Part.{{ default }} "Which part"
     annotation(Evaluate=true);
+  constant Modelica.Units.SI.Time partPeriods[PyImu.Sensors.Part] = {
+{% for part in parts %}
+    {{ part.period }}{{ "}" if loop.last else "," }}{{ ' "Sample period of each part";' if loop.last }}
+{% endfor %}
 {% if interface == "Triad" %}
   Modelica.Blocks.Interfaces.RealOutput y[3](each unit="{{ unit }}") "Output, body axes"
     annotation(Placement(transformation(extent={{ "{{100,-10},{120,10}}" }})));
@@ -22,7 +26,6 @@ equation
 {% endfor %}
   annotation(Documentation(info="<html>
 <p>One of the built-in parts, chosen by <code>part</code>, with its own effects and no others. The
-sample period is not the part's own: give it, as the part's data sheet has it or as the model needs
-it.</p>
+sample period is the part's own unless another is given.</p>
 </html>"));
 end {{ name }};

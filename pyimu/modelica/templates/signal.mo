@@ -27,6 +27,6 @@ package {{ name }} "{{ description | capital | text }}"
   end Signal;
 
   annotation(Documentation(info="<html>
-{{ documentation | text }}
+{{ documentation | page }}
 </html>"));
 end {{ name }};

@@ -14,6 +14,7 @@ equation
   annotation(
     experiment(StopTime=0.4, Interval=0.01),
     Documentation(info="<html>
-<p>The effect alone, at a size that a consumer's part has, with inputs of both signs that change at each sample. What stands for the normals is no noise.</p>
+<p>The effect alone, at a size that a consumer's part has, with inputs of both signs that change at
+each sample. What stands for the normals is no noise.</p>
 </html>"));
 end ThermalBias;

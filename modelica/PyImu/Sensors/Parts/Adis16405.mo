@@ -90,6 +90,8 @@ package Adis16405 "Analog Devices ADIS16405, industrial IMU with magnetometer"
 
   annotation(Documentation(info="<html>
 <p>Analog Devices ADIS16405, industrial IMU with magnetometer.</p>
-<p>Sampled at 819.2 Hz (ADIS16400/ADIS16405 data sheet Rev. B, register SMPL_PRD, default 819.2 samples/s, unchecked). Coefficients are in SI units; their sources stand behind the blocks that have them.</p>
+<p>Sampled at 819.2 Hz (ADIS16400/ADIS16405 data sheet Rev. B, register SMPL_PRD, default 819.2
+samples/s, unchecked). Coefficients are in SI units; their sources stand behind the blocks that have
+them.</p>
 </html>"));
 end Adis16405;

@@ -82,6 +82,8 @@ package Adis16470 "Analog Devices ADIS16470, miniature industrial IMU"
 
   annotation(Documentation(info="<html>
 <p>Analog Devices ADIS16470, miniature industrial IMU.</p>
-<p>Sampled at 2000 Hz (ADIS16470 data sheet Rev. C, internal sample rate 2000 samples/s, no decimation, second-hand). Coefficients are in SI units; their sources stand behind the blocks that have them.</p>
+<p>Sampled at 2000 Hz (ADIS16470 data sheet Rev. C, internal sample rate 2000 samples/s, no
+decimation, second-hand). Coefficients are in SI units; their sources stand behind the blocks that
+have them.</p>
 </html>"));
 end Adis16470;

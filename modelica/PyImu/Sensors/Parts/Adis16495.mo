@@ -74,6 +74,8 @@ package Adis16495 "Analog Devices ADIS16495-1, tactical-grade IMU"
 
   annotation(Documentation(info="<html>
 <p>Analog Devices ADIS16495-1, tactical-grade IMU.</p>
-<p>Sampled at 4250 Hz (ADIS16495 data sheet Rev. C, internal sample clock 4250 samples/s, no decimation, second-hand). Coefficients are in SI units; their sources stand behind the blocks that have them.</p>
+<p>Sampled at 4250 Hz (ADIS16495 data sheet Rev. C, internal sample clock 4250 samples/s, no
+decimation, second-hand). Coefficients are in SI units; their sources stand behind the blocks that
+have them.</p>
 </html>"));
 end Adis16495;

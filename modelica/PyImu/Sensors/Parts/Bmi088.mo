@@ -74,6 +74,8 @@ package Bmi088 "Bosch Sensortec BMI088, six-axis IMU for drones"
 
   annotation(Documentation(info="<html>
 <p>Bosch Sensortec BMI088, six-axis IMU for drones.</p>
-<p>Sampled at 400 Hz (BMI088 data sheet BST-BMI088-DS000-19 rev. 1.9, register GYRO_BANDWIDTH, output data rate of the 47 Hz filter, second-hand). Coefficients are in SI units; their sources stand behind the blocks that have them.</p>
+<p>Sampled at 400 Hz (BMI088 data sheet BST-BMI088-DS000-19 rev. 1.9, register GYRO_BANDWIDTH,
+output data rate of the 47 Hz filter, second-hand). Coefficients are in SI units; their sources
+stand behind the blocks that have them.</p>
 </html>"));
 end Bmi088;

@@ -70,6 +70,8 @@ package Icm20948 "TDK InvenSense ICM-20948, consumer nine-axis IMU, gyro and acc
 
   annotation(Documentation(info="<html>
 <p>TDK InvenSense ICM-20948, consumer nine-axis IMU, gyro and accelerometer.</p>
-<p>Sampled at 1125 Hz (ICM-20948 data sheet DS-000189 rev. 1.3, table 2, page 12, largest output data rate in low-noise mode with the filter on). Coefficients are in SI units; their sources stand behind the blocks that have them.</p>
+<p>Sampled at 1125 Hz (ICM-20948 data sheet DS-000189 rev. 1.3, table 2, page 12, largest output
+data rate in low-noise mode with the filter on). Coefficients are in SI units; their sources stand
+behind the blocks that have them.</p>
 </html>"));
 end Icm20948;

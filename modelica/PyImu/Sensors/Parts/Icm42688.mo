@@ -70,6 +70,8 @@ package Icm42688 "TDK InvenSense ICM-42688-P, high-precision consumer six-axis I
 
   annotation(Documentation(info="<html>
 <p>TDK InvenSense ICM-42688-P, high-precision consumer six-axis IMU.</p>
-<p>Sampled at 1000 Hz (ICM-42688-P data sheet DS-000347 rev. 1.8, registers GYRO_CONFIG0 and ACCEL_CONFIG0, reset state 1 kHz, unchecked). Coefficients are in SI units; their sources stand behind the blocks that have them.</p>
+<p>Sampled at 1000 Hz (ICM-42688-P data sheet DS-000347 rev. 1.8, registers GYRO_CONFIG0 and
+ACCEL_CONFIG0, reset state 1 kHz, unchecked). Coefficients are in SI units; their sources stand
+behind the blocks that have them.</p>
 </html>"));
 end Icm42688;

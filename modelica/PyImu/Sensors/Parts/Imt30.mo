@@ -61,6 +61,7 @@ package Imt30 "Imego IMT30, prototype of a tactical-grade MEMS inertial measurem
 
   annotation(Documentation(info="<html>
 <p>Imego IMT30, prototype of a tactical-grade MEMS inertial measurement unit.</p>
-<p>Sampled at 976 Hz (Hidalgo 2012, section 2.2, test setup (acquisition frequency)). Coefficients are in SI units; their sources stand behind the blocks that have them.</p>
+<p>Sampled at 976 Hz (Hidalgo 2012, section 2.2, test setup (acquisition frequency)). Coefficients
+are in SI units; their sources stand behind the blocks that have them.</p>
 </html>"));
 end Imt30;

@@ -70,6 +70,7 @@ package Lsm6dsl "STMicroelectronics LSM6DSL, consumer six-axis IMU"
 
   annotation(Documentation(info="<html>
 <p>STMicroelectronics LSM6DSL, consumer six-axis IMU.</p>
-<p>Sampled at 416 Hz (LSM6DSL data sheet DocID028475 rev. 7, table 3, page 22, one of the output data rates). Coefficients are in SI units; their sources stand behind the blocks that have them.</p>
+<p>Sampled at 416 Hz (LSM6DSL data sheet DocID028475 rev. 7, table 3, page 22, one of the output
+data rates). Coefficients are in SI units; their sources stand behind the blocks that have them.</p>
 </html>"));
 end Lsm6dsl;

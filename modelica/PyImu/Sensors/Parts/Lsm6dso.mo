@@ -74,6 +74,7 @@ package Lsm6dso "STMicroelectronics LSM6DSO, consumer six-axis IMU"
 
   annotation(Documentation(info="<html>
 <p>STMicroelectronics LSM6DSO, consumer six-axis IMU.</p>
-<p>Sampled at 416 Hz (LSM6DSO data sheet DS12140 rev. 2, table 2, page 10, one of the output data rates). Coefficients are in SI units; their sources stand behind the blocks that have them.</p>
+<p>Sampled at 416 Hz (LSM6DSO data sheet DS12140 rev. 2, table 2, page 10, one of the output data
+rates). Coefficients are in SI units; their sources stand behind the blocks that have them.</p>
 </html>"));
 end Lsm6dso;

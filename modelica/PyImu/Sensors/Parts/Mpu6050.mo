@@ -78,6 +78,8 @@ package Mpu6050 "InvenSense MPU-6050, consumer six-axis IMU"
 
   annotation(Documentation(info="<html>
 <p>InvenSense MPU-6050, consumer six-axis IMU.</p>
-<p>Sampled at 1000 Hz (MPU-6000/MPU-6050 product specification PS-MPU-6000A-00 rev. 3.4, section 6.2, page 13, output data rate at which the noise is stated). Coefficients are in SI units; their sources stand behind the blocks that have them.</p>
+<p>Sampled at 1000 Hz (MPU-6000/MPU-6050 product specification PS-MPU-6000A-00 rev. 3.4, section
+6.2, page 13, output data rate at which the noise is stated). Coefficients are in SI units; their
+sources stand behind the blocks that have them.</p>
 </html>"));
 end Mpu6050;

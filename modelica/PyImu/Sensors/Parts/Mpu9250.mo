@@ -78,6 +78,8 @@ package Mpu9250 "InvenSense MPU-9250, consumer nine-axis IMU, gyro and accelerom
 
   annotation(Documentation(info="<html>
 <p>InvenSense MPU-9250, consumer nine-axis IMU, gyro and accelerometer.</p>
-<p>Sampled at 1000 Hz (MPU-9250 product specification PS-MPU-9250A-01 rev. 1.0, tables 1 and 2, pages 8 and 9, in the programmable range of both (4 to 4000 Hz)). Coefficients are in SI units; their sources stand behind the blocks that have them.</p>
+<p>Sampled at 1000 Hz (MPU-9250 product specification PS-MPU-9250A-01 rev. 1.0, tables 1 and 2,
+pages 8 and 9, in the programmable range of both (4 to 4000 Hz)). Coefficients are in SI units;
+their sources stand behind the blocks that have them.</p>
 </html>"));
 end Mpu9250;

@@ -90,6 +90,7 @@ package Mti300 "Movella (Xsens) MTi-300, attitude and heading reference system, 
 
   annotation(Documentation(info="<html>
 <p>Movella (Xsens) MTi-300, attitude and heading reference system, inertial sensors only.</p>
-<p>Sampled at 2000 Hz (MTi-300 leaflet, Movella, May 2023, page 1 gives none; chosen to carry its bandwidth). Coefficients are in SI units; their sources stand behind the blocks that have them.</p>
+<p>Sampled at 2000 Hz (MTi-300 leaflet, Movella, May 2023, page 1 gives none; chosen to carry its
+bandwidth). Coefficients are in SI units; their sources stand behind the blocks that have them.</p>
 </html>"));
 end Mti300;

@@ -86,6 +86,8 @@ package Stim300 "Sensonor STIM300 with 10 g accelerometers, tactical-grade IMU"
 
   annotation(Documentation(info="<html>
 <p>Sensonor STIM300 with 10 g accelerometers, tactical-grade IMU.</p>
-<p>Sampled at 1000 Hz (Sensonor, STIM support pages, FAQ: how bias instability is measured (sample rate 1000 Hz)). Coefficients are in SI units; their sources stand behind the blocks that have them.</p>
+<p>Sampled at 1000 Hz (Sensonor, STIM support pages, FAQ: how bias instability is measured (sample
+rate 1000 Hz)). Coefficients are in SI units; their sources stand behind the blocks that have
+them.</p>
 </html>"));
 end Stim300;
