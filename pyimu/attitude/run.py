@@ -19,7 +19,6 @@ from pyimu.attitude.columns import (
     informed,
     latitude_of,
     nominal_part,
-    number,
     rate_noise,
     recorded_age,
 )
@@ -38,7 +37,7 @@ from pyimu.attitude.retiming import Retiming
 from pyimu.attitude.smoothing import smoothed
 from pyimu.attitude.stuck import stuck_times
 from pyimu.block.block import Block, Run
-from pyimu.block.variables import Variable
+from pyimu.block.parameters import bounded, number
 from pyimu.errors import UserError
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as part_of
@@ -230,20 +229,8 @@ def _parameters(block: Block, values: Mapping[str, float | str]) -> np.ndarray:
             raise UserError(
                 f"unknown setting '{name}' of the attitude filter; known are {', '.join(at)}"
             )
-        p[at[name]] = _bounded(block.parameters[at[name]], value)
+        p[at[name]] = bounded(block.parameters[at[name]], value)
     return p
-
-
-def _bounded(variable: Variable, value) -> float:
-    """``value`` as a float. Raises UserError outside the bounds of the variable."""
-    value, low, high = number(variable.name, value), variable.minimum, variable.maximum
-    if low is not None and value < low or high is not None and value > high:
-        raise UserError(
-            f"{variable.name} is {value:g} {variable.unit}, expected "
-            + " to ".join(f"{v:g}" for v in (low, high) if v is not None)
-            + (" or more" if high is None else "")
-        )
-    return value
 
 
 def _gyro_p(part: Part, p: np.ndarray) -> ca.SX:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import casadi as ca
 import numpy as np
@@ -30,6 +31,15 @@ class Variable:
     minimum: float | None = None
     maximum: float | None = None
     fixed: bool = False
+
+
+def array(
+    name: str, unit: str, text: str, start: Iterable[float] = (0.0, 0.0, 0.0), **more: Any
+) -> tuple[Variable, ...]:
+    """The scalars of a vector, numbered from one; ``more`` is of ``Variable``."""
+    return tuple(
+        Variable(f"{name}[{i + 1}]", unit, text, float(v), **more) for i, v in enumerate(start)
+    )
 
 
 @dataclass(frozen=True)

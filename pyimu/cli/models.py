@@ -72,7 +72,11 @@ def build(
     part: Annotated[str, typer.Argument(help="Built-in part or a TOML file.", show_default=False)],
     out: Out = Path("out/fmus"),
     fmu: Annotated[
-        str, typer.Option("--fmu", help="Which, separated by commas: sensor, ukf, hidalgo2012.")
+        str,
+        typer.Option(
+            "--fmu",
+            help="Which, separated by commas: sensor, ukf, hidalgo2012, rover, low-pass.",
+        ),
     ] = "sensor,ukf",
     fmi: Annotated[
         str,
@@ -84,12 +88,22 @@ def build(
     platform: Annotated[
         str, typer.Option("--platform", help="host, all (needs ziglang), or one platform by name.")
     ] = "host",
+    specimen: Annotated[
+        int | None,
+        typer.Option(
+            "--specimen",
+            metavar="SEED",
+            help="Draw one specimen from the part's tolerances; the sensor starts at its values.",
+        ),
+    ] = None,
     effects: Effects = None,
 ) -> None:
     """Example: pyimu build imt30 --out out/fmus
 
-    Build the FMI co-simulation units of a part: the sensor with its errors, and the attitude filter
-    that goes with it.
+    Build the FMI co-simulation units of a part: the sensor with its errors, the attitude filter
+    that goes with it, and of the system around them the true motion of a rover and a low-pass.
+    With --specimen the sensor is one of the production, as its data sheet's tolerances allow
+    (pyimu parts NAME shows them), and the filter still knows the data sheet alone.
     """
     from pyimu.fmu.package import build as build_part
     from pyimu.fmu.sources import Form
@@ -106,6 +120,7 @@ def build(
             [f.strip() for f in fmu.split(",")],
             [forms[name] for name in names],
             platform,
+            specimen,
         )
     for path in paths:
         print(path)
@@ -145,7 +160,8 @@ def parts(
 
     List the built-in parts with their noise and range, or print one part: every coefficient, the
     figure as its data sheet quotes it, and the source. N is the root of the two-sided density; a
-    dash stands where the part has no figure.
+    dash stands where the part has no figure. Tolerances follow, from which pyimu build draws a
+    specimen: uniform is anywhere within the figure, normal has it for one standard deviation.
     """
     from pyimu.report.parts_table import detail, listing, terminal_width
 

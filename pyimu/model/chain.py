@@ -14,7 +14,8 @@ from pyimu.block.variables import Limits, NoiseChannel
 from pyimu.model.arguments import INPUT, Parameter
 from pyimu.model.effect import Effect
 from pyimu.model.kinds import KINDS, OWN_RATE
-from pyimu.model.signals import COLUMNS, N_INPUT, is_number, kept
+from pyimu.model.signals import COLUMNS, N_INPUT
+from pyimu.symbolic.missing import is_number, kept
 
 NEWTON_STEPS = 6
 """Iterations of the symbolic inverse; an error of 0.1 squares to below 1e-16 in five."""

@@ -37,7 +37,8 @@ from pyimu.model.arguments import (
 )
 from pyimu.model.kinds import KINDS, OWN_RATE, STAGES
 from pyimu.model.law import Law
-from pyimu.model.signals import SIGNALS, is_number, kept
+from pyimu.model.signals import SIGNALS
+from pyimu.symbolic.missing import is_number, kept
 
 __all__ = [
     "INPUT",

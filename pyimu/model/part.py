@@ -11,11 +11,12 @@ import casadi as ca
 import numpy as np
 
 from pyimu.block.block import Block
-from pyimu.block.variables import Limits, Variable
+from pyimu.block.variables import Limits, Variable, seed_of
 from pyimu.errors import UserError
 from pyimu.model.arguments import AXES
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import EVERY_SAMPLE, SIGNALS, Derived, inputs_for, vector
+from pyimu.model.tolerance import Tolerance, declared, specimen_of
 from pyimu.model.truth import measured_recording
 from pyimu.recording.recording import Recording
 
@@ -28,6 +29,7 @@ class Part:
 
     ``estimate`` names the coefficients ``(sensor, effect, parameter)`` that the part leaves to the
     data; ``notes`` keeps what the file says beside a value: its source, the figure as quoted.
+    ``tolerances`` say how far specimens of the part lie from it; ``specimen`` draws one.
 
     Raises UserError for a sample rate that is not positive and finite, and for coefficients outside
     their bounds or that do not go with each other or with the sample rate, as a delay of more
@@ -41,6 +43,7 @@ class Part:
     estimate: frozenset[tuple[str, str, str]] = frozenset()
     notes: dict[tuple[str, str, str], dict[str, str]] = field(default_factory=dict, compare=False)
     description: str = ""
+    tolerances: tuple[Tolerance, ...] = ()
 
     def __post_init__(self) -> None:
         period = _inverse(self.sample_rate)
@@ -51,6 +54,12 @@ class Part:
             )
         for sensor in (self.gyro, self.accel):
             sensor.check(period, f"part {self.name}")
+        for t in self.tolerances:
+            t.check(declared(self.sensor(t.key[0]), t.key))
+        if len({t.key for t in self.tolerances}) < len(self.tolerances):
+            raise UserError(f"part {self.name}: two tolerances of one coefficient")
+        in_order = sorted(self.tolerances, key=lambda t: t.place)
+        object.__setattr__(self, "tolerances", tuple(in_order))
 
     @property
     def sample_period(self) -> float:
@@ -66,6 +75,59 @@ class Part:
     def signals(self) -> frozenset[str]:
         """Names in ``SIGNALS`` of what its effects need beside what the sensors measure."""
         return self.gyro.signals | self.accel.signals
+
+    @property
+    def start_values(self) -> dict[str, float]:
+        """Its coefficients by their names in a unit, as ``pyimu.fmu.simulate`` takes them.
+
+        Those of a specimen make the unit of its part that specimen, without another build.
+        """
+        return {v.name: v.start for v in self.gyro.variables + self.accel.variables}
+
+    @property
+    def nominal(self) -> Part:
+        """The specimen without deviations, which measures what the part measures.
+
+        It has every effect of a tolerance, at the identity where the part has none, so that its
+        unit has the coefficients as parameters.
+        """
+        part = self
+        for kind, effect, _ in (t.key for t in self.tolerances):
+            part = part.with_sensor(part.sensor(kind).with_values(effect))
+        return part
+
+    def specimen(self, seed: int) -> Part:
+        """One specimen of the part, drawn from its tolerances: a part that has none.
+
+        Each coefficient is what this part declares of it, or the identity, and a deviation that
+        follows from ``seed`` and the coefficient's name alone, as ``Tolerance.deviation`` says; the
+        same seed gives the same specimen on every platform. Raises UserError for a part without
+        tolerances, a seed that is no integer from 0 to 2^64 - 1, and a deviation with which a
+        coefficient leaves its bounds.
+        """
+        seed = seed_of(seed)
+        if not self.tolerances:
+            raise UserError(
+                f"part {self.name} has no tolerances to draw a specimen from; a part file gives "
+                "them as tables such as [tolerance.gyro.turn_on_bias]"
+            )
+        name = f"{self.name}, specimen {seed}"
+        notes, sensors = dict(self.notes), {}
+        for sensor in (self.gyro, self.accel):
+            try:
+                sensors[sensor.kind], said = specimen_of(sensor, self.tolerances, seed)
+            except UserError as error:
+                raise UserError(f"part {name}: {error}") from None
+            notes |= said
+        return replace(
+            self,
+            **sensors,
+            name=name,
+            notes=notes,
+            estimate=self.estimate - {t.key for t in self.tolerances},
+            description=f"{self.description.rstrip('.') or self.name}, specimen {seed}",
+            tolerances=(),
+        )
 
     def simulate(self, recording: Recording, *, seed: int | None = 0) -> Recording:
         """The recording as this part would have measured it.

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable
 from dataclasses import replace
 
-from pyimu.block.variables import Variable
+from pyimu.block.variables import Variable, array
 from pyimu.model.signals import SURROUNDINGS
 from pyimu.units import STANDARD_GRAVITY
 
@@ -73,13 +73,6 @@ LEAST_HEADING_STD = 1e-6
 
 EXTRA_INPUTS = tuple(n for n in SURROUNDINGS if n != "temperature")
 """Signals that become inputs of the filter where effects of the part depend on them."""
-
-
-def array(
-    name: str, unit: str, text: str, start: Iterable[float] = (0.0, 0.0, 0.0)
-) -> tuple[Variable, ...]:
-    """The scalars of a vector, numbered from one."""
-    return tuple(Variable(f"{name}[{i + 1}]", unit, text, float(v)) for i, v in enumerate(start))
 
 
 INPUTS = (
