@@ -10,6 +10,7 @@ from pyimu.block.normals import edges
 from pyimu.model.effects import EFFECTS
 from pyimu.modelica.bench import benches
 from pyimu.modelica.effect_text import effect_text
+from pyimu.modelica.kinematics import attitude_texts, drive_texts
 from pyimu.modelica.names import pascal
 from pyimu.modelica.sensors import part_texts, sensor_texts
 from pyimu.modelica.signal_text import DERIVED, signal_text
@@ -18,7 +19,14 @@ from pyimu.modelica.text import GENERATED, rendered
 SOURCES = ("noise.c", "noise.h", "prefix.h")
 """Hand-written C of the units that the library brings along."""
 
-FOLDERS = ("Effects", "Signals", "Examples/Benches", "Sensors/Parts")
+FOLDERS = (
+    "Effects",
+    "Signals",
+    "Examples/Benches",
+    "Sensors/Parts",
+    "Attitude/Functions",
+    "Rover/Functions",
+)
 """Folders of the library that hold generated files only."""
 
 
@@ -57,6 +65,19 @@ def library() -> dict[str, str]:
             part_texts(),
         ),
         **{f"Sensors/{name}.mo": text for name, text in sensor_texts().items()},
+        **_package(
+            "Attitude/Functions",
+            "Functions of quaternions, Rodrigues parameters and the Earth's rotation",
+            "Printed from pyimu.symbolic. Quaternions are Hamilton's, scalar first, from body to "
+            "world axes (east, north, up).",
+            attitude_texts(),
+        ),
+        **_package(
+            "Rover/Functions",
+            "Motion of the test drives as functions of time",
+            "Printed from the unit RoverDrive on level ground and without vibration.",
+            drive_texts(),
+        ),
         "Noise/layerEdge.mo": _edges(),
         **{
             f"Resources/C-Sources/{name}": (source_folder() / name).read_text(encoding="utf-8")

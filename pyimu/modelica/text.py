@@ -83,5 +83,12 @@ def _templates() -> Environment:
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
-    found.filters.update(text=string, comment=comment, capital=capital, folded=_folded, page=_page)
+    found.filters.update(
+        text=string,
+        comment=comment,
+        capital=capital,
+        folded=_folded,
+        page=_page,
+        outdented=textwrap.dedent,
+    )
     return found

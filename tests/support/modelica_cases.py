@@ -30,18 +30,20 @@ def compiler():
     return rumoca, rumoca.Session(roots=[str(root)])
 
 
-def simulated(model, stop, period, text=None):
+def simulated(model, stop, period, text=None, tolerance=1e-6):
     """Rows 0 to stop / period of every variable: name to array; a row is what holds after its
     sample.
 
-    ``text`` is the source of ``model`` where it is not in the library.
+    ``text`` is the source of ``model`` where it is not in the library, ``tolerance`` that of
+    integration.
     """
     rumoca, session = compiler()
     if text is None:
         compiled = session.load(str(path_of(model)), model=model)
     else:
         compiled = session.loads(text, model=model, filename=f"{model}.mo")
-    result = compiled.simulate(t=stop, dt=period, config=rumoca.SimConfig(solver="rk-like"))
+    settings = rumoca.SimConfig(solver="rk-like", rtol=tolerance, atol=tolerance)
+    result = compiled.simulate(t=stop, dt=period, config=settings)
     last = np.round(np.array(result.time) / period).astype(int)
     rows = np.searchsorted(last, np.arange(round(stop / period) + 1), side="right") - 1
     return {name: np.array(result[name])[rows] for name in result.names}

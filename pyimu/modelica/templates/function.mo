@@ -1,4 +1,4 @@
-{% macro function(f) %}
+{% macro function(f, documentation="") %}
   function {{ f.name }} "{{ f.description | text }}"
     extends Modelica.Icons.Function;
 {% for line in f.inputs %}
@@ -15,5 +15,10 @@
 {% for line in f.lines %}
     {{ line }}
 {% endfor %}
+{% if documentation %}
+    annotation(Documentation(info="<html>
+{{ documentation | page }}
+</html>"));
+{% endif %}
   end {{ f.name }};
 {% endmacro %}

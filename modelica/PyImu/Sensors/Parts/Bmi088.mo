@@ -16,6 +16,14 @@ package Bmi088 "Bosch Sensortec BMI088, six-axis IMU for drones"
       "Angle (velocity) random walk; N: 0.014 deg/s/sqrt(Hz) at 47 Hz bandwidth, output noise, BMI088 data sheet BST-BMI088-DS000-19 rev. 1.9, table 5, second-hand";
     PyImu.Noise.Normals angleRandomWalkNormals(samplePeriod=samplePeriod, seed=seed, n=3,
       channel={2090672062, 1471171709, 1319861564});
+    PyImu.Effects.BiasInstability.Gyro biasInstability(samplePeriod=samplePeriod, y0=y0,
+      B={4.7460350498536915e-05, 4.7460350498536915e-05, 4.7460350498536915e-05}, f_low=1e-05,
+      f_high=1)
+      "Bias instability, flicker noise; B: 6.5 deg/h bias stability, taken as the floor 0.664 B of the Allan deviation, jpieper.com, page on the Allan variance of one BMI088, logged overnight at 1 kHz, second-hand";
+    PyImu.Noise.Normals biasInstabilityNormals(samplePeriod=samplePeriod, seed=seed, n=18,
+      channel={3196001024, 2505197763, 2353625474, 3272142661, 3658735108, 4047408583, 3894787206,
+      1874698313, 1990627592, 389392437, 237934964, 621005495, 1008270326, 1935240497, 1782733936,
+      1097797555, 1484013298, 3756794429});
     PyImu.Effects.Saturation.Gyro saturation(samplePeriod=samplePeriod, y0=y0,
       limit={34.90658503988659, 34.90658503988659, 34.90658503988659})
       "Input range, saturation; limit: BMI088 data sheet BST-BMI088-DS001-13 rev. 1.3, section 5.5.2, page 27";
@@ -26,7 +34,9 @@ package Bmi088 "Bosch Sensortec BMI088, six-axis IMU for drones"
     connect(rate, lag.x);
     connect(lag.y, angleRandomWalk.x);
     connect(angleRandomWalkNormals.y, angleRandomWalk.w);
-    connect(angleRandomWalk.y, saturation.x);
+    connect(angleRandomWalk.y, biasInstability.x);
+    connect(biasInstabilityNormals.y, biasInstability.w);
+    connect(biasInstability.y, saturation.x);
     connect(saturation.y, quantization.x);
     connect(quantization.y, y);
   end Gyroscope;
