@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import casadi as ca
 
-from pyimu.modelica.functions import Argument, Function, array, function
+from pyimu.modelica.functions import Function, array, function
 from pyimu.modelica.names import camel
 from pyimu.modelica.text import GENERATED, capital, rendered
 from pyimu.plant.rover_drive import rover_drive

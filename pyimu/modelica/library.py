@@ -10,6 +10,7 @@ from pyimu.block.normals import edges
 from pyimu.model.effects import EFFECTS
 from pyimu.modelica.bench import benches
 from pyimu.modelica.effect_text import effect_text
+from pyimu.modelica.filters import filter_texts
 from pyimu.modelica.kinematics import attitude_texts, drive_texts
 from pyimu.modelica.names import pascal
 from pyimu.modelica.sensors import part_texts, sensor_texts
@@ -26,6 +27,7 @@ FOLDERS = (
     "Sensors/Parts",
     "Attitude/Functions",
     "Rover/Functions",
+    "ShapingFilters",
 )
 """Folders of the library that hold generated files only."""
 
@@ -77,6 +79,13 @@ def library() -> dict[str, str]:
             "Motion of the test drives as functions of time",
             "Printed from the unit RoverDrive on level ground and without vibration.",
             drive_texts(),
+        ),
+        **_package(
+            "ShapingFilters",
+            "Noises as filters on white noise in continuous time",
+            "From white noise of two-sided density 1 to the noise of one axis. The sampled noises "
+            "of PyImu.Noise have the same densities far below half the sample rate.",
+            filter_texts(),
         ),
         "Noise/layerEdge.mo": _edges(),
         **{
