@@ -39,19 +39,13 @@ def simulated(model, stop, period, text=None, tolerance=1e-6):
     """
     rumoca, session = compiler()
     if text is None:
-        compiled = session.load(str(path_of(model)), model=model)
-    else:
-        compiled = session.loads(text, model=model, filename=f"{model}.mo")
+        model, text = "Test", f"model Test extends {model}; end Test;"
+    compiled = session.loads(text, model=model, filename="test.mo")
     settings = rumoca.SimConfig(solver="rk-like", rtol=tolerance, atol=tolerance)
     result = compiled.simulate(t=stop, dt=period, config=settings)
-    last = np.round(np.array(result.time) / period).astype(int)
-    rows = np.searchsorted(last, np.arange(round(stop / period) + 1), side="right") - 1
+    at = (np.arange(round(stop / period) + 1) + 1e-6) * period
+    rows = np.searchsorted(np.array(result.time), at, side="right") - 1
     return {name: np.array(result[name])[rows] for name in result.names}
-
-
-def path_of(model):
-    """The file of a class of the library."""
-    return LIBRARY.joinpath(*model.split(".")).with_suffix(".mo")
 
 
 def vector(rows, name, size=3):
