@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cache
 from pathlib import Path
 
 from pyimu.block.compiled import source_folder
@@ -32,7 +33,8 @@ FOLDERS = (
 """Folders of the library that hold generated files only."""
 
 
-def library() -> dict[str, str]:
+@cache
+def library() -> Mapping[str, str]:
     """Path below ``PyImu`` to text of every generated file."""
     effects = {pascal(e.name): effect_text(e) for e in EFFECTS}
     signals = {pascal(name): signal_text(name) for name in DERIVED}

@@ -5,6 +5,7 @@ import pytest
 from catalogue_cases import CASES, excited, run
 from modelica_cases import LAST_PLACES, simulated, ulps, vector
 
+from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.effects import EFFECTS
 from pyimu.model.kinds import KINDS
 from pyimu.model.signals import COLUMNS, N_INPUT, SIGNALS
@@ -43,31 +44,60 @@ def expected(sensor):
     return run(sensor, u, w=w, h=PERIOD)
 
 
-def compare(sensor, rows):
-    """The rows of a bench are those of the definition, and the effect is not idle in it."""
-    (e,) = sensor.effects
-    got, want = vector(rows, "effect.y")[1:], expected(sensor)
-    x = vector(rows, "effect.x")[1:]
+def own_sensor(name, kind):
+    """Each coefficient with another value, matrices without symmetry."""
+    sensor = excited(name, kind, SHARES.get(name, 0.05))
+    return sensor.with_values(name, **CHANGES.get(name, {}))
+
+
+@pytest.fixture(scope="module")
+def own_rows():
+    """Of the bench of each sensor with its own coefficients; all in one model, as compiling the
+    library takes longer than running it.
+    """
+    benches = {f"{pascal(n)}Of{pascal(k)}": own_sensor(n, k) for n, k in CASES}
+    texts = [bench_text(sensor, bench, within="") for bench, sensor in benches.items()]
+    classes = [text[text.index("model ") :] for text in texts]
+    parts = [f"{bench} b{i};" for i, bench in enumerate(benches)]
+    text = "\n".join(["model All", *classes, *parts, "end All;"])
+    rows = simulated("All", SAMPLES * PERIOD, PERIOD, text)
+    return {case: of(rows, f"b{i}") for i, case in enumerate(CASES)}
+
+
+@pytest.fixture(scope="module")
+def library_rows():
+    """Of each bench of the library, all in one model, too."""
+    parts = [f"PyImu.Examples.Benches.{pascal(e.name)} b{i};" for i, e in enumerate(EFFECTS)]
+    rows = simulated("All", SAMPLES * PERIOD, PERIOD, "\n".join(["model All", *parts, "end All;"]))
+    return {e.name: of(rows, f"b{i}") for i, e in enumerate(EFFECTS)}
+
+
+def of(rows, block):
+    """Input and output (n, 3) of the effect in one bench."""
+    return tuple(vector(rows, f"{block}.effect.{name}")[1:] for name in "xy")
+
+
+@pytest.mark.parametrize(("name", "kind"), CASES)
+def test_effect_gives_the_values_of_its_definition(name, kind, own_rows):
+    """And is not idle in its bench."""
+    (x, got), want = own_rows[name, kind], expected(own_sensor(name, kind))
     assert np.all(np.any(want != x, axis=0))
-    text = "".join(line for f in effect_functions(e).all for line in f.lines)
+    printed = effect_functions(CATALOGUE[name]).all
+    text = "".join(line for f in printed for line in f.lines)
     if any(word in text for word in TRANSCENDENTAL):
         assert ulps(got, want, x) <= LAST_PLACES
     else:
         np.testing.assert_array_equal(got, want)
 
 
-@pytest.mark.parametrize(("name", "kind"), CASES)
-def test_effect_gives_the_values_of_its_definition(name, kind):
-    """Each coefficient with another value, matrices without symmetry."""
-    sensor = excited(name, kind, SHARES.get(name, 0.05))
-    sensor = sensor.with_values(name, **CHANGES.get(name, {}))
-    model = f"{pascal(name)}Of{pascal(kind)}"
-    rows = simulated(model, SAMPLES * PERIOD, PERIOD, bench_text(sensor, model, within=""))
-    compare(sensor, rows)
-
-
 @pytest.mark.parametrize("e", EFFECTS, ids=lambda e: e.name)
-def test_bench_of_the_library_runs(e):
-    rows = simulated(f"PyImu.Examples.Benches.{pascal(e.name)}", SAMPLES * PERIOD, PERIOD)
-    got, want = vector(rows, "effect.y")[1:], expected(typical(e, e.sensors[0]))
-    assert ulps(got, want, vector(rows, "effect.x")[1:]) <= LAST_PLACES
+def test_bench_of_the_library_runs(e, library_rows):
+    (x, got), want = library_rows[e.name], expected(typical(e, e.sensors[0]))
+    assert ulps(got, want, x) <= LAST_PLACES
+
+
+def test_a_bench_compiles_alone():
+    rows = simulated("PyImu.Examples.Benches.GaussMarkov", SAMPLES * PERIOD, PERIOD)
+    (e,) = [e for e in EFFECTS if e.name == "gauss_markov"]
+    want = expected(typical(e, "gyro"))
+    assert ulps(vector(rows, "effect.y")[1:], want, vector(rows, "effect.x")[1:]) <= LAST_PLACES
