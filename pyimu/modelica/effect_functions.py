@@ -58,7 +58,7 @@ def effect_functions(e: Effect) -> EffectFunctions:
     chain, what = chain_of(kind, (e,)), f"effect {e.name}"
     started = ca.SX.sym(STARTED) if chain.waits else None
     arguments = _arguments(chain, e, kind, started)
-    y, after = chain._apply(e, chain.x, chain.noises[e.name], started)
+    y, after = chain.apply(e, chain.x, chain.noises[e.name], started)
     name, following, at = camel(e.name), {}, 0
     positive = {n for n, q in e.parameters.items() if q.minimum and q.minimum > 0} | {"h"}
     output = function(f"{name}Output", e.term, arguments, y, (3,), what, positive=positive)

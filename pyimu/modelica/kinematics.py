@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping
 
 import casadi as ca
 
@@ -21,99 +21,80 @@ CHOSEN = {
 }
 """Parameters of each drive that stay parameters, beside those of all."""
 
-SHOWN = {"q": 4, "rate": 3, "specific_force": 3, "position": 3}
-"""Outputs of the drives in the order of the functions' results, and their sizes."""
+SHOWN = ("q", "rate", "specific_force", "position")
+"""Outputs of the drives, in the order of the functions' results."""
 
 EVERY = ("start_time", "heading0", "ramp_time", "latitude", "gravity")
+"""Parameters that stay parameters of all drives."""
+
+
+def _levelled(force: ca.SX, yaw: ca.SX) -> ca.SX:
+    """The attitude at rest of this specific force (3,), which shows roll and pitch."""
+    across = ca.sqrt(force[1] * force[1] + force[2] * force[2])
+    return quaternion.from_euler(ca.atan2(force[1], force[2]), ca.atan2(-force[0], across), yaw)
+
+
+ATTITUDE: Mapping[str, tuple[str, Callable[..., ca.SX], Mapping[str, int]]] = {
+    "quaternionProduct": (
+        "q r, the rotation by r followed by that by q",
+        quaternion.product,
+        {"q": 4, "r": 4},
+    ),
+    "quaternionConjugate": ("The inverse of a unit quaternion", quaternion.conjugate, {"q": 4}),
+    "quaternionNormalized": ("q at unit length", quaternion.normalized, {"q": 4}),
+    "quaternionRotate": (
+        "A vector of the body in world axes",
+        quaternion.rotate,
+        {"q": 4, "v": 3},
+    ),
+    "quaternionDerivative": (
+        "Derivative of q of a body that turns at a rate in body axes",
+        quaternion.derivative,
+        {"q": 4, "rate": 3},
+    ),
+    "quaternionFromEuler": (
+        "The quaternion of Rz(yaw) Ry(pitch) Rx(roll)",
+        quaternion.from_euler,
+        {"roll": 1, "pitch": 1, "yaw": 1},
+    ),
+    "quaternionToEuler": ("Roll, pitch, yaw", quaternion.to_euler, {"q": 4}),
+    "mrpFromQuaternion": (
+        "Modified Rodrigues parameters, in rad for small angles",
+        mrp.from_quaternion,
+        {"q": 4},
+    ),
+    "mrpToQuaternion": (
+        "The quaternion of modified Rodrigues parameters",
+        mrp.to_quaternion,
+        {"p": 3},
+    ),
+    "mrpErrorDerivative": (
+        "Derivative of the attitude error p of an estimate whose rate is wrong by rateError",
+        mrp.error_derivative,
+        {"p": 3, "rate": 3, "rateError": 3},
+    ),
+    "earthRate": ("The Earth's rotation in world axes, rad/s", earth.earth_rate, {"latitude": 1}),
+    "levelled": (
+        "Attitude of a body at rest by its specific force, with a given yaw",
+        _levelled,
+        {"force": 3, "yaw": 1},
+    ),
+}
+"""Functions of attitude: what each gives, the function, its arguments and their sizes."""
 
 
 def attitude_texts() -> dict[str, str]:
     """Name to text of the functions of attitude."""
-    q, r, rate = ca.SX.sym("q", 4), ca.SX.sym("r", 4), ca.SX.sym("rate", 3)
-    v, p, error = ca.SX.sym("v", 3), ca.SX.sym("p", 3), ca.SX.sym("error", 3)
-    angles = [ca.SX.sym(name) for name in ("roll", "pitch", "yaw")]
-    latitude, force = ca.SX.sym("latitude"), ca.SX.sym("force", 3)
-    across = ca.sqrt(force[1] * force[1] + force[2] * force[2])
-    levelled = quaternion.from_euler(
-        ca.atan2(force[1], force[2]), ca.atan2(-force[0], across), angles[2]
-    )
-    q_, r_, rate_ = _vector("q", q), _vector("r", r), _vector("rate", rate)
-    found = [
-        _attitude(
-            "quaternionProduct",
-            "q r, the rotation by r followed by that by q",
-            [q_, r_],
-            quaternion.product(q, r),
-        ),
-        _attitude(
-            "quaternionConjugate", "The inverse of a unit quaternion", [q_], quaternion.conjugate(q)
-        ),
-        _attitude("quaternionNormalized", "q at unit length", [q_], quaternion.normalized(q)),
-        _attitude(
-            "quaternionRotate",
-            "A vector of the body in world axes",
-            [q_, _vector("v", v)],
-            quaternion.rotate(q, v),
-        ),
-        _attitude(
-            "quaternionDerivative",
-            "Derivative of q of a body that turns at a rate in body axes",
-            [q_, rate_],
-            quaternion.derivative(q, rate),
-        ),
-        _attitude(
-            "quaternionFromEuler",
-            "The quaternion of Rz(yaw) Ry(pitch) Rx(roll)",
-            [_scalar(str(a), a) for a in angles],
-            quaternion.from_euler(*angles),
-        ),
-        _attitude("quaternionToEuler", "Roll, pitch, yaw", [q_], quaternion.to_euler(q)),
-        _attitude(
-            "mrpFromQuaternion",
-            "Modified Rodrigues parameters, in rad for small angles",
-            [q_],
-            mrp.from_quaternion(q),
-        ),
-        _attitude(
-            "mrpToQuaternion",
-            "The quaternion of modified Rodrigues parameters",
-            [_vector("p", p)],
-            mrp.to_quaternion(p),
-        ),
-        _attitude(
-            "mrpErrorDerivative",
-            "Derivative of the attitude error p of an estimate that "
-            "turns at a rate which is wrong by rateError",
-            [_vector("p", p), rate_, _vector("rateError", error)],
-            mrp.error_derivative(p, rate, error),
-        ),
-        _attitude(
-            "earthRate",
-            "The Earth's rotation in world axes, rad/s",
-            [_scalar("latitude", latitude)],
-            earth.earth_rate(latitude),
-        ),
-        _attitude(
-            "levelled",
-            "Attitude of a body at rest by its specific force, with a given yaw",
-            [_vector("force", force), _scalar("yaw", angles[2])],
-            levelled,
-        ),
-    ]
-    return {f.name: _text("PyImu.Attitude.Functions", f) for f in found}
-
-
-def _vector(name: str, symbol: ca.SX):
-    return array(name, (symbol.numel(),), symbol)
-
-
-def _scalar(name: str, symbol: ca.SX):
-    return array(name, (), symbol)
-
-
-def _attitude(name: str, text: str, arguments: Sequence, expression: ca.SX) -> Function:
-    size = expression.numel()
-    return function(name, text, arguments, expression, (size,), f"function {name}")
+    found = {}
+    for name, (text, of, sizes) in ATTITUDE.items():
+        symbols = {n: ca.SX.sym(n, size) for n, size in sizes.items()}
+        expression = of(*symbols.values())
+        arguments = [
+            array(n, (sizes[n],) if sizes[n] > 1 else (), symbol) for n, symbol in symbols.items()
+        ]
+        size = (expression.numel(),)
+        found[name] = function(name, text, arguments, expression, size, f"function {name}")
+    return {name: _text("PyImu.Attitude.Functions", f) for name, f in found.items()}
 
 
 def drive_texts() -> dict[str, str]:
@@ -132,7 +113,7 @@ def _drive(name: str) -> Function:
     _, shown = block.step(at, ca.SX.zeros(2), ca.vertcat(*p), ca.SX(0, 1), 1.0)
     columns = [v.name.partition("[")[0] for v in block.outputs]
     rows = [i for i, column in enumerate(columns) if column in SHOWN]
-    arguments = [_scalar("t", time), *(_scalar(camel(n), symbol) for n, symbol in free.items())]
+    arguments = [array("t", (), time), *(array(camel(n), (), x) for n, x in free.items())]
     return function(
         f"{camel(name)}Motion",
         f"{capital(name.replace('_', ' '))}: attitude (4), rate (3), specific force (3), position "

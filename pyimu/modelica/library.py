@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import cache
 from pathlib import Path
 
@@ -21,80 +21,85 @@ from pyimu.modelica.text import GENERATED, rendered
 SOURCES = ("noise.c", "noise.h", "prefix.h")
 """Hand-written C of the units that the library brings along."""
 
-FOLDERS = (
-    "Effects",
-    "Signals",
-    "Examples/Benches",
-    "Sensors/Parts",
-    "Attitude/Functions",
-    "Rover/Functions",
-    "ShapingFilters",
+PACKAGES: tuple[tuple[str, str, str, Callable[[], Mapping[str, str]]], ...] = (
+    (
+        "Effects",
+        "Errors of sensors: each a package of its functions and blocks",
+        (
+            "Each package holds the functions of one effect, which are printed from its "
+            "definition, and a block of them for each kind of sensor that can have it. An effect "
+            "without memory has a form in continuous time as well."
+        ),
+        lambda: {pascal(e.name): effect_text(e) for e in EFFECTS},
+    ),
+    (
+        "Signals",
+        "Signals that follow from the course of others",
+        (
+            "What some effects depend on besides the inputs of a sensor: rates of change, mean "
+            "squares, what follows from attitude and place."
+        ),
+        lambda: {pascal(name): signal_text(name) for name in DERIVED},
+    ),
+    (
+        "Examples/Benches",
+        "Each effect alone, with inputs that excite its branches",
+        (
+            "One model for each effect. Their values are compared in the tests with those of the "
+            "definition, sample by sample."
+        ),
+        benches,
+    ),
+    (
+        "Sensors/Parts",
+        "The built-in parts",
+        (
+            "A package for each part: its gyroscope, its accelerometer, and both as a measurement "
+            "unit. A part has the effects of which its data sheet says something."
+        ),
+        part_texts,
+    ),
+    (
+        "Attitude/Functions",
+        "Functions of quaternions, Rodrigues parameters and the Earth's rotation",
+        (
+            "Printed from pyimu.symbolic. Quaternions are Hamilton's, scalar first, from body to "
+            "world axes (east, north, up)."
+        ),
+        attitude_texts,
+    ),
+    (
+        "Rover/Functions",
+        "Motion of the test drives as functions of time",
+        "Printed from the unit RoverDrive on level ground and without vibration.",
+        drive_texts,
+    ),
+    (
+        "ShapingFilters",
+        "Noises as filters on white noise in continuous time",
+        (
+            "From white noise of two-sided density 1 to the noise of one axis. The sampled noises "
+            "of PyImu.Noise have the same densities far below half the sample rate."
+        ),
+        filter_texts,
+    ),
 )
-"""Folders of the library that hold generated files only."""
+"""Packages that hold generated files only: folder, description, text, classes."""
+
+FOLDERS = tuple(folder for folder, *_ in PACKAGES)
 
 
 @cache
 def library() -> Mapping[str, str]:
     """Path below ``PyImu`` to text of every generated file."""
-    effects = {pascal(e.name): effect_text(e) for e in EFFECTS}
-    signals = {pascal(name): signal_text(name) for name in DERIVED}
-    return {
-        **_package(
-            "Effects",
-            "Errors of sensors: each a package of its functions and blocks",
-            "Each package holds the functions of one effect, which are printed from its "
-            "definition, and a block of them for each kind of sensor that can have it. An effect "
-            "without memory has a form in continuous time as well.",
-            effects,
-        ),
-        **_package(
-            "Signals",
-            "Signals that follow from the course of others",
-            "What some effects depend on besides the inputs of a sensor: rates of change, mean "
-            "squares, what follows from attitude and place.",
-            signals,
-        ),
-        **_package(
-            "Examples/Benches",
-            "Each effect alone, with inputs that excite its branches",
-            "One model for each effect. Their values are compared in the tests with those of the "
-            "definition, sample by sample.",
-            benches(),
-        ),
-        **_package(
-            "Sensors/Parts",
-            "The built-in parts",
-            "A package for each part: its gyroscope, its accelerometer, and both as a measurement "
-            "unit. A part has the effects of which its data sheet says something.",
-            part_texts(),
-        ),
-        **{f"Sensors/{name}.mo": text for name, text in sensor_texts().items()},
-        **_package(
-            "Attitude/Functions",
-            "Functions of quaternions, Rodrigues parameters and the Earth's rotation",
-            "Printed from pyimu.symbolic. Quaternions are Hamilton's, scalar first, from body to "
-            "world axes (east, north, up).",
-            attitude_texts(),
-        ),
-        **_package(
-            "Rover/Functions",
-            "Motion of the test drives as functions of time",
-            "Printed from the unit RoverDrive on level ground and without vibration.",
-            drive_texts(),
-        ),
-        **_package(
-            "ShapingFilters",
-            "Noises as filters on white noise in continuous time",
-            "From white noise of two-sided density 1 to the noise of one axis. The sampled noises "
-            "of PyImu.Noise have the same densities far below half the sample rate.",
-            filter_texts(),
-        ),
-        "Noise/layerEdge.mo": _edges(),
-        **{
-            f"Resources/C-Sources/{name}": (source_folder() / name).read_text(encoding="utf-8")
-            for name in SOURCES
-        },
-    }
+    found = {f"Sensors/{name}.mo": text for name, text in sensor_texts().items()}
+    found["Noise/layerEdge.mo"] = _edges()
+    for name in SOURCES:
+        path = source_folder() / name
+        found[f"Resources/C-Sources/{name}"] = path.read_text(encoding="utf-8")
+    for folder, description, text, classes in PACKAGES:
+        found |= _package(folder, description, text, classes())
+    return found
 
 
 def _edges() -> str:

@@ -1,6 +1,6 @@
 // Written by `make generate` from the definitions in pyimu; do not edit.
 within PyImu.Attitude.Functions;
-function mrpErrorDerivative "Derivative of the attitude error p of an estimate that turns at a rate which is wrong by rateError"
+function mrpErrorDerivative "Derivative of the attitude error p of an estimate whose rate is wrong by rateError"
   extends Modelica.Icons.Function;
   input Real p[3], rate[3], rateError[3];
   output Real y[3];
