@@ -3,6 +3,6 @@ partial function NormalFunction "Standard normals as a function of seed, channel
   extends Modelica.Icons.Function;
   input Real seed "Whole number, not negative, below 2^53";
   input Real channel "Whole number, not negative, below 2^53";
-  input Real sample "Number of the sample";
+  input Real number "Number of the sample";
   output Real y "Standard normal";
 end NormalFunction;

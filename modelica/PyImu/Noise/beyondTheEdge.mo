@@ -3,7 +3,7 @@ function beyondTheEdge "The normal of a word that does not suffice, one in 67"
   extends Modelica.Icons.Function;
   input Real seed;
   input Real channel;
-  input Real sample;
+  input Real number;
   input Real first[4];
   output Real x;
 protected
@@ -19,7 +19,7 @@ algorithm
   done := false;
   for attempt in 1:attempts loop
     if not done then
-      words := philox(seed, channel, sample, attempt);
+      words := philox(seed, channel, number, attempt);
       layer := layerOf(word);
       if layer < 0.5 then
         size := fromTail(words);

@@ -7,13 +7,13 @@ protected
   Real word[4];
   Integer first;
 algorithm
-  four := floor(sample/4);
+  four := floor(number/4);
   words := philox(seed, channel, four + 1, 0);
-  first := integer(4*(sample - 4*four));
+  first := integer(4*(number - 4*four));
   word := {words[first + 1], words[first + 2], words[first + 3], words[first + 4]};
   y := abscissa(word);
   if not abs(y) < layerEdge(layerOf(word) + 1) then
-    y := beyondTheEdge(seed, channel, sample, word);
+    y := beyondTheEdge(seed, channel, number, word);
   end if;
   annotation(Documentation(info="<html>
 <p>The number that the co-simulation units draw for this seed, channel and sample, to the last bit

@@ -27,8 +27,8 @@ algorithm
   x2 := {0, 0, 0, 0};
   x3 := {0, 0, 0, 0};
   for round in 1:10 loop
-    p0 := product(multiplier0, x0);
-    p1 := product(multiplier1, x2);
+    p0 := productOfWords(multiplier0, x0);
+    p1 := productOfWords(multiplier1, x2);
     x0 := exclusiveOr(exclusiveOr({p1[5], p1[6], p1[7], p1[8]}, x1), key0);
     x2 := exclusiveOr(exclusiveOr({p0[5], p0[6], p0[7], p0[8]}, x3), key1);
     x1 := {p1[1], p1[2], p1[3], p1[4]};

@@ -7,7 +7,7 @@ signals, the parts, the noise, the filters, the drives and the kinematics, with 
 names of the Modelica Standard Library; their values are those of pyimu to the last bit, or to four
 units in the last place where exp, log, sin or cos are in them. Dymola and OpenModelica have compiled
 nothing of it yet.</p>
-<p>rumoca has no external C, so that <code>Noise.normalsC</code> was only compiled as C, and it has no
+<p>rumoca has no external C, so that <code>Noise.drawNormalsC</code> was only compiled as C, and it has no
 getInstanceName(): give each sensor a seed there.</p>
 </html>"));
 end Limits;

@@ -1,4 +1,4 @@
-/* The normals of the co-simulation units for PyImu.Noise.normalC: noise.c beside it, under a prefix of its own. */
+/* The normals of the co-simulation units for PyImu.Noise.normalByC: noise.c beside it, under a prefix of its own. */
 #ifndef PYIMU_NORMAL
 #define PYIMU_NORMAL
 

@@ -1,5 +1,5 @@
 within PyImu.Noise;
-function product "a b in full, eight limbs"
+function productOfWords "a b in full, eight limbs"
   extends Modelica.Icons.Function;
   input Real a[4];
   input Real b[4];
@@ -24,4 +24,4 @@ algorithm
     carry := floor(digit/65536);
     y[i] := digit - 65536*carry;
   end for;
-end product;
+end productOfWords;
