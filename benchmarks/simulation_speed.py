@@ -192,7 +192,7 @@ def measure(
     """
     n = len(u)
     ways = {
-        "C, each sample": lambda: in_c.each(u, np.empty((n, 6)), seed or 0),
+        "C, each sample": lambda: in_c.each(u, np.empty((n, len(in_c.outputs))), seed or 0),
         "C, inputs held": lambda: in_c.held(n, seed or 0),
         "simulate": lambda: simulate(part, *given, seed=seed),
         "Block.run": lambda: part.block.run(u, seed=seed),
@@ -215,7 +215,7 @@ def measure(
 
 
 def same_bits(part, seed: int | None, in_c: PlainC, u: np.ndarray, given: list[np.ndarray]) -> bool:
-    y = np.empty((len(u), 6))
+    y = np.empty((len(u), len(in_c.outputs)))
     in_c.each(u, y, seed or 0)
     measured = simulate(part, *given, seed=seed)
     return all(

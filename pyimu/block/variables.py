@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import casadi as ca
@@ -14,6 +14,10 @@ from pyimu.errors import UserError
 
 Kind = Literal["real", "boolean", "integer"]
 
+MOTION, IMU = "motion", "imu"
+"""Terminals of the units, which can be wired as a whole: the truth in which a sensor moves, and
+what it measures."""
+
 
 @dataclass(frozen=True)
 class Variable:
@@ -21,6 +25,10 @@ class Variable:
 
     ``name`` is its FMI name (``gyro_error.g_sensitivity.G[1,2]``), ``unit`` an SI spelling. A
     parameter that acts on the start alone is ``fixed``, and cannot be set during a run.
+
+    Inputs or outputs of one ``terminal`` are the members of a bus that a tool can wire at once;
+    ``member`` is the name there, if it is not the variable's own. A ``corner`` is a natural
+    frequency in rad/s, which people say in Hz.
     """
 
     name: str
@@ -31,6 +39,9 @@ class Variable:
     minimum: float | None = None
     maximum: float | None = None
     fixed: bool = False
+    terminal: str = ""
+    member: str = ""
+    corner: bool = False
 
 
 def array(
@@ -39,6 +50,14 @@ def array(
     """The scalars of a vector, numbered from one; ``more`` is of ``Variable``."""
     return tuple(
         Variable(f"{name}[{i + 1}]", unit, text, float(v), **more) for i, v in enumerate(start)
+    )
+
+
+def in_terminal(terminal: str, *variables: Variable, prefix: str = "") -> tuple[Variable, ...]:
+    """The same as members of one terminal, there without the ``prefix`` of their names."""
+    return tuple(
+        replace(v, terminal=terminal, member=v.member or v.name.removeprefix(prefix))
+        for v in variables
     )
 
 

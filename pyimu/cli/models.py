@@ -97,6 +97,16 @@ def build(
         ),
     ] = None,
     effects: Effects = None,
+    ssp: Annotated[
+        str | None,
+        typer.Option(
+            "--ssp",
+            metavar="DRIVE",
+            help="Also Rover.ssp, the system of drive, sensor, low-pass and filter: straight, "
+            "obstacle, ackermann, turn_on_spot or free.",
+            show_default=False,
+        ),
+    ] = None,
 ) -> None:
     """Example: pyimu build imt30 --out out/fmus
 
@@ -107,21 +117,29 @@ def build(
     """
     from pyimu.fmu.package import build as build_part
     from pyimu.fmu.sources import Form
+    from pyimu.rover.system import check_drive, write_rover
 
     forms: dict[str, Form] = {"2": 2, "3": 3, "block": "block"}
     names = [name.strip() for name in fmi.split(",")]
     if not all(name in forms for name in names):
         raise UserError(f"--fmi {fmi}: unknown; known are {', '.join(forms)}, separated by commas")
     add_effects(effects)
+    chosen = [forms[name] for name in names]
+    wired: Form = next((form for form in forms.values() if form in chosen), "block")
+    if ssp is not None:
+        check_drive(ssp, wired)
     with progress(f"compiling {part}"):
         paths = build_part(
             part,
             out,
             [f.strip() for f in fmu.split(",")],
-            [forms[name] for name in names],
+            chosen,
             platform,
             specimen,
         )
+        if ssp is not None:
+            rover = write_rover(part, out, ssp, form=wired, platform=platform, specimen=specimen)
+            paths.append(rover)
     for path in paths:
         print(path)
 

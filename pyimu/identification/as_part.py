@@ -27,7 +27,7 @@ ORIGINS = {
 }
 """What a part file says of a coefficient that data gave."""
 
-SENSORS = {"gyro": "gyro", "accel": "accelerometer"}
+SENSORS = {"gyro": "gyro", "accel": "accelerometer", "mag": "magnetometer"}
 """Names of the sensors."""
 
 

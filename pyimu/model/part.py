@@ -11,7 +11,7 @@ import casadi as ca
 import numpy as np
 
 from pyimu.block.block import Block
-from pyimu.block.variables import Limits, Variable, seed_of
+from pyimu.block.variables import IMU, MOTION, Limits, Variable, seed_of
 from pyimu.errors import UserError
 from pyimu.model.arguments import AXES
 from pyimu.model.sensor import Sensor
@@ -23,9 +23,11 @@ from pyimu.recording.recording import Recording
 
 @dataclass(frozen=True)
 class Part:
-    """A sensor as data: name, sample rate [Hz], and the effects of gyro and accelerometer.
+    """A sensor as data: name, sample rate [Hz], and the effects of its triads.
 
-    The effects are those of two ``Sensor``, with the values of their coefficients.
+    The effects are those of two ``Sensor``, gyro and accelerometer, with the values of their
+    coefficients. Those of a magnetometer, a third one, are undone by ``pyimu.attitude``; the part's
+    block has no magnetometer.
 
     ``estimate`` names the coefficients ``(sensor, effect, parameter)`` that the part leaves to the
     data; ``notes`` keeps what the file says beside a value: its source, the figure as quoted.
@@ -44,6 +46,7 @@ class Part:
     notes: dict[tuple[str, str, str], dict[str, str]] = field(default_factory=dict, compare=False)
     description: str = ""
     tolerances: tuple[Tolerance, ...] = ()
+    mag: Sensor = field(default_factory=lambda: Sensor("mag"))
 
     def __post_init__(self) -> None:
         period = _inverse(self.sample_rate)
@@ -52,7 +55,7 @@ class Part:
                 f"part {self.name}: the sample rate must be a positive and finite number of Hz, "
                 f"not {self.sample_rate!r}"
             )
-        for sensor in (self.gyro, self.accel):
+        for sensor in (self.gyro, self.accel, self.mag):
             sensor.check(period, f"part {self.name}")
         for t in self.tolerances:
             t.check(declared(self.sensor(t.key[0]), t.key))
@@ -66,7 +69,7 @@ class Part:
         return 1.0 / self.sample_rate
 
     def sensor(self, kind: str) -> Sensor:
-        return {"gyro": self.gyro, "accel": self.accel}[kind]
+        return {"gyro": self.gyro, "accel": self.accel, "mag": self.mag}[kind]
 
     def with_sensor(self, sensor: Sensor) -> Part:
         return replace(self, **{sensor.kind: sensor})
@@ -140,7 +143,10 @@ class Part:
 
     @cached_property
     def block(self) -> Block:
-        """The part as the block ``ImuSensor``: gyro and accelerometer on the same inputs."""
+        """The part as the block ``ImuSensor``: gyro and accelerometer on the same inputs.
+
+        The temperature goes through, sampled like them, so that the sensor alone feeds a filter.
+        """
         return _imu_sensor(self)
 
 
@@ -152,8 +158,17 @@ def _inverse(rate: float) -> float:
         return math.nan
 
 
-def input_variables(names: Iterable[str]) -> tuple[Variable, ...]:
-    """Inputs of a block by their names in ``SIGNALS``.
+TEMPERATURE = Variable(
+    "measured_temperature",
+    "degC",
+    "temperature of the part, sampled like its axes",
+    terminal=IMU,
+    member="temperature",
+)
+
+
+def input_variables(names: Iterable[str], terminal: str = MOTION) -> tuple[Variable, ...]:
+    """Inputs of a block by their names in ``SIGNALS``, members of a ``terminal``.
 
     Unconnected, they mean a part at rest, level, in its reference state.
     """
@@ -163,6 +178,7 @@ def input_variables(names: Iterable[str]) -> tuple[Variable, ...]:
             SIGNALS[name].unit,
             SIGNALS[name].text,
             start,
+            terminal=terminal,
         )
         for name in names
         for i, start in enumerate(SIGNALS[name].start)
@@ -188,13 +204,16 @@ def _imu_sensor(part: Part) -> Block:
     step = ca.Function(
         "step",
         [ca.vertcat(memory, *s), ca.vertcat(*given.values()), ca.vertcat(*p), ca.vertcat(*w), h],
-        [ca.vertcat(remembered, *[r[0] for r in results]), ca.vertcat(*[r[1] for r in results])],
+        [
+            ca.vertcat(remembered, *[r[0] for r in results]),
+            ca.vertcat(*[r[1] for r in results], given["temperature"]),
+        ],
         ["s", "u", "p", "w", "h"],
         ["s_next", "y"],
     )
     start = np.concatenate([np.zeros(derived.size), *[sensor.chain.start for sensor in sensors]])
     # Before the first sample: the ideal measurement of the inputs, without the part's errors.
-    ideal = ca.vertcat(*[given[sensor.output.own] for sensor in sensors])
+    ideal = ca.vertcat(*[given[sensor.output.own] for sensor in sensors], given["temperature"])
     initial = ca.Function(
         "initial",
         [ca.vertcat(*given.values()), ca.vertcat(*p)],
@@ -215,10 +234,12 @@ def _imu_sensor(part: Part) -> Block:
                 f"{c.kind}[{i + 1}]",
                 c.output.unit,
                 f"measured {c.output.own.replace('_', ' ')}, axis {AXES[i]}",
+                terminal=IMU,
             )
             for c in sensors
             for i in range(3)
-        ),
+        )
+        + (TEMPERATURE,),
         noise=part.gyro.noise + part.accel.noise,
         sample_period=part.sample_period,
     )

@@ -16,7 +16,7 @@ from pyimu.errors import UserError
 from pyimu.model.arguments import Parameter
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.effect import Effect
-from pyimu.model.kinds import KINDS
+from pyimu.model.kinds import KINDS, TRIADS
 from pyimu.model.part import Part
 from pyimu.model.part_entry import (
     DENSITIES,
@@ -32,7 +32,7 @@ from pyimu.model.part_entry import (
 from pyimu.model.sensor import Sensor
 from pyimu.model.tolerance import DISTRIBUTIONS, Tolerance
 
-_TOP_KEYS = ("name", "description", "sample_rate", *KINDS, TOLERANCE)
+_TOP_KEYS = ("name", "description", "sample_rate", *TRIADS, TOLERANCE)
 
 
 _ENTRY_KEYS = ("value", "start", *NOTE_KEYS)
@@ -62,7 +62,7 @@ class _Reader:
 
     def part(self, data: Mapping[str, Any]) -> Part:
         self._known("", data, _TOP_KEYS)
-        sensors = {kind: self._sensor(kind, data.get(kind, {})) for kind in KINDS}
+        sensors = {kind: self._sensor(kind, data.get(kind, {})) for kind in TRIADS}
         name, rate, description = (
             self._required_text(data, "name"),
             self._sample_rate(data),
@@ -133,8 +133,8 @@ class _Reader:
         e = CATALOGUE.get(name)
         if e is None:
             raise self.error(where, f"unknown effect; {meant(name, CATALOGUE)}")
-        if kind not in e.sensors:
-            raise self.error(where, f"is an effect of {' and '.join(e.sensors)}, not of {kind}")
+        if kind not in e.triads:
+            raise self.error(where, f"is an effect of {' and '.join(e.triads)}, not of {kind}")
         return e
 
     def _parameters(self, kind: str, e: Effect, table: Any) -> dict[str, np.ndarray]:

@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from pyimu.model.effect import Effect
-from pyimu.model.kinds import KINDS
+from pyimu.model.kinds import TRIADS
 from pyimu.model.part import Part
 from pyimu.model.part_entry import (
     ESTIMATE,
@@ -29,7 +29,7 @@ def format_part(part: Part) -> str:
     if part.description:
         lines.append(f"description = {_text(part.description)}")
     lines.append(f"sample_rate = {_format_rate(part)}")
-    for kind in KINDS:
+    for kind in TRIADS:
         sensor = part.sensor(kind)
         for e in sensor.effects:
             lines += ["", f"[{kind}.{e.name}]"]

@@ -7,7 +7,7 @@ import math
 import casadi as ca
 
 from pyimu.block.block import Block
-from pyimu.block.variables import Limits, Variable, array
+from pyimu.block.variables import IMU, Limits, Variable, array, in_terminal
 from pyimu.symbolic.missing import is_finite
 from pyimu.units import STANDARD_GRAVITY
 
@@ -15,6 +15,9 @@ CUTOFF = 10.0
 """Hz; Hidalgo 2012, section 6.1: "low-pass filtered at 10 Hz"."""
 
 CHANNELS = 6
+
+FILTERED = "filtered"
+"""What the outputs are called before the names of the inputs, and their terminal."""
 
 REMEMBERED = 4 * CHANNELS
 """Numbers of state: the last two inputs and outputs of every channel."""
@@ -58,11 +61,11 @@ def low_pass(sample_period: float, cutoff: float = CUTOFF) -> Block:
         description="Second-order Butterworth low-pass of gyro and accelerometer",
         step=step,
         initial=initial,
-        inputs=_triads(),
+        inputs=in_terminal(IMU, *_triads()),
         parameters=(
             Variable("cutoff", "Hz", "frequency of half the power; 0: none", cutoff, minimum=0.0),
         ),
-        outputs=_triads("filtered"),
+        outputs=in_terminal(FILTERED, *_triads(FILTERED), prefix=f"{FILTERED}_"),
         noise=(),
         sample_period=sample_period,
         limits=_limits(),

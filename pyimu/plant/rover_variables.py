@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from pyimu.block.variables import Variable, array
+from pyimu.block.variables import MOTION, Variable, array, in_terminal
 from pyimu.plant.bodies import CelestialBody
 from pyimu.plant.ground import PRIME
 
@@ -34,15 +34,20 @@ OUTPUTS = (
     Variable("roll", "rad", "roll of Rz(yaw) Ry(pitch) Rx(roll)"),
     Variable("pitch", "rad", "pitch, nose down is positive"),
     Variable("yaw", "rad", "yaw, counter-clockwise from east, from -pi to pi"),
-    *array("rate", "rad/s", "rate against inertial space, body axes"),
-    *array("specific_force", "m/s^2", "specific force at the sensor, body axes"),
+    *in_terminal(
+        MOTION,
+        *array("rate", "rad/s", "rate against inertial space, body axes"),
+        *array("specific_force", "m/s^2", "specific force at the sensor, body axes"),
+    ),
     *array("position", "m", "position of the body's origin: east, north, up of the start"),
     Variable("speed", "m/s", "speed of the body's origin along the body's x axis"),
     Variable("turn_rate", "rad/s", "turn rate about the vertical"),
-    Variable("temperature", "degC", "temperature of the sensor"),
+    Variable("temperature", "degC", "temperature of the sensor", terminal=MOTION),
     *array("sun", "1", "unit vector to the sun, body axes, also where it is below the horizon"),
     Variable("sun_visible", "1", "the sun is above the horizon", kind="boolean"),
-    *array("mag", "T", "magnetic flux density, body axes; zeros where there is none"),
+    *in_terminal(
+        MOTION, *array("mag", "T", "magnetic flux density, body axes; zeros where there is none")
+    ),
     Variable("standing", "1", "the rover stands", kind="boolean"),
 )
 
@@ -188,7 +193,13 @@ def _sensor() -> tuple[Variable, ...]:
             "hour angle of the sun when the day is warmest",
             math.pi / 6,
         ),
-        _fixed("motor_frequency", "Hz", "frequency of the motors' line", 80.0, LEAST),
+        _fixed(
+            "motor_frequency",
+            "Hz",
+            "frequency of the motors' line; above half the sample rate it folds",
+            80.0,
+            LEAST,
+        ),
         *array("motor_rate", "rad/s", f"amplitude {motor} in rate", fixed=True, minimum=0.0),
         *array(
             "motor_force", "m/s^2", f"amplitude {motor} in specific force", fixed=True, minimum=0.0

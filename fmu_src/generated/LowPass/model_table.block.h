@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "LowPass"
-#define MODEL_TOKEN "{b8bbdc02-714e-2a3b-736e-593fd39941f6}"
+#define MODEL_TOKEN "{c8c35d2b-fe57-0341-1b01-6212731c0c3b}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263

@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "LowPass"
-#define MODEL_TOKEN "{968fee88-953b-3eee-f57f-4f6ec3644e4d}"
+#define MODEL_TOKEN "{df2f519e-1ff4-1729-a7ae-0f0b8f765969}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
