@@ -11,7 +11,6 @@ from pyimu.model.sensor import Sensor
 from pyimu.model.signals import SIGNALS
 from pyimu.model.typical import magnitudes
 from pyimu.modelica.effect_functions import signal_of
-from pyimu.modelica.effect_text import BLOCKS
 from pyimu.modelica.names import identifier, pascal
 from pyimu.modelica.text import GENERATED, capital, number, numbers, rendered, wrapped
 
@@ -47,7 +46,7 @@ def bench_text(sensor: Sensor, name: str, within: str = "PyImu.Examples.Benches"
     own, kind = KINDS[sensor.kind].own, sensor.kind
     values = ", ".join(f"{identifier(n)}={numbers(v.tolist())}" for n, v in e_values(sensor))
     declarations = [
-        f"PyImu.Effects.{pascal(e.name)}.{BLOCKS[kind]} effect(samplePeriod={PERIOD}, {values});",
+        f"PyImu.Effects.{pascal(e.name)}.{pascal(kind)} effect(samplePeriod={PERIOD}, {values});",
         excitation("motion", own, 0),
     ]
     connections = ["connect(motion.y, effect.x);"]

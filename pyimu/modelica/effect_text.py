@@ -20,8 +20,7 @@ _UNITS = (
     "of its coefficients the effect is the identity.</p>"
 )
 
-BLOCKS = {"gyro": "Gyro", "accel": "Accel"}
-"""Name of the block of an effect for each kind of sensor."""
+_OF = {"gyro": "of a gyro", "accel": "of an accelerometer"}
 
 _REAL_INPUT, _REAL_OUTPUT = (f"Modelica.Blocks.Interfaces.Real{x}" for x in ("Input", "Output"))
 
@@ -69,8 +68,8 @@ def _block(f: EffectFunctions, kind: str) -> EffectBlock:
         *([f"{STARTED} = true;"] if f.waits else []),
     ]
     return EffectBlock(
-        BLOCKS[kind],
-        f"{capital(e.term)}, of {'a gyro' if kind == 'gyro' else 'an accelerometer'}",
+        pascal(kind),
+        f"{capital(e.term)}, {_OF.get(kind, f'of a sensor {kind}')}",
         unit or "",
         [line for d in _declarations(f, kind) for line in wrapped(d)],
         states,

@@ -14,7 +14,7 @@ from pyimu.modelica.effect_text import effect_text
 from pyimu.modelica.filters import filter_texts
 from pyimu.modelica.kinematics import attitude_texts, drive_texts
 from pyimu.modelica.names import pascal
-from pyimu.modelica.sensors import part_texts, sensor_texts
+from pyimu.modelica.sensors import part_texts, parts, sensor_texts
 from pyimu.modelica.signal_text import DERIVED, signal_text
 from pyimu.modelica.text import GENERATED, rendered
 
@@ -92,7 +92,7 @@ FOLDERS = tuple(folder for folder, *_ in PACKAGES)
 @cache
 def library() -> Mapping[str, str]:
     """Path below ``PyImu`` to text of every generated file."""
-    found = {f"Sensors/{name}.mo": text for name, text in sensor_texts().items()}
+    found = {f"Sensors/{name}.mo": text for name, text in sensor_texts(parts()).items()}
     found["Noise/layerEdge.mo"] = _edges()
     for name in SOURCES:
         path = source_folder() / name

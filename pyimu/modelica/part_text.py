@@ -15,7 +15,7 @@ from pyimu.model.part_entry import RATE_KEY
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import ALWAYS, SIGNALS, inputs_for
 from pyimu.modelica.effect_functions import signal_of
-from pyimu.modelica.effect_text import BLOCKS, effect_text
+from pyimu.modelica.effect_text import effect_text
 from pyimu.modelica.names import camel, identifier, pascal
 from pyimu.modelica.text import GENERATED, capital, comment, number, numbers, rendered, wrapped
 from pyimu.modelica.unit_names import modelica_unit
@@ -64,7 +64,7 @@ def part_text(part: Part, within: str = "", name: str = "") -> str:
         own=[_nested(effect_text(e)) for e in own],
         triads=[_triad(part, s) for s in sensors],
         period=number(part.sample_period),
-        connectors=[line for n in extra for line in wrapped(_connector(n))],
+        connectors=[line for n in extra for line in wrapped(connector(n))],
         connections=list(_of_both(sensors)),
         uses=not within,
         version=VERSION,
@@ -83,14 +83,15 @@ def _nested(text: str) -> list[str]:
     return [line for line in lines[first:] if line]
 
 
-def _connector(name: str, place: int = 0) -> str:
+def connector(name: str, condition: str = "") -> str:
+    """The declaration of an input by its name in ``SIGNALS``, there under a condition if any."""
     signal = SIGNALS[name]
     size = f"[{signal.size}]" if signal.size > 1 else ""
     start = numbers(list(signal.start)) if size else number(signal.start[0])
     return (
         f"Modelica.Blocks.Interfaces.RealInput {identifier(camel(name))}{size}"
         f'({"each " if size else ""}unit="{modelica_unit(signal.unit)}", start={start})'
-        f"{comment(capital(signal.text))};"
+        f"{condition}{comment(capital(signal.text))};"
     )
 
 
@@ -112,7 +113,7 @@ def _triad(part: Part, sensor: Sensor) -> Triad:
     """The chain of a sensor's effects."""
     own = sensor.output.own
     derived = [n for n in SIGNALS if n in sensor.signals and SIGNALS[n].derived]
-    declarations = [_connector(n) for n in _extra(sensor)]
+    declarations = [connector(n) for n in _extra(sensor)]
     measured = comment(f"Measured {own.replace('_', ' ')}")
     declarations.append(
         f"Modelica.Blocks.Interfaces.RealOutput y[3]"
@@ -174,7 +175,7 @@ def _effect(part: Part, sensor: Sensor, e: Effect) -> Iterator[str]:
     )
     said = _said(part, sensor.kind, e)
     yield (
-        f"{package}{pascal(e.name)}.{BLOCKS[sensor.kind]} {block}(samplePeriod=samplePeriod, y0=y0"
+        f"{package}{pascal(e.name)}.{pascal(sensor.kind)} {block}(samplePeriod=samplePeriod, y0=y0"
         f"{values}){comment(said)};"
     )
     for name, w in e.noises.items():

@@ -2,14 +2,14 @@
 
 import numpy as np
 import pytest
-from modelica_cases import LAST_PLACES, simulated, ulps, vector
+from modelica_cases import LAST_PLACES, measured, simulated, ulps
 
 from pyimu.block.normals import normals
 from pyimu.fmu import build_fmus, simulate
 from pyimu.model.chain import chain_of
 from pyimu.modelica.bench import excite
 from pyimu.modelica.names import camel
-from pyimu.modelica.sensors import parts
+from pyimu.modelica.sensors import parts, sensor_texts
 
 SAMPLES = 1000
 SEEDS = (0, 1, 2**31 - 1)
@@ -72,10 +72,6 @@ def motion(n):
     return np.hstack([excite(k, np.array(o), np.array(a), s) for s, o, a in INPUTS.values()])
 
 
-def outputs(rows, block="imu"):
-    return np.hstack([vector(rows, f"{block}.gyro"), vector(rows, f"{block}.accel")])
-
-
 @pytest.mark.parametrize(("name", "seed"), CASES)
 def test_part_gives_the_samples_of_its_unit(name, seed, tmp_path):
     """From the first sample on, and the same before it: the ideal measurement of a part at rest."""
@@ -85,9 +81,9 @@ def test_part_gives_the_samples_of_its_unit(name, seed, tmp_path):
     (unit,) = build_fmus(part.block, tmp_path, (2,))
     u = motion(SAMPLES)
     want = simulate(unit, u, sample_period=part.sample_period, start_values={"seed": seed})
-    assert np.std(want[1:] - u[:, :6], axis=0)[:3].all()
-    assert ulps(outputs(rows)[1:], want[1:], u[:, :6]) <= LAST_PLACES
-    np.testing.assert_array_equal(outputs(rows)[0], [0, 0, 0, 0, 0, 9.80665])
+    assert np.std(want[1:] - u, axis=0)[:3].all()
+    assert ulps(measured(rows)[1:], want[1:], u) <= LAST_PLACES
+    np.testing.assert_array_equal(measured(rows)[0], [0, 0, 0, 0, 0, 9.80665, 25])
 
 
 @pytest.mark.parametrize("seed", SEEDS)
@@ -100,7 +96,7 @@ def test_imt30_is_its_block_to_the_bit(seed):
         part.sample_period,
         vehicle([declared("Imt30", seed, n)], part.sample_period),
     )
-    np.testing.assert_array_equal(outputs(rows)[1:], part.block.run(motion(n), seed=seed)[0])
+    np.testing.assert_array_equal(measured(rows)[1:], part.block.run(motion(n), seed=seed)[0])
 
 
 def test_a_second_instance_changes_nothing():
@@ -115,7 +111,7 @@ def test_a_second_instance_changes_nothing():
     )
     for block, seed in (("imu", 1), ("other", 2)):
         want = part.block.run(motion(n), seed=seed)[0]
-        np.testing.assert_array_equal(outputs(rows, block)[1:], want)
+        np.testing.assert_array_equal(measured(rows, block)[1:], want)
 
 
 def test_part_draws_its_noise_itself():
@@ -123,4 +119,15 @@ def test_part_draws_its_noise_itself():
     part, n, period = PARTS["Imt30"], 8, PARTS["Imt30"].sample_period
     text = f"PyImu.Sensors.Parts.Imt30.Imu imu(seed=5, samplePeriod={period!r});"
     rows = simulated("Vehicle", n * period, period, vehicle([text], period))
-    np.testing.assert_array_equal(outputs(rows)[1:], part.block.run(motion(n), seed=5)[0])
+    np.testing.assert_array_equal(measured(rows)[1:], part.block.run(motion(n), seed=5)[0])
+
+
+def test_an_input_that_some_parts_need_is_there_where_they_are_chosen():
+    """Of the built-in parts none needs one but those of every part."""
+    coupled = PARTS["Bmi088"].accel.with_values("magnetic_sensitivity", C=np.eye(3))
+    found = sensor_texts({**PARTS, "Bmi088": PARTS["Bmi088"].with_sensor(coupled)})
+    for name in ("Imu", "Accelerometer"):
+        text = found[name]
+        assert "RealInput mag[3]" in text and "if part == PyImu.Sensors.Part.Bmi088" in text
+        assert text.count("connect(mag, bmi088.mag);") == text.count("connect(mag,") == 1
+    assert "mag" not in found["Gyroscope"]

@@ -53,6 +53,12 @@ def vector(rows, name, size=3):
     return np.column_stack([rows[f"{name}[{i + 1}]"] for i in range(size)])
 
 
+def measured(rows, block="imu"):
+    """The columns (n, 7) of a measurement unit, in the order of its co-simulation unit's."""
+    gyro, accel = vector(rows, f"{block}.gyro"), vector(rows, f"{block}.accel")
+    return np.column_stack([gyro, accel, rows[f"{block}.measuredTemperature"]])
+
+
 def ulps(a, b, *summands):
     """The largest distance of two arrays in units in the last place.
 

@@ -35,6 +35,9 @@ package {{ name }} "{{ description | text }}"
 {% for line in connections %}
     {{ line }}
 {% endfor %}
+    when sample(samplePeriod, samplePeriod) then
+      measuredTemperature = temperature;
+    end when;
   end Imu;
 
   annotation({% if uses %}uses(PyImu(version="{{ version }}"), Modelica(version="4.0.0")), {% endif %}Documentation(info="<html>

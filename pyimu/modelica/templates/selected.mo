@@ -11,13 +11,16 @@ block {{ name }} "{{ description | text }}"
   Modelica.Blocks.Interfaces.RealOutput y[3](each unit="{{ unit }}") "Output, body axes"
     annotation(Placement(transformation(extent={{ "{{100,-10},{120,10}}" }})));
 {% endif %}
+{% for line in connectors %}
+  {{ line }}
+{% endfor %}
 {% for part in parts %}
   PyImu.Sensors.Parts.{{ part.name }}.{{ name }} {{ part.block }}(samplePeriod=samplePeriod, seed=seed)
     if part == PyImu.Sensors.Part.{{ part.name }};
 {% endfor %}
 equation
 {% for part in parts %}
-{% for input in ["rate", "specificForce", "temperature"] %}
+{% for input in ["rate", "specificForce", "temperature"] + part.extra %}
   connect({{ input }}, {{ part.block }}.{{ input }});
 {% endfor %}
 {% for output in outputs %}

@@ -78,6 +78,9 @@ package Adis16470 "Analog Devices ADIS16470, miniature industrial IMU"
     connect(specificForce, accelerometer.specificForce);
     connect(temperature, accelerometer.temperature);
     connect(accelerometer.y, accel);
+    when sample(samplePeriod, samplePeriod) then
+      measuredTemperature = temperature;
+    end when;
   end Imu;
 
   annotation(Documentation(info="<html>

@@ -70,6 +70,9 @@ package Adis16495 "Analog Devices ADIS16495-1, tactical-grade IMU"
     connect(specificForce, accelerometer.specificForce);
     connect(temperature, accelerometer.temperature);
     connect(accelerometer.y, accel);
+    when sample(samplePeriod, samplePeriod) then
+      measuredTemperature = temperature;
+    end when;
   end Imu;
 
   annotation(Documentation(info="<html>

@@ -66,6 +66,9 @@ package Icm20948 "TDK InvenSense ICM-20948, consumer nine-axis IMU, gyro and acc
     connect(specificForce, accelerometer.specificForce);
     connect(temperature, accelerometer.temperature);
     connect(accelerometer.y, accel);
+    when sample(samplePeriod, samplePeriod) then
+      measuredTemperature = temperature;
+    end when;
   end Imu;
 
   annotation(Documentation(info="<html>

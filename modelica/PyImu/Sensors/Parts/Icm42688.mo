@@ -66,6 +66,9 @@ package Icm42688 "TDK InvenSense ICM-42688-P, high-precision consumer six-axis I
     connect(specificForce, accelerometer.specificForce);
     connect(temperature, accelerometer.temperature);
     connect(accelerometer.y, accel);
+    when sample(samplePeriod, samplePeriod) then
+      measuredTemperature = temperature;
+    end when;
   end Imu;
 
   annotation(Documentation(info="<html>

@@ -94,6 +94,9 @@ package Mpu6050 "InvenSense MPU-6050, consumer six-axis IMU"
     connect(specificForce, accelerometer.specificForce);
     connect(temperature, accelerometer.temperature);
     connect(accelerometer.y, accel);
+    when sample(samplePeriod, samplePeriod) then
+      measuredTemperature = temperature;
+    end when;
   end Imu;
 
   annotation(Documentation(info="<html>

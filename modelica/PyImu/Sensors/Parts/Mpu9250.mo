@@ -74,6 +74,9 @@ package Mpu9250 "InvenSense MPU-9250, consumer nine-axis IMU, gyro and accelerom
     connect(specificForce, accelerometer.specificForce);
     connect(temperature, accelerometer.temperature);
     connect(accelerometer.y, accel);
+    when sample(samplePeriod, samplePeriod) then
+      measuredTemperature = temperature;
+    end when;
   end Imu;
 
   annotation(Documentation(info="<html>

@@ -82,6 +82,9 @@ package Stim300 "Sensonor STIM300 with 10 g accelerometers, tactical-grade IMU"
     connect(specificForce, accelerometer.specificForce);
     connect(temperature, accelerometer.temperature);
     connect(accelerometer.y, accel);
+    when sample(samplePeriod, samplePeriod) then
+      measuredTemperature = temperature;
+    end when;
   end Imu;
 
   annotation(Documentation(info="<html>
