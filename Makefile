@@ -10,7 +10,7 @@ OUT ?= out
 .PHONY: help demo test lint generate fmus bench
 
 help:
-	@echo "make demo      the whole loop on a built-in recording; report under $(OUT)/demo"
+	@echo "make demo      the whole loop on a simulated recording; report under $(OUT)/demo"
 	@echo "make test      all tests, on all cores"
 	@echo "make lint      style, format and types"
 	@echo "make generate  what is written from the definitions: docs, pictures, fmu_src/generated, modelica"

@@ -101,6 +101,11 @@ class Tried:
         self.usual = seen
         return seen, slow
 
+    @property
+    def gains(self) -> tuple[tuple[str, float], ...]:
+        """What each candidate that was fitted in full explains [nat], by its name."""
+        return tuple((name, max(float(r.gain), 0.0)) for name, r in self.refined.items())
+
     def refine(self, c: Screened) -> Refined:
         if c.effect not in self.refined:
             self.refined[c.effect] = refine(self.current, c)
