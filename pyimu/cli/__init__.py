@@ -11,7 +11,14 @@ import typer
 
 from pyimu.cli.campaigns import campaign_command
 from pyimu.cli.logs import attitude_command, characterize_command, close_command, demo
-from pyimu.cli.models import build, derive_command, parts, plan_command, rover_command
+from pyimu.cli.models import (
+    build,
+    derive_command,
+    modelica_command,
+    parts,
+    plan_command,
+    rover_command,
+)
 from pyimu.errors import UserError
 from pyimu.interrupt import Interrupts, ignore_at_exit
 
@@ -100,6 +107,7 @@ _add("attitude", attitude_command, "The attitude filter over a log, with its pag
 _add("plan", plan_command, "The motion that would show an effect of a part, and how well.")
 _add("rover", rover_command, "The paper's four test drives of a rover beside its table 6.")
 _add("build", build, "Build the co-simulation units of a part.")
+_add("modelica", modelica_command, "A part as a Modelica class.")
 _add("parts", parts, "The built-in parts, or one part with the source of each figure.")
 _add(
     "campaign",

@@ -173,6 +173,25 @@ def build(
         print(path)
 
 
+def modelica_command(
+    part: Annotated[str, typer.Argument(help="Built-in part or a TOML file.", show_default=False)],
+    out: Annotated[Path, typer.Option("--out", help="Folder for the file NAME.mo.")] = Path(
+        "out/modelica"
+    ),
+    effects: Effects = None,
+) -> None:
+    """Example: pyimu modelica mypart.toml --out out/modelica
+
+    Print a part as a Modelica class: a package with the blocks Gyroscope, Accelerometer and Imu,
+    which need the library PyImu (the folder modelica/PyImu of the source) and give the samples of
+    the part's co-simulation unit. Effects of your own are printed into it.
+    """
+    from pyimu.modelica.export import export
+
+    add_effects(effects)
+    print(export(part, out))
+
+
 def parts(
     name: Annotated[
         str | None,
