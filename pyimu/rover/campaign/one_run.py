@@ -24,10 +24,6 @@ INSTANTS = 32
 PIECE = 512
 """Samples of the filter that are computed at a time, at most."""
 
-NOTHING = 1e-100
-"""A number of the filter's state that is smaller, in any unit, is zero. What fades on a body that
-stands for hours would end as a denormal number, with which processors compute 20 times slower."""
-
 
 @dataclass(frozen=True)
 class Drive:
@@ -78,7 +74,6 @@ def driven(settings: Settings, number: int, keep: bool = False) -> Drive:
         samples, temperature, bias = sensing.advance(kept)
         x = _inputs(system, samples, temperature, heading[:, kept], true.standing[kept])
         y = steps.advance(x)
-        steps.state[np.abs(steps.state) < NOTHING] = 0.0
         errors[kept] = (y[:, roll : roll + 3] - true.euler[kept] + np.pi) % (2 * np.pi) - np.pi
         status[kept] = y[:, flags]
         if kept.stop in instants:
