@@ -72,7 +72,10 @@ def build(
     part: Annotated[str, typer.Argument(help="Built-in part or a TOML file.", show_default=False)],
     out: Out = Path("out/fmus"),
     fmu: Annotated[
-        str, typer.Option("--fmu", help="Which, separated by commas: sensor, ukf, hidalgo2012.")
+        str,
+        typer.Option(
+            "--fmu", help="Which, separated by commas: sensor, ukf, hidalgo2012, heading."
+        ),
     ] = "sensor,ukf",
     fmi: Annotated[
         str,

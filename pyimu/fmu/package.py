@@ -1,4 +1,4 @@
-"""FMUs of a part: the sensor, and the attitude filter that goes with it."""
+"""FMUs of a part: the sensor, and the filters that go with it."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from pyimu.attitude.filters import FILTERS
+from pyimu.attitude.heading.estimator import heading_estimator
 from pyimu.block.block import Block
 from pyimu.errors import UserError
 from pyimu.files import check_folder
@@ -17,6 +18,7 @@ from pyimu.model.part_file import part as find_part
 BLOCKS: dict[str, Callable[[Part], Block]] = {
     "sensor": lambda part: part.block,
     **FILTERS,
+    "heading": heading_estimator,
 }
 """What ``--fmu`` names."""
 
@@ -30,7 +32,7 @@ def build(
 ) -> list[Path]:
     """Build the FMUs of a part into ``out``; gives their paths.
 
-    ``fmu`` names blocks ("sensor", "ukf", "hidalgo2012"), ``fmi`` forms (2, 3, "block"),
+    ``fmu`` names blocks ("sensor", "ukf", "hidalgo2012", "heading"), ``fmi`` forms (2, 3, "block"),
     ``platform`` the machine ("host", "all", or one by name). Raises UserError for an unknown name,
     a part that cannot be read, a folder that cannot be made, or a missing compiler.
     """
