@@ -76,10 +76,16 @@ def heading_command(
     """
     from pyimu.errors import UserError
     from pyimu.files import check_folder
+    from pyimu.heading.motion import Reference
     from pyimu.heading.run import run
     from pyimu.recording.log import read_recording
 
-    if reference not in (None, "heading", "rate"):
+    references: dict[str | None, Reference | None] = {
+        None: None,
+        "heading": "heading",
+        "rate": "rate",
+    }
+    if reference not in references:
         raise UserError(f"--reference {reference}: unknown; known are heading, rate")
     check_folder(out)
     add_effects(effects)
@@ -90,7 +96,7 @@ def heading_command(
             method,
             known=[read_recording(path, columns) for path in known] if known else None,
             start_up=start_up,
-            reference=reference,
+            reference=references[reference],
             threshold=math.radians(threshold),
             release=None if release is None else math.radians(release),
             hold=hold,

@@ -20,6 +20,7 @@ from pyimu.identification.fit.columns import Linear
 from pyimu.identification.fit.keys import Coefficient, LogBias
 from pyimu.identification.fit.normal import normal_equations, variances
 from pyimu.identification.fit.whiten import RandomWalk
+from pyimu.identification.search.belief import FARTHEST
 from pyimu.model.part import Part
 from pyimu.model.typical import magnitudes
 from pyimu.recording.recording import Recording
@@ -29,16 +30,22 @@ LEAST_KNOWN = magnitudes("scale_factor", "gyro")["consumer"].si
 anyhow (MPU-6050, 3 %) is none."""
 
 
+MOST = FARTHEST * LEAST_KNOWN
+"""A larger scale factor error is none of a gyro's, as the loop has it of every coefficient."""
+
+
 @dataclass(frozen=True)
 class Calibration:
     """Scale factor and bias of a gyro, r = ``s_bar`` r_m + ``b_bar`` (``b_bar`` in rad/s).
 
-    ``covariance`` (2, 2) is that of the two in this order, as the ``method`` has it: of least
-    squares, as if what is left were white. ``condition`` is the condition number of the columns,
-    each scaled to length one. ``residual`` rad/s (rad for a heading) is what is left, RMS. ``late``
-    s is how late the reference's samples are, below zero where the gyro's are, with its standard
-    deviation; None where it was not sought. ``noise`` are N rad/sqrt(s) and K rad/s/sqrt(s) of what
-    is left, None where it was taken for white.
+    ``method`` is the reference, and whether it was whitened. ``covariance`` (2, 2) is that of the
+    two in this order: of plain least squares as if what is left were white. ``condition`` is the
+    condition number of the columns, each scaled to length one. ``residual`` rad/s (rad for a
+    heading that was not whitened) is what is left, RMS, of so many ``rows`` in so many
+    ``segments``. ``late`` s is how late the reference's samples are, below zero where the gyro's
+    are, with its standard deviation; None where it was not sought. ``noise`` are N rad/sqrt(s) and
+    K rad/s/sqrt(s) of what is left, None where it was taken for white; ``window`` are the samples
+    that were averaged to a row.
     """
 
     method: str
@@ -142,7 +149,7 @@ def self_calibrate(recording: Recording, reference: Reference | None = None) -> 
     variance = left @ left / max(len(left) - 2, 1)
     return checked(
         Calibration(
-            f"{reference} reference",
+            reference,
             one.name,
             *map(float, answer),
             covariance=variance * np.linalg.inv(columns.T @ columns),
@@ -223,5 +230,11 @@ def checked(found: Calibration) -> Calibration:
         raise UserError(
             f"{found.name}: s_bar is {found.s_bar:.4g}, which is not positive: gyro and reference "
             "turn opposite ways, or do not belong together"
+        )
+    if abs(found.s) > MOST:
+        raise UserError(
+            f"{found.name}: the scale factor would be off by {100 * found.s:.3g} %, and no gyro's "
+            f"is by more than {100 * MOST:.3g} %: gyro and reference do not belong together, or "
+            "one has another unit"
         )
     return found

@@ -76,8 +76,8 @@ class HeadingFilter:
     def run(
         self, recording: Recording, heading0: float = 0.0, heading0_std: float = 0.0
     ) -> HeadingTrack:
-        """The heading over a recording whose first row has ``heading0`` rad, known to
-        ``heading0_std`` rad.
+        """The heading over a recording; one period before its first row it is ``heading0`` rad,
+        known to ``heading0_std`` rad.
 
         Rests are those of the column ``stationary`` where the recording has one, else they are
         detected from gyro and accelerometer. Raises UserError for a recording without gyro.
@@ -117,6 +117,8 @@ def compensated(recording: Recording, part: Part) -> Recording:
     """The recording with the rate about the vertical less the part's own errors, but for those that
     a calibration finds.
     """
+    if all(e.law is not None for e in uncalibrated(part).gyro.effects):
+        return recording
     nothing = {f"std0[{i}]": 0.0 for i in (1, 2, 3)} | {"rest_time": 0.0}
     plain = replace(recording, stationary=None, heading=None)
     track = _run(heading_estimator(uncalibrated(part)), plain, part, nothing)

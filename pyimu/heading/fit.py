@@ -8,7 +8,9 @@ at t + d what the gyro measured at t.
 
 A heading is differenced over windows. Its own noise makes neighbouring differences opposite, from
 which its size follows; the windows are as long as keeps what it pulls of s (errors in variables,
-var(noise)/var(rate)) below a fifth of the standard error.
+var(noise)/var(rate)) below a fifth of the standard error, and within a window the heading is
+smoothed by a cubic, for else a clock offset of half a sample, where interpolation averages two,
+would look better than any other.
 """
 
 from __future__ import annotations
@@ -17,7 +19,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.interpolate import CubicSpline
+from scipy.signal import savgol_filter
 
+from pyimu.errors import UserError
 from pyimu.heading.calibration import (
     Calibration,
     check_seen,
@@ -45,6 +49,9 @@ SETTLED = 1e-12
 PULLED = 0.2
 """Share of its standard error by which the reference's noise may pull the scale factor."""
 
+CUBIC = 3
+"""Order of the polynomials that smooth a heading."""
+
 LONGEST_WINDOW = 5.0
 """s; longer windows would average over the turns themselves."""
 
@@ -58,11 +65,12 @@ class _Truth:
     splines: list[CubicSpline]
 
     @classmethod
-    def of(cls, one: KnownMotion, reference: Reference) -> _Truth:
+    def of(cls, one: KnownMotion, reference: Reference, window: int) -> _Truth:
         values = one.heading if reference == "heading" else one.rate
-        return cls(
-            one, reference, [CubicSpline(one.time[a:b], values[a:b]) for a, b in one.segments]
-        )
+        splines = [
+            CubicSpline(one.time[a:b], _smoothed(values[a:b], window)) for a, b in one.segments
+        ]
+        return cls(one, reference, splines)
 
     def rows(self, late: float, window: int) -> Rows:
         """What a reference that is ``late`` by so many s says of windows of so many rows."""
@@ -115,63 +123,94 @@ def fit(
     reference = reference or one.references[0]
     rate, seen = observed(one, reference)
     check_seen(one, *seen)
-    truth, window = _Truth.of(one, reference), 1
+    window = _window(one, rate) if reference == "heading" else 1
+    truth = _Truth.of(one, reference, window)
     late = _roughly_late(one, rate) if offset else 0.0
-    while True:
-        found, pulled = _solved(truth, late, window, offset)
-        longer = reference == "heading" and 2 * window * one.period <= LONGEST_WINDOW
-        if pulled <= PULLED * found.s_std or not longer:
-            return checked(found)
+    return checked(_solved(truth, late, window, offset))
+
+
+def _window(one: KnownMotion, rate: np.ndarray) -> int:
+    """Samples of a window, by what the noise of a heading reference would pull s over one.
+
+    White noise of variance v makes neighbouring differences over T have the covariance -v/T^2, and
+    each the variance 2 v/T^2; the gyro's own N^2/T has no such covariance.
+    """
+    columns = np.column_stack([rate, np.ones(len(rate))])
+    left = one.measured - columns @ np.linalg.lstsq(columns, one.measured)[0]
+    # By differences of what is left, so that a slow walk has no part in it.
+    change = np.diff(left)
+    lag = [
+        float(change[k:] @ change[: len(change) - k]) / max(len(change) - k, 1) for k in (0, 1, 2)
+    ]
+    # With g0 and g1 the variance and the covariance of neighbours: lag 0 is 2 g0 - 2 g1, lag 1 is
+    # 2 g1 - g0, lag 2 is -g1. Of what is smooth, as the rest of a clock offset, lag 1 is not below
+    # zero.
+    opposite, h = max(min(lag[2], -lag[1] / 4.0), 0.0), one.period
+    own = max((lag[0] - 6.0 * opposite) / 2.0, 0.0) * h
+    power = float(np.var(rate))
+    most, window = PULLED * np.sqrt(own * power / (len(rate) * h)), 1
+    while 2 * opposite / window**2 > most and 2 * window * h <= LONGEST_WINDOW:
         window *= 2
+    return window
+
+
+def _smoothed(values: np.ndarray, window: int) -> np.ndarray:
+    """Values (n,) smoothed by cubics over windows of so many samples."""
+    length = min(window, len(values) - 1) // 2 * 2 + 1
+    return savgol_filter(values, length, CUBIC) if length > CUBIC + 1 else values
 
 
 def _roughly_late(one: KnownMotion, rate: np.ndarray) -> float:
-    """How late the reference is to a sample, by the correlation of the two rates."""
-    most = min(round(LATEST / one.period), len(rate) // 4)
-    measured, true = one.measured - one.measured.mean(), rate - rate.mean()
-    n = len(rate)
-    shifts = np.arange(-most, most + 1)
-    along = [
-        measured[max(-k, 0) : n - max(k, 0)] @ true[max(k, 0) : n - max(-k, 0)] / (n - abs(k))
-        for k in shifts
-    ]
-    return float(shifts[np.argmax(along)] * one.period)
-
-
-def _solved(truth: _Truth, late: float, window: int, offset: bool) -> tuple[Calibration, float]:
-    """The calibration over windows of so many rows, and by how much the reference's noise may have
-    pulled s.
+    """How late the reference is to a sample, by the correlation of the two rates where they
+    overlap.
     """
-    name, s, b = truth.one.name, 0.0, 0.0
-    keys: list[Key] = [Coefficient("scale_factor", "s", (Z,)), LogBias(name, Z)]
-    keys += [LogClock(name, 0)] * offset
-    for _ in range(ROUNDS):
+    n, most = len(rate), min(round(LATEST / one.period), len(rate) // 4)
+    shifts = np.arange(-most, most + 1)
+
+    def alike(k: int) -> float:
+        measured, true = one.measured[max(-k, 0) : n - max(k, 0)], rate[max(k, 0) : n - max(-k, 0)]
+        along = (measured - measured.mean()) @ (true - true.mean())
+        return along / max(len(true) * measured.std() * true.std(), 1e-300)
+
+    # Of shifts that are equally good, as of a ramp, the shortest.
+    found = np.array([alike(k) for k in shifts])
+    good = shifts[found >= found.max() - 1e-9]
+    return float(good[np.argmin(np.abs(good))] * one.period)
+
+
+def _solved(truth: _Truth, late: float, window: int, offset: bool) -> Calibration:
+    """The calibration over windows of so many rows, from a first guess of the clock offset."""
+    keys: list[Key] = [Coefficient("scale_factor", "s", (Z,)), LogBias(truth.one.name, Z)]
+    keys += [LogClock(truth.one.name, 0)] * offset
+    s, b, count = 0.0, 0.0, len(keys)
+    for round_ in range(ROUNDS):
         rows = truth.rows(late, window)
         left = rows.measured - (1 + s) * rows.rate - b
-        columns = np.column_stack([rows.rate, np.ones(len(left)), (1 + s) * rows.slope])
-        columns = columns[:, : len(keys)]
-        # The first step is far from the noise: what is left of it is the scale factor.
-        if s == b == 0.0:
-            first = np.linalg.lstsq(columns[:, :2], left)[0]
-            noise = RandomWalk.fit([(left - columns[:, :2] @ first, rows.time, rows.segments)])
-        else:
-            noise = RandomWalk.fit([(left, rows.time, rows.segments)])
+        columns = np.column_stack([rows.rate, np.ones(len(left)), (1 + s) * rows.slope])[:, :count]
+        # The first step is far from the noise: what is left there is scale factor and bias.
+        far = columns[:, :2] @ np.linalg.lstsq(columns[:, :2], left)[0] if round_ == 0 else 0.0
+        noise = RandomWalk.fit([(left - far, rows.time, rows.segments)])
         # The bias is that of a row before the first: else that one row would weigh more than all
         # others together where there is walk and next to no white noise.
         noise = replace(noise, before=window * truth.one.period)
         linear = Linear(rows.time, rows.segments, left[:, None], {0: keys}, {0: columns})
         normal = normal_equations([linear], {0: noise})
+        if offset and not np.isfinite(variances(normal.gram)).all():
+            # A ramp that is late is a ramp with another bias.
+            return _solved(truth, 0.0, window, False)
         change = solve(normal.gram, normal.score)
         s, b = s + float(change[0]), b + float(change[1])
         late += float(change[2]) if offset else 0.0
+        if abs(late) > 2 * LATEST:
+            raise UserError(
+                f"{truth.one.name}: no clock offset of up to {LATEST:g} s brings the reference to "
+                "the gyro: they do not belong together, or their clocks are farther apart"
+            )
         if np.max(np.abs(change)) < SETTLED:
             break
-    covariance = np.linalg.pinv(normal.gram)
     std = np.sqrt(variances(normal.gram))
-    found = _calibration(truth, rows, (s, b), covariance, columns, noise, window)
-    if offset:
-        found = replace(found, late=late, late_std=float(std[2]))
-    return found, _pulled(truth, rows, left - columns @ change, window)
+    found = _calibration(truth, rows, (s, b), np.linalg.pinv(normal.gram), columns, noise, window)
+    return replace(found, late=late, late_std=float(std[2])) if offset else found
 
 
 def _calibration(truth, rows, found, covariance, columns, noise, window) -> Calibration:
@@ -180,7 +219,7 @@ def _calibration(truth, rows, found, covariance, columns, noise, window) -> Cali
     slope = np.array([[-1.0, 0.0], [b / (1 + s), -1.0]]) / np.array([[(1 + s) ** 2], [1 + s]])
     steps = truth.one.period * window
     return Calibration(
-        f"{truth.reference} reference, whitened",
+        f"{truth.reference}, whitened",
         truth.one.name,
         1.0 / (1 + s),
         -b / (1 + s),
@@ -193,20 +232,3 @@ def _calibration(truth, rows, found, covariance, columns, noise, window) -> Cali
         noise=(float(np.sqrt(noise.r * steps)), float(np.sqrt(noise.k2))),
         window=window,
     )
-
-
-def _pulled(truth: _Truth, rows: Rows, left: np.ndarray, window: int) -> float:
-    """Share of s that the noise of a heading reference takes away.
-
-    White noise of variance v makes neighbouring differences over a window T have the covariance
-    -v/T^2, and each the variance 2 v/T^2. Of a random walk neighbours have none.
-    """
-    if truth.reference == "rate":
-        return 0.0
-    smooth = np.diff(left)
-    # Of the differences of what is left, so that a slow walk has no part in it: with g0 and g1 the
-    # variance and the covariance of neighbours of white plus difference noise, the covariances
-    # of the differences two and one rows apart give g1 alone.
-    lag = [smooth[k:] @ smooth[: len(smooth) - k] / max(len(smooth) - k, 1) for k in (0, 1, 2)]
-    opposite = max(-(lag[0] + lag[1]) - lag[2], 0.0) if len(smooth) > 3 else 0.0
-    return 2 * opposite / max(float(np.var(rows.rate)), 1e-300)

@@ -33,6 +33,13 @@ APART = 1.5
 """Factor by which a slope may be off and still be known for one, for -1, or for ``DEGREES``: two
 gyros of one kind differ by less, and these differ by more."""
 
+ALIKE = 0.9
+"""Correlation of gyro and reference below which their slope is, to a fifth and more, that of noise:
+it is too small by one less its square."""
+
+WRAPPED = 10.0
+"""Times the median step of the fastest rows that no turn, and every wrap, is."""
+
 DISAGREE = 0.05
 """Share of the path turned by which two references of one motion may differ: more than that is the
 error of the scale factor that they are to find (MPU-6050: 3 %)."""
@@ -162,6 +169,7 @@ def _check_slope(one: KnownMotion, name: Reference) -> None:
     """Refuse a reference in degrees or of opposite sign, by the rows that turn fastest.
 
     The median slope of a quarter of the rows is not moved by the few in which a heading wraps.
+    Where the two are hardly alike it says nothing.
     """
     steps, turned = _steps(one, name), (one.measured - np.median(one.measured)) * one.period
     rows = np.flatnonzero(np.isfinite(steps))
@@ -169,6 +177,13 @@ def _check_slope(one: KnownMotion, name: Reference) -> None:
     if not np.any(turned[rows]):
         return
     against = steps[rows] - np.median(steps[np.isfinite(steps)])
+    # A heading wraps in few of these rows.
+    usual = np.abs(against) <= WRAPPED * np.median(np.abs(against))
+    rows, against = rows[usual], against[usual]
+    spread = float(np.std(against) * np.std(turned[rows]))
+    along = float(np.mean((against - against.mean()) * (turned[rows] - turned[rows].mean())))
+    if abs(along) < ALIKE * spread or spread == 0.0:
+        return
     slope = float(np.median(against / np.where(turned[rows] == 0, np.inf, turned[rows])))
     column = "ref_heading" if name == "heading" else "ref_rate_z"
     for factor, text in (

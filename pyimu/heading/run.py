@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
+from functools import cached_property
 
 import numpy as np
 from scipy.ndimage import uniform_filter1d
 
-from pyimu.attitude.columns import NOMINAL_K
 from pyimu.errors import UserError
 from pyimu.heading.calibration import Calibration, self_calibrate
 from pyimu.heading.filter import HeadingFilter, HeadingTrack, compensated
@@ -21,6 +21,7 @@ from pyimu.heading.transfer import rate_transfer, shows_transfer
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as part_of
 from pyimu.model.sensor import Sensor
+from pyimu.model.typical import magnitudes
 from pyimu.recording.clock import runs
 from pyimu.recording.log import Given, recording_of
 from pyimu.recording.recording import Recording, filled
@@ -46,6 +47,9 @@ ALL = "all"
 
 TURN = np.radians(10.0)
 """rad; what turns by less one way is steering."""
+
+TYPICAL_WALK = magnitudes("rate_random_walk", "gyro")["consumer"].si
+"""rad/s/sqrt(s); of a gyro whose known motion is too short to show how its bias walks."""
 
 TURNING = 1e-3
 """Share of the fastest rate from which on a body turns."""
@@ -173,7 +177,7 @@ class _OneLog:
         found = None
         rate = filled(self.log.time, self.log.gyro[:, Z])
         if name in CALIBRATED:
-            found = self_calibrate(self.known, self.reference)
+            found = self._calibration
             rate = found.rate(rate)
         if name in ("threshold", "paper"):
             self._check_threshold()
@@ -184,6 +188,10 @@ class _OneLog:
         steps = np.diff(self.log.time, prepend=self.log.time[0] - self.log.sample_period)
         heading = self._start() + np.cumsum(rate * steps)
         return self._against(heading, found)
+
+    @cached_property
+    def _calibration(self) -> Calibration:
+        return self_calibrate(self.known, self.reference)
 
     def _start(self) -> float:
         """The reference's heading at the row before the first, 0 where it has none."""
@@ -250,9 +258,10 @@ def _true_heading(log: Recording) -> np.ndarray | None:
 
 
 def _slowest_turn(log: Recording) -> float | None:
-    """The mean rate in rad/s of the slowest turn that the reference shows; None without one.
+    """The rate in rad/s of the slowest turn that the reference shows; None without one.
 
-    A turn goes one way, without a second's stop, by ``TURN`` or more.
+    A turn goes one way, without a second's stop, by ``TURN`` or more; its rate is the mean over
+    its angle, which steering before and after hardly changes.
     """
     try:
         one = known_motion(log)
@@ -265,8 +274,9 @@ def _slowest_turn(log: Recording) -> float | None:
         fast = np.max(np.abs(mean), initial=0.0)
         for sign in (-1, 1):
             for i, j in runs(sign * mean > TURNING * fast):
-                if abs(np.sum(rate[i:j])) * one.period >= TURN:
-                    slowest.append(float(np.median(np.abs(rate[i:j]))))
+                path = np.sum(np.abs(rate[i:j]))
+                if path * one.period >= TURN:
+                    slowest.append(float(np.sum(rate[i:j] ** 2) / path))
     return min(slowest, default=None)
 
 
@@ -277,5 +287,5 @@ def _part_of(found: Calibration | None, log: Recording) -> Part:
     else:
         scatter = np.diff(filled(log.time, log.gyro[:, Z]), n=3)
         n, k = float(np.sqrt(np.median(scatter**2) / 0.455 / 20 * log.sample_period)), 0.0
-    gyro = {"angle_random_walk": {"N": n}, "rate_random_walk": {"K": k or NOMINAL_K}}
+    gyro = {"angle_random_walk": {"N": n}, "rate_random_walk": {"K": k or TYPICAL_WALK}}
     return Part("as the log shows it", log.sample_rate, Sensor("gyro", gyro))

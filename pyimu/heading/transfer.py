@@ -2,7 +2,7 @@
 
 Slope, its asymmetry and the residual in percent of the range, as IEEE Std 1431 (and the paper's
 section 2.2, whose figures are not in our text) has them: r_m = b + (1 + s) r + sa |r|, by the
-regression of ``pyimu close`` over the rows of all plateaus.
+regression of ``pyimu close`` over the plateaus' means.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from pyimu.errors import UserError
 from pyimu.identification.fit.columns import Linear
 from pyimu.identification.fit.keys import Coefficient, Key, LogBias
 from pyimu.identification.fit.normal import normal_equations, solve, variances
-from pyimu.identification.fit.whiten import RandomWalk
+from pyimu.identification.fit.whiten import LEAST_VARIANCE, RandomWalk
 from pyimu.recording.clock import runs
 from pyimu.recording.recording import Recording
 
@@ -126,29 +126,31 @@ def _transfer(recording: Recording, axis: int) -> RateTransfer:
     rows = np.concatenate([np.arange(a, b) for a, b in pieces])
     ends = np.cumsum([b - a for a, b in pieces]).tolist()
     segments = list(zip([0, *ends[:-1]], ends, strict=True))
-    true, measured = recording.ref_rate[rows, axis], recording.gyro[rows, axis]
+    measured = recording.gyro[rows, axis]
     if not np.isfinite(measured).all():
         raise UserError(f"{recording.name}: gyro_{name} is missing in a plateau of the rate table")
-    columns = np.column_stack([true, np.ones(len(true)), np.abs(true)])
-    left = measured - true
+    means = np.array([measured[a:b].mean() for a, b in segments])
+    columns = np.column_stack([rates, np.ones(len(rates)), np.abs(rates)])
     keys: list[Key] = [
         Coefficient("scale_factor", "s", (axis,)),
         LogBias(recording.name, axis),
         Coefficient("scale_factor_asymmetry", "sa", (axis,)),
     ]
-    first = np.linalg.lstsq(columns, left)[0]
-    time = recording.time[rows]
-    noise = RandomWalk.fit([(left - columns @ first, time, segments)])
-    linear = Linear(time, segments, left[:, None], {0: keys}, {0: columns})
+    rest = means - rates
+    rest = rest - columns @ np.linalg.lstsq(columns, rest)[0]
+    # What is left of a plateau is no noise of its samples: the standard errors hold it.
+    noise = RandomWalk(max(float(rest @ rest) / (len(rest) - len(keys)), LEAST_VARIANCE), 0.0)
+    time = np.array([recording.time[a] for a, _ in pieces])
+    every = [(0, len(rates))]
+    linear = Linear(time, every, (means - rates)[:, None], {0: keys}, {0: columns})
     normal = normal_equations([linear], {0: noise})
     answer, std = solve(normal.gram, normal.score), np.sqrt(variances(normal.gram))
-    rest = left - columns @ answer
     return RateTransfer(
         recording.name,
         name,
         rates,
-        np.array([measured[a:b].mean() for a, b in segments]),
-        np.array([rest[a:b].mean() for a, b in segments]),
+        means,
+        means - rates - columns @ answer,
         *(float(v) for i in (0, 2, 1) for v in (answer[i], std[i])),
         float(np.max(np.abs(rates))),
     )

@@ -19,6 +19,7 @@ import numpy as np
 
 from pyimu.attitude.filter.compensation import Compensation, TriadNoise, left_in, noise_of
 from pyimu.attitude.filter.stillness import (
+    FAST,
     GATE,
     SIZES,
     Stillness,
@@ -72,14 +73,19 @@ def _of(part: Part, *effects: tuple[Effect, ...]) -> Block:
     known = about_the_vertical(part)
     compensation = Compensation(known, now=False)
     u, p = ca.SX.sym("u", len(INPUTS)), ca.SX.sym("p", _parameters(known)[1])
-    s, h = ca.SX.sym("s", _size(compensation)), ca.SX.sym("h")
+    s, h = ca.SX.sym("s", sum(_sizes(compensation))), ca.SX.sym("h")
     after, y = _step(compensation, s, u, p, h)
     step = ca.Function(
-        "step", [s, u, p, ca.SX(0, 1), h], [after, y], ["s", "u", "p", "w", "h"], ["s_next", "y"]
+        "step",
+        [s, u, p, ca.SX(0, 1), h],
+        [*map(ca.densify, (after, y))],
+        ["s", "u", "p", "w", "h"],
+        ["s_next", "y"],
     )
     start = _start(compensation, p)
     shown = _shown(Estimate.unpack(start), 0, 0, 0)
-    initial = ca.Function("initial", [u, p], [start, shown], ["u", "p"], ["s", "y"])
+    shown = [*map(ca.densify, (start, shown))]
+    initial = ca.Function("initial", [u, p], shown, ["u", "p"], ["s", "y"])
     return Block(
         name="HeadingEstimator",
         description=f"Heading filter about the vertical of the part {part.name}{_left(part)}",
@@ -177,8 +183,11 @@ HELD = 5
 """Numbers of which the last good value is kept: rate, force and temperature."""
 
 
-def _size(compensation: Compensation) -> int:
-    return ESTIMATE + sum(SIZES) + HELD + 1 + sum(compensation.sizes)
+def _sizes(compensation: Compensation) -> list[int]:
+    """Numbers of the state: estimate, stillness, the estimate as it was ``FAST`` to twice that ago
+    and up to that, what is held, how long the gyro is lost, the sensors' memory.
+    """
+    return [ESTIMATE, *SIZES, ESTIMATE, ESTIMATE, HELD, 1, sum(compensation.sizes)]
 
 
 def _start(compensation: Compensation, p):
@@ -188,9 +197,12 @@ def _start(compensation: Compensation, p):
     covariance[1, 2] = covariance[2, 1] = at["correlation0"] * std[1] * std[2]
     x = ca.vertcat(at["heading0"], at["bias0"], at["scale_factor0"])
     held = ca.DM([v.start for v in INPUTS[:HELD]])
+    estimate = Estimate(x, covariance).pack()
     return ca.vertcat(
-        Estimate(x, covariance).pack(),
+        estimate,
         *Stillness.start().pack(),
+        estimate,
+        estimate,
         held,
         0,
         ca.DM(compensation.start),
@@ -251,13 +263,17 @@ def _step(compensation: Compensation, s, u, p, h):
         noise_of(part.accel, accel_p, part.sample_period),
         h * (1 + clock_error(part.gyro, gyro_p)),
     )
-    packed = [ESTIMATE, *SIZES, HELD, 1, sum(compensation.sizes)]
-    estimate, *still, held, lost_for, sensors = ca.vertsplit(s, [0, *np.cumsum(packed).tolist()])
+    ends = np.cumsum(_sizes(compensation)).tolist()
+    estimate, *still, safe, later, held, lost_for, sensors = ca.vertsplit(s, [0, *ends])
+    before = Stillness(*still)
     sample = _read(compensation, (held, lost_for, sensors), u, (gyro_p, accel_p), at.h)
-    x, after, resting = _rest(Estimate.unpack(estimate), Stillness(*still), sample, at)
+    x, after, resting = _rest(*map(Estimate.unpack, (estimate, safe)), before, sample, at)
+    keep = ca.floor(after.span * (1 / FAST)) > ca.floor(before.span * (1 / FAST))
+    safe, later = ca.if_else(keep, later, safe), ca.if_else(keep, x.pack(), later)
     x, faults = _updated(x, after, resting, sample, at)
     faults = faults + sample.missing + 2 * sample.at_limit + 128 * resting * sample.no_force
-    state = ca.vertcat(x.pack(), *after.pack(), sample.held, sample.lost_for, sample.sensors)
+    kept = (safe, later, sample.held, sample.lost_for, sample.sensors)
+    state = ca.vertcat(x.pack(), *after.pack(), *kept)
     return state, _shown(x, sample.rate, ca.fmax(resting, at.declared), faults)
 
 
@@ -289,9 +305,11 @@ def _read(compensation: Compensation, kept, u, p, h) -> _Sample:
     )
 
 
-def _rest(x: Estimate, before: Stillness, sample: _Sample, at: _At):
-    """The estimate, with the bias as it was before the last samples of a rest that has ended, the
-    stillness after the sample, and whether the body rests by it.
+def _rest(x: Estimate, safe: Estimate, before: Stillness, sample: _Sample, at: _At):
+    """The estimate, the stillness after the sample, and whether the body rests by it.
+
+    Where a rest has ended the estimate is the ``safe`` one, as it was before the last samples of
+    that rest, covariance and all: they may be of the motion. At rest the heading was the same.
     """
     own, time, z = at.own, at.own["rest_time"], ca.vertcat(0, 0, 1)
     # The squared noise of three axes is what the stillness expects, whichever of them turns.
@@ -301,11 +319,10 @@ def _rest(x: Estimate, before: Stillness, sample: _Sample, at: _At):
     still = followed(before, rate, sample.force, z * x.x[1], alike, at.h)
     sought = (time > 0) * (1 - at.declared)
     resting = alike * (before.span >= time) * before.rests * sought
-    bias = ca.if_else(sought * (before.rests > alike), before.safe[2], x.x[1])
-    x = Estimate(ca.vertcat(x.x[0], bias, x.x[2]), x.covariance)
+    x = _where(sought * (before.rests > alike), safe, x)
     begins = (before.span < time) * (still.span >= time)
     covariance = x.covariance[1, 1] * (z @ z.T)
-    found = is_rest(still.slow - z * bias, covariance, z, at.white, still.span)
+    found = is_rest(still.slow - z * x.x[1], covariance, z, at.white, still.span)
     rests = ca.if_else(begins, found, before.rests * (still.span > 0))
     return x, replace(still, rests=rests), resting
 

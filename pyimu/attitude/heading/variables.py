@@ -37,19 +37,21 @@ INPUTS = (
 more has those errors left in."""
 
 OUTPUTS = (
-    Variable("heading", "rad", "heading, counter-clockwise from east, -pi to pi"),
+    Variable("yaw", "rad", "heading, counter-clockwise from east, -pi to pi"),
     Variable("heading_std", "rad", "standard deviation of the heading"),
     Variable("bias", "rad/s", "bias of the compensated rate"),
     Variable("bias_std", "rad/s", "standard deviation of the bias"),
     Variable("scale_factor", "1", "scale factor error of the compensated rate"),
     Variable("scale_factor_std", "1", "standard deviation of the scale factor error"),
     Variable("rate", "rad/s", "rate of the sample less bias and scale factor, also in a rest"),
-    Variable("turned", "rad", "heading without wrapping: the turns since the start are in it"),
+    Variable("turned", "rad", "the heading without wrapping: the turns since the start are in it"),
     Variable("at_rest", "1", "the body is at rest, as declared or detected", kind="boolean"),
     Variable(
         "status", "1", "; ".join(f"{bit}: {text}" for bit, text in STATUS.items()), kind="integer"
     ),
 )
+"""The heading is called ``yaw``, as that of the attitude filter, for ``heading`` is the measured
+one: no two variables of a unit may have one name."""
 
 
 def _start(name: str, unit: str, text: str, start: float, most: float, least: float) -> Variable:
