@@ -73,7 +73,7 @@ def runs(count, n=N, k=K, seed=0):
     errors, claimed = [], []
     for i in range(count):
         rng = np.random.default_rng([seed, i])
-        rate, s = turns(rng), 0.03 * rng.standard_normal()
+        rate, s = turns(rng, 200.0), 0.03 * rng.standard_normal()
         one = log(measured(rate, rng, s, 0.01, n, k), H * np.cumsum(rate), rate)
         found = [self_calibrate(one, "heading"), self_calibrate(one, "rate"), fit(one, "heading")]
         errors.append([c.s - s for c in found])
@@ -82,16 +82,16 @@ def runs(count, n=N, k=K, seed=0):
 
 
 def test_the_whitened_fit_claims_what_it_does():
-    """40 logs: the squared errors over their claimed variance are chi-squared, and the mean error
-    is within four standard errors."""
-    errors, claimed = runs(40)
+    """24 logs: as many intervals hold the truth as may, but once in 1e4, and the mean error is
+    within four standard errors."""
+    errors, claimed = runs(24)
     z = errors[:, 2] / claimed
     inside = np.count_nonzero(np.abs(z) < 1.96)
-    assert inside >= binom.ppf(1e-4, 40, 0.95)
-    assert abs(z.mean()) < 4 / np.sqrt(40)
+    assert inside >= binom.ppf(1e-4, 24, 0.95)
+    assert abs(z.mean()) < 4 / np.sqrt(24)
     rms = np.sqrt(np.mean(errors**2, axis=0))
-    # Spreads of 40 logs are known to 1/sqrt(80) = 11 %; these ratios are 30 and 2.6.
-    assert rms[0] > 10 * rms[2] and rms[1] > 2 * rms[2]
+    # Ratios of some 40 and 2.6, of spreads that 24 logs show to 1/sqrt(48) = 14 %.
+    assert rms[0] > 10 * rms[2] and rms[1] > 1.5 * rms[2]
 
 
 def test_the_rate_fit_is_biased_by_the_noise_in_its_regressor():
