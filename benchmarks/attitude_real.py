@@ -25,6 +25,10 @@ A last table has the same with the magnetometer calibrated by the log itself, an
 of the set that turns enough. The recordings come with a magnetometer that is calibrated already,
 in a room whose field is not the same everywhere.
 
+A table before that has nine axes with declination, strength and dip from the World Magnetic Model
+of the place (needs pygeomag); the reference's magnetic north is turned to the true one for it. The
+room's field is a tenth weaker than the model's.
+
 A second table has the smoothed attitude of the recordings of BROAD, of which each sample is
 estimated by all others, beside vqf's ``offlineVQF``, with what the smoother claims of its error.
 The smoother has no constant of its own.
@@ -41,6 +45,7 @@ import pyimu
 from pyimu.attitude import run
 from pyimu.attitude.error import angle_between, root_mean_square
 from pyimu.attitude.outcome import DISTURBED
+from pyimu.attitude.world_field import world_field
 from pyimu.characterization.magnetometer.estimate import magnetometer_fit
 
 SCORED = (
@@ -60,6 +65,9 @@ FURTHER = (
 SKIPPED = 5.0
 """s; the start of a further recording, in which the filters settle; of its end a twentieth, where
 one has spikes in its reference."""
+
+BERLIN = (np.radians(52.5), np.radians(13.3)), "2020-01-01"
+"""Where BROAD was recorded, and about when: in rad, and a day."""
 
 FITS = 3
 """Rounds in which a mounting is fitted."""
@@ -103,6 +111,7 @@ def main() -> None:
     smoothed_table(paths[: len(SCORED)])
     magnetic = [log for log in logs.values() if log.mag is not None]
     nine_axes(magnetic, VQF)
+    placed_table(magnetic)
     calibrated_table(magnetic)
 
 
@@ -132,6 +141,43 @@ def nine_axes(logs: list, peer) -> None:
             f"{'mean':42s}{mean[0]:8.3f}{mean[1]:8.3f}{mean[2]:9.3f}{mean[3]:8.3f} "
             f"{verdict(mean[:2])}{verdict(mean[2:])}"
         )
+
+
+def placed_table(logs: list) -> None:
+    """Total and heading error without and with the magnetic field of the place."""
+    try:
+        north = Rotation.from_euler("z", -world_field(*BERLIN).declination)
+    except pyimu.UserError as error:
+        print(error)
+        return
+    print(
+        f"\n{'nine axes, RMS [deg]':42s}{'total':>8s}{'placed':>8s}{'heading':>9s}{'placed':>8s}"
+        f"{'NEES':>7s}{'placed':>8s}{'disturbed':>11s}{'placed':>8s}"
+    )
+    rows = []
+    for log in logs:
+        scored = np.isfinite(log.ref_q).all(axis=1) & moving_rows(log)
+        true = north * Rotation.from_quat(log.ref_q[scored], scalar_first=True)
+        place, date = BERLIN
+        row = []
+        for found, reference in (
+            (run(log), log.ref_q[scored]),
+            (run(log, place=place, date=date), true.as_quat(scalar_first=True)),
+        ):
+            total, heading = total_and_heading(found.q[scored], reference)
+            nees = np.mean((heading / found.heading_std[scored]) ** 2)
+            off = np.mean(found.status[scored] & DISTURBED > 0)
+            rms = np.degrees([root_mean_square(total), root_mean_square(heading)])
+            row.append([*rms, nees, 100 * off])
+        rows.append(np.array(row).T.ravel())
+        _placed_row(log.name.split(".")[0], rows[-1])
+    _placed_row("mean", np.mean(rows, axis=0))
+
+
+def _placed_row(name: str, row: np.ndarray) -> None:
+    widths = (8, 8, 9, 8, 7, 8)
+    cells = "".join(f"{v:{w}.3f}" for v, w in zip(row[:6], widths, strict=True))
+    print(f"{name:42s}{cells}{row[6]:10.1f}%{row[7]:7.1f}%")
 
 
 def calibrated_table(logs: list) -> None:

@@ -31,7 +31,7 @@ def main() -> None:
     period, columns = block.sample_period, [v.name for v in block.inputs]
     with tempfile.TemporaryDirectory() as folder:
         paths = dict(zip(FORMS, build_fmus(block, folder, FORMS)))
-        loop = _plain_loop(paths[2], period)
+        loop = plain_loop(paths[2], period)
         rates = {"plain loop in C": _rate(loop, _motion(300_000, len(columns)))}
         rates["scalar form through fmpy"] = _rate(
             lambda u: simulate(paths[3], u, sample_period=period), _motion(10_000, len(columns))
@@ -77,13 +77,17 @@ def _stream(path: Path, period: float, columns: int) -> None:
     )
 
 
-def _plain_loop(path: Path, period: float) -> Callable[[np.ndarray], np.ndarray]:
-    """Runs the FMI 2 form from compiled code: set, step, get, sample by sample."""
+def plain_loop(path: Path, period: float) -> Callable[[np.ndarray], np.ndarray]:
+    """Runs the FMI 2 form from compiled code: set all reals, step, get them, sample by sample."""
     description = fmpy.read_model_description(str(path))
     unzipped = fmpy.extract(str(path), path.with_suffix(".unzipped"))
     of = {
         c: np.array(
-            [v.valueReference for v in description.modelVariables if v.causality == c],
+            [
+                v.valueReference
+                for v in description.modelVariables
+                if v.causality == c and v.type == "Real"
+            ],
             dtype=np.uint32,
         )
         for c in ("input", "output")

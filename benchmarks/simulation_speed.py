@@ -5,6 +5,9 @@ The C loop does what an importer must: set the inputs, step, get the outputs. Be
 no importer can do: one step over the whole log with inputs held, which is the model and its noise
 alone. In Python the same log goes through ``pyimu.simulate`` from arrays to arrays, and through
 ``Block.run``. Each round times all of them one after the other.
+
+Last, what the effects of a part's tolerances cost that its unit has as parameters, at their
+identity: the unit as ``pyimu build`` makes it, as a share of one without them.
 """
 
 import ctypes
@@ -27,6 +30,8 @@ from pyimu.model.simulate import simulate
 SAMPLES = 4 * 3600 * 976
 ROUNDS = 5
 GOAL = 2.0
+WITH_TOLERANCES = ("mpu9250", "mpu6050", "stim300")
+"""The one with the least beside its tolerances, the one with the most of them, a tactical one."""
 
 DRIVER = r"""
 #include <stdint.h>
@@ -37,20 +42,22 @@ static void say_nothing(fmi2ComponentEnvironment e, fmi2String i, fmi2Status s, 
                         fmi2String m, ...) {}
 static const fmi2CallbackFunctions callbacks = {say_nothing, calloc, free, NULL, NULL};
 
-static fmi2Component start(const char *token, fmi2ValueReference seed_vr, int seed) {
+/* A unit without noise has no seed. */
+static fmi2Component start(const char *token, const fmi2ValueReference *seed_vr, int seeds,
+                           int seed) {
     fmi2Component c = fmi2Instantiate("x", fmi2CoSimulation, token, "", &callbacks, fmi2False,
                                       fmi2False);
     if (!c || fmi2SetupExperiment(c, fmi2False, 0, 0, fmi2False, 0)
-        || fmi2EnterInitializationMode(c) || fmi2SetInteger(c, &seed_vr, 1, &seed)
+        || fmi2EnterInitializationMode(c) || (seeds && fmi2SetInteger(c, seed_vr, seeds, &seed))
         || fmi2ExitInitializationMode(c)) abort();
     return c;
 }
 
 __attribute__((visibility("default")))
-void each(const char *token, fmi2ValueReference seed_vr, int seed, int64_t n, double h,
-          const fmi2ValueReference *inputs, int nu, const double *u,
+void each(const char *token, const fmi2ValueReference *seed_vr, int seeds, int seed, int64_t n,
+          double h, const fmi2ValueReference *inputs, int nu, const double *u,
           const fmi2ValueReference *outputs, int ny, double *y) {
-    fmi2Component c = start(token, seed_vr, seed);
+    fmi2Component c = start(token, seed_vr, seeds, seed);
     for (int64_t k = 0; k < n; k++)
         if (fmi2SetReal(c, inputs, nu, u + k * nu) || fmi2DoStep(c, k * h, h, fmi2True)
             || fmi2GetReal(c, outputs, ny, y + k * ny)) abort();
@@ -58,8 +65,9 @@ void each(const char *token, fmi2ValueReference seed_vr, int seed, int64_t n, do
 }
 
 __attribute__((visibility("default")))
-void held(const char *token, fmi2ValueReference seed_vr, int seed, int64_t n, double h) {
-    fmi2Component c = start(token, seed_vr, seed);
+void held(const char *token, const fmi2ValueReference *seed_vr, int seeds, int seed, int64_t n,
+          double h) {
+    fmi2Component c = start(token, seed_vr, seeds, seed);
     if (fmi2DoStep(c, 0, n * h, fmi2True)) abort();
     fmi2FreeInstance(c);
 }
@@ -98,7 +106,7 @@ class PlainC:
         self.seed, self.inputs, self.outputs = (
             np.array([vr[n] for n in names], dtype=np.uint32)
             for names in (
-                ["seed"],
+                [name for name in ("seed",) if name in vr],
                 [v.name for v in part.block.inputs],
                 [v.name for v in part.block.outputs],
             )
@@ -107,7 +115,8 @@ class PlainC:
     def _start(self, n: int, seed: int) -> tuple:
         return (
             self.token,
-            ctypes.c_uint(self.seed[0]),
+            ctypes.c_void_p(self.seed.ctypes.data),
+            ctypes.c_int(len(self.seed)),
             ctypes.c_int(seed),
             ctypes.c_int64(n),
             ctypes.c_double(self.h),
@@ -143,6 +152,28 @@ def main(n: int) -> None:
         with tempfile.TemporaryDirectory() as folder:
             measure(title, part, seed, PlainC(in_c, Path(folder)), u, given)
     beyond(part, given)
+    print(f"\nunits with the effects of tolerances as a share of units without, {n // 20} samples")
+    for name in WITH_TOLERANCES:
+        of_tolerances(name, u[: n // 20])
+
+
+def of_tolerances(name: str, u: np.ndarray) -> None:
+    part, y = pyimu.part(name), np.empty((len(u), 6))
+    with tempfile.TemporaryDirectory() as without, tempfile.TemporaryDirectory() as whole:
+        units = PlainC(part, Path(without)), PlainC(part.nominal, Path(whole))
+        rounds = [
+            [
+                (clock(lambda c=c: c.each(u, y, 1)), clock(lambda c=c: c.held(len(u), 1)))
+                for c in units
+            ]
+            for _ in range(2 * ROUNDS + 1)
+        ]
+    each, held = (median(r[1][way] / r[0][way] for r in rounds) for way in (0, 1))
+    plain = median(r[0][1] for r in rounds) / len(u) * 1e9
+    print(
+        f"  {name}, {len(part.tolerances)} tolerances: {each:.2f} each sample, {held:.2f} inputs "
+        f"held (without them {plain:.0f} ns a sample)"
+    )
 
 
 def inputs(n: int) -> np.ndarray:
@@ -161,7 +192,7 @@ def measure(
     """
     n = len(u)
     ways = {
-        "C, each sample": lambda: in_c.each(u, np.empty((n, 6)), seed or 0),
+        "C, each sample": lambda: in_c.each(u, np.empty((n, len(in_c.outputs))), seed or 0),
         "C, inputs held": lambda: in_c.held(n, seed or 0),
         "simulate": lambda: simulate(part, *given, seed=seed),
         "Block.run": lambda: part.block.run(u, seed=seed),
@@ -184,7 +215,7 @@ def measure(
 
 
 def same_bits(part, seed: int | None, in_c: PlainC, u: np.ndarray, given: list[np.ndarray]) -> bool:
-    y = np.empty((len(u), 6))
+    y = np.empty((len(u), len(in_c.outputs)))
     in_c.each(u, y, seed or 0)
     measured = simulate(part, *given, seed=seed)
     return all(

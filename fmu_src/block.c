@@ -113,9 +113,10 @@ struct BlockState *block_new_rows(uint64_t rows) {
     return state;
 }
 
-static struct BlockState *new_state(void) {
+static struct BlockState *new_state(const Block *block) {
     struct BlockState *state = block_new_rows(START_ROWS);
     if (state) {
+        state->name = block->name;
         memcpy(state->parameters, parameter_starts, N_PARAMETERS * sizeof(double));
         state->sample_period = MODEL_SAMPLE_PERIOD;
         state->seed = MODEL_SEED;
@@ -136,11 +137,12 @@ void block_take(Block *block, struct BlockState *state) {
     forget_noise(block); /* it may have been another seed's */
 }
 
-Block *block_create(const char *token, BlockLog log, bool log_events) {
+Block *block_create(const char *name, const char *token, BlockLog log, bool log_events) {
     Block *block = calloc(1, sizeof *block);
     if (!block) {
         return NULL;
     }
+    block->name = name ? block_digest(name, strlen(name)) ^ block_digest(MODEL_NAME, strlen(MODEL_NAME)) : 0;
     block->log = log;
     block->log_events = log_events;
     if (!token || strcmp(token, MODEL_TOKEN) != 0) {
@@ -148,7 +150,7 @@ Block *block_create(const char *token, BlockLog log, bool log_events) {
         free(block);
         return NULL;
     }
-    struct BlockState *state = new_state();
+    struct BlockState *state = new_state(block);
     if (!state) {
         block_refuse(block, "%s: no memory for %d rows", MODEL_NAME, START_ROWS);
         free(block);
@@ -169,7 +171,7 @@ bool block_reset(Block *block) {
     if (!block_allowed(block, RESET)) {
         return false;
     }
-    struct BlockState *state = new_state();
+    struct BlockState *state = new_state(block);
     if (!state) {
         return block_refuse(block, "%s: no memory for %d rows", MODEL_NAME, START_ROWS);
     }
@@ -305,11 +307,11 @@ static size_t draw(Block *block, int64_t first, int64_t last) {
     size_t most = DRAWN - ((uint64_t) first & 3);
     size_t n = (uint64_t) (last - first) < most ? (size_t) (last - first) + 1 : most;
     if (n > 1) {
-        noise_fill(block->normals, block->now->seed, noise_channels, N_NOISE, first, n);
+        noise_fill(block->normals, block_noise_seed(block->now), noise_channels, N_NOISE, first, n);
         return n;
     }
     for (int i = 0; i < N_NOISE; i++) {
-        block->normals[i] = noise_at(&block->noise[i], block->now->seed, noise_channels[i], first);
+        block->normals[i] = noise_at(&block->noise[i], block_noise_seed(block->now), noise_channels[i], first);
     }
     return n;
 }
@@ -366,8 +368,8 @@ bool block_exit_initialization(Block *block) {
     now->sample = (int64_t) sample;
     now->phase = STEPPING;
     forget_noise(block);
-    tell(block, "%s: initialized at %.17g s, sample period %.17g s, seed %llu", MODEL_NAME, now->time,
-         now->sample_period, (unsigned long long) now->seed);
+    tell(block, "%s: initialized at %.17g s, sample period %.17g s, seed %llu%s", MODEL_NAME, now->time,
+         now->sample_period, (unsigned long long) now->seed, now->seed || !N_NOISE ? "" : ": the noise is that of the instance's name");
     return true;
 }
 

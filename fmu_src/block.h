@@ -45,8 +45,10 @@ typedef struct BlockState BlockState;
 #define LOG_ERROR "logStatusError"
 #define LOG_EVENTS "logEvents"
 
-/* NULL where the token is another model's or memory is short. */
-Block *block_create(const char *token, BlockLog log, bool log_events);
+/* NULL where the token is another model's or memory is short.  Noise whose seed is 0 follows from the name, so that two
+   instances of other names, which nobody gave seeds, have independent noise; an instance that is called as its model is has
+   that of the key 0. */
+Block *block_create(const char *name, const char *token, BlockLog log, bool log_events);
 void block_free(Block *block);
 
 bool block_log_events(Block *block, bool on, size_t n, const char *const categories[]);

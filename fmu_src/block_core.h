@@ -18,7 +18,8 @@ typedef enum { INSTANTIATED, CONFIGURATION, INITIALIZATION, STEPPING, TERMINATED
    members are eight bytes long, so there is no padding and equal states are equal bytes. */
 struct BlockState {
     uint64_t phase;
-    uint64_t seed;
+    uint64_t seed;  /* as it was set; 0: the noise is that of the instance's name */
+    uint64_t name;  /* a number that stands for the instance's name; 0 for the model's own */
     uint64_t rows;  /* of inputs and of outputs: block_size in the block form, else one */
     int64_t sample; /* the last sample made; sample k belongs to time k * sample_period */
     uint64_t steps; /* communication steps so far */
@@ -38,6 +39,7 @@ struct Block {
     double *res[ROOM(WORK_RES)];
     long long iw[ROOM(WORK_IW)];
     double w[ROOM(WORK_W)];
+    uint64_t name;      /* that of the states that it makes */
     bool outputs_stale; /* a start value has changed since the outputs before the first sample were computed */
     bool log_events;
     BlockLog log;
@@ -64,10 +66,18 @@ struct BlockState *block_new_rows(uint64_t rows);
 /* Another state in place of the present one, which is freed. */
 void block_take(Block *block, struct BlockState *state);
 
+/* 64 bits that tell names and states from each other: damaged or foreign ones, not forged ones. */
+uint64_t block_digest(const void *data, size_t size);
+
 /* Outputs before the first sample, and the state from which it is made. */
 bool block_evaluate_initial(Block *block);
 
 PRIVATE_TO_HERE
+
+/* The first half of the key of all noise. */
+static inline uint64_t block_noise_seed(const struct BlockState *state) {
+    return state->seed ? state->seed : state->name;
+}
 
 static inline double *block_inputs(struct BlockState *state, uint64_t row) {
     return state->table + row * N_INPUTS;

@@ -10,8 +10,8 @@ typedef struct {
     uint64_t check;
 } Seal;
 
-/* FNV-1a (Fowler, Noll, Vo), 64 bits: tells a damaged or foreign state, not a forged one. */
-static uint64_t digest(const void *data, size_t size) {
+/* FNV-1a (Fowler, Noll, Vo). */
+uint64_t block_digest(const void *data, size_t size) {
     const unsigned char *bytes = data;
     uint64_t hash = UINT64_C(0xcbf29ce484222325);
     for (size_t i = 0; i < size; i++) {
@@ -21,7 +21,7 @@ static uint64_t digest(const void *data, size_t size) {
 }
 
 static Seal seal_of(const struct BlockState *state) {
-    Seal seal = {{'b', 'l', 'o', 'c', 'k', ' ', '2', 0}, digest(MODEL_TOKEN, strlen(MODEL_TOKEN)), digest(state, block_size_of(state->rows))};
+    Seal seal = {{'b', 'l', 'o', 'c', 'k', ' ', '3', 0}, block_digest(MODEL_TOKEN, strlen(MODEL_TOKEN)), block_digest(state, block_size_of(state->rows))};
     return seal;
 }
 

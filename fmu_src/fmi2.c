@@ -59,7 +59,7 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
     component->logger = functions->logger;
     component->environment = functions->componentEnvironment;
     BlockLog log = {component->logger ? write_log : NULL, component};
-    component->block = component->name ? block_create(fmuGUID, log, loggingOn) : NULL;
+    component->block = component->name ? block_create(component->name, fmuGUID, log, loggingOn) : NULL;
     if (!component->block) {
         fmi2FreeInstance(component);
         return NULL;

@@ -42,7 +42,7 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String instanceName, fmi3String ins
                                          fmi3Boolean earlyReturnAllowed, const fmi3ValueReference requiredIntermediateVariables[],
                                          size_t nRequiredIntermediateVariables, fmi3InstanceEnvironment instanceEnvironment,
                                          fmi3LogMessageCallback logMessage, fmi3IntermediateUpdateCallback intermediateUpdate) {
-    (void) instanceName, (void) resourcePath, (void) visible, (void) earlyReturnAllowed;
+    (void) resourcePath, (void) visible, (void) earlyReturnAllowed;
     (void) requiredIntermediateVariables, (void) nRequiredIntermediateVariables, (void) intermediateUpdate;
     Instance *instance = calloc(1, sizeof *instance);
     if (!instance) {
@@ -51,7 +51,7 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String instanceName, fmi3String ins
     instance->log = logMessage;
     instance->environment = instanceEnvironment;
     BlockLog log = {logMessage ? write_log : NULL, instance};
-    instance->block = block_create(instantiationToken, log, loggingOn);
+    instance->block = block_create(instanceName, instantiationToken, log, loggingOn);
     if (!instance->block || (eventModeUsed && !block_refuse(instance->block, "Event Mode is not offered"))) {
         fmi3FreeInstance(instance);
         return NULL;

@@ -41,6 +41,7 @@
 #define block_serialized_size PREFIXED(block_serialized_size)
 #define block_serialize PREFIXED(block_serialize)
 #define block_deserialize PREFIXED(block_deserialize)
+#define block_digest PREFIXED(block_digest)
 #define block_allowed PREFIXED(block_allowed)
 #define block_phase_name PREFIXED(block_phase_name)
 #define block_size_of PREFIXED(block_size_of)

@@ -92,7 +92,7 @@ def _cells(e: Effect) -> tuple[str, ...]:
         f"`{e.name}`",
         term,
         e.stage,
-        ", ".join(e.sensors),
+        ", ".join(e.triads),
         f"${e.equation}$",
         parameters,
         _invertible(e),

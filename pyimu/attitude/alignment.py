@@ -208,10 +208,24 @@ def _mean(column, rest: Rest, otherwise) -> np.ndarray:
 
 @dataclass(frozen=True)
 class MagneticNorth:
-    """The ``declination`` in rad and the ``std`` in T of a field across the magnetic north."""
+    """The ``declination`` in rad and the ``std`` in T of a field across the magnetic north.
+
+    ``parts`` (2,) T are the horizontal and the upward part of the place's field where it is known.
+    """
 
     declination: float
     std: float
+    parts: np.ndarray | None = None
+
+    def across(self, level: float, up: float) -> float:
+        """T; the standard deviation where these are seen.
+
+        A disturbance has any direction: across it has as much as in either part.
+        """
+        if self.parts is None:
+            return self.std
+        off = np.linalg.norm(self.parts - [level, up]) / np.sqrt(2)
+        return float(np.hypot(self.std, off))
 
 
 def initial_yaw(
@@ -256,7 +270,7 @@ def _magnetic_yaw(recording: Recording, rest: Rest, north: MagneticNorth) -> Yaw
     east, ahead, up = _levelled(rest.force, 0.0).apply(rows.mean(axis=0))
     level = max(float(np.hypot(east, ahead)), 1e-12)
     angle = np.pi / 2 - north.declination - np.arctan2(ahead, east)
-    std = np.hypot(north.std, _tilt_std(rest, rest.force) * up) / level
+    std = np.hypot(north.across(level, up), _tilt_std(rest, rest.force) * up) / level
     return Yaw(float(angle), min(REUSED * max(std, YAW_STD), LARGEST_STD), known=True)
 
 

@@ -16,6 +16,8 @@ import numpy as np
 
 from pyimu.errors import UserError
 from pyimu.files import write_text
+from pyimu.model.sensor import Sensor
+from pyimu.model.signals import COLUMNS, START
 from pyimu.recording.recording import Recording
 from pyimu.units import convert, did_you_mean
 
@@ -109,6 +111,35 @@ def calibration_of(
         f"magnetometer is {str(given)[:40]!r}, expected True, False, a MagnetometerCalibration or "
         "the path of its TOML file"
     )
+
+
+def of_sensor(sensor: Sensor) -> MagnetometerCalibration | None:
+    """The calibration that a part knows of its magnetometer, None where it knows none.
+
+    Its effects are affine in the field: they are taken from what they make of none and of its axes.
+    """
+    if not any(sensor.acts(e.name) for e in sensor.effects if not e.stochastic):
+        return None
+    u = np.repeat(START[:, None], 4, axis=1)
+    u[COLUMNS[sensor.output.own]] = np.column_stack([np.zeros(3), np.eye(3)])
+    silent, h = np.zeros(len(sensor.noise)), 1.0
+    made = [sensor.step(sensor.chain.start, v, sensor.p, silent, h)[1] for v in u.T]
+    y = [np.array(v, dtype=float).ravel() for v in made]
+    return MagnetometerCalibration(y[0], np.column_stack(y[1:]) - y[0][:, None])
+
+
+def as_values(calibration: MagnetometerCalibration) -> dict[str, dict[str, np.ndarray]]:
+    """The values of a part's effects that make the same of a field: the inverse of ``of_sensor``.
+
+    Of ``matrix = (1 + S) (1 + M)`` S is diagonal and M has no diagonal.
+    """
+    matrix = calibration.matrix
+    scale = np.diag(matrix)
+    return {
+        "misalignment": {"m": matrix / scale[:, None] - np.eye(3)},
+        "scale_factor": {"s": scale - 1},
+        "turn_on_bias": {"b0": calibration.bias},
+    }
 
 
 def calibrated(recording: Recording, calibration: MagnetometerCalibration) -> Recording:

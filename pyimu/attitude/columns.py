@@ -9,6 +9,7 @@ import numpy as np
 
 from pyimu.attitude.filter.variables import UNKNOWN_LATITUDE
 from pyimu.attitude.rest import Rest
+from pyimu.block.parameters import number
 from pyimu.errors import UserError
 from pyimu.model.catalogue import CATALOGUE, WALK, WHITE, read_off
 from pyimu.model.part import Part
@@ -108,13 +109,6 @@ def rate_noise(part: Part | None) -> float:
         return NOMINAL_RATE_NOISE
     known = any(e.law is not None and e.law.needs("x") for e in part.gyro.effects)
     return NOMINAL_RATE_NOISE if of_a_sensor(part) and not known else 0.0
-
-
-def number(name: str, value) -> float:
-    """``value`` as a float. Raises UserError where it is no finite number."""
-    if isinstance(value, (int, float, np.number)) and np.isfinite(value):
-        return float(value)
-    raise UserError(f"{name} is {str(value)[:40]!r}, expected a finite number")
 
 
 def latitude_of(recording: Recording, latitude: float | None) -> float:

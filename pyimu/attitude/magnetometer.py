@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from pyimu.attitude.calibration import MagnetometerCalibration
+from pyimu.attitude.world_field import WorldField
 from pyimu.errors import Finding
 from pyimu.recording.recording import Recording
 from pyimu.units import parse
@@ -17,6 +18,10 @@ EARTH = (22e-6, 67e-6)
 ROOM = 2.0
 """Factor by which a field indoors, or of a magnetometer that is not calibrated, may be outside."""
 
+OTHER = 0.05
+"""Share by which the median strength may differ from the place's before that is said: beyond it the
+field is another one by many times what the model leaves open."""
+
 UNITS = ("T", "gauss", "mT", "uT", "nT")
 """Units in which magnetometers are logged."""
 
@@ -26,13 +31,24 @@ class Magnetometer:
     """A recording's magnetometer: whether it is ``used``, and the ``findings`` about it.
 
     ``strength`` is the median of its samples' length in T, NaN without any; ``calibration`` the one
-    that was undone before, or None.
+    that was undone before, or None; ``world`` the field of the place by the World Magnetic Model.
     """
 
     used: bool = False
     strength: float = float("nan")
     findings: tuple[Finding, ...] = ()
     calibration: MagnetometerCalibration | None = None
+    world: WorldField | None = None
+
+    def in_world(self, world: WorldField | None) -> Magnetometer:
+        """The same in the field of a place, with a finding where the samples show another one."""
+        if world is None:
+            return self
+        found = self.findings
+        if self.used and abs(self.strength / world.strength - 1) > OTHER:
+            detail = {"strength": self.strength, "model": world.strength}
+            found += (Finding("mag_not_of_the_place", "mag", 1, detail),)
+        return replace(self, world=world, findings=found)
 
 
 def magnetometer_of(recording: Recording, wanted: bool) -> Magnetometer:

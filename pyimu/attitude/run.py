@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import casadi as ca
@@ -14,12 +14,12 @@ from pyimu.attitude.calibration import (
     MagnetometerCalibration,
     calibrated,
     calibration_of,
+    of_sensor,
 )
 from pyimu.attitude.columns import (
     informed,
     latitude_of,
     nominal_part,
-    number,
     rate_noise,
     recorded_age,
 )
@@ -27,7 +27,7 @@ from pyimu.attitude.driven import speed_findings
 from pyimu.attitude.filter.compensation import left_in, noise_of
 from pyimu.attitude.filter.timing import clock_error, estimate_latency
 from pyimu.attitude.filter.ukf import recorded_ukf
-from pyimu.attitude.filter.variables import LEAST_K
+from pyimu.attitude.filter.variables import FIELD_SETTINGS, LEAST_K
 from pyimu.attitude.filters import OF_LOGS, OWN, Settings, chosen
 from pyimu.attitude.input_grid import InputGrid
 from pyimu.attitude.magnetometer import Magnetometer, magnetometer_of
@@ -37,14 +37,19 @@ from pyimu.attitude.result import AttitudeResult
 from pyimu.attitude.retiming import Retiming
 from pyimu.attitude.smoothing import smoothed
 from pyimu.attitude.stuck import stuck_times
+from pyimu.attitude.world_field import Date, WorldField, checked_place, world_field
 from pyimu.block.block import Block, Run
-from pyimu.block.variables import Variable
+from pyimu.block.parameters import bounded, number
 from pyimu.errors import UserError
+from pyimu.model.catalogue import WHITE
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as part_of
 from pyimu.recording.log import Given, recording_of
 from pyimu.recording.recording import Recording
 from pyimu.units import STANDARD_GRAVITY
+
+FIELD_NOISE = next(v.start for v in FIELD_SETTINGS if v.name == "field_noise")
+"""T*sqrt(s); the filter's where no part says of more."""
 
 
 def run(
@@ -52,6 +57,8 @@ def run(
     part: Part | str | os.PathLike | None = None,
     *,
     latitude: float | None = None,
+    place: Sequence[float] | None = None,
+    date: Date | None = None,
     q0: np.ndarray | None = None,
     heading0: float | None = None,
     magnetometer: bool | MagnetometerCalibration | str | os.PathLike = True,
@@ -79,6 +86,15 @@ def run(
     setting ``declination``. A ``MagnetometerCalibration``, or the path of its file, is undone
     first; ``pyimu.characterize`` finds one in a log that turns. It is not found in the log itself:
     in a room it takes what the place bends for the sensor's (``benchmarks/attitude_real.py``).
+    ``place`` is latitude and longitude in rad, and the height in m if it is known, ``date`` the day
+    of the recording: the World Magnetic Model then tells declination, strength and dip, each as
+    well as it knows them, and the latitude is that of the place. Where the samples show another
+    field, it is disturbed until they have shown it for a while.
+
+    What a part knows of its magnetometer (``[mag.turn_on_bias]``, ``scale_factor``,
+    ``misalignment``) is undone as a calibration is where none is given; its white noise is the
+    setting ``field_noise``, which is not below its start value: that stands for what is fast in the
+    surroundings, too.
 
     ``settings`` are values of other parameters of the block by name, or a filter's name:
     ``"hidalgo2012"`` is the one as published; as the value ``filter`` a name goes with others. A
@@ -94,39 +110,45 @@ def run(
 
     Raises UserError for a recording that cannot be read, is without gyro or has one row, a latitude
     beyond -pi/2 to pi/2, a quaternion without length, ``heading0`` beside ``q0``, other than so
-    many finite numbers, and a setting that is unknown or outside its bounds.
+    many finite numbers, and a setting that is unknown or outside its bounds; a place without date,
+    beside a latitude, or beside a setting of what it tells.
     """
     recording = recording_of(recording)
     if recording.gyro is None:
         raise UserError(f"{recording.name}: no gyro, an attitude needs gyro_x, gyro_y, gyro_z")
     if len(recording.time) < 2:
         raise UserError(f"{recording.name}: one sample, an attitude over time needs two or more")
-    latitude = latitude_of(recording, latitude)
+    method, given = chosen(settings)
+    world = _world(place, date, latitude, given)
+    latitude = latitude_of(recording, latitude if place is None else float(place[0]))
     heading0 = None if heading0 is None else number("heading0", heading0)
     if q0 is not None and heading0 is not None:
         raise UserError("heading0 beside q0, which has a heading of its own: give one of the two")
-    method, given = chosen(settings)
     if smooth and method != OWN:
         raise UserError(f"smooth with the filter {method}: only {OWN} can be smoothed")
     gravity = number("gravity", given.get("gravity", STANDARD_GRAVITY))
     rest = find_rest(recording, gravity or STANDARD_GRAVITY)
+    declared = None if part is None else part_of(part)
     as_given, calibration = recording, calibration_of(magnetometer)
+    if calibration is None and declared is not None and bool(magnetometer):
+        calibration = None if recording.mag is None else of_sensor(declared.mag)
     if calibration is not None:
         recording = calibrated(recording, calibration)
     wanted = calibration is not None or bool(magnetometer)
     field = magnetometer_of(recording, wanted and method == OWN)
-    known = _known(part, recording, rest)
+    known = _known(declared, recording, rest)
     block = OF_LOGS[method](known)
 
     def turned(row: int) -> float:
         return _turned(recording, row, known, latitude, bias0, settings)
 
-    north = _north(block, given) if field.used else None
+    told = {} if world is None else world.settings()
+    north = _north(block, given | told) if field.used else None
     yaw = initial_yaw(recording, rest, heading0, turned, north) if q0 is None else Yaw()
-    values = _of_the_log(recording, known, rest, field)
+    values = told | _of_the_log(recording, known, rest, field)
     values |= initial_values(recording, known, rest, latitude, q0, yaw)
     values |= _numbered("bias0", bias0, 3) | _numbered("std0", std0, 6)
-    values["rate_noise"] = rate_noise(None if part is None else known)
+    values["rate_noise"] = rate_noise(None if declared is None else known)
     has = {v.name for v in block.parameters}
     p = _parameters(block, {n: v for n, v in values.items() if n in has} | given)
     retiming = _retiming(recording, known, p)
@@ -149,19 +171,19 @@ def run(
         recording=as_given,
         rest=rest,
         parameters=parameters,
-        part="" if part is None else known.name,
+        part="" if declared is None else known.name,
         left_in=left_in(known, retimed=True),
         method=method,
         smoothed=smooth,
-        magnetometer=replace(field, calibration=calibration),
+        magnetometer=replace(field, calibration=calibration).in_world(world),
     )
 
 
-def _known(part: Part | str | os.PathLike | None, recording: Recording, rest: Rest) -> Part:
+def _known(part: Part | None, recording: Recording, rest: Rest) -> Part:
     """What is known of the sensors: the part, and of what it is silent the recording."""
     if part is None:
         return nominal_part(recording, rest)
-    return informed(part_of(part), recording, rest)
+    return informed(part, recording, rest)
 
 
 def _turned(recording: Recording, row: int, part: Part, latitude: float, bias0, settings) -> float:
@@ -182,7 +204,35 @@ def _turned(recording: Recording, row: int, part: Part, latitude: float, bias0, 
 def _north(block: Block, settings: Mapping[str, float | str]) -> MagneticNorth:
     """What the settings say of the magnetic north."""
     start = {v.name: v.start for v in block.parameters} | dict(settings)
-    return MagneticNorth(*(number(n, start[n]) for n in ("declination", "field_turning_std")))
+    names = ("declination", "field_turning_std", "field_strength", "field_dip")
+    declination, std, strength, dip = (number(n, start[n]) for n in names)
+    parts = strength * np.array([np.cos(dip), -np.sin(dip)])
+    return MagneticNorth(declination, std, parts if strength > 0 else None)
+
+
+def _world(
+    place: Sequence[float] | None,
+    date: Date | None,
+    latitude: float | None,
+    settings: Mapping[str, float | str],
+) -> WorldField | None:
+    """The magnetic field of the place, None without one.
+
+    Raises UserError where only one of place and date is given, and for what is given twice.
+    """
+    if (place is None) != (date is None):
+        there, lacking = ("place", "date") if date is None else ("date", "place")
+        raise UserError(f"{there} without {lacking}: the magnetic field takes both")
+    if place is None or date is None:
+        return None
+    checked_place(place)
+    if latitude is not None:
+        raise UserError("latitude beside place, which has one: give one of the two")
+    found = world_field(place, date)
+    for name in found.settings():
+        if name in settings:
+            raise UserError(f"{name} beside place, by which it is known: give one of the two")
+    return found
 
 
 # Parameters
@@ -195,6 +245,9 @@ def _of_the_log(
     values = stuck_times(recording, known, rest)
     if recording.mag is not None and not field.used:
         values["field_tolerance"] = 0.0
+    if WHITE[0] in known.mag.values:
+        white = float(np.sqrt(np.mean(known.mag.values[WHITE[0]][WHITE[1]] ** 2)))
+        values["field_noise"] = max(white, FIELD_NOISE)
     if getattr(recording, "stationary", None) is not None:
         values["rest_time"] = 0.0
     if oldest := float(recorded_age(recording).max()):
@@ -230,20 +283,8 @@ def _parameters(block: Block, values: Mapping[str, float | str]) -> np.ndarray:
             raise UserError(
                 f"unknown setting '{name}' of the attitude filter; known are {', '.join(at)}"
             )
-        p[at[name]] = _bounded(block.parameters[at[name]], value)
+        p[at[name]] = bounded(block.parameters[at[name]], value)
     return p
-
-
-def _bounded(variable: Variable, value) -> float:
-    """``value`` as a float. Raises UserError outside the bounds of the variable."""
-    value, low, high = number(variable.name, value), variable.minimum, variable.maximum
-    if low is not None and value < low or high is not None and value > high:
-        raise UserError(
-            f"{variable.name} is {value:g} {variable.unit}, expected "
-            + " to ".join(f"{v:g}" for v in (low, high) if v is not None)
-            + (" or more" if high is None else "")
-        )
-    return value
 
 
 def _gyro_p(part: Part, p: np.ndarray) -> ca.SX:

@@ -42,6 +42,8 @@ class Block:
     noise: tuple[NoiseChannel, ...]
     sample_period: float
     limits: Limits | None = None
+    stop_time: float = 10.0
+    """s; how long it runs where nobody says."""
 
     def __post_init__(self) -> None:
         want = (len(self.inputs), len(self.parameters), len(self.noise), 1)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Literal
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from typing import Any, Literal
 
 import casadi as ca
 import numpy as np
@@ -13,6 +14,10 @@ from pyimu.errors import UserError
 
 Kind = Literal["real", "boolean", "integer"]
 
+MOTION, IMU = "motion", "imu"
+"""Terminals of the units, which can be wired as a whole: the truth in which a sensor moves, and
+what it measures."""
+
 
 @dataclass(frozen=True)
 class Variable:
@@ -20,6 +25,10 @@ class Variable:
 
     ``name`` is its FMI name (``gyro_error.g_sensitivity.G[1,2]``), ``unit`` an SI spelling. A
     parameter that acts on the start alone is ``fixed``, and cannot be set during a run.
+
+    Inputs or outputs of one ``terminal`` are the members of a bus that a tool can wire at once;
+    ``member`` is the name there, if it is not the variable's own. A ``corner`` is a natural
+    frequency in rad/s, which people say in Hz.
     """
 
     name: str
@@ -30,6 +39,26 @@ class Variable:
     minimum: float | None = None
     maximum: float | None = None
     fixed: bool = False
+    terminal: str = ""
+    member: str = ""
+    corner: bool = False
+
+
+def array(
+    name: str, unit: str, text: str, start: Iterable[float] = (0.0, 0.0, 0.0), **more: Any
+) -> tuple[Variable, ...]:
+    """The scalars of a vector, numbered from one; ``more`` is of ``Variable``."""
+    return tuple(
+        Variable(f"{name}[{i + 1}]", unit, text, float(v), **more) for i, v in enumerate(start)
+    )
+
+
+def in_terminal(terminal: str, *variables: Variable, prefix: str = "") -> tuple[Variable, ...]:
+    """The same as members of one terminal, there without the ``prefix`` of their names."""
+    return tuple(
+        replace(v, terminal=terminal, member=v.member or v.name.removeprefix(prefix))
+        for v in variables
+    )
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,16 @@ from typing import Annotated
 
 import typer
 
-from pyimu.cli.options import FORMATS, Columns, Effects, Out, add_effects, progress, radians
+from pyimu.cli.options import (
+    FORMATS,
+    Columns,
+    Effects,
+    Out,
+    add_effects,
+    place_in_radians,
+    progress,
+    radians,
+)
 from pyimu.errors import UserError
 
 
@@ -187,6 +196,17 @@ def attitude_command(
             help="Degrees by which magnetic north is east of true north; else 0.",
         ),
     ] = None,
+    place: Annotated[
+        str | None,
+        typer.Option(
+            "--place",
+            help="LAT,LON[,HEIGHT] in degrees north and east, and m: with --date, declination, "
+            "strength and dip by the World Magnetic Model, and the latitude.",
+        ),
+    ] = None,
+    date: Annotated[
+        str | None, typer.Option("--date", help="Day of the log, for --place, as 2026-05-01.")
+    ] = None,
     settings: Annotated[
         str | None,
         typer.Option(
@@ -215,6 +235,11 @@ def attitude_command(
 
     at, heading = radians("--latitude", latitude, 90), radians("--heading0", heading0, 360)
     north = radians("--declination", declination, 180)
+    where = place_in_radians("--place", place)
+    if where is not None:
+        twice = {"--declination": declination, "--latitude": latitude}
+        for option in (o for o, value in twice.items() if value is not None):
+            raise UserError(f"{option} beside --place, which tells it: give one of the two")
     method, given = chosen(settings)
     given |= {"filter": method} | ({} if north is None else {"declination": north})
     if magnetometer is not None and no_magnetometer:
@@ -229,6 +254,8 @@ def attitude_command(
             recording,
             part,
             latitude=at,
+            place=where,
+            date=date,
             heading0=heading,
             magnetometer=undone or not no_magnetometer,
             settings=given,

@@ -74,7 +74,8 @@ def build(
     fmu: Annotated[
         str,
         typer.Option(
-            "--fmu", help="Which, separated by commas: sensor, ukf, hidalgo2012, heading."
+            "--fmu",
+            help="Which, separated by commas: sensor, ukf, hidalgo2012, heading, rover, low-pass.",
         ),
     ] = "sensor,ukf",
     fmi: Annotated[
@@ -87,29 +88,58 @@ def build(
     platform: Annotated[
         str, typer.Option("--platform", help="host, all (needs ziglang), or one platform by name.")
     ] = "host",
+    specimen: Annotated[
+        int | None,
+        typer.Option(
+            "--specimen",
+            metavar="SEED",
+            help="Draw one specimen from the part's tolerances; the sensor starts at its values.",
+        ),
+    ] = None,
     effects: Effects = None,
+    ssp: Annotated[
+        str | None,
+        typer.Option(
+            "--ssp",
+            metavar="DRIVE",
+            help="Also Rover.ssp, the system of drive, sensor, low-pass and filter: straight, "
+            "obstacle, ackermann, turn_on_spot or free.",
+            show_default=False,
+        ),
+    ] = None,
 ) -> None:
     """Example: pyimu build imt30 --out out/fmus
 
-    Build the FMI co-simulation units of a part: the sensor with its errors, and the attitude filter
-    that goes with it.
+    Build the FMI co-simulation units of a part: the sensor with its errors, the attitude filter
+    that goes with it, and of the system around them the true motion of a rover and a low-pass.
+    With --specimen the sensor is one of the production, as its data sheet's tolerances allow
+    (pyimu parts NAME shows them), and the filter still knows the data sheet alone.
     """
     from pyimu.fmu.package import build as build_part
     from pyimu.fmu.sources import Form
+    from pyimu.rover.system import check_drive, write_rover
 
     forms: dict[str, Form] = {"2": 2, "3": 3, "block": "block"}
     names = [name.strip() for name in fmi.split(",")]
     if not all(name in forms for name in names):
         raise UserError(f"--fmi {fmi}: unknown; known are {', '.join(forms)}, separated by commas")
     add_effects(effects)
+    chosen = [forms[name] for name in names]
+    wired: Form = next((form for form in forms.values() if form in chosen), "block")
+    if ssp is not None:
+        check_drive(ssp, wired)
     with progress(f"compiling {part}"):
         paths = build_part(
             part,
             out,
             [f.strip() for f in fmu.split(",")],
-            [forms[name] for name in names],
+            chosen,
             platform,
+            specimen,
         )
+        if ssp is not None:
+            rover = write_rover(part, out, ssp, form=wired, platform=platform, specimen=specimen)
+            paths.append(rover)
     for path in paths:
         print(path)
 
@@ -129,7 +159,8 @@ def parts(
 
     List the built-in parts with their noise and range, or print one part: every coefficient, the
     figure as its data sheet quotes it, and the source. N is the root of the two-sided density; a
-    dash stands where the part has no figure.
+    dash stands where the part has no figure. Tolerances follow, from which pyimu build draws a
+    specimen: uniform is anywhere within the figure, normal has it for one standard deviation.
     """
     from pyimu.report.parts_table import detail, listing, terminal_width
 

@@ -38,6 +38,37 @@ def radians(option: str, degrees: float | None, most: float) -> float | None:
     return None if degrees is None else math.radians(degrees)
 
 
+def place_in_radians(option: str, text: str | None) -> tuple[float, ...] | None:
+    """Latitude and longitude in rad, and the height in m if there is one, of ``LAT,LON[,HEIGHT]``.
+
+    Raises UserError for anything else.
+    """
+    if text is None:
+        return None
+    try:
+        numbers = [float(v) for v in text.split(",")]
+    except ValueError:
+        numbers = []
+    if len(numbers) not in (2, 3):
+        raise UserError(
+            f"{option} {text}: expected LAT,LON or LAT,LON,HEIGHT in degrees north, degrees east "
+            "and m, such as 52.5,13.3,40"
+        )
+    latitude, longitude, *height = numbers
+    if not abs(latitude) <= 90 and abs(longitude) <= 90:
+        raise UserError(
+            f"{option} {text}: the latitude comes first, and lies between -90 and 90 deg; "
+            f"is it {longitude:g},{latitude:g}?"
+        )
+    bounds = (("latitude", latitude, 90), ("longitude", longitude, 360))
+    for name, value, most in bounds:
+        if not abs(value) <= most:
+            raise UserError(
+                f"{option} {text}: {name} {value:g}, must lie between {-most} and {most} deg"
+            )
+    return (math.radians(latitude), math.radians(longitude), *height)
+
+
 def add_effects(files: list[Path] | None) -> None:
     if files:
         from pyimu.model.catalogue import add_effects as add

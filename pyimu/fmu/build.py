@@ -22,7 +22,17 @@ from pyimu.block.cache import keep, kept_bytes, key_of
 from pyimu.block.compiled import compiler_command, source_folder
 from pyimu.errors import UserError
 from pyimu.files import whole
-from pyimu.fmu.sources import CORE, DESCRIPTION, LAYER, PAGE, TABLE, Form, template_folder, texts
+from pyimu.fmu.sources import (
+    CORE,
+    DESCRIPTION,
+    LAYER,
+    PAGE,
+    TABLE,
+    TERMINALS,
+    Form,
+    template_folder,
+    texts,
+)
 
 FLAGS = (
     "-std=c11",
@@ -41,7 +51,7 @@ SCALAR_FORMS: tuple[Form, ...] = (2, 3)
 FORMS: tuple[Form, ...] = (2, 3, "block")
 """Every form of an FMU, in the order in which they are built."""
 
-_ZIP_TIME = (1980, 1, 1, 0, 0, 0)
+ZIP_TIME = (1980, 1, 1, 0, 0, 0)
 
 
 @dataclass(frozen=True)
@@ -93,11 +103,17 @@ def build_fmus(
             raise UserError(f"FMI version {form} is not one of {', '.join(map(str, LAYER))}")
     platforms = _platforms(platform)
     generated = texts(block)
-    with tempfile.TemporaryDirectory(prefix="pyimu-") as work:
-        libraries = {
-            p: _compile(block.name, generated, forms, p, compiler, Path(work, p.name))
-            for p, compiler in platforms
-        }
+    try:
+        with tempfile.TemporaryDirectory(prefix="pyimu-") as work:
+            libraries = {
+                p: _compile(block.name, generated, forms, p, compiler, Path(work, p.name))
+                for p, compiler in platforms
+            }
+    except OSError as error:
+        raise UserError(
+            f"{tempfile.gettempdir()}: cannot be written ({error.strerror or error}); TMPDIR names "
+            "another folder for temporary files"
+        ) from None
     return [
         _write(
             _contents(generated, form) | _binaries(block.name, form, libraries),
@@ -282,21 +298,17 @@ def _write(entries: dict[str, bytes], target: Path) -> Path:
 
 def _contents(generated: dict[str, str], form: Form) -> dict[str, bytes]:
     """What an FMU holds beside its libraries: path in the archive to bytes."""
-    static = {
-        name: (template_folder() / name).read_bytes()
-        for name in ("license.txt", "terminalsAndIcons.xml")
-    }
     entries = {
         "modelDescription.xml": generated[DESCRIPTION[form]].encode(),
         "documentation/index.html": generated[PAGE[form]].encode(),
-        "documentation/licenses/license.txt": static["license.txt"],
+        "documentation/licenses/license.txt": (template_folder() / "license.txt").read_bytes(),
     }
     entries |= {f"sources/{file}": data for file, data in _source_files(generated, form).items()}
     if form == 2:
         return entries | {"model.png": icon()}
     return entries | {
         "sources/buildDescription.xml": generated["buildDescription.xml"].encode(),
-        "terminalsAndIcons/terminalsAndIcons.xml": static["terminalsAndIcons.xml"],
+        "terminalsAndIcons/terminalsAndIcons.xml": generated[TERMINALS[form]].encode(),
         "terminalsAndIcons/icon.png": icon(),
     }
 
@@ -319,7 +331,7 @@ def _binaries(
 def _zip(file: BinaryIO, entries: dict[str, bytes]) -> None:
     with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
         for path in sorted(entries):
-            info = zipfile.ZipInfo(path, _ZIP_TIME)
+            info = zipfile.ZipInfo(path, ZIP_TIME)
             info.compress_type = zipfile.ZIP_DEFLATED
             info.external_attr = 0o644 << 16
             info.create_system = 3  # the same bytes on every system

@@ -16,22 +16,27 @@ import re
 from pathlib import Path
 
 from pyimu.attitude import attitude_ukf
+from pyimu.attitude.heading.estimator import heading_estimator
 from pyimu.block.block import Block
 from pyimu.block.compiled import source_folder
 from pyimu.fmu.sources import texts
 from pyimu.model.part_file import part
+from pyimu.plant.low_pass import low_pass
+from pyimu.plant.rover_drive import rover_drive
 
 REFERENCE = "imt30"
 """The built-in part whose blocks are generated."""
 
-UNREADABLE = ("AttitudeUkf/step.c",)
+UNREADABLE = ("AttitudeUkf/step.c", "RoverDrive/step.c")
 """Texts of thousands of lines, without a structure that a reader could follow."""
 
 
 def reference_blocks() -> tuple[Block, ...]:
-    """The blocks whose texts are checked in: sensor and attitude filter of the reference part."""
+    """The blocks whose texts are checked in: those of the reference part, and what is around it."""
     found = part(REFERENCE)
-    return found.block, attitude_ukf(found)
+    period = found.sample_period
+    filters = attitude_ukf(found), heading_estimator(found)
+    return found.block, *filters, rover_drive(period), low_pass(period)
 
 
 def generated_folder() -> Path:

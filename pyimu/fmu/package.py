@@ -1,4 +1,4 @@
-"""FMUs of a part: the sensor, and the filters that go with it."""
+"""FMUs of a part: the sensor, the filters that go with it, and the system around them."""
 
 from __future__ import annotations
 
@@ -14,13 +14,19 @@ from pyimu.fmu.build import FORMS, build_fmus
 from pyimu.fmu.sources import Form
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as find_part
+from pyimu.plant.low_pass import low_pass
+from pyimu.plant.rover_drive import rover_drive
+
+SENSOR = "sensor"
 
 BLOCKS: dict[str, Callable[[Part], Block]] = {
-    "sensor": lambda part: part.block,
+    SENSOR: lambda part: part.nominal.block,
     **FILTERS,
     "heading": heading_estimator,
+    "rover": lambda part: rover_drive(part.sample_period),
+    "low-pass": lambda part: low_pass(part.sample_period),
 }
-"""What ``--fmu`` names."""
+"""What ``--fmu`` names. The rover's motion and the low-pass have the sample period of the part."""
 
 
 def build(
@@ -29,12 +35,16 @@ def build(
     fmu: Sequence[str] = ("sensor", "ukf"),
     fmi: Sequence[Form] = FORMS,
     platform: str = "host",
+    specimen: int | None = None,
 ) -> list[Path]:
     """Build the FMUs of a part into ``out``; gives their paths.
 
-    ``fmu`` names blocks ("sensor", "ukf", "hidalgo2012", "heading"), ``fmi`` forms (2, 3, "block"),
-    ``platform`` the machine ("host", "all", or one by name). Raises UserError for an unknown name,
-    a part that cannot be read, a folder that cannot be made, or a missing compiler.
+    ``fmu`` names blocks ("sensor", "ukf", "hidalgo2012", "heading", "rover", "low-pass"), ``fmi``
+    forms (2, 3, "block"), ``platform`` the machine ("host", "all", or one by name). The sensor has
+    every coefficient of the part, and of its tolerances, as parameters; ``specimen`` is the seed of
+    a specimen whose coefficients they start at, which the filters know nothing of. Raises UserError
+    for an unknown name, a part that cannot be read, a specimen of a part without tolerances, a
+    folder that cannot be made, or a missing compiler.
     """
     unknown = [f for f in fmu if f not in BLOCKS]
     if unknown:
@@ -43,7 +53,7 @@ def build(
     if wrong:
         raise UserError(f"--fmi {wrong[0]}: unknown; known are {', '.join(map(str, FORMS))}")
     found = find_part(part) if isinstance(part, (str, Path)) else part
+    sensor = found if specimen is None else found.specimen(specimen)
     check_folder(out)
-    return [
-        path for name in fmu for path in build_fmus(BLOCKS[name](found), out, tuple(fmi), platform)
-    ]
+    blocks = [BLOCKS[name](sensor if name == SENSOR else found) for name in fmu]
+    return [path for block in blocks for path in build_fmus(block, out, tuple(fmi), platform)]

@@ -25,6 +25,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from pyimu.block.block import Block
 from pyimu.block.c_code import c_code
+from pyimu.fmu.unit_definitions import unit_definitions
 from pyimu.fmu.variables import (
     BLOCK_SIZE,
     DEFAULT_SEED,
@@ -35,7 +36,6 @@ from pyimu.fmu.variables import (
     xml_number,
 )
 from pyimu.model.signals import EVERY_SAMPLE
-from pyimu.units import BASES, IN_SI, ZERO_CELSIUS, parse
 
 CORE = (
     "block.c",
@@ -65,6 +65,12 @@ DESCRIPTION: dict[Form, str] = {
     "block": "modelDescription.block.xml",
 }
 
+TERMINALS: dict[Form, str] = {
+    3: "terminalsAndIcons.xml",
+    "block": "terminalsAndIcons.block.xml",
+}
+"""What can be wired as a whole; FMI 2 has nothing of the kind."""
+
 PAGE: dict[Form, str] = {2: "index.html", 3: "index.html", "block": "index.block.html"}
 
 _LOG_CATEGORIES = (
@@ -81,7 +87,7 @@ def texts(block: Block) -> dict[str, str]:
     unit is unknown.
     """
     _check(block)
-    step = _render_one("step.c", _names(block) | {"functions": _functions_in_c(block)})
+    step = render("step.c", _names(block) | {"functions": _functions_in_c(block)})
     # A token stands for the content: what differs in any generated file gets another one, and so
     # does each table.
     contexts = {
@@ -92,7 +98,7 @@ def texts(block: Block) -> dict[str, str]:
         for table, context in contexts.items()
         for text in _render(table, context | {"token": ""}).values()
     ]
-    files = {"step.c": step, "model_prefix.h": _render_one("model_prefix.h", _names(block))}
+    files = {"step.c": step, "model_prefix.h": render("model_prefix.h", _names(block))}
     for table, context in contexts.items():
         files |= _render(table, context | {"token": _token([table, step, *blank])})
     return files
@@ -161,7 +167,9 @@ def _context(block: Block, in_blocks: bool) -> dict:
         "noise": block.noise,
         "variables": variables,
         "outputs": [e for e in variables if e.role == "output"],
-        "units": _units(variables),
+        "units": unit_definitions((e.unit, e.display_unit) for e in variables if e.unit),
+        "terminals": _terminals(variables),
+        "stop_time": block.stop_time,
         "sources": sources,
         "log_categories": _LOG_CATEGORIES,
         "block_size": size,
@@ -183,29 +191,13 @@ def _context(block: Block, in_blocks: bool) -> dict:
     }
 
 
-def _units(variables: Iterable[Entry]) -> list[dict]:
-    """The units in use: name, and base unit attributes.
-
-    The attributes are None where an exponent is no integer, as FMI cannot say that.
-    """
-    names = sorted({e.unit for e in variables if e.unit})
-    return [{"name": name, "base": _base_unit(name)} for name in names]
-
-
-def _base_unit(name: str) -> dict[str, str] | None:
-    unit = parse(name)
-    exponents: dict[str, int] = {}
-    for base, exponent in zip(BASES, unit.dimension):
-        if exponent.denominator != 1:
-            return None
-        for si, power in IN_SI[base].items():
-            exponents[si] = exponents.get(si, 0) + power * int(exponent)
-    attributes = {si: str(power) for si, power in exponents.items() if power}
-    if unit.factor != 1.0:
-        attributes["factor"] = xml_number(unit.factor)
-    if name == "degC":  # the temperature itself; within a quotient it is a difference
-        attributes["offset"] = xml_number(ZERO_CELSIUS)
-    return attributes
+def _terminals(outer: Iterable[Entry]) -> dict[str, list[Entry]]:
+    """Name of a terminal to its members."""
+    found: dict[str, list[Entry]] = {}
+    for e in outer:
+        if e.variable.terminal:
+            found.setdefault(e.variable.terminal, []).append(e)
+    return found
 
 
 def _functions_in_c(block: Block) -> str:
@@ -231,11 +223,13 @@ _TEMPLATES: dict[str, dict[str, str]] = {
         "modelDescription.fmi2.xml": "modelDescription.fmi2.xml",
         "modelDescription.fmi3.xml": "modelDescription.fmi3.xml",
         "buildDescription.xml": "buildDescription.xml",
+        TERMINALS[3]: "terminalsAndIcons.xml",
         "index.html": "index.html",
     },
     TABLE["block"]: {
         TABLE["block"]: "model_table.h",
         DESCRIPTION["block"]: "modelDescription.fmi3.xml",
+        TERMINALS["block"]: "terminalsAndIcons.xml",
         PAGE["block"]: "index.html",
     },
 }
@@ -243,10 +237,11 @@ _TEMPLATES: dict[str, dict[str, str]] = {
 
 
 def _render(table: str, context: dict) -> dict[str, str]:
-    return {name: _render_one(of, context) for name, of in _TEMPLATES[table].items()}
+    return {name: render(of, context) for name, of in _TEMPLATES[table].items()}
 
 
-def _render_one(template: str, context: dict) -> str:
+def render(template: str, context: dict) -> str:
+    """A text from one of the package's templates."""
     return _environment().get_template(template).render(context)
 
 
@@ -258,7 +253,7 @@ def _environment() -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
         keep_trailing_newline=True,
-        autoescape=lambda name: name is not None and name.endswith(("xml", "html")),
+        autoescape=lambda name: name is not None and name.endswith(("xml", "html", "ssd", "ssv")),
     )
     environment.filters |= {
         "xml_number": xml_number,

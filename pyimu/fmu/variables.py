@@ -12,14 +12,19 @@ import casadi as ca
 
 from pyimu.block.block import Block
 from pyimu.block.variables import Variable
-from pyimu.fmu.arrays import Array, description, grouped, scalars
+from pyimu.fmu.arrays import Array, description, grouped, scalars, split_name
+from pyimu.fmu.unit_definitions import display_units
 
 DEFAULT_SEED = 0
+"""Stands for the instance's name, so that two sensors of a system to which nobody gave seeds do not
+share their noise unseen. Every other seed gives the bits of ``pyimu.simulate`` under it; under 0
+these are the ones of an instance that is called as its model is, as fmpy's are. A number and no
+state of its own, because tools hand start values back to the unit."""
 
 SEED = Variable(
     "seed",
     "1",
-    "seed of the noise: other seeds, independent noise",
+    "seed of the noise: other seeds, independent noise; 0: that of the instance's name",
     start=DEFAULT_SEED,
     minimum=0.0,
 )
@@ -90,6 +95,8 @@ class Entry:
     follows from."""
     sample_dependencies: tuple[str, ...] = ()
     """Names of the inputs that an output's value at a sample follows from."""
+    display_unit: str | None = None
+    """The unit in which people say it, where it is another."""
     causality: dict[str, str] = field(init=False)
 
     def __post_init__(self) -> None:
@@ -127,6 +134,12 @@ class Entry:
     @property
     def unit(self) -> str | None:
         return self.variable.unit if self.kind == "real" else None
+
+    @property
+    def member(self) -> str:
+        """Its name in the terminal that it belongs to."""
+        name = self.variable.member or self.variable.name
+        return split_name(name)[0] if self.array.shape else name
 
     @property
     def role_text(self) -> str:
@@ -181,6 +194,7 @@ class Entry:
             )
         return (
             ({"unit": self.unit} if self.unit else {})
+            | ({"displayUnit": self.display_unit} if self.display_unit else {})
             | self.bounds
             | ({} if start is None else {"start": start})
         )
@@ -215,6 +229,7 @@ def entries(block: Block, in_blocks: bool) -> list[Entry]:
         )
     ]
     sample = _dependencies(block.step, 1, 1)
+    shown = display_units([*block.inputs, *block.parameters, *block.outputs])
     return [
         Entry(
             reference,
@@ -227,6 +242,7 @@ def entries(block: Block, in_blocks: bool) -> list[Entry]:
             sample_dependencies=_unique(
                 rows[inputs[i]].array.name for c in row.outputs for i in sample[c]
             ),
+            display_unit=shown.get(row.array.elements[0].name) if row.kind == "real" else None,
         )
         for reference, row in enumerate(rows)
     ]

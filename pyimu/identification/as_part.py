@@ -27,7 +27,7 @@ ORIGINS = {
 }
 """What a part file says of a coefficient that data gave."""
 
-SENSORS = {"gyro": "gyro", "accel": "accelerometer"}
+SENSORS = {"gyro": "gyro", "accel": "accelerometer", "mag": "magnetometer"}
 """Names of the sensors."""
 
 
@@ -48,7 +48,7 @@ def as_part(
     """The part as its file has it.
 
     What the logs say nothing of and nobody declared is left out, the rest rounded to a hundredth of
-    its standard error.
+    its standard error. It is the model of one specimen, without the tolerances of all.
     """
     entries, notes, part = tuple(entries), dict(after.notes), after
     for kind in SENSORS:
@@ -60,6 +60,7 @@ def as_part(
     return replace(
         part,
         estimate=frozenset(),
+        tolerances=(),
         notes=notes,
         description=_description(part, entries, unexamined),
     )

@@ -28,7 +28,7 @@ def attitude_error(
     the sensor's; ``clock`` is what was taken out of the reference's clock.
     """
     if clock is not None and clock.taken_out:
-        recording = _on_own_clock(recording, clock)
+        recording = on_own_clock(recording, clock)
     truth_known = np.isfinite(recording.ref_q).all(axis=1)
     rows = np.flatnonzero(truth_known & (np.arange(len(truth_known)) >= start))
     if not len(rows):
@@ -43,7 +43,7 @@ def attitude_error(
     return error_against(recording.time[rows], found.q[rows], reference)
 
 
-def _on_own_clock(recording: Recording, clock: Clock) -> Recording:
+def on_own_clock(recording: Recording, clock: Clock) -> Recording:
     """The recording with its reference attitude as late as its sensors."""
     source = recording if recording.reference is None else recording.reference
     time = recording.time - clock.at(recording.time)

@@ -16,7 +16,7 @@ import numpy as np
 from pyimu.errors import Finding, UserError
 from pyimu.identification.conclude import conclude
 from pyimu.identification.fit.keys import Key, coefficient_of
-from pyimu.identification.fit.trial import Trial, accel_trial, gyro_trial
+from pyimu.identification.fit.trial import HELD_OUT, Trial, accel_trial, gyro_trial
 from pyimu.identification.formula.effect import forget
 from pyimu.identification.formula.search import Look, look
 from pyimu.identification.instead import formula_less_than_noise, less_than_noise
@@ -44,9 +44,6 @@ from pyimu.recording.reference.file import read_reference, with_references
 from pyimu.recording.reference.rate import reference_rate
 from pyimu.recording.rest import is_at_rest
 from pyimu.report.numbers import joined
-
-HELD_OUT = 0.3
-"""Share of each log, its end, that is held out where no log is named for it."""
 
 BAND_SHARE = 0.75
 """Share of the band in which gyro and derived reference agree that is used: at its edge a tenth of

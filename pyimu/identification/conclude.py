@@ -24,6 +24,8 @@ from pyimu.identification.found import Added, Changed, LogEntry
 from pyimu.identification.heading_error import heading_rms
 from pyimu.identification.held_out import at_rest, attitudes, held_trials, scores
 from pyimu.identification.made_with import MadeWith
+from pyimu.identification.magnetometer.examine import examined
+from pyimu.identification.magnetometer.model import magnetic, with_magnetometer
 from pyimu.identification.model_of import Found, Model, model_of
 from pyimu.identification.noise.named import Noise, noise_of
 from pyimu.identification.overview import Overview, overview
@@ -34,6 +36,7 @@ from pyimu.identification.result import Closed
 from pyimu.identification.search.belief import most
 from pyimu.identification.search.ceiling import is_ceiling
 from pyimu.identification.search.forward import Investigation, form_error, without
+from pyimu.identification.third_sensor import and_magnetometer
 from pyimu.identification.verdict import WORSE, Evidence, Verdict, unfit, verdict
 from pyimu.identification.visibility import visibility
 from pyimu.model.catalogue import CATALOGUE, WALK, WHITE
@@ -66,13 +69,16 @@ def conclude(
     say("attitude against the reference")
     found, model, attitude, lost = settled(start, declared, found, others or logs)
     not_examined = _unexamined(found, logs)
+    another = unfit(found)
+    magnetometer = examined(start, logs, others, found, another, say)
     say("what is random in what is left")
-    fits = not unfit(found)
+    fits = not another
     noises = {
         kind: _noise(start, inv, model, len(found), fits and _is_noise(inv, looks[kind]))
         for kind, inv in found.items()
     }
     model = model.with_noise(noises)
+    model = replace(model, after=with_magnetometer(model.after, start, magnetometer))
     added, changed, drifts = _findings(start, declared, found, model, noises, say)
     unexplained = tuple(k.unexplained for k in looks.values() if k.unexplained)
     unexplained += tuple(s for n in noises.values() for s in n.shapes)
@@ -89,8 +95,9 @@ def conclude(
     said = _said(evidence, together)
     say("the whole model, and what to measure next")
     model_after = estimated(start, model.after, found, added, noises)
+    model_after += magnetic(start, model.after, magnetometer)
     seen = tuple(v for kind, inv in found.items() for v in visibility(kind, inv))
-    return Closed(
+    closed = Closed(
         verdict=said.word,
         reason=said.reason,
         remarks=said.remarks,
@@ -120,6 +127,7 @@ def conclude(
         at_rest=at_rest(found),
         formulas=formulas,
     )
+    return and_magnetometer(closed, magnetometer, together)
 
 
 def _kept(looks: Iterable[Look], found: Found) -> tuple[Formula, ...]:

@@ -119,13 +119,16 @@ class Spectrum:
 
 @dataclass(frozen=True)
 class Exhibits:
-    """All of one sensor; ``held_out`` says whether the traces are of rows that were not fitted."""
+    """All of one sensor; ``held_out`` says whether the traces are of rows that were not fitted.
+
+    The magnetometer has no candidates that were screened.
+    """
 
     held_out: bool
     traces: tuple[Trace, ...]
     spectrum: Spectrum | None
-    first: Screening
-    last: Screening
+    first: Screening | None = None
+    last: Screening | None = None
     of_effect: dict[str, tuple[Cloud | Comb, ...]] = field(default_factory=dict)
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from pyimu.files import plain
 from pyimu.identification.fit.score import ErrorSums
 from pyimu.identification.overview import Overview
+from pyimu.model.kinds import MAGNETOMETER
 
 
 @dataclass(frozen=True)
@@ -182,6 +183,8 @@ class LogEntry:
             name: self.errors[kind].as_dict() if kind in self.errors else None
             for kind, name in (("gyro", "rate"), ("accel", "specific_force"))
         }
+        if MAGNETOMETER in self.errors:
+            rows["magnetic_field"] = self.errors[MAGNETOMETER].as_dict()
         return (
             {"file": self.file, "samples": self.samples, "held_out": self.held_out}
             | rows

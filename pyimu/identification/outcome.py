@@ -15,8 +15,11 @@ from pyimu.identification.fit.score import WINDOW
 from pyimu.identification.formula.formula import Formula
 from pyimu.identification.found import Added, AtRest, Changed, Errors, LogEntry, Visibility
 from pyimu.identification.made_with import MadeWith
+from pyimu.identification.magnetometer.examine import Examined
+from pyimu.identification.magnetometer.words import as_dict as magnetic
 from pyimu.identification.search.forward import Refused
 from pyimu.identification.search.leftover import Unexplained
+from pyimu.model.kinds import MAGNETOMETER
 from pyimu.model.part import Part
 
 
@@ -52,6 +55,7 @@ class Outcome:
     heading: tuple[float, float] | None = None
     at_rest: tuple[AtRest, ...] = ()
     formulas: tuple[Formula, ...] = ()
+    magnetometer: Examined | None = None
 
     def as_dict(self, model: str = "model.toml", fmus: tuple[str, ...] = ()) -> dict[str, Any]:
         """The contents of report.json."""
@@ -82,11 +86,13 @@ class Outcome:
             "fmus": list(fmus),
             "made_with": self.made_with and self.made_with.as_dict(),
         }
-        return plain(found)
+        seen = self.magnetometer
+        return plain(found | ({} if seen is None else {"magnetometer": magnetic(seen)}))
 
     def _error(self) -> dict[str, Any]:
         rate, force = self.errors.get("gyro"), self.errors.get("accel")
-        return {
+        field = self.errors.get(MAGNETOMETER)
+        found = {
             "data": self.held_out,
             "rate": rate and rate.as_dict(),
             "angle": rate and rate.angle_dict(WINDOW),
@@ -98,6 +104,7 @@ class Outcome:
             "gravity": self._gravity("accel"),
             "gravity_direction": self._gravity("gyro"),
         }
+        return found | ({} if field is None else {"magnetic_field": field.as_dict()})
 
     def _gravity(self, kind: str) -> dict[str, Any] | None:
         return next((g.as_dict() for g in self.at_rest if g.sensor == kind), None)

@@ -50,7 +50,7 @@ class Catalogue(Mapping[str, Effect]):
         """The effect of a sensor of this kind. Raises UserError where it has none of this name."""
         if name not in self._effects:
             raise UserError(f"unknown effect '{name}'{did_you_mean(name, self._effects)}")
-        if kind not in self._effects[name].sensors:
+        if kind not in self._effects[name].triads:
             raise UserError(f"effect {name} does not belong to a {kind}")
         return self._effects[name]
 

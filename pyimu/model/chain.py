@@ -13,8 +13,9 @@ import numpy as np
 from pyimu.block.variables import Limits, NoiseChannel
 from pyimu.model.arguments import INPUT, Parameter
 from pyimu.model.effect import Effect
-from pyimu.model.kinds import KINDS, OWN_RATE
-from pyimu.model.signals import COLUMNS, N_INPUT, is_number, kept
+from pyimu.model.kinds import OWN_RATE, TRIADS
+from pyimu.model.signals import COLUMNS, N_INPUT
+from pyimu.symbolic.missing import is_number, kept
 
 NEWTON_STEPS = 6
 """Iterations of the symbolic inverse; an error of 0.1 squares to below 1e-16 in five."""
@@ -47,13 +48,14 @@ class Chain:
     """
 
     def __init__(self, kind: str, effects: tuple[Effect, ...]) -> None:
-        self.kind, self.effects, self.output = kind, effects, KINDS[kind]
+        self.kind, self.effects, self.output = kind, effects, TRIADS[kind]
         self.u = ca.SX.sym("u", N_INPUT)
         self.h = ca.SX.sym("h")
         self.p = ca.SX.sym("p", len(self.slots))
         self.w = ca.SX.sym("w", len(self.noise))
         self.signals = {name: self.u[at] for name, at in COLUMNS.items()}
-        self.signals[OWN_RATE] = self.signals[self.output.own_rate]
+        if self.output.own_rate:
+            self.signals[OWN_RATE] = self.signals[self.output.own_rate]
         self.x = self.signals[self.output.own]
         self.parameters = self._split_parameters()
         self.noises = self._split_noise()

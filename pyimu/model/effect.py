@@ -35,9 +35,10 @@ from pyimu.model.arguments import (
     Scan,
     State,
 )
-from pyimu.model.kinds import KINDS, OWN_RATE, STAGES
+from pyimu.model.kinds import KINDS, MAGNETOMETER, OWN_RATE, STAGES, TRIADS
 from pyimu.model.law import Law
-from pyimu.model.signals import SIGNALS, is_number, kept
+from pyimu.model.signals import SIGNALS
+from pyimu.symbolic.missing import is_number, kept
 
 __all__ = [
     "INPUT",
@@ -73,7 +74,8 @@ class Effect:
     ``invertible`` is False where the input cannot be had back from every output:
     ``lost(y, **parameters)`` then marks the samples that say nothing of it, and
     ``restore(y, **parameters)`` gives the input of the others where it is not the output itself;
-    one without marks is left in. ``limits`` are what several parameters, or one and the sample
+    one without marks is left in. It is of the kinds ``sensors``, and where it is ``magnetic`` a
+    magnetometer may have it as well. ``limits`` are what several parameters, or one and the sample
     period, must keep: a text, and ``broken(h, **parameters)``. ``law`` says what the noise is that
     it makes.
 
@@ -96,6 +98,7 @@ class Effect:
     source: str
     term: str
     sensors: tuple[str, ...]
+    magnetic: bool
     function: Callable[..., Any]
     smooth: bool
     invertible: bool
@@ -147,8 +150,14 @@ class Effect:
 
     def signals(self, kind: str) -> frozenset[str]:
         """Names in ``SIGNALS`` that the effect needs beside what this kind of sensor measures."""
-        named = (KINDS[kind].own_rate if s == OWN_RATE else s for s in self.environment.values())
-        return frozenset(named) - {KINDS[kind].own}
+        triad = TRIADS[kind]
+        named = (triad.own_rate if s == OWN_RATE else s for s in self.environment.values())
+        return frozenset(named) - {triad.own}
+
+    @property
+    def triads(self) -> tuple[str, ...]:
+        """The kinds of triads that may have it: ``sensors``, and the magnetometer."""
+        return (*self.sensors, MAGNETOMETER) if self.magnetic else self.sensors
 
     def start(self) -> dict[str, np.ndarray]:
         """Start values of all parameters: the identity."""
@@ -180,6 +189,7 @@ def effect(
     source: str,
     term: str,
     sensors: tuple[str, ...] = ("gyro", "accel"),
+    magnetic: bool = False,
     smooth: bool = True,
     invertible: bool = True,
     lost: Callable | None = None,
@@ -218,6 +228,7 @@ def effect(
             source=source,
             term=term,
             sensors=sensors,
+            magnetic=magnetic,
             function=function,
             smooth=smooth,
             invertible=invertible,

@@ -13,7 +13,10 @@ gain, bias, noise, output."""
 
 @dataclass(frozen=True)
 class SensorKind:
-    """A triad: the signal that it measures, that signal's rate, its unit and its integral's."""
+    """A triad: the signal that it measures, that signal's rate, its unit and its integral's.
+
+    Of a magnetometer's signal there is no rate: none of its effects follows from one.
+    """
 
     name: str
     own: str
@@ -30,6 +33,15 @@ KINDS = {
     "gyro": SensorKind("gyro", "rate", "angular_acceleration", "rad/s", "rad"),
     "accel": SensorKind("accel", "specific_force", "jerk", "m/s^2", "m/s"),
 }
+"""The triads of an inertial measurement unit: those that are simulated, and that the loop looks for
+effects of."""
+
+MAGNETOMETER = "mag"
+"""The triad beside them. A part knows its errors: hard iron as a bias, soft iron in scale factors
+and misalignment, noise (``Effect.magnetic``); ``pyimu.attitude`` undoes them."""
+
+TRIADS = KINDS | {MAGNETOMETER: SensorKind(MAGNETOMETER, "mag", "", "T", "T*s")}
+"""All triads whose errors a part may know."""
 
 OWN = {kind: COLUMNS[k.own] for kind, k in KINDS.items()}
 """Where a sensor's own signal stands in the input vector."""

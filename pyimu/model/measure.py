@@ -5,7 +5,7 @@ The arrays go through the C of the block's FMU, a piece at a time.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -25,18 +25,19 @@ def measure(
     missing: Mapping[int, int],
     seed: int | None,
     sample_period: float,
+    wanted: Iterable[str],
 ) -> dict[str, np.ndarray]:
-    """Each group of outputs (n, size) by name.
+    """The ``wanted`` groups of outputs, each (n, size), by name.
 
     ``missing`` gives by row how many samples are missing before it.
     """
     inputs, outputs = _places(block.inputs), _places(block.outputs)
     source = _Inputs(block, inputs, given, n)
-    measured = {name: np.empty((n, at.stop - at.start)) for name, at in outputs.items()}
+    measured = {name: np.empty((n, outputs[name].stop - outputs[name].start)) for name in wanted}
     columns = [
-        (at.start + i, column)
-        for name, at in outputs.items()
-        for i, column in enumerate(measured[name].T)
+        (outputs[name].start + i, column)
+        for name, rows in measured.items()
+        for i, column in enumerate(rows.T)
     ]
     run = Run(block, n + sum(missing.values()), seed=seed, sample_period=sample_period)
     y = np.empty((PIECE, len(block.outputs)))

@@ -19,6 +19,10 @@ DENSITIES = {"two-sided": 1.0, "one-sided": math.sqrt(2.0)}
 two-sided one."""
 
 
+TOLERANCE = "tolerance"
+"""The table of a part file that says how far specimens lie from the part."""
+
+
 RATE_KEY = ("", "", "sample_rate")
 """Where ``Part.notes`` keeps what stands beside the sample rate."""
 

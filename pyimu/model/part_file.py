@@ -14,10 +14,15 @@ One table per effect, one entry per parameter::
     [gyro]
     g_sensitivity = "estimate"
 
+    [tolerance.gyro.turn_on_bias]
+    b0 = {value = 20.0, unit = "deg/s", distribution = "uniform", source = "data sheet, table 1"}
+
 A plain number stands for all three axes; a matrix is written as nested lists or row by row. The
 value ``"estimate"`` leaves a coefficient to the data. A ``density`` that is one-sided, as a data
 sheet's is, is divided by sqrt(2). What stands beside a value (unit, source, figure as quoted) is
-kept in ``Part.notes``.
+kept in ``Part.notes``. A ``tolerance`` says how far specimens lie from the part in a coefficient,
+within the value (uniform) or with it for a standard deviation (normal); one number stands for every
+element, of a matrix too. ``Part.specimen`` draws from them.
 """
 
 from __future__ import annotations

@@ -6,7 +6,7 @@ import math
 import sys
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -16,24 +16,28 @@ from pyimu.errors import UserError
 from pyimu.model.arguments import Parameter
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.effect import Effect
-from pyimu.model.kinds import KINDS
+from pyimu.model.kinds import KINDS, TRIADS
 from pyimu.model.part import Part
 from pyimu.model.part_entry import (
     DENSITIES,
     ESTIMATE,
     NOTE_KEYS,
     RATE_KEY,
+    TOLERANCE,
     FigureScale,
     Key,
     format_array,
     is_density,
 )
 from pyimu.model.sensor import Sensor
+from pyimu.model.tolerance import DISTRIBUTIONS, Tolerance
 
-_TOP_KEYS = ("name", "description", "sample_rate", *KINDS)
+_TOP_KEYS = ("name", "description", "sample_rate", *TRIADS, TOLERANCE)
 
 
 _ENTRY_KEYS = ("value", "start", *NOTE_KEYS)
+
+_TOLERANCE_KEYS = ("value", "unit", "distribution", "source", "quoted")
 
 
 def parse_part(text: str, file: str = "part") -> Part:
@@ -58,12 +62,13 @@ class _Reader:
 
     def part(self, data: Mapping[str, Any]) -> Part:
         self._known("", data, _TOP_KEYS)
-        sensors = {kind: self._sensor(kind, data.get(kind, {})) for kind in KINDS}
+        sensors = {kind: self._sensor(kind, data.get(kind, {})) for kind in TRIADS}
         name, rate, description = (
             self._required_text(data, "name"),
             self._sample_rate(data),
             self._optional_text("", data, "description"),
         )
+        tolerances = self._tolerances(data.get(TOLERANCE, {}))
         try:
             return Part(
                 name,
@@ -72,6 +77,7 @@ class _Reader:
                 estimate=frozenset(self.estimate),
                 notes=self.notes,
                 description=description,
+                tolerances=tolerances,
             )
         except UserError as error:  # what only the whole part shows
             raise UserError(f"{self.file}: {error}") from None
@@ -119,18 +125,16 @@ class _Reader:
             )
         values = {}
         for name, table in tables.items():
-            e = self._effect(kind, name)
+            e = self._effect(f"{kind}.{name}", kind, name)
             values[name] = self._parameters(kind, e, table)
         return Sensor(kind, values)
 
-    def _effect(self, kind: str, name: str) -> Effect:
+    def _effect(self, where: str, kind: str, name: str) -> Effect:
         e = CATALOGUE.get(name)
         if e is None:
-            raise self.error(f"{kind}.{name}", f"unknown effect; {meant(name, CATALOGUE)}")
-        if kind not in e.sensors:
-            raise self.error(
-                f"{kind}.{name}", f"is an effect of {' and '.join(e.sensors)}, not of {kind}"
-            )
+            raise self.error(where, f"unknown effect; {meant(name, CATALOGUE)}")
+        if kind not in e.triads:
+            raise self.error(where, f"is an effect of {' and '.join(e.triads)}, not of {kind}")
         return e
 
     def _parameters(self, kind: str, e: Effect, table: Any) -> dict[str, np.ndarray]:
@@ -143,15 +147,18 @@ class _Reader:
                 where,
                 f'must be "{ESTIMATE}" or a table with {", ".join(e.parameters)}, not {table!r}',
             )
+        self._known_parameters(where, e, table)
+        return {
+            name: self._value((kind, e.name, name), e.parameters[name], entry)
+            for name, entry in table.items()
+        }
+
+    def _known_parameters(self, where: str, e: Effect, table: Mapping[str, Any]) -> None:
         for name in table:
             if name not in e.parameters:
                 raise self.error(
                     f"{where}.{name}", f"unknown parameter; {meant(name, e.parameters)}"
                 )
-        return {
-            name: self._value((kind, e.name, name), e.parameters[name], entry)
-            for name, entry in table.items()
-        }
 
     def _value(self, key: Key, q: Parameter, entry: Any) -> np.ndarray:
         """The value of one entry in SI, shape ``q.shape``."""
@@ -197,6 +204,57 @@ class _Reader:
                 + (f" {scale.unit}" if scale.unit != "1" else ""),
             )
         return values
+
+    def _tolerances(self, kinds: Any) -> tuple[Tolerance, ...]:
+        self._table(TOLERANCE, kinds, f"[{TOLERANCE}.gyro.turn_on_bias]")
+        self._known(f"{TOLERANCE}.", kinds, tuple(KINDS))
+        found = []
+        for kind, effects in kinds.items():
+            self._table(f"{TOLERANCE}.{kind}", effects, f"[{TOLERANCE}.{kind}.turn_on_bias]")
+            for name, table in effects.items():
+                where = f"{TOLERANCE}.{kind}.{name}"
+                e = self._effect(where, kind, name)
+                self._table(where, table, f"[{where}]", f" with {', '.join(e.parameters)}")
+                self._known_parameters(where, e, table)
+                found += [
+                    self._tolerance(f"{where}.{n}", (kind, name, n), e.parameters[n], entry)
+                    for n, entry in table.items()
+                ]
+        return tuple(found)
+
+    def _table(self, where: str, table: Any, example: str, more: str = "") -> None:
+        if not isinstance(table, dict):
+            raise self.error(where, f"must be a table such as {example}{more}, not {table!r}")
+
+    def _tolerance(self, where: str, key: Key, q: Parameter, entry: Any) -> Tolerance:
+        if q.reference:
+            raise self.error(where, "only fixes an origin and has no tolerance")
+        self._table(where, entry, f'{{value = 1.0, unit = "{self._si(key, q)}", ... }}')
+        self._known(f"{where}.", entry, _TOLERANCE_KEYS)
+        distribution = entry.get("distribution")
+        if not isinstance(distribution, str) or distribution not in DISTRIBUTIONS:
+            fault = "is missing"
+            if distribution is not None:
+                near = meant(str(distribution), DISTRIBUTIONS)
+                fault = f"unknown distribution {distribution!r}; {near}"
+            meaning = "; ".join(f'"{name}": {text}' for name, text in DISTRIBUTIONS.items())
+            raise self.error(f"{where}.distribution", f"{fault} ({meaning})")
+        one = "value" in entry and _shape(entry["value"]) == ()
+        figures = self._numbers(where, entry, replace(q, shape=()) if one else q)
+        scale = self._scale(where, entry, self._si(key, q), False)
+        sizes = np.broadcast_to(scale.to_si(figures), q.shape)
+        if np.any(sizes < 0):
+            raise self.error(where, f"must not be negative, not {format_array(figures)}")
+        if not one and not q.diagonal and np.any(np.diag(sizes)):
+            raise self.error(where, "must have zeros on its diagonal")
+        return Tolerance(
+            key,
+            tuple(float(sizes[i]) for i in q.indices),
+            distribution,
+            scale.unit,
+            self._optional_text(f"{where}.", entry, "source"),
+            self._optional_text(f"{where}.", entry, "quoted"),
+        )
 
     @staticmethod
     def _si(key: Key, q: Parameter) -> str:

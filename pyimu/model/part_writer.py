@@ -9,10 +9,18 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from pyimu.model.effect import Effect
-from pyimu.model.kinds import KINDS
+from pyimu.model.kinds import TRIADS
 from pyimu.model.part import Part
-from pyimu.model.part_entry import ESTIMATE, RATE_KEY, FigureScale, is_density, nested
+from pyimu.model.part_entry import (
+    ESTIMATE,
+    RATE_KEY,
+    TOLERANCE,
+    FigureScale,
+    is_density,
+    nested,
+)
 from pyimu.model.sensor import Sensor
+from pyimu.model.tolerance import Tolerance
 
 
 def format_part(part: Part) -> str:
@@ -21,12 +29,23 @@ def format_part(part: Part) -> str:
     if part.description:
         lines.append(f"description = {_text(part.description)}")
     lines.append(f"sample_rate = {_format_rate(part)}")
-    for kind in KINDS:
+    for kind in TRIADS:
         sensor = part.sensor(kind)
         for e in sensor.effects:
             lines += ["", f"[{kind}.{e.name}]"]
             lines += [f"{name} = {_format_entry(part, sensor, e, name)}" for name in e.parameters]
+    effects = dict.fromkeys(t.key[:2] for t in part.tolerances)
+    for effect in effects:
+        lines += ["", f"[{TOLERANCE}.{'.'.join(effect)}]"]
+        lines += [_format_tolerance(t) for t in part.tolerances if t.key[:2] == effect]
     return "\n".join(lines) + "\n"
+
+
+def _format_tolerance(t: Tolerance) -> str:
+    sizes = np.array(t.sizes[0]) if len(set(t.sizes)) == 1 else t.array
+    entry = _with_unit(sizes, t.si, {"unit": t.unit} if t.unit else {})
+    note = {"distribution": t.distribution, "source": t.source, "quoted": t.quoted}
+    return f"{t.key[2]} = {_table({**entry, **_texts(note, tuple(note))})}"
 
 
 def _format_rate(part: Part) -> str:

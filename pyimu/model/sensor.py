@@ -18,7 +18,7 @@ from pyimu.errors import UserError
 from pyimu.model.catalogue import CATALOGUE, add_effects, read_off
 from pyimu.model.chain import Chain, Slot, chain_of
 from pyimu.model.effect import Effect
-from pyimu.model.kinds import KINDS, SensorKind
+from pyimu.model.kinds import TRIADS, SensorKind
 from pyimu.model.signals import EVERY_SAMPLE
 
 Values = Mapping[str, Mapping[str, np.ndarray]]
@@ -38,10 +38,10 @@ class Sensor:
     effects: tuple[Effect, ...] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        if self.kind not in KINDS:
+        if self.kind not in TRIADS:
             raise UserError(
-                f"unknown sensor '{self.kind}'{units.did_you_mean(self.kind, KINDS)}; known are "
-                f"{', '.join(KINDS)}"
+                f"unknown sensor '{self.kind}'{units.did_you_mean(self.kind, TRIADS)}; known are "
+                f"{', '.join(TRIADS)}"
             )
         complete = {}
         effects = CATALOGUE.in_order(CATALOGUE.of(self.kind, name) for name in self.values)
@@ -88,7 +88,7 @@ class Sensor:
 
     @property
     def output(self) -> SensorKind:
-        return KINDS[self.kind]
+        return TRIADS[self.kind]
 
     def check(self, sample_period: float, name: str) -> None:
         """Raise UserError for coefficients that conflict with each other or the sample period [s].
@@ -173,6 +173,7 @@ class Sensor:
                 float(v),
                 minimum=s.definition.minimum,
                 maximum=s.definition.maximum,
+                corner=s.definition.corner,
             )
             for s, v in zip(self.slots, self.p, strict=True)
         )
@@ -242,7 +243,7 @@ def _refuse(kind: str, e: Effect, parameter: str, array: np.ndarray) -> None:
     fault = e.parameters[parameter].fault(array)
     if fault:
         found = (
-            f", not {array.tolist()} {KINDS[kind].units(e.parameters[parameter].unit)}"
+            f", not {array.tolist()} {TRIADS[kind].units(e.parameters[parameter].unit)}"
             if array.ndim < 2
             else ""
         )

@@ -17,6 +17,7 @@ import numpy as np
 
 from pyimu.recording.columns import GROUPS, ZERO
 from pyimu.symbolic import earth, quaternion
+from pyimu.symbolic.missing import is_number, kept
 
 VIBRATION_TIME = 1.0
 """s; time constant of the mean that parts vibration from motion, and of the mean square of what is
@@ -30,18 +31,6 @@ K/min), and a step after a night's rest is no slope of a night."""
 EVERY_SAMPLE = "wants new inputs at every sample"
 """What is said of an effect that follows from the difference of successive inputs, wherever it is
 described."""
-
-
-def is_number(x: ca.SX) -> ca.SX:
-    """1 where an element is not NaN. A comparison of ``x`` with itself would be simplified away."""
-    return ca.fabs(x) <= ca.inf
-
-
-def kept(after: ca.SX, before: ca.SX) -> ca.SX:
-    """A memory's following value, where that is NaN the one before: one missing input must not stay
-    for ever.
-    """
-    return ca.if_else(is_number(after), after, before)
 
 
 @dataclass(frozen=True)

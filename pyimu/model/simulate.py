@@ -13,6 +13,7 @@ from functools import lru_cache
 import numpy as np
 
 from pyimu.errors import UserError
+from pyimu.model.kinds import MAGNETOMETER
 from pyimu.model.measure import measure
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as find_part
@@ -41,10 +42,11 @@ def simulate(
     ``SIGNALS`` that the part's effects need: ``supply`` (n,) V, ``mag`` (n, 3) T and so on; one
     that they do not need is ignored. Any input but the rate may be a constant.
 
-    Row k draws the noise that the FMU draws for its sample k + 1 under the same seed; ``seed=None``
-    is noise off. A row that is NaN gives NaN; the sensors' memories hold their last values through
-    it. Raises UserError for an input that is unknown, missing, no number or of a wrong shape, and
-    for a part, a seed or a sample period that is none.
+    Row k draws the noise that the FMU draws for its sample k + 1 under the same seed, under 0 where
+    the instance is called as its model is; ``seed=None`` is noise off. A row that is NaN gives NaN;
+    the sensors' memories hold their last values through it. Raises UserError for an input that is
+    unknown, missing, no number or of a wrong shape, and for a part, a seed or a sample period that
+    is none.
     """
     part = find_part(part)
     given = {"rate": rate, "specific_force": specific_force, "temperature": temperature, **others}
@@ -65,7 +67,7 @@ def simulate(
     arrays = {name: _numbers(name, given[name]) for name in names}
     if arrays["rate"].ndim != 2:
         raise UserError(f"rate has shape {arrays['rate'].shape}, expected (n, 3)")
-    y = measure(part.block, arrays, len(arrays["rate"]), {}, seed, h)
+    y = measure(part.block, arrays, len(arrays["rate"]), {}, seed, h, ("gyro", "accel"))
     return y["gyro"], y["accel"]
 
 
@@ -107,6 +109,8 @@ def simulate_recording(
 
     Raises UserError for a truth that the recording lacks and the model needs, naming the column.
     """
+    if isinstance(model, Sensor) and model.kind == MAGNETOMETER:
+        raise UserError("a magnetometer is not simulated: only gyro and accelerometer are")
     if isinstance(model, Part):
         return model.simulate(recording, seed=seed)
     return measured_recording(_alone(model).block, (model,), recording, None, seed)

@@ -50,10 +50,9 @@ def measured_recording(
         sample_period = own_period
     truth = Truth(recording, sensors)
     given = {name: truth.filled(name) for name in truth.needed}
-    y = measure(block, given, len(recording), _missing(recording), seed, sample_period)
-    findings = [
-        f for f in recording.findings if not f.column.startswith(tuple(s.kind for s in sensors))
-    ]
+    kinds = [s.kind for s in sensors]
+    y = measure(block, given, len(recording), _missing(recording), seed, sample_period, kinds)
+    findings = [f for f in recording.findings if not f.column.startswith(tuple(kinds))]
     for sensor in sensors:
         unknown = truth.unknown(sensor.output.own)
         if unknown is not None:

@@ -19,6 +19,8 @@ SHOWN: dict[str, tuple[tuple[str, float], ...]] = {
     "rad/s^2": (("deg/s^2", 1.0), ("deg/h/s", 0.1), ("deg/h/h", 0.0)),
     "rad": (("deg", 0.01), ("arcsec", 0.0)),
     "m/s^2": (("g", 1.0), ("mg", 0.01), ("ug", 0.0)),
+    "T": (("uT", 0.1), ("nT", 0.0)),
+    "T*s/sqrt(s)": (("nT/sqrt(Hz)", 0.0),),
     "m/s^3": (("mg/s", 0.01), ("ug/s", 0.0)),
     "s": (("s", 1.0), ("ms", 0.01), ("us", 0.0)),
     "1": (("%", 1.0), ("ppm", 0.0)),
@@ -82,7 +84,7 @@ def pretty(unit: str) -> str:
     """A unit in print: powers raised, roots with their sign, nothing for the pure number."""
     if unit in ("1", ""):
         return ""
-    text = unit.replace("ug", "µg").replace("us", "µs") if unit.startswith("u") else unit
+    text = f"µ{unit[1:]}" if unit.startswith(("ug", "us", "uT")) else unit
     for power in ("^2", "^3"):
         text = text.replace(power, power[1:].translate(SCRIPTS))
     return (

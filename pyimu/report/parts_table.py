@@ -32,6 +32,9 @@ COLUMNS = (
 )
 """What the listing compares: heading, sensor, effect, parameter, and one unit for all parts."""
 
+LEAST = 18
+"""Characters of a column with text; the words in it are not longer."""
+
 UNLIMITED = 10_000
 """Characters; wider than any line here."""
 
@@ -61,25 +64,44 @@ def listing(parts: Iterable[Part] | None = None, width: int | None = None) -> st
 def detail(name: str | Part, width: int | None = None) -> str:
     """Every coefficient of one part in a unit of its size, with quoted figure and source.
 
+    Its tolerances follow: how far specimens lie from it.
+
     Raises UserError where there is no such part.
     """
-    from rich.table import Table
-
     p = part(name)
-    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
-    for heading in ("coefficient", "value"):
-        table.add_column(heading, no_wrap=True)
-    for heading in ("quoted", "source"):
-        table.add_column(heading, ratio=1)
-    for row in _rows(p):
-        table.add_row(*row)
     title = f"{p.name}: {p.description}" if p.description else p.name
-    return f"{title}\n\n{_text(table, width)}"
+    tables = [_sourced("coefficient", "value", _rows(p), width)]
+    if p.tolerances:
+        tables.append(_sourced("tolerance", "specimens lie", _tolerances(p), width))
+    return "\n\n".join([title, *tables])
 
 
 def terminal_width() -> int | None:
     """Columns of the terminal that standard output goes to, None for a file or a pipe."""
     return shutil.get_terminal_size().columns if sys.stdout.isatty() else None
+
+
+def _sourced(
+    first: str, second: str, rows: Iterable[tuple[str, str, str, str]], width: int | None
+) -> str:
+    """A table of figures with what was quoted and where; the first two columns are not folded."""
+    from rich.table import Table
+
+    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    for heading in (first, second):
+        table.add_column(heading, no_wrap=True)
+    for heading in ("quoted", "source"):
+        table.add_column(heading, ratio=1, min_width=LEAST)
+    for row in rows:
+        table.add_row(*row)
+    return _text(table, width)
+
+
+def _tolerances(p: Part) -> list[tuple[str, str, str, str]]:
+    """Coefficient, how far specimens lie from the part in it, figure as quoted, source."""
+    return [
+        (".".join(t.key), t.size(4), t.quoted or ABSENT, t.source or ABSENT) for t in p.tolerances
+    ]
 
 
 def _rows(p: Part) -> list[tuple[str, str, str, str]]:

@@ -59,7 +59,7 @@ def exponential(angle):
     is taken and no quotient 0/0 formed where their derivatives would not exist.
     """
     square = ca.dot(angle, angle) / 4
-    return ca.vertcat(_cosine(square), _sinc(square) / 2 * angle)
+    return ca.vertcat(_cosine(square), sinc(square) / 2 * angle)
 
 
 def derivative(q, rate):
@@ -90,7 +90,7 @@ def step(q, rate, h):
     return product(q, exponential(rate * h))
 
 
-def _sinc(square):
+def sinc(square):
     """sin(x)/x of ``square`` = x^2."""
     series = 1 - square / 6 * (1 - square / 20 * (1 - square / 42))
     root = _root(square)

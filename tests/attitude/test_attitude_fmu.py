@@ -117,7 +117,9 @@ def test_sensor_and_filter_together_are_as_sure_as_the_filter_on_a_log(path, tmp
         for k in range(100):
             seen.append(source.outputs())
             source.step(k * H, (k + 1) * H - k * H)
-            y.append(unit.run(inputs(1, gyro=seen[-1][:3], accel=seen[-1][3:]), k, H)[0])
+            seen[-1], (temperature,) = seen[-1][:6], seen[-1][6:]
+            shown = {"gyro": seen[-1][:3], "accel": seen[-1][3:], "temperature": temperature}
+            y.append(unit.run(inputs(1, **shown), k, H)[0])
     assert seen[0] == [0, 0, 0, 0, 0, GRAVITY] and np.std(seen[1:], axis=0).min() > 0
     measured = np.array(seen[1:])
     log, _ = block.run(inputs(99, gyro=measured[:, :3], accel=measured[:, 3:]))

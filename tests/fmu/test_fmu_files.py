@@ -41,8 +41,10 @@ from pyimu.fmu import (
     write_generated,
 )
 from pyimu.fmu.build import FLAGS, header_folder, icon
-from pyimu.fmu.sources import DESCRIPTION, PAGE
+from pyimu.fmu.package import BLOCKS
+from pyimu.fmu.sources import DESCRIPTION, PAGE, TERMINALS
 from pyimu.model.part import Part, Sensor
+from pyimu.model.part_file import part
 
 BLOCK = toy()
 SCHEMAS = Path(fmpy.__file__).parent / "schema"
@@ -147,6 +149,82 @@ def test_units_in_si(unit, base):
     tree = etree.fromstring(texts(toy(unit=unit))["modelDescription.fmi3.xml"].encode())
     (element,) = tree.xpath(f"//Unit[@name='{unit}']/BaseUnit")
     assert {k: float(v) for k, v in element.attrib.items()} == base
+
+
+@pytest.mark.parametrize("form", FORMS, ids=("fmi2", "fmi3", "block"))
+def test_units_in_which_variables_are_shown(form):
+    """Value in the display unit = factor times value; said of each variable that has one, of a
+    vector once for all. A corner is shown in Hz, a pure number as it is.
+    """
+    accel = Sensor("accel", {"turn_on_bias": {"b0": [2e-2, 1e-6, 0.0]}})
+    gyro = Sensor("gyro", {"turn_on_bias": {"b0": [0, 5e-6, 0]}, "lag": {"wn": 300.0}})
+    tree = etree.fromstring(texts(Part("p", 100.0, gyro, accel).block)[DESCRIPTION[form]].encode())
+    shown = {}
+    for element in tree.xpath("//*[@displayUnit]"):
+        name = element.get("name") or element.getparent().get("name")
+        (display,) = tree.xpath(
+            f"//Unit[@name='{element.get('unit')}']/DisplayUnit[@name='{element.get('displayUnit')}']"
+        )
+        shown[name.partition("[")[0]] = (display.get("name"), float(display.get("factor")))
+    assert shown["gyro"] == shown["rate"] == ("deg/s", pytest.approx(180 / np.pi, rel=1e-15))
+    assert shown["accel"] == ("g", pytest.approx(1 / 9.80665, rel=1e-15))
+    assert shown["gyro_error.turn_on_bias.b0"] == (
+        "deg/h",
+        pytest.approx(180 / np.pi * 3600, rel=1e-15),
+    )
+    assert shown["accel_error.turn_on_bias.b0"] == ("mg", pytest.approx(1e3 / 9.80665, rel=1e-15))
+    assert shown["gyro_error.lag.wn"] == ("Hz", pytest.approx(1 / (2 * np.pi), rel=1e-15))
+    assert not {"temperature", "gyro_error.lag.zeta", "sample_period"} & set(shown)
+
+
+def test_default_experiment(description):
+    experiment = description.defaultExperiment
+    assert (float(experiment.startTime), float(experiment.stopTime)) == (0.0, BLOCK.stop_time)
+    assert float(experiment.stepSize) == BLOCK.sample_period
+
+
+def terminals(block, form):
+    """Name of a bus to its members by name, each the element of its variable."""
+    files = texts(block)
+    tree = etree.fromstring(files[TERMINALS[form]].encode())
+    etree.XMLSchema(etree.parse(str(SCHEMAS / "fmi3" / "fmi3TerminalsAndIcons.xsd"))).assertValid(
+        tree
+    )
+    description = etree.fromstring(files[DESCRIPTION[form]].encode())
+    variables = {v.get("name"): v for v in description.find("ModelVariables")}
+    return {
+        t.get("name"): {
+            m.get("memberName"): variables[m.get("variableName")]
+            for m in t.findall("TerminalMemberVariable")
+        }
+        for t in tree.iter("Terminal")
+        if t.get("matchingRule") == "bus"
+    }
+
+
+@pytest.mark.parametrize("form", (3, "block"))
+@pytest.mark.parametrize(
+    "start, given, end, taken, meet",
+    (
+        ("rover", "motion", "sensor", "motion", ("rate[3]", "specific_force[3]", "temperature")),
+        ("sensor", "imu", "ukf", "imu", ("gyro[3]", "accel[3]", "temperature")),
+        ("sensor", "imu", "low-pass", "imu", ("gyro[3]", "accel[3]")),
+        ("low-pass", "filtered", "ukf", "imu", ("gyro[3]", "accel[3]")),
+    ),
+)
+def test_buses_meet_in_the_members_that_they_share(form, start, given, end, taken, meet):
+    """Members meet by their names; every one is a variable, and has the unit of the other."""
+    imt30 = part("imt30")
+    one, other = (
+        terminals(BLOCKS[unit](imt30), form)[bus] for unit, bus in ((start, given), (end, taken))
+    )
+    names = {name.partition("[")[0] for name in meet}
+    if form != "block":
+        names = {f"{n}[{i}]" if f"{n}[3]" in meet else n for n in names for i in (1, 2, 3)}
+    assert set(one) & set(other) == names
+    for name in names:
+        assert (one[name].get("causality"), other[name].get("causality")) == ("output", "input")
+        assert one[name].get("unit") == other[name].get("unit")
 
 
 def test_model_structure(description):

@@ -75,6 +75,47 @@ def test_noise_on_equals_python_bit_for_bit(path, seed):
     np.testing.assert_array_equal(outputs[1:], truth(inputs, seed))
 
 
+def fnv_1a(name):
+    """64 bits (Fowler, Noll, Vo; draft-eastlake-fnv, section 2)."""
+    number = 0xCBF29CE484222325
+    for byte in name.encode():
+        number = (number ^ byte) * 0x100000001B3 % 2**64
+    return number
+
+
+def test_without_a_seed_the_noise_is_that_of_the_instances_name(path):
+    """A number that stands for the name, 0 for the model's own; as the start value 0 is set by
+    some tools, it means the same. A seed has its noise under any name.
+    """
+    inputs = drive(30)
+
+    def noise_of(name, **values):
+        with Unit(path, name=name).start(**values) as unit:
+            return unit.run(inputs)
+
+    np.testing.assert_array_equal(noise_of("Toy"), truth(inputs, 0))
+    for name in ("left", "right", "Rover.Sensor"):
+        want = truth(inputs, fnv_1a(name) ^ fnv_1a("Toy"))
+        np.testing.assert_array_equal(noise_of(name), want)
+        np.testing.assert_array_equal(noise_of(name, seed=0), want)
+        np.testing.assert_array_equal(noise_of(name, seed=1), truth(inputs, 1))
+
+
+def test_a_state_brings_the_noise_of_the_name_that_it_was_made_under(path):
+    """It replays exactly, whatever the instance that takes it is called."""
+    inputs = drive(40)
+    with Unit(path, name="left").start() as left, Unit(path, name="right").start() as right:
+        left.run(inputs[:13])
+        state = left.save()
+        right.restore(right.from_bytes(left.to_bytes(state)))
+        want = left.run(inputs[13:], first=13)
+        np.testing.assert_array_equal(right.run(inputs[13:], first=13), want)
+        right.reset()
+        right.start()
+        assert not np.array_equal(right.run(inputs[:13]), truth(inputs, 0)[:13])
+        left.release(state)
+
+
 def test_seed_of_64_bits(toys):
     inputs = drive(50)
     outputs = simulate(toys[3], inputs, sample_period=PERIOD, start_values={"seed": 2**64 - 3})

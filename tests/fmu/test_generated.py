@@ -90,7 +90,7 @@ def test_generated_twice_is_the_same_to_the_byte(tmp_path):
     first, again = (
         [p.read_bytes() for p in generate(tmp_path / name)] for name in ("first", "again")
     )
-    assert first == again and len(first) == 10 * len(reference_blocks())
+    assert first == again and len(first) == 12 * len(reference_blocks())
 
 
 def test_only_what_changed_is_written(tmp_path):

@@ -36,26 +36,25 @@ def fmus(full, tmp_path_factory):
 
 
 def through(fmus, form, u, **start_values):
-    """Outputs (n + 1, 6) of an FMU in any of its forms."""
+    """Outputs (n + 1, 7) of an FMU in any of its forms."""
     run = simulate_blocks if form == "block" else simulate
     return run(fmus[form], u, sample_period=H, start_values=start_values)
 
 
 def in_python(part_, u, seed):
-    """Outputs (n, 6) of a part on all signals (n, N_INPUT), through the array form of the
+    """Outputs (n, 7) of a part on all signals (n, N_INPUT), through the array form of the
     simulation.
     """
     given = {name: u[:, COLUMNS[name]].squeeze() for name in inputs_for(part_.signals)}
-    return np.hstack(
-        simulate_in_python(
-            part_,
-            given.pop("rate"),
-            given.pop("specific_force"),
-            given.pop("temperature"),
-            seed=seed,
-            **given,
-        )
+    measured = simulate_in_python(
+        part_,
+        given.pop("rate"),
+        given.pop("specific_force"),
+        temperature := given.pop("temperature"),
+        seed=seed,
+        **given,
     )
+    return np.column_stack([*measured, temperature])
 
 
 def silent(part_):
@@ -83,20 +82,20 @@ def test_before_the_first_sample_it_shows_the_ideal_measurement_of_the_start_inp
     """Without any of the part's errors; of start values that means at rest and level."""
     u = motion(1)
     _, y = full.block.initial(inputs(u, full)[0], full.block.start)
-    np.testing.assert_array_equal(np.array(y).ravel(), u[0, :6])
-    np.testing.assert_array_equal(through(fmus, form, inputs(u, full))[0], u[0, :6])
+    np.testing.assert_array_equal(np.array(y).ravel(), u[0, :7])
+    np.testing.assert_array_equal(through(fmus, form, inputs(u, full))[0], u[0, :7])
     with Unit(fmus[form]) as unit:
-        assert unit.outputs() == [0, 0, 0, 0, 0, STANDARD_GRAVITY]
+        assert unit.outputs() == [0, 0, 0, 0, 0, STANDARD_GRAVITY, 25]
         unit.set("specific_force[2]", 1.5)
         unit.start(**{"rate[3]": 0.25})
-        assert unit.outputs() == [0, 0, 0.25, 0, 1.5, STANDARD_GRAVITY]
+        assert unit.outputs() == [0, 0, 0.25, 0, 1.5, STANDARD_GRAVITY, 25]
 
 
 @pytest.mark.parametrize("version", VERSIONS)
 def test_noise_off_the_fmu_gives_the_bits_of_python(full, fmus, version):
     u = motion(N)
     want = in_python(without_noise(full), u, None)
-    assert np.abs(want - u[:, :6]).max() > 0.1
+    assert np.abs(want - u[:, :7]).max() > 0.1
     y = simulate(fmus[version], inputs(u, full), sample_period=H, start_values=silent(full))
     np.testing.assert_array_equal(y[1:], want)
 
@@ -133,7 +132,7 @@ def test_a_matrix_stands_in_the_fmu_row_by_row(full, fmus, version):
     }
     u = motion(20)
     y = simulate(fmus[version], inputs(u, full), sample_period=H, start_values=values)[1:]
-    want = u[:, :6].copy()
+    want = u[:, :7].copy()
     want[:, 0] += 0.01 * u[:, 4]
     np.testing.assert_allclose(y, want, rtol=1e-14, atol=1e-14)
 

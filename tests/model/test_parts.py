@@ -72,10 +72,13 @@ def test_every_figure_names_document_and_place(name):
 
 
 @pytest.mark.parametrize("name", DATA_SHEETS)
-def test_the_head_of_a_file_says_how_it_is_read_and_what_is_not_modelled(name):
+def test_the_head_of_a_file_says_how_it_is_read_and_what_was_not_found(name):
     text = files("pyimu.model").joinpath("parts", f"{name}.toml").read_text(encoding="utf-8")
     head = text[: text.index("\nname = ")]
-    assert "docs/parts.md" in head and "Not modelled" in head
+    assert "docs/parts.md" in head and "Not modelled" not in text
+    for kind in KINDS:
+        if "bias_instability" not in part(name).sensor(kind).values:
+            assert re.search(r"no(t|ne)\b.*\bfound", head, re.DOTALL | re.IGNORECASE)
 
 
 @pytest.mark.parametrize("name", DATA_SHEETS)
@@ -206,9 +209,9 @@ def test_a_narrow_terminal_folds_descriptions_and_cuts_no_figure(width):
 
 def test_the_listing_shows_units_people_use_and_a_dash_for_what_is_missing():
     row = next(
-        line for line in listing([part("mpu6050")]).splitlines() if line.startswith("mpu6050")
+        line for line in listing([part("mpu9250")]).splitlines() if line.startswith("mpu9250")
     ).split()
-    assert row[1:8] == ["1000", "0.212", ABSENT, "250", "283", ABSENT, "2.00"]
+    assert row[1:8] == ["1000", "0.424", ABSENT, "250", "212", ABSENT, "2.00"]
 
 
 @pytest.mark.parametrize("name", part_names())
@@ -218,6 +221,13 @@ def test_pyimu_parts_name_prints_every_figure_with_its_source(monkeypatch, capsy
     for key, note in part(name).notes.items():
         row = next(line for line in out.splitlines() if line.startswith(".".join(key).lstrip(".")))
         assert note["source"] in row and note.get("quoted", "") in row
+    tolerances = out.partition("\ntolerance ")[2]
+    assert bool(tolerances) == bool(part(name).tolerances)
+    for t in part(name).tolerances:
+        row = next(
+            line for line in tolerances.splitlines() if line.startswith(f"{'.'.join(t.key)} ")
+        )
+        assert t.size(4) in row and t.quoted in row and t.source in row
 
 
 def test_a_part_of_one_s_own_is_printed_too(tmp_path):

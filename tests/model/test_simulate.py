@@ -100,7 +100,7 @@ def test_arrays_go_through_the_block_bit_for_bit(compiled, seed, monkeypatch):
         else normals(seed, [c.number for c in block.noise], 1, N)
     )
     want, _ = block.run(np.column_stack([log.ref_rate, log.ref_force, log.temperature]), w=w)
-    np.testing.assert_array_equal(np.hstack(arrays(PART, log, seed)), want)
+    np.testing.assert_array_equal(np.hstack(arrays(PART, log, seed)), want[:, :6])
 
 
 def test_every_effect_at_once_goes_through_the_block(compiled):
@@ -113,7 +113,7 @@ def test_every_effect_at_once_goes_through_the_block(compiled):
     names = list(dict.fromkeys(v.name.partition("[")[0] for v in part.block.inputs))
     given = {name: whole[name] if SIGNALS[name].size > 1 else whole[name][:, 0] for name in names}
     want, _ = part.block.run(np.hstack([whole[name] for name in names]), seed=3)
-    np.testing.assert_array_equal(np.hstack(simulate(part, **given, seed=3)), want)
+    np.testing.assert_array_equal(np.hstack(simulate(part, **given, seed=3)), want[:, :6])
     assert part.sample_period == H and {"supply", "mag", "attitude", "latitude", "velocity"} < set(
         names
     )

@@ -86,12 +86,13 @@ class Unit:
 
     The block form has ``rows`` of inputs and outputs; ``set`` puts a value into all of them and
     ``get`` looks at the last, so that in steps of no more samples it behaves as the scalar forms
-    do.
+    do. Without a ``name`` it is called as its model is.
     """
 
     path: Path
     log_events: bool = False
     rows: int = 8
+    name: str = ""
     messages: list = field(default_factory=list)
 
     def __post_init__(self):
@@ -104,7 +105,7 @@ class Unit:
         self.fmu = kind(
             guid=self.description.guid,
             unzipDirectory=str(self.folder),
-            instanceName="toy",
+            instanceName=self.name or self.description.modelName,
             modelIdentifier=self.description.coSimulation.modelIdentifier,
         )
         self._instantiate()

@@ -7,21 +7,21 @@
 #include "block.h"
 
 #define MODEL_NAME "ImuSensor"
-#define MODEL_TOKEN "{3d3e398e-b37d-9faf-63ca-2322ad7f89ed}"
+#define MODEL_TOKEN "{3cc2f2d7-d5bf-1df9-a2fe-36143c0f22a5}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
 enum {
     N_INPUTS = 7,
     N_PARAMETERS = 10,
-    N_OUTPUTS = 6,
+    N_OUTPUTS = 7,
     N_STATES = 3,
     N_NOISE = 6,
-    N_VARIABLES = 13
+    N_VARIABLES = 14
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 5, WORK_RES = 2, WORK_IW = 0, WORK_W = 8 };
+enum { WORK_ARG = 5, WORK_RES = 2, WORK_IW = 0, WORK_W = 9 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };
@@ -37,6 +37,7 @@ static const BlockVariable variables[] = {
     {"gyro_error.rate_random_walk.K", KIND_REAL, ROLE_TUNABLE, 7, 3, 0.0, INFINITY},
     {"gyro", KIND_REAL, ROLE_OUTPUT, 0, 3, -INFINITY, INFINITY},
     {"accel", KIND_REAL, ROLE_OUTPUT, 3, 3, -INFINITY, INFINITY},
+    {"measured_temperature", KIND_REAL, ROLE_OUTPUT, 6, 1, -INFINITY, INFINITY},
     {"sample_period", KIND_REAL, ROLE_SAMPLING, 0, 1, 0.0, INFINITY},
     {"seed", KIND_UNSIGNED, ROLE_SAMPLING, 1, 1, 0.0, INFINITY},
     {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 16777216.0},
@@ -44,8 +45,8 @@ static const BlockVariable variables[] = {
 
 /* Value references that mean something to every block. */
 enum {
-    SAMPLE_PERIOD = 10,
-    SEED = 11,
+    SAMPLE_PERIOD = 11,
+    SEED = 12,
 };
 
 static const double input_starts[] = {0.0, 0.0, 0.0, 0.0, 0.0, 9.80665, 25.0};

@@ -7,21 +7,21 @@
 #include "block.h"
 
 #define MODEL_NAME "ImuSensor"
-#define MODEL_TOKEN "{ff427821-6709-6949-4047-109bedd5a260}"
+#define MODEL_TOKEN "{5c6a7a90-6434-7ca0-2ee5-5454dc07ea28}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
 enum {
     N_INPUTS = 7,
     N_PARAMETERS = 10,
-    N_OUTPUTS = 6,
+    N_OUTPUTS = 7,
     N_STATES = 3,
     N_NOISE = 6,
-    N_VARIABLES = 26
+    N_VARIABLES = 27
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 5, WORK_RES = 2, WORK_IW = 0, WORK_W = 8 };
+enum { WORK_ARG = 5, WORK_RES = 2, WORK_IW = 0, WORK_W = 9 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
@@ -51,14 +51,15 @@ static const BlockVariable variables[] = {
     {"accel[1]", KIND_REAL, ROLE_OUTPUT, 3, 1, -INFINITY, INFINITY},
     {"accel[2]", KIND_REAL, ROLE_OUTPUT, 4, 1, -INFINITY, INFINITY},
     {"accel[3]", KIND_REAL, ROLE_OUTPUT, 5, 1, -INFINITY, INFINITY},
+    {"measured_temperature", KIND_REAL, ROLE_OUTPUT, 6, 1, -INFINITY, INFINITY},
     {"sample_period", KIND_REAL, ROLE_SAMPLING, 0, 1, 0.0, INFINITY},
     {"seed", KIND_UNSIGNED, ROLE_SAMPLING, 1, 1, 0.0, INFINITY},
 };
 
 /* Value references that mean something to every block. */
 enum {
-    SAMPLE_PERIOD = 24,
-    SEED = 25,
+    SAMPLE_PERIOD = 25,
+    SEED = 26,
 };
 
 static const double input_starts[] = {0.0, 0.0, 0.0, 0.0, 0.0, 9.80665, 25.0};

@@ -68,9 +68,9 @@ static const casadi_int casadi_s2[3] = {10, 1, 1};
 static const casadi_int casadi_s3[3] = {6, 1, 1};
 static const casadi_int casadi_s4[3] = {1, 1, 1};
 
-/* step:(s[3],u[7],p[10],w[6],h)->(s_next[3],y[6]) */
+/* step:(s[3],u[7],p[10],w[6],h)->(s_next[3],y[7]) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
-  casadi_real a0, a1, a2, a3, a4, a5, a6, a7;
+  casadi_real a0, a1, a2, a3, a4, a5, a6, a7, a8;
   a0=arg[0][0];
   a1=arg[2][7];
   a2=arg[4][0];
@@ -98,12 +98,12 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a3=arg[2][0];
   a6=arg[1][6];
   a7=arg[2][3];
-  a6=(a6-a7);
-  a3=(a3*a6);
+  a7=(a6-a7);
+  a3=(a3*a7);
   a5=(a5+a3);
   a3=arg[2][4];
-  a7=arg[3][0];
-  a3=(a3*a7);
+  a8=arg[3][0];
+  a3=(a3*a8);
   a2=sqrt(a2);
   a3=(a3/a2);
   a5=(a5+a3);
@@ -111,7 +111,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   if (res[1]!=0) res[1][0]=a5;
   a5=arg[1][1];
   a0=arg[2][1];
-  a0=(a0*a6);
+  a0=(a0*a7);
   a5=(a5+a0);
   a0=arg[2][5];
   a3=arg[3][1];
@@ -122,11 +122,11 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   if (res[1]!=0) res[1][1]=a5;
   a5=arg[1][2];
   a1=arg[2][2];
-  a1=(a1*a6);
+  a1=(a1*a7);
   a5=(a5+a1);
   a1=arg[2][6];
-  a6=arg[3][2];
-  a1=(a1*a6);
+  a7=arg[3][2];
+  a1=(a1*a7);
   a1=(a1/a2);
   a5=(a5+a1);
   a5=(a5+a4);
@@ -137,6 +137,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   if (res[1]!=0) res[1][4]=a5;
   a5=arg[1][5];
   if (res[1]!=0) res[1][5]=a5;
+  if (res[1]!=0) res[1][6]=a6;
   return 0;
 }
 
@@ -200,7 +201,7 @@ CASADI_SYMBOL_EXPORT const casadi_int* step_sparsity_in(casadi_int i) {
 CASADI_SYMBOL_EXPORT const casadi_int* step_sparsity_out(casadi_int i) {
   switch (i) {
     case 0: return casadi_s0;
-    case 1: return casadi_s3;
+    case 1: return casadi_s1;
     default: return 0;
   }
 }
@@ -221,7 +222,7 @@ CASADI_SYMBOL_EXPORT int step_work_bytes(casadi_int *sz_arg, casadi_int* sz_res,
   return 0;
 }
 
-/* initial:(u[7],p[10])->(s[3],y[6]) */
+/* initial:(u[7],p[10])->(s[3],y[7]) */
 static int casadi_f1(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   casadi_real a0;
   a0=0.;
@@ -240,6 +241,8 @@ static int casadi_f1(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   if (res[1]!=0) res[1][4]=a0;
   a0=arg[0][5];
   if (res[1]!=0) res[1][5]=a0;
+  a0=arg[0][6];
+  if (res[1]!=0) res[1][6]=a0;
   return 0;
 }
 
@@ -297,7 +300,7 @@ CASADI_SYMBOL_EXPORT const casadi_int* initial_sparsity_in(casadi_int i) {
 CASADI_SYMBOL_EXPORT const casadi_int* initial_sparsity_out(casadi_int i) {
   switch (i) {
     case 0: return casadi_s0;
-    case 1: return casadi_s3;
+    case 1: return casadi_s1;
     default: return 0;
   }
 }

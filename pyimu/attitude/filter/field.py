@@ -26,13 +26,21 @@ period of one at 50 Hz."""
 FIELD = 40
 """Numbers of a ``Field``."""
 
+ATTITUDES = 60.0
+"""Attitudes, each a turn of ``field_learning.TURN`` from the last, over which strength and dip are
+averaged."""
+
+TINY = 1e-30
+"""Keeps divisors from zero."""
+
 
 @dataclass(frozen=True)
 class Field:
     """The magnetic field as the run has shown it.
 
     ``known`` (2,) T is its horizontal and its upward part, the mean over so many attitudes
-    (``learnt``). ``smooth`` (2,) T is that of now without noise, ``scatter`` T^2 the mean square of
+    (``learnt``; below zero before the first sample: so many stand for what is known of the
+    place). ``smooth`` (2,) T is that of now without noise, ``scatter`` T^2 the mean square of
     what each of its numbers is off, ``beside`` rad the heading's innovation without noise. ``late``
     (2,) is the magnetometer's delay in s and its information in 1/s^2. ``other`` (2,) T is the
     field of a disturbance, which has lasted for ``other_for`` s. ``turned`` (2,) rad are the
@@ -74,9 +82,10 @@ class Field:
     def start(cls, at: dict) -> Field:
         """Before the first sample, with the parameters by name."""
         two, one = ca.SX.zeros(2), ca.SX.zeros(1)
+        known, learnt = of_the_place(at)
         return cls(
-            known=two,
-            learnt=one,
+            known=known,
+            learnt=-learnt,
             smooth=two,
             scatter=at["field_turning_std"] ** 2,
             beside=one,
@@ -90,6 +99,19 @@ class Field:
             since=one,
             off=one,
         )
+
+
+def of_the_place(at: dict) -> tuple[ca.SX, ca.SX]:
+    """Horizontal and upward part (2,) T of a field that is known beforehand, zeros without one, and
+    how many attitudes of samples tell as much.
+
+    A mean over n attitudes is off by the n-th part of the variance of what turns with the body.
+    """
+    told, dip = at["field_strength"] > 0, at["field_dip"]
+    parts = at["field_strength"] * ca.vertcat(ca.cos(dip), -ca.sin(dip))
+    variance = ca.fmax(at["field_strength_std"] ** 2, TINY)
+    looks = ca.fmin(ca.fmax(at["field_turning_std"] ** 2, TINY) / variance, ATTITUDES)
+    return told * parts, told * looks
 
 
 def is_magnetometer(mag, settings):

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import casadi as ca
 
-from pyimu.attitude.filter.field import PARTS, Field
+from pyimu.attitude.filter.field import ATTITUDES, PARTS, TINY, Field
 from pyimu.attitude.filter.gravity_update import tilt_variance, vertical
 from pyimu.attitude.filter.layout import Layout
 from pyimu.attitude.filter.prediction import STATIONARY
@@ -19,9 +19,6 @@ TURN = 1.0
 """rad; correlation angle of what is fixed to the body. A bias turns the direction by a cosine of
 the body's attitude, whose autocorrelation has fallen to 1/e after 1.2 rad; soft iron has twice the
 angle."""
-
-ATTITUDES = 60.0
-"""Attitudes, each a turn of ``TURN`` from the last, over which strength and dip are averaged."""
 
 WINDOW = 20.0
 """Attitudes over which the mean square of what turns with the body is averaged: it is then known to
@@ -46,9 +43,6 @@ place."""
 BEYOND = 3.0
 """Standard deviations, of what turns with the body and of the tilt, by which strength and dip may
 differ."""
-
-TINY = 1e-30
-"""Keeps divisors from zero."""
 
 
 @dataclass(frozen=True)
@@ -114,9 +108,13 @@ def density(kept: Field, step: Step):
 
 
 def begun(kept: Field, now, usable, step: Step) -> Field:
-    """The memory with the field of the first sample, where there was none."""
+    """The memory with the field of the first sample, where there was none.
+
+    What is known of the place's stays; then the sample may show a disturbed one.
+    """
     first = usable * (kept.learnt <= 0)
-    begun = replace(kept, known=now, smooth=now)
+    known = ca.if_else(kept.learnt < 0, kept.known, now)
+    begun = replace(kept, known=known, smooth=now, learnt=ca.fabs(kept.learnt))
     begun = replace(begun, covariance=stationary(begun, step))
     return chosen(first, begun, kept)
 

@@ -19,10 +19,9 @@ from dataclasses import replace
 
 import casadi as ca
 
-from pyimu.attitude.filter.field import FIELD, PARTS, Field, is_magnetometer
+from pyimu.attitude.filter.field import FIELD, PARTS, TINY, Field, is_magnetometer
 from pyimu.attitude.filter.field_learning import (
     SMOOTHED,
-    TINY,
     Step,
     begun,
     delayed,

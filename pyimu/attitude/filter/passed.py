@@ -9,8 +9,9 @@ import casadi as ca
 from pyimu.attitude.filter.layout import Flags
 from pyimu.attitude.filter.memory import ESTIMATE, Memory
 from pyimu.attitude.filter.unscented import Estimate, N
-from pyimu.attitude.filter.variables import OUTPUTS, array
+from pyimu.attitude.filter.variables import OUTPUTS
 from pyimu.attitude.filter.velocity import Push, tilted
+from pyimu.block.variables import array
 from pyimu.symbolic import quaternion
 
 PACKED = ESTIMATE - 1

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable
 from dataclasses import replace
 
-from pyimu.block.variables import Variable
+from pyimu.block.variables import IMU, Variable, array, in_terminal
 from pyimu.model.signals import SURROUNDINGS
 from pyimu.units import STANDARD_GRAVITY
 
@@ -75,40 +75,48 @@ EXTRA_INPUTS = tuple(n for n in SURROUNDINGS if n != "temperature")
 """Signals that become inputs of the filter where effects of the part depend on them."""
 
 
-def array(
-    name: str, unit: str, text: str, start: Iterable[float] = (0.0, 0.0, 0.0)
-) -> tuple[Variable, ...]:
-    """The scalars of a vector, numbered from one."""
-    return tuple(Variable(f"{name}[{i + 1}]", unit, text, float(v)) for i, v in enumerate(start))
-
-
 INPUTS = (
-    *array("gyro", "rad/s", "measured rate against inertial space, body axes"),
-    *array("accel", "m/s^2", "measured specific force, body axes", (0.0, 0.0, STANDARD_GRAVITY)),
-    Variable("temperature", "degC", "temperature of the part", 25.0),
-    Variable("heading", "rad", "heading, counter-clockwise from east"),
-    Variable("heading_variance", "rad^2", "variance of the heading, above zero"),
-    Variable("heading_valid", "1", "use the heading of this sample", kind="boolean"),
-    Variable(
-        "heading_age",
-        "s",
-        "time since the heading was true, counted in whole samples; at most heading_memory. An age "
-        "of some tenths of a "
-        "second takes no heading more precise than about 1e-3 rad many times a second: what is "
-        "left out then adds up, and std is too small",
+    *in_terminal(
+        IMU,
+        *array("gyro", "rad/s", "measured rate against inertial space, body axes"),
+        *array(
+            "accel", "m/s^2", "measured specific force, body axes", (0.0, 0.0, STANDARD_GRAVITY)
+        ),
+        Variable("temperature", "degC", "temperature of the part", 25.0),
+    ),
+    *in_terminal(
+        "heading",
+        Variable("heading", "rad", "heading, counter-clockwise from east"),
+        Variable("heading_variance", "rad^2", "variance of the heading, above zero"),
+        Variable("heading_valid", "1", "use the heading of this sample", kind="boolean"),
+        Variable(
+            "heading_age",
+            "s",
+            "time since the heading was true, counted in whole samples; at most heading_memory. An "
+            "age of some tenths of a second takes no heading more precise than about 1e-3 rad many "
+            "times a second: what is left out then adds up, and std is too small",
+        ),
     ),
     Variable("stationary", "1", "the body does not turn against the Earth", kind="boolean"),
-    Variable("speed", "m/s", "speed over the ground along the body's x axis, backwards below zero"),
-    Variable("speed_variance", "m^2/s^2", "variance of the speed"),
-    Variable("speed_valid", "1", "use the speed of this sample", kind="boolean"),
-    *array("mag", "T", "measured magnetic flux density, body axes; zeros or NaN: none"),
+    *in_terminal(
+        "speed",
+        Variable(
+            "speed", "m/s", "speed over the ground along the body's x axis, backwards below zero"
+        ),
+        Variable("speed_variance", "m^2/s^2", "variance of the speed"),
+        Variable("speed_valid", "1", "use the speed of this sample", kind="boolean"),
+    ),
+    *in_terminal(
+        IMU, *array("mag", "T", "measured magnetic flux density, body axes; zeros or NaN: none")
+    ),
 )
 """The inputs for every part; ``EXTRA_INPUTS`` follow where the part needs them."""
 
 MAG = slice(len(INPUTS) - 3, len(INPUTS))
 """Where the inputs have the magnetometer."""
 
-OUTPUTS = (
+OUTPUTS = in_terminal(
+    "attitude",
     *array(
         "q",
         "1",
@@ -169,6 +177,27 @@ FIELD_SETTINGS = (
         "declination of the magnetic field, positive to the east: yaw is against true north",
         minimum=-math.pi,
         maximum=math.pi,
+    ),
+    _setting(
+        "field_strength",
+        "T",
+        "strength of the place's magnetic field; 0: not known, the run learns it with the dip from "
+        "its samples alone",
+        0.0,
+    ),
+    Variable(
+        "field_dip",
+        "rad",
+        "dip of that field below the horizon",
+        minimum=-math.pi / 2,
+        maximum=math.pi / 2,
+    ),
+    _setting(
+        "field_strength_std",
+        "T",
+        "standard deviation of the horizontal and of the vertical part of that field; what the "
+        "samples show is weighed against it",
+        1.4e-7,
     ),
     _setting(
         "field_std",

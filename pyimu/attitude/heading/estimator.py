@@ -17,7 +17,13 @@ from functools import lru_cache
 import casadi as ca
 import numpy as np
 
-from pyimu.attitude.filter.compensation import Compensation, TriadNoise, left_in, noise_of
+from pyimu.attitude.filter.compensation import (
+    NOT_UNDONE,
+    Compensation,
+    TriadNoise,
+    left_in,
+    noise_of,
+)
 from pyimu.attitude.filter.stillness import (
     FAST,
     GATE,
@@ -134,7 +140,7 @@ def _left(part: Part) -> str:
     gone = [e.name for e in part.gyro.effects if e.name not in kept]
     inside = [t.removesuffix(" of the gyro") for t in left_in(part) if t.endswith("gyro")]
     names = list(dict.fromkeys([*gone, *inside]))
-    return f"; not undone, and in no standard deviation: {', '.join(names)}" if names else ""
+    return f"; {NOT_UNDONE}: {', '.join(names)}" if names else ""
 
 
 def _parameters(part: Part) -> tuple[tuple, int]:

@@ -22,8 +22,9 @@ def contents(a: Outcome) -> dict[str, Any]:
     ``quasi_static`` and ``at_rest``: their shares of the samples; ``nis``: {``updates``, ``mean``,
     ``inside``, the share within ``bounds``}; ``magnetometer``: {``used``, the median ``strength``
     [T] of its samples, the ``calibration`` that was undone, {``bias`` [T], ``matrix``}, null
-    without one, ``disturbed``: the share of the samples with a disturbed field, null where
-    it is not used}; ``status``: [{``bit``, ``text``, ``samples``, ``first`` and ``last`` [s]}];
+    without one, the ``world`` field by the World Magnetic Model in rad and T, null without a place,
+    ``disturbed``: the share of the samples with a disturbed field, null where it is not used};
+    ``status``: [{``bit``, ``text``, ``samples``, ``first`` and ``last`` [s]}];
     ``error``: {``rows``, ``assumed``, ``inclination``, ``total`` and ``heading``: {``rms``,
     ``p95``, ``unit``}}, null without a reference; ``quality`` as in the report of ``pyimu close``;
     ``parameters`` with which the filter's unit gives the same. The estimates are in
@@ -55,6 +56,7 @@ def contents(a: Outcome) -> dict[str, Any]:
                 "used": a.magnetometer.used,
                 "strength": a.magnetometer.strength,
                 "calibration": calibration and vars(calibration),
+                "world": a.magnetometer.world and vars(a.magnetometer.world),
                 "disturbed": a.disturbed if a.magnetometer.used else None,
             },
             "status": [vars(event) | {"text": event.text} for event in a.events],

@@ -8,6 +8,7 @@ from pyimu.attitude.error import AttitudeError, root_mean_square
 from pyimu.attitude.filter.compensation import NOT_UNDONE
 from pyimu.attitude.filters import OWN, UNUSED
 from pyimu.attitude.outcome import NIS_BOUNDS, Outcome
+from pyimu.attitude.world_field import WorldField
 from pyimu.errors import Finding
 from pyimu.report.numbers import joined, number, quantity
 
@@ -72,6 +73,13 @@ def _about_field(finding: Finding) -> str:
         return "the magnetometer has no sample, and was not used"
     if finding.kind == "mag_axis_missing":
         return f"the magnetometer's axis {detail['axes']} shows zeros alone: it was not used"
+    if finding.kind == "mag_not_of_the_place":
+        return (
+            f"the magnetometer shows a field of {number(1e6 * detail['strength'])} uT where the "
+            f"World Magnetic Model has {number(1e6 * detail['model'])} uT: iron is near, or it is "
+            "not calibrated; where it shows that lastingly, the log's own strength and dip are "
+            "taken"
+        )
     shown = (
         f"the magnetometer shows a field of {quantity(detail['strength'], 'T')}, the Earth's has "
         "22 to 67 uT: it was not used"
@@ -91,9 +99,24 @@ def heading_from(a: Outcome) -> str:
     headings = getattr(a.recording, "heading", None) is not None
     start = ", beside the headings, by which it starts" if headings else ""
     undone = ", calibrated" if a.magnetometer.calibration is not None else ""
+    place = _place_of(a.magnetometer.world)
     return (
-        f"magnetometer{undone}{start}; field disturbed in {a.disturbed:.1%} of the samples, median "
-        f"strength {number(1e6 * a.magnetometer.strength)} uT"
+        f"magnetometer{undone}{start}{place}; field disturbed in {a.disturbed:.1%} of the samples, "
+        f"median strength {number(1e6 * a.magnetometer.strength)} uT"
+    )
+
+
+def _place_of(world: WorldField | None) -> str:
+    """What is known of the field beforehand."""
+    if world is None:
+        return ""
+    declination, declination_std, dip, dip_std = np.degrees(
+        [world.declination, world.declination_std, world.dip, world.dip_std]
+    )
+    return (
+        f", against true north by {world.model} (declination {declination:.2f} ± "
+        f"{declination_std:.2f} deg, strength {1e6 * world.strength:.2f} ± "
+        f"{1e6 * world.strength_std:.2f} uT, dip {dip:.2f} ± {dip_std:.2f} deg)"
     )
 
 

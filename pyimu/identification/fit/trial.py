@@ -32,6 +32,9 @@ SETTLE = 32
 """Rows at the start of a segment that are not counted: nobody knows what a lag or delay remembers
 from before it."""
 
+HELD_OUT = 0.3
+"""Share of each log, its end, that is held out where no log is named for it."""
+
 HEAD = 30.0
 """Seconds of motion at the start of a held-out log from which what belongs to the log is
 estimated."""
@@ -406,19 +409,20 @@ def rest_noise(trial: Trial) -> np.ndarray:
 
 
 def white_noise(trial: Trial, values: np.ndarray) -> np.ndarray:
-    """Standard deviation (k,) of the white noise of values (n, k).
+    """Standard deviation (k,) of the white noise of a trial's values (n, k)."""
+    return quiet_noise(values, trial.row_segments, trial.h)
+
+
+def quiet_noise(values: np.ndarray, segments: list[tuple[int, int]], h: float) -> np.ndarray:
+    """Standard deviation (k,) of the white noise of values (n, k), sampled every ``h`` s.
 
     From the quietest quarter of second-long segments.
 
     Third differences take out motion up to a tenth of the sample rate; those of white noise have 20
     times its variance.
     """
-    length = max(8, round(1.0 / trial.h))
-    pieces = [
-        values[k : k + length]
-        for a, b in trial.row_segments
-        for k in range(a, b - length + 1, length)
-    ]
+    length = max(8, round(1.0 / h))
+    pieces = [values[k : k + length] for a, b in segments for k in range(a, b - length + 1, length)]
     if not pieces:
         return np.full(values.shape[1], np.nan)
     spreads = np.sqrt(np.mean(np.diff(np.array(pieces), n=3, axis=1) ** 2, axis=1) / 20)

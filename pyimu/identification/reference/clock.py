@@ -309,7 +309,10 @@ def _windows(trial: Trial, sensor: Sensor):
         gain = np.linalg.lstsq(known[good], y[good], rcond=1e-6)[0]
         left = y - known @ gain
         turned = slope @ gain[1:]
-        late = -np.sum(turned[good] * left[good]) / max(np.sum((turned * seen)[good]), 1e-300)
+        power = np.sum((turned * seen)[good])
+        if power <= 0.0:  # sensor and reference do not turn alike: they have no lag to measure
+            return None
+        late = -np.sum(turned[good] * left[good]) / power
         missed = np.linalg.norm(left + late * turned, axis=1)
         good = moving & (missed < FITTING * speed)
     length = max(WINDOW, ROWS * trial.band.stride * trial.h)

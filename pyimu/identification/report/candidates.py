@@ -23,7 +23,7 @@ def screenings(closed: Outcome) -> list[Picture]:
     return [
         _screening(closed, kind, e)
         for kind, e in closed.exhibits.items()
-        if e.first.candidates and 0 < e.first.gate < np.inf
+        if e.first is not None and e.first.candidates and 0 < e.first.gate < np.inf
     ]
 
 

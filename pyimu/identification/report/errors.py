@@ -12,6 +12,7 @@ from pyimu.identification.found import Errors
 from pyimu.identification.outcome import Outcome
 from pyimu.identification.report import pictures
 from pyimu.identification.report.words import AS_SET_RIGHT, QUANTITIES, gravity_at_rest
+from pyimu.model.kinds import MAGNETOMETER
 from pyimu.report.numbers import MISSING, number, quantity, unit_for
 from pyimu.report.page import Picture, Table, both, file_name, prose
 
@@ -143,6 +144,11 @@ def error_notes(closed: Outcome) -> list[str]:
                 "Measurement and reference go through the same filter, and every number here is of "
                 "that band."
             )
+    if MAGNETOMETER in closed.errors:
+        notes.append(
+            "The magnetometer is compared sample by sample, in no band, with a field that is the "
+            "same everywhere, turned by the reference; its floor has its own noise alone."
+        )
     return notes
 
 

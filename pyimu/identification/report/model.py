@@ -10,11 +10,13 @@ from markupsafe import Markup, escape
 from pyimu.identification.as_part import SENSORS
 from pyimu.identification.exhibits import MOST_AXES, Cloud, Comb
 from pyimu.identification.found import Added, Changed
+from pyimu.identification.magnetometer.words import notes as field_notes
 from pyimu.identification.outcome import Outcome
 from pyimu.identification.report import pictures
 from pyimu.identification.report.coefficients import rows
 from pyimu.identification.report.words import FEW, dependence, in_words, si_of
 from pyimu.model.catalogue import CATALOGUE
+from pyimu.model.kinds import KINDS, MAGNETOMETER
 from pyimu.model.part import AXES
 from pyimu.report.numbers import in_unit, number, pretty, si_quantity, unit_for, with_error
 from pyimu.report.page import Picture, Table, equation, prose
@@ -26,6 +28,7 @@ def models(closed: Outcome) -> list[dict[str, Any]]:
         {
             "name": SENSORS[kind].capitalize(),
             "reason": closed.not_examined.get(kind, ""),
+            "passed": kind in KINDS,
             "table": _model(closed, kind),
             "notes": _notes(closed, kind),
         }
@@ -56,9 +59,12 @@ def _interval(cell: str) -> Markup:
 
 
 def _notes(closed: Outcome, kind: str) -> list[str]:
-    """What no log tells the effects of the model from."""
+    """What no log tells the effects of the model from, and in which field a magnetometer was."""
     found = {v.effect: v.note for v in closed.estimated if v.sensor == kind and v.note}
-    return [f"{effect}: {note}." for effect, note in found.items()]
+    said = [f"{effect}: {note}." for effect, note in found.items()]
+    if kind == MAGNETOMETER and closed.magnetometer is not None:
+        said += field_notes(closed.magnetometer)
+    return said
 
 
 def added(closed: Outcome, a: Added) -> dict[str, Any]:

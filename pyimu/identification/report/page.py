@@ -27,6 +27,7 @@ from pyimu.identification.report.logs import (
 from pyimu.identification.report.model import added, changed_table, models, remains
 from pyimu.identification.report.next import next_table
 from pyimu.identification.report.words import headline
+from pyimu.model.kinds import KINDS
 from pyimu.report.page import Table, file_name, prose, quality_table, templates
 
 MODEL, FORMULA = "model.toml", "found_effect.py"
@@ -94,7 +95,7 @@ def _files(closed: Outcome, fmus: tuple[str, ...]) -> Table:
 def _unit_of(closed: Outcome, name: str) -> str:
     before = name.startswith("before/")
     part = closed.before if before else closed.after
-    passed = [SENSORS[k] for k in closed.not_examined if not part.sensor(k).effects]
+    passed = [SENSORS[k] for k in closed.not_examined if k in KINDS and not part.sensor(k).effects]
     unchanged = f"; it passes the {' and '.join(passed)} on unchanged, which was not examined"
     return (
         f"the sensor {'as it was' if before else 'with what was added'}, as a co-simulation unit"

@@ -26,7 +26,7 @@ from pyimu.report.numbers import (
 AS_SET_RIGHT = f"heading set right every {WINDOW:g} s where none is recorded"
 """What the attitude before and after is compared as."""
 
-QUANTITIES = {"gyro": "rate", "accel": "specific force"}
+QUANTITIES = {"gyro": "rate", "accel": "specific force", "mag": "magnetic field"}
 
 FEW = 2
 """Up to so many effects of a sensor are said with their coefficients; more only by name, or nobody

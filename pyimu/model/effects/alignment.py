@@ -5,6 +5,7 @@ from pyimu.model.effect import Confound, Parameter, effect
 
 @effect(
     stage="gain",
+    magnetic=True,
     term="misalignment, nonorthogonality",
     equation=r"y = x + M x,\; \mathrm{diag}\, M = 0",
     source="Hidalgo 2012, section 3.2, matrix M; Groves 2013, eqs. 4.16 and 4.17, M_a and M_g",

@@ -33,6 +33,7 @@ def bias_asymmetry(
 
 @effect(
     stage="bias",
+    magnetic=True,
     term="turn-on bias",
     equation=r"y = x + b_0",
     source="Groves 2013, eqs. 4.16 and 4.17, terms b_a and b_g",

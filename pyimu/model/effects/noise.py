@@ -37,6 +37,7 @@ def end_weight(spacing):
 
 @effect(
     stage="noise",
+    magnetic=True,
     term="angle (velocity) random walk",
     equation=r"y = x + N w / \sqrt{h}",
     source="Hidalgo 2012, section 3.2 and table 3; IEEE Std 528-2001, 2.10",

@@ -7,6 +7,7 @@ from pyimu.model.effect import Parameter, effect
 
 @effect(
     stage="gain",
+    magnetic=True,
     term="scale factor error",
     equation=r"y = (1 + s) x",
     source="Hidalgo 2012, section 3.2, matrix M; Groves 2013, eqs. 4.16 and 4.17",

@@ -59,8 +59,8 @@ def as_number(column: np.ndarray, may_stay: bool) -> np.ndarray:
     )
 
 
-def need(module: str, extra: str, path: Path) -> ModuleType:
-    """Import the module ``module``.
+def need(module: str, extra: str, path: Path | str) -> ModuleType:
+    """Import the module ``module``, which what ``path`` names takes.
 
     Raises UserError that names the extra of the package which installs it.
     """

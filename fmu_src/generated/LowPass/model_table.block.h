@@ -1,0 +1,62 @@
+/* Generated from the block LowPass; do not edit. */
+#ifndef MODEL_TABLE_H
+#define MODEL_TABLE_H
+
+#include <math.h>
+
+#include "block.h"
+
+#define MODEL_NAME "LowPass"
+#define MODEL_TOKEN "{c8c35d2b-fe57-0341-1b01-6212731c0c3b}"
+#define MODEL_LIMITS
+#define MODEL_SEED UINT64_C(0)
+#define MODEL_SAMPLE_PERIOD 0.0010245901639344263
+
+enum {
+    N_INPUTS = 6,
+    N_PARAMETERS = 1,
+    N_OUTPUTS = 6,
+    N_STATES = 30,
+    N_NOISE = 0,
+    N_VARIABLES = 8
+};
+
+/* Room that the generated functions need. */
+enum { WORK_ARG = 5, WORK_RES = 2, WORK_IW = 0, WORK_W = 41 };
+
+/* Rows of inputs and outputs. */
+enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };
+
+static const BlockVariable variables[] = {
+    {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
+    {"gyro", KIND_REAL, ROLE_INPUT, 0, 3, -INFINITY, INFINITY},
+    {"accel", KIND_REAL, ROLE_INPUT, 3, 3, -INFINITY, INFINITY},
+    {"cutoff", KIND_REAL, ROLE_TUNABLE, 0, 1, 0.0, INFINITY},
+    {"filtered_gyro", KIND_REAL, ROLE_OUTPUT, 0, 3, -INFINITY, INFINITY},
+    {"filtered_accel", KIND_REAL, ROLE_OUTPUT, 3, 3, -INFINITY, INFINITY},
+    {"sample_period", KIND_REAL, ROLE_SAMPLING, 0, 1, 0.0, INFINITY},
+    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 16777216.0},
+};
+
+/* Value references that mean something to every block. */
+enum {
+    SAMPLE_PERIOD = 6,
+    SEED = N_VARIABLES, /* none: there is no noise */
+};
+
+static const double input_starts[] = {0.0, 0.0, 0.0, 0.0, 0.0, 9.80665};
+static const double parameter_starts[] = {10.0};
+
+/* What the parameters must keep together, and with the sample period. */
+enum { N_LIMITS = 1 };
+
+static const char *const limit_texts[] = {
+    "cutoff must be below half the sample rate",
+};
+
+/* The noise stream of each channel; there is none. */
+static const uint64_t noise_channels[] = {
+    0
+};
+
+#endif

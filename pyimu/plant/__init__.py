@@ -1,0 +1,1 @@
+"""The blocks of the system around sensor and filter: true motion, low-pass."""
