@@ -6,6 +6,11 @@ least squares (``self_calibrate``) and of the loop's regression (``fit``), which
 than the rate fit by a factor of 2 and than the heading fit by 10, its bias as a share of its spread
 (below 0.2), and how often its 95 % interval holds the truth (93 to 97 %). N and K are in SI, of the
 size of a tactical and of a consumer gyro.
+
+``--loop`` prints instead what ``pyimu close`` says of logs of 10 min with errors that least squares
+takes for scale factor: a heading whose samples stand at the ends of the periods, an asymmetry of
+the scale factor, a temperature that goes up and down, and the paper's own motion (section 3.1) with
+a late reference.
 """
 
 from __future__ import annotations
@@ -17,6 +22,7 @@ import numpy as np
 from scipy.ndimage import gaussian_filter1d
 
 from pyimu.heading import fit, self_calibrate
+from pyimu.identification.close import close
 from pyimu.recording.recording import Recording
 
 H = 0.02
@@ -31,7 +37,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--runs", type=int, default=300)
     parser.add_argument("--minutes", type=float, default=5.0)
+    parser.add_argument("--loop", action="store_true", help="what pyimu close says, instead")
     told = parser.parse_args()
+    if told.loop:
+        by_the_loop()
+        return
     print(f"RMS error of s in percent, {told.runs} logs of {told.minutes:g} min at {1 / H:g} Hz")
     head = [*WAYS, "rate/whitened", "heading/whitened", "bias/spread", "coverage", "rate bias"]
     print(f"{'N':>8}{'K':>8}" + "".join(f"{name:>18}" for name in head) + "      s")
@@ -62,15 +72,20 @@ def runs(count: int, seconds: float, n: float, k: float) -> tuple[np.ndarray, fl
     return np.array(errors), inside / count
 
 
-def one_log(rng: np.random.Generator, seconds: float, n: float, k: float):
-    """The scale factor and a log with it: rests of 2 to 8 s, turns of 2 to 6 s."""
-    count, at = round(seconds / H), round(1 / H)
-    rate = np.zeros(count)
+def random_turns(rng: np.random.Generator, count: int) -> np.ndarray:
+    """Rate (count,) rad/s of turns of 2 to 6 s with rests of 2 to 8 s between."""
+    rate, at = np.zeros(count), round(1 / H)
     while at < count:
         length = round(rng.uniform(2, 6) / H)
         rate[at : at + length] = rng.choice([-1, 1]) * rng.uniform(SLOWEST, FASTEST)
         at += length + round(rng.uniform(2, 8) / H)
-    rate = gaussian_filter1d(rate, 0.1 / H)
+    return gaussian_filter1d(rate, 0.1 / H)
+
+
+def one_log(rng: np.random.Generator, seconds: float, n: float, k: float):
+    """The scale factor and a log with it."""
+    count = round(seconds / H)
+    rate = random_turns(rng, count)
     s, bias = 0.03 * rng.standard_normal(), 0.01 * rng.standard_normal()
     walk = k * np.sqrt(H) * np.cumsum(rng.standard_normal(count))
     gyro, true = np.zeros((2, count, 3))
@@ -79,6 +94,67 @@ def one_log(rng: np.random.Generator, seconds: float, n: float, k: float):
     heading = H * np.cumsum(rate)
     time_ = H * np.arange(count)
     return s, Recording.from_arrays(time=time_, gyro=gyro, ref_rate=true, ref_heading=heading)
+
+
+# What the loop says
+
+
+def by_the_loop() -> None:
+    cases = {
+        "heading at the ends of the periods": (turning, "heading", {}),
+        "asymmetry 0.5 %, by rate": (turning, "rate", {"asymmetry": 0.005}),
+        "asymmetry 0.5 %, by heading": (turning, "heading", {"asymmetry": 0.005}),
+        "asymmetry 1 %, by rate": (turning, "rate", {"asymmetry": 0.01}),
+        "0.02 deg/s/K on the axis that turns": (turning, "rate", {"thermal": np.radians(0.02)}),
+        "the paper's motion, 12.9 ms late, by rate": (swinging, "rate", {}),
+        "the paper's motion, 12.9 ms late, by heading": (swinging, "heading", {}),
+    }
+    for name, (motion, kind, errors) in cases.items():
+        log = loop_log(motion, kind, **errors)
+        plain, found = self_calibrate(log), fit(log)
+        closed = close(log)
+        print(f"{name}: true s -10 %, b 0.1 rad/s")
+        print(f"  least squares     s {100 * plain.s:.3f} %, b {plain.b0:.4f} rad/s")
+        late = "" if found.late is None else f", reference late by {1e3 * found.late:.2f} ms"
+        print(f"  whitened          s {100 * found.s:.3f} %, b {found.b0:.4f} rad/s{late}")
+        for line in closed.report().splitlines():
+            if line.startswith(("verdict", "rate residual", "  added", "  the sensor shows")):
+                print(f"  close  {line.strip()[:150]}")
+        s = closed.after.gyro.values.get("scale_factor", {}).get("s", np.full(3, np.nan))
+        print(f"  close  s {100 * s[2]:.3f} %")
+
+
+def turning(time: np.ndarray, rng: np.random.Generator):
+    """Turns either way: the mean rate (n,) of each period, and the heading at its end."""
+    rate = random_turns(rng, len(time))
+    return rate, rate, H * np.cumsum(rate), (6.2e-4, 2e-5)
+
+
+def swinging(time: np.ndarray, rng: np.random.Generator):
+    """Mean rate (n,) of each period, and rate and heading 12.9 ms late."""
+    size, w, late = 4.266, 2 * np.pi / 10, 12.9e-3
+
+    def heading(t: np.ndarray) -> np.ndarray:
+        return size * (t + (1 - np.cos(w * t)) / w)
+
+    rate = (heading(time) - heading(time - H)) / H
+    shown = (heading(time - late) - heading(time - late - H)) / H
+    return rate, shown, heading(time - late), (5e-4 * np.sqrt(H), 0.0)
+
+
+def loop_log(motion, kind: str, asymmetry: float = 0.0, thermal: float = 0.0) -> Recording:
+    """A log of 10 min with s = -10 %, b = 0.1 rad/s; the temperature goes by +-8 K in 240 s."""
+    rng, time_ = np.random.default_rng(16), H * np.arange(30_000)
+    rate, shown, heading, (n, k) = motion(time_, rng)
+    warm = 8.0 * np.sin(2 * np.pi * time_ / 240.0)
+    gyro, true = np.zeros((2, len(time_), 3))
+    gyro[:, 2] = 0.9 * (rate + asymmetry * np.abs(rate)) + 0.1 + thermal * warm
+    gyro += n / np.sqrt(H) * rng.standard_normal(gyro.shape)
+    gyro += k * np.sqrt(H) * np.cumsum(rng.standard_normal(gyro.shape), axis=0)
+    true[:, 2] = shown
+    given = {"ref_rate": true} if kind == "rate" else {"ref_heading": heading}
+    more = {"temperature": 25.0 + warm} if thermal else {}
+    return Recording.from_arrays("log", time=time_, gyro=gyro, **given, **more)
 
 
 if __name__ == "__main__":
