@@ -86,7 +86,7 @@ class Run:
     motion: Indoor
 
 
-def one_run(number: int, given: Assumptions = Assumptions()) -> Run:  # noqa: B008
+def one_run(number: int, given: Assumptions = Assumptions()) -> Run:
     """The run of this number."""
     rng = np.random.default_rng([2008, number])
     slip, true = given.slip * rng.standard_normal(), given.drawn(rng)
@@ -138,7 +138,7 @@ class Errors:
 
 def errors(
     runs: int,
-    given: Assumptions = Assumptions(),  # noqa: B008
+    given: Assumptions = Assumptions(),
     declared: bool = True,
     say: Callable[..., None] = lambda text, share=None: None,
 ) -> Errors:
