@@ -10,6 +10,7 @@ from typing import Annotated
 import typer
 
 from pyimu.cli.campaigns import campaign_command
+from pyimu.cli.heading import heading_command
 from pyimu.cli.logs import attitude_command, characterize_command, close_command, demo
 from pyimu.cli.models import (
     build,
@@ -104,6 +105,7 @@ _add(
 )
 _add("close", close_command, "Find what a sensor's model lacks to explain measured logs.")
 _add("attitude", attitude_command, "The attitude filter over a log, with its page.")
+_add("heading", heading_command, "Heading of an indoor robot from one gyro, by several methods.")
 _add("plan", plan_command, "The motion that would show an effect of a part, and how well.")
 _add("rover", rover_command, "The paper's four test drives of a rover beside its table 6.")
 _add("build", build, "Build the co-simulation units of a part.")

@@ -104,7 +104,7 @@ def build(
         str,
         typer.Option(
             "--fmu",
-            help="Which, separated by commas: sensor, ukf, hidalgo2012, rover, low-pass.",
+            help="Which, separated by commas: sensor, ukf, hidalgo2012, heading, rover, low-pass.",
         ),
     ] = "sensor,ukf",
     fmi: Annotated[
