@@ -60,6 +60,10 @@ PROFILES: dict[str, Callable[[np.ndarray], np.ndarray]] = {
 }
 """Profiles of a rate, as its integral over time in units of the duration."""
 
+PAPERS_OWN = "1 + sin(2 pi t/10 s)"
+"""The profile whose size and lateness are given, 4.266 rad/s and 12.9 ms; those of the others are
+solved for."""
+
 SLOW = np.radians(0.3)
 """rad/s RMS of slow steering."""
 
@@ -115,9 +119,10 @@ def print_evaluation(console: Console) -> None:
     for head in ("heading fit", "rate fit", "late, found", "with it estimated"):
         table.add_column(head, no_wrap=True)
     for name, turned in PROFILES.items():
-        size, late = (4.266, 12.9e-3) if name.startswith("1 + sin") else lateness(turned)
+        size, late = (4.266, 12.9e-3) if name == PAPERS_OWN else lateness(turned)
         log, by_rate = (known_motion(turned, size, late, kind) for kind in ("heading", "rate"))
-        found = fit(log)
+        # That the robot began at zero is no sample of the reference.
+        found = fit(log.slice(1))
         table.add_row(
             name,
             f"{size:.3f} rad/s",
