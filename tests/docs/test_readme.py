@@ -1,4 +1,4 @@
-"""What the README shows of ``close`` is what it says today of the demo's recording."""
+"""What the README shows of ``close``, and counts, is what it is today."""
 
 import re
 from pathlib import Path
@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 import pyimu
+from pyimu.model.effects import EFFECTS
 from pyimu.rover.demo import recording
 
 README = Path(__file__).parents[2] / "README.md"
@@ -45,3 +46,7 @@ def test_the_sample_of_close_is_what_it_prints(printed):
         numbers = [[float(v) for v in NUMBER.findall(x)] for x in (line, found[0])]
         for old, new in zip(*numbers, strict=False):
             assert old == pytest.approx(new, rel=0.03), f"{line}\n{found[0]}"
+
+
+def test_it_counts_the_effects_that_there_are():
+    assert f"The {len(EFFECTS)} effects that there are" in README.read_text(encoding="utf-8")
