@@ -12,6 +12,8 @@ from pyimu.rover.campaign.draws import draws_of
 from pyimu.rover.campaign.faults import FAULTS, NONE
 from pyimu.rover.campaign.seeds import among, drawn, normal, uniform
 from pyimu.rover.campaign.settings import Settings
+from pyimu.rover.campaign.specimen import gravity_std
+from pyimu.rover.campaign.system import system_of
 
 CHANCE = 1e-4
 """With this probability a right generator fails one of these tests."""
@@ -99,3 +101,17 @@ def test_what_decides_on_the_runs_is_in_the_key():
     other = pyimu.part("imt30")
     other = other.with_sensor(other.gyro.with_values("scale_factor", s=1e-3))
     assert Settings(other, rate=25.0).key() not in keys
+
+
+def test_the_filter_believes_the_gravity_that_specimens_measure():
+    """Standard deviation over 400 specimens, to 4 standard errors of 1/sqrt(2 n): uniform sums
+    scatter less than normal ones.
+    """
+    part, g, n = pyimu.part("mpu6050"), 9.80665, 400
+    accels = [part.specimen(k).accel.values for k in range(n)]
+    off = [a["turn_on_bias"]["b0"][2] + g * a["scale_factor"]["s"][2] for a in accels]
+    assert gravity_std(part) == pytest.approx(np.std(off), rel=4 / np.sqrt(2 * n))
+    system = system_of(Settings(part))
+    at = [v.name for v in system.filter.parameters].index("gravity_tolerance")
+    allowed = system.parameters(np.array([1.0, 0.0, 0.0, 0.0]), None)[at]
+    assert np.abs(off).max() < allowed < g / 2

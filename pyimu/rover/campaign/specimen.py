@@ -6,6 +6,7 @@ import numpy as np
 
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
+from pyimu.units import STANDARD_GRAVITY
 
 SPREAD = {"uniform": 3.0**-0.5, "normal": 1.0}
 """Standard deviation of a tolerance over its value."""
@@ -29,6 +30,19 @@ def bias_std(part: Part) -> np.ndarray:
         if t.key == ("gyro", "turn_on_bias", "b0"):
             found = SPREAD[t.distribution] * t.array
     return found
+
+
+def gravity_std(part: Part) -> float:
+    """Standard deviation m/s^2, among specimens, of what an upright accelerometer measures of the
+    Earth's gravity, by its turn-on bias and its scale factor.
+    """
+    sizes = {("accel", "turn_on_bias", "b0"): 1.0, ("accel", "scale_factor", "s"): STANDARD_GRAVITY}
+    found = [
+        SPREAD[t.distribution] * t.sizes[2] * sizes[t.key]
+        for t in part.tolerances
+        if t.key in sizes
+    ]
+    return float(np.hypot.reduce(found)) if found else 0.0
 
 
 def white_noise(sensor: Sensor) -> bool:

@@ -8,6 +8,7 @@ from functools import lru_cache
 import numpy as np
 
 from pyimu.attitude.alignment import BIAS_STD, TILT_STD, YAW_STD
+from pyimu.attitude.columns import rate_noise, wandering
 from pyimu.attitude.filter.ukf import attitude_ukf
 from pyimu.attitude.filter.variables import UNKNOWN_LATITUDE
 from pyimu.attitude.stuck import LEAST
@@ -20,7 +21,7 @@ from pyimu.plant.low_pass import low_pass
 from pyimu.plant.rover_variables import LATITUDE
 from pyimu.rover.campaign.faults import SATURATING
 from pyimu.rover.campaign.settings import Settings
-from pyimu.rover.campaign.specimen import bias_std, white_noise
+from pyimu.rover.campaign.specimen import bias_std, gravity_std, white_noise
 
 SENSED = ("rate", "specific_force", "temperature")
 """What a part may measure and depend on in a campaign."""
@@ -33,7 +34,8 @@ class System:
     """The blocks of a campaign: the ``sensor``, the ``low_pass`` behind it, and the ``filter``.
 
     ``part`` is what the filter knows, and ``nominal`` the sensor that is so; ``low_pass`` is None
-    where there is none.
+    where there is none. Of a specimen the filter assumes beside it what ``pyimu.attitude.run`` does
+    of a real sensor: a wander that the part is silent of, and scale factors that are not right.
     """
 
     settings: Settings
@@ -71,7 +73,20 @@ class System:
             "q0": q0,
             "std0": self.start_std,
         }
+        if self.settings.draws_specimens:
+            values |= self.of_specimens
         return with_values(self.filter, values | self.of_range(limit))
+
+    @property
+    def of_specimens(self) -> dict[str, float]:
+        """The filter's settings for specimens: what they do to rates in motion and to gravity.
+
+        An accelerometer that measures another size of gravity than the ``gravity_tolerance`` allows
+        is never believed.
+        """
+        usual = next(v.start for v in self.filter.parameters if v.name == "gravity_tolerance")
+        tolerance = usual + 3.0 * gravity_std(self.part)
+        return {"rate_noise": rate_noise(self.part), "gravity_tolerance": tolerance}
 
     def of_range(self, limit: np.ndarray | None) -> dict[str, np.ndarray]:
         """The parameter of sensor and filter that says the gyro's range, where it is too small."""
@@ -101,5 +116,7 @@ def system_of(settings: Settings) -> System:
             "not have: leave these effects out of the part"
         )
     known = replace(part, sample_rate=settings.sensor_rate / settings.every)
+    if settings.draws_specimens:
+        known = wandering(known)
     behind = low_pass(1 / settings.sensor_rate) if settings.low_pass else None
     return System(settings, part, sensor, part.block, behind, attitude_ukf(known))
