@@ -9,7 +9,14 @@ from places import CHECKOUT
 
 PACKAGE = CHECKOUT / "pyimu"
 
-LATE = {"pyimu.cli", "pyimu.cli.logs", "pyimu.cli.models", "pyimu.cli.options", "pyimu.block.block"}
+LATE = {
+    "pyimu.cli",
+    "pyimu.cli.logs",
+    "pyimu.cli.models",
+    "pyimu.cli.navigation",
+    "pyimu.cli.options",
+    "pyimu.block.block",
+}
 """Modules with imports of the package inside functions: casadi, scipy and numba take seconds, which
 ``pyimu --help`` and a compiled run do without."""
 

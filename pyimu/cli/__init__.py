@@ -11,6 +11,7 @@ import typer
 
 from pyimu.cli.logs import attitude_command, characterize_command, close_command, demo
 from pyimu.cli.models import build, derive_command, parts, plan_command
+from pyimu.cli.navigation import navigate_command
 from pyimu.errors import UserError
 from pyimu.interrupt import Interrupts, ignore_at_exit
 
@@ -96,6 +97,7 @@ _add(
 )
 _add("close", close_command, "Find what a sensor's model lacks to explain measured logs.")
 _add("attitude", attitude_command, "The attitude filter over a log, with its page.")
+_add("navigate", navigate_command, "The path of a robot by its inertial unit alone.")
 _add("plan", plan_command, "The motion that would show an effect of a part, and how well.")
 _add("build", build, "Build the co-simulation units of a part.")
 _add("parts", parts, "The built-in parts, or one part with the source of each figure.")
