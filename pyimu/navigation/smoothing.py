@@ -112,6 +112,14 @@ class _Backward:
         return gain @ mean, (after + after.T) / 2
 
 
+def _skew(v: np.ndarray) -> np.ndarray:
+    """The matrices (m, 3, 3) of the cross products v x (3,)."""
+    x, y, z = v.T
+    none = np.zeros_like(x)
+    rows = [[none, -z, y], [z, none, -x], [-y, x, none]]
+    return np.array(rows).transpose(2, 0, 1)
+
+
 class _Rows:
     """The smoothed estimates at the recording's rows."""
 
@@ -127,9 +135,15 @@ class _Rows:
         turn = Rotation.from_rotvec(mean[:, TURN])
         q = turn * Rotation.from_quat(y[:, :4], scalar_first=True)
         self.q[rows] = q.as_quat(scalar_first=True)
-        self.velocity[rows] = y[:, 7:10] + mean[:, VELOCITY]
+        velocity = turn.apply(y[:, 7:10]) + mean[:, VELOCITY]
+        self.velocity[rows] = velocity
+        plain = np.zeros((len(y), 3, 6))
+        plain[:, :, VELOCITY] = np.eye(3)
+        plain[:, :, TURN] = -_skew(velocity)
         self.position[rows] = y[:, 10:13] + mean[:, POSITION]
-        variance = np.maximum(np.diagonal(covariance, axis1=1, axis2=2)[:, :9], 0)
+        variance = np.maximum(np.diagonal(covariance, axis1=1, axis2=2)[:, :9], 0).copy()
+        of_velocity = plain @ covariance[:, :6, :6] @ plain.transpose(0, 2, 1)
+        variance[:, VELOCITY] = np.maximum(np.diagonal(of_velocity, axis1=1, axis2=2), 0)
         self.std[rows] = np.sqrt(variance)
         both = np.sqrt(variance[:, 6] * variance[:, 7])
         self.correlation[rows] = covariance[:, 6, 7] / np.maximum(both, 1e-30)

@@ -18,6 +18,7 @@ from pyimu.navigation.filter.layout import (
     ACCEL_BIAS,
     BASE,
     GYRO_BIAS,
+    VELOCITY,
     Layout,
     Memory,
     State,
@@ -230,6 +231,8 @@ def _outputs(x: State, report, lost) -> ca.SX:
     p, back = ca.SX(x.covariance), quaternion.to_matrix(quaternion.conjugate(x.q))
     for place in (GYRO_BIAS, ACCEL_BIAS):
         p[place, place] = back @ p[place, place] @ back.T
+    plain = ca.horzcat(-ca.skew(x.velocity), ca.SX.eye(3))
+    p[VELOCITY, VELOCITY] = plain @ x.covariance[:6, :6] @ plain.T
     std = ca.vertcat(*[ca.sqrt(ca.fmax(p[i, i], 0)) for i in range(BASE)])
     correlation = p[6, 7] / ca.fmax(std[6] * std[7], 1e-30)
     beyond = sum(

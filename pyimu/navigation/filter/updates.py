@@ -64,7 +64,8 @@ def changed(layout: Layout, x: State, error) -> State:
     return replace(
         x,
         q=q,
-        velocity=x.velocity + error[VELOCITY],
+        velocity=quaternion.rotate(quaternion.exponential(error[TURN]), x.velocity)
+        + error[VELOCITY],
         position=x.position + error[POSITION],
         gyro_bias=x.gyro_bias + back @ error[GYRO_BIAS],
         accel_bias=x.accel_bias + back @ error[ACCEL_BIAS],
@@ -83,7 +84,7 @@ def _slope(layout: Layout, rows: int, **parts) -> ca.SX:
 
 def by_zero_velocity(layout: Layout, x: State, settings: Settings) -> tuple:
     """A body at rest: v = 0 (zero-velocity update; Groves 2013, section 15.3.1)."""
-    slope = _slope(layout, 3, velocity=ca.SX.eye(3))
+    slope = _slope(layout, 3, turn=-ca.skew(x.velocity), velocity=ca.SX.eye(3))
     noise = settings.scalar["zupt_std"] ** 2 * ca.SX.ones(3)
     return corrected_by(layout, x, -x.velocity, slope, noise)
 
@@ -120,7 +121,6 @@ def by_vehicle(layout: Layout, x: State, rate, settings: Settings, h) -> tuple:
     slope = _slope(
         layout,
         2,
-        turn=of_speed @ back @ ca.skew(x.velocity),
         velocity=of_speed @ back,
         gyro_bias=of_speed @ ca.skew(arm) @ back,
     )
@@ -135,7 +135,7 @@ def by_vehicle(layout: Layout, x: State, rate, settings: Settings, h) -> tuple:
 def by_speed(layout: Layout, x: State, speed, variance) -> tuple:
     """A measured speed along the body's x axis."""
     back = quaternion.to_matrix(quaternion.conjugate(x.q))
-    slope = _slope(layout, 1, turn=back[0, :] @ ca.skew(x.velocity), velocity=back[0, :])
+    slope = _slope(layout, 1, velocity=back[0, :])
     return corrected_by(layout, x, speed - back[0, :] @ x.velocity, slope, variance)
 
 
