@@ -75,7 +75,7 @@ def build(
         str,
         typer.Option(
             "--fmu",
-            help="Which, separated by commas: sensor, ukf, hidalgo2012, rover, low-pass.",
+            help="Which, separated by commas: sensor, ukf, hidalgo2012, rover, low-pass, ins.",
         ),
     ] = "sensor,ukf",
     fmi: Annotated[

@@ -20,13 +20,14 @@ from pyimu.block.block import Block
 from pyimu.block.compiled import source_folder
 from pyimu.fmu.sources import texts
 from pyimu.model.part_file import part
+from pyimu.navigation.filter.ins_block import strapdown_ins
 from pyimu.plant.low_pass import low_pass
 from pyimu.plant.rover_drive import rover_drive
 
 REFERENCE = "imt30"
 """The built-in part whose blocks are generated."""
 
-UNREADABLE = ("AttitudeUkf/step.c", "RoverDrive/step.c")
+UNREADABLE = ("AttitudeUkf/step.c", "RoverDrive/step.c", "StrapdownIns/step.c")
 """Texts of thousands of lines, without a structure that a reader could follow."""
 
 
@@ -34,7 +35,8 @@ def reference_blocks() -> tuple[Block, ...]:
     """The blocks whose texts are checked in: those of the reference part, and what is around it."""
     found = part(REFERENCE)
     period = found.sample_period
-    return found.block, attitude_ukf(found), rover_drive(period), low_pass(period)
+    around = rover_drive(period), low_pass(period)
+    return found.block, attitude_ukf(found), *around, strapdown_ins(found)
 
 
 def generated_folder() -> Path:

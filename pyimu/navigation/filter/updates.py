@@ -83,8 +83,13 @@ def _slope(layout: Layout, rows: int, **parts) -> ca.SX:
 
 
 def by_zero_velocity(layout: Layout, x: State, settings: Settings) -> tuple:
-    """A body at rest: v = 0 (zero-velocity update; Groves 2013, section 15.3.1)."""
-    slope = _slope(layout, 3, turn=-ca.skew(x.velocity), velocity=ca.SX.eye(3))
+    """A body at rest: v = 0 (zero-velocity update; Groves 2013, section 15.3.1).
+
+    It has no velocity in its own axes either, R^T v + R^T e with the errors of ``prediction``: in
+    that form no attitude is in it. With the velocity in world axes, v + e + phi x v, a wrong
+    velocity would tell of the yaw.
+    """
+    slope = _slope(layout, 3, velocity=ca.SX.eye(3))
     noise = settings.scalar["zupt_std"] ** 2 * ca.SX.ones(3)
     return corrected_by(layout, x, -x.velocity, slope, noise)
 
