@@ -39,8 +39,8 @@ def build(
 ) -> list[Path]:
     """Build the FMUs of a part into ``out``; gives their paths.
 
-    ``fmu`` names blocks ("sensor", "ukf", "hidalgo2012", "rover", "low-pass", "ins"),
-    ``fmi`` forms (2, 3, "block"), ``platform`` the machine ("host", "all", or one by name). The sensor has every
+    ``fmu`` names blocks ("sensor", "ukf", "hidalgo2012", "rover", "low-pass", "ins"), ``fmi`` forms
+    (2, 3, "block"), ``platform`` the machine ("host", "all", or one by name). The sensor has every
     coefficient of the part, and of its tolerances, as parameters; ``specimen`` is the seed of a
     specimen whose coefficients they start at, which the filters know nothing of. Raises UserError
     for an unknown name, a part that cannot be read, a specimen of a part without tolerances, a

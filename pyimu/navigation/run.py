@@ -82,7 +82,7 @@ def run(
     declared = None if part is None else part_of(part)
     known = known_part(declared, recording, rest)
     wanted = METHODS if method == "all" else (method,)
-    still, detected = _rests(recording, known, rest, zupt, findings)
+    still, detected = _rests(recording, known, rest, zupt, findings, declared is not None)
     job = _Job(
         recording,
         known,
@@ -216,9 +216,14 @@ def _course(reference: Reference, track: Track) -> float | None:
 
 
 def _rests(
-    recording: Recording, part: Part, rest: Rest, zupt: str, findings: list[Finding]
+    recording: Recording,
+    part: Part,
+    rest: Rest,
+    zupt: str,
+    findings: list[Finding],
+    declared: bool,
 ) -> tuple[np.ndarray, Detected | None]:
-    """Marks (n,) of rest."""
+    """Marks (n,) of rest; ``declared`` says that the noise is that of a part."""
     if zupt == "off":
         return np.zeros(len(recording.time), dtype=bool), None
     if recording.stationary is not None:
@@ -232,7 +237,7 @@ def _rests(
         recording.time,
         recording.gyro,
         recording.accel,
-        noise_at_rest(recording, part, rest),
+        noise_at_rest(recording, part, rest, declared),
         recording.sample_period,
     )
     for start, stop in found.steady:
@@ -248,7 +253,12 @@ def _rests(
     return found.still, found
 
 
-def noise_at_rest(recording: Recording, part: Part, rest: Rest) -> Noise:
+NOISIER = 2.0
+"""A specimen's noise may be so many times what its part declares; beyond, what shakes it at the
+start of a log is the engine of a robot that may already drive."""
+
+
+def noise_at_rest(recording: Recording, part: Part, rest: Rest, declared: bool) -> Noise:
     """What a detector needs of the sensors: the part's noise, or that of the rest at the start
     where it is larger.
     """
@@ -257,7 +267,9 @@ def noise_at_rest(recording: Recording, part: Part, rest: Rest) -> Noise:
     for sensor, seen in ((part.gyro, rest.rate_std), (part.accel, rest.force_std)):
         noise = noise_of(sensor, ca.SX(ca.DM(sensor.p)), period)
         white = np.array(ca.evalf(noise.white), dtype=float).ravel() / np.sqrt(period)
-        stds.append(np.maximum(np.maximum(white, seen if rest.seen else 0.0), 1e-9))
+        most = NOISIER * white if declared else np.full(3, np.inf)
+        shown = np.minimum(seen, most) if rest.seen else np.zeros(3)
+        stds.append(np.maximum(np.maximum(white, shown), 1e-9))
         walks.append(np.array(ca.evalf(noise.walk), dtype=float).ravel())
     return Noise(stds[0], stds[1], walks[0], rest.rate if rest.seen else np.zeros(3))
 
