@@ -135,7 +135,7 @@ class _Rows:
         turn = Rotation.from_rotvec(mean[:, TURN])
         q = turn * Rotation.from_quat(y[:, :4], scalar_first=True)
         self.q[rows] = q.as_quat(scalar_first=True)
-        velocity = turn.apply(y[:, 7:10]) + mean[:, VELOCITY]
+        velocity = turn.apply(y[:, 7:10] + mean[:, VELOCITY])
         self.velocity[rows] = velocity
         plain = np.zeros((len(y), 3, 6))
         plain[:, :, VELOCITY] = np.eye(3)

@@ -51,13 +51,13 @@ def test_a_measured_position_and_speed_pull_the_estimate(unit, log):
     east = names.index("position[1]")
     for name, value in (
         ("position_valid", 1.0),
-        ("position_measured[1]", 2.0),
+        ("position_measured[1]", 2.3),
         ("position_variance", 1e-6),
     ):
         u[-1, at[name]] = value
     free, held = (unit.run(x)[0][-1, east] for x in (rows(log), u))
-    assert abs(free - 2.0) > 1e-3
-    assert held == pytest.approx(2.0, abs=1e-4)
+    assert abs(free - 2.3) > 0.1
+    assert held == pytest.approx(2.3, abs=1e-4)
     u = rows(log)
     moving = (log.time > 5.8) & (log.time < 11.0)
     u[moving, at["speed_valid"]] = 1.0

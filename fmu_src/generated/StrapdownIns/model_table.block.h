@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN "{077a5992-71ad-d008-0528-c4cbc2a7c66f}"
+#define MODEL_TOKEN "{68bd4ce3-ca75-11bd-c2e0-c24dfaea35a1}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN "{b387f8e2-19d8-9c8e-6cf9-4ff7da3bbbd4}"
+#define MODEL_TOKEN "{c434863f-883f-0319-cda8-19ecb3d3f932}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

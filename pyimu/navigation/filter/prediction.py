@@ -1,7 +1,7 @@
 """From one sample to the next: the row without the sensors' errors, the strapdown step, the noise.
 
 The error state is what the truth has beyond the estimate: q_true = exp(phi) q in world axes,
-v_true = exp(phi) v + e, the differences of position p and gains M, and those of the biases turned
+v_true = exp(phi) (v + e), the differences of position p and gains M, and those of the biases turned
 into world axes, d = R (b_true - b). Of rates and forces measured = (1 + M) true + bias + noise,
 with the Earth's rate w_e and gravity g, which points down,
 

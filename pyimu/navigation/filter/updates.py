@@ -64,8 +64,9 @@ def changed(layout: Layout, x: State, error) -> State:
     return replace(
         x,
         q=q,
-        velocity=quaternion.rotate(quaternion.exponential(error[TURN]), x.velocity)
-        + error[VELOCITY],
+        velocity=quaternion.rotate(
+            quaternion.exponential(error[TURN]), x.velocity + error[VELOCITY]
+        ),
         position=x.position + error[POSITION],
         gyro_bias=x.gyro_bias + back @ error[GYRO_BIAS],
         accel_bias=x.accel_bias + back @ error[ACCEL_BIAS],
