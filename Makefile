@@ -10,10 +10,10 @@ OUT ?= out
 .PHONY: help demo test lint generate fmus bench
 
 help:
-	@echo "make demo      the whole loop on a built-in recording; report under $(OUT)/demo"
+	@echo "make demo      the whole loop on a simulated recording; report under $(OUT)/demo"
 	@echo "make test      all tests, on all cores"
 	@echo "make lint      style, format and types"
-	@echo "make generate  what is written from the definitions: docs, pictures, fmu_src/generated"
+	@echo "make generate  what is written from the definitions: docs, pictures, fmu_src/generated, modelica"
 	@echo "make fmus      the FMUs of PART ($(PART)) under $(OUT)/fmus"
 	@echo "make bench     speed against named peers"
 
@@ -39,6 +39,7 @@ generate: $(READY)
 	$(BIN)/python docs/build/effects_page.py
 	$(BIN)/python docs/build/noise_page.py
 	$(BIN)/python -m pyimu.fmu.generate
+	$(BIN)/python -m pyimu.modelica.generate
 	@echo "Files that changed are named above."
 
 fmus: $(READY)

@@ -146,7 +146,7 @@ def own_costs(folder: Path, period: float, rounds: int) -> dict[str, dict[str, f
     imt30 = part("imt30")
     blocks = {
         "Drive": rover_drive(period),
-        "Sensor": imt30.block,
+        "Sensor": imt30.nominal.block,
         "LowPass": low_pass(period),
         "Filter": attitude_ukf(imt30),
     }

@@ -51,6 +51,10 @@ est_quaternion_z = "ref_q_z [1]"
 """
 
 
+SHOWN = {"gyro": (np.degrees(1.0), "deg/s"), "accel": (1.0, "m/s^2"), "mag": (1e6, "uT")}
+"""Factor and unit in which a sensor's residual is printed."""
+
+
 @dataclass(frozen=True)
 class Row:
     """Logs to fit and to judge by, what is true of them, and what must hold of the result.
@@ -199,7 +203,7 @@ def _read(path: Path, columns: str) -> pyimu.Recording:
 
 def _figures(closed: Closed):
     for kind, e in closed.errors.items():
-        scale, unit = (np.degrees(1), "deg/s") if kind == "gyro" else (1.0, "m/s^2")
+        scale, unit = SHOWN[kind]
         values = [e.before.total, e.after.total, np.nan if e.floor is None else e.floor.total]
         before, after, floor = (scale * v for v in values)
         yield f"{kind}: {before:.4g} -> {after:.4g} {unit}, floor {floor:.3g}"

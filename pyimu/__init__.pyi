@@ -1,5 +1,6 @@
 from . import attitude as attitude
 from . import fmu as fmu
+from . import heading as heading
 from . import navigation as navigation
 from . import shaping as shaping
 from . import symbolic as symbolic

@@ -538,7 +538,7 @@ def test_build_one(here, pyimu):
 
 @pytest.mark.parametrize(
     "command",
-    ([], ["demo"], ["close"], ["build"], ["parts"], ["derive"]),
+    ([], ["demo"], ["close"], ["rover"], ["build"], ["parts"], ["modelica"], ["derive"]),
     ids=lambda c: " ".join(c) or "pyimu",
 )
 def test_help_opens_with_an_example(pyimu, command):

@@ -11,6 +11,8 @@ PACKAGE = CHECKOUT / "pyimu"
 
 LATE = {
     "pyimu.cli",
+    "pyimu.cli.campaigns",
+    "pyimu.cli.heading",
     "pyimu.cli.logs",
     "pyimu.cli.models",
     "pyimu.cli.navigation",

@@ -69,6 +69,7 @@ def test_wheel_holds_what_the_package_reads(wheel):
         files_of("pyimu", "*.py", "*.toml")
         | files_of("pyimu/fmu/templates", "*")
         | files_of("pyimu/loop/templates", "*")
+        | files_of("pyimu/modelica/templates", "*")
     )
     want |= {f"pyimu/{name}" for name in files_of("fmu_src", "*.c", "*.h")}
     assert {

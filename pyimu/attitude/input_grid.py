@@ -135,7 +135,8 @@ def _signals(recording: Recording, part: Part) -> dict[str, np.ndarray | None]:
     """The sensors' columns by name, (n,) or (n, 3); they are missing between the rows."""
     temperature = np.broadcast_to(temperature_of(recording, part), len(recording.time))
     extra = {signal: extra_column(recording, part, signal) for signal in EXTRA_INPUTS}
-    return {"gyro": recording.gyro, "accel": recording.accel, "temperature": temperature} | extra
+    own = {"gyro": recording.gyro, "gyro_z": recording.gyro[:, 2], "accel": recording.accel}
+    return own | {"temperature": temperature} | extra
 
 
 def _marks(recording: Recording) -> dict[str, np.ndarray | None]:

@@ -9,8 +9,17 @@ from typing import Annotated
 
 import typer
 
+from pyimu.cli.campaigns import campaign_command
+from pyimu.cli.heading import heading_command
 from pyimu.cli.logs import attitude_command, characterize_command, close_command, demo
-from pyimu.cli.models import build, derive_command, parts, plan_command
+from pyimu.cli.models import (
+    build,
+    derive_command,
+    modelica_command,
+    parts,
+    plan_command,
+    rover_command,
+)
 from pyimu.cli.navigation import navigate_command
 from pyimu.errors import UserError
 from pyimu.interrupt import Interrupts, ignore_at_exit
@@ -89,7 +98,7 @@ def _add(name: str, command: Callable, text: str) -> None:
     app.command(name, short_help=text)(command)
 
 
-_add("demo", demo, "The whole loop on a built-in recording.")
+_add("demo", demo, "The whole loop on a simulated recording.")
 _add(
     "characterize",
     characterize_command,
@@ -97,8 +106,16 @@ _add(
 )
 _add("close", close_command, "Find what a sensor's model lacks to explain measured logs.")
 _add("attitude", attitude_command, "The attitude filter over a log, with its page.")
+_add("heading", heading_command, "Heading of an indoor robot from one gyro, by several methods.")
 _add("navigate", navigate_command, "The path of a robot by its inertial unit alone.")
 _add("plan", plan_command, "The motion that would show an effect of a part, and how well.")
+_add("rover", rover_command, "The paper's four test drives of a rover beside its table 6.")
 _add("build", build, "Build the co-simulation units of a part.")
+_add("modelica", modelica_command, "A part as a Modelica class.")
 _add("parts", parts, "The built-in parts, or one part with the source of each figure.")
+_add(
+    "campaign",
+    campaign_command,
+    "Many varied drives of a rover, on Dask: how large errors are, and why.",
+)
 _add("derive", derive_command, "The symbolic results, and what each was checked against.")

@@ -24,9 +24,9 @@ from pyimu.errors import UserError
 def demo(out: Out = Path("out/demo")) -> None:
     """Example: pyimu demo
 
-    The whole loop on a built-in recording: a rover with an IMT30 whose gyros have a scale factor
-    error that no data sheet declares. Finds it, adds it, and shows the heading error before and
-    after.
+    The whole loop on a simulated recording: a rover with an IMT30 whose gyros have a scale factor
+    error that no data sheet declares. Finds it, adds it, and shows what was put in beside what was
+    found, and the heading error before and after.
     """
     from pyimu.rover.demo import run_demo
 

@@ -16,6 +16,7 @@ import re
 from pathlib import Path
 
 from pyimu.attitude import attitude_ukf
+from pyimu.attitude.heading.estimator import heading_estimator
 from pyimu.block.block import Block
 from pyimu.block.compiled import source_folder
 from pyimu.fmu.sources import texts
@@ -35,8 +36,8 @@ def reference_blocks() -> tuple[Block, ...]:
     """The blocks whose texts are checked in: those of the reference part, and what is around it."""
     found = part(REFERENCE)
     period = found.sample_period
-    around = rover_drive(period), low_pass(period)
-    return found.block, attitude_ukf(found), *around, strapdown_ins(found)
+    filters = attitude_ukf(found), heading_estimator(found), strapdown_ins(found)
+    return found.block, *filters, rover_drive(period), low_pass(period)
 
 
 def generated_folder() -> Path:

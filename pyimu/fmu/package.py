@@ -1,4 +1,4 @@
-"""FMUs of a part: the sensor, the attitude filter that goes with it, and the system around them."""
+"""FMUs of a part: the sensor, the filters that go with it, and the system around them."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from pyimu.attitude.filters import FILTERS
+from pyimu.attitude.heading.estimator import heading_estimator
 from pyimu.block.block import Block
 from pyimu.errors import UserError
 from pyimu.files import check_folder
@@ -22,6 +23,7 @@ SENSOR = "sensor"
 BLOCKS: dict[str, Callable[[Part], Block]] = {
     SENSOR: lambda part: part.nominal.block,
     **FILTERS,
+    "heading": heading_estimator,
     "rover": lambda part: rover_drive(part.sample_period),
     "low-pass": lambda part: low_pass(part.sample_period),
     "ins": strapdown_ins,
@@ -39,12 +41,12 @@ def build(
 ) -> list[Path]:
     """Build the FMUs of a part into ``out``; gives their paths.
 
-    ``fmu`` names blocks ("sensor", "ukf", "hidalgo2012", "rover", "low-pass", "ins"), ``fmi`` forms
-    (2, 3, "block"), ``platform`` the machine ("host", "all", or one by name). The sensor has every
-    coefficient of the part, and of its tolerances, as parameters; ``specimen`` is the seed of a
-    specimen whose coefficients they start at, which the filters know nothing of. Raises UserError
-    for an unknown name, a part that cannot be read, a specimen of a part without tolerances, a
-    folder that cannot be made, or a missing compiler.
+    ``fmu`` names blocks ("sensor", "ukf", "hidalgo2012", "heading", "rover", "low-pass", "ins"),
+    ``fmi`` forms (2, 3, "block"), ``platform`` the machine ("host", "all", or one by name). The
+    sensor has every coefficient of the part, and of its tolerances, as parameters; ``specimen`` is
+    the seed of a specimen whose coefficients they start at, which the filters know nothing of.
+    Raises UserError for an unknown name, a part that cannot be read, a specimen of a part without
+    tolerances, a folder that cannot be made, or a missing compiler.
     """
     unknown = [f for f in fmu if f not in BLOCKS]
     if unknown:

@@ -25,11 +25,7 @@ from pyimu.identification.heading_error import heading_rms
 from pyimu.identification.held_out import at_rest, attitudes, held_trials, scores
 from pyimu.identification.made_with import MadeWith
 from pyimu.identification.magnetometer.examine import examined
-from pyimu.identification.magnetometer.model import (
-    and_magnetometer,
-    magnetic,
-    with_magnetometer,
-)
+from pyimu.identification.magnetometer.model import magnetic, with_magnetometer
 from pyimu.identification.model_of import Found, Model, model_of
 from pyimu.identification.noise.named import Noise, noise_of
 from pyimu.identification.overview import Overview, overview
@@ -40,6 +36,7 @@ from pyimu.identification.result import Closed
 from pyimu.identification.search.belief import most
 from pyimu.identification.search.ceiling import is_ceiling
 from pyimu.identification.search.forward import Investigation, form_error, without
+from pyimu.identification.third_sensor import and_magnetometer
 from pyimu.identification.verdict import WORSE, Evidence, Verdict, unfit, verdict
 from pyimu.identification.visibility import visibility
 from pyimu.model.catalogue import CATALOGUE, WALK, WHITE

@@ -27,7 +27,9 @@ NOT_LOOKED_FOR = "not looked for"
 class Fate:
     """One candidate, and what became of it.
 
-    ``gain`` [nat] is that of the first look, ``last`` that of the last one.
+    ``gain`` [nat] is that of the first look, ``last`` that of the last one, ``fitted`` that of the
+    candidate alone beside the model before, fitted in full: the first look takes slopes at the
+    identity and the noise as it was, and only ranks. Few are fitted in full; None for the others.
 
     ``outcome`` is "added", "changed" (a declared value set free), "alternative", "explained",
     "refused", "dropped", "not taken up" or "not looked for"; ``by`` are the effects that stand for
@@ -41,6 +43,7 @@ class Fate:
     outcome: str
     reason: str
     by: tuple[str, ...] = ()
+    fitted: float | None = None
 
     def as_dict(self) -> dict[str, Any]:
         return plain(asdict(self))
@@ -91,7 +94,12 @@ def _fate(kind: str, inv: Investigation, name: str, first: Any, last: Any) -> Fa
     alike &= {s.effect for s in inv.steps} - set(by if outcome == "alternative" else ())
     if alike and outcome != "added":
         reason += f"; in these logs it looks like {joined(sorted(alike))} (correlation above 98 %)"
-    return Fate(kind, name, *gains, outcome, reason, by)
+    return Fate(kind, name, *gains, outcome, reason, by, _fitted(inv).get(name))
+
+
+def _fitted(inv: Investigation) -> dict[str, float]:
+    """Gains [nat] of the candidates fitted in full for the first step."""
+    return dict(inv.steps[0].fitted) if inv.steps else {}
 
 
 def _outcome(
@@ -140,8 +148,21 @@ def _by_the_steps(
     if last <= inv.last.gate:
         fell = f"its gain fell from {number(first)} to {number(last)} nat"
         once = f"{joined(steps)} {_was(steps)} in" if steps else "what is left was taken for noise"
-        return "explained", f"{fell} once {once}", steps
+        return "explained", f"{fell} once {once}{_overtaken(inv, name, first)}", steps
     return "not taken up", _why_left(inv, name), ()
+
+
+def _overtaken(inv: Investigation, name: str, first: float | None) -> str:
+    """What a candidate that led at the first look explains once it is fitted in full."""
+    fitted = _fitted(inv)
+    if name not in fitted or first is None:
+        return ""
+    chosen = inv.steps[0].effect
+    looked = next((c.gain for c in inv.first.candidates if c.effect == chosen), None)
+    if looked is None or first <= looked:
+        return ""
+    alone = f"{number(fitted[name])} nat" if fitted[name] > 0.0 else "nothing"
+    return f"; alone and fitted in full it explains {alone}, {chosen} {number(fitted[chosen])} nat"
 
 
 def _was(names: tuple[str, ...]) -> str:

@@ -19,6 +19,7 @@ from pyimu.identification.magnetometer.examine import Examined
 from pyimu.identification.magnetometer.words import as_dict as magnetic
 from pyimu.identification.search.forward import Refused
 from pyimu.identification.search.leftover import Unexplained
+from pyimu.identification.simulated import Simulated
 from pyimu.model.kinds import MAGNETOMETER
 from pyimu.model.part import Part
 
@@ -55,6 +56,7 @@ class Outcome:
     heading: tuple[float, float] | None = None
     at_rest: tuple[AtRest, ...] = ()
     formulas: tuple[Formula, ...] = ()
+    simulated: Simulated | None = None
     magnetometer: Examined | None = None
 
     def as_dict(self, model: str = "model.toml", fmus: tuple[str, ...] = ()) -> dict[str, Any]:
@@ -86,8 +88,10 @@ class Outcome:
             "fmus": list(fmus),
             "made_with": self.made_with and self.made_with.as_dict(),
         }
-        seen = self.magnetometer
-        return plain(found | ({} if seen is None else {"magnetometer": magnetic(seen)}))
+        known = {"simulated": self.simulated.as_dict()} if self.simulated else {}
+        if self.magnetometer is not None:
+            known["magnetometer"] = magnetic(self.magnetometer)
+        return plain(found | known)
 
     def _error(self) -> dict[str, Any]:
         rate, force = self.errors.get("gyro"), self.errors.get("accel")

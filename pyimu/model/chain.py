@@ -148,7 +148,7 @@ class Chain:
         started = ca.SX.sym("started") if self.waits else None
         x, following = self.x, []
         for e in self.effects:
-            x, after = self._apply(e, x, self.noises[e.name], started)
+            x, after = self.apply(e, x, self.noises[e.name], started)
             following.append(after)
         flag, one = ([started], [ca.SX(1)]) if self.waits else ([], [])
         return ca.Function(
@@ -192,7 +192,7 @@ class Chain:
             ["s_next", "x", "lost"],
         )
 
-    def _apply(self, e: Effect, x: ca.SX, w: Mapping, started: ca.SX | None) -> tuple[ca.SX, ca.SX]:
+    def apply(self, e: Effect, x: ca.SX, w: Mapping, started: ca.SX | None) -> tuple[ca.SX, ca.SX]:
         """Output of an effect and its following states in one column.
 
         A state that follows from inputs keeps its value where it would become NaN: the output shows
@@ -221,7 +221,7 @@ class Chain:
 
     def _call(self, e: Effect, x: ca.SX, started: ca.SX | None) -> tuple[ca.SX, ca.SX]:
         silent = {n: ca.SX.zeros(w.size) for n, w in e.noises.items()}
-        return self._apply(e, x, silent, started)
+        return self.apply(e, x, silent, started)
 
     def _fed(self, e: Effect) -> list[bool]:
         """Which numbers of an effect's states follow from inputs of this sample.

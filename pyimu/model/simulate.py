@@ -42,10 +42,11 @@ def simulate(
     ``SIGNALS`` that the part's effects need: ``supply`` (n,) V, ``mag`` (n, 3) T and so on; one
     that they do not need is ignored. Any input but the rate may be a constant.
 
-    Row k draws the noise that the FMU draws for its sample k + 1 under the same seed; ``seed=None``
-    is noise off. A row that is NaN gives NaN; the sensors' memories hold their last values through
-    it. Raises UserError for an input that is unknown, missing, no number or of a wrong shape, and
-    for a part, a seed or a sample period that is none.
+    Row k draws the noise that the FMU draws for its sample k + 1 under the same seed, under 0 where
+    the instance is called as its model is; ``seed=None`` is noise off. A row that is NaN gives NaN;
+    the sensors' memories hold their last values through it. Raises UserError for an input that is
+    unknown, missing, no number or of a wrong shape, and for a part, a seed or a sample period that
+    is none.
     """
     part = find_part(part)
     given = {"rate": rate, "specific_force": specific_force, "temperature": temperature, **others}

@@ -95,16 +95,7 @@ def run(
     )
     reference = reference_of(recording)
     found, start = job.started(heading0, reference)
-    tracks = {}
-    for name in wanted:
-        say(f"method {name}", 0.0)
-        if name == "filter":
-            tracks[name] = found.track("filter")
-        elif name == "smoother":
-            tracks[name] = job.smoothed(start, say)
-        else:
-            track = _integrated(name, job, start, findings)
-            tracks |= {} if track is None else {name: track}
+    tracks = _tracks(wanted, job, found, start, findings, say)
     return NavigationResult(
         recording.name,
         recording,
@@ -128,6 +119,28 @@ def _known(name: str, value: str, values: tuple[str, ...]) -> None:
         raise UserError(
             f"{name} {value}: unknown{did_you_mean(value, values)}; known are {', '.join(values)}"
         )
+
+
+def _tracks(
+    wanted: tuple[str, ...],
+    job: _Job,
+    found: Filtered,
+    start: float,
+    findings: list[Finding],
+    say: Callable[..., None],
+) -> dict[str, Track]:
+    """The tracks by the methods' names, less those that the recording's samples do not allow."""
+    tracks = {}
+    for name in wanted:
+        say(f"method {name}", 0.0)
+        if name == "filter":
+            tracks[name] = found.track("filter")
+        elif name == "smoother":
+            tracks[name] = job.smoothed(start, say)
+        else:
+            track = _integrated(name, job, start, findings)
+            tracks |= {} if track is None else {name: track}
+    return tracks
 
 
 @dataclass(frozen=True, eq=False)

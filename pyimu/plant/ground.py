@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import casadi as ca
 
@@ -54,54 +55,89 @@ def waves(terrain) -> ca.SX:
     return ca.vertcat(*found)
 
 
-def wavy(found, place, heading, offsets, moving) -> list[tuple]:
-    """Height at ``offsets`` (forward, left) m from a place, and its first two derivatives in time.
+@dataclass(frozen=True)
+class Phase:
+    """The phase of a wave at a place that moves: cosine and sine, and two derivatives in time."""
 
-    ``found`` are the ``waves``, ``place`` is (east, north) and the offsets lie along ``heading``;
-    ``moving`` are the velocity and the acceleration (2,) of each offset's end.
+    cosine: ca.SX
+    sine: ca.SX
+    rate: ca.SX
+    acceleration: ca.SX
 
-    The phase at an offset is that of the place, plus one for the way forward, plus one for the way
-    to the left: their sines and cosines are taken once, and multiplied as complex numbers.
+    @classmethod
+    def of(cls, angle, rate, acceleration, amplitude=1.0) -> Phase:
+        return cls(amplitude * ca.cos(angle), amplitude * ca.sin(angle), rate, acceleration)
+
+    def __add__(self, other: Phase) -> Phase:
+        """The sum of two phases: their cosines and sines multiply as complex numbers."""
+        return Phase(
+            self.cosine * other.cosine - self.sine * other.sine,
+            self.sine * other.cosine + self.cosine * other.sine,
+            self.rate + other.rate,
+            self.acceleration + other.acceleration,
+        )
+
+    def __neg__(self) -> Phase:
+        return Phase(self.cosine, -self.sine, -self.rate, -self.acceleration)
+
+    def height(self) -> tuple:
+        """The sine and its first two derivatives."""
+        square = self.rate * self.rate
+        return (
+            self.sine,
+            self.cosine * self.rate,
+            self.cosine * self.acceleration - self.sine * square,
+        )
+
+
+def wavy(found, plane: tuple, offsets, roughness) -> list[list]:
+    """Heights m of a ground at ``offsets`` (forward, left) m from a body, and two derivatives each.
+
+    ``found`` are the ``waves``; ``plane`` are the body's place and heading (east, north, rad) and
+    their first and second derivatives.
+
+    The phase at an offset is that of the body, plus one for the way forward, plus one for the way
+    to the left, whose sines and cosines are taken once each. Ahead of a body that turns, the wave
+    number k along it grows by the turn rate times that to its left, and this falls by as much.
     """
-    c, s = ca.cos(heading), ca.sin(heading)
-    totals = [(0, 0, 0)] * len(offsets)
+    here, first, second = plane
+    c, s = ca.cos(here[2]), ca.sin(here[2])
+    turn, gain, square = first[2], second[2], first[2] * first[2]
+    totals = [[0, 0, 0] for _ in offsets]
     for i in range(0, 4 * WAVES, 4):
         east, north, phase, amplitude = (found[i + j] for j in range(4))
-        here = _turn(east * place[0] + north * place[1] + phase)
-        forward = _turns(c * east + s * north, [x for x, _ in offsets])
-        left = _turns(c * north - s * east, [y for _, y in offsets])
-        for j, (x, y) in enumerate(offsets):
-            cosine, sine = _product(_product(here, left[y]), forward[x])
-            first, second = (east * v[0] + north * v[1] for v in moving[j])
-            along, across = amplitude * cosine, amplitude * sine
-            totals[j] = (
-                totals[j][0] + across,
-                totals[j][1] + along * first,
-                totals[j][2] + along * second - across * first * first,
-            )
+        at = Phase.of(
+            east * here[0] + north * here[1] + phase,
+            east * first[0] + north * first[1],
+            east * second[0] + north * second[1],
+            roughness * amplitude,
+        )
+        ahead, aside = c * east + s * north, c * north - s * east
+        forward = _offset(
+            ahead, turn * aside, gain * aside - square * ahead, {x for x, _ in offsets}
+        )
+        left = _offset(
+            aside, -turn * ahead, -gain * ahead - square * aside, {y for _, y in offsets}
+        )
+        sides = {y: at + left[y] if y else at for y in left}
+        for total, (x, y) in zip(totals, offsets, strict=True):
+            there = sides[y] + forward[x] if x else sides[y]
+            for j, height in enumerate(there.height()):
+                total[j] += height
     return totals
 
 
-def _turn(angle) -> tuple:
-    """Cosine and sine."""
-    return ca.cos(angle), ca.sin(angle)
+def _offset(number, rate, acceleration, lengths) -> dict[float, Phase]:
+    """The phase by each length for a wave number and its derivatives; of opposite ones only one."""
+    found = {abs(x): Phase.of(*(abs(x) * n for n in (number, rate, acceleration))) for x in lengths}
+    return {x: found[x] if x >= 0 else -found[-x] for x in lengths}
 
 
-def _turns(number, lengths) -> dict[float, tuple]:
-    """Cosine and sine of ``number`` rad/m times each length, of opposite ones taken once."""
-    found = {abs(x): _turn(number * abs(x)) if x else (1, 0) for x in lengths}
-    return {x: (found[abs(x)][0], math.copysign(1, x) * found[abs(x)][1]) for x in lengths}
-
-
-def _product(a: tuple, b: tuple) -> tuple:
-    return a[0] * b[0] - a[1] * b[1], a[1] * b[0] + a[0] * b[1]
-
-
-def boulder(east, north, height, width):
-    """Height by which a boulder lifts a wheel ``east`` and ``north`` of its middle.
+def boulder(square, height, width):
+    """Height by which a boulder lifts a wheel at the squared distance ``square`` from its middle.
 
     height (1 - (2 r / width)^2)^4 within ``width``, 0 around: what the centre of a wheel follows,
     whose radius rounds off the boulder's edges. Three derivatives are continuous.
     """
-    inside = ca.fmax(1 - (east * east + north * north) * reciprocal(width * width / 4), 0)
+    inside = ca.fmax(1 - square * reciprocal(width * width / 4), 0)
     return height * inside * inside * inside * inside

@@ -23,68 +23,66 @@ HEIGHTS = 6
 """The heights of the wheels, which with the motion in the plane are the body's state."""
 
 
-def wheel_heights(plane, first, second, found, p: dict, rocker: Rocker) -> tuple:
+def wheel_heights(planes: tuple, found, p: dict, rocker: Rocker) -> tuple:
     """Heights (``HEIGHTS``,) m of the wheels over level ground, and two derivatives of them.
 
-    ``plane``, ``first`` and ``second`` (``PLANE``,) are symbols of a motion in the plane and its
-    derivatives, ``found`` the ground's waves, ``p`` the parameters by name.
+    ``planes`` are a motion in the plane (``PLANE``,) and its derivatives, ``found`` the ground's
+    waves, ``p`` the parameters by name.
     """
-    c, s = ca.cos(plane[2]), ca.sin(plane[2])
-    ends = [
-        ca.vertcat(plane[0] + c * x - s * y, plane[1] + s * x + c * y) for x, y in rocker.wheels
-    ]
-    moving = [along(end, plane, first, second) for end in ends]
-    waves = wavy(found, (plane[0], plane[1]), plane[2], rocker.wheels, moving)
-    here, velocity, acceleration = (ca.SX.sym(name, 2) for name in ("here", "v", "a"))
-    lift = _boulders(here, p)
-    lifts = [lift, *along(lift, here, velocity, acceleration)]
-    lifted = [
-        ca.substitute(lifts, [here, velocity, acceleration], [end, *motion])
-        for end, motion in zip(ends, moving, strict=True)
-    ]
-    return tuple(
-        ca.vertcat(*[p["roughness"] * w[i] + b[i] for w, b in zip(waves, lifted, strict=True)])
-        for i in range(3)
-    )
-
-
-def _boulders(place, p: dict):
-    """Height m of the boulders at a place (2,), east and north."""
+    waves = wavy(found, planes, rocker.wheels, p["roughness"])
+    symbols = [ca.SX.sym(name, 3) for name in ("place", "first", "second")]
     there = ca.logic_or(p["boulders"] != 0, p["drive"] == DRIVES["obstacle"])
-    c, s = ca.cos(p["heading0"]), ca.sin(p["heading0"])
-    height = 0
-    for i in range(BOULDERS):
-        forward, left = p["boulder_forward"][i], p["boulder_left"][i]
-        height += boulder(
-            place[0] - (c * forward - s * left),
-            place[1] - (s * forward + c * left),
-            there * p["boulder_height"][i],
-            p["boulder_width"][i],
-        )
-    return height
+    for wheel, total in zip(rocker.wheels, waves, strict=True):
+        end = _end(symbols[0], wheel)
+        moving = [
+            ca.substitute(m, ca.vertcat(*symbols), ca.vertcat(*[x[:3] for x in planes]))
+            for m in (end, *along(end, *symbols))
+        ]
+        for i in range(BOULDERS):
+            lifts = _boulder(moving, i, there, p)
+            for j, lift in enumerate(lifts):
+                total[j] += lift
+    return tuple(ca.vertcat(*[total[i] for total in waves]) for i in range(3))
 
 
-@dataclass(frozen=True)
-class Pose:
-    """Where the body is: attitude ``q`` (4,), ``position`` (3,) m, and the ``lever_arm``'s end.
+def _end(place, wheel: tuple[float, float]):
+    """Where a wheel (forward, left) of a body at ``place`` (east, north, heading) is, (2,)."""
+    c, s = ca.cos(place[2]), ca.sin(place[2])
+    x, y = wheel
+    return ca.vertcat(place[0] + c * x - s * y, place[1] + s * x + c * y)
 
-    The end ``sensor`` (3,) m is in east-north-up axes, as the position is. All are expressions.
+
+def _boulder(moving: list, i: int, there, p: dict) -> list:
+    """Height m by which boulder ``i`` lifts a wheel, and two derivatives.
+
+    ``moving`` are the wheel's place (2,) and its derivatives; ``there`` is 1 where boulders are.
     """
+    c, s = ca.cos(p["heading0"]), ca.sin(p["heading0"])
+    forward, left = p["boulder_forward"][i], p["boulder_left"][i]
+    middle = ca.vertcat(c * forward - s * left, s * forward + c * left)
+    place, first, second = moving
+    away = place - middle
+    squares = [
+        ca.dot(away, away),
+        2 * ca.dot(away, first),
+        2 * (ca.dot(first, first) + ca.dot(away, second)),
+    ]
+    symbols = [ca.SX.sym(name) for name in ("square", "first", "second")]
+    lift = boulder(symbols[0], there * p["boulder_height"][i], p["boulder_width"][i])
+    lifts = [lift, *along(lift, *symbols)]
+    return ca.substitute(lifts, symbols, squares)
 
-    q: ca.SX
-    position: ca.SX
-    sensor: ca.SX
 
+def attitude(plane, heights, p: dict, rocker: Rocker) -> tuple:
+    """The attitude (4,) at a motion in the plane (``PLANE``,) over wheels at ``heights``.
 
-def pose(plane, heights, p: dict, rocker: Rocker) -> Pose:
-    """The pose at a motion in the plane (``PLANE``,) over wheels at ``heights`` (``HEIGHTS``,)."""
+    And the height m of the body's origin, and the displacement (3,) m in body axes by which it is
+    shaken.
+    """
     roll, pitch, up = rocker.pose(heights)
     turn, push = _shaken(plane, p, rocker.track)
-    q = quaternion.product(
-        quaternion.from_euler(roll, pitch, plane[2]), quaternion.exponential(turn)
-    )
-    position = ca.vertcat(plane[0], plane[1], up) + quaternion.rotate(q, push)
-    return Pose(q, position, position + quaternion.rotate(q, p["lever_arm"]))
+    q = quaternion.from_euler(roll, pitch, plane[2])
+    return quaternion.product(q, quaternion.exponential(turn)), up, push
 
 
 def _shaken(plane, p, track):
@@ -103,32 +101,56 @@ def _shaken(plane, p, track):
     return tuple(a + b for a, b in zip(motors, wheels, strict=True))
 
 
-def motion(plane, first, second, found, p: dict, rocker: Rocker) -> tuple:
-    """The pose at a motion in the plane, rate and specific force (3,) there, and the speed.
+@dataclass(frozen=True)
+class Motion:
+    """Attitude ``q`` (4,), ``position`` (3,) m, ``rate`` and specific ``force`` (3,), ``speed``."""
 
-    ``plane``, ``first`` and ``second`` (``PLANE``,) are symbols of the motion and its derivatives.
+    q: ca.SX
+    position: ca.SX
+    rate: ca.SX
+    force: ca.SX
+    speed: ca.SX
 
-    rate = 2 vec(q* q') + R^T omega (Hidalgo 2012, section 4.1; omega of the planet), and
-    force = R^T (a + 2 omega x v + g) of the sensor's place with velocity v and acceleration a
-    (Groves 2013, eq. 5.53; the centrifugal force is part of gravity).
+
+def motion(planes: tuple, found, p: dict, rocker: Rocker) -> Motion:
+    """The motion of the body on the ground, by derivatives of its attitude and its place.
+
+    ``planes`` are a motion in the plane (``PLANE``,) and its derivatives.
+
+    With the turn rate w = 2 vec(q* q') (Hidalgo 2012, section 4.1) and its derivative
+    a = 2 vec(q* q''), both in body axes, rate = w + R^T o with the planet's rate o, and
+    force = R^T (x'' + 2 o x v + g) + d'' + 2 w x d' + a x r + w x (w x r), where r = arm + d is
+    the sensor's place in the body, shaken by d, and v = x' + R (d' + w x r) its velocity (Groves
+    2013, eq. 2.110 and 5.53; the centrifugal force of the planet is part of gravity).
     """
-    heights = [ca.SX.sym(name, HEIGHTS) for name in ("heights", "rising", "bending")]
-    state, velocities, accelerations = (
-        ca.vertcat(a, b) for a, b in zip((plane, first, second), heights, strict=True)
+    q, up, push = _derivatives(planes, found, p, rocker)
+    back = quaternion.conjugate(q[0])
+    w, a = (2 * quaternion.product(back, x)[1:4] for x in q[1:])
+    place, velocity, acceleration = (
+        ca.vertcat(plane[:2], height) for plane, height in zip(planes, up, strict=True)
     )
-    at = pose(plane, heights[0], p, rocker)
-    omega = earth_rate(p["latitude"], p["rotation_rate"])
-    turning, _ = along(at.q, state, velocities, accelerations)
-    velocity, acceleration = along(at.sensor, state, velocities, accelerations)
-    of_origin, _ = along(at.position, state, velocities, accelerations)
-    gravity = ca.vertcat(0, 0, p["gravity"])
-    back = quaternion.conjugate(at.q)
-    shown = [
-        at.q,
-        at.position,
-        2 * quaternion.product(back, turning)[1:4] + quaternion.rotate(back, omega),
-        quaternion.rotate(back, acceleration + 2 * ca.cross(omega, velocity) + gravity),
-        quaternion.rotate(back, of_origin)[0],
+    arm = p["lever_arm"] + push[0]
+    omega = quaternion.rotate(back, earth_rate(p["latitude"], p["rotation_rate"]))
+    forward = quaternion.rotate(back, velocity)
+    felt = quaternion.rotate(back, acceleration + ca.vertcat(0, 0, p["gravity"]))
+    swing = ca.cross(w, arm)
+    coriolis = 2 * ca.cross(omega, forward + push[1] + swing)
+    of_arm = push[2] + 2 * ca.cross(w, push[1]) + ca.cross(a, arm) + ca.cross(w, swing)
+    return Motion(
+        q[0],
+        place + quaternion.rotate(q[0], push[0]),
+        w + omega,
+        felt + coriolis + of_arm,
+        (forward + push[1] + ca.cross(w, push[0]))[0],
+    )
+
+
+def _derivatives(planes: tuple, found, p: dict, rocker: Rocker) -> list[list]:
+    """Each result of ``attitude`` with its first two derivatives in time."""
+    heights = wheel_heights(planes, found, p, rocker)
+    symbols = [ca.SX.sym(name, PLANE + HEIGHTS) for name in ("state", "first", "second")]
+    results = attitude(symbols[0][:PLANE], symbols[0][PLANE:], p, rocker)
+    values = [ca.vertcat(a, b) for a, b in zip(planes, heights, strict=True)]
+    return [
+        ca.substitute([result, *along(result, *symbols)], symbols, values) for result in results
     ]
-    on_ground = wheel_heights(plane, first, second, found, p, rocker)
-    return tuple(ca.substitute(shown, heights, list(on_ground)))

@@ -14,7 +14,7 @@ from pyimu.plant import ground, sky, vibration
 from pyimu.plant.bodies import BODIES, CelestialBody
 from pyimu.plant.commanded import SPREAD, courses, displaced, follow
 from pyimu.plant.manoeuvre import chord, out_and_back
-from pyimu.plant.pose import PLANE, motion
+from pyimu.plant.pose import motion
 from pyimu.plant.rover_variables import DRIVES, INPUTS, OUTPUTS, parameters
 from pyimu.plant.suspension import Rocker
 from pyimu.symbolic import quaternion
@@ -182,11 +182,8 @@ def _scripted(time, p: dict) -> tuple:
 
 def _shown(time, planes: tuple, found, p: dict, rocker: Rocker):
     """The outputs at a motion in the plane."""
-    symbols = [ca.SX.sym(name, PLANE) for name in ("plane", "first", "second")]
-    q, position, rate, force, speed = ca.substitute(
-        list(motion(*symbols, found, p, rocker)), symbols, list(planes)
-    )
-    back = quaternion.conjugate(q)
+    body = motion(planes, found, p, rocker)
+    back = quaternion.conjugate(body.q)
     angle = sky.hour_angle(time, p["hour_angle"], p["solar_day"])
     sun = sky.sun_direction(angle, p["solar_declination"], p["latitude"])
     field = sky.magnetic_field(p["field_strength"], p["field_dip"], p["field_declination"])
@@ -201,12 +198,12 @@ def _shown(time, planes: tuple, found, p: dict, rocker: Rocker):
     )
     return ca.densify(
         ca.vertcat(
-            q,
-            quaternion.to_euler(q),
-            rate,
-            force,
-            position,
-            speed,
+            body.q,
+            quaternion.to_euler(body.q),
+            body.rate,
+            body.force,
+            body.position,
+            body.speed,
             planes[0][5],
             warmth,
             quaternion.rotate(back, sun),

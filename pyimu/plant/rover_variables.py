@@ -193,7 +193,13 @@ def _sensor() -> tuple[Variable, ...]:
             "hour angle of the sun when the day is warmest",
             math.pi / 6,
         ),
-        _fixed("motor_frequency", "Hz", "frequency of the motors' line", 80.0, LEAST),
+        _fixed(
+            "motor_frequency",
+            "Hz",
+            "frequency of the motors' line; above half the sample rate it folds",
+            80.0,
+            LEAST,
+        ),
         *array("motor_rate", "rad/s", f"amplitude {motor} in rate", fixed=True, minimum=0.0),
         *array(
             "motor_force", "m/s^2", f"amplitude {motor} in specific force", fixed=True, minimum=0.0

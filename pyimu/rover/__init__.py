@@ -1,1 +1,1 @@
-"""Rover drives: the motion, and the built-in recording of the demo."""
+"""Rover drives: the motion, the built-in recording of the demo, the paper's test drives."""

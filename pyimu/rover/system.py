@@ -11,25 +11,27 @@ import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 
-from pyimu.attitude import attitude_ukf
 from pyimu.block.parameters import with_values
 from pyimu.block.variables import Variable
 from pyimu.errors import UserError
 from pyimu.files import check_folder
 from pyimu.fmu.build import build_fmu
+from pyimu.fmu.package import BLOCKS
 from pyimu.fmu.sources import Form
 from pyimu.fmu.ssp import whole_nanoseconds, write_ssp
 from pyimu.fmu.system import Component, System
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as find_part
-from pyimu.plant.low_pass import low_pass
-from pyimu.plant.rover_drive import end_of_drive, rover_drive
+from pyimu.plant.rover_drive import end_of_drive
 from pyimu.plant.rover_variables import DRIVES
 from pyimu.rover.drives import REST
 from pyimu.units import did_you_mean
 
 FREE_TIME = 60.0
 """s of a free drive, which has no end of its own."""
+
+UNITS = {"Drive": "rover", "Sensor": "sensor", "LowPass": "low-pass", "Filter": "ukf"}
+"""Names of the units in the system, and of their blocks."""
 
 MOTION = {"attitude": "q"}
 """What a sensor's inputs are called among the outputs of the drive, where they differ."""
@@ -43,13 +45,15 @@ def rover_system(
     seed: int = 1,
     form: Form = 2,
     platform: str = "host",
+    specimen: int | None = None,
     parameters: Mapping[str, Mapping[str, float]] | None = None,
 ) -> System:
     """Build the four units of ``part`` into ``folder``, and wire them: a system of one ``drive``.
 
     The units are Drive, Sensor, LowPass and Filter. Their sample period and the step of the system
-    are the part's sample period in whole nanoseconds. ``parameters`` are further ones by the name
-    of the unit, ``{"Drive": {"terrain": 3}}``.
+    are the part's sample period in whole nanoseconds. ``specimen`` is the seed of a specimen of the
+    part, whose coefficients are then parameters of the sensor; the filter knows the part alone.
+    ``parameters`` are further ones by the name of the unit, ``{"Drive": {"terrain": 3}}``.
 
     Raises UserError for a drive, a part, a parameter or a form that is none, and where a unit
     cannot be built.
@@ -57,16 +61,13 @@ def rover_system(
     check_drive(drive, form)
     found = find_part(part)
     h = whole_nanoseconds(found.sample_period)
-    rover = rover_drive(found.sample_period)
-    blocks = {
-        "Drive": rover,
-        "Sensor": found.block,
-        "LowPass": low_pass(found.sample_period),
-        "Filter": attitude_ukf(found),
-    }
+    blocks = {name: BLOCKS[unit](found) for name, unit in UNITS.items()}
+    rover, sensor = blocks["Drive"], blocks["Sensor"]
     bound: dict[str, dict[str, float]] = {name: {"sample_period": h} for name in blocks}
     bound["Drive"]["drive"] = DRIVES[drive]
-    bound["Sensor"] |= {"seed": seed} if found.block.noise else {}
+    bound["Sensor"] |= {"seed": seed} if sensor.noise else {}
+    if specimen is not None:
+        bound["Sensor"] |= deviations(found, specimen)
     for name, more in (parameters or {}).items():
         if name not in bound:
             raise UserError(f"the rover's system has no unit {name}{did_you_mean(name, bound)}")
@@ -81,10 +82,20 @@ def rover_system(
             Component(name, build_fmu(block, folder, form, platform), bound[name])
             for name, block in blocks.items()
         ),
-        connections(rover.outputs, found.block.inputs),
+        connections(rover.outputs, sensor.inputs),
         h,
         float(round(end_of_drive(rover, p) + REST)) if drive != "free" else FREE_TIME,
     )
+
+
+def deviations(part: Part, seed: int) -> dict[str, float]:
+    """The coefficients of a specimen that differ from those of the part's unit.
+
+    Raises UserError for a part without tolerances.
+    """
+    nominal = part.nominal.start_values
+    drawn = part.specimen(seed).start_values
+    return {name: value for name, value in drawn.items() if value != nominal[name]}
 
 
 def check_drive(drive: str, form: Form) -> None:
@@ -125,9 +136,12 @@ def write_rover(
     seed: int = 1,
     form: Form = 2,
     platform: str = "host",
+    specimen: int | None = None,
 ) -> Path:
     """Write the system with its units to ``out`` as ``Rover.ssp``; see ``rover_system``."""
     check_folder(out)
     with tempfile.TemporaryDirectory(prefix="pyimu-") as folder:
-        system = rover_system(part, folder, drive, seed=seed, form=form, platform=platform)
+        system = rover_system(
+            part, folder, drive, seed=seed, form=form, platform=platform, specimen=specimen
+        )
         return write_ssp(system, Path(out) / "Rover.ssp")

@@ -60,7 +60,7 @@ def off(part: Part, measured: np.ndarray, world) -> float:
     """
     driven, signals = world
     block = attitude_ukf(part)
-    u = columns(block, {**signals, "gyro": measured[:, :3], "accel": measured[:, 3:]})
+    u = columns(block, {**signals, "gyro": measured[:, :3], "accel": measured[:, 3:6]})
     std0 = np.array([1e-4] * 3 + [1e-7] * 3)
     y, state = block.run(u, p=parameters(block, std0=std0, field_tolerance=0))
     assert np.isfinite(state).all()

@@ -68,7 +68,7 @@ def measured(late: Part, seed: int | None = None):
     block = late.block
     u = np.hstack([rate, force, np.full((N, 1), 25.0)])
     y, _ = block.run(u, seed=seed) if seed is not None else block.run(u)
-    return Recording("swing", time=time, gyro=y[:, :3], accel=y[:, 3:]), attitude
+    return Recording("swing", time=time, gyro=y[:, :3], accel=y[:, 3:6]), attitude
 
 
 def off(q: np.ndarray, truth: Rotation) -> np.ndarray:

@@ -22,7 +22,6 @@ from fmpy.validation import validate_fmu
 from fmu_toy import Unit, drive, toy
 from lxml import etree
 
-from pyimu.attitude import attitude_ukf
 from pyimu.block.block import Block
 from pyimu.block.normals import normals
 from pyimu.block.variables import NoiseChannel, Variable
@@ -42,6 +41,7 @@ from pyimu.fmu import (
     write_generated,
 )
 from pyimu.fmu.build import FLAGS, header_folder, icon
+from pyimu.fmu.package import BLOCKS
 from pyimu.fmu.sources import DESCRIPTION, PAGE, TERMINALS
 from pyimu.model.part import Part, Sensor
 from pyimu.model.part_file import part
@@ -183,39 +183,48 @@ def test_default_experiment(description):
     assert float(experiment.stepSize) == BLOCK.sample_period
 
 
-@pytest.mark.parametrize("form", (3, "block"))
-def test_terminals_of_sensor_and_filter_meet_in_their_members(form):
-    """What the sensor measured is a bus, of which the filter takes each member by its name; every
-    member is a variable, and has the unit of the one that it meets.
-    """
-
-    def terminals(block):
-        files = texts(block)
-        tree = etree.fromstring(files[TERMINALS[form]].encode())
-        etree.XMLSchema(
-            etree.parse(str(SCHEMAS / "fmi3" / "fmi3TerminalsAndIcons.xsd"))
-        ).assertValid(tree)
-        description = etree.fromstring(files[DESCRIPTION[form]].encode())
-        variables = {v.get("name"): v for v in description.find("ModelVariables")}
-        return {
-            t.get("name"): {
-                m.get("memberName"): variables[m.get("variableName")]
-                for m in t.findall("TerminalMemberVariable")
-            }
-            for t in tree.iter("Terminal")
-            if t.get("matchingRule") == "bus"
+def terminals(block, form):
+    """Name of a bus to its members by name, each the element of its variable."""
+    files = texts(block)
+    tree = etree.fromstring(files[TERMINALS[form]].encode())
+    etree.XMLSchema(etree.parse(str(SCHEMAS / "fmi3" / "fmi3TerminalsAndIcons.xsd"))).assertValid(
+        tree
+    )
+    description = etree.fromstring(files[DESCRIPTION[form]].encode())
+    variables = {v.get("name"): v for v in description.find("ModelVariables")}
+    return {
+        t.get("name"): {
+            m.get("memberName"): variables[m.get("variableName")]
+            for m in t.findall("TerminalMemberVariable")
         }
+        for t in tree.iter("Terminal")
+        if t.get("matchingRule") == "bus"
+    }
 
+
+@pytest.mark.parametrize("form", (3, "block"))
+@pytest.mark.parametrize(
+    "start, given, end, taken, meet",
+    (
+        ("rover", "motion", "sensor", "motion", ("rate[3]", "specific_force[3]", "temperature")),
+        ("sensor", "imu", "ukf", "imu", ("gyro[3]", "accel[3]", "temperature")),
+        ("sensor", "imu", "low-pass", "imu", ("gyro[3]", "accel[3]")),
+        ("low-pass", "filtered", "ukf", "imu", ("gyro[3]", "accel[3]")),
+    ),
+)
+def test_buses_meet_in_the_members_that_they_share(form, start, given, end, taken, meet):
+    """Members meet by their names; every one is a variable, and has the unit of the other."""
     imt30 = part("imt30")
-    sensor, estimator = terminals(imt30.block), terminals(attitude_ukf(imt30))
-    assert set(sensor) == {"motion", "imu"} and set(estimator) >= {"imu", "heading", "attitude"}
-    axes = [""] if form == "block" else [f"[{i}]" for i in (1, 2, 3)]
-    want = {f"{n}{axis}" for n in ("gyro", "accel") for axis in axes} | {"temperature"}
-    assert set(sensor["imu"]) == want <= set(estimator["imu"])
-    for name, given in sensor["imu"].items():
-        taken = estimator["imu"][name]
-        assert (given.get("causality"), taken.get("causality")) == ("output", "input")
-        assert given.get("unit") == taken.get("unit")
+    one, other = (
+        terminals(BLOCKS[unit](imt30), form)[bus] for unit, bus in ((start, given), (end, taken))
+    )
+    names = {name.partition("[")[0] for name in meet}
+    if form != "block":
+        names = {f"{n}[{i}]" if f"{n}[3]" in meet else n for n in names for i in (1, 2, 3)}
+    assert set(one) & set(other) == names
+    for name in names:
+        assert (one[name].get("causality"), other[name].get("causality")) == ("output", "input")
+        assert one[name].get("unit") == other[name].get("unit")
 
 
 def test_model_structure(description):

@@ -24,7 +24,7 @@ IMT30 = part("imt30")
 STEPS = 500
 BLOCKS = {
     "Drive": rover_drive(IMT30.sample_period),
-    "Sensor": IMT30.block,
+    "Sensor": IMT30.nominal.block,
     "LowPass": low_pass(IMT30.sample_period),
     "Filter": attitude_ukf(IMT30),
 }

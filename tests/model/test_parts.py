@@ -174,7 +174,7 @@ def test_the_sensor_of_a_part_gives_finite_noisy_output_within_its_range(name):
     start = np.array([v.start for v in block.inputs])
     w = normals(1, [c.number for c in block.noise], 1, n)
     y, _ = block.run(np.tile(start, (n, 1)), w=w)
-    assert y.shape == (n, 6) and np.isfinite(y).all() and np.ptp(y[:, :3], axis=0).min() > 0
+    assert y.shape == (n, 7) and np.isfinite(y).all() and np.ptp(y[:, :3], axis=0).min() > 0
     for kind, columns in (("gyro", slice(0, 3)), ("accel", slice(3, 6))):
         limit = p.sensor(kind).values.get("saturation", {}).get("limit", np.full(3, np.inf))
         step = p.sensor(kind).values.get("quantization", {}).get("q", np.zeros(3))

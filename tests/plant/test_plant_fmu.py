@@ -69,6 +69,16 @@ def test_the_unit_gives_the_bits_of_python(fmus, drive, form):
 
 
 @pytest.mark.parametrize("form", FORMS)
+def test_a_drive_begins_with_the_simulation_whenever_that_does(fmus, form):
+    """Its clock is the simulation's since its start."""
+    run = simulate_blocks if form == "block" else simulate
+    given = {"sample_period": PERIOD, "start_values": {"start_time": 1.0, "angle": 0.1}}
+    u = np.zeros((600, 2))
+    early, late = (run(fmus["RoverDrive"][form], u, start_time=t, **given) for t in (0.0, 1000.0))
+    np.testing.assert_array_equal(early, late)
+
+
+@pytest.mark.parametrize("form", FORMS)
 def test_the_low_pass_gives_the_bits_of_python(fmus, form):
     u = np.random.default_rng(1).standard_normal((700, 6))
     y = through(fmus["LowPass"][form], form, u, cutoff=4.0)

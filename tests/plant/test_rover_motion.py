@@ -8,7 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from pyimu.rover.drives import drive, free_drive
+from pyimu.block.parameters import with_values
+from pyimu.rover.drives import block, drive, free_drive
 
 ROUGH = {"roughness": 0.01, "terrain": 11, "lever_arm": (0.2, -0.1, 0.4), "heading0": 0.7}
 SHAKEN = {
@@ -136,8 +137,8 @@ def force_by_differences(m):
     """Specific force (n - 4, 3) from second differences of the sensor's position, and its bound.
 
     A second difference errs by h^2/12 of the fourth derivative, which the fourth difference says,
-    and by 4 roundings of the position over h^2; the velocity's error, h^2/6 of the third
-    derivative, enters times twice the planet's rate.
+    and by 4 roundings of the position over h^2, gravity by those of a rotation; the velocity's
+    error, h^2/6 of the third derivative, enters times twice the planet's rate.
     """
     h, turn = m.time[1] - m.time[0], attitude(m)
     arm = [m.parameters[f"lever_arm[{i}]"] for i in (1, 2, 3)]
@@ -147,7 +148,8 @@ def force_by_differences(m):
     velocity = (place[3:-1] - place[1:-3]) / (2 * h)
     gravity = np.array([0, 0, m.parameters["gravity"]])
     force = second + 2 * np.cross(planet(m), velocity) + gravity
-    bound = 1.5 * h**2 / 12 * fourth + 16 * np.finfo(float).eps * np.abs(place).max() / h**2
+    rounding = 16 * np.finfo(float).eps * (np.abs(place).max() / h**2 + gravity[2])
+    bound = 1.5 * h**2 / 12 * fourth + rounding
     return turn[2:-2].inv().apply(force), bound
 
 
@@ -252,12 +254,51 @@ def test_force_and_rate_of_a_free_drive_are_those_of_its_motion():
 
 
 def test_a_missing_command_is_the_last_one():
-    from pyimu.rover.drives import block
-
     made = block(50.0)
-    p = made.start.copy()
-    p[0] = 0
+    p = with_values(made, {"drive": 0})
     u = np.tile([0.02, 0.01], (100, 1))
     holes = u.copy()
     holes[20:40, 0], holes[50, 1], holes[60, 0] = np.nan, np.nan, np.inf
     np.testing.assert_array_equal(made.run(holes, p=p)[0], made.run(u, p=p)[0])
+
+
+@pytest.mark.parametrize("number", range(5))
+def test_half_and_half_is_the_whole_run(number):
+    made = block(50.0)
+    p = with_values(made, {"drive": number, "start_time": 1.0, **ROUGH, **SHAKEN})
+    u = np.random.default_rng(2).standard_normal((600, 2)) * 0.01
+    whole, last = made.run(u, p=p)
+    first, state = made.run(u[:250], p=p)
+    second, end = made.run(u[250:], p=p, state=state)
+    np.testing.assert_array_equal(np.vstack([first, second]), whole)
+    np.testing.assert_array_equal(end, last)
+
+
+ANY = st.fixed_dictionaries(
+    {
+        "terrain": st.integers(0, 10**7),
+        "heading0": st.floats(-4.0, 4.0),
+        "roughness": st.floats(0.0, 0.02),
+        "boulders": st.booleans(),
+        "boulder_height": st.tuples(*[st.floats(0.0, 0.1)] * 3),
+        "boulder_width": st.tuples(*[st.floats(0.3, 1.5)] * 3),
+        "boulder_forward": st.tuples(*[st.floats(-1.0, 1.0)] * 3),
+        "boulder_left": st.tuples(*[st.floats(-1.0, 1.0)] * 3),
+        "lever_arm": st.tuples(*[st.floats(-1.0, 1.0)] * 3),
+        "latitude": st.floats(-1.5, 1.5),
+        "cruise_speed": st.floats(0.01, 0.1),
+        "ramp_time": st.floats(0.5, 2.0),
+        "radius": st.floats(0.5, 5.0),
+    }
+)
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.sampled_from(NAMES), ANY, st.sampled_from(["Earth", "Mars", "Moon"]))
+def test_on_any_ground_attitude_rate_place_and_force_are_of_one_motion(name, parameters, body):
+    more = {"start_time": 1.0, "length": 0.5, "angle": 0.2, "body": body}
+    m = drive(name, sample_rate=50.0, rest=1.0, **parameters, **more)
+    found, bound = force_by_differences(m)
+    assert np.abs(found - m.specific_force[2:-2]).max() <= np.sqrt(3) * bound
+    left, bound, _ = turn_left_over(m)
+    assert left.max() <= bound

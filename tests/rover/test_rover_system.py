@@ -13,6 +13,7 @@ from places import CHECKOUT
 
 from pyimu.errors import UserError
 from pyimu.model.part import Part, input_variables
+from pyimu.model.part_file import part
 from pyimu.plant.rover_variables import DRIVES, OUTPUTS
 from pyimu.rover.system import connections, rover_system, write_rover
 
@@ -69,6 +70,22 @@ def test_the_filter_is_told_where_the_drive_is(without_compiling, tmp_path):
         "std0[1]": 0.2,
         "sample_period": 0.01,
     }
+
+
+def test_a_specimens_coefficients_are_parameters_of_the_sensor(without_compiling, tmp_path):
+    """Those that its part has not; the unit, and what the filter knows, are the part's."""
+    stim300 = part("stim300")
+    nominal, drawn = (rover_system(stim300, tmp_path, specimen=s) for s in (None, 5))
+    files = [c.fmu.read_bytes() for c in drawn.components]
+    assert [c.fmu.read_bytes() for c in nominal.components] == files
+    assert drawn.components[3].parameters == nominal.components[3].parameters
+    specimen, own = stim300.specimen(5), nominal.components[1].parameters
+    bound = {n: x for n, x in drawn.components[1].parameters.items() if n not in own}
+    for sensor, axis in ((specimen.gyro, 1), (specimen.accel, 3)):
+        bias = sensor.values["turn_on_bias"]["b0"][axis - 1]
+        assert bound[f"{sensor.kind}_error.turn_on_bias.b0[{axis}]"] == bias != 0
+    with pytest.raises(UserError, match="no tolerances"):
+        rover_system(SMALL, tmp_path, specimen=5)
 
 
 @pytest.mark.parametrize(

@@ -295,7 +295,7 @@ def test_hidalgo_table_3_rate_ramp_allan(tmp_path, version, rate):
     R = np.array([0.3, -0.2, 0.1])
     part = Part("ramp", rate, **{kind: Sensor(kind, {"rate_ramp": {"R": R}}) for kind in KINDS})
     (path,) = build_fmus(part.block, tmp_path, (version,))
-    y = simulate(path, np.zeros((4096, 7)), sample_period=1 / rate)[1:]
+    y = simulate(path, np.zeros((4096, 7)), sample_period=1 / rate)[1:, :6]
     m = octave_clusters(len(y))
     want = np.abs(np.tile(R, 2)) * m[:, None] / rate / np.sqrt(2)
     np.testing.assert_allclose(overlapping_deviation(y, m), want, rtol=1e-9)

@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN "{72d06c89-9d30-e37e-3c25-a5020ba1ef45}"
+#define MODEL_TOKEN "{f8260592-aac1-87de-da36-730e7c66c875}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN "{a4adfd6e-b666-796f-b39b-67efbf277533}"
+#define MODEL_TOKEN "{1ada6d62-3e59-a2d2-e08a-d3b5077998ed}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "ImuSensor"
-#define MODEL_TOKEN "{fa5547fb-5d19-588e-bd0b-e4a68180db39}"
+#define MODEL_TOKEN "{3cc2f2d7-d5bf-1df9-a2fe-36143c0f22a5}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

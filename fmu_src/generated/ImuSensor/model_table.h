@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "ImuSensor"
-#define MODEL_TOKEN "{0480d00e-37c7-c481-5d75-5328afd8ba13}"
+#define MODEL_TOKEN "{5c6a7a90-6434-7ca0-2ee5-5454dc07ea28}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "RoverDrive"
-#define MODEL_TOKEN "{3a7c9d37-f78d-8bf5-b8c3-3b88b5d19e8b}"
+#define MODEL_TOKEN "{cf573bd5-e853-7421-305b-a5b872cf488a}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -22,7 +22,7 @@ enum {
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 5, WORK_RES = 2, WORK_IW = 0, WORK_W = 656 };
+enum { WORK_ARG = 5, WORK_RES = 2, WORK_IW = 0, WORK_W = 629 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };

@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "RoverDrive"
-#define MODEL_TOKEN "{40d2f63e-4fa9-dd88-b7e8-efdc516f489e}"
+#define MODEL_TOKEN "{97394dee-f329-7c19-80c5-dd33ab03aa48}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -22,7 +22,7 @@ enum {
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 5, WORK_RES = 2, WORK_IW = 0, WORK_W = 656 };
+enum { WORK_ARG = 5, WORK_RES = 2, WORK_IW = 0, WORK_W = 629 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };

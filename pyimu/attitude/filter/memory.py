@@ -25,11 +25,15 @@ from pyimu.attitude.filter.velocity import Motion, least_std
 from pyimu.model.signals import SIGNALS
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import pack, unpack
+from pyimu.symbolic.missing import faded
 
 ESTIMATE = 56
 """Numbers of the state that the updates change: q (4), bias (3), the upper triangle of their
 covariance (21), velocity (3), its covariance with them (18) and its own upper triangle (6), and the
 sum in rad of all corrections of yaw by headings."""
+
+FADING = slice(4, 49)
+"""Of these numbers those that may fade on a body that stands: bias, velocity, and covariances."""
 
 REPORTED = 7
 """Numbers by which the updates report: gravity's normalised innovation squared and whether it
@@ -97,8 +101,9 @@ class Memory:
     def pack_memory(self) -> ca.SX:
         """All but the estimate as a column."""
         quasi = (self.quasi.magnitude, self.quasi.variance)
-        mean = (self.mean.force, self.mean.scatter, self.mean.span)
-        motion = (self.motion.across, self.motion.along, self.motion.slow, self.motion.drift)
+        mean = (faded(self.mean.force), faded(self.mean.scatter), self.mean.span)
+        slow, drift = faded(self.motion.slow), faded(self.motion.drift)
+        motion = (self.motion.across, self.motion.along, slow, drift)
         sensors = (self.held, self.lost_for, self.same_for, self.sensors)
         still = self.stillness.pack()
         return ca.densify(

@@ -16,7 +16,7 @@ from pyimu.attitude.filter.gravity_update import (
     white_variance,
 )
 from pyimu.attitude.filter.layout import EVERY, Flags, Layout
-from pyimu.attitude.filter.memory import ESTIMATE, REPORTED, Memory
+from pyimu.attitude.filter.memory import ESTIMATE, FADING, REPORTED, Memory
 from pyimu.attitude.filter.quasi_static import where
 from pyimu.attitude.filter.sample import Sample
 from pyimu.attitude.filter.settings import Settings
@@ -34,6 +34,7 @@ from pyimu.attitude.filter.variables import ABSURD, INPUTS, LEAST_K, LEAST_N, MA
 from pyimu.attitude.filter.velocity import followed, least_std
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import reciprocal
+from pyimu.symbolic.missing import faded
 from pyimu.symbolic.process_noise import process_noise
 
 STATIONARY, HEADING_VALID, SPEED, SPEED_VARIANCE, SPEED_VALID = (
@@ -216,6 +217,7 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
         field,
     )
     working = ca.vertcat(Memory.pack_estimate(x), at.estimate[ESTIMATE - 1], ca.SX.zeros(REPORTED))
+    working[FADING] = faded(working[FADING])
     flags = _flags(at, sample, rest, x, force, field, vertical_noise)
     was = kept.speed_for < HOLD
     flags = flags.with_speed(speed, driven, was + driven - 2 * was * driven)

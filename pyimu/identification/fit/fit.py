@@ -51,6 +51,14 @@ WANDERS_LESS = 0.1
 nothing else stands for makes K 7 to 22 times as large."""
 
 
+LEAST_ROWS = 50
+"""Rows for each column of motion that is taken out of a residual: with fewer, noise would go with
+it."""
+
+MOTION = 0.01
+"""Share of a residual's power beside the motion below which it is nothing but motion."""
+
+
 @dataclass(frozen=True)
 class Fit:
     """A model fitted to trials: values in ``sensor``, per-log states, noise by axis, log-likelihood
@@ -174,9 +182,32 @@ def fit_noise(trials: tuple[Trial, ...], residuals: list[Linear], coloured: bool
     derived = coloured or any(t.reference in DERIVED for t in trials)
     made = {}
     for i in sorted({i for t in trials for i in t.axes}):
-        parts = [(one.residual[:, i], one.time, one.segments) for one in residuals if i in one.keys]
-        made[i] = (Autoregressive if derived else RandomWalk).fit(parts)
+        axis = [(t, one) for t, one in zip(trials, residuals, strict=True) if i in one.keys]
+        if derived:
+            parts = [(_beside_motion(t, one, i), one.time, one.segments) for t, one in axis]
+            made[i] = Autoregressive.fit(parts)
+        else:
+            made[i] = RandomWalk.fit(
+                [(one.residual[:, i], one.time, one.segments) for _, one in axis]
+            )
     return made
+
+
+def _beside_motion(trial: Trial, one: Linear, axis: int) -> np.ndarray:
+    """A residual (m,), without what gains, axes and a delay that are not right yet make of the
+    motion, where it is hardly anything else.
+
+    A motion that repeats is what its past predicts: an autoregression would take that for noise,
+    and whiten the motion away with it. Where there is noise to be seen the residual stays as it is,
+    for the reference's own is in the motion, too.
+    """
+    left, own = one.residual[:, axis], (KINDS[trial.kind].own, KINDS[trial.kind].own_rate)
+    motion = in_band(trial, np.hstack([trial.u[:, COLUMNS[name]] for name in own]))
+    columns = np.column_stack([motion, np.ones(len(motion))])
+    if len(left) < LEAST_ROWS * columns.shape[1]:
+        return left
+    beside = left - columns @ np.linalg.lstsq(columns, left)[0]
+    return beside if beside @ beside < MOTION * (left @ left) else left
 
 
 def initial_state(sensor: Sensor, trial: Trial) -> LogState:

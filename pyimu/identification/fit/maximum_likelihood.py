@@ -14,9 +14,8 @@ from pyimu.identification.fit.fit import (
     stepped,
     with_prior,
 )
-from pyimu.identification.fit.normal import Normal, solve, variances
+from pyimu.identification.fit.normal import Normal, Unit, solve, variances
 from pyimu.identification.fit.reference_noise import equations, has_noise, smoothing
-from pyimu.identification.fit.whiten import RandomWalk
 
 MOST_NOISE = 100.0
 """Power of a reference's noise over that of its motion up to which coefficients are freed of it: an
@@ -55,15 +54,19 @@ def _values(fit: Fit) -> np.ndarray:
     return np.concatenate([fit.sensor.p, *own, np.ravel(clocks)])
 
 
+def wander_is_declared(fitted: Fit) -> bool:
+    """Whether the part declares the random walk of an axis whose noise is fitted."""
+    _, walk = declared_variances(fitted.sensor, fitted.trials[0].h)
+    return any(walk[i] > 0.0 for i, n in fitted.noise.items() if not isinstance(n, Unit))
+
+
 def advantage(larger: Fit, smaller: Fit) -> float:
     """Log-likelihood [nat] of a fitted model over one that lacks some of its coefficients.
 
     Where the part declares its random walk, both are judged by the noise that the larger leaves:
     one fitted to what it explains would take most of it for drift.
     """
-    _, walk = declared_variances(larger.sensor, larger.trials[0].h)
-    known = [n.k2 for i, n in larger.noise.items() if isinstance(n, RandomWalk) and walk[i] > 0.0]
-    if not known or larger.noise == smaller.noise:
+    if not wander_is_declared(larger) or larger.noise == smaller.noise:
         return larger.log_likelihood - smaller.log_likelihood
     other = gauss_newton(replace(smaller, noise=larger.noise), 2)
     if has_noise(other):

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -11,13 +10,10 @@ from pyimu.attitude.calibration import as_values
 from pyimu.identification.estimated import Estimated
 from pyimu.identification.magnetometer.examine import Examined
 from pyimu.identification.magnetometer.fit import BIAS, MATRIX, SHARED
-from pyimu.identification.magnetometer.words import remark
-from pyimu.identification.result import Closed
 from pyimu.model.catalogue import WHITE
 from pyimu.model.kinds import MAGNETOMETER
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
-from pyimu.recording.recording import Recording
 
 
 def with_magnetometer(part: Part, start: Part, seen: Examined | str) -> Part:
@@ -37,32 +33,6 @@ def magnetic(start: Part, after: Part, seen: Examined | str) -> tuple[Estimated,
     if isinstance(seen, str):
         return ()
     return tuple(_entries(start, after.sensor(MAGNETOMETER), seen))
-
-
-def and_magnetometer(closed: Closed, seen: Examined | str, logs: Sequence[Recording]) -> Closed:
-    """The result with what was found of the magnetometer, which has no part in the verdict.
-
-    ``logs`` are those of its entries, in their order.
-    """
-    if isinstance(seen, str):
-        if not seen:
-            return closed
-        reasons = closed.not_examined | {MAGNETOMETER: seen}
-        return replace(closed, remarks=(*closed.remarks, seen), not_examined=reasons)
-    entries = [
-        replace(entry, errors=entry.errors | {MAGNETOMETER: seen.by_log[r.name]})
-        if r.name in seen.by_log
-        else entry
-        for entry, r in zip(closed.recordings, logs, strict=True)
-    ]
-    return replace(
-        closed,
-        remarks=(*closed.remarks, remark(seen)),
-        errors=closed.errors | {MAGNETOMETER: seen.errors},
-        exhibits=closed.exhibits | {MAGNETOMETER: seen.exhibits},
-        recordings=tuple(entries),
-        magnetometer=seen,
-    )
 
 
 def _entries(start: Part, sensor: Sensor, seen: Examined) -> Iterator[Estimated]:

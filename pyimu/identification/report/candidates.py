@@ -9,12 +9,13 @@ from markupsafe import Markup
 
 from pyimu.identification.as_part import SENSORS
 from pyimu.identification.exhibits import Exhibits
+from pyimu.identification.fates import Fate
 from pyimu.identification.found import Visibility
 from pyimu.identification.outcome import Outcome
 from pyimu.identification.report import pictures
 from pyimu.identification.report.words import si_of
 from pyimu.model.catalogue import CATALOGUE
-from pyimu.report.numbers import MISSING, number
+from pyimu.report.numbers import MISSING, joined, number
 from pyimu.report.page import Picture, Table, both, prose
 
 
@@ -29,7 +30,15 @@ def screenings(closed: Outcome) -> list[Picture]:
 
 def fate_table(closed: Outcome) -> Table:
     """What became of each candidate above the gate, and why."""
-    head = ("sensor", "candidate", "first look", "last look", "what became of it", "why")
+    head = (
+        "sensor",
+        "candidate",
+        "first look",
+        "fitted in full",
+        "last look",
+        "what became of it",
+        "why",
+    )
     return Table(
         head,
         [
@@ -37,6 +46,7 @@ def fate_table(closed: Outcome) -> Table:
                 SENSORS[c.sensor],
                 prose(c.effect),
                 _nat(c.gain),
+                _nat(c.fitted),
                 _nat(c.last),
                 c.outcome,
                 prose(c.reason),
@@ -52,6 +62,8 @@ def _nat(gain: float | None) -> str:
 
 def _screening(closed: Outcome, kind: str, e: Exhibits) -> Picture:
     added = [a.effect for a in closed.added if a.sensor == kind]
+    fates = [c for c in closed.candidates if c.sensor == kind]
+    fitted = {c.effect: c.fitted for c in fates if c.fitted is not None}
     caption = (
         f"{SENSORS[kind].capitalize()}: how much each absent effect would explain. "
         "Bars: the first look, before anything was added. "
@@ -62,8 +74,31 @@ def _screening(closed: Outcome, kind: str, e: Exhibits) -> Picture:
             " Diamonds: what remains to be explained after the last addition "
             f"(gate {number(e.last.gate)} nat)."
         )
-    svg = Markup(pictures.screening(e.first, e.last, added))
+    caption += _led(fates, fitted)
+    svg = Markup(pictures.screening(e.first, e.last, added, fitted))
     return Picture(svg, caption, f"gain of each candidate effect of the {SENSORS[kind]}")
+
+
+def _led(fates: list[Fate], fitted: dict[str, float]) -> str:
+    """What the picture shows of candidates that stand above one that was added."""
+    if not fitted:
+        return ""
+    said = (
+        " Dots: what each explains alone once it is fitted in full, which decides; the first look "
+        "takes slopes where the effect is nought and the noise as it was, and only picks the few "
+        "that are worth it."
+    )
+    chosen = [c for c in fates if c.outcome == "added" and c.gain is not None and c.fitted]
+    ahead = [
+        c
+        for c in fates
+        if chosen and c.outcome != "added" and (c.gain or 0.0) > min(a.gain or 0.0 for a in chosen)
+    ]
+    told = [f"{c.effect} {_nat(c.fitted)}" for c in ahead if c.fitted is not None]
+    if told:
+        kept = joined([f"{a.effect} {_nat(a.fitted)}" for a in chosen])
+        said += f" So {joined(told)} against {kept}, though they led at the first look."
+    return said
 
 
 def observability_table(entries: Iterable[Visibility]) -> Table:

@@ -47,6 +47,7 @@ def _contents(closed: Outcome, fmus: tuple[str, ...]) -> dict[str, Any]:
         "verdict": closed.verdict,
         "headline": headline(closed),
         "about": _about(closed),
+        "simulated": closed.simulated,
         "overview": overview_table(closed),
         "overviews": overviews(closed),
         "over_time": over_time(closed),

@@ -5,7 +5,8 @@ Clouds are rasterised, colours are CSS variables: one page serves day and night.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
 import matplotlib
 import numpy as np
@@ -227,8 +228,12 @@ def comb(c: Comb) -> str:
 # Screening
 
 
-def screening(first: Screening, last: Screening, added: Sequence[str]) -> str:
-    """Gain of each candidate at the first look (bars) and at the last (diamonds), with the gate."""
+def screening(
+    first: Screening, last: Screening, added: Sequence[str], fitted: Mapping[str, float]
+) -> str:
+    """Gain of each candidate at the first look (bars), ``fitted`` in full (dots) and at the last
+    look (diamonds), with the gate.
+    """
     rows = sorted(first.candidates, key=lambda c: c.gain)
     remaining = {c.effect: c.gain for c in last.candidates}
     gate = first.gate if np.isfinite(first.gate) else 1.0
@@ -238,7 +243,7 @@ def screening(first: Screening, last: Screening, added: Sequence[str]) -> str:
         for k, c in enumerate(rows):
             colour = AFTER if c.effect in added else BEFORE if c.gain > gate else GREY
             panel.barh(k, max(c.gain, left) - left, left=left, height=0.62, color=colour)
-            clear = max(c.gain, gate, remaining.get(c.effect, 0.0))
+            clear = max(c.gain, gate, remaining.get(c.effect, 0.0), fitted.get(c.effect, 0.0))
             panel.annotate(
                 number(c.gain) if c.gain > left else "nothing",
                 (clear, k),
@@ -249,17 +254,9 @@ def screening(first: Screening, last: Screening, added: Sequence[str]) -> str:
                 fontsize=8.5,
             )
             if c.effect in remaining and last is not first:
-                panel.plot(
-                    max(remaining[c.effect], left),
-                    k,
-                    "D",
-                    ms=4.5,
-                    mfc="none",
-                    mec=INK,
-                    mew=1.0,
-                    clip_on=False,
-                    zorder=5,
-                )
+                _mark(panel, max(remaining[c.effect], left), k, LAST)
+            if c.effect in fitted:
+                _mark(panel, max(fitted[c.effect], left), k, FITTED)
         panel.axvline(gate, color=INK, lw=1.0, ls=(0, (4, 2)))
         panel.set_yticks(range(len(rows)), [c.effect for c in rows])
         panel.set(
@@ -269,11 +266,20 @@ def screening(first: Screening, last: Screening, added: Sequence[str]) -> str:
         )
         plain_logarithm(panel.xaxis)
         panel.grid(axis="y", visible=False)
-        _screening_legend(figure, panel, last is not first)
+        _screening_legend(figure, panel, last is not first, bool(fitted))
         return svg_of(figure)
 
 
-def _screening_legend(figure: Figure, panel: Axes, looked_again: bool) -> None:
+LAST: dict[str, Any] = {"marker": "D", "ms": 4.5, "mfc": "none", "mec": INK, "mew": 1.0}
+FITTED: dict[str, Any] = {"marker": "o", "ms": 5.5, "mfc": INK, "mec": "white", "mew": 0.8}
+"""Marks of the last look and of a candidate fitted in full."""
+
+
+def _mark(panel: Axes, x: float, y: int, style: dict[str, Any]) -> None:
+    panel.plot(x, y, ls="", clip_on=False, zorder=5, **style)
+
+
+def _screening_legend(figure: Figure, panel: Axes, looked_again: bool, fitted: bool) -> None:
     for colour, label in (
         (AFTER, "added"),
         (BEFORE, "above the gate, not added"),
@@ -281,8 +287,10 @@ def _screening_legend(figure: Figure, panel: Axes, looked_again: bool) -> None:
     ):
         panel.bar(0, 0, color=colour, label=label)
     panel.plot([], [], color=INK, lw=1.0, ls=(0, (4, 2)), label="gate (1 % by chance)")
+    if fitted:
+        panel.plot([], [], ls="", label="fitted in full", **FITTED)
     if looked_again:
-        panel.plot([], [], "D", ms=4.5, mfc="none", mec=INK, label="at the last look")
+        panel.plot([], [], ls="", label="at the last look", **LAST)
     legend(figure, panel, 3)
 
 

@@ -26,7 +26,8 @@ MOST_CANDIDATES = 8
 
 def in_lines(closed: Outcome) -> str:
     """The findings in lines of text: verdict, what was found, the model, the error."""
-    lines = [f"verdict: {closed.verdict}" + (f" ({closed.reason})" if closed.reason else "")]
+    lines = [*closed.simulated.lines, ""] if closed.simulated else []
+    lines += [f"verdict: {closed.verdict}" + (f" ({closed.reason})" if closed.reason else "")]
     lines += [f"  {text}" for text in (*closed.remarks, *_found(closed))]
     for kind in SENSORS:
         table = [(r.name, r.unit, *r.cells, r.origin) for r in rows(closed, kind)]

@@ -11,9 +11,14 @@ from functools import reduce
 import numpy as np
 
 from pyimu.identification.fit.fit import Fit
-from pyimu.identification.fit.maximum_likelihood import advantage, fit_and_normal
+from pyimu.identification.fit.maximum_likelihood import (
+    advantage,
+    fit_and_normal,
+    wander_is_declared,
+)
 from pyimu.identification.fit.normal import Normal
 from pyimu.identification.fit.reduction import STRUCTURE
+from pyimu.identification.fit.whiten import Autoregressive
 from pyimu.identification.search.candidates import Group, equivalent, with_start
 from pyimu.identification.search.ceiling import (
     at_samples,
@@ -52,12 +57,14 @@ anew reorders, but not so far."""
 class Refined:
     """A candidate fitted in full.
 
-    ``gain`` [nat] over the model without it, corrected for scatter and penalised.
+    ``gain`` [nat] over the model without it, corrected for scatter and penalised; ``explained`` the
+    same as it stands.
     """
 
     screened: Screened
     fit: Fit
     gain: float
+    explained: float
     dispersion: float
     normal: Normal
 
@@ -101,6 +108,11 @@ class Tried:
         self.usual = seen
         return seen, slow
 
+    @property
+    def gains(self) -> tuple[tuple[str, float], ...]:
+        """What each candidate that was fitted in full explains [nat], by its name."""
+        return tuple((name, max(float(r.gain), 0.0)) for name, r in self.refined.items())
+
     def refine(self, c: Screened) -> Refined:
         if c.effect not in self.refined:
             self.refined[c.effect] = refine(self.current, c)
@@ -113,7 +125,8 @@ def chosen_of(
     """The candidate that explains most once fitted in full, and the names of those that explain as
     much.
     """
-    worth = [c for c in options[:MOST_REFINED] if c.gain > LEAST_SHARE * options[0].gain]
+    share = 0.0 if _takes_it_for_noise(tried.current) else LEAST_SHARE
+    worth = [c for c in options[:MOST_REFINED] if c.gain > share * options[0].gain]
     refined = sorted(map(tried.refine, worth), key=lambda r: -r.gain)
     refined = [r for r in refined if r.gain > gate]
     if not refined:
@@ -162,12 +175,22 @@ def _ahead(one: Refined, other: Refined) -> float:
     """Log-likelihood [nat] by which one candidate explains more than another, penalised.
 
     Both are corrected for the larger scatter: by each its own, what they explain together would
-    decide.
+    decide. The noise of a derived reference may be of any colour, and takes what a model leaves for
+    its own, so that the likelihood hardly falls: there each is judged by what it explains.
     """
     more = len(keys_of(one.screened)) - len(keys_of(other.screened))
-    apart = one.fit.log_likelihood - other.fit.log_likelihood
+    if _takes_it_for_noise(one.fit) and _takes_it_for_noise(other.fit):
+        apart = one.explained - other.explained
+    else:
+        apart = one.fit.log_likelihood - other.fit.log_likelihood
     toll = one.screened.toll - other.screened.toll
     return apart / max(one.dispersion, other.dispersion) - PENALTY * more - toll
+
+
+def _takes_it_for_noise(fitted: Fit) -> bool:
+    """True where noise of any colour is fitted though the part says how much the sensor wanders."""
+    coloured = any(isinstance(n, Autoregressive) for n in fitted.noise.values())
+    return coloured and wander_is_declared(fitted)
 
 
 def refine(current: Fit, c: Screened) -> Refined:
@@ -189,8 +212,9 @@ def refine(current: Fit, c: Screened) -> Refined:
     fitted = at_samples(fitted) if is_ceiling(sensor, c.effect) else fitted
     fitted = at_threshold(fitted) if is_threshold(sensor, c.effect) else fitted
     fitted = at_instants(fitted, c.effect)
-    gain = advantage(fitted, current) / spread - PENALTY * len(keys_of(c)) - c.toll
-    return Refined(c, fitted, gain if needed else -np.inf, spread, normal)
+    explained = advantage(fitted, current)
+    gain = explained / spread - PENALTY * len(keys_of(c)) - c.toll
+    return Refined(c, fitted, gain if needed else -np.inf, explained, spread, normal)
 
 
 def _needed(fitted: Fit, normal: Normal, group: Group, declared: bool, scatter: Scatter) -> bool:

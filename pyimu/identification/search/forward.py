@@ -53,6 +53,7 @@ class Step:
 
     ``declared`` says that the effect was in the model already and only its declared values were set
     free, ``as_sampled`` that the samples themselves show it, whatever squares it explains.
+    ``fitted`` are the candidates that were fitted in full beside it, and their gains [nat].
     """
 
     effect: str
@@ -63,6 +64,7 @@ class Step:
     dispersion: float
     declared: bool = False
     as_sampled: bool = False
+    fitted: tuple[tuple[str, float], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -136,6 +138,7 @@ def investigate(
                 names,
                 chosen.dispersion,
                 name in before.sensor.values,
+                fitted=tried.gains,
             )
         )
         after = without_lost(chosen.fit) if is_ceiling(chosen.fit.sensor, name) else chosen.fit

@@ -51,7 +51,7 @@ def drawn(rows: int, height: float, draw: Callable[[list[Axes]], None], a: Outco
         figure, panels = new_figure(WIDTH, 0.7 + height * rows, rows)
         draw(panels)
         panels[-1].set_xlabel(f"time [{unit_of_time(a.duration)[1]}]")
-        legend(figure, panels[0], 4)
+        legend(figure, panels[0], 5)
         return svg_of(figure)
 
 

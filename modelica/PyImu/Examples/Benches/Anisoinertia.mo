@@ -1,0 +1,17 @@
+// Written by `make generate` from the definitions in pyimu; do not edit.
+within PyImu.Examples.Benches;
+model Anisoinertia "Anisoinertia, product of the cross-axis rates alone"
+  extends Modelica.Icons.Example;
+  PyImu.Effects.Anisoinertia.Gyro effect(samplePeriod=0.01, c={0.0009167324722093171,
+    -0.0009167324722093171, 0.0009167324722093171});
+  PyImu.Examples.Excitation motion(samplePeriod=0.01, n=3, shift=0, amplitude=fill(1, 3),
+    offset={0, 0, 0});
+equation
+  connect(motion.y, effect.x);
+  annotation(
+    experiment(StopTime=0.4, Interval=0.01),
+    Documentation(info="<html>
+<p>The effect alone, at a size that a consumer's part has, with inputs of both signs that change at
+each sample. What stands for the normals is no noise.</p>
+</html>"));
+end Anisoinertia;

@@ -1,0 +1,18 @@
+// Written by `make generate` from the definitions in pyimu; do not edit.
+within PyImu.Examples.Benches;
+model CrossAxisNonlinearity "Cross-axis nonlinearity, second order alone"
+  extends Modelica.Icons.Example;
+  PyImu.Effects.CrossAxisNonlinearity.Accel effect(samplePeriod=0.01, k={{0,
+    0.0005098581064889642, 0.0005098581064889642}, {0.0005098581064889642, 0,
+    0.0005098581064889642}, {0.0005098581064889642, 0.0005098581064889642, 0}}, kx={0, 0, 0});
+  PyImu.Examples.Excitation motion(samplePeriod=0.01, n=3, shift=0, amplitude=fill(10, 3),
+    offset={0, 0, 9.80665});
+equation
+  connect(motion.y, effect.x);
+  annotation(
+    experiment(StopTime=0.4, Interval=0.01),
+    Documentation(info="<html>
+<p>The effect alone, at a size that a consumer's part has, with inputs of both signs that change at
+each sample. What stands for the normals is no noise.</p>
+</html>"));
+end CrossAxisNonlinearity;

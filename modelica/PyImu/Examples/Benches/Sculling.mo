@@ -1,0 +1,25 @@
+// Written by `make generate` from the definitions in pyimu; do not edit.
+within PyImu.Examples.Benches;
+model Sculling "Sculling from undersampling alone"
+  extends Modelica.Icons.Example;
+  PyImu.Effects.Sculling.Accel effect(samplePeriod=0.01, c=1);
+  PyImu.Examples.Excitation motion(samplePeriod=0.01, n=3, shift=0, amplitude=fill(10, 3),
+    offset={0, 0, 9.80665});
+  PyImu.Examples.Excitation source1(samplePeriod=0.01, n=3, shift=1, amplitude=fill(1, 3),
+    offset={0, 0, 0});
+  PyImu.Examples.Excitation source2(samplePeriod=0.01, n=3, shift=2, amplitude=fill(2, 3),
+    offset={0, 0, 0});
+  PyImu.Examples.Excitation source3(samplePeriod=0.01, n=3, shift=3, amplitude=fill(50, 3),
+    offset={0, 0, 0});
+equation
+  connect(motion.y, effect.x);
+  connect(source1.y, effect.rate);
+  connect(source2.y, effect.acceleration);
+  connect(source3.y, effect.jerk);
+  annotation(
+    experiment(StopTime=0.4, Interval=0.01),
+    Documentation(info="<html>
+<p>The effect alone, at a size that a consumer's part has, with inputs of both signs that change at
+each sample. What stands for the normals is no noise.</p>
+</html>"));
+end Sculling;

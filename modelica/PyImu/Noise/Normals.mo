@@ -1,0 +1,25 @@
+within PyImu.Noise;
+block Normals "Standard normals of several channels, new ones at each sample"
+  extends PyImu.Interfaces.Sampled;
+  replaceable function draw = PyImu.Noise.drawNormals
+    constrainedby PyImu.Interfaces.NormalsFunction "What draws them" annotation(choicesAllMatching=true);
+  parameter Integer n = 3 "Number of channels";
+  parameter Real channel[n] "Number of each channel: the CRC-32 of the variable's name";
+  parameter Real seed(min=0) "Whole number, not negative";
+  parameter Real table[:, n] = fill(0, 0, n)
+    "Rows that stand for the drawn ones, one a sample, where there are any";
+  Modelica.Blocks.Interfaces.RealOutput y[n] "Standard normals"
+    annotation(Placement(transformation(extent={{100,-10},{120,10}})));
+protected
+  discrete Real k(start=0, fixed=true) "Number of the sample";
+equation
+  assert(seed >= 0 and seed <= floor(seed), "seed must be a whole number, not negative");
+  when sample(samplePeriod, samplePeriod) then
+    k = pre(k) + 1;
+    y = if size(table, 1) > 0 then tableRow(table, k) else draw(seed, channel, k);
+  end when;
+  annotation(Documentation(info="<html>
+<p>Sample k of a channel is a function of seed, channel and k alone. Redeclare <code>draw</code> as
+<code>PyImu.Noise.drawNormalsC</code> where the tool compiles C, or give a table.</p>
+</html>"));
+end Normals;

@@ -1,0 +1,10 @@
+within PyImu.Noise;
+block WhiteNoise "White noise of three axes: angle or velocity random walk"
+  extends PyImu.Interfaces.NoiseSource(final count=3);
+  parameter Real N[3](each min=0) = fill(1, 3) "Root of the two-sided density, unit of y times sqrt(s)";
+  PyImu.Effects.AngleRandomWalk.Gyro effect(samplePeriod=samplePeriod, N=N);
+equation
+  effect.x = fill(0, 3);
+  connect(normals.y, effect.w);
+  connect(effect.y, y);
+end WhiteNoise;

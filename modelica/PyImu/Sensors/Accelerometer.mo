@@ -1,0 +1,106 @@
+// Written by `make generate` from the definitions in pyimu; do not edit.
+within PyImu.Sensors;
+block Accelerometer "Accelerometer of a built-in part"
+  extends PyImu.Interfaces.Triad(samplePeriod=partPeriods[part]);
+  parameter PyImu.Sensors.Part part = PyImu.Sensors.Part.Imt30 "Which part"
+    annotation(Evaluate=true);
+  constant Modelica.Units.SI.Time partPeriods[PyImu.Sensors.Part] = {
+    0.001220703125,
+    0.0005,
+    0.00023529411764705883,
+    0.0025,
+    0.0008888888888888889,
+    0.001,
+    0.0010245901639344263,
+    0.002403846153846154,
+    0.002403846153846154,
+    0.001,
+    0.001,
+    0.0005,
+    0.001} "Sample period of each part";
+  Modelica.Blocks.Interfaces.RealOutput y[3](each unit="m/s2") "Output, body axes"
+    annotation(Placement(transformation(extent={{100,-10},{120,10}})));
+  PyImu.Sensors.Parts.Adis16405.Accelerometer adis16405(samplePeriod=samplePeriod, seed=seed)
+    if part == PyImu.Sensors.Part.Adis16405;
+  PyImu.Sensors.Parts.Adis16470.Accelerometer adis16470(samplePeriod=samplePeriod, seed=seed)
+    if part == PyImu.Sensors.Part.Adis16470;
+  PyImu.Sensors.Parts.Adis16495.Accelerometer adis16495(samplePeriod=samplePeriod, seed=seed)
+    if part == PyImu.Sensors.Part.Adis16495;
+  PyImu.Sensors.Parts.Bmi088.Accelerometer bmi088(samplePeriod=samplePeriod, seed=seed)
+    if part == PyImu.Sensors.Part.Bmi088;
+  PyImu.Sensors.Parts.Icm20948.Accelerometer icm20948(samplePeriod=samplePeriod, seed=seed)
+    if part == PyImu.Sensors.Part.Icm20948;
+  PyImu.Sensors.Parts.Icm42688.Accelerometer icm42688(samplePeriod=samplePeriod, seed=seed)
+    if part == PyImu.Sensors.Part.Icm42688;
+  PyImu.Sensors.Parts.Imt30.Accelerometer imt30(samplePeriod=samplePeriod, seed=seed)
+    if part == PyImu.Sensors.Part.Imt30;
+  PyImu.Sensors.Parts.Lsm6dsl.Accelerometer lsm6dsl(samplePeriod=samplePeriod, seed=seed)
+    if part == PyImu.Sensors.Part.Lsm6dsl;
+  PyImu.Sensors.Parts.Lsm6dso.Accelerometer lsm6dso(samplePeriod=samplePeriod, seed=seed)
+    if part == PyImu.Sensors.Part.Lsm6dso;
+  PyImu.Sensors.Parts.Mpu6050.Accelerometer mpu6050(samplePeriod=samplePeriod, seed=seed)
+    if part == PyImu.Sensors.Part.Mpu6050;
+  PyImu.Sensors.Parts.Mpu9250.Accelerometer mpu9250(samplePeriod=samplePeriod, seed=seed)
+    if part == PyImu.Sensors.Part.Mpu9250;
+  PyImu.Sensors.Parts.Mti300.Accelerometer mti300(samplePeriod=samplePeriod, seed=seed)
+    if part == PyImu.Sensors.Part.Mti300;
+  PyImu.Sensors.Parts.Stim300.Accelerometer stim300(samplePeriod=samplePeriod, seed=seed)
+    if part == PyImu.Sensors.Part.Stim300;
+equation
+  connect(rate, adis16405.rate);
+  connect(specificForce, adis16405.specificForce);
+  connect(temperature, adis16405.temperature);
+  connect(adis16405.y, y);
+  connect(rate, adis16470.rate);
+  connect(specificForce, adis16470.specificForce);
+  connect(temperature, adis16470.temperature);
+  connect(adis16470.y, y);
+  connect(rate, adis16495.rate);
+  connect(specificForce, adis16495.specificForce);
+  connect(temperature, adis16495.temperature);
+  connect(adis16495.y, y);
+  connect(rate, bmi088.rate);
+  connect(specificForce, bmi088.specificForce);
+  connect(temperature, bmi088.temperature);
+  connect(bmi088.y, y);
+  connect(rate, icm20948.rate);
+  connect(specificForce, icm20948.specificForce);
+  connect(temperature, icm20948.temperature);
+  connect(icm20948.y, y);
+  connect(rate, icm42688.rate);
+  connect(specificForce, icm42688.specificForce);
+  connect(temperature, icm42688.temperature);
+  connect(icm42688.y, y);
+  connect(rate, imt30.rate);
+  connect(specificForce, imt30.specificForce);
+  connect(temperature, imt30.temperature);
+  connect(imt30.y, y);
+  connect(rate, lsm6dsl.rate);
+  connect(specificForce, lsm6dsl.specificForce);
+  connect(temperature, lsm6dsl.temperature);
+  connect(lsm6dsl.y, y);
+  connect(rate, lsm6dso.rate);
+  connect(specificForce, lsm6dso.specificForce);
+  connect(temperature, lsm6dso.temperature);
+  connect(lsm6dso.y, y);
+  connect(rate, mpu6050.rate);
+  connect(specificForce, mpu6050.specificForce);
+  connect(temperature, mpu6050.temperature);
+  connect(mpu6050.y, y);
+  connect(rate, mpu9250.rate);
+  connect(specificForce, mpu9250.specificForce);
+  connect(temperature, mpu9250.temperature);
+  connect(mpu9250.y, y);
+  connect(rate, mti300.rate);
+  connect(specificForce, mti300.specificForce);
+  connect(temperature, mti300.temperature);
+  connect(mti300.y, y);
+  connect(rate, stim300.rate);
+  connect(specificForce, stim300.specificForce);
+  connect(temperature, stim300.temperature);
+  connect(stim300.y, y);
+  annotation(Documentation(info="<html>
+<p>One of the built-in parts, chosen by <code>part</code>, with its own effects and no others. The
+sample period is the part's own unless another is given.</p>
+</html>"));
+end Accelerometer;

@@ -1,0 +1,14 @@
+within PyImu.Thermal;
+block Heating "Temperature of a part in surroundings of another, with its own heat"
+  extends PyImu.Icons.Sensor;
+  parameter Modelica.Units.SI.Time tau(min=1e-3) = 500 "Time constant";
+  parameter Real rise(unit="K") = 6 "By which the part is warmer in the end";
+  parameter Real start(unit="degC") = 20 "Temperature of the part at power-on";
+  Modelica.Blocks.Interfaces.RealInput ambient(unit="degC", start=20) "Temperature of the surroundings"
+    annotation(Placement(transformation(extent={{-140,-20},{-100,20}})));
+  Modelica.Blocks.Interfaces.RealOutput temperature(unit="degC", start=start, fixed=true) "Temperature of the part"
+    annotation(Placement(transformation(extent={{100,-10},{120,10}})));
+equation
+  assert(tau > 0, "tau must be a positive number of seconds");
+  tau*der(temperature) = ambient + rise - temperature;
+end Heating;

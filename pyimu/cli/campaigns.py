@@ -1,0 +1,116 @@
+"""The command that runs a campaign."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from pyimu.cli.options import Out, progress, radians
+from pyimu.errors import UserError
+
+
+def campaign_command(
+    part: Annotated[str, typer.Argument(help="Built-in part or a TOML file.", show_default=False)],
+    out: Out = Path("out/campaign"),
+    drive: Annotated[
+        str, typer.Option("--drive", help="turn-on-spot, straight, obstacle, ackermann or sol.")
+    ] = "turn-on-spot",
+    runs: Annotated[int, typer.Option("--runs", help="Runs, from number 0 on.")] = 1000,
+    seed: Annotated[int, typer.Option("--seed", help="Begins all draws.")] = 0,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(
+            "--scheduler",
+            metavar="ADDRESS",
+            help="Dask scheduler, as tcp://host:8786; else processes of this machine.",
+        ),
+    ] = None,
+    workers: Annotated[
+        int | None,
+        typer.Option("--workers", help="Processes; 0: this one alone. Else one for each core."),
+    ] = None,
+    specimens: Annotated[
+        bool | None,
+        typer.Option(
+            "--specimens/--no-specimens",
+            help="Each run has a part of its own; else where the part has tolerances.",
+            show_default=False,
+        ),
+    ] = None,
+    faults: Annotated[
+        str,
+        typer.Option(
+            "--faults",
+            help="A run has one of these or none: lost-axis, stuck, saturating, heading-lost, "
+            "heading-wrong, separated by commas.",
+        ),
+    ] = "",
+    sol: Annotated[
+        bool,
+        typer.Option("--sol", help="Sols without and with a heading once an hour, side by side."),
+    ] = False,
+    heading_every: Annotated[
+        float, typer.Option("--heading-every", help="Seconds between headings; 0: none.")
+    ] = 0.0,
+    heading_std: Annotated[
+        float, typer.Option("--heading-std", help="Degrees, of a heading.")
+    ] = 0.5,
+    rate: Annotated[
+        float | None,
+        typer.Option("--rate", help="Hz of the sensors; else the part's, and 5 for a sol."),
+    ] = None,
+    body: Annotated[
+        str | None,
+        typer.Option("--body", help="Earth, Mars or Moon; else the Earth, and of a sol Mars."),
+    ] = None,
+    terrains: Annotated[int, typer.Option("--terrains", help="Grounds among the runs.")] = 4,
+    number: Annotated[
+        int | None,
+        typer.Option("--run", help="Only this run, with its log and picture; under --out."),
+    ] = None,
+) -> None:
+    """Example: pyimu campaign imt30 --drive turn-on-spot --runs 1000 --out out/campaign
+
+    Many drives of a rover with a part, each with noise, specimen, ground, temperature and fault of
+    its own: how large the errors are, whether the filter is as good as it says, and which parameter
+    drives the error. A run follows from the settings and its number alone; what was broken off goes
+    on where it was.
+    """
+    from pyimu.model.part_file import part as part_of
+    from pyimu.rover.campaign.campaign import run
+    from pyimu.rover.campaign.repeat import repeat
+    from pyimu.rover.campaign.settings import Settings
+    from pyimu.rover.campaign.sol import sols
+
+    if sol and (heading_every or number is not None or drive not in ("turn-on-spot", "sol")):
+        raise UserError("--sol goes without --drive, --heading-every and --run: it sets them")
+    settings = Settings(
+        part_of(part),
+        "sol" if sol else drive,
+        seed=seed,
+        specimens=specimens,
+        faults=tuple(name.strip() for name in faults.split(",") if name.strip()),
+        terrains=terrains,
+        rate=rate,
+        body=body,
+        heading_every=heading_every,
+        heading_std=radians("--heading-std", heading_std, 180.0) or 0.0,
+    )
+    if number is not None:
+        with progress(f"run {number}"):
+            folder = repeat(settings, number, out)
+        print(f"log: {folder / 'log.parquet'}, picture: {folder / 'errors.png'}")
+        return
+    with progress("preparing") as say:
+        if sol:
+            both = sols(settings, runs, out, scheduler=scheduler, workers=workers, say=say)
+        else:
+            done = run(settings, runs, out, scheduler=scheduler, workers=workers, say=say)
+    if sol:
+        print(both.report())
+        print(f"reports: {out / 'without-heading'}, {out / 'heading-hourly'}")
+        return
+    print(done.report())
+    print(f"table: {done.folder.runs}, report: {done.folder.page}")

@@ -1,0 +1,1 @@
+"""The report of the heading by several methods: terminal, page, pictures."""

@@ -1,0 +1,5 @@
+{% from "function.mo" import function %}
+within {{ within }};
+{% filter outdented %}
+{{ function(f, documentation) -}}
+{% endfilter %}

@@ -1,0 +1,1 @@
+"""The summary of a campaign: in a terminal, as a page, and as data."""

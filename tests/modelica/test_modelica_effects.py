@@ -1,0 +1,103 @@
+"""The printed effects give the values of their definitions, sample by sample."""
+
+import numpy as np
+import pytest
+from catalogue_cases import CASES, excited, run
+from modelica_cases import LAST_PLACES, simulated, ulps, vector
+
+from pyimu.model.catalogue import CATALOGUE
+from pyimu.model.effects import EFFECTS
+from pyimu.model.kinds import KINDS
+from pyimu.model.signals import COLUMNS, N_INPUT, SIGNALS
+from pyimu.modelica.bench import AMPLITUDES, NORMALS, PERIOD, SAMPLES, bench_text, excite, typical
+from pyimu.modelica.effect_functions import effect_functions, signal_of
+from pyimu.modelica.names import pascal
+
+TRANSCENDENTAL = ("exp(", "log(", "sin(", "cos(", "expm1(")
+"""Functions of which two libraries may give values that differ in the last bit."""
+
+SHARES = {"angle_quantization": 0.005, "hard_dead_zone": 0.15, "saturation": 0.03}
+"""Coefficients in a share of the natural size where the usual one, 0.05, would hide the effect: a
+step of the angle must be less than a sample turns, a limit must lie within the input's range.
+"""
+
+CHANGES = {"bias_step": {"t0": [0.1, 0.15, 0.2, 0.3]}}
+"""Coefficients by which an effect shows itself within a bench's 0.4 s."""
+
+
+def expected(sensor):
+    """Output (n, 3) of the definition to what a bench feeds it."""
+    (e,) = sensor.effects
+    k = np.arange(1, SAMPLES + 1)
+    u = np.zeros((SAMPLES, N_INPUT))
+    own = KINDS[sensor.kind].own
+    shifts = {own: 0}
+    for shift, argument in enumerate(e.environment, 1):
+        shifts[signal_of(e, argument, sensor.kind)] = shift
+    for name, shift in shifts.items():
+        start = np.array(SIGNALS[name].start)
+        u[:, COLUMNS[name]] = (
+            k[:, None] * PERIOD if name == "time" else excite(k, start, AMPLITUDES[name], shift)
+        )
+    n = len(sensor.noise)
+    w = excite(k, np.zeros(n), NORMALS, 7) if n else None
+    return run(sensor, u, w=w, h=PERIOD)
+
+
+def own_sensor(name, kind):
+    """Each coefficient with another value, matrices without symmetry."""
+    sensor = excited(name, kind, SHARES.get(name, 0.05))
+    return sensor.with_values(name, **CHANGES.get(name, {}))
+
+
+@pytest.fixture(scope="module")
+def own_rows():
+    """Of the bench of each sensor with its own coefficients; all in one model, as compiling the
+    library takes longer than running it.
+    """
+    benches = {f"{pascal(n)}Of{pascal(k)}": own_sensor(n, k) for n, k in CASES}
+    texts = [bench_text(sensor, bench, within="") for bench, sensor in benches.items()]
+    classes = [text[text.index("model ") :] for text in texts]
+    parts = [f"{bench} b{i};" for i, bench in enumerate(benches)]
+    text = "\n".join(["model All", *classes, *parts, "end All;"])
+    rows = simulated("All", SAMPLES * PERIOD, PERIOD, text)
+    return {case: of(rows, f"b{i}") for i, case in enumerate(CASES)}
+
+
+@pytest.fixture(scope="module")
+def library_rows():
+    """Of each bench of the library, all in one model, too."""
+    parts = [f"PyImu.Examples.Benches.{pascal(e.name)} b{i};" for i, e in enumerate(EFFECTS)]
+    rows = simulated("All", SAMPLES * PERIOD, PERIOD, "\n".join(["model All", *parts, "end All;"]))
+    return {e.name: of(rows, f"b{i}") for i, e in enumerate(EFFECTS)}
+
+
+def of(rows, block):
+    """Input and output (n, 3) of the effect in one bench."""
+    return tuple(vector(rows, f"{block}.effect.{name}")[1:] for name in "xy")
+
+
+@pytest.mark.parametrize(("name", "kind"), CASES)
+def test_effect_gives_the_values_of_its_definition(name, kind, own_rows):
+    """And is not idle in its bench."""
+    (x, got), want = own_rows[name, kind], expected(own_sensor(name, kind))
+    assert np.all(np.any(want != x, axis=0))
+    printed = effect_functions(CATALOGUE[name]).all
+    text = "".join(line for f in printed for line in f.lines)
+    if any(word in text for word in TRANSCENDENTAL):
+        assert ulps(got, want, x) <= LAST_PLACES
+    else:
+        np.testing.assert_array_equal(got, want)
+
+
+@pytest.mark.parametrize("e", EFFECTS, ids=lambda e: e.name)
+def test_bench_of_the_library_runs(e, library_rows):
+    (x, got), want = library_rows[e.name], expected(typical(e, e.sensors[0]))
+    assert ulps(got, want, x) <= LAST_PLACES
+
+
+def test_a_bench_compiles_alone():
+    rows = simulated("PyImu.Examples.Benches.GaussMarkov", SAMPLES * PERIOD, PERIOD)
+    (e,) = [e for e in EFFECTS if e.name == "gauss_markov"]
+    want = expected(typical(e, "gyro"))
+    assert ulps(vector(rows, "effect.y")[1:], want, vector(rows, "effect.x")[1:]) <= LAST_PLACES
