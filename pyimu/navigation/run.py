@@ -94,7 +94,7 @@ def run(
         {"zupt": float(zupt != "off"), "zaru": float(zupt != "off")} | dict(settings or {}),
     )
     reference = reference_of(recording)
-    found, start = job.started(heading0, reference)
+    found, start, heading_from = job.started(heading0, reference)
     tracks = _tracks(wanted, job, found, start, findings, say)
     return NavigationResult(
         recording.name,
@@ -110,6 +110,7 @@ def run(
         nhc=nhc,
         zupt=zupt,
         heading0=start,
+        heading_from=heading_from,
         gains=len(job.layout.gains),
     )
 
@@ -189,28 +190,30 @@ class _Job:
 
     def started(
         self, heading0: float | None, reference: Reference | None
-    ) -> tuple[Filtered, float]:
-        """The filter's estimates and the heading with which they begin."""
-        start = _heading(self.recording, heading0)
+    ) -> tuple[Filtered, float, str]:
+        """The filter's estimates, the heading with which they begin, and by what it is known."""
+        start, source = _heading(self.recording, heading0)
         if start is not None:
-            return self.filtered(start), start
+            return self.filtered(start), start, source
         found = self.filtered(0.0)
         course = None if reference is None else _course(reference, found.track("filter"))
-        return (found, 0.0) if course is None else (self.filtered(course), course)
+        if course is None:
+            return found, 0.0, "nothing: it is called 0"
+        return self.filtered(course), course, f"the course of the reference's first {COURSE:g} m"
 
 
-def _heading(recording: Recording, heading0: float | None) -> float | None:
-    """rad; what is told of the heading at the start, None where nothing is."""
+def _heading(recording: Recording, heading0: float | None) -> tuple[float | None, str]:
+    """rad; what is told of the heading at the start, None where nothing is, and by what."""
     if heading0 is not None:
-        return number("heading0", heading0)
+        return number("heading0", heading0), "what was given"
     for name in ("heading", "ref_heading"):
         values = getattr(recording, name)
         if values is not None and np.isfinite(values[0]):
-            return float(values[0])
+            return float(values[0]), f"the log's column {name}"
     if recording.ref_q is not None and np.isfinite(recording.ref_q[0]).all():
         w, x, y, z = recording.ref_q[0]
-        return float(np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)))
-    return None
+        return float(np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))), "the log's ref_q"
+    return None, ""
 
 
 def _course(reference: Reference, track: Track) -> float | None:

@@ -28,6 +28,7 @@ def about(a: Outcome) -> str:
     part = f"part {a.part}" if a.part else "noise of the log's own rest"
     more = f", {a.gains} scale factors and misalignments estimated" if a.gains else ""
     constraint = ", vehicle's constraint" if a.nhc else ""
+    constraint += f"; heading at the start by {a.heading_from}" if a.heading_from else ""
     return (
         f"{len(a.time):,} samples, {quantity(a.duration, 's')} at "
         f"{a.recording.sample_rate:.4g} Hz, {part}{more}{constraint}"
