@@ -1,6 +1,7 @@
 from . import attitude as attitude
 from . import fmu as fmu
 from . import heading as heading
+from . import navigation as navigation
 from . import shaping as shaping
 from . import symbolic as symbolic
 from .attitude.result import AttitudeResult as AttitudeResult
@@ -30,6 +31,7 @@ from .model.part_file import part_names as part_names
 from .model.part_file import save_part as save_part
 from .model.sensor import Sensor as Sensor
 from .model.simulate import simulate as simulate
+from .navigation.result import NavigationResult as NavigationResult
 from .recording.log import Log as Log
 from .recording.log import open_log as open_log
 from .recording.log import read_recording as read_recording

@@ -15,6 +15,7 @@ LATE = {
     "pyimu.cli.heading",
     "pyimu.cli.logs",
     "pyimu.cli.models",
+    "pyimu.cli.navigation",
     "pyimu.cli.options",
     "pyimu.block.block",
 }

@@ -20,6 +20,7 @@ from pyimu.cli.models import (
     plan_command,
     rover_command,
 )
+from pyimu.cli.navigation import navigate_command
 from pyimu.errors import UserError
 from pyimu.interrupt import Interrupts, ignore_at_exit
 
@@ -106,6 +107,7 @@ _add(
 _add("close", close_command, "Find what a sensor's model lacks to explain measured logs.")
 _add("attitude", attitude_command, "The attitude filter over a log, with its page.")
 _add("heading", heading_command, "Heading of an indoor robot from one gyro, by several methods.")
+_add("navigate", navigate_command, "The path of a robot by its inertial unit alone.")
 _add("plan", plan_command, "The motion that would show an effect of a part, and how well.")
 _add("rover", rover_command, "The paper's four test drives of a rover beside its table 6.")
 _add("build", build, "Build the co-simulation units of a part.")

@@ -104,7 +104,8 @@ def build(
         str,
         typer.Option(
             "--fmu",
-            help="Which, separated by commas: sensor, ukf, hidalgo2012, heading, rover, low-pass.",
+            help="Which, separated by commas: sensor, ukf, hidalgo2012, heading, rover, low-pass, "
+            "ins.",
         ),
     ] = "sensor,ukf",
     fmi: Annotated[

@@ -21,13 +21,14 @@ from pyimu.block.block import Block
 from pyimu.block.compiled import source_folder
 from pyimu.fmu.sources import texts
 from pyimu.model.part_file import part
+from pyimu.navigation.filter.ins_block import strapdown_ins
 from pyimu.plant.low_pass import low_pass
 from pyimu.plant.rover_drive import rover_drive
 
 REFERENCE = "imt30"
 """The built-in part whose blocks are generated."""
 
-UNREADABLE = ("AttitudeUkf/step.c", "RoverDrive/step.c")
+UNREADABLE = ("AttitudeUkf/step.c", "RoverDrive/step.c", "StrapdownIns/step.c")
 """Texts of thousands of lines, without a structure that a reader could follow."""
 
 
@@ -35,7 +36,7 @@ def reference_blocks() -> tuple[Block, ...]:
     """The blocks whose texts are checked in: those of the reference part, and what is around it."""
     found = part(REFERENCE)
     period = found.sample_period
-    filters = attitude_ukf(found), heading_estimator(found)
+    filters = attitude_ukf(found), heading_estimator(found), strapdown_ins(found)
     return found.block, *filters, rover_drive(period), low_pass(period)
 
 

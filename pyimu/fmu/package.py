@@ -14,6 +14,7 @@ from pyimu.fmu.build import FORMS, build_fmus
 from pyimu.fmu.sources import Form
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as find_part
+from pyimu.navigation.filter.ins_block import strapdown_ins
 from pyimu.plant.low_pass import low_pass
 from pyimu.plant.rover_drive import rover_drive
 
@@ -25,6 +26,7 @@ BLOCKS: dict[str, Callable[[Part], Block]] = {
     "heading": heading_estimator,
     "rover": lambda part: rover_drive(part.sample_period),
     "low-pass": lambda part: low_pass(part.sample_period),
+    "ins": strapdown_ins,
 }
 """What ``--fmu`` names. The rover's motion and the low-pass have the sample period of the part."""
 
@@ -39,12 +41,12 @@ def build(
 ) -> list[Path]:
     """Build the FMUs of a part into ``out``; gives their paths.
 
-    ``fmu`` names blocks ("sensor", "ukf", "hidalgo2012", "heading", "rover", "low-pass"), ``fmi``
-    forms (2, 3, "block"), ``platform`` the machine ("host", "all", or one by name). The sensor has
-    every coefficient of the part, and of its tolerances, as parameters; ``specimen`` is the seed of
-    a specimen whose coefficients they start at, which the filters know nothing of. Raises UserError
-    for an unknown name, a part that cannot be read, a specimen of a part without tolerances, a
-    folder that cannot be made, or a missing compiler.
+    ``fmu`` names blocks ("sensor", "ukf", "hidalgo2012", "heading", "rover", "low-pass", "ins"),
+    ``fmi`` forms (2, 3, "block"), ``platform`` the machine ("host", "all", or one by name). The
+    sensor has every coefficient of the part, and of its tolerances, as parameters; ``specimen`` is
+    the seed of a specimen whose coefficients they start at, which the filters know nothing of.
+    Raises UserError for an unknown name, a part that cannot be read, a specimen of a part without
+    tolerances, a folder that cannot be made, or a missing compiler.
     """
     unknown = [f for f in fmu if f not in BLOCKS]
     if unknown:

@@ -1,0 +1,136 @@
+"""How far off the position is, by method and part: ``python benchmarks/navigation.py [runs]``.
+
+A robot drives along a square of 2 m at 0.3 m/s, turns on the spot at 45 deg/s, and stops 3 s before
+and after each turn, 73 s at 100 Hz; its motors shake it by 0.3 m/s^2, its sensor lies askew by a
+degree. Each run is another specimen of ``examples/sparkfun6dof_assumed.toml`` and other noise. The
+filter knows the part and its tolerances ("uncalibrated") or the specimen ("calibrated"). Then the
+same with legs of other lengths, with a tactical part, and the time of a step beside the attitude
+filter's.
+"""
+
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+from statistics import median
+
+import numpy as np
+
+import pyimu
+from pyimu.attitude import attitude_ukf
+from pyimu.navigation import run, strapdown_ins, strapdown_wongwirat
+from pyimu.navigation.filter.ins_block import ins_of_log
+from pyimu.navigation.filter.layout import Layout
+from pyimu.navigation.track import Track, error_of, reference_of
+from pyimu.rover.square import square
+
+PART = Path(__file__).parents[1] / "examples" / "sparkfun6dof_assumed.toml"
+MORE = {"vibration": 0.3, "tilt": (0.0175, 0.01)}
+RUNS = 30
+
+
+def by_paper(log, nulls=None):
+    """The error of the paper's method, with the start attitude level."""
+    path = strapdown_wongwirat(log, nulls=nulls)
+    track = Track("paper", log.time, path.q, path.velocity, path.position)
+    return error_of(track, reference_of(log))
+
+
+def line(name, errors, found=()):
+    ends, rms = [e.end for e in errors], [e.rms for e in errors]
+    text = f"{name:34} {median(ends):9.3g} {np.quantile(ends, 0.95):9.3g} {median(rms):9.3g}"
+    yaws = np.degrees([e.yaw for e in errors])
+    if np.isfinite(yaws).all():
+        text += f" {np.sqrt(np.mean(yaws**2)):8.2f}"
+    if found:
+        first = np.concatenate([r.first_zupts for r in found])
+        zaru = np.mean([r.mean_nis("zaru_nis") for r in found])
+        text += f" {first.mean():6.2f} {zaru:6.2f} {np.mean([nees(r) for r in found]):6.2f}"
+    print(text, flush=True)
+
+
+def nees(r):
+    """Of the last position in the plane, by the filter; 2 is right."""
+    track, e = r.filter.track("filter"), r.errors[next(iter(r.errors))].east_north[-1]
+    std, c = track.position_std[-1], track.correlation[-1]
+    both = c * std[0] * std[1]
+    return e @ np.linalg.solve([[std[0] ** 2, both], [both, std[1] ** 2]], e)
+
+
+def filtered(name, logs, parts, **how):
+    method = how.pop("method", "filter")
+    found = [run(log, p, method=method, **how) for log, p in zip(logs, parts, strict=True)]
+    line(name, [r.errors[method] for r in found], () if method == "strapdown" else found)
+
+
+def main(runs: int) -> None:
+    part, truth = pyimu.part(PART), square(**MORE)
+    ins_of_log(Layout(part)).run(np.tile(ins_of_log(Layout(part)).start_inputs, (60_000, 1)))
+    specimens = [part.specimen(seed) for seed in range(runs)]
+    logs = [s.simulate(truth, seed=seed) for seed, s in enumerate(specimens)]
+    print(f"{runs} runs{'':28}   end, m      95 %  RMS path  yaw deg   NIS   ZARU   NEES")
+    print(f"{'':34}   median                median      RMS  3 is right    2 is right")
+    line("paper, nothing compensated", [by_paper(log) for log in logs])
+    line("paper, nulls of the rest", [by_paper(log, nulls=9.0) for log in logs])
+    filtered("strapdown, nulls, calibrated", logs, specimens, method="strapdown")
+    all_parts = [part] * runs
+    filtered("filter, uncalibrated", logs, all_parts)
+    filtered("filter, uncalibrated, NHC", logs, all_parts, nhc=True)
+    filtered("filter, calibrated", logs, specimens)
+    filtered("filter, calibrated, NHC", logs, specimens, nhc=True)
+    filtered("smoother, calibrated, NHC", logs, specimens, nhc=True, method="smoother")
+    tactical(runs)
+    growth(part, runs)
+    speed()
+
+
+def tactical(runs):
+    """The STIM300 by its data sheet, with its own noise alone."""
+    part = pyimu.part("stim300")
+    rate = 100.0
+    slow = replace(part, sample_rate=rate, tolerances=())
+    truth = square(sample_rate=rate, **MORE)
+    logs = [slow.simulate(truth, seed=seed) for seed in range(min(runs, 12))]
+    filtered("filter, stim300 at 100 Hz", logs, [slow] * len(logs))
+
+
+def growth(part, runs):
+    """The end error by the length of a leg, one leg and one turn."""
+    sides, ends = (1.0, 2.0, 4.0, 8.0), []
+    known = replace(part, tolerances=())
+    for side in sides:
+        truth = square(side, legs=1, **MORE)
+        logs = [known.simulate(truth, seed=seed) for seed in range(runs)]
+        errors = [run(log, known, method="filter").errors["filter"].end for log in logs]
+        ends.append(median(errors))
+        duration = side / 0.3 + 0.5
+        print(f"one leg of {duration:5.1f} s {'':17} {ends[-1]:9.3g}", flush=True)
+    power = np.polyfit(np.log([s / 0.3 + 0.5 for s in sides]), np.log(ends), 1)[0]
+    print(f"grows with the {power:.2f}th power of the time (gyro noise under gravity: 2.5)")
+
+
+def speed():
+    """Microseconds of a step, in motion and at rest, beside the attitude filter's."""
+    part, n = pyimu.part("imt30"), 200_000
+    blocks = {
+        "15 states": ins_of_log(Layout(part)),
+        "17 states (the unit)": strapdown_ins(part),
+        "attitude filter": attitude_ukf(part),
+    }
+    for name, block in blocks.items():
+        u = np.tile(block.start_inputs, (n, 1))
+        block.run(u)
+        times = []
+        for still in (0.0, 1.0):
+            u[:, [v.name for v in block.inputs].index("stationary")] = still
+            rounds = []
+            for _ in range(5):
+                begin = time.perf_counter()
+                block.run(u)
+                rounds.append(time.perf_counter() - begin)
+            times.append(1e6 * median(rounds) / n)
+        print(f"{name:24} {times[0]:6.2f} us a step in motion, {times[1]:6.2f} at rest")
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else RUNS)

@@ -1,0 +1,71 @@
+"""A recording with the errors undone that its part declares, for integration without a filter."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import casadi as ca
+import numpy as np
+
+from pyimu.attitude.columns import extra_column, temperature_of
+from pyimu.block.block import Block, Run
+from pyimu.block.variables import Variable
+from pyimu.model.part import Part
+from pyimu.navigation.filter import prediction
+from pyimu.navigation.filter.layout import Layout, Memory
+from pyimu.recording.recording import Recording
+from pyimu.symbolic import quaternion
+
+
+def compensated(recording: Recording, part: Part) -> Recording:
+    """The recording with gyro and accelerometer as the part's inverse restores them.
+
+    What cannot be restored, beyond the range or of missing samples, is missing (NaN).
+    """
+    layout = Layout(part)
+    block, n = _block(layout), len(recording.time)
+    u = np.zeros((n, len(block.inputs)))
+    u[:, :3], u[:, 3:6] = recording.gyro, recording.accel
+    u[:, 6] = temperature_of(recording, part)
+    at = {v.name: i for i, v in enumerate(block.inputs)}
+    for signal in layout.compensation.extra:
+        column = np.reshape(extra_column(recording, part, signal), (n, -1))
+        for i, values in enumerate(column.T):
+            u[:, at[f"{signal}[{i + 1}]" if column.shape[1] > 1 else signal]] = values
+    y = Run(block, n, sample_period=recording.sample_period).advance(u)
+    lost = [np.where(y[:, i : i + 1] > 0.5, np.nan, 0.0) for i in (6, 7)]
+    cadence = recording.cadence
+    return replace(
+        recording,
+        gyro=y[:, :3] + lost[0],
+        accel=y[:, 3:6] + lost[1],
+        period=cadence.period,
+        longest=cadence.longest,
+    )
+
+
+def _block(layout: Layout) -> Block:
+    """The part's inverse as a block; its state is the filter's memory."""
+    sizes = (sum(layout.memory_sizes), len(layout.inputs), len(layout.parameters), 1)
+    s, u, p, h = (ca.SX.sym(name, size) for name, size in zip("suph", sizes, strict=True))
+    settings = prediction.settings_of(layout, p)
+    memory = Memory.unpack(s, layout)
+    level = quaternion.from_euler(ca.SX(0), ca.SX(0), ca.SX(0))
+    sample = prediction.read(layout, memory, level, u, settings, h)
+    means = memory.mean_rate, memory.mean_force
+    after = prediction.remembered(memory, sample, means, h).pack()
+    y = ca.vertcat(sample.rate, sample.force, sample.gyro_lost, sample.accel_lost)
+    names = tuple(Variable(f"y[{i + 1}]") for i in range(8))
+    start = prediction.empty(layout, settings).pack()
+    ends = (["s", "u", "p", "w", "h"], ["s_next", "y"])
+    return Block(
+        name="Compensated",
+        description=f"the inverse of {layout.part.name}",
+        step=ca.Function("step", [s, u, p, ca.SX(0, 1), h], [after, y], *ends, {"cse": True}),
+        initial=ca.Function("initial", [u, p], [start, ca.SX.zeros(8)], ["u", "p"], ["s", "y"]),
+        inputs=layout.inputs,
+        parameters=layout.parameters,
+        outputs=names,
+        noise=(),
+        sample_period=layout.part.sample_period,
+    )

@@ -1,0 +1,126 @@
+"""When a sensor stands still: tests over a window of samples against the noise of its part.
+
+A generalised likelihood ratio (Skog et al. 2010, Zero-velocity detection, whose SHOE it is) tests a
+rest, with a rate that is the gyro's bias and a force that is one constant vector, against anything
+else. Skog's force has the magnitude of gravity; an accelerometer whose bias is not known does not
+show that magnitude, so only the direction's and the magnitude's changes within the window count.
+Under a rest the sum of squares over the noise is chi-square distributed, which gives the threshold
+of a stated rate of false alarms.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.ndimage import maximum_filter1d, uniform_filter1d
+from scipy.stats import chi2
+
+from pyimu.recording.clock import runs
+
+WINDOW = 0.3
+"""s; of a test. Shorter than a stop, longer than the period of what shakes a small robot."""
+
+FALSE_ALARM = 1e-6
+"""Probability that a window at rest is taken for one in motion, by chance."""
+
+STEADY_GATE = 25.0
+"""Squared difference of mean rate and bias over its variance, beyond which a still window is one of
+a steady turn."""
+
+
+@dataclass(frozen=True)
+class Noise:
+    """Standard deviations (3,) of a sample at rest, ``rate`` in rad/s and ``force`` in m/s^2;
+    ``walk`` (3,) rad/s/sqrt(s) by which the gyro's bias walks; ``bias`` (3,) rad/s at the start.
+    """
+
+    rate: np.ndarray
+    force: np.ndarray
+    walk: np.ndarray
+    bias: np.ndarray
+
+
+def ratio(gyro: np.ndarray, accel: np.ndarray, noise: Noise, rows: int) -> np.ndarray:
+    """Sum of squares (n,) over windows of ``rows`` samples, centred.
+
+    At rest it is chi-square distributed with 6 (rows - 1) degrees of freedom. The mean rate of a
+    window is taken off as its mean force is; ``detect`` looks at it. Windows with missing samples
+    are infinite.
+    """
+    total = np.zeros(len(gyro))
+    for values, std in ((gyro, noise.rate), (accel, noise.force)):
+        for column, size in zip(values.T, std, strict=True):
+            total += variance(column / size, rows) * rows
+    return total
+
+
+def variance(column: np.ndarray, rows: int) -> np.ndarray:
+    """Moving variance (n,) over centred windows, infinite where a sample is missing or the window
+    leaves the log.
+    """
+    known = np.isfinite(column)
+    middle = np.median(column[known]) if known.any() else 0.0
+    filled = np.where(known, column - middle, 0.0)
+    mean = uniform_filter1d(filled, rows, mode="nearest")
+    square = uniform_filter1d(filled**2, rows, mode="nearest")
+    out = np.maximum(square - mean**2, 0.0)
+    holes = uniform_filter1d((~known).astype(float), rows, mode="nearest") > 0.5 / rows
+    out[holes] = np.inf
+    return out
+
+
+def magnitude(accel: np.ndarray, noise: Noise, gravity: float, rows: int) -> np.ndarray:
+    """Mean square (n,) over windows of the force's magnitude less gravity, over its noise: the
+    acceleration-magnitude detector of the same paper.
+    """
+    off = (np.linalg.norm(accel, axis=1) - gravity) / np.sqrt(np.mean(noise.force**2))
+    return uniform_filter1d(off**2, rows, mode="nearest") * rows
+
+
+def threshold(rows: int, false_alarm: float = FALSE_ALARM) -> float:
+    """That of ``ratio``."""
+    return float(chi2.isf(false_alarm, 6 * (rows - 1)))
+
+
+@dataclass(frozen=True)
+class Detected:
+    """Marks (n,) of rest, how many windows passed, and the turns (start, stop) that were steady."""
+
+    still: np.ndarray
+    windows: float
+    steady: tuple[tuple[int, int], ...]
+
+
+def detect(
+    time: np.ndarray,
+    gyro: np.ndarray,
+    accel: np.ndarray,
+    noise: Noise,
+    period: float,
+    window: float = WINDOW,
+    false_alarm: float = FALSE_ALARM,
+) -> Detected:
+    """Where the sensor rests: samples all of whose windows pass, so that the ends of a rest are
+    left out, in which a motion begins while it is still lost in noise.
+
+    The mean rate of a rest must be the bias, as known from the rests before it and the walk since:
+    a steady turn is none. The bias of the first is ``noise.bias``.
+    """
+    rows = max(2, round(window / period))
+    passed = ratio(gyro, accel, noise, rows) <= threshold(rows, false_alarm)
+    still = ~maximum_filter1d(~passed, rows, mode="nearest")
+    bias, at = noise.bias, float(time[0])
+    variance_of_bias = noise.rate**2 / rows
+    steady = []
+    for start, stop in runs(still):
+        mean = np.nanmean(gyro[start:stop], axis=0)
+        own = noise.rate**2 / (stop - start)
+        away = max(float(time[start]) - at, 0.0)
+        spread = own + variance_of_bias + noise.walk**2 * away
+        if np.sum((mean - bias) ** 2 / spread) > STEADY_GATE + 3:
+            still[start:stop] = False
+            steady.append((start, stop))
+        else:
+            bias, at, variance_of_bias = mean, float(time[stop - 1]), own
+    return Detected(still, float(np.mean(passed)), tuple(steady))

@@ -1,0 +1,258 @@
+"""The filter of a part as the block ``StrapdownIns``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import lru_cache
+
+import casadi as ca
+
+from pyimu.attitude.filter.filter_block import left_in_words
+from pyimu.attitude.filter.updates import where
+from pyimu.block.block import Block
+from pyimu.block.variables import Variable
+from pyimu.model.part import Part
+from pyimu.navigation.filter import prediction, updates
+from pyimu.navigation.filter.layout import (
+    ACCEL_BIAS,
+    BASE,
+    GYRO_BIAS,
+    VELOCITY,
+    Layout,
+    Memory,
+    State,
+)
+from pyimu.navigation.filter.variables import (
+    OUTPUTS,
+    POSITION,
+    POSITION_VALID,
+    POSITION_VARIANCE,
+    SPEED,
+    SPEED_VALID,
+    SPEED_VARIANCE,
+    STATIONARY,
+)
+from pyimu.symbolic import quaternion
+
+OPTIONS = {"cse": True}
+
+KINDS = ("zupt", "zaru", "nhc", "position")
+"""Updates whose normalised innovations squared are kept, in the order of the outputs."""
+
+BITS = (2, 4, 8, 16)
+"""Those of the status that say that one of them was weighed down."""
+
+FREEDOM = (3, 3, 2, 3)
+
+REPORT = len(KINDS)
+"""What goes with the estimate through the updates of a sample: their normalised innovations."""
+
+
+def strapdown_ins(part: Part, nhc: bool = True) -> Block:
+    """The block ``StrapdownIns`` of a part; with ``nhc`` it can take a vehicle's constraint, which
+    then is the parameter of that name, at first off.
+
+    Attitude, velocity and position from gyro and accelerometer by strapdown integration, corrected
+    at rests (zero-velocity and zero-angular-rate updates), by a vehicle's wheels, and by a measured
+    speed or position; 15 errors are estimated, and the scale factors and misalignments that the
+    part leaves open.
+    """
+    return _block(Layout(part, nhc), recorded=False, constrained=False)
+
+
+@lru_cache(maxsize=8)
+def ins_of_log(layout: Layout, recorded: bool = False) -> Block:
+    """The block that runs over a log; where it is ``recorded``, with what a smoother needs."""
+    return _block(layout, recorded, constrained=layout.nhc)
+
+
+def _block(layout: Layout, recorded: bool, constrained: bool) -> Block:
+    part = layout.part
+    parameters = tuple(
+        v if v.name != "nhc" or constrained else _started(v, 0.0) for v in layout.parameters
+    )
+    p = ca.SX.sym("p", len(parameters))
+    u = ca.SX.sym("u", len(layout.inputs))
+    settings = prediction.settings_of(layout, p)
+    start = prediction.zero(layout, settings)
+    state = ca.vertcat(layout.pack(start), prediction.empty(layout, settings).pack())
+    names = (*OUTPUTS, *_recorded_names(layout)) if recorded else OUTPUTS
+    shown = _outputs(start, ca.SX.zeros(REPORT), ca.SX(0))
+    shown = ca.vertcat(shown, ca.SX.zeros(len(names) - len(OUTPUTS)))
+    return Block(
+        name="StrapdownIns",
+        description=(
+            "Attitude, velocity and position by strapdown integration, with zero-velocity and "
+            f"zero-angular-rate updates, for the part {part.name}{left_in_words(part)}"
+        ),
+        step=_step(layout, recorded),
+        initial=ca.Function("initial", [u, p], [state, shown], ["u", "p"], ["s", "y"]),
+        inputs=layout.inputs,
+        parameters=parameters,
+        outputs=names,
+        noise=(),
+        sample_period=1.0 / part.sample_rate,
+    )
+
+
+def _started(v: Variable, start: float) -> Variable:
+    return replace(v, start=start)
+
+
+def _recorded_names(layout: Layout) -> tuple[Variable, ...]:
+    n = layout.errors
+    sizes = {"before": layout.packed - layout.nominal, "after": layout.packed, "moved": n}
+    sizes |= {"transition": n * n}
+    return tuple(Variable(f"{name}[{i + 1}]") for name, size in sizes.items() for i in range(size))
+
+
+def _step(layout: Layout, recorded: bool) -> ca.Function:
+    sizes = {"s": layout.state, "u": len(layout.inputs), "p": len(layout.parameters), "h": 1}
+    s, u, p, h = (ca.MX.sym(name, size) for name, size in sizes.items())
+    x, memory, rate, status, transition = _predict(layout)(s, u, p, h)
+    n = layout.errors
+    work = ca.vertcat(x, ca.MX.zeros(REPORT + n))
+    begun = s[layout.begun]
+    nominal_at = {v.name: i for i, v in enumerate(layout.parameters)}
+
+    def setting(name: str):
+        return p[nominal_at[name]] > 0
+
+    still = ca.logic_and(u[STATIONARY] > 0.5, begun > 0)
+    work = where(ca.logic_and(still, setting("zupt")), _zupt(layout), work, p)
+    rested = ca.logic_and(still, ca.logic_and(setting("zaru"), status <= 0))
+    work = where(rested, _zaru(layout), work, rate, p, h)
+    if layout.nhc:
+        free = ca.logic_and(ca.logic_not(still), ca.logic_and(setting("nhc"), begun > 0))
+        work = where(ca.logic_and(free, status <= 0), _nhc(layout), work, rate, p, h)
+    work = where(u[SPEED_VALID] > 0.5, _speed(layout), work, u[SPEED], u[SPEED_VARIANCE])
+    work = where(
+        u[POSITION_VALID] > 0.5, _position(layout), work, u[POSITION], u[POSITION_VARIANCE]
+    )
+    after = work[: layout.packed]
+    y = _finish(layout)(work, status)
+    if recorded:
+        before = x[layout.nominal : layout.packed]
+        y = ca.vertcat(y, before, after, work[layout.packed + REPORT :], transition)
+    return ca.Function(
+        "step",
+        [s, u, p, ca.MX(0, 1), h],
+        [ca.vertcat(after, memory), y],
+        ["s", "u", "p", "w", "h"],
+        ["s_next", "y"],
+    )
+
+
+def _predict(layout: Layout) -> ca.Function:
+    """``s, u, p, h -> x, memory, rate, status, transition``, to the updates."""
+    s = ca.SX.sym("s", layout.state)
+    u, p, h = (
+        ca.SX.sym(name, size)
+        for name, size in (("u", len(layout.inputs)), ("p", len(layout.parameters)), ("h", 1))
+    )
+    settings = prediction.settings_of(layout, p)
+    x = layout.unpack(s)
+    memory = Memory.unpack(s[layout.packed :], layout)
+    sample = prediction.read(layout, memory, x.q, u, settings, h)
+    after, transition, means = prediction.predicted(layout, x, memory, sample, settings, h)
+    first = prediction.first(layout, sample, settings)
+    start = ca.logic_and(memory.begun <= 0, sample.accel_lost <= 0)
+    packed = ca.if_else(memory.begun > 0, layout.pack(after), s[: layout.packed])
+    packed = ca.if_else(start, layout.pack(first), packed)
+    status = ca.fmax(sample.gyro_lost, sample.accel_lost)
+    kept = prediction.remembered(memory, sample, means, h).pack()
+    return ca.Function(
+        "predict",
+        [s, u, p, h],
+        [packed, kept, sample.rate, status, ca.densify(transition[:])],
+        OPTIONS,
+    )
+
+
+def _update(layout: Layout, name: str, kind: str, correct: Callable, *sizes: int) -> ca.Function:
+    """``work, ... -> work`` of an update; ``work`` is the estimate, the report, what was moved."""
+    n, at = layout.errors, KINDS.index(kind)
+    w = ca.SX.sym("w", layout.packed + REPORT + n)
+    more = [ca.SX.sym(f"a{i}", size) for i, size in enumerate(sizes)]
+    x, nis, change = correct(layout.unpack(w), *more)
+    report = w[layout.packed : layout.packed + REPORT]
+    report[at] = nis
+    moved = w[layout.packed + REPORT :] + change
+    out = ca.vertcat(layout.pack(x), report, moved)
+    return ca.Function(name, [w, *more], [ca.densify(out)], OPTIONS)
+
+
+def _zupt(layout: Layout) -> ca.Function:
+    def correct(x: State, p):
+        return updates.by_zero_velocity(layout, x, prediction.settings_of(layout, p))
+
+    return _update(layout, "by_zero_velocity", "zupt", correct, len(layout.parameters))
+
+
+def _zaru(layout: Layout) -> ca.Function:
+    def correct(x: State, rate, p, h):
+        return updates.by_zero_rate(layout, x, rate, prediction.settings_of(layout, p), h)
+
+    return _update(layout, "by_zero_rate", "zaru", correct, 3, len(layout.parameters), 1)
+
+
+def _nhc(layout: Layout) -> ca.Function:
+    def correct(x: State, rate, p, h):
+        return updates.by_vehicle(layout, x, rate, prediction.settings_of(layout, p), h)
+
+    return _update(layout, "by_vehicle", "nhc", correct, 3, len(layout.parameters), 1)
+
+
+def _speed(layout: Layout) -> ca.Function:
+    def correct(x: State, speed, variance):
+        return updates.by_speed(layout, x, speed, variance)
+
+    return _update(layout, "by_speed", "position", correct, 1, 1)
+
+
+def _position(layout: Layout) -> ca.Function:
+    def correct(x: State, position, variance):
+        return updates.by_position(layout, x, position, variance)
+
+    return _update(layout, "by_position", "position", correct, 3, 1)
+
+
+def _finish(layout: Layout) -> ca.Function:
+    w = ca.SX.sym("w", layout.packed + REPORT + layout.errors)
+    lost = ca.SX.sym("lost")
+    report = w[layout.packed : layout.packed + REPORT]
+    y = _outputs(layout.unpack(w), report, lost)
+    return ca.Function("finish", [w, lost], [y], OPTIONS)
+
+
+def _outputs(x: State, report, lost) -> ca.SX:
+    """The outputs (``OUTPUTS``) as a column."""
+    p, back = ca.SX(x.covariance), quaternion.to_matrix(quaternion.conjugate(x.q))
+    for place in (GYRO_BIAS, ACCEL_BIAS):
+        p[place, place] = back @ p[place, place] @ back.T
+    plain = ca.horzcat(-ca.skew(x.velocity), ca.SX.eye(3))
+    p[VELOCITY, VELOCITY] = plain @ x.covariance[:6, :6] @ plain.T
+    std = ca.vertcat(*[ca.sqrt(ca.fmax(p[i, i], 0)) for i in range(BASE)])
+    correlation = p[6, 7] / ca.fmax(std[6] * std[7], 1e-30)
+    beyond = sum(
+        (
+            bit * (report[i] > updates.gate(freedom))
+            for i, (bit, freedom) in enumerate(zip(BITS, FREEDOM, strict=True))
+        ),
+        lost,
+    )
+    return ca.densify(
+        ca.vertcat(
+            x.q,
+            quaternion.to_euler(x.q),
+            x.velocity,
+            x.position,
+            x.gyro_bias,
+            x.accel_bias,
+            std,
+            correlation,
+            report,
+            beyond,
+        )
+    )

@@ -1,0 +1,152 @@
+"""What corrects the estimate: rest, a vehicle's wheels, a measured speed or position.
+
+Each is z = h(x) + n with a covariance R. A measurement whose normalised innovation squared is above
+its gate gets the weight with which it would be at the gate: one that is wrong, as a rest that is
+none, then pulls the estimate by a few standard deviations and not by hundreds.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import casadi as ca
+from scipy.stats import chi2
+
+from pyimu.attitude.filter.settings import Settings
+from pyimu.navigation.filter.layout import (
+    ACCEL_BIAS,
+    BASE,
+    GYRO_BIAS,
+    POSITION,
+    TURN,
+    VELOCITY,
+    Layout,
+    State,
+)
+from pyimu.symbolic import quaternion
+from pyimu.symbolic.linear import cholesky, forward, reciprocal, symmetric
+
+BY_CHANCE = 1.5e-5
+"""Probability with which a right measurement is above its gate, that of the attitude filter's."""
+
+
+def gate(freedom: int) -> float:
+    """Normalised innovation squared above which a measurement is weighed down."""
+    return float(chi2.isf(BY_CHANCE, freedom))
+
+
+def corrected_by(layout: Layout, x: State, innovation, slope, noise) -> tuple[State, ca.SX, ca.SX]:
+    """The estimate after a measurement, its normalised innovation squared, and the error (n,) that
+    it took out.
+
+    ``slope`` (m, n) is dh/dx, ``noise`` (m,) the variances.
+    """
+    count = innovation.numel()
+    cross = x.covariance @ slope.T
+    own = slope @ cross + ca.diag(noise)
+    lower = cholesky(own)
+    white = forward(lower, innovation)
+    nis = ca.sumsqr(white)
+    shrink = ca.fmin(1, gate(count) / ca.fmax(nis, 1e-30))
+    gain = forward(lower, cross.T) * ca.sqrt(shrink)
+    change = gain.T @ (white * ca.sqrt(shrink))
+    covariance = symmetric(
+        layout.errors, lambda i, j: x.covariance[i, j] - ca.dot(gain[:, i], gain[:, j])
+    )
+    return changed(layout, replace(x, covariance=covariance), change), nis, change
+
+
+def changed(layout: Layout, x: State, error) -> State:
+    """The estimate with an ``error`` (n,) added."""
+    gains = slice(BASE, BASE + len(layout.gains))
+    q = quaternion.normalized(quaternion.product(quaternion.exponential(error[TURN]), x.q))
+    back = quaternion.to_matrix(quaternion.conjugate(q))
+    return replace(
+        x,
+        q=q,
+        velocity=quaternion.rotate(
+            quaternion.exponential(error[TURN]), x.velocity + error[VELOCITY]
+        ),
+        position=x.position + error[POSITION],
+        gyro_bias=x.gyro_bias + back @ error[GYRO_BIAS],
+        accel_bias=x.accel_bias + back @ error[ACCEL_BIAS],
+        gains=x.gains + error[gains],
+        mounting=x.mounting + error[layout.mounting],
+    )
+
+
+def _slope(layout: Layout, rows: int, **parts) -> ca.SX:
+    out = ca.SX(rows, layout.errors)
+    places = {"turn": TURN, "velocity": VELOCITY, "position": POSITION, "gyro_bias": GYRO_BIAS}
+    for name, value in parts.items():
+        out[:, places[name]] = value
+    return out
+
+
+def by_zero_velocity(layout: Layout, x: State, settings: Settings) -> tuple:
+    """A body at rest: v = 0 (zero-velocity update; Groves 2013, section 15.3.1).
+
+    It has no velocity in its own axes either, R^T v + R^T e with the errors of ``prediction``: in
+    that form no attitude is in it. With the velocity in world axes, v + e + phi x v, a wrong
+    velocity would tell of the yaw.
+    """
+    slope = _slope(layout, 3, velocity=ca.SX.eye(3))
+    noise = settings.scalar["zupt_std"] ** 2 * ca.SX.ones(3)
+    return corrected_by(layout, x, -x.velocity, slope, noise)
+
+
+def by_zero_rate(layout: Layout, x: State, rate, settings: Settings, h) -> tuple:
+    """A body that does not turn against the Earth: its gyro shows (1 + M) R^T w_e + bias + n."""
+    back = quaternion.conjugate(x.q)
+    earth = quaternion.rotate(back, settings.earth)
+    slope = _slope(
+        layout,
+        3,
+        turn=quaternion.to_matrix(back) @ ca.skew(settings.earth),
+        gyro_bias=quaternion.to_matrix(back),
+    )
+    expected = earth + layout.matrix(x.gains, "gyro") @ earth + x.gyro_bias
+    noise = settings.gyro.white**2 * reciprocal(h) + 1e-16
+    return corrected_by(layout, x, rate - expected, slope, noise)
+
+
+def by_vehicle(layout: Layout, x: State, rate, settings: Settings, h) -> tuple:
+    """A vehicle whose wheels do not slip: no speed sideways nor upwards in its own axes.
+
+    With the velocity v_b = R^T v + w x l of the point at the lever arm l in body axes, and the
+    mounting (a, b), vehicle axes pitched by a and turned by b: v_y - b v_x = 0 and v_z + a v_x = 0.
+    A slip lasts: its variance holds for ``nhc_time``, so that each sample has that of white noise
+    of the same density. The mounting is estimated with the rest.
+    """
+    at = settings.scalar
+    back = quaternion.to_matrix(quaternion.conjugate(x.q))
+    arm = ca.vertcat(*[at[f"lever_arm[{i}]"] for i in (1, 2, 3)])
+    speed = back @ x.velocity + ca.cross(rate - x.gyro_bias, arm)
+    pitched, turned = x.mounting[0], x.mounting[1]
+    of_speed = ca.vertcat(ca.horzcat(-turned, 1, 0), ca.horzcat(pitched, 0, 1))
+    slope = _slope(
+        layout,
+        2,
+        velocity=of_speed @ back,
+        gyro_bias=of_speed @ ca.skew(arm) @ back,
+    )
+    slope[0, layout.mounting.start + 1] = -speed[0]
+    slope[1, layout.mounting.start] = speed[0]
+    own = settings.gyro.white**2 * reciprocal(h)
+    of_arm = (of_speed @ ca.skew(arm)) ** 2 @ own
+    noise = at["nhc_std"] ** 2 * ca.fmax(2 * at["nhc_time"] * reciprocal(h), 1) + of_arm
+    return corrected_by(layout, x, -of_speed @ speed, slope, noise)
+
+
+def by_speed(layout: Layout, x: State, speed, variance) -> tuple:
+    """A measured speed along the body's x axis."""
+    back = quaternion.to_matrix(quaternion.conjugate(x.q))
+    slope = _slope(layout, 1, velocity=back[0, :])
+    return corrected_by(layout, x, speed - back[0, :] @ x.velocity, slope, variance)
+
+
+def by_position(layout: Layout, x: State, position, variance) -> tuple:
+    """A measured position (3,), each of its axes with the ``variance``."""
+    slope = _slope(layout, 3, position=ca.SX.eye(3))
+    noise = variance * ca.SX.ones(3)
+    return corrected_by(layout, x, position - x.position, slope, noise)

@@ -1,0 +1,55 @@
+"""What is known of the sensors of a recording: its part, and of what that is silent the samples."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from pyimu.attitude.columns import informed, nominal_part
+from pyimu.attitude.rest import Rest
+from pyimu.model.catalogue import CATALOGUE, read_off
+from pyimu.model.part import Part
+from pyimu.model.sensor import Sensor
+from pyimu.recording.recording import Recording
+
+STEPS = 20
+"""A limit of so few steps of a coarse converter or less is none: at rest most samples are one of
+two or three values, which looks like a pile at the end of a range."""
+
+
+def known_part(declared: Part | None, recording: Recording, rest: Rest) -> Part:
+    """The part as the filter takes it; without one, the noise of the samples at rest."""
+    if declared is None:
+        part = nominal_part(recording, rest)
+        own = Part(part.name, part.sample_rate)
+    else:
+        part, own = informed(declared, recording, rest), declared
+    gyro, accel = (
+        _with_true_limit(part.sensor(kind), own.sensor(kind), getattr(recording, kind))
+        for kind in ("gyro", "accel")
+    )
+    return replace(part, gyro=gyro, accel=accel)
+
+
+def _with_true_limit(sensor: Sensor, own: Sensor, samples: np.ndarray) -> Sensor:
+    """The sensor without a limit that was read off the samples and is none."""
+    effect, parameter = read_off(CATALOGUE.values(), "ceiling")
+    if effect not in sensor.values:
+        return sensor
+    limit = np.array(sensor.values[effect][parameter])
+    declared = own.values.get(effect, {}).get(parameter, np.zeros(3))
+    for axis, column in enumerate(samples.T):
+        if limit[axis] != declared[axis] and limit[axis] <= STEPS * _step(column):
+            limit[axis] = declared[axis]
+    if not limit.any() and effect not in own.values:
+        return Sensor(sensor.kind, {k: v for k, v in sensor.values.items() if k != effect})
+    return sensor.with_values(effect, **{parameter: limit})
+
+
+def _step(column: np.ndarray) -> float:
+    """The smallest step between two values of a column, rounding apart."""
+    values = np.unique(column[np.isfinite(column)])
+    steps = np.diff(values)
+    large = steps[steps > 1e-9 * np.max(np.abs(values), initial=0.0)]
+    return float(large.min()) if len(large) else 0.0

@@ -1,0 +1,1 @@
+"""The report of a navigated recording: words, pictures, page and data."""

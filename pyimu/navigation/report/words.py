@@ -1,0 +1,153 @@
+"""A navigated recording in words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from pyimu.navigation.filter.variables import STATUS_NAMES
+from pyimu.navigation.outcome import Outcome
+from pyimu.report.findings import in_line
+from pyimu.report.numbers import number, quantity
+
+TITLES = {
+    "paper": "Wongwirat 2010, as printed",
+    "strapdown": "integrated exactly, nulls of the rest",
+    "filter": "filter",
+    "smoother": "smoothed by the whole log",
+}
+
+OBSERVABLE = (
+    "Yaw cannot be seen from zero velocities: between two headings it is the integral of the gyro, "
+    "and its error turns the path about the start"
+)
+
+
+def about(a: Outcome) -> str:
+    part = f"part {a.part}" if a.part else "noise of the log's own rest"
+    more = f", {a.gains} scale factors and misalignments estimated" if a.gains else ""
+    constraint = ", vehicle's constraint" if a.nhc else ""
+    constraint += f"; heading at the start by {a.heading_from}" if a.heading_from else ""
+    return (
+        f"{len(a.time):,} samples, {quantity(a.duration, 's')} at "
+        f"{a.recording.sample_rate:.4g} Hz, {part}{more}{constraint}"
+    )
+
+
+def notes(a: Outcome) -> list[str]:
+    """What should be known first: where there is nothing to update with, and what was refused."""
+    out = [_rests(a)]
+    kinds = {f.kind: f for f in a.findings}
+    if "no_rest" in kinds:
+        out.append(
+            "There is no rest at the start: tilt and biases were not known when the drive began, "
+            "and the standard deviations are wide for that reason"
+        )
+    if "gravity_off" in kinds:
+        off = kinds["gravity_off"].detail
+        out.append(
+            f"The force at rest is {number(off['magnitude'], 4)} m/s^2, {off['share']:+.1%} of "
+            "gravity off: a scale factor, a bias, or a unit"
+        )
+    if "steady_turn" in kinds:
+        out.append(
+            "The sensor turned steadily for a while, which looks like a rest to the "
+            "accelerometer; its gyro was off its bias, so it was taken for a turn"
+        )
+    if "coning" in kinds:
+        out.append(
+            f"Up to {np.degrees(kinds['coning'].detail['turn']):.3g} deg of turn lie between two "
+            "samples: the sample rate is too low for the turn rate"
+        )
+    for f in a.findings:
+        if f.kind == "not_integrated":
+            out.append(f"The method {f.detail['method']} was left out: {f.detail['reason']}")
+    if abs(a.settings.get("latitude", 9.0)) > np.pi / 2:
+        out.append(
+            "No latitude: the Earth's rate was not taken off, which a rest hides in the gyro bias "
+            "until the body turns"
+        )
+    out += [f"{text[0].upper()}{text[1:]} ({count:,} samples)" for text, count in _status(a)]
+    return [*out, OBSERVABLE] if a.later_stops else out
+
+
+def _rests(a: Outcome) -> str:
+    share = float(a.still.mean())
+    if a.zupt == "off":
+        return "Zero-velocity updates are off: nothing holds the position"
+    if not a.still.any():
+        return (
+            "There is no rest in this log, so nothing to update with: the position is integrated "
+            "alone, and its standard deviations say how little that is worth"
+        )
+    if a.still.all():
+        return "The whole log is at rest: there is no path"
+    text = (
+        f"It rests in {share:.2g} of the time, {len(a.later_stops)} times after the start; the "
+        f"longest drive between two rests takes {quantity(a.longest_leg, 's')}"
+    )
+    if not a.later_stops:
+        text += ": after the start there is nothing to update with"
+    return text
+
+
+def _status(a: Outcome) -> Iterator[tuple[str, int]]:
+    status = a.filter.scalar("status").astype(int)
+    for bit, text in STATUS_NAMES.items():
+        count = int(np.count_nonzero(status & bit))
+        if count:
+            yield text, count
+
+
+def ends(a: Outcome) -> Iterator[tuple[str, str]]:
+    """Where each method ends, with the standard deviation of those that know it."""
+    for name, track in a.tracks.items():
+        place = ", ".join(number(v) for v in track.position[-1])
+        std = track.position_std
+        more = ""
+        if std is not None:
+            more = f" ± {', '.join(number(v) for v in 2 * std[-1])}"
+        yield name, f"{place}{more} m"
+
+
+def error_words(a: Outcome) -> Iterator[tuple[str, str]]:
+    """Errors against the reference in a line each."""
+    for name, e in a.errors.items():
+        yaw = "" if not np.isfinite(e.yaw) else f", yaw at the end {np.degrees(e.yaw):.3g} deg"
+        yield (
+            name,
+            (
+                f"at the end {number(e.end)} m ({e.end / max(e.length, 1e-9):.2%} of the way), RMS "
+                f"{number(e.rms)} m, largest {number(e.most)} m{yaw}"
+            ),
+        )
+
+
+def consistency(a: Outcome) -> str | None:
+    """The normalised innovations of the first zero velocities, None without later stops."""
+    first = a.first_zupts
+    if not len(first):
+        return None
+    zaru = a.mean_nis("zaru_nis")
+    text = (
+        f"first zero velocity of each stop: mean NIS {number(float(first.mean()))} over "
+        f"{len(first)} stops"
+    )
+    return (
+        text if zaru is None else f"{text}; zero turn rates: {number(zaru)} (3 is right for both)"
+    )
+
+
+def in_lines(a: Outcome) -> str:
+    """The report for a terminal."""
+    lines = [f"{a.name}: {about(a)}"]
+    lines += [f"  note        {text}" for text in notes(a)]
+    lines += [
+        f"  end         {name:10s} {text} (east, north, up; ± 2 std)" for name, text in ends(a)
+    ]
+    lines += [f"  error       {name:10s} {text}" for name, text in error_words(a)]
+    if (text := consistency(a)) is not None:
+        lines.append(f"  consistency {text}")
+    lines += [f"  log         {text}" for text in in_line(a.recording.findings)]
+    return "\n".join(lines)

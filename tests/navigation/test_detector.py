@@ -1,0 +1,74 @@
+"""Rest from the samples: the rate of false alarms is the stated one, a steady turn is no rest."""
+
+import numpy as np
+import pytest
+from navigation_cases import SHORT, assumed
+from scipy.stats import binom
+
+from pyimu.navigation.detector import Noise, detect, ratio, threshold
+from pyimu.recording.clock import runs
+from pyimu.rover.square import motion, stop_times
+
+H = 0.01
+NOISE = Noise(np.full(3, 0.02), np.full(3, 0.05), np.zeros(3), np.array([0.01, 0.02, -0.01]))
+
+
+def resting(n, seed=0):
+    rng = np.random.default_rng(seed)
+    gyro = NOISE.bias + NOISE.rate * rng.standard_normal((n, 3))
+    accel = np.array([0.3, -0.2, 9.7]) + NOISE.force * rng.standard_normal((n, 3))
+    return H * np.arange(n), gyro, accel
+
+
+@pytest.mark.parametrize("alarm", (0.01, 0.1))
+def test_windows_at_rest_are_above_the_threshold_as_often_as_stated(alarm):
+    """Windows without common samples; the count is binomial, 99.9 % of which is allowed."""
+    rows, n = 25, 100_000
+    _, gyro, accel = resting(n)
+    apart = ratio(gyro, accel, NOISE, rows)[rows : n - rows : rows]
+    count = int(np.sum(apart > threshold(rows, alarm)))
+    low, high = binom.ppf([0.0005, 0.9995], len(apart), alarm)
+    assert low <= count <= high
+
+
+def test_a_steady_turn_is_no_rest_and_is_said_to_be_one():
+    time, gyro, accel = resting(3000)
+    gyro[1000:2000, 2] += 0.3
+    found = detect(time, gyro, accel, NOISE, H)
+    assert not found.still[1000:2000].any()
+    assert found.still[100:900].all() and found.still[2100:2900].all()
+    assert len(found.steady) == 1
+
+
+def test_a_bias_that_walks_stays_a_rest():
+    time, gyro, accel = resting(60_000)
+    gyro += np.cumsum(np.random.default_rng(1).normal(size=gyro.shape), axis=0) * 1e-4 * 0.1
+    moving = slice(30_000, 30_500)
+    accel[moving] += np.random.default_rng(2).normal(size=(500, 3))
+    walking = Noise(NOISE.rate, NOISE.force, np.full(3, 1e-4), NOISE.bias)
+    found = detect(time, gyro, accel, walking, H)
+    assert found.still[40_000:50_000].mean() > 0.9
+    assert not found.still[moving].any()
+
+
+def test_it_finds_the_stops_of_a_drive_and_no_row_of_a_move():
+    truth = motion(SHORT)
+    log = assumed().specimen(4).simulate(truth, seed=4)
+    rest = log.time < 4
+    noise = Noise(
+        log.gyro[rest].std(axis=0),
+        log.accel[rest].std(axis=0),
+        np.full(3, 5e-5),
+        log.gyro[rest].mean(axis=0),
+    )
+    still = detect(log.time, log.gyro, log.accel, noise, log.sample_period).still
+    assert not np.any(still & (np.linalg.norm(truth.ref_velocity, axis=1) > 1e-3))
+    assert not np.any(still & (np.abs(truth.ref_rate[:, 2]) > 1e-2))
+    assert len(runs(still)) == len(stop_times(SHORT))
+
+
+def test_missing_samples_are_no_rest():
+    time, gyro, accel = resting(1000)
+    accel[500] = np.nan
+    found = detect(time, gyro, accel, NOISE, H)
+    assert not found.still[495:505].any() and found.still[100:400].all()

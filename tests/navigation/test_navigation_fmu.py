@@ -1,0 +1,68 @@
+"""The unit ``StrapdownIns``: the bits of Python in every form, and what it can be told."""
+
+import numpy as np
+import pytest
+from built import built
+from navigation_cases import SHORT, calibrated, declared, noisy, perfect, white
+
+from pyimu.fmu import FORMS, simulate, simulate_blocks
+from pyimu.navigation import run, strapdown_ins
+from pyimu.navigation.filter.variables import INPUTS
+
+
+@pytest.fixture(scope="module")
+def unit():
+    return strapdown_ins(white(calibrated()), nhc=False)
+
+
+@pytest.fixture(scope="module")
+def fmus(unit, tmp_path_factory):
+    return built(unit, tmp_path_factory)
+
+
+@pytest.fixture(scope="module")
+def log():
+    """Two stops, 18 s."""
+    return noisy(declared(perfect(SHORT, 100.0), SHORT), white(calibrated()), 1).slice(0, 1800)
+
+
+def rows(recording):
+    """The recording as the unit's inputs, as a user would write them."""
+    u = np.tile([v.start for v in INPUTS], (len(recording.time), 1))
+    u[:, :3], u[:, 3:6], u[:, 7] = recording.gyro, recording.accel, recording.stationary
+    return u
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_the_unit_gives_the_bits_of_a_run(fmus, unit, log, form):
+    found = run(log, white(calibrated()), method="filter")
+    given = {"start_values": dict(found.settings), "sample_period": log.sample_period}
+    y = (
+        simulate_blocks(fmus[form], rows(log), block_size=500, **given)
+        if form == "block"
+        else simulate(fmus[form], rows(log), **given)
+    )
+    np.testing.assert_array_equal(y[1:], found.filter.y)
+
+
+def test_a_measured_position_and_speed_pull_the_estimate(unit, log):
+    names = [v.name for v in unit.outputs]
+    u, at = rows(log), {v.name: i for i, v in enumerate(unit.inputs)}
+    east = names.index("position[1]")
+    for name, value in (
+        ("position_valid", 1.0),
+        ("position_measured[1]", 2.3),
+        ("position_variance", 1e-6),
+    ):
+        u[-1, at[name]] = value
+    free, held = (unit.run(x)[0][-1, east] for x in (rows(log), u))
+    assert abs(free - 2.3) > 0.1
+    assert held == pytest.approx(2.3, abs=1e-4)
+    u = rows(log)
+    moving = (log.time > 5.8) & (log.time < 11.0)
+    u[moving, at["speed_valid"]] = 1.0
+    u[moving, at["speed"]] = 0.3
+    u[moving, at["speed_variance"]] = 1e-4
+    row = int(np.searchsorted(log.time, 11.0))
+    std = names.index("position_std[1]")
+    assert unit.run(u)[0][row, std] < 0.3 * unit.run(rows(log))[0][row, std]
