@@ -23,10 +23,9 @@ def motion():
 
 
 def through(fmu, form, u, **start_values):
-    """Gyro and accelerometer (n, 6) as the unit gives them, its temperature left out."""
     run = simulate_blocks if form == "block" else simulate
     period = part(PART).sample_period
-    return run(fmu, u, sample_period=period, start_values=start_values)[1:, :6]
+    return run(fmu, u, sample_period=period, start_values=start_values)[1:]
 
 
 def in_python(made, u, seed):
