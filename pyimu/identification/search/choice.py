@@ -127,21 +127,32 @@ def chosen_of(
     """
     share = 0.0 if _takes_it_for_noise(tried.current) else LEAST_SHARE
     worth = [c for c in options[:MOST_REFINED] if c.gain > share * options[0].gain]
-    refined = sorted(map(tried.refine, worth), key=lambda r: -r.gain)
-    refined = [r for r in refined if r.gain > gate]
+    refined = _above(gate, map(tried.refine, worth))
     if not refined:
         return None, ()
     derived = any(t.band_hz is not None for t in tried.current.trials)
-    family = equivalent(refined[0].screened.effect)
-    forms = [r for r in refined if r.screened.effect in family | {refined[0].screened.effect}]
+    forms = _forms_of(refined[0], refined)
     best = _form(forms, derived)
     others = [r for r in refined if all(r is not f for f in forms) and _ahead(best, r) < ALIKE]
-    best = min([best, *others], key=_how_plain)
+    plainest = min([best, *others], key=_how_plain)
+    if plainest is not best:
+        best = _form(_forms_of(plainest, refined), derived)
     close = [r.screened.effect for r in refined if r is not best and _ahead(best, r) <= SET_WIDTH]
     if derived or CATALOGUE[best.screened.effect].delay is not None:
         # Of a reference that ends below the band, or its clock, another form may be the truth.
         close += [c.effect for c in options if c.effect in equivalent(best.screened.effect)]
     return best, tuple(dict.fromkeys(close))
+
+
+def _above(gate: float, refined: Iterable[Refined]) -> list[Refined]:
+    """Those whose gain is above the gate, the best first."""
+    return [r for r in sorted(refined, key=lambda r: -r.gain) if r.gain > gate]
+
+
+def _forms_of(one: Refined, refined: list[Refined]) -> list[Refined]:
+    """Of candidates those that are forms of one effect, that of ``one``."""
+    family = equivalent(one.screened.effect) | {one.screened.effect}
+    return [r for r in refined if r.screened.effect in family]
 
 
 def _how_plain(r: Refined) -> tuple[int, int, int]:
