@@ -84,8 +84,8 @@ def _rests(a: Outcome) -> str:
     if a.still.all():
         return "The whole log is at rest: there is no path"
     text = (
-        f"It rests in {share:.2g} of the time, {len(a.later_stops)} times after the start; the "
-        f"longest drive between two rests takes {quantity(a.longest_leg, 's')}"
+        f"It rests in {number(100 * share, 2)} % of the time, {len(a.later_stops)} times after "
+        f"the start; the longest drive between two rests takes {quantity(a.longest_leg, 's')}"
     )
     if not a.later_stops:
         text += ": after the start there is nothing to update with"
@@ -115,11 +115,12 @@ def error_words(a: Outcome) -> Iterator[tuple[str, str]]:
     """Errors against the reference in a line each."""
     for name, e in a.errors.items():
         yaw = "" if not np.isfinite(e.yaw) else f", yaw at the end {np.degrees(e.yaw):.3g} deg"
+        share = number(100 * e.end / max(e.length, 1e-9), 2)
         yield (
             name,
             (
-                f"at the end {number(e.end)} m ({e.end / max(e.length, 1e-9):.2%} of the way), RMS "
-                f"{number(e.rms)} m, largest {number(e.most)} m{yaw}"
+                f"at the end {number(e.end)} m ({share} % of the way), "
+                f"RMS {number(e.rms)} m, largest {number(e.most)} m{yaw}"
             ),
         )
 
