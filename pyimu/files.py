@@ -9,7 +9,7 @@ import os
 import shutil
 import tempfile
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
@@ -77,6 +77,21 @@ def write_text(path: Path, text: str) -> None:
     """Write a text file, whole or not at all, with the same bytes on every system."""
     with whole(path) as unfinished:
         unfinished.write_text(text, encoding="utf-8", newline="\n")
+
+
+def write_anew(wanted: Mapping[Path, bytes], folders: Iterable[Path]) -> list[Path]:
+    """Write the files whose bytes are not those ``wanted``; gives the paths that changed.
+
+    In the ``folders`` nothing else is left: a file there that is wanted no more is removed.
+    """
+    changed = [p for p, data in wanted.items() if not p.is_file() or p.read_bytes() != data]
+    for path in changed:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(wanted[path])
+    stale = {file for folder in folders for file in folder.iterdir()} - set(wanted)
+    for path in stale:
+        path.unlink()
+    return [*changed, *sorted(stale)]
 
 
 def write_json(path: Path, value: Any) -> None:

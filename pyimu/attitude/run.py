@@ -39,7 +39,7 @@ from pyimu.attitude.smoothing import smoothed
 from pyimu.attitude.stuck import stuck_times
 from pyimu.attitude.world_field import Date, WorldField, checked_place, world_field
 from pyimu.block.block import Block, Run
-from pyimu.block.parameters import bounded, number
+from pyimu.block.parameters import number, with_settings
 from pyimu.errors import UserError
 from pyimu.model.catalogue import WHITE
 from pyimu.model.part import Part
@@ -150,7 +150,8 @@ def run(
     values |= _numbered("bias0", bias0, 3) | _numbered("std0", std0, 6)
     values["rate_noise"] = rate_noise(None if declared is None else known)
     has = {v.name for v in block.parameters}
-    p = _parameters(block, {n: v for n, v in values.items() if n in has} | given)
+    named = {n: v for n, v in values.items() if n in has} | given
+    p = with_settings(block, named, "the attitude filter")
     retiming = _retiming(recording, known, p)
     used = replace(recording, speed=None) if speed_findings(recording) else recording
     grid = InputGrid(used, known, [v.name for v in block.inputs], retiming)
@@ -269,22 +270,6 @@ def _numbered(name: str, values, size: int) -> dict[str, float]:
     if array.shape != (size,) or not np.isfinite(array).all():
         raise UserError(f"{name} is {str(values)[:60]}, expected {size} finite numbers")
     return {f"{name}[{i + 1}]": float(v) for i, v in enumerate(array)}
-
-
-def _parameters(block: Block, values: Mapping[str, float | str]) -> np.ndarray:
-    """The block's parameters with ``values`` by name.
-
-    Raises UserError for an unknown name, and for a value outside its bounds.
-    """
-    at = {v.name: i for i, v in enumerate(block.parameters)}
-    p = block.start.copy()
-    for name, value in values.items():
-        if name not in at:
-            raise UserError(
-                f"unknown setting '{name}' of the attitude filter; known are {', '.join(at)}"
-            )
-        p[at[name]] = bounded(block.parameters[at[name]], value)
-    return p
 
 
 def _gyro_p(part: Part, p: np.ndarray) -> ca.SX:

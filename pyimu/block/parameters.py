@@ -41,6 +41,25 @@ def bounded(variable: Variable, value: Any) -> float:
     return value
 
 
+def with_settings(block: Block, values: Mapping[str, Any], whose: str) -> np.ndarray:
+    """The block's parameters (np,), those in ``values`` by the names of scalars, the others' start.
+
+    Raises UserError for a name that is unknown, which is a setting of ``whose``, and as ``bounded``
+    does.
+    """
+    at = {v.name: i for i, v in enumerate(block.parameters)}
+    p = block.start.copy()
+    for name, value in values.items():
+        if name not in at:
+            known = [n for n in at if "." not in n]
+            raise UserError(
+                f"unknown setting '{name}' of {whose}{did_you_mean(name, at)}; known are "
+                f"{', '.join(known)}"
+            )
+        p[at[name]] = bounded(block.parameters[at[name]], value)
+    return p
+
+
 def with_values(block: Block, values: Mapping[str, Any]) -> np.ndarray:
     """The block's parameters (np,), those in ``values`` by name and the others' start values.
 

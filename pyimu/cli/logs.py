@@ -12,6 +12,7 @@ from pyimu.cli.options import (
     FORMATS,
     Columns,
     Effects,
+    Latitude,
     Out,
     add_effects,
     place_in_radians,
@@ -160,13 +161,7 @@ def attitude_command(
         ),
     ] = None,
     columns: Columns = None,
-    latitude: Annotated[
-        float | None,
-        typer.Option(
-            "--latitude",
-            help="Degrees; else the log's. Without either, no Earth rate is taken off.",
-        ),
-    ] = None,
+    latitude: Latitude = None,
     heading0: Annotated[
         float | None,
         typer.Option(

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from pyimu.cli.options import FORMATS, Columns, Effects, add_effects, progress, radians
+from pyimu.cli.options import FORMATS, Columns, Effects, Latitude, add_effects, progress, radians
 
 
 def navigate_command(
@@ -42,13 +42,7 @@ def navigate_command(
         bool,
         typer.Option("--nhc", help="A vehicle: its wheels slip neither sideways nor upwards."),
     ] = False,
-    latitude: Annotated[
-        float | None,
-        typer.Option(
-            "--latitude",
-            help="Degrees; else the log's. Without either, no Earth rate is taken off.",
-        ),
-    ] = None,
+    latitude: Latitude = None,
     heading0: Annotated[
         float | None,
         typer.Option(

@@ -23,6 +23,13 @@ FORMATS = "CSV(.gz), Parquet, MAT, HDF5, ROS bag or MCAP"
 Columns = Annotated[
     Path | None, typer.Option("--columns", help="TOML that renames a foreign log's columns.")
 ]
+Latitude = Annotated[
+    float | None,
+    typer.Option(
+        "--latitude",
+        help="Degrees; else the log's. Without either, no Earth rate is taken off.",
+    ),
+]
 Effects = Annotated[
     list[Path] | None,
     typer.Option(

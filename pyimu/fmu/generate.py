@@ -19,6 +19,7 @@ from pyimu.attitude import attitude_ukf
 from pyimu.attitude.heading.estimator import heading_estimator
 from pyimu.block.block import Block
 from pyimu.block.compiled import source_folder
+from pyimu.files import write_anew
 from pyimu.fmu.sources import texts
 from pyimu.model.part_file import part
 from pyimu.navigation.filter.ins_block import strapdown_ins
@@ -71,14 +72,7 @@ def generate(folder: Path | str | None = None) -> list[Path]:
     """
     folder = generated_folder() if folder is None else Path(folder)
     wanted = {folder / path: text.encode() for path, text in checked_in().items()}
-    changed = [p for p, data in wanted.items() if not p.is_file() or p.read_bytes() != data]
-    for path in changed:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(wanted[path])
-    stale = {file for path in wanted for file in path.parent.iterdir()} - set(wanted)
-    for path in stale:
-        path.unlink()
-    return [*changed, *sorted(stale)]
+    return write_anew(wanted, {path.parent for path in wanted})
 
 
 if __name__ == "__main__":

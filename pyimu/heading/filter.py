@@ -11,12 +11,12 @@ from pyimu.attitude.heading.estimator import heading_estimator
 from pyimu.attitude.input_grid import CHUNK, InputGrid
 from pyimu.attitude.outputs import advance
 from pyimu.block.block import Block, Run
+from pyimu.block.parameters import with_settings
 from pyimu.errors import UserError
 from pyimu.heading.calibration import Calibration
 from pyimu.heading.motion import Z
 from pyimu.model.part import Part
 from pyimu.recording.recording import Recording
-from pyimu.units import did_you_mean
 
 CALIBRATED = ("scale_factor", "turn_on_bias")
 """Effects that a calibration takes the place of."""
@@ -130,15 +130,7 @@ def compensated(recording: Recording, part: Part) -> Recording:
 def _run(
     block: Block, recording: Recording, part: Part, values: Mapping[str, float]
 ) -> HeadingTrack:
-    at = {v.name: i for i, v in enumerate(block.parameters)}
-    p = block.start.copy()
-    for name, value in values.items():
-        if name not in at:
-            raise UserError(
-                f"unknown setting '{name}' of the heading filter{did_you_mean(name, at)}; known "
-                f"are {', '.join(n for n in at if '.' not in n)}"
-            )
-        p[at[name]] = value
+    p = with_settings(block, values, "the heading filter")
     grid = InputGrid(recording, part, [v.name for v in block.inputs])
     steps = Run(block, int(grid.rows[-1]) + 1, p=p, sample_period=recording.sample_period)
     kept = np.empty((len(recording), len(block.outputs)))

@@ -88,6 +88,11 @@ class Tolerance:
         """The sizes in the parameter's shape, 0 on a diagonal that it does not have."""
         return _placed(self.parameter, self.sizes)
 
+    @property
+    def std(self) -> np.ndarray:
+        """Standard deviation among specimens, in the parameter's shape."""
+        return self.array / (math.sqrt(3.0) if self.distribution == "uniform" else 1.0)
+
     def check(self, declared: np.ndarray) -> None:
         """Raise UserError where specimens can lie outside the coefficient's bounds.
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from pyimu.files import write_anew
 from pyimu.modelica.library import FOLDERS, library
 
 CHECKED_IN = Path(__file__).resolve().parents[2] / "modelica" / "PyImu"
@@ -21,14 +22,7 @@ def generate(folder: Path | str = CHECKED_IN) -> list[Path]:
     """
     folder = Path(folder)
     wanted = {folder / path: text.encode() for path, text in library().items()}
-    changed = [p for p, data in wanted.items() if not p.is_file() or p.read_bytes() != data]
-    for path in changed:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(wanted[path])
-    stale = {p for name in FOLDERS for p in (folder / name).iterdir()} - set(wanted)
-    for path in stale:
-        path.unlink()
-    return [*changed, *sorted(stale)]
+    return write_anew(wanted, (folder / name for name in FOLDERS))
 
 
 if __name__ == "__main__":

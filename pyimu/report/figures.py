@@ -17,6 +17,9 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 INK, BEFORE, AFTER, FLOOR, GREY = "#010203", "#e69f00", "#0072b2", "#009e73", "#808487"
 """Okabe-Ito, so that the two series differ for every eye; grey for what does not matter."""
 
+WIDTH = 7.2
+"""Width of a picture [inch] that takes the page's."""
+
 VARIABLES = {
     INK: "var(--ink)",
     BEFORE: "var(--before)",

@@ -19,6 +19,7 @@ from pyimu.report.figures import (
     GREY,
     INK,
     STYLE,
+    WIDTH,
     envelope,
     legend,
     new_figure,
@@ -26,9 +27,6 @@ from pyimu.report.figures import (
     unit_of_time,
 )
 from pyimu.report.numbers import in_unit, pretty, unit_for
-
-WIDTH = 7.2
-"""Width of a picture [inch]."""
 
 WIDER = 2.0
 """Standard deviations on either side of an estimate that its band takes: 95 %."""

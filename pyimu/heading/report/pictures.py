@@ -16,15 +16,13 @@ from pyimu.report.figures import (
     GREY,
     INK,
     STYLE,
+    WIDTH,
     envelope,
     legend,
     new_figure,
     svg_of,
     unit_of_time,
 )
-
-WIDTH = 7.2
-"""Width of a picture [inch]."""
 
 WIDER = 2.0
 """Standard deviations on either side that a band takes."""

@@ -45,10 +45,7 @@ class Gain:
 
 
 def gains_of(part: Part) -> tuple[Gain, ...]:
-    """The elements that a part leaves open, by its tolerances or because it says "estimate".
-
-    A uniform tolerance +-d has the standard deviation d / sqrt(3).
-    """
+    """The elements that a part leaves open, by its tolerances or because it says "estimate"."""
     found = []
     for kind in ("gyro", "accel"):
         std = np.zeros((3, 3))
@@ -65,7 +62,7 @@ def open_std(part: Part, key: tuple[str, str, str], otherwise: float) -> np.ndar
     """Standard deviations of a coefficient that is left open, flat; zeros where it is not."""
     for t in part.tolerances:
         if t.key == key:
-            return t.array.ravel() / (np.sqrt(3) if t.distribution == "uniform" else 1.0)
+            return t.std.ravel()
     size = 9 if key[1] == "misalignment" else 3
     if key not in part.estimate:
         return np.zeros(size)

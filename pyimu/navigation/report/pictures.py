@@ -20,15 +20,13 @@ from pyimu.report.figures import (
     GREY,
     INK,
     STYLE,
+    WIDTH,
     envelope,
     legend,
     new_figure,
     svg_of,
     unit_of_time,
 )
-
-WIDTH = 7.2
-"""Width of a picture [inch]."""
 
 COLOURS = {"paper": GREY, "strapdown": BEFORE, "filter": AFTER, "smoother": FLOOR}
 

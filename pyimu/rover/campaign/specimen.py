@@ -8,9 +8,6 @@ from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
 from pyimu.units import STANDARD_GRAVITY
 
-SPREAD = {"uniform": 3.0**-0.5, "normal": 1.0}
-"""Standard deviation of a tolerance over its value."""
-
 
 def drawn_values(part: Part, specimen: Part) -> dict[str, float]:
     """The coefficients that have a tolerance, by their names in the unit, with unit in brackets."""
@@ -25,24 +22,22 @@ def drawn_values(part: Part, specimen: Part) -> dict[str, float]:
 
 def bias_std(part: Part) -> np.ndarray:
     """Standard deviation (3,) rad/s of the gyro's turn-on bias among specimens."""
-    found = np.zeros(3)
-    for t in part.tolerances:
-        if t.key == ("gyro", "turn_on_bias", "b0"):
-            found = SPREAD[t.distribution] * t.array
-    return found
+    return _std(part, "gyro", "turn_on_bias", "b0")
 
 
 def gravity_std(part: Part) -> float:
     """Standard deviation m/s^2, among specimens, of what an upright accelerometer measures of the
     Earth's gravity, by its turn-on bias and its scale factor.
     """
-    sizes = {("accel", "turn_on_bias", "b0"): 1.0, ("accel", "scale_factor", "s"): STANDARD_GRAVITY}
-    found = [
-        SPREAD[t.distribution] * t.sizes[2] * sizes[t.key]
-        for t in part.tolerances
-        if t.key in sizes
-    ]
-    return float(np.hypot.reduce(found)) if found else 0.0
+    bias, scale = (
+        _std(part, "accel", *names)[2] for names in (("turn_on_bias", "b0"), ("scale_factor", "s"))
+    )
+    return float(np.hypot(bias, scale * STANDARD_GRAVITY))
+
+
+def _std(part: Part, *key: str) -> np.ndarray:
+    """Standard deviation (3,) of a coefficient among specimens, zero without a tolerance."""
+    return next((t.std for t in part.tolerances if t.key == key), np.zeros(3))
 
 
 def white_noise(sensor: Sensor) -> bool:

@@ -8,14 +8,21 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from scipy.stats import chi2
 
-from pyimu.report.figures import AFTER, BEFORE, FLOOR, GREY, INK, STYLE, plain_logarithm, svg_of
+from pyimu.report.figures import (
+    AFTER,
+    BEFORE,
+    FLOOR,
+    GREY,
+    INK,
+    STYLE,
+    WIDTH,
+    plain_logarithm,
+    svg_of,
+)
 from pyimu.rover.campaign.faults import NONE
 from pyimu.rover.campaign.report.words import plain_name
 from pyimu.rover.campaign.score import ANGLES, FREEDOM
 from pyimu.rover.campaign.summary import CLAIM, TARGETS, Summary
-
-WIDTH = 7.2
-"""Width of a picture [inch]."""
 
 SHOWN = 8
 """Parameters of a list of causes."""
