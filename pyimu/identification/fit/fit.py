@@ -284,13 +284,16 @@ def gauss_newton(start: Fit, steps: int) -> Fit:
 def with_prior(normal: Normal, fit: Fit) -> Normal:
     """The normal equations with the prior's rows, which share out over the batches."""
     gram, score = np.array(normal.batch_gram), np.array(normal.batch_score)
+    seen = None if normal.seen is None else np.array(normal.seen)
     for key, (departure, std) in departures(fit).items():
         if key in normal.position:
             i = normal.position[key]
             gram[:, i, i] += std**-2 / len(gram)
             score[:, i] -= departure / std**2 / len(gram)
+            if seen is not None:
+                seen[i, i] += std**-2
     power = normal.power + prior_power(fit)
-    return replace(normal, batch_gram=gram, batch_score=score, power=power)
+    return replace(normal, batch_gram=gram, batch_score=score, power=power, seen=seen)
 
 
 def prior_power(fit: Fit) -> float:

@@ -39,7 +39,7 @@ def fit_and_normal(start: Fit, rounds: int = 3, steps: int = 6) -> tuple[Fit, No
             break
     start = without_reference_noise(start)
     normal = with_prior(equations(start), start)
-    variance = variances(normal.gram)
+    variance = variances(normal.gram, normal.seen)
     # A coefficient that was set by other means than regression keeps the standard error it came
     # with.
     std = {**start.std, **{k: float(np.sqrt(variance[i])) for i, k in enumerate(normal.keys)}}

@@ -19,12 +19,20 @@ from scipy.signal import lfilter
 
 from pyimu.identification.fit.columns import Linear, band_segments, band_time, in_band
 from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.incoherent import (
+    NOTHING,
+    Spectrum,
+    drawn,
+    response,
+    unseen_spectrum,
+)
 from pyimu.identification.fit.noise_floor import (
     LAGS,
     QUIET,
     beyond_own,
     colour,
     lowness,
+    own_noise,
     quiet,
     quietest,
     windows,
@@ -76,12 +84,18 @@ def with_reference_noise(fit: Fit, held: list[Trial], seed: int = 1) -> tuple[Fi
         return fit, held
     linears = fit.residuals()
     variance = _variance(fit, linears)
+    slow = _slow(fit, linears)
+    most = np.max([variance, *([s.variance for s in one] for one in slow.values())], axis=0)
     total = np.var(np.concatenate([one.residual for one in linears]), axis=0)
-    if not np.any(variance > LEAST * np.maximum(total, 1e-300)):
+    if not np.any(most > LEAST * np.maximum(total, 1e-300)):
         return fit, held
     rng, shape = np.random.default_rng(seed), _shape(fit, linears)
-    trials = tuple(_drawn(t, variance, shape, rng) for t in fit.trials)
-    apart = [_drawn(t, variance, shape, rng) for t in held]
+
+    def draw(trial: Trial) -> Trial:
+        found = _drawn(trial, variance, shape, rng)
+        return _with_slow(found, slow.get(trial.parent or trial.name, ()), rng)
+
+    trials, apart = tuple(map(draw, fit.trials)), list(map(draw, held))
     known = replace(fit, trials=trials, coloured=bool(shape)).with_noise()
     return replace(known, echo=_echo(known)), apart
 
@@ -166,6 +180,30 @@ def _drawn(
         return replace(trial, noise=draw * scale)
     most = _high(trial, trial.u[:, OWN[trial.kind]]) / np.maximum(_high(trial, draw), 1e-300)
     return replace(trial, noise=draw * np.minimum(scale, most))
+
+
+def _slow(fit: Fit, linears: Sequence[Linear]) -> dict[str, list[Spectrum]]:
+    """Spectra (3,) of the noise of derived references, by the names of their trials."""
+    own = own_noise(fit)
+    return {
+        t.name: [unseen_spectrum(t, one, i, own[i]) if i in one.keys else NOTHING for i in range(3)]
+        for t, one in zip(fit.trials, linears, strict=True)
+        if t.band_hz is not None
+    }
+
+
+def _with_slow(trial: Trial, spectra: Sequence[Spectrum], rng: np.random.Generator) -> Trial:
+    """The trial with what its noise has at low frequencies beside the high ones."""
+    if not any(s.variance > 0.0 for s in spectra):
+        return trial
+    noise = np.array(trial.noise)
+    for i, spectrum in enumerate(spectra):
+        # Differences of a white attitude over two samples.
+        phase = 2 * np.pi * spectrum.frequency * trial.h
+        high = 4 * trial.h * noise[:, i].var() * np.sin(phase) ** 2
+        more = np.maximum(spectrum.psd - high * response(trial, spectrum.frequency) ** 2, 0.0)
+        noise[:, i] += drawn(trial, replace(spectrum, psd=more), rng)
+    return replace(trial, noise=noise)
 
 
 def _high(trial: Trial, values: np.ndarray) -> np.ndarray:

@@ -183,7 +183,7 @@ def gyro_trial(recording: Recording, latitude: float | None = None) -> Trial | N
     u[:, OWN["gyro"]] = np.where(np.isfinite(reference.rate), reference.rate, 0.0)
     known = known | {"rate"} | _slope(u, recording, "rate", "angular_acceleration")
     known = known | fill_place(u, recording, reference, latitude)
-    known = known | (set() if latitude is None else {"latitude"})
+    known = known | (set() if latitude is None and recording.latitude is None else {"latitude"})
     known = known | (_turned(u, recording) if len(axes) == 3 else set())
     if reference.kind == "static":
         # What an accelerometer at rest shows beside its mean is its own noise, not a force.
