@@ -41,13 +41,18 @@ def test_what_was_put_in_is_the_truth_and_what_was_found_the_model(closed, entri
             assert (e.low <= e.true <= e.high) == (e.said == "found, in its interval")
 
 
-def test_what_lies_below_the_smallest_visible_is_said_to(closed, entries):
+def test_what_lies_below_the_smallest_visible_of_its_axis_is_said_to(closed, entries):
+    """The rover turns about z alone: what x and y are not seen for is more than what z is."""
     seen = next(
         v for v in closed.observability if v.effect == "scale_factor" and v.sensor == "gyro"
     )
-    y = next(e for e in entries if e.effect == "scale_factor" and e.place == "y")
-    assert y.true < seen.smallest_visible
-    assert y.said.startswith("not found: below the smallest") and "1.2" in y.said
+    scale = {e.place: e for e in entries if e.effect == "scale_factor"}
+    assert seen.each[2,] == seen.smallest_visible < abs(scale["z"].true)
+    for i, place in enumerate("xy"):
+        least = seen.each.get((i,))
+        assert least is None or abs(scale[place].true) < least
+        said = "this log does not show" if least is None else "below the smallest"
+        assert scale[place].said.startswith(f"not found: {said}")
 
 
 def test_the_last_turn_shows_the_scale_factor_halfway_and_noise_at_its_end(closed):

@@ -8,8 +8,8 @@ that the data's own Gram matrix gives them (max-T).
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -75,6 +75,9 @@ ONE = Scatter()
 class Screened:
     """Gain of one effect before any correction, the groups that take part, the scanned values and
     the form to start from.
+
+    ``visible`` are the smallest coefficients that would stand out, by element, and
+    ``smallest_visible`` that of them which is nearest to none.
     """
 
     effect: str
@@ -85,6 +88,7 @@ class Screened:
     inseparable_from: tuple[str, ...] = ()
     form: Form | None = None
     scatter: Scatter = ONE
+    visible: Mapping[tuple[int, ...], float] = field(default_factory=dict)
 
     @property
     def toll(self) -> float:
@@ -234,7 +238,8 @@ def _gate(projected: Projected, all_groups: list[Group], rng: np.random.Generato
 
 def _screened(effect: str, gs: list[Group], projected: Projected) -> Screened:
     picked, gain, values = [], 0.0, {}
-    visible = [v for v in (_smallest(projected, g) for g in gs) if v is not None]
+    seen = {g.keys[0].index: _smallest(projected, g) for g in gs}
+    visible = {index: v for index, v in seen.items() if v is not None}
     for g in gs:
         options = [
             (c, float(_gains(projected.score[None], c, projected.variance)[0])) for c in g.choices
@@ -246,7 +251,8 @@ def _screened(effect: str, gs: list[Group], projected: Projected) -> Screened:
             if choice.value is not None:
                 values[g.keys[0].index] = choice.value
     nearest = max if gs[0].measure in ("rate", "range") else min
-    return Screened(effect, gain, tuple(picked), values, nearest(visible, default=np.inf))
+    least = nearest(visible.values(), default=np.inf)
+    return Screened(effect, gain, tuple(picked), values, least, visible=visible)
 
 
 def _smallest(projected: Projected, g: Group) -> float | None:
