@@ -27,9 +27,9 @@ class Normal:
     """Normal equations in whitened units, whole and by batch.
 
     ``gram`` (P, P), ``score`` (P,), for named columns. ``seen`` (P, P) is the Gram matrix of the
-    columns as they are, where the noise of a reference was taken out of ``gram``: the covariance of
-    ``score``, for what that noise adds to a column is no slope, but scatters its score as much as
-    any.
+    columns as they are, where the noise of a reference was taken out of ``gram``: what that adds to
+    a column is no slope, but scatters its score as much as any. ``doubt`` (k, P) are standard
+    errors of ``score``, independent of each other, by what is not known of that noise.
     """
 
     keys: list[Key]
@@ -39,6 +39,7 @@ class Normal:
     rows: int
     log_det: float
     seen: np.ndarray | None = None
+    doubt: np.ndarray | None = None
 
     @cached_property
     def gram(self) -> np.ndarray:
@@ -51,7 +52,8 @@ class Normal:
     @property
     def variance(self) -> np.ndarray:
         """Covariance (P, P) of ``score`` where nothing is left to explain."""
-        return self.gram if self.seen is None else self.seen
+        known = self.gram if self.seen is None else self.seen
+        return known if self.doubt is None else known + self.doubt.T @ self.doubt
 
     @cached_property
     def position(self) -> dict[Key, int]:

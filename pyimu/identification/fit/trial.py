@@ -57,8 +57,9 @@ class Trial:
     heeded where no band mixes them with their neighbours. ``band_hz`` is the band of a derived
     reference, at most ``band_limit``; ``clock`` what was taken out of the reference's clock; ``up``
     (3,) the direction upward in the sensor's axes where the reference knows only the turn about it;
-    ``noise`` (n, 3) a draw of the reference's noise, where it has any to speak of. ``reduction`` is
-    how samples become rows where these are whole stretches of the log.
+    ``noise`` (n, 3) a draw of the reference's noise, where it has any to speak of, and
+    ``noise_error`` (3,) the standard error of its power over that power. ``reduction`` is how
+    samples become rows where these are whole stretches of the log.
     """
 
     name: str
@@ -79,6 +80,7 @@ class Trial:
     band_limit: float | None = None
     clock: Clock | None = None
     noise: np.ndarray | None = None
+    noise_error: tuple[float, ...] = (0.0, 0.0, 0.0)
     up: np.ndarray | None = None
     reduction: Reduction | None = None
 

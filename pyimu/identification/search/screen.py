@@ -150,9 +150,16 @@ class Projected:
     @cached_property
     def variance(self) -> np.ndarray:
         """Covariance of ``score``."""
-        if self.normal.seen is None:
-            return self.gram
-        return self.turn.T @ self.normal.seen @ self.turn
+        if self.normal.doubt is None:
+            return self.scatter
+        doubt = self.normal.doubt @ self.turn
+        return self.scatter + doubt.T @ doubt
+
+    @cached_property
+    def scatter(self) -> np.ndarray:
+        """The part of that covariance by which scores differ from batch to batch."""
+        seen = self.normal.seen
+        return self.gram if seen is None else self.turn.T @ seen @ self.turn
 
     @cached_property
     def batch_gram(self) -> np.ndarray:
@@ -287,13 +294,13 @@ def dispersion(projected: Projected, columns: Sequence[int], scatter: Scatter = 
     score puts that right.
     """
     at = list(columns)
-    gram, variance = (m[np.ix_(at, at)] for m in (projected.gram, projected.variance))
+    gram, scattered = (m[np.ix_(at, at)] for m in (projected.gram, projected.scatter))
     if not np.any(np.diag(gram)):
         return 1.0
     estimate = solve(gram, projected.score[at])
     batch_gram = projected.batch_gram[:, at][:, :, at]
     rest = projected.batch_score[:, at] - batch_gram @ estimate
-    own = float(np.trace(solve(variance, rest.T @ rest))) / len(at)
+    own = float(np.trace(solve(scattered, rest.T @ rest))) / len(at)
     shares = np.trace(
         solve(gram, batch_gram.transpose(1, 2, 0).reshape(len(at), -1)).reshape(
             len(at), len(at), -1
@@ -319,7 +326,7 @@ def _scatter(projected: Projected) -> Scatter:
     seen = gram > 0.0
     batch_gram = np.einsum("bii->bi", projected.batch_gram)[:, seen] / gram[seen]
     rest = projected.batch_score[:, seen] - batch_gram * projected.score[seen]
-    own = np.sum(rest**2, axis=0) / np.diag(projected.variance)[seen]
+    own = np.sum(rest**2, axis=0) / np.diag(projected.scatter)[seen]
     found = [_unbiased(*v) for v in zip(own, np.sum(batch_gram**2, axis=0), strict=True)]
     values, batches = np.array(found).reshape(-1, 2).T
     if not batches.sum() > 0.0:
