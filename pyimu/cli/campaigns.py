@@ -10,66 +10,80 @@ import typer
 from pyimu.cli.options import Out, progress, radians
 from pyimu.errors import UserError
 
+PartName = Annotated[str, typer.Argument(help="Built-in part or a TOML file.", show_default=False)]
+DriveName = Annotated[
+    str, typer.Option("--drive", help="turn-on-spot, straight, obstacle, ackermann or sol.")
+]
+Runs = Annotated[int, typer.Option("--runs", help="Runs, from number 0 on.")]
+Seed = Annotated[int, typer.Option("--seed", help="Begins all draws.")]
+Scheduler = Annotated[
+    str | None,
+    typer.Option(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="Dask scheduler, as tcp://host:8786; else processes of this machine.",
+    ),
+]
+Workers = Annotated[
+    int | None,
+    typer.Option("--workers", help="Processes; 0: this one alone. Else one for each core."),
+]
+Specimens = Annotated[
+    bool | None,
+    typer.Option(
+        "--specimens/--no-specimens",
+        help="Each run has a part of its own; else where the part has tolerances.",
+        show_default=False,
+    ),
+]
+Faults = Annotated[
+    str,
+    typer.Option(
+        "--faults",
+        help="A run has one of these or none: lost-axis, stuck, saturating, heading-lost, "
+        "heading-wrong, separated by commas.",
+    ),
+]
+Sol = Annotated[
+    bool,
+    typer.Option("--sol", help="Sols without and with a heading once an hour, side by side."),
+]
+HeadingEvery = Annotated[
+    float, typer.Option("--heading-every", help="Seconds between headings; 0: none.")
+]
+HeadingStd = Annotated[float, typer.Option("--heading-std", help="Degrees, of a heading.")]
+Rate = Annotated[
+    float | None,
+    typer.Option("--rate", help="Hz of the sensors; else the part's, and 5 for a sol."),
+]
+Body = Annotated[
+    str | None,
+    typer.Option("--body", help="Earth, Mars or Moon; else the Earth, and of a sol Mars."),
+]
+Terrains = Annotated[int, typer.Option("--terrains", help="Grounds among the runs.")]
+Number = Annotated[
+    int | None,
+    typer.Option("--run", help="Only this run, with its log and picture; under --out."),
+]
+
 
 def campaign_command(
-    part: Annotated[str, typer.Argument(help="Built-in part or a TOML file.", show_default=False)],
+    part: PartName,
     out: Out = Path("out/campaign"),
-    drive: Annotated[
-        str, typer.Option("--drive", help="turn-on-spot, straight, obstacle, ackermann or sol.")
-    ] = "turn-on-spot",
-    runs: Annotated[int, typer.Option("--runs", help="Runs, from number 0 on.")] = 1000,
-    seed: Annotated[int, typer.Option("--seed", help="Begins all draws.")] = 0,
-    scheduler: Annotated[
-        str | None,
-        typer.Option(
-            "--scheduler",
-            metavar="ADDRESS",
-            help="Dask scheduler, as tcp://host:8786; else processes of this machine.",
-        ),
-    ] = None,
-    workers: Annotated[
-        int | None,
-        typer.Option("--workers", help="Processes; 0: this one alone. Else one for each core."),
-    ] = None,
-    specimens: Annotated[
-        bool | None,
-        typer.Option(
-            "--specimens/--no-specimens",
-            help="Each run has a part of its own; else where the part has tolerances.",
-            show_default=False,
-        ),
-    ] = None,
-    faults: Annotated[
-        str,
-        typer.Option(
-            "--faults",
-            help="A run has one of these or none: lost-axis, stuck, saturating, heading-lost, "
-            "heading-wrong, separated by commas.",
-        ),
-    ] = "",
-    sol: Annotated[
-        bool,
-        typer.Option("--sol", help="Sols without and with a heading once an hour, side by side."),
-    ] = False,
-    heading_every: Annotated[
-        float, typer.Option("--heading-every", help="Seconds between headings; 0: none.")
-    ] = 0.0,
-    heading_std: Annotated[
-        float, typer.Option("--heading-std", help="Degrees, of a heading.")
-    ] = 0.5,
-    rate: Annotated[
-        float | None,
-        typer.Option("--rate", help="Hz of the sensors; else the part's, and 5 for a sol."),
-    ] = None,
-    body: Annotated[
-        str | None,
-        typer.Option("--body", help="Earth, Mars or Moon; else the Earth, and of a sol Mars."),
-    ] = None,
-    terrains: Annotated[int, typer.Option("--terrains", help="Grounds among the runs.")] = 4,
-    number: Annotated[
-        int | None,
-        typer.Option("--run", help="Only this run, with its log and picture; under --out."),
-    ] = None,
+    drive: DriveName = "turn-on-spot",
+    runs: Runs = 1000,
+    seed: Seed = 0,
+    scheduler: Scheduler = None,
+    workers: Workers = None,
+    specimens: Specimens = None,
+    faults: Faults = "",
+    sol: Sol = False,
+    heading_every: HeadingEvery = 0.0,
+    heading_std: HeadingStd = 0.5,
+    rate: Rate = None,
+    body: Body = None,
+    terrains: Terrains = 4,
+    number: Number = None,
 ) -> None:
     """Example: pyimu campaign imt30 --drive turn-on-spot --runs 1000 --out out/campaign
 
@@ -104,13 +118,7 @@ def campaign_command(
         print(f"log: {folder / 'log.parquet'}, picture: {folder / 'errors.png'}")
         return
     with progress("preparing") as say:
-        if sol:
-            both = sols(settings, runs, out, scheduler=scheduler, workers=workers, say=say)
-        else:
-            done = run(settings, runs, out, scheduler=scheduler, workers=workers, say=say)
-    if sol:
-        print(both.report())
-        print(f"reports: {out / 'without-heading'}, {out / 'heading-hourly'}")
-        return
+        go = sols if sol else run
+        done = go(settings, runs, out, scheduler=scheduler, workers=workers, say=say)
     print(done.report())
-    print(f"table: {done.folder.runs}, report: {done.folder.page}")
+    print(done.where)

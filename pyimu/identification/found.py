@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
@@ -69,7 +70,8 @@ class Changed:
 
 @dataclass(frozen=True)
 class Visibility:
-    """The smallest coefficient of an absent effect that the logs would show.
+    """The smallest coefficient of an absent effect that the logs would show, of all its elements
+    and of ``each`` that they show at all, by its index.
 
     ``inseparable_from`` are the effects that it looks like in them.
     """
@@ -80,6 +82,7 @@ class Visibility:
     unit: str
     inseparable_from: tuple[str, ...] = ()
     reason: str = ""
+    each: Mapping[tuple[int, ...], float] = field(default_factory=dict)
 
     def as_dict(self) -> dict[str, Any]:
         out = {

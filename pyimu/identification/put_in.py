@@ -60,14 +60,17 @@ def _compared(
         low, high = float(entry.low[index]), float(entry.high[index])
         said = "found, in its interval" if low <= true <= high else "found, outside its interval"
         return float(entry.value[index]), low, high, said
-    return *nothing, _why_not(closed, kind, key[0], true)
+    return *nothing, _why_not(closed, kind, key[0], index, true)
 
 
-def _why_not(closed: Outcome, kind: str, effect: str, true: float) -> str:
+def _why_not(closed: Outcome, kind: str, effect: str, index: tuple[int, ...], true: float) -> str:
     seen = next((v for v in closed.observability if (v.sensor, v.effect) == (kind, effect)), None)
-    if seen is None or seen.smallest_visible is None:
+    if seen is None:
         return "not found"
-    least = quantity(seen.smallest_visible, seen.unit)
-    if abs(true) < seen.smallest_visible:
+    smallest = seen.each.get(index)
+    if smallest is None:
+        return "not found: this log does not show it at all"
+    least = quantity(smallest, seen.unit)
+    if abs(true) < smallest:
         return f"not found: below the smallest that this log shows, {least}"
     return f"not found, though this log shows {least}"

@@ -31,5 +31,6 @@ def _of(e: Effect, kind: str, inv: Investigation) -> Visibility:
     unit = inv.before.sensor.unit(parameter.unit)
     seen = next((c for c in inv.first.candidates if c.effect == e.name), None)
     if seen is not None and np.isfinite(seen.smallest_visible):
-        return Visibility(kind, e.name, seen.smallest_visible, unit, seen.inseparable_from)
+        alike, each = seen.inseparable_from, seen.visible
+        return Visibility(kind, e.name, seen.smallest_visible, unit, alike, each=each)
     return Visibility(kind, e.name, None, unit, (), why_unasked(kind, inv, e))

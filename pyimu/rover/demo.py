@@ -32,14 +32,36 @@ from pyimu.recording.log import read_recording
 from pyimu.recording.recording import Recording
 from pyimu.report.figures import AFTER, BEFORE, FLOOR, STYLE, legend, svg_of
 from pyimu.report.page import Picture
+from pyimu.rover.drives import Motion, free_drive
 from pyimu.rover.optical import optical_reference
-from pyimu.rover.trajectory import Motion, ackermann, drive, stop, straight, turn_on_spot
 
 SAMPLE_RATE = 50.0
 """Hz; the paper samples at 976 Hz and filters at 10 Hz."""
 
-LATITUDE = np.deg2rad(52.22)
-"""rad; Noordwijk, where the paper's rover drove."""
+TURN_RATE, SPEED, RADIUS = 0.02, 0.01, 1.25
+"""rad/s, m/s and m; of the paper's test drives, Hidalgo 2012, section 6.1."""
+
+HALF_TURN = np.pi / TURN_RATE
+"""s of a turn on the spot, one way."""
+
+MANOEUVRES = (
+    (60.0, 0.0, 0.0),
+    (HALF_TURN, 0.0, TURN_RATE),
+    (HALF_TURN, 0.0, -TURN_RATE),
+    (30.0, 0.0, 0.0),
+    (250.0, SPEED, 0.0),
+    (30.0, 0.0, 0.0),
+    (np.pi * RADIUS / SPEED, SPEED, SPEED / RADIUS),
+    (30.0, 0.0, 0.0),
+    (HALF_TURN, 0.0, TURN_RATE),
+    (HALF_TURN, 0.0, -TURN_RATE),
+    (20.0, 0.0, 0.0),
+)
+"""The drive: s, speed in m/s and turn rate in rad/s. A turn on the spot out and back, a straight
+line, an Ackermann half circle and a second turn on the spot, with stops between them."""
+
+SHAKE = 0.03
+"""m/s^2; standard deviation of the force of a rover that drives. Assumed."""
 
 UNDECLARED = np.array([-0.018, 0.011, -6.5 / 180.0])
 """Scale factor errors of the gyros; about the vertical what makes 6.5 deg of 180."""
@@ -80,23 +102,14 @@ def true_part() -> Part:
     )
 
 
-def motion(seed: int = 2012) -> Motion:
-    """The demo's drive, with stops between its manoeuvres.
-
-    Turn on the spot, straight line, Ackermann half circle, and a second turn on the spot.
-    """
-    parts = [
-        stop(60.0),
-        *turn_on_spot(),
-        stop(30.0),
-        *straight(2.5),
-        stop(30.0),
-        *ackermann(),
-        stop(30.0),
-        *turn_on_spot(),
-        stop(20.0),
-    ]
-    return drive(parts, SAMPLE_RATE, LATITUDE, seed)
+def motion(terrain: int = 2012) -> Motion:
+    """The demo's drive of ``RoverDrive``, over the ground of that number."""
+    times, *commands = np.array(MANOEUVRES).T
+    starts = np.append(0.0, np.cumsum(times))
+    table = np.column_stack([starts[:-1], *commands])
+    return free_drive(
+        table, sample_rate=SAMPLE_RATE, rest=times[-1], start_temperature=24.0, terrain=terrain
+    )
 
 
 def recording(seed: int = 2012) -> Recording:
@@ -106,20 +119,18 @@ def recording(seed: int = 2012) -> Recording:
     """
     m = motion(seed)
     rng = np.random.default_rng(seed + 1)
-    shake = 0.03 * rng.standard_normal(m.force.shape) * (m.standing[:, None] == 0)
-    temperature = (
-        24.0 + 6.0 * (1 - np.exp(-m.time / 500.0)) + 0.8 * np.sin(2 * np.pi * m.time / 420.0)
-    )
-    gyro, accel = simulate(true_part(), m.rate, m.force + shake, temperature, seed=seed)
+    shake = SHAKE * rng.standard_normal(m.specific_force.shape) * (m.standing[:, None] == 0)
+    force = m.specific_force + shake
+    gyro, accel = simulate(true_part(), m.rate, force, m.temperature, seed=seed)
     return Recording.from_arrays(
         name="rover",
         time=m.time,
         gyro=gyro,
         accel=accel,
-        temperature=temperature,
+        temperature=m.temperature,
         ref_q=optical_reference(m.q, SAMPLE_RATE, rng),
         stationary=m.standing,
-        latitude=np.full(len(m.time), LATITUDE),
+        latitude=np.full(len(m.time), m.parameters["latitude"]),
     )
 
 

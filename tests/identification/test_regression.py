@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 from loop_cases import inputs, noise, trial
 from scipy.linalg import block_diag
+from scipy.ndimage import gaussian_filter1d
 from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
 from pyimu.identification.fit import maximum_likelihood
-from pyimu.identification.fit.columns import Linear, LogState, linearise
+from pyimu.identification.fit.columns import Linear, LogState, in_band, linearise
 from pyimu.identification.fit.fit import begin, power
 from pyimu.identification.fit.keys import Coefficient, LogBias, LogTurn, coefficients_of
 from pyimu.identification.fit.maximum_likelihood import fit
@@ -208,11 +209,68 @@ def offset(errors: np.ndarray) -> np.ndarray:
 
 def test_noise_of_an_attitude_reference_does_not_pull_the_scale_factor_down(monkeypatch):
     corrected = scale_factors()
-    monkeypatch.setattr(maximum_likelihood, "without_reference_noise", lambda fitted: fitted)
+    monkeypatch.setattr(maximum_likelihood, "has_noise", lambda fitted: False)
     raw = scale_factors()
     assert np.all(offset(raw) < -4.5), offset(raw)
     assert np.all(np.abs(offset(corrected)) < 4.5), offset(corrected)
     assert np.all(np.abs(corrected.mean(axis=0)) < 0.3 * np.abs(raw.mean(axis=0)))
+
+
+WANDER, WANDER_TIME = 2e-3, 10.0
+"""rad and s of an attitude that wanders: white noise smoothed over that time."""
+
+LITTLE, LITTLE_TIME = 6e-4, 7.0
+"""rad/s and s of the motion about the first axis: as slow as the wander, four times as large."""
+
+
+def slow_noise(rng: np.random.Generator, time: np.ndarray, over: float) -> np.ndarray:
+    """White noise (n, 3) smoothed over so many s, of variance one."""
+    out = gaussian_filter1d(rng.standard_normal((len(time), 3)), over / 0.04, axis=0, mode="wrap")
+    return out / out.std(axis=0)
+
+
+def seen_by_wandering_attitude(seed: int):
+    """A gyro with a scale factor against the derivative of an attitude that wanders slowly, and
+    the noise of that derivative.
+    """
+    rng, time = np.random.default_rng(seed), 0.04 * np.arange(15000)
+    u = inputs(np.random.default_rng(99), time)
+    u[:, :3] *= 0.1
+    u[:, 0] = LITTLE * slow_noise(np.random.default_rng(98), time, LITTLE_TIME)[:, 0]
+    y = u[:, :3] * (1 + TRUE_S) + 1e-4 * rng.standard_normal((len(time), 3))
+    angle = WANDER * slow_noise(rng, time, WANDER_TIME)
+    angle += 1e-5 * rng.standard_normal(angle.shape)
+    e = np.gradient(angle, 0.04, axis=0)
+    u[:, :3] += e
+    return trial(time, y, u, reference="attitude", band_hz=1.0), e
+
+
+def test_the_noise_of_a_wandering_attitude_is_found_in_its_band():
+    """Its power in the band by axis, within five of the standard errors that it is given."""
+    sensor = Sensor("gyro", {"scale_factor": {}, "angle_random_walk": {"N": 1e-4 * np.sqrt(0.04)}})
+    one, e = seen_by_wandering_attitude(1)
+    first = fit(begin(sensor, keys_of(sensor, "scale_factor"), [one]))
+    known = with_reference_noise(first, [])[0].trials[0]
+    true, drawn = (in_band(one, v).var(axis=0) for v in (e, known.noise))
+    assert np.all(np.array(known.noise_error) > 0.0)
+    assert np.all(np.abs(drawn / true - 1.0) < 5.0 * np.array(known.noise_error))
+
+
+def test_a_wandering_attitude_neither_pulls_a_scale_factor_nor_narrows_its_interval():
+    """Least squares alone takes the wander about the axis that hardly moves for a scale factor far
+    below one; here the squares of the errors in standard errors are a chi-square.
+    """
+    sensor = Sensor("gyro", {"scale_factor": {}, "angle_random_walk": {"N": 1e-4 * np.sqrt(0.04)}})
+    keys, z, raw = keys_of(sensor, "scale_factor"), [], []
+    for seed in range(8):
+        first = fit(begin(sensor, keys, [seen_by_wandering_attitude(seed)[0]]))
+        found = fit(with_reference_noise(first, [])[0])
+        std = [found.std[Coefficient("scale_factor", "s", (i,))] for i in range(3)]
+        z.append((found.sensor.values["scale_factor"]["s"] - TRUE_S) / std)
+        raw.append(first.sensor.values["scale_factor"]["s"][0])
+    z = np.array(z)
+    assert np.mean(raw) < -0.05
+    assert np.sum(z**2) < chi2.ppf(1 - ALARM, z.size), z
 
 
 def seen_by_rate(seed: int):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
@@ -259,38 +259,19 @@ def begin(
     return Fit(sensor, frozenset(free), trials, states, {}, prior=prior).with_noise()
 
 
-def gauss_newton(start: Fit, steps: int) -> Fit:
-    """Least squares of the whitened residual, each step halved until it lowers it."""
-    normal = with_prior(normal_equations(start.linearise(), start.noise), start)
-    for _ in range(steps):
-        change = solve(normal.gram, normal.score)
-        if float(change @ normal.score) < 1e-3:
-            break
-        moved = next(
-            (
-                m
-                for m in (stepped(start, normal.keys, change / 2**k) for k in range(8))
-                if power(m) + prior_power(m) < normal.power
-            ),
-            None,
-        )
-        if moved is None:
-            break
-        start = moved
-        normal = with_prior(normal_equations(start.linearise(), start.noise), start)
-    return start
-
-
 def with_prior(normal: Normal, fit: Fit) -> Normal:
     """The normal equations with the prior's rows, which share out over the batches."""
     gram, score = np.array(normal.batch_gram), np.array(normal.batch_score)
+    seen = None if normal.seen is None else np.array(normal.seen)
     for key, (departure, std) in departures(fit).items():
         if key in normal.position:
             i = normal.position[key]
             gram[:, i, i] += std**-2 / len(gram)
             score[:, i] -= departure / std**2 / len(gram)
+            if seen is not None:
+                seen[i, i] += std**-2
     power = normal.power + prior_power(fit)
-    return replace(normal, batch_gram=gram, batch_score=score, power=power)
+    return replace(normal, batch_gram=gram, batch_score=score, power=power, seen=seen)
 
 
 def prior_power(fit: Fit) -> float:
@@ -325,6 +306,38 @@ def power(fit: Fit) -> float:
         for one in fit.residuals()
         for i in one.keys
     )
+
+
+def plain_equations(fit: Fit) -> Normal:
+    """Normal equations of a fit's columns as they are."""
+    return normal_equations(fit.linearise(), fit.noise)
+
+
+def gauss_newton(
+    start: Fit,
+    steps: int,
+    equations: Callable[[Fit], Normal] = plain_equations,
+    left: Callable[[Fit], float] = power,
+) -> Fit:
+    """Least squares by normal ``equations``, each step halved until it lowers what is ``left``."""
+    normal = with_prior(equations(start), start)
+    for _ in range(steps):
+        change = solve(normal.gram, normal.score)
+        if float(change @ normal.score) < 1e-3:
+            break
+        moved = next(
+            (
+                m
+                for m in (stepped(start, normal.keys, change / 2**k) for k in range(8))
+                if left(m) + prior_power(m) < normal.power
+            ),
+            None,
+        )
+        if moved is None:
+            break
+        start = moved
+        normal = with_prior(equations(start), start)
+    return start
 
 
 def stepped(start: Fit, keys: list[Key], change: np.ndarray) -> Fit:

@@ -10,16 +10,15 @@ from pyimu.identification.fit.fit import (
     Fit,
     declared_variances,
     gauss_newton,
-    power,
-    stepped,
     with_prior,
 )
-from pyimu.identification.fit.normal import Normal, Unit, solve, variances
-from pyimu.identification.fit.reference_noise import equations, has_noise, smoothing
-
-MOST_NOISE = 100.0
-"""Power of a reference's noise over that of its motion up to which coefficients are freed of it: an
-error c times the motion leaves at most so many times more of c times the noise."""
+from pyimu.identification.fit.normal import Normal, Unit, variances
+from pyimu.identification.fit.reference_noise import (
+    equations,
+    has_noise,
+    power_without_noise,
+    smoothing,
+)
 
 
 def fit(start: Fit) -> Fit:
@@ -34,16 +33,24 @@ def fit_and_normal(start: Fit, rounds: int = 3, steps: int = 6) -> tuple[Fit, No
     """
     for _ in range(rounds):
         before = _values(start)
-        start = gauss_newton(start, steps).with_noise()
+        start = _least_squares(start, steps).with_noise()
         if np.allclose(before, _values(start), rtol=1e-4, atol=1e-9):
             break
-    start = without_reference_noise(start)
     normal = with_prior(equations(start), start)
-    variance = variances(normal.gram)
+    variance = variances(normal.gram, normal.variance if normal.seen is not None else None)
     # A coefficient that was set by other means than regression keeps the standard error it came
     # with.
     std = {**start.std, **{k: float(np.sqrt(variance[i])) for i, k in enumerate(normal.keys)}}
     return replace(start, log_likelihood=normal.log_likelihood - smoothing(start), std=std), normal
+
+
+def _least_squares(start: Fit, steps: int) -> Fit:
+    """Least squares of the whitened residual, freed of the noise of the reference where there is
+    any: with it a coefficient would go to where it lowers that noise.
+    """
+    if has_noise(start):
+        return gauss_newton(start, steps, equations, power_without_noise)
+    return gauss_newton(start, steps)
 
 
 def _values(fit: Fit) -> np.ndarray:
@@ -68,25 +75,10 @@ def advantage(larger: Fit, smaller: Fit) -> float:
     """
     if not wander_is_declared(larger) or larger.noise == smaller.noise:
         return larger.log_likelihood - smaller.log_likelihood
-    other = gauss_newton(replace(smaller, noise=larger.noise), 2)
-    if has_noise(other):
-        normal = with_prior(equations(other), other)
-        other = stepped(other, normal.keys, solve(normal.gram, normal.score))
+    other = _least_squares(replace(smaller, noise=larger.noise), 2)
     return larger.log_likelihood - _likelihood(other)
 
 
 def _likelihood(fitted: Fit) -> float:
     normal = with_prior(equations(fitted), fitted)
     return normal.log_likelihood - smoothing(fitted)
-
-
-def without_reference_noise(fitted: Fit) -> Fit:
-    """The fit less what the noise of its reference pulls coefficients by."""
-    if not has_noise(fitted):
-        return fitted
-    normal = with_prior(equations(fitted), fitted)
-    moved = stepped(fitted, normal.keys, solve(normal.gram, normal.score))
-    # What the noise leaves of a column may be so little that the step goes beyond all bounds.
-    with np.errstate(all="ignore"):
-        is_step = power(moved) < MOST_NOISE * power(fitted)
-    return (moved if is_step else fitted).with_noise()

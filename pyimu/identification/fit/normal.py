@@ -27,7 +27,9 @@ class Normal:
     """Normal equations in whitened units, whole and by batch.
 
     ``gram`` (P, P), ``score`` (P,), for named columns. ``seen`` (P, P) is the Gram matrix of the
-    columns as they are, where the noise of a reference was taken out of ``gram``.
+    columns as they are, where the noise of a reference was taken out of ``gram``: what that adds to
+    a column is no slope, but scatters its score as much as any. ``doubt`` (k, P) are standard
+    errors of ``score``, independent of each other, by what is not known of that noise.
     """
 
     keys: list[Key]
@@ -37,6 +39,7 @@ class Normal:
     rows: int
     log_det: float
     seen: np.ndarray | None = None
+    doubt: np.ndarray | None = None
 
     @cached_property
     def gram(self) -> np.ndarray:
@@ -45,6 +48,12 @@ class Normal:
     @cached_property
     def score(self) -> np.ndarray:
         return self.batch_score.sum(axis=0)
+
+    @property
+    def variance(self) -> np.ndarray:
+        """Covariance (P, P) of ``score`` where nothing is left to explain."""
+        known = self.gram if self.seen is None else self.seen
+        return known if self.doubt is None else known + self.doubt.T @ self.doubt
 
     @cached_property
     def position(self) -> dict[Key, int]:
@@ -93,13 +102,20 @@ def _scaled(gram: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.nd
     return scale, values, vectors, values > DEAD * max(values.max(initial=0.0), 1e-300)
 
 
-def variances(gram: np.ndarray) -> np.ndarray:
-    """Variances (P,) of the solution.
+def variances(gram: np.ndarray, seen: np.ndarray | None = None) -> np.ndarray:
+    """Variances (P,) of the solution; ``seen`` (P, P) is the covariance of the scores where it is
+    not ``gram`` (Huber 1967, the sandwich of both).
 
     Infinite for a coefficient that a direction which the data do not show takes part in.
     """
     scale, values, vectors, keep = _scaled(gram)
-    shown = np.sum(vectors[:, keep] ** 2 / values[keep], axis=1) / scale**2
+    if seen is None:
+        shown = np.sum(vectors[:, keep] ** 2 / values[keep], axis=1) / scale**2
+    else:
+        inverse = (vectors[:, keep] / values[keep]) @ vectors[:, keep].T
+        # A column that the data do not show has no slope, however much its score scatters.
+        unit = np.where(np.diag(gram) > 0.0, 1.0 / scale, 0.0)
+        shown = np.sum(inverse * (inverse @ (seen * np.outer(unit, unit))), axis=1) / scale**2
     hidden = np.sum(vectors[:, ~keep] ** 2, axis=1)
     return np.where(hidden > 1e-6, np.inf, shown)
 

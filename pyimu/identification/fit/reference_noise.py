@@ -18,13 +18,21 @@ from numpy.lib.stride_tricks import sliding_window_view
 from scipy.signal import lfilter
 
 from pyimu.identification.fit.columns import Linear, band_segments, band_time, in_band
-from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.fit import Fit, power
+from pyimu.identification.fit.incoherent import (
+    NOTHING,
+    Spectrum,
+    drawn,
+    of_white_attitude,
+    unseen_spectrum,
+)
 from pyimu.identification.fit.noise_floor import (
     LAGS,
     QUIET,
     beyond_own,
     colour,
     lowness,
+    own_noise,
     quiet,
     quietest,
     windows,
@@ -76,12 +84,18 @@ def with_reference_noise(fit: Fit, held: list[Trial], seed: int = 1) -> tuple[Fi
         return fit, held
     linears = fit.residuals()
     variance = _variance(fit, linears)
+    slow = _slow(fit, linears)
+    most = np.max([variance, *([s.variance for s in one] for one in slow.values())], axis=0)
     total = np.var(np.concatenate([one.residual for one in linears]), axis=0)
-    if not np.any(variance > LEAST * np.maximum(total, 1e-300)):
+    if not np.any(most > LEAST * np.maximum(total, 1e-300)):
         return fit, held
     rng, shape = np.random.default_rng(seed), _shape(fit, linears)
-    trials = tuple(_drawn(t, variance, shape, rng) for t in fit.trials)
-    apart = [_drawn(t, variance, shape, rng) for t in held]
+
+    def draw(trial: Trial) -> Trial:
+        found = _drawn(trial, variance, shape, rng)
+        return _with_slow(found, slow.get(trial.parent or trial.name, ()), rng)
+
+    trials, apart = tuple(map(draw, fit.trials)), list(map(draw, held))
     known = replace(fit, trials=trials, coloured=bool(shape)).with_noise()
     return replace(known, echo=_echo(known)), apart
 
@@ -168,6 +182,30 @@ def _drawn(
     return replace(trial, noise=draw * np.minimum(scale, most))
 
 
+def _slow(fit: Fit, linears: Sequence[Linear]) -> dict[str, list[Spectrum]]:
+    """Spectra (3,) of the noise of derived references, by the names of their trials."""
+    own = own_noise(fit)
+    return {
+        t.name: [unseen_spectrum(t, one, i, own[i]) if i in one.keys else NOTHING for i in range(3)]
+        for t, one in zip(fit.trials, linears, strict=True)
+        if t.band_hz is not None
+    }
+
+
+def _with_slow(trial: Trial, spectra: Sequence[Spectrum], rng: np.random.Generator) -> Trial:
+    """The trial with what its noise has at low frequencies beside the high ones."""
+    if not any(len(s.psd) for s in spectra):
+        return trial
+    noise = np.array(trial.noise)
+    for i, spectrum in enumerate(spectra):
+        if not len(spectrum.psd):
+            continue
+        more = spectrum.beyond(of_white_attitude(trial, spectrum.frequency, noise[:, i].var()))
+        if more.any():
+            noise[:, i] += drawn(trial, spectrum.frequency, more, rng)
+    return replace(trial, noise=noise, noise_error=tuple(s.error for s in spectra))
+
+
 def _high(trial: Trial, values: np.ndarray) -> np.ndarray:
     """Root mean square (3,) of third differences of values (n, 3), in their quietest quarter."""
     pieces = [np.diff(values[a:b], n=3, axis=0) for a, b in trial.segments]
@@ -225,13 +263,39 @@ def equations(fit: Fit, linearised: Callable[[Fit], list[Linear]] = Fit.linearis
     found = normal_equations(linearised(fit), fit.noise)
     if not has_noise(fit):
         return found
-    noise = _on(found, normal_equations(changes(fit, linearised), fit.noise))
-    gram, score = found.batch_gram - noise.batch_gram, found.batch_score - noise.batch_score
+    changed = changes(fit, linearised)
+    axes = [
+        _on(found, normal_equations([_of_axis(one, i) for one in changed], fit.noise))
+        for i in fit.noise
+    ]
+    taken = sum(n.batch_gram for n in axes)
+    gram = found.batch_gram - taken
+    score = found.batch_score - sum(n.batch_score for n in axes)
+    doubt = np.array([_error(fit, i) * n.score for i, n in zip(fit.noise, axes, strict=True)])
     whole, seen = gram.sum(axis=0), found.gram
-    hidden = np.diag(whole) <= LEAST_SEEN * np.diag(seen)
-    score[:, hidden] = gram[:, hidden] = gram[:, :, hidden] = 0.0
-    power = found.power - noise.power
-    return replace(found, batch_gram=gram, batch_score=score, power=power, seen=seen)
+    unknown = sum(_error(fit, i) * np.diag(n.gram) for i, n in zip(fit.noise, axes, strict=True))
+    hidden = np.diag(whole) <= np.maximum(LEAST_SEEN * np.diag(seen), CHANCE * unknown)
+    score[:, hidden] = gram[:, hidden] = gram[:, :, hidden] = doubt[:, hidden] = 0.0
+    power = found.power - sum(n.power for n in axes)
+    return replace(found, batch_gram=gram, batch_score=score, power=power, seen=seen, doubt=doubt)
+
+
+def power_without_noise(fit: Fit) -> float:
+    """Sum of squares of the whitened residual as a reference without noise would have it."""
+    noise = changes(fit, Fit.residuals)
+    return power(fit) - sum(whitened(fit.noise[i], one, i) for one in noise for i in one.keys)
+
+
+def _of_axis(one: Linear, axis: int) -> Linear:
+    """The rows of one axis."""
+    if axis not in one.keys:
+        return replace(one, keys={}, columns={})
+    return replace(one, keys={axis: one.keys[axis]}, columns={axis: one.columns[axis]})
+
+
+def _error(fit: Fit, axis: int) -> float:
+    """Standard error of the power of the reference's noise on an axis, over that power."""
+    return float(np.sqrt(np.mean([t.noise_error[axis] ** 2 for t in fit.trials])))
 
 
 def _on(like: Normal, other: Normal) -> Normal:

@@ -57,8 +57,9 @@ class Trial:
     heeded where no band mixes them with their neighbours. ``band_hz`` is the band of a derived
     reference, at most ``band_limit``; ``clock`` what was taken out of the reference's clock; ``up``
     (3,) the direction upward in the sensor's axes where the reference knows only the turn about it;
-    ``noise`` (n, 3) a draw of the reference's noise, where it has any to speak of. ``reduction`` is
-    how samples become rows where these are whole stretches of the log.
+    ``noise`` (n, 3) a draw of the reference's noise, where it has any to speak of, and
+    ``noise_error`` (3,) the standard error of its power over that power. ``reduction`` is how
+    samples become rows where these are whole stretches of the log.
     """
 
     name: str
@@ -79,6 +80,7 @@ class Trial:
     band_limit: float | None = None
     clock: Clock | None = None
     noise: np.ndarray | None = None
+    noise_error: tuple[float, ...] = (0.0, 0.0, 0.0)
     up: np.ndarray | None = None
     reduction: Reduction | None = None
 
@@ -183,7 +185,7 @@ def gyro_trial(recording: Recording, latitude: float | None = None) -> Trial | N
     u[:, OWN["gyro"]] = np.where(np.isfinite(reference.rate), reference.rate, 0.0)
     known = known | {"rate"} | _slope(u, recording, "rate", "angular_acceleration")
     known = known | fill_place(u, recording, reference, latitude)
-    known = known | (set() if latitude is None else {"latitude"})
+    known = known | (set() if latitude is None and recording.latitude is None else {"latitude"})
     known = known | (_turned(u, recording) if len(axes) == 3 else set())
     if reference.kind == "static":
         # What an accelerometer at rest shows beside its mean is its own noise, not a force.

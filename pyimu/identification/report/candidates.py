@@ -94,10 +94,16 @@ def _led(fates: list[Fate], fitted: dict[str, float]) -> str:
         for c in fates
         if chosen and c.outcome != "added" and (c.gain or 0.0) > min(a.gain or 0.0 for a in chosen)
     ]
-    told = [f"{c.effect} {_nat(c.fitted)}" for c in ahead if c.fitted is not None]
-    if told:
-        kept = joined([f"{a.effect} {_nat(a.fitted)}" for a in chosen])
-        said += f" So {joined(told)} against {kept}, though they led at the first look."
+    kept = joined([f"{a.effect} {_nat(a.fitted)}" for a in chosen])
+    as_much = [c for c in ahead if c.outcome == "alternative"]
+    less = [c for c in ahead if c.outcome != "alternative"]
+    for some, why in (
+        (less, "though they led at the first look"),
+        (as_much, "which these data do not tell apart: the plainest goes in"),
+    ):
+        told = [f"{c.effect} {_nat(c.fitted)}" for c in some if c.fitted is not None]
+        if told:
+            said += f" So {joined(told)} against {kept}, {why}."
     return said
 
 

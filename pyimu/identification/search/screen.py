@@ -8,8 +8,8 @@ that the data's own Gram matrix gives them (max-T).
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -75,6 +75,9 @@ ONE = Scatter()
 class Screened:
     """Gain of one effect before any correction, the groups that take part, the scanned values and
     the form to start from.
+
+    ``visible`` are the smallest coefficients that would stand out, by element, and
+    ``smallest_visible`` that of them which is nearest to none.
     """
 
     effect: str
@@ -85,6 +88,7 @@ class Screened:
     inseparable_from: tuple[str, ...] = ()
     form: Form | None = None
     scatter: Scatter = ONE
+    visible: Mapping[tuple[int, ...], float] = field(default_factory=dict)
 
     @property
     def toll(self) -> float:
@@ -145,9 +149,15 @@ class Projected:
 
     @cached_property
     def variance(self) -> np.ndarray:
-        """Covariance of ``score``: what the noise of a reference adds to a column is no slope, but
-        scatters its score as much as any.
-        """
+        """Covariance of ``score``."""
+        if self.normal.doubt is None:
+            return self.scatter
+        doubt = self.normal.doubt @ self.turn
+        return self.scatter + doubt.T @ doubt
+
+    @cached_property
+    def scatter(self) -> np.ndarray:
+        """The part of that covariance by which scores differ from batch to batch."""
         seen = self.normal.seen
         return self.gram if seen is None else self.turn.T @ seen @ self.turn
 
@@ -203,16 +213,16 @@ def _with_form(one: Screened, form: Form | None) -> Screened:
     return one if form is None else replace(one, gain=one.gain - form.toll, form=form)
 
 
-def _gains(score: np.ndarray, choice: Choice, gram: np.ndarray) -> np.ndarray:
-    """Gain [nat] of one choice for scores (d, P), the penalty taken off.
+def _gains(score: np.ndarray, choice: Choice, variance: np.ndarray) -> np.ndarray:
+    """Gain [nat] of one choice for scores (d, P) of a covariance, the penalty taken off.
 
     A scan's amplitude must not be negative.
     """
     at = list(choice.columns)
     s = score[:, at]
-    if not np.any(np.diag(gram)[at]):
+    if not np.any(np.diag(variance)[at]):
         return np.zeros(len(score))
-    gain = 0.5 * np.einsum("di,id->d", s, solve(gram[np.ix_(at, at)], s.T))
+    gain = 0.5 * np.einsum("di,id->d", s, solve(variance[np.ix_(at, at)], s.T))
     if choice.value is not None:
         gain = np.where(s[:, 0] > 0, gain, 0.0)
     return gain - PENALTY * len(at)
@@ -222,26 +232,24 @@ def _gate(projected: Projected, all_groups: list[Group], rng: np.random.Generato
     """The largest gain over all effects that chance exceeds no oftener than it may."""
     if not all_groups:
         return np.inf
-    scale = np.sqrt(np.maximum(np.diag(projected.gram), 1e-300))
-    values, vectors = np.linalg.eigh(projected.gram / np.outer(scale, scale))
-    root = vectors * np.sqrt(np.maximum(values, 0.0))
-    # What the noise of a reference was taken out of is no covariance any more, and the nearest that
-    # is one has larger variances.
-    root *= (scale / np.maximum(np.linalg.norm(root, axis=1), 1e-300))[:, None]
+    scale = np.sqrt(np.maximum(np.diag(projected.variance), 1e-300))
+    values, vectors = np.linalg.eigh(projected.variance / np.outer(scale, scale))
+    root = vectors * np.sqrt(np.maximum(values, 0.0)) * scale[:, None]
     draws = rng.standard_normal((DRAWS, len(scale))) @ root.T
     total: dict[str, np.ndarray] = {}
     for g in all_groups:
-        best = np.max([_gains(draws, c, projected.gram) for c in g.choices], axis=0)
+        best = np.max([_gains(draws, c, projected.variance) for c in g.choices], axis=0)
         total[g.effect] = total.get(g.effect, 0.0) + np.maximum(best, 0.0)
     return float(np.quantile(np.max(list(total.values()), axis=0), 1.0 - SHARE * FALSE_ALARM))
 
 
 def _screened(effect: str, gs: list[Group], projected: Projected) -> Screened:
     picked, gain, values = [], 0.0, {}
-    visible = [v for v in (_smallest(projected, g) for g in gs) if v is not None]
+    seen = {g.keys[0].index: _smallest(projected, g) for g in gs}
+    visible = {index: v for index, v in seen.items() if v is not None}
     for g in gs:
         options = [
-            (c, float(_gains(projected.score[None], c, projected.gram)[0])) for c in g.choices
+            (c, float(_gains(projected.score[None], c, projected.variance)[0])) for c in g.choices
         ]
         choice, best = max(options, key=lambda o: o[1])
         if best > 0:
@@ -250,7 +258,8 @@ def _screened(effect: str, gs: list[Group], projected: Projected) -> Screened:
             if choice.value is not None:
                 values[g.keys[0].index] = choice.value
     nearest = max if gs[0].measure in ("rate", "range") else min
-    return Screened(effect, gain, tuple(picked), values, nearest(visible, default=np.inf))
+    least = nearest(visible.values(), default=np.inf)
+    return Screened(effect, gain, tuple(picked), values, least, visible=visible)
 
 
 def _smallest(projected: Projected, g: Group) -> float | None:
@@ -261,10 +270,10 @@ def _smallest(projected: Projected, g: Group) -> float | None:
     delay and frequency do so in proportion near the identity, so the grid's nearest value gives the
     answer.
     """
-    seen = sorted(
-        (c.value or 0.0, float(np.diag(projected.gram)[list(c.columns)].max())) for c in g.choices
-    )
-    seen = [(v, np.sqrt(power) / VISIBLE) for v, power in seen if power > 0]
+    gram, variance = np.diag(projected.gram), np.diag(projected.variance)
+    power = gram**2 / np.where(gram > 0.0, variance, 1.0)
+    seen = sorted((c.value or 0.0, float(power[list(c.columns)].max())) for c in g.choices)
+    seen = [(v, np.sqrt(p) / VISIBLE) for v, p in seen if p > 0]
     if not seen:
         return None
     if g.measure is None:
@@ -285,13 +294,13 @@ def dispersion(projected: Projected, columns: Sequence[int], scatter: Scatter = 
     score puts that right.
     """
     at = list(columns)
-    gram = projected.gram[np.ix_(at, at)]
+    gram, scattered = (m[np.ix_(at, at)] for m in (projected.gram, projected.scatter))
     if not np.any(np.diag(gram)):
         return 1.0
     estimate = solve(gram, projected.score[at])
     batch_gram = projected.batch_gram[:, at][:, :, at]
     rest = projected.batch_score[:, at] - batch_gram @ estimate
-    own = float(np.trace(solve(gram, rest.T @ rest))) / len(at)
+    own = float(np.trace(solve(scattered, rest.T @ rest))) / len(at)
     shares = np.trace(
         solve(gram, batch_gram.transpose(1, 2, 0).reshape(len(at), -1)).reshape(
             len(at), len(at), -1
@@ -317,7 +326,7 @@ def _scatter(projected: Projected) -> Scatter:
     seen = gram > 0.0
     batch_gram = np.einsum("bii->bi", projected.batch_gram)[:, seen] / gram[seen]
     rest = projected.batch_score[:, seen] - batch_gram * projected.score[seen]
-    own = np.sum(rest**2, axis=0) / gram[seen]
+    own = np.sum(rest**2, axis=0) / np.diag(projected.scatter)[seen]
     found = [_unbiased(*v) for v in zip(own, np.sum(batch_gram**2, axis=0), strict=True)]
     values, batches = np.array(found).reshape(-1, 2).T
     if not batches.sum() > 0.0:
@@ -350,9 +359,9 @@ def fitted_gain(
     if projected is None:
         return -np.inf
     value = np.array([sensor.values[k.effect][k.parameter][k.index] for k in keys])
-    return 0.5 * float(value @ projected.gram @ value) / dispersion(
-        projected, range(len(keys)), scatter
-    ) - PENALTY * len(keys)
+    score = projected.gram @ value
+    gain = 0.5 * float(score @ solve(projected.variance, score))
+    return gain / dispersion(projected, range(len(keys)), scatter) - PENALTY * len(keys)
 
 
 def _projected(normal: Normal, keys: Iterable[Key]) -> Projected | None:

@@ -36,6 +36,11 @@ class Done:
         made = f"{self.count} runs, {self.computed} of them now in {self.seconds:.0f} s{speed}"
         return "\n".join([made, *lines(self.summary)])
 
+    @property
+    def where(self) -> str:
+        """Where table and report are."""
+        return f"table: {self.folder.runs}, report: {self.folder.page}"
+
 
 def run(
     settings: Settings,

@@ -36,6 +36,11 @@ class Sols:
             out += [f"  {claim(one.summary, kind)}" for kind in ("end", "max")]
         return "\n".join(out)
 
+    @property
+    def where(self) -> str:
+        """Where their reports are."""
+        return "reports: " + ", ".join(str(one.folder.page) for one in self.done.values())
+
 
 def sols(
     settings: Settings,

@@ -114,7 +114,8 @@ def _client(scheduler: str | None, workers: int) -> Iterator[Any]:
             cluster = distributed.LocalCluster(
                 n_workers=workers,
                 threads_per_worker=1,
-                dashboard_address=None,
+                # Any free port of this machine: None takes 8787, which another campaign may have.
+                dashboard_address="127.0.0.1:0",
                 silence_logs=logging.CRITICAL,
             )
             with cluster, distributed.Client(cluster) as client:

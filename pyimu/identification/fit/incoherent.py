@@ -1,0 +1,168 @@
+"""The noise of a derived reference by its spectrum: what is left against it and the sensor does not
+show.
+
+What an effect leaves is in the sensor's own signal, and at each frequency coherent with it; the
+noise of the reference is not (Bendat and Piersol 2010, Random Data, chapter 7: the residual
+spectrum of a multiple-input model). An attitude that wanders has its noise far below the band's
+end, where the high differences of a reference show nothing of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.signal import freqz
+from scipy.signal.windows import hann
+
+from pyimu.identification.fit.columns import Linear, in_band
+from pyimu.identification.fit.trial import Trial
+from pyimu.identification.fit.whiten import RandomWalk
+
+WINDOWS = 8
+"""Windows that a log is cut into, half of each in the next one: enough to tell the three axes of
+the sensor from noise, and as long as that allows."""
+
+OVERLAP = 1.06
+"""Windows of Hann's form that overlap by half, over independent ones of as much weight: neighbours
+correlate by 1/6 (Welch 1967, "The use of fast Fourier transform for the estimation of power
+spectra")."""
+
+CLEARLY = 2.0
+"""Standard errors by which a density must be more than another one."""
+
+FOLDS = 3
+"""Multiples of the rate of rows from about which noise is folded into them: of what lies beyond,
+the band lets a few millionths through."""
+
+FEWEST_ROWS = 32
+"""Rows of a window, of which there must be one frequency within the band at least."""
+
+
+@dataclass(frozen=True)
+class Spectrum:
+    """One-sided density ``psd`` (f,) of rows in a band, at ``frequency`` (f,) in Hz.
+
+    ``std`` (f,) are its standard errors; it may lie below zero by them.
+    """
+
+    frequency: np.ndarray
+    psd: np.ndarray
+    std: np.ndarray
+
+    @property
+    def variance(self) -> float:
+        """The variance of such rows; zero where there is no spectrum."""
+        return float(np.sum(self.psd) * self.frequency[1]) if len(self.psd) > 1 else 0.0
+
+    @property
+    def error(self) -> float:
+        """Standard error of the variance, over it."""
+        total = float(np.sum(self.psd))
+        return float(np.linalg.norm(self.std)) / total if total > 0.0 else 0.0
+
+    def beyond(self, known: np.ndarray) -> np.ndarray:
+        """The density (f,) beyond one that is ``known`` (f,), where there clearly is any.
+
+        It is averaged over a third of an octave: cut off at zero, what single frequencies scatter
+        would add up.
+        """
+        left, out, first = self.psd - known, np.zeros(len(self.psd)), 1
+        while first < len(left):
+            some = slice(first, max(first + 1, round(first * 2 ** (1 / 3))))
+            mean, count = float(left[some].mean()), len(left[some])
+            if mean > CLEARLY * np.linalg.norm(self.std[some]) / count:
+                out[some] = mean
+            first = some.stop
+        return out
+
+
+NOTHING = Spectrum(np.zeros(0), np.zeros(0), np.zeros(0))
+
+
+def unseen_spectrum(trial: Trial, one: Linear, axis: int, own: RandomWalk) -> Spectrum:
+    """Density of what is left on an ``axis`` and is not coherent with the sensor, less what its
+    ``own`` noise has of that.
+    """
+    measured = in_band(trial, trial.y[:, list(trial.axes)])
+    rows = sum(b - a for a, b in one.segments)
+    length = 2 * (rows // WINDOWS // 2)
+    starts = [s for a, b in one.segments for s in range(a, b - length + 1, max(1, length // 2))]
+    inputs = measured.shape[1]
+    if length < FEWEST_ROWS or len(starts) < 2 * inputs:
+        return NOTHING
+    both = np.column_stack([one.residual[:, axis], measured])
+    window, interval = hann(length, sym=False), trial.h * trial.band.stride
+    pieces = np.array([both[s : s + length] for s in starts])
+    pieces -= pieces.mean(axis=1, keepdims=True)
+    z = np.fft.rfft(pieces * window[:, None], axis=1)
+    # (f, 1 + inputs, 1 + inputs): residual first.
+    cross = np.einsum("kfi,kfj->fij", z.conj(), z) * (
+        2 * interval / len(starts) / (window @ window)
+    )
+    r, by, yy = cross[:, 0, 0].real, cross[:, 1:, 0], cross[:, 1:, 1:]
+    shown = np.einsum("fi,fij,fj->f", by.conj(), np.linalg.pinv(yy, hermitian=True), by).real
+    averaged = len(starts) / OVERLAP - inputs
+    left = np.maximum(r - shown, 0.0) * (1.0 + inputs / averaged)
+    frequency = np.fft.rfftfreq(length, interval)
+    at = trial.axes.index(axis)
+    mine = _own(trial, own, frequency)
+    # The sensor's own noise is in its signal as well, and as much of it is left as that moves.
+    moves = 1.0 - mine / np.maximum(yy[:, at, at].real, 1e-300)
+    psd, std = left - mine * np.maximum(moves, 0.0), left / np.sqrt(averaged)
+    psd[0] = std[0] = 0.0
+    return Spectrum(frequency, psd, std)
+
+
+def _own(trial: Trial, own: RandomWalk, frequency: np.ndarray) -> np.ndarray:
+    """Density of white noise and random walk in the band; zero at no frequency."""
+
+    def density(f: np.ndarray) -> np.ndarray:
+        return 2 * (own.r * trial.h + own.k2 / (2 * np.pi * f) ** 2)
+
+    return np.where(frequency > 0.0, in_rows(trial, np.maximum(frequency, 1e-9), density), 0.0)
+
+
+def of_white_attitude(trial: Trial, frequency: np.ndarray, variance: float) -> np.ndarray:
+    """Density (f,) in the band of white noise that was differenced over two samples, and had that
+    ``variance`` then.
+    """
+    return in_rows(
+        trial,
+        frequency,
+        lambda f: 4 * trial.h * variance * np.sin(2 * np.pi * f * trial.h) ** 2,
+    )
+
+
+def in_rows(
+    trial: Trial, frequency: np.ndarray, density: Callable[[np.ndarray], np.ndarray]
+) -> np.ndarray:
+    """What a one-sided ``density`` at the sample rate becomes in the rows of the band, with what
+    the band lets through above half their rate.
+    """
+    rate = 1.0 / (trial.h * trial.band.stride)
+    folded = [frequency]
+    for k in range(1, FOLDS + 1):
+        folded += [k * rate - frequency, k * rate + frequency]
+    inside = (f for f in folded if f.max() < 0.5 / trial.h)
+    return sum(density(f) * response(trial, f) ** 2 for f in inside)
+
+
+def response(trial: Trial, frequency: np.ndarray) -> np.ndarray:
+    """Gain (f,) of the trial's band at ``frequency`` in Hz."""
+    return np.abs(freqz(trial.band.weights, worN=frequency, fs=1.0 / trial.h)[1])
+
+
+def drawn(
+    trial: Trial, at: np.ndarray, density: np.ndarray, rng: np.random.Generator
+) -> np.ndarray:
+    """Noise (n,) at the sample rate that has a ``density`` (f,) in the trial's band, ``at`` so many
+    Hz, and nothing above.
+    """
+    n = len(trial.y)
+    frequency = np.fft.rfftfreq(n, trial.h)
+    psd = np.interp(frequency, at, density / response(trial, at) ** 2, right=0.0)
+    # Of one size at each frequency: what a draw scatters would be one more thing not known.
+    turned = np.exp(2j * np.pi * rng.random(len(frequency)))
+    return np.fft.irfft(turned * np.sqrt(n * psd / (2 * trial.h)), n)
