@@ -10,38 +10,21 @@ from pyimu.identification.fit.columns import in_band, residual
 from pyimu.identification.fit.score import held_state
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.model_of import Found
-from pyimu.identification.reference.clock import mistaken, moves
+from pyimu.identification.reference.belongs import too_little
+from pyimu.identification.reference.clock import moves
 from pyimu.identification.search.forward import Investigation
 from pyimu.model.catalogue import CATALOGUE
-from pyimu.recording.reference.band import COHERENCE, LEAST_BAND
-
-UNFIT = 0.5
-"""Share of the sensor's moving power below which a reference does not belong to the sensor."""
 
 
 def unfit(found: Found) -> str:
     """Why a reference does not belong to its sensor; nothing where all do."""
-    for kind, inv in found.items():
-        for t in (t for t in inv.after.trials if t.clock is not None):
-            mistake = mistaken(t)
-            if mistake:
-                return f"the reference of {t.name} {mistake}"
-        fitted = [(t, t.clock.explained) for t in inv.after.trials if t.clock is not None]
-        held = [(t, _explained(inv, t)) for t in inv.held if t.clock and moves(t)]
-        for trial, share in [*fitted, *held]:
-            if share < (COHERENCE if _coheres_nowhere(trial) else UNFIT):
-                part = f"{max(share, 0.0):.0%} of what the {kind} shows"
-                return (
-                    f"the reference of {trial.name} accounts for {part}: another body, another "
-                    "time, or other axes"
-                )
+    for inv in found.values():
+        held = (t for t in inv.held if t.clock and moves(t))
+        said = (too_little(t, _explained(inv, t)) for t in held)
+        reason = inv.unfit or next(filter(None, said), "")
+        if reason:
+            return reason
     return ""
-
-
-def _coheres_nowhere(trial: Trial) -> bool:
-    """Whether sensor and reference agree in no band, so that they are compared in the least."""
-    least = trial.band_hz is not None and trial.band_hz < LEAST_BAND
-    return least and trial.band_limit is not None and trial.band_limit > LEAST_BAND
 
 
 def _explained(inv: Investigation, trial: Trial) -> float:

@@ -143,6 +143,8 @@ def _looked(
     """What was made of what an investigation left, less what noise would explain as well; the
     kinds ``random`` of noise are left to the data.
     """
+    if inv.unfit:
+        return Look(inv)
     say(f"{inv.after.sensor.kind}: is what was found noise")
     inv = less_than_noise(inv, random)
     found = look(inv, partial(_again, inv, prior), say)

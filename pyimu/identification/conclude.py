@@ -68,14 +68,16 @@ def conclude(
     """
     together = [*logs, *others]
     say("attitude against the reference")
-    found, model, attitude, lost = settled(start, declared, found, others or logs)
+    fitting = {kind: inv for kind, inv in found.items() if not inv.unfit}
+    fitting, model, attitude, lost = settled(start, declared, fitting, others or logs)
+    found = found | fitting
     another = unfit(found)
     magnetometer = examined(start, logs, others, found, another, say)
     say("what is random in what is left")
-    noises = _noises(start, found, model, looks, not another)
+    noises = _noises(start, fitting, model, looks, not another)
     model = model.with_noise(noises)
     model = replace(model, after=with_magnetometer(model.after, start, magnetometer))
-    added, changed, drifts = _findings(start, declared, found, model, noises, say)
+    added, changed, drifts = _findings(start, declared, fitting, model, noises, say)
     say("error on held-out data")
     errors, entries, likelihood = scores(found, logs, others, _gained(noises))
     heading, formulas = heading_rms(found.get("gyro")), _kept(looks.values(), found)
@@ -90,7 +92,7 @@ def conclude(
         unexplained=_unexplained(looks, noises),
         drift=drifts,
         refused=_refused(found, noises),
-        fates=tuple(f for kind in found for f in _fates(kind, found[kind], added, noises[kind])),
+        fates=tuple(f for k, inv in fitting.items() for f in _fates(k, inv, added, noises[k])),
         errors=errors,
         by_log={r.name: e.errors for r, e in zip(together, entries, strict=True)},
         band_hz={kind: inv.after.trials[0].band_hz for kind, inv in found.items()},
@@ -101,13 +103,14 @@ def conclude(
         formulas={f.name: f.said for f in formulas},
     )
     say("the whole model, and what to measure next")
-    whole = estimated(start, model.after, found, added, noises)
+    whole = estimated(start, model.after, fitting, added, noises)
     whole += magnetic(start, model.after, magnetometer)
-    seen = tuple(v for kind, inv in found.items() for v in visibility(kind, inv))
+    seen = tuple(v for kind, inv in fitting.items() for v in visibility(kind, inv))
+    silent = {**evidence.unexamined, **{k: inv.unfit for k, inv in found.items() if inv.unfit}}
     closed = Closed(
         **_shown(evidence, together),
         before=model.before,
-        after=as_part(model.after, whole, declared, dict(evidence.unexamined)),
+        after=as_part(model.after, whole, declared, silent),
         observability=seen,
         log_likelihood=likelihood,
         quality=quality,
@@ -116,7 +119,7 @@ def conclude(
         held_out="holdout" if others else "last 30 %",
         estimated=whole,
         references=references(found, together),
-        next=advice(found, whole, seen, logs, dict(evidence.unexamined), not others),
+        next=advice(fitting, whole, seen, logs, silent, not others),
         made_with=made_with,
         heading=heading,
         at_rest=at_rest(found),

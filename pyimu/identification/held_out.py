@@ -63,16 +63,15 @@ def _errors(
 ) -> Errors:
     if trial.reduction is not None:
         return _errors_of_rows(inv, trial)
+    unit, both = inv.after.sensor.output.unit, (tally(f, trial) for f in (inv.before, inv.after))
+    if inv.unfit:
+        # What another body's motion leaves says nothing of noise.
+        return Errors(unit, *both, None)
     white = {i: RandomWalk(n.r, 0.0) for i, n in noise.items()}
     walk = {i: RandomWalk(0.0, k2) for i, k2 in _walk(inv, noise).items()}
     drift = floor(walk, inv.after, trial) if any(n.k2 for n in walk.values()) else None
-    return Errors(
-        inv.after.sensor.output.unit,
-        tally(inv.before, trial),
-        tally(inv.after, trial),
-        floor(white, inv.after, trial).with_variance(reference),
-        drift or ErrorSums(),
-    )
+    least = floor(white, inv.after, trial).with_variance(reference)
+    return Errors(unit, *both, least, drift or ErrorSums())
 
 
 def _walk(inv: Investigation, noise: dict[int, RandomWalk]) -> dict[int, float]:
