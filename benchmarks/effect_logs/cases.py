@@ -16,7 +16,7 @@ from generators.instrument import Sensor, any_sensor
 from generators.motion import rover, shaker, static, table, thermal_cycle, tumble
 
 from effect_logs import nameless
-from effect_logs.chain import NAMED, TERMS, Chain, NotShown, at_typical, tuned
+from effect_logs.chain import NAMED, TERMS, Chain, NotShown, at_typical, size_of_all, tuned
 from effect_logs.scene import HZ, Scene, new_scene
 from effect_logs.term import Term
 
@@ -200,21 +200,10 @@ def _sized(wanted: Wanted, chains, term: Term, direction, shape):
     Of several logs together the effect has its size over all of them.
     """
     kind = wanted.kind
-    share = 1 / np.sqrt(len(chains))
     make_case = at_typical if wanted.row == "size1" else tuned
-    chain, case = make_case(chains[0][kind], term, direction, shape, wanted.sigmas * share)
-    for _ in range(6):
-        quiet = chain.triad.n[0] / chains[0][kind].triad.n[0]
-        chains = [c | {kind: c[kind].quieter(quiet)} for c in chains]
-        if len(chains) == 1:
-            return chains, case
-        sizes = [c[kind].size(term, _moved(case, c[kind])) for c in chains]
-        total = float(np.linalg.norm(sizes))
-        if abs(np.log(total / wanted.sigmas)) < 0.01:
-            break
-        target = sizes[0] * wanted.sigmas / total
-        chain, case = tuned(chains[0][kind], term, direction, shape, target)
-    return chains, case
+    own = [c[kind] for c in chains]
+    quieter, case = make_case(own, term, direction, shape, wanted.sigmas)
+    return [c | {kind: q} for c, q in zip(chains, quieter, strict=True)], case
 
 
 def _moved(case, chain: Chain):
@@ -250,7 +239,6 @@ def _left(chain: Chain, effects, measured: np.ndarray) -> np.ndarray:
 
 
 def _truth(kind: str, term: Term, case, chains) -> Truth:
-    sizes = [c[kind].size(term, _moved(case, c[kind])) for c in chains]
     value = np.asarray(term.told(case.c), dtype=float)
     return Truth(
         kind,
@@ -258,7 +246,7 @@ def _truth(kind: str, term: Term, case, chains) -> Truth:
         term.right,
         term.parameter,
         value,
-        float(np.linalg.norm(sizes)),
+        size_of_all([c[kind] for c in chains], term, case),
         term.slow,
         case.form,
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -98,28 +98,37 @@ class Chain:
         return replace(self, triad=triad)
 
 
-def tuned(chain: Chain, term: Term, direction, form, sigmas: float) -> tuple[Chain, Case]:
-    """The chain and the effect's case at which the effect is ``sigmas`` large.
+def size_of_all(chains: Sequence[Chain], term: Term, case: Case) -> float:
+    """Of one effect over the fitted rows of several logs of one sensor, in sigmas."""
+    return float(np.linalg.norm([c.size(term, c.case(case.c, case.form)) for c in chains]))
+
+
+def tuned(
+    chains: Sequence[Chain], term: Term, direction, form, sigmas: float
+) -> tuple[list[Chain], Case]:
+    """The logs of a sensor and the effect's case in the first of them, at which the effect is
+    ``sigmas`` large over all of them.
 
     The coefficient is scaled up to ``BELIEVED`` times the consumer's; if more is wanted, or the
     effect knows but one size, the sensor is made quieter instead.
     """
-    typical = term.sizes[chain.kind]
+    chains, typical = list(chains), term.sizes[chains[0].kind]
     most = np.log(typical if term.known else BELIEVED * typical)
 
     def at(log_size: float) -> Case:
-        return chain.case(np.exp(log_size) * direction, form)
+        return chains[0].case(np.exp(log_size) * direction, form)
 
     for _ in range(8):
-        largest = chain.size(term, at(most))
+        largest = size_of_all(chains, term, at(most))
         if not largest > 0:
             raise NotShown(f"{term.name} does not show in this log")
         if not term.known and largest >= sigmas:
             break
         if abs(np.log(largest / sigmas)) < 0.005:
-            return chain, at(most)
-        chain = chain.quieter(largest / sigmas * (1.0 if term.known else 0.9))
-    return chain, at(_root(lambda s: chain.size(term, at(s)), most, sigmas))
+            return chains, at(most)
+        share = largest / sigmas * (1.0 if term.known else 0.9)
+        chains = [c.quieter(share) for c in chains]
+    return chains, at(_root(lambda s: size_of_all(chains, term, at(s)), most, sigmas))
 
 
 def _root(size, high: float, sigmas: float) -> float:
@@ -138,12 +147,15 @@ def _root(size, high: float, sigmas: float) -> float:
     return high if low == high else brentq(miss, low, high, xtol=1e-3)
 
 
-def at_typical(chain: Chain, term: Term, direction, form, least: float) -> tuple[Chain, Case]:
+def at_typical(
+    chains: Sequence[Chain], term: Term, direction, form, least: float
+) -> tuple[list[Chain], Case]:
     """The effect at the consumer's size, the sensor so quiet that this is ``least`` sigmas."""
-    case = chain.case(term.sizes[chain.kind] * direction, form)
+    chains = list(chains)
+    case = chains[0].case(term.sizes[chains[0].kind] * direction, form)
     for _ in range(8):
-        size = chain.size(term, case)
+        size = size_of_all(chains, term, case)
         if size >= 0.995 * least or not term.by_size:
             break
-        chain = chain.quieter(max(size / least, 1e-3))
-    return chain, case
+        chains = [c.quieter(max(size / least, 1e-3)) for c in chains]
+    return chains, case

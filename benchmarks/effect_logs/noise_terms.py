@@ -136,13 +136,24 @@ def hard_dead_zone(x, case: Case):
     return np.where(np.abs(x) > case.c, x, 0.0)
 
 
-def _limit(case: Case):
-    """What lets a share of 1 - c of the largest input through, on the axes that clip."""
-    return (1 - np.minimum(case.c, 0.99)) * np.abs(case.scene.own(case.kind)).max(axis=0)
+CLIPPED = {"gyro": 0.3, "accel": 0.2}
+"""Share of the largest input that a typical limit cuts off."""
+
+
+def _tops(rng, scene):
+    """The largest input of each axis in the first log: a sensor has one limit in all its logs."""
+    return {"tops": {kind: np.abs(scene.own(kind)).max(axis=0) for kind in CLIPPED}}
 
 
 def saturation(x, case: Case):
-    limit = np.where(case.c > 0, _limit(case), np.inf)
+    """Clipped at s (1 - s) / c of the largest input, which is 1 - s at the typical c = s.
+
+    The limit goes to infinity as c goes to 0, so that the effect goes to nothing: one at the
+    largest input itself cuts half of the noise off a motion with a flat top.
+    """
+    share = CLIPPED[case.kind]
+    c = np.where(case.c > 0, case.c, 1.0)
+    limit = np.where(case.c > 0, share * (1 - share) / c * case.form["tops"][case.kind], np.inf)
     return np.clip(x, -limit, limit)
 
 
@@ -223,7 +234,7 @@ OUTPUT = (
     _term(dead_zone, "d", 0.0076 * DEG, 0.06e-3 * G),
     _term(hard_dead_zone, "d", 0.0076 * DEG, 0.061e-3 * G),
     _term(angle_quantization, "q", 0.01 * 0.0076 * DEG, 6e-6, by_size=False),
-    _term(saturation, "", 0.3, 0.2),
+    _term(saturation, "", *CLIPPED.values(), form=_tops),
     _term(quantization, "q", 0.00763 * DEG, 6.1e-5 * G, by_size=False),
 )
 """Rounding is seen in the raw values, whatever its size in sigmas; those have size 1 alone."""

@@ -52,6 +52,9 @@ the power is noise."""
 SHORTEST = 64
 """Rows of a log below which nothing can be said of it."""
 
+SLOWEST = 1.0
+"""s; from row to row of a log that moves: a hand or a vehicle turns to and fro in less."""
+
 Say = Callable[[str], None]
 
 
@@ -143,6 +146,8 @@ def _looked(
     """What was made of what an investigation left, less what noise would explain as well; the
     kinds ``random`` of noise are left to the data.
     """
+    if inv.unfit:
+        return Look(inv)
     say(f"{inv.after.sensor.kind}: is what was found noise")
     inv = less_than_noise(inv, random)
     found = look(inv, partial(_again, inv, prior), say)
@@ -200,6 +205,13 @@ def _read(log: Given) -> Recording:
         raise UserError(
             f"{recording.name}: too short to say anything: {len(recording.time)} rows, at least "
             f"{SHORTEST} are needed"
+        )
+    turning = recording.ref_rate is not None or recording.ref_q is not None
+    if turning and recording.sample_period > SLOWEST and not is_at_rest(recording):
+        raise UserError(
+            f"{recording.name}: a row every {recording.sample_period:.3g} s, and the sensor moves: "
+            f"at most {SLOWEST:g} s would follow it; if its times are in ms, the header must say "
+            "time [ms]"
         )
     return recording
 

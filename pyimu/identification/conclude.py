@@ -5,28 +5,31 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
-from pyimu.attitude.error import AttitudeError
 from pyimu.identification.advice import advice
 from pyimu.identification.as_part import as_part
+from pyimu.identification.by_attitude import settled
+from pyimu.identification.can_tell import rows_fitted, shows_anything, unfit
+from pyimu.identification.clocks import taken_out
 from pyimu.identification.confounds import what_no_log_tells_apart
 from pyimu.identification.declared import changed_noise, drifting, released
 from pyimu.identification.estimated import estimated
 from pyimu.identification.exhibits import Exhibits, exhibits_of
-from pyimu.identification.fates import TAKEN_BACK, Fate, fates
+from pyimu.identification.fates import Fate, fates
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.formula.formula import Formula
 from pyimu.identification.formula.search import Look
 from pyimu.identification.found import Added, Changed, LogEntry
 from pyimu.identification.heading_error import heading_rms
-from pyimu.identification.held_out import at_rest, attitudes, held_trials, scores
+from pyimu.identification.held_out import at_rest, held_trials, scores
 from pyimu.identification.made_with import MadeWith
 from pyimu.identification.magnetometer.examine import examined
 from pyimu.identification.magnetometer.model import magnetic, with_magnetometer
-from pyimu.identification.model_of import Found, Model, model_of
+from pyimu.identification.model_of import Found, Model
 from pyimu.identification.noise.named import Noise, noise_of
 from pyimu.identification.overview import Overview, overview
 from pyimu.identification.reference.gravity import few
@@ -34,19 +37,16 @@ from pyimu.identification.reference.order import other_order
 from pyimu.identification.references import references
 from pyimu.identification.result import Closed
 from pyimu.identification.search.belief import most
-from pyimu.identification.search.ceiling import is_ceiling
-from pyimu.identification.search.forward import Investigation, form_error, without
-from pyimu.identification.third_sensor import and_magnetometer
-from pyimu.identification.verdict import WORSE, Evidence, Verdict, unfit, verdict
+from pyimu.identification.search.forward import Investigation, Refused, form_error
+from pyimu.identification.search.leftover import Unexplained
+from pyimu.identification.third_sensor import and_magnetometer, of_magnetometer
+from pyimu.identification.verdict import Evidence, Verdict, verdict
 from pyimu.identification.visibility import visibility
 from pyimu.model.catalogue import CATALOGUE, WALK, WHITE
 from pyimu.model.effect import Effect
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
 from pyimu.recording.recording import Recording
-
-CALIBRATION = ("scale_factor", "misalignment")
-"""Effects of the baseline that turn the gyro's rate into that of the body."""
 
 MORE_THAN_NOISE = "kinds of noise are told apart only where nothing else is left"
 AS_FORM = "what noise was found is no more than the form of an effect may leave"
@@ -66,68 +66,106 @@ def conclude(
     """The result of the investigations ``found`` of the sensors of a part, with what was made of
     what they leave.
     """
+    together = [*logs, *others]
     say("attitude against the reference")
-    found, model, attitude, lost = settled(start, declared, found, others or logs)
-    not_examined = _unexamined(found, logs)
+    fitting = {kind: inv for kind, inv in found.items() if not inv.unfit}
+    fitting, model, attitude, lost = settled(start, declared, fitting, others or logs)
+    found = found | fitting
     another = unfit(found)
     magnetometer = examined(start, logs, others, found, another, say)
     say("what is random in what is left")
-    fits = not another
-    noises = {
-        kind: _noise(start, inv, model, len(found), fits and _is_noise(inv, looks[kind]))
-        for kind, inv in found.items()
-    }
+    noises = _noises(start, fitting, model, looks, not another)
     model = model.with_noise(noises)
     model = replace(model, after=with_magnetometer(model.after, start, magnetometer))
-    added, changed, drifts = _findings(start, declared, found, model, noises, say)
-    unexplained = tuple(k.unexplained for k in looks.values() if k.unexplained)
-    unexplained += tuple(s for n in noises.values() for s in n.shapes)
-    formulas = _kept(looks.values(), found)
-    refused = [(kind, r) for kind, inv in found.items() for r in inv.refused]
-    refused += [(kind, r) for kind, n in noises.items() for r in n.refused]
+    added, changed, drifts = _findings(start, declared, fitting, model, noises, say)
     say("error on held-out data")
     errors, entries, likelihood = scores(found, logs, others, _gained(noises))
-    heading, equations = heading_rms(found.get("gyro")), {f.name: f.said for f in formulas}
-    beside = (errors, attitude, refused, not_examined, lost, heading, equations)
-    together = [*logs, *others]
-    became = tuple(f for kind in found for f in _fates(kind, found[kind], added, noises[kind]))
-    evidence = Evidence(added, changed, unexplained, drifts, found, *beside, became)
-    said = _said(evidence, together)
-    say("the whole model, and what to measure next")
-    model_after = estimated(start, model.after, found, added, noises)
-    model_after += magnetic(start, model.after, magnetometer)
-    seen = tuple(v for kind, inv in found.items() for v in visibility(kind, inv))
-    closed = Closed(
-        verdict=said.word,
-        reason=said.reason,
-        remarks=said.remarks,
-        before=model.before,
-        after=as_part(model.after, model_after, declared, not_examined),
+    heading, formulas = heading_rms(found.get("gyro")), _kept(looks.values(), found)
+    evidence = Evidence(
+        examined=tuple(found),
+        unexamined=_unexamined(found, logs),
+        unfit=another,
+        shows=shows_anything(found),
+        rows=rows_fitted(found),
         added=tuple(added),
         changed=tuple(changed),
-        unexplained=unexplained,
+        unexplained=_unexplained(looks, noises),
         drift=drifts,
-        observability=seen,
+        refused=_refused(found, noises),
+        fates=tuple(f for k, inv in fitting.items() for f in _fates(k, inv, added, noises[k])),
         errors=errors,
-        log_likelihood=likelihood,
+        by_log={r.name: e.errors for r, e in zip(together, entries, strict=True)},
+        band_hz={kind: inv.after.trials[0].band_hz for kind, inv in found.items()},
+        beside=of_magnetometer(magnetometer, declared is not None),
         attitude=attitude,
+        lost=lost,
+        clocks=taken_out(found, heading),
+        formulas={f.name: f.said for f in formulas},
+    )
+    say("the whole model, and what to measure next")
+    whole = estimated(start, model.after, fitting, added, noises)
+    whole += magnetic(start, model.after, magnetometer)
+    seen = tuple(v for kind, inv in fitting.items() for v in visibility(kind, inv))
+    silent = {**evidence.unexamined, **{k: inv.unfit for k, inv in found.items() if inv.unfit}}
+    closed = Closed(
+        **_shown(evidence, together),
+        before=model.before,
+        after=as_part(model.after, whole, declared, silent),
+        observability=seen,
+        log_likelihood=likelihood,
         quality=quality,
         recordings=_with_overviews(entries, together, found, quality),
-        refused=tuple(refused),
         exhibits=_exhibits(found, added, formulas),
-        band_hz={kind: inv.after.trials[0].band_hz for kind, inv in found.items()},
         held_out="holdout" if others else "last 30 %",
-        estimated=model_after,
-        not_examined=not_examined,
-        candidates=became,
+        estimated=whole,
         references=references(found, together),
-        next=advice(found, model_after, seen, logs, not_examined, not others),
+        next=advice(fitting, whole, seen, logs, silent, not others),
         made_with=made_with,
         heading=heading,
         at_rest=at_rest(found),
         formulas=formulas,
     )
     return and_magnetometer(closed, magnetometer, together)
+
+
+def _shown(e: Evidence, logs: list[Recording]) -> dict[str, Any]:
+    """The verdict and the evidence for it that a result shows."""
+    said = _said(e, logs)
+    return {
+        "verdict": said.word,
+        "reason": said.reason,
+        "remarks": said.remarks,
+        "added": e.added,
+        "changed": e.changed,
+        "unexplained": e.unexplained,
+        "drift": dict(e.drift),
+        "errors": dict(e.errors),
+        "attitude": e.attitude,
+        "refused": e.refused,
+        "band_hz": dict(e.band_hz),
+        "not_examined": dict(e.unexamined),
+        "candidates": e.fates,
+    }
+
+
+def _noises(
+    start: Part, found: Found, model: Model, looks: Mapping[str, Look], fits: bool
+) -> dict[str, Noise]:
+    """What is random in what each sensor leaves, told apart where the references fit."""
+    return {
+        kind: _noise(start, inv, model, len(found), fits and _is_noise(inv, looks[kind]))
+        for kind, inv in found.items()
+    }
+
+
+def _unexplained(looks: Mapping[str, Look], noises: Mapping[str, Noise]) -> tuple[Unexplained, ...]:
+    of_inputs = tuple(k.unexplained for k in looks.values() if k.unexplained)
+    return of_inputs + tuple(s for n in noises.values() for s in n.shapes)
+
+
+def _refused(found: Found, noises: Mapping[str, Noise]) -> tuple[tuple[str, Refused], ...]:
+    of_search = [(kind, r) for kind, inv in found.items() for r in inv.refused]
+    return (*of_search, *((kind, r) for kind, n in noises.items() for r in n.refused))
 
 
 def _kept(looks: Iterable[Look], found: Found) -> tuple[Formula, ...]:
@@ -245,108 +283,6 @@ def _exhibits(
         kind: exhibits_of(inv, [a for a in added if a.sensor == kind], formulas)
         for kind, inv in found.items()
     }
-
-
-# Attitude
-
-
-def settled(
-    start: Part, declared: Part | None, found: Found, logs: list[Recording]
-) -> tuple[Found, Model, tuple[float, float] | None, tuple[str, ...]]:
-    """What was found less the effects that make the filter's attitude worse.
-
-    Gives the model that it makes, too, the attitude's error before and after, and of each log in
-    which both are lost, so that they are not compared, what is to be said.
-    """
-    while True:
-        model, inv = model_of(start, declared, found), found.get("gyro")
-        old, new = (_as_filed(p, declared) for p in (model.before, model.after))
-        before, after = (attitudes(p, inv, logs) for p in (old, new))
-        lost = [n for n in before if before[n].is_lost and after[n].is_lost]
-        said = tuple(_lost(n, before[n], after[n]) for n in lost)
-        kept = [n for n in before if n not in lost]
-        if not kept:
-            return found, model, None, said
-        was, now = (_pooled(e, kept) for e in (before, after))
-        worst = _worst(new, inv, logs, kept, now) if now > WORSE * was else None
-        if worst is None:
-            model, now, more = _less_calibration(model, declared, inv, logs, kept, now)
-            return found, model, (was, now), said + more
-        name, error = worst
-        degrees = [f"{np.degrees(v):.2f}" for v in (error, now)]
-        reason = f"{TAKEN_BACK}, {degrees[0]} to {degrees[1]} deg"
-        found = found | {"gyro": without(inv, name, reason)}
-
-
-def _less_calibration(
-    model: Model,
-    declared: Part | None,
-    inv: Investigation,
-    logs: list[Recording],
-    kept: list[str],
-    now: float,
-) -> tuple[Model, float, tuple[str, ...]]:
-    """The model less the scale factors and axes by which the attitude is worse than without them.
-
-    They are the baseline's, which nobody declared, and what a gyro that is not quite linear shows
-    at the speed of the fitted logs: at another one they may be further off than none. Gives the
-    error [rad] of the attitude that is left, too, and what is to be said.
-    """
-    names = [n for n in CALIBRATION if declared is None and n in model.after.gyro.values]
-    if not names:
-        return model, now, ()
-    bare = replace(model, after=model.after.with_sensor(model.after.gyro.without(*names)))
-    error = _pooled(attitudes(_as_filed(bare.after, declared), inv, logs), kept)
-    if WORSE * error >= now:
-        return model, now, ()
-    degrees = [f"{np.degrees(v):.2f}" for v in (now, error)]
-    said = (
-        f"the gyro's {' and '.join(n.replace('_', ' ') for n in names)} are left out of the model: "
-        f"the attitude is better without them, {degrees[0]} to {degrees[1]} deg"
-    )
-    return bare, error, (said,)
-
-
-def _as_filed(part: Part, declared: Part | None) -> Part:
-    """The part with its gyro's walk as ``as_part`` will have it: left out where nobody declared one
-    and the logs do not show it.
-    """
-    if declared is not None or WALK[0] not in part.gyro.values or part.gyro.acts(WALK[0]):
-        return part
-    return _part_without(part, WALK[0])
-
-
-def _worst(
-    part: Part, inv: Investigation, logs: list[Recording], kept: list[str], now: float
-) -> tuple[str, float] | None:
-    """The added effect without which the attitude is best, and its error then.
-
-    None where it is then hardly better than ``now``.
-    """
-    errors = {
-        name: _pooled(attitudes(_part_without(part, name), inv, logs), kept)
-        for name in (s.effect for s in inv.steps if not s.declared)
-        if not is_ceiling(part.gyro, name)
-    }
-    worst = min(errors, key=errors.get, default=None)
-    return (worst, errors[worst]) if worst and WORSE * errors[worst] < now else None
-
-
-def _part_without(part: Part, effect: str) -> Part:
-    return part.with_sensor(part.gyro.without(effect))
-
-
-def _pooled(errors: dict[str, AttitudeError], names: list[str]) -> float:
-    """RMS error [rad] over the rows of some logs."""
-    return float(np.sqrt(np.mean(np.concatenate([errors[n].total for n in names]) ** 2)))
-
-
-def _lost(name: str, before: AttitudeError, after: AttitudeError) -> str:
-    degrees = [f"{np.degrees(e.rms):.0f}" for e in (before, after)]
-    return (
-        f"the filter loses the attitude of {name}, before ({degrees[0]} deg) and after "
-        f"({degrees[1]} deg): not compared"
-    )
 
 
 # Effects that were added

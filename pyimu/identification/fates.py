@@ -52,9 +52,11 @@ class Fate:
 def fates(kind: str, inv: Investigation, added: Iterable[Added], noise: str) -> list[Fate]:
     """One entry for each candidate that passed the gate at either look or was decided on.
 
-    The largest gain comes first. ``noise`` is why kinds of noise were not told apart, if they were
-    not.
+    The largest gain comes first; beside a reference of another body there are none. ``noise`` is
+    why kinds of noise were not told apart, if they were not.
     """
+    if inv.unfit:
+        return []
     first, last = ({c.effect: c for c in s.candidates} for s in (inv.first, inv.last))
     names = [c.effect for s in (inv.first, inv.last) for c in s.above()]
     names += [s.effect for s in inv.steps] + [r.effect for r in inv.refused]

@@ -119,6 +119,14 @@ class Errors:
         drift = 0.0 if self.drift is None else np.nan_to_num(self.drift.total)
         return float(np.hypot(self.floor.total, drift))
 
+    @property
+    def noise_per_axis(self) -> np.ndarray:
+        """The same of each axis (3,)."""
+        if self.floor is None:
+            return np.full(3, np.nan)
+        drift = np.zeros(3) if self.drift is None else np.nan_to_num(self.drift.per_axis)
+        return np.hypot(self.floor.per_axis, drift)
+
     def __add__(self, other: Errors) -> Errors:
         before, after = self.before + other.before, self.after + other.after
         floor, drift = _both(self.floor, other.floor), _both(self.drift, other.drift)

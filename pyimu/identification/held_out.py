@@ -11,6 +11,7 @@ import numpy as np
 from pyimu.attitude.error import AttitudeError
 from pyimu.identification.attitude_error import attitude_error
 from pyimu.identification.fit.clock import Clock
+from pyimu.identification.fit.fit import declared_variances
 from pyimu.identification.fit.keys import LogClock
 from pyimu.identification.fit.left_out import as_measured, left_out
 from pyimu.identification.fit.noise_floor import floor_noise, reference_variance
@@ -19,8 +20,9 @@ from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.identification.found import AtRest, Errors, LogEntry
 from pyimu.identification.reference.gravity import typical_wander
-from pyimu.identification.search.belief import FARTHEST
+from pyimu.identification.search.belief import FARTHEST, most
 from pyimu.identification.search.forward import Investigation
+from pyimu.model.catalogue import WALK
 from pyimu.model.part import Part
 from pyimu.recording.recording import Recording
 
@@ -61,16 +63,27 @@ def _errors(
 ) -> Errors:
     if trial.reduction is not None:
         return _errors_of_rows(inv, trial)
+    unit, both = inv.after.sensor.output.unit, (tally(f, trial) for f in (inv.before, inv.after))
+    if inv.unfit:
+        # What another body's motion leaves says nothing of noise.
+        return Errors(unit, *both, None)
     white = {i: RandomWalk(n.r, 0.0) for i, n in noise.items()}
-    walk = {i: RandomWalk(0.0, n.k2) for i, n in noise.items()}
-    drift = floor(walk, inv.after, trial) if any(n.k2 for n in noise.values()) else None
-    return Errors(
-        inv.after.sensor.output.unit,
-        tally(inv.before, trial),
-        tally(inv.after, trial),
-        floor(white, inv.after, trial).with_variance(reference),
-        drift or ErrorSums(),
-    )
+    walk = {i: RandomWalk(0.0, k2) for i, k2 in _walk(inv, noise).items()}
+    drift = floor(walk, inv.after, trial) if any(n.k2 for n in walk.values()) else None
+    least = floor(white, inv.after, trial).with_variance(reference)
+    return Errors(unit, *both, least, drift or ErrorSums())
+
+
+def _walk(inv: Investigation, noise: dict[int, RandomWalk]) -> dict[int, float]:
+    """Variance in a second of the random walk by axis.
+
+    As declared, else as fitted, and no more than a sensor may have: a walk of any size would
+    account for whatever a model lacks.
+    """
+    sensor, h = inv.after.sensor, inv.after.trials[0].h
+    _, declared = declared_variances(sensor, h)
+    largest = most(WALK[0], sensor.kind, WALK[1]) ** 2
+    return {i: float(declared[i]) or min(n.k2, largest) for i, n in noise.items()}
 
 
 def _errors_of_rows(inv: Investigation, trial: Trial) -> Errors:
@@ -80,8 +93,8 @@ def _errors_of_rows(inv: Investigation, trial: Trial) -> Errors:
     sums = (one.sums(one.error**2) + e for one, e in zip((before, after), likely, strict=True))
     wander = trial.reduction.wander.max()
     # More than any sensor wanders is no noise, but something that the model lacks.
-    most = min(1.0, (FARTHEST * typical_wander(trial.kind)) ** 2 / wander)
-    unit, shares = inv.after.sensor.output.unit, (after.white, most * after.wander)
+    share = min(1.0, (FARTHEST * typical_wander(trial.kind)) ** 2 / wander)
+    unit, shares = inv.after.sensor.output.unit, (after.white, share * after.wander)
     noise = (after.sums(v) for v in shares)
     return Errors(unit, *sums, *noise, data=FOLDS[trial.kind])
 

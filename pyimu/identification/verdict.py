@@ -2,28 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from scipy.stats import chi2
 
-from pyimu.identification.clocks import taken_out
 from pyimu.identification.fates import NOT_LOOKED_FOR, Fate
-from pyimu.identification.fit.columns import in_band, residual
-from pyimu.identification.fit.score import held_state
-from pyimu.identification.fit.trial import Trial
-from pyimu.identification.found import Added, Errors
-from pyimu.identification.reference.clock import mistaken, moves
-from pyimu.identification.search.forward import AS_NOISE, Investigation, Refused
-from pyimu.model.catalogue import CATALOGUE
-from pyimu.recording.reference.band import COHERENCE, LEAST_BAND
+from pyimu.identification.found import Added, Changed, Errors
+from pyimu.identification.search.forward import AS_NOISE, Refused
+from pyimu.identification.search.leftover import Unexplained
 from pyimu.report.numbers import joined, number
 
 FAR = 3.0
 """Ratio of the held-out error to its floor from which on more than noise is left."""
 
-UNFIT = 0.5
-"""Share of the sensor's moving power below which a reference does not belong to the sensor."""
+CHANCE = 0.01
+"""Probability with which one of the axes and logs of a result may lie beyond their limit by chance:
+what a random walk adds to a mean is one draw for each of them."""
 
 SHORT = 500
 """Fitted rows below which finding nothing says nothing."""
@@ -45,8 +41,6 @@ VERDICTS = (
     "undecidable",
 )
 
-Found = dict[str, Investigation]
-
 
 @dataclass(frozen=True)
 class Verdict:
@@ -61,39 +55,48 @@ class Verdict:
 class Evidence:
     """What a verdict goes by.
 
-    ``fates`` says what became of the candidates, ``unexamined`` of each sensor of the logs that was
-    not looked at why not, ``lost`` of which logs the attitude is lost; ``heading`` is the error
-    before and after, ``formulas`` by name how a formula is said.
+    ``unfit`` says why a reference does not belong to its sensor; ``examined`` are the sensors that
+    were looked at, ``unexamined`` says of each other sensor of the logs why not; ``shows`` is
+    whether the logs would show any effect that more than time drives, ``rows`` how many were
+    fitted. ``errors`` are those of a sensor in all logs, ``by_log`` in each, ``band_hz`` the band
+    in which they are. ``fates`` says what became of the candidates, ``beside`` is the verdict on
+    the magnetometer where there is something to say, ``lost`` of which logs the attitude is lost;
+    ``clocks`` what was taken out of the references, ``formulas`` by name how a formula is said.
     """
 
-    added: list[Added]
-    changed: list
-    unexplained: tuple
-    drift: dict
-    found: Found
-    errors: dict[str, Errors]
-    attitude: tuple[float, float] | None
-    refused: list[tuple[str, Refused]]
-    unexamined: dict[str, str]
-    lost: tuple[str, ...] = ()
-    heading: tuple[float, float] | None = None
-    formulas: Mapping[str, str] = field(default_factory=dict)
+    examined: tuple[str, ...]
+    unexamined: Mapping[str, str]
+    unfit: str
+    shows: bool
+    rows: int
+    added: tuple[Added, ...] = ()
+    changed: tuple[Changed, ...] = ()
+    unexplained: tuple[Unexplained, ...] = ()
+    drift: Mapping[str, Mapping[int, float]] = field(default_factory=dict)
+    refused: tuple[tuple[str, Refused], ...] = ()
     fates: tuple[Fate, ...] = ()
+    errors: Mapping[str, Errors] = field(default_factory=dict)
+    by_log: Mapping[str, Mapping[str, Errors]] = field(default_factory=dict)
+    band_hz: Mapping[str, float | None] = field(default_factory=dict)
+    beside: Verdict | None = None
+    attitude: tuple[float, float] | None = None
+    lost: tuple[str, ...] = ()
+    clocks: str = ""
+    formulas: Mapping[str, str] = field(default_factory=dict)
 
 
 def verdict(e: Evidence) -> Verdict:
     """The verdict, with what must be said beside it."""
     found = _verdict(e)
-    clocks = taken_out(e.found, e.heading) if found.word != "reference_unfit" else ""
+    clocks = e.clocks if found.word != "reference_unfit" else ""
     beside = (*_growing_attitude(e.attitude), *e.lost, *e.unexamined.values())
     return replace(found, remarks=(*filter(None, [clocks]), *found.remarks, *beside))
 
 
 def _verdict(e: Evidence) -> Verdict:
-    another = unfit(e.found)
-    if another:
-        return Verdict("reference_unfit", another)
-    left = _left(e.errors)
+    if e.unfit:
+        return Verdict("reference_unfit", e.unfit)
+    left = left_of(e)
     if e.added and all(a.effect in e.formulas for a in e.added):
         said = joined([f"{a.sensor}: {e.formulas[a.effect]}" for a in e.added])
         why = f"no effect of the catalogue describes it, a formula does: {said}"
@@ -114,28 +117,38 @@ def _verdict(e: Evidence) -> Verdict:
         u = e.unexplained[0]
         does = f"depends on {' x '.join(u.depends_on)}"
         return Verdict("unexplained", f"{u.sensor} {u.axis} {does}")
-    if e.drift:
+    if any(e.drift.values()):
         return Verdict("drift", "more random walk than declared: an input that nobody logged")
     return _nothing_found(e, left)
 
 
 def _nothing_found(e: Evidence, left: str) -> Verdict:
-    if not _shows_anything(e.found):
+    if not e.shows:
         return Verdict(
             "undecidable",
             "no motion and no temperature: these logs could show little of what may be missing",
         )
-    if max(sum(t.count for t in inv.after.trials) for inv in e.found.values()) < SHORT:
+    if e.rows < SHORT:
         return Verdict(
             "undecidable",
             f"fewer than {SHORT} rows were there to fit: too short to miss an effect in",
         )
     if left:
         return Verdict("unexplained", f"no effect of the catalogue accounts for it: {left}")
+    if e.beside is not None and e.beside.word != "undecidable":
+        return e.beside
+    unjudged = [k for k in e.examined if not _is_judged(e.errors.get(k))]
+    if unjudged:
+        reason = f"no held-out row is left to judge the {joined(unjudged)} by"
+        return Verdict(
+            "undecidable", f"{reason}: give longer logs, or logs of their own to hold out"
+        )
     if e.unexamined:
-        seen = joined(sorted(e.found))
+        seen = joined(sorted(e.examined))
         rest = f"nothing is missing of the {seen}, and more was not examined"
         return Verdict("undecidable", rest)
+    if e.beside is not None:
+        return e.beside
     corrected = "; declared values that the data contradict are listed as changed"
     said = "nothing is missing" + (corrected if e.changed else "")
     return Verdict("clean", said, _not_looked_for(e.fates))
@@ -168,69 +181,64 @@ def _named(effects: list[str]) -> str:
     return joined(effects) if len(effects) <= FEW else f"{len(effects)} effects"
 
 
-def unfit(found: Found) -> str:
-    """Why a reference does not belong to its sensor; nothing where all do."""
-    for kind, inv in found.items():
-        for t in (t for t in inv.after.trials if t.clock is not None):
-            mistake = mistaken(t)
-            if mistake:
-                return f"the reference of {t.name} {mistake}"
-        fitted = [(t, t.clock.explained) for t in inv.after.trials if t.clock is not None]
-        held = [(t, _explained(inv, t)) for t in inv.held if t.clock and moves(t)]
-        for trial, share in [*fitted, *held]:
-            if share < (COHERENCE if _coheres_nowhere(trial) else UNFIT):
-                part = f"{max(share, 0.0):.0%} of what the {kind} shows"
-                return (
-                    f"the reference of {trial.name} accounts for {part}: another body, another "
-                    "time, or other axes"
-                )
+# How much more than noise is left
+
+
+def left_of(e: Evidence) -> str:
+    """Of which sensors more than noise is left: how much, in which band, on which axis, and in
+    which log where it is one of several; nothing where it is noise.
+    """
+    each = [_left(kind, e) for kind in e.errors]
+    return joined([said for said in each if said])
+
+
+def _left(kind: str, e: Evidence) -> str:
+    """The same of one sensor, whose errors are compared in all logs, in each, and by axis."""
+    whole, logs = e.errors[kind], {n: by[kind] for n, by in e.by_log.items() if kind in by}
+    ratio = _ratio(whole.after.total, whole.noise)
+    axes = _by_axis(whole)
+    pieces = {(name, i): r for name, one in logs.items() for i, r in _by_axis(one).items()}
+    most_of_log = max(pieces, key=lambda at: pieces[at], default=None)
+    limit = max(FAR, float(np.sqrt(chi2.isf(CHANCE / max(len(pieces), len(axes), 1), 1))))
+    axis = max(axes, key=lambda i: axes[i], default=None)
+    band = f" below {number(e.band_hz[kind])} Hz" if e.band_hz.get(kind) else ""
+    what = f"the {kind} residual{band} is {{}}"
+    if ratio > FAR:
+        most = "" if axis is None else f", most on {'xyz'[axis]}"
+        return what.format(_times(ratio) + most)
+    if axis is not None and axes[axis] > limit:
+        return what.format(f"{_times(axes[axis])} on {'xyz'[axis]}")
+    if most_of_log is not None and pieces[most_of_log] > limit:
+        name, i = most_of_log
+        return what.format(f"{_times(pieces[most_of_log])} on {'xyz'[i]} in {name}")
     return ""
 
 
-def _coheres_nowhere(trial: Trial) -> bool:
-    """Whether sensor and reference agree in no band, so that they are compared in the least."""
-    least = trial.band_hz is not None and trial.band_hz < LEAST_BAND
-    return least and trial.band_limit is not None and trial.band_limit > LEAST_BAND
+def _by_axis(e: Errors) -> dict[int, float]:
+    """The ratio of what is left to the noise by axis, of those that have both."""
+    noise = e.noise_per_axis
+    ratios = {i: _ratio(e.after.per_axis[i], noise[i]) for i in range(3)}
+    return {i: r for i, r in ratios.items() if not np.isnan(r)}
 
 
-def _explained(inv: Investigation, trial: Trial) -> float:
-    """Share of the sensor's power in the band, on held-out rows, that the model accounts for."""
-    state, rest = held_state(inv.after, trial)
-    axes = list(rest.axes)
-    y = in_band(rest, rest.y[:, axes])
-    left = in_band(rest, residual(inv.after.sensor, rest, state))[:, axes]
-    power = float(np.sum((y - y.mean(axis=0)) ** 2)) if len(y) else 0.0
-    return 1.0 - float(np.sum(left**2)) / power if power > 0.0 else 1.0
+def _ratio(left: float, noise: float) -> float:
+    """NaN where either is not known, or there is neither."""
+    if np.isnan(left) or np.isnan(noise) or left == noise == 0.0:
+        return float("nan")
+    return float(left / noise) if noise > 0.0 else float("inf")
 
 
-def _left(errors: dict[str, Errors]) -> str:
-    """How much more than noise is left, and on which axis most; nothing where it is noise."""
-    far = []
-    for kind, e in errors.items():
-        if e.floor is None or not e.after.total > FAR * e.noise:
-            continue
-        with np.errstate(invalid="ignore", divide="ignore"):
-            axes = e.after.per_axis / e.floor.per_axis
-        ratio = e.after.total / e.noise
-        axis = "xyz"[int(np.nanargmax(axes))]
-        far.append(f"the {kind} residual is {number(ratio, 2)} times its noise, most on {axis}")
-    return joined(far)
-
-
-def _growing_attitude(attitude: tuple[float, float] | None) -> list[str]:
-    if attitude is None or not attitude[1] > WORSE * attitude[0]:
-        return []
-    before, after = np.degrees(attitude)
-    return [f"attitude is worse with it: {before:.2f} to {after:.2f} deg"]
-
-
-def _shows_anything(found: Found) -> bool:
-    """Whether some effect would be visible that time alone does not drive.
-
-    Those show in any log, and say nothing about the effects that people ask for.
-    """
-    return any(
-        np.isfinite(c.smallest_visible) and "time" not in CATALOGUE[c.effect].signals(kind)
-        for kind, inv in found.items()
-        for c in inv.first.candidates
+def _times(ratio: float) -> str:
+    return (
+        f"{number(ratio, 2)} times its noise" if np.isfinite(ratio) else "there without any noise"
     )
+
+
+def _is_judged(e: Errors | None) -> bool:
+    return e is not None and bool(np.isfinite(e.after.total)) and bool(np.isfinite(e.noise))
+
+
+def _growing_attitude(attitude: tuple[float, float] | None) -> Iterator[str]:
+    if attitude is not None and attitude[1] > WORSE * attitude[0]:
+        before, after = np.degrees(attitude)
+        yield f"attitude is worse with it: {before:.2f} to {after:.2f} deg"

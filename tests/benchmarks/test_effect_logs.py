@@ -273,7 +273,7 @@ def test_no_sensor_is_made_so_quiet_that_it_shows_rounding(sized):
     assert scene.force[:, 2].min() > 0
     chain = Chain("accel", scene, any_sensor(np.random.default_rng(18)).accel, 19)
     with pytest.raises(NotShown):
-        sized(chain, TERMS["bias_asymmetry"], np.array([0.0, 0.0, 1.0]), {}, 8.0)
+        sized([chain], TERMS["bias_asymmetry"], np.array([0.0, 0.0, 1.0]), {}, 8.0)
 
 
 def test_together_and_pairs_have_their_sizes():
@@ -282,6 +282,25 @@ def test_together_and_pairs_have_their_sizes():
     pair = cases.make("pair/12/gyro", 0, (1.0, 1.5))
     assert len(pair.truths) == 2
     assert all(abs(t.size / 12 - 1) < cases.WITHIN for t in pair.truths)
+
+
+def test_a_limit_is_the_sensors_and_not_the_logs():
+    """Two logs of one sensor clip at one value, and a limit that goes to infinity leaves nothing:
+    the size of a small coefficient is none, whatever the noise on a flat top.
+    """
+    made = cases.make("together/8/accel.saturation", 6, (1.0, 1.5))
+    axes = np.flatnonzero(made.truths[0].value)
+    tops = np.array([np.abs(log["accel"]).max(axis=0)[axes] for log in made.logs])
+    limits = np.outer([1, 1], tops.max(axis=0))
+    clipped = np.array(
+        [np.mean(np.abs(log["accel"][:, axes]) == limits[0], axis=0) for log in made.logs]
+    )
+    assert np.all(clipped.max(axis=0) > 0) and np.all(tops <= limits)
+    scene = new_scene(np.random.default_rng(21), rover, 60.0)
+    chain = Chain("accel", scene, any_sensor(np.random.default_rng(22)).accel, 23)
+    term = TERMS["saturation"]
+    form = term.form(np.random.default_rng(0), scene)
+    assert chain.size(term, chain.case(1e-6 * np.ones(3), form)) == 0.0
 
 
 def test_all_rows_have_cases():

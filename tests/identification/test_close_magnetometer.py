@@ -4,6 +4,7 @@ The world is made by numpy and scipy alone.
 """
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -17,12 +18,14 @@ from pyimu.identification.close import undeclared
 from pyimu.identification.magnetometer.examine import (
     FOUND,
     NOTHING,
+    UNCONFIRMED,
     UNEVEN,
     Examined,
     examined,
 )
 from pyimu.identification.magnetometer.fit import fit, weakest
 from pyimu.identification.magnetometer.rows import field_rows
+from pyimu.identification.third_sensor import of_magnetometer
 from pyimu.model.sensor import Sensor
 
 RATE = 50.0
@@ -206,6 +209,22 @@ def test_close_says_what_it_found_and_its_model_has_it(closed, tmp_path):
     assert "Magnetometer" in page and "field of each log" in page
 
 
+def test_the_magnetometer_counts_in_the_verdict():
+    """Where gyro and accelerometer lack nothing: iron that a part does not declare is named."""
+    seen = look(log(204))
+    word = {declared: of_magnetometer(seen, declared) for declared in (True, False)}
+    assert word[True].word == "named" and word[False] is None
+    outcomes = {NOTHING: None, UNCONFIRMED: "not_confirmed", UNEVEN: "undecidable"}
+    for outcome, expected in outcomes.items():
+        said = of_magnetometer(replace(seen, outcome=outcome), True)
+        assert (said and said.word) == expected
+    loud = replace(seen.errors, floor=replace(seen.errors.floor, squares=np.full(3, 1e-20)))
+    said = of_magnetometer(replace(seen, outcome=NOTHING, errors=loud), True)
+    assert said.word == "unexplained" and "times its noise" in said.reason
+    assert of_magnetometer("no field", True).word == "undecidable"
+    assert of_magnetometer("", True) is None
+
+
 def test_the_filter_takes_the_model_of_close(closed):
     """The heading is off by what hard iron bends, and less with it undone."""
     from pyimu.attitude import run
@@ -241,6 +260,7 @@ def test_a_magnetometer_without_a_reference_of_its_own_is_said(tmp_path):
     )
     found = pyimu.close(known)
     assert "the magnetometer was not examined: no reference attitude" in found.report()
+    assert found.verdict == "undecidable" and "nothing is missing of the" in found.reason
     found.write(tmp_path, units=False)
     page = (tmp_path / "report.html").read_text()
     assert "magnetometer was not examined" in page

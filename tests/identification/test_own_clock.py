@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation, RotationSpline
 
 import pyimu
-from pyimu.identification import conclude
+from pyimu.identification import by_attitude
 from pyimu.recording.recording import Recording
 
 H, NOISE = 0.005, 2e-3
@@ -69,8 +69,8 @@ def test_the_attitude_is_compared_with_the_part_as_its_file_has_it(monkeypatch):
         parts.append(part)
         return original(part, *rest)
 
-    original = conclude.attitudes
-    monkeypatch.setattr(conclude, "attitudes", attitudes)
+    original = by_attitude.attitudes
+    monkeypatch.setattr(by_attitude, "attitudes", attitudes)
     log, mocap = pair(4, 0.0, 60.0)
     closed = pyimu.close(log, reference=mocap)
     assert closed.attitude and parts

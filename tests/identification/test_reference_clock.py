@@ -409,6 +409,17 @@ def test_a_reference_of_another_body_is_unfit():
     other = Recording.from_arrays(name="x", time=TIME, gyro=own.gyro, ref_rate=Motion(99)(TIME))
     closed = pyimu.close(other)
     assert closed.verdict == "reference_unfit" and not closed.added, closed.report()
+    # Nothing that was fitted to another body's motion is shown, and no noise is read off it.
+    assert not [v for v in closed.estimated if v.origin != "declared"]
+    assert not closed.candidates and closed.errors["gyro"].floor is None
+    assert not closed.after.gyro.values and "times" not in closed.report()
+
+
+def test_times_in_milliseconds_are_said():
+    own = log(0.0, 4)
+    late = Recording.from_arrays(name="ms", time=1e3 * TIME, gyro=own.gyro, ref_rate=own.ref_rate)
+    with pytest.raises(pyimu.UserError, match=r"ms: a row every 10 s.*time \[ms\]"):
+        pyimu.close(late)
 
 
 def test_a_sensor_that_warms_up_beside_a_reference_at_rest_has_no_unfit_reference():

@@ -27,7 +27,7 @@ from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS
 from pyimu.recording.quality.clipping import clipped
-from pyimu.recording.reference.band import COHERENCE, trusted_band
+from pyimu.recording.reference.band import trusted_band
 
 WINDOW, ROWS = 2.5, 32
 """s; windows of the fine lag, and the least rows of the band that one covers."""
@@ -50,9 +50,6 @@ MOTION = 5.0
 FASTEST_DRIFT = 1e-3
 """Relative difference of two clocks that run: quartz keeps to some 1e-4, a bare RC oscillator to a
 percent, and that is no clock to log by."""
-
-DEGREE, ALIKE = float(np.degrees(1.0)), 0.1
-"""Degrees in a radian, and how near a factor must be to one that is a mistake of units."""
 
 LEAST_SLIP = 0.2
 """Sample periods of the sensor by which a clock slips at least: it slips by a sample, of the sensor
@@ -109,7 +106,7 @@ def moves(trial: Trial) -> bool:
 
     A sensor alone that does may follow its temperature.
     """
-    axes, trial = list(trial.axes), _in_own_band(trial)
+    axes, trial = list(trial.axes), in_own_band(trial)
     x, y = (in_band(trial, v[:, axes]) for v in (trial.u[:, OWN[trial.kind]], trial.y))
     if len(y) < LEAST_ROWS:
         return False
@@ -123,40 +120,14 @@ def _explained(trial: Trial) -> float:
 
     Below zero where it is further off than nothing.
     """
-    trial, axes = _in_own_band(trial), list(trial.axes)
-    rows = _rows(trial)
+    trial, axes = in_own_band(trial), list(trial.axes)
+    rows = moving_rows(trial)
     x, y = (in_band(trial, v[:, axes])[rows] for v in (trial.u[:, OWN[trial.kind]], trial.y))
     if len(y) < LEAST_ROWS:
         return 1.0
     x, y = x - x.mean(axis=0), y - y.mean(axis=0)
-    left = y - (x @ _turn(x, y) if trial.free_rotation else x)
+    left = y - (x @ turned_onto(x, y) if trial.free_rotation else x)
     return float(1 - np.sum(left**2) / max(np.sum(y**2), 1e-300))
-
-
-def mistaken(trial: Trial) -> str:
-    """What is wrong with the reference of a trial that would fit once that is put right.
-
-    Mirrored axes, or degrees taken for radians; nothing where neither is.
-    """
-    trial, axes = _in_own_band(trial), list(trial.axes)
-    rows = _rows(trial)
-    x, y = (in_band(trial, v[:, axes])[rows] for v in (trial.u[:, OWN[trial.kind]], trial.y))
-    if len(y) < LEAST_ROWS or len(axes) < 3:
-        return ""
-    x, y = x - x.mean(axis=0), y - y.mean(axis=0)
-    turned, flipped = (_scaled(x @ _turn(a * x, y) * a, y) for a in (1.0, -1.0))
-    if turned[1] < COHERENCE <= flipped[1] and abs(flipped[0] - 1) < ALIKE:
-        return "has mirrored axes: its frame is turned into the sensor's by a determinant of -1"
-    for factor, units in ((DEGREE, "in rad"), (1 / DEGREE, "in deg")):
-        if turned[1] >= COHERENCE and abs(turned[0] / factor - 1) < ALIKE:
-            return f"is too {'large' if factor < 1 else 'small'} by 57.3: its numbers are {units}"
-    return ""
-
-
-def _scaled(x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
-    """The factor of x (m, 3) nearest to y, and the share of the power of y that it explains."""
-    factor = float(np.sum(x * y) / max(np.sum(x * x), 1e-300))
-    return factor, 1 - float(np.sum((y - factor * x) ** 2) / max(np.sum(y * y), 1e-300))
 
 
 # The reference, moved
@@ -196,7 +167,7 @@ def rebanded(trial: Trial) -> Trial:
 
     One whose reference was not derived has none.
     """
-    return trial if trial.band_hz is None else _in_own_band(trial)
+    return trial if trial.band_hz is None else in_own_band(trial)
 
 
 def _interpolated(x: np.ndarray, row: np.ndarray) -> np.ndarray:
@@ -274,7 +245,7 @@ def _correlation(x, y, counted, lags: np.ndarray) -> np.ndarray:
     return np.where(enough, covariance / np.sqrt(np.maximum(power, 1e-300)), -1.0)
 
 
-def _turn(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+def turned_onto(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """The rotation (3, 3) with x @ rotation nearest to y, (m, 3) each (Kabsch's algorithm)."""
     left, _, right = np.linalg.svd(x.T @ y)
     return left @ np.diag([1.0, 1.0, np.linalg.det(left @ right)]) @ right
@@ -292,8 +263,8 @@ def _windows(trial: Trial, sensor: Sensor):
         for v in (rate, _slope(trial, rate))
     )
     seen = _slope(trial, trial.y[:, axes])
-    trial = _in_own_band(trial)
-    time, rows = band_time(trial), _rows(trial)
+    trial = in_own_band(trial)
+    time, rows = band_time(trial), moving_rows(trial)
     x, slope, y, seen = (in_band(trial, v)[rows] for v in (x, slope, trial.y[:, axes], seen))
     time = time[rows]
     speed = np.linalg.norm(x - np.median(x, axis=0), axis=1)
@@ -389,7 +360,7 @@ def _mean_share(left: np.ndarray, places: list[tuple[int, int]]) -> np.ndarray:
     return 1.0 - np.sqrt(white / np.maximum(white + count * bias, 1e-300))
 
 
-def _rows(trial: Trial) -> np.ndarray:
+def moving_rows(trial: Trial) -> np.ndarray:
     """Rows of the band (m,) on which no clipped or left-out sample has any weight."""
     bad = np.any([clipped(trial.y[:, i]) for i in trial.axes], axis=0)
     if trial.left_out is not None:
@@ -397,7 +368,7 @@ def _rows(trial: Trial) -> np.ndarray:
     return in_band(trial, bad.astype(float)[:, None])[:, 0] < 1e-6
 
 
-def _in_own_band(trial: Trial) -> Trial:
+def in_own_band(trial: Trial) -> Trial:
     """The trial in the band in which its reference, as it stands now, explains the sensor."""
     rate = trial.u[:, OWN[trial.kind]]
     limit = 0.25 / trial.h if trial.band_limit is None else trial.band_limit

@@ -71,6 +71,8 @@ def _named(closed: Outcome) -> str:
         parts.append(f"{subject}{_were(len(added))} missing from the model.")
         if kind in closed.errors:
             parts.append(fall(kind, closed.errors[kind]))
+    if not closed.added:
+        parts.append(f"The model lacks {closed.reason}.")
     if closed.unexplained:
         parts.append(f"Something is still unexplained: {dependence(closed)}.")
     return " ".join(parts)
@@ -140,7 +142,7 @@ def _clean(closed: Outcome) -> str:
 
 
 def _undecidable(closed: Outcome) -> str:
-    if closed.not_examined and closed.errors and closed.reason.startswith("nothing is missing"):
+    if closed.errors and closed.reason.startswith("nothing is missing"):
         return f"These logs decide a part of it: {closed.reason}.{_level(closed)}"
     return f"These logs cannot decide it: {closed.reason.rstrip('.') or 'too little to go by'}."
 

@@ -10,12 +10,15 @@ from dataclasses import asdict, dataclass, replace
 from types import MappingProxyType
 from typing import Any
 
+import numpy as np
+
 from pyimu.identification.fit.fit import Fit, begin
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.maximum_likelihood import advantage, fit
 from pyimu.identification.fit.reduction import STRUCTURE
 from pyimu.identification.fit.reference_noise import with_reference_noise
 from pyimu.identification.fit.trial import Trial
+from pyimu.identification.reference.belongs import misfit
 from pyimu.identification.search.as_sampled import GATE, ceiling_of, threshold_of
 from pyimu.identification.search.ceiling import (
     has_ceiling,
@@ -81,7 +84,10 @@ class Refused:
 
 @dataclass(frozen=True)
 class Investigation:
-    """What the loop found for one sensor: the model before and after, and the way between."""
+    """What the loop found for one sensor: the model before and after, and the way between.
+
+    ``unfit`` says why a reference does not belong to the sensor: nothing was looked for then.
+    """
 
     before: Fit
     after: Fit
@@ -90,6 +96,7 @@ class Investigation:
     first: Screening
     last: Screening
     held: tuple[Trial, ...]
+    unfit: str = ""
 
 
 def investigate(
@@ -106,6 +113,10 @@ def investigate(
     say(f"{sensor.kind}: fitting the model as declared")
     before, held = with_reference_noise(fit(begin(sensor, free, trials, prior)), held)
     before = fit(before) if before.echo else before
+    another = misfit(trials)
+    if another:
+        none = Screening((), np.inf)
+        return Investigation(before, before, (), (), none, none, tuple(held), another)
     if has_ceiling(sensor):
         before = without_lost(before)
     after, steps = _as_sampled(before, held)

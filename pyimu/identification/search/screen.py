@@ -139,6 +139,7 @@ class Projected:
             # What is left of it may be the noise of the reference.
             left = np.sum(turn * (normal.seen @ turn), axis=0)
             dead |= np.diag(gram) <= LEAST_SEEN * left
+            dead |= left < DEAD * np.diag(normal.seen)[wanted]
         turn[:, dead] = 0.0
         gram[dead] = gram[:, dead] = 0.0
         return cls(gram, turn.T @ normal.score, turn, normal)

@@ -91,7 +91,7 @@ def _check_overlap(log: Recording, reference: Recording) -> None:
         f"{reference.name} covers {_span(reference, _origin(log))} and {log.name} "
         f"{_span(log, _origin(log))}"
     )
-    by = f"add {first - begins:.9g} s to the time of {reference.name} if both begin together"
+    by = f"add {first - begins:.12g} s to the time of {reference.name} if both begin together"
     if abs(begins - first) > DAY:
         raise UserError(f"{spans}: their clocks count from different epochs; {by}")
     if min(last, ends) <= max(first, begins):

@@ -105,7 +105,7 @@ def _rhythms(time: np.ndarray, same: np.ndarray, seen: np.ndarray) -> Iterator[t
     strongest, power = strength.max(), np.sum(flags**2) * len(flags)
     for _ in range(LINES):
         best = int(np.argmax(strength))
-        if strength[best] < max(ALIKE * strongest, np.sqrt(LINE * power)):
+        if strength[best] <= max(ALIKE * strongest, np.sqrt(LINE * power)):
             return
         frequency = best / (size * row)
         middle = -np.angle(spectrum[best]) / (2 * np.pi * frequency)

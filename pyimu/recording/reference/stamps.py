@@ -34,7 +34,7 @@ def even_times(recording: Recording) -> np.ndarray | None:
         if b - a < LEAST:
             continue
         grid = time[a] + h * np.arange(b - a)
-        window = min(round(OVER / h), b - a)
+        window = min(max(round(OVER / h), LEAST), b - a)
         window -= 1 - window % 2
         even[a:b] = grid + savgol_filter(time[a:b] - grid, window, 1, mode="interp")
     scatter = float(np.sqrt(np.mean((time - even) ** 2)))

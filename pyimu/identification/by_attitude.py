@@ -1,0 +1,122 @@
+"""What was found judged by the attitude that a filter makes of it: what makes that worse is taken
+back.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from pyimu.attitude.error import AttitudeError
+from pyimu.identification.fates import TAKEN_BACK
+from pyimu.identification.held_out import attitudes
+from pyimu.identification.model_of import Found, Model, model_of
+from pyimu.identification.search.ceiling import is_ceiling
+from pyimu.identification.search.forward import Investigation, without
+from pyimu.identification.verdict import WORSE
+from pyimu.model.catalogue import WALK
+from pyimu.model.part import Part
+from pyimu.recording.recording import Recording
+
+CALIBRATION = ("scale_factor", "misalignment")
+"""Effects of the baseline that turn the gyro's rate into that of the body."""
+
+
+def settled(
+    start: Part, declared: Part | None, found: Found, logs: list[Recording]
+) -> tuple[Found, Model, tuple[float, float] | None, tuple[str, ...]]:
+    """What was found less the effects that make the filter's attitude worse.
+
+    Gives the model that it makes, too, the attitude's error before and after, and of each log in
+    which both are lost, so that they are not compared, what is to be said.
+    """
+    while True:
+        model, inv = model_of(start, declared, found), found.get("gyro")
+        old, new = (_as_filed(p, declared) for p in (model.before, model.after))
+        before, after = (attitudes(p, inv, logs) for p in (old, new))
+        lost = [n for n in before if before[n].is_lost and after[n].is_lost]
+        said = tuple(_lost(n, before[n], after[n]) for n in lost)
+        kept = [n for n in before if n not in lost]
+        if not kept:
+            return found, model, None, said
+        was, now = (_pooled(e, kept) for e in (before, after))
+        worst = _worst(new, inv, logs, kept, now) if now > WORSE * was else None
+        if worst is None:
+            model, now, more = _less_calibration(model, declared, inv, logs, kept, now)
+            return found, model, (was, now), said + more
+        name, error = worst
+        degrees = [f"{np.degrees(v):.2f}" for v in (error, now)]
+        reason = f"{TAKEN_BACK}, {degrees[0]} to {degrees[1]} deg"
+        found = found | {"gyro": without(inv, name, reason)}
+
+
+def _less_calibration(
+    model: Model,
+    declared: Part | None,
+    inv: Investigation,
+    logs: list[Recording],
+    kept: list[str],
+    now: float,
+) -> tuple[Model, float, tuple[str, ...]]:
+    """The model less the scale factors and axes by which the attitude is worse than without them.
+
+    They are the baseline's, which nobody declared, and what a gyro that is not quite linear shows
+    at the speed of the fitted logs: at another one they may be further off than none. Gives the
+    error [rad] of the attitude that is left, too, and what is to be said.
+    """
+    names = [n for n in CALIBRATION if declared is None and n in model.after.gyro.values]
+    if not names:
+        return model, now, ()
+    bare = replace(model, after=model.after.with_sensor(model.after.gyro.without(*names)))
+    error = _pooled(attitudes(_as_filed(bare.after, declared), inv, logs), kept)
+    if WORSE * error >= now:
+        return model, now, ()
+    degrees = [f"{np.degrees(v):.2f}" for v in (now, error)]
+    said = (
+        f"the gyro's {' and '.join(n.replace('_', ' ') for n in names)} are left out of the model: "
+        f"the attitude is better without them, {degrees[0]} to {degrees[1]} deg"
+    )
+    return bare, error, (said,)
+
+
+def _as_filed(part: Part, declared: Part | None) -> Part:
+    """The part with its gyro's walk as ``as_part`` will have it: left out where nobody declared one
+    and the logs do not show it.
+    """
+    if declared is not None or WALK[0] not in part.gyro.values or part.gyro.acts(WALK[0]):
+        return part
+    return _part_without(part, WALK[0])
+
+
+def _worst(
+    part: Part, inv: Investigation, logs: list[Recording], kept: list[str], now: float
+) -> tuple[str, float] | None:
+    """The added effect without which the attitude is best, and its error then.
+
+    None where it is then hardly better than ``now``.
+    """
+    errors = {
+        name: _pooled(attitudes(_part_without(part, name), inv, logs), kept)
+        for name in (s.effect for s in inv.steps if not s.declared)
+        if not is_ceiling(part.gyro, name)
+    }
+    worst = min(errors, key=errors.get, default=None)
+    return (worst, errors[worst]) if worst and WORSE * errors[worst] < now else None
+
+
+def _part_without(part: Part, effect: str) -> Part:
+    return part.with_sensor(part.gyro.without(effect))
+
+
+def _pooled(errors: dict[str, AttitudeError], names: list[str]) -> float:
+    """RMS error [rad] over the rows of some logs."""
+    return float(np.sqrt(np.mean(np.concatenate([errors[n].total for n in names]) ** 2)))
+
+
+def _lost(name: str, before: AttitudeError, after: AttitudeError) -> str:
+    degrees = [f"{np.degrees(e.rms):.0f}" for e in (before, after)]
+    return (
+        f"the filter loses the attitude of {name}, before ({degrees[0]} deg) and after "
+        f"({degrees[1]} deg): not compared"
+    )

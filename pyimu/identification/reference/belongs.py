@@ -1,0 +1,84 @@
+"""Whether a reference belongs to the sensor that it is compared with, by what they show alone."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from pyimu.identification.fit.columns import in_band
+from pyimu.identification.fit.trial import Trial
+from pyimu.identification.reference.clock import (
+    LEAST_ROWS,
+    in_own_band,
+    moving_rows,
+    turned_onto,
+)
+from pyimu.model.kinds import OWN
+from pyimu.recording.reference.band import COHERENCE, LEAST_BAND
+
+DEGREE, ALIKE = float(np.degrees(1.0)), 0.1
+"""Degrees in a radian, and how near a factor must be to one that is a mistake of units."""
+
+UNFIT = 0.5
+"""Share of the sensor's moving power below which a reference does not belong to the sensor."""
+
+
+def misfit(trials: Iterable[Trial]) -> str:
+    """Why the reference of one of the trials does not belong to its sensor; nothing where all
+    do.
+    """
+    clocked = [t for t in trials if t.clock is not None]
+    for t in clocked:
+        mistake = mistaken(t)
+        if mistake:
+            return f"the reference of {t.name} {mistake}"
+    return next(filter(None, (too_little(t, t.clock.explained) for t in clocked)), "")
+
+
+def too_little(trial: Trial, share: float) -> str:
+    """Why a reference does not belong to its sensor that accounts for a ``share`` of its power;
+    nothing where it may.
+    """
+    if share >= (COHERENCE if _coheres_nowhere(trial) else UNFIT):
+        return ""
+    return (
+        f"the reference of {trial.name} accounts for {max(share, 0.0):.0%} of what the "
+        f"{trial.kind} shows: another body, another time, or other axes"
+    )
+
+
+def _coheres_nowhere(trial: Trial) -> bool:
+    """Whether sensor and reference agree in no band, so that they are compared in the least."""
+    least = trial.band_hz is not None and trial.band_hz < LEAST_BAND
+    return least and trial.band_limit is not None and trial.band_limit > LEAST_BAND
+
+
+def mistaken(trial: Trial) -> str:
+    """What is wrong with the reference of a trial that would fit once that is put right.
+
+    Mirrored axes, or degrees taken for radians; nothing where neither is.
+    """
+    trial, axes = in_own_band(trial), list(trial.axes)
+    rows = moving_rows(trial)
+    x, y = (in_band(trial, v[:, axes])[rows] for v in (trial.u[:, OWN[trial.kind]], trial.y))
+    if len(y) < LEAST_ROWS or len(axes) < 3:
+        return ""
+    x, y = x - x.mean(axis=0), y - y.mean(axis=0)
+    turned, flipped = (_scaled(x @ turned_onto(a * x, y) * a, y) for a in (1.0, -1.0))
+    if turned[1] < COHERENCE <= flipped[1] and abs(flipped[0] - 1) < ALIKE:
+        return "has mirrored axes: its frame is turned into the sensor's by a determinant of -1"
+    for factor, off, units, others in (
+        (DEGREE, "small", "in rad", "in deg"),
+        (1 / DEGREE, "large", "in deg", "in rad"),
+    ):
+        if turned[1] >= COHERENCE and abs(turned[0] / factor - 1) < ALIKE:
+            whose = f"its numbers are {units}, or the {trial.kind}'s {others}"
+            return f"is too {off} by 57.3: {whose}"
+    return ""
+
+
+def _scaled(x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
+    """The factor of x (m, 3) nearest to y, and the share of the power of y that it explains."""
+    factor = float(np.sum(x * y) / max(np.sum(x * x), 1e-300))
+    return factor, 1 - float(np.sum((y - factor * x) ** 2) / max(np.sum(y * y), 1e-300))

@@ -1,0 +1,156 @@
+"""The verdict's logic alone, over whatever evidence there may be: what each word must not stand
+beside.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from pyimu.identification.fit.score import ErrorSums
+from pyimu.identification.found import Added, Errors
+from pyimu.identification.search.forward import AS_NOISE, Refused
+from pyimu.identification.search.leftover import Unexplained
+from pyimu.identification.verdict import FAR, SHORT, VERDICTS, Evidence, Verdict, verdict
+
+ROWS = np.full(3, 100.0)
+KINDS = ("gyro", "accel")
+
+
+def sums(rms) -> ErrorSums:
+    """Errors of such a size by axis over a hundred rows; NaN for an axis without rows."""
+    known = np.isfinite(rms)
+    return ErrorSums(np.where(known, np.square(rms), 0.0) * ROWS, np.where(known, ROWS, 0.0))
+
+
+def errors(after, floor, drift=None) -> Errors:
+    made = None if floor is None else sums(np.broadcast_to(floor, 3))
+    wander = None if drift is None else sums(np.broadcast_to(drift, 3))
+    return Errors("rad/s", sums(after), sums(after), made, wander)
+
+
+sizes = st.one_of(st.floats(0.0, 20.0), st.just(float("nan")))
+levels = st.floats(0.0, 5.0)
+of_a_sensor = st.builds(
+    errors,
+    st.lists(sizes, min_size=3, max_size=3).map(np.array),
+    st.one_of(st.none(), levels),
+    st.one_of(st.none(), levels),
+)
+by_sensor = st.dictionaries(st.sampled_from(KINDS), of_a_sensor)
+added = st.builds(
+    Added,
+    st.sampled_from(KINDS),
+    st.sampled_from(["scale_factor", "found_effect"]),
+    st.just(()),
+    st.just({}),
+    st.just(100.0),
+    st.just(7.0),
+)
+refused = st.tuples(
+    st.sampled_from(KINDS),
+    st.builds(Refused, st.just("coning"), st.floats(7.0, 1e4), st.sampled_from([AS_NOISE, "no"])),
+)
+unexplained = st.builds(
+    Unexplained,
+    st.sampled_from(KINDS),
+    st.sampled_from("xyz"),
+    st.just(("rate_x",)),
+    st.just(1e-6),
+    st.sampled_from(["", "popcorn"]),
+)
+
+
+def few(items):
+    return st.lists(items, max_size=2).map(tuple)
+
+
+words = st.sampled_from(["named", "not_confirmed", "undecidable", "unexplained"])
+evidence = st.builds(
+    Evidence,
+    examined=st.sampled_from([("gyro",), ("gyro", "accel")]),
+    unexamined=st.sampled_from([{}, {"accel": "no reference of its force"}]),
+    unfit=st.sampled_from(["", "another body"]),
+    shows=st.booleans(),
+    rows=st.sampled_from([SHORT - 1, SHORT, 10_000]),
+    added=few(added),
+    unexplained=few(unexplained),
+    drift=st.sampled_from([{}, {"gyro": {}}, {"gyro": {0: 9.0}}]),
+    refused=few(refused),
+    errors=by_sensor,
+    by_log=st.dictionaries(st.sampled_from(["one", "two"]), by_sensor),
+    band_hz=st.just({"gyro": 12.0}),
+    beside=st.one_of(st.none(), st.builds(Verdict, words, st.just("the magnetometer"))),
+    formulas=st.sampled_from([{}, {"found_effect": "w x f"}]),
+)
+
+some = st.floats(1e-3, 5.0)
+quiet = st.fixed_dictionaries({"gyro": st.builds(errors, st.just(np.ones(3)), some, some)})
+"""A sensor whose error is given, above noise of any level: of the evidence that leaves nothing but
+this to decide.
+"""
+
+
+def far(e: Errors) -> float:
+    """The largest ratio of what is left to its noise, of all axes together and of each."""
+    axes = e.after.per_axis / np.hypot(e.floor.per_axis, e.drift.per_axis)
+    return max(axes.max(), e.after.total / e.noise)
+
+
+@settings(deadline=None, max_examples=400)
+@given(evidence)
+def test_clean_stands_beside_nothing_that_speaks_against_it(e):
+    found = verdict(e)
+    assert found.word in VERDICTS
+    if found.word != "clean":
+        assert found.reason
+        return
+    assert not (e.unfit or e.added or e.unexplained or e.unexamined) and e.beside is None
+    assert all(r.reason == AS_NOISE for _, r in e.refused)
+    assert not any(e.drift.values())
+    assert e.shows and e.rows >= SHORT
+    assert {*e.examined} <= {*e.errors}
+    assert all(e.errors[k].after.total <= FAR * e.errors[k].noise for k in e.examined)
+
+
+@settings(deadline=None, max_examples=200)
+@given(quiet, st.dictionaries(st.sampled_from(["one", "two", "three"]), quiet))
+def test_clean_stands_within_three_floors_of_each_axis_and_log_alone(whole, logs):
+    """Of several logs and axes the limit is where one in a hundred results has one beyond it by
+    chance: below four standard errors for up to a hundred and fifty axes.
+    """
+    found = verdict(Evidence(("gyro",), {}, "", True, SHORT, errors=whole, by_log=logs))
+    assert found.word in ("clean", "unexplained")
+    assert (found.word == "clean") <= (far(whole["gyro"]) <= FAR)
+    worst = max((far(by["gyro"]) for by in logs.values()), default=0.0)
+    assert (found.word == "clean") <= (worst < 4.0)
+    assert (found.word == "unexplained") <= (max(worst, far(whole["gyro"])) > FAR)
+
+
+@pytest.mark.parametrize("added", [(), (Added("gyro", "lag", (), {}, 9.0, 7.0),)])
+def test_one_axis_far_above_its_own_noise_is_not_lost_among_the_others(added):
+    """All axes together lie 1.02 floors high, x alone ten."""
+    loud = Errors("rad/s", sums([10, 35, 35]), sums([10, 35, 35]), sums([1, 35, 35]))
+    found = verdict(
+        Evidence(("gyro",), {}, "", True, SHORT, added, errors={"gyro": loud}, band_hz={"gyro": 8})
+    )
+    assert found.word == ("partly" if added else "unexplained")
+    said = " ".join([found.reason, *found.remarks])
+    assert "the gyro residual below 8.00 Hz is 10 times its noise on x" in said
+
+
+def test_one_log_far_above_the_noise_is_not_lost_among_the_others():
+    near, loud = (errors(np.full(3, v), 1.0) for v in (1.0, 8.0))
+    logs = {f"log{i}": {"gyro": near} for i in range(9)} | {"bad": {"gyro": loud}}
+    whole = sum((by["gyro"] for by in logs.values()), start=errors(np.full(3, np.nan), None))
+    whole = Errors("rad/s", whole.before, whole.after, sums(np.ones(3)))
+    found = verdict(Evidence(("gyro",), {}, "", True, SHORT, errors={"gyro": whole}, by_log=logs))
+    assert whole.after.total < FAR and found.word == "unexplained"
+    assert "8.0 times its noise on x in bad" in found.reason
+
+
+def test_a_sensor_without_held_out_rows_is_not_called_clean():
+    found = verdict(Evidence(("gyro",), {}, "", True, SHORT))
+    assert found.word == "undecidable" and "no held-out row" in found.reason
