@@ -102,7 +102,7 @@ def build_fmus(
         if form not in LAYER:
             raise UserError(f"FMI version {form} is not one of {', '.join(map(str, LAYER))}")
     platforms = _platforms(platform)
-    generated = texts(block)
+    generated = texts(block, forms)
     try:
         with tempfile.TemporaryDirectory(prefix="pyimu-") as work:
             libraries = {
