@@ -67,6 +67,22 @@
 #define PRIVATE_TO_HERE
 #endif
 
+/* Where OLD_GLIBC is defined, a library loads from glibc 2.17 on, whatever it was linked against: of the functions whose
+   error handling has changed since, it asks for the first version, which gives the same values. */
+#ifdef OLD_GLIBC
+#include <limits.h> /* defines __GLIBC__ where there is one */
+#if defined(__GLIBC__) && defined(__x86_64__)
+#define FIRST_VERSION(name) __asm__(".symver " #name "," #name "@GLIBC_2.2.5");
+#elif defined(__GLIBC__) && defined(__aarch64__)
+#define FIRST_VERSION(name) __asm__(".symver " #name "," #name "@GLIBC_2.17");
+#else
+#define FIRST_VERSION(name)
+#endif
+FIRST_VERSION(acos) FIRST_VERSION(acosh) FIRST_VERSION(asin) FIRST_VERSION(atan2) FIRST_VERSION(atanh) FIRST_VERSION(cosh)
+FIRST_VERSION(exp) FIRST_VERSION(exp2) FIRST_VERSION(fmod) FIRST_VERSION(hypot) FIRST_VERSION(log) FIRST_VERSION(log10)
+FIRST_VERSION(log2) FIRST_VERSION(pow) FIRST_VERSION(remainder) FIRST_VERSION(sinh) FIRST_VERSION(sqrt)
+#endif
+
 /* A product and a sum are rounded one after the other, whatever the compiler's options: where a processor can do both
    with one rounding, it would not give the bits of the reference. */
 #if defined(__clang__)

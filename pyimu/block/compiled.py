@@ -19,6 +19,7 @@ import sys
 import tempfile
 from collections.abc import Callable
 from functools import lru_cache
+from importlib.util import find_spec
 from pathlib import Path
 
 import casadi as ca
@@ -56,10 +57,23 @@ The virtual machine takes 0.6 us and 2 to 4 ns an instruction for a sample, the 
 samples. Half of it, as others will find the library."""
 
 
+ZIG = (sys.executable, "-m", "ziglang", "cc")
+"""The compiler of the package ``ziglang``, the extra ``pyimu[compiler]``."""
+
+
 def compiler_command() -> list[str]:
-    """The command that compiles for this machine: ``CC``, else ``cc``; empty without a compiler."""
-    command = shlex.split(os.environ.get("CC", "")) or ["cc"]
-    return command if shutil.which(command[0]) else []
+    """The command that compiles for this machine: ``CC``, else ``cc``, else the package ``ziglang``
+    if it is there; empty without a compiler.
+    """
+    named = os.environ.get("CC", "")
+    if os.name == "nt":  # where a backslash is part of a path
+        given = [word.strip('"') for word in shlex.split(named, posix=False)]
+    else:
+        given = shlex.split(named)
+    command = given or ["cc"]
+    if shutil.which(command[0]):
+        return command
+    return list(ZIG) if not given and find_spec("ziglang") else []
 
 
 def source_folder() -> Path:
