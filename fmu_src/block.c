@@ -367,9 +367,13 @@ static double last_sample(const struct BlockState *now, double time) {
 }
 
 /* How far [s] a step may end past the stop time and still mean it: as much as in counting samples, or as far as two
-   numbers may differ that masters take for equal (1e-9 of them, Python's math.isclose). */
+   numbers may differ that masters take for equal (1e-9 of them, Python's math.isclose); never by half a sample. */
 static double forgiven(const struct BlockState *now) {
-    return isfinite(now->stop_time) ? fmin(slack(now, now->stop_time), 0.01) * now->sample_period + 1e-9 * fabs(now->stop_time) : 0.0;
+    if (!isfinite(now->stop_time)) {
+        return 0.0;
+    }
+    double rounding = fmin(slack(now, now->stop_time), 0.01) * now->sample_period + 1e-9 * fabs(now->stop_time);
+    return fmin(rounding, 0.5 * now->sample_period);
 }
 
 bool block_exit_initialization(Block *block) {

@@ -191,7 +191,7 @@ def _compile(
     work: Path,
 ) -> dict[Form, bytes]:
     """The shared library of each form, in bytes; what was made before is not made again."""
-    files = {form: _source_files(generated, form) for form in forms}
+    files = {form: source_files(generated, form) for form in forms}
     keys = {form: _library_key(name, files[form], form, platform, compiler) for form in forms}
     found = {form: made for form, key in keys.items() if (made := kept_bytes(key))}
     missing = [form for form in forms if form not in found]
@@ -286,7 +286,8 @@ def _run(command: list[str], folder: Path, what: str) -> None:
         raise UserError(f"the C compiler '{command[0]}' could not make {what}: {reason}")
 
 
-def _source_files(generated: dict[str, str], form: Form) -> dict[str, bytes]:
+def source_files(generated: dict[str, str], form: Form) -> dict[str, bytes]:
+    """The C of one form: name of a file to its bytes."""
     folder = source_folder()
     files = {file: (folder / file).read_bytes() for file in (*CORE, LAYER[form])}
     return files | {
@@ -308,7 +309,7 @@ def _contents(generated: dict[str, str], form: Form) -> dict[str, bytes]:
         "documentation/index.html": generated[PAGE[form]].encode(),
         "documentation/licenses/license.txt": (template_folder() / "license.txt").read_bytes(),
     }
-    entries |= {f"sources/{file}": data for file, data in _source_files(generated, form).items()}
+    entries |= {f"sources/{file}": data for file, data in source_files(generated, form).items()}
     if form == 2:
         return entries | {"model.png": icon()}
     return entries | {

@@ -637,6 +637,14 @@ def test_a_master_that_adds_its_steps_up_reaches_the_stop_time(path, n):
         refused(unit, lambda: unit.step(n * 0.1, 0.1), "stop time")
 
 
+def test_far_from_zero_a_step_does_not_make_a_sample_past_the_stop_time(path):
+    """What a master may be off by at 1e6 s would be a period of 1 ms."""
+    with stopping(path, 1e6, start=1e6 - 1.0, period=1e-3) as unit:
+        if unit.form != "block":
+            refused(unit, lambda: unit.step(1e6 - 1.0, 1.0006), "stop time")
+        unit.step(1e6 - 1.0, 0.008)
+
+
 def test_the_stop_time_is_kept_in_a_state_and_forgotten_at_a_reset(path):
     with stopping(path, 3.0) as unit, Unit(path).start() as other:
         other.restore(other.from_bytes(unit.to_bytes(unit.save())))
