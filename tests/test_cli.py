@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from fmu_toy import Unit
+from places import same_path
 
 from pyimu import Recording, __version__, part
 from pyimu.fmu import simulate
@@ -300,6 +301,18 @@ COMMANDS = (["close", "rover.csv", "--part", "plain.toml"], ["build", "imt30"], 
 @pytest.mark.parametrize("place", ("out/report.html", "out/report.html/deeper"))
 def test_out_is_a_file(here, pyimu, command, place):
     refused(pyimu, [*command, "--out", place], place, "report.html is a file", "--out")
+
+
+def test_a_terminal_that_lacks_a_letter_shows_its_number(tmp_path):
+    """As consoles of Windows do; the name of a folder may have any."""
+    done = subprocess.run(
+        [sys.executable, "-m", "pyimu", "modelica", "imt30", "--out", "\u4e2d"],
+        env=same_path() | {"PYTHONIOENCODING": "cp437"},
+        cwd=tmp_path,
+        capture_output=True,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (0, b"") and done.stdout.startswith(b"\\u4e2d")
 
 
 def test_build_without_a_compiler(here, pyimu, monkeypatch):

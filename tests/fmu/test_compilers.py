@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 import zipfile
+from pathlib import Path
 
 import casadi as ca
 import numpy as np
@@ -15,7 +16,7 @@ from fmu_toy import toy
 from pyimu.block.block import Block
 from pyimu.block.compiled import compiler_command
 from pyimu.block.variables import Variable
-from pyimu.fmu import FORMS, build_fmu, build_fmus, host_platform, simulate
+from pyimu.fmu import FORMS, build, build_fmu, build_fmus, host_platform, simulate
 
 linux = pytest.mark.skipif(
     sys.platform != "linux" or shutil.which("readelf") is None, reason="needs Linux and readelf"
@@ -128,3 +129,35 @@ def test_a_compiler_that_was_named_is_not_replaced(zig_alone, monkeypatch):
     assert compiler_command() == [sys.executable, "-m", "ziglang", "cc"]
     monkeypatch.setenv("CC", "no-such-compiler")
     assert compiler_command() == []
+
+
+def test_each_platform_is_compiled_by_its_name_into_its_folder(monkeypatch, tmp_path):
+    """What zig is told, and where its libraries lie, with no compiler at all."""
+    monkeypatch.setenv("PYIMU_CACHE", "")
+    monkeypatch.setattr(build, "find_spec", lambda name: object())
+    monkeypatch.setattr(build, "header_folder", lambda: tmp_path)
+    targets = []
+
+    def pretend(command, folder, what):
+        target = command[command.index("-target") + 1]
+        targets.append(target)
+        Path(folder, command[command.index("-o") + 1]).write_text(target)
+        assert ("-install_name" in " ".join(command)) == (what.endswith(".dylib"))
+
+    monkeypatch.setattr(build, "_run", pretend)
+    two, three = build_fmus(toy(), tmp_path, (2, 3), "all")
+    want = {
+        "x86_64-linux": ("linux64", "so", "x86_64-linux-gnu.2.17"),
+        "aarch64-linux": ("aarch64-linux", "so", "aarch64-linux-gnu.2.17"),
+        "x86_64-windows": ("win64", "dll", "x86_64-windows-gnu"),
+        "x86_64-darwin": ("darwin64", "dylib", "x86_64-macos.11.0"),
+        "aarch64-darwin": ("aarch64-darwin", "dylib", "aarch64-macos.11.0"),
+    }
+    assert set(targets) == {target for *_, target in want.values()}
+    for fmu, folder in ((two, 0), (three, None)):
+        with zipfile.ZipFile(fmu) as archive:
+            found = {n: archive.read(n) for n in archive.namelist() if n.startswith("binaries/")}
+        assert found == {
+            f"binaries/{name if folder is None else own[folder]}/Toy.{own[1]}": own[2].encode()
+            for name, own in want.items()
+        }

@@ -40,9 +40,7 @@ def test_the_fuzzer_finds_nothing():
     ]
     for line in lines:
         figures = {name: int(n) for n, name in (w.split()[:2] for w in line.split(", ")[2:6])}
-        assert (
-            figures["refused"] > 500 and figures["instances"] > 50 and figures["messages"] > 500
-        )
+        assert figures["refused"] > 500 and figures["instances"] > 50 and figures["messages"] > 500
 
 
 FAULTS = {
