@@ -3,11 +3,11 @@
 PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/.ready
-CODE := pyimu tests benchmarks examples docs/build
+CODE := pyimu tests benchmarks examples fuzz docs/build
 PART ?= imt30
 OUT ?= out
 
-.PHONY: help demo test lint generate fmus bench
+.PHONY: help demo test lint generate fmus bench fuzz
 
 help:
 	@echo "make demo      the whole loop on a simulated recording; report under $(OUT)/demo"
@@ -16,6 +16,7 @@ help:
 	@echo "make generate  what is written from the definitions: docs, pictures, fmu_src/generated, modelica"
 	@echo "make fmus      the FMUs of PART ($(PART)) under $(OUT)/fmus"
 	@echo "make bench     speed against named peers"
+	@echo "make fuzz      random calls and damaged files, for a long time"
 
 # The stamp is older than pyproject.toml exactly when what must be installed may have changed.
 $(READY): pyproject.toml
@@ -48,3 +49,6 @@ fmus: $(READY)
 bench: $(READY)
 	$(BIN)/python -m pip install --quiet --editable '.[bench]'
 	for b in benchmarks/*.py; do $(BIN)/python "$$b" || exit 1; done
+
+fuzz: $(READY)
+	for f in fuzz/*.py; do $(BIN)/python "$$f" || exit 1; done

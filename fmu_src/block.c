@@ -49,6 +49,9 @@ bool block_log_events(Block *block, bool on, size_t n, const char *const categor
         return false;
     }
     for (size_t i = 0; i < n; i++) {
+        if (!categories || !categories[i]) {
+            return block_refuse(block, "%s: log category %zu is missing", MODEL_NAME, i + 1);
+        }
         if (strcmp(categories[i], LOG_EVENTS) != 0 && strcmp(categories[i], LOG_ERROR) != 0) {
             return block_refuse(block, "%s has no log category %s", MODEL_NAME, categories[i]);
         }
@@ -67,7 +70,7 @@ static const struct {
     const char *name;
     unsigned phases;
 } calls[] = {
-    [START_TIME] = {"setting the start time", IN(INSTANTIATED)},
+    [SET_TIMES] = {"setting the start time", IN(INSTANTIATED)},
     [ENTER_CONFIGURATION] = {"entering configuration", IN(INSTANTIATED)},
     [EXIT_CONFIGURATION] = {"leaving configuration", IN(CONFIGURATION)},
     [ENTER_INITIALIZATION] = {"entering initialization", IN(INSTANTIATED)},
@@ -105,6 +108,8 @@ size_t block_size_of(uint64_t rows) {
 struct BlockState *block_new_rows(uint64_t rows) {
     struct BlockState *state = calloc(1, block_size_of(rows));
     if (state) {
+        state->layout = STATE_LAYOUT;
+        state->model = block_model();
         state->rows = rows;
         for (uint64_t row = 0; row < rows; row++) {
             memcpy(block_inputs(state, row), input_starts, N_INPUTS * sizeof(double));
@@ -118,6 +123,7 @@ static struct BlockState *new_state(const Block *block) {
     if (state) {
         state->name = block->name;
         memcpy(state->parameters, parameter_starts, N_PARAMETERS * sizeof(double));
+        state->stop_time = INFINITY;
         state->sample_period = MODEL_SAMPLE_PERIOD;
         state->seed = MODEL_SEED;
     }
@@ -137,7 +143,13 @@ void block_take(Block *block, struct BlockState *state) {
     forget_noise(block); /* it may have been another seed's */
 }
 
-Block *block_create(const char *name, const char *token, BlockLog log, bool log_events) {
+/* FMI 2 and FMI 3 have tokens of their own, as masters take units of equal tokens for one file. */
+static const char *token_of(int version) {
+    static const char *const tokens[] = {MODEL_TOKEN_FMI2, MODEL_TOKEN_FMI3};
+    return tokens[version - 2];
+}
+
+Block *block_create(const char *name, int version, const char *token, BlockLog log, bool log_events) {
     Block *block = calloc(1, sizeof *block);
     if (!block) {
         return NULL;
@@ -145,8 +157,8 @@ Block *block_create(const char *name, const char *token, BlockLog log, bool log_
     block->name = name ? block_digest(name, strlen(name)) ^ block_digest(MODEL_NAME, strlen(MODEL_NAME)) : 0;
     block->log = log;
     block->log_events = log_events;
-    if (!token || strcmp(token, MODEL_TOKEN) != 0) {
-        block_refuse(block, "%s has the token %s, not %s", MODEL_NAME, MODEL_TOKEN, token ? token : "(none)");
+    if (!token || strcmp(token, token_of(version)) != 0) {
+        block_refuse(block, "%s has the token %s, not %s", MODEL_NAME, token_of(version), token ? token : "(none)");
         free(block);
         return NULL;
     }
@@ -198,14 +210,18 @@ bool block_exit_configuration(Block *block) {
     return true;
 }
 
-bool block_set_start_time(Block *block, double start_time) {
-    if (!block_allowed(block, START_TIME)) {
+bool block_set_times(Block *block, double start_time, double stop_time) {
+    if (!block_allowed(block, SET_TIMES)) {
         return false;
     }
     if (!isfinite(start_time)) {
         return block_refuse(block, "%s: the start time %g is not a time", MODEL_NAME, start_time);
     }
+    if (!(stop_time >= start_time)) {
+        return block_refuse(block, "%s: the stop time %g is not a time from %g on", MODEL_NAME, stop_time, start_time);
+    }
     block->now->time = start_time;
+    block->now->stop_time = stop_time;
     return true;
 }
 
@@ -350,6 +366,16 @@ static double last_sample(const struct BlockState *now, double time) {
     return floor(time / now->sample_period + fmin(slack(now, time), 0.01));
 }
 
+/* How far [s] a step may end past the stop time and still mean it: as much as in counting samples, or as far as two
+   numbers may differ that masters take for equal (1e-9 of them, Python's math.isclose); never by half a sample. */
+static double forgiven(const struct BlockState *now) {
+    if (!isfinite(now->stop_time)) {
+        return 0.0;
+    }
+    double rounding = fmin(slack(now, now->stop_time), 0.01) * now->sample_period + 1e-9 * fabs(now->stop_time);
+    return fmin(rounding, 0.5 * now->sample_period);
+}
+
 bool block_exit_initialization(Block *block) {
     if (!block_allowed(block, EXIT_INITIALIZATION)) {
         return false;
@@ -382,13 +408,17 @@ static bool step_fits(Block *block, double time, double step) {
         return block_refuse(block, "%s: a step from %.17g s, but the last one ended at %.17g s", MODEL_NAME, time,
                             now->time);
     }
+    if (time + step > now->stop_time + forgiven(now)) {
+        return block_refuse(block, "%s: a step to %.17g s, but the stop time is %.17g s", MODEL_NAME, time + step, now->stop_time);
+    }
     if (!(fabs(last_sample(now, time + step)) < 0x1p53)) {
         return block_refuse(block, "%s: %g s is too far from zero to count samples", MODEL_NAME, time + step);
     }
     double samples = last_sample(now, time + step) - (double) now->sample;
-    if (IN_BLOCKS && samples > (double) now->rows) {
-        return block_refuse(block, "%s: a step of %.17g s has %.0f samples, a block %llu", MODEL_NAME, step, samples,
-                            (unsigned long long) now->rows);
+    uint64_t most = IN_BLOCKS ? now->rows : MOST_SAMPLES;
+    if (samples > (double) most) {
+        return block_refuse(block, "%s: a step of %.17g s has %.0f samples, at most %llu are made", MODEL_NAME, step, samples,
+                            (unsigned long long) most);
     }
     return true;
 }

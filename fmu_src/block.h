@@ -45,10 +45,10 @@ typedef struct BlockState BlockState;
 #define LOG_ERROR "logStatusError"
 #define LOG_EVENTS "logEvents"
 
-/* NULL where the token is another model's or memory is short.  Noise whose seed is 0 follows from the name, so that two
+/* NULL where the token is not that of the model in this version of FMI (2 or 3) or memory is short.  Noise whose seed is 0 follows from the name, so that two
    instances of other names, which nobody gave seeds, have independent noise; an instance that is called as its model is has
    that of the key 0. */
-Block *block_create(const char *name, const char *token, BlockLog log, bool log_events);
+Block *block_create(const char *name, int version, const char *token, BlockLog log, bool log_events);
 void block_free(Block *block);
 
 bool block_log_events(Block *block, bool on, size_t n, const char *const categories[]);
@@ -58,13 +58,16 @@ bool block_refuse_variable(Block *block, uint32_t reference, const char *reason)
 /* Only in configuration, which only the block form has, block_size can be set. */
 bool block_enter_configuration(Block *block);
 bool block_exit_configuration(Block *block);
-bool block_set_start_time(Block *block, double start_time);
+
+/* Without an end stop_time is INFINITY. */
+bool block_set_times(Block *block, double start_time, double stop_time);
 bool block_enter_initialization(Block *block);
 bool block_exit_initialization(Block *block);
 bool block_terminate(Block *block);
 bool block_reset(Block *block);
 
-/* Make every sample k with time < k * sample_period <= time + step; in the block form, at most block_size of them. */
+/* Make every sample k with time < k * sample_period <= time + step; at most MOST_SAMPLES of them, in the block form at most
+   block_size, and none past the stop time. */
 bool block_do_step(Block *block, double time, double step);
 double block_time(const Block *block);
 
@@ -81,10 +84,11 @@ bool block_set_integers(Block *block, uint32_t reference, const int32_t values[]
 bool block_set_booleans(Block *block, uint32_t reference, const bool values[]);
 bool block_set_unsigned(Block *block, uint32_t reference, uint64_t value);
 
-/* A saved state is all that decides what follows: a copy in memory, or bytes that outlive the process. */
+/* A saved state is all that decides what follows: a copy in memory, or bytes that outlive the process.  Both begin with
+   the model that they are of, and another's is refused. */
 bool block_save(Block *block, void **state);
 bool block_restore(Block *block, const void *state);
-void block_release(void **state);
+bool block_release(Block *block, void **state);
 bool block_serialized_size(Block *block, const void *state, size_t *size);
 bool block_serialize(Block *block, const void *state, uint8_t *bytes, size_t size);
 bool block_deserialize(Block *block, const uint8_t *bytes, size_t size, void **state);

@@ -10,6 +10,7 @@
 PRIVATE_FROM_HERE
 
 #define ROOM(n) ((n) > 0 ? (n) : 1) /* C has no arrays of length zero */
+#define MOST_SAMPLES 16777216 /* in one step: 4 h at 976 Hz, some seconds of work that nothing can break off */
 #define DRAWN 64 /* samples whose noise is drawn at a time, a multiple of the four that come together */
 
 typedef enum { INSTANTIATED, CONFIGURATION, INITIALIZATION, STEPPING, TERMINATED, N_PHASES } Phase;
@@ -17,6 +18,8 @@ typedef enum { INSTANTIATED, CONFIGURATION, INITIALIZATION, STEPPING, TERMINATED
 /* Everything that decides what follows, and nothing derived but the outputs: this is what saving a state copies.  All
    members are eight bytes long, so there is no padding and equal states are equal bytes. */
 struct BlockState {
+    uint64_t layout; /* STATE_LAYOUT: what follows is a state */
+    uint64_t model;  /* a number that stands for the model's token */
     uint64_t phase;
     uint64_t seed;  /* as it was set; 0: the noise is that of the instance's name */
     uint64_t name;  /* a number that stands for the instance's name; 0 for the model's own */
@@ -24,6 +27,7 @@ struct BlockState {
     int64_t sample; /* the last sample made; sample k belongs to time k * sample_period */
     uint64_t steps; /* communication steps so far */
     double time;
+    double stop_time; /* INFINITY where there is none */
     double sample_period;
     double parameters[ROOM(N_PARAMETERS)];
     double state[ROOM(N_STATES)];
@@ -51,7 +55,7 @@ struct Block {
 #define ALWAYS (ALIVE | IN(CONFIGURATION) | IN(TERMINATED))
 
 typedef enum {
-    START_TIME, ENTER_CONFIGURATION, EXIT_CONFIGURATION, ENTER_INITIALIZATION, EXIT_INITIALIZATION, DO_STEP, TERMINATE, RESET,
+    SET_TIMES, ENTER_CONFIGURATION, EXIT_CONFIGURATION, ENTER_INITIALIZATION, EXIT_INITIALIZATION, DO_STEP, TERMINATE, RESET,
     GET, SAVE, RESTORE
 } Call;
 
@@ -65,6 +69,10 @@ struct BlockState *block_new_rows(uint64_t rows);
 
 /* Another state in place of the present one, which is freed. */
 void block_take(Block *block, struct BlockState *state);
+
+/* A number that stands for the model, and for how its states lie in memory ("block 4"). */
+uint64_t block_model(void);
+#define STATE_LAYOUT UINT64_C(0x626c6f636b203400)
 
 /* 64 bits that tell names and states from each other: damaged or foreign ones, not forged ones. */
 uint64_t block_digest(const void *data, size_t size);

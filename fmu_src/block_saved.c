@@ -4,12 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct {
-    char magic[8];
-    uint64_t model;
-    uint64_t check;
-} Seal;
-
 /* FNV-1a (Fowler, Noll, Vo). */
 uint64_t block_digest(const void *data, size_t size) {
     const unsigned char *bytes = data;
@@ -20,13 +14,32 @@ uint64_t block_digest(const void *data, size_t size) {
     return hash;
 }
 
-static Seal seal_of(const struct BlockState *state) {
-    Seal seal = {{'b', 'l', 'o', 'c', 'k', ' ', '3', 0}, block_digest(MODEL_TOKEN, strlen(MODEL_TOKEN)), block_digest(state, block_size_of(state->rows))};
-    return seal;
+uint64_t block_model(void) {
+    return block_digest(MODEL_TOKEN_FMI3, strlen(MODEL_TOKEN_FMI3));
+}
+
+/* Whether this is a state of this model: its first two members are read, nothing else. */
+static bool is_own(const void *state) {
+    uint64_t head[2];
+    memcpy(head, state, sizeof head);
+    return head[0] == STATE_LAYOUT && head[1] == block_model();
+}
+
+static bool own(Block *block, const void *state) {
+    if (!state) {
+        return block_refuse(block, "%s: there is no state", MODEL_NAME);
+    }
+    return is_own(state) || block_refuse(block, "%s: the state is another model's", MODEL_NAME);
 }
 
 bool block_save(Block *block, void **state) {
-    if (!block_allowed(block, SAVE) || !state) {
+    if (!block_allowed(block, SAVE)) {
+        return false;
+    }
+    if (!state) {
+        return block_refuse(block, "%s: there is no place for a state", MODEL_NAME);
+    }
+    if (*state && !own(block, *state)) {
         return false;
     }
     size_t size = block_size_of(block->now->rows);
@@ -39,11 +52,8 @@ bool block_save(Block *block, void **state) {
 }
 
 bool block_restore(Block *block, const void *state) {
-    if (!block_allowed(block, RESTORE)) {
+    if (!block_allowed(block, RESTORE) || !own(block, state)) {
         return false;
-    }
-    if (!state) {
-        return block_refuse(block, "%s: there is no state to restore", MODEL_NAME);
     }
     size_t size = block_size_of(((const struct BlockState *) state)->rows);
     struct BlockState *copy = malloc(size);
@@ -54,21 +64,34 @@ bool block_restore(Block *block, const void *state) {
     return true;
 }
 
-void block_release(void **state) {
-    if (state) {
-        free(*state);
-        *state = NULL;
+bool block_release(Block *block, void **state) {
+    if (!block) {
+        return false;
     }
+    if (!state || !*state) {
+        return true;
+    }
+    if (!own(block, *state)) {
+        return false;
+    }
+    free(*state);
+    *state = NULL;
+    return true;
+}
+
+/* A serialized state: the digest of what follows, and that. */
+static size_t serialized_size(uint64_t rows) {
+    return sizeof(uint64_t) + block_size_of(rows);
 }
 
 bool block_serialized_size(Block *block, const void *state, size_t *size) {
-    if (!block_allowed(block, SAVE)) {
+    if (!block_allowed(block, SAVE) || !own(block, state)) {
         return false;
     }
-    if (!state) {
-        return block_refuse(block, "%s: there is no state to serialize", MODEL_NAME);
+    if (!size) {
+        return block_refuse(block, "%s: there is no place for a size", MODEL_NAME);
     }
-    *size = sizeof(Seal) + block_size_of(((const struct BlockState *) state)->rows);
+    *size = serialized_size(((const struct BlockState *) state)->rows);
     return true;
 }
 
@@ -80,41 +103,45 @@ bool block_serialize(Block *block, const void *state, uint8_t *bytes, size_t siz
     if (!bytes || size < needed) {
         return block_refuse(block, "%s: a serialized state needs %zu bytes", MODEL_NAME, needed);
     }
-    Seal seal = seal_of(state);
-    memcpy(bytes, &seal, sizeof seal);
-    memcpy(bytes + sizeof seal, state, needed - sizeof seal);
+    uint64_t check = block_digest(state, needed - sizeof check);
+    memcpy(bytes, &check, sizeof check);
+    memcpy(bytes + sizeof check, state, needed - sizeof check);
     return true;
 }
 
 /* The rows of a serialized state; 0 where so many bytes are none. */
 static uint64_t rows_in(const uint8_t *bytes, size_t size) {
     struct BlockState read;
-    if (!bytes || size < sizeof(Seal) + sizeof read) {
+    if (!bytes || size < serialized_size(0)) {
         return 0;
     }
-    memcpy(&read, bytes + sizeof(Seal), sizeof read);
+    memcpy(&read, bytes + sizeof(uint64_t), sizeof read);
     bool possible = read.rows >= 1 && read.rows <= MAX_ROWS && read.phase < N_PHASES;
-    return possible && size == sizeof(Seal) + block_size_of(read.rows) ? read.rows : 0;
+    return possible && size == serialized_size(read.rows) ? read.rows : 0;
 }
 
 bool block_deserialize(Block *block, const uint8_t *bytes, size_t size, void **state) {
-    if (!block_allowed(block, RESTORE) || !state) {
+    if (!block_allowed(block, RESTORE)) {
         return false;
     }
-    uint64_t rows = rows_in(bytes, size);
+    if (!state) {
+        return block_refuse(block, "%s: there is no place for a state", MODEL_NAME);
+    }
+    uint64_t rows = rows_in(bytes, size), check;
     if (rows == 0) {
         return block_refuse(block, "%s: these %zu bytes are no state", MODEL_NAME, size);
     }
-    struct BlockState *read = malloc(block_size_of(rows));
+    memcpy(&check, bytes, sizeof check);
+    if (check != block_digest(bytes + sizeof check, size - sizeof check)) {
+        return block_refuse(block, "%s: the bytes of the state are damaged", MODEL_NAME);
+    }
+    if (!own(block, bytes + sizeof check)) {
+        return false;
+    }
+    void *read = malloc(size - sizeof check);
     if (!read) {
         return block_refuse(block, "%s: no memory for a state", MODEL_NAME);
     }
-    memcpy(read, bytes + sizeof(Seal), block_size_of(rows));
-    Seal seal = seal_of(read);
-    if (memcmp(bytes, &seal, sizeof seal) != 0) {
-        free(read);
-        return block_refuse(block, "%s: the bytes are another model's state, or damaged", MODEL_NAME);
-    }
-    *state = read;
+    *state = memcpy(read, bytes + sizeof check, size - sizeof check);
     return true;
 }

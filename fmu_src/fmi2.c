@@ -8,6 +8,7 @@
 #endif
 #include <fmi2Functions.h>
 
+#include <math.h>
 #include <string.h>
 
 #include "block.h"
@@ -25,6 +26,11 @@ static Block *block_of(fmi2Component c) {
 
 static fmi2Status status(bool done) {
     return done ? fmi2OK : fmi2Error;
+}
+
+/* Whether a call has its instance, and for n variables a list of references and a list of values. */
+static bool complete(fmi2Component c, const void *references, size_t n, const void *values) {
+    return c && (n == 0 || (references && values) || block_refuse(block_of(c), "an argument is NULL"));
 }
 
 static void write_log(void *owner, bool is_error, const char *category, const char *message) {
@@ -59,7 +65,7 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
     component->logger = functions->logger;
     component->environment = functions->componentEnvironment;
     BlockLog log = {component->logger ? write_log : NULL, component};
-    component->block = component->name ? block_create(component->name, fmuGUID, log, loggingOn) : NULL;
+    component->block = component->name ? block_create(component->name, 2, fmuGUID, log, loggingOn) : NULL;
     if (!component->block) {
         fmi2FreeInstance(component);
         return NULL;
@@ -81,8 +87,8 @@ fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean loggingOn, size_t nC
 
 fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean toleranceDefined, fmi2Real tolerance, fmi2Real startTime,
                                fmi2Boolean stopTimeDefined, fmi2Real stopTime) {
-    (void) toleranceDefined, (void) tolerance, (void) stopTimeDefined, (void) stopTime;
-    return status(block_set_start_time(block_of(c), startTime));
+    (void) toleranceDefined, (void) tolerance;
+    return status(block_set_times(block_of(c), startTime, stopTimeDefined ? stopTime : INFINITY));
 }
 
 fmi2Status fmi2EnterInitializationMode(fmi2Component c) {
@@ -131,7 +137,7 @@ static bool set_integer(Block *block, fmi2ValueReference reference, fmi2Integer 
 }
 
 fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2Real value[]) {
-    bool done = true;
+    bool done = complete(c, vr, nvr, value);
     for (size_t i = 0; i < nvr && done; i++) {
         done = block_get_reals(block_of(c), vr[i], &value[i]);
     }
@@ -139,7 +145,7 @@ fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nv
 }
 
 fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2Integer value[]) {
-    bool done = true;
+    bool done = complete(c, vr, nvr, value);
     for (size_t i = 0; i < nvr && done; i++) {
         done = get_integer(block_of(c), vr[i], &value[i]);
     }
@@ -147,7 +153,7 @@ fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t
 }
 
 fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2Boolean value[]) {
-    bool done = true;
+    bool done = complete(c, vr, nvr, value);
     for (size_t i = 0; i < nvr && done; i++) {
         bool answer = false;
         done = block_get_booleans(block_of(c), vr[i], &answer);
@@ -157,7 +163,7 @@ fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t
 }
 
 fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Real value[]) {
-    bool done = true;
+    bool done = complete(c, vr, nvr, value);
     for (size_t i = 0; i < nvr && done; i++) {
         done = block_set_reals(block_of(c), vr[i], &value[i]);
     }
@@ -165,7 +171,7 @@ fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nv
 }
 
 fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Integer value[]) {
-    bool done = true;
+    bool done = complete(c, vr, nvr, value);
     for (size_t i = 0; i < nvr && done; i++) {
         done = set_integer(block_of(c), vr[i], value[i]);
     }
@@ -173,7 +179,7 @@ fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t
 }
 
 fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Boolean value[]) {
-    bool done = true;
+    bool done = complete(c, vr, nvr, value);
     for (size_t i = 0; i < nvr && done; i++) {
         done = block_set_booleans(block_of(c), vr[i], &(bool) {value[i] != fmi2False});
     }
@@ -181,18 +187,16 @@ fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t
 }
 
 /* No block has texts. */
-static fmi2Status refuse_texts(fmi2Component c, const fmi2ValueReference vr[], size_t nvr) {
-    return status(nvr == 0 || block_refuse_variable(block_of(c), vr[0], "is no String"));
+static fmi2Status refuse_texts(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const void *value) {
+    return status(complete(c, vr, nvr, value) && (nvr == 0 || block_refuse_variable(block_of(c), vr[0], "is no String")));
 }
 
 fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2String value[]) {
-    (void) value;
-    return refuse_texts(c, vr, nvr);
+    return refuse_texts(c, vr, nvr, value);
 }
 
 fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2String value[]) {
-    (void) value;
-    return refuse_texts(c, vr, nvr);
+    return refuse_texts(c, vr, nvr, value);
 }
 
 /* ---- states ------------------------------------------------------------------------------------------------------- */
@@ -206,9 +210,7 @@ fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate FMUstate) {
 }
 
 fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *FMUstate) {
-    (void) c;
-    block_release(FMUstate);
-    return fmi2OK;
+    return status(block_release(block_of(c), FMUstate));
 }
 
 fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate FMUstate, size_t *size) {
@@ -226,7 +228,10 @@ fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte serializedSta
 /* ---- what can be asked about a step: it is always done when fmi2DoStep returns ------------------------------------- */
 
 fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind s, fmi2Real *value) {
-    if (!c || s != fmi2LastSuccessfulTime) {
+    if (!complete(c, value, 1, value)) {
+        return fmi2Error;
+    }
+    if (s != fmi2LastSuccessfulTime) {
         return fmi2Discard;
     }
     *value = block_time(block_of(c));
@@ -234,7 +239,10 @@ fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind s, fmi2Real *
 }
 
 fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind s, fmi2Boolean *value) {
-    if (!c || s != fmi2Terminated) {
+    if (!complete(c, value, 1, value)) {
+        return fmi2Error;
+    }
+    if (s != fmi2Terminated) {
         return fmi2Discard;
     }
     *value = fmi2False; /* a block never ends a simulation by itself */
@@ -252,15 +260,15 @@ static fmi2Status refuse(fmi2Component c, const char *function) {
 }
 
 fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind s, fmi2Status *value) {
-    return fmi2Discard;
+    return complete(c, value, 1, value) ? fmi2Discard : fmi2Error;
 }
 
 fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind s, fmi2Integer *value) {
-    return fmi2Discard;
+    return complete(c, value, 1, value) ? fmi2Discard : fmi2Error;
 }
 
 fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind s, fmi2String *value) {
-    return fmi2Discard;
+    return complete(c, value, 1, value) ? fmi2Discard : fmi2Error;
 }
 
 fmi2Status fmi2CancelStep(fmi2Component c) {

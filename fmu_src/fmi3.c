@@ -8,6 +8,7 @@
 #endif
 #include <fmi3Functions.h>
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "block.h"
@@ -24,6 +25,11 @@ static Block *block_of(fmi3Instance instance) {
 
 static fmi3Status status(bool done) {
     return done ? fmi3OK : fmi3Error;
+}
+
+/* Whether a call has its instance, and for n variables a list of references and a list of values. */
+static bool complete(fmi3Instance instance, const void *references, size_t n, const void *values) {
+    return instance && (n == 0 || (references && values) || block_refuse(block_of(instance), "an argument is NULL"));
 }
 
 static void write_log(void *owner, bool is_error, const char *category, const char *message) {
@@ -51,7 +57,7 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String instanceName, fmi3String ins
     instance->log = logMessage;
     instance->environment = instanceEnvironment;
     BlockLog log = {logMessage ? write_log : NULL, instance};
-    instance->block = block_create(instanceName, instantiationToken, log, loggingOn);
+    instance->block = block_create(instanceName, 3, instantiationToken, log, loggingOn);
     if (!instance->block || (eventModeUsed && !block_refuse(instance->block, "Event Mode is not offered"))) {
         fmi3FreeInstance(instance);
         return NULL;
@@ -78,8 +84,9 @@ fmi3Status fmi3ExitConfigurationMode(fmi3Instance instance) {
 
 fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean toleranceDefined, fmi3Float64 tolerance,
                                        fmi3Float64 startTime, fmi3Boolean stopTimeDefined, fmi3Float64 stopTime) {
-    (void) toleranceDefined, (void) tolerance, (void) stopTimeDefined, (void) stopTime;
-    return status(block_set_start_time(block_of(instance), startTime) && block_enter_initialization(block_of(instance)));
+    (void) toleranceDefined, (void) tolerance;
+    return status(block_set_times(block_of(instance), startTime, stopTimeDefined ? stopTime : INFINITY)
+                  && block_enter_initialization(block_of(instance)));
 }
 
 fmi3Status fmi3ExitInitializationMode(fmi3Instance instance) {
@@ -98,18 +105,25 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoi
                       fmi3Boolean noSetFMUStatePriorToCurrentPoint, fmi3Boolean *eventHandlingNeeded,
                       fmi3Boolean *terminateSimulation, fmi3Boolean *earlyReturn, fmi3Float64 *lastSuccessfulTime) {
     (void) noSetFMUStatePriorToCurrentPoint;
+    if (!complete(instance, eventHandlingNeeded, 1, terminateSimulation) || !complete(instance, earlyReturn, 1, lastSuccessfulTime)) {
+        return fmi3Error;
+    }
     bool done = block_do_step(block_of(instance), currentCommunicationPoint, communicationStepSize);
     *eventHandlingNeeded = fmi3False;
     *terminateSimulation = fmi3False;
     *earlyReturn = fmi3False;
-    *lastSuccessfulTime = instance ? block_time(block_of(instance)) : currentCommunicationPoint;
+    *lastSuccessfulTime = block_time(block_of(instance));
     return status(done);
 }
 
 /* ---- values: those of an array row by row, those of several variables one after the other --------------------------- */
 
 /* Whether there is room for as many values as the variables have. */
-static bool counts_agree(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences, size_t nValues) {
+static bool counts_agree(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
+                         const void *values, size_t nValues) {
+    if (!complete(instance, valueReferences, nValueReferences, values)) {
+        return false;
+    }
     size_t all = 0;
     for (size_t i = 0; i < nValueReferences; i++) {
         size_t count = 0;
@@ -130,7 +144,7 @@ static size_t count_of(fmi3Instance instance, fmi3ValueReference valueReference)
 #define TYPE_OF_VARIABLES(Type, get, set) \
     fmi3Status fmi3Get##Type(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences, \
                              fmi3##Type values[], size_t nValues) { \
-        bool done = counts_agree(instance, valueReferences, nValueReferences, nValues); \
+        bool done = counts_agree(instance, valueReferences, nValueReferences, values, nValues); \
         for (size_t i = 0; i < nValueReferences && done; i++) { \
             done = get(block_of(instance), valueReferences[i], values); \
             values += count_of(instance, valueReferences[i]); \
@@ -139,7 +153,7 @@ static size_t count_of(fmi3Instance instance, fmi3ValueReference valueReference)
     } \
     fmi3Status fmi3Set##Type(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences, \
                              const fmi3##Type values[], size_t nValues) { \
-        bool done = counts_agree(instance, valueReferences, nValueReferences, nValues); \
+        bool done = counts_agree(instance, valueReferences, nValueReferences, values, nValues); \
         for (size_t i = 0; i < nValueReferences && done; i++) { \
             done = set(block_of(instance), valueReferences[i], values); \
             values += count_of(instance, valueReferences[i]); \
@@ -167,9 +181,7 @@ fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState FMUState) {
 }
 
 fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState *FMUState) {
-    (void) instance;
-    block_release(FMUState);
-    return fmi3OK;
+    return status(block_release(block_of(instance), FMUState));
 }
 
 fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState FMUState, size_t *size) {
@@ -195,17 +207,19 @@ static fmi3Status refuse(fmi3Instance instance, const char *function) {
 }
 
 /* A type that no variable has: asking for none of them is fine. */
-#define NO_SUCH_VARIABLES(instance, references, n) \
-    return status((n) == 0 || block_refuse_variable(block_of(instance), (references)[0], "is of another type"))
+static fmi3Status no_such_variables(fmi3Instance instance, const fmi3ValueReference references[], size_t n, const void *values) {
+    return status(complete(instance, references, n, values)
+                  && (n == 0 || block_refuse_variable(block_of(instance), references[0], "is of another type")));
+}
 
 #define TYPE_WITHOUT_VARIABLES(Type) \
     fmi3Status fmi3Get##Type(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences, \
                              fmi3##Type values[], size_t nValues) { \
-        NO_SUCH_VARIABLES(instance, valueReferences, nValueReferences); \
+        return no_such_variables(instance, valueReferences, nValueReferences, values); \
     } \
     fmi3Status fmi3Set##Type(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences, \
                              const fmi3##Type values[], size_t nValues) { \
-        NO_SUCH_VARIABLES(instance, valueReferences, nValueReferences); \
+        return no_such_variables(instance, valueReferences, nValueReferences, values); \
     }
 
 TYPE_WITHOUT_VARIABLES(Float32)
@@ -219,22 +233,22 @@ TYPE_WITHOUT_VARIABLES(String)
 
 fmi3Status fmi3GetBinary(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
                          size_t valueSizes[], fmi3Binary values[], size_t nValues) {
-    NO_SUCH_VARIABLES(instance, valueReferences, nValueReferences);
+    return no_such_variables(instance, valueReferences, nValueReferences, values);
 }
 
 fmi3Status fmi3SetBinary(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
                          const size_t valueSizes[], const fmi3Binary values[], size_t nValues) {
-    NO_SUCH_VARIABLES(instance, valueReferences, nValueReferences);
+    return no_such_variables(instance, valueReferences, nValueReferences, values);
 }
 
 fmi3Status fmi3GetClock(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
                         fmi3Clock values[]) {
-    NO_SUCH_VARIABLES(instance, valueReferences, nValueReferences);
+    return no_such_variables(instance, valueReferences, nValueReferences, values);
 }
 
 fmi3Status fmi3SetClock(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
                         const fmi3Clock values[]) {
-    NO_SUCH_VARIABLES(instance, valueReferences, nValueReferences);
+    return no_such_variables(instance, valueReferences, nValueReferences, values);
 }
 
 fmi3Instance fmi3InstantiateModelExchange(fmi3String instanceName, fmi3String instantiationToken, fmi3String resourcePath,

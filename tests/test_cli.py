@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from fmu_toy import Unit
+from places import same_path
 
 from pyimu import Recording, __version__, part
 from pyimu.fmu import simulate
@@ -302,10 +303,31 @@ def test_out_is_a_file(here, pyimu, command, place):
     refused(pyimu, [*command, "--out", place], place, "report.html is a file", "--out")
 
 
-@pytest.mark.parametrize("command", COMMANDS, ids=lambda c: c[0])
-def test_no_compiler(here, pyimu, monkeypatch, command):
+def test_a_terminal_that_lacks_a_letter_shows_its_number(tmp_path):
+    """As consoles of Windows do; the name of a folder may have any."""
+    done = subprocess.run(
+        [sys.executable, "-m", "pyimu", "modelica", "imt30", "--out", "\u4e2d"],
+        env=same_path() | {"PYTHONIOENCODING": "cp437"},
+        cwd=tmp_path,
+        capture_output=True,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (0, b"") and done.stdout.startswith(b"\\u4e2d")
+
+
+def test_build_without_a_compiler(here, pyimu, monkeypatch):
     monkeypatch.setenv("CC", "no-such-compiler")
-    refused(pyimu, [*command, "--out", "out"], "no C compiler", "'no-such-compiler'", "CC")
+    words = ("no C compiler", "'no-such-compiler'", "CC", "pip install ziglang")
+    refused(pyimu, ["build", "imt30", "--out", "out"], *words)
+
+
+def test_close_without_a_compiler_leaves_the_units_out_and_says_so(here, pyimu, monkeypatch):
+    monkeypatch.setenv("CC", "no-such-compiler")
+    status, said, _ = pyimu(*COMMANDS[0], "--out", "new")
+    assert status == 0 and "the FMUs are left out: no C compiler" in said
+    assert {p.name for p in Path("new").iterdir()} == {"report.html", "report.json", "model.toml"}
+    assert json.loads(Path("new/report.json").read_text())["fmus"] == []
+    assert "the FMUs are left out: no C compiler" in Path("new/report.html").read_text()
 
 
 @pytest.mark.parametrize("command", COMMANDS[:2], ids=lambda c: c[0])

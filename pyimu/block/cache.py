@@ -112,13 +112,29 @@ def _digest(data: bytes) -> str:
 
 
 def _files(pattern: str) -> list[Path]:
-    """Files in the cache folder; none where others may write to it, as what is in it is run."""
+    """Files in the cache folder; none where others may put something there, as it is run."""
     folder = cache_folder()
-    if folder is None or not folder.is_dir():
-        return []
-    about = folder.stat()
-    if hasattr(os, "getuid") and (
-        about.st_uid != os.getuid() or about.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
-    ):
+    if folder is None or not folder.is_dir() or not _only_ours(folder):
         return []
     return list(folder.glob(f"{pattern}.so"))
+
+
+def _only_ours(folder: Path) -> bool:
+    """Whether nobody else can write to a folder, or put another in its place or in a parent's.
+
+    A parent in which all may write and nobody may remove what is another's, as /tmp, is none that
+    could be replaced. On Windows, where the user's folder is the user's, nothing is asked.
+    """
+    if not hasattr(os, "getuid"):
+        return True
+    mine, others = os.getuid(), stat.S_IWGRP | stat.S_IWOTH
+    about = folder.stat()
+    if about.st_uid != mine or about.st_mode & others:
+        return False
+    for parent in {*folder.absolute().parents, *folder.resolve().parents}:
+        about = parent.stat()
+        if about.st_uid not in (mine, 0) or (
+            about.st_mode & others and not about.st_mode & stat.S_ISVTX
+        ):
+            return False
+    return True

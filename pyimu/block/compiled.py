@@ -16,9 +16,9 @@ import shlex
 import shutil
 import subprocess
 import sys
-import tempfile
 from collections.abc import Callable
 from functools import lru_cache
+from importlib.util import find_spec
 from pathlib import Path
 
 import casadi as ca
@@ -26,6 +26,7 @@ import numpy as np
 
 from pyimu.block.c_code import c_code
 from pyimu.block.cache import keep, kept, key_of
+from pyimu.files import scratch
 
 FLAGS = (
     "-std=c11",
@@ -56,10 +57,23 @@ The virtual machine takes 0.6 us and 2 to 4 ns an instruction for a sample, the 
 samples. Half of it, as others will find the library."""
 
 
+ZIG = (sys.executable, "-m", "ziglang", "cc")
+"""The compiler of the package ``ziglang``, the extra ``pyimu[compiler]``."""
+
+
 def compiler_command() -> list[str]:
-    """The command that compiles for this machine: ``CC``, else ``cc``; empty without a compiler."""
-    command = shlex.split(os.environ.get("CC", "")) or ["cc"]
-    return command if shutil.which(command[0]) else []
+    """The command that compiles for this machine: ``CC``, else ``cc``, else the package ``ziglang``
+    if it is there; empty without a compiler.
+    """
+    named = os.environ.get("CC", "")
+    if os.name == "nt":  # where a backslash is part of a path
+        given = [word.strip('"') for word in shlex.split(named, posix=False)]
+    else:
+        given = shlex.split(named)
+    command = given or ["cc"]
+    if shutil.which(command[0]):
+        return command
+    return list(ZIG) if not given and find_spec("ziglang") else []
 
 
 def source_folder() -> Path:
@@ -174,10 +188,10 @@ def _key(source: str, compiler: tuple[str, ...]) -> str:
 def _compile(source: str, compiler: list[str], key: str) -> ctypes.CDLL | None:
     """Compile in a temporary folder, keep a copy in the cache and load the library.
 
-    The library's own file is gone once it is loaded.
+    The library's own file is gone once it is loaded. None where that cannot be done.
     """
-    with tempfile.TemporaryDirectory(prefix="pyimu-", ignore_cleanup_errors=True) as folder:
-        path, library, hand_written = Path(folder, "run.c"), Path(folder, "run.so"), source_folder()
+    with contextlib.suppress(OSError), scratch() as folder:
+        path, library, hand_written = folder / "run.c", folder / "run.so", source_folder()
         path.write_text(source, encoding="utf-8")
         files = [str(path), str(hand_written / "noise.c"), "-I", str(hand_written)]
         if subprocess.run(
@@ -186,6 +200,7 @@ def _compile(source: str, compiler: list[str], key: str) -> ctypes.CDLL | None:
             return None
         keep(key, library.read_bytes())
         return ctypes.CDLL(str(library))
+    return None
 
 
 def _from_cache(key: str) -> ctypes.CDLL | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable
+from io import TextIOWrapper
 from typing import Annotated
 
 import typer
@@ -46,6 +47,8 @@ def main() -> None:
 
     An error that the user can mend ends with one line on stderr and exit status 2.
     """
+    if isinstance(sys.stdout, TextIOWrapper):  # it may not know every letter, as on Windows
+        sys.stdout.reconfigure(errors="backslashreplace")  # as stderr does by itself
     interrupts = Interrupts()
     try:
         with interrupts:

@@ -29,11 +29,14 @@ def demo(out: Out = Path("out/demo")) -> None:
     error that no data sheet declares. Finds it, adds it, and shows what was put in beside what was
     found, and the heading error before and after.
     """
+    from pyimu.identification.report.deliver import without_units
     from pyimu.rover.demo import run_demo
 
     with progress("simulating the rover") as say:
         shown = run_demo(out, say)
     print(shown.report())
+    if left_out := without_units():
+        print(left_out)
     print(f"report: {out / 'report.html'}, picture: {out / 'heading.png'}")
 
 
@@ -116,7 +119,7 @@ def close_command(
     as FMUs.
     """
     from pyimu.identification.close import close
-    from pyimu.identification.report.deliver import check_delivery
+    from pyimu.identification.report.deliver import check_delivery, without_units
     from pyimu.recording.log import read_recording
     from pyimu.recording.reference.file import read_reference
 
@@ -138,6 +141,8 @@ def close_command(
         closed = closed.by_command(sys.argv[1:])
         closed.write(out, say=say)
     print(closed.report())
+    if left_out := without_units():
+        print(left_out)
     print(f"report: {out / 'report.html'}")
 
 

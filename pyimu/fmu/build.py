@@ -6,7 +6,6 @@ import os
 import platform as host
 import struct
 import subprocess
-import sys
 import tempfile
 import zipfile
 import zlib
@@ -19,9 +18,9 @@ from typing import BinaryIO
 
 from pyimu.block.block import Block
 from pyimu.block.cache import keep, kept_bytes, key_of
-from pyimu.block.compiled import compiler_command, source_folder
+from pyimu.block.compiled import ZIG, compiler_command, source_folder
 from pyimu.errors import UserError
-from pyimu.files import whole
+from pyimu.files import scratch, whole
 from pyimu.fmu.sources import (
     CORE,
     DESCRIPTION,
@@ -45,6 +44,9 @@ FLAGS = (
 )
 """In a library FMI's functions have their own names, without the model's prefix. Without contracted
 multiply-adds and without -ffast-math, C gives the bits that casadi's virtual machine gives."""
+
+OLD_GLIBC = "-DOLD_GLIBC"
+"""On Linux the library loads from glibc 2.17 on, as zig's do, whose names of platforms say so."""
 
 SCALAR_FORMS: tuple[Form, ...] = (2, 3)
 
@@ -92,8 +94,8 @@ def build_fmus(
     A form is 2 or 3, the version of FMI of a unit with scalars, written to ``NAME.fmi2.fmu`` and
     ``NAME.fmi3.fmu``; or "block", an FMI 3.0 unit that takes a block of samples per step, in
     arrays, written to ``NAME.block.fmu``. ``platform`` is ``"host"``, which takes the compiler
-    named in ``CC`` or ``cc``; one of ``PLATFORMS`` or ``"all"``, which take the compiler of the
-    package ``ziglang``. What does not depend on the form is compiled once.
+    named in ``CC``, ``cc`` or the package ``ziglang``; one of ``PLATFORMS`` or ``"all"``, which
+    take that of the package ``ziglang``. What does not depend on the form is compiled once.
 
     Raises UserError for an unknown form or platform, a missing compiler, C that does not compile,
     and a folder that cannot be written to.
@@ -102,9 +104,9 @@ def build_fmus(
         if form not in LAYER:
             raise UserError(f"FMI version {form} is not one of {', '.join(map(str, LAYER))}")
     platforms = _platforms(platform)
-    generated = texts(block)
+    generated = texts(block, forms)
     try:
-        with tempfile.TemporaryDirectory(prefix="pyimu-") as work:
+        with scratch() as work:
             libraries = {
                 p: _compile(block.name, generated, forms, p, compiler, Path(work, p.name))
                 for p, compiler in platforms
@@ -131,7 +133,8 @@ def file_name(name: str, form: Form) -> str:
 def _platforms(name: str) -> list[tuple[Platform, list[str]]]:
     """Each platform that ``name`` means, with the command that compiles for it."""
     if name == "host":
-        return [(PLATFORMS[host_platform()], host_compiler())]
+        own, command = PLATFORMS[host_platform()], host_compiler()
+        return [(own, zig(own) if command == list(ZIG) else [*command, OLD_GLIBC])]
     if name != "all" and name not in PLATFORMS:
         raise UserError(f"platform '{name}' is not one of host, all, {', '.join(PLATFORMS)}")
     if find_spec("ziglang") is None:
@@ -139,7 +142,12 @@ def _platforms(name: str) -> list[tuple[Platform, list[str]]]:
             f"compiling for platform '{name}' needs the package ziglang: pip install ziglang"
         )
     chosen = PLATFORMS.values() if name == "all" else [PLATFORMS[name]]
-    return [(p, [sys.executable, "-m", "ziglang", "cc", "-target", p.zig]) for p in chosen]
+    return [(p, zig(p)) for p in chosen]
+
+
+def zig(platform: Platform) -> list[str]:
+    """The command of the package ``ziglang`` that compiles for a platform."""
+    return [*ZIG, "-target", platform.zig]
 
 
 def host_platform() -> str:
@@ -152,16 +160,13 @@ def host_platform() -> str:
 
 
 def host_compiler() -> list[str]:
-    """The command that compiles for this machine: ``CC``, else ``cc``.
-
-    Raises UserError where there is none.
-    """
+    """What ``compiler_command`` says. Raises UserError where there is no compiler."""
     command = compiler_command()
     if not command:
         wanted = os.environ.get("CC") or "cc"
         raise UserError(
             f"no C compiler: '{wanted}' was not found; install one or name it in the environment "
-            "variable CC"
+            "variable CC, or pip install ziglang"
         )
     return command
 
@@ -186,7 +191,7 @@ def _compile(
     work: Path,
 ) -> dict[Form, bytes]:
     """The shared library of each form, in bytes; what was made before is not made again."""
-    files = {form: _source_files(generated, form) for form in forms}
+    files = {form: source_files(generated, form) for form in forms}
     keys = {form: _library_key(name, files[form], form, platform, compiler) for form in forms}
     found = {form: made for form, key in keys.items() if (made := kept_bytes(key))}
     missing = [form for form in forms if form not in found]
@@ -281,7 +286,8 @@ def _run(command: list[str], folder: Path, what: str) -> None:
         raise UserError(f"the C compiler '{command[0]}' could not make {what}: {reason}")
 
 
-def _source_files(generated: dict[str, str], form: Form) -> dict[str, bytes]:
+def source_files(generated: dict[str, str], form: Form) -> dict[str, bytes]:
+    """The C of one form: name of a file to its bytes."""
     folder = source_folder()
     files = {file: (folder / file).read_bytes() for file in (*CORE, LAYER[form])}
     return files | {
@@ -303,7 +309,7 @@ def _contents(generated: dict[str, str], form: Form) -> dict[str, bytes]:
         "documentation/index.html": generated[PAGE[form]].encode(),
         "documentation/licenses/license.txt": (template_folder() / "license.txt").read_bytes(),
     }
-    entries |= {f"sources/{file}": data for file, data in _source_files(generated, form).items()}
+    entries |= {f"sources/{file}": data for file, data in source_files(generated, form).items()}
     if form == 2:
         return entries | {"model.png": icon()}
     return entries | {

@@ -14,6 +14,7 @@ from __future__ import annotations
 import hashlib
 import json
 import math
+import unicodedata
 import uuid
 from collections.abc import Iterable
 from functools import cache
@@ -25,6 +26,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from pyimu.block.block import Block
 from pyimu.block.c_code import c_code
+from pyimu.errors import UserError
 from pyimu.fmu.unit_definitions import unit_definitions
 from pyimu.fmu.variables import (
     BLOCK_SIZE,
@@ -79,28 +81,30 @@ _LOG_CATEGORIES = (
 )
 
 
-def texts(block: Block) -> dict[str, str]:
-    """The generated files of ``block``: file name to text.
+def texts(block: Block, forms: Iterable[Form] = tuple(TABLE)) -> dict[str, str]:
+    """The generated files of ``block`` for some ``forms`` of it: file name to text.
 
     Raises ValueError where the block cannot become an FMU: its name is no C identifier, a
     variable's name is taken twice, its functions are sparse or have one name; UserError where a
-    unit is unknown.
+    unit is unknown, a text has a character that XML has not, a start value is not finite.
     """
     _check(block)
     step = render("step.c", _names(block) | {"functions": _functions_in_c(block)})
-    # A token stands for the content: what differs in any generated file gets another one, and so
-    # does each table.
-    contexts = {
-        table: _context(block, table == TABLE["block"]) for table in sorted(set(TABLE.values()))
-    }
-    blank = [
-        text
-        for table, context in contexts.items()
-        for text in _render(table, context | {"token": ""}).values()
-    ]
-    files = {"step.c": step, "model_prefix.h": render("model_prefix.h", _names(block))}
-    for table, context in contexts.items():
-        files |= _render(table, context | {"token": _token([table, step, *blank])})
+    files = {"step.c": step}
+    files |= {name: render(name, _names(block) | {"sources": _c_files()}) for name in _COMMON}
+    for table in sorted({TABLE[form] for form in forms}):
+        files |= _with_tokens(table, step, _context(block, table == TABLE["block"]))
+    return files
+
+
+def _with_tokens(table: str, step: str, context: dict) -> dict[str, str]:
+    """The files of a table of variables. A token stands for all that is generated for a version of
+    FMI: what differs in anything gets another one, and so do the two versions of one unit.
+    """
+    files = _render(table, context | {"tokens": {v: f"token of FMI {v}" for v in (2, 3)}})
+    for version in (2, 3):
+        token = _token([f"FMI {version}", table, step, *files.values()])
+        files = {n: text.replace(f"token of FMI {version}", token) for n, text in files.items()}
     return files
 
 
@@ -121,6 +125,7 @@ def write_generated(block: Block, folder: Path | str) -> list[Path]:
 def _check(block: Block) -> None:
     if not (block.name.isascii() and block.name.isidentifier()):
         raise ValueError(f"block {block.name!r}: the name of an FMU must be a C identifier")
+    _check_texts(block)
     names = [e.name for e in entries(block, False)] + [BLOCK_SIZE]
     twice = sorted({n for n in names if names.count(n) > 1})
     if twice:
@@ -140,6 +145,25 @@ def _check(block: Block) -> None:
             )
 
 
+def _check_texts(block: Block) -> None:
+    """Raise UserError for a text that cannot stand in an XML file, or would harm a terminal that
+    shows it, and for a start value that a unit would not take back.
+    """
+    variables = [*block.inputs, *block.parameters, *block.outputs]
+    names = [*(v.name for v in variables), *(channel.name for channel in block.noise)]
+    described = [block.description, *(v.description for v in variables)]
+    for text in (*names, *described, *(block.limits.texts if block.limits else ())):
+        for character in text:
+            if unicodedata.category(character) in ("Cc", "Cn", "Cs"):
+                raise UserError(
+                    f"block {block.name}: {text!r} has the character {character!r}, which a "
+                    "name or a description must not have"
+                )
+    for v in variables:
+        if not math.isfinite(v.start):
+            raise UserError(f"block {block.name}: {v.name} must start finite, not at {v.start}")
+
+
 def _names(block: Block) -> dict:
     """What the texts call the block and its functions."""
     return {
@@ -153,10 +177,6 @@ def _names(block: Block) -> dict:
 def _context(block: Block, in_blocks: bool) -> dict:
     variables = entries(block, in_blocks)
     functions = _functions(block)
-    sources = {
-        form: sorted([*(f for f in CORE if f.endswith(".c")), layer, "step.c"])
-        for form, layer in LAYER.items()
-    }
     size = default_block_size(block) if in_blocks else None
     return _names(block) | {
         "description": block.description,
@@ -170,7 +190,7 @@ def _context(block: Block, in_blocks: bool) -> dict:
         "units": unit_definitions((e.unit, e.display_unit) for e in variables if e.unit),
         "terminals": _terminals(variables),
         "stop_time": block.stop_time,
-        "sources": sources,
+        "sources": _c_files(),
         "log_categories": _LOG_CATEGORIES,
         "block_size": size,
         "max_block_size": MAX_BLOCK_SIZE,
@@ -188,6 +208,13 @@ def _context(block: Block, in_blocks: bool) -> dict:
             what: max(getattr(f, f"sz_{what}")() for f in functions)
             for what in ("arg", "res", "iw", "w")
         },
+    }
+
+
+def _c_files() -> dict[Form, list[str]]:
+    return {
+        form: sorted([*(f for f in CORE if f.endswith(".c")), layer, "step.c"])
+        for form, layer in LAYER.items()
     }
 
 
@@ -217,12 +244,14 @@ def _token(contents: Iterable[str]) -> str:
     return "{" + str(uuid.UUID(bytes=digest[:16])) + "}"
 
 
+_COMMON = ("model_prefix.h", "buildDescription.xml")
+"""Generated files that every form shares, which hold nothing of a variable."""
+
 _TEMPLATES: dict[str, dict[str, str]] = {
     TABLE[2]: {
         "model_table.h": "model_table.h",
         "modelDescription.fmi2.xml": "modelDescription.fmi2.xml",
         "modelDescription.fmi3.xml": "modelDescription.fmi3.xml",
-        "buildDescription.xml": "buildDescription.xml",
         TERMINALS[3]: "terminalsAndIcons.xml",
         "index.html": "index.html",
     },
@@ -258,7 +287,7 @@ def _environment() -> Environment:
     environment.filters |= {
         "xml_number": xml_number,
         "c_number": _c_number,
-        "c_string": json.dumps,
+        "c_string": _c_string,
         "add_one": lambda n: n + 1,
     }
     return environment
@@ -266,6 +295,11 @@ def _environment() -> Environment:
 
 def template_folder() -> Path:
     return Path(__file__).resolve().parent / "templates"
+
+
+def _c_string(text: str) -> str:
+    """In UTF-8, without what C11 takes for a trigraph."""
+    return json.dumps(text, ensure_ascii=False).replace("??", '?""?')
 
 
 def _c_number(x: float) -> str:

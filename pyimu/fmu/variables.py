@@ -35,6 +35,10 @@ BLOCK_SIZE = "block_size"
 MAX_BLOCK_SIZE = 2**24
 """Samples in a block at most: 4 h at 976 Hz are 14 million."""
 
+MOST_BY_DEFAULT = 2**15
+"""Samples in a block at most unless another size is set. The start values of each stand in the
+model description; the fastest parts on the market have 32 kHz."""
+
 _CAUSALITY = {
     "time": {"causality": "independent", "variability": "continuous"},
     "input": {"causality": "input", "variability": "continuous"},
@@ -209,8 +213,8 @@ class Entry:
 
 
 def default_block_size(block: Block) -> int:
-    """Samples in a block unless another size is set: those of a second."""
-    return min(max(round(1 / block.sample_period), 1), MAX_BLOCK_SIZE)
+    """Samples in a block unless another size is set: those of a second, within bounds."""
+    return min(max(round(1 / block.sample_period), 1), MOST_BY_DEFAULT)
 
 
 def entries(block: Block, in_blocks: bool) -> list[Entry]:
@@ -219,7 +223,10 @@ def entries(block: Block, in_blocks: bool) -> list[Entry]:
     With noise it has the seed, in blocks their size, too.
     """
     rows = _rows(block, in_blocks)
-    size = {"rows": default_block_size(block), "rows_reference": len(rows) - 1} if in_blocks else {}
+    size: dict[str, int] = {}
+    if in_blocks:
+        reference = next(i for i, r in enumerate(rows) if r.role == "structural")
+        size = {"rows": default_block_size(block), "rows_reference": reference}
     parameters = [i for i, r in enumerate(rows) if r.role in PARAMETERS for _ in r.array.elements]
     inputs = [i for i, r in enumerate(rows) if r.role == "input" for _ in r.array.elements]
     initial = [
@@ -269,11 +276,12 @@ def _rows(block: Block, in_blocks: bool) -> list[_Row]:
     time = Variable("time", "s", "simulation time")
     parts = [
         ("time", scalars([time])),
+        # Before the arrays that have so many rows: readers look a dimension up as they meet it.
+        ("structural", scalars([_size(block)] * in_blocks)),
         ("input", group(block.inputs)),
         ("parameter", group(block.parameters)),
         ("output", group(block.outputs)),
         ("sampling", scalars([_period(block), *[SEED] * bool(block.noise)])),
-        ("structural", scalars([_size(block)] * in_blocks)),
     ]
     unsigned = (SEED.name, BLOCK_SIZE)
     return [

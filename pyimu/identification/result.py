@@ -37,6 +37,7 @@ class Closed(Outcome):
         With ``units`` also the FMUs of the sensor as it is now and, under ``before/``, as it was.
 
         All take the place of earlier ones together, once all are made. Gives the page's path.
-        Raises UserError where the folder cannot be written or no compiler is found.
+        Without a C compiler the FMUs are left out, and the page says so. Raises UserError where the
+        folder cannot be written.
         """
         return deliver(self, Path(out), units, say)

@@ -22,6 +22,7 @@ from pyimu.block.normals import normals
 from pyimu.block.stepping import step_through
 from pyimu.block.variables import NoiseChannel, Variable
 from pyimu.errors import UserError
+from pyimu.files import FORGOTTEN, PREFIX, scratch
 
 CHANNELS = [7, 2**40 + 1]
 
@@ -281,6 +282,50 @@ def test_folder_that_others_may_write_to_is_not_run_from(cache, compilations):
     cache.chmod(0o777)
     forget()
     assert native.compiled(toy().step, 10) is not None and len(compilations) == 2
+
+
+@pytest.mark.skipif(not hasattr(os, "getuid"), reason="asks for POSIX permissions")
+@pytest.mark.parametrize(
+    "mode, found", ((0o755, True), (0o1777, True), (0o777, False), (0o775, False))
+)
+def test_a_cache_that_others_may_replace_is_not_run_from(
+    tmp_path, monkeypatch, compilations, mode, found
+):
+    """Who may write to a folder may put another in the place of one in it, but for a sticky one."""
+    monkeypatch.setenv("PYIMU_CACHE", str(tmp_path / "parent" / "own" / "cache"))
+    forget()
+    native.compiled(toy().step, 10)
+    (tmp_path / "parent").chmod(mode)
+    forget()
+    assert native.compiled(toy().step, 10) is not None and len(compilations) == 2 - found
+
+
+@pytest.mark.skipif(not hasattr(os, "getuid"), reason="asks for POSIX permissions")
+def test_a_cache_behind_a_link_that_others_may_replace_is_not_run_from(
+    tmp_path, monkeypatch, compilations
+):
+    for name in ("kept", "open"):
+        (tmp_path / name).mkdir()
+    (tmp_path / "open" / "link").symlink_to(tmp_path / "kept")
+    (tmp_path / "open").chmod(0o777)
+    for _ in range(2):
+        monkeypatch.setenv("PYIMU_CACHE", str(tmp_path / "open" / "link" / "cache"))
+        forget()
+        native.compiled(toy().step, 10)
+    assert len(compilations) == 2
+
+
+def test_a_temporary_folder_goes_and_takes_along_what_a_killed_process_left(tmp_path, monkeypatch):
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    for name, age in (("dead", 2 * FORGOTTEN), ("alive", 0.0)):
+        (tmp_path / f"{PREFIX}{name}").mkdir()
+        (tmp_path / f"{PREFIX}{name}" / "run.c").write_text("")
+        os.utime(tmp_path / f"{PREFIX}{name}", (time.time() - age,) * 2)
+    (tmp_path / "pyimu-results").mkdir()
+    os.utime(tmp_path / "pyimu-results", (0, 0))
+    with scratch() as folder:
+        (folder / "file").write_text("")
+    assert {p.name for p in tmp_path.iterdir()} == {f"{PREFIX}alive", "pyimu-results"}
 
 
 @pytest.mark.parametrize("where", ["", "file"])

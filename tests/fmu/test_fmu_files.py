@@ -24,7 +24,7 @@ from lxml import etree
 
 from pyimu.block.block import Block
 from pyimu.block.normals import normals
-from pyimu.block.variables import NoiseChannel, Variable
+from pyimu.block.variables import Limits, NoiseChannel, Variable
 from pyimu.errors import UserError
 from pyimu.files import check_folder
 from pyimu.fmu import (
@@ -303,11 +303,11 @@ def test_same_block_same_bytes(path, tmp_path):
 
 
 def tokens(block):
-    """Those of the table of scalars and of the table in blocks."""
+    """Those of each form, as its model description says."""
     files = texts(block)
     return tuple(
-        re.search(r'MODEL_TOKEN "(.*)"', files[table])[1]
-        for table in ("model_table.h", "model_table.block.h")
+        re.search(r'(?:guid|instantiationToken)="(.*?)"', files[DESCRIPTION[form]])[1]
+        for form in FORMS
     )
 
 
@@ -323,11 +323,40 @@ def test_token_follows_the_content():
     assert len(set(all_tokens)) == len(all_tokens) and tokens(others[0]) == tokens(BLOCK)
 
 
-def test_one_token_in_all_files_of_a_table():
-    files, (scalars, blocks) = texts(BLOCK), tokens(BLOCK)
-    assert f'guid="{scalars}"' in files["modelDescription.fmi2.xml"]
-    assert f'instantiationToken="{scalars}"' in files["modelDescription.fmi3.xml"]
-    assert f'instantiationToken="{blocks}"' in files["modelDescription.block.xml"]
+def test_the_table_has_the_token_of_each_version():
+    files, (two, three, blocks) = texts(BLOCK), tokens(BLOCK)
+    assert f'MODEL_TOKEN_FMI2 "{two}"' in files["model_table.h"]
+    assert f'MODEL_TOKEN_FMI3 "{three}"' in files["model_table.h"]
+    assert f'MODEL_TOKEN_FMI3 "{blocks}"' in files["model_table.block.h"]
+
+
+@pytest.mark.parametrize("form", FORMS, ids=("fmi2", "fmi3", "block"))
+def test_one_form_has_the_texts_that_it_has_among_all(form):
+    every, one = texts(BLOCK), texts(BLOCK, [form])
+    assert DESCRIPTION[form] in one and one == {name: every[name] for name in one}
+    assert (DESCRIPTION["block"] in one) == (form == "block")
+
+
+def test_a_dimension_stands_before_the_arrays_that_it_measures(toys):
+    """Readers that go through the file once know it then."""
+    with zipfile.ZipFile(toys["block"]) as archive:
+        tree = etree.fromstring(archive.read("modelDescription.xml"))
+    seen, sized = set(), 0
+    for variable in tree.find("ModelVariables"):
+        for dimension in variable.findall("Dimension[@valueReference]"):
+            assert dimension.get("valueReference") in seen
+            sized += 1
+        seen.add(variable.get("valueReference"))
+    assert sized == len(BLOCK.inputs) + 3  # y[1] and y[2] have units of their own, hence 4 outputs
+
+
+@pytest.mark.parametrize("form", (3, "block"))
+def test_a_build_configuration_with_options_names_its_compiler(toys, form):
+    """FMI 3.0, section 2.5.1.2: options are those of a compiler; none are needed here."""
+    with zipfile.ZipFile(toys[form]) as archive:
+        tree = etree.fromstring(archive.read("sources/buildDescription.xml"))
+    files = list(tree.iter("SourceFileSet"))
+    assert files and all(f.get("compiler") for f in files if f.get("compilerOptions"))
 
 
 def test_no_half_written_fmu_stays(tmp_path):
@@ -468,13 +497,48 @@ def test_matrix_expressions_equal_python(tmp_path):
         np.testing.assert_array_equal(outputs[1:], block.run(inputs, w=normals(0, [1], 1, 200))[0])
 
 
-def test_infinite_and_missing_start_values(tmp_path):
+@pytest.mark.parametrize("start", (np.inf, -np.inf, np.nan))
+def test_a_start_value_that_a_unit_would_not_take_back_is_refused(start):
+    """A master may hand start values back, and units take finite ones alone."""
     block = gain(parameters=1)
-    block = replace(block, parameters=(replace(block.parameters[0], start=np.inf),))
+    with pytest.raises(UserError, match=f"block Gain: p must start finite, not at {start}"):
+        texts(replace(block, parameters=(replace(block.parameters[0], start=start),)))
+
+
+@pytest.mark.parametrize("bad", ("\x1b[31m", "a\nb", "\0", "\x7f", "\x9b", "\ud800", "\ufffe"))
+@pytest.mark.parametrize("what", ("name", "description", "block", "noise", "limit"))
+def test_characters_that_xml_has_not_and_that_move_a_cursor_are_refused(what, bad):
+    block = gain()
+    (p,) = block.parameters
+    limits = Limits((f"p{bad}",), ca.Function("broken", [ca.SX.sym("p"), ca.SX.sym("h")], [0]))
+    changed = {
+        "name": {"parameters": (replace(p, name=f"p{bad}"),)},
+        "description": {"parameters": (replace(p, description=f"a{bad}b"),)},
+        "block": {"description": bad},
+        "limit": {"limits": limits},
+        "noise": {"noise": (NoiseChannel(f"w{bad}", 1),), "step": with_noise(block.step)},
+    }[what]
+    with pytest.raises(UserError, match="a name or a description must not have") as caught:
+        texts(replace(block, **changed))
+    assert bad not in str(caught.value)
+
+
+def with_noise(step):
+    """The step of ``gain`` with a normal that does nothing."""
+    s, u, p, _, h = (ca.SX.sym(step.name_in(i), step.size1_in(i)) for i in range(5))
+    return ca.Function("step", [s, u, p, ca.SX.sym("w"), h], step(s, u, p, ca.SX.zeros(0), h))
+
+
+def test_other_characters_reach_the_description_and_the_c(tmp_path):
+    """Quotes, a comment's end and letters of any script, as tools read them."""
+    name = 'p"<&>*/\\n??/\u00b5\u4e2d\U0001f600'
+    block = gain()
+    block = replace(block, parameters=(replace(block.parameters[0], name=name),))
     for fmu in build_fmus(block, tmp_path, FORMS):
-        assert validate_fmu(str(fmu)) == []
+        description = read_model_description(str(fmu), validate=False)
+        assert name in [v.name for v in description.modelVariables]
         with Unit(fmu) as unit:
-            assert unit.get("p") == np.inf
+            assert unit.get(name) == 3.0
 
 
 @pytest.mark.parametrize(

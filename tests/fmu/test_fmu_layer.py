@@ -5,7 +5,7 @@ form.
 import math
 import subprocess
 import sys
-from ctypes import c_double, c_int, c_void_p
+from ctypes import byref, c_double, c_int, c_void_p
 from fractions import Fraction
 from itertools import pairwise
 
@@ -598,6 +598,106 @@ def test_impossible_steps_are_refused(path, time, size):
         assert unit.get("ticks") == 0 and unit.get("time") == 0.0
         unit.step(0.0, 1.0)
         assert unit.get("ticks") == 1
+
+
+# The stop time
+
+
+def stopping(path, stop, start=0.0, period=1.0):
+    """A toy that counts its samples and knows when the experiment ends."""
+    unit = Unit(path)
+    setup = unit.fmu.setupExperiment if unit.version == 2 else unit.fmu.enterInitializationMode
+    setup(startTime=start, stopTime=stop)
+    if unit.version == 2:
+        unit.fmu.enterInitializationMode()
+    for name, value in {"sample_period": period, "counting": 1, "gear": 1}.items():
+        unit.set(name, value)
+    unit.fmu.exitInitializationMode()
+    return unit
+
+
+def test_no_step_goes_past_the_stop_time(path):
+    """FMI 2.0.4, section 4.2.1, and FMI 3.0, section 2.3.2: error; nothing has changed then."""
+    with stopping(path, 3.0) as unit:
+        refused(unit, lambda: unit.step(0.0, 3.25), "stop time is 3 s")
+        unit.step(0.0, 2.0)
+        refused(unit, lambda: unit.step(2.0, 1.0001), "stop time is 3 s")
+        unit.step(2.0, 1.0)
+        refused(unit, lambda: unit.step(3.0, 1.0), "stop time is 3 s")
+        assert unit.get("ticks") == 3 and unit.get("time") == 3.0
+
+
+@pytest.mark.parametrize("n", (3, 1000, 36_000))
+def test_a_master_that_adds_its_steps_up_reaches_the_stop_time(path, n):
+    """Its last point may be some roundings past it."""
+    with stopping(path, n * 0.1, period=0.1) as unit:
+        for t, following in pairwise(np.cumsum([0.0] + [0.1] * n).tolist()):
+            unit.step(t, following - t)
+        assert unit.get("ticks") == n
+        refused(unit, lambda: unit.step(n * 0.1, 0.1), "stop time")
+
+
+def test_far_from_zero_a_step_does_not_make_a_sample_past_the_stop_time(path):
+    """What a master may be off by at 1e6 s would be a period of 1 ms."""
+    with stopping(path, 1e6, start=1e6 - 1.0, period=1e-3) as unit:
+        if unit.form != "block":
+            refused(unit, lambda: unit.step(1e6 - 1.0, 1.0006), "stop time")
+        unit.step(1e6 - 1.0, 0.008)
+
+
+def test_the_stop_time_is_kept_in_a_state_and_forgotten_at_a_reset(path):
+    with stopping(path, 3.0) as unit, Unit(path).start() as other:
+        other.restore(other.from_bytes(unit.to_bytes(unit.save())))
+        refused(other, lambda: other.step(0.0, 4.0), "stop time is 3 s")
+        unit.reset()
+        unit.start(sample_period=1.0)
+        unit.step(0.0, 4.0)
+
+
+@pytest.mark.parametrize("stop", (0.5, math.nan, -math.inf))
+def test_a_stop_time_before_the_start_is_refused(path, stop):
+    with Unit(path) as unit:
+        setup = unit.fmu.setupExperiment if unit.version == 2 else unit.fmu.enterInitializationMode
+        refused(unit, lambda: setup(startTime=1.0, stopTime=stop), "not a time from 1 on")
+        setup(startTime=1.0, stopTime=1.0)
+
+
+def test_a_step_of_hours_is_refused_that_nothing_could_break_off(toys):
+    """A bound on its samples; a step of as many as it allows would take seconds."""
+    for version in (2, 3):
+        with ticking(toys[version], period=1e-3) as unit:
+            refused(unit, lambda: unit.step(0.0, 1e6), "1000000000 samples, at most 16777216")
+            assert unit.get("ticks") == 0
+
+
+# States of others
+
+
+@pytest.fixture(scope="module")
+def stranger(tmp_path_factory):
+    """``stranger(form)``: another model's unit."""
+    made = built(toy(unit="deg/s"), tmp_path_factory)
+    return lambda form: Unit(made[form])
+
+
+def test_a_state_of_another_model_in_memory_is_refused(path, stranger):
+    """Restored, serialized, freed or overwritten; it stays its owner's."""
+    with Unit(path).start() as unit, stranger(unit.form).start() as other:
+        theirs = other.save()
+        two = unit.version == 2
+        kind = c_void_p(theirs.value if hasattr(theirs, "value") else theirs)
+        calls = [
+            lambda: unit.restore(theirs),
+            lambda: unit.to_bytes(theirs),
+            lambda: unit.release(kind),
+            lambda: (unit.fmu.fmi2GetFMUstate if two else unit.fmu.fmi3GetFMUState)(
+                unit.fmu.component, byref(kind)
+            ),
+        ]
+        for call in calls:
+            refused(unit, call, "another model's")
+        other.restore(theirs)
+        other.release(theirs)
 
 
 def test_foreign_token_is_refused(path):

@@ -7,7 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN "{f8260592-aac1-87de-da36-730e7c66c875}"
+#define MODEL_TOKEN_FMI2 "{8e14e47c-08d3-e58d-c789-f32f2fad89e9}"
+#define MODEL_TOKEN_FMI3 "{41e9374b-7dfc-baa2-c030-ed9efe2c6805}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -28,6 +29,7 @@ enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
+    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 16777216.0},
     {"gyro", KIND_REAL, ROLE_INPUT, 0, 3, -INFINITY, INFINITY},
     {"accel", KIND_REAL, ROLE_INPUT, 3, 3, -INFINITY, INFINITY},
     {"temperature", KIND_REAL, ROLE_INPUT, 6, 1, -INFINITY, INFINITY},
@@ -97,12 +99,11 @@ static const BlockVariable variables[] = {
     {"heading_std", KIND_REAL, ROLE_OUTPUT, 19, 1, -INFINITY, INFINITY},
     {"at_rest", KIND_BOOLEAN, ROLE_OUTPUT, 20, 1, -INFINITY, INFINITY},
     {"sample_period", KIND_REAL, ROLE_SAMPLING, 0, 1, 0.0, INFINITY},
-    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 16777216.0},
 };
 
 /* Value references that mean something to every block. */
 enum {
-    SAMPLE_PERIOD = 69,
+    SAMPLE_PERIOD = 70,
     SEED = N_VARIABLES, /* none: there is no noise */
 };
 

@@ -7,7 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN "{1ada6d62-3e59-a2d2-e08a-d3b5077998ed}"
+#define MODEL_TOKEN_FMI2 "{87d9a26b-4ddc-4bfa-a90a-2c7d137f08b2}"
+#define MODEL_TOKEN_FMI3 "{46c172a5-627d-520f-9614-00069009976f}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

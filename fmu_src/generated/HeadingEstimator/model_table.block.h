@@ -7,7 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "HeadingEstimator"
-#define MODEL_TOKEN "{047c83cc-3a27-e86d-92f1-9b24fcedb064}"
+#define MODEL_TOKEN_FMI2 "{13c40007-0497-5c82-b65a-dd23a6c2b267}"
+#define MODEL_TOKEN_FMI3 "{600c0924-ae09-45bc-f338-f6820a626972}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -28,6 +29,7 @@ enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
+    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 16777216.0},
     {"gyro_z", KIND_REAL, ROLE_INPUT, 0, 1, -INFINITY, INFINITY},
     {"accel", KIND_REAL, ROLE_INPUT, 1, 3, -INFINITY, INFINITY},
     {"temperature", KIND_REAL, ROLE_INPUT, 4, 1, -INFINITY, INFINITY},
@@ -64,12 +66,11 @@ static const BlockVariable variables[] = {
     {"at_rest", KIND_BOOLEAN, ROLE_OUTPUT, 8, 1, -INFINITY, INFINITY},
     {"status", KIND_INTEGER, ROLE_OUTPUT, 9, 1, -INFINITY, INFINITY},
     {"sample_period", KIND_REAL, ROLE_SAMPLING, 0, 1, 0.0, INFINITY},
-    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 16777216.0},
 };
 
 /* Value references that mean something to every block. */
 enum {
-    SAMPLE_PERIOD = 36,
+    SAMPLE_PERIOD = 37,
     SEED = N_VARIABLES, /* none: there is no noise */
 };
 

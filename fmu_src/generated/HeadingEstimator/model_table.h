@@ -7,7 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "HeadingEstimator"
-#define MODEL_TOKEN "{53867178-990a-2af2-0d68-f799fba37355}"
+#define MODEL_TOKEN_FMI2 "{364f460d-0ba6-dcab-d0c9-e218d091dc3e}"
+#define MODEL_TOKEN_FMI3 "{bb73dbe8-7e93-8015-4865-12ecaf95b58f}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

@@ -7,7 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "ImuSensor"
-#define MODEL_TOKEN "{3cc2f2d7-d5bf-1df9-a2fe-36143c0f22a5}"
+#define MODEL_TOKEN_FMI2 "{25e5070b-f232-4265-dd0c-33496f474350}"
+#define MODEL_TOKEN_FMI3 "{bfaf84b1-c787-1c2f-2647-c64630555d39}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -28,6 +29,7 @@ enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
+    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 16777216.0},
     {"rate", KIND_REAL, ROLE_INPUT, 0, 3, -INFINITY, INFINITY},
     {"specific_force", KIND_REAL, ROLE_INPUT, 3, 3, -INFINITY, INFINITY},
     {"temperature", KIND_REAL, ROLE_INPUT, 6, 1, -INFINITY, INFINITY},
@@ -40,13 +42,12 @@ static const BlockVariable variables[] = {
     {"measured_temperature", KIND_REAL, ROLE_OUTPUT, 6, 1, -INFINITY, INFINITY},
     {"sample_period", KIND_REAL, ROLE_SAMPLING, 0, 1, 0.0, INFINITY},
     {"seed", KIND_UNSIGNED, ROLE_SAMPLING, 1, 1, 0.0, INFINITY},
-    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 16777216.0},
 };
 
 /* Value references that mean something to every block. */
 enum {
-    SAMPLE_PERIOD = 11,
-    SEED = 12,
+    SAMPLE_PERIOD = 12,
+    SEED = 13,
 };
 
 static const double input_starts[] = {0.0, 0.0, 0.0, 0.0, 0.0, 9.80665, 25.0};

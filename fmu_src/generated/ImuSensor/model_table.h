@@ -7,7 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "ImuSensor"
-#define MODEL_TOKEN "{5c6a7a90-6434-7ca0-2ee5-5454dc07ea28}"
+#define MODEL_TOKEN_FMI2 "{6b521918-ba73-155a-878c-d6868b802ea9}"
+#define MODEL_TOKEN_FMI3 "{02914ee6-4afb-d188-4da5-f20f7fc0be83}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

@@ -7,7 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "LowPass"
-#define MODEL_TOKEN "{c8c35d2b-fe57-0341-1b01-6212731c0c3b}"
+#define MODEL_TOKEN_FMI2 "{ed241b20-b782-5403-0ddf-0d350f44f901}"
+#define MODEL_TOKEN_FMI3 "{63e58dbd-100b-0d4b-30c6-1ecdd67b7c6a}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -29,18 +30,18 @@ enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
+    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 16777216.0},
     {"gyro", KIND_REAL, ROLE_INPUT, 0, 3, -INFINITY, INFINITY},
     {"accel", KIND_REAL, ROLE_INPUT, 3, 3, -INFINITY, INFINITY},
     {"cutoff", KIND_REAL, ROLE_TUNABLE, 0, 1, 0.0, INFINITY},
     {"filtered_gyro", KIND_REAL, ROLE_OUTPUT, 0, 3, -INFINITY, INFINITY},
     {"filtered_accel", KIND_REAL, ROLE_OUTPUT, 3, 3, -INFINITY, INFINITY},
     {"sample_period", KIND_REAL, ROLE_SAMPLING, 0, 1, 0.0, INFINITY},
-    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 16777216.0},
 };
 
 /* Value references that mean something to every block. */
 enum {
-    SAMPLE_PERIOD = 6,
+    SAMPLE_PERIOD = 7,
     SEED = N_VARIABLES, /* none: there is no noise */
 };
 

@@ -7,7 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "LowPass"
-#define MODEL_TOKEN "{df2f519e-1ff4-1729-a7ae-0f0b8f765969}"
+#define MODEL_TOKEN_FMI2 "{8f8c923d-9694-745d-cefa-fe27a0d52cd6}"
+#define MODEL_TOKEN_FMI3 "{d4e6abf4-d35e-9aaf-7a54-0ef81abf5fb4}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263

@@ -7,7 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "RoverDrive"
-#define MODEL_TOKEN "{cf573bd5-e853-7421-305b-a5b872cf488a}"
+#define MODEL_TOKEN_FMI2 "{da24be98-8adc-baaf-2041-fb54b026684b}"
+#define MODEL_TOKEN_FMI3 "{561f0c06-a264-912d-436f-6c2841de138d}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -29,6 +30,7 @@ enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
+    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 16777216.0},
     {"speed_command", KIND_REAL, ROLE_INPUT, 0, 1, -INFINITY, INFINITY},
     {"turn_rate_command", KIND_REAL, ROLE_INPUT, 1, 1, -INFINITY, INFINITY},
     {"drive", KIND_INTEGER, ROLE_FIXED, 0, 1, 0.0, 4.0},
@@ -84,12 +86,11 @@ static const BlockVariable variables[] = {
     {"mag", KIND_REAL, ROLE_OUTPUT, 23, 3, -INFINITY, INFINITY},
     {"standing", KIND_BOOLEAN, ROLE_OUTPUT, 26, 1, -INFINITY, INFINITY},
     {"sample_period", KIND_REAL, ROLE_SAMPLING, 0, 1, 0.0, INFINITY},
-    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 16777216.0},
 };
 
 /* Value references that mean something to every block. */
 enum {
-    SAMPLE_PERIOD = 55,
+    SAMPLE_PERIOD = 56,
     SEED = N_VARIABLES, /* none: there is no noise */
 };
 

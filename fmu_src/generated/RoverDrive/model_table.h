@@ -7,7 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "RoverDrive"
-#define MODEL_TOKEN "{97394dee-f329-7c19-80c5-dd33ab03aa48}"
+#define MODEL_TOKEN_FMI2 "{61a38d7a-2b84-3eab-51ba-b954d2c5ce29}"
+#define MODEL_TOKEN_FMI3 "{4f185ea0-95ab-7f16-0ec0-3cac448c54d4}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263

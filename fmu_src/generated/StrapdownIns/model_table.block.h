@@ -7,7 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN "{68bd4ce3-ca75-11bd-c2e0-c24dfaea35a1}"
+#define MODEL_TOKEN_FMI2 "{9f4c3051-4a02-caee-2946-b254b45e78f0}"
+#define MODEL_TOKEN_FMI3 "{62ac4850-605a-8ab0-26c5-6760d06898c1}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -28,6 +29,7 @@ enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
+    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 16777216.0},
     {"gyro", KIND_REAL, ROLE_INPUT, 0, 3, -INFINITY, INFINITY},
     {"accel", KIND_REAL, ROLE_INPUT, 3, 3, -INFINITY, INFINITY},
     {"temperature", KIND_REAL, ROLE_INPUT, 6, 1, -INFINITY, INFINITY},
@@ -80,12 +82,11 @@ static const BlockVariable variables[] = {
     {"position_nis", KIND_REAL, ROLE_OUTPUT, 38, 1, -INFINITY, INFINITY},
     {"status", KIND_INTEGER, ROLE_OUTPUT, 39, 1, -INFINITY, INFINITY},
     {"sample_period", KIND_REAL, ROLE_SAMPLING, 0, 1, 0.0, INFINITY},
-    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 16777216.0},
 };
 
 /* Value references that mean something to every block. */
 enum {
-    SAMPLE_PERIOD = 52,
+    SAMPLE_PERIOD = 53,
     SEED = N_VARIABLES, /* none: there is no noise */
 };
 

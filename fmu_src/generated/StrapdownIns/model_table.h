@@ -7,7 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN "{c434863f-883f-0319-cda8-19ecb3d3f932}"
+#define MODEL_TOKEN_FMI2 "{04d1f28b-1467-3959-1cdf-b266190c838a}"
+#define MODEL_TOKEN_FMI3 "{b683add9-685b-7fcb-86ec-41425c154c27}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

@@ -7,7 +7,9 @@
 #include "block.h"
 
 #define MODEL_NAME "{{ name }}"
-#define MODEL_TOKEN "{{ token }}"
+{% for version, token in tokens.items() %}
+#define MODEL_TOKEN_FMI{{ version }} "{{ token }}"
+{% endfor %}
 {% if limits %}
 #define MODEL_LIMITS
 {% endif %}
@@ -63,7 +65,7 @@ static const char *const limit_texts[] = {
 /* The noise stream of each channel{{ "" if noise else "; there is none" }}. */
 static const uint64_t noise_channels[] = {
 {% for channel in noise %}
-    UINT64_C({{ channel.number }}), /* {{ channel.name }} */
+    UINT64_C({{ channel.number }}), /* {{ channel.name | replace("*/", "* /") }} */
 {% else %}
     0
 {% endfor %}

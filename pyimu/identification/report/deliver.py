@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+from pyimu.errors import UserError
 from pyimu.files import check_folder, staged, write_json, write_text
 from pyimu.fmu.build import build_fmus, host_compiler
 from pyimu.identification.formula.effect import file_text, put
@@ -19,10 +20,18 @@ from pyimu.model.part_file import save_part
 def check_delivery(out: Path | str) -> None:
     """Raise UserError now for what would else end ``deliver`` after all the work.
 
-    A folder that is none, no compiler.
+    A folder that is none.
     """
     check_folder(out)
-    host_compiler()
+
+
+def without_units() -> str | None:
+    """Why no units can be made, where that is so: the loop needs no C compiler, only they do."""
+    try:
+        host_compiler()
+    except UserError as error:
+        return f"the FMUs are left out: {error}"
+    return None
 
 
 def deliver(closed: Outcome, out: Path, units: bool, say: Callable[[str], None]) -> Path:
@@ -30,9 +39,10 @@ def deliver(closed: Outcome, out: Path, units: bool, say: Callable[[str], None])
     for formula in closed.formulas:
         put(formula.effect)
     with staged(out) as stage:
-        names = _build_units(closed, stage, say) if units else ()
+        left_out = without_units() if units else None
+        names = _build_units(closed, stage, say) if units and not left_out else ()
         say("drawing the report")
-        write_text(stage / "report.html", page(closed, names))
+        write_text(stage / "report.html", page(closed, names, left_out))
         write_json(stage / "report.json", closed.as_dict(MODEL, names))
         save_part(closed.after, stage / MODEL)
         if closed.formulas:

@@ -33,16 +33,16 @@ from pyimu.report.page import Table, file_name, prose, quality_table, templates
 MODEL, FORMULA = "model.toml", "found_effect.py"
 
 
-def page(closed: Outcome, fmus: tuple[str, ...] = ()) -> str:
+def page(closed: Outcome, fmus: tuple[str, ...] = (), left_out: str | None = None) -> str:
     """The report as one HTML page that needs nothing beside it."""
     return (
         templates("pyimu.identification.report")
         .get_template("report.html")
-        .render(**_contents(closed, fmus))
+        .render(**_contents(closed, fmus, left_out))
     )
 
 
-def _contents(closed: Outcome, fmus: tuple[str, ...]) -> dict[str, Any]:
+def _contents(closed: Outcome, fmus: tuple[str, ...], left_out: str | None) -> dict[str, Any]:
     return {
         "verdict": closed.verdict,
         "headline": headline(closed),
@@ -68,7 +68,7 @@ def _contents(closed: Outcome, fmus: tuple[str, ...]) -> dict[str, Any]:
         "next": next_table(closed),
         "spectra": spectra(closed),
         "quality": quality_table(closed.quality),
-        "files": _files(closed, fmus),
+        "files": _files(closed, fmus, left_out),
         "made_with": closed.made_with,
         "digests": _digests(closed),
     }
@@ -79,7 +79,7 @@ def _about(closed: Outcome) -> str:
     return f"{count} recording{'s' * (count != 1)}, part {closed.before.name}"
 
 
-def _files(closed: Outcome, fmus: tuple[str, ...]) -> Table:
+def _files(closed: Outcome, fmus: tuple[str, ...], left_out: str | None) -> Table:
     rows = [
         ("report.json", "everything of this page as data"),
         (MODEL, "the model with what was added, each coefficient with its interval and its source"),
@@ -87,6 +87,8 @@ def _files(closed: Outcome, fmus: tuple[str, ...]) -> Table:
     if closed.formulas:
         use = f"the formula as an effect of your own: {MODEL} needs --effects {FORMULA}"
         rows.append((FORMULA, use))
+    if left_out:
+        rows.append(("*.fmu", left_out))
     return Table(
         ("file", "what it is"),
         [(name, prose(text)) for name, text in (*rows, *((f, _unit_of(closed, f)) for f in fmus))],
