@@ -1,4 +1,7 @@
-"""Results as files: each appears whole or not at all, whatever ends the work before it is done."""
+"""Results as files: each appears whole or not at all, whatever ends the work before it is done.
+
+And what is read of texts: regular files alone, of bounded size.
+"""
 
 from __future__ import annotations
 
@@ -9,6 +12,7 @@ import os
 import shutil
 import tempfile
 import time
+import tomllib
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -23,6 +27,66 @@ PREFIX = ".pyimu-"
 
 FORGOTTEN = 24 * 3600.0
 """s; an unfinished file that old belongs to a run that was killed, and is taken away."""
+
+LARGEST_TEXT = 16 << 20
+"""Bytes of a part file or a column map, at most."""
+
+
+def check_regular(path: Path) -> None:
+    """Raise UserError where ``path`` is missing, a folder, or a pipe or a device, which need not
+    end.
+    """
+    try:
+        if not path.exists():
+            raise UserError(f"{path}: no such file")
+        if path.is_dir():
+            raise UserError(f"{path}: cannot be read, it is a folder")
+        if not path.is_file():
+            raise UserError(
+                f"{path}: no regular file (a pipe or a device); save it to a file first"
+            )
+    except (OSError, ValueError) as error:  # a name that no system takes
+        reason = getattr(error, "strerror", None) or error
+        raise UserError(f"{shortened(path)}: cannot be read ({reason})") from None
+
+
+def exists(path: Path) -> bool:
+    """Whether there is such a file or folder; no name is too long to be asked for."""
+    try:
+        return path.exists()
+    except (OSError, ValueError):
+        return False
+
+
+def shortened(text: object, most: int = 120) -> str:
+    """The text, its middle left out where it has more than ``most`` characters."""
+    said = str(text)
+    return said if len(said) <= most else f"{said[: most // 2]}...{said[-most // 2 :]}"
+
+
+def read_toml(path: Path) -> dict[str, Any]:
+    """What a TOML file holds. Raises UserError where it cannot be read or is none."""
+    check_regular(path)
+    try:
+        if path.stat().st_size > LARGEST_TEXT:
+            raise UserError(f"{path}: larger than {LARGEST_TEXT >> 20} MiB, this is no such file")
+        text = path.read_text(encoding="utf-8")
+    except UnicodeDecodeError:
+        raise UserError(f"{path}: is not text in UTF-8") from None
+    except OSError as error:
+        raise UserError(f"{path}: cannot be read ({error.strerror or error})") from None
+    return parse_toml(text, str(path))
+
+
+def parse_toml(text: str, file: str) -> dict[str, Any]:
+    """What a TOML ``text`` holds; ``file`` is what errors call it. Raises UserError."""
+    try:
+        return tomllib.loads(text)
+    except RecursionError:
+        reason = "nested too deeply"
+    except ValueError as error:  # of the grammar, and of numbers with thousands of digits
+        reason = str(error)
+    raise UserError(f"{file}: cannot be read as TOML: {reason}")
 
 
 @contextmanager

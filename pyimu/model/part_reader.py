@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import sys
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -13,6 +12,7 @@ import numpy as np
 
 from pyimu import units
 from pyimu.errors import UserError
+from pyimu.files import parse_toml
 from pyimu.model.arguments import Parameter
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.effect import Effect
@@ -42,10 +42,11 @@ _TOLERANCE_KEYS = ("value", "unit", "distribution", "source", "quoted")
 
 def parse_part(text: str, file: str = "part") -> Part:
     """The part that TOML ``text`` describes; ``file`` is what errors call it. Raises UserError."""
-    try:
-        data = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise UserError(f"{file}: cannot be read as TOML: {error}") from None
+    return part_of(parse_toml(text, file), file)
+
+
+def part_of(data: Mapping[str, Any], file: str) -> Part:
+    """The part that a TOML file's ``data`` are. Raises UserError."""
     return _Reader(file).part(data)
 
 

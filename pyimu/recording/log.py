@@ -15,6 +15,8 @@ import numpy as np
 from pyimu.errors import Finding, UserError
 from pyimu.recording.clock import Cadence, Clock, cadence_of
 from pyimu.recording.column_map import ForeignMap
+from pyimu.recording.columns import GROUPS
+from pyimu.recording.companions import Companion
 from pyimu.recording.formats.frame import FrameReader, is_frame
 from pyimu.recording.formats.suffix import stem
 from pyimu.recording.gaps import GapFinder
@@ -44,7 +46,8 @@ class Log:
     @property
     def groups(self) -> tuple[str, ...]:
         """Names of the groups that the log holds, in the order of ``GROUPS``."""
-        return self._source.header.groups
+        found = [self._source.header.groups, *(c.header.groups for c in self._source.companions)]
+        return tuple(g for g in GROUPS if any(g in groups for groups in found))
 
     @property
     def count(self) -> int | None:
@@ -93,7 +96,7 @@ class Log:
         passing, clock = Rows(self._source), Clock(self.cadence)
         for piece, share in _cut(_marked(self._batches(passing), self.cadence), rows):
             clock.add(piece.time)
-            self.findings = (*passing.findings, *clock.findings())
+            self.findings = self._found(passing, clock)
             yield piece, share
 
     def segments(self, rows: int = 1_000_000) -> Iterator[tuple[int, Recording, float]]:
@@ -114,11 +117,21 @@ class Log:
         whole = join([piece for piece, _ in self._batches(passing)])
         clock = Clock(whole.cadence)
         clock.add(whole.time)
-        self.findings = (*passing.findings, *clock.findings())
+        self.findings = self._found(passing, clock)
         return replace(whole, findings=self.findings)
+
+    @cached_property
+    def _companions(self) -> list[Companion]:
+        return [Companion.read(source) for source in self._source.companions]
+
+    def _found(self, passing: Rows, clock: Clock) -> tuple[Finding, ...]:
+        others = [finding for c in self._companions for finding in c.said()]
+        return (*passing.findings, *others, *clock.findings())
 
     def _batches(self, passing: Rows) -> Iterator[tuple[Recording, float]]:
         for time, groups, share in passing.batches():
+            for companion in self._companions:
+                groups |= companion.at(time, passing)
             yield (
                 Recording(
                     self.name, time, **groups, path=self.path, frame_declared=self.frame_declared
