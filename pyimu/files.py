@@ -45,6 +45,8 @@ def check_regular(path: Path) -> None:
             raise UserError(
                 f"{path}: no regular file (a pipe or a device); save it to a file first"
             )
+    except UserError:
+        raise
     except (OSError, ValueError) as error:  # a name that no system takes
         reason = getattr(error, "strerror", None) or error
         raise UserError(f"{shortened(path)}: cannot be read ({reason})") from None

@@ -1,9 +1,9 @@
 """Columns of a log that lie in files of their own, brought to the log's times.
 
-A phone writes gyro and accelerometer into two files, each with its own times. Where every sample of
-the one has a sample of the other within half a period, that sample is taken as it is, so that its
-noise stays what it is; else values between two samples are interpolated, which takes away up to half
-the variance of white noise, and that is said.
+A phone writes gyro and accelerometer into two files, each with its own times. Where every sample
+of the one has a sample of the other within half a period, that sample is taken as it is, so that
+its noise stays what it is; else values between two samples are interpolated, which takes away up to
+half the variance of white noise, and that is said.
 """
 
 from __future__ import annotations

@@ -126,8 +126,8 @@ def _xsens(reader: Reader) -> ForeignMap | None:
     """Xsens: MT Manager's text export and Movella DOT's.
 
     MT Manager's user manual: ``Acc_X`` m/s^2, ``Gyr_X`` rad/s, the magnetometer in no unit;
-    ``SampleTimeFine`` counts 0.1 ms there, in DOT's files 1 us (Xsens DOT user manual, 4.2.5), whose
-    rates are in deg/s. Without it the rate that the comments state gives the times.
+    ``SampleTimeFine`` counts 0.1 ms there, in DOT's files 1 us (Xsens DOT user manual, 4.2.5),
+    whose rates are in deg/s. Without it the rate that the comments state gives the times.
     """
     cells = set(reader.header)
     if not {"Acc_X", "Gyr_X"} <= cells or "PacketCounter" not in cells:

@@ -1,7 +1,8 @@
 """A folder of Sensor Logger's files, one for each of a phone's sensors, as one log.
 
-The app's UNITS.md and COORDINATES.md: time in ns since 1970, rad/s, m/s^2, uT. ``TotalAcceleration``
-is the specific force; ``Accelerometer`` is without gravity. On iOS the signs of accelerations are
+The app's UNITS.md and COORDINATES.md: time in ns since 1970, rad/s, m/s^2, uT.
+``TotalAcceleration`` is the specific force; ``Accelerometer`` is without gravity. On iOS the signs
+of accelerations are
 the other way round, and ``AccelerometerUncalibrated`` is in g; ``Metadata.csv`` says which system
 it was.
 """

@@ -1,8 +1,8 @@
 """ArduPilot's dataflash logs, binary (.bin) and text (.log), read by pymavlink.
 
 Messages ``IMU`` (log messages of ArduPilot: ``TimeUS`` us, ``GyrX`` rad/s, ``AccX`` m/s^2, ``T``
-degC, forward-right-down) of one instance ``I``; in older logs ``IMU``, ``IMU2`` and ``IMU3`` are the
-instances. ``ATT`` is a filter's estimate, and no truth.
+degC, forward-right-down) of one instance ``I``; in older logs ``IMU``, ``IMU2`` and ``IMU3`` are
+the instances. ``ATT`` is a filter's estimate, and no truth.
 """
 
 from __future__ import annotations

@@ -201,7 +201,7 @@ def _names_above(lines_above: Sequence[str], form: Layout, width: int) -> list[l
 
 
 def _names(rows: Sequence[Sequence[str]], width: int) -> tuple[str, ...]:
-    """One name for each column of the rows of names, the unit in brackets where one states units."""
+    """One name for each column of the rows of names, in brackets the unit of a row of units."""
     rows = [_fitted(row, width) for row in rows]
     units = None
     if len(rows) > 1 and _are_units(rows[-1]):

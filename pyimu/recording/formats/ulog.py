@@ -1,9 +1,9 @@
 """PX4's ULog files, read by pyulog.
 
-The stream is ``sensor_combined`` (PX4's message definition: ``timestamp`` us, ``gyro_rad`` rad/s and
-``accelerometer_m_s2`` m/s^2, forward-right-down), or ``sensor_gyro`` and ``sensor_accel`` with the
-same number, ``x, y, z`` in the same units and ``temperature`` in degC. ``vehicle_attitude`` is a
-filter's estimate, and no truth.
+The stream is ``sensor_combined`` (PX4's message definition: ``timestamp`` us, ``gyro_rad`` rad/s
+and ``accelerometer_m_s2`` m/s^2, forward-right-down), or ``sensor_gyro`` and ``sensor_accel`` with
+the same number, ``x, y, z`` in the same units and ``temperature`` in degC. ``vehicle_attitude`` is
+a filter's estimate, and no truth.
 """
 
 from __future__ import annotations
@@ -50,9 +50,7 @@ class UlogReader:
                 detail = {"total": lost * 1e-3}
                 findings.append(Finding("dropouts", "time", len(log.dropouts), detail))
             if log.file_corruption:
-                findings.append(
-                    Finding("damaged", "", 1, {"part": "some messages were unreadable"})
-                )
+                findings.append(Finding("damaged", "", 1, {"part": "some messages"}))
             return StreamReader(path, columns, tuple(findings))
 
 
