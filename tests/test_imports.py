@@ -13,6 +13,7 @@ LATE = {
     "pyimu.cli",
     "pyimu.cli.campaigns",
     "pyimu.cli.heading",
+    "pyimu.cli.inspect",
     "pyimu.cli.logs",
     "pyimu.cli.models",
     "pyimu.cli.navigation",

@@ -11,6 +11,7 @@ import typer
 
 from pyimu.cli.campaigns import campaign_command
 from pyimu.cli.heading import heading_command
+from pyimu.cli.inspect import inspect_command
 from pyimu.cli.logs import attitude_command, characterize_command, close_command, demo
 from pyimu.cli.models import (
     build,
@@ -99,6 +100,7 @@ def _add(name: str, command: Callable, text: str) -> None:
 
 
 _add("demo", demo, "The whole loop on a simulated recording.")
+_add("inspect", inspect_command, "What is in a log, and the column map to read it by.")
 _add(
     "characterize",
     characterize_command,

@@ -73,7 +73,11 @@ class Companion:
         name = self.source.header.path.name
         detail: dict[str, object] = {"file": name, "how": "nearest sample"}
         if not self.nearest:
-            detail = {"file": name, "how": "between samples", "noise_left": np.mean(self.left)}
+            detail = {
+                "file": name,
+                "how": "between samples",
+                "noise_left": float(np.mean(self.left)),
+            }
         groups = ", ".join(self.groups)
         return [*self.findings, Finding("other_file", groups, len(self.time), detail)]
 

@@ -61,6 +61,7 @@ class Header:
         self._cells = list(cells or header)
         self._scale = scale
         self._counted: set[str] = set()
+        self._ours = any(cell.partition("[")[0].strip() in UNITS for cell in header)
         for position, cell in enumerate(header):
             self._add(position, cell)
         self._check()
@@ -124,7 +125,7 @@ class Header:
         if self._crowded:
             return
         near = units.did_you_mean(name, UNITS, cutoff=0.8)
-        if near:
+        if near and self._ours:
             raise UserError(f"{self.path}: unknown column '{name}'{near}")
         self.findings.append(Finding("unused_column", name, 1, {"header": cell}))
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from pyimu.errors import UserError
-from pyimu.recording.formats.datasets import DatasetReader, columns_of, skipped
+from pyimu.recording.formats.datasets import DatasetReader, columns_of, skipped, stated_rate
 from pyimu.recording.formats.hdf5 import Hdf5Reader
 
 WHOLE = 2 << 30
@@ -23,7 +23,11 @@ class MatReader(DatasetReader):
     """A MAT file of version 4 to 7.2, in memory."""
 
     def __init__(
-        self, path: Path, arrays: Mapping[str, np.ndarray], skipped: Sequence[str] = ()
+        self,
+        path: Path,
+        arrays: Mapping[str, np.ndarray],
+        skipped: Sequence[str] = (),
+        rate: float | None = None,
     ) -> None:
         super().__init__(
             path,
@@ -33,6 +37,7 @@ class MatReader(DatasetReader):
                 for c in columns_of(name, array.shape, array.dtype)
             ],
             skipped,
+            rate,
         )
         self.arrays = arrays
 
@@ -55,6 +60,7 @@ class MatReader(DatasetReader):
             path,
             {name: item for name, item in items.items() if isinstance(item, np.ndarray)},
             [said for name, item in items.items() for said in _skipped(name, item)],
+            stated_rate(items),
         )
 
     def opened(self) -> AbstractContextManager[Mapping[str, np.ndarray]]:
@@ -84,7 +90,7 @@ def _items(folder: str, items: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
     for name, item in items.items():
         if isinstance(item, Mapping):
             yield from _items(f"{folder}{name}/", item)
-        elif isinstance(item, (np.ndarray, list)) and not name.startswith("__"):
+        elif isinstance(item, (np.ndarray, list, int, float)) and not name.startswith("__"):
             yield folder + name, item
 
 
@@ -93,6 +99,8 @@ def _skipped(name: str, item: Any) -> list[str]:
 
     Arrays of structures come as lists, cells as lists or as arrays of objects.
     """
+    if isinstance(item, (int, float)):
+        return []
     if isinstance(item, list) and item and isinstance(item[0], Mapping):
         return [f"{name} ({len(item)} structures, save one whose fields are arrays)"]
     if isinstance(item, list) or item.dtype.kind == "O":

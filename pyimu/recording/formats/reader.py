@@ -50,6 +50,10 @@ class Reader(ABC):
         ``long`` is the position of the time.
         """
 
+    def numeric(self) -> list[int]:
+        """Positions of the columns that hold numbers."""
+        return list(range(len(self.header)))
+
     def place(self, index: int) -> str:
         """Where the sample ``index`` stands, for messages."""
         return f"row {index + 2}"

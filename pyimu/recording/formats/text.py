@@ -16,7 +16,7 @@ import pyarrow as pa
 from pyarrow import csv as pacsv
 
 from pyimu.errors import Finding, UserError
-from pyimu.recording.formats.layout import MISSING, Layout, is_number, layout_of
+from pyimu.recording.formats.layout import HEAD, MISSING, Layout, is_number, layout_of
 from pyimu.recording.formats.lines import Body, is_gzip, lines, opened
 from pyimu.recording.formats.reader import Columns, Reader
 
@@ -104,6 +104,16 @@ class CsvReader(Reader):
 
     def count(self, long: int) -> None:
         return None
+
+    def numeric(self) -> list[int]:
+        """Positions of the columns whose cells are numbers in the first rows."""
+        rows = [cells for _, cells in islice(self._rows(), HEAD) if len(cells) == len(self.header)]
+        return [
+            k
+            for k in range(len(self.header))
+            if all(is_number(row[k], self.layout.decimal) for row in rows)
+            and any(row[k].strip() not in MISSING for row in rows)
+        ]
 
     def place(self, index: int) -> str:
         """Row of the sample ``index``, as a spreadsheet counts it; blank rows hold no sample."""

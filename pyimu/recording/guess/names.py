@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from pyimu.recording.spelling import unit_of
 
@@ -149,10 +149,15 @@ class Triad:
         return units.pop() if len(units) == 1 else None
 
 
-def triads(header: Sequence[str]) -> list[Triad]:
-    """The vectors in a header, those that are the surest first."""
+def triads(header: Sequence[str], file: str = "") -> list[Triad]:
+    """The vectors in a header, those that are the surest first.
+
+    Of columns that are called by their axis alone the name of the ``file`` says what they are.
+    """
     stems: dict[tuple[str, ...], dict[str, int]] = {}
     names = [named(cell) for cell in header]
+    hint = tuple(word.casefold() for word in _WORD.findall(file.partition(".")[0]))
+    names = [n if n.words or not n.axis else replace(n, words=hint) for n in names]
     for position, name in enumerate(names):
         if name.axis:
             stems.setdefault(name.words, {}).setdefault(name.axis, position)
