@@ -21,6 +21,7 @@ from typing import Any
 import numpy as np
 
 from pyimu.errors import UserError
+from pyimu.held import held
 
 PREFIX = ".pyimu-"
 """How the names of unfinished files and folders begin."""
@@ -183,9 +184,11 @@ def plain(value: Any) -> Any:
 def check_folder(out: Path | str) -> None:
     """Raise UserError where ``out`` is not a folder or cannot be made.
 
-    To be called before the work whose result would be lost.
+    To be called before the work whose result would be lost; a command then holds the folder, and
+    another run that is to write there is refused.
     """
     out = Path(out)
+    held.hold(out)
     try:
         there = next(p for p in (out, *out.absolute().parents) if p.exists())
         reason = "" if there.is_dir() else f"{there} is a file"

@@ -16,7 +16,6 @@ import shlex
 import shutil
 import subprocess
 import sys
-import tempfile
 from collections.abc import Callable
 from functools import lru_cache
 from pathlib import Path
@@ -26,6 +25,7 @@ import numpy as np
 
 from pyimu.block.c_code import c_code
 from pyimu.block.cache import keep, kept, key_of
+from pyimu.held import work_folder
 
 FLAGS = (
     "-std=c11",
@@ -176,7 +176,7 @@ def _compile(source: str, compiler: list[str], key: str) -> ctypes.CDLL | None:
 
     The library's own file is gone once it is loaded.
     """
-    with tempfile.TemporaryDirectory(prefix="pyimu-", ignore_cleanup_errors=True) as folder:
+    with work_folder() as folder:
         path, library, hand_written = Path(folder, "run.c"), Path(folder, "run.so"), source_folder()
         path.write_text(source, encoding="utf-8")
         files = [str(path), str(hand_written / "noise.c"), "-I", str(hand_written)]

@@ -33,6 +33,7 @@ from pyimu.fmu.sources import (
     template_folder,
     texts,
 )
+from pyimu.held import work_folder
 
 FLAGS = (
     "-std=c11",
@@ -104,9 +105,9 @@ def build_fmus(
     platforms = _platforms(platform)
     generated = texts(block)
     try:
-        with tempfile.TemporaryDirectory(prefix="pyimu-") as work:
+        with work_folder() as work:
             libraries = {
-                p: _compile(block.name, generated, forms, p, compiler, Path(work, p.name))
+                p: _compile(block.name, generated, forms, p, compiler, work / p.name)
                 for p, compiler in platforms
             }
     except OSError as error:

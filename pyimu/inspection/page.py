@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import matplotlib
 import numpy as np
 from markupsafe import Markup
 
+from pyimu.inspection.outcome import Outcome
 from pyimu.recording.columns import GROUPS
 from pyimu.recording.recording import Recording
 from pyimu.report.figures import (
@@ -27,16 +26,13 @@ from pyimu.report.figures import (
 from pyimu.report.numbers import in_unit, pretty, unit_for
 from pyimu.report.page import Picture, Table, file_name, prose, quality_table, templates
 
-if TYPE_CHECKING:
-    from pyimu.inspection.result import Inspection
-
 SHOWN = ("gyro", "accel", "mag", "temperature", "ref_rate", "ref_heading", "heading", "speed")
 """Groups that are drawn."""
 
 COLOURS = (AFTER, BEFORE, FLOOR, INK)
 
 
-def page(found: Inspection) -> str:
+def page(found: Outcome) -> str:
     """The page, which needs nothing beside it."""
     head = ("column", "meaning", "unit", "numbers", "how it is known")
     rows = [
@@ -60,7 +56,7 @@ def page(found: Inspection) -> str:
     )
 
 
-def _pictures(found: Inspection) -> list[Picture]:
+def _pictures(found: Outcome) -> list[Picture]:
     recording = found.recording
     assert recording is not None
     groups = [g for g in SHOWN if g in recording.groups]

@@ -16,6 +16,7 @@ from scipy.spatial.transform import Rotation
 
 from pyimu.errors import UserError
 from pyimu.files import read_toml
+from pyimu.recording.clock import RATES
 from pyimu.recording.columns import GROUPS, XYZ
 from pyimu.recording.counts import Scale, finite_number, read_scales
 from pyimu.units import UnitError, convert, did_you_mean
@@ -87,10 +88,6 @@ def _rotated(rotation: np.ndarray, v: np.ndarray) -> np.ndarray:
     """
     x, y, z = v.T
     return np.column_stack([a * x + b * y + c * z for a, b, c in rotation])
-
-
-RATES = (1e-3, 1e6)
-"""Hz; the least and the largest sample rate that is believed."""
 
 
 def read_map(path: Path) -> ForeignMap:

@@ -13,6 +13,9 @@ from pyimu.errors import Finding, UserError
 from pyimu.recording.columns import GROUP_OF, GROUPS, UNITS, check_unit, column_names
 from pyimu.recording.counts import Scale
 
+LARGEST = 1e12
+"""In SI; no quantity of a log is larger, and such a number is taken for a missing one."""
+
 ORIGIN = 1e6
 """s; a first time beyond it is a clock of its own (Unix time), and is subtracted."""
 
@@ -180,13 +183,13 @@ class Header:
     def convert(
         self, columns: Sequence[np.ndarray], origin: float | np.integer
     ) -> dict[str, np.ndarray]:
-        """The columns (n,) in SI by name; infinite values become missing ones.
+        """The columns (n,) in SI by name; infinite and absurd values become missing ones.
 
         ``origin`` is subtracted from the time in the file's unit, so that an integer clock is not
         rounded.
         """
         return {
-            name: (column - origin) * self.seconds
+            name: _within((column - origin) * self.seconds)
             if name == "time"
             else self._si(name, column, unit)
             for name, column, unit in zip(self.names, columns, self.units)
@@ -206,7 +209,12 @@ class Header:
             if UNITS[name] == "degC"
             else units.convert(column, unit, UNITS[name])
         )
-        return np.where(np.isfinite(values), values, np.nan)
+        with np.errstate(invalid="ignore"):
+            return np.where(np.abs(values) <= LARGEST, values, np.nan)
+
+
+def _within(time: np.ndarray) -> np.ndarray:
+    return np.where(np.abs(time) <= LARGEST, time, np.nan)
 
 
 def _some(names: Sequence[str], most: int = 8) -> str:

@@ -7,7 +7,6 @@ filter beside the low-pass.
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -20,6 +19,7 @@ from pyimu.fmu.package import BLOCKS
 from pyimu.fmu.sources import Form
 from pyimu.fmu.ssp import whole_nanoseconds, write_ssp
 from pyimu.fmu.system import Component, System
+from pyimu.held import work_folder
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as find_part
 from pyimu.plant.rover_drive import end_of_drive
@@ -140,7 +140,7 @@ def write_rover(
 ) -> Path:
     """Write the system with its units to ``out`` as ``Rover.ssp``; see ``rover_system``."""
     check_folder(out)
-    with tempfile.TemporaryDirectory(prefix="pyimu-") as folder:
+    with work_folder() as folder:
         system = rover_system(
             part, folder, drive, seed=seed, form=form, platform=platform, specimen=specimen
         )

@@ -7,9 +7,9 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from pyimu.errors import UserError
 from pyimu.recording.formats.datasets import Column, DatasetReader, columns_of, skipped, stated_rate
 from pyimu.recording.formats.reader import need
+from pyimu.recording.formats.streams import reading
 
 CACHE = 1 << 25
 """Bytes of decompressed chunks kept for each array: a slice may end inside of a chunk, which the
@@ -63,11 +63,8 @@ class Hdf5Reader(DatasetReader):
 @contextmanager
 def _file(path: Path, extra: str) -> Iterator[Any]:
     h5py = need("h5py", extra, path)
-    try:
-        with h5py.File(path, "r", rdcc_nbytes=CACHE) as file:
-            yield file
-    except (OSError, RuntimeError) as error:
-        raise UserError(f"{path}: cannot be read as HDF5 ({str(error).splitlines()[0]})") from None
+    with reading(path, "HDF5"), h5py.File(path, "r", rdcc_nbytes=CACHE) as file:
+        yield file
 
 
 def _single(name: str, item: Any) -> dict[str, Any]:

@@ -72,10 +72,13 @@ class Layout:
         return ", ".join(word for word in said if word)
 
     def cells(self, line: str) -> list[str]:
-        """The cells of a line."""
+        """The cells of a line; one alone where it is no row of a table."""
         if self.separator == " ":
             return line.split()
-        return next(csv.reader([line], delimiter=self.separator), [])
+        try:
+            return next(csv.reader([line], delimiter=self.separator), [])
+        except csv.Error:
+            return [line]
 
 
 def layout_of(path: Path) -> Layout:
@@ -140,7 +143,7 @@ def _form(rows: Sequence[str]) -> Layout | None:
 
 def _score(rows: Sequence[str], form: Layout) -> float:
     """Share of the cells that are numbers, of rows with the usual number of cells above one."""
-    cells = [_parted(row, form) for row in rows]
+    cells = [form.cells(row) for row in rows]
     width = _width(cells)
     if width < 2:
         return 0.0
@@ -151,13 +154,6 @@ def _score(rows: Sequence[str], form: Layout) -> float:
         if len(row) == width
     ]
     return sum(shares) / len(cells) if shares else 0.0
-
-
-def _parted(row: str, form: Layout) -> list[str]:
-    try:
-        return form.cells(row)
-    except csv.Error:
-        return []
 
 
 def _width(rows: Sequence[Sequence[str]]) -> int:
@@ -194,7 +190,7 @@ def _names_above(lines_above: Sequence[str], form: Layout, width: int) -> list[l
     """
     for line in lines_above[-1:]:
         for shape in (form, *(Layout(separator) for separator, _ in FORMS)):
-            cells = _parted(line, shape)
+            cells = shape.cells(line)
             if len(cells) == width and not any(is_number(c) for c in cells):
                 return [cells]
     return []

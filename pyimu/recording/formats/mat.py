@@ -12,6 +12,7 @@ import numpy as np
 from pyimu.errors import UserError
 from pyimu.recording.formats.datasets import DatasetReader, columns_of, skipped, stated_rate
 from pyimu.recording.formats.hdf5 import Hdf5Reader
+from pyimu.recording.formats.mat_tags import check_tags
 
 WHOLE = 2 << 30
 """Bytes of the largest MAT file before version 7.3 that is read."""
@@ -77,6 +78,7 @@ def _is_hdf5(path: Path) -> bool:
 def _load(path: Path) -> dict[str, Any]:
     from scipy.io import loadmat
 
+    check_tags(path)
     try:  # in MATLAB's own types: a double array of whole numbers is stored in bytes
         return loadmat(path, simplify_cells=True, mat_dtype=True)
     except Exception as error:  # noqa: BLE001

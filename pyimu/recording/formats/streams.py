@@ -5,11 +5,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -61,13 +60,7 @@ def reading(path: Path, name: str) -> Iterator[None]:
         raise UserError(f"{path}: cannot be read as {name} ({reason})") from None
 
 
-def onto(
-    path: Path,
-    clock: np.ndarray,
-    time: np.ndarray,
-    values: np.ndarray,
-    say: Callable[..., Any] | None = None,
-) -> np.ndarray:
+def onto(clock: np.ndarray, time: np.ndarray, values: np.ndarray) -> np.ndarray:
     """``values`` (m,) of times ``time`` (m,) at the times ``clock`` (n,), linear between them."""
     first = clock[0]
     return np.interp((clock - first).astype(float), (time - first).astype(float), values)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -123,14 +122,11 @@ class CsvReader(Reader):
     def _rows(self) -> Iterator[tuple[int, list[str]]]:
         """(row, cells) of each row of numbers that is not blank, as a spreadsheet counts them."""
         layout = self.layout
-        try:
-            for number, line in enumerate(lines(self.path), 1):
-                if number < layout.first or not line.strip():
-                    continue
-                if not layout.comment or not line.startswith(layout.comment):
-                    yield number, layout.cells(line.rstrip("\r\n"))
-        except csv.Error as error:
-            raise UserError(f"{self.path}: cannot be read ({error})") from None
+        for number, line in enumerate(lines(self.path), 1):
+            if number < layout.first or not line.strip():
+                continue
+            if not layout.comment or not line.startswith(layout.comment):
+                yield number, layout.cells(line.rstrip("\r\n"))
 
     def _first_row(self) -> list[str] | None:
         return next(self._rows(), (0, None))[1]

@@ -44,7 +44,7 @@ class UlogReader:
             if "temperature" in topics:
                 raise UserError(f"{path}: key topics.temperature is for ROS bags; leave it out")
             name, number = _wanted(path, topics.get("imu"), found)
-            columns, findings = _columns(path, found, name, number)
+            columns, findings = _columns(found, name, number)
             lost = sum(d.duration for d in log.dropouts)
             if lost:
                 detail = {"total": lost * 1e-3}
@@ -70,7 +70,7 @@ def _wanted(path: Path, named: str | None, found: Mapping[tuple[str, int], Any])
 
 
 def _columns(
-    path: Path, found: Mapping[tuple[str, int], Any], name: str, number: int
+    found: Mapping[tuple[str, int], Any], name: str, number: int
 ) -> tuple[dict[str, np.ndarray], list[Finding]]:
     data = found[name, number]
     time = data["timestamp"].astype(np.int64)
@@ -84,7 +84,7 @@ def _columns(
     other = found.get(("sensor_accel", number))
     if other is not None:
         theirs = other.get("timestamp_sample", other["timestamp"]).astype(np.int64)
-        columns |= {f"accel_{a} [m/s^2]": onto(path, clock, theirs, other[a]) for a in AXES}
+        columns |= {f"accel_{a} [m/s^2]": onto(clock, theirs, other[a]) for a in AXES}
         findings.append(Finding("interpolated", "accel", len(theirs), {"topic": "sensor_accel"}))
     if "temperature" in data:
         columns["temperature [degC]"] = data["temperature"]
