@@ -1,13 +1,14 @@
 """What the fuzzers share: mutated files in child processes of bounded time and memory.
 
 A fuzzer is a module with ``seeds(folder)``, which writes valid files and gives their names, and
-``try_one(path)``, which may raise ``UserError`` and nothing else. ``python fuzz/NAME.py --seconds 60``
-runs it; what breaks it is kept in ``--keep`` and named, and the exit status is 1.
+``try_one(path)``, which may raise nothing: it says what became of the file. ``python fuzz/NAME.py
+--seconds 60`` runs it; what breaks it is kept in ``--keep`` and named, and the exit status is 1.
 """
 
 from __future__ import annotations
 
 import argparse
+import importlib
 import os
 import random
 import resource
@@ -18,6 +19,8 @@ import time
 import traceback
 from collections import Counter
 from pathlib import Path
+
+sys.path.append(str(Path(__file__).parent.parent / "tests/support"))  # writers of valid files
 
 BATCH = 200
 """Files that a child process tries, at most: a new one has no memory of the old."""
@@ -149,6 +152,8 @@ def run(fuzzer, seconds: float, seed: int, keep: Path) -> int:
         if os.waitpid(pid, 0)[1]:
             raise SystemExit(f"{fuzzer.NAME}: its valid files could not be written")
         names = sorted(seeds.iterdir())
+        for module in fuzzer.LOADED:  # once, not in every child
+            importlib.import_module(module)
         while time.monotonic() < until:
             for old in folder.iterdir():
                 old.unlink()
@@ -157,8 +162,8 @@ def run(fuzzer, seconds: float, seed: int, keep: Path) -> int:
             if wrong:
                 broken.append(wrong)
                 keep.mkdir(parents=True, exist_ok=True)
-                for path in folder.iterdir():
-                    path.rename(keep / f"{fuzzer.NAME}-{seed}-{path.name}")
+                last = max(folder.iterdir(), key=lambda path: path.stat().st_mtime_ns)
+                last.rename(keep / f"{fuzzer.NAME}-{seed}-{last.name}")
                 print(f"{fuzzer.NAME}, seed {seed}: {wrong}\nkept in {keep}", flush=True)
             seed += 1
     total = sum(counts.values()) + len(broken)

@@ -11,8 +11,6 @@ import sys
 import zlib
 from pathlib import Path
 
-sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parent.parent / "tests/support")]
-
 import harness
 import log_files
 import raw_logs
@@ -22,6 +20,15 @@ from pyimu.inspection.run import inspect
 from pyimu.recording.log import read_recording
 
 NAME = "recordings"
+
+LOADED = (
+    "scipy.io",
+    "scipy.signal",
+    "h5py",
+    "rosbags.highlevel",
+    "pyulog.core",
+    "pymavlink.DFReader",
+)
 
 WORDS = [
     "",

@@ -130,10 +130,12 @@ class Log:
         if RATES[0] <= rate <= RATES[1]:
             return
         fits = [u for u, s in SECONDS.items() if USUAL[0] <= rate * header.seconds / s < USUAL[1]]
-        asked = f"are they in {fits[0]}, at {rate * header.seconds / SECONDS[fits[0]]:.6g} Hz?"
+        asked = "is their unit right?"
+        if fits:
+            asked = f"are they in {fits[0]}, at {rate * header.seconds / SECONDS[fits[0]]:.6g} Hz?"
         raise UserError(
             f"{self.path}: its times make a sample rate of {rate:.3g} Hz, and no sensor is outside "
-            f"{RATES[0]:g} to {RATES[1]:g} Hz; {asked if fits else 'is their unit right?'}"
+            f"{RATES[0]:g} to {RATES[1]:g} Hz; {asked}"
         )
 
     @cached_property
