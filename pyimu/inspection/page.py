@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import matplotlib
 import numpy as np
 from markupsafe import Markup
 
@@ -15,11 +14,11 @@ from pyimu.report.figures import (
     FLOOR,
     GREY,
     INK,
-    STYLE,
     WIDTH,
     envelope,
     legend,
     new_figure,
+    style,
     svg_of,
     unit_of_time,
 )
@@ -71,7 +70,7 @@ def _pictures(found: Outcome) -> list[Picture]:
 
 
 def _over_time(recording: Recording, groups: list[str], rests) -> str:  # type: ignore[no-untyped-def]
-    with matplotlib.rc_context(STYLE):
+    with style():
         figure, panels = new_figure(WIDTH, 1.5 * len(groups) + 0.6, len(groups))
         size, unit = unit_of_time(float(np.ptp(recording.time)))
         start = recording.time[0]
@@ -96,7 +95,7 @@ def _over_time(recording: Recording, groups: list[str], rests) -> str:  # type: 
 
 def _steps(recording: Recording) -> str:
     steps = np.diff(recording.time) / recording.sample_period
-    with matplotlib.rc_context(STYLE):
+    with style():
         figure, (panel,) = new_figure(WIDTH, 2.0)
         top = max(2.5, float(np.quantile(steps, 0.999)))
         panel.hist(np.clip(steps, 0, top), bins=120, range=(0, top), color=AFTER)
