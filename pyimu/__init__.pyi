@@ -15,6 +15,8 @@ from .identification.close import close as close
 from .identification.plan.plan import plan as plan
 from .identification.plan.result import Plan as Plan
 from .identification.result import Closed as Closed
+from .inspection.result import Inspection as Inspection
+from .inspection.run import inspect as inspect
 from .model.catalogue import add_effects as add_effects
 from .model.effect import Effect as Effect
 from .model.effect import Environment as Environment

@@ -6,6 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+LONGEST = 2000
+"""Characters of a message: what comes out of a damaged file may be of any length."""
+
 
 class UserError(ValueError):
     """What a user gave cannot be used.
@@ -15,7 +18,14 @@ class UserError(ValueError):
     """
 
     def __init__(self, message: str) -> None:
-        super().__init__(" ".join(str(message).split()))
+        line = printable(" ".join(str(message).split()))
+        half = LONGEST // 2
+        super().__init__(line if len(line) <= LONGEST else f"{line[:half]}...{line[-half:]}")
+
+
+def printable(text: str) -> str:
+    """``text`` without the characters that a terminal obeys, a question mark for each."""
+    return "".join(c if c.isprintable() or c == " " else "?" for c in text)
 
 
 @dataclass(frozen=True)

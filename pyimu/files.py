@@ -1,4 +1,7 @@
-"""Results as files: each appears whole or not at all, whatever ends the work before it is done."""
+"""Results as files: each appears whole or not at all, whatever ends the work before it is done.
+
+And what is read of texts: regular files alone, of bounded size.
+"""
 
 from __future__ import annotations
 
@@ -8,21 +11,78 @@ import math
 import os
 import shutil
 import tempfile
-import time
+import tomllib
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from pyimu.errors import UserError
+from pyimu.held import PREFIX, held, sweep
 
-PREFIX = ".pyimu-"
-"""How the names of unfinished files and folders begin."""
+LARGEST_TEXT = 16 << 20
+"""Bytes of a part file or a column map, at most."""
 
-FORGOTTEN = 24 * 3600.0
-"""s; an unfinished file that old belongs to a run that was killed, and is taken away."""
+
+def check_regular(path: Path) -> None:
+    """Raise UserError where ``path`` is missing, a folder, or a pipe or a device, which need not
+    end.
+    """
+    try:
+        if not path.exists():
+            raise UserError(f"{path}: no such file")
+        if path.is_dir():
+            raise UserError(f"{path}: cannot be read, it is a folder")
+        if not path.is_file():
+            raise UserError(
+                f"{path}: no regular file (a pipe or a device); save it to a file first"
+            )
+    except UserError:
+        raise
+    except (OSError, ValueError) as error:  # a name that no system takes
+        reason = getattr(error, "strerror", None) or error
+        raise UserError(f"{shortened(path)}: cannot be read ({reason})") from None
+
+
+def exists(path: Path) -> bool:
+    """Whether there is such a file or folder; no name is too long to be asked for."""
+    try:
+        return path.exists()
+    except (OSError, ValueError):
+        return False
+
+
+def shortened(text: object, most: int = 120) -> str:
+    """The text, its middle left out where it has more than ``most`` characters."""
+    said = str(text)
+    return said if len(said) <= most else f"{said[: most // 2]}...{said[-most // 2 :]}"
+
+
+def read_toml(path: Path) -> dict[str, Any]:
+    """What a TOML file holds. Raises UserError where it cannot be read or is none."""
+    check_regular(path)
+    try:
+        if path.stat().st_size > LARGEST_TEXT:
+            raise UserError(f"{path}: larger than {LARGEST_TEXT >> 20} MiB, this is no such file")
+        text = path.read_text(encoding="utf-8")
+    except UnicodeDecodeError:
+        raise UserError(f"{path}: is not text in UTF-8") from None
+    except OSError as error:
+        raise UserError(f"{path}: cannot be read ({error.strerror or error})") from None
+    return parse_toml(text, str(path))
+
+
+def parse_toml(text: str, file: str) -> dict[str, Any]:
+    """What a TOML ``text`` holds; ``file`` is what errors call it. Raises UserError."""
+    try:
+        return tomllib.loads(text)
+    except RecursionError:
+        reason = "nested too deeply"
+    except ValueError as error:  # of the grammar, and of numbers with thousands of digits
+        reason = str(error)
+    raise UserError(f"{file}: cannot be read as TOML: {reason}")
 
 
 @contextmanager
@@ -33,7 +93,7 @@ def whole(path: Path) -> Iterator[Path]:
     """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        _sweep(path.parent)
+        sweep(path.parent)
         handle, name = tempfile.mkstemp(dir=path.parent, prefix=PREFIX, suffix=f".{path.name}")
         os.close(handle)
         unfinished = Path(name)
@@ -56,7 +116,7 @@ def staged(out: Path) -> Iterator[Path]:
     """
     try:
         out.mkdir(parents=True, exist_ok=True)
-        _sweep(out)
+        sweep(out)
         stage = Path(tempfile.mkdtemp(dir=out, prefix=PREFIX))
     except OSError as error:
         raise UserError(_no_place(out, error.strerror or str(error))) from None
@@ -117,9 +177,11 @@ def plain(value: Any) -> Any:
 def check_folder(out: Path | str) -> None:
     """Raise UserError where ``out`` is not a folder or cannot be made.
 
-    To be called before the work whose result would be lost.
+    To be called before the work whose result would be lost; a command then holds the folder, and
+    another run that is to write there is refused.
     """
     out = Path(out)
+    held.hold(out)
     try:
         there = next(p for p in (out, *out.absolute().parents) if p.exists())
         reason = "" if there.is_dir() else f"{there} is a file"
@@ -142,23 +204,3 @@ def _check_places(out: Path, files: list[Path]) -> None:
     for file in files:
         if (out / file).is_dir() and not (out / file).is_symlink():
             raise IsADirectoryError(errno.EISDIR, f"{file} is a folder there")
-
-
-@contextmanager
-def scratch() -> Iterator[Path]:
-    """A temporary folder of one's own, which is gone after the ``with`` block.
-
-    What earlier runs left there that were killed goes, too. Raises OSError where there is no place.
-    """
-    _sweep(Path(tempfile.gettempdir()))
-    # A library that is loaded cannot be removed on Windows; it is swept another day.
-    with tempfile.TemporaryDirectory(prefix=PREFIX, ignore_cleanup_errors=True) as folder:
-        yield Path(folder)
-
-
-def _sweep(folder: Path) -> None:
-    """Take away what runs that were killed left unfinished long ago."""
-    for path in folder.glob(f"{PREFIX}*"):
-        with suppress(OSError):
-            if time.time() - path.stat().st_mtime > FORGOTTEN:
-                shutil.rmtree(path) if path.is_dir() else path.unlink()

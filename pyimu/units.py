@@ -144,7 +144,10 @@ class Unit:
 _Value = tuple[float, tuple[Fraction, ...]]
 
 
-@lru_cache(maxsize=1024)
+LONGEST = 400
+"""Characters of a unit, brackets in brackets among them."""
+
+
 def parse(text: str) -> Unit:
     """The unit that ``text`` spells, such as ``"deg/h/sqrt(h)"`` or ``"rad/s/(m/s^2)"``.
 
@@ -152,7 +155,14 @@ def parse(text: str) -> Unit:
     unit.
     """
     if not isinstance(text, str):
-        raise UnitError(f"a unit must be text such as 'deg/s', not {text!r}")
+        raise UnitError(f"a unit must be text such as 'deg/s', not {str(text)[:LONGEST]!r}")
+    if len(text) > LONGEST:
+        raise UnitError(f"'{text[:LONGEST]}...' is not a unit: {len(text)} characters are too many")
+    return _parsed(text)
+
+
+@lru_cache(maxsize=1024)
+def _parsed(text: str) -> Unit:
     reader = _Reader(text)
     factor, dimension = reader.product()
     reader.end()

@@ -588,6 +588,23 @@ def test_help_is_quick():
     assert "Example" in done.stdout and done.stderr == "\n"
 
 
+@pytest.mark.parametrize(
+    "module, without",
+    [
+        ("pyimu", {"numpy", "scipy", "casadi", "matplotlib", "numba", "pyarrow", "fmpy"}),
+        ("pyimu.attitude", {"matplotlib", "fmpy", "control"}),
+        ("pyimu.recording.log", {"casadi", "numba", "matplotlib", "fmpy", "control"}),
+    ],
+)
+def test_what_an_import_does_not_load(module, without):
+    """What takes tenths of a second each is loaded by who uses it."""
+    code = f"import sys, {module}; print(*set(sys.modules) & {without!r})"
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False
+    )
+    assert (done.stdout, done.stderr) == ("\n", "")
+
+
 def test_version():
     done = in_a_process("--version")
     assert (done.returncode, done.stdout, done.stderr) == (0, f"{__version__}\n", "")

@@ -11,8 +11,10 @@ PACKAGE = CHECKOUT / "pyimu"
 
 LATE = {
     "pyimu.cli",
+    "pyimu.cli.bugs",
     "pyimu.cli.campaigns",
     "pyimu.cli.heading",
+    "pyimu.cli.inspect",
     "pyimu.cli.logs",
     "pyimu.cli.models",
     "pyimu.cli.navigation",

@@ -4,6 +4,7 @@ import ctypes
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 
 import pytest
@@ -109,13 +110,36 @@ def test_an_interrupted_command_ends_with_status_130_and_one_line(work, monkeypa
     assert capsys.readouterr().err == "pyimu: interrupted; earlier results are as they were\n"
 
 
-def test_an_error_of_a_command_that_was_not_interrupted_stays(monkeypatch):
+def test_a_bug_is_called_one_and_its_traceback_is_in_a_file(monkeypatch, capsys, tmp_path):
     def fail(**_):
-        raise RuntimeError("a bug")
+        raise RuntimeError("a thing\x1b[31m of ours")
 
     monkeypatch.setattr(cli, "app", fail)
-    with pytest.raises(RuntimeError, match="a bug"):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    with pytest.raises(SystemExit) as end:
         cli.main()
+    (file,) = tmp_path.glob("pyimu-bug-*.txt")
+    said = capsys.readouterr().err
+    assert end.value.code == 70 and said.count("\n") == 1 and str(file) in said
+    assert "bug in pyimu" in said and "a thing?[31m of ours" in said
+    assert "in fail" in file.read_text() and "RuntimeError" in file.read_text()
+
+
+@pytest.mark.parametrize(
+    "error, says",
+    [
+        (OSError(28, "No space left on device", "/x/y"), "/x/y: No space left on device"),
+        (MemoryError(), "not enough memory"),
+    ],
+)
+def test_what_the_system_refuses_is_no_bug(error, says, monkeypatch, capsys):
+    def fail(**_):
+        raise error
+
+    monkeypatch.setattr(cli, "app", fail)
+    with pytest.raises(SystemExit) as end:
+        cli.main()
+    assert end.value.code == 2 and says in capsys.readouterr().err
 
 
 AT_EXIT = """

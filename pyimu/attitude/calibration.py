@@ -7,7 +7,6 @@ It has two keys, ``bias = {value = [12.1, -3.0, 40.2], unit = "uT"}`` and the th
 from __future__ import annotations
 
 import os
-import tomllib
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -15,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from pyimu.errors import UserError
-from pyimu.files import write_text
+from pyimu.files import read_toml, write_text
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS, START
 from pyimu.recording.recording import Recording
@@ -73,12 +72,7 @@ class MagnetometerCalibration:
 
         Raises UserError, with file and key, where it cannot be read or is none.
         """
-        try:
-            data = tomllib.loads(Path(path).read_text(encoding="utf-8"))
-        except OSError as error:
-            raise UserError(f"{path}: cannot be read ({error.strerror or error})") from None
-        except ValueError as error:
-            raise UserError(f"{path}: cannot be read as TOML: {error}") from None
+        data = read_toml(Path(path))
         for key in data:
             if key not in KEYS:
                 raise UserError(

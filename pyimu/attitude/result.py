@@ -5,10 +5,9 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from pyimu.attitude.outcome import Outcome
 from pyimu.attitude.report.as_json import contents
@@ -17,6 +16,9 @@ from pyimu.attitude.report.pictures import whole_figure
 from pyimu.attitude.report.terminal import in_lines
 from pyimu.files import staged, write_json, write_text
 from pyimu.recording.formats.suffix import write_table
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 @dataclass(frozen=True, eq=False)

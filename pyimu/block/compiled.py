@@ -26,7 +26,8 @@ import numpy as np
 
 from pyimu.block.c_code import c_code
 from pyimu.block.cache import keep, kept, key_of
-from pyimu.files import scratch
+from pyimu.errors import UserError
+from pyimu.held import work_folder
 
 FLAGS = (
     "-std=c11",
@@ -190,7 +191,7 @@ def _compile(source: str, compiler: list[str], key: str) -> ctypes.CDLL | None:
 
     The library's own file is gone once it is loaded. None where that cannot be done.
     """
-    with contextlib.suppress(OSError), scratch() as folder:
+    with contextlib.suppress(OSError, UserError), work_folder() as folder:
         path, library, hand_written = folder / "run.c", folder / "run.so", source_folder()
         path.write_text(source, encoding="utf-8")
         files = [str(path), str(hand_written / "noise.c"), "-I", str(hand_written)]

@@ -45,7 +45,10 @@ class Store:
         """A column (n,), read-only; empty where nothing was added."""
         if name not in self._files:
             return np.empty(0)
-        self._files[name].flush()
+        try:
+            self._files[name].flush()
+        except OSError as error:
+            raise _full(error) from None
         return _mapped(self._files[name], "r")
 
     def room(self, name: str, n: int) -> np.ndarray:
@@ -67,7 +70,10 @@ class Store:
 
 
 def _file() -> tempfile._TemporaryFileWrapper:
-    return tempfile.TemporaryFile(prefix="pyimu-", dir=_folder())
+    try:
+        return tempfile.TemporaryFile(prefix="pyimu-", dir=_folder())
+    except OSError as error:
+        raise _full(error) from None
 
 
 def _truncate(descriptor: int, _: int, size: int) -> None:
@@ -93,6 +99,7 @@ def _folder() -> str:
 
 def _full(error: OSError) -> UserError:
     return UserError(
-        f"{_folder()}: no room for the samples of the log ({error.strerror or error}); name "
+        f"{os.environ.get('TMPDIR') or _folder()}: no room for the samples of the log "
+        f"({error.strerror or error}); name "
         "another folder in TMPDIR"
     )

@@ -10,8 +10,10 @@ from typing import Annotated
 
 import typer
 
+from pyimu.cli.bugs import said_of
 from pyimu.cli.campaigns import campaign_command
 from pyimu.cli.heading import heading_command
+from pyimu.cli.inspect import inspect_command
 from pyimu.cli.logs import attitude_command, characterize_command, close_command, demo
 from pyimu.cli.models import (
     build,
@@ -22,7 +24,8 @@ from pyimu.cli.models import (
     rover_command,
 )
 from pyimu.cli.navigation import navigate_command
-from pyimu.errors import UserError
+from pyimu.errors import UserError, printable
+from pyimu.held import held
 from pyimu.interrupt import Interrupts, ignore_at_exit
 
 # The matrices here are small: BLAS threads would wait for each other longer than they compute.
@@ -51,7 +54,7 @@ def main() -> None:
         sys.stdout.reconfigure(errors="backslashreplace")  # as stderr does by itself
     interrupts = Interrupts()
     try:
-        with interrupts:
+        with interrupts, held.holding():
             code = app(prog_name="pyimu", standalone_mode=False)
         if code == INTERRUPTED:  # the parser's own way to say it
             raise KeyboardInterrupt
@@ -67,7 +70,7 @@ def main() -> None:
             command = getattr(getattr(error, "ctx", None), "command_path", None) or "pyimu"
             code = _refuse(f"{error.format_message()} ({command} --help shows what is possible)")
         else:
-            raise
+            code = _refuse(*said_of(error))
     ignore_at_exit()
     sys.exit(code if isinstance(code, int) else 0)
 
@@ -77,7 +80,7 @@ def _interrupted() -> int:
 
 
 def _refuse(text: str, code: int = 2) -> int:
-    print(f"pyimu: {' '.join(text.split())}", file=sys.stderr)
+    print(f"pyimu: {printable(' '.join(text.split()))}", file=sys.stderr)
     return code
 
 
@@ -102,6 +105,7 @@ def _add(name: str, command: Callable, text: str) -> None:
 
 
 _add("demo", demo, "The whole loop on a simulated recording.")
+_add("inspect", inspect_command, "What is in a log, and the column map to read it by.")
 _add(
     "characterize",
     characterize_command,

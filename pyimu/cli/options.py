@@ -17,7 +17,7 @@ Out = Annotated[
     Path, typer.Option("--out", help="Folder for what is written; made if it is missing.")
 ]
 
-FORMATS = "CSV(.gz), Parquet, MAT, HDF5, ROS bag or MCAP"
+FORMATS = "table in text, Parquet, MAT, HDF5, ROS bag, MCAP, ULog or dataflash"
 """Files that a recording may be."""
 
 Columns = Annotated[

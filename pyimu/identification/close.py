@@ -37,7 +37,7 @@ from pyimu.model.sensor import Sensor
 from pyimu.model.typical import CLASSES, magnitudes
 from pyimu.recording.log import Given, is_one, recording_of
 from pyimu.recording.names import distinct_names
-from pyimu.recording.quality.inspect import inspect, of_reading
+from pyimu.recording.quality.inspect import inspect, of_reading, rate_of_part
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.course import has_course
 from pyimu.recording.reference.file import read_reference, with_references
@@ -98,6 +98,8 @@ def close(
     quality = [
         _of(r.name, f) for r in together for f in (*of_reading(r), *inspect(r), *vibrations(r))
     ]
+    if declared is not None:
+        quality += [_of(r.name, f) for r in together for f in rate_of_part(r, start.sample_rate)]
     forget()
     found, looks, of_trials = _investigated(
         start, declared is not None, logs, others, latitude, say

@@ -13,11 +13,13 @@ import numpy as np
 from pyimu.block.block import Block
 from pyimu.block.variables import IMU, MOTION, Limits, Variable, seed_of
 from pyimu.errors import UserError
+from pyimu.files import shortened
 from pyimu.model.arguments import AXES
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import EVERY_SAMPLE, SIGNALS, Derived, inputs_for, vector
 from pyimu.model.tolerance import Tolerance, declared, specimen_of
 from pyimu.model.truth import measured_recording
+from pyimu.recording.clock import RATES
 from pyimu.recording.recording import Recording
 
 
@@ -50,10 +52,10 @@ class Part:
 
     def __post_init__(self) -> None:
         period = _inverse(self.sample_rate)
-        if not 0.0 < period < math.inf:
+        if not 1 / RATES[1] <= period <= 1 / RATES[0]:
             raise UserError(
                 f"part {self.name}: the sample rate must be a positive and finite number of Hz, "
-                f"not {self.sample_rate!r}"
+                f"from {RATES[0]:g} to {RATES[1]:g}, not {shortened(repr(self.sample_rate))}"
             )
         for sensor in (self.gyro, self.accel, self.mag):
             sensor.check(period, f"part {self.name}")

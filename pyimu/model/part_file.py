@@ -32,9 +32,9 @@ from importlib.resources import files
 from pathlib import Path
 
 from pyimu.errors import UserError
-from pyimu.files import write_text
+from pyimu.files import exists, read_toml, shortened, write_text
 from pyimu.model.part import Part
-from pyimu.model.part_reader import meant, parse_part
+from pyimu.model.part_reader import meant, parse_part, part_of
 from pyimu.model.part_writer import format_part
 
 
@@ -64,10 +64,10 @@ def part(name_or_path: str | os.PathLike | Part) -> Part:
     if name in part_names():
         text = files("pyimu.model").joinpath("parts", f"{name}.toml").read_text(encoding="utf-8")
         return parse_part(text, f"{name}.toml")
-    if path.suffix == ".toml" or path.exists():
+    if path.suffix == ".toml" or exists(path):
         return load_part(path)
     raise UserError(
-        f"{name}: no built-in part ({', '.join(part_names())}) and no TOML file; "
+        f"{shortened(name)}: no built-in part ({', '.join(part_names())}) and no TOML file; "
         f"{meant(name, part_names())}"
     )
 
@@ -77,15 +77,7 @@ def load_part(path: str | os.PathLike) -> Part:
 
     Raises UserError, with file and key, where it cannot be read or is not a valid part.
     """
-    try:
-        text = Path(path).read_text(encoding="utf-8")
-    except FileNotFoundError:
-        raise UserError(f"{path}: no such file") from None
-    except UnicodeDecodeError:
-        raise UserError(f"{path}: is not text in UTF-8") from None
-    except OSError as error:
-        raise UserError(f"{path}: cannot be read ({error.strerror or error})") from None
-    return parse_part(text, str(path))
+    return part_of(read_toml(Path(path)), str(path))
 
 
 def save_part(part: Part, path: str | os.PathLike) -> Path:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import sys
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -13,6 +12,7 @@ import numpy as np
 
 from pyimu import units
 from pyimu.errors import UserError
+from pyimu.files import parse_toml, shortened
 from pyimu.model.arguments import Parameter
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.effect import Effect
@@ -42,11 +42,15 @@ _TOLERANCE_KEYS = ("value", "unit", "distribution", "source", "quoted")
 
 def parse_part(text: str, file: str = "part") -> Part:
     """The part that TOML ``text`` describes; ``file`` is what errors call it. Raises UserError."""
+    return part_of(parse_toml(text, file), file)
+
+
+def part_of(data: Mapping[str, Any], file: str) -> Part:
+    """The part that a TOML file's ``data`` are. Raises UserError."""
     try:
-        data = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise UserError(f"{file}: cannot be read as TOML: {error}") from None
-    return _Reader(file).part(data)
+        return _Reader(file).part(data)
+    except RecursionError:
+        raise UserError(f"{file}: lists in lists, nested too deeply") from None
 
 
 @dataclass
@@ -305,7 +309,7 @@ class _Reader:
             return np.concatenate([self._flat(where, i) for i in items]) if items else np.empty(0)
         for item in items:
             if isinstance(item, bool) or not isinstance(item, (int, float)):
-                raise self.error(where, f"must be a number, not {item!r}")
+                raise self.error(where, f"must be a number, not {shortened(repr(item))}")
             if not abs(item) <= sys.float_info.max:
                 raise self.error(where, "must be finite")
         return np.array(items, dtype=float)

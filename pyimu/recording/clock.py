@@ -36,6 +36,13 @@ MOSTLY = 0.9
 """The share of the steps that must be whole periods for their mean to be taken, not their median.
 """
 
+TWO = 0.4
+"""Of two rates the windows make two heaps, and between them lies so much of their range, or, with a
+window that holds both, half of it; of one rate that wanders the windows fill the range."""
+
+RATES = (1e-3, 1e6)
+"""Hz; no inertial sensor is sampled more slowly or faster: such a rate is one of a wrong unit."""
+
 LEAST_ROUNDED = 32
 """So many steps of the rarer length tell rounded times from lost samples."""
 
@@ -85,12 +92,20 @@ def _typical(step: np.ndarray) -> float:
     if count < 2:
         return mean
     windows = np.sort(step[: count * WINDOW].reshape(count, WINDOW).mean(axis=1))
+    if not _two_heaps(windows):
+        return mean
     # The middle one alone may lie across the change of the rate.
     near = max(
         (np.abs(windows / windows[k * (count - 1) // 4] - 1) < OTHER_RATE for k in (1, 2, 3)),
         key=np.count_nonzero,
     )
     return mean if near.all() else float(windows[near].mean())
+
+
+def _two_heaps(sorted_values: np.ndarray) -> bool:
+    """Whether values in order make two heaps, and do not fill the range between."""
+    span = float(sorted_values[-1] - sorted_values[0])
+    return float(np.diff(sorted_values).max(initial=0.0)) >= TWO * span
 
 
 def period_of(time: np.ndarray) -> float:
@@ -147,6 +162,7 @@ class Clock:
         self._after = np.empty(0, dtype=np.int64)
         self._variance, self._windows = 0.0, 0
         self._others: list[tuple[float, float]] = []
+        self._periods: list[float] = []
 
     def add(self, time: np.ndarray) -> None:
         """``time`` (n,) follows what was added before."""
@@ -188,6 +204,7 @@ class Clock:
             zip(period.tolist(), (rate.var(axis=1) / (PARTS - 1)).tolist())
         ):
             if not math.isnan(value):
+                self._periods.append(value)
                 self._variance, self._windows = self._variance + variance, self._windows + 1
             if not self._off(value) <= OTHER_RATE:
                 # At another rate the log's period does not tell late stamps from gaps.
@@ -199,13 +216,15 @@ class Clock:
         return abs(period / self.cadence.period - 1)
 
     def findings(self) -> list[Finding]:
-        """The findings ``gaps`` and ``two_rates``, as far as the log has been added.
+        """The findings ``gaps``, ``two_rates`` and ``rate_wanders``, as far as the log was added.
 
         ``gaps`` has the ``longest`` step and the ``total`` time lost [s]; ``two_rates`` how many
-        samples have another rate than the log, the typical one of these, and since when.
+        samples have another rate than the log, the typical one of these, and since when;
+        ``rate_wanders`` how many are off a rate that changes slowly, and between which it does.
         """
         done = copy(self)  # more may be added, and tell of the last rows
         done._finder, done._others = copy(self._finder), self._others.copy()
+        done._periods = self._periods.copy()
         done._look(*done._finder.end())
         return done._found()
 
@@ -223,7 +242,14 @@ class Clock:
             for start, period in self._others
             if self._off(period) > max(OTHER_RATE, least)
         ]
-        if others:
+        if others and self._periods and not _two_heaps(np.sort(self._periods)):
+            detail = {
+                "rate": 1 / self.cadence.period,
+                "least_rate": 1 / max(self._periods),
+                "largest_rate": 1 / min(self._periods),
+            }
+            found.append(Finding("rate_wanders", "time", len(others) * WINDOW, detail))
+        elif others:
             other = sorted(period for _, period in others)[len(others) // 2]
             detail = {
                 "rate": 1 / self.cadence.period,

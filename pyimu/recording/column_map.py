@@ -1,11 +1,13 @@
-"""Column maps: TOML files that rename columns, declare axes and scale raw counts."""
+"""Column maps: TOML files that rename columns, declare axes and scale raw counts.
+
+They also give the sample rate of a log without times, and name the files that hold more columns.
+"""
 
 from __future__ import annotations
 
 import math
-import tomllib
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -13,13 +15,16 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from pyimu.errors import UserError
+from pyimu.files import read_toml
+from pyimu.recording.clock import RATES
 from pyimu.recording.columns import GROUPS, XYZ
-from pyimu.recording.counts import Scale, read_scales
-from pyimu.units import did_you_mean
+from pyimu.recording.counts import Scale, finite_number, read_scales
+from pyimu.units import UnitError, convert, did_you_mean
 
 _FRD = np.diag([1.0, -1.0, -1.0])
 _NED = np.array([[0.0, 1, 0], [1, 0, 0], [0, 0, -1]])
-_BODY = {"flu": np.eye(3), "frd": _FRD}
+BODY = {"flu": np.eye(3), "frd": _FRD}
+"""Rotations to forward-left-up from the axes of a name."""
 _WORLD = {"enu": np.eye(3), "ned": _NED}
 _AXES = tuple(name for name, g in GROUPS.items() if g.suffixes == XYZ)
 """The groups that are vectors in body axes."""
@@ -36,6 +41,8 @@ class ForeignMap:
     body: np.ndarray | None = None
     world: str = "enu"
     q: str = "nb"
+    rate: float | None = None
+    files: tuple[tuple[str, ForeignMap], ...] = ()
 
     def rename(self, path: Path, header: list[str]) -> list[str]:
         for name in self.columns:
@@ -84,18 +91,19 @@ def _rotated(rotation: np.ndarray, v: np.ndarray) -> np.ndarray:
 
 
 def read_map(path: Path) -> ForeignMap:
-    try:
-        data = tomllib.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        raise UserError(f"{path}: no such file") from None
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise UserError(f"{path}: cannot be read as TOML ({error})") from None
-    _known_keys(path, "", data, ("columns", "frame", "scale", "topics"))
+    """The column map in the TOML file ``path``. Raises UserError, with the key."""
+    return map_of(read_toml(path), path)
+
+
+def map_of(data: Mapping[str, Any], path: Path) -> ForeignMap:
+    """The column map that a TOML file's ``data`` are; messages call it ``path``."""
+    known = ("columns", "frame", "scale", "topics", "sample_rate", "file")
+    _known_keys(path, "", data, known)
     frame = data.get("frame", {})
     _known_keys(path, "frame.", frame, ("body", "world", "q", "R"))
     topics = _texts(path, "topics", data, "/imu/data")
     _known_keys(path, "topics.", topics, ("imu", "temperature"))
-    return ForeignMap(
+    foreign = ForeignMap(
         path,
         _texts(path, "columns", data, "gyro_x [deg/s]"),
         read_scales(path, data.get("scale", {})),
@@ -103,7 +111,48 @@ def read_map(path: Path) -> ForeignMap:
         _body(path, frame),
         world=_choice(path, frame, "world", ("enu", "ned")),
         q=_choice(path, frame, "q", ("nb", "bn")),
+        rate=_rate(path, data.get("sample_rate")),
     )
+    return replace(foreign, files=_files(path, data.get("file", []), foreign))
+
+
+def _rate(path: Path, entry: Any) -> float | None:
+    """Hz of the key ``sample_rate``. Raises UserError for a rate that no sensor has."""
+    if entry is None:
+        return None
+    example = 'sample_rate = {value = 100.0, unit = "Hz"}'
+    if not isinstance(entry, dict) or set(entry) != {"value", "unit"}:
+        raise UserError(f"{path}: key sample_rate must be such as {example}")
+    value = finite_number(path, "sample_rate.value", entry["value"])
+    try:
+        hertz = float(convert(value, entry["unit"], "Hz"))
+    except UnitError as error:
+        raise UserError(f"{path}: key sample_rate.unit: {error}; write {example}") from None
+    if not RATES[0] <= hertz <= RATES[1]:
+        raise UserError(
+            f"{path}: key sample_rate: {hertz:g} Hz, must lie between {RATES[0]:g} and "
+            f"{RATES[1]:g} Hz"
+        )
+    return hertz
+
+
+def _files(path: Path, entries: Any, whole: ForeignMap) -> tuple[tuple[str, ForeignMap], ...]:
+    """The further files, each with its map; axes are those of the ``whole``."""
+    example = '[[file]] with name = "Accelerometer.csv" and a table [file.columns]'
+    if not isinstance(entries, list):
+        raise UserError(f"{path}: key file must be such as {example}")
+    found = []
+    for entry in entries:
+        _known_keys(path, "file.", entry, ("name", "columns", "scale", "sample_rate"))
+        name = entry.get("name")
+        if not isinstance(name, str) or not name:
+            raise UserError(f"{path}: key file.name is missing, write {example}")
+        columns = _texts(path, "columns", entry, "accel_x [m/s^2]")
+        scale = read_scales(path, entry.get("scale", {}))
+        rate = _rate(path, entry.get("sample_rate"))
+        own = replace(whole, columns=columns, scale=scale, rate=rate, topics={})
+        found.append((name, own))
+    return tuple(found)
 
 
 def _texts(path: Path, key: str, data: Mapping[str, Any], example: str) -> Mapping[str, str]:
@@ -144,7 +193,7 @@ def _body(path: Path, frame: Mapping[str, Any]) -> np.ndarray | None:
     key = "R" if "R" in frame else "body"
     value = frame.get(key)
     if value is None or isinstance(value, str):
-        return None if value is None else _BODY[_choice(path, frame, key, tuple(_BODY))]
+        return None if value is None else BODY[_choice(path, frame, key, tuple(BODY))]
     try:
         matrix = np.array(value, dtype=float)
     except (TypeError, ValueError):

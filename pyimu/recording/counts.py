@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -72,8 +73,8 @@ def _scale(path: Path, key: str, name: str, entry: Any) -> Scale:
             "if there is one"
         )
     value, offset = (
-        _number(path, f"{key}.value", entry["value"]),
-        _number(path, f"{key}.offset", entry.get("offset", 0.0)),
+        finite_number(path, f"{key}.value", entry["value"]),
+        finite_number(path, f"{key}.offset", entry.get("offset", 0.0)),
     )
     if value == 0 or (name == "time" and offset):
         raise UserError(
@@ -87,9 +88,11 @@ def _scale(path: Path, key: str, name: str, entry: Any) -> Scale:
     return Scale(value, check_unit(f"{path}: key {key}.unit", name, entry["unit"]), offset)
 
 
-def _number(path: Path, key: str, value: Any) -> float:
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
-        raise UserError(f"{path}: key {key} must be a number, not {value!r}")
+def finite_number(path: Path, key: str, value: Any) -> float:
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise UserError(f"{path}: key {key} must be a number, not {str(value)[:40]!r}")
+    if not abs(value) <= sys.float_info.max:
+        raise UserError(f"{path}: key {key} must be a finite number")
     return float(value)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
@@ -14,12 +13,20 @@ from pyimu.errors import Finding, UserError
 from pyimu.recording.columns import GROUP_OF, GROUPS, UNITS, check_unit, column_names
 from pyimu.recording.counts import Scale
 
+LARGEST = 1e12
+"""In SI; no quantity of a log is larger, and such a number is taken for a missing one."""
+
 ORIGIN = 1e6
 """s; a first time beyond it is a clock of its own (Unix time), and is subtracted."""
 
 
 COUNT = ("count", "counts", "lsb", "raw", "digit", "digits", "adc")
 """Spellings of the unit of a converter's raw numbers, whose size a column map must give."""
+
+OFTEN = {"s": "s, ms, us or ns", "rad/s": "rad/s or deg/s", "m/s^2": "m/s^2, g or mg"} | {
+    "T": "T, uT or gauss"
+}
+"""Units in which columns often are, by the SI unit: a hint names all of them, and proposes none."""
 
 
 class Header:
@@ -31,9 +38,9 @@ class Header:
     ``scale`` gives the size of a count by column; a ``crowded`` file holds much that is not looked
     at, and ``skipped`` says what in it has no columns of numbers. Raises UserError for a column
     that stands twice, has no, an unknown or the wrong unit, is in counts of unknown size, or has a
-    name close to a known one; for an incomplete group, no time, and neither gyro nor
-    accelerometer, or in a ``reference`` no reference. A column with another name is left out, and
-    listed in ``findings``.
+    name close to a known one; for an incomplete group, no time, and a log that does not hold what
+    is ``wanted``: a "sensor" (gyro or accelerometer), a "reference", or "any" column. A column
+    with another name is left out, and listed in ``findings``; ``cells`` are the file's own names.
     """
 
     def __init__(
@@ -43,7 +50,8 @@ class Header:
         scale: Mapping[str, Scale] = MappingProxyType({}),
         crowded: bool = False,
         skipped: Sequence[str] = (),
-        reference: bool = False,
+        wanted: str = "sensor",
+        cells: Sequence[str] = (),
     ) -> None:
         self.path = path
         self.names: list[str] = []
@@ -52,12 +60,14 @@ class Header:
         self.findings: list[Finding] = []
         self._crowded = crowded
         self._skipped = skipped
-        self._reference = reference
+        self._wanted = wanted
+        self._cells = list(cells or header)
         self._scale = scale
         self._counted: set[str] = set()
+        self._ours = any(cell.partition("[")[0].strip() in UNITS for cell in header)
         for position, cell in enumerate(header):
             self._add(position, cell)
-        self._check(header)
+        self._check()
 
     @property
     def time(self) -> int:
@@ -83,7 +93,9 @@ class Header:
             raise UserError(f"{self.path}: column {name} stands twice in the header")
         if not unit.endswith("]"):
             raise UserError(
-                f"{self.path}: column {name} has no unit, write '{name} [{UNITS[name]}]'"
+                f"{self.path}: column {name} has no unit, write '{name} [...]' with its own "
+                f"({OFTEN.get(UNITS[name], UNITS[name])}); pyimu inspect {self.path} looks which "
+                "one the numbers fit"
             )
         self.names.append(name)
         self.positions.append(position)
@@ -116,15 +128,14 @@ class Header:
         if self._crowded:
             return
         near = units.did_you_mean(name, UNITS, cutoff=0.8)
-        if near:
+        if near and self._ours:
             raise UserError(f"{self.path}: unknown column '{name}'{near}")
         self.findings.append(Finding("unused_column", name, 1, {"header": cell}))
 
-    def _check(self, header: Sequence[str]) -> None:
+    def _check(self) -> None:
         if "time" not in self.names:
             raise UserError(
-                f"{self.path}: not a recording, the header has no 'time [s]' "
-                f"column{self._way(header)}"
+                f"{self.path}: not a recording, the header has no 'time [s]' column{self._way()}"
             )
         for group in GROUPS:
             missing = [name for name in column_names(group) if name not in self.names]
@@ -133,29 +144,29 @@ class Header:
                     f"{self.path}: column {missing[0]} is missing, {group} needs "
                     f"{', '.join(column_names(group))}"
                 )
-        if self._reference and not any(name.startswith("ref_") for name in self.names):
+        if self._wanted == "reference" and not any(name.startswith("ref_") for name in self.names):
             raise UserError(
                 f"{self.path}: no reference in it; it needs ref_q, ref_rate, ref_heading, "
                 "ref_north and ref_east, ref_velocity or ref_force, or a column map (TOML) that "
                 "names them"
             )
-        if not self._reference and "gyro_x" not in self.names and "accel_x" not in self.names:
+        if self._wanted == "sensor" and "gyro_x" not in self.names and "accel_x" not in self.names:
             raise UserError(
                 f"{self.path}: neither gyro_x, gyro_y, gyro_z nor accel_x, accel_y, accel_z is "
-                "there"
+                f"there{self._way()}"
             )
 
-    def _way(self, header: Sequence[str]) -> str:
+    def _way(self) -> str:
         """How to read the file all the same."""
         skipped = (
             f"; without columns of numbers are {_some(self._skipped)}" if self._skipped else ""
         )
-        if not any(cell.strip("/[] ") for cell in header):
+        if not any(cell.strip("/[] ") for cell in self._cells):
             return skipped
         return (
-            f"; name its columns in a column map (TOML), it has {_some(header)}{skipped}; "
-            "give the map as --columns map.toml, with [columns] and a line for each, "
-            f'"{_time_like(header)}" = "time [s]"'
+            f"; it has {_some(self._cells)}{skipped}; name its columns in a column map (TOML) and "
+            f"give that as --columns: pyimu inspect {self.path} --write-map map.toml writes one to "
+            "look over"
         )
 
     def origin(self, first: float | np.integer, findings: list[Finding]) -> float | np.integer:
@@ -172,13 +183,13 @@ class Header:
     def convert(
         self, columns: Sequence[np.ndarray], origin: float | np.integer
     ) -> dict[str, np.ndarray]:
-        """The columns (n,) in SI by name; infinite values become missing ones.
+        """The columns (n,) in SI by name; infinite and absurd values become missing ones.
 
         ``origin`` is subtracted from the time in the file's unit, so that an integer clock is not
         rounded.
         """
         return {
-            name: (column - origin) * self.seconds
+            name: _within((column - origin) * self.seconds)
             if name == "time"
             else self._si(name, column, unit)
             for name, column, unit in zip(self.names, columns, self.units)
@@ -198,20 +209,12 @@ class Header:
             if UNITS[name] == "degC"
             else units.convert(column, unit, UNITS[name])
         )
-        return np.where(np.isfinite(values), values, np.nan)
+        with np.errstate(invalid="ignore"):
+            return np.where(np.abs(values) <= LARGEST, values, np.nan)
 
 
-def _time_like(names: Sequence[str]) -> str:
-    """The first of ``names`` that may be a time's, else the first."""
-    last = {
-        name: re.findall(r"[^/\[\]]+", name.casefold())[-1].strip()
-        for name in names
-        if name.strip("/[] ")
-    }
-    return next(
-        (name for name, end in last.items() if end == "t" or "time" in end or "stamp" in end),
-        next(iter(last)),
-    )
+def _within(time: np.ndarray) -> np.ndarray:
+    return np.where(np.abs(time) <= LARGEST, time, np.nan)
 
 
 def _some(names: Sequence[str], most: int = 8) -> str:

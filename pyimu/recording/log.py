@@ -13,11 +13,14 @@ from typing import Any
 import numpy as np
 
 from pyimu.errors import Finding, UserError
-from pyimu.recording.clock import Cadence, Clock, cadence_of
+from pyimu.recording.clock import RATES, Cadence, Clock, cadence_of
 from pyimu.recording.column_map import ForeignMap
+from pyimu.recording.columns import GROUPS
+from pyimu.recording.companions import Companion
 from pyimu.recording.formats.frame import FrameReader, is_frame
 from pyimu.recording.formats.suffix import stem
 from pyimu.recording.gaps import GapFinder
+from pyimu.recording.guess.numbers import SECONDS, USUAL
 from pyimu.recording.recording import Recording, copied, join
 from pyimu.recording.rows import Rows, Source
 
@@ -44,7 +47,8 @@ class Log:
     @property
     def groups(self) -> tuple[str, ...]:
         """Names of the groups that the log holds, in the order of ``GROUPS``."""
-        return self._source.header.groups
+        found = [self._source.header.groups, *(c.header.groups for c in self._source.companions)]
+        return tuple(g for g in GROUPS if any(g in groups for groups in found))
 
     @property
     def count(self) -> int | None:
@@ -65,7 +69,9 @@ class Log:
             known += len(piece)
             if known >= HEAD:
                 break
-        return cadence_of(np.concatenate(times)[:HEAD])
+        cadence = cadence_of(np.concatenate(times)[:HEAD])
+        self._check_rate(cadence)
+        return cadence
 
     @property
     def sample_period(self) -> float:
@@ -93,7 +99,7 @@ class Log:
         passing, clock = Rows(self._source), Clock(self.cadence)
         for piece, share in _cut(_marked(self._batches(passing), self.cadence), rows):
             clock.add(piece.time)
-            self.findings = (*passing.findings, *clock.findings())
+            self.findings = self._found(passing, clock)
             yield piece, share
 
     def segments(self, rows: int = 1_000_000) -> Iterator[tuple[int, Recording, float]]:
@@ -112,13 +118,38 @@ class Log:
         """The whole log; its sample period is that of all its samples."""
         passing = Rows(self._source)
         whole = join([piece for piece, _ in self._batches(passing)])
+        self._check_rate(whole.cadence)
         clock = Clock(whole.cadence)
         clock.add(whole.time)
-        self.findings = (*passing.findings, *clock.findings())
+        self.findings = self._found(passing, clock)
         return replace(whole, findings=self.findings)
+
+    def _check_rate(self, cadence: Cadence) -> None:
+        """Raise UserError for a rate that no sensor has: the times are in another unit."""
+        rate, header = 1 / cadence.period, self._source.header
+        if RATES[0] <= rate <= RATES[1]:
+            return
+        fits = [u for u, s in SECONDS.items() if USUAL[0] <= rate * header.seconds / s < USUAL[1]]
+        asked = "is their unit right?"
+        if fits:
+            asked = f"are they in {fits[0]}, at {rate * header.seconds / SECONDS[fits[0]]:.6g} Hz?"
+        raise UserError(
+            f"{self.path}: its times make a sample rate of {rate:.3g} Hz, and no sensor is outside "
+            f"{RATES[0]:g} to {RATES[1]:g} Hz; {asked}"
+        )
+
+    @cached_property
+    def _companions(self) -> list[Companion]:
+        return [Companion.read(source) for source in self._source.companions]
+
+    def _found(self, passing: Rows, clock: Clock) -> tuple[Finding, ...]:
+        others = [finding for c in self._companions for finding in c.said()]
+        return (*passing.findings, *others, *clock.findings())
 
     def _batches(self, passing: Rows) -> Iterator[tuple[Recording, float]]:
         for time, groups, share in passing.batches():
+            for companion in self._companions:
+                groups |= companion.at(time, passing)
             yield (
                 Recording(
                     self.name, time, **groups, path=self.path, frame_declared=self.frame_declared

@@ -230,7 +230,7 @@ def rests(recording: Recording) -> list[tuple[int, int]]:
 def _at_any_phase(recording: Recording) -> list[tuple[int, int]]:
     still, step = np.zeros(len(recording), dtype=bool), SECOND / recording.sample_period / PHASES
     for start in sorted({round(k * step) for k in range(PHASES)}):
-        for a, b in still_rows(recording.slice(start)) if start < len(recording) else ():
+        for a, b in still_rows(recording.slice(start)) if start + 2 < len(recording) else ():
             still[start + a : start + b] = True
     return [(a + i, a + j) for a, b in recording.segments for i, j in runs(still[a:b])]
 

@@ -12,12 +12,16 @@ from pathlib import Path
 import numpy as np
 
 from pyimu.errors import Finding, UserError
-from pyimu.recording.column_map import ForeignMap, read_map
+from pyimu.files import exists
+from pyimu.recording.column_map import BODY, ForeignMap, read_map
 from pyimu.recording.columns import GROUPS, column_names
 from pyimu.recording.counts import RawCounts
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.formats.suffix import open_reader
+from pyimu.recording.formats.timed import TimedReader
 from pyimu.recording.header import Header
+from pyimu.recording.known import merged, recognised, said
+from pyimu.recording.phone import is_phone, of_phone
 from pyimu.recording.quality.tally import Tally
 
 NORM_TOLERANCE = 1e-2
@@ -48,32 +52,80 @@ Values = dict[str, np.ndarray]
 
 @dataclass(frozen=True)
 class Source:
-    """A file, opened: its reader, what its columns mean, and the user's column map."""
+    """A file, opened: its reader, what its columns mean, and the user's column map.
+
+    ``companions`` are further files with columns of the same log, each with times of its own.
+    """
 
     reader: Reader
     header: Header
     foreign: ForeignMap
+    companions: tuple[Source, ...] = ()
 
     @classmethod
-    def open(cls, path: Path, columns: Path | None, reference: bool = False) -> Source:
-        """Raises UserError for a file or a map that cannot be used; a ``reference`` need hold no
-        sensor.
+    def open(cls, path: Path, columns: Path | None, wanted: str = "sensor") -> Source:
+        """Open a log; ``wanted`` is what it must hold, see ``Header``.
+
+        A folder of a phone's files is a log, too. Raises UserError for a file or a map that cannot
+        be used.
         """
         foreign = read_map(columns) if columns is not None else ForeignMap()
-        return cls.of(open_reader(path, foreign.topics), foreign, reference)
+        if exists(path) and path.is_dir() and is_phone(path):
+            path, phone = of_phone(path)
+            foreign = foreign if foreign.columns else merged(phone, foreign, phone.files)
+        return cls.of(open_reader(path, foreign.topics), foreign, wanted)
 
     @classmethod
-    def of(cls, reader: Reader, foreign: ForeignMap, reference: bool = False) -> Source:
+    def of(cls, reader: Reader, foreign: ForeignMap, wanted: str = "sensor") -> Source:
         """What ``reader`` has opened. Raises UserError as ``open`` does."""
+        findings: tuple[Finding, ...] = ()
+        if not foreign.columns:
+            known = recognised(reader)
+            if known is not None:
+                foreign = merged(known[1], foreign, foreign.files)
+                findings = (said(known, reader.header),)
+        if foreign.body is None and reader.body is not None:
+            foreign = replace(foreign, body=BODY[reader.body])
+        names = foreign.rename(reader.path, reader.header)
+        reader = _timed(reader, foreign, names)
         header = Header(
             reader.path,
-            foreign.rename(reader.path, reader.header),
+            [*names, *reader.header[len(names) :]],
             foreign.scale,
-            reader.crowded,
+            reader.crowded or bool(findings),
             reader.skipped,
-            reference,
+            wanted,
+            reader.header,
         )
-        return cls(reader, header, foreign)
+        header.findings = [*findings, *header.findings]
+        return cls(reader, header, foreign, _companions(reader.path, foreign, header))
+
+
+def _timed(reader: Reader, foreign: ForeignMap, names: list[str]) -> Reader:
+    """``reader``, with the times of a rate where it has none."""
+    there = any(name.partition("[")[0].strip() == "time" for name in names)
+    if foreign.rate is not None:
+        if there:
+            raise UserError(
+                f"{foreign.path}: key sample_rate is for a log without times, but {reader.path} "
+                "has a column that is its time: leave one of the two out"
+            )
+        return TimedReader(reader, foreign.rate, "the column map")
+    if there or reader.rate is None:
+        return reader
+    return TimedReader(reader, reader.rate, "what the file says")
+
+
+def _companions(path: Path, foreign: ForeignMap, header: Header) -> tuple[Source, ...]:
+    """The further files that a map names, beside the log or where their paths say."""
+    found = []
+    for name, own in foreign.files:
+        source = Source.of(open_reader(path.parent / name), own, "any")
+        twice = next((g for g in source.header.groups if g in header.groups), None)
+        if twice is not None:
+            raise UserError(f"{source.header.path}: holds {twice}, which {path} holds too")
+        found.append(source)
+    return tuple(found)
 
 
 class Rows:
@@ -93,6 +145,7 @@ class Rows:
         self._seen = 0
         self._single = True
         self._before: Values | None = None
+        self.origin: float | np.integer = 0
 
     @property
     def findings(self) -> tuple[Finding, ...]:
@@ -124,18 +177,19 @@ class Rows:
         Raises UserError with the row for a time that is missing or runs backwards, and for a file
         of fewer than three rows.
         """
-        header, origin = self.source.header, None
+        header, first = self.source.header, True
         for columns, share in self.source.reader.batches(header.positions, header.time):
             if not len(columns[0]):
                 continue
-            if origin is None:
+            if first:
                 found: list[Finding] = []
-                origin = header.origin(columns[header.positions.index(header.time)][0], found)
+                self.origin = header.origin(columns[header.positions.index(header.time)][0], found)
                 self._tally.add(found)
+                first = False
             long = columns[header.positions.index(header.time)]
             self._single = self._single and _is_single(long)
             self._raw.add(dict(zip(header.names, columns)))
-            time, values = self._ordered(header.convert(columns, origin))
+            time, values = self._ordered(header.convert(columns, self.origin))
             self.kept += len(time)
             yield time, self._grouped(values), share
         if self.kept < LEAST_ROWS:

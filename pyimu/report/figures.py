@@ -7,12 +7,15 @@ from __future__ import annotations
 
 import io
 import re
+from contextlib import AbstractContextManager
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.axis import Axis
-from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+if TYPE_CHECKING:  # it takes half a second, which who draws nothing does without
+    from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
+    from matplotlib.figure import Figure
 
 INK, BEFORE, AFTER, FLOOR, GREY = "#010203", "#e69f00", "#0072b2", "#009e73", "#808487"
 """Okabe-Ito, so that the two series differ for every eye; grey for what does not matter."""
@@ -58,8 +61,17 @@ BINS = 420
 that spikes survive."""
 
 
+def style(more: dict[str, Any] | None = None) -> AbstractContextManager[None]:
+    """The context in which a figure has the package's style, and what ``more`` sets."""
+    import matplotlib
+
+    return matplotlib.rc_context(STYLE | (more or {}))
+
+
 def new_figure(width: float, height: float, rows: int = 1) -> tuple[Figure, list[Axes]]:
     """A figure of so many inches with panels above each other on one abscissa."""
+    from matplotlib.figure import Figure
+
     figure = Figure(figsize=(width, height), layout="constrained")
     axes = figure.subplots(rows, 1, sharex=True, squeeze=False)[:, 0]
     return figure, list(axes)
@@ -108,6 +120,8 @@ def legend(figure: Figure, panel: Axes, columns: int) -> None:
 
 def plain_logarithm(axis: Axis) -> None:
     """Numbers without powers; 1, 2, 5 where less than two decades are seen, else decades."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
     low, high = axis.get_view_interval()
     axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if high < 100 * low else (1.0,)))
     axis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}"))

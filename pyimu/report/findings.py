@@ -49,7 +49,14 @@ def detail(f: Finding) -> str:
             text = quantity(float(value), sample)
         elif name == "share":
             text = quantity(float(value), "1")
-        elif name in ("rate", "other_rate", "least_frequency", "largest_frequency"):
+        elif name in (
+            "rate",
+            "other_rate",
+            "least_rate",
+            "largest_rate",
+            "least_frequency",
+            "largest_frequency",
+        ):
             text = f"{value:.6g} Hz"
         elif name in SECONDS or (f.column == "time" and name in SECONDS_OF_TIME):
             text = f"{text} s"

@@ -22,7 +22,7 @@ from pyimu.block.normals import normals
 from pyimu.block.stepping import step_through
 from pyimu.block.variables import NoiseChannel, Variable
 from pyimu.errors import UserError
-from pyimu.files import FORGOTTEN, PREFIX, scratch
+from pyimu.held import FORGOTTEN, PREFIX, work_folder
 
 CHANNELS = [7, 2**40 + 1]
 
@@ -323,7 +323,7 @@ def test_a_temporary_folder_goes_and_takes_along_what_a_killed_process_left(tmp_
         os.utime(tmp_path / f"{PREFIX}{name}", (time.time() - age,) * 2)
     (tmp_path / "pyimu-results").mkdir()
     os.utime(tmp_path / "pyimu-results", (0, 0))
-    with scratch() as folder:
+    with work_folder() as folder:
         (folder / "file").write_text("")
     assert {p.name for p in tmp_path.iterdir()} == {f"{PREFIX}alive", "pyimu-results"}
 

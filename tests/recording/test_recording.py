@@ -135,10 +135,9 @@ def test_stamps_coarser_than_the_period_are_named(kind, said, tmp_path):
     [
         ("", "not a recording"),
         ("a,b\n1,2\n", "no 'time [s]' column"),
-        (GYRO.replace(",", ";") + ROWS, "row 1: columns must be separated by commas"),
         (
             GYRO.replace("gyro_x [rad/s]", "gyro_x") + ROWS,
-            "column gyro_x has no unit, write 'gyro_x [rad/s]'",
+            "column gyro_x has no unit, write 'gyro_x [...]' with its own (rad/s or deg/s)",
         ),
         (GYRO.replace("gyro_x [rad/s]", "gyro_x [rad") + ROWS, "column gyro_x has no unit"),
         (
@@ -187,7 +186,7 @@ def test_file_that_is_none(tmp_path, write):
     for path, says in (
         (tmp_path / "no.csv", "no such file"),
         (tmp_path, "a folder"),
-        (write("x", "log.txt"), "must end in"),
+        (write("x", "log.doc"), "must end in"),
         (write("x", "log.parquet"), "cannot be read as Parquet"),
     ):
         with pytest.raises(UserError, match=says):
@@ -268,7 +267,7 @@ def test_reference_attitude_is_normalised(write):
 @settings(max_examples=20, deadline=None)
 @given(
     values=arrays(float, (5, 3), elements=st.floats(-1e9, 1e9) | st.just(math.nan)),
-    time=st.lists(st.integers(0, 10**9), min_size=5, max_size=5, unique=True),
+    time=st.lists(st.integers(0, 10**5), min_size=5, max_size=5, unique=True),
 )
 def test_read_of_write_is_identity(tmp_path_factory, name, values, time):
     recording = Recording.from_arrays(

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import matplotlib
+from typing import TYPE_CHECKING
+
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
@@ -18,15 +17,19 @@ from pyimu.report.figures import (
     FLOOR,
     GREY,
     INK,
-    STYLE,
     WIDTH,
     envelope,
     legend,
     new_figure,
+    style,
     svg_of,
     unit_of_time,
 )
 from pyimu.report.numbers import in_unit, pretty, unit_for
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 WIDER = 2.0
 """Standard deviations on either side of an estimate that its band takes: 95 %."""
@@ -77,7 +80,7 @@ def status_picture(a: Outcome) -> str:
 
 def whole_figure(a: Outcome) -> Figure:
     """Angles, bias and innovations above each other, on white."""
-    with matplotlib.rc_context(STYLE | {"figure.facecolor": "white", "axes.facecolor": "white"}):
+    with style({"figure.facecolor": "white", "axes.facecolor": "white"}):
         figure, panels = new_figure(9.0, 11.0, 7)
         draw_angles(a, panels[:3])
         draw_bias(a, panels[3:6])
@@ -89,7 +92,7 @@ def whole_figure(a: Outcome) -> Figure:
 
 def _drawn(rows: int, height: float, draw, a: Outcome, columns: int) -> str:
     """A figure of so many panels as an SVG; its legend has so many ``columns``, 0 for none."""
-    with matplotlib.rc_context(STYLE):
+    with style():
         figure, panels = new_figure(WIDTH, 0.7 + height * rows, rows)
         draw(panels)
         panels[-1].set_xlabel(f"time [{unit_of_time(a.duration)[1]}]")
@@ -151,9 +154,9 @@ def draw_nis(a: Outcome, panel: Axes) -> None:
     """The normalised innovations squared, and between which bounds 95 % of them should lie."""
     time, nis = a.time[a.updates] - a.time[0], a.nis[a.updates]
     second = unit_of_time(a.duration)[0]
-    for level, style in zip((*NIS_BOUNDS, chi2.median(3)), ("--", "--", ":"), strict=True):
+    for level, dash in zip((*NIS_BOUNDS, chi2.median(3)), ("--", "--", ":"), strict=True):
         label = {NIS_BOUNDS[0]: "its 95 % bounds", chi2.median(3): "its median"}.get(level)
-        panel.axhline(level, color=INK, lw=0.9, ls=style, label=label)
+        panel.axhline(level, color=INK, lw=0.9, ls=dash, label=label)
     bins = min(len(nis) // PER_BIN, MOST_BINS)
     if bins < 2:
         panel.plot(time / second, nis, ".", color=AFTER, ms=2.5, label="NIS")

@@ -21,6 +21,7 @@ import numpy as np
 from pyimu.errors import Finding, UserError
 from pyimu.recording.columns import GROUPS, column_names
 from pyimu.recording.formats.reader import Columns, Reader, need
+from pyimu.recording.formats.streams import reading
 
 TYPES = {"imu": "sensor_msgs/msg/Imu", "temperature": "sensor_msgs/msg/Temperature"}
 """What a topic of each role holds."""
@@ -130,17 +131,14 @@ def _bag(path: Path) -> Iterator[Any]:
     highlevel = need("rosbags.highlevel", "ros", path)
     typesys = need("rosbags.typesys", "ros", path)
     # bags of ROS 2 before Iron hold no definitions; Imu and Temperature have been the same in all
-    try:
-        with highlevel.AnyReader(
+    # Its errors have no common class: those of SQLite, YAML and two bag formats pass through.
+    with (
+        reading(path, "a ROS bag"),
+        highlevel.AnyReader(
             [path], default_typestore=typesys.get_typestore(typesys.Stores.LATEST)
-        ) as bag:
-            yield bag
-    except UserError:
-        raise
-    except Exception as error:  # noqa: BLE001
-        # Its errors have no common class: those of SQLite, YAML and two bag formats pass through.
-        reason = (str(error).splitlines() or [type(error).__name__])[0]
-        raise UserError(f"{path}: cannot be read as a ROS bag ({reason})") from None
+        ) as bag,
+    ):
+        yield bag
 
 
 def _message(bag: Any, connection: Any, logged: int, raw: bytes) -> Any:

@@ -24,6 +24,21 @@ BATCH = 1 << 16
 """Rows of a piece."""
 
 
+RATES = ("samplingrate", "samplerate", "samplingfrequency", "fs")
+"""Names of single values that say the sample rate in Hz, without underscores, in small letters."""
+
+
+def stated_rate(values: Mapping[str, Any]) -> float | None:
+    """Hz; the one sample rate among the single ``values`` of a file, None where there is none."""
+    found = set()
+    for name, value in values.items():
+        last = name.rpartition("/")[2].replace("_", "").casefold()
+        if last in RATES and np.size(value) == 1 and np.asarray(value).dtype.kind in "iuf":
+            found.add(float(np.asarray(value).reshape(())))
+    hertz = found.pop() if len(found) == 1 else None
+    return hertz if hertz is not None and 1e-3 <= hertz <= 1e6 else None
+
+
 @dataclass(frozen=True)
 class Column:
     """A column in a file of arrays.
@@ -104,8 +119,15 @@ class DatasetReader(Reader):
 
     crowded = True
 
-    def __init__(self, path: Path, columns: list[Column], skipped: Sequence[str] = ()) -> None:
+    def __init__(
+        self,
+        path: Path,
+        columns: list[Column],
+        skipped: Sequence[str] = (),
+        rate: float | None = None,
+    ) -> None:
         self.path = path
+        self.rate = rate
         self.skipped = tuple(skipped)
         self.columns = columns
         self.header = [column.name for column in columns]

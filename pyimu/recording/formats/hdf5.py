@@ -7,9 +7,9 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from pyimu.errors import UserError
-from pyimu.recording.formats.datasets import Column, DatasetReader, columns_of, skipped
+from pyimu.recording.formats.datasets import Column, DatasetReader, columns_of, skipped, stated_rate
 from pyimu.recording.formats.reader import need
+from pyimu.recording.formats.streams import reading
 
 CACHE = 1 << 25
 """Bytes of decompressed chunks kept for each array: a slice may end inside of a chunk, which the
@@ -28,9 +28,14 @@ class Hdf5Reader(DatasetReader):
     """An HDF5 file; ``extra`` is the extra of the package that its reader is asked under."""
 
     def __init__(
-        self, path: Path, columns: list[Column], extra: str, skipped: Sequence[str] = ()
+        self,
+        path: Path,
+        columns: list[Column],
+        extra: str,
+        skipped: Sequence[str] = (),
+        rate: float | None = None,
     ) -> None:
-        super().__init__(path, columns, skipped)
+        super().__init__(path, columns, skipped, rate)
         self.extra = extra
 
     @classmethod
@@ -38,12 +43,15 @@ class Hdf5Reader(DatasetReader):
         """Raises UserError for a file that is none, and where h5py is not installed."""
         with _file(path, extra) as file:
             arrays: list[tuple] = []
+            single = dict(file.attrs)
             file.visititems(lambda name, item: arrays.extend(_array(name, item)))
+            file.visititems(lambda name, item: single.update(_single(name, item)))
             return cls(
                 path,
                 [c for array in arrays for c in columns_of(*array)],
                 extra,
                 [s for array in arrays for s in skipped(*array)],
+                stated_rate(single),
             )
 
     @contextmanager
@@ -55,11 +63,16 @@ class Hdf5Reader(DatasetReader):
 @contextmanager
 def _file(path: Path, extra: str) -> Iterator[Any]:
     h5py = need("h5py", extra, path)
-    try:
-        with h5py.File(path, "r", rdcc_nbytes=CACHE) as file:
-            yield file
-    except (OSError, RuntimeError) as error:
-        raise UserError(f"{path}: cannot be read as HDF5 ({str(error).splitlines()[0]})") from None
+    with reading(path, "HDF5"), h5py.File(path, "r", rdcc_nbytes=CACHE) as file:
+        yield file
+
+
+def _single(name: str, item: Any) -> dict[str, Any]:
+    """The value of an ``item`` that holds one alone, by its name, and those of its attributes."""
+    found = {f"{name}/{key}": value for key, value in item.attrs.items()}
+    if hasattr(item, "dtype") and item.size == 1 and item.dtype.kind in "iuf":
+        found[name] = item[()]
+    return found
 
 
 def _array(name: str, item: Any) -> list[tuple]:

@@ -10,8 +10,9 @@ from typing import Any
 import numpy as np
 
 from pyimu.errors import UserError
-from pyimu.recording.formats.datasets import DatasetReader, columns_of, skipped
+from pyimu.recording.formats.datasets import DatasetReader, columns_of, skipped, stated_rate
 from pyimu.recording.formats.hdf5 import Hdf5Reader
+from pyimu.recording.formats.mat_tags import check_tags
 
 WHOLE = 2 << 30
 """Bytes of the largest MAT file before version 7.3 that is read."""
@@ -23,7 +24,11 @@ class MatReader(DatasetReader):
     """A MAT file of version 4 to 7.2, in memory."""
 
     def __init__(
-        self, path: Path, arrays: Mapping[str, np.ndarray], skipped: Sequence[str] = ()
+        self,
+        path: Path,
+        arrays: Mapping[str, np.ndarray],
+        skipped: Sequence[str] = (),
+        rate: float | None = None,
     ) -> None:
         super().__init__(
             path,
@@ -33,6 +38,7 @@ class MatReader(DatasetReader):
                 for c in columns_of(name, array.shape, array.dtype)
             ],
             skipped,
+            rate,
         )
         self.arrays = arrays
 
@@ -55,6 +61,7 @@ class MatReader(DatasetReader):
             path,
             {name: item for name, item in items.items() if isinstance(item, np.ndarray)},
             [said for name, item in items.items() for said in _skipped(name, item)],
+            stated_rate(items),
         )
 
     def opened(self) -> AbstractContextManager[Mapping[str, np.ndarray]]:
@@ -71,6 +78,7 @@ def _is_hdf5(path: Path) -> bool:
 def _load(path: Path) -> dict[str, Any]:
     from scipy.io import loadmat
 
+    check_tags(path)
     try:  # in MATLAB's own types: a double array of whole numbers is stored in bytes
         return loadmat(path, simplify_cells=True, mat_dtype=True)
     except Exception as error:  # noqa: BLE001
@@ -84,7 +92,7 @@ def _items(folder: str, items: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
     for name, item in items.items():
         if isinstance(item, Mapping):
             yield from _items(f"{folder}{name}/", item)
-        elif isinstance(item, (np.ndarray, list)) and not name.startswith("__"):
+        elif isinstance(item, (np.ndarray, list, int, float)) and not name.startswith("__"):
             yield folder + name, item
 
 
@@ -93,6 +101,8 @@ def _skipped(name: str, item: Any) -> list[str]:
 
     Arrays of structures come as lists, cells as lists or as arrays of objects.
     """
+    if isinstance(item, (int, float)):
+        return []
     if isinstance(item, list) and item and isinstance(item[0], Mapping):
         return [f"{name} ({len(item)} structures, save one whose fields are arrays)"]
     if isinstance(item, list) or item.dtype.kind == "O":

@@ -12,6 +12,7 @@ from pyarrow import parquet
 
 from pyimu.errors import UserError
 from pyimu.recording.formats.reader import Columns, Reader, as_number
+from pyimu.recording.formats.streams import reading
 from pyimu.recording.formats.text import to_numpy
 
 BATCH = 1 << 16
@@ -74,9 +75,5 @@ def must_be_numbers(path: Path, name: str, kind: pa.DataType) -> None:
 
 @contextmanager
 def _reading(path: Path) -> Iterator[None]:
-    try:
+    with reading(path, "Parquet"):
         yield
-    except (pa.ArrowInvalid, OSError) as error:
-        raise UserError(
-            f"{path}: cannot be read as Parquet ({str(error).splitlines()[0]})"
-        ) from None

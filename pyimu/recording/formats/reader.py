@@ -21,7 +21,8 @@ class Reader(ABC):
 
     ``findings`` are what the reader had to decide. ``crowded`` says that a file may hold much else,
     so that only the columns that a map names, or whose names are a recording's own, are looked at;
-    ``skipped`` says what in it has no columns of numbers, and why.
+    ``skipped`` says what in it has no columns of numbers, and why. ``rate`` [Hz] is what the file
+    says of itself, for where it has no times, ``body`` the axes that its format defines ("frd").
     """
 
     path: Path
@@ -29,6 +30,8 @@ class Reader(ABC):
     findings: tuple[Finding, ...] = ()
     crowded = False
     skipped: tuple[str, ...] = ()
+    rate: float | None = None
+    body: str | None = None
 
     @abstractmethod
     def batches(self, positions: Sequence[int], long: int) -> Iterator[tuple[Columns, float]]:
@@ -46,6 +49,10 @@ class Reader(ABC):
 
         ``long`` is the position of the time.
         """
+
+    def numeric(self) -> list[int]:
+        """Positions of the columns that hold numbers."""
+        return list(range(len(self.header)))
 
     def place(self, index: int) -> str:
         """Where the sample ``index`` stands, for messages."""

@@ -14,18 +14,22 @@ from pyarrow import csv as pacsv
 from pyarrow import parquet
 
 from pyimu.errors import UserError
-from pyimu.files import whole
+from pyimu.files import check_regular, exists, shortened, whole
 from pyimu.recording.formats.bag import BagReader
+from pyimu.recording.formats.dataflash import DataflashReader
 from pyimu.recording.formats.hdf5 import Hdf5Reader
 from pyimu.recording.formats.mat import MatReader
 from pyimu.recording.formats.parquet import ParquetReader
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.formats.text import CsvReader
+from pyimu.recording.formats.ulog import UlogReader
+
+TEXTS = (".csv", ".txt", ".tsv", ".dat", ".asc")
+"""Suffixes of tables in text, each also with .gz behind it."""
 
 READERS: Mapping[str, Any] = MappingProxyType(
-    {
-        ".csv": CsvReader,
-        ".csv.gz": CsvReader,
+    {suffix + packed: CsvReader for suffix in TEXTS for packed in ("", ".gz")}
+    | {
         ".parquet": ParquetReader,
         ".mat": MatReader,
         ".h5": Hdf5Reader,
@@ -33,9 +37,15 @@ READERS: Mapping[str, Any] = MappingProxyType(
         ".bag": BagReader,
         ".db3": BagReader,
         ".mcap": BagReader,
+        ".ulg": UlogReader,
+        ".bin": DataflashReader,
+        ".log": DataflashReader,
     }
 )
 """The reader of each suffix; a folder with a ``metadata.yaml`` is a bag of ROS 2."""
+
+WITH_TOPICS = (BagReader, UlogReader, DataflashReader)
+"""Readers of files that hold more than one stream of samples."""
 
 
 def open_reader(path: Path, topics: Mapping[str, str] | None = None) -> Reader:
@@ -46,16 +56,18 @@ def open_reader(path: Path, topics: Mapping[str, str] | None = None) -> Reader:
     Raises UserError for a file that is missing or none of these, and for topics of a file that has
     none.
     """
-    if not path.exists():
-        raise UserError(f"{path}: no such file")
-    if path.is_dir() and not (path / "metadata.yaml").is_file():
+    folder = exists(path) and path.is_dir()
+    if folder and not (path / "metadata.yaml").is_file():
         raise UserError(f"{path}: a folder, give the files in it")
-    reader = BagReader if path.is_dir() else _by_suffix(path, READERS)
-    if reader is BagReader:
-        return BagReader.open(path, topics or {})
+    if not folder:
+        check_regular(path)
+    reader = BagReader if folder else _by_suffix(path, READERS)
+    if reader in WITH_TOPICS:
+        return reader.open(path, topics or {})
     if topics:
         raise UserError(
-            f"{path}: has no topics, only ROS bags do; leave [topics] out of the column map"
+            f"{path}: has no topics, only ROS bags, ULog and dataflash files do; leave [topics] "
+            "out of the column map"
         )
     return reader.open(path)
 
@@ -105,4 +117,5 @@ def _by_suffix(path: Path, choices: Mapping[str, Any]) -> Any:
     for suffix, choice in choices.items():
         if path.name.lower().endswith(suffix):
             return choice
-    raise UserError(f"{path}: a recording's name must end in {', '.join(choices)}")
+    suffixes = ", ".join(suffix for suffix in choices if suffix.count(".") < 2 or "csv" in suffix)
+    raise UserError(f"{shortened(path)}: a recording's name must end in {suffixes}")

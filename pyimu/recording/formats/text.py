@@ -1,44 +1,48 @@
-"""CSV files, plain and gzipped, read in pieces, and with the place of what is wrong."""
+"""Tables in text, plain and gzipped, read in pieces, and with the place of what is wrong."""
 
 from __future__ import annotations
 
-import csv
-import gzip
 import re
-import zlib
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from contextlib import contextmanager
+from dataclasses import dataclass, field
 from itertools import islice
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pyarrow as pa
 from pyarrow import csv as pacsv
 
-from pyimu.errors import UserError
+from pyimu.errors import Finding, UserError
+from pyimu.recording.formats.layout import HEAD, MISSING, Layout, is_number, layout_of
+from pyimu.recording.formats.lines import Body, is_gzip, lines, opened
 from pyimu.recording.formats.reader import Columns, Reader
-
-MISSING = ("", "NaN", "nan", "NAN", "NA", "null", "-nan")
-"""Cells of a CSV file that hold no value."""
 
 
 @dataclass(frozen=True)
 class CsvReader(Reader):
-    """A CSV file, plain or gzipped; ``header`` are the cells of its first row."""
+    """A table in text, plain or gzipped, as ``layout`` says; ``header`` are its columns' names."""
 
     path: Path
     header: list[str]
+    layout: Layout = field(default_factory=Layout)
 
     @classmethod
     def open(cls, path: Path) -> CsvReader:
-        """Open a CSV file.
+        """Open a table. Raises UserError for a file that cannot be read."""
+        layout = layout_of(path)
+        return cls(path, list(layout.names), layout)
 
-        Raises UserError for a file that cannot be read, or whose separator is not a comma.
-        """
-        first = next(_csv_rows(path), (1, []))[1]
-        if len(first) == 1 and re.search(r"[;\t]", first[0]):
-            raise UserError(f"{path}: row 1: columns must be separated by commas")
-        return cls(path, [cell.strip() for cell in first])
+    @property
+    def findings(self) -> tuple[Finding, ...]:  # type: ignore[override]
+        said = self.layout.unusual
+        return (Finding("layout", "", 1, {"read_as": said}),) if said else ()
+
+    @property
+    def rate(self) -> float | None:  # type: ignore[override]
+        """Hz; what a comment says."""
+        return self.layout.rate
 
     def batches(self, positions: Sequence[int], long: int) -> Iterator[tuple[Columns, float]]:
         """``long`` is int64 where its numbers need it.
@@ -51,45 +55,81 @@ class CsvReader(Reader):
         kinds = {name: pa.float64() for name in kept} | (
             {names[long]: pa.int64()} if self._is_long(long) else {}
         )
-        if not self._has_rows():
+        if self._first_row() is None:
             return
         done = 0
         try:
-            with pa.OSFile(str(self.path)) as raw:
-                size = max(raw.size(), 1)
+            with self._stream() as (stream, skip, share):
                 for batch in pacsv.open_csv(
-                    pa.CompressedInputStream(raw, "gzip") if _is_gzip(self.path) else raw,
-                    read_options=pacsv.ReadOptions(column_names=names, skip_rows=1),
+                    stream,
+                    read_options=pacsv.ReadOptions(column_names=names, skip_rows=skip),
+                    parse_options=pacsv.ParseOptions(delimiter=self.layout.separator),
                     convert_options=pacsv.ConvertOptions(
-                        column_types=kinds, include_columns=kept, null_values=list(MISSING)
+                        column_types=kinds,
+                        include_columns=kept,
+                        null_values=list(MISSING),
+                        decimal_point=self.layout.decimal,
                     ),
                 ):
                     done += batch.num_rows
-                    yield (
-                        [to_numpy(column) for column in batch.columns],
-                        1.0 if raw.closed else raw.tell() / size,
-                    )
-        except (pa.ArrowInvalid, OSError) as error:
+                    yield [to_numpy(column) for column in batch.columns], share()
+        except (pa.ArrowException, OSError) as error:
             self._explain(positions, done)
-            raise UserError(
-                f"{self.path}: cannot be read as CSV ({str(error).splitlines()[0]})"
-            ) from None
+            reason = (str(error).splitlines() or [type(error).__name__])[0]
+            raise UserError(f"{self.path}: cannot be read as CSV ({reason})") from None
+
+    @contextmanager
+    def _stream(self) -> Iterator[tuple[Any, int, Any]]:
+        """What to read, the lines to skip in it, and the share that was read so far."""
+        layout = self.layout
+        if layout.separator == " " or layout.comment:
+            with opened(self.path) as (stream, raw):
+                size = max(self.path.stat().st_size, 1)
+                blanks, comment = layout.separator == " ", layout.comment.encode()
+                body = Body(stream, layout.first, comment, blanks)
+                yield (
+                    pa.PythonFile(body, mode="r"),
+                    0,
+                    lambda: 1.0 if raw.closed else raw.tell() / size,
+                )
+            return
+        with pa.OSFile(str(self.path)) as raw:
+            size = max(raw.size(), 1)
+            yield (
+                pa.CompressedInputStream(raw, "gzip") if is_gzip(self.path) else raw,
+                layout.first - 1,
+                lambda: 1.0 if raw.closed else raw.tell() / size,
+            )
 
     def count(self, long: int) -> None:
         return None
 
+    def numeric(self) -> list[int]:
+        """Positions of the columns whose cells are numbers in the first rows."""
+        rows = [cells for _, cells in islice(self._rows(), HEAD) if len(cells) == len(self.header)]
+        return [
+            k
+            for k in range(len(self.header))
+            if all(is_number(row[k], self.layout.decimal) for row in rows)
+            and any(row[k].strip() not in MISSING for row in rows)
+        ]
+
     def place(self, index: int) -> str:
         """Row of the sample ``index``, as a spreadsheet counts it; blank rows hold no sample."""
-        rows = (row for k, (row, _) in enumerate(_csv_rows(self.path)) if k == index + 1)
-        return f"row {next(rows, index + 2)}"
+        row = next(islice(self._rows(), index, None), None)
+        return f"row {index + self.layout.first if row is None else row[0]}"
+
+    def _rows(self) -> Iterator[tuple[int, list[str]]]:
+        """(row, cells) of each row of numbers that is not blank, as a spreadsheet counts them."""
+        layout = self.layout
+        for number, line in enumerate(lines(self.path), 1):
+            if number < layout.first or not line.strip():
+                continue
+            if not layout.comment or not line.startswith(layout.comment):
+                yield number, layout.cells(line.rstrip("\r\n"))
 
     def _first_row(self) -> list[str] | None:
-        rows = _csv_rows(self.path)
-        next(rows, None)
-        return next(rows, (2, None))[1]
-
-    def _has_rows(self) -> bool:
-        return self._first_row() is not None
+        return next(self._rows(), (0, None))[1]
 
     def _is_long(self, position: int) -> bool:
         """Whether a column starts with an integer that float64 would round (Unix time in ns)."""
@@ -104,14 +144,14 @@ class CsvReader(Reader):
 
         A cell is wrong where it is not a number, a row where it is too long or too short.
         """
-        for row, cells in islice(_csv_rows(self.path), 1 + good, None):
+        for row, cells in islice(self._rows(), good, None):
             if len(cells) != len(self.header):
                 raise UserError(
                     f"{self.path}: row {row}: {len(cells)} cells, expected {len(self.header)} as "
-                    "in the header"
+                    f"in {'the header' if self.layout.named else 'the others'}"
                 )
             for position in positions:
-                if not _is_number(cells[position]):
+                if not is_number(cells[position], self.layout.decimal):
                     place = f"{self.path}: row {row}, column {self.header[position]}"
                     raise UserError(f"{place}: '{cells[position]}' is not a number")
 
@@ -121,33 +161,3 @@ def to_numpy(column: pa.Array) -> np.ndarray:
     return (column if column.null_count == 0 else column.cast(pa.float64())).to_numpy(
         zero_copy_only=False
     )
-
-
-def _is_gzip(path: Path) -> bool:
-    return path.name.lower().endswith(".gz")
-
-
-def _csv_rows(path: Path) -> Iterator[tuple[int, list[str]]]:
-    """(row, cells) of each row that is not blank; the header is row 1."""
-    try:
-        with (gzip.open if _is_gzip(path) else open)(
-            path, "rt", encoding="utf-8-sig", newline=""
-        ) as stream:
-            reader = csv.reader(stream)
-            yield from ((reader.line_num, cells) for cells in reader if cells)
-    except UnicodeDecodeError:
-        raise UserError(f"{path}: is not text in UTF-8") from None
-    except (OSError, EOFError, zlib.error, csv.Error) as error:
-        raise UserError(
-            f"{path}: cannot be read ({getattr(error, 'strerror', None) or error})"
-        ) from None
-
-
-def _is_number(cell: str) -> bool:
-    if cell.strip() in MISSING:
-        return True
-    try:
-        float(cell)
-    except ValueError:
-        return False
-    return "_" not in cell

@@ -50,6 +50,19 @@ def of_reading(recording: Recording) -> tuple[Finding, ...]:
     return tuple(clock.findings())
 
 
+APART = 0.1
+"""Part by which a log's rate may be off its part's: the clocks of such sensors keep theirs to some
+percent (LSM6DSO, BMI270: 5 %)."""
+
+
+def rate_of_part(recording: Recording, rate: float) -> list[Finding]:
+    """That the part's sample rate [Hz] is another than the log's, where it is."""
+    if abs(recording.sample_rate / rate - 1) <= APART:
+        return []
+    detail = {"rate": recording.sample_rate, "other_rate": rate}
+    return [Finding("rate_of_part", "time", 1, detail)]
+
+
 def _channels(recording: Recording) -> tuple[list[str], np.ndarray]:
     """Names and samples (n, columns) of the gyro and accelerometer columns."""
     present = [group for group in ("gyro", "accel") if getattr(recording, group) is not None]

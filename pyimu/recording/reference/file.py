@@ -32,7 +32,7 @@ def read_reference(path: str | os.PathLike, columns: str | os.PathLike | None = 
     ``columns`` is that of ``read_recording``. Raises UserError as that does, and for a file without
     a reference.
     """
-    source = Source.open(Path(path), None if columns is None else Path(columns), reference=True)
+    source = Source.open(Path(path), None if columns is None else Path(columns), "reference")
     return Log(source).read()
 
 

@@ -1,0 +1,140 @@
+"""A log looked into: its columns and their units, rates, gaps, rests, and the map to read it by."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from pyimu.errors import UserError
+from pyimu.files import exists, parse_toml
+from pyimu.inspection.result import Inspection
+from pyimu.recording.column_map import ForeignMap, map_of, read_map
+from pyimu.recording.columns import UNITS
+from pyimu.recording.formats.reader import Reader
+from pyimu.recording.formats.suffix import open_reader
+from pyimu.recording.guess.proposal import Guess, Proposal, proposed
+from pyimu.recording.guess.writing import text_of
+from pyimu.recording.known import recognised
+from pyimu.recording.log import Log
+from pyimu.recording.phone import is_phone, of_phone
+from pyimu.recording.quality.in_pieces import quality
+from pyimu.recording.recording import Recording
+from pyimu.recording.rest import is_at_rest, rests
+from pyimu.recording.rows import Source
+
+Given = str | os.PathLike
+
+
+def inspect(
+    paths: Given | Sequence[Given],
+    columns: Given | None = None,
+    say: Callable[..., None] = lambda *_: None,
+) -> Inspection:
+    """What is in a log, or in the files of one log, the first of which holds its gyro.
+
+    ``columns`` is a column map that is there already. Raises UserError for files that are no table
+    of numbers at all; what else keeps a log from being read is in the result.
+    """
+    given = [Path(paths)] if isinstance(paths, (str, os.PathLike)) else [Path(p) for p in paths]
+    foreign = None if columns is None else read_map(Path(columns))
+    if len(given) == 1 and exists(given[0]) and given[0].is_dir() and is_phone(given[0]):
+        first, phone = of_phone(given[0])
+        given = [first, *(first.parent / name for name, _ in phone.files)]
+        foreign = phone if foreign is None else foreign
+    say("looking at the columns")
+    readers = [open_reader(path, foreign.topics if foreign else {}) for path in given]
+    known = None if foreign is not None else recognised(readers[0])
+    kind = _kind(readers[0], known is not None, foreign is not None)
+    proposals = []
+    for index, reader in enumerate(readers):
+        own = _own_map(reader, foreign, index)
+        proposals.append(proposed(reader) if own is None else _declared(reader, own))
+    text = text_of(_ordered(proposals))
+    found = Inspection(given[0], kind, known[0] if known else "", proposals, text)
+    say("reading")
+    if foreign is None and known is not None and len(given) == 1:
+        foreign = known[1]
+    try:
+        recording = _read(readers, proposals, foreign, text)
+    except UserError as error:
+        return replace(found, problem=str(error))
+    say("looking for rests")
+    return replace(
+        found,
+        recording=recording,
+        findings=quality(recording),
+        rests=rests(recording),
+        still=is_at_rest(recording),
+    )
+
+
+def _ordered(proposals: Sequence[Proposal]) -> list[Proposal]:
+    """That with the gyro first: the log's times are those of its gyro."""
+    return sorted(proposals, key=lambda p: "gyro" not in p.groups)
+
+
+def _kind(reader: Reader, known: bool, mapped: bool) -> str:
+    """How it is known what the columns are."""
+    if mapped:
+        return "map"
+    if known:
+        return "known"
+    return "own" if any(_target(cell) for cell in reader.header) else "guessed"
+
+
+def _target(cell: str) -> str | None:
+    """The recording's own name in a header's cell that has one with a unit."""
+    name, bracket, _ = cell.partition("[")
+    return name.strip() if bracket and name.strip() in UNITS else None
+
+
+def _own_map(reader: Reader, foreign: ForeignMap | None, index: int) -> ForeignMap | None:
+    """The columns that are declared for the file of number ``index``, None where none are."""
+    if foreign is not None and foreign.columns:
+        return foreign if index == 0 else (dict(foreign.files).get(reader.path.name))
+    known = recognised(reader)
+    if known is not None:
+        return known[1]
+    if any(_target(cell) for cell in reader.header):
+        return ForeignMap(columns={cell: cell for cell in reader.header if _target(cell)})
+    return None
+
+
+def _declared(reader: Reader, foreign: ForeignMap) -> Proposal:
+    """What a map, a format's definition or the header itself says of the columns."""
+    found = Proposal(reader.path, tuple(reader.header))
+    for cell, target in foreign.columns.items():
+        name = _target(target)
+        if name is not None and cell in reader.header:
+            unit = target.partition("[")[2].rstrip("] ")
+            size = foreign.scale.get(name) if unit == "count" else None
+            value = None if size is None else size.value
+            said = unit if size is None else size.unit.text
+            found.add([Guess(cell, name, said, "declared", value)])
+    if "time" not in found.groups:
+        found.rate = foreign.rate or reader.rate
+    return found
+
+
+def _read(
+    readers: Sequence[Reader],
+    proposals: Sequence[Proposal],
+    declared: ForeignMap | None,
+    text: str,
+) -> Recording:
+    """The log, by what is declared, or else by the map that was written."""
+    if declared is not None:
+        return Log(Source.of(readers[0], declared)).read()
+    order = sorted(range(len(readers)), key=lambda k: "gyro" not in proposals[k].groups)
+    reader = readers[order[0]]
+    if len(readers) == 1 and any(_target(cell) for cell in reader.header):
+        return Log(Source.of(reader, ForeignMap())).read()
+    unknown = [group for p in proposals for group in p.open_questions]
+    sensors = {group for p in proposals for group in p.groups} & {"gyro", "accel"}
+    if "time" in unknown or sensors <= set(unknown):
+        asked = " and ".join(dict.fromkeys(unknown)) or "gyro and accelerometer"
+        raise UserError(f"{reader.path}: nothing tells the unit of {asked}: choose it in the map")
+    foreign = map_of(parse_toml(text, "map"), Path("the map that was written"))
+    return Log(Source.of(reader, foreign)).read()

@@ -1,0 +1,241 @@
+"""The layout of a table in text, told from its first lines.
+
+Separator and decimal mark, lines of comment, rows of names and of units, the first row of numbers,
+and a sample rate that a comment states.
+"""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import islice
+from pathlib import Path
+
+from pyimu.recording.formats.lines import lines
+from pyimu.recording.spelling import unit_of
+
+MISSING = (
+    *("", "NaN", "nan", "NAN", "-nan", "-NaN", "NA", "N/A", "n/a", "#N/A"),
+    *("null", "NULL", "None", "-", "--"),
+)
+"""Cells of a table that hold no value."""
+
+HEAD = 120
+"""Lines from which the layout is told."""
+
+COMMENTS = ("#", "//", "%", '"#')
+"""What a line of comment begins with."""
+
+FORMS = ((",", "."), (";", "."), ("\t", "."), ("|", "."), (" ", "."))
+"""Separators and decimal marks, the likelier first; a blank stands for any run of blanks."""
+
+COMMAS = ((";", ","), ("\t", ","), ("|", ","), (" ", ","))
+
+MOST_NAMES = 3
+"""Rows of names and units, at most."""
+
+_RATE = re.compile(
+    r"\b(?:update|sampl\w*|output|data)\s*(?:data\s*)?(?:rate|freq\w*)\W{1,4}([\d.]+)\s*(k?)Hz",
+    re.I,
+)
+
+
+@dataclass(frozen=True)
+class Layout:
+    """How a table stands in its file.
+
+    ``names`` are of its columns, ``column 1`` and so on where the file has none; ``first`` is the
+    line of the first row of numbers, from 1. Lines that begin with ``comment`` are left out.
+    ``rate`` [Hz] is what a comment says. ``unusual`` says what a spreadsheet's file would not have.
+    """
+
+    separator: str = ","
+    decimal: str = "."
+    names: tuple[str, ...] = ()
+    first: int = 2
+    comment: str = ""
+    rate: float | None = None
+    named: bool = True
+
+    @property
+    def unusual(self) -> str:
+        separators = {",": "", ";": "semicolons", "\t": "tabs", " ": "blanks", "|": "bars"}
+        said = [
+            f"columns separated by {separators[self.separator]}" if self.separator != "," else "",
+            "decimal commas" if self.decimal == "," else "",
+            "" if self.named else "no names of columns",
+            f"the numbers begin in row {self.first}" if self.first > 2 else "",
+        ]
+        return ", ".join(word for word in said if word)
+
+    def cells(self, line: str) -> list[str]:
+        """The cells of a line; one alone where it is no row of a table."""
+        if self.separator == " ":
+            return line.split()
+        try:
+            return next(csv.reader([line], delimiter=self.separator), [])
+        except csv.Error:
+            return [line]
+
+
+def layout_of(path: Path) -> Layout:
+    """The layout of the table in ``path``. Raises UserError for what is no text."""
+    return told_from(list(islice(lines(path), HEAD)))
+
+
+def told_from(head: Sequence[str]) -> Layout:
+    """The layout of a table with the first lines ``head``."""
+    numbered = [(k, line.rstrip("\r\n")) for k, line in enumerate(head, 1) if line.strip()]
+    notes = [line for _, line in numbered if line.startswith(COMMENTS)]
+    rows = [(k, line) for k, line in numbered if not line.startswith(COMMENTS)]
+    form = _form([line for _, line in rows])
+    comment = next((c for c in COMMENTS if notes and notes[0].startswith(c)), "")
+    if form is None:
+        names = Layout().cells(rows[0][1]) if rows else []
+        return Layout(names=tuple(map(str.strip, names)), first=rows[0][0] + 1 if rows else 1)
+    cells = [(k, form.cells(line)) for k, line in rows]
+    width = _width([c for _, c in cells])
+    start = _start([c for _, c in cells], width, form.decimal)
+    first = cells[start][0] if start < len(cells) else rows[-1][0] + 1
+    named = [c for _, c in cells[:start] if len(c) > 1][-MOST_NAMES:]
+    if not named:
+        above = [re.sub(r'^("?#|//|%)+\s*', "", line) for k, line in numbered if k < first]
+        named = _names_above(above, form, width)
+    names = _names(named, width)
+    rate = next((_hertz(m) for line in notes[:HEAD] if (m := _RATE.search(line))), None)
+    return Layout(
+        form.separator,
+        form.decimal,
+        names or tuple(f"column {k + 1}" for k in range(width)),
+        first,
+        comment,
+        rate,
+        bool(names),
+    )
+
+
+def is_number(cell: str, decimal: str = ".") -> bool:
+    """Whether a cell holds a number, or says that it holds none."""
+    cell = cell.strip()
+    if cell in MISSING:
+        return True
+    if decimal == ",":
+        if "." in cell:
+            return False
+        cell = cell.replace(",", ".")
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return "_" not in cell
+
+
+def _form(rows: Sequence[str]) -> Layout | None:
+    """Separator and decimal mark under which most of the last rows are numbers, None where none."""
+    tail = rows[len(rows) // 2 :]
+    scored = [(_score(tail, Layout(s, d)), Layout(s, d)) for s, d in (*FORMS, *COMMAS)]
+    best, form = max(scored, key=lambda item: item[0])
+    return form if best > 0 else None
+
+
+def _score(rows: Sequence[str], form: Layout) -> float:
+    """Share of the cells that are numbers, of rows with the usual number of cells above one."""
+    cells = [form.cells(row) for row in rows]
+    width = _width(cells)
+    if width < 2:
+        return 0.0
+    shares = [
+        sum(is_number(c, form.decimal) and bool(c.strip()) for c in row)
+        / max(sum(bool(c.strip()) for c in row), 1)
+        for row in cells
+        if len(row) == width
+    ]
+    return sum(shares) / len(cells) if shares else 0.0
+
+
+def _width(rows: Sequence[Sequence[str]]) -> int:
+    """The usual number of cells, of the last half of the rows."""
+    counts = Counter(len(row) for row in rows[len(rows) // 2 :])
+    return max(counts, key=lambda width: (counts[width], width), default=0)
+
+
+def _start(rows: Sequence[Sequence[str]], width: int, decimal: str) -> int:
+    """Position of the first row of numbers."""
+    for at, row in enumerate(rows):
+        filled = [c for c in row if c.strip()]
+        numbers = sum(is_number(c, decimal) for c in filled)
+        if len(row) == width and filled and 2 * numbers >= len(filled):
+            if at or not _names_first(rows, width, decimal):
+                return at
+    return len(rows)
+
+
+def _names_first(rows: Sequence[Sequence[str]], width: int, decimal: str) -> bool:
+    """Whether the first row names its columns: texts stand above numbers."""
+    below = [row for row in rows[1:] if len(row) == width]
+    return bool(below) and any(
+        not is_number(cell, decimal)
+        and 10 * sum(is_number(row[k], decimal) for row in below) >= 9 * len(below)
+        for k, cell in enumerate(rows[0])
+    )
+
+
+def _names_above(lines_above: Sequence[str], form: Layout, width: int) -> list[list[str]]:
+    """The last line above the numbers, where it has a name for every column.
+
+    It may be a comment, or have another separator than the numbers.
+    """
+    for line in lines_above[-1:]:
+        for shape in (form, *(Layout(separator) for separator, _ in FORMS)):
+            cells = shape.cells(line)
+            if len(cells) == width and not any(is_number(c) for c in cells):
+                return [cells]
+    return []
+
+
+def _names(rows: Sequence[Sequence[str]], width: int) -> tuple[str, ...]:
+    """One name for each column of the rows of names, in brackets the unit of a row of units."""
+    rows = [_fitted(row, width) for row in rows]
+    units = None
+    if len(rows) > 1 and _are_units(rows[-1]):
+        units, rows = rows[-1], rows[:-1]
+    filled = [*(_rightwards(row) for row in rows[:-1]), *rows[-1:]]
+    names = [" ".join(filter(None, parts)) for parts in zip(*filled, strict=True)]
+    if units is not None:
+        names = [
+            f"{name} [{unit.strip('[]() ')}]" if unit and "[" not in name else name
+            for name, unit in zip(names, units, strict=True)
+        ]
+    return tuple(names)
+
+
+def _fitted(row: Sequence[str], width: int) -> list[str]:
+    """The cells, without blank ones too many, and as many as there are columns where too few."""
+    cells = [cell.strip() for cell in row]
+    while len(cells) > width and not cells[-1]:
+        cells.pop()
+    return (cells + [""] * (width - len(cells)))[: max(width, 0)]
+
+
+def _are_units(row: Sequence[str]) -> bool:
+    filled = [cell.strip("[]() ") for cell in row if cell]
+    return 2 * len(filled) >= len(row) and all(unit_of(cell) for cell in filled)
+
+
+def _rightwards(row: Sequence[str]) -> list[str]:
+    """Each blank cell filled with the name that stands left of it."""
+    filled: list[str] = []
+    for cell in row:
+        filled.append(cell or (filled[-1] if filled else ""))
+    return filled
+
+
+def _hertz(match: re.Match[str]) -> float | None:
+    try:
+        value = float(match[1]) * (1000 if match[2] else 1)
+    except ValueError:
+        return None
+    return value if value > 0 else None

@@ -1,0 +1,67 @@
+"""A file without times: its samples are those of a rate."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from pyimu.errors import Finding
+from pyimu.recording.formats.reader import Columns, Reader
+
+TIME = "time [s]"
+"""The column that is added."""
+
+
+@dataclass(frozen=True)
+class TimedReader(Reader):
+    """What ``reader`` reads, and behind it the column ``TIME``: sample k is at k / ``hertz``."""
+
+    reader: Reader
+    hertz: float
+    source: str
+    """Where the rate is from."""
+
+    @property
+    def path(self):  # type: ignore[no-untyped-def, override]
+        return self.reader.path
+
+    @property
+    def crowded(self) -> bool:  # type: ignore[override]
+        return self.reader.crowded
+
+    @property
+    def skipped(self) -> tuple[str, ...]:  # type: ignore[override]
+        return self.reader.skipped
+
+    @property
+    def body(self) -> str | None:  # type: ignore[override]
+        return self.reader.body
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:  # type: ignore[override]
+        detail = {"rate": self.hertz, "from": self.source}
+        return (*self.reader.findings, Finding("nominal_time", "time", 1, detail))
+
+    @property
+    def header(self) -> list[str]:  # type: ignore[override]
+        return [*self.reader.header, TIME]
+
+    def batches(self, positions: Sequence[int], long: int) -> Iterator[tuple[Columns, float]]:
+        own = len(self.reader.header)
+        theirs = [p for p in positions if p != own]
+        done = 0
+        for columns, share in self.reader.batches(theirs, theirs[0] if theirs else 0):
+            rows = len(columns[0])
+            found = dict(zip(theirs, columns, strict=True))
+            found[own] = np.arange(done, done + rows) / self.hertz
+            done += rows
+            yield [np.asarray(found[p], dtype=float) for p in positions], share
+
+    def count(self, long: int) -> int | None:
+        names = [k for k, name in enumerate(self.reader.header) if "gyr" in name or "acc" in name]
+        return self.reader.count(names[0] if names else 0)
+
+    def place(self, index: int) -> str:
+        return self.reader.place(index)

@@ -1,0 +1,167 @@
+"""What the numbers of a column say of its unit."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from pyimu.units import STANDARD_GRAVITY
+
+SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
+"""Units in which clocks count."""
+
+USUAL = (8.0, 8000.0)
+"""Hz; three decades, within which most inertial sensors are sampled, so that of units a factor of
+1000 apart one fits."""
+
+EPOCH = (946684800.0, 4102444800.0)
+"""s since 1970 of the years 2000 and 2100: so large a time is a date, and tells its unit."""
+
+NEAR_GRAVITY = 0.1
+"""By how much the size of gravity may be off where a sensor rests."""
+
+LIKE = 2.0
+"""A slope of the gravity's turning on the rate is that of a unit to this factor."""
+
+SURE = 0.4
+"""Least correlation of the gravity's turning with what the rate makes of it. Chosen on BROAD 02, 07
+and an MPU-9150 turned by hand; of a car, a pendulum and a board waved by hand it then gave the
+right unit, and none of a wand that is swung, of fast shifts by hand and of a log at rest."""
+
+FASTEST = 100.0
+"""rad/s; hands, vehicles and robots do not turn as fast: larger numbers are degrees a second."""
+
+BLOCKS = (0.04, 0.1, 0.2, 0.5, 1.0)
+"""s; over so long means the turning of gravity is compared with the rate: fast turns need short
+ones, slow turns long ones, and of all that counts in which the two agree best."""
+
+
+@dataclass(frozen=True)
+class UnitGuess:
+    """A unit and the reason for it; ``unit`` is None where the numbers do not tell.
+
+    ``value`` is the size of one count in ``unit`` where the numbers are counts.
+    """
+
+    unit: str | None
+    why: str
+    value: float | None = None
+
+
+def time_unit(time: np.ndarray) -> UnitGuess:
+    """The unit in which the times (n,) count.
+
+    A date tells it; else the one in which the rate is usual (``USUAL``).
+    """
+    known = time[np.isfinite(time.astype(float))]
+    step = np.diff(known)
+    step = step[step > 0]
+    if len(known) < 3 or not len(step):
+        return UnitGuess(None, "the numbers do not rise")
+    median, first = float(np.median(step)), float(known[0])
+    rates = {unit: 1 / (median * size) for unit, size in SECONDS.items()}
+    for unit, size in SECONDS.items():
+        if EPOCH[0] < first * size < EPOCH[1] and 1e-3 <= rates[unit] <= 1e6:
+            year = int(1970 + first * size / 31556952)
+            return UnitGuess(unit, f"a date of {year}, at {rates[unit]:.4g} Hz")
+    if np.all(step == 1):
+        return UnitGuess(None, "whole numbers one apart: a counter of samples, or times")
+    usual = [unit for unit, rate in rates.items() if USUAL[0] <= rate < USUAL[1]]
+    if not usual:
+        return UnitGuess(None, f"steps of {median:.4g} are no usual rate in any unit")
+    return UnitGuess(usual[0], f"steps of {median:.4g} are {rates[usual[0]]:.4g} Hz then")
+
+
+def counts(values: np.ndarray) -> bool:
+    """Whether all numbers are whole, and not few of them."""
+    known = values[np.isfinite(values)]
+    return len(known) >= 100 and bool(np.all(known == np.rint(known))) and float(np.ptp(known)) > 1
+
+
+def force_unit(force: np.ndarray) -> UnitGuess:
+    """The unit of specific forces (n, 3), by the size of gravity in the quietest tenth."""
+    size = resting_size(force)
+    if size is None:
+        return UnitGuess(None, "no quiet part of the log shows gravity")
+    for unit, one in (("m/s^2", STANDARD_GRAVITY), ("g", 1.0), ("mg", 1000.0)):
+        if abs(size / one - 1) < NEAR_GRAVITY and not (unit == "mg" and _is_power(size)):
+            return UnitGuess(unit, f"gravity is {size:.4g} then")
+    if counts(force.ravel()) and size > 100:
+        whole = 2.0 ** round(np.log2(size))
+        if abs(size / whole - 1) < NEAR_GRAVITY:
+            return UnitGuess("g", f"gravity is {size:.5g} counts, {whole:.0f} a g", 1 / whole)
+        return UnitGuess(None, f"gravity is {size:.5g} counts: see the data sheet for LSB/g")
+    return UnitGuess(None, f"gravity is {size:.4g}, in no usual unit (does the log hold it?)")
+
+
+def _is_power(size: float) -> bool:
+    return abs(size - 1024) < 20
+
+
+def resting_size(force: np.ndarray) -> float | None:
+    """The median size of the specific force in the quietest tenth of blocks, None without one."""
+    length = max(4, min(100, len(force) // 20))
+    blocks = force[: len(force) // length * length].reshape(-1, length, 3)
+    blocks = blocks[np.all(np.isfinite(blocks), axis=(1, 2))]
+    if not len(blocks):
+        return None
+    spread = blocks.std(axis=1).sum(axis=1)
+    quiet = blocks[spread <= np.quantile(spread, 0.1)].mean(axis=1)
+    size = float(np.median(np.linalg.norm(quiet, axis=1)))
+    return size if size > 0 else None
+
+
+def rate_unit(rate: np.ndarray, force: np.ndarray | None, period: float | None) -> UnitGuess:
+    """The unit of rates (n, 3): how gravity turns in the body shows their size.
+
+    At rest in the world a force f turns by df/dt = -w x f; the slope of what is seen of it on what
+    the numbers w make of it is one in rad/s, and pi/180 in deg/s.
+    """
+    largest = float(np.nanmax(np.abs(rate))) if np.isfinite(rate).any() else 0.0
+    if force is not None and period is not None:
+        found = [_turning(rate, force, max(round(block / period), 2), period) for block in BLOCKS]
+        slope, correlation = max(found, key=lambda pair: pair[1])
+        if correlation > SURE:
+            for unit, one in (("rad/s", 1.0), ("deg/s", np.pi / 180)):
+                if 1 / LIKE < slope / one < LIKE:
+                    why = f"gravity turns {slope / one:.2f} times as fast as these say"
+                    return UnitGuess(unit, why)
+            if counts(rate.ravel()):
+                lsb = np.pi / 180 / slope
+                near = min((131.0, 65.5, 32.8, 16.4), key=lambda k: abs(np.log(lsb / k)))
+                if abs(lsb / near - 1) < 0.25:
+                    why = f"gravity's turning shows {lsb:.3g} counts a deg/s"
+                    return UnitGuess("deg/s", why, 1 / near)
+            return UnitGuess(None, f"gravity turns {slope:.3g} rad for 1 of these")
+    if counts(rate.ravel()) and largest > 100:
+        return UnitGuess(None, "whole numbers: counts? see the data sheet for LSB/(deg/s)")
+    if largest > FASTEST:
+        return UnitGuess("deg/s", f"{largest:.4g} rad/s would be faster than anything turns")
+    lacks = "there is no accelerometer beside it" if force is None else "it does not turn enough"
+    return UnitGuess(None, f"rad/s or deg/s? {lacks} to tell")
+
+
+def _turning(
+    rate: np.ndarray, force: np.ndarray, length: int, period: float
+) -> tuple[float, float]:
+    """Slope and correlation of the change of the force on that which the rate makes.
+
+    Both are means of blocks of ``length`` samples.
+    """
+    count = min(len(rate), len(force)) // length
+    if count < 8:
+        return 0.0, 0.0
+    w, f = (v[: count * length].reshape(count, length, 3).mean(axis=1) for v in (rate, force))
+    between, turn = 0.5 * (f[1:] + f[:-1]), 0.5 * (w[1:] + w[:-1]) * length * period
+    made, seen = -np.cross(turn, between), np.diff(f, axis=0)
+    size = np.linalg.norm(between, axis=1)
+    middle = np.nanmedian(size) if np.isfinite(size).any() else 0.0
+    kept = np.all(np.isfinite(made) & np.isfinite(seen), axis=1) & (
+        np.abs(size - middle) < 0.2 * middle
+    )
+    made, seen = made[kept].ravel(), seen[kept].ravel()
+    power = float(made @ made) * float(seen @ seen)
+    if len(made) < 24 or power <= 0:
+        return 0.0, 0.0
+    return float(made @ seen) / float(made @ made), float(made @ seen) / np.sqrt(power)

@@ -1,0 +1,289 @@
+"""A column map for a foreign log, proposed by its header and its numbers, to be looked over."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from pyimu.errors import UserError
+from pyimu.recording.columns import GROUP_OF, XYZ
+from pyimu.recording.formats.reader import Reader
+from pyimu.recording.guess.names import DERIVED, TRUTHS, Name, attitude, named, surest, triads
+from pyimu.recording.guess.numbers import (
+    SECONDS,
+    UnitGuess,
+    force_unit,
+    rate_unit,
+    resting_size,
+    time_unit,
+)
+
+MOST = 200_000
+"""Rows that are looked at."""
+
+CHOICES = {"time": ("s", "ms", "us", "ns"), "gyro": ("rad/s", "deg/s"), "mag": ("uT", "gauss")} | {
+    "accel": ("m/s^2", "g"),
+    "temperature": ("degC", "K"),
+}
+"""Units to choose from where nothing tells."""
+
+
+@dataclass(frozen=True)
+class Guess:
+    """A column of the file and what it may be: ``target`` such as ``gyro_x``, its unit, and why.
+
+    ``unit`` is None where nobody knows; ``value`` the size of a count in it.
+    """
+
+    cell: str
+    target: str
+    unit: str | None
+    why: str
+    value: float | None = None
+
+    @property
+    def group(self) -> str:
+        return GROUP_OF[self.target]
+
+
+@dataclass
+class Proposal:
+    """What the columns of a file may be.
+
+    ``notes`` say what else could be meant; ``rate`` [Hz] is what the file says of itself, where it
+    has no times.
+    """
+
+    path: Path
+    header: tuple[str, ...]
+    guesses: list[Guess] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+    rate: float | None = None
+
+    @property
+    def open_questions(self) -> list[str]:
+        """Groups whose unit nobody knows."""
+        return list(dict.fromkeys(g.group for g in self.guesses if g.unit is None))
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Groups to their units, as far as they are known."""
+        return {g.group: g.unit for g in self.guesses if g.unit is not None}
+
+    @property
+    def groups(self) -> list[str]:
+        return list(dict.fromkeys(g.group for g in self.guesses))
+
+    def add(self, guesses: Sequence[Guess]) -> None:
+        self.guesses += guesses
+
+
+def proposed(reader: Reader) -> Proposal:
+    """A map for the log in ``reader``. Raises UserError where its numbers cannot be read."""
+    found = Proposal(reader.path, tuple(reader.header))
+    numbers = Numbers(reader)
+    period = _time(found, reader, numbers)
+    vectors = triads(reader.header, reader.path.name)
+    picked = {g: _surest(found, vectors, g) for g in ("accel", "gyro", "mag")}
+    if picked["accel"] is None and picked["gyro"] is None:
+        picked = _by_numbers(found, reader, numbers, period) | {"mag": picked["mag"]}
+    force = None if picked["accel"] is None else numbers.of([p for p, _ in picked["accel"]])
+    for group in ("gyro", "accel", "mag"):
+        if picked[group] is not None:
+            _vector(found, group, picked[group], numbers, force, period)
+    _temperature(found, reader)
+    _reference(found, reader)
+    return found
+
+
+class Numbers:
+    """The first rows of a file's columns, read where they are asked for."""
+
+    def __init__(self, reader: Reader) -> None:
+        self._reader = reader
+        self.positions = reader.numeric()
+
+    def of(self, positions: Sequence[int]) -> np.ndarray:
+        """Columns (n, k), NaN where there is no number; of integers where it is one such column."""
+        pieces, rows = [], 0
+        for columns, _ in self._reader.batches(list(positions), positions[0]):
+            pieces.append(columns)
+            rows += len(columns[0])
+            if rows >= MOST:
+                break
+        if not pieces:
+            raise UserError(f"{self._reader.path}: no rows of numbers in it")
+        joined = [np.concatenate(column)[:MOST] for column in zip(*pieces, strict=True)]
+        return joined[0] if len(joined) == 1 else np.column_stack([c.astype(float) for c in joined])
+
+
+Picked = list[tuple[int, Name]] | None
+"""Positions and names of the three columns of a vector."""
+
+
+def _time(found: Proposal, reader: Reader, numbers: Numbers) -> float | None:
+    """Add the time; gives the sample period [s] where it is known."""
+    names = [named(cell) for cell in reader.header]
+    at = [k for k in numbers.positions if names[k].is_time and not set(names[k].words) & TRUTHS]
+    if not at:
+        at = [k for k in numbers.positions[:2] if _rises(numbers.of([k]))]
+    candidates = []
+    for k in at:
+        values = numbers.of([k])
+        if _rises(values):
+            candidates.append((k, values, _time_guess(names[k], values)))
+    if not candidates:
+        found.rate = reader.rate
+        return None if reader.rate is None else 1 / reader.rate
+    k, values, guess = min(
+        candidates, key=lambda c: (c[2].unit is None, _unevenness(c[1]), "date" not in c[2].why)
+    )
+    for other, _, its in candidates:
+        if other != k:
+            found.notes.append(f"{reader.header[other]} may be the time, too ({its.why})")
+    found.add([Guess(reader.header[k], "time", guess.unit, guess.why)])
+    return None if guess.unit is None else _period(values) * SECONDS[guess.unit]
+
+
+def _rises(values: np.ndarray) -> bool:
+    step = np.diff(values[np.isfinite(values.astype(float))])
+    return len(step) > 1 and bool(np.all(step >= 0)) and bool(np.mean(step > 0) > 0.5)
+
+
+def _period(values: np.ndarray) -> float:
+    step = np.diff(values)
+    return float(np.median(step[step > 0]))
+
+
+def _unevenness(values: np.ndarray) -> float:
+    """Scatter of the steps in periods, in powers of 1.3: of two clocks that of the sensor is the
+    finer one.
+    """
+    step = np.diff(values).astype(float)
+    scatter = float(np.std(step) / max(np.median(step), 1e-300))
+    return round(np.log(max(scatter, 1e-6)) / np.log(1.3))
+
+
+def _time_guess(name: Name, values: np.ndarray) -> UnitGuess:
+    """The stated unit, but where its rate is none that a sensor has."""
+    seen = time_unit(values)
+    if name.unit not in SECONDS:
+        return seen
+    rate = 1 / (_period(values) * SECONDS[name.unit])
+    if 1e-3 <= rate <= 1e6:
+        return UnitGuess(name.unit, f"the header says {name.said}; {rate:.5g} Hz")
+    why = f"the header says {name.said}, at {rate:.3g} Hz; {seen.why}"
+    return UnitGuess(seen.unit, why)
+
+
+def _surest(found: Proposal, vectors: list, group: str) -> Picked:
+    """The surest vector of a group by names; what else could be meant goes into the notes."""
+    best, others = surest(vectors, group)
+    if best is None:
+        return None
+    for other in others:
+        cells = ", ".join(name.cell for name in other.names)
+        found.notes.append(f"{cells} may be the {group}, too")
+    return list(zip(best.positions, best.names, strict=True))
+
+
+def _by_numbers(
+    found: Proposal, reader: Reader, numbers: Numbers, period: float | None
+) -> dict[str, Picked]:
+    """The accelerometer's three columns by the size of gravity, the gyro's by how it turns."""
+    time = {g.cell for g in found.guesses}
+    at = [k for k in numbers.positions if reader.header[k] not in time]
+    runs = [at[i : i + 3] for i in range(len(at) - 2) if at[i + 2] - at[i] == 2]
+    if not runs or len(at) > 40:
+        return {"accel": None, "gyro": None}
+    table = numbers.of(at).reshape(-1, len(at))
+    column = {k: table[:, i] for i, k in enumerate(at)}
+    values = {tuple(run): np.column_stack([column[k] for k in run]) for run in runs}
+    like = [run for run in values if force_unit(values[run]).unit is not None]
+    if not like:
+        return {"accel": None, "gyro": None}
+    accel = min(like, key=lambda run: _scatter(values[run]))
+    rest = [run for run in values if not set(run) & set(accel) and abs(run[0] - accel[0]) % 3 == 0]
+    turning = [r for r in rest if rate_unit(values[r], values[accel], period).unit is not None]
+    gyro = next(iter(turning or rest), None)
+    names = [named(cell) for cell in reader.header]
+    picked: dict[str, Picked] = {"accel": [(k, names[k]) for k in accel], "gyro": None}
+    if gyro is not None:
+        picked["gyro"] = [(k, names[k]) for k in gyro]
+    found.notes.append("accelerometer and gyro were told by their numbers alone: look at them")
+    return picked
+
+
+def _scatter(force: np.ndarray) -> float:
+    """Relative scatter of the size of a vector: of the specific force at rest it is small."""
+    size = np.linalg.norm(force, axis=1)
+    return float(np.nanstd(size) / (resting_size(force) or 1.0))
+
+
+def _vector(
+    found: Proposal,
+    group: str,
+    picked: list[tuple[int, Name]],
+    numbers: Numbers,
+    force: np.ndarray | None,
+    period: float | None,
+) -> None:
+    guess = _unit(group, picked, numbers, force, period)
+    if group == "mag" and guess.unit is None:
+        cells = ", ".join(name.cell for _, name in picked)
+        found.notes.append(f"{cells} may be the magnetometer: {guess.why}")
+        return
+    found.add(
+        [
+            Guess(name.cell, f"{group}_{axis}", guess.unit, guess.why, guess.value)
+            for axis, (_, name) in zip(XYZ, picked, strict=True)
+        ]
+    )
+
+
+def _unit(
+    group: str,
+    picked: list[tuple[int, Name]],
+    numbers: Numbers,
+    force: np.ndarray | None,
+    period: float | None,
+) -> UnitGuess:
+    """The unit that the header states, else the one that the numbers show."""
+    units = {name.unit for _, name in picked}
+    if len(units) == 1 and (unit := units.pop()) is not None:
+        return UnitGuess(unit, f"the header says {picked[0][1].said}")
+    values = numbers.of([p for p, _ in picked])
+    if group == "accel":
+        return force_unit(values)
+    if group == "gyro":
+        return rate_unit(values, force, period)
+    return _field_unit(values)
+
+
+def _field_unit(values: np.ndarray) -> UnitGuess:
+    """The Earth's field is 22 to 67 uT (World Magnetic Model); near magnets more or less."""
+    size = float(np.nanmedian(np.linalg.norm(values, axis=1)))
+    for unit, one in (("uT", 1.0), ("gauss", 0.01)):
+        if 20 * one < size < 70 * one:
+            return UnitGuess(unit, f"the field is {size:.3g} then")
+    return UnitGuess(None, f"the field is {size:.3g}, in no usual unit")
+
+
+def _temperature(found: Proposal, reader: Reader) -> None:
+    names = [named(cell) for cell in reader.header]
+    warm = [n for n in names if n.is_temperature and not set(n.words) & DERIVED]
+    if len(warm) == 1:
+        unit = warm[0].unit if warm[0].unit in ("degC", "K") else None
+        said = f"the header says {warm[0].said}" if unit else "degC or K?"
+        found.add([Guess(warm[0].cell, "temperature", unit, said)])
+
+
+def _reference(found: Proposal, reader: Reader) -> None:
+    at = attitude(reader.header)
+    if at is None:
+        return
+    why = "a reference by its name; body to world, scalar first? see [frame]"
+    found.add([Guess(reader.header[at[a]], f"ref_q_{a}", "1", why) for a in "wxyz"])

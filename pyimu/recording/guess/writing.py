@@ -1,0 +1,81 @@
+"""A proposal as the text of a column map."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+
+from pyimu.recording.guess.proposal import CHOICES, Guess, Proposal
+
+WIDTH = 46
+"""Characters in front of a remark."""
+
+
+def text_of(proposals: Sequence[Proposal]) -> str:
+    """The column map of a log that lies in the files of the ``proposals``, the first its own."""
+    first, *others = proposals
+    lines = [
+        f"# Column map for {first.path.name}, written by pyimu inspect: look it over, then give it",
+        "# to the other commands as --columns. Behind each # stands how it was found.",
+    ]
+    if first.open_questions:
+        lines += [
+            "#",
+            f"# The unit of {' and '.join(first.open_questions)} is not known: take the # away",
+            "# from the lines with the right one.",
+        ]
+    if first.rate is not None:
+        lines += ["", _remarked(_rate(first.rate), "what the file says; it has no times")]
+    elif "time" not in first.groups:
+        lines += ["", "# No column rises as a time does; say the rate if there is none:"]
+        lines += ["# " + _rate(100.0)]
+    lines += ["", "[columns]", *_columns(first.guesses)]
+    lines += _scales(first.guesses, "scale")
+    for other in others:
+        lines += ["", "[[file]]", f"name = {json.dumps(other.path.name)}", "", "[file.columns]"]
+        lines += [*_columns(other.guesses), *_scales(other.guesses, "file.scale")]
+    notes = [note for p in proposals for note in p.notes]
+    if notes:
+        lines += ["", "# What else could be meant:", *(f"# {note}" for note in notes)]
+    lines += [
+        "",
+        "# Axes, where they are not forward-left-up and east-north-up:",
+        "# [frame]",
+        '# body = "frd"     # forward-right-down, or a 3 x 3 rotation',
+        '# world = "ned"    # north-east-down',
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _rate(hertz: float) -> str:
+    return f'sample_rate = {{value = {hertz:g}, unit = "Hz"}}'
+
+
+def _columns(guesses: Sequence[Guess]) -> list[str]:
+    """A line for each column; of a unit that nobody knows, one for each that it may be."""
+    lines = []
+    for guess in guesses:
+        if guess.unit is None:
+            lines += [_remarked(f"# {_line(guess, u)}", guess.why) for u in CHOICES[guess.group]]
+            continue
+        unit = guess.unit if guess.value is None else "count"
+        lines.append(_remarked(_line(guess, unit), guess.why))
+    return lines
+
+
+def _line(guess: Guess, unit: str) -> str:
+    cell = json.dumps(guess.cell, ensure_ascii=False)
+    return f"{cell} = {json.dumps(f'{guess.target} [{unit}]')}"
+
+
+def _remarked(line: str, why: str) -> str:
+    return f"{line:{WIDTH}}  # {' '.join(why.split())}"
+
+
+def _scales(guesses: Sequence[Guess], table: str) -> list[str]:
+    sizes = {g.group: g for g in guesses if g.value is not None}
+    lines = [
+        _remarked(f'{group} = {{value = {g.value!r}, unit = "{g.unit}"}}', "of one count")
+        for group, g in sizes.items()
+    ]
+    return ["", f"[{table}]", *lines] if lines else []

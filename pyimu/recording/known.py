@@ -1,0 +1,215 @@
+"""Logs whose columns, units and axes are known: by their format's definition, or by their header.
+
+Each gives the column map that a user would have to write. A log whose header states every unit in
+spellings of its own (``Gyroscope X (deg/s)``), and holds one vector of each kind only, is of the
+second sort.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from pyimu.errors import Finding
+from pyimu.recording.column_map import ForeignMap
+from pyimu.recording.columns import UNITS, XYZ
+from pyimu.recording.counts import Scale
+from pyimu.recording.formats.reader import Reader
+from pyimu.recording.guess.names import DERIVED, TRUTHS, named, surest, triads
+from pyimu.units import parse
+
+Known = tuple[str, ForeignMap]
+"""What the log is, and its map."""
+
+
+def recognised(reader: Reader) -> Known | None:
+    """What is known of the log in ``reader``, None where nothing is."""
+    if _own(reader.header):
+        return None
+    for name, test in FORMATS:
+        columns = test(reader)
+        if columns is not None:
+            return name, columns
+    found = stated(reader)
+    return None if found is None else ("a table that states its units", found)
+
+
+def said(known: Known, columns: Sequence[str]) -> Finding:
+    """That the log was recognised, and what was read as what."""
+    return Finding("recognised", "", len(columns), {"as": known[0]})
+
+
+def _own(header: Sequence[str]) -> bool:
+    """Whether the header has a column as recordings of the package do."""
+    return any(cell.partition("[")[0].strip() in UNITS and "[" in cell for cell in header)
+
+
+def _triad(names: Sequence[str], group: str, unit: str) -> dict[str, str]:
+    return {name: f"{group}_{a} [{unit}]" for name, a in zip(names, XYZ, strict=True)}
+
+
+def _euroc(reader: Reader) -> ForeignMap | None:
+    """EuRoC MAV and TUM VI: imu0/data.csv, and the ground truth beside it.
+
+    Burri et al. 2016, and the files' own headers: time in ns, ``w_RS_S`` rad/s and ``a_RS_S``
+    m/s^2 in the sensor's axes S; ``q_RS`` turns S into the reference frame R, whose z is up.
+    """
+    cells = {re.sub(r"\s*\[.*", "", cell).strip(): cell for cell in reader.header}
+    time = next((cells[name] for name in ("timestamp", "#timestamp") if name in cells), None)
+    if time is None:
+        return None
+    columns = {time: "time [ns]"}
+    if all(f"w_RS_S_{a}" in cells and f"a_RS_S_{a}" in cells for a in XYZ):
+        columns |= _triad([cells[f"w_RS_S_{a}"] for a in XYZ], "gyro", "rad/s")
+        columns |= _triad([cells[f"a_RS_S_{a}"] for a in XYZ], "accel", "m/s^2")
+        return ForeignMap(columns=columns)
+    if all(f"q_RS_{a}" in cells for a in "wxyz"):
+        columns |= {cells[f"q_RS_{a}"]: f"ref_q_{a} [1]" for a in "wxyz"}
+        where = dict(zip(XYZ, ("ref_east", "ref_north", "ref_up"), strict=True))
+        columns |= {
+            cells[f"p_RS_R_{a}"]: f"{name} [m]"
+            for a, name in where.items()
+            if f"p_RS_R_{a}" in cells
+        }
+        return ForeignMap(columns=columns)
+    return None
+
+
+def _tum_text(reader: Reader) -> ForeignMap | None:
+    """TUM VI's ``dso/imu.txt``: time in ns, gyro rad/s, accelerometer m/s^2."""
+    header = [re.sub(r"[^a-z]", "", cell.casefold()) for cell in reader.header]
+    if header[:1] != ["timestampns"] or [h[:1] for h in header[1:7]] != list("wwwaaa"):
+        return None
+    cells = reader.header
+    return ForeignMap(
+        columns={cells[0]: "time [ns]"}
+        | _triad(cells[1:4], "gyro", "rad/s")
+        | _triad(cells[4:7], "accel", "m/s^2")
+    )
+
+
+def _repoimu(reader: Reader) -> ForeignMap | None:
+    """RepoIMU (Szczesna et al. 2016): two rows of names, optical attitude, rad/s and m/s^2.
+
+    Its magnetometer is in no unit and is left out. The attitude is known but for how the sensor was
+    mounted on the wand.
+    """
+    cells = set(reader.header)
+    if "Time (s)" not in cells or "Vicon Orientation W" not in cells:
+        return None
+    columns = {"Time (s)": "time [s]"}
+    columns |= _triad([f"IMU Gyroscope {a}" for a in "XYZ"], "gyro", "rad/s")
+    columns |= _triad([f"IMU Acceleration {a}" for a in "XYZ"], "accel", "m/s^2")
+    columns |= {f"Vicon Orientation {a}": f"ref_q_{a.lower()} [1]" for a in "WXYZ"}
+    return ForeignMap(columns=columns) if set(columns) <= cells else None
+
+
+def _broad(reader: Reader) -> ForeignMap | None:
+    """BROAD (Laidig et al. 2021): arrays ``imu_gyr`` rad/s, ``imu_acc`` m/s^2, ``imu_mag`` uT, the
+    optical attitude ``opt_quat``, body to east-north-up, and position; the rate is stated beside.
+    """
+    cells = set(reader.header)
+    if not {"imu_gyr[0]", "imu_acc[0]"} <= cells:
+        return None
+    columns = _triad([f"imu_gyr[{k}]" for k in range(3)], "gyro", "rad/s")
+    columns |= _triad([f"imu_acc[{k}]" for k in range(3)], "accel", "m/s^2")
+    columns |= _triad([f"imu_mag[{k}]" for k in range(3)], "mag", "uT")
+    columns |= {f"opt_quat[{k}]": f"ref_q_{a} [1]" for k, a in enumerate("wxyz")}
+    where = enumerate(("ref_east", "ref_north", "ref_up"))
+    columns |= {f"opt_pos[{k}]": f"{name} [m]" for k, name in where}
+    columns["movement"] = "moving [1]"
+    return ForeignMap(columns={cell: name for cell, name in columns.items() if cell in cells})
+
+
+def _xsens(reader: Reader) -> ForeignMap | None:
+    """Xsens: MT Manager's text export and Movella DOT's.
+
+    MT Manager's user manual: ``Acc_X`` m/s^2, ``Gyr_X`` rad/s, the magnetometer in no unit;
+    ``SampleTimeFine`` counts 0.1 ms there, in DOT's files 1 us (Xsens DOT user manual, 4.2.5),
+    whose rates are in deg/s. Without it the rate that the comments state gives the times.
+    """
+    cells = set(reader.header)
+    if not {"Acc_X", "Gyr_X"} <= cells or "PacketCounter" not in cells:
+        return None
+    dot = "Quat_W" in cells or "dq_W" in cells or "Euler_X" in cells
+    columns = _triad([f"Gyr_{a}" for a in "XYZ"], "gyro", "deg/s" if dot else "rad/s")
+    columns |= _triad([f"Acc_{a}" for a in "XYZ"], "accel", "m/s^2")
+    scale = {}
+    if "SampleTimeFine" in cells:
+        columns["SampleTimeFine"] = "time [count]"
+        scale = {"time": Scale(1e-6 if dot else 1e-4, parse("s"))}
+    elif reader.rate is None:
+        return None
+    return ForeignMap(columns=columns, scale=scale) if set(columns) <= cells else None
+
+
+def _phone(reader: Reader) -> ForeignMap | None:
+    """One file of Sensor Logger: time in ns since 1970, rad/s, m/s^2, uT (its UNITS.md).
+
+    What it calls Accelerometer is without gravity, no specific force, and is left out; see
+    ``pyimu.recording.phone`` for a folder of its files.
+    """
+    if not {"time", "seconds_elapsed", *XYZ} <= set(reader.header):
+        return None
+    for ending, (group, unit) in PHONE_FILES.items():
+        if reader.path.name.casefold().endswith(f"{ending}.csv".casefold()):
+            return ForeignMap(columns={"time": "time [ns]"} | _triad(XYZ, group, unit))
+    return None
+
+
+PHONE_FILES: Mapping[str, tuple[str, str]] = {
+    "GyroscopeUncalibrated": ("gyro", "rad/s"),
+    "Gyroscope": ("gyro", "rad/s"),
+    "TotalAcceleration": ("accel", "m/s^2"),
+    "MagnetometerUncalibrated": ("mag", "uT"),
+    "Magnetometer": ("mag", "uT"),
+}
+"""What Sensor Logger's files hold whose units do not depend on the phone."""
+
+FORMATS = (
+    ("EuRoC or TUM VI, by its definition", _euroc),
+    ("TUM VI's imu.txt, by its definition", _tum_text),
+    ("RepoIMU, by its description", _repoimu),
+    ("BROAD, by its description", _broad),
+    ("Xsens, by its manuals", _xsens),
+    ("Sensor Logger, by its documentation", _phone),
+)
+
+
+def stated(reader: Reader) -> ForeignMap | None:
+    """The map of a table that states every unit it needs, and leaves no choice; else None."""
+    names = [named(cell) for cell in reader.header]
+    times = [name for name in names if name.is_time and not set(name.words) & TRUTHS]
+    if len(times) > 1 or len(set(reader.header)) < len(reader.header):
+        return None
+    columns = {}
+    if times:
+        if times[0].unit not in ("s", "ms", "us", "ns", "min", "h"):
+            return None
+        columns[times[0].cell] = f"time [{times[0].unit}]"
+    elif reader.rate is None:
+        return None
+    found = triads(reader.header)
+    for group, needed in (("gyro", True), ("accel", True), ("mag", False)):
+        triad, others = surest(found, group)
+        if triad is None:
+            continue
+        if needed and (triad.unit is None or others or triad.score < 4):
+            return None
+        if triad.unit is not None and not others:
+            columns |= _triad([name.cell for name in triad.names], group, triad.unit)
+    warm = [n for n in names if n.is_temperature and n.unit and not set(n.words) & DERIVED]
+    if len(warm) == 1:
+        columns[warm[0].cell] = f"temperature [{warm[0].unit}]"
+    if not any(target.startswith(("gyro", "accel")) for target in columns.values()):
+        return None
+    return ForeignMap(columns=columns)
+
+
+def merged(
+    known: ForeignMap, given: ForeignMap, files: tuple[tuple[str, ForeignMap], ...]
+) -> ForeignMap:
+    """The ``given`` map with the columns that are ``known``, and the further ``files``."""
+    scale = {**known.scale, **given.scale}
+    return replace(given, columns=known.columns, scale=scale, files=files)

@@ -1,0 +1,226 @@
+"""Logs as people have them: each layout, raw, comes to the samples that were put in, and through
+``pyimu characterize`` by one command, or by two where ``pyimu inspect`` has to write the map.
+"""
+
+import json
+import re
+
+import numpy as np
+import pytest
+import raw_logs
+
+from pyimu import read_recording
+from pyimu.errors import UserError
+from pyimu.recording.formats.layout import told_from
+from pyimu.recording.formats.suffix import open_reader
+from pyimu.recording.guess.names import named, triads
+from pyimu.recording.guess.numbers import force_unit, rate_unit, time_unit
+from pyimu.recording.guess.proposal import proposed
+
+ROUNDED = {"german", "xio", "iphone"}
+"""Layouts in other units: numbers are multiplied, and come back to some roundings."""
+
+
+@pytest.fixture(scope="module")
+def log():
+    return raw_logs.still()
+
+
+@pytest.fixture
+def undrawn(monkeypatch):
+    """Pages without pictures, which take seconds to draw."""
+    monkeypatch.setattr("pyimu.characterization.result.page", lambda result: "a page")
+
+
+def written(make, folder, log):
+    """The file, and the options that it needs."""
+    pytest.importorskip(raw_logs.NEEDS.get(make.__name__, "numpy"))
+    path = make(folder, log)
+    return path, (folder / raw_logs.MAP if make in raw_logs.MAPPED else None)
+
+
+@pytest.mark.parametrize("make", [*raw_logs.ALONE, *raw_logs.MAPPED], ids=lambda m: m.__name__)
+def test_samples_come_back(make, tmp_path, log):
+    time, gyro, accel = log
+    found = read_recording(*written(make, tmp_path, log))
+    bits = 4e-16 if make.__name__ in ROUNDED else 0.0
+    np.testing.assert_allclose(found.gyro, gyro, rtol=bits, atol=0)
+    if make is raw_logs.apart:
+        # between two samples lies their mean; the last is past the other file's end by a step
+        half = accel[:-2:2] / 2 + accel[2::2] / 2
+        # a share of 15 s / 20 ms is known to 15 / 0.02 roundings of 1e-16, of steps of 0.1 m/s^2
+        np.testing.assert_allclose(found.accel[1:-2:2], half, rtol=4e-16, atol=1e-14)
+        np.testing.assert_allclose(found.accel[::2], accel[::2], rtol=4e-16, atol=1e-14)
+    else:
+        np.testing.assert_allclose(found.accel, accel, rtol=bits, atol=0)
+    # ns at 1e15 and microseconds are exact; the others are decimal fractions of a second
+    np.testing.assert_allclose(found.time - found.time[0], time * 1e-9, rtol=0, atol=2e-14)
+
+
+@pytest.mark.parametrize("make", [*raw_logs.ALONE, *raw_logs.MAPPED], ids=lambda m: m.__name__)
+def test_raw_to_result_by_one_command(make, pyimu, tmp_path, log, undrawn):
+    path, column_map = written(make, tmp_path, log)
+    options = [] if column_map is None else ["--columns", column_map]
+    code, out, err = pyimu("characterize", path, *options, "--out", "out")
+    assert (code, err) == (0, "") and "gyro" in out
+    report = json.loads((tmp_path / "out" / "report.json").read_text())
+    assert report["logs"][0]["rows"] == len(log[0])
+
+
+UNSTATED = ["t,gx,gy,gz,ax,ay,az", "", "stamp;Gyro X;Gyro Y;Gyro Z;Acc X;Acc Y;Acc Z"]
+
+
+@pytest.mark.parametrize("head", UNSTATED, ids=["letters", "headerless", "words"])
+def test_raw_to_result_by_two_commands(head, pyimu, tmp_path, undrawn):
+    """A log that is turned by hand shows the unit of its rates; nothing states one."""
+    time, gyro, accel = turned()
+    separator = ";" if ";" in head else ","
+    columns = [time // 1000, *np.degrees(gyro).T, *(accel / 9.80665).T]
+    raw_logs.text(tmp_path / "log.csv", [head] if head else [], columns, separator)
+    code, _, err = pyimu("characterize", "log.csv", "--out", "out")
+    assert code == 2 and "pyimu inspect log.csv --write-map map.toml" in err
+    code, out, err = pyimu("inspect", "log.csv", "--write-map", "map.toml")
+    assert (code, err) == (0, "") and "map: map.toml" in out
+    found = read_recording("log.csv", "map.toml")
+    np.testing.assert_allclose(found.gyro, gyro, rtol=1e-14)
+    np.testing.assert_allclose(found.accel, accel, rtol=1e-14)
+    assert found.sample_rate == pytest.approx(100)
+    code, _, err = pyimu("characterize", "log.csv", "--columns", "map.toml", "--out", "out")
+    assert (code, err) == (0, "")
+
+
+def turned(rows=3000):
+    """A sensor that turns about y and x by 60 degrees and back, in the package's axes."""
+    time = np.arange(rows, dtype=np.int64) * 10_000_000
+    t = time * 1e-9
+    angle, rate = 1.0 * np.sin(0.8 * t), 0.8 * np.cos(0.8 * t)
+    gyro = np.column_stack([0 * t, rate, 0 * t])
+    accel = 9.81 * np.column_stack([-np.sin(angle), 0 * t, np.cos(angle)])
+    rng = np.random.default_rng(0)
+    return (
+        time,
+        gyro + 1e-3 * rng.standard_normal(gyro.shape),
+        accel + 0.01 * rng.standard_normal(accel.shape),
+    )
+
+
+# What the numbers say
+
+
+@pytest.mark.parametrize("unit, size", [("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("ns", 1e-9)])
+@pytest.mark.parametrize("rate", [10, 100, 5000])
+@pytest.mark.parametrize("first", [0.0, 1.7e9])
+def test_unit_of_a_clock_is_told(unit, size, rate, first):
+    """By its rate, or by its date: 1.7e9 s after 1970 is a day of 2023."""
+    ticks = np.round((first + np.arange(200) / rate) / size, 3 if unit in "s" else 0)
+    if np.any(np.diff(ticks) <= 0):
+        pytest.skip("the clock is coarser than the samples")
+    if np.all(np.diff(ticks) == 1):
+        assert first or time_unit(ticks).unit is None  # may be a counter of samples
+        return
+    assert time_unit(ticks).unit == unit
+
+
+def test_counter_of_samples_is_no_clock():
+    assert time_unit(np.arange(100)).unit is None
+
+
+@pytest.mark.parametrize("unit, size", [("m/s^2", 1.0), ("g", 9.80665), ("mg", 9.80665e-3)])
+def test_unit_of_force_is_told_by_gravity(unit, size):
+    assert force_unit(turned()[2] / size).unit == unit
+    assert force_unit((turned()[2] - [0, 0, 9.81]) * 0.01).unit is None  # gravity taken out
+
+
+@pytest.mark.parametrize("unit, size", [("rad/s", 1.0), ("deg/s", np.pi / 180)])
+def test_unit_of_rate_is_told_by_how_gravity_turns(unit, size):
+    _, gyro, accel = turned()
+    assert rate_unit(gyro / size, accel, 0.01).unit == unit
+    still = raw_logs.still()
+    assert rate_unit(still[1] / size, still[2], 0.01).unit is None
+
+
+def test_counts_are_sized_by_gravity_and_its_turning():
+    """MPU-6050: 16384 counts a g, 131 a deg/s."""
+    _, gyro, accel = turned()
+    force = force_unit(np.round(accel / 9.80665 * 16384))
+    assert (force.unit, force.value) == ("g", 1 / 16384)
+    rate = rate_unit(np.round(np.degrees(gyro) * 131), accel, 0.01)
+    assert (rate.unit, rate.value) == ("deg/s", 1 / 131)
+
+
+# What the names say
+
+
+@pytest.mark.parametrize(
+    "cell, axis, unit",
+    [
+        ("GyrX", "x", None),
+        ("Gyroscope X (deg/s)", "x", "deg/s"),
+        ("w_RS_S_x [rad s^-1]", "x", "rad/s"),
+        ("raw_angular_rate_z_deg_per_s", "z", "deg/s"),
+        ("gyroRotationY(rad/s)", "y", "rad/s"),
+        ("field.angular_velocity.y", "y", None),
+        ("Gyro_X_dps", "x", "deg/s"),
+        ("imu_gyr[0]", "x", None),
+        ("gz", "z", None),
+    ],
+)
+def test_names_of_a_gyro(cell, axis, unit):
+    name = named(cell)
+    assert (name.axis, name.unit, name.of("gyro") > 0, name.is_time) == (axis, unit, True, False)
+
+
+def test_raw_samples_go_before_estimates():
+    cells = [f"{kind}_acceleration_{a}_gs" for kind in ("est", "raw") for a in "xyz"]
+    assert [t.names[0].cell for t in triads(cells)] == [
+        "raw_acceleration_x_gs",
+        "est_acceleration_x_gs",
+    ]
+
+
+def test_nothing_is_proposed_without_a_reason(tmp_path):
+    """Not "time [s]" for a column in ns, nor for one of a gyro."""
+    time, gyro, _ = raw_logs.still()
+    path = raw_logs.text(tmp_path / "log.csv", ["gx,gy,gz,t"], [*gyro.T, time + raw_logs.FIRST])
+    with pytest.raises(UserError) as refused:
+        read_recording(path)
+    assert "[s]" not in re.sub(r"'time \[s\]'", "", str(refused.value))
+    guesses = {g.cell: (g.target, g.unit) for g in proposed(open_reader(path)).guesses}
+    assert guesses == {"t": ("time", "ns")} | {f"g{a}": (f"gyro_{a}", None) for a in "xyz"}
+    path = raw_logs.text(tmp_path / "two.csv", ["time,gx,gy,gz"], [time, *gyro.T])
+    with pytest.raises(UserError, match="s, ms, us or ns"):
+        read_recording(path)
+
+
+# Layouts
+
+
+@pytest.mark.parametrize(
+    "head, separator, decimal, names, first",
+    [
+        ("a,b\n1,2\n", ",", ".", ("a", "b"), 2),
+        ("a;b\n1,5;2\n2,5;3\n", ";", ",", ("a", "b"), 2),
+        ("a;b\n1.5;2\n2.5;3\n", ";", ".", ("a", "b"), 2),
+        ("a\tb\n1\t2\n", "\t", ".", ("a", "b"), 2),
+        ("a  b\n1    2\n", " ", ".", ("a", "b"), 2),
+        ("1 2\n3 4\n", " ", ".", ("column 1", "column 2"), 1),
+        ("A log of mine\nof Tuesday\n\na,b\n1,2\n3,4\n", ",", ".", ("a", "b"), 5),
+        ("# of Tuesday\n#a,b\n1,2\n3,4\n", ",", ".", ("a", "b"), 3),
+        ("t,w,w\n,x,y\n1,2,3\n2,3,4\n", ",", ".", ("t", "w x", "w y"), 3),
+        ("t,w\n[s],[deg/s]\n1,2\n2,3\n", ",", ".", ("t [s]", "w [deg/s]"), 3),
+        ("t,state,w\n1,idle,2\n2,idle,3\n", ",", ".", ("t", "state", "w"), 2),
+        ("t;w\n1,2\n3,4\n", ",", ".", ("t", "w"), 2),
+    ],
+)
+def test_layout_is_told(head, separator, decimal, names, first):
+    found = told_from(head.splitlines(keepends=True))
+    assert (found.separator, found.decimal, found.names, found.first) == (
+        separator,
+        decimal,
+        names,
+        first,
+    )
+
+
+def test_rate_that_a_comment_states():
+    assert told_from(["// Update Rate: 0.4 kHz\n", "a,b\n", "1,2\n"]).rate == 400

@@ -1,0 +1,100 @@
+"""Whatever ends a run, no half file is left, and the next one gives what the first would have; two
+runs do not write to one folder; what a kill leaves is cleaned after a day.
+"""
+
+import os
+import re
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from places import CHECKOUT
+
+from pyimu.errors import UserError
+from pyimu.files import PREFIX, whole
+from pyimu.held import Held, work_folder
+
+KILLED = Path(__file__).parent / "support" / "killed.py"
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="kills by signals")
+def test_killed_at_random_moments(tmp_path):
+    """Twenty-one kills over three commands; a run takes longer than the moment is drawn from only
+    by chance, so that nearly all come before its end.
+    """
+    environment = os.environ | {"PYTHONPATH": f"{CHECKOUT}{os.pathsep}{KILLED.parent}"}
+    done = subprocess.run(
+        [sys.executable, KILLED, tmp_path, "7"],
+        capture_output=True,
+        text=True,
+        timeout=600,
+        check=False,
+        env=environment,
+    )
+    lines = done.stdout.splitlines()
+    assert done.returncode == 0 and len(lines) == 3, done.stderr
+    assert all(re.fullmatch(r"\w+: killed \d+; ", line) for line in lines), done.stdout
+
+
+HOLDER = """
+import sys
+from pathlib import Path
+from pyimu.held import held
+with held.holding():
+    held.hold(Path(sys.argv[1]))
+    print("held", flush=True)
+    sys.stdin.read()
+"""
+
+
+@pytest.fixture
+def holder(tmp_path):
+    """A process that holds the folder ``out``."""
+    command = [sys.executable, "-c", HOLDER, tmp_path / "out"]
+    process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    assert process.stdout.readline() == "held\n"
+    yield process
+    process.kill()
+    process.communicate()
+
+
+def test_of_two_runs_into_one_folder_the_second_says_so(holder, pyimu, tmp_path):
+    """Also by another path to it; the first one's end, or a kill, gives it back."""
+    (tmp_path / "link").symlink_to(tmp_path)
+    for out in ("out", tmp_path / "link" / "out"):
+        code, said, err = pyimu("characterize", "log.csv", "--out", out)
+        assert (code, said) == (2, "") and "another run is writing there" in err
+    holder.kill()
+    holder.wait()
+    code, _, err = pyimu("characterize", "log.csv", "--out", "out")
+    assert code == 2 and "log.csv: no such file" in err
+
+
+def test_a_folder_is_free_again_at_the_end_of_a_command(tmp_path):
+    first, second = Held(), Held()
+    with first.holding():
+        first.hold(tmp_path / "out")
+        first.hold(tmp_path / "out")  # its own
+        with second.holding(), pytest.raises(UserError, match="another run"):
+            second.hold(tmp_path / "out")
+    with second.holding():
+        second.hold(tmp_path / "out")
+    second.hold(tmp_path / "out")  # a program that is no command holds nothing
+
+
+def test_what_a_kill_left_goes_after_a_day(tmp_path, monkeypatch):
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    old = time.time() - 25 * 3600
+    left = [tmp_path / f"{PREFIX}work", tmp_path / f"{PREFIX}half.csv"]
+    left[0].mkdir()
+    (left[0] / "file").touch()
+    left[1].touch()
+    young = tmp_path / f"{PREFIX}young"
+    young.mkdir()
+    for path in left:
+        os.utime(path, (old, old))
+    with work_folder(), whole(tmp_path / "new"):
+        pass
+    assert not any(path.exists() for path in left) and young.exists()
