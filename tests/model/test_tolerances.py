@@ -155,7 +155,7 @@ ERRORS = {
     bias("value = 1, unit = 'deg/s', distribution = ['normal']"): (
         f"{B0}.distribution: unknown distribution ['normal']"
     ),
-    uniform("gyro.turn_on_bias", "b0", "value = 1, unit = 'dps'"): f"{B0}.unit: ",
+    uniform("gyro.turn_on_bias", "b0", "value = 1, unit = 'dpss'"): f"{B0}.unit: ",
     uniform("gyro.turn_on_bias", "b0", "value = 1"): f"{B0}: has no unit",
     uniform("gyro.turn_on_bias", "b0", "unit = 'deg/s'"): f"{B0}: has no value",
     uniform("gyro.turn_on_bias", "b0", "value = [1, 2], unit = 'deg/s'"): (

@@ -15,7 +15,7 @@ from pyimu.model.signals import COLUMNS, SIGNALS, inputs_for
 H = 0.01
 """Sample period [s]."""
 
-NATURAL = {"rad": 1.0, "s": 0.3, "m": 1.0, "K": 10.0, "V": 1.0, "T": 1e-4}
+NATURAL = {"rad": 1.0, "s": 0.3, "m": 1.0, "K": 10.0, "V": 1.0, "T": 1e-4, "LSB": 1.0}
 """The size of each base unit in the motion below; a coefficient is a small share of what its unit
 makes of these."""
 
