@@ -9,6 +9,7 @@ from pyimu.block.variables import Variable
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.kinds import KINDS
 from pyimu.model.part import Part
+from pyimu.model.part_file import part, part_names
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS, SIGNALS, inputs_for
 
@@ -142,3 +143,17 @@ def run(
     apart.
     """
     return alone(sensor).run(u, w=w, sample_period=h)[0]
+
+
+def one_of_each_kind() -> tuple[str, ...]:
+    """Names of built-in parts, of each set of effects the first.
+
+    What is compiled or simulated for each part is so for these: parts of one kind differ in their
+    figures alone.
+    """
+    kinds = {}
+    for name in part_names():
+        made = part(name)
+        effects = tuple(tuple(made.sensor(kind).values) for kind in KINDS)
+        kinds.setdefault(effects, name)
+    return tuple(kinds.values())
