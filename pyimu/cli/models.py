@@ -202,6 +202,15 @@ def parts(
             show_default=False,
         ),
     ] = None,
+    new: Annotated[
+        str | None,
+        typer.Option(
+            "--new",
+            metavar="NAME",
+            help="Write NAME.toml here: a part to fill in, with a place for each figure of a data "
+            "sheet.",
+        ),
+    ] = None,
     effects: Effects = None,
 ) -> None:
     """Example: pyimu parts mpu6050
@@ -211,8 +220,15 @@ def parts(
     dash stands where the part has no figure. Tolerances follow, from which pyimu build draws a
     specimen: uniform is anywhere within the figure, normal has it for one standard deviation.
     """
+    from pyimu.model.part_file import new_part
     from pyimu.report.parts_table import detail, listing, terminal_width
 
+    if new is not None:
+        if name is not None:
+            raise UserError(f"--new {new} beside {name}: give one of the two")
+        path = new_part(new)
+        print(f"{path}: take the '#' from what your data sheet has; pyimu parts {path} prints it")
+        return
     add_effects(effects)
     print(detail(name, terminal_width()) if name is not None else listing(width=terminal_width()))
 
