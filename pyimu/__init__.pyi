@@ -1,4 +1,5 @@
 from . import attitude as attitude
+from . import export as export
 from . import fmu as fmu
 from . import heading as heading
 from . import navigation as navigation

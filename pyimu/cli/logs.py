@@ -12,12 +12,15 @@ from pyimu.cli.options import (
     FORMATS,
     Columns,
     Effects,
+    Export,
     Latitude,
     Out,
     add_effects,
+    check_exports,
     place_in_radians,
     progress,
     radians,
+    write_exports,
 )
 from pyimu.errors import UserError
 
@@ -47,28 +50,37 @@ def characterize_command(
     out: Annotated[
         Path, typer.Option("--out", help="Folder for report.html, report.json and part.toml.")
     ] = Path("out/characterize"),
+    part: Annotated[
+        str | None,
+        typer.Option("--part", help="Data sheet to set beside: a built-in part or a TOML file."),
+    ] = None,
     columns: Columns = None,
     level: Annotated[float, typer.Option("--level", help="Probability of the intervals.")] = 0.95,
+    export: Export = None,
 ) -> None:
     """Example: pyimu characterize static.csv --out out/static
 
     Allan deviation, spectrum, temperature effect and quality of the samples of a sensor at rest:
     its noise coefficients with intervals, the pictures of a data sheet, and a part file for pyimu
     build and pyimu close. A log in which it turns every way calibrates its magnetometer as well
-    (magnetometer.toml). Several logs of one part give means and their spread. The samples wait in
-    temporary files (TMPDIR says where), so that a log may be larger than memory.
+    (magnetometer.toml). With --part each figure stands beside the data sheet's. Several logs of one
+    part give means and their spread. The samples wait in temporary files (TMPDIR says where), so
+    that a log may be larger than memory.
     """
     from pyimu.characterization.run import characterize
     from pyimu.files import check_folder
     from pyimu.recording.log import open_log
 
     check_folder(out)
+    check_exports(export)
     with progress("reading") as say:
-        found = characterize([open_log(path, columns) for path in logs], level, say)
+        found = characterize([open_log(path, columns) for path in logs], level, say, part)
         say("drawing the report")
         page = found.write(out)
     print(found.report())
     print(f"report: {page}, part: {page.with_name('part.toml')}")
+    if export is not None:
+        write_exports(str(page.with_name("part.toml")), export, out)
 
 
 def close_command(
@@ -108,6 +120,7 @@ def close_command(
         typer.Option("--latitude", help="Degrees; adds the Earth's rate to a derived reference."),
     ] = None,
     effects: Effects = None,
+    export: Export = None,
 ) -> None:
     """Example: pyimu close rover.csv --part imt30 --out out/rover
 
@@ -122,6 +135,7 @@ def close_command(
 
     at = radians("--latitude", latitude, 90)
     check_delivery(out)
+    check_exports(export)
     add_effects(effects)
     with progress("reading") as say:
         recordings, judges = (
@@ -139,6 +153,8 @@ def close_command(
         closed.write(out, say=say)
     print(closed.report())
     print(f"report: {out / 'report.html'}")
+    if export is not None:
+        write_exports(str(out / "model.toml"), export, out)
 
 
 def attitude_command(

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from pyimu.cli.options import Effects, Out, add_effects, progress
+from pyimu.cli.options import Effects, Out, add_effects, progress, write_exports
 from pyimu.errors import UserError
 
 
@@ -191,6 +191,37 @@ def modelica_command(
 
     add_effects(effects)
     print(export(part, out))
+
+
+def export_command(
+    part: Annotated[str, typer.Argument(help="Built-in part or a TOML file.", show_default=False)],
+    to: Annotated[
+        str,
+        typer.Option(
+            "--to",
+            help="Projects, separated by commas: kalibr, openvins, vins, gazebo, isaac, ros2, "
+            "matlab, px4.",
+            show_default=False,
+        ),
+    ],
+    out: Out = Path("out/export"),
+    inflate: Annotated[
+        float | None,
+        typer.Option(
+            "--inflate",
+            help="Factor on the noise; else what the project's docs recommend. 1 is as it is.",
+        ),
+    ] = None,
+    effects: Effects = None,
+) -> None:
+    """Example: pyimu export mpu6050 --to kalibr,px4 --out out/export
+
+    Write a part's noise as other projects read it: the file of each, in its units and its
+    convention of a density, with the inflation that its docs recommend. A part that pyimu
+    characterize or pyimu close wrote is a part as well.
+    """
+    add_effects(effects)
+    write_exports(part, to, out, inflate)
 
 
 def parts(

@@ -7,11 +7,14 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from pyimu.errors import UserError
+
+if TYPE_CHECKING:
+    from pyimu.model.part import Part
 
 Out = Annotated[
     Path, typer.Option("--out", help="Folder for what is written; made if it is missing.")
@@ -81,6 +84,37 @@ def add_effects(files: list[Path] | None) -> None:
         from pyimu.model.catalogue import add_effects as add
 
         add(*files)
+
+
+Export = Annotated[
+    str | None,
+    typer.Option(
+        "--export",
+        metavar="PROJECTS",
+        help="Also write the part as other projects read it, as pyimu export --to does.",
+    ),
+]
+
+
+def check_exports(to: str | None) -> None:
+    """Raise UserError now, not after a long run, for a project that is not known."""
+    if to is not None:
+        from pyimu.export import known
+
+        known(to)
+
+
+def write_exports(part: Part | str, to: str, out: Path, inflate: float | None = None) -> None:
+    """Write and name the files of the projects ``to``, all or none."""
+    from pyimu.export import export, known
+    from pyimu.files import staged, write_text
+
+    made = [export(part, name, inflate) for name in known(to)]
+    with staged(out) as stage:
+        for e in made:
+            write_text(stage / e.file, e.text)
+    for e in made:
+        print(f"{out / e.file}: {e.said()}")
 
 
 @contextmanager

@@ -9,6 +9,7 @@ from markupsafe import Markup
 
 from pyimu.characterization.evidence import Excerpt, LevelHistogram, StepHistogram, Timeline
 from pyimu.characterization.outcome import Channel, LogResult, Outcome
+from pyimu.characterization.report.beside import beside_tables
 from pyimu.characterization.report.channel_notes import (
     fit_notes,
     headline,
@@ -65,6 +66,8 @@ def _contents(c: Outcome) -> dict[str, Any]:
         "evidence": _evidence(c),
         "overviews": [_overview(log, kind) for log in c.logs for kind in log.sensors],
         "by_log": log_table(c),
+        "beside": beside_tables(c),
+        "data_sheet": c.part_given and f"{c.part_given.name}: {c.part_given.description}",
         "files": Table(
             ("file", "what it is"),
             [
