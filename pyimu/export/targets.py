@@ -78,8 +78,8 @@ def known(to: str) -> tuple[str, ...]:
     for name in names:
         if name not in TARGETS:
             raise UserError(
-                f"{name or repr(name)}: no project to export to{did_you_mean(name, TARGETS)}; known "
-                f"are {', '.join(TARGETS)}"
+                f"{name or repr(name)}: no project to export to{did_you_mean(name, TARGETS)}; "
+                f"known are {', '.join(TARGETS)}"
             )
     return names
 
