@@ -13,16 +13,33 @@ from pyimu.cli.options import (
     Columns,
     Effects,
     Export,
+    Json,
     Latitude,
     Out,
+    Quiet,
     add_effects,
     check_exports,
+    check_told,
+    complete_part,
     place_in_radians,
     progress,
     radians,
+    tell,
     write_exports,
 )
 from pyimu.errors import UserError
+
+EXIT_CODES = {
+    "clean": 0,
+    "named": 10,
+    "partly": 11,
+    "not_confirmed": 12,
+    "unexplained": 13,
+    "drift": 14,
+    "reference_unfit": 15,
+    "undecidable": 16,
+}
+"""Exit status of ``pyimu close --exit-code`` by verdict; 2 is bad input, 130 a run broken off."""
 
 
 def demo(out: Out = Path("out/demo")) -> None:
@@ -52,11 +69,17 @@ def characterize_command(
     ] = Path("out/characterize"),
     part: Annotated[
         str | None,
-        typer.Option("--part", help="Data sheet to set beside: a built-in part or a TOML file."),
+        typer.Option(
+            "--part",
+            help="Data sheet to set beside: a built-in part or a TOML file.",
+            autocompletion=complete_part,
+        ),
     ] = None,
     columns: Columns = None,
     level: Annotated[float, typer.Option("--level", help="Probability of the intervals.")] = 0.95,
     export: Export = None,
+    as_json: Json = False,
+    quiet: Quiet = False,
 ) -> None:
     """Example: pyimu characterize static.csv --out out/static
 
@@ -71,16 +94,18 @@ def characterize_command(
     from pyimu.files import check_folder
     from pyimu.recording.log import open_log
 
+    check_told(as_json, quiet)
     check_folder(out)
     check_exports(export)
     with progress("reading") as say:
         found = characterize([open_log(path, columns) for path in logs], level, say, part)
         say("drawing the report")
         page = found.write(out)
-    print(found.report())
-    print(f"report: {page}, part: {page.with_name('part.toml')}")
+    made = page.with_name("part.toml")
+    lines = [f"report: {page}, part: {made}"]
     if export is not None:
-        write_exports(str(page.with_name("part.toml")), export, out)
+        lines += write_exports(str(made), export, out)
+    tell(found.report, (out / "report.json").read_text, lines, as_json=as_json, quiet=quiet)
 
 
 def close_command(
@@ -98,7 +123,11 @@ def close_command(
     ] = Path("out/close"),
     part: Annotated[
         str | None,
-        typer.Option("--part", help="Built-in part or a TOML file; without it all is estimated."),
+        typer.Option(
+            "--part",
+            help="Built-in part or a TOML file; without it all is estimated.",
+            autocompletion=complete_part,
+        ),
     ] = None,
     holdout: Annotated[
         list[Path] | None,
@@ -121,18 +150,28 @@ def close_command(
     ] = None,
     effects: Effects = None,
     export: Export = None,
+    as_json: Json = False,
+    quiet: Quiet = False,
+    exit_code: Annotated[
+        bool,
+        typer.Option("--exit-code", help="Exit status by verdict, for scripts: see below."),
+    ] = False,
 ) -> None:
     """Example: pyimu close rover.csv --part imt30 --out out/rover
 
     Compare a sensor's model with measured logs, find the effects that it lacks, add them, and
     report the error before and after on data that was not fitted, with the model as a part file and
     as FMUs.
+
+    Exit status: 0, or 2 for bad input. With --exit-code a verdict has its own: clean 0, named 10,
+    partly 11, not_confirmed 12, unexplained 13, drift 14, reference_unfit 15, undecidable 16.
     """
     from pyimu.identification.close import close
     from pyimu.identification.report.deliver import check_delivery
     from pyimu.recording.log import read_recording
     from pyimu.recording.reference.file import read_reference
 
+    check_told(as_json, quiet)
     at = radians("--latitude", latitude, 90)
     check_delivery(out)
     check_exports(export)
@@ -151,10 +190,12 @@ def close_command(
         )
         closed = closed.by_command(sys.argv[1:])
         closed.write(out, say=say)
-    print(closed.report())
-    print(f"report: {out / 'report.html'}")
+    lines = [f"report: {out / 'report.html'}"]
     if export is not None:
-        write_exports(str(out / "model.toml"), export, out)
+        lines += write_exports(str(out / "model.toml"), export, out)
+    tell(closed.report, (out / "report.json").read_text, lines, as_json=as_json, quiet=quiet)
+    if exit_code:
+        raise typer.Exit(EXIT_CODES[closed.verdict])
 
 
 def attitude_command(
@@ -173,7 +214,9 @@ def attitude_command(
     part: Annotated[
         str | None,
         typer.Option(
-            "--part", help="Built-in part or a TOML file; without it the noise is the log's own."
+            "--part",
+            help="Built-in part or a TOML file; without it the noise is the log's own.",
+            autocompletion=complete_part,
         ),
     ] = None,
     columns: Columns = None,
@@ -231,6 +274,8 @@ def attitude_command(
         typer.Option("--smooth", help="Estimate each sample by all of the log, not by its past."),
     ] = False,
     effects: Effects = None,
+    as_json: Json = False,
+    quiet: Quiet = False,
 ) -> None:
     """Example: pyimu attitude rover.csv --part imt30 --out out/attitude
 
@@ -244,6 +289,7 @@ def attitude_command(
     from pyimu.files import check_folder
     from pyimu.recording.log import read_recording
 
+    check_told(as_json, quiet)
     at, heading = radians("--latitude", latitude, 90), radians("--heading0", heading0, 360)
     north = radians("--declination", declination, 180)
     where = place_in_radians("--place", place)
@@ -274,5 +320,5 @@ def attitude_command(
         )
         say("drawing the report")
         page = found.write(out)
-    print(found.report())
-    print(f"report: {page}, estimates: {page.with_name('attitude.parquet')}")
+    lines = [f"report: {page}, estimates: {page.with_name('attitude.parquet')}"]
+    tell(found.report, (out / "report.json").read_text, lines, as_json=as_json, quiet=quiet)
