@@ -1,4 +1,5 @@
 from . import attitude as attitude
+from . import export as export
 from . import fmu as fmu
 from . import heading as heading
 from . import navigation as navigation
@@ -35,8 +36,8 @@ from .model.sensor import Sensor as Sensor
 from .model.simulate import simulate as simulate
 from .navigation.result import NavigationResult as NavigationResult
 from .recording.log import Log as Log
+from .recording.log import Recording as Recording
 from .recording.log import open_log as open_log
 from .recording.log import read_recording as read_recording
-from .recording.recording import Recording as Recording
 
 __version__: str

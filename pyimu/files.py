@@ -156,7 +156,12 @@ def write_anew(wanted: Mapping[Path, bytes], folders: Iterable[Path]) -> list[Pa
 
 def write_json(path: Path, value: Any) -> None:
     """Write ``plain(value)`` as JSON, whole or not at all."""
-    write_text(path, json.dumps(plain(value), indent=2, ensure_ascii=False) + "\n")
+    write_text(path, json_text(value) + "\n")
+
+
+def json_text(value: Any) -> str:
+    """``plain(value)`` as JSON."""
+    return json.dumps(plain(value), indent=2, ensure_ascii=False)
 
 
 def plain(value: Any) -> Any:

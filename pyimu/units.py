@@ -5,9 +5,14 @@ gravity, and a spelling that is not in the table is an error that names the near
 
     product = power (("*" | "/") power)*         left to right: deg/h/sqrt(h) = deg/(h sqrt(h))
     power   = factor ["^" integer]
-    factor  = atom | "sqrt" "(" product ")" | "(" product ")"
+    factor  = atom [integer] | "sqrt" "(" product ")" | "(" product ")"
 
-The radian is kept as a dimension of its own, so that a column in 1/s is not taken for a rate.
+What data sheets and the package's own reports print is read as well: degree and micro signs, roots
+with their sign or as rtHz, raised powers, and the names in ``ALIASES``, so that ``°/s``,
+``mdps/√Hz``, ``µg/rtHz``, ``m/s2`` and ``ppm/°C`` are units.
+
+The radian and the count of a converter (LSB) are kept as dimensions of their own, so that a column
+in 1/s is not taken for a rate, nor one in counts for a pure number.
 """
 
 from __future__ import annotations
@@ -40,6 +45,7 @@ IN_SI: dict[str, dict[str, int]] = {
     "K": {"K": 1},
     "V": {"kg": 1, "m": 2, "s": -3, "A": -1},
     "T": {"kg": 1, "s": -2, "A": -1},
+    "LSB": {},
 }
 """The base units of this module in those of SI."""
 
@@ -56,6 +62,8 @@ _ATOMS: dict[str, tuple[float, dict[str, int]]] = {
     "mrad": (1e-3, {"rad": 1}),
     "urad": (1e-6, {"rad": 1}),
     "deg": (_DEG, {"rad": 1}),
+    "mdeg": (1e-3 * _DEG, {"rad": 1}),
+    "rev": (2 * math.pi, {"rad": 1}),
     "arcsec": (_DEG / 3600, {"rad": 1}),
     "s": (1.0, {"s": 1}),
     "ms": (1e-3, {"s": 1}),
@@ -66,6 +74,7 @@ _ATOMS: dict[str, tuple[float, dict[str, int]]] = {
     "Hz": (1.0, {"s": -1}),
     "kHz": (1e3, {"s": -1}),
     "m": (1.0, {"m": 1}),
+    "um": (1e-6, {"m": 1}),
     "mm": (1e-3, {"m": 1}),
     "cm": (1e-2, {"m": 1}),
     "km": (1e3, {"m": 1}),
@@ -81,39 +90,63 @@ _ATOMS: dict[str, tuple[float, dict[str, int]]] = {
     "uT": (1e-6, {"T": 1}),
     "nT": (1e-9, {"T": 1}),
     "gauss": (1e-4, {"T": 1}),
+    "mgauss": (1e-7, {"T": 1}),
+    "LSB": (1.0, {"LSB": 1}),
 }
 
 ATOMS = tuple(_ATOMS)
 """Every spelling that the table knows."""
 
-_HINTS = {
-    "°": "deg",
-    "º": "deg",
+ALIASES = {
+    "dps": "deg/s",
+    "mdps": "mdeg/s",
+    "rpm": "rev/min",
     "degree": "deg",
     "degrees": "deg",
-    "dps": "deg/s",
     "radian": "rad",
     "radians": "rad",
     "sec": "s",
     "second": "s",
     "seconds": "s",
-    "µs": "us",
-    "μs": "us",
     "hr": "h",
     "hour": "h",
     "hours": "h",
-    "µg": "ug",
-    "μg": "ug",
-    "µT": "uT",
-    "μT": "uT",
+    "Gauss": "gauss",
+    "mGauss": "mgauss",
+    "lsb": "LSB",
+    "LSb": "LSB",
+    "digit": "LSB",
+    "digits": "LSB",
+}
+"""Names that data sheets use, in those of the table; each is one factor: LSB/dps = LSB/(deg/s)."""
+
+_SIGNS = {
+    "°C": "degC",
+    "ºC": "degC",
+    "℃": "degC",
+    "°": "deg",
+    "º": "deg",
+    "µ": "u",
+    "μ": "u",
+    "·": "*",
+    "⋅": "*",
+}
+"""Signs in print, and what they stand for; the longer ones go first."""
+
+_RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺", "0123456789-+")
+
+_ROOT = re.compile(r"(?:√ ?|\b(?:rt|sqrt|root)[ -]?)([A-Za-z]+)|(?:√|\brt)(?= ?\()")
+"""The root of one name, √Hz or rtHz, or of what stands in brackets."""
+
+_HINTS = {
     "G": "gauss (field) or g (gravity)",
     "meter": "m",
     "metre": "m",
-    "°C": "degC",
     "C": "degC",
     "celsius": "degC",
     "kelvin": "K",
     "volt": "V",
+    "rps": "rev/s or rad/s",
 }
 """What common spellings outside the table are called in it; only for error messages."""
 
@@ -140,6 +173,11 @@ class Unit:
     def __str__(self) -> str:
         return self.text
 
+    @property
+    def plain(self) -> str:
+        """The spelling without signs that only print has: ``degC`` for ``°C``."""
+        return _plain(self.text)
+
 
 _Value = tuple[float, tuple[Fraction, ...]]
 
@@ -149,7 +187,7 @@ LONGEST = 400
 
 
 def parse(text: str) -> Unit:
-    """The unit that ``text`` spells, such as ``"deg/h/sqrt(h)"`` or ``"rad/s/(m/s^2)"``.
+    """The unit that ``text`` spells, as ``"deg/h/sqrt(h)"``, ``"rad/s/(m/s^2)"`` or ``"µg/√Hz"``.
 
     Raises UnitError for an atom outside the table, naming the nearest one, and for text that is no
     unit.
@@ -198,9 +236,9 @@ def to_degc(values, unit: str | Unit):
     Raises UnitError for another unit.
     """
     unit = _unit(unit)
-    if unit.text not in ("K", "degC"):
+    if unit.plain not in ("K", "degC"):
         raise UnitError(f"a temperature must be in degC or K, not '{unit}'")
-    shifted = np.asarray(values, dtype=float) - (ZERO_CELSIUS if unit.text == "K" else 0.0)
+    shifted = np.asarray(values, dtype=float) - (ZERO_CELSIUS if unit.plain == "K" else 0.0)
     return float(shifted) if shifted.ndim == 0 else shifted
 
 
@@ -217,6 +255,14 @@ def did_you_mean(name: str, names: Iterable[str], cutoff: float = 0.7) -> str:
     """``", did you mean NEAREST?"`` to end an error message with, empty where nothing is near."""
     near = nearest(name, names, cutoff)
     return f", did you mean {near}?" if near else ""
+
+
+def _plain(text: str) -> str:
+    """``text`` in the letters of the table: ``udeg`` for ``µ°``, ``sqrt(h)`` for ``√h``."""
+    for sign, letters in _SIGNS.items():
+        text = text.replace(sign, letters)
+    text = re.sub(r"[⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺]+", lambda m: f"^{m[0].translate(_RAISED)}", text)
+    return _ROOT.sub(lambda m: f"sqrt({m[1]})" if m[1] else "sqrt", text).strip()
 
 
 def _unit(unit: str | Unit) -> Unit:
@@ -241,7 +287,7 @@ class _Reader:
         self.position = 0
 
     def _tokens(self) -> list[str]:
-        tokens, start, text = [], 0, self.text.rstrip()
+        tokens, start, text = [], 0, _plain(self.text)
         while start < len(text):
             match = _TOKEN.match(text, start)
             if not match:
@@ -307,6 +353,13 @@ class _Reader:
         return value
 
     def _atom(self, token: str) -> _Value:
+        if token in ALIASES:
+            unit = parse(ALIASES[token])
+            return unit.factor, unit.dimension
+        raised = re.fullmatch(r"([A-Za-z]+)([23])", token)
+        if raised and raised[1] in _ATOMS:
+            factor, dimension = self._atom(raised[1])
+            return factor ** int(raised[2]), tuple(e * int(raised[2]) for e in dimension)
         if token not in _ATOMS:
             raise self.error(self._unknown(token))
         factor, exponents = _ATOMS[token]
@@ -317,7 +370,9 @@ class _Reader:
         if not token or token in "*/^()":
             return "a unit is missing" + (f" before '{token}'" if token else " at its end")
         meant = (
-            _HINTS.get(token) or _HINTS.get(token.casefold()) or nearest(token, ATOMS, cutoff=0.5)
+            _HINTS.get(token)
+            or _HINTS.get(token.casefold())
+            or nearest(token, [*ATOMS, *ALIASES], cutoff=0.5)
         )
         return f"unknown '{token}'" + (
             f", did you mean {meant}?" if meant else f"; known are {', '.join(ATOMS)}"

@@ -3,6 +3,7 @@ costs no earlier result.
 """
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -13,7 +14,10 @@ from fmu_toy import Unit
 from places import same_path
 
 from pyimu import Recording, __version__, part
+from pyimu.cli.logs import EXIT_CODES
+from pyimu.cli.options import complete_part
 from pyimu.fmu import simulate
+from pyimu.identification.verdict import VERDICTS
 
 RATE = 50.0
 ROWS = 3000
@@ -517,17 +521,18 @@ def test_columns_and_latitude(here, pyimu, uncompiled):
         + '[frame]\nbody = "frd"\n'
     )
     options = ["--part", "plain.toml", "--columns", "map.toml", "--latitude", "52.2"]
-    code, _, err = pyimu("close", "foreign.csv", *options, "--out", "out")
-    assert (code, err) == (0, "")
+    code, out, err = pyimu("close", "foreign.csv", *options, "--out", "out", "--quiet")
+    assert (code, out, err) == (0, "", "")
     np.testing.assert_allclose(
         part("out/model.toml").gyro.values["scale_factor"]["s"], SCALE, atol=six_sigma()
     )
 
 
 def test_log_at_rest_is_undecidable(here, pyimu, uncompiled):
-    code, out, err = pyimu("close", "rest.csv", "--out", "out")
-    assert (code, err) == (0, "") and out.startswith("verdict: undecidable (no motion")
-    report = json.loads(Path("out/report.json").read_text())
+    code, out, err = pyimu("close", "rest.csv", "--out", "out", "--json", "--exit-code")
+    assert (code, err) == (EXIT_CODES["undecidable"], "")
+    report = json.loads(out)
+    assert report == json.loads(Path("out/report.json").read_text())
     assert (
         report["verdict"] == "undecidable"
         and "no motion" in report["reason"]
@@ -536,6 +541,39 @@ def test_log_at_rest_is_undecidable(here, pyimu, uncompiled):
     found = part("out/model.toml").gyro.values["angle_random_walk"]["N"]
     # Rows of three axes: the standard error of a standard deviation is 1 / sqrt(2 n) of it.
     np.testing.assert_allclose(found, NOISE / RATE**0.5, rtol=5 / np.sqrt(2 * 0.7 * ROWS))
+
+
+def test_every_verdict_has_an_exit_status_of_its_own(pyimu):
+    """None is that of bad input, of an error inside or of a run broken off; the help names all."""
+    assert set(EXIT_CODES) == set(VERDICTS) and EXIT_CODES["clean"] == 0
+    codes = list(EXIT_CODES.values())
+    assert len(set(codes)) == len(codes) and not {1, 2, 130} & set(codes)
+    help_text = " ".join(pyimu("close", "--help")[1].split())
+    assert all(f"{name} {code}" in help_text for name, code in EXIT_CODES.items())
+
+
+def test_json_beside_quiet_is_refused_and_parts_are_data(pyimu):
+    code, out, _ = pyimu("parts", "mpu6050", "--json")
+    found = json.loads(out)
+    N = found["coefficients"]["gyro.angle_random_walk.N"]
+    np.testing.assert_array_equal(N["value"], part("mpu6050").gyro.values["angle_random_walk"]["N"])
+    assert code == 0 and N["unit"] == "rad/sqrt(s)" and "page 12" in N["source"]
+    code, out, err = pyimu("characterize", "x.csv", "--json", "--quiet")
+    assert (code, out) == (2, "") and "--json beside --quiet" in err
+
+
+def test_the_shell_completes_names_of_parts():
+    assert complete_part("icm4") == ["icm42670", "icm42688", "icm45686"]
+    done = subprocess.run(
+        [sys.executable, "-m", "pyimu"],
+        env={**os.environ, "_PYIMU_COMPLETE": "complete_bash"}
+        | {"COMP_WORDS": "pyimu export mti", "COMP_CWORD": "2"},
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert done.stdout.split() == ["mti3", "mti300"]
 
 
 def test_build_lists_what_it_made(here, pyimu, uncompiled):

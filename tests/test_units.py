@@ -13,9 +13,20 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pyimu import units
+from pyimu.characterization.report.coefficients import (
+    DENSITY_UNIT,
+    SAMPLE_UNIT,
+    SECOND_N_UNIT,
+    UNITS,
+)
+from pyimu.model.catalogue import CATALOGUE
+from pyimu.model.sensor import Sensor
+from pyimu.model.signals import SIGNALS
+from pyimu.report.numbers import SCRIPTS, SHOWN, pretty, quantity
 from pyimu.units import UnitError, convert, nearest, parse, same_dimension, to_degc
 
 REGISTRY = pint.UnitRegistry()
+PLAIN = {raised: plain for plain, raised in SCRIPTS.items()}
 PINT_NAMES = {
     "1": "dimensionless",
     "%": "percent",
@@ -31,8 +42,53 @@ PINT_NAMES = {
     "uT": "microtesla",
     "nT": "nanotesla",
     "arcsec": "arcsecond",
+    "mdeg": "millidegree",
+    "rev": "turn",
+    "mgauss": "milligauss",
+    "LSB": "count_of_a_converter",
+    **units.ALIASES,
 }
-SI = {"rad": "rad", "s": "s", "m": "m", "K": "kelvin", "V": "volt", "T": "tesla"}
+REGISTRY.define("count_of_a_converter = [counts_of_a_converter]")
+SI = {
+    "rad": "rad",
+    "s": "s",
+    "m": "m",
+    "K": "kelvin",
+    "V": "volt",
+    "T": "tesla",
+    "LSB": "count_of_a_converter",
+}
+PRINTED = {
+    "dps": "deg/s",
+    "deg/hr": "deg/h",
+    "mdps": "mdeg/s",
+    "mdps/√Hz": "mdeg/s/sqrt(Hz)",
+    "µg": "ug",
+    "μg": "ug",
+    "ug/rtHz": "ug/sqrt(Hz)",
+    "μg/√Hz": "ug/sqrt(Hz)",
+    "m/s2": "m/s^2",
+    "m/s²/√Hz": "m/s^2/sqrt(Hz)",
+    "°/s": "deg/s",
+    "º/s": "deg/s",
+    "°/√hr": "deg/sqrt(h)",
+    "deg/rt-hr": "deg/sqrt(h)",
+    "m/s/√(h)": "m/s/sqrt(h)",
+    "°C": "degC",
+    "℃": "K",
+    "rpm": "rev/min",
+    "LSB/g": "LSB/g",
+    "LSB/dps": "LSB/(deg/s)",
+    "LSB/(°/s)": "LSB/(deg/s)",
+    "mg/LSB": "mg/LSB",
+    "mdps/digit": "mdeg/s/LSB",
+    "ppm/°C": "ppm/K",
+    "%/°C": "%/K",
+    "(°/s)/g": "deg/s/g",
+    "1/(rad·s⁻¹)": "s/rad",
+    "sec": "s",
+}
+"""Units as data sheets print them, in the spelling of the table."""
 
 COMPOUNDS = {
     "deg/sqrt(h)": {"rad": 1, "s": -1 / 2},
@@ -70,6 +126,59 @@ def test_atom_factor_is_that_of_pint(atom):
 @pytest.mark.parametrize("text", COMPOUNDS)
 def test_compound_factor_is_that_of_pint(text):
     assert parse(text).factor == pytest.approx(by_pint(text), rel=1e-13)
+
+
+@pytest.mark.parametrize("text", PRINTED)
+def test_a_unit_as_a_data_sheet_prints_it_is_that_of_the_table(text):
+    assert parse(text).dimension == parse(PRINTED[text]).dimension
+    assert parse(text).factor == pytest.approx(by_pint(PRINTED[text]), rel=1e-13)
+
+
+@pytest.mark.parametrize("alias", units.ALIASES)
+def test_an_alias_is_one_factor(alias):
+    """LSB/dps is LSB/(deg/s), and the square of dps that of deg/s."""
+    whole = parse(f"({units.ALIASES[alias]})")
+    assert parse(f"m/{alias}").factor == pytest.approx(1 / whole.factor, rel=1e-15)
+    assert parse(f"{alias}^2").dimension == tuple(2 * e for e in whole.dimension)
+
+
+def shown_units():
+    """Every unit in which a number is said: those people use, those of coefficients and columns."""
+    of_effects = {
+        Sensor(kind).unit(q.unit)
+        for e in CATALOGUE.values()
+        for kind in e.triads
+        for q in e.parameters.values()
+    }
+    tables = {
+        u
+        for units_of in (UNITS, SAMPLE_UNIT, SECOND_N_UNIT, DENSITY_UNIT)
+        for u in _leaves(units_of)
+    }
+    people = {unit for shown in SHOWN.values() for unit, _ in shown}
+    return sorted(of_effects | tables | people | set(SHOWN) | {s.unit for s in SIGNALS.values()})
+
+
+def _leaves(table):
+    return [u for v in table.values() for u in (_leaves(v) if isinstance(v, dict) else [v])]
+
+
+@given(st.sampled_from(shown_units()), st.sampled_from("*/"), st.sampled_from(shown_units()))
+def test_whatever_is_printed_is_read_again(unit, operator, other):
+    """The sign of a root, a raised power, a micro sign, alone and within a product."""
+    for text in (unit, f"({unit}){operator}({other})"):
+        again = parse(pretty(text) or "1")
+        assert again.dimension == parse(text).dimension
+        assert again.factor == pytest.approx(parse(text).factor, rel=1e-13)
+
+
+@given(st.sampled_from(sorted(SHOWN)), st.floats(1e-12, 1e6))
+def test_a_quantity_that_is_printed_is_read_again(si, value):
+    """To the three figures that are printed, whatever the unit of its size."""
+    figure, _, unit = quantity(value, si).partition(" ")
+    mantissa, _, exponent = figure.partition("×10")
+    number = float(mantissa) * 10.0 ** int(exponent.translate(PLAIN) or 0)
+    assert convert(number, unit or "1", si) == pytest.approx(value, rel=5.1e-3)
 
 
 @pytest.mark.parametrize("text", COMPOUNDS)
@@ -129,16 +238,16 @@ def test_any_text_is_a_unit_or_a_unit_error(text):
         ("deg/", "a unit is missing"),
         ("deg s", "unexpected 's'"),
         ("m//s", "missing before '/'"),
-        ("sqrt h", "'(' is missing"),
+        ("sqrt/h", "'(' is missing"),
         ("(rad", "')' is missing"),
         ("rad)", "unexpected ')'"),
         ("rad^0.5", "not a unit"),
         ("rad^s", "a power must be an integer"),
         ("2*s", "unknown '2'"),
-        ("dps", "did you mean deg/s"),
-        ("deg/sec", "did you mean s?"),
+        ("dpss", "did you mean dps"),
+        ("deg/secs", "did you mean sec"),
         ("gram", "unknown 'gram'"),
-        ("°/s", "did you mean deg?"),
+        ("µ°x/s", "unknown 'udegx'"),
         ("G", "gauss"),
         ("RAD", "did you mean rad"),
         ("hz", "did you mean Hz"),

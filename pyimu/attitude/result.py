@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from pyimu import notebook
 from pyimu.attitude.outcome import Outcome
 from pyimu.attitude.report.as_json import contents
 from pyimu.attitude.report.page import TABLE, page
-from pyimu.attitude.report.pictures import whole_figure
+from pyimu.attitude.report.pictures import angles_picture, whole_figure
 from pyimu.attitude.report.terminal import in_lines
 from pyimu.files import staged, write_json, write_text
 from pyimu.recording.formats.suffix import write_table
@@ -33,7 +34,18 @@ class AttitudeResult(Outcome):
 
     def plot(self) -> Figure:
         """Roll, pitch, yaw and gyro bias with their standard deviations, and the NIS, over time."""
-        return whole_figure(self)
+        return notebook.shown(whole_figure(self))
+
+    def __repr__(self) -> str:
+        span = self.time[-1] - self.time[0]
+        smoothed = ", smoothed" if self.smoothed else ""
+        return f"AttitudeResult({self.name!r}: {len(self.time)} samples, {span:.5g} s{smoothed})"
+
+    def _repr_html_(self) -> str:
+        angles = notebook.picture(angles_picture(self))
+        return notebook.block(
+            f"Attitude of {self.name}", "", angles, notebook.lines(in_lines(self))
+        )
 
     def as_dict(self) -> dict[str, Any]:
         """The contents of report.json; ``report.as_json.contents`` describes them."""

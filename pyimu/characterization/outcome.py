@@ -18,6 +18,7 @@ from pyimu.characterization.spectrum.psd import Psd
 from pyimu.characterization.temperature.fit import ThermalFit
 from pyimu.characterization.temperature.warm_up import WarmUp
 from pyimu.errors import Finding
+from pyimu.model.part import Part
 
 SI = {
     "gyro": {"Q": "rad", "N": "rad/sqrt(s)", "B": "rad/s", "K": "rad/s/sqrt(s)", "R": "rad/s^2"},
@@ -189,12 +190,14 @@ class Outcome:
     """What ``characterize`` found: the logs, and the coefficients of the part that they are of.
 
     ``coefficients`` are by (channel, letter), in SI; N is the root of the two-sided density.
-    Intervals hold the true value with the probability ``level``.
+    Intervals hold the true value with the probability ``level``. ``part_given`` is the part, as its
+    data sheet has it, that they are shown beside.
     """
 
     logs: tuple[LogResult, ...]
     level: float
     coefficients: Mapping[tuple[str, str], Summary]
+    part_given: Part | None = None
 
     @property
     def kinds(self) -> tuple[str, ...]:

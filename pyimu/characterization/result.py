@@ -10,7 +10,7 @@ from typing import Any
 from pyimu.characterization.outcome import Outcome
 from pyimu.characterization.report.as_json import contents
 from pyimu.characterization.report.as_part import part_of
-from pyimu.characterization.report.page import MAGNETOMETER, PART, page
+from pyimu.characterization.report.page import MAGNETOMETER, PART, in_notebook, page
 from pyimu.characterization.report.terminal import in_lines
 from pyimu.files import staged, write_json, write_text
 from pyimu.model.part import Part
@@ -28,6 +28,13 @@ class Characterization(Outcome):
     def report(self) -> str:
         """What was found, for a terminal or a notebook."""
         return in_lines(self)
+
+    def __repr__(self) -> str:
+        logs = ", ".join(log.name for log in self.logs)
+        return f"Characterization({logs}: {', '.join(self.kinds)}, {len(self.findings)} findings)"
+
+    def _repr_html_(self) -> str:
+        return in_notebook(self)
 
     def part(self, name: str = "characterised") -> Part:
         """The part that these logs are of, as ``pyimu.build`` and ``pyimu.close`` take it.

@@ -22,6 +22,8 @@ from pyimu.characterization.result import Characterization
 from pyimu.characterization.sensor import SensorAnalysis
 from pyimu.characterization.store import Store
 from pyimu.errors import Finding, UserError
+from pyimu.model.part import Part
+from pyimu.model.part_file import part as find_part
 from pyimu.recording.log import Given, Log, is_one, open_log, recording_of
 from pyimu.recording.names import distinct_names
 from pyimu.recording.recording import Recording
@@ -34,6 +36,7 @@ def characterize(
     recording: Source | Sequence[Source],
     level: float = 0.95,
     say: Say = lambda text, share=None: None,
+    part: str | os.PathLike | Part | None = None,
 ) -> Characterization:
     """Characterise a sensor at rest: its noise, its temperature effect, the quality of its samples.
 
@@ -42,7 +45,8 @@ def characterize(
 
     ``recording`` is one log of a part, or several: a recording, a log opened by ``open_log``, a
     file, or a data frame. ``level`` is the probability of all intervals; ``say(text, share)`` hears
-    what is being done and which share of it, or None. The result's ``report()`` is for reading, its
+    what is being done and which share of it, or None. ``part`` is a data sheet, a built-in part or
+    a TOML file, that the result is shown beside. The result's ``report()`` is for reading, its
     ``part()`` for ``pyimu.build`` and ``pyimu.close``; its ``write(folder)`` writes a page, data
     and the part.
 
@@ -54,11 +58,12 @@ def characterize(
     sources = [recording] if is_one(recording) else list(recording)
     if not sources:
         raise UserError("no log to characterise")
+    given = None if part is None else find_part(part)
     opened = [_opened(s) for s in sources]
     logs: list[LogResult] = []
     for source, name in zip(opened, distinct_names(opened), strict=True):
         logs.append(_log(source, name, level, _origin(logs), say))
-    return Characterization(tuple(logs), level, _summaries(logs, level))
+    return Characterization(tuple(logs), level, _summaries(logs, level), given)
 
 
 def _opened(source: Source) -> Recording | Log:

@@ -18,6 +18,7 @@ from pyimu.cli.logs import attitude_command, characterize_command, close_command
 from pyimu.cli.models import (
     build,
     derive_command,
+    export_command,
     modelica_command,
     parts,
     plan_command,
@@ -32,12 +33,12 @@ from pyimu.interrupt import Interrupts, ignore_at_exit
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 app = typer.Typer(
-    add_completion=False,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
     help=(
         "Example: pyimu demo\n\nMEMS inertial sensors, from a measured log to FMI co-simulation "
-        "units and back."
+        "units and back. Exit status: 0, 2 for bad input, 130 if broken off; pyimu close "
+        "--exit-code has one for each verdict."
     ),
 )
 
@@ -119,6 +120,7 @@ _add("plan", plan_command, "The motion that would show an effect of a part, and 
 _add("rover", rover_command, "The paper's four test drives of a rover beside its table 6.")
 _add("build", build, "Build the co-simulation units of a part.")
 _add("modelica", modelica_command, "A part as a Modelica class.")
+_add("export", export_command, "A part as Kalibr, Gazebo, PX4 and others read it.")
 _add("parts", parts, "The built-in parts, or one part with the source of each figure.")
 _add(
     "campaign",

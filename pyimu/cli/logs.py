@@ -12,14 +12,34 @@ from pyimu.cli.options import (
     FORMATS,
     Columns,
     Effects,
+    Export,
+    Json,
     Latitude,
     Out,
+    Quiet,
     add_effects,
+    check_exports,
+    check_told,
+    complete_part,
     place_in_radians,
     progress,
     radians,
+    tell,
+    write_exports,
 )
 from pyimu.errors import UserError
+
+EXIT_CODES = {
+    "clean": 0,
+    "named": 10,
+    "partly": 11,
+    "not_confirmed": 12,
+    "unexplained": 13,
+    "drift": 14,
+    "reference_unfit": 15,
+    "undecidable": 16,
+}
+"""Exit status of ``pyimu close --exit-code`` by verdict; 2 is bad input, 130 a run broken off."""
 
 
 def demo(out: Out = Path("out/demo")) -> None:
@@ -50,28 +70,45 @@ def characterize_command(
     out: Annotated[
         Path, typer.Option("--out", help="Folder for report.html, report.json and part.toml.")
     ] = Path("out/characterize"),
+    part: Annotated[
+        str | None,
+        typer.Option(
+            "--part",
+            help="Data sheet to set beside: a built-in part or a TOML file.",
+            autocompletion=complete_part,
+        ),
+    ] = None,
     columns: Columns = None,
     level: Annotated[float, typer.Option("--level", help="Probability of the intervals.")] = 0.95,
+    export: Export = None,
+    as_json: Json = False,
+    quiet: Quiet = False,
 ) -> None:
     """Example: pyimu characterize static.csv --out out/static
 
     Allan deviation, spectrum, temperature effect and quality of the samples of a sensor at rest:
     its noise coefficients with intervals, the pictures of a data sheet, and a part file for pyimu
     build and pyimu close. A log in which it turns every way calibrates its magnetometer as well
-    (magnetometer.toml). Several logs of one part give means and their spread. The samples wait in
-    temporary files (TMPDIR says where), so that a log may be larger than memory.
+    (magnetometer.toml). With --part each figure stands beside the data sheet's. Several logs of one
+    part give means and their spread. The samples wait in temporary files (TMPDIR says where), so
+    that a log may be larger than memory.
     """
     from pyimu.characterization.run import characterize
     from pyimu.files import check_folder
     from pyimu.recording.log import open_log
 
+    check_told(as_json, quiet)
     check_folder(out)
+    check_exports(export)
     with progress("reading") as say:
-        found = characterize([open_log(path, columns) for path in logs], level, say)
+        found = characterize([open_log(path, columns) for path in logs], level, say, part)
         say("drawing the report")
         page = found.write(out)
-    print(found.report())
-    print(f"report: {page}, part: {page.with_name('part.toml')}")
+    made = page.with_name("part.toml")
+    lines = [f"report: {page}, part: {made}"]
+    if export is not None:
+        lines += write_exports(str(made), export, out)
+    tell(found.report, (out / "report.json").read_text, lines, as_json=as_json, quiet=quiet)
 
 
 def close_command(
@@ -89,7 +126,11 @@ def close_command(
     ] = Path("out/close"),
     part: Annotated[
         str | None,
-        typer.Option("--part", help="Built-in part or a TOML file; without it all is estimated."),
+        typer.Option(
+            "--part",
+            help="Built-in part or a TOML file; without it all is estimated.",
+            autocompletion=complete_part,
+        ),
     ] = None,
     holdout: Annotated[
         list[Path] | None,
@@ -111,20 +152,32 @@ def close_command(
         typer.Option("--latitude", help="Degrees; adds the Earth's rate to a derived reference."),
     ] = None,
     effects: Effects = None,
+    export: Export = None,
+    as_json: Json = False,
+    quiet: Quiet = False,
+    exit_code: Annotated[
+        bool,
+        typer.Option("--exit-code", help="Exit status by verdict, for scripts: see below."),
+    ] = False,
 ) -> None:
     """Example: pyimu close rover.csv --part imt30 --out out/rover
 
     Compare a sensor's model with measured logs, find the effects that it lacks, add them, and
     report the error before and after on data that was not fitted, with the model as a part file and
     as FMUs.
+
+    Exit status: 0, or 2 for bad input. With --exit-code a verdict has its own: clean 0, named 10,
+    partly 11, not_confirmed 12, unexplained 13, drift 14, reference_unfit 15, undecidable 16.
     """
     from pyimu.identification.close import close
     from pyimu.identification.report.deliver import check_delivery, without_units
     from pyimu.recording.log import read_recording
     from pyimu.recording.reference.file import read_reference
 
+    check_told(as_json, quiet)
     at = radians("--latitude", latitude, 90)
     check_delivery(out)
+    check_exports(export)
     add_effects(effects)
     with progress("reading") as say:
         recordings, judges = (
@@ -140,10 +193,13 @@ def close_command(
         )
         closed = closed.by_command(sys.argv[1:])
         closed.write(out, say=say)
-    print(closed.report())
-    if left_out := without_units():
-        print(left_out)
-    print(f"report: {out / 'report.html'}")
+    lines = [said] if (said := without_units()) else []
+    lines.append(f"report: {out / 'report.html'}")
+    if export is not None:
+        lines += write_exports(str(out / "model.toml"), export, out)
+    tell(closed.report, (out / "report.json").read_text, lines, as_json=as_json, quiet=quiet)
+    if exit_code:
+        raise typer.Exit(EXIT_CODES[closed.verdict])
 
 
 def attitude_command(
@@ -162,7 +218,9 @@ def attitude_command(
     part: Annotated[
         str | None,
         typer.Option(
-            "--part", help="Built-in part or a TOML file; without it the noise is the log's own."
+            "--part",
+            help="Built-in part or a TOML file; without it the noise is the log's own.",
+            autocompletion=complete_part,
         ),
     ] = None,
     columns: Columns = None,
@@ -220,6 +278,8 @@ def attitude_command(
         typer.Option("--smooth", help="Estimate each sample by all of the log, not by its past."),
     ] = False,
     effects: Effects = None,
+    as_json: Json = False,
+    quiet: Quiet = False,
 ) -> None:
     """Example: pyimu attitude rover.csv --part imt30 --out out/attitude
 
@@ -233,6 +293,7 @@ def attitude_command(
     from pyimu.files import check_folder
     from pyimu.recording.log import read_recording
 
+    check_told(as_json, quiet)
     at, heading = radians("--latitude", latitude, 90), radians("--heading0", heading0, 360)
     north = radians("--declination", declination, 180)
     where = place_in_radians("--place", place)
@@ -263,5 +324,5 @@ def attitude_command(
         )
         say("drawing the report")
         page = found.write(out)
-    print(found.report())
-    print(f"report: {page}, estimates: {page.with_name('attitude.parquet')}")
+    lines = [f"report: {page}, estimates: {page.with_name('attitude.parquet')}"]
+    tell(found.report, (out / "report.json").read_text, lines, as_json=as_json, quiet=quiet)

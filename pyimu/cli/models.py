@@ -7,7 +7,17 @@ from typing import Annotated
 
 import typer
 
-from pyimu.cli.options import Effects, Out, add_effects, progress
+from pyimu.cli.options import (
+    Effects,
+    Json,
+    Out,
+    PartName,
+    add_effects,
+    complete_part,
+    progress,
+    tell,
+    write_exports,
+)
 from pyimu.errors import UserError
 
 
@@ -41,7 +51,7 @@ def rover_command(
 
 
 def plan_command(
-    part: Annotated[str, typer.Argument(help="Built-in part or a TOML file.", show_default=False)],
+    part: PartName,
     wanted: Annotated[
         list[str],
         typer.Option(
@@ -98,7 +108,7 @@ def plan_command(
 
 
 def build(
-    part: Annotated[str, typer.Argument(help="Built-in part or a TOML file.", show_default=False)],
+    part: PartName,
     out: Out = Path("out/fmus"),
     fmu: Annotated[
         str,
@@ -175,7 +185,7 @@ def build(
 
 
 def modelica_command(
-    part: Annotated[str, typer.Argument(help="Built-in part or a TOML file.", show_default=False)],
+    part: PartName,
     out: Annotated[Path, typer.Option("--out", help="Folder for the file NAME.mo.")] = Path(
         "out/modelica"
     ),
@@ -193,6 +203,38 @@ def modelica_command(
     print(export(part, out))
 
 
+def export_command(
+    part: PartName,
+    to: Annotated[
+        str,
+        typer.Option(
+            "--to",
+            help="Projects, separated by commas: kalibr, openvins, vins, gazebo, isaac, ros2, "
+            "matlab, px4.",
+            show_default=False,
+        ),
+    ],
+    out: Out = Path("out/export"),
+    inflate: Annotated[
+        float | None,
+        typer.Option(
+            "--inflate",
+            help="Factor on the noise; else what the project's docs recommend. 1 is as it is.",
+        ),
+    ] = None,
+    effects: Effects = None,
+) -> None:
+    """Example: pyimu export mpu6050 --to kalibr,px4 --out out/export
+
+    Write a part's noise as other projects read it: the file of each, in its units and its
+    convention of a density, with the inflation that its docs recommend. A part that pyimu
+    characterize or pyimu close wrote is a part as well.
+    """
+    add_effects(effects)
+    for line in write_exports(part, to, out, inflate):
+        print(line)
+
+
 def parts(
     name: Annotated[
         str | None,
@@ -200,9 +242,20 @@ def parts(
             metavar="PART",
             help="Built-in part or a TOML file; without it all are listed.",
             show_default=False,
+            autocompletion=complete_part,
+        ),
+    ] = None,
+    new: Annotated[
+        str | None,
+        typer.Option(
+            "--new",
+            metavar="NAME",
+            help="Write NAME.toml here: a part to fill in, with a place for each figure of a data "
+            "sheet.",
         ),
     ] = None,
     effects: Effects = None,
+    as_json: Json = False,
 ) -> None:
     """Example: pyimu parts mpu6050
 
@@ -211,10 +264,23 @@ def parts(
     dash stands where the part has no figure. Tolerances follow, from which pyimu build draws a
     specimen: uniform is anywhere within the figure, normal has it for one standard deviation.
     """
-    from pyimu.report.parts_table import detail, listing, terminal_width
+    from pyimu.files import json_text
+    from pyimu.model.part_file import new_part
+    from pyimu.report.parts_table import as_data, detail, listing, terminal_width
 
+    if new is not None:
+        if name is not None:
+            raise UserError(f"--new {new} beside {name}: give one of the two")
+        path = new_part(new)
+        print(f"{path}: take the '#' from what your data sheet has; pyimu parts {path} prints it")
+        return
     add_effects(effects)
-    print(detail(name, terminal_width()) if name is not None else listing(width=terminal_width()))
+    width = terminal_width()
+    tell(
+        lambda: listing(width=width) if name is None else detail(name, width),
+        lambda: json_text(as_data(name)),
+        as_json=as_json,
+    )
 
 
 def derive_command(

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from pyimu.errors import UserError
+
+if TYPE_CHECKING:
+    from pyimu.model.part import Part
 
 Out = Annotated[
     Path, typer.Option("--out", help="Folder for what is written; made if it is missing.")
@@ -81,6 +84,80 @@ def add_effects(files: list[Path] | None) -> None:
         from pyimu.model.catalogue import add_effects as add
 
         add(*files)
+
+
+Export = Annotated[
+    str | None,
+    typer.Option(
+        "--export",
+        metavar="PROJECTS",
+        help="Also write the part as other projects read it, as pyimu export --to does.",
+    ),
+]
+
+
+def check_exports(to: str | None) -> None:
+    """Raise UserError now, not after a long run, for a project that is not known."""
+    if to is not None:
+        from pyimu.export import known
+
+        known(to)
+
+
+def write_exports(part: Part | str, to: str, out: Path, inflate: float | None = None) -> list[str]:
+    """Write the files of the projects ``to``, all or none; gives a line on each."""
+    from pyimu.export import export, known
+    from pyimu.files import staged, write_text
+
+    made = [export(part, name, inflate) for name in known(to)]
+    with staged(out) as stage:
+        for e in made:
+            write_text(stage / e.file, e.text)
+    return [f"{out / e.file}: {e.said()}" for e in made]
+
+
+Json = Annotated[
+    bool, typer.Option("--json", help="Print the result as JSON, that of report.json, alone.")
+]
+Quiet = Annotated[bool, typer.Option("--quiet", help="Print nothing but errors.")]
+
+
+def check_told(as_json: bool, quiet: bool) -> None:
+    """Raise UserError where both are asked for."""
+    if as_json and quiet:
+        raise UserError("--json beside --quiet: give one of the two")
+
+
+def tell(
+    report: Callable[[], str],
+    data: Callable[[], str],
+    lines: Iterable[str] = (),
+    *,
+    as_json: bool = False,
+    quiet: bool = False,
+) -> None:
+    """Print a result as text with ``lines`` below it, as JSON alone, or not at all."""
+    if as_json:
+        print(data().rstrip("\n"))
+    elif not quiet:
+        print("\n".join([report(), *lines]))
+
+
+def complete_part(incomplete: str) -> list[str]:
+    """Names of built-in parts for the shell, without loading the package's model."""
+    from importlib.resources import files
+
+    names = (f.name for f in files("pyimu.model").joinpath("parts").iterdir())
+    parts = sorted(n.removesuffix(".toml") for n in names if n.endswith(".toml"))
+    return [name for name in parts if name.startswith(incomplete)]
+
+
+PartName = Annotated[
+    str,
+    typer.Argument(
+        help="Built-in part or a TOML file.", show_default=False, autocompletion=complete_part
+    ),
+]
 
 
 @contextmanager

@@ -7,9 +7,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from pyimu import notebook
 from pyimu.identification.outcome import Outcome
 from pyimu.identification.report.deliver import deliver
 from pyimu.identification.report.terminal import in_lines
+from pyimu.identification.report.words import headline
 
 
 @dataclass(frozen=True)
@@ -24,6 +26,14 @@ class Closed(Outcome):
     def report(self) -> str:
         """A few lines for a terminal or a notebook."""
         return in_lines(self)
+
+    def __repr__(self) -> str:
+        return f"Closed({self.verdict}: {self.before.name}, {len(self.recordings)} recordings)"
+
+    def _repr_html_(self) -> str:
+        return notebook.block(
+            f"Closed: {self.verdict}", headline(self), notebook.lines(self.report())
+        )
 
     def write(
         self,

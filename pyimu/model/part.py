@@ -14,6 +14,7 @@ from pyimu.block.block import Block
 from pyimu.block.variables import IMU, MOTION, Limits, Variable, seed_of
 from pyimu.errors import UserError
 from pyimu.files import shortened
+from pyimu.model import show
 from pyimu.model.arguments import AXES
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import EVERY_SAMPLE, SIGNALS, Derived, inputs_for, vector
@@ -65,6 +66,9 @@ class Part:
             raise UserError(f"part {self.name}: two tolerances of one coefficient")
         in_order = sorted(self.tolerances, key=lambda t: t.place)
         object.__setattr__(self, "tolerances", tuple(in_order))
+
+    __repr__ = show.as_text
+    _repr_html_ = show.as_html
 
     @property
     def sample_period(self) -> float:

@@ -41,16 +41,48 @@ class FigureScale:
     si: str
     density: str = "two-sided"
 
+    @property
+    def says_otherwise(self) -> bool:
+        """Whether the unit says the same otherwise: a step in LSB/g or mg/LSB, a corner in Hz."""
+        dimension = units.parse(self.unit).dimension
+        return any(dimension == units.parse(form).dimension for form in self._other_forms())
+
+    def _other_forms(self) -> dict[str, bool]:
+        """Units in which people say what has the unit ``si``, and whether they are its inverse."""
+        corner = {"rad/s/rev": False} if self.si == "rad/s" else {}
+        return {f"LSB/({self.si})": True, f"({self.si})/LSB": False} | corner
+
+    def _as_said(self) -> tuple[str, str, bool]:
+        """The unit, the form of ``si`` that it converts to, and whether the figure is 1 / it."""
+        unit = units.parse(self.unit)
+        for form, inverse in self._other_forms().items():
+            if unit.dimension == units.parse(form).dimension:
+                return (
+                    (f"({self.unit})*rev", self.si, False)
+                    if "rev" in form
+                    else (self.unit, form, inverse)
+                )
+        return self.unit, self.si, False
+
     def to_si(self, figures: Any) -> np.ndarray:
         if self.si == "degC":
             return np.asarray(units.to_degc(figures, self.unit))
-        return np.asarray(units.convert(figures, self.unit, self.si)) / DENSITIES[self.density]
+        unit, si, inverse = self._as_said()
+        values = np.asarray(units.convert(figures, unit, si)) / DENSITIES[self.density]
+        return _inverse(values) if inverse else values
 
     def guess(self, values: np.ndarray) -> np.ndarray:
         """Figures whose SI values are ``values`` to within rounding."""
         if self.si == "degC":
-            return values + (units.ZERO_CELSIUS if self.unit == "K" else 0.0)
-        return np.asarray(units.convert(values * DENSITIES[self.density], self.si, self.unit))
+            return values + (units.ZERO_CELSIUS if units.parse(self.unit).plain == "K" else 0.0)
+        unit, si, inverse = self._as_said()
+        values = _inverse(np.asarray(values)) if inverse else values
+        return np.asarray(units.convert(values * DENSITIES[self.density], si, unit))
+
+
+def _inverse(values: np.ndarray) -> np.ndarray:
+    """1 / values; zero, which switches a step off, stays zero."""
+    return np.divide(1.0, values, out=np.zeros(np.shape(values)), where=values != 0.0)
 
 
 def is_density(unit: Any) -> bool:

@@ -28,6 +28,7 @@ element, of a matrix too. ``Part.specimen`` draws from them.
 from __future__ import annotations
 
 import os
+import re
 from importlib.resources import files
 from pathlib import Path
 
@@ -70,6 +71,27 @@ def part(name_or_path: str | os.PathLike | Part) -> Part:
         f"{shortened(name)}: no built-in part ({', '.join(part_names())}) and no TOML file; "
         f"{meant(name, part_names())}"
     )
+
+
+def new_part(name: str, folder: str | os.PathLike = ".") -> Path:
+    """Write ``NAME.toml``, a part to fill in: a place for each figure of a data sheet.
+
+    Raises UserError for a name that is taken by a built-in part or is no file's name, and where
+    there is such a file already.
+    """
+    if not re.fullmatch(r"[A-Za-z0-9][\w.+-]*", name):
+        raise UserError(
+            f"{name!r}: a part's name has letters, digits, '-', '_' and '.', as in mypart"
+        )
+    name = name.removesuffix(".toml")
+    path = Path(folder) / f"{name}.toml"
+    if name in part_names():
+        raise UserError(f"{name} is a built-in part (pyimu parts {name}); give yours another name")
+    if path.exists():
+        raise UserError(f"{path}: is there already; give another name, or take that file away")
+    text = files("pyimu.model").joinpath("part_template.toml").read_text(encoding="utf-8")
+    write_text(path, text.replace("NAME", name))
+    return path
 
 
 def load_part(path: str | os.PathLike) -> Part:

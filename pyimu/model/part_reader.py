@@ -196,7 +196,14 @@ class _Reader:
     def _in_si(self, key: Key, q: Parameter, entry: dict[str, Any]) -> np.ndarray:
         where = ".".join(key)
         figures = self._numbers(where, entry, q)
-        scale = self._scale(where, entry, self._si(key, q), q.density)
+        otherwise = q.corner or q.reads == "step"
+        scale = self._scale(where, entry, self._si(key, q), q.density, otherwise)
+        if q.density and is_density(scale.unit) and "density" not in entry:
+            raise self.error(
+                where,
+                f'{scale.unit} is the root of a density: add density = "one-sided" (as data sheets '
+                'print it) or density = "two-sided"; the two differ by 1.41',
+            )
         if scale.density == "one-sided" and "quoted" not in entry:
             self.notes[key]["quoted"] = f"{format_array(figures)} {scale.unit}, one-sided"
         values = scale.to_si(figures)
@@ -265,8 +272,14 @@ class _Reader:
         return Sensor(key[0]).unit(q.unit)
 
     def _scale(
-        self, where: str, entry: Mapping[str, Any], si: str, with_density: bool
+        self,
+        where: str,
+        entry: Mapping[str, Any],
+        si: str,
+        with_density: bool,
+        otherwise: bool = False,
     ) -> FigureScale:
+        """How the figures become SI; ``otherwise`` allows counts (a step) or Hz (a corner)."""
         if "density" in entry and not with_density:
             raise self.error(f"{where}.density", "goes only with the root of a noise's density")
         density = entry.get("density", "two-sided")
@@ -283,11 +296,14 @@ class _Reader:
         if "unit" not in entry and si != "1":
             raise self.error(where, f'has no unit, write {{value = ..., unit = "{si}"}}')
         unit = entry.get("unit", "1")
+        scale = FigureScale(unit, si, density)
         try:
+            if otherwise and scale.says_otherwise:
+                return scale
             units.to_degc(0.0, unit) if si == "degC" else units.convert(0.0, unit, si)
         except units.UnitError as error:
             raise self.error(f"{where}.unit", f"{error}; expected a unit like {si}") from None
-        return FigureScale(unit, si, density)
+        return scale
 
     def _numbers(self, where: str, entry: Mapping[str, Any], q: Parameter) -> np.ndarray:
         """The figures of an entry in the parameter's shape, finite."""

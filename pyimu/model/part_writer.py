@@ -60,7 +60,7 @@ def _format_rate(part: Part) -> str:
 def _format_entry(part: Part, sensor: Sensor, e: Effect, name: str) -> str:
     key, q = (sensor.kind, e.name, name), e.parameters[name]
     note, values = part.notes.get(key, {}), sensor.values[e.name][name]
-    entry = _with_unit(values, sensor.unit(q.unit), note)
+    entry = _with_unit(values, sensor.unit(q.unit), note, q.density)
     if key in part.estimate:
         # Where the search starts is worth a word only if it is not the identity.
         start = {"start": entry.pop("value")} if np.any(values != q.start) else {}
@@ -72,8 +72,10 @@ def _format_entry(part: Part, sensor: Sensor, e: Effect, name: str) -> str:
     return _table({**entry, **_texts(note, ("source", "quoted"))})
 
 
-def _with_unit(values: np.ndarray, si: str, note: Mapping[str, str]) -> dict[str, str]:
-    """The value of an entry with its unit.
+def _with_unit(
+    values: np.ndarray, si: str, note: Mapping[str, str], noise: bool = False
+) -> dict[str, str]:
+    """The value of an entry with its unit, and for the density of a ``noise`` which kind it is.
 
     The unit is the quoted one where that gives back the same SI value to the last bit.
     """
@@ -85,7 +87,7 @@ def _with_unit(values: np.ndarray, si: str, note: Mapping[str, str]) -> dict[str
     if figures is None:
         scale = FigureScale(si, si)
         figures = _figures(values, scale)
-    density = {"density": _text(scale.density)} if scale.density == "one-sided" else {}
+    density = {"density": _text(scale.density)} if noise and is_density(scale.unit) else {}
     return {"value": figures, "unit": _text(scale.unit), **density}
 
 

@@ -276,3 +276,20 @@ def recording_of(given: Given) -> Recording:
             "a data frame with columns as 'time [s]', 'gyro_x [rad/s]'"
         )
     return replace(Log(Source.of(FrameReader.of(given), ForeignMap())).read(), path=None)
+
+
+def _from_frame(cls: type[Recording], frame: Any, name: str = "frame") -> Recording:
+    """A recording of a data frame, its columns named with their units as those of a file.
+
+    ``gyro_x [deg/s]``, ``accel_x [g]``, ``time [ms]`` are such. Raises UserError as
+    ``read_recording`` does.
+    """
+    if not is_frame(frame):
+        raise UserError(
+            f"a {type(frame).__name__} is no data frame; recordings of arrays: from_arrays"
+        )
+    return replace(recording_of(frame), name=name)
+
+
+# Reading lies above what is read; so it gives the class its constructor from a frame.
+Recording.from_frame = classmethod(_from_frame)

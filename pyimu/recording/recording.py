@@ -19,11 +19,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pyimu.errors import Finding, UserError
+from pyimu.recording import show
 from pyimu.recording.clock import Cadence, cadence_of, segments
 from pyimu.recording.columns import GROUPS, column_names
 from pyimu.recording.formats.suffix import write_table
 from pyimu.recording.gaps import gap_rows
 from pyimu.units import did_you_mean
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
 
 _Columns = make_dataclass(
     "_Columns",
@@ -99,6 +103,23 @@ class Recording(_Columns):
             f"Recording({self.name!r}: {len(self)} samples, {self.sample_rate:.6g} Hz, "
             f"{', '.join(self.groups)})"
         )
+
+    _repr_html_ = show.as_html
+    plot = show.plot
+
+    if TYPE_CHECKING:  # ``pyimu.recording.log``, which reads files, gives it
+
+        @classmethod
+        def from_frame(cls, frame: Any, name: str = "frame") -> Recording: ...
+
+    def to_frame(self) -> DataFrame:
+        """The columns as a pandas data frame, named with their units in SI: ``gyro_x [rad/s]``.
+
+        ``Recording.from_frame`` of it is the same recording.
+        """
+        from pandas import DataFrame
+
+        return DataFrame(self._table())
 
     @property
     def groups(self) -> dict[str, np.ndarray]:

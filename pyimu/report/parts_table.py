@@ -11,9 +11,11 @@ import io
 import shutil
 import sys
 from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
 
+from pyimu.files import plain
 from pyimu.model.part import Part
 from pyimu.model.part_entry import RATE_KEY
 from pyimu.model.part_file import part, part_names
@@ -31,6 +33,9 @@ COLUMNS = (
     ("range", "accel", "saturation", "limit", "g"),
 )
 """What the listing compares: heading, sensor, effect, parameter, and one unit for all parts."""
+
+SAID = ("quoted", "source")
+"""What the notes of a coefficient say beside its value."""
 
 LEAST = 18
 """Characters of a column with text; the words in it are not longer."""
@@ -74,6 +79,47 @@ def detail(name: str | Part, width: int | None = None) -> str:
     if p.tolerances:
         tables.append(_sourced("tolerance", "specimens lie", _tolerances(p), width))
     return "\n\n".join([title, *tables])
+
+
+def as_data(name: str | None = None) -> dict[str, Any]:
+    """A part as data, or without a name each by its own: what its file says, values in SI.
+
+    {``name``, ``description``, ``sample_rate`` [Hz], ``coefficients``: {``gyro.effect.parameter``:
+    {``value``, ``unit``, ``quoted``, ``source``}}, ``tolerances``: {the same: {``size``,
+    ``unit``, ``distribution``, ``quoted``, ``source``}}}.
+    """
+    if name is None:
+        return {own: as_data(own) for own in part_names()}
+    p = part(name)
+    coefficients = {
+        ".".join((sensor.kind, effect, parameter)): {
+            "value": values[parameter],
+            "unit": sensor.unit(sensor.effect(effect).parameters[parameter].unit),
+            **{k: p.notes.get((sensor.kind, effect, parameter), {}).get(k) for k in SAID},
+        }
+        for sensor in (p.gyro, p.accel, p.mag)
+        for effect, values in sensor.values.items()
+        for parameter in values
+    }
+    tolerances = {
+        ".".join(t.key): {
+            "size": t.array,
+            "unit": t.si,
+            "distribution": t.distribution,
+            "quoted": t.quoted,
+            "source": t.source,
+        }
+        for t in p.tolerances
+    }
+    return plain(
+        {
+            "name": p.name,
+            "description": p.description,
+            "sample_rate": p.sample_rate,
+            "coefficients": coefficients,
+            "tolerances": tolerances,
+        }
+    )
 
 
 def terminal_width() -> int | None:

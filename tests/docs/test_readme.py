@@ -11,6 +11,8 @@ from pyimu.rover.demo import recording
 
 README = Path(__file__).parents[2] / "README.md"
 COMMAND = "$ pyimu close out/demo/rover.csv --part imt30"
+PYTHON = re.compile(r"^```python\n(.*?)^```", re.MULTILINE | re.DOTALL)
+EFFECTS_BY_NAME = {e.name: e for e in EFFECTS}
 NUMBER = re.compile(r"\d+(?:\.\d+)?")
 
 
@@ -27,9 +29,38 @@ def shown() -> list[str]:
 
 
 @pytest.fixture(scope="module")
-def printed() -> dict[str, str]:
-    lines = pyimu.close(recording(), part="imt30").report().splitlines()
-    return {words(line): line for line in lines}
+def closed() -> pyimu.Closed:
+    return pyimu.close(recording(), part="imt30")
+
+
+@pytest.fixture(scope="module")
+def printed(closed) -> dict[str, str]:
+    return {words(line): line for line in closed.report().splitlines()}
+
+
+@pytest.fixture
+def as_after_the_commands(closed, tmp_path, monkeypatch):
+    """A folder with what the commands that stand above the blocks leave there."""
+    recording().write(tmp_path / "out" / "demo" / "rover.csv")
+    pyimu.save_part(closed.after, tmp_path / "out" / "demo" / "model.toml")
+    pyimu.build("imt30", tmp_path / "out" / "fmus", ["sensor"], [3])
+    monkeypatch.chdir(tmp_path)
+
+
+def test_every_block_of_python_runs(as_after_the_commands, capsys):
+    """One after the other, as someone would paste them."""
+    blocks = PYTHON.findall(README.read_text(encoding="utf-8"))
+    names: dict = {}
+    for block in blocks:
+        exec(compile(block, "README.md", "exec"), names)
+    assert len(blocks) == 3 and Path("attitude.png").stat().st_size > 10_000
+    assert names["found"].report() in capsys.readouterr().out
+    assert names["g_sensitivity"].equation == EFFECTS_BY_NAME["g_sensitivity"].equation
+
+
+def test_the_block_of_the_page_on_noise_runs():
+    (block,) = PYTHON.findall((README.parent / "docs" / "noise.md").read_text(encoding="utf-8"))
+    exec(compile(block, "noise.md", "exec"), {})
 
 
 def test_the_sample_of_close_is_what_it_prints(printed):

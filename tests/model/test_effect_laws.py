@@ -110,7 +110,7 @@ def scale(unit: str) -> float:
     Powers of four, whose roots are exact too: nothing is rounded. The radian stays the number one,
     which it is in SI: a small angle multiplies a rate, and wn h counts radians a sample.
     """
-    factors = {"rad": 1.0, "s": 4.0, "m": 16.0, "K": 1 / 64, "V": 256.0, "T": 1 / 1024}
+    factors = {"rad": 1.0, "s": 4.0, "m": 16.0, "K": 1 / 64, "V": 256.0, "T": 1 / 1024, "LSB": 1.0}
     return float(
         np.prod(
             [factors[base] ** float(e) for base, e in zip(units.BASES, units.parse(unit).dimension)]
@@ -378,7 +378,7 @@ def defined(**arguments):
             "effect made_up: unknown signal 'temprature', did you mean temperature",
         ),
         (Parameter("furlong"), "effect made_up: a: 'furlong' is not a unit"),
-        (Parameter("{y}*sec"), "did you mean s"),
+        (Parameter("{y}*secx"), "did you mean sec"),
         (State("deg/dy"), "effect made_up: a: 'deg/dy' is not a unit"),
     ],
 )

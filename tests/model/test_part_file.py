@@ -156,12 +156,12 @@ ERRORS = dict(
             "gyro.angle_random_walk.N.unit: 'deg/s' cannot be converted to 'rad/sqrt(s)'",
         ),
         (
-            '[gyro.turn_on_bias]\nb0 = {value = 3, unit = "dps"}',
-            "gyro.turn_on_bias.b0.unit: 'dps' is not a unit: unknown 'dps', did you mean deg/s?",
+            '[gyro.turn_on_bias]\nb0 = {value = 3, unit = "dpss"}',
+            "gyro.turn_on_bias.b0.unit: 'dpss' is not a unit: unknown 'dpss', did you mean dps?",
         ),
         (
-            '[gyro.turn_on_bias]\nb0 = {value = "estimate", unit = "dps"}',
-            "gyro.turn_on_bias.b0.unit: 'dps' is not a unit",
+            '[gyro.turn_on_bias]\nb0 = {value = "estimate", unit = "dpss"}',
+            "gyro.turn_on_bias.b0.unit: 'dpss' is not a unit",
         ),
         (
             '[gyro.thermal_bias]\nT0 = {value = 3, unit = "rad"}',
@@ -370,3 +370,49 @@ def test_load_part_and_the_name_agree(tmp_path):
     path = tmp_path / "imt30.toml"
     path.write_text(format_part(part("imt30")))
     assert load_part(path) == part(str(path)) == part("imt30")
+
+
+def test_a_density_says_whether_it_is_one_sided():
+    """Read in silence as two-sided, a data sheet's figure would be 1.41 times too large."""
+    entry = '[gyro.angle_random_walk]\nN = {{value = 5, unit = "{}"{}}}'
+    for unit in ("mdps/√Hz", "deg/s/sqrt(Hz)", "mdps/rtHz"):
+        with pytest.raises(UserError, match='add density = "one-sided".*or density = "two-sided"'):
+            read(entry.format(unit, ""))
+    read(entry.format("deg/√hr", ""))
+    one = read(entry.format("mdps/√Hz", ', density = "one-sided"'))
+    again = parse_part(format_part(one))
+    assert again == one and 'density = "one-sided"' in format_part(one)
+    np.testing.assert_allclose(
+        one.gyro.values["angle_random_walk"]["N"], 5e-3 * DEG / np.sqrt(2), rtol=1e-14
+    )
+
+
+@pytest.mark.parametrize(
+    ("kind", "entry", "value"),
+    [
+        ("gyro", 'quantization.q = {value = 16.4, unit = "LSB/(°/s)"}', DEG / 16.4),
+        ("gyro", 'quantization.q = {value = 8.75, unit = "mdps/LSB"}', 8.75e-3 * DEG),
+        ("accel", 'quantization.q = {value = 16384, unit = "LSB/g"}', 9.80665 / 16384),
+        ("accel", 'quantization.q = {value = 0, unit = "LSB/g"}', 0.0),
+        ("gyro", 'lag.wn = {value = 47, unit = "Hz"}', 2 * np.pi * 47),
+        ("accel", 'lag.wn = {value = 0.4, unit = "kHz"}', 2 * np.pi * 400),
+    ],
+)
+def test_steps_in_counts_and_corners_in_hertz_are_read_as_printed(kind, entry, value):
+    made = read(f"[{kind}]\n{entry}")
+    effect, parameter = entry.split(" ")[0].split(".")
+    np.testing.assert_allclose(made.sensor(kind).values[effect][parameter], value, rtol=1e-14)
+    assert parse_part(format_part(made)) == made
+
+
+@pytest.mark.parametrize(
+    "entry",
+    [
+        'turn_on_bias.b0 = {value = 1, unit = "Hz"}',
+        'quantization.q = {value = 1, unit = "LSB/g"}',
+        'scale_factor.s = {value = 1, unit = "LSB"}',
+    ],
+)
+def test_counts_and_hertz_are_taken_only_where_they_say_the_same(entry):
+    with pytest.raises(UserError, match="cannot be converted"):
+        read(f"[gyro]\n{entry}")

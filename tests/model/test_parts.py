@@ -9,6 +9,7 @@ from importlib.resources import files
 
 import numpy as np
 import pytest
+from catalogue_cases import one_of_each_kind
 
 from pyimu import units
 from pyimu.block.normals import normals
@@ -167,7 +168,7 @@ def test_sheets_that_print_density_and_random_walk_agree_on_one_sided(
     assert n == pytest.approx(walk) and density * 60 / math.sqrt(2) == pytest.approx(walk, rel=0.07)
 
 
-@pytest.mark.parametrize("name", part_names())
+@pytest.mark.parametrize("name", one_of_each_kind())
 def test_the_sensor_of_a_part_gives_finite_noisy_output_within_its_range(name):
     p, n = part(name), 100
     block = p.block

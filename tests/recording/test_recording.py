@@ -141,8 +141,8 @@ def test_stamps_coarser_than_the_period_are_named(kind, said, tmp_path):
         ),
         (GYRO.replace("gyro_x [rad/s]", "gyro_x [rad") + ROWS, "column gyro_x has no unit"),
         (
-            GYRO.replace("gyro_x [rad/s]", "gyro_x [dps]") + ROWS,
-            "column gyro_x: 'dps' is not a unit: unknown 'dps', did you mean",
+            GYRO.replace("gyro_x [rad/s]", "gyro_x [dpss]") + ROWS,
+            "column gyro_x: 'dpss' is not a unit: unknown 'dpss', did you mean",
         ),
         (
             GYRO.replace("gyro_x [rad/s]", "gyro_x [m]") + ROWS,

@@ -9,13 +9,14 @@ from pyimu.block.variables import Variable
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.kinds import KINDS
 from pyimu.model.part import Part
+from pyimu.model.part_file import part, part_names
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS, SIGNALS, inputs_for
 
 H = 0.01
 """Sample period [s]."""
 
-NATURAL = {"rad": 1.0, "s": 0.3, "m": 1.0, "K": 10.0, "V": 1.0, "T": 1e-4}
+NATURAL = {"rad": 1.0, "s": 0.3, "m": 1.0, "K": 10.0, "V": 1.0, "T": 1e-4, "LSB": 1.0}
 """The size of each base unit in the motion below; a coefficient is a small share of what its unit
 makes of these."""
 
@@ -142,3 +143,17 @@ def run(
     apart.
     """
     return alone(sensor).run(u, w=w, sample_period=h)[0]
+
+
+def one_of_each_kind() -> tuple[str, ...]:
+    """Names of built-in parts, of each set of effects the first.
+
+    What is compiled or simulated for each part is so for these: parts of one kind differ in their
+    figures alone.
+    """
+    kinds = {}
+    for name in part_names():
+        made = part(name)
+        effects = tuple(tuple(made.sensor(kind).values) for kind in KINDS)
+        kinds.setdefault(effects, name)
+    return tuple(kinds.values())

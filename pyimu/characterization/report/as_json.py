@@ -17,6 +17,7 @@ from pyimu.characterization.outcome import (
     Outcome,
     SensorResult,
 )
+from pyimu.characterization.report.beside import beside_entry
 from pyimu.characterization.report.magnetometer import magnetometer_entry
 from pyimu.characterization.spectrum.lines import Line
 from pyimu.characterization.temperature.fit import NAMES
@@ -31,7 +32,9 @@ def contents(c: Outcome) -> dict[str, Any]:
     ``level``, the probability of the intervals; ``logs``, a list of {``name``, ``rows``,
     ``duration`` [s], ``quality`` (as in the report of ``pyimu close``), ``sensors``,
     ``magnetometer``, null where ``magnetometer_reason`` says why, or where there is none};
-    ``part``: {channel: {letter: coefficient + ``spread`` over the logs, null for one}}.
+    ``part``: {channel: {letter: coefficient + ``spread`` over the logs, null for one}};
+    ``data_sheet``, null without: {``part``, by sensor [{``name``, ``unit``, ``data_sheet``,
+    ``measured`` (x, y, z) as printed, ``times`` the data sheet's}]}.
 
     ``magnetometer``: {``bias``, ``matrix``, ``misalignment``, ``strength``, ``dip`` and ``delay``,
     each {``value``, ``std``, ``unit``}; ``noise``, ``along`` and ``across``: {``value``, ``unit``};
@@ -57,7 +60,8 @@ def contents(c: Outcome) -> dict[str, Any]:
     for (channel, term), s in c.coefficients.items():
         entry = _coefficient(s.mean, SI[channel.partition("_")[0]][term])
         part.setdefault(channel, {})[term] = entry | {"spread": s.spread, "logs": s.logs}
-    return plain({"level": c.level, "logs": [_log(v) for v in c.logs], "part": part})
+    logs = [_log(v) for v in c.logs]
+    return plain({"level": c.level, "logs": logs, "part": part, "data_sheet": beside_entry(c)})
 
 
 def _log(log: LogResult) -> dict[str, Any]:

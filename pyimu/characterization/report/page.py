@@ -7,8 +7,10 @@ from typing import Any
 
 from markupsafe import Markup
 
+from pyimu import notebook
 from pyimu.characterization.evidence import Excerpt, LevelHistogram, StepHistogram, Timeline
 from pyimu.characterization.outcome import Channel, LogResult, Outcome
+from pyimu.characterization.report.beside import beside_tables
 from pyimu.characterization.report.channel_notes import (
     fit_notes,
     headline,
@@ -30,6 +32,7 @@ from pyimu.characterization.report.tables import (
     log_table,
     quality_table,
 )
+from pyimu.characterization.report.terminal import in_lines
 from pyimu.model.part import AXES
 from pyimu.report.findings import SENSORS
 from pyimu.report.page import Picture, Table, templates
@@ -50,6 +53,14 @@ def page(c: Outcome) -> str:
     )
 
 
+def in_notebook(c: Outcome) -> str:
+    """Headline, Allan deviations and the lines of a terminal, for a notebook."""
+    pictures = [
+        notebook.picture(_allan(c, kind).svg) for kind in c.kinds if _characterised(c, kind)
+    ]
+    return notebook.block("Characterization", headline(c), *pictures, notebook.lines(in_lines(c)))
+
+
 def _contents(c: Outcome) -> dict[str, Any]:
     return {
         "title": ", ".join(log.name for log in c.logs),
@@ -65,6 +76,8 @@ def _contents(c: Outcome) -> dict[str, Any]:
         "evidence": _evidence(c),
         "overviews": [_overview(log, kind) for log in c.logs for kind in log.sensors],
         "by_log": log_table(c),
+        "beside": beside_tables(c),
+        "data_sheet": c.part_given and f"{c.part_given.name}: {c.part_given.description}",
         "files": Table(
             ("file", "what it is"),
             [
@@ -82,7 +95,7 @@ def _contents(c: Outcome) -> dict[str, Any]:
 
 
 def _sensor(c: Outcome, kind: str) -> dict[str, Any]:
-    if not any(ch.noise for axis in AXES for ch in c.channel(f"{kind}_{axis}")):
+    if not _characterised(c, kind):
         empty = Table(("",))
         return {
             "name": SENSORS[kind],
@@ -106,6 +119,10 @@ def _sensor(c: Outcome, kind: str) -> dict[str, Any]:
         "lines": line_table(c, kind),
         "searched": list(dict.fromkeys(searched(log.sensors[kind]) for log in logs)),
     }
+
+
+def _characterised(c: Outcome, kind: str) -> bool:
+    return any(ch.noise for axis in AXES for ch in c.channel(f"{kind}_{axis}"))
 
 
 def _allan(c: Outcome, kind: str) -> Picture:

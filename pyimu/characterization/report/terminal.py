@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from pyimu.characterization.outcome import SAMPLE, SI, LogResult, Outcome, Summary
+from pyimu.characterization.report.beside import beside_lines
 from pyimu.characterization.report.channel_notes import (
     frequency,
     loop_sentence,
@@ -44,7 +45,7 @@ def in_lines(c: Outcome) -> str:
         lines += [
             f"{log.name}: {text}" for text in (*_lines(log), *_thermal(log), *in_line(log.findings))
         ]
-    return "\n".join([*lines, *magnetometer_lines(c)])
+    return "\n".join([*lines, *magnetometer_lines(c), *beside_lines(c)])
 
 
 def _rows(c: Outcome, kind: str) -> list[tuple[str, ...]]:

@@ -15,6 +15,7 @@ from pyimu.identification.report.words import (
     QUANTITIES,
     gravity_at_rest,
     missing,
+    named,
     si_of,
 )
 from pyimu.report.lines import in_columns
@@ -47,7 +48,7 @@ def in_lines(closed: Outcome) -> str:
 
 def _found(closed: Outcome) -> Iterator[str]:
     for a in closed.added:
-        names = joined(list(a.alternatives))
+        names = joined([named(e) for e in a.alternatives])
         others = f"; the data allow as well: {names}" if names else ""
         yield f"added to the {SENSORS[a.sensor]}: {missing(a)}{others}"
         if a.note:
@@ -59,7 +60,7 @@ def _found(closed: Outcome) -> Iterator[str]:
         yield f"{c.sensor} {c.effect}.{c.parameter}: declared {had}, found {now} {unit}"
     beside = [c for c in closed.candidates if c.outcome not in ("added", "changed")]
     for c in beside[:MOST_CANDIDATES]:
-        yield f"{c.sensor} {c.effect}, {c.outcome}: {c.reason}"
+        yield f"{c.sensor} {named(c.effect)}, {c.outcome}: {c.reason}"
     if len(beside) > MOST_CANDIDATES:
         yield f"and {len(beside) - MOST_CANDIDATES} candidates more, on the page"
     for u in closed.unexplained:

@@ -204,6 +204,13 @@ def missing(a: Added) -> str:
     return f"{e.phrase} {coefficient(value, si_of(a.effect, name, si), e.parameters[name])}"
 
 
+def named(effect: str) -> str:
+    """The key of an effect and the field's name of it: ``saturation (input range)``."""
+    known = CATALOGUE.get(effect)
+    words = known.term.partition(",")[0].partition(" (")[0] if known else ""
+    return effect if words in ("", effect.replace("_", " ")) else f"{effect} ({words})"
+
+
 def si_of(effect: str, parameter: str, si: str) -> str:
     """The SI unit, told apart where rad/s means a frequency and not a rate."""
     return CORNER if CATALOGUE[effect].parameters[parameter].corner else si

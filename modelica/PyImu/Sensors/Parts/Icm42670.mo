@@ -1,0 +1,80 @@
+// Written by `make generate` from the definitions in pyimu; do not edit.
+within PyImu.Sensors.Parts;
+package Icm42670 "TDK InvenSense ICM-42670-P, low-power six-axis IMU"
+  extends Modelica.Icons.Package;
+
+  block Gyroscope "Gyroscope of icm42670"
+    extends PyImu.Interfaces.Triad(samplePeriod=0.00125);
+    parameter Real y0[3] = {0, 0, 0} "Output before the first sample";
+    Modelica.Blocks.Interfaces.RealOutput y[3](each unit="rad/s") "Measured rate"
+      annotation(Placement(transformation(extent={{100,-10},{120,10}})));
+    PyImu.Effects.AngleRandomWalk.Gyro angleRandomWalk(samplePeriod=samplePeriod, y0=y0,
+      N={8.638939046419044e-05, 8.638939046419044e-05, 8.638939046419044e-05})
+      "Angle (velocity) random walk; N: 0.007 deg/s/sqrt(Hz) noise density, ICM-42670-P data sheet DS-000451, table 1, unchecked";
+    PyImu.Noise.Normals angleRandomWalkNormals(samplePeriod=samplePeriod, seed=seed, n=3,
+      channel={2090672062, 1471171709, 1319861564});
+    PyImu.Effects.Saturation.Gyro saturation(samplePeriod=samplePeriod, y0=y0,
+      limit={34.90658503988659, 34.90658503988659, 34.90658503988659})
+      "Input range, saturation; limit: ICM-42670-P data sheet DS-000451, page 1, features (reset state)";
+    PyImu.Effects.Quantization.Gyro quantization(samplePeriod=samplePeriod, y0=y0,
+      q={0.0010642251536550791, 0.0010642251536550791, 0.0010642251536550791})
+      "Resolution, quantization; q: 16.4 LSB/(deg/s), ICM-42670-P data sheet DS-000451, table 1, unchecked";
+  equation
+    connect(rate, angleRandomWalk.x);
+    connect(angleRandomWalkNormals.y, angleRandomWalk.w);
+    connect(angleRandomWalk.y, saturation.x);
+    connect(saturation.y, quantization.x);
+    connect(quantization.y, y);
+  end Gyroscope;
+
+  block Accelerometer "Accelerometer of icm42670"
+    extends PyImu.Interfaces.Triad(samplePeriod=0.00125);
+    parameter Real y0[3] = {0, 0, 9.80665} "Output before the first sample";
+    Modelica.Blocks.Interfaces.RealOutput y[3](each unit="m/s2") "Measured specific force"
+      annotation(Placement(transformation(extent={{100,-10},{120,10}})));
+    PyImu.Effects.AngleRandomWalk.Accel angleRandomWalk(samplePeriod=samplePeriod, y0=y0,
+      N={0.0006934348715723055, 0.0006934348715723055, 0.0006934348715723055})
+      "Angle (velocity) random walk; N: 100 ug/sqrt(Hz) noise density, ICM-42670-P data sheet DS-000451, table 2, unchecked";
+    PyImu.Noise.Normals angleRandomWalkNormals(samplePeriod=samplePeriod, seed=seed, n=3,
+      channel={562850750, 178337917, 330959164});
+    PyImu.Effects.Saturation.Accel saturation(samplePeriod=samplePeriod, y0=y0, limit={156.9064,
+      156.9064, 156.9064})
+      "Input range, saturation; limit: ICM-42670-P data sheet DS-000451, page 1, features (reset state)";
+    PyImu.Effects.Quantization.Accel quantization(samplePeriod=samplePeriod, y0=y0,
+      q={0.0047884033203125, 0.0047884033203125, 0.0047884033203125})
+      "Resolution, quantization; q: 2048 LSB/g, ICM-42670-P data sheet DS-000451, table 2, unchecked";
+  equation
+    connect(specificForce, angleRandomWalk.x);
+    connect(angleRandomWalkNormals.y, angleRandomWalk.w);
+    connect(angleRandomWalk.y, saturation.x);
+    connect(saturation.y, quantization.x);
+    connect(quantization.y, y);
+  end Accelerometer;
+
+  block Imu "TDK InvenSense ICM-42670-P, low-power six-axis IMU"
+    extends PyImu.Interfaces.Imu(samplePeriod=0.00125);
+    Gyroscope gyroscope(samplePeriod=samplePeriod, seed=seed)
+      annotation(Placement(transformation(extent={{-20,30},{20,70}})));
+    Accelerometer accelerometer(samplePeriod=samplePeriod, seed=seed)
+      annotation(Placement(transformation(extent={{-20,-70},{20,-30}})));
+  equation
+    connect(rate, gyroscope.rate);
+    connect(specificForce, gyroscope.specificForce);
+    connect(temperature, gyroscope.temperature);
+    connect(gyroscope.y, gyro);
+    connect(rate, accelerometer.rate);
+    connect(specificForce, accelerometer.specificForce);
+    connect(temperature, accelerometer.temperature);
+    connect(accelerometer.y, accel);
+    when sample(samplePeriod, samplePeriod) then
+      measuredTemperature = temperature;
+    end when;
+  end Imu;
+
+  annotation(Documentation(info="<html>
+<p>TDK InvenSense ICM-42670-P, low-power six-axis IMU.</p>
+<p>Sampled at 800 Hz (ICM-42670-P data sheet DS-000451, registers GYRO_CONFIG0 and ACCEL_CONFIG0,
+reset state 800 Hz, unchecked). Coefficients are in SI units; their sources stand behind the blocks
+that have them.</p>
+</html>"));
+end Icm42670;

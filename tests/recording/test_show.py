@@ -1,0 +1,103 @@
+"""Recordings and parts in a notebook: frames there and back, short lines, tables and pictures."""
+
+import re
+from html.parser import HTMLParser
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import pyimu
+from pyimu import Recording
+from pyimu.errors import UserError
+from pyimu.recording.show import BINS
+
+N = 20_000
+
+
+@pytest.fixture(scope="module")
+def log():
+    rng = np.random.default_rng(3)
+    gyro = 1e-3 * rng.standard_normal((N, 3))
+    gyro[123, 1], gyro[77, 2] = 1.0, np.nan
+    accel = np.tile([0.0, 0.0, 9.80665], (N, 1))
+    time = 0.01 * np.arange(N)
+    return Recording.from_arrays("lab <1>", time=time, gyro=gyro, accel=accel, speed=np.ones(N))
+
+
+class Cells(HTMLParser):
+    """The text of all cells; an element that is not closed is an error."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.cells = [], []
+        self.feed(text)
+        assert not self.open
+
+    def handle_starttag(self, tag, attributes):
+        self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        if self.open[-1:] == ["td"]:
+            self.cells.append(data)
+
+
+def test_a_recording_comes_back_from_its_frame_to_the_bit(log):
+    frame = log.to_frame()
+    assert isinstance(frame, pd.DataFrame) and "gyro_x [rad/s]" in frame.columns
+    again = Recording.from_frame(frame, "again")
+    assert again.name == "again" and again.groups.keys() == log.groups.keys()
+    np.testing.assert_array_equal(again.time, log.time)
+    for group, values in log.groups.items():
+        np.testing.assert_array_equal(getattr(again, group), values)
+
+
+def test_a_frame_is_converted_from_its_units():
+    frame = pd.DataFrame({"time [ms]": [0.0, 10.0, 20.0], "gyro_x [°/s]": [180.0, 0.0, 0.0]})
+    frame["gyro_y [mdps]"] = frame["gyro_z [rpm]"] = 0.0
+    recording = Recording.from_frame(frame)
+    assert recording.gyro[0, 0] == pytest.approx(np.pi) and recording.time[1] == 0.01
+
+
+@pytest.mark.parametrize("given", [3, [1, 2], "log.csv", None])
+def test_what_is_no_frame_is_refused(given):
+    with pytest.raises(UserError, match="is no data frame"):
+        Recording.from_frame(given)
+
+
+def test_the_table_has_each_column_in_units_for_people(log):
+    cells = Cells(log._repr_html_()).cells
+    rows = {cells[i]: cells[i + 1 : i + 6] for i in range(0, len(cells), 6)}
+    assert rows["gyro_y"][0] == "deg/s" and float(rows["gyro_y"][3]) == pytest.approx(57.30)
+    assert rows["accel_z"][:2] == ["g", "1"] and rows["gyro_z"][4] == "1"
+    assert "lab &lt;1&gt;" in log._repr_html_() and "20,000 samples at 100 Hz" in log._repr_html_()
+
+
+def test_the_picture_has_a_panel_for_each_group_and_keeps_a_single_spike(log):
+    panels = log.plot().axes
+    assert [p.get_ylabel() for p in panels] == ["gyro [deg/s]", "accel [g]", "speed [m/s]"]
+    drawn = panels[0].lines[1].get_ydata()
+    assert len(drawn) <= 2 * BINS and np.nanmax(drawn) == pytest.approx(np.degrees(1.0))
+
+
+def test_a_part_is_a_line_and_a_table(log):
+    part = pyimu.part("mpu6050")
+    assert len(repr(part)) < 250 and "mpu6050" in repr(part) and "array" not in repr(part)
+    cells = Cells(part._repr_html_()).cells
+    assert "gyro.angle_random_walk.N" in cells and "0.005 deg/s/sqrt(Hz) (one-sided)" in cells
+    assert sum(c.startswith("+-") for c in cells) >= 8
+
+
+def test_results_are_lines_too(log):
+    found = pyimu.characterize(log.slice(200, 4200))
+    assert re.fullmatch(r"Characterization\(lab <1>: gyro, accel, \d+ findings\)", repr(found))
+    html = found._repr_html_()
+    assert html.count("<svg") == 1 and "angle random walk" in html and "&lt;1&gt;" in html
+    level = np.tile([0.0, 0.0, 9.80665], (400, 1)) + 0.01 * log.gyro[200:600]
+    rest = Recording.from_arrays("rest", time=log.time[:400], gyro=log.gyro[200:600], accel=level)
+    attitude = pyimu.attitude.run(rest)
+    assert repr(attitude) == "AttitudeResult('rest': 400 samples, 3.99 s)"
+    assert "<svg" in attitude._repr_html_()
