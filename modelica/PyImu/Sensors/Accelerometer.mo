@@ -8,15 +8,18 @@ block Accelerometer "Accelerometer of a built-in part"
     0.001220703125,
     0.0005,
     0.00023529411764705883,
+    0.01,
     0.0025,
     0.0008888888888888889,
     0.001,
     0.0010245901639344263,
     0.002403846153846154,
     0.002403846153846154,
+    0.01,
     0.001,
     0.001,
     0.0005,
+    0.01,
     0.001} "Sample period of each part";
   Modelica.Blocks.Interfaces.RealOutput y[3](each unit="m/s2") "Output, body axes"
     annotation(Placement(transformation(extent={{100,-10},{120,10}})));
@@ -26,6 +29,8 @@ block Accelerometer "Accelerometer of a built-in part"
     if part == PyImu.Sensors.Part.Adis16470;
   PyImu.Sensors.Parts.Adis16495.Accelerometer adis16495(samplePeriod=samplePeriod, seed=seed)
     if part == PyImu.Sensors.Part.Adis16495;
+  PyImu.Sensors.Parts.Adxrs300.Accelerometer adxrs300(samplePeriod=samplePeriod, seed=seed)
+    if part == PyImu.Sensors.Part.Adxrs300;
   PyImu.Sensors.Parts.Bmi088.Accelerometer bmi088(samplePeriod=samplePeriod, seed=seed)
     if part == PyImu.Sensors.Part.Bmi088;
   PyImu.Sensors.Parts.Icm20948.Accelerometer icm20948(samplePeriod=samplePeriod, seed=seed)
@@ -38,12 +43,16 @@ block Accelerometer "Accelerometer of a built-in part"
     if part == PyImu.Sensors.Part.Lsm6dsl;
   PyImu.Sensors.Parts.Lsm6dso.Accelerometer lsm6dso(samplePeriod=samplePeriod, seed=seed)
     if part == PyImu.Sensors.Part.Lsm6dso;
+  PyImu.Sensors.Parts.Mma7260q.Accelerometer mma7260q(samplePeriod=samplePeriod, seed=seed)
+    if part == PyImu.Sensors.Part.Mma7260q;
   PyImu.Sensors.Parts.Mpu6050.Accelerometer mpu6050(samplePeriod=samplePeriod, seed=seed)
     if part == PyImu.Sensors.Part.Mpu6050;
   PyImu.Sensors.Parts.Mpu9250.Accelerometer mpu9250(samplePeriod=samplePeriod, seed=seed)
     if part == PyImu.Sensors.Part.Mpu9250;
   PyImu.Sensors.Parts.Mti300.Accelerometer mti300(samplePeriod=samplePeriod, seed=seed)
     if part == PyImu.Sensors.Part.Mti300;
+  PyImu.Sensors.Parts.Sparkfun6dofV2.Accelerometer sparkfun6dofV2(samplePeriod=samplePeriod, seed=seed)
+    if part == PyImu.Sensors.Part.Sparkfun6dofV2;
   PyImu.Sensors.Parts.Stim300.Accelerometer stim300(samplePeriod=samplePeriod, seed=seed)
     if part == PyImu.Sensors.Part.Stim300;
 equation
@@ -59,6 +68,10 @@ equation
   connect(specificForce, adis16495.specificForce);
   connect(temperature, adis16495.temperature);
   connect(adis16495.y, y);
+  connect(rate, adxrs300.rate);
+  connect(specificForce, adxrs300.specificForce);
+  connect(temperature, adxrs300.temperature);
+  connect(adxrs300.y, y);
   connect(rate, bmi088.rate);
   connect(specificForce, bmi088.specificForce);
   connect(temperature, bmi088.temperature);
@@ -83,6 +96,10 @@ equation
   connect(specificForce, lsm6dso.specificForce);
   connect(temperature, lsm6dso.temperature);
   connect(lsm6dso.y, y);
+  connect(rate, mma7260q.rate);
+  connect(specificForce, mma7260q.specificForce);
+  connect(temperature, mma7260q.temperature);
+  connect(mma7260q.y, y);
   connect(rate, mpu6050.rate);
   connect(specificForce, mpu6050.specificForce);
   connect(temperature, mpu6050.temperature);
@@ -95,6 +112,10 @@ equation
   connect(specificForce, mti300.specificForce);
   connect(temperature, mti300.temperature);
   connect(mti300.y, y);
+  connect(rate, sparkfun6dofV2.rate);
+  connect(specificForce, sparkfun6dofV2.specificForce);
+  connect(temperature, sparkfun6dofV2.temperature);
+  connect(sparkfun6dofV2.y, y);
   connect(rate, stim300.rate);
   connect(specificForce, stim300.specificForce);
   connect(temperature, stim300.temperature);
