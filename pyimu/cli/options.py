@@ -7,7 +7,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -16,6 +16,12 @@ from pyimu.errors import UserError
 Out = Annotated[
     Path, typer.Option("--out", help="Folder for what is written; made if it is missing.")
 ]
+
+
+def option(name: str, text: str) -> Any:
+    """An option of a command, with what ``--help`` says of it."""
+    return typer.Option(name, help=text)
+
 
 FORMATS = "CSV(.gz), Parquet, MAT, HDF5, ROS bag or MCAP"
 """Files that a recording may be."""

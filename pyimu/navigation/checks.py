@@ -6,8 +6,6 @@ import numpy as np
 
 from pyimu.attitude.rest import Rest
 from pyimu.errors import Finding, UserError
-from pyimu.navigation.detector import Detected
-from pyimu.navigation.filtered import Filtered
 from pyimu.recording.recording import Recording
 
 IN_G = (0.5, 2.0)
@@ -68,7 +66,7 @@ def _mean_force(recording: Recording) -> np.ndarray:
     return np.nanmean(recording.accel, axis=0)
 
 
-def after(found: Filtered, still: np.ndarray, detected: Detected | None) -> list[Finding]:
+def after(still: np.ndarray) -> list[Finding]:
     """What the run showed."""
     out = []
     if not still.any():

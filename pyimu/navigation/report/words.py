@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from pyimu.navigation.filter.variables import STATUS_NAMES
+from pyimu.navigation.measured import CONTRADICTED
 from pyimu.navigation.outcome import Outcome
 from pyimu.report.findings import in_line
 from pyimu.report.numbers import number, quantity
@@ -60,6 +61,7 @@ def notes(a: Outcome) -> list[str]:
             f"Up to {np.degrees(kinds['coning'].detail['turn']):.3g} deg of turn lie between two "
             "samples: the sample rate is too low for the turn rate"
         )
+    out += list(_fixes(a))
     for f in a.findings:
         if f.kind == "not_integrated":
             out.append(f"The method {f.detail['method']} was left out: {f.detail['reason']}")
@@ -76,6 +78,8 @@ def _rests(a: Outcome) -> str:
     share = float(a.still.mean())
     if a.zupt == "off":
         return "Zero-velocity updates are off: nothing holds the position"
+    if not a.still.any() and a.fixes is not None:
+        return "There is no rest in this log: what it measured of position and velocity holds it"
     if not a.still.any():
         return (
             "There is no rest in this log, so nothing to update with: the position is integrated "
@@ -92,9 +96,27 @@ def _rests(a: Outcome) -> str:
     return text
 
 
+def _fixes(a: Outcome) -> Iterator[str]:
+    for f in a.findings:
+        if f.kind not in ("position_fixes", "velocity_fixes"):
+            continue
+        text = f"{f.detail['of']:,} measured {f.column} samples correct the filter"
+        nis = a.mean_nis(f"{f.column}_nis")
+        if nis is not None:
+            text += f", mean NIS {number(nis)}"
+        if f.count:
+            text += (
+                f"; {f.count:,} of them ({f.detail['share']:.2%}) contradicted it and were weighed "
+                "down: a jump, or a standard deviation that is too small"
+            )
+        yield text
+
+
 def _status(a: Outcome) -> Iterator[tuple[str, int]]:
     status = a.filter.scalar("status").astype(int)
     for bit, text in STATUS_NAMES.items():
+        if bit in CONTRADICTED.values():
+            continue
         count = int(np.count_nonzero(status & bit))
         if count:
             yield text, count
