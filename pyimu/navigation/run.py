@@ -13,6 +13,7 @@ from pyimu.errors import Finding, UserError
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as part_of
 from pyimu.navigation import checks
+from pyimu.navigation.filter.variables import OWN_PARAMETERS
 from pyimu.navigation.filtered import Filtered
 from pyimu.navigation.integrated import integrated
 from pyimu.navigation.job import Job, Start
@@ -31,8 +32,12 @@ the start, the filter, and the smoother over it."""
 
 Say = Callable[..., None]
 
-TOP_SPEED = 2.0
-"""m/s; the filter's own, where ``settings`` do not say another."""
+LIMITS = {
+    v.name: v.start
+    for v in OWN_PARAMETERS
+    if v.name in ("top_speed", "top_acceleration", "top_turn_rate")
+}
+"""What a robot can do, as the filter has it where ``settings`` do not say another."""
 
 
 def run(
@@ -69,11 +74,14 @@ def run(
     recording = recording_of(recording)
     _known("method", method, (*METHODS, "all"))
     _known("zupt", zupt, ZUPT)
-    checks.check_columns(recording)
-    given = dict(settings or {})
-    top_speed = number("top_speed", given.get("top_speed", TOP_SPEED))
+    given = LIMITS | {"gravity": STANDARD_GRAVITY} | dict(settings or {})
+    numbers = {name: number(name, given[name]) for name in (*LIMITS, "gravity")}
+    checks.check_columns(recording, numbers["gravity"])
+    recording, findings = checks.without_outliers(
+        recording, numbers["top_acceleration"], numbers["top_turn_rate"]
+    )
+    top_speed = numbers["top_speed"]
     measured = fixes_of(recording, position_std, velocity_std, top_speed) if fixes else None
-    findings: list[Finding] = []
     job = _job(recording, None if part is None else part_of(part), zupt, given, findings)
     job = replace(job, latitude=latitude_of(recording, latitude), nhc=nhc, fixes=measured)
     reference = reference_of(recording)
@@ -83,6 +91,7 @@ def run(
         job = replace(job, still=found.scalar("at_rest") > 0.5)
     wanted = METHODS if method == "all" else (method,)
     tracks = _tracks(wanted, job, found, start, findings, say)
+    best = tracks.get("smoother", tracks.get("filter"))
     return NavigationResult(
         recording.name,
         recording,
@@ -93,7 +102,7 @@ def run(
         rest=job.rest,
         part="" if part is None else job.part.name,
         settings={v.name: x for v, x in zip(job.block.parameters, job.p(start), strict=True)},
-        findings=(*recording.findings, *findings, *checks.after(job.still)),
+        findings=(*recording.findings, *findings, *checks.after(job.still, reference, best)),
         nhc=nhc,
         zupt=zupt,
         heading0=start.heading,
@@ -118,7 +127,7 @@ def _job(
     findings: list[Finding],
 ) -> Job:
     """The recording with its rests, before what else is known of it."""
-    gravity = number("gravity", given.get("gravity", STANDARD_GRAVITY))
+    gravity = float(given["gravity"])
     clean = clean_of(recording, declared)
     rest = rest_at_start(clean, declared, gravity)
     findings += checks.findings(recording, rest, gravity)

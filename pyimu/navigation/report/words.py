@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from pyimu.errors import Finding
 from pyimu.navigation.filter.variables import STATUS_NAMES
 from pyimu.navigation.measured import CONTRADICTED
 from pyimu.navigation.outcome import Outcome
@@ -56,6 +57,7 @@ def notes(a: Outcome) -> list[str]:
             "The sensor turned steadily for a while, which looks like a rest to the "
             "accelerometer; its gyro was off its bias, so it was taken for a turn"
         )
+    out += list(_of_samples(kinds))
     if "coning" in kinds:
         out.append(
             f"Up to {np.degrees(kinds['coning'].detail['turn']):.3g} deg of turn lie between two "
@@ -72,6 +74,32 @@ def notes(a: Outcome) -> list[str]:
         )
     out += [f"{text[0].upper()}{text[1:]} ({count:,} samples)" for text, count in _status(a)]
     return [*out, OBSERVABLE] if a.later_stops else out
+
+
+def _of_samples(kinds: dict[str, Finding]) -> Iterator[str]:
+    """What a finding of each kind says of gyro, accelerometer and reference."""
+    if (f := kinds.get("leaning")) is not None:
+        yield (
+            f"Gravity is on {f.detail['axis']} at rest: the body lies on its side, or its axes are "
+            "not forward-left-up, which a column map's [frame] says"
+        )
+    if (f := kinds.get("outliers")) is not None:
+        yield (
+            f"{f.count:,} samples of {f.column} that no motion makes were left out, the first at "
+            f"{f.detail['first']:.6g} s"
+        )
+    if (f := kinds.get("reference_jump")) is not None:
+        yield (
+            f"The reference jumps by {number(f.detail['largest'])} m at {f.detail['first']:.6g} s "
+            f"({f.count:,} times): the errors beside it are the reference's own"
+        )
+    if (f := kinds.get("reference_frame")) is not None:
+        mirrored = "mirrored and " if f.detail["mirrored"] else ""
+        yield (
+            f"The reference {mirrored}turned by {np.degrees(f.detail['turn']):.3g} deg would be "
+            f"{number(f.detail['after'])} m from the path, not {number(f.detail['before'])} m: is "
+            "it in another frame than east-north-up, or the heading at the start another?"
+        )
 
 
 def _rests(a: Outcome) -> str:
@@ -137,11 +165,11 @@ def error_words(a: Outcome) -> Iterator[tuple[str, str]]:
     """Errors against the reference in a line each."""
     for name, e in a.errors.items():
         yaw = "" if not np.isfinite(e.yaw) else f", yaw at the end {np.degrees(e.yaw):.3g} deg"
-        share = number(100 * e.end / max(e.length, 1e-9), 2)
+        share = f" ({number(100 * e.end / e.length, 2)} % of the way)" if e.length > 0.1 else ""
         yield (
             name,
             (
-                f"at the end {number(e.end)} m ({share} % of the way), "
+                f"at the end {number(e.end)} m{share}, "
                 f"RMS {number(e.rms)} m, largest {number(e.most)} m{yaw}"
             ),
         )
