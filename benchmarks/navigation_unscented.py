@@ -15,9 +15,8 @@ from dataclasses import replace
 import casadi as ca
 import numpy as np
 from navigation import MORE, PART
-from navigation_consistency import calibrated
+from navigation_consistency import known, logged
 
-import pyimu
 from pyimu.navigation import run
 from pyimu.navigation.filter import ins_block, prediction, updates
 from pyimu.navigation.filter.layout import BASE, State
@@ -45,7 +44,9 @@ class Unscented:
     def points(self, x, covariance):
         root = np.linalg.cholesky(covariance * SPREAD)
         errors = np.column_stack([np.zeros(self.n), root, -root])
-        return np.array(self.moved.map(errors.shape[1])(np.tile(x[:, None], errors.shape[1]), errors))
+        return np.array(
+            self.moved.map(errors.shape[1])(np.tile(x[:, None], errors.shape[1]), errors)
+        )
 
     def gathered(self, points, noise):
         """The mean of the points and the covariance of their errors about it."""
@@ -164,13 +165,11 @@ def main(runs):
     still = np.zeros(len(truth.time))
     for start, stop in stop_times(drive):
         still[(truth.time > start) & (truth.time < stop)] = 1.0
-    part = pyimu.part(PART)
+    own = known(PART, calibrated=True)
     print(f"{'apart [std]':8}{'RMS':>6}{'most':>9}{'at, s':>8}{'at the end':>12}", end="")
     print(f"{'end, linear':>12}{'unscented':>12}{'std':>8}")
     for seed in range(runs):
-        specimen = part.specimen(seed)
-        own = calibrated(part, specimen)
-        log = replace(specimen.simulate(truth, seed=seed), stationary=still)
+        log = replace(logged(own, truth, seed), stationary=still)
         found = run(log, own, method="filter")
         linear, std = found.filter.vector("position"), found.filter.vector("position_std")
         layout = ins_block.Layout(_part_of(log, own))
