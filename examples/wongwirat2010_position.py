@@ -1,7 +1,7 @@
 """Wongwirat 2010 once more: the paper's figures 4 to 9 by its own method, and by the filter.
 
 ``python examples/wongwirat2010_position.py [FOLDER]`` simulates a robot that drives along a square
-with a unit of the paper's class (``sparkfun6dof_assumed.toml``), runs the paper's equations and the
+with the paper's unit by its data sheets (``sparkfun6dof_v2``), runs the paper's equations and the
 filter over the same log, and writes ``wongwirat2010_position.png``; it takes some 20 s. The paper
 has no sample rate, no cut-off, no side, no speed and no reference, so that there is no number to
 reproduce but the ends of its axes.
@@ -25,14 +25,13 @@ from pyimu.plant.low_pass import low_pass
 from pyimu.rover.square import square
 from pyimu.units import STANDARD_GRAVITY
 
-HERE = Path(__file__).parent
 SEED = 3
 NULLS = 9.0  # s of the rest at the start
 
 
 def simulated():
     """The truth, the log of a specimen, and the part whose tolerances it was drawn from."""
-    part = pyimu.part(HERE / "sparkfun6dof_assumed.toml")
+    part = pyimu.part("sparkfun6dof_v2")
     truth = square(vibration=0.3, tilt=(0.0175, 0.01))
     return truth, part.specimen(SEED).simulate(truth, seed=SEED), part
 

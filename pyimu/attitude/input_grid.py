@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -65,7 +65,7 @@ class InputGrid:
 
     ``rows`` (n,) is the sample number of each row, ``after_gap`` the rows that follow a gap,
     ``left_out`` the s of each gap that exceed its missing samples. ``names`` are those of the
-    block's inputs.
+    block's inputs, ``more`` are columns (n,) for some of them, zero between the rows.
     """
 
     def __init__(
@@ -74,12 +74,14 @@ class InputGrid:
         part: Part,
         names: list[str],
         retiming: Retiming | None = None,
+        more: Mapping[str, np.ndarray] | None = None,
     ) -> None:
         self.rows, gaps, self.left_out = _grid(recording)
         self.after_gap = 1 + gaps
         self.period = recording.sample_period
         self.spans = _wandering(recording, self.rows, gaps, self.left_out)
         signals, marks = _signals(recording, part), _marks(recording)
+        marks |= more or {}
         if retiming is not None:
             marks = _at_instants(marks, retiming.nearest_row())
         self.columns = [_column(name, signals, marks) for name in names]

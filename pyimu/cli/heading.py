@@ -4,66 +4,63 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from pyimu.cli.options import FORMATS, Columns, Effects, Out, add_effects, progress
+from pyimu.cli.options import FORMATS, Columns, Effects, Out, add_effects, option, progress
+
+if TYPE_CHECKING:
+    from pyimu.heading.motion import Reference
+
+Logs = Annotated[
+    list[Path],
+    typer.Argument(metavar="LOG", help=f"Recordings of one robot: {FORMATS}.", show_default=False),
+]
+PartName = Annotated[
+    str | None,
+    option("--part", "Built-in part or a TOML file; else the noise is that of the start-up."),
+]
+Method = Annotated[
+    str,
+    option(
+        "--method",
+        "integrate, self-calibration, threshold, paper, filter, or all; separated by commas.",
+    ),
+]
+Known = Annotated[
+    list[Path] | None,
+    option("--known", "Log of the known motion with its reference: one for all, or one each."),
+]
+StartUp = Annotated[
+    float, option("--start-up", "Seconds of each LOG that are its known motion, else.")
+]
+By = Annotated[
+    str | None, option("--reference", "heading or rate: what to calibrate by, of the two.")
+]
+Threshold = Annotated[float, option("--threshold", "deg/s; slower rates count as none.")]
+Release = Annotated[
+    float | None, option("--release", "deg/s below which a turn ends; else the threshold.")
+]
+Hold = Annotated[float, option("--hold", "Seconds by which a turn outlasts its last fast rate.")]
+Slip = Annotated[
+    float,
+    option("--slip", "Percent by which the known motion may be another, standard deviation."),
+]
 
 
 def heading_command(
-    logs: Annotated[
-        list[Path],
-        typer.Argument(
-            metavar="LOG", help=f"Recordings of one robot: {FORMATS}.", show_default=False
-        ),
-    ],
+    logs: Logs,
     out: Out = Path("out/heading"),
-    part: Annotated[
-        str | None,
-        typer.Option(
-            "--part", help="Built-in part or a TOML file; else the noise is that of the start-up."
-        ),
-    ] = None,
-    method: Annotated[
-        str,
-        typer.Option(
-            "--method",
-            help="integrate, self-calibration, threshold, paper, filter, or all; separated by "
-            "commas.",
-        ),
-    ] = "all",
-    known: Annotated[
-        list[Path] | None,
-        typer.Option(
-            "--known",
-            help="Log of the known motion with its reference: one for all, or one for each LOG.",
-        ),
-    ] = None,
-    start_up: Annotated[
-        float,
-        typer.Option("--start-up", help="Seconds of each LOG that are its known motion, else."),
-    ] = 20.0,
-    reference: Annotated[
-        str | None,
-        typer.Option("--reference", help="heading or rate: what to calibrate by, of the two."),
-    ] = None,
-    threshold: Annotated[
-        float, typer.Option("--threshold", help="deg/s; slower rates count as none.")
-    ] = 0.3,
-    release: Annotated[
-        float | None,
-        typer.Option("--release", help="deg/s below which a turn ends; else the threshold."),
-    ] = None,
-    hold: Annotated[
-        float, typer.Option("--hold", help="Seconds by which a turn outlasts its last fast rate.")
-    ] = 0.0,
-    slip: Annotated[
-        float,
-        typer.Option(
-            "--slip", help="Percent by which the known motion may be another, standard deviation."
-        ),
-    ] = 0.0,
+    part: PartName = None,
+    method: Method = "all",
+    known: Known = None,
+    start_up: StartUp = 20.0,
+    reference: By = None,
+    threshold: Threshold = 0.3,
+    release: Release = None,
+    hold: Hold = 0.0,
+    slip: Slip = 0.0,
     columns: Columns = None,
     effects: Effects = None,
 ) -> None:
@@ -74,19 +71,11 @@ def heading_command(
     filter on heading, bias and scale factor that uses every stop. Each method's error against the
     log's reference heading, over several logs with intervals.
     """
-    from pyimu.errors import UserError
     from pyimu.files import check_folder
-    from pyimu.heading.motion import Reference
     from pyimu.heading.run import run
     from pyimu.recording.log import read_recording
 
-    references: dict[str | None, Reference | None] = {
-        None: None,
-        "heading": "heading",
-        "rate": "rate",
-    }
-    if reference not in references:
-        raise UserError(f"--reference {reference}: unknown; known are heading, rate")
+    by = _reference(reference)
     check_folder(out)
     add_effects(effects)
     with progress("reading") as say:
@@ -96,7 +85,7 @@ def heading_command(
             method,
             known=[read_recording(path, columns) for path in known] if known else None,
             start_up=start_up,
-            reference=references[reference],
+            reference=by,
             threshold=math.radians(threshold),
             release=None if release is None else math.radians(release),
             hold=hold,
@@ -107,3 +96,12 @@ def heading_command(
         page = found.write(out)
     print(found.report())
     print(f"report: {page}")
+
+
+def _reference(text: str | None) -> Reference | None:
+    from pyimu.errors import UserError
+
+    known: dict[str | None, Reference | None] = {None: None, "heading": "heading", "rate": "rate"}
+    if text not in known:
+        raise UserError(f"--reference {text}: unknown; known are heading, rate")
+    return known[text]

@@ -7,63 +7,88 @@ from typing import Annotated
 
 import typer
 
-from pyimu.cli.options import FORMATS, Columns, Effects, Latitude, add_effects, progress, radians
+from pyimu.cli.options import (
+    FORMATS,
+    Columns,
+    Effects,
+    Latitude,
+    add_effects,
+    option,
+    progress,
+    radians,
+)
+
+Log = Annotated[
+    Path, typer.Argument(metavar="LOG", help=f"Recording: {FORMATS}.", show_default=False)
+]
+Out = Annotated[
+    Path, typer.Option("--out", help="Folder for report.html, report.json and navigation.parquet.")
+]
+PartName = Annotated[
+    str | None,
+    option(
+        "--part",
+        "Built-in part or a TOML file, such as the model.toml of pyimu close; without it the noise "
+        "is the log's own.",
+    ),
+]
+Method = Annotated[str, option("--method", "paper, strapdown, filter, smoother, or all.")]
+Zupt = Annotated[
+    str,
+    option(
+        "--zupt",
+        "Rests: auto (column stationary, else the samples), live (as the unit finds them, without "
+        "what comes later), declared (that column), off.",
+    ),
+]
+Nhc = Annotated[bool, option("--nhc", "A vehicle: its wheels slip neither sideways nor upwards.")]
+UseFixes = Annotated[
+    bool,
+    option("--fixes/--no-fixes", "Columns position_east, velocity_east and so on correct it."),
+]
+PositionStd = Annotated[
+    float | None,
+    option("--position-std", "m; of those positions, else the column position_std."),
+]
+VelocityStd = Annotated[
+    float | None,
+    option("--velocity-std", "m/s; of those velocities, else the column velocity_std."),
+]
+Heading0 = Annotated[
+    float | None,
+    option(
+        "--heading0",
+        "Degrees counter-clockwise from east at the start; else that of the log's heading or "
+        "reference, the course of its positions, or 0.",
+    ),
+]
+TopSpeed = Annotated[
+    float | None,
+    typer.Option("--top-speed", help="m/s; what may have been driven in a gap.", show_default="2"),
+]
 
 
 def navigate_command(
-    log: Annotated[
-        Path, typer.Argument(metavar="LOG", help=f"Recording: {FORMATS}.", show_default=False)
-    ],
-    out: Annotated[
-        Path,
-        typer.Option("--out", help="Folder for report.html, report.json and navigation.parquet."),
-    ] = Path("out/navigate"),
-    part: Annotated[
-        str | None,
-        typer.Option(
-            "--part",
-            help="Built-in part or a TOML file, such as the model.toml of pyimu close; without it "
-            "the noise is the log's own.",
-        ),
-    ] = None,
+    log: Log,
+    out: Out = Path("out/navigate"),
+    part: PartName = None,
     columns: Columns = None,
-    method: Annotated[
-        str,
-        typer.Option("--method", help="paper, strapdown, filter, smoother, or all."),
-    ] = "all",
-    zupt: Annotated[
-        str,
-        typer.Option(
-            "--zupt",
-            help="Rests: auto (column stationary, else the samples), declared (that column), off.",
-        ),
-    ] = "auto",
-    nhc: Annotated[
-        bool,
-        typer.Option("--nhc", help="A vehicle: its wheels slip neither sideways nor upwards."),
-    ] = False,
+    method: Method = "all",
+    zupt: Zupt = "auto",
+    nhc: Nhc = False,
+    fixes: UseFixes = True,
+    position_std: PositionStd = None,
+    velocity_std: VelocityStd = None,
     latitude: Latitude = None,
-    heading0: Annotated[
-        float | None,
-        typer.Option(
-            "--heading0",
-            help="Degrees counter-clockwise from east at the start; else that of the log's heading "
-            "or reference, or 0.",
-        ),
-    ] = None,
-    top_speed: Annotated[
-        float | None,
-        typer.Option(
-            "--top-speed", help="m/s; what may have been driven in a gap.", show_default="2"
-        ),
-    ] = None,
+    heading0: Heading0 = None,
+    top_speed: TopSpeed = None,
     effects: Effects = None,
 ) -> None:
     """Example: pyimu navigate square.csv --part mpu6050 --out out/navigate
 
-    The path of a robot by its inertial unit alone: integrated as Wongwirat and Chaiyarat (2010)
-    did, integrated exactly, by a filter that knows at each rest that the velocity is zero, and
-    smoothed by the whole log, each beside the reference where the log has one.
+    The path of a robot by its inertial unit: integrated as Wongwirat and Chaiyarat (2010) did,
+    integrated exactly, by a filter that knows at each rest that the velocity is zero, and smoothed
+    by the whole log, each beside the reference where the log has one.
     """
     from pyimu.files import check_folder
     from pyimu.navigation.run import run
@@ -81,6 +106,9 @@ def navigate_command(
             method=method,
             zupt=zupt,
             nhc=nhc,
+            fixes=fixes,
+            position_std=position_std,
+            velocity_std=velocity_std,
             latitude=at,
             heading0=heading,
             settings={} if top_speed is None else {"top_speed": top_speed},

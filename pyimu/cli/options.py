@@ -7,7 +7,7 @@ import sys
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -19,6 +19,12 @@ if TYPE_CHECKING:
 Out = Annotated[
     Path, typer.Option("--out", help="Folder for what is written; made if it is missing.")
 ]
+
+
+def option(name: str, text: str) -> Any:
+    """An option of a command, with what ``--help`` says of it."""
+    return typer.Option(name, help=text)
+
 
 FORMATS = "table in text, Parquet, MAT, HDF5, ROS bag, MCAP, ULog or dataflash"
 """Files that a recording may be."""

@@ -16,7 +16,7 @@ from pyimu.heading.fit import fit
 from pyimu.heading.motion import Reference, Z, known_motion
 from pyimu.heading.outcome import Method, Track
 from pyimu.heading.result import HeadingResult
-from pyimu.heading.threshold import TYPICAL, threshold_filter
+from pyimu.heading.threshold import TYPICAL, check_not_negative, threshold_filter
 from pyimu.heading.transfer import rate_transfer, shows_transfer
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as part_of
@@ -78,10 +78,13 @@ def run(
     those of the threshold filter, ``slip_std`` is by which share the known motion may have been
     another. Without a ``part`` the filter's noise is what the known motion leaves.
 
-    Raises UserError for an unknown method, a log that is no longer than its start-up, one without
-    a reference for a method that needs one, and as ``self_calibrate`` and ``threshold_filter`` do.
+    Raises UserError for an unknown method, a start-up or a slip that is negative, a log that is no
+    longer than its start-up, one without a reference for a method that needs one, and as
+    ``self_calibrate`` and ``threshold_filter`` do.
     """
     names = chosen(method)
+    check_not_negative("start_up", start_up)
+    check_not_negative("slip", slip_std)
     logs = _logs(recordings)
     model = None if part is None else part_of(part)
     motions = [None] * len(logs) if known is None else _paired_up(_logs(known), len(logs))

@@ -14,6 +14,12 @@ TYPICAL = np.radians(0.3)
 """rad/s; the threshold that is quoted with the paper elsewhere."""
 
 
+def check_not_negative(name: str, value: float | None) -> None:
+    """Raise UserError for a number that is negative or none; None is not given."""
+    if value is not None and not (np.isfinite(value) and value >= 0):
+        raise UserError(f"{name} is {value:g}, expected a finite number that is not negative")
+
+
 def threshold_filter(
     rate: np.ndarray,
     threshold: float = TYPICAL,
@@ -33,8 +39,7 @@ def threshold_filter(
     """
     rate = np.asarray(rate, dtype=float)
     for name, value in (("threshold", threshold), ("release", release), ("hold", hold)):
-        if value is not None and not (np.isfinite(value) and value >= 0):
-            raise UserError(f"{name} is {value:g}, expected a finite number that is not negative")
+        check_not_negative(name, value)
     lower = threshold if release is None else release
     if lower > threshold:
         raise UserError(

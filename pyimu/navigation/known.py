@@ -14,8 +14,9 @@ from pyimu.model.sensor import Sensor
 from pyimu.recording.recording import Recording
 
 STEPS = 20
-"""A limit of so few steps of a coarse converter or less is none: at rest most samples are one of
-two or three values, which looks like a pile at the end of a range."""
+"""A limit of so few steps of a coarse converter or less is none, nor is that of a column that goes
+over no more: at rest most samples are one of two or three values, which looks like a pile at the
+end of a range."""
 
 
 def known_part(declared: Part | None, recording: Recording, rest: Rest) -> Part:
@@ -40,7 +41,8 @@ def _with_true_limit(sensor: Sensor, own: Sensor, samples: np.ndarray) -> Sensor
     limit = np.array(sensor.values[effect][parameter])
     declared = own.values.get(effect, {}).get(parameter, np.zeros(3))
     for axis, column in enumerate(samples.T):
-        if limit[axis] != declared[axis] and limit[axis] <= STEPS * _step(column):
+        narrow = min(limit[axis], np.nanmax(column) - np.nanmin(column))
+        if limit[axis] != declared[axis] and narrow <= STEPS * _step(column):
             limit[axis] = declared[axis]
     if not limit.any() and effect not in own.values:
         return Sensor(sensor.kind, {k: v for k, v in sensor.values.items() if k != effect})

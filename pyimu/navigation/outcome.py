@@ -11,6 +11,7 @@ import numpy as np
 from pyimu.attitude.rest import Rest
 from pyimu.errors import Finding
 from pyimu.navigation.filtered import Filtered
+from pyimu.navigation.measured import Fixes
 from pyimu.navigation.track import PositionError, Reference, Track, error_of
 from pyimu.recording.clock import runs
 from pyimu.recording.recording import Recording
@@ -23,7 +24,8 @@ class Outcome:
     ``tracks`` by the method's name; ``filter`` are the outputs of the filter; ``still`` (n,) marks
     rest; ``reference`` the true positions, None without; ``settings`` the filter's parameters by
     name; ``heading0`` rad the yaw with which all began, ``heading_from`` where that came from;
-    ``gains`` how many scale factors and misalignments were estimated.
+    ``gains`` how many scale factors and misalignments were estimated; ``fixes`` the measured
+    positions and velocities that corrected the filter, None without.
     """
 
     name: str
@@ -41,6 +43,7 @@ class Outcome:
     heading0: float = 0.0
     heading_from: str = ""
     gains: int = 0
+    fixes: Fixes | None = field(default=None, repr=False)
 
     @property
     def time(self) -> np.ndarray:

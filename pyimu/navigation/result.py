@@ -71,7 +71,7 @@ class NavigationResult(Outcome):
         table = {"time [s]": self.time, "at_rest [1]": self.still.astype(float)}
         for name, track in self.tracks.items():
             table |= {f"{name}_{column}": values for column, values in _columns(track).items()}
-        for name in ("zupt_nis", "zaru_nis", "nhc_nis", "status"):
+        for name in ("zupt_nis", "zaru_nis", "nhc_nis", "position_nis", "velocity_nis", "status"):
             table[f"{name} [1]"] = self.filter.scalar(name)
         return table
 

@@ -94,7 +94,9 @@ class _Backward:
         mean, covariance = np.zeros_like(moved), np.empty_like(after)
         for k in reversed(range(len(y))):
             mean[k], covariance[k] = self._back(after[k])
-            self.next = (before[k], transition[k], moved[k] + mean[k], covariance[k])
+            # what y holds is gone when the segment before takes its place
+            kept = transition[k].copy() if k == 0 else transition[k]
+            self.next = (before[k], kept, moved[k] + mean[k], covariance[k])
         return mean, covariance
 
     def _back(self, own: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -81,6 +81,14 @@ GROUPS: Mapping[str, Group] = MappingProxyType(
         "heading_age": Group("s", "time since the measured heading was true"),
         "speed": Group("m/s", "measured speed over the ground along the body's x axis"),
         "speed_std": Group("m/s", "standard deviation of the measured speed"),
+        "position_north": Group("m", "measured position to the north, such as a GNSS receiver's"),
+        "position_east": Group("m", "measured position to the east"),
+        "position_up": Group("m", "measured position above"),
+        "position_std": Group("m", "standard deviation of the measured position, per axis"),
+        "velocity_north": Group("m/s", "measured velocity to the north"),
+        "velocity_east": Group("m/s", "measured velocity to the east"),
+        "velocity_up": Group("m/s", "measured velocity upwards"),
+        "velocity_std": Group("m/s", "standard deviation of the measured velocity, per axis"),
     }
 )
 """What a recording can hold beside its time, by name. The signals on which a sensor's errors may

@@ -80,6 +80,8 @@ def test_without_a_reference_the_methods_that_need_none_go_on(pyimu, whole, tmp_
         (("LOG", "--reference", "yaw"), ("--reference yaw", "heading, rate")),
         (("LOG", "--part", "imt31"), ("imt31", "no built-in part")),
         (("LOG", "--release", "1"), ("release", "above the threshold")),
+        (("LOG", "--slip", "-1"), ("slip is -0.01", "not negative")),
+        (("LOG", "--start-up", "nan"), ("start_up is nan", "not negative")),
         ((), ("LOG", "--help")),
     ],
 )

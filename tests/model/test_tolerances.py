@@ -26,7 +26,7 @@ HEAD = 'name = "a"\nsample_rate = {value = 100.0, unit = "Hz"}\n'
 ALL = [(name, t) for name in part_names() for t in part(name).tolerances]
 FIGURE = re.compile(r"^(?P<sign>\+-|<)?(?P<numbers>\[[\d., ]+\]|[\d.]+) (?P<unit>\S+)")
 SPAN = re.compile(r"over (?P<low>-?\d+) to (?P<high>\d+) degC, taken as reached (?P<far>\d+) K")
-RANGE = re.compile(r"of (?P<size>\d+) (?P<unit>\S+), nonlinearity")
+RANGE = re.compile(r"of (?P<size>[\d.]+) (?P<unit>\S+), nonlinearity")
 PLACE = re.compile(r"table|page|section", re.IGNORECASE)
 
 

@@ -5,14 +5,14 @@ from dataclasses import replace
 import casadi as ca
 import numpy as np
 import pytest
-from navigation_cases import SHORT, calibrated, declared, noisy, perfect, white
+from navigation_cases import SHORT, assumed, calibrated, declared, noisy, perfect, white
 from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
-from pyimu.navigation import run
+from pyimu.navigation import run, smoothing
 from pyimu.navigation.filter import ins_block, updates
 from pyimu.navigation.filter.layout import Layout, State
-from pyimu.rover.square import Drive
+from pyimu.rover.square import Drive, motion
 
 RUNS = 40
 
@@ -81,6 +81,19 @@ def test_the_smoother_ends_where_the_filter_does_and_knows_no_less(runs_of_noise
         own, back = r.filter.track("filter"), r.tracks["smoother"]
         np.testing.assert_allclose(back.position[-1], own.position[-1], atol=1e-12)
         assert np.all(back.position_std <= own.position_std * (1 + 1e-6) + 1e-9)
+
+
+def test_the_smoother_does_not_show_where_its_segments_are_cut(monkeypatch):
+    """A part with gains to estimate, of which what follows a cut tells most."""
+    log = assumed().specimen(4).simulate(motion(SHORT, 50.0), seed=4)
+    tracks = []
+    for size in (100, 10_000):
+        monkeypatch.setattr(smoothing, "SEGMENT", size)
+        tracks.append(run(log, assumed(), method="smoother").tracks["smoother"])
+    for name in ("position", "velocity", "position_std"):
+        cut, whole = (getattr(t, name) for t in tracks)
+        # the recursion is the same; the rounding of its solutions is not
+        np.testing.assert_allclose(cut, whole, atol=1e-6)
 
 
 def test_smoothing_lowers_the_error_along_the_path(runs_of_noise):
@@ -158,7 +171,7 @@ def test_the_transition_is_what_the_mechanisation_makes_of_small_errors():
         s[:16] = nominal
         return np.array(predict(s, u, p, h)[0]).ravel()[:16]
 
-    found = np.array(predict(state, u, p, h)[4]).reshape(15, 15).T
+    found = np.array(predict(state, u, p, h)[5]).reshape(15, 15).T
     base, step = after(state[:16]), 1e-5
     numeric = np.empty((15, 15))
     for i in range(15):

@@ -33,15 +33,20 @@ def rows(recording):
     return u
 
 
+@pytest.mark.parametrize("zupt", ("declared", "live"))
 @pytest.mark.parametrize("form", FORMS)
-def test_the_unit_gives_the_bits_of_a_run(fmus, unit, log, form):
-    found = run(log, white(calibrated()), method="filter")
+def test_the_unit_gives_the_bits_of_a_run(fmus, unit, log, form, zupt):
+    """Told of the rests, and where it finds them by itself."""
+    found = run(log, white(calibrated()), method="filter", zupt=zupt)
     given = {"start_values": dict(found.settings), "sample_period": log.sample_period}
+    u = rows(log)
+    u[:, 7] *= zupt == "declared"
     y = (
-        simulate_blocks(fmus[form], rows(log), block_size=500, **given)
+        simulate_blocks(fmus[form], u, block_size=500, **given)
         if form == "block"
-        else simulate(fmus[form], rows(log), **given)
+        else simulate(fmus[form], u, **given)
     )
+    assert found.still.any()
     np.testing.assert_array_equal(y[1:], found.filter.y)
 
 
@@ -58,6 +63,13 @@ def test_a_measured_position_and_speed_pull_the_estimate(unit, log):
     free, held = (unit.run(x)[0][-1, east] for x in (rows(log), u))
     assert abs(free - 2.3) > 0.1
     assert held == pytest.approx(2.3, abs=1e-4)
+    u = rows(log)[:800]
+    u[-1, at["velocity_valid"]], u[-1, at["velocity_variance"]] = 1.0, 1e-10
+    u[-1, at["velocity_measured[1]"] :][:3] = [0.25, 0.05, np.nan]
+    north = names.index("velocity[2]")
+    y = unit.run(u)[0][-1]
+    assert y[[north - 1, north]] == pytest.approx([0.25, 0.05], abs=1e-4)
+    assert y[names.index("velocity_std[3]")] > 1e-4
     u = rows(log)
     moving = (log.time > 5.8) & (log.time < 11.0)
     u[moving, at["speed_valid"]] = 1.0

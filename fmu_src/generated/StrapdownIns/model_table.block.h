@@ -7,22 +7,22 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{9f4c3051-4a02-caee-2946-b254b45e78f0}"
-#define MODEL_TOKEN_FMI3 "{62ac4850-605a-8ab0-26c5-6760d06898c1}"
+#define MODEL_TOKEN_FMI2 "{73d16848-d1cf-41d0-94d8-71c927f03468}"
+#define MODEL_TOKEN_FMI3 "{c62dc72f-74b7-9e5b-da71-22676e85f4e6}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
 enum {
-    N_INPUTS = 16,
-    N_PARAMETERS = 34,
-    N_OUTPUTS = 40,
-    N_STATES = 197,
+    N_INPUTS = 21,
+    N_PARAMETERS = 38,
+    N_OUTPUTS = 43,
+    N_STATES = 269,
     N_NOISE = 0,
-    N_VARIABLES = 54
+    N_VARIABLES = 64
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 14, WORK_RES = 7, WORK_IW = 0, WORK_W = 1207 };
+enum { WORK_ARG = 17, WORK_RES = 8, WORK_IW = 0, WORK_W = 1673 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };
@@ -40,28 +40,35 @@ static const BlockVariable variables[] = {
     {"position_valid", KIND_BOOLEAN, ROLE_INPUT, 11, 1, -INFINITY, INFINITY},
     {"position_measured", KIND_REAL, ROLE_INPUT, 12, 3, -INFINITY, INFINITY},
     {"position_variance", KIND_REAL, ROLE_INPUT, 15, 1, 0.0, INFINITY},
+    {"velocity_valid", KIND_BOOLEAN, ROLE_INPUT, 16, 1, -INFINITY, INFINITY},
+    {"velocity_measured", KIND_REAL, ROLE_INPUT, 17, 3, -INFINITY, INFINITY},
+    {"velocity_variance", KIND_REAL, ROLE_INPUT, 20, 1, 0.0, INFINITY},
     {"latitude", KIND_REAL, ROLE_TUNABLE, 0, 1, -INFINITY, INFINITY},
     {"gravity", KIND_REAL, ROLE_TUNABLE, 1, 1, 0.001, INFINITY},
     {"heading0", KIND_REAL, ROLE_FIXED, 2, 1, -INFINITY, INFINITY},
     {"heading_std0", KIND_REAL, ROLE_FIXED, 3, 1, 0.0, INFINITY},
     {"tilt_std0", KIND_REAL, ROLE_FIXED, 4, 1, 0.0, INFINITY},
     {"velocity_std0", KIND_REAL, ROLE_FIXED, 5, 1, 0.0, INFINITY},
-    {"gyro_bias_std0", KIND_REAL, ROLE_FIXED, 6, 3, 0.0, INFINITY},
-    {"accel_bias_std0", KIND_REAL, ROLE_FIXED, 9, 3, 0.0, INFINITY},
-    {"zupt", KIND_REAL, ROLE_TUNABLE, 12, 1, 0.0, INFINITY},
-    {"zaru", KIND_REAL, ROLE_TUNABLE, 13, 1, 0.0, INFINITY},
-    {"zupt_std", KIND_REAL, ROLE_TUNABLE, 14, 1, 1e-06, INFINITY},
-    {"nhc", KIND_REAL, ROLE_TUNABLE, 15, 1, 0.0, INFINITY},
-    {"nhc_std", KIND_REAL, ROLE_TUNABLE, 16, 1, 1e-06, INFINITY},
-    {"nhc_time", KIND_REAL, ROLE_TUNABLE, 17, 1, 0.0, INFINITY},
-    {"lever_arm", KIND_REAL, ROLE_FIXED, 18, 3, -INFINITY, INFINITY},
-    {"top_speed", KIND_REAL, ROLE_TUNABLE, 21, 1, 0.001, INFINITY},
-    {"top_acceleration", KIND_REAL, ROLE_TUNABLE, 22, 1, 0.001, INFINITY},
-    {"top_turn_rate", KIND_REAL, ROLE_TUNABLE, 23, 1, 0.001, INFINITY},
-    {"gyro_error.thermal_bias.kT", KIND_REAL, ROLE_TUNABLE, 24, 3, -INFINITY, INFINITY},
-    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 27, 1, -INFINITY, INFINITY},
-    {"gyro_error.angle_random_walk.N", KIND_REAL, ROLE_TUNABLE, 28, 3, 0.0, INFINITY},
-    {"gyro_error.rate_random_walk.K", KIND_REAL, ROLE_TUNABLE, 31, 3, 0.0, INFINITY},
+    {"position_std0", KIND_REAL, ROLE_FIXED, 6, 1, 0.0, INFINITY},
+    {"gyro_bias_std0", KIND_REAL, ROLE_FIXED, 7, 3, 0.0, INFINITY},
+    {"accel_bias_std0", KIND_REAL, ROLE_FIXED, 10, 3, 0.0, INFINITY},
+    {"zupt", KIND_REAL, ROLE_TUNABLE, 13, 1, 0.0, INFINITY},
+    {"zaru", KIND_REAL, ROLE_TUNABLE, 14, 1, 0.0, INFINITY},
+    {"zupt_std", KIND_REAL, ROLE_TUNABLE, 15, 1, 1e-06, INFINITY},
+    {"detect", KIND_REAL, ROLE_TUNABLE, 16, 1, 0.0, INFINITY},
+    {"rest_window", KIND_REAL, ROLE_TUNABLE, 17, 1, 0.001, INFINITY},
+    {"rest_noise", KIND_REAL, ROLE_TUNABLE, 18, 1, 0.001, INFINITY},
+    {"nhc", KIND_REAL, ROLE_TUNABLE, 19, 1, 0.0, INFINITY},
+    {"nhc_std", KIND_REAL, ROLE_TUNABLE, 20, 1, 1e-06, INFINITY},
+    {"nhc_time", KIND_REAL, ROLE_TUNABLE, 21, 1, 0.0, INFINITY},
+    {"lever_arm", KIND_REAL, ROLE_FIXED, 22, 3, -INFINITY, INFINITY},
+    {"top_speed", KIND_REAL, ROLE_TUNABLE, 25, 1, 0.001, INFINITY},
+    {"top_acceleration", KIND_REAL, ROLE_TUNABLE, 26, 1, 0.001, INFINITY},
+    {"top_turn_rate", KIND_REAL, ROLE_TUNABLE, 27, 1, 0.001, INFINITY},
+    {"gyro_error.thermal_bias.kT", KIND_REAL, ROLE_TUNABLE, 28, 3, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 31, 1, -INFINITY, INFINITY},
+    {"gyro_error.angle_random_walk.N", KIND_REAL, ROLE_TUNABLE, 32, 3, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K", KIND_REAL, ROLE_TUNABLE, 35, 3, 0.0, INFINITY},
     {"q", KIND_REAL, ROLE_OUTPUT, 0, 4, -INFINITY, INFINITY},
     {"roll", KIND_REAL, ROLE_OUTPUT, 4, 1, -INFINITY, INFINITY},
     {"pitch", KIND_REAL, ROLE_OUTPUT, 5, 1, -INFINITY, INFINITY},
@@ -80,18 +87,21 @@ static const BlockVariable variables[] = {
     {"zaru_nis", KIND_REAL, ROLE_OUTPUT, 36, 1, -INFINITY, INFINITY},
     {"nhc_nis", KIND_REAL, ROLE_OUTPUT, 37, 1, -INFINITY, INFINITY},
     {"position_nis", KIND_REAL, ROLE_OUTPUT, 38, 1, -INFINITY, INFINITY},
-    {"status", KIND_INTEGER, ROLE_OUTPUT, 39, 1, -INFINITY, INFINITY},
+    {"velocity_nis", KIND_REAL, ROLE_OUTPUT, 39, 1, -INFINITY, INFINITY},
+    {"speed_nis", KIND_REAL, ROLE_OUTPUT, 40, 1, -INFINITY, INFINITY},
+    {"at_rest", KIND_BOOLEAN, ROLE_OUTPUT, 41, 1, -INFINITY, INFINITY},
+    {"status", KIND_INTEGER, ROLE_OUTPUT, 42, 1, -INFINITY, INFINITY},
     {"sample_period", KIND_REAL, ROLE_SAMPLING, 0, 1, 0.0, INFINITY},
 };
 
 /* Value references that mean something to every block. */
 enum {
-    SAMPLE_PERIOD = 53,
+    SAMPLE_PERIOD = 63,
     SEED = N_VARIABLES, /* none: there is no noise */
 };
 
-static const double input_starts[] = {0.0, 0.0, 0.0, 0.0, 0.0, 9.80665, 25.0, 0.0, 0.0, 0.0, 0.01, 0.0, 0.0, 0.0, 0.0, 1.0};
-static const double parameter_starts[] = {10.0, 9.80665, 0.0, 0.001, 0.3, 1.0, 0.1, 0.1, 0.1, 0.5, 0.5, 0.5, 1.0, 1.0, 0.001, 0.0, 0.02, 0.1, 0.0, 0.0, 0.0, 2.0, 5.0, 2.0, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
+static const double input_starts[] = {0.0, 0.0, 0.0, 0.0, 0.0, 9.80665, 25.0, 0.0, 0.0, 0.0, 0.01, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.01};
+static const double parameter_starts[] = {10.0, 9.80665, 0.0, 0.001, 0.3, 1.0, 0.0, 0.1, 0.1, 0.1, 0.5, 0.5, 0.5, 1.0, 1.0, 0.001, 1.0, 0.3, 1.0, 0.0, 0.02, 0.1, 0.0, 0.0, 0.0, 2.0, 5.0, 2.0, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
 
 /* The noise stream of each channel; there is none. */
 static const uint64_t noise_channels[] = {

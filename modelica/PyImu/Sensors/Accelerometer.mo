@@ -10,6 +10,7 @@ block Accelerometer "Accelerometer of a built-in part"
     0.0005,
     0.00023529411764705883,
     0.0005,
+    0.01,
     0.0025,
     0.01,
     0.005,
@@ -24,10 +25,12 @@ block Accelerometer "Accelerometer of a built-in part"
     0.002403846153846154,
     0.002403846153846154,
     0.0020833333333333333,
+    0.01,
     0.001,
     0.001,
     0.001,
     0.0005,
+    0.01,
     0.001,
     0.00125} "Sample period of each part";
   Modelica.Blocks.Interfaces.RealOutput y[3](each unit="m/s2") "Output, body axes"
@@ -42,6 +45,8 @@ block Accelerometer "Accelerometer of a built-in part"
     if part == PyImu.Sensors.Part.Adis16495;
   PyImu.Sensors.Parts.Adis16500.Accelerometer adis16500(samplePeriod=samplePeriod, seed=seed)
     if part == PyImu.Sensors.Part.Adis16500;
+  PyImu.Sensors.Parts.Adxrs300.Accelerometer adxrs300(samplePeriod=samplePeriod, seed=seed)
+    if part == PyImu.Sensors.Part.Adxrs300;
   PyImu.Sensors.Parts.Bmi088.Accelerometer bmi088(samplePeriod=samplePeriod, seed=seed)
     if part == PyImu.Sensors.Part.Bmi088;
   PyImu.Sensors.Parts.Bmi160.Accelerometer bmi160(samplePeriod=samplePeriod, seed=seed)
@@ -70,6 +75,8 @@ block Accelerometer "Accelerometer of a built-in part"
     if part == PyImu.Sensors.Part.Lsm6dsox;
   PyImu.Sensors.Parts.Lsm6dsv.Accelerometer lsm6dsv(samplePeriod=samplePeriod, seed=seed)
     if part == PyImu.Sensors.Part.Lsm6dsv;
+  PyImu.Sensors.Parts.Mma7260q.Accelerometer mma7260q(samplePeriod=samplePeriod, seed=seed)
+    if part == PyImu.Sensors.Part.Mma7260q;
   PyImu.Sensors.Parts.Mpu6050.Accelerometer mpu6050(samplePeriod=samplePeriod, seed=seed)
     if part == PyImu.Sensors.Part.Mpu6050;
   PyImu.Sensors.Parts.Mpu9250.Accelerometer mpu9250(samplePeriod=samplePeriod, seed=seed)
@@ -78,6 +85,8 @@ block Accelerometer "Accelerometer of a built-in part"
     if part == PyImu.Sensors.Part.Mti3;
   PyImu.Sensors.Parts.Mti300.Accelerometer mti300(samplePeriod=samplePeriod, seed=seed)
     if part == PyImu.Sensors.Part.Mti300;
+  PyImu.Sensors.Parts.Sparkfun6dofV2.Accelerometer sparkfun6dofV2(samplePeriod=samplePeriod, seed=seed)
+    if part == PyImu.Sensors.Part.Sparkfun6dofV2;
   PyImu.Sensors.Parts.Stim300.Accelerometer stim300(samplePeriod=samplePeriod, seed=seed)
     if part == PyImu.Sensors.Part.Stim300;
   PyImu.Sensors.Parts.Vn100.Accelerometer vn100(samplePeriod=samplePeriod, seed=seed)
@@ -103,6 +112,10 @@ equation
   connect(specificForce, adis16500.specificForce);
   connect(temperature, adis16500.temperature);
   connect(adis16500.y, y);
+  connect(rate, adxrs300.rate);
+  connect(specificForce, adxrs300.specificForce);
+  connect(temperature, adxrs300.temperature);
+  connect(adxrs300.y, y);
   connect(rate, bmi088.rate);
   connect(specificForce, bmi088.specificForce);
   connect(temperature, bmi088.temperature);
@@ -159,6 +172,10 @@ equation
   connect(specificForce, lsm6dsv.specificForce);
   connect(temperature, lsm6dsv.temperature);
   connect(lsm6dsv.y, y);
+  connect(rate, mma7260q.rate);
+  connect(specificForce, mma7260q.specificForce);
+  connect(temperature, mma7260q.temperature);
+  connect(mma7260q.y, y);
   connect(rate, mpu6050.rate);
   connect(specificForce, mpu6050.specificForce);
   connect(temperature, mpu6050.temperature);
@@ -175,6 +192,10 @@ equation
   connect(specificForce, mti300.specificForce);
   connect(temperature, mti300.temperature);
   connect(mti300.y, y);
+  connect(rate, sparkfun6dofV2.rate);
+  connect(specificForce, sparkfun6dofV2.specificForce);
+  connect(temperature, sparkfun6dofV2.temperature);
+  connect(sparkfun6dofV2.y, y);
   connect(rate, stim300.rate);
   connect(specificForce, stim300.specificForce);
   connect(temperature, stim300.temperature);

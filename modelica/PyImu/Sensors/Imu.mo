@@ -10,6 +10,7 @@ block Imu "Inertial measurement unit of a built-in part"
     0.0005,
     0.00023529411764705883,
     0.0005,
+    0.01,
     0.0025,
     0.01,
     0.005,
@@ -24,10 +25,12 @@ block Imu "Inertial measurement unit of a built-in part"
     0.002403846153846154,
     0.002403846153846154,
     0.0020833333333333333,
+    0.01,
     0.001,
     0.001,
     0.001,
     0.0005,
+    0.01,
     0.001,
     0.00125} "Sample period of each part";
   PyImu.Sensors.Parts.Adis16405.Imu adis16405(samplePeriod=samplePeriod, seed=seed)
@@ -40,6 +43,8 @@ block Imu "Inertial measurement unit of a built-in part"
     if part == PyImu.Sensors.Part.Adis16495;
   PyImu.Sensors.Parts.Adis16500.Imu adis16500(samplePeriod=samplePeriod, seed=seed)
     if part == PyImu.Sensors.Part.Adis16500;
+  PyImu.Sensors.Parts.Adxrs300.Imu adxrs300(samplePeriod=samplePeriod, seed=seed)
+    if part == PyImu.Sensors.Part.Adxrs300;
   PyImu.Sensors.Parts.Bmi088.Imu bmi088(samplePeriod=samplePeriod, seed=seed)
     if part == PyImu.Sensors.Part.Bmi088;
   PyImu.Sensors.Parts.Bmi160.Imu bmi160(samplePeriod=samplePeriod, seed=seed)
@@ -68,6 +73,8 @@ block Imu "Inertial measurement unit of a built-in part"
     if part == PyImu.Sensors.Part.Lsm6dsox;
   PyImu.Sensors.Parts.Lsm6dsv.Imu lsm6dsv(samplePeriod=samplePeriod, seed=seed)
     if part == PyImu.Sensors.Part.Lsm6dsv;
+  PyImu.Sensors.Parts.Mma7260q.Imu mma7260q(samplePeriod=samplePeriod, seed=seed)
+    if part == PyImu.Sensors.Part.Mma7260q;
   PyImu.Sensors.Parts.Mpu6050.Imu mpu6050(samplePeriod=samplePeriod, seed=seed)
     if part == PyImu.Sensors.Part.Mpu6050;
   PyImu.Sensors.Parts.Mpu9250.Imu mpu9250(samplePeriod=samplePeriod, seed=seed)
@@ -76,6 +83,8 @@ block Imu "Inertial measurement unit of a built-in part"
     if part == PyImu.Sensors.Part.Mti3;
   PyImu.Sensors.Parts.Mti300.Imu mti300(samplePeriod=samplePeriod, seed=seed)
     if part == PyImu.Sensors.Part.Mti300;
+  PyImu.Sensors.Parts.Sparkfun6dofV2.Imu sparkfun6dofV2(samplePeriod=samplePeriod, seed=seed)
+    if part == PyImu.Sensors.Part.Sparkfun6dofV2;
   PyImu.Sensors.Parts.Stim300.Imu stim300(samplePeriod=samplePeriod, seed=seed)
     if part == PyImu.Sensors.Part.Stim300;
   PyImu.Sensors.Parts.Vn100.Imu vn100(samplePeriod=samplePeriod, seed=seed)
@@ -111,6 +120,12 @@ equation
   connect(adis16500.gyro, gyro);
   connect(adis16500.accel, accel);
   connect(adis16500.measuredTemperature, measuredTemperature);
+  connect(rate, adxrs300.rate);
+  connect(specificForce, adxrs300.specificForce);
+  connect(temperature, adxrs300.temperature);
+  connect(adxrs300.gyro, gyro);
+  connect(adxrs300.accel, accel);
+  connect(adxrs300.measuredTemperature, measuredTemperature);
   connect(rate, bmi088.rate);
   connect(specificForce, bmi088.specificForce);
   connect(temperature, bmi088.temperature);
@@ -195,6 +210,12 @@ equation
   connect(lsm6dsv.gyro, gyro);
   connect(lsm6dsv.accel, accel);
   connect(lsm6dsv.measuredTemperature, measuredTemperature);
+  connect(rate, mma7260q.rate);
+  connect(specificForce, mma7260q.specificForce);
+  connect(temperature, mma7260q.temperature);
+  connect(mma7260q.gyro, gyro);
+  connect(mma7260q.accel, accel);
+  connect(mma7260q.measuredTemperature, measuredTemperature);
   connect(rate, mpu6050.rate);
   connect(specificForce, mpu6050.specificForce);
   connect(temperature, mpu6050.temperature);
@@ -219,6 +240,12 @@ equation
   connect(mti300.gyro, gyro);
   connect(mti300.accel, accel);
   connect(mti300.measuredTemperature, measuredTemperature);
+  connect(rate, sparkfun6dofV2.rate);
+  connect(specificForce, sparkfun6dofV2.specificForce);
+  connect(temperature, sparkfun6dofV2.temperature);
+  connect(sparkfun6dofV2.gyro, gyro);
+  connect(sparkfun6dofV2.accel, accel);
+  connect(sparkfun6dofV2.measuredTemperature, measuredTemperature);
   connect(rate, stim300.rate);
   connect(specificForce, stim300.specificForce);
   connect(temperature, stim300.temperature);

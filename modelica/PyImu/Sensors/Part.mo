@@ -6,6 +6,7 @@ type Part = enumeration(
     Adis16470 "Analog Devices ADIS16470, miniature industrial IMU",
     Adis16495 "Analog Devices ADIS16495-1, tactical-grade IMU",
     Adis16500 "Analog Devices ADIS16500, miniature industrial IMU",
+    Adxrs300 "Analog Devices ADXRS300, analog gyro of a single axis",
     Bmi088 "Bosch Sensortec BMI088, six-axis IMU for drones",
     Bmi160 "Bosch Sensortec BMI160, low-power six-axis IMU",
     Bmi270 "Bosch Sensortec BMI270, low-power six-axis IMU for wearables",
@@ -20,10 +21,12 @@ type Part = enumeration(
     Lsm6dso "STMicroelectronics LSM6DSO, consumer six-axis IMU",
     Lsm6dsox "STMicroelectronics LSM6DSOX, consumer six-axis IMU with machine-learning core",
     Lsm6dsv "STMicroelectronics LSM6DSV, six-axis IMU for augmented reality and drones",
+    Mma7260q "Freescale MMA7260Q, analog three-axis accelerometer",
     Mpu6050 "InvenSense MPU-6050, consumer six-axis IMU",
     Mpu9250 "InvenSense MPU-9250, consumer nine-axis IMU, gyro and accelerometer",
     Mti3 "Movella (Xsens) MTi-3, attitude and heading reference module, inertial sensors only",
     Mti300 "Movella (Xsens) MTi-300, attitude and heading reference system, inertial sensors only",
+    Sparkfun6dofV2 "SparkFun IMU 6 Degrees of Freedom v2 (ADXRS300, MMA7260Q, 10 bits)",
     Stim300 "Sensonor STIM300 with 10 g accelerometers, tactical-grade IMU",
     Vn100 "VectorNav VN-100, attitude and heading reference system, inertial sensors only")
   "The built-in parts";

@@ -31,34 +31,37 @@ from pyimu.navigation.filter.variables import (
     SPEED,
     SPEED_VALID,
     SPEED_VARIANCE,
-    STATIONARY,
+    VELOCITY_VALID,
+    VELOCITY_VARIANCE,
 )
+from pyimu.navigation.filter.variables import VELOCITY as MEASURED_VELOCITY
 from pyimu.symbolic import quaternion
 
 OPTIONS = {"cse": True}
 
-KINDS = ("zupt", "zaru", "nhc", "position")
+KINDS = ("zupt", "zaru", "nhc", "position", "velocity", "speed")
 """Updates whose normalised innovations squared are kept, in the order of the outputs."""
 
-BITS = (2, 4, 8, 16)
+BITS = (2, 4, 8, 16, 32, 64)
 """Those of the status that say that one of them was weighed down."""
 
-FREEDOM = (3, 3, 2, 3)
+FREEDOM = (3, 3, 2, 3, 3, 1)
 
 REPORT = len(KINDS)
 """What goes with the estimate through the updates of a sample: their normalised innovations."""
 
 
-def strapdown_ins(part: Part, nhc: bool = True) -> Block:
+def strapdown_ins(part: Part, nhc: bool = True, detects: bool = True) -> Block:
     """The block ``StrapdownIns`` of a part; with ``nhc`` it can take a vehicle's constraint, which
-    then is the parameter of that name, at first off.
+    then is the parameter of that name, at first off. Where it ``detects``, it finds rests by
+    itself, and is told of others.
 
     Attitude, velocity and position from gyro and accelerometer by strapdown integration, corrected
     at rests (zero-velocity and zero-angular-rate updates), by a vehicle's wheels, and by a measured
-    speed or position; 15 errors are estimated, and the scale factors and misalignments that the
-    part leaves open.
+    speed, velocity or position; 15 errors are estimated, and the scale factors and misalignments
+    that the part leaves open.
     """
-    return _block(Layout(part, nhc), recorded=False, constrained=False)
+    return _block(Layout(part, nhc, detects), recorded=False, constrained=False)
 
 
 @lru_cache(maxsize=8)
@@ -78,7 +81,7 @@ def _block(layout: Layout, recorded: bool, constrained: bool) -> Block:
     start = prediction.zero(layout, settings)
     state = ca.vertcat(layout.pack(start), prediction.empty(layout, settings).pack())
     names = (*OUTPUTS, *_recorded_names(layout)) if recorded else OUTPUTS
-    shown = _outputs(start, ca.SX.zeros(REPORT), ca.SX(0))
+    shown = _outputs(start, ca.SX.zeros(REPORT), ca.SX(0), ca.SX(0))
     shown = ca.vertcat(shown, ca.SX.zeros(len(names) - len(OUTPUTS)))
     return Block(
         name="StrapdownIns",
@@ -110,7 +113,7 @@ def _recorded_names(layout: Layout) -> tuple[Variable, ...]:
 def _step(layout: Layout, recorded: bool) -> ca.Function:
     sizes = {"s": layout.state, "u": len(layout.inputs), "p": len(layout.parameters), "h": 1}
     s, u, p, h = (ca.MX.sym(name, size) for name, size in sizes.items())
-    x, memory, rate, status, transition = _predict(layout)(s, u, p, h)
+    x, memory, rate, status, rest, transition = _predict(layout)(s, u, p, h)
     n = layout.errors
     work = ca.vertcat(x, ca.MX.zeros(REPORT + n))
     begun = s[layout.begun]
@@ -119,19 +122,17 @@ def _step(layout: Layout, recorded: bool) -> ca.Function:
     def setting(name: str):
         return p[nominal_at[name]] > 0
 
-    still = ca.logic_and(u[STATIONARY] > 0.5, begun > 0)
+    still = ca.logic_and(rest > 0.5, begun > 0)
     work = where(ca.logic_and(still, setting("zupt")), _zupt(layout), work, p)
     rested = ca.logic_and(still, ca.logic_and(setting("zaru"), status <= 0))
     work = where(rested, _zaru(layout), work, rate, p, h)
     if layout.nhc:
         free = ca.logic_and(ca.logic_not(still), ca.logic_and(setting("nhc"), begun > 0))
         work = where(ca.logic_and(free, status <= 0), _nhc(layout), work, rate, p, h)
-    work = where(u[SPEED_VALID] > 0.5, _speed(layout), work, u[SPEED], u[SPEED_VARIANCE])
-    work = where(
-        u[POSITION_VALID] > 0.5, _position(layout), work, u[POSITION], u[POSITION_VARIANCE]
-    )
+    measured = u[SPEED_VALID] + u[POSITION_VALID] + u[VELOCITY_VALID] > 0.5
+    work = where(measured, _measured(layout), work, u)
     after = work[: layout.packed]
-    y = _finish(layout)(work, status)
+    y = _finish(layout)(work, status, still)
     if recorded:
         before = x[layout.nominal : layout.packed]
         y = ca.vertcat(y, before, after, work[layout.packed + REPORT :], transition)
@@ -145,7 +146,7 @@ def _step(layout: Layout, recorded: bool) -> ca.Function:
 
 
 def _predict(layout: Layout) -> ca.Function:
-    """``s, u, p, h -> x, memory, rate, status, transition``, to the updates."""
+    """``s, u, p, h -> x, memory, rate, status, still, transition``, to the updates."""
     s = ca.SX.sym("s", layout.state)
     u, p, h = (
         ca.SX.sym(name, size)
@@ -155,6 +156,7 @@ def _predict(layout: Layout) -> ca.Function:
     x = layout.unpack(s)
     memory = Memory.unpack(s[layout.packed :], layout)
     sample = prediction.read(layout, memory, x.q, u, settings, h)
+    sample = prediction.with_rest(layout, x, memory, sample, settings, h)
     after, transition, means = prediction.predicted(layout, x, memory, sample, settings, h)
     first = prediction.first(layout, sample, settings)
     start = ca.logic_and(memory.begun <= 0, sample.accel_lost <= 0)
@@ -165,7 +167,7 @@ def _predict(layout: Layout) -> ca.Function:
     return ca.Function(
         "predict",
         [s, u, p, h],
-        [packed, kept, sample.rate, status, ca.densify(transition[:])],
+        [packed, kept, sample.rate, status, sample.still, ca.densify(transition[:])],
         OPTIONS,
     )
 
@@ -208,7 +210,7 @@ def _speed(layout: Layout) -> ca.Function:
     def correct(x: State, speed, variance):
         return updates.by_speed(layout, x, speed, variance)
 
-    return _update(layout, "by_speed", "position", correct, 1, 1)
+    return _update(layout, "by_speed", "speed", correct, 1, 1)
 
 
 def _position(layout: Layout) -> ca.Function:
@@ -218,15 +220,35 @@ def _position(layout: Layout) -> ca.Function:
     return _update(layout, "by_position", "position", correct, 3, 1)
 
 
+def _velocity(layout: Layout) -> ca.Function:
+    def correct(x: State, velocity, variance):
+        return updates.by_velocity(layout, x, velocity, variance)
+
+    return _update(layout, "by_velocity", "velocity", correct, 3, 1)
+
+
+def _measured(layout: Layout) -> ca.Function:
+    """``work, u -> work`` of what was measured beside rate and force."""
+    work = begun = ca.MX.sym("w", layout.packed + REPORT + layout.errors)
+    u = ca.MX.sym("u", len(layout.inputs))
+    for valid, function, value, variance in (
+        (SPEED_VALID, _speed, SPEED, SPEED_VARIANCE),
+        (VELOCITY_VALID, _velocity, MEASURED_VELOCITY, VELOCITY_VARIANCE),
+        (POSITION_VALID, _position, POSITION, POSITION_VARIANCE),
+    ):
+        work = where(u[valid] > 0.5, function(layout), work, u[value], u[variance])
+    return ca.Function("measured", [begun, u], [work])
+
+
 def _finish(layout: Layout) -> ca.Function:
     w = ca.SX.sym("w", layout.packed + REPORT + layout.errors)
-    lost = ca.SX.sym("lost")
+    lost, still = ca.SX.sym("lost"), ca.SX.sym("still")
     report = w[layout.packed : layout.packed + REPORT]
-    y = _outputs(layout.unpack(w), report, lost)
-    return ca.Function("finish", [w, lost], [y], OPTIONS)
+    y = _outputs(layout.unpack(w), report, lost, still)
+    return ca.Function("finish", [w, lost, still], [y], OPTIONS)
 
 
-def _outputs(x: State, report, lost) -> ca.SX:
+def _outputs(x: State, report, lost, still) -> ca.SX:
     """The outputs (``OUTPUTS``) as a column."""
     p, back = ca.SX(x.covariance), quaternion.to_matrix(quaternion.conjugate(x.q))
     for place in (GYRO_BIAS, ACCEL_BIAS):
@@ -253,6 +275,7 @@ def _outputs(x: State, report, lost) -> ca.SX:
             std,
             correlation,
             report,
+            still,
             beyond,
         )
     )

@@ -13,6 +13,7 @@ from pyimu.attitude.filter.compensation import Compensation
 from pyimu.block.variables import Variable
 from pyimu.model.part import Part, input_variables
 from pyimu.model.signals import SIGNALS
+from pyimu.navigation.filter import rest_window
 from pyimu.navigation.filter.variables import INPUTS, OWN_PARAMETERS
 from pyimu.symbolic.linear import pack, unpack
 
@@ -90,13 +91,15 @@ class State:
 
 @dataclass(frozen=True)
 class Layout:
-    """The sizes of a filter for a part; ``nhc`` says whether it can take a vehicle's constraint.
+    """The sizes of a filter for a part; ``nhc`` says whether it can take a vehicle's constraint,
+    ``detects`` whether it finds rests by itself.
 
     ``mounting_std`` rad is how well the vehicle's axes are known in those of the body.
     """
 
     part: Part
     nhc: bool = False
+    detects: bool = False
     mounting_std: float = 0.02
 
     @cached_property
@@ -146,12 +149,13 @@ class Layout:
     @property
     def memory_sizes(self) -> tuple[int, ...]:
         """Of the ``Memory``, in the order of its fields."""
-        return (self.held, 3, 3, 3, 3, 1, 1, 1, 1, len(self.compensation.start))
+        window = rest_window.SIZE * self.detects
+        return (self.held, 3, 3, 3, 3, 1, 1, 1, 1, len(self.compensation.start), window)
 
     @property
     def begun(self) -> int:
         """Where the state has ``Memory.begun``."""
-        return self.packed + sum(self.memory_sizes[:-2])
+        return self.packed + sum(self.memory_sizes[:-3])
 
     @property
     def state(self) -> int:
@@ -190,7 +194,8 @@ class Memory:
     ``held`` is the last good row; ``rate`` and ``force`` (3,) are its compensated ones;
     ``mean_rate`` (3,) in body and ``mean_force`` (3,) in world axes those of the last tenths of a
     second; ``still`` whether it was at rest; ``gyro_lost`` and ``accel_lost`` s, for how long there
-    was none; ``begun`` whether there was any row; ``sensors`` is the compensation's own.
+    was none; ``begun`` whether there was any row; ``sensors`` is the compensation's own; ``window``
+    that of ``rest_window``, empty where the filter does not look for rests.
     """
 
     held: ca.SX
@@ -203,6 +208,7 @@ class Memory:
     accel_lost: ca.SX
     begun: ca.SX
     sensors: ca.SX
+    window: ca.SX
 
     def pack(self) -> ca.SX:
         return ca.densify(ca.vertcat(*vars(self).values()))

@@ -26,6 +26,7 @@ import casadi as ca
 
 from pyimu.attitude.filter.settings import Settings
 from pyimu.model.signals import SIGNALS
+from pyimu.navigation.filter import rest_window
 from pyimu.navigation.filter.layout import (
     ACCEL_BIAS,
     BASE,
@@ -74,7 +75,7 @@ would take that for a motion."""
 class Sample:
     """A row: what was measured, in place of a missing number its last good one (``held``); ``rate``
     and ``force`` (3,) without the part's errors; whether gyro and accelerometer are ``lost``, 0 or
-    1; whether the body is at rest (``still``); the compensation's memory.
+    1; whether the body is at rest (``still``); the compensation's memory, and the window's.
     """
 
     held: ca.SX
@@ -84,6 +85,7 @@ class Sample:
     accel_lost: ca.SX
     still: ca.SX
     sensors: ca.SX
+    window: ca.SX
 
 
 def settings_of(layout: Layout, p) -> Settings:
@@ -119,7 +121,23 @@ def read(layout: Layout, memory: Memory, q, u, settings: Settings, h) -> Sample:
         for rows, mark in ((GYRO, gyro_lost), (ACCEL, accel_lost))
     ]
     still = is_finite(u[STATIONARY]) * (u[STATIONARY] > 0.5)
-    return Sample(held, rate, force, *lost, still, sensors)
+    return Sample(held, rate, force, *lost, still, sensors, memory.window)
+
+
+def with_rest(
+    layout: Layout, x: State, memory: Memory, sample: Sample, settings: Settings, h
+) -> Sample:
+    """The sample with what the window says of rest, where the filter looks for it."""
+    if not layout.detects:
+        return sample
+    lost = ca.fmax(sample.gyro_lost, sample.accel_lost)
+    found = rest_window.followed(memory.window, sample.rate, sample.force, lost, settings, h)
+    back = quaternion.to_matrix(quaternion.conjugate(x.q))
+    of_bias = back @ x.covariance[GYRO_BIAS, GYRO_BIAS] @ back.T
+    even = rest_window.is_no_turn(found, back @ settings.earth + x.gyro_bias, of_bias, settings, h)
+    asked = settings.scalar["detect"] > 0
+    still = ca.fmax(sample.still, asked * memory.begun * found.alike * even)
+    return replace(sample, still=still, window=found.memory)
 
 
 def corrected(layout: Layout, x: State, rate, force) -> tuple:
@@ -304,7 +322,7 @@ def zero(layout: Layout, settings: Settings) -> State:
         *[at["tilt_std0"]] * 2,
         at["heading_std0"],
         *[at["velocity_std0"]] * 3,
-        *[0] * 3,
+        *[at["position_std0"]] * 3,
         *three("gyro_bias_std0"),
         *three("accel_bias_std0"),
         *[gain.std for gain in layout.gains],
@@ -329,7 +347,8 @@ def remembered(memory: Memory, sample: Sample, means: tuple, h) -> Memory:
     rate = ca.if_else(sample.gyro_lost, memory.rate, sample.rate)
     force = ca.if_else(sample.accel_lost, memory.force, sample.force)
     begun = ca.fmax(memory.begun, 1 - sample.accel_lost)
-    return Memory(sample.held, rate, force, *means, sample.still, *gone, begun, sample.sensors)
+    kept = sample.sensors, sample.window
+    return Memory(sample.held, rate, force, *means, sample.still, *gone, begun, *kept)
 
 
 def empty(layout: Layout, settings: Settings) -> Memory:
@@ -344,4 +363,5 @@ def empty(layout: Layout, settings: Settings) -> Memory:
         ca.vertcat(0, 0, gravity),
         *[ca.SX(0)] * 4,
         ca.SX(ca.DM(layout.compensation.start)),
+        ca.SX.zeros(rest_window.SIZE * layout.detects),
     )

@@ -25,6 +25,7 @@ from pyimu.navigation.filter.layout import (
 )
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import cholesky, forward, reciprocal, symmetric
+from pyimu.symbolic.missing import is_finite
 
 BY_CHANCE = 1.5e-5
 """Probability with which a right measurement is above its gate, that of the attitude filter's."""
@@ -97,14 +98,9 @@ def by_zero_velocity(layout: Layout, x: State, settings: Settings) -> tuple:
 
 def by_zero_rate(layout: Layout, x: State, rate, settings: Settings, h) -> tuple:
     """A body that does not turn against the Earth: its gyro shows (1 + M) R^T w_e + bias + n."""
-    back = quaternion.conjugate(x.q)
-    earth = quaternion.rotate(back, settings.earth)
-    slope = _slope(
-        layout,
-        3,
-        turn=quaternion.to_matrix(back) @ ca.skew(settings.earth),
-        gyro_bias=quaternion.to_matrix(back),
-    )
+    back = quaternion.to_matrix(quaternion.conjugate(x.q))
+    earth = back @ settings.earth
+    slope = _slope(layout, 3, turn=back @ ca.skew(settings.earth), gyro_bias=back)
     expected = earth + layout.matrix(x.gains, "gyro") @ earth + x.gyro_bias
     noise = settings.gyro.white**2 * reciprocal(h) + 1e-16
     return corrected_by(layout, x, rate - expected, slope, noise)
@@ -148,5 +144,22 @@ def by_speed(layout: Layout, x: State, speed, variance) -> tuple:
 def by_position(layout: Layout, x: State, position, variance) -> tuple:
     """A measured position (3,), each of its axes with the ``variance``."""
     slope = _slope(layout, 3, position=ca.SX.eye(3))
-    noise = variance * ca.SX.ones(3)
-    return corrected_by(layout, x, position - x.position, slope, noise)
+    off, noise = _of_known_axes(position - x.position, variance)
+    return corrected_by(layout, x, off, slope, noise)
+
+
+def by_velocity(layout: Layout, x: State, velocity, variance) -> tuple:
+    """A measured velocity (3,) in world axes, v + e + phi x v, each axis with the ``variance``."""
+    slope = _slope(layout, 3, turn=-ca.skew(x.velocity), velocity=ca.SX.eye(3))
+    off, noise = _of_known_axes(velocity - x.velocity, variance)
+    return corrected_by(layout, x, off, slope, noise)
+
+
+UNKNOWN = 1e12
+"""Variance in SI of an axis that was not measured."""
+
+
+def _of_known_axes(off, variance) -> tuple:
+    """An innovation (3,) and its variances (3,), without what an axis that is NaN would say."""
+    known = is_finite(off)
+    return ca.if_else(known, off, 0), ca.if_else(known, variance, UNKNOWN)

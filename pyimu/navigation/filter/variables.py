@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from pyimu.attitude.filter.variables import UNKNOWN_LATITUDE
 from pyimu.block.variables import IMU, Variable, array, in_terminal
+from pyimu.navigation.detector import WINDOW
 from pyimu.units import STANDARD_GRAVITY
 
 NAN = math.nan
@@ -28,14 +29,20 @@ INPUTS = (
     Variable("speed", "m/s", "measured speed along the body's x axis"),
     Variable("speed_variance", "m^2/s^2", "variance of that speed", 1e-2, minimum=0.0),
     Variable("position_valid", "1", "there is a measured position", kind="boolean"),
-    *array("position_measured", "m", "measured position: east, north, up of the start"),
+    *array("position_measured", "m", "measured position: east, north, up; NaN is none"),
     Variable("position_variance", "m^2", "variance of that position, per axis", 1.0, minimum=0.0),
+    Variable("velocity_valid", "1", "there is a measured velocity", kind="boolean"),
+    *array("velocity_measured", "m/s", "measured velocity: east, north, up; NaN is none"),
+    Variable(
+        "velocity_variance", "m^2/s^2", "variance of that velocity, per axis", 1e-2, minimum=0.0
+    ),
 )
 """What every unit takes; signals on which the errors of a part depend follow."""
 
 GYRO, ACCEL, TEMPERATURE = slice(0, 3), slice(3, 6), 6
 STATIONARY, SPEED_VALID, SPEED, SPEED_VARIANCE, POSITION_VALID = range(7, 12)
-POSITION, POSITION_VARIANCE = slice(12, 15), 15
+POSITION, POSITION_VARIANCE, VELOCITY_VALID = slice(12, 15), 15, 16
+VELOCITY, VELOCITY_VARIANCE = slice(17, 20), 20
 
 
 def _fixed(name: str, unit: str, text: str, start: float, minimum: float | None = 0.0) -> Variable:
@@ -58,6 +65,7 @@ START_VALUES = (
         0.3,
     ),
     _fixed("velocity_std0", "m/s", "standard deviation of the velocity at the start, 0", 1.0),
+    _fixed("position_std0", "m", "standard deviation of the position at the start, 0", 0.0),
     *(
         replace(v, minimum=0.0, fixed=True)
         for v in (
@@ -88,6 +96,15 @@ SETTINGS = (
         1e-3,
         1e-6,
     ),
+    _setting(
+        "detect",
+        "1",
+        "rests are also found in the samples, by the noise of the part; 0 where `stationary` says "
+        "them all",
+        1.0,
+    ),
+    _setting("rest_window", "s", "length of the windows by which rests are found", WINDOW, 1e-3),
+    _setting("rest_noise", "1", "noise of a body at rest, as a multiple of the part's", 1.0, 1e-3),
     _setting(
         "nhc", "1", "a vehicle's wheels move neither sideways nor upwards: its constraint", 0.0
     ),
@@ -140,6 +157,9 @@ OUTPUTS = (
     Variable("zaru_nis", "1", "that of a zero turn rate, 3 is right; else 0"),
     Variable("nhc_nis", "1", "that of a vehicle's constraint, 2 is right; else 0"),
     Variable("position_nis", "1", "that of a measured position, 3 is right; else 0"),
+    Variable("velocity_nis", "1", "that of a measured velocity, 3 is right; else 0"),
+    Variable("speed_nis", "1", "that of a measured speed, 1 is right; else 0"),
+    Variable("at_rest", "1", "the body is at rest, as was told or found", kind="boolean"),
     Variable("status", "1", "sum of the bits of the status; 0: nothing to report", kind="integer"),
 )
 
@@ -149,6 +169,8 @@ STATUS_NAMES = {
     2: "a zero velocity contradicted the estimate and was weighed down",
     4: "a zero turn rate contradicted the estimate and was weighed down",
     8: "the vehicle's constraint contradicted the estimate and was weighed down",
-    16: "a measured position or speed contradicted the estimate and was weighed down",
+    16: "a measured position contradicted the estimate and was weighed down",
+    32: "a measured velocity contradicted the estimate and was weighed down",
+    64: "a measured speed contradicted the estimate and was weighed down",
 }
 """What the bits of the status say."""

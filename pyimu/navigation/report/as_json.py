@@ -22,7 +22,8 @@ def contents(a: Outcome) -> dict[str, Any]:
     {``position`` and ``velocity`` at the end, ``position_std``, ``error``: {``end``, ``rms``,
     ``most``, ``up`` [m], ``yaw`` [rad] at the end, ``length`` [m] of the reference}, null without a
     reference};
-    ``nis``: {``first_zupt``, those of each stop, ``first_zupt_mean``, ``zaru_mean``, ``nhc_mean``};
+    ``nis``: {``first_zupt``, those of each stop, ``first_zupt_mean``, ``zaru_mean``, ``nhc_mean``,
+    ``position_mean``, ``velocity_mean``, those of what the log measured};
     ``findings``; ``parameters`` with which the filter's unit gives the same.
     """
     first = a.first_zupts
@@ -54,6 +55,8 @@ def contents(a: Outcome) -> dict[str, Any]:
                 "first_zupt_mean": first.mean() if len(first) else None,
                 "zaru_mean": a.mean_nis("zaru_nis"),
                 "nhc_mean": a.mean_nis("nhc_nis"),
+                "position_mean": a.mean_nis("position_nis"),
+                "velocity_mean": a.mean_nis("velocity_nis"),
             },
             "findings": [f.as_dict() for f in a.findings],
             "parameters": a.settings,

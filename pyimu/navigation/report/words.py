@@ -6,7 +6,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from pyimu.errors import Finding
 from pyimu.navigation.filter.variables import STATUS_NAMES
+from pyimu.navigation.measured import CONTRADICTED
 from pyimu.navigation.outcome import Outcome
 from pyimu.report.findings import in_line
 from pyimu.report.numbers import number, quantity
@@ -55,11 +57,13 @@ def notes(a: Outcome) -> list[str]:
             "The sensor turned steadily for a while, which looks like a rest to the "
             "accelerometer; its gyro was off its bias, so it was taken for a turn"
         )
+    out += list(_of_samples(kinds))
     if "coning" in kinds:
         out.append(
             f"Up to {np.degrees(kinds['coning'].detail['turn']):.3g} deg of turn lie between two "
             "samples: the sample rate is too low for the turn rate"
         )
+    out += list(_fixes(a))
     for f in a.findings:
         if f.kind == "not_integrated":
             out.append(f"The method {f.detail['method']} was left out: {f.detail['reason']}")
@@ -72,10 +76,38 @@ def notes(a: Outcome) -> list[str]:
     return [*out, OBSERVABLE] if a.later_stops else out
 
 
+def _of_samples(kinds: dict[str, Finding]) -> Iterator[str]:
+    """What a finding of each kind says of gyro, accelerometer and reference."""
+    if (f := kinds.get("leaning")) is not None:
+        yield (
+            f"Gravity is on {f.detail['axis']} at rest: the body lies on its side, or its axes are "
+            "not forward-left-up, which a column map's [frame] says"
+        )
+    if (f := kinds.get("outliers")) is not None:
+        yield (
+            f"{f.count:,} samples of {f.column} that no motion makes were left out, the first at "
+            f"{f.detail['first']:.6g} s"
+        )
+    if (f := kinds.get("reference_jump")) is not None:
+        yield (
+            f"The reference jumps by {number(f.detail['largest'])} m at {f.detail['first']:.6g} s "
+            f"({f.count:,} times): the errors beside it are the reference's own"
+        )
+    if (f := kinds.get("reference_frame")) is not None:
+        mirrored = "mirrored and " if f.detail["mirrored"] else ""
+        yield (
+            f"The reference {mirrored}turned by {np.degrees(f.detail['turn']):.3g} deg would be "
+            f"{number(f.detail['after'])} m from the path, not {number(f.detail['before'])} m: is "
+            "it in another frame than east-north-up, or the heading at the start another?"
+        )
+
+
 def _rests(a: Outcome) -> str:
     share = float(a.still.mean())
     if a.zupt == "off":
         return "Zero-velocity updates are off: nothing holds the position"
+    if not a.still.any() and a.fixes is not None:
+        return "There is no rest in this log: what it measured of position and velocity holds it"
     if not a.still.any():
         return (
             "There is no rest in this log, so nothing to update with: the position is integrated "
@@ -92,9 +124,27 @@ def _rests(a: Outcome) -> str:
     return text
 
 
+def _fixes(a: Outcome) -> Iterator[str]:
+    for f in a.findings:
+        if f.kind not in ("position_fixes", "velocity_fixes"):
+            continue
+        text = f"{f.detail['of']:,} measured {f.column} samples correct the filter"
+        nis = a.mean_nis(f"{f.column}_nis")
+        if nis is not None:
+            text += f", mean NIS {number(nis)}"
+        if f.count:
+            text += (
+                f"; {f.count:,} of them ({f.detail['share']:.2%}) contradicted it and were weighed "
+                "down: a jump, or a standard deviation that is too small"
+            )
+        yield text
+
+
 def _status(a: Outcome) -> Iterator[tuple[str, int]]:
     status = a.filter.scalar("status").astype(int)
     for bit, text in STATUS_NAMES.items():
+        if bit in CONTRADICTED.values():
+            continue
         count = int(np.count_nonzero(status & bit))
         if count:
             yield text, count
@@ -115,11 +165,11 @@ def error_words(a: Outcome) -> Iterator[tuple[str, str]]:
     """Errors against the reference in a line each."""
     for name, e in a.errors.items():
         yaw = "" if not np.isfinite(e.yaw) else f", yaw at the end {np.degrees(e.yaw):.3g} deg"
-        share = number(100 * e.end / max(e.length, 1e-9), 2)
+        share = f" ({number(100 * e.end / e.length, 2)} % of the way)" if e.length > 0.1 else ""
         yield (
             name,
             (
-                f"at the end {number(e.end)} m ({share} % of the way), "
+                f"at the end {number(e.end)} m{share}, "
                 f"RMS {number(e.rms)} m, largest {number(e.most)} m{yaw}"
             ),
         )

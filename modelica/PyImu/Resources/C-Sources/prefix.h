@@ -18,7 +18,7 @@
 #define block_refuse_variable PREFIXED(block_refuse_variable)
 #define block_enter_configuration PREFIXED(block_enter_configuration)
 #define block_exit_configuration PREFIXED(block_exit_configuration)
-#define block_set_start_time PREFIXED(block_set_start_time)
+#define block_set_times PREFIXED(block_set_times)
 #define block_enter_initialization PREFIXED(block_enter_initialization)
 #define block_exit_initialization PREFIXED(block_exit_initialization)
 #define block_terminate PREFIXED(block_terminate)
@@ -41,6 +41,7 @@
 #define block_serialized_size PREFIXED(block_serialized_size)
 #define block_serialize PREFIXED(block_serialize)
 #define block_deserialize PREFIXED(block_deserialize)
+#define block_model PREFIXED(block_model)
 #define block_digest PREFIXED(block_digest)
 #define block_allowed PREFIXED(block_allowed)
 #define block_phase_name PREFIXED(block_phase_name)
@@ -64,6 +65,22 @@
 #else
 #define PRIVATE_FROM_HERE
 #define PRIVATE_TO_HERE
+#endif
+
+/* Where OLD_GLIBC is defined, a library loads from glibc 2.17 on, whatever it was linked against: of the functions whose
+   error handling has changed since, it asks for the first version, which gives the same values. */
+#ifdef OLD_GLIBC
+#include <limits.h> /* defines __GLIBC__ where there is one */
+#if defined(__GLIBC__) && defined(__x86_64__)
+#define FIRST_VERSION(name) __asm__(".symver " #name "," #name "@GLIBC_2.2.5");
+#elif defined(__GLIBC__) && defined(__aarch64__)
+#define FIRST_VERSION(name) __asm__(".symver " #name "," #name "@GLIBC_2.17");
+#else
+#define FIRST_VERSION(name)
+#endif
+FIRST_VERSION(acos) FIRST_VERSION(acosh) FIRST_VERSION(asin) FIRST_VERSION(atan2) FIRST_VERSION(atanh) FIRST_VERSION(cosh)
+FIRST_VERSION(exp) FIRST_VERSION(exp2) FIRST_VERSION(fmod) FIRST_VERSION(hypot) FIRST_VERSION(log) FIRST_VERSION(log10)
+FIRST_VERSION(log2) FIRST_VERSION(pow) FIRST_VERSION(remainder) FIRST_VERSION(sinh) FIRST_VERSION(sqrt)
 #endif
 
 /* A product and a sum are rounded one after the other, whatever the compiler's options: where a processor can do both

@@ -1,0 +1,161 @@
+"""A recording and what is known before the filter runs over it, and its runs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from pyimu.attitude.input_grid import InputGrid
+from pyimu.attitude.rest import Rest
+from pyimu.block.block import Block
+from pyimu.block.parameters import number, with_values
+from pyimu.model.part import Part
+from pyimu.navigation.filter.ins_block import ins_of_log
+from pyimu.navigation.filter.layout import Layout
+from pyimu.navigation.filtered import Filtered, filtered
+from pyimu.navigation.measured import Fixes
+from pyimu.navigation.smoothing import smoothed
+from pyimu.navigation.track import Reference, Track
+from pyimu.recording.recording import Recording
+
+COURSE = 2.0
+"""m; of a way, by whose direction the first heading is known where nothing tells it."""
+
+FIXES = 10.0
+"""Standard deviations of a position that such a way is long at least."""
+
+COURSE_STD = 0.1
+"""rad; standard deviation of a heading that is a course: a body may stand askew on its vehicle, and
+its way bend. Assumed."""
+
+
+@dataclass(frozen=True, eq=False)
+class Job:
+    """A recording and what is known before the filter runs over it.
+
+    ``clean`` is the recording without the errors that the part knows; ``still`` (n,) marks rests,
+    which the filter looks for where it is ``live``; ``fixes`` are its positions and velocities,
+    None without.
+    """
+
+    recording: Recording
+    clean: Recording
+    part: Part
+    rest: Rest
+    still: np.ndarray
+    latitude: float
+    gravity: float
+    nhc: bool
+    live: bool
+    fixes: Fixes | None
+    settings: Mapping[str, Any]
+
+    @cached_property
+    def layout(self) -> Layout:
+        return Layout(self.part, self.nhc, self.live)
+
+    @property
+    def block(self) -> Block:
+        return ins_of_log(self.layout)
+
+    def p(self, start: Start) -> np.ndarray:
+        """The block's parameters."""
+        values = {"latitude": self.latitude, "gravity": self.gravity, "detect": float(self.live)}
+        fixes = {} if self.fixes is None else self.fixes.settings
+        return with_values(self.block, values | fixes | start.settings | dict(self.settings))
+
+    def grid(self, fixes: bool = True) -> InputGrid:
+        marked = replace(self.recording, stationary=self.still.astype(float), heading=None)
+        names = [v.name for v in self.block.inputs]
+        more = self.fixes.columns if fixes and self.fixes is not None else None
+        return InputGrid(marked, self.part, names, more=more)
+
+    def filtered(self, start: Start, fixes: bool = True) -> Filtered:
+        p, time = self.p(start), self.recording.time
+        speed = self._top_speed(p)
+        return filtered(self.block, self.layout, self.grid(fixes), p, time, speed)
+
+    def smoothed(self, start: Start, say: Callable[..., None]) -> Track:
+        p, block = self.p(start), ins_of_log(self.layout, True)
+        time = self.recording.time
+        return smoothed(block, self.layout, self.grid(), p, time, self._top_speed(p), say)
+
+    def _top_speed(self, p: np.ndarray) -> float:
+        names = [v.name for v in self.block.parameters]
+        return float(p[names.index("top_speed")])
+
+    def started(
+        self, heading0: float | None, reference: Reference | None
+    ) -> tuple[Filtered, Start]:
+        """The filter's estimates, and the heading with which they begin."""
+        start = _heading(self.recording, heading0)
+        if start is not None:
+            return self.filtered(start), start
+        start = Start(0.0, "nothing: it is called 0")
+        found = self.filtered(start, fixes=False)
+        course = self._by_course(reference, found.track("filter"))
+        if course is None:
+            return (found if self.fixes is None else self.filtered(start)), start
+        return self.filtered(course), course
+
+    def _by_course(self, reference: Reference | None, track: Track) -> Start | None:
+        """The heading by the course of the first positions, else by the reference's."""
+        if self.fixes is not None and len(self.fixes.rows):
+            far = max(COURSE, FIXES * self.fixes.std)
+            course = _course(self.fixes.rows, self.fixes.position, track, far)
+            if course is not None:
+                std = float(np.hypot(COURSE_STD, np.sqrt(2) * self.fixes.std / far))
+                return Start(course, f"the course of the first {far:.2g} m of positions", std)
+        if reference is None:
+            return None
+        course = _course(reference.rows, reference.position, track, COURSE)
+        source = f"the course of the reference's first {COURSE:g} m"
+        return None if course is None else Start(course, source)
+
+
+@dataclass(frozen=True)
+class Start:
+    """The heading of the first sample in rad, by what it is known, and how well where that is said
+    (None: as the filter's parameter says).
+    """
+
+    heading: float
+    source: str
+    std: float | None = None
+
+    @property
+    def settings(self) -> dict[str, float]:
+        """Parameters of the filter that follow."""
+        known = {"heading0": self.heading}
+        return known if self.std is None else known | {"heading_std0": self.std}
+
+
+def _heading(recording: Recording, heading0: float | None) -> Start | None:
+    """What is told of the heading at the start, None where nothing is."""
+    if heading0 is not None:
+        return Start(number("heading0", heading0), "what was given")
+    for name in ("heading", "ref_heading"):
+        values = getattr(recording, name)
+        if values is not None and np.isfinite(values[0]):
+            return Start(float(values[0]), f"the log's column {name}")
+    if recording.ref_q is not None and np.isfinite(recording.ref_q[0]).all():
+        w, x, y, z = recording.ref_q[0]
+        yaw = float(np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)))
+        return Start(yaw, "the log's ref_q")
+    return None
+
+
+def _course(rows: np.ndarray, position: np.ndarray, track: Track, far: float) -> float | None:
+    """rad; the heading at the start of a vehicle that drives forward its first ``far`` m."""
+    away = np.linalg.norm(position[:, :2] - position[0, :2], axis=1)
+    if not np.any(away > far):
+        return None
+    end = int(np.argmax(away > far))
+    begin = int(np.flatnonzero(away[: end + 1] < far / 4)[-1])
+    east, north = (position[end] - position[begin])[:2]
+    turned = track.yaw[rows[begin] : rows[end] + 1].mean() - track.yaw[0]
+    return float(np.arctan2(north, east) - turned)

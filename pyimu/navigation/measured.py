@@ -1,0 +1,150 @@
+"""Positions and velocities that a recording has, as a satellite receiver's, for the filter."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from pyimu.block.parameters import number
+from pyimu.errors import Finding, UserError
+from pyimu.navigation.filtered import Filtered
+from pyimu.recording.recording import Recording
+
+ENU = ("east", "north", "up")
+
+MOST_WRONG = 0.5
+"""Share of positions that contradict the estimate, beyond which they are of another frame."""
+
+
+@dataclass(frozen=True, eq=False)
+class Fixes:
+    """What of a recording's positions and velocities corrects the filter.
+
+    ``columns`` (n,) are the filter's inputs by name; ``rows`` (m,) are those with a position,
+    ``position`` (m, 3) m the positions from the first on, NaN where an axis is missing. The first
+    is the origin, and no measurement: its error is that of the position at the start, ``std`` m.
+    """
+
+    columns: Mapping[str, np.ndarray]
+    rows: np.ndarray
+    position: np.ndarray
+    std: float
+
+    @property
+    def settings(self) -> dict[str, float]:
+        """Parameters of the filter that follow."""
+        return {"position_std0": self.std} if len(self.rows) else {}
+
+
+def fixes_of(
+    recording: Recording,
+    position_std: float | None = None,
+    velocity_std: float | None = None,
+    top_speed: float = 0.0,
+) -> Fixes | None:
+    """The recording's positions and velocities, None without.
+
+    ``position_std`` m and ``velocity_std`` m/s stand for missing columns of those names. At a
+    ``top_speed`` in m/s the body may have moved before the first position.
+
+    Raises UserError where a standard deviation is missing or not above zero.
+    """
+    columns: dict[str, np.ndarray] = {}
+    found = {}
+    for name, unit, given in (("position", "m", position_std), ("velocity", "m/s", velocity_std)):
+        values = _values(recording, name)
+        if values is None:
+            continue
+        rows = np.flatnonzero(np.isfinite(values[:, :2]).all(axis=1))
+        std = _std(recording, name, unit, given, rows)
+        if name == "position" and len(rows):
+            values = values - _origin(values[rows])
+        found[name] = rows, values[rows], std[rows]
+        columns |= _columns(name, values, std, rows[1:] if name == "position" else rows)
+    if not columns:
+        return None
+    none = np.zeros(0, dtype=int), np.zeros((0, 3)), np.zeros(0)
+    rows, position, std = found.get("position", none)
+    if not len(rows):
+        return Fixes(columns, rows, position, 0.0)
+    waited = float(recording.time[rows[0]] - recording.time[0])
+    return Fixes(columns, rows, position, float(np.hypot(std[0], top_speed * waited)))
+
+
+def _values(recording: Recording, name: str) -> np.ndarray | None:
+    """East, north, up (n, 3), NaN where missing; None where one of the first two is."""
+    east, north, up = (getattr(recording, f"{name}_{axis}") for axis in ENU)
+    if east is None and north is None:
+        return None
+    for axis, values in (("east", east), ("north", north)):
+        if values is None:
+            raise UserError(
+                f"{recording.name}: {name}_{axis} is missing beside its other axis; a {name} takes "
+                f"{name}_east and {name}_north"
+            )
+    return np.column_stack([east, north, np.full(len(recording), np.nan) if up is None else up])
+
+
+def _origin(values: np.ndarray) -> np.ndarray:
+    """The first position (3,), of the height the first there is."""
+    heights = values[np.isfinite(values[:, 2]), 2]
+    return np.array([values[0, 0], values[0, 1], heights[0] if len(heights) else 0.0])
+
+
+def _std(
+    recording: Recording, name: str, unit: str, given: float | None, rows: np.ndarray
+) -> np.ndarray:
+    """The standard deviations (n,)."""
+    std = getattr(recording, f"{name}_std")
+    if given is not None:
+        std = np.full(len(recording), number(f"{name}_std", given))
+    if std is None:
+        raise UserError(
+            f"{recording.name}: {name}_east, {name}_north come without a standard deviation; a "
+            f"column '{name}_std [{unit}]' or --{name}-std says it, --no-fixes leaves them out"
+        )
+    wrong = rows[~(std[rows] > 0)]
+    if len(wrong):
+        where = "" if given is not None else f" at {recording.time[wrong[0]]:g} s"
+        raise UserError(
+            f"{recording.name}: {name}_std is {std[wrong[0]]:g} {unit}{where}, expected above 0"
+        )
+    return std
+
+
+def _columns(
+    name: str, values: np.ndarray, std: np.ndarray, rows: np.ndarray
+) -> dict[str, np.ndarray]:
+    valid = np.zeros(len(values))
+    valid[rows] = 1.0
+    measured = {f"{name}_measured[{i + 1}]": c for i, c in enumerate(values.T)}
+    return measured | {f"{name}_valid": valid, f"{name}_variance": np.nan_to_num(std) ** 2}
+
+
+CONTRADICTED = {"position": 16, "velocity": 32}
+"""Bits of the filter's status."""
+
+
+def check_fixes(recording: Recording, fixes: Fixes | None, found: Filtered) -> list[Finding]:
+    """What the filter's run says of the positions and velocities.
+
+    Raises UserError where most of them contradict it.
+    """
+    out = []
+    status = found.scalar("status").astype(int)
+    for name, bit in CONTRADICTED.items():
+        valid = None if fixes is None else fixes.columns.get(f"{name}_valid")
+        if valid is None or not valid.any():
+            continue
+        wrong = int(np.count_nonzero((status & bit > 0) & (valid > 0)))
+        share = wrong / np.count_nonzero(valid)
+        if share > MOST_WRONG:
+            raise UserError(
+                f"{recording.name}: {share:.0%} of the measured {name} contradicts gyro and "
+                f"accelerometer by more than {name}_std allows; is {name}_east, {name}_north in "
+                "another frame, unit or order, or later than its rows? --no-fixes leaves it out"
+            )
+        out.append(Finding(f"{name}_fixes", name, wrong, {"share": share, "of": int(valid.sum())}))
+    return out

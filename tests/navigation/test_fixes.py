@@ -1,0 +1,146 @@
+"""Measured positions and velocities of a log: what they do, and what is no position of it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from navigation_cases import SHORT, calibrated, declared, noisy, perfect, white
+from scipy.stats import chi2
+
+from pyimu.errors import UserError
+from pyimu.navigation import run
+
+DRIVE = replace(SHORT, vibration=0.0)
+STD = 0.05
+
+
+@pytest.fixture(scope="module")
+def truth():
+    return declared(perfect(DRIVE, 50.0), DRIVE)
+
+
+@pytest.fixture(scope="module")
+def log(truth):
+    return noisy(truth, white(calibrated()), 3)
+
+
+def fixed(log, every=50, seed=0, std=STD, **off):
+    """The log with a position every second, in a frame whose origin is elsewhere."""
+    rng, n = np.random.default_rng(seed), len(log.time)
+    seen = np.arange(n) % every == 0
+    columns = {}
+    for axis, shift in (("east", 1e5), ("north", -3e4), ("up", 200.0)):
+        true = getattr(log, f"ref_{axis}") + shift + std * rng.standard_normal(n)
+        columns[f"position_{axis}"] = np.where(seen, true + off.get(axis, 0.0), np.nan)
+    return replace(log, **columns, position_std=np.full(n, std))
+
+
+DRAWN = {f"gyro_bias_std0[{i}]": 0.01 for i in (1, 2, 3)}
+DRAWN |= {f"accel_bias_std0[{i}]": 0.1 for i in (1, 2, 3)} | {"zupt_std": 1e-4}
+
+
+def drawn(truth, seed):
+    """Noise, and biases of the sizes with which the filter starts."""
+    log, rng = noisy(truth, white(calibrated()), seed), np.random.default_rng(100 + seed)
+    gyro = log.gyro + rng.normal(scale=0.01, size=3)
+    return replace(log, gyro=gyro, accel=log.accel + rng.normal(scale=0.1, size=3))
+
+
+def within_bounds(parts):
+    nis = np.concatenate(parts)
+    nis = nis[nis > 0]
+    low, high = chi2.ppf([0.0005, 0.9995], 3 * len(nis)) / len(nis)
+    assert len(nis) > 150 and low < nis.mean() < high
+
+
+def navigate(log, **how):
+    return run(log, white(calibrated()), method="filter", **how)
+
+
+def test_positions_hold_the_path_and_their_nis_is_right(log, truth):
+    """Innovations of a right model are white, so that the sum of their normalised squares is
+    chi-square distributed with three degrees each; 99.9 % of means are allowed."""
+    parts = [navigate(fixed(drawn(truth, s), seed=s), settings=DRAWN) for s in range(6)]
+    within_bounds([r.filter.scalar("position_nis") for r in parts])
+    for r in parts:
+        std = np.hypot(*r.filter.vector("position_std")[-1, :2])
+        assert r.errors["filter"].end < 5 * std < 5 * 2 * STD
+    assert navigate(log, zupt="off").errors["filter"].end > 10 * STD
+
+
+def test_a_fix_without_height_leaves_the_height_alone(log):
+    level = replace(fixed(log), position_up=None)
+    found = navigate(level, zupt="off")
+    std = found.filter.vector("position_std")
+    assert std[-1, :2].max() < 2 * STD < std[-1, 2]
+
+
+def test_a_jump_is_weighed_down_counted_and_said(log):
+    jump = np.where((log.time > 14.5) & (log.time < 17.5), 8.0, 0.0)
+    found = navigate(fixed(log, east=jump))
+    (finding,) = [f for f in found.findings if f.kind == "position_fixes"]
+    assert finding.count == 3
+    assert "3 of them" in found.report() and "weighed down: a jump" in found.report()
+    assert found.errors["filter"].most < 4.0
+
+
+def test_positions_of_another_frame_are_refused(log):
+    good = fixed(log)
+    swapped = replace(
+        good, position_east=-10 * good.position_north, position_north=good.position_up
+    )
+    with pytest.raises(UserError, match=r"of the measured position contradicts .* another frame"):
+        navigate(swapped, heading0=0.0)
+
+
+def test_a_course_gives_the_heading_where_nothing_else_does(log):
+    """The frame is turned by a radian: the positions turn the path with it."""
+    good, turn = fixed(log, every=10, std=0.01), 1.0
+    east, north = good.position_east, good.position_north
+    turned = replace(
+        good,
+        position_east=np.cos(turn) * east - np.sin(turn) * north,
+        position_north=np.sin(turn) * east + np.cos(turn) * north,
+        **{name: None for name in ("ref_q", "ref_heading")},
+    )
+    found = navigate(turned)
+    assert "course" in found.heading_from
+    yaw = found.filter.track("filter").yaw[-1] - np.pi  # two quarter turns
+    std = found.filter.vector("attitude_std")[-1, 2]
+    assert abs(yaw - turn) < 4 * std and std < 0.1
+
+
+def test_velocities_hold_it_too(log, truth):
+    rng, n = np.random.default_rng(1), len(truth.time)
+    seen, parts = np.arange(n) % 25 == 0, []
+    names = ("velocity_east", "velocity_north", "velocity_up")
+    for seed in range(6):
+        velocity = truth.ref_velocity + 0.02 * rng.normal(size=(n, 3))
+        columns = np.where(seen[:, None], velocity, np.nan).T
+        with_them = replace(drawn(truth, seed), **dict(zip(names, columns, strict=True)))
+        parts.append(navigate(with_them, velocity_std=0.02, settings=DRAWN))
+    within_bounds([r.filter.scalar("velocity_nis") for r in parts])
+    alone = navigate(with_them, zupt="off", velocity_std=0.02).errors["filter"].end
+    assert alone < 0.1 * navigate(log, zupt="off").errors["filter"].end
+    assert navigate(with_them, zupt="off", fixes=False).fixes is None
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    (
+        ({"position_std": None}, r"position_std \[m\]' or --position-std"),
+        ({"position_north": None}, "position_north is missing"),
+        ({"position_std": 0.0}, "position_std is 0 m at 0 s, expected above 0"),
+    ),
+)
+def test_what_is_no_position_ends_with_a_line(log, change, said):
+    full = fixed(log)
+    values = {k: v if v is None else np.full(len(log.time), v) for k, v in change.items()}
+    with pytest.raises(UserError, match=said):
+        navigate(replace(full, **values))
+
+
+@pytest.mark.parametrize("std", (-1.0, 0.0, float("nan")))
+def test_a_standard_deviation_of_an_option_is_above_zero(log, std):
+    with pytest.raises(UserError, match="position_std"):
+        navigate(fixed(log), position_std=std)

@@ -1,0 +1,99 @@
+"""Logs that are wrong in one way: each ends with a line or says what it is."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from navigation_cases import SHORT, assumed
+
+import pyimu
+from pyimu.errors import UserError
+from pyimu.navigation import run
+from pyimu.rover.square import motion
+
+
+@pytest.fixture(scope="module")
+def log():
+    return assumed().specimen(4).simulate(motion(SHORT, 50.0), seed=4)
+
+
+def said(log, **how):
+    return run(log, assumed(), method="filter", **how).report()
+
+
+def changed(log, name, rows, value):
+    values = np.array(getattr(log, name), dtype=float)
+    values[rows] = value
+    return replace(log, **{name: values})
+
+
+@pytest.mark.parametrize(
+    ("factor", "hint"), ((1 / 9.80665, "accel_x \\[g\\]"), (102.0, "in which unit"), (0.0, "unit"))
+)
+def test_a_force_that_is_no_gravity_is_refused(log, factor, hint):
+    with pytest.raises(UserError, match=f"magnitude of .* expected about 9.8: .*{hint}"):
+        said(replace(log, accel=factor * log.accel))
+
+
+def test_another_place_has_another_gravity(log):
+    with pytest.raises(UserError, match="expected about 1.6"):
+        said(log, settings={"gravity": 1.62})
+
+
+def test_an_axis_without_numbers_is_named(log):
+    with pytest.raises(UserError, match="gyro_y has no number in any row"):
+        said(changed(log, "gyro", (slice(None), 1), np.nan))
+
+
+def test_a_body_on_its_side_is_said(log):
+    lying = replace(log, accel=log.accel[:, [2, 0, 1]], gyro=log.gyro[:, [2, 0, 1]])
+    assert "Gravity is on x at rest" in said(lying)
+    assert "Gravity is on" not in said(log)
+
+
+def test_samples_that_no_motion_makes_are_left_out(log):
+    """Two of 1000 g would be 200 m/s each."""
+    text = run(changed(log, "accel", [500, 900], 1e4), assumed(), method="filter")
+    assert "2 samples of accel that no motion makes were left out, the first at 10 s" in (
+        text.report()
+    )
+    assert text.errors["filter"].most < 2.0
+    infinite = run(changed(log, "gyro", [500], np.inf), assumed(), method="filter")
+    assert infinite.filter.scalar("status")[500] == 1
+
+
+def test_a_reference_that_jumps_is_said(log):
+    text = said(replace(log, ref_east=log.ref_east + 100 * (log.time > 20)))
+    assert "jumps by 100 m at 20" in text and "reference's own" in text
+
+
+@pytest.mark.parametrize(("mirrored", "turn"), ((False, 2.0), (True, 0.0)))
+def test_a_reference_in_another_frame_is_said_with_its_turn(log, mirrored, turn):
+    """A turn of the frame by ``turn``, of a frame whose first axis is north where mirrored."""
+    east = np.cos(turn) * log.ref_east - np.sin(turn) * log.ref_north
+    north = np.sin(turn) * log.ref_east + np.cos(turn) * log.ref_north
+    if mirrored:
+        east, north = north, east
+    text = said(replace(log, ref_east=east, ref_north=north))
+    about = "mirrored and turned by" if mirrored else "turned by -11"
+    assert f"The reference {about}" in text
+    assert "another frame than east-north-up" in text
+    assert "another frame" not in said(log)
+
+
+def test_a_static_log_is_at_no_limit(log):
+    """Each column has a few values of its converter, and piles up at both ends."""
+    text = said(log.slice(0, 225))
+    assert "The whole log is at rest" in text
+    assert "stuck at a limit" not in text and "% of the way" not in text
+
+
+def test_a_gyro_with_a_wide_null_is_at_rest_where_its_part_allows_it():
+    """The ADXRS300 may show 40 deg/s at rest; the same samples of a finer part are a turn."""
+    part = pyimu.part("sparkfun6dof_v2")
+    own = part.specimen(4).simulate(motion(SHORT, 100.0), seed=4)
+    assert np.abs(own.gyro[:400].mean(axis=0)).max() > np.radians(10)
+    found = run(own, part, method="filter")
+    assert found.rest.seen and len(found.later_stops) == 4
+    assert found.errors["filter"].end < 2.0
+    assert not run(own, assumed(), method="filter").rest.seen

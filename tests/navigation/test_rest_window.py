@@ -1,0 +1,121 @@
+"""Rest that the unit finds by itself: its statistic, its threshold, and the stops of a drive."""
+
+import casadi as ca
+import numpy as np
+import pytest
+from navigation_cases import SHORT, assumed, calibrated, white
+from scipy.stats import chi2
+
+from pyimu.navigation import run, strapdown_ins
+from pyimu.navigation.detector import FALSE_ALARM, WINDOW
+from pyimu.navigation.filter import prediction, rest_window
+from pyimu.navigation.filter.layout import Layout
+from pyimu.recording.clock import runs
+from pyimu.rover.square import motion, stop_times
+
+H = 0.01
+
+
+@pytest.fixture(scope="module")
+def layout():
+    return Layout(white(calibrated()), detects=True)
+
+
+@pytest.fixture(scope="module")
+def step(layout):
+    """``memory, rate, force, lost -> memory, mean, alike``."""
+    p = np.array([v.start for v in layout.parameters])
+    settings = prediction.settings_of(layout, ca.SX(ca.DM(p)))
+    names = (("m", rest_window.SIZE), ("r", 3), ("f", 3), ("l", 1))
+    arguments = [ca.SX.sym(name, size) for name, size in names]
+    found = rest_window.followed(*arguments, settings, H)
+    return ca.Function("step", arguments, [found.memory, found.mean, found.alike])
+
+
+def stds(layout):
+    sensors = (layout.part.gyro, layout.part.accel)
+    return [s.values["angle_random_walk"]["N"] / np.sqrt(H) for s in sensors]
+
+
+def test_a_window_is_at_rest_where_the_likelihood_ratio_says_so(layout, step):
+    """Against sums over the very rows, and the chi-square quantile itself; where the two are
+    closer than the approximation of the quantile is, neither is asked."""
+    rng, n = np.random.default_rng(0), 3000
+    std = np.concatenate(stds(layout))
+    # noisier and noisier, so that windows pass at first and later do not
+    grown = np.linspace(0.9, 1.6, n)[:, None]
+    x = np.array([0.01, 0.02, -0.01, 0.3, -0.2, 9.7]) + grown * std * rng.standard_normal((n, 6))
+    memory, seen = np.zeros(rest_window.SIZE), []
+    rows = round(WINDOW / rest_window.SLOTS / H)
+    for k, row in enumerate(x):
+        memory, mean, alike = (np.array(v).ravel() for v in step(memory, row[:3], row[3:], 0.0))
+        size = (rest_window.SLOTS - 1) * rows + k % rows + 1
+        if k + 1 < size:
+            assert not alike
+            continue
+        inside = x[k + 1 - size : k + 1] / std
+        squares = np.sum((inside - inside.mean(axis=0)) ** 2)
+        gate = chi2.isf(FALSE_ALARM, 6 * (size - 1))
+        near = np.sum((inside[-1] - inside[:-1].mean(axis=0)) ** 2)
+        outlier = chi2.isf(FALSE_ALARM, 6) * (1 + 1 / (size - 1))
+        np.testing.assert_allclose(mean, inside.mean(axis=0)[:3] * std[:3], rtol=1e-9)
+        if abs(squares / gate - 1) > 2e-3 and abs(near / outlier - 1) > 0.1:
+            assert bool(alike) == (squares <= gate and near <= outlier)
+            seen.append(bool(alike))
+    assert 0.2 < np.mean(seen) < 0.8
+
+
+@pytest.mark.parametrize(("n", "off"), ((10, 4e-3), (30, 1e-3), (100, 1e-3)))
+def test_the_threshold_is_the_quantile_of_chi_square(n, off):
+    """Wilson and Hilferty 1931, as good as is said of it."""
+    found = float(ca.evalf(rest_window._threshold(ca.SX(n))))
+    assert found == pytest.approx(chi2.isf(FALSE_ALARM, 6 * (n - 1)), rel=off)
+
+
+def test_a_lost_sample_empties_the_window(layout, step):
+    memory = np.ones(rest_window.SIZE)
+    after = np.array(step(memory, np.zeros(3), np.zeros(3), 1.0)[0]).ravel()
+    assert not after.any()
+
+
+def test_it_finds_the_stops_of_a_drive_a_window_after_they_begin():
+    truth = motion(SHORT)
+    log = assumed().specimen(4).simulate(truth, seed=4)
+    found = run(log, assumed(), method="filter", zupt="live")
+    at, slot = found.time, WINDOW / rest_window.SLOTS
+    long = [(at[a], at[b - 1]) for a, b in runs(found.still) if b - a > 20]
+    stops = stop_times(SHORT)
+    assert len(long) == len(stops)
+    for (begin, end), (start, stop) in zip(long, stops, strict=True):
+        # full after nine to ten of its parts; a slow end of a motion is lost in noise, for less
+        # than a window
+        late = begin - max(start, at[0])
+        assert -slot < late < 2 * WINDOW
+        assert abs(end - min(stop, at[-1])) < WINDOW
+    assert found.errors["filter"].end < 1.0
+    assert found.settings["detect"] == 1.0
+
+
+def test_a_steady_turn_without_vibration_is_none():
+    """Even rate and force, 45 deg/s after a rest: only the mean of the rate tells it."""
+    part = white(calibrated())
+    unit, n = strapdown_ins(part, nhc=False), 1500
+    rng = np.random.default_rng(2)
+    u = np.tile(unit.start_inputs, (n, 1))
+    u[:, 2] = np.radians(45) * np.clip((np.arange(n) - 700) / 50, 0, 1)
+    for i, sensor in enumerate((part.gyro, part.accel)):
+        std = sensor.values["angle_random_walk"]["N"] / np.sqrt(H)
+        u[:, 3 * i : 3 * i + 3] += std * rng.standard_normal((n, 3))
+    y, _ = unit.run(u)
+    rest = y[:, [v.name for v in unit.outputs].index("at_rest")]
+    assert rest[50:690].all() and not rest[760:].any()
+
+
+def test_where_stationary_says_all_nothing_is_found():
+    unit = strapdown_ins(white(calibrated()), nhc=False)
+    u = np.tile(unit.start_inputs, (100, 1))
+    p = unit.start.copy()
+    p[[v.name for v in unit.parameters].index("detect")] = 0.0
+    at = [v.name for v in unit.outputs].index("at_rest")
+    assert not unit.run(u, p=p)[0][:, at].any()
+    assert unit.run(u)[0][60:, at].all()
