@@ -1,5 +1,6 @@
 """A part of one's own as a Modelica class, and what the command says of one that has none."""
 
+import re
 import subprocess
 import sys
 
@@ -9,10 +10,12 @@ from catalogue_cases import as_part, everything
 from modelica_cases import LAST_PLACES, measured, simulated, ulps
 from places import same_path
 
+from pyimu.errors import UserError
 from pyimu.model.catalogue import CATALOGUE, add_effects
 from pyimu.model.part_file import part as find_part
 from pyimu.model.signals import SIGNALS, inputs_for
 from pyimu.modelica.bench import AMPLITUDES, excite
+from pyimu.modelica.export import export
 from pyimu.modelica.names import camel
 from pyimu.modelica.part_text import part_text
 
@@ -103,10 +106,11 @@ def command(folder, call, part=PART):
 
 
 @pytest.fixture
-def own_effect(tmp_path):
+def own_effect(request, tmp_path):
     """The effect as this process knows it, for as long as a test lasts."""
     path = tmp_path / "own_effects.py"
-    path.write_text(EFFECT.format(call="T"))
+    given = getattr(request.node, "callspec", None)
+    path.write_text(EFFECT.format(call=given.params["call"] if given else "T"))
     (added,) = add_effects(path)
     yield added
     CATALOGUE.remove(added.name)
@@ -121,21 +125,25 @@ def test_command_writes_a_part_with_an_effect_of_ones_own(tmp_path, own_effect):
     compare(find_part(tmp_path / "part.toml"), "MyPart3", text, 0)
 
 
+def test_what_has_no_modelica_form_is_refused_in_a_line(tmp_path):
+    done = command(tmp_path, "ca.erf(T)")
+    assert done.returncode == 2 and done.stdout == ""
+    assert done.stderr.startswith("pyimu: effect wobble: its function uses erf, which cannot be")
+    assert done.stderr.count("\n") == 1 and not list(tmp_path.rglob("*.mo"))
+
+
 @pytest.mark.parametrize(
     ("call", "part", "said"),
     [
-        ("ca.erf(T)", PART, "pyimu: effect wobble: its function uses erf, which cannot be said"),
-        (
-            "T",
-            PART.replace("0.01", '"estimate"', 1),
-            "pyimu: part my-part 3: gyro.wobble.a is left",
-        ),
-        ("ca.inf", PART, "pyimu: effect wobble: its function uses the constant inf"),
-        ("T", "", "pyimu: part.toml: "),
+        ("T", PART.replace("0.01", '"estimate"', 1), "part my-part 3: gyro.wobble.a is left"),
+        ("ca.inf", PART, "effect wobble: its function uses the constant inf"),
+        ("ca.log1p(T)", PART, "effect wobble: its function uses log1p, which cannot be said"),
+        ("T", "", "part.toml: "),
     ],
 )
-def test_what_has_no_modelica_form_is_refused_in_a_line(call, part, said, tmp_path):
-    done = command(tmp_path, call, part)
-    assert done.returncode == 2 and done.stdout == ""
-    assert done.stderr.startswith(said) and done.stderr.count("\n") == 1
-    assert not list(tmp_path.rglob("*.mo"))
+def test_nothing_is_written_of_a_part_that_is_refused(call, part, said, tmp_path, own_effect):
+    """As the command does, without its start."""
+    (tmp_path / "part.toml").write_text(part)
+    with pytest.raises(UserError, match=re.escape(said)):
+        export(tmp_path / "part.toml", tmp_path / "out")
+    assert not (tmp_path / "out").exists() or not list((tmp_path / "out").iterdir())
