@@ -54,7 +54,7 @@ def test_order_names_every_class_of_a_package(package):
     for name in classes:
         text = (package / f"{name}.mo").read_text()
         assert re.search(rf"^within {re.escape(within)};$", text, re.MULTILINE), name
-        kind = r"^(partial )?(package|model|block|function|class) "
+        kind = r"^((partial|impure) )?(package|model|block|function|class) "
         whole = rf"{kind}{name} \".*\n(.*\n)*end {name};\n\Z"
         assert re.search(whole, text, re.MULTILINE) or f"\ntype {name} = " in text, name
 
