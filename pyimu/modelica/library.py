@@ -14,6 +14,7 @@ from pyimu.model.part_file import part
 from pyimu.modelica.bench import benches
 from pyimu.modelica.effect_text import effect_text
 from pyimu.modelica.filters import filter_texts
+from pyimu.modelica.imported import imported_text
 from pyimu.modelica.kinematics import attitude_texts, drive_texts
 from pyimu.modelica.names import pascal
 from pyimu.modelica.sensors import DEFAULT, part_texts, parts, sensor_texts
@@ -109,11 +110,16 @@ def library() -> Mapping[str, str]:
 
 
 def _filter() -> dict[str, str]:
-    """The attitude filter of the part that a sensor is unless another is chosen."""
-    block, prefix = attitude_ukf(part(DEFAULT)), c_prefix(DEFAULT)
+    """The attitude filter of the part that a sensor is unless another is chosen, and how the units
+    of both look to an importer.
+    """
+    sensor = part(DEFAULT)
+    block, prefix = attitude_ukf(sensor), c_prefix(DEFAULT)
     head = f"{GENERATED[3:].strip()} The attitude filter of the part {DEFAULT}."
     texts = ukf_classes(block, prefix, f"{prefix}.c", f"modelica://PyImu/{C_SOURCES}")
     return {
+        "Interfaces/ImportedSensor.mo": imported_text(sensor.block, "ImportedSensor"),
+        "Interfaces/ImportedFilter.mo": imported_text(block, "ImportedFilter"),
         f"{C_SOURCES}/{prefix}.c": ukf_source(block, prefix, head),
         **{
             f"Attitude/{name}.mo": f"{GENERATED}within PyImu.Attitude;\n{text}"
