@@ -2,7 +2,7 @@ within PyImu.Interfaces;
 partial block NoiseSource "Noise of three axes"
   extends PyImu.Interfaces.Sampled;
   parameter Integer count = 3 "Number of normals";
-  parameter Real seed(min=0) = mod(globalSeed.seed
+  parameter Real seed(min=0) = mod(1.0*globalSeed.seed
     + Modelica.Utilities.Strings.hashString(getInstanceName()), 2147483647)
     "Seed of the noise: a whole number, not negative";
   parameter Real channel[count] = linspace(1, count, count) "Numbers of the streams";

@@ -3,7 +3,7 @@ partial block Triad "Three sensors along the body axes, with what every part is 
   extends PyImu.Icons.Sensor;
   parameter Modelica.Units.SI.Time samplePeriod(min=1e-9) = 0.01
     "Time between two samples, the first at this time" annotation(Evaluate=true);
-  parameter Real seed(min=0) = mod(globalSeed.seed
+  parameter Real seed(min=0) = mod(1.0*globalSeed.seed
     + Modelica.Utilities.Strings.hashString(getInstanceName()), 2147483647)
     "Seed of the noise: a whole number, not negative";
   outer PyImu.Noise.GlobalSeed globalSeed "Seed of all sensors that have none of their own";
