@@ -108,6 +108,16 @@ def test_effects_read_well(path):
     assert not re.search(r"\b(inf|nan)\b", "\n".join(code))
 
 
+@pytest.mark.parametrize("path", FILES, ids=lambda p: p.relative_to(LIBRARY).as_posix())
+def test_every_class_is_described_and_documented(path):
+    """And has an icon: its own, or that of what it extends or is short for."""
+    text = path.read_text(encoding="utf-8")
+    page = re.search(r'Documentation\(info="<html>\n(.*?)</html>"\)', text, re.DOTALL)
+    assert page and len(page[1]) > 20
+    kind = re.search(r"^(?:partial |impure )?(\w+) \w+", text, re.MULTILINE)[1]
+    assert "  extends " in text or "Icon(" in text or kind in ("type", "connector", "within")
+
+
 def test_g_sensitivity_reads_as_its_equation():
     text = (ROOT / "Effects" / "GSensitivity.mo").read_text()
     assert "y[1] := x[1] + (G[1,1]*f[1] + G[1,2]*f[2] + G[1,3]*f[3]);" in text

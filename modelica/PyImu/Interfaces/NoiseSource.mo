@@ -10,4 +10,8 @@ partial block NoiseSource "Noise of three axes"
   PyImu.Noise.Normals normals(samplePeriod=samplePeriod, n=count, seed=seed, channel=channel);
   Modelica.Blocks.Interfaces.RealOutput y[3] "Noise"
     annotation(Placement(transformation(extent={{100,-10},{120,10}})));
+  annotation(Documentation(info="<html>
+<p>Normals of some channels, and what is made of them. Without a seed of its own a source mixes the
+hash of its instance's name into globalSeed.seed.</p>
+</html>"));
 end NoiseSource;

@@ -18,4 +18,8 @@ partial block Triad "Three sensors along the body axes, with what every part is 
 equation
   assert(samplePeriod > 0, "samplePeriod must be a positive number of seconds");
   assert(seed >= 0 and seed <= floor(seed), "seed must be a whole number, not negative");
+  annotation(Documentation(info="<html>
+<p>Rate, specific force and temperature are inputs of every part, whether its effects need them or
+not, so that parts can be exchanged. All of them must be connected or bound.</p>
+</html>"));
 end Triad;

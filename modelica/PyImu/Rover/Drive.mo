@@ -22,4 +22,8 @@ equation
   rate = {motion[5], motion[6], motion[7]};
   specificForce = {motion[8], motion[9], motion[10]};
   position = {motion[11], motion[12], motion[13]};
+  annotation(Documentation(info="<html>
+<p>What all drives have: attitude, rate against inertial space, specific force in body axes, place.
+The rate contains the Earth's rotation, the specific force gravity.</p>
+</html>"));
 end Drive;

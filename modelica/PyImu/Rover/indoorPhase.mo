@@ -40,4 +40,9 @@ algorithm
   else
     y := {sense[integer(min(floor((i - start)/(stop + leg + quarter)), 9)) + 1], 1};
   end if;
+  annotation(Documentation(info="<html>
+<p>Start-up motion: 2 s of rest, 6 s to the left, 2 s of rest, 6 s to the right, 4 s of rest. Then
+ten times 4.8 s of rest, 8.2 s straight on and 3 s of a quarter turn. As pyimu.rover.indoor, which
+says what of it is assumed.</p>
+</html>"));
 end indoorPhase;

@@ -27,4 +27,9 @@ algorithm
   end for;
   phase := indoorPhase(k - 1, samplePeriod);
   y := if k > count then {0, 1} else {sum/weights, if phase[2] > 0.5 or abs(sum) > 0 then 0 else 1};
+  annotation(Documentation(info="<html>
+<p>The edges of the turns, rounded by a Gaussian whose standard deviation is a sixth of the ramp of
+0.3 s and which is cut off at three of them: where it is cut off the robot stands. As
+pyimu.rover.indoor.</p>
+</html>"));
 end indoorTurn;

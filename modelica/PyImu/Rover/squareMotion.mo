@@ -54,4 +54,9 @@ algorithm
     earth[2]*sin(yaw), earth[2]*cos(yaw), earth[3] + yawRate,
     force[1]*cos(yaw) + force[2]*sin(yaw), force[2]*cos(yaw) - force[1]*sin(yaw), force[3],
     east[1], north[1], 0};
+  annotation(Documentation(info="<html>
+<p>Position, velocity and acceleration of each leg and angle and rate of each turn by
+smoothProgress; the specific force has gravity and the Coriolis force 2 w x v of the turning Earth,
+the rate the Earth's. As pyimu.rover.square, there in closed form as well.</p>
+</html>"));
 end squareMotion;

@@ -14,4 +14,7 @@ type Part = enumeration(
     Mpu9250 "InvenSense MPU-9250, consumer nine-axis IMU, gyro and accelerometer",
     Mti300 "Movella (Xsens) MTi-300, attitude and heading reference system, inertial sensors only",
     Stim300 "Sensonor STIM300 with 10 g accelerometers, tactical-grade IMU")
-  "The built-in parts";
+  "The built-in parts"
+  annotation(Documentation(info="<html>
+<p>What a sensor may be; figures and sources stand with Sensors.Parts.</p>
+</html>"));
