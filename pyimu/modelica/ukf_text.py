@@ -14,6 +14,7 @@ from typing import Any
 from pyimu.block.block import Block
 from pyimu.block.c_code import c_code
 from pyimu.block.variables import Variable
+from pyimu.modelica.bounds import bound_asserts
 from pyimu.modelica.names import camel, pascal
 from pyimu.modelica.text import capital, comment, number, numbers, rendered, wrapped
 from pyimu.modelica.unit_names import modelica_unit
@@ -285,7 +286,10 @@ def _equations(
     used: Mapping[str, str],
     function: str,
 ) -> Iterator[str]:
-    yield from _asserts(block.name, parameters)
+    for name, (first, *others) in parameters.items():
+        yield from bound_asserts(
+            block.name, _name(name), bool(others), first.minimum, first.maximum
+        )
     for name, use in used.items():
         of, me = inputs[name], _name(name)
         size, _ = _attributes(of)
@@ -322,18 +326,6 @@ def _shown(of: Sequence[Variable], elements: Sequence[str]) -> str:
     if of[0].kind == "integer":
         return f"integer({elements[0]} + 0.5)"
     return elements[0] if "[" not in of[0].name else "{" + ", ".join(elements) + "}"
-
-
-def _asserts(where: str, parameters: Mapping[str, list[Variable]]) -> Iterator[str]:
-    for name, of in parameters.items():
-        me = _name(name)
-        for sign, bound, word in (("<", of[0].minimum, "below"), (">", of[0].maximum, "above")):
-            if bound is not None:
-                worst = ("min" if word == "below" else "max") + f"({me})" if len(of) > 1 else me
-                yield (
-                    f'assert(not {worst} {sign} {number(bound)}, "{where}: {me} must not be {word} '
-                    f'{bound:g}");'
-                )
 
 
 def _documentation(block: Block) -> str:

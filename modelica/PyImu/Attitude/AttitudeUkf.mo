@@ -214,48 +214,47 @@ protected
 initial equation
   shown = attitudeUkfSample(memory, 0, fill(0, 18));
 equation
-  assert(not min(q0) < -1000000.0, "AttitudeUkf: q0 must not be below -1e+06");
-  assert(not max(q0) > 1000000.0, "AttitudeUkf: q0 must not be above 1e+06");
-  assert(not min(bias0) < -100, "AttitudeUkf: bias0 must not be below -100");
-  assert(not max(bias0) > 100, "AttitudeUkf: bias0 must not be above 100");
-  assert(not min(std0) < 0, "AttitudeUkf: std0 must not be below 0");
-  assert(not max(std0) > 1000000.0, "AttitudeUkf: std0 must not be above 1e+06");
-  assert(not gravity < 0, "AttitudeUkf: gravity must not be below 0");
-  assert(not accelStd < 0, "AttitudeUkf: accelStd must not be below 0");
-  assert(not accelCorrelationTime < 0, "AttitudeUkf: accelCorrelationTime must not be below 0");
-  assert(not gravityWalk < 0, "AttitudeUkf: gravityWalk must not be below 0");
-  assert(not gravityTolerance < 0, "AttitudeUkf: gravityTolerance must not be below 0");
-  assert(not motionTolerance < 0, "AttitudeUkf: motionTolerance must not be below 0");
-  assert(not steadyTolerance < 0, "AttitudeUkf: steadyTolerance must not be below 0");
-  assert(not motionTime < 0, "AttitudeUkf: motionTime must not be below 0");
-  assert(not rateNoise < 0, "AttitudeUkf: rateNoise must not be below 0");
-  assert(not stationaryStd < 0, "AttitudeUkf: stationaryStd must not be below 0");
-  assert(not restTime < 0, "AttitudeUkf: restTime must not be below 0");
-  assert(not restRateTolerance < 0, "AttitudeUkf: restRateTolerance must not be below 0");
-  assert(not restForceTolerance < 0, "AttitudeUkf: restForceTolerance must not be below 0");
-  assert(not slipStd < 0, "AttitudeUkf: slipStd must not be below 0");
-  assert(not lostRateStd < 0, "AttitudeUkf: lostRateStd must not be below 0");
-  assert(not stuckTime < 0, "AttitudeUkf: stuckTime must not be below 0");
-  assert(not min(axisStuckTime) < 0, "AttitudeUkf: axisStuckTime must not be below 0");
-  assert(not max(axisStuckTime) > 1000000.0,
-    "AttitudeUkf: axisStuckTime must not be above 1e+06");
-  assert(not headingMemory < 0, "AttitudeUkf: headingMemory must not be below 0");
-  assert(not declination < -3.141592653589793,
+  assert(min(q0) >= -1000000.0, "AttitudeUkf: q0 must not be below -1e+06");
+  assert(max(q0) <= 1000000.0, "AttitudeUkf: q0 must not be above 1e+06");
+  assert(min(bias0) >= -100, "AttitudeUkf: bias0 must not be below -100");
+  assert(max(bias0) <= 100, "AttitudeUkf: bias0 must not be above 100");
+  assert(min(std0) >= 0, "AttitudeUkf: std0 must not be below 0");
+  assert(max(std0) <= 1000000.0, "AttitudeUkf: std0 must not be above 1e+06");
+  assert(gravity >= 0, "AttitudeUkf: gravity must not be below 0");
+  assert(accelStd >= 0, "AttitudeUkf: accelStd must not be below 0");
+  assert(accelCorrelationTime >= 0, "AttitudeUkf: accelCorrelationTime must not be below 0");
+  assert(gravityWalk >= 0, "AttitudeUkf: gravityWalk must not be below 0");
+  assert(gravityTolerance >= 0, "AttitudeUkf: gravityTolerance must not be below 0");
+  assert(motionTolerance >= 0, "AttitudeUkf: motionTolerance must not be below 0");
+  assert(steadyTolerance >= 0, "AttitudeUkf: steadyTolerance must not be below 0");
+  assert(motionTime >= 0, "AttitudeUkf: motionTime must not be below 0");
+  assert(rateNoise >= 0, "AttitudeUkf: rateNoise must not be below 0");
+  assert(stationaryStd >= 0, "AttitudeUkf: stationaryStd must not be below 0");
+  assert(restTime >= 0, "AttitudeUkf: restTime must not be below 0");
+  assert(restRateTolerance >= 0, "AttitudeUkf: restRateTolerance must not be below 0");
+  assert(restForceTolerance >= 0, "AttitudeUkf: restForceTolerance must not be below 0");
+  assert(slipStd >= 0, "AttitudeUkf: slipStd must not be below 0");
+  assert(lostRateStd >= 0, "AttitudeUkf: lostRateStd must not be below 0");
+  assert(stuckTime >= 0, "AttitudeUkf: stuckTime must not be below 0");
+  assert(min(axisStuckTime) >= 0, "AttitudeUkf: axisStuckTime must not be below 0");
+  assert(max(axisStuckTime) <= 1000000.0, "AttitudeUkf: axisStuckTime must not be above 1e+06");
+  assert(headingMemory >= 0, "AttitudeUkf: headingMemory must not be below 0");
+  assert(declination >= -3.141592653589793,
     "AttitudeUkf: declination must not be below -3.14159");
-  assert(not declination > 3.141592653589793,
+  assert(declination <= 3.141592653589793,
     "AttitudeUkf: declination must not be above 3.14159");
-  assert(not fieldStrength < 0, "AttitudeUkf: fieldStrength must not be below 0");
-  assert(not fieldDip < -1.5707963267948966, "AttitudeUkf: fieldDip must not be below -1.5708");
-  assert(not fieldDip > 1.5707963267948966, "AttitudeUkf: fieldDip must not be above 1.5708");
-  assert(not fieldStrengthStd < 0, "AttitudeUkf: fieldStrengthStd must not be below 0");
-  assert(not fieldStd < 0, "AttitudeUkf: fieldStd must not be below 0");
-  assert(not fieldTime < 0, "AttitudeUkf: fieldTime must not be below 0");
-  assert(not fieldTurningStd < 0, "AttitudeUkf: fieldTurningStd must not be below 0");
-  assert(not fieldNoise < 0, "AttitudeUkf: fieldNoise must not be below 0");
-  assert(not fieldTolerance < 0, "AttitudeUkf: fieldTolerance must not be below 0");
-  assert(not min(gyroAngleRandomWalk_N) < 0,
+  assert(fieldStrength >= 0, "AttitudeUkf: fieldStrength must not be below 0");
+  assert(fieldDip >= -1.5707963267948966, "AttitudeUkf: fieldDip must not be below -1.5708");
+  assert(fieldDip <= 1.5707963267948966, "AttitudeUkf: fieldDip must not be above 1.5708");
+  assert(fieldStrengthStd >= 0, "AttitudeUkf: fieldStrengthStd must not be below 0");
+  assert(fieldStd >= 0, "AttitudeUkf: fieldStd must not be below 0");
+  assert(fieldTime >= 0, "AttitudeUkf: fieldTime must not be below 0");
+  assert(fieldTurningStd >= 0, "AttitudeUkf: fieldTurningStd must not be below 0");
+  assert(fieldNoise >= 0, "AttitudeUkf: fieldNoise must not be below 0");
+  assert(fieldTolerance >= 0, "AttitudeUkf: fieldTolerance must not be below 0");
+  assert(min(gyroAngleRandomWalk_N) >= 0,
     "AttitudeUkf: gyroAngleRandomWalk_N must not be below 0");
-  assert(not min(gyroRateRandomWalk_K) < 0,
+  assert(min(gyroRateRandomWalk_K) >= 0,
     "AttitudeUkf: gyroRateRandomWalk_K must not be below 0");
   connect(heading, headingUsed);
   if not useHeading then

@@ -18,7 +18,12 @@ protected
   discrete Integer row(start=0, fixed=true) "Row of the table";
 equation
   assert(size(table, 1) > 0, "table must have a row at least");
-  assert(seed >= 0 and seed <= floor(seed), "seed must be a whole number, not negative");
+  assert(seed >= 0 and seed <= floor(seed) and seed < 9007199254740992.0,
+    "seed must be a whole number, not negative, below 2^53");
+  for i in 1:n loop
+    assert(channel[i] >= 0 and channel[i] <= floor(channel[i]) and channel[i] < 9007199254740992.0,
+      "channel must be whole numbers, not negative, below 2^53");
+  end for;
   when sample(samplePeriod, samplePeriod) then
     k = pre(k) + 1;
     row = mod(pre(row), size(table, 1)) + 1;

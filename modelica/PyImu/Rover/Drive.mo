@@ -17,6 +17,7 @@ partial block Drive "Motion of a rover on level ground as a function of time"
 protected
   Real motion[13];
 equation
+  assert(startTime >= 0, "startTime must not be below 0");
   assert(rampTime >= 0.01, "rampTime must not be below 0.01 s");
   q = {motion[1], motion[2], motion[3], motion[4]};
   rate = {motion[5], motion[6], motion[7]};
