@@ -10,6 +10,7 @@ from pyimu.model.arguments import Parameter
 from pyimu.model.effect import Effect
 from pyimu.model.kinds import KINDS
 from pyimu.model.signals import EVERY_SAMPLE, SIGNALS
+from pyimu.modelica.bounds import bound_asserts
 from pyimu.modelica.effect_functions import STARTED, EffectFunctions, effect_functions, signal_of
 from pyimu.modelica.names import identifier, pascal
 from pyimu.modelica.text import GENERATED, capital, comment, number, rendered, wrapped
@@ -153,13 +154,7 @@ def _asserts(f: EffectFunctions) -> Iterator[str]:
     where = f.effect.name
     for name, q in f.effect.parameters.items():
         me = identifier(name)
-        for sign, bound, word in ((">=", q.minimum, "below"), ("<=", q.maximum, "above")):
-            if bound is not None:
-                least = f"{'min' if word == 'below' else 'max'}({me})" if q.shape else me
-                yield (
-                    f'assert({least} {sign} {number(bound)}, "{where}: {name} must not be {word} '
-                    f'{bound:g}");'
-                )
+        yield from bound_asserts(where, me, bool(q.shape), q.minimum, q.maximum, name)
         if not q.diagonal:
             diagonal = " + ".join(f"abs({me}[{i},{i}])" for i in range(1, q.shape[0] + 1))
             yield f'assert({diagonal} <= 0, "{where}: {name} must have zeros on its diagonal");'
@@ -180,7 +175,8 @@ def _modifications(e: Effect, kind: str) -> Iterator[str]:
 def _documentation(e: Effect) -> str:
     """The page of an effect: equation, coefficients, source, in HTML."""
     rows = "\n".join(
-        f"<tr><td>{name}</td><td>{html.escape(q.unit)}</td><td>{html.escape(q.description)}</td></tr>"
+        f"<tr><td>{name}</td><td>{html.escape(q.unit)}</td>"
+        f"<td>{html.escape(q.description)}</td></tr>"
         for name, q in e.parameters.items()
     )
     notes = [f"It {EVERY_SAMPLE}: the difference of held ones is zero."] if e.differences else []

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.effects.noise import DECADES, POLES, end_weight
 from pyimu.model.law import Law
+from pyimu.modelica.bounds import bound_asserts
 from pyimu.modelica.names import pascal
 from pyimu.modelica.text import GENERATED, comment, number, rendered
 from pyimu.modelica.unit_names import modelica_unit
@@ -72,8 +73,9 @@ def filter_texts() -> dict[str, str]:
 
 def _text(name: str, found: Filter) -> str:
     e = CATALOGUE[name]
-    parameters = []
+    parameters, asserts = [], []
     for n, q in e.parameters.items():
+        asserts += bound_asserts(name, n, False, q.minimum, q.maximum)
         unit = None if "{" in q.unit else modelica_unit(q.unit)
         shown = f'(unit="{unit}")' if unit else ""
         start = q.start or 1.0
@@ -88,7 +90,7 @@ def _text(name: str, found: Filter) -> str:
         parameters=parameters,
         size=found.size,
         hidden=found.hidden,
-        equations=found.equations,
+        equations=(*asserts, *found.equations),
         documentation=_documentation(e.law),
     )
 

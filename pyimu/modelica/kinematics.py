@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import html
+import inspect
+import re
 from collections.abc import Callable, Mapping
 
 import casadi as ca
@@ -24,12 +27,21 @@ CHOSEN = {
 SHOWN = ("q", "rate", "specific_force", "position")
 """Outputs of the drives, in the order of the functions' results."""
 
+DRIVE = (
+    "<p>Hidalgo 2012, section 6.1. The speed rises and falls along 10 x^3 - 15 x^4 + 6 x^5. The "
+    "rate contains the Earth's rotation, the force gravity and Coriolis' force; printed "
+    "from the unit RoverDrive, on level ground and without vibration.</p>"
+)
+
 EVERY = ("start_time", "heading0", "ramp_time", "latitude", "gravity")
 """Parameters that stay parameters of all drives."""
 
 
 def _levelled(force: ca.SX, yaw: ca.SX) -> ca.SX:
-    """The attitude at rest of this specific force (3,), which shows roll and pitch."""
+    """The attitude at rest of this specific force (3,), which shows roll and pitch.
+
+    Groves 2013, section 5.6.2 (levelling), in forward-left-up axes.
+    """
     across = ca.sqrt(force[1] * force[1] + force[2] * force[2])
     return quaternion.from_euler(ca.atan2(force[1], force[2]), ca.atan2(-force[0], across), yaw)
 
@@ -94,12 +106,23 @@ def attitude_texts() -> dict[str, str]:
         ]
         size = (expression.numel(),)
         found[name] = function(name, text, arguments, expression, size, f"function {name}")
-    return {name: _text("PyImu.Attitude.Functions", f) for name, f in found.items()}
+    return {
+        name: _text("PyImu.Attitude.Functions", f, _page(ATTITUDE[name][1]))
+        for name, f in found.items()
+    }
+
+
+def _page(of: Callable[..., ca.SX]) -> str:
+    """The docstring of a function as paragraphs, its arguments named as Modelica has them."""
+    text = (inspect.getdoc(of) or "").replace("``", "")
+    text = re.sub(r"\b[a-z]+_[a-z_]+\b", lambda found: camel(found[0]), text)
+    paragraphs = (html.escape(" ".join(p.split()), quote=False) for p in text.split("\n\n"))
+    return "\n".join(f"<p>{p}</p>" for p in paragraphs)
 
 
 def drive_texts() -> dict[str, str]:
     """Name to text of the motion of each of the test drives."""
-    return {f.name: _text("PyImu.Rover.Functions", f) for f in map(_drive, CHOSEN)}
+    return {f.name: _text("PyImu.Rover.Functions", f, DRIVE) for f in map(_drive, CHOSEN)}
 
 
 def _drive(name: str) -> Function:
@@ -126,5 +149,5 @@ def _drive(name: str) -> Function:
     )
 
 
-def _text(within: str, f: Function) -> str:
-    return GENERATED + rendered("functions.mo", within=within, f=f, documentation="")
+def _text(within: str, f: Function, documentation: str) -> str:
+    return GENERATED + rendered("functions.mo", within=within, f=f, documentation=documentation)

@@ -6,20 +6,26 @@ from collections.abc import Callable, Mapping
 from functools import cache
 from pathlib import Path
 
+from pyimu.attitude import attitude_ukf
 from pyimu.block.compiled import source_folder
 from pyimu.block.normals import edges
 from pyimu.model.effects import EFFECTS
+from pyimu.model.part_file import part
 from pyimu.modelica.bench import benches
 from pyimu.modelica.effect_text import effect_text
 from pyimu.modelica.filters import filter_texts
+from pyimu.modelica.imported import imported_text
 from pyimu.modelica.kinematics import attitude_texts, drive_texts
 from pyimu.modelica.names import pascal
-from pyimu.modelica.sensors import part_texts, parts, sensor_texts
+from pyimu.modelica.sensors import DEFAULT, part_texts, parts, sensor_texts
 from pyimu.modelica.signal_text import DERIVED, signal_text
 from pyimu.modelica.text import GENERATED, rendered
+from pyimu.modelica.ukf_text import c_prefix, ukf_classes, ukf_source
 
 SOURCES = ("noise.c", "noise.h", "prefix.h")
 """Hand-written C of the units that the library brings along."""
+
+C_SOURCES = "Resources/C-Sources"
 
 PACKAGES: tuple[tuple[str, str, str, Callable[[], Mapping[str, str]]], ...] = (
     (
@@ -96,10 +102,30 @@ def library() -> Mapping[str, str]:
     found["Noise/layerEdge.mo"] = _edges()
     for name in SOURCES:
         path = source_folder() / name
-        found[f"Resources/C-Sources/{name}"] = path.read_text(encoding="utf-8")
+        found[f"{C_SOURCES}/{name}"] = path.read_text(encoding="utf-8")
+    found |= _filter()
     for folder, description, text, classes in PACKAGES:
         found |= _package(folder, description, text, classes())
     return found
+
+
+def _filter() -> dict[str, str]:
+    """The attitude filter of the part that a sensor is unless another is chosen, and how the units
+    of both look to an importer.
+    """
+    sensor = part(DEFAULT)
+    block, prefix = attitude_ukf(sensor), c_prefix(DEFAULT)
+    head = f"{GENERATED[3:].strip()} The attitude filter of the part {DEFAULT}."
+    texts = ukf_classes(block, prefix, f"{prefix}.c", f"modelica://PyImu/{C_SOURCES}")
+    return {
+        "Interfaces/ImportedSensor.mo": imported_text(sensor.block, "ImportedSensor"),
+        "Interfaces/ImportedFilter.mo": imported_text(block, "ImportedFilter"),
+        f"{C_SOURCES}/{prefix}.c": ukf_source(block, prefix, head),
+        **{
+            f"Attitude/{name}.mo": f"{GENERATED}within PyImu.Attitude;\n{text}"
+            for name, text in texts.items()
+        },
+    }
 
 
 def _edges() -> str:

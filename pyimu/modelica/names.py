@@ -14,6 +14,16 @@ KEYWORDS = frozenset(
 """Words of the language, and ``time``, which it defines (Modelica specification 3.6, 2.3.3)."""
 
 
+BUILTIN = frozenset(
+    "abs acos asin atan atan2 cardinality cat ceil change cos cosh cross delay diagonal div edge "
+    "exp fill floor homotopy identity integer linspace log log10 matrix max min mod noEvent ones "
+    "outerProduct pre product rem reinit sample scalar semiLinear sign sin sinh size skew smooth "
+    "sqrt String sum symmetric tan tanh terminal terminate transpose vector zeros Boolean Integer "
+    "Real Modelica PyImu".split()
+)
+"""Names that mean something everywhere (Modelica specification 3.6, chapters 3 and 10), and those
+of the two libraries."""
+
 RESERVED = frozenset({"x", "y", "y0", "following", "broken", "samplePeriod"})
 """Names that the blocks of effects give a meaning."""
 
@@ -33,7 +43,7 @@ def camel(name: str) -> str:
 
 def identifier(name: str) -> str:
     """The name of an effect's argument as one of Modelica."""
-    return f"{name}_" if name in KEYWORDS | RESERVED else name
+    return f"{name}_" if name in KEYWORDS | RESERVED | BUILTIN else name
 
 
 def indexed(name: str, index: tuple[int, ...]) -> str:

@@ -32,7 +32,8 @@ def sensor_texts(found: Mapping[str, Part]) -> dict[str, str]:
     literals = ",\n    ".join(f"{name}{comment(p.description)}" for name, p in found.items())
     return {
         "Part": f"{GENERATED}within PyImu.Sensors;\ntype Part = enumeration(\n    {literals})\n"
-        '  "The built-in parts";\n',
+        '  "The built-in parts"\n  annotation(Documentation(info="<html>\n<p>What a sensor may be; '
+        'figures and sources stand with Sensors.Parts.</p>\n</html>"));\n',
         "Imu": _selected(
             found,
             "Imu",

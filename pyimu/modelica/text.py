@@ -89,6 +89,6 @@ def _templates() -> Environment:
         capital=capital,
         folded=_folded,
         page=_page,
-        outdented=textwrap.dedent,
+        outdented=lambda text: re.sub(r"^  ", "", text, flags=re.MULTILINE),
     )
     return found

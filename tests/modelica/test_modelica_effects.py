@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from catalogue_cases import CASES, excited, run
-from modelica_cases import LAST_PLACES, simulated, ulps, vector
+from modelica_cases import LAST_PLACES, LIBRARY, simulated, ulps, vector
 
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.effects import EFFECTS
@@ -11,7 +11,8 @@ from pyimu.model.kinds import KINDS
 from pyimu.model.signals import COLUMNS, N_INPUT, SIGNALS
 from pyimu.modelica.bench import AMPLITUDES, NORMALS, PERIOD, SAMPLES, bench_text, excite, typical
 from pyimu.modelica.effect_functions import effect_functions, signal_of
-from pyimu.modelica.names import pascal
+from pyimu.modelica.names import identifier, pascal
+from pyimu.modelica.text import numbers
 
 TRANSCENDENTAL = ("exp(", "log(", "sin(", "cos(", "expm1(")
 """Functions of which two libraries may give values that differ in the last bit."""
@@ -101,3 +102,54 @@ def test_a_bench_compiles_alone():
     (e,) = [e for e in EFFECTS if e.name == "gauss_markov"]
     want = expected(typical(e, "gyro"))
     assert ulps(vector(rows, "effect.y")[1:], want, vector(rows, "effect.x")[1:]) <= LAST_PLACES
+
+
+LINES = {**AMPLITUDES, "time": 1.0}
+"""Slopes of the straight lines along which signals go."""
+
+
+def test_effects_without_memory_are_continuous_as_well():
+    """The same functions at every instant, without a sample: one of each, along straight lines."""
+    cases = [(n, k) for n, k in CASES if is_continuous(n) and k == CATALOGUE[n].sensors[0]]
+    assert len(cases) > 15
+    lines, equations, inputs = [], [], {}
+    for i, (name, kind) in enumerate(cases):
+        sensor = own_sensor(name, kind)
+        values = ", ".join(
+            f"{identifier(n)}={numbers(v.tolist())}" for n, v in sensor.values[name].items()
+        )
+        lines.append(f"PyImu.Effects.{pascal(name)}.{pascal(kind)}Continuous e{i}({values});")
+        own = KINDS[kind].own
+        for j, (argument, signal) in enumerate(
+            [("x", own), *((a, signal_of(CATALOGUE[name], a, kind)) for a in e_arguments(name))]
+        ):
+            start, size = SIGNALS[signal].start, LINES[signal]
+            rows = [
+                f"{s!r} + {size}*({(-1) ** k * (k + j + 1)}*time - 1)" for k, s in enumerate(start)
+            ]
+            given = "{" + ", ".join(rows) + "}" if len(start) > 1 else rows[0]
+            equations.append(f"e{i}.{identifier(argument) if j else 'x'} = {given};")
+            inputs[i, signal] = (j, start, size)
+    text = "\n".join(["model All", *lines, "equation", *equations, "end All;"])
+    t, period = np.arange(9) * 0.125, 0.125
+    rows = simulated("All", 1.0, period, text)
+    for i, (name, kind) in enumerate(cases):
+        u = np.zeros((len(t), N_INPUT))
+        for (of, signal), (j, start, size) in inputs.items():
+            if of == i:
+                slopes = [(-1.0) ** k * (k + j + 1) for k in range(len(start))]
+                u[:, COLUMNS[signal]] = np.array(start) + size * (np.outer(t, slopes) - 1)
+        want = run(own_sensor(name, kind), u, h=period)
+        got, x = vector(rows, f"e{i}.y"), vector(rows, f"e{i}.x")
+        assert ulps(got, want, x) <= LAST_PLACES, name
+
+
+def is_continuous(name):
+    """Whether an effect has a form without samples."""
+    path = LIBRARY / "PyImu" / "Effects" / f"{pascal(name)}.mo"
+    return "Continuous" in path.read_text()
+
+
+def e_arguments(name):
+    """Signals that an effect depends on, by its own names."""
+    return list(CATALOGUE[name].environment)

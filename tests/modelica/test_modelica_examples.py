@@ -70,13 +70,22 @@ BENCH = "model Bench {block}; end Bench;"
         ),
         ("Noise.Normals e(seed=-1, channel={1, 2, 3})", "seed must be a whole number"),
         ("Noise.Normals e(seed=1.5, channel={1, 2, 3})", "seed must be a whole number"),
+        ("Noise.Normals e(seed=9.1e15, channel={1, 2, 3})", "not negative, below 2^53"),
+        ("Noise.Normals e(seed=1, channel={1.5, 2, 3})", "channel must be whole numbers"),
+        ("Noise.GlobalSeed e(seed=-1)", "globalSeed.seed must not be negative"),
+        ("ShapingFilters.GaussMarkov e(tau=0, u=0)", "gauss_markov: tau must not be below 1e-06"),
+        ("Rover.Straight e(cruiseSpeed=0)", "cruiseSpeed and length must be above 0"),
+        ("Rover.Square e(speed=100)", "a leg or a turn is shorter than rampTime"),
+        ("Sensors.Parts.Imt30.Imu e(seed=1)", "unbalanced"),
         ("Effects.ScaleFactor.Gyro e(samplePeriod=0, x={0, 0, 0})", "strictly positive"),
         ("Effects.ScaleFactor.Gyro e(samplePeriod=-1, x={0, 0, 0})", "strictly positive"),
         ("Sensors.Imu e(seed=1, part=PyImu.Sensors.Part.Nosuch)", "Part.Nosuch"),
     ],
 )
 def test_bad_coefficients_are_refused(block, said):
-    """By the library's own words, but for the sample period, which rumoca checks itself."""
+    """By the library's own words, but for the sample period, which rumoca checks itself, and inputs
+    that nothing is connected to, for which a tool lacks equations.
+    """
     with pytest.raises(Exception) as caught:
         simulated("Bench", 0.02, 0.01, BENCH.format(block=f"PyImu.{block}"))
     assert said in str(caught.value)
@@ -86,6 +95,19 @@ def test_limits_are_inclusive():
     """The values at which a limit is just kept pass."""
     block = "PyImu.Effects.TimeDelay.Gyro e(td=0.3, samplePeriod=0.01, x={0, 0, 0})"
     assert simulated("Bench", 0.02, 0.01, BENCH.format(block=block))["e.y[1]"][-1] == 0
+
+
+def test_of_an_input_that_jumps_at_a_sample_the_value_after_the_jump_counts():
+    """And of one that jumps just after it, the value before."""
+    text = """model Bench
+      PyImu.Sensors.Sampler at(samplePeriod=0.5, y0={0, 0, 0});
+    equation
+      at.x = {if time >= 1 then 1 else 0, if time > 1.001 then 1 else 0, time};
+    end Bench;"""
+    rows = simulated("Bench", 2.0, 0.5, text)
+    np.testing.assert_array_equal(rows["at.y[1]"], [0, 0, 1, 1, 1])
+    np.testing.assert_array_equal(rows["at.y[2]"], [0, 0, 0, 1, 1])
+    np.testing.assert_array_equal(rows["at.y[3]"], [0, 0.5, 1, 1.5, 2])
 
 
 @pytest.mark.parametrize("step", [0.01, 0.05, 0.5])

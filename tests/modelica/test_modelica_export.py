@@ -1,5 +1,6 @@
 """A part of one's own as a Modelica class, and what the command says of one that has none."""
 
+import re
 import subprocess
 import sys
 
@@ -9,10 +10,12 @@ from catalogue_cases import as_part, everything
 from modelica_cases import LAST_PLACES, measured, simulated, ulps
 from places import same_path
 
+from pyimu.errors import UserError
 from pyimu.model.catalogue import CATALOGUE, add_effects
 from pyimu.model.part_file import part as find_part
 from pyimu.model.signals import SIGNALS, inputs_for
 from pyimu.modelica.bench import AMPLITUDES, excite
+from pyimu.modelica.export import export
 from pyimu.modelica.names import camel
 from pyimu.modelica.part_text import part_text
 
@@ -68,8 +71,14 @@ import casadi as ca
 from pyimu import Environment, Parameter, State, effect
 
 @effect(stage="gain", term="a wobble", equation="y = x + a T b x", source="none")
-def wobble(x, a: Parameter("1/K", ()), T: Environment("temperature"), b: State("1", ())):
-    return x + a * {call} * b * x, {{"b": b + 1}}
+def {name}(
+    x,
+    a: Parameter("1/K", ()),
+    max: Parameter("1", ()),
+    T: Environment("temperature"),
+    b: State("1", ()),
+):
+    return x + a * {call} * b * x + max * ca.fmax(x, 0), {{"b": b + 1}}
 """
 
 PART = """
@@ -78,6 +87,7 @@ sample_rate = {value = 100.0, unit = "Hz"}
 
 [gyro.wobble]
 a = {value = 0.01, unit = "1/K", source = "a guess"}
+max = {value = 0.25, unit = "1", source = "a name that Modelica knows"}
 
 [gyro.saturation]
 limit = {value = 1.5, unit = "rad/s"}
@@ -90,7 +100,7 @@ C = {value = [[1.0, 2.0, 3.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], unit = "m/s^2/
 def command(folder, call, part=PART):
     """``pyimu modelica`` with a part and an effect of one's own."""
     (folder / "part.toml").write_text(part)
-    (folder / "effects.py").write_text(EFFECT.format(call=call))
+    (folder / "effects.py").write_text(EFFECT.format(call=call, name="wobble"))
     words = ["part.toml", "--effects", "effects.py", "--out", "out"]
     return subprocess.run(
         [sys.executable, "-m", "pyimu", "modelica", *words],
@@ -103,10 +113,11 @@ def command(folder, call, part=PART):
 
 
 @pytest.fixture
-def own_effect(tmp_path):
+def own_effect(request, tmp_path):
     """The effect as this process knows it, for as long as a test lasts."""
     path = tmp_path / "own_effects.py"
-    path.write_text(EFFECT.format(call="T"))
+    given = getattr(request.node, "callspec", None)
+    path.write_text(EFFECT.format(call=given.params["call"] if given else "T", name="wobble"))
     (added,) = add_effects(path)
     yield added
     CATALOGUE.remove(added.name)
@@ -121,21 +132,39 @@ def test_command_writes_a_part_with_an_effect_of_ones_own(tmp_path, own_effect):
     compare(find_part(tmp_path / "part.toml"), "MyPart3", text, 0)
 
 
+def test_what_has_no_modelica_form_is_refused_in_a_line(tmp_path):
+    done = command(tmp_path, "ca.erf(T)")
+    assert done.returncode == 2 and done.stdout == ""
+    assert done.stderr.startswith("pyimu: effect wobble: its function uses erf, which cannot be")
+    assert done.stderr.count("\n") == 1 and not list(tmp_path.rglob("*.mo"))
+
+
 @pytest.mark.parametrize(
     ("call", "part", "said"),
     [
-        ("ca.erf(T)", PART, "pyimu: effect wobble: its function uses erf, which cannot be said"),
-        (
-            "T",
-            PART.replace("0.01", '"estimate"', 1),
-            "pyimu: part my-part 3: gyro.wobble.a is left",
-        ),
-        ("ca.inf", PART, "pyimu: effect wobble: its function uses the constant inf"),
-        ("T", "", "pyimu: part.toml: "),
+        ("T", PART.replace("0.01", '"estimate"', 1), "part my-part 3: gyro.wobble.a is left"),
+        ("ca.inf", PART, "effect wobble: its function uses the constant inf"),
+        ("ca.log1p(T)", PART, "effect wobble: its function uses log1p, which cannot be said"),
+        ("(ca.inf - ca.inf)", PART, "effect wobble: its function uses the constant nan"),
+        ("T", PART.replace("my-part 3", "py_imu"), "part py_imu: as a Modelica class it would be"),
+        ("T", "", "part.toml: "),
     ],
 )
-def test_what_has_no_modelica_form_is_refused_in_a_line(call, part, said, tmp_path):
-    done = command(tmp_path, call, part)
-    assert done.returncode == 2 and done.stdout == ""
-    assert done.stderr.startswith(said) and done.stderr.count("\n") == 1
-    assert not list(tmp_path.rglob("*.mo"))
+def test_nothing_is_written_of_a_part_that_is_refused(call, part, said, tmp_path, own_effect):
+    """As the command does, without its start."""
+    (tmp_path / "part.toml").write_text(part)
+    with pytest.raises(UserError, match=re.escape(said)):
+        export(tmp_path / "part.toml", tmp_path / "out")
+    assert not (tmp_path / "out").exists() or not list((tmp_path / "out").iterdir())
+
+
+def test_effect_that_would_be_called_as_a_class_of_the_part_is_refused(tmp_path):
+    path = tmp_path / "own_effects.py"
+    path.write_text(EFFECT.format(call="T", name="gyroscope"))
+    (added,) = add_effects(path)
+    try:
+        (tmp_path / "part.toml").write_text(PART.replace("gyro.wobble", "gyro.gyroscope"))
+        with pytest.raises(UserError, match="effect gyroscope: as a Modelica class it would be"):
+            export(tmp_path / "part.toml", tmp_path / "out")
+    finally:
+        CATALOGUE.remove(added.name)

@@ -3,8 +3,14 @@
 import control
 import numpy as np
 import pytest
+from catalogue_cases import run
 from modelica_cases import simulated
 
+from pyimu.block.normals import normals
+from pyimu.characterization.allan import octave_clusters, overlapping_deviation
+from pyimu.characterization.allan.law import allan_band
+from pyimu.model.sensor import Sensor
+from pyimu.model.signals import COLUMNS, N_INPUT
 from pyimu.modelica.filters import FILTERS
 from pyimu.modelica.names import pascal
 from pyimu.shaping import continuous_filter
@@ -64,3 +70,35 @@ def test_response_is_the_formula(name):
     want = control.frequency_response(system, 2 * np.pi * FREQUENCIES).frdata.sum(axis=(0, 1))
     got = response(name)
     np.testing.assert_allclose(got, want, rtol=0, atol=1e-6 * np.abs(want).max())
+
+
+# The sampled noises, on the normals that the library draws (test_modelica_noise)
+
+SAMPLES, STEP = 2**14, 1e-3
+FALSE_ALARM = 0.01 / len(FILTERS)
+
+
+@pytest.mark.parametrize("name", FILTERS)
+def test_sampled_noise_has_the_filters_allan_deviation(name):
+    """Inside the simultaneous 99 % band of all six, from 16 samples on: below that the sampled
+    noise, which knows no more than half its rate, is another one than the filter's. There aliases
+    change a density that falls as 1/f^2 by (pi/32)^2/3 = 0.3 %, the band is wider than 3 %.
+    """
+    values = {
+        k: [v] * 3 if k in "NKBqk" or k == "tau" else v for k, v in COEFFICIENTS[name].items()
+    }
+    sensor = Sensor("gyro", {name: values})
+    u = np.zeros((SAMPLES, N_INPUT))
+    u[:, COLUMNS["rate"]] = INPUT
+    w = normals(3, [c.number for c in sensor.noise], 1, SAMPLES)
+    x = run(sensor, u, w=w, h=STEP)[:, 0] - INPUT
+    system = continuous_filter(name, COEFFICIENTS[name], INPUT)
+
+    def psd(f):
+        found = control.frequency_response(system, 2 * np.pi * f).frdata
+        return np.sum(np.abs(found) ** 2, axis=(0, 1))
+
+    m = octave_clusters(SAMPLES, 4)[4:]
+    low, high = allan_band(psd, m * STEP, SAMPLES, STEP, 1 - FALSE_ALARM)
+    found = overlapping_deviation(x, m)
+    assert np.all((low <= found) & (found <= high)) and np.all(high > 1.03 * low)

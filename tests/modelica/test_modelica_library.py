@@ -10,6 +10,7 @@ from modelica_cases import LIBRARY
 
 from pyimu.modelica.generate import CHECKED_IN, generate
 from pyimu.modelica.library import FOLDERS, library
+from pyimu.modelica.names import BUILTIN, KEYWORDS
 
 ROOT = LIBRARY / "PyImu"
 FILES = sorted(ROOT.rglob("*.mo"))
@@ -54,7 +55,7 @@ def test_order_names_every_class_of_a_package(package):
     for name in classes:
         text = (package / f"{name}.mo").read_text()
         assert re.search(rf"^within {re.escape(within)};$", text, re.MULTILINE), name
-        kind = r"^(partial )?(package|model|block|function|class) "
+        kind = r"^((partial|impure) )?(package|model|block|function|class) "
         whole = rf"{kind}{name} \".*\n(.*\n)*end {name};\n\Z"
         assert re.search(whole, text, re.MULTILINE) or f"\ntype {name} = " in text, name
 
@@ -89,13 +90,10 @@ def test_files_differ_by_more_than_the_case_of_their_names():
 @pytest.mark.parametrize("path", FILES, ids=lambda p: p.relative_to(LIBRARY).as_posix())
 def test_no_function_has_the_name_of_a_builtin(path):
     """Modelica specification 3.6, 3.7: some tools know these before they look for a class."""
-    builtin = "abs sign sqrt div mod rem ceil floor integer sin cos tan exp log min max sum product"
-    builtin += " size fill zeros ones identity diagonal cross skew transpose linspace vector matrix"
-    builtin += " sample edge change pre initial terminal delay smooth noEvent homotopy der time"
     text = path.read_text(encoding="utf-8")
     named = re.findall(r"^ *(?:partial )?function (\w+)", text, re.MULTILINE)
     named += re.findall(r"^ *input Real (?:\w+(?:\[[^]]*\])?, )*(\w+)", text, re.MULTILINE)
-    assert not set(named) & set(builtin.split())
+    assert not set(named) & (BUILTIN | KEYWORDS)
 
 
 @pytest.mark.parametrize("path", sorted((ROOT / "Effects").glob("*.mo")), ids=lambda p: p.stem)
@@ -106,6 +104,16 @@ def test_effects_read_well(path):
     code = [line for line in lines if not line.startswith("<p>") and "<t" not in line]
     assert max(map(len, code)) <= 110
     assert not re.search(r"\b(inf|nan)\b", "\n".join(code))
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda p: p.relative_to(LIBRARY).as_posix())
+def test_every_class_is_described_and_documented(path):
+    """And has an icon: its own, or that of what it extends or is short for."""
+    text = path.read_text(encoding="utf-8")
+    page = re.search(r'Documentation\(info="<html>\n(.*?)</html>"\)', text, re.DOTALL)
+    assert page and len(page[1]) > 20
+    kind = re.search(r"^(?:partial |impure )?(\w+) \w+", text, re.MULTILINE)[1]
+    assert "  extends " in text or "Icon(" in text or kind in ("type", "connector", "within")
 
 
 def test_g_sensitivity_reads_as_its_equation():

@@ -8,6 +8,8 @@ from modelica_cases import simulated, vector
 from scipy.spatial.transform import Rotation
 
 from pyimu.rover import drives
+from pyimu.rover.indoor import indoor
+from pyimu.rover.square import square
 from pyimu.symbolic.earth import EARTH_RATE
 
 DRIVES = {"straight": "Straight", "obstacle": "Obstacle", "ackermann": "Ackermann"} | {
@@ -49,6 +51,50 @@ def test_drive_is_that_of_the_unit(name):
     ):
         got = vector(rows, f"drive.{mine}", size)[1:]
         np.testing.assert_allclose(got, theirs, rtol=0, atol=ANGLE, err_msg=mine)
+
+
+def test_square_is_that_of_the_package():
+    """A triangle to the right as well, and both seen from another heading at the start."""
+    for given, own, heading in (
+        ("", {}, 0.0),
+        ("legs=3, turn=-2, turnRate=0.5, stops=1, side=1, heading0=0.4", None, 0.4),
+    ):
+        own = (
+            {"legs": 3, "turn": -2.0, "turn_rate": 0.5, "stops": 1.0, "side": 1.0}
+            if own is None
+            else own
+        )
+        want = square(sample_rate=4.0, **own)
+        text = f"model Test PyImu.Rover.Square drive({given}); end Test;"
+        rows = simulated("Test", want.time[-1], 0.25, text)
+        turned = Rotation.from_euler("Z", heading)
+        got = Rotation.from_quat(vector(rows, "drive.q", 4), scalar_first=True)
+        seen = turned * Rotation.from_quat(want.ref_q, scalar_first=True)
+        assert (got * seen.inv()).magnitude().max() < ANGLE
+        place = np.column_stack([want.ref_east, want.ref_north, want.ref_up])
+        np.testing.assert_allclose(
+            vector(rows, "drive.position"), turned.apply(place), rtol=0, atol=ANGLE
+        )
+        if not heading:
+            for mine, theirs in (("rate", want.ref_rate), ("specificForce", want.ref_force)):
+                np.testing.assert_allclose(
+                    vector(rows, f"drive.{mine}"), theirs, rtol=0, atol=ANGLE, err_msg=mine
+                )
+
+
+def test_indoor_drive_is_that_of_the_package():
+    """The start-up motion with its slip, the first cycles, and the end, at 10 Hz."""
+    h = 0.1
+    want = indoor(1 / h, slip=0.01, wander=0.0)
+    text = f"model Test PyImu.Rover.Indoor drive(samplePeriod={h}, slip=0.01); end Test;"
+    rows = simulated("Test", want.time[-1], h, text)
+    for mine, theirs in (
+        ("rate[3]", want.rate),
+        ("heading", want.heading),
+        ("nominalHeading", want.nominal),
+        ("standing", want.standing),
+    ):
+        np.testing.assert_allclose(rows[f"drive.{mine}"], theirs, rtol=0, atol=ANGLE, err_msg=mine)
 
 
 def test_attitude_is_the_integral_of_the_rate():

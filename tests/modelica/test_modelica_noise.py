@@ -1,6 +1,7 @@
 """The normals in pure Modelica, and in the C that the library brings, are those of the units."""
 
 import ctypes
+import re
 import shutil
 import subprocess
 
@@ -106,6 +107,29 @@ def test_sources_are_their_noise(block, coefficient, law):
     got = vector(simulated("Source", n * h, h, text), "noise.y")[1:]
     want = law(normals(4, [1, 2, 3], 1, n), h) * [0.1, 0.2, 0.3]
     np.testing.assert_allclose(got, want, rtol=0, atol=n * np.spacing(np.abs(want).max()))
+
+
+def test_seed_by_the_instances_name_is_one_that_the_noise_takes():
+    """Of any global seed and any hash, which are Integers of 32 bits: their sum is none. Sensors
+    and noise sources have one formula; rumoca has no getInstanceName.
+    """
+    formulas = set()
+    for name in ("Triad", "NoiseSource"):
+        text = (LIBRARY / "PyImu" / "Interfaces" / f"{name}.mo").read_text()
+        found = re.search(r"parameter Real seed\(min=0\) = (.*?)\n    \"", text, re.DOTALL)
+        formulas.add(" ".join(found[1].split()))
+    (formula,) = formulas
+    assert "getInstanceName()" in formula and "globalSeed.seed" in formula
+    formula = formula.replace("Modelica.Utilities.Strings.hashString(getInstanceName())", "hash")
+    formula = formula.replace("globalSeed.seed", "own")
+    cases = [(0, 0), (2**31 - 1, 2**31 - 1), (0, -(2**31)), (5, -9), (2**31 - 1, 1), (5, 9)]
+    lines = [f"S s{i}(own={own}, hash={hashed});" for i, (own, hashed) in enumerate(cases)]
+    block = (
+        f"block S parameter Real own; parameter Real hash; Real y; equation y = {formula}; end S;"
+    )
+    rows = simulated("T", 1.0, 1.0, "\n".join(["model T", block, *lines, "end T;"]))
+    want = [(own + hashed) % (2**31 - 1) for own, hashed in cases]
+    assert [rows[f"s{i}.y"][0] for i in range(len(cases))] == want and min(want) >= 0
 
 
 def test_ramp_grows_with_the_time_of_the_sample():

@@ -39,7 +39,7 @@ def tables(part, seed, n):
             channels = [c.number for c in chain_of(sensor.kind, (e,)).noise]
             if channels:
                 drawn = matrix(normals(seed, channels, 1, n))
-                fed.append(f"{camel(e.name)}Normals(table={drawn})")
+                fed.append(f"{camel(e.name)}Normals(useTable=true, table={drawn})")
         if fed:
             triads.append(f"{triad}({', '.join(fed)})")
     return ", ".join(triads)
@@ -87,17 +87,16 @@ def test_part_gives_the_samples_of_its_unit(name, seed, tmp_path):
     np.testing.assert_array_equal(measured(rows)[0], [0, 0, 0, 0, 0, 9.80665, 25])
 
 
-@pytest.mark.parametrize("seed", SEEDS)
-def test_imt30_is_its_block_to_the_bit(seed):
-    """No exponential is in it."""
+def test_imt30_is_its_block_to_the_bit():
+    """No exponential is in it. One of each seed, side by side."""
     part, n = PARTS["Imt30"], 200
-    rows = simulated(
-        "Vehicle",
-        n * part.sample_period,
-        part.sample_period,
-        vehicle([declared("Imt30", seed, n)], part.sample_period),
-    )
-    np.testing.assert_array_equal(measured(rows)[1:], part.block.run(motion(n), seed=seed)[0])
+    blocks = [f"imu{i}" for i in range(len(SEEDS))]
+    together = [declared("Imt30", seed, n, b) for seed, b in zip(SEEDS, blocks, strict=True)]
+    text = vehicle(together, part.sample_period, blocks)
+    rows = simulated("Vehicle", n * part.sample_period, part.sample_period, text)
+    for seed, block in zip(SEEDS, blocks, strict=True):
+        want = part.block.run(motion(n), seed=seed)[0]
+        np.testing.assert_array_equal(measured(rows, block)[1:], want)
 
 
 def test_a_second_instance_changes_nothing():

@@ -8,4 +8,8 @@ block Alignment "Attitude of a body at rest, by its specific force"
     annotation(Placement(transformation(extent={{100,-10},{120,10}})));
 equation
   q = Functions.levelled(specificForce, yaw);
+  annotation(Documentation(info="<html>
+<p>Roll and pitch of a body at rest from the direction of its specific force, with the yaw that is
+given. Groves 2013, section 5.6.2 (levelling), in the axes of this library.</p>
+</html>"));
 end Alignment;

@@ -16,6 +16,7 @@ protected
   Real turned[4](start=q0, each fixed=true) "Attitude before its length is set right";
   Real earth[3] "Rotation of the world axes, body axes";
 equation
+  assert(q0*q0 > 0, "q0 must not be zero");
   earth = if turningEarth then Functions.quaternionRotate(Functions.quaternionConjugate(q),
     Functions.earthRate(latitude)) else fill(0, 3);
   der(turned) = Functions.quaternionDerivative(turned, rate - earth)

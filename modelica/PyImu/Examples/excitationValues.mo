@@ -14,4 +14,7 @@ algorithm
     j := j + 1;
     y[i] := offset[i] + amplitude[i]*(mod((j + shift)*k + 5*j, 19) - 9)/9;
   end for;
+  annotation(Documentation(info="<html>
+<p>offset[i] + amplitude[i] (((i + shift) k + 5 i) mod 19 - 9)/9.</p>
+</html>"));
 end excitationValues;

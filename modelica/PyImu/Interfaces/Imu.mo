@@ -8,4 +8,8 @@ partial block Imu "Gyroscope and accelerometer"
   Modelica.Blocks.Interfaces.RealOutput measuredTemperature(unit="degC", start=25)
     "Temperature of the part, sampled like its axes"
     annotation(Placement(transformation(extent={{100,-10},{120,10}})));
+  annotation(Documentation(info="<html>
+<p>A gyroscope and an accelerometer with the inputs of Triad; the measured temperature is the input
+at the last sample.</p>
+</html>"));
 end Imu;

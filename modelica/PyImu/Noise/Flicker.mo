@@ -9,4 +9,9 @@ equation
   effect.x = fill(0, 3);
   connect(normals.y, effect.w);
   connect(effect.y, y);
+  annotation(Documentation(info="<html>
+<p>A sum of Gauss-Markov processes whose corners lie evenly in the logarithm of frequency, of
+density B^2/(2 pi f) between f_low and f_high: Effects.BiasInstability on a perfect sensor at rest.
+Spectrum and source stand with ShapingFilters.BiasInstability.</p>
+</html>"));
 end Flicker;

@@ -8,4 +8,8 @@ equation
   effect.x = fill(0, 3);
   connect(normals.y, effect.w);
   connect(effect.y, y);
+  annotation(Documentation(info="<html>
+<p>A stationary process of variance q^2 tau/2 and correlation time tau: Effects.GaussMarkov on a
+perfect sensor at rest. Spectrum and source stand with ShapingFilters.GaussMarkov.</p>
+</html>"));
 end GaussMarkov;

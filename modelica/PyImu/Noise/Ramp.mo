@@ -10,4 +10,9 @@ equation
   effect.x = fill(0, 3);
   connect(clock.y, effect.t);
   connect(effect.y, y);
+  annotation(Documentation(info="<html>
+<p>R t at the time of the last sample, of Allan deviation R tau/sqrt(2): Effects.RateRamp on a
+perfect sensor at rest. Hidalgo 2012,
+table 3, rate ramp.</p>
+</html>"));
 end Ramp;

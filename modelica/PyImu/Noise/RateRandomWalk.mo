@@ -7,4 +7,9 @@ equation
   effect.x = fill(0, 3);
   connect(normals.y, effect.w);
   connect(effect.y, y);
+  annotation(Documentation(info="<html>
+<p>Sums of steps of standard deviation K sqrt(samplePeriod), of Allan deviation K sqrt(tau/3):
+Effects.RateRandomWalk on a perfect sensor at rest. Spectrum and source stand with
+ShapingFilters.RateRandomWalk.</p>
+</html>"));
 end RateRandomWalk;

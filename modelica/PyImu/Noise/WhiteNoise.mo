@@ -7,4 +7,9 @@ equation
   effect.x = fill(0, 3);
   connect(normals.y, effect.w);
   connect(effect.y, y);
+  annotation(Documentation(info="<html>
+<p>Samples of standard deviation N/sqrt(samplePeriod), of two-sided density N^2 and Allan deviation
+N/sqrt(tau): Effects.AngleRandomWalk on a perfect sensor at rest. Spectrum and source stand with
+ShapingFilters.AngleRandomWalk.</p>
+</html>"));
 end WhiteNoise;

@@ -36,4 +36,10 @@ algorithm
       end if;
     end if;
   end for;
+  annotation(Documentation(info="<html>
+<p>A word of the lowest layer goes to the tail, one of another is taken if its point lies under the
+bell, else the next word stands for it; further words come from the counter's second half, the
+attempt. Marsaglia, Tsang, The ziggurat method for generating random variables, Journal of
+Statistical Software 5(8), 2000, sections 2 and 3.</p>
+</html>"));
 end beyondTheEdge;

@@ -5,4 +5,8 @@ algorithm
   for i in 1:size(channel, 1) loop
     y[i] := normal(seed, channel[i], number);
   end for;
+  annotation(Documentation(info="<html>
+<p>In pure Modelica, some 5000 operations a number; drawNormalsC is faster where a tool compiles
+C.</p>
+</html>"));
 end drawNormals;

@@ -37,4 +37,7 @@ algorithm
       + 16*nibble[integer(16*floor(lowA/16) + floor(lowB/16)) + 1]
       + nibble[integer(16*(lowA - 16*floor(lowA/16)) + (lowB - 16*floor(lowB/16))) + 1];
   end for;
+  annotation(Documentation(info="<html>
+<p>Bit by bit, by a table of half bytes: Modelica has no operation on bits.</p>
+</html>"));
 end exclusiveOr;

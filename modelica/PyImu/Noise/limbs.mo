@@ -11,4 +11,7 @@ algorithm
     word[i] := rest - 65536*floor(rest/65536);
     rest := floor(rest/65536);
   end for;
+  annotation(Documentation(info="<html>
+<p>Each limb is a Real below 65536.</p>
+</html>"));
 end limbs;

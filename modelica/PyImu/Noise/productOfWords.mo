@@ -24,4 +24,7 @@ algorithm
     carry := floor(digit/65536);
     y[i] := digit - 65536*carry;
   end for;
+  annotation(Documentation(info="<html>
+<p>School multiplication in limbs of 16 bits; all sums are exact, as they stay below 2^53.</p>
+</html>"));
 end productOfWords;

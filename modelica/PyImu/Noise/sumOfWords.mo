@@ -14,4 +14,7 @@ algorithm
     carry := floor(digit/65536);
     y[i] := digit - 65536*carry;
   end for;
+  annotation(Documentation(info="<html>
+<p>Limb by limb with a carry.</p>
+</html>"));
 end sumOfWords;

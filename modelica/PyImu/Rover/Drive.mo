@@ -17,9 +17,14 @@ partial block Drive "Motion of a rover on level ground as a function of time"
 protected
   Real motion[13];
 equation
+  assert(startTime >= 0, "startTime must not be below 0");
   assert(rampTime >= 0.01, "rampTime must not be below 0.01 s");
   q = {motion[1], motion[2], motion[3], motion[4]};
   rate = {motion[5], motion[6], motion[7]};
   specificForce = {motion[8], motion[9], motion[10]};
   position = {motion[11], motion[12], motion[13]};
+  annotation(Documentation(info="<html>
+<p>What all drives have: attitude, rate against inertial space, specific force in body axes, place.
+The rate contains the Earth's rotation, the specific force gravity.</p>
+</html>"));
 end Drive;

@@ -4,6 +4,7 @@ block Obstacle "A straight line over two boulders"
   parameter Modelica.Units.SI.Velocity cruiseSpeed(min=1e-6) = 0.01 "Speed";
   parameter Modelica.Units.SI.Length length(min=1e-3) = 5 "Length";
 equation
+  assert(cruiseSpeed > 0 and length > 0, "cruiseSpeed and length must be above 0");
   motion = Functions.obstacleMotion(time, startTime, heading0, rampTime, latitude, gravity, cruiseSpeed, length);
   annotation(Documentation(info="<html>
 <p>A straight line of 5 m at 1 cm/s over boulders in the way of the wheels. Hidalgo 2012, section 6.1. The speed rises and falls along 10 x^3 - 15 x^4 + 6 x^5. The same

@@ -29,4 +29,7 @@ type Part = enumeration(
     Sparkfun6dofV2 "SparkFun IMU 6 Degrees of Freedom v2 (ADXRS300, MMA7260Q, 10 bits)",
     Stim300 "Sensonor STIM300 with 10 g accelerometers, tactical-grade IMU",
     Vn100 "VectorNav VN-100, attitude and heading reference system, inertial sensors only")
-  "The built-in parts";
+  "The built-in parts"
+  annotation(Documentation(info="<html>
+<p>What a sensor may be; figures and sources stand with Sensors.Parts.</p>
+</html>"));

@@ -5,4 +5,7 @@ equation
   when sample(samplePeriod, samplePeriod) then
     y = x;
   end when;
+  annotation(Documentation(info="<html>
+<p>A perfect sensor that is sampled: what a part has where it declares no effect.</p>
+</html>"));
 end Sampler;

@@ -8,6 +8,7 @@ block AngleRandomWalk "Angle (velocity) random walk, of one axis, as a filter on
   Modelica.Blocks.Interfaces.RealOutput y "Noise"
     annotation(Placement(transformation(extent={{100,-10},{120,10}})));
 equation
+  assert(N >= 0, "angle_random_walk: N must not be below 0");
   y = N*u;
   annotation(Documentation(info="<html>
 <ul>

@@ -19,6 +19,9 @@ protected
     for k in 1:6};
   Real b[6](each start=0, each fixed=true);
 equation
+  assert(B >= 0, "bias_instability: B must not be below 0");
+  assert(f_low >= 1e-12, "bias_instability: f_low must not be below 1e-12");
+  assert(f_high >= 1e-12, "bias_instability: f_high must not be below 1e-12");
   for k in 1:6 loop
     der(b[k]) = -rate[k]*b[k] + strength[k]*u[k];
   end for;

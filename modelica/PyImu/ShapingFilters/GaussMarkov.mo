@@ -11,6 +11,8 @@ block GaussMarkov "Exponentially correlated (Gauss-Markov) noise, of one axis, a
 protected
   Real b(start=0, fixed=true);
 equation
+  assert(q >= 0, "gauss_markov: q must not be below 0");
+  assert(tau >= 1e-06, "gauss_markov: tau must not be below 1e-06");
   der(b) = -b/tau + q*u;
   y = b;
   annotation(Documentation(info="<html>

@@ -9,6 +9,7 @@ block RateDependentNoise "Rate-dependent noise, scale factor noise, of one axis,
   Modelica.Blocks.Interfaces.RealOutput y "Noise"
     annotation(Placement(transformation(extent={{100,-10},{120,10}})));
 equation
+  assert(k >= 0, "rate_dependent_noise: k must not be below 0");
   y = k*abs(x)*u;
   annotation(Documentation(info="<html>
 <ul>

@@ -10,6 +10,7 @@ block RateRandomWalk "Rate (acceleration) random walk, of one axis, as a filter 
 protected
   Real b(start=0, fixed=true);
 equation
+  assert(K >= 0, "rate_random_walk: K must not be below 0");
   der(b) = K*u;
   y = b;
   annotation(Documentation(info="<html>

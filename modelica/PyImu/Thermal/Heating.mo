@@ -11,4 +11,8 @@ block Heating "Temperature of a part in surroundings of another, with its own he
 equation
   assert(tau > 0, "tau must be a positive number of seconds");
   tau*der(temperature) = ambient + rise - temperature;
+  annotation(Documentation(info="<html>
+<p>tau dT/dt = ambient + rise - T: a body of one heat capacity (Newton's law of cooling) that heats
+itself by as much as makes it rise K warmer in the end.</p>
+</html>"));
 end Heating;

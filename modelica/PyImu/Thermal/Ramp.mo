@@ -9,4 +9,7 @@ block Ramp "Temperature that rises steadily from one to another"
 equation
   assert(duration > 0, "duration must be a positive number of seconds");
   temperature = from + (to - from)*min(time/duration, 1);
+  annotation(Documentation(info="<html>
+<p>T = from + (to - from) min(t/duration, 1): the ramp of a climatic chamber.</p>
+</html>"));
 end Ramp;

@@ -9,4 +9,8 @@ block WarmUp "Temperature of a part that warms up after power-on"
 equation
   assert(tau > 0, "tau must be a positive number of seconds");
   temperature = start + rise*(1 - exp(-time/tau));
+  annotation(Documentation(info="<html>
+<p>T = start + rise (1 - exp(-t/tau)): Heating in closed form, in surroundings that stay at
+start.</p>
+</html>"));
 end WarmUp;

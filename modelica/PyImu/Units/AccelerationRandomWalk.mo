@@ -1,2 +1,6 @@
 within PyImu.Units;
-type AccelerationRandomWalk = Real(final quantity="AccelerationRandomWalk", min=0) "Root of the two-sided density of a specific force's derivative; unit m/s^2/sqrt(s)";
+type AccelerationRandomWalk = Real(final quantity="AccelerationRandomWalk", min=0) "Root of the two-sided density of a specific force's derivative; unit m/s^2/sqrt(s)"
+  annotation(Documentation(info="<html>
+<p>Modelica's units have whole exponents (Modelica specification, chapter 19), and this one has a
+root; so it stands in the description.</p>
+</html>"));

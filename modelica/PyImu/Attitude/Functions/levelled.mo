@@ -24,4 +24,8 @@ algorithm
   y[2] := v2*v12 - v8*v13;
   y[3] := v2*v13 + v8*v12;
   y[4] := v7*v8 - v2*v11;
+  annotation(Documentation(info="<html>
+<p>The attitude at rest of this specific force (3,), which shows roll and pitch.</p>
+<p>Groves 2013, section 5.6.2 (levelling), in forward-left-up axes.</p>
+</html>"));
 end levelled;

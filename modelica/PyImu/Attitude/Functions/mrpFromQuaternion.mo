@@ -11,4 +11,8 @@ algorithm
   y[1] := 4*q[2]/v1;
   y[2] := 4*q[3]/v1;
   y[3] := 4*q[4]/v1;
+  annotation(Documentation(info="<html>
+<p>p (3,) of the unit quaternion q (4,).</p>
+<p>Hidalgo 2012, equation of the delta quaternion; Crassidis and Markley 2003, eq. 16.</p>
+</html>"));
 end mrpFromQuaternion;

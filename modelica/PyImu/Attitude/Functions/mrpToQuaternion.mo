@@ -14,4 +14,8 @@ algorithm
   y[2] := v3*p[1];
   y[3] := v3*p[2];
   y[4] := v3*p[3];
+  annotation(Documentation(info="<html>
+<p>The unit quaternion (4,) of p (3,), the inverse of fromQuaternion.</p>
+<p>Crassidis and Markley 2003, eqs. 21.</p>
+</html>"));
 end mrpToQuaternion;

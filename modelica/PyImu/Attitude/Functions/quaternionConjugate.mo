@@ -9,4 +9,7 @@ algorithm
   y[2] := -q[2];
   y[3] := -q[3];
   y[4] := -q[4];
+  annotation(Documentation(info="<html>
+<p>The inverse of a unit quaternion, (4,).</p>
+</html>"));
 end quaternionConjugate;

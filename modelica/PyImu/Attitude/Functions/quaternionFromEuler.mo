@@ -24,4 +24,8 @@ algorithm
   y[2] := v2*v12 - v8*v13;
   y[3] := v2*v13 + v8*v12;
   y[4] := v7*v8 - v2*v11;
+  annotation(Documentation(info="<html>
+<p>The quaternion (4,) of Rz(yaw) Ry(pitch) Rx(roll), angles in rad.</p>
+<p>Yaw is counter-clockwise from east, nose up is negative pitch (REP 103).</p>
+</html>"));
 end quaternionFromEuler;

@@ -12,4 +12,8 @@ algorithm
   y[2] := q[2]/v1;
   y[3] := q[3]/v1;
   y[4] := q[4]/v1;
+  annotation(Documentation(info="<html>
+<p>q at unit length.</p>
+<p>After a product one Newton step would do, but the root is exact for any length.</p>
+</html>"));
 end quaternionNormalized;

@@ -9,4 +9,7 @@ algorithm
   y[2] := q[1]*r[2] + r[1]*q[2] + (q[3]*r[4] - q[4]*r[3]);
   y[3] := q[1]*r[3] + r[1]*q[3] + (q[4]*r[2] - q[2]*r[4]);
   y[4] := q[1]*r[4] + r[1]*q[4] + (q[2]*r[3] - q[3]*r[2]);
+  annotation(Documentation(info="<html>
+<p>The product a b (4,), the rotation by b followed by that by a; Hamilton's i j = k.</p>
+</html>"));
 end quaternionProduct;

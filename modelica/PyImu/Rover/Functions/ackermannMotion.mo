@@ -69,4 +69,9 @@ algorithm
   y[11] := v43*cos(v44);
   y[12] := v43*sin(v44);
   y[13] := 0;
+  annotation(Documentation(info="<html>
+<p>Hidalgo 2012, section 6.1. The speed rises and falls along 10 x^3 - 15 x^4 + 6 x^5. The rate
+contains the Earth's rotation, the force gravity and Coriolis' force; printed from the unit
+RoverDrive, on level ground and without vibration.</p>
+</html>"));
 end ackermannMotion;

@@ -35,6 +35,9 @@ package Modelica "Stand-in for the few names of the Modelica Standard Library th
     package Interfaces
       connector RealInput = input Real;
       connector RealOutput = output Real;
+      connector BooleanInput = input Boolean;
+      connector BooleanOutput = output Boolean;
+      connector IntegerOutput = output Integer;
     end Interfaces;
   end Blocks;
 end Modelica;
