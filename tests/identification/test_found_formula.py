@@ -148,7 +148,7 @@ def test_an_error_that_switches_with_the_input_is_undone():
         u[:3] = [0.2, 0.7, 0.45]
         y = sensor.step([], u, sensor.p, [], 0.01)[1]
         x = sensor.compensation([], y, u, sensor.p, 0.01)[1]
-        np.testing.assert_allclose(np.ravel(x), u[:3], atol=1e-15)
+        np.testing.assert_allclose(x.full().ravel(), u[:3], atol=1e-15)
     finally:
         CATALOGUE.remove("switched")
 
@@ -164,4 +164,4 @@ def test_the_angle_turned_is_the_sum_of_rate_times_period():
     memory = np.zeros(derived.size)
     for k, one in enumerate(rates):
         memory, angle = step(memory, one)
-        np.testing.assert_allclose(np.ravel(angle), h * rates[: k + 1].sum(axis=0), atol=1e-14)
+        np.testing.assert_allclose(angle.full().ravel(), h * rates[: k + 1].sum(axis=0), atol=1e-14)
