@@ -19,6 +19,9 @@ from pyimu.recording.rows import Rows, Source
 LONGEST = 1.5
 """Periods between two samples over which nothing is interpolated."""
 
+SAME = 1e-6
+"""Part of a step by which two times may differ by rounding and be one."""
+
 
 @dataclass
 class Companion:
@@ -59,13 +62,14 @@ class Companion:
             far = np.abs(moved[rows] - time) > 0.5 * LONGEST * self.period
             return {g: _blank(values[rows].astype(float), far) for g, values in self.groups.items()}
         inside = np.clip(share, 0.0, 1.0)
-        far = (np.abs(share - inside) > 0.5) | (apart & (inside > 0) & (inside < 1))
+        between = np.minimum(inside, 1 - inside) > SAME
+        far = (np.abs(share - inside) > 0.5) | (apart & between)
         self.left.append(float(np.mean(inside**2 + (1 - inside) ** 2)))
         found = {}
         for group, values in self.groups.items():
             weight = inside if values.ndim == 1 else inside[:, None]
-            between = values[after - 1] * (1 - weight) + values[after] * weight
-            found[group] = _blank(between, far)
+            mixed = values[after - 1] * (1 - weight) + values[after] * weight
+            found[group] = _blank(mixed, far)
         return found
 
     def said(self) -> list[Finding]:
@@ -98,11 +102,17 @@ class Companion:
 
 
 def _one_to_one(time: np.ndarray, moved: np.ndarray, period: float) -> bool:
-    """Whether each sample of the log has one of its own in the file, within half a period."""
+    """Whether each sample of the log has one of its own in the file, within half a period.
+
+    Those in a gap of the file, and beyond its ends, do not count.
+    """
     inside = time[(time >= moved[0] - period / 2) & (time <= moved[-1] + period / 2)]
+    after = np.clip(np.searchsorted(moved, inside), 1, len(moved) - 1)
+    step, since = moved[after] - moved[after - 1], inside - moved[after - 1]
+    in_gap = (step > LONGEST * period) & (np.minimum(since, step - since) > period / 2)
+    inside, after = inside[~in_gap], after[~in_gap]
     if not len(inside):
         return False
-    after = np.clip(np.searchsorted(moved, inside), 1, len(moved) - 1)
     rows = after - (inside - moved[after - 1] < moved[after] - inside)
     near = np.abs(moved[rows] - inside) <= 0.5 * period
     return bool(np.mean(near) > 0.99 and np.mean(np.diff(rows) == 1) > 0.99)

@@ -46,6 +46,24 @@ def test_two_rates_are_reported_with_where_they_begin():
     assert found.kind == "two_rates" and abs(found.detail["first"] - 30) <= WINDOW * 0.01
 
 
+@pytest.mark.parametrize("shape", ["drift", "wave"])
+@pytest.mark.parametrize("size", [0.02, 0.1])
+def test_a_rate_that_wanders_is_one_rate(shape, size):
+    """A clock that warms up, or breathes: the step changes by 2 and 10 % without a jump."""
+    phase = np.linspace(0, 1, 60_000)
+    change = phase if shape == "drift" else np.sin(4 * np.pi * phase)
+    time = np.cumsum(0.01 * (1 + size * change))
+    clock = Clock(cadence_of(time))
+    clock.add(time)
+    (found,) = clock.findings()
+    assert found.kind == "rate_wanders"
+    # the cadence is the mean step; the extremes are means of windows of 512 of 60,000 steps
+    assert 1 / clock.cadence.period == pytest.approx(1 / np.diff(time).mean(), rel=1e-9)
+    steps = 0.01 * (1 + size * np.array([change.max(), change.min()]))
+    ends = found.detail["least_rate"], found.detail["largest_rate"]
+    assert ends == pytest.approx(tuple(1 / steps), rel=0.01 * size * 2)
+
+
 @pytest.mark.parametrize("seed", range(5))
 def test_jitter_gaps_and_coarse_stamps_are_no_second_rate(seed):
     rng = np.random.default_rng(seed)

@@ -9,13 +9,14 @@ import numpy as np
 import pytest
 import raw_logs
 
-from pyimu import read_recording
+from pyimu import Recording, read_recording
 from pyimu.errors import UserError
 from pyimu.recording.formats.layout import told_from
 from pyimu.recording.formats.suffix import open_reader
 from pyimu.recording.guess.names import named, triads
 from pyimu.recording.guess.numbers import force_unit, rate_unit, time_unit
 from pyimu.recording.guess.proposal import proposed
+from pyimu.recording.quality.inspect import rate_of_part
 
 ROUNDED = {"german", "xio", "iphone"}
 """Layouts in other units: numbers are multiplied, and come back to some roundings."""
@@ -102,6 +103,112 @@ def turned(rows=3000):
         gyro + 1e-3 * rng.standard_normal(gyro.shape),
         accel + 0.01 * rng.standard_normal(accel.shape),
     )
+
+
+def test_inspect_says_what_is_in_a_log(pyimu, tmp_path):
+    """A rest of 10 s, 20 s of turning, a gap of 3 s in it, and a page."""
+    time, gyro, accel = turned(2000)
+    still = raw_logs.still(1000)
+    late = time + 10_000_000_000 + 3_000_000_000 * (time >= 5_000_000_000)
+    columns = [np.append(still[0], late), *np.vstack([still[1], gyro]).T]
+    columns += list(np.vstack([still[2], accel]).T)
+    names = [f"gyro_{a} [rad/s]" for a in "xyz"] + [f"accel_{a} [m/s^2]" for a in "xyz"]
+    raw_logs.text(tmp_path / "log.csv", [",".join(["time [ns]", *names])], columns)
+    code, out, err = pyimu("inspect", "log.csv", "--json", "--out", "page", "--write-map", "m.toml")
+    assert (code, err) == (0, "")
+    said = json.loads(out)
+    assert (said["samples"], said["segments"], said["problem"]) == (3000, 2, None)
+    assert said["sample_rate"] == pytest.approx(100) and not said["at_rest"]
+    (first, last), *_ = said["rests"]
+    # whole seconds, begun at any tenth of one; a second at whose end the motion begins is left out
+    assert first == 0 and 8 <= last <= 10
+    assert {f["kind"] for f in said["findings"]} >= {"gaps"}
+    page = (tmp_path / "page" / "report.html").read_text()
+    assert page.count("<svg") == 2 and "in 2 pieces without gap" in page
+    again, plain = read_recording("log.csv", "m.toml"), read_recording("log.csv")
+    np.testing.assert_array_equal(again.gyro, plain.gyro)
+
+
+def test_inspect_of_several_files_writes_their_map(pyimu, tmp_path):
+    where = raw_logs.phone(tmp_path, raw_logs.still(300))
+    files = [where / f"{name}.csv" for name in ("TotalAcceleration", "Gyroscope")]
+    code, out, _ = pyimu("inspect", *files, "--write-map", where / "map.toml")
+    assert code == 0 and "gyro" in out
+    found = read_recording(files[1], where / "map.toml")
+    np.testing.assert_array_equal(found.accel, read_recording(where).accel)
+
+
+# Further files
+
+
+def two_files(folder, late=0, rows=slice(None), more=""):
+    time, gyro, accel = raw_logs.still(400)
+    raw_logs.text(folder / "a.csv", ["t,x,y,z"], [(time + late)[rows] // 1000, *accel[rows].T])
+    raw_logs.text(folder / "g.csv", ["t,x,y,z"], [time, *gyro.T])
+    lines = ["[columns]", '"t" = "time [ns]"', *(f'"{a}" = "gyro_{a} [rad/s]"' for a in "xyz")]
+    lines += ["[[file]]", 'name = "a.csv"', "[file.columns]", '"t" = "time [us]"']
+    lines += [f'"{a}" = "accel_{a} [m/s^2]"' for a in "xyz"]
+    (folder / "m.toml").write_text("\n".join([*lines, more]))
+    return read_recording(folder / "g.csv", folder / "m.toml"), accel
+
+
+def test_samples_half_a_period_apart_are_taken_as_they_are(tmp_path):
+    for late in (-4_000_000, 4_000_000):
+        found, accel = two_files(tmp_path, late)
+        np.testing.assert_array_equal(found.accel, accel)
+        (said,) = (f for f in found.findings if f.kind == "other_file")
+        assert said.detail["how"] == "nearest sample"
+
+
+def test_where_the_other_file_has_a_gap_nothing_is_known(tmp_path):
+    rows = np.r_[0:100, 150:400]
+    found, accel = two_files(tmp_path, rows=rows)
+    assert np.isnan(found.accel).any(axis=1).nonzero()[0].tolist() == list(range(100, 150))
+    np.testing.assert_array_equal(found.accel[rows], accel[rows])
+
+
+def test_files_of_other_clocks_are_refused(tmp_path):
+    with pytest.raises(UserError, match="do not overlap, or are on different clocks"):
+        two_files(tmp_path, late=10**12)
+
+
+@pytest.mark.parametrize(
+    "more, says",
+    [
+        ("[[file]]\ncolumns = {}", "key file.name is missing"),
+        ('[[file]]\nname = "none.csv"', "none.csv: no such file"),
+        ('[[file]]\nname = "g.csv"\ncolumns = {t = "time [ns]", x = "gyro_x [rad/s]"}', "gyro_y"),
+        ("[file.frame]", "file.frame"),
+    ],
+)
+def test_maps_of_further_files(more, says, tmp_path):
+    with pytest.raises(UserError, match=re.escape(says)):
+        two_files(tmp_path, more=more)
+
+
+@pytest.mark.parametrize(
+    "entry, says",
+    [
+        ("100", "such as sample_rate = {value = 100.0"),
+        ('{value = 100, unit = "s"}', "sample_rate.unit"),
+        ('{value = "x", unit = "Hz"}', "sample_rate.value must be a number"),
+        ('{value = 1e9, unit = "Hz"}', "must lie between 0.001 and 1e+06 Hz"),
+        ('{value = 100, unit = "Hz"}', "leave one of the two out"),
+    ],
+)
+def test_sample_rate_of_a_map(entry, says, tmp_path):
+    (tmp_path / "m.toml").write_text(f"sample_rate = {entry}\n")
+    raw_logs.xio(tmp_path, raw_logs.still(50))
+    with pytest.raises(UserError, match=re.escape(says)):
+        read_recording(tmp_path / "sensor_data.csv", tmp_path / "m.toml")
+
+
+def test_rate_of_a_part_against_that_of_a_log():
+    time, gyro, _ = raw_logs.still(100)
+    log = Recording.from_arrays(time=time * 1e-9, gyro=gyro)
+    assert rate_of_part(log, 104.0) == []
+    (found,) = rate_of_part(log, 976.0)
+    assert (found.kind, found.detail["other_rate"]) == ("rate_of_part", 976.0)
 
 
 # What the numbers say
