@@ -102,8 +102,8 @@ def characterize_command(
         say("drawing the report")
         page = found.write(out)
     made = page.with_name("part.toml")
-    lines = [f"report: {page}, part: {made}"]
-    if export is not None:
+    lines = [f"report: {page}, " + ("no part: the log moves" if found.moving else f"part: {made}")]
+    if export is not None and not found.moving:
         lines += write_exports(str(made), export, out)
     tell(found.report, (out / "report.json").read_text, lines, as_json=as_json, quiet=quiet)
 

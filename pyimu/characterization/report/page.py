@@ -19,7 +19,7 @@ from pyimu.characterization.report.channel_notes import (
     spectrum_note,
     thermal_sentence,
 )
-from pyimu.characterization.report.log_notes import about, notes
+from pyimu.characterization.report.log_notes import about, moves, notes
 from pyimu.characterization.report.magnetometer import magnetometer_lines
 from pyimu.characterization.report.pictures.allan import allan_picture, deviations_picture
 from pyimu.characterization.report.pictures.evidence import evidence_picture
@@ -64,7 +64,7 @@ def in_notebook(c: Outcome) -> str:
 def _contents(c: Outcome) -> dict[str, Any]:
     return {
         "title": ", ".join(log.name for log in c.logs),
-        "headline": headline(c),
+        "headline": " ".join([*moves(c), headline(c)]),
         "logs": [f"{log.name}: {about(log)}" for log in c.logs],
         "notes": notes(c),
         "level": f"{100 * c.level:g}",
@@ -82,7 +82,7 @@ def _contents(c: Outcome) -> dict[str, Any]:
             ("file", "what it is"),
             [
                 ("report.json", "everything of this page as data, and all curves"),
-                (PART, "the part, for pyimu build, pyimu close and pyimu parts"),
+                *[(PART, "the part, for pyimu build, pyimu close and pyimu parts")][: not c.moving],
                 *[(MAGNETOMETER, "the calibration, for pyimu attitude --magnetometer")][
                     : c.magnetometer is not None
                 ],
