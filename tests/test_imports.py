@@ -11,6 +11,7 @@ PACKAGE = CHECKOUT / "pyimu"
 
 LATE = {
     "pyimu.cli",
+    "pyimu.cli.attitude",
     "pyimu.cli.campaigns",
     "pyimu.cli.heading",
     "pyimu.cli.logs",
