@@ -35,7 +35,7 @@ from pyimu.characterization.report.tables import (
 from pyimu.characterization.report.terminal import in_lines
 from pyimu.model.part import AXES
 from pyimu.report.findings import SENSORS
-from pyimu.report.page import Picture, Table, templates
+from pyimu.report.page import Picture, Table, prose, templates
 
 PART = "part.toml"
 """Name of the part's file."""
@@ -81,9 +81,11 @@ def _contents(c: Outcome) -> dict[str, Any]:
         "files": Table(
             ("file", "what it is"),
             [
-                ("report.json", "everything of this page as data, and all curves"),
-                *[(PART, "the part, for pyimu build, pyimu close and pyimu parts")][: not c.moving],
-                *[(MAGNETOMETER, "the calibration, for pyimu attitude --magnetometer")][
+                ("report.json", prose("everything of this page as data, and all curves")),
+                *[(PART, prose("the part, for pyimu build, pyimu close and pyimu parts"))][
+                    : not c.moving
+                ],
+                *[(MAGNETOMETER, prose("the calibration, for pyimu attitude --magnetometer"))][
                     : c.magnetometer is not None
                 ],
             ],
