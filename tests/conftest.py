@@ -8,6 +8,11 @@ import os
 import sys
 
 import pytest
+from hypothesis import settings
+
+# No test depends on the clock: a loaded machine may take seconds for any example.
+settings.register_profile("untimed", deadline=None)
+settings.load_profile("untimed")
 
 for name in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
     os.environ.setdefault(name, "1")

@@ -12,6 +12,7 @@ PACKAGE = CHECKOUT / "pyimu"
 LATE = {
     "pyimu.cli",
     "pyimu.cli.bugs",
+    "pyimu.cli.attitude",
     "pyimu.cli.campaigns",
     "pyimu.cli.heading",
     "pyimu.cli.inspect",

@@ -215,6 +215,15 @@ class Outcome:
         """The findings of all logs."""
         return tuple(f for log in self.logs for f in log.findings)
 
+    @property
+    def moving(self) -> tuple[str, ...]:
+        """Names of the logs that do not rest, of which no part can be made; raw counts apart."""
+        return tuple(
+            log.name
+            for log in self.logs
+            if {"motion"} == {f.kind for f in log.findings} & {"motion", "counts"}
+        )
+
     def channel(self, name: str) -> Iterator[Channel]:
         """The channel of a name in each log that has it."""
         return (c for log in self.logs for c in log.channels if c.name == name)

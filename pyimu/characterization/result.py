@@ -53,18 +53,21 @@ class Characterization(Outcome):
     def write(self, out: str | os.PathLike) -> Path:
         """Write ``report.html``, ``report.json`` and ``part.toml`` into the folder ``out``.
 
-        ``magnetometer.toml`` is beside them where a log calibrates its magnetometer.
-
-        All take the place of earlier ones together, once all are made. Gives the page's path.
-        Raises UserError where the folder cannot be written.
+        ``magnetometer.toml`` is beside them where a log calibrates its magnetometer, and no part
+        where one moves: its noise would be that of the motion. All take the place of earlier ones
+        together, once all are made. Gives the page's path. Raises UserError where the folder cannot
+        be written.
         """
         out = Path(out)
         with staged(out) as stage:
             write_text(stage / "report.html", page(self))
             write_json(stage / "report.json", self.as_dict())
-            save_part(self.part(self._part_name), stage / PART)
+            if not self.moving:
+                save_part(self.part(self._part_name), stage / PART)
             if self.magnetometer is not None:
                 self.magnetometer.calibration.write(stage / MAGNETOMETER)
+        if self.moving:
+            (out / PART).unlink(missing_ok=True)  # an earlier one is not this log's
         return out / "report.html"
 
     @property

@@ -10,11 +10,12 @@ from typing import Annotated
 
 import typer
 
+from pyimu.cli.attitude import attitude_command
 from pyimu.cli.bugs import said_of
 from pyimu.cli.campaigns import campaign_command
 from pyimu.cli.heading import heading_command
 from pyimu.cli.inspect import inspect_command
-from pyimu.cli.logs import attitude_command, characterize_command, close_command, demo
+from pyimu.cli.logs import characterize_command, close_command, demo
 from pyimu.cli.models import (
     build,
     derive_command,

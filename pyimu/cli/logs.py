@@ -14,20 +14,17 @@ from pyimu.cli.options import (
     Effects,
     Export,
     Json,
-    Latitude,
     Out,
     Quiet,
     add_effects,
     check_exports,
     check_told,
     complete_part,
-    place_in_radians,
     progress,
     radians,
     tell,
     write_exports,
 )
-from pyimu.errors import UserError
 
 EXIT_CODES = {
     "clean": 0,
@@ -105,8 +102,8 @@ def characterize_command(
         say("drawing the report")
         page = found.write(out)
     made = page.with_name("part.toml")
-    lines = [f"report: {page}, part: {made}"]
-    if export is not None:
+    lines = [f"report: {page}, " + ("no part: the log moves" if found.moving else f"part: {made}")]
+    if export is not None and not found.moving:
         lines += write_exports(str(made), export, out)
     tell(found.report, (out / "report.json").read_text, lines, as_json=as_json, quiet=quiet)
 
@@ -200,129 +197,3 @@ def close_command(
     tell(closed.report, (out / "report.json").read_text, lines, as_json=as_json, quiet=quiet)
     if exit_code:
         raise typer.Exit(EXIT_CODES[closed.verdict])
-
-
-def attitude_command(
-    log: Annotated[
-        Path,
-        typer.Argument(
-            metavar="LOG",
-            help=f"Recording: {FORMATS}.",
-            show_default=False,
-        ),
-    ],
-    out: Annotated[
-        Path,
-        typer.Option("--out", help="Folder for report.html, report.json and attitude.parquet."),
-    ] = Path("out/attitude"),
-    part: Annotated[
-        str | None,
-        typer.Option(
-            "--part",
-            help="Built-in part or a TOML file; without it the noise is the log's own.",
-            autocompletion=complete_part,
-        ),
-    ] = None,
-    columns: Columns = None,
-    latitude: Latitude = None,
-    heading0: Annotated[
-        float | None,
-        typer.Option(
-            "--heading0",
-            help="Degrees counter-clockwise from east at the start; else the first recorded one, "
-            "or the magnetometer's, or 0.",
-        ),
-    ] = None,
-    magnetometer: Annotated[
-        Path | None,
-        typer.Option(
-            "--magnetometer",
-            help="Calibration of the log's magnetometer, as characterize writes it.",
-        ),
-    ] = None,
-    no_magnetometer: Annotated[
-        bool,
-        typer.Option(
-            "--no-magnetometer",
-            help="Leave the log's magnetometer out; else it corrects the heading.",
-        ),
-    ] = False,
-    declination: Annotated[
-        float | None,
-        typer.Option(
-            "--declination",
-            help="Degrees by which magnetic north is east of true north; else 0.",
-        ),
-    ] = None,
-    place: Annotated[
-        str | None,
-        typer.Option(
-            "--place",
-            help="LAT,LON[,HEIGHT] in degrees north and east, and m: with --date, declination, "
-            "strength and dip by the World Magnetic Model, and the latitude.",
-        ),
-    ] = None,
-    date: Annotated[
-        str | None, typer.Option("--date", help="Day of the log, for --place, as 2026-05-01.")
-    ] = None,
-    settings: Annotated[
-        str | None,
-        typer.Option(
-            "--settings",
-            help="Filter: ukf, the package's own, or hidalgo2012, as published.",
-            show_default="ukf",
-        ),
-    ] = None,
-    smooth: Annotated[
-        bool,
-        typer.Option("--smooth", help="Estimate each sample by all of the log, not by its past."),
-    ] = False,
-    effects: Effects = None,
-    as_json: Json = False,
-    quiet: Quiet = False,
-) -> None:
-    """Example: pyimu attitude rover.csv --part imt30 --out out/attitude
-
-    Roll, pitch, yaw and gyro bias over a log with their standard deviations, by an unscented filter
-    with the errors of a part undone: when gravity was used and how well it fitted, what
-    contradicted the estimate, and, where the log has a reference attitude, the error against it.
-    """
-    from pyimu.attitude.calibration import MagnetometerCalibration
-    from pyimu.attitude.filters import chosen
-    from pyimu.attitude.run import run
-    from pyimu.files import check_folder
-    from pyimu.recording.log import read_recording
-
-    check_told(as_json, quiet)
-    at, heading = radians("--latitude", latitude, 90), radians("--heading0", heading0, 360)
-    north = radians("--declination", declination, 180)
-    where = place_in_radians("--place", place)
-    if where is not None:
-        twice = {"--declination": declination, "--latitude": latitude}
-        for option in (o for o, value in twice.items() if value is not None):
-            raise UserError(f"{option} beside --place, which tells it: give one of the two")
-    method, given = chosen(settings)
-    given |= {"filter": method} | ({} if north is None else {"declination": north})
-    if magnetometer is not None and no_magnetometer:
-        raise UserError("--magnetometer beside --no-magnetometer: give one of the two")
-    check_folder(out)
-    add_effects(effects)
-    with progress("reading") as say:
-        undone = None if magnetometer is None else MagnetometerCalibration.read(magnetometer)
-        recording = read_recording(log, columns)
-        say("running the filter")
-        found = run(
-            recording,
-            part,
-            latitude=at,
-            place=where,
-            date=date,
-            heading0=heading,
-            magnetometer=undone or not no_magnetometer,
-            settings=given,
-            smooth=smooth,
-        )
-        say("drawing the report")
-        page = found.write(out)
-    lines = [f"report: {page}, estimates: {page.with_name('attitude.parquet')}"]
-    tell(found.report, (out / "report.json").read_text, lines, as_json=as_json, quiet=quiet)

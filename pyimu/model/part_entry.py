@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -44,30 +45,24 @@ class FigureScale:
     @property
     def says_otherwise(self) -> bool:
         """Whether the unit says the same otherwise: a step in LSB/g or mg/LSB, a corner in Hz."""
-        dimension = units.parse(self.unit).dimension
-        return any(dimension == units.parse(form).dimension for form in self._other_forms())
+        return self._as_said != (self.unit, self.si, False)
 
-    def _other_forms(self) -> dict[str, bool]:
-        """Units in which people say what has the unit ``si``, and whether they are its inverse."""
-        corner = {"rad/s/rev": False} if self.si == "rad/s" else {}
-        return {f"LSB/({self.si})": True, f"({self.si})/LSB": False} | corner
-
+    @cached_property
     def _as_said(self) -> tuple[str, str, bool]:
         """The unit, the form of ``si`` that it converts to, and whether the figure is 1 / it."""
-        unit = units.parse(self.unit)
-        for form, inverse in self._other_forms().items():
-            if unit.dimension == units.parse(form).dimension:
-                return (
-                    (f"({self.unit})*rev", self.si, False)
-                    if "rev" in form
-                    else (self.unit, form, inverse)
-                )
+        dimension = units.parse(self.unit).dimension
+        if dimension == units.parse(f"LSB/({self.si})").dimension:
+            return self.unit, f"LSB/({self.si})", True
+        if dimension == units.parse(f"({self.si})/LSB").dimension:
+            return self.unit, f"({self.si})/LSB", False
+        if self.si == "rad/s" and dimension == units.parse("Hz").dimension:
+            return f"({self.unit})*rev", self.si, False
         return self.unit, self.si, False
 
     def to_si(self, figures: Any) -> np.ndarray:
         if self.si == "degC":
             return np.asarray(units.to_degc(figures, self.unit))
-        unit, si, inverse = self._as_said()
+        unit, si, inverse = self._as_said
         values = np.asarray(units.convert(figures, unit, si)) / DENSITIES[self.density]
         return _inverse(values) if inverse else values
 
@@ -75,7 +70,7 @@ class FigureScale:
         """Figures whose SI values are ``values`` to within rounding."""
         if self.si == "degC":
             return values + (units.ZERO_CELSIUS if units.parse(self.unit).plain == "K" else 0.0)
-        unit, si, inverse = self._as_said()
+        unit, si, inverse = self._as_said
         values = _inverse(np.asarray(values)) if inverse else values
         return np.asarray(units.convert(values * DENSITIES[self.density], si, unit))
 

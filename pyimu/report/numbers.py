@@ -40,6 +40,22 @@ SHOWN: dict[str, tuple[tuple[str, float], ...]] = {
     "rad/s/K^2": (("deg/s/K^2", 0.1), ("deg/h/K^2", 0.0)),
     "m/s^2/K": (("mg/K", 0.01), ("ug/K", 0.0)),
     "m/s^2/K^2": (("mg/K^2", 0.1), ("ug/K^2", 0.0)),
+    "rad/s/K^3": (("deg/s/K^3", 0.1), ("deg/h/K^3", 0.0)),
+    "m/s^2/K^3": (("mg/K^3", 0.1), ("ug/K^3", 0.0)),
+    "rad/s*s/K": (("deg/s/(K/min)", 0.1), ("deg/h/(K/min)", 0.0)),
+    "m/s^2*s/K": (("mg/(K/min)", 0.01), ("ug/(K/min)", 0.0)),
+    "rad/K": (("deg/K", 0.01), ("arcsec/K", 0.0)),
+    "1/(rad/s)": (("%/(deg/s)", 1.0), ("ppm/(deg/s)", 0.0)),
+    "1/(rad/s)^2": (("ppm/(deg/s)^2", 0.0),),
+    "1/(m/s^2)^2": (("%/g^2", 1.0), ("ppm/g^2", 0.0)),
+    "m/s^2/(m/s^2)^2": (("mg/g^2", 0.01), ("ug/g^2", 0.0)),
+    "rad/s/s": (("deg/s^2", 1.0), ("deg/h/s", 0.1), ("deg/h/h", 0.0)),
+    "m/s^2/s": (("mg/s", 0.01), ("ug/s", 0.0)),
+    "1/s": (("%/h", 1.0), ("ppm/h", 0.0)),
+    "rad/s/V": (("deg/s/V", 0.01), ("deg/h/V", 0.0)),
+    "m/s^2/V": (("g/V", 1.0), ("mg/V", 0.01), ("ug/V", 0.0)),
+    "rad/s/T": (("deg/s/gauss", 1.0), ("deg/h/gauss", 0.0)),
+    "m/s^2/T": (("mg/gauss", 0.01), ("ug/gauss", 0.0)),
 }
 """SI unit -> the units people use, largest first, each with the smallest number that is still said
 in it."""

@@ -91,6 +91,19 @@ def test_what_was_measured_stands_beside_the_data_sheet(pyimu, undrawn, tmp_path
     assert not (tmp_path / "no").exists()
 
 
+def test_a_log_that_moves_is_called_one_first_and_gives_no_part(pyimu, undrawn, tmp_path):
+    """Nor does it leave an earlier part to be taken for its own, nor an export of it."""
+    turning = gyro() + np.outer(np.sin(0.5 * H * np.arange(ROWS)), [0, 1.0, 0])
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "part.toml").write_text("earlier")
+    log = write(tmp_path, "drive", gyro=turning)
+    code, out, err = pyimu("characterize", log, "--export", "px4", "--out", "out")
+    assert (code, err) == (0, "") and out.startswith("drive moves: ")
+    assert "no part: the log moves" in out.splitlines()[-1]
+    assert sorted(p.name for p in (tmp_path / "out").iterdir()) == ["report.html", "report.json"]
+    assert json.loads((tmp_path / "out" / "report.json").read_text())["moving"] == ["drive"]
+
+
 def test_the_part_is_exported_too(pyimu, undrawn, tmp_path):
     log = write(tmp_path, accel=1e-2 * gyro(2) + [0, 0, 9.8], gyro=gyro())
     code, out, _ = pyimu("characterize", log, "--export", "kalibr,px4", "--out", "out")

@@ -29,7 +29,8 @@ from pyimu.files import plain
 def contents(c: Outcome) -> dict[str, Any]:
     """The contents of report.json.
 
-    ``level``, the probability of the intervals; ``logs``, a list of {``name``, ``rows``,
+    ``level``, the probability of the intervals; ``moving``, the names of logs that do not rest;
+    ``logs``, a list of {``name``, ``rows``,
     ``duration`` [s], ``quality`` (as in the report of ``pyimu close``), ``sensors``,
     ``magnetometer``, null where ``magnetometer_reason`` says why, or where there is none};
     ``part``: {channel: {letter: coefficient + ``spread`` over the logs, null for one}};
@@ -61,7 +62,15 @@ def contents(c: Outcome) -> dict[str, Any]:
         entry = _coefficient(s.mean, SI[channel.partition("_")[0]][term])
         part.setdefault(channel, {})[term] = entry | {"spread": s.spread, "logs": s.logs}
     logs = [_log(v) for v in c.logs]
-    return plain({"level": c.level, "logs": logs, "part": part, "data_sheet": beside_entry(c)})
+    return plain(
+        {
+            "level": c.level,
+            "moving": c.moving,
+            "logs": logs,
+            "part": part,
+            "data_sheet": beside_entry(c),
+        }
+    )
 
 
 def _log(log: LogResult) -> dict[str, Any]:

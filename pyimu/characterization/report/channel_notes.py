@@ -55,24 +55,24 @@ def _fit_notes(ch: Channel) -> Iterator[str]:
         yield f"line{'s' * (len(fit.line_frequencies) > 1)} at {found} Hz allowed for"
     if fit.shortest > 1.5 * fit.sample_period:
         yield (
-            f"fitted from {number(fit.shortest)} s on: shorter clusters are not of the five kinds "
-            "(filter, vibration)"
+            f"fitted from {number(fit.shortest)} s on: what is faster is none of the five kinds of "
+            "noise, but a filter in the sensor or vibration"
         )
     elif fit.filtered:
         yield (
-            "a term of 1/τ² of either sign allowed for (filter), so that quantization only has a "
-            "bound"
+            "a filter in the sensor takes from the fastest noise, as quantization would add to it: "
+            "of quantization only a bound can be given"
         )
     for term in fit.replaceable:
         value = quantity(fit.estimates[term], SI[ch.kind][term])
         yield (
-            f"{term} has a bound only, because another term may be in its place; the curve of the "
-            f"fit takes {value} of it"
+            f"{term} has a bound only: another term describes the same curve as well; the fit that "
+            f"is drawn takes {value} of it"
         )
     if fit.model_error:
         yield (
-            f"the five terms describe the variances only to {number(100 * fit.model_error, 2)} %, "
-            "and the intervals are as wide as that asks"
+            "the five kinds of noise describe the measured variances to "
+            f"{number(100 * fit.model_error, 2)} % only, and the intervals are widened for that"
         )
     if ch.compensated_for:
         yield f"the effect of {ch.compensated_for} was taken off first"

@@ -9,7 +9,7 @@ import numpy as np
 from pyimu.characterization.outcome import LogResult, Outcome
 from pyimu.errors import Finding
 from pyimu.report.findings import SENSORS
-from pyimu.report.numbers import number
+from pyimu.report.numbers import joined, number
 
 TIMES = ((86400.0, "d"), (3600.0, "h"), (60.0, "min"), (0.0, "s"))
 """Seconds of the units of time, the largest first."""
@@ -98,6 +98,16 @@ def doubts(log: LogResult) -> Iterator[str]:
             f"{log.name}: {', '.join(columns)}: a warm-up was taken off; what its exponential "
             "leaves is in B, K and R."
         )
+
+
+def moves(c: Outcome) -> list[str]:
+    """First of all, that a log moves; nothing of one at rest."""
+    if not c.moving:
+        return []
+    verb = "moves" if len(c.moving) == 1 else "move"
+    said = f"{joined(c.moving)} {verb}: what follows is noise and motion together"
+    advice = "pyimu close takes a log that moves, pyimu characterize wants one at rest."
+    return [f"{said}, and no part is written. {advice}"]
 
 
 def _not_at_rest(log: LogResult) -> Iterator[str]:

@@ -19,7 +19,7 @@ from pyimu.characterization.report.channel_notes import (
     spectrum_note,
     thermal_sentence,
 )
-from pyimu.characterization.report.log_notes import about, notes
+from pyimu.characterization.report.log_notes import about, moves, notes
 from pyimu.characterization.report.magnetometer import magnetometer_lines
 from pyimu.characterization.report.pictures.allan import allan_picture, deviations_picture
 from pyimu.characterization.report.pictures.evidence import evidence_picture
@@ -35,7 +35,7 @@ from pyimu.characterization.report.tables import (
 from pyimu.characterization.report.terminal import in_lines
 from pyimu.model.part import AXES
 from pyimu.report.findings import SENSORS
-from pyimu.report.page import Picture, Table, templates
+from pyimu.report.page import Picture, Table, prose, templates
 
 PART = "part.toml"
 """Name of the part's file."""
@@ -64,7 +64,7 @@ def in_notebook(c: Outcome) -> str:
 def _contents(c: Outcome) -> dict[str, Any]:
     return {
         "title": ", ".join(log.name for log in c.logs),
-        "headline": headline(c),
+        "headline": " ".join([*moves(c), headline(c)]),
         "logs": [f"{log.name}: {about(log)}" for log in c.logs],
         "notes": notes(c),
         "level": f"{100 * c.level:g}",
@@ -81,9 +81,11 @@ def _contents(c: Outcome) -> dict[str, Any]:
         "files": Table(
             ("file", "what it is"),
             [
-                ("report.json", "everything of this page as data, and all curves"),
-                (PART, "the part, for pyimu build, pyimu close and pyimu parts"),
-                *[(MAGNETOMETER, "the calibration, for pyimu attitude --magnetometer")][
+                ("report.json", prose("everything of this page as data, and all curves")),
+                *[(PART, prose("the part, for pyimu build, pyimu close and pyimu parts"))][
+                    : not c.moving
+                ],
+                *[(MAGNETOMETER, prose("the calibration, for pyimu attitude --magnetometer"))][
                     : c.magnetometer is not None
                 ],
             ],
