@@ -144,18 +144,6 @@ def _check_places(out: Path, files: list[Path]) -> None:
             raise IsADirectoryError(errno.EISDIR, f"{file} is a folder there")
 
 
-@contextmanager
-def scratch() -> Iterator[Path]:
-    """A temporary folder of one's own, which is gone after the ``with`` block.
-
-    What earlier runs left there that were killed goes, too. Raises OSError where there is no place.
-    """
-    _sweep(Path(tempfile.gettempdir()))
-    # A library that is loaded cannot be removed on Windows; it is swept another day.
-    with tempfile.TemporaryDirectory(prefix=PREFIX, ignore_cleanup_errors=True) as folder:
-        yield Path(folder)
-
-
 def _sweep(folder: Path) -> None:
     """Take away what runs that were killed left unfinished long ago."""
     for path in folder.glob(f"{PREFIX}*"):

@@ -16,6 +16,7 @@ import shlex
 import shutil
 import subprocess
 import sys
+import tempfile
 from collections.abc import Callable
 from functools import lru_cache
 from importlib.util import find_spec
@@ -26,7 +27,7 @@ import numpy as np
 
 from pyimu.block.c_code import c_code
 from pyimu.block.cache import keep, kept, key_of
-from pyimu.files import scratch
+from pyimu.errors import UserError
 
 FLAGS = (
     "-std=c11",
@@ -171,7 +172,10 @@ def _library(source: str, compile_it: bool) -> ctypes.CDLL | None:
         return None
     key = _key(source, tuple(compiler))
     if key not in _loaded:
-        library = _from_cache(key) or (_compile(source, compiler, key) if compile_it else None)
+        library = _from_cache(key)
+        if library is None and compile_it:
+            with contextlib.suppress(OSError, UserError):  # no place: the virtual machine does it
+                library = _compile(source, compiler, key)
         if library is None:
             return None
         _loaded[key] = library
@@ -188,10 +192,10 @@ def _key(source: str, compiler: tuple[str, ...]) -> str:
 def _compile(source: str, compiler: list[str], key: str) -> ctypes.CDLL | None:
     """Compile in a temporary folder, keep a copy in the cache and load the library.
 
-    The library's own file is gone once it is loaded. None where that cannot be done.
+    The library's own file is gone once it is loaded.
     """
-    with contextlib.suppress(OSError), scratch() as folder:
-        path, library, hand_written = folder / "run.c", folder / "run.so", source_folder()
+    with tempfile.TemporaryDirectory(prefix="pyimu-", ignore_cleanup_errors=True) as folder:
+        path, library, hand_written = Path(folder, "run.c"), Path(folder, "run.so"), source_folder()
         path.write_text(source, encoding="utf-8")
         files = [str(path), str(hand_written / "noise.c"), "-I", str(hand_written)]
         if subprocess.run(
@@ -200,7 +204,6 @@ def _compile(source: str, compiler: list[str], key: str) -> ctypes.CDLL | None:
             return None
         keep(key, library.read_bytes())
         return ctypes.CDLL(str(library))
-    return None
 
 
 def _from_cache(key: str) -> ctypes.CDLL | None:

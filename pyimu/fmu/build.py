@@ -20,7 +20,7 @@ from pyimu.block.block import Block
 from pyimu.block.cache import keep, kept_bytes, key_of
 from pyimu.block.compiled import ZIG, compiler_command, source_folder
 from pyimu.errors import UserError
-from pyimu.files import scratch, whole
+from pyimu.files import whole
 from pyimu.fmu.sources import (
     CORE,
     DESCRIPTION,
@@ -106,7 +106,7 @@ def build_fmus(
     platforms = _platforms(platform)
     generated = texts(block, forms)
     try:
-        with scratch() as work:
+        with tempfile.TemporaryDirectory(prefix="pyimu-") as work:
             libraries = {
                 p: _compile(block.name, generated, forms, p, compiler, Path(work, p.name))
                 for p, compiler in platforms

@@ -7,13 +7,14 @@ filter beside the low-pass.
 
 from __future__ import annotations
 
+import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 
 from pyimu.block.parameters import with_values
 from pyimu.block.variables import Variable
 from pyimu.errors import UserError
-from pyimu.files import check_folder, scratch
+from pyimu.files import check_folder
 from pyimu.fmu.build import build_fmu
 from pyimu.fmu.package import BLOCKS
 from pyimu.fmu.sources import Form
@@ -139,7 +140,7 @@ def write_rover(
 ) -> Path:
     """Write the system with its units to ``out`` as ``Rover.ssp``; see ``rover_system``."""
     check_folder(out)
-    with scratch() as folder:
+    with tempfile.TemporaryDirectory(prefix="pyimu-") as folder:
         system = rover_system(
             part, folder, drive, seed=seed, form=form, platform=platform, specimen=specimen
         )

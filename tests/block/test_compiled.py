@@ -22,7 +22,6 @@ from pyimu.block.normals import normals
 from pyimu.block.stepping import step_through
 from pyimu.block.variables import NoiseChannel, Variable
 from pyimu.errors import UserError
-from pyimu.files import FORGOTTEN, PREFIX, scratch
 
 CHANNELS = [7, 2**40 + 1]
 
@@ -315,17 +314,9 @@ def test_a_cache_behind_a_link_that_others_may_replace_is_not_run_from(
     assert len(compilations) == 2
 
 
-def test_a_temporary_folder_goes_and_takes_along_what_a_killed_process_left(tmp_path, monkeypatch):
-    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-    for name, age in (("dead", 2 * FORGOTTEN), ("alive", 0.0)):
-        (tmp_path / f"{PREFIX}{name}").mkdir()
-        (tmp_path / f"{PREFIX}{name}" / "run.c").write_text("")
-        os.utime(tmp_path / f"{PREFIX}{name}", (time.time() - age,) * 2)
-    (tmp_path / "pyimu-results").mkdir()
-    os.utime(tmp_path / "pyimu-results", (0, 0))
-    with scratch() as folder:
-        (folder / "file").write_text("")
-    assert {p.name for p in tmp_path.iterdir()} == {f"{PREFIX}alive", "pyimu-results"}
+def test_without_a_place_for_temporary_files_the_virtual_machine_runs(tmp_path, monkeypatch):
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "missing"))
+    assert native.compiled(toy().step, 10) is None
 
 
 @pytest.mark.parametrize("where", ["", "file"])
