@@ -172,7 +172,10 @@ def _library(source: str, compile_it: bool) -> ctypes.CDLL | None:
         return None
     key = _key(source, tuple(compiler))
     if key not in _loaded:
-        library = _from_cache(key) or (_compile(source, compiler, key) if compile_it else None)
+        library = _from_cache(key)
+        if library is None and compile_it:
+            with contextlib.suppress(OSError, UserError):  # no place: the virtual machine does it
+                library = _compile(source, compiler, key)
         if library is None:
             return None
         _loaded[key] = library
@@ -189,7 +192,7 @@ def _key(source: str, compiler: tuple[str, ...]) -> str:
 def _compile(source: str, compiler: list[str], key: str) -> ctypes.CDLL | None:
     """Compile in a temporary folder, keep a copy in the cache and load the library.
 
-    The library's own file is gone once it is loaded. None where that cannot be done.
+    The library's own file is gone once it is loaded.
     """
     with contextlib.suppress(OSError, UserError), work_folder() as folder:
         path, library, hand_written = folder / "run.c", folder / "run.so", source_folder()
@@ -201,7 +204,6 @@ def _compile(source: str, compiler: list[str], key: str) -> ctypes.CDLL | None:
             return None
         keep(key, library.read_bytes())
         return ctypes.CDLL(str(library))
-    return None
 
 
 def _from_cache(key: str) -> ctypes.CDLL | None:

@@ -126,7 +126,8 @@ def build(
         ),
     ] = "2,3,block",
     platform: Annotated[
-        str, typer.Option("--platform", help="host, all (needs ziglang), or one platform by name.")
+        str,
+        typer.Option("--platform", help="host, or with the package ziglang all, or one by name."),
     ] = "host",
     specimen: Annotated[
         int | None,

@@ -328,6 +328,11 @@ def test_a_temporary_folder_goes_and_takes_along_what_a_killed_process_left(tmp_
     assert {p.name for p in tmp_path.iterdir()} == {f"{PREFIX}alive", "pyimu-results"}
 
 
+def test_without_a_place_for_temporary_files_the_virtual_machine_runs(tmp_path, monkeypatch):
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "missing"))
+    assert native.compiled(toy().step, 10) is None
+
+
 @pytest.mark.parametrize("where", ["", "file"])
 def test_without_a_cache_the_run_is_compiled_all_the_same(tmp_path, monkeypatch, where):
     """Switched off, and a folder that cannot be made."""

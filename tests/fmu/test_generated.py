@@ -16,6 +16,7 @@ from fmu_toy import Unit
 
 from pyimu.attitude import attitude_ukf
 from pyimu.fmu import simulate, simulate_blocks
+from pyimu.fmu.arrays import split_name
 from pyimu.fmu.generate import checked_in, digest, generate, generated_folder, reference_blocks
 from pyimu.model.part_file import part
 
@@ -110,6 +111,19 @@ def test_an_unreadable_text_is_checked_in_by_its_digest():
     of = {"patch": "  *patch = 2;\n", "other patch": "  *patch = 11;\n", "number": "  a0=2;\n"}
     digests = {name: digest(f"int step;\n{line}") for name, line in of.items()}
     assert digests["patch"] == digests["other patch"] != digests["number"]
+
+
+def test_what_can_be_tuned_during_a_run_acts_on_a_sample():
+    """Else it would be fixed, as what acts on the start alone is; of a vector, one axis at least
+    acts.
+    """
+    for block in reference_blocks():
+        acts = set()
+        for output in (0, 1):
+            if block.step.numel_out(output) and block.parameters:
+                _, columns = block.step.jac_sparsity(output, 2).get_triplet()
+                acts |= {split_name(block.parameters[c].name)[0] for c in columns}
+        assert {split_name(v.name)[0] for v in block.parameters if not v.fixed} <= acts, block.name
 
 
 # The attitude filter as FMU
