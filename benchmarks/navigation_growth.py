@@ -66,6 +66,8 @@ def drawn(part, times, errors, target):
     panel.plot(line, theory(part, line), "k--", lw=1, label=r"theory, $1.18\,g N \sqrt{T^5/720}$")
     panel.set(xscale="log", yscale="log", xlabel="time between two stops T [s]")
     panel.set_ylabel("horizontal error [m]")
+    panel.set_xticks(times, [f"{t:.3g}" for t in times])
+    panel.set_xticks([], minor=True)
     panel.grid(alpha=0.3, which="both")
     panel.legend()
     figure.savefig(target, dpi=110)

@@ -18,6 +18,10 @@ STEPS = 20
 over no more: at rest most samples are one of two or three values, which looks like a pile at the
 end of a range."""
 
+LEAST = 0.5
+"""Share of a declared range below which no sensor is clipped: a coarse converter shows a steady
+turn, the fastest of a log, by two or three values as well."""
+
 
 def known_part(declared: Part | None, recording: Recording, rest: Rest) -> Part:
     """The part as the filter takes it; without one, the noise of the samples at rest."""
@@ -42,7 +46,8 @@ def _with_true_limit(sensor: Sensor, own: Sensor, samples: np.ndarray) -> Sensor
     declared = own.values.get(effect, {}).get(parameter, np.zeros(3))
     for axis, column in enumerate(samples.T):
         narrow = min(limit[axis], np.nanmax(column) - np.nanmin(column))
-        if limit[axis] != declared[axis] and narrow <= STEPS * _step(column):
+        none = narrow <= STEPS * _step(column) or limit[axis] < LEAST * declared[axis]
+        if limit[axis] != declared[axis] and none:
             limit[axis] = declared[axis]
     if not limit.any() and effect not in own.values:
         return Sensor(sensor.kind, {k: v for k, v in sensor.values.items() if k != effect})

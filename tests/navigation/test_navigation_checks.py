@@ -88,6 +88,17 @@ def test_a_static_log_is_at_no_limit(log):
     assert "stuck at a limit" not in text and "% of the way" not in text
 
 
+def test_the_steady_turns_of_a_coarse_gyro_are_no_limit_of_it():
+    """Three values of the converter at 28 deg/s, of a part that goes to 300: all of the turn
+    counts. Only the turn-on bias is unknown, which the rest tells."""
+    part = pyimu.part("sparkfun6dof_v2")
+    kept = tuple(t for t in part.tolerances if t.key[1] == "turn_on_bias")
+    own = replace(part, tolerances=kept)
+    found = run(own.specimen(0).simulate(motion(SHORT, 100.0), seed=0), own, method="filter")
+    assert abs(found.errors["filter"].yaw) < 5 * found.filter.vector("attitude_std")[-1, 2]
+    assert not np.any(found.filter.scalar("status").astype(int) & 1)
+
+
 def test_a_gyro_with_a_wide_null_is_at_rest_where_its_part_allows_it():
     """The ADXRS300 may show 40 deg/s at rest; the same samples of a finer part are a turn."""
     part = pyimu.part("sparkfun6dof_v2")
