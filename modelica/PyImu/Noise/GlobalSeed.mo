@@ -1,6 +1,8 @@
 within PyImu.Noise;
-block GlobalSeed "The seed that all sensors of a model share which have none of their own"
+block GlobalSeed "What all noise of a model shares: the seed of sensors that have none, and C or not"
   parameter Integer seed(min=0) = 0 "Whole number, not negative";
+  parameter Boolean useC = false "True where the tool compiles C: noise is drawn faster, the same numbers"
+    annotation(Evaluate=true, choices(checkBox=true));
 equation
   assert(seed >= 0, "globalSeed.seed must not be negative");
   annotation(

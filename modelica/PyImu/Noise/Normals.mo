@@ -6,11 +6,14 @@ block Normals "Standard normals of several channels, new ones at each sample"
   parameter Integer n = 3 "Number of channels";
   parameter Real channel[n] "Number of each channel: the CRC-32 of the variable's name";
   parameter Real seed(min=0) "Whole number, not negative";
+  parameter Boolean useC = globalSeed.useC "True where the tool compiles C: faster, the same numbers"
+    annotation(Evaluate=true, choices(checkBox=true));
   parameter Boolean useTable = false "True where a table stands for the draws"
     annotation(Evaluate=true, choices(checkBox=true));
   parameter Real table[:, n] = fill(0, 1, n)
     "A row for each sample; after the last one the first comes again"
     annotation(Dialog(enable=useTable));
+  outer PyImu.Noise.GlobalSeed globalSeed "What all noise of a model shares";
   Modelica.Blocks.Interfaces.RealOutput y[n] "Standard normals"
     annotation(Placement(transformation(extent={{100,-10},{120,10}})));
 protected
@@ -27,10 +30,13 @@ equation
   when sample(samplePeriod, samplePeriod) then
     k = pre(k) + 1;
     row = mod(pre(row), size(table, 1)) + 1;
-    y = if useTable then table[row, :] else draw(seed, channel, k);
+    y = if useTable then table[row, :]
+      elseif useC then drawNormalsC(seed, channel, k)
+      else draw(seed, channel, k);
   end when;
   annotation(Documentation(info="<html>
-<p>Sample k of a channel is a function of seed, channel and k alone. Redeclare <code>draw</code> as
-<code>PyImu.Noise.drawNormalsC</code> where the tool compiles C, or give a table.</p>
+<p>Sample k of a channel is a function of seed, channel and k alone. With <code>useC</code>, which is set
+once for a model by <code>globalSeed(useC=true)</code>, the C of the co-simulation units draws it; else
+the same in pure Modelica. A table stands for the draws with <code>useTable</code>.</p>
 </html>"));
 end Normals;
