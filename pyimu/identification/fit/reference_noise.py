@@ -300,10 +300,11 @@ def _error(fit: Fit, axis: int) -> float:
 
 def _on(like: Normal, other: Normal) -> Normal:
     """Normal equations on the columns of others, in their order; one that is missing is zero."""
-    at = [other.position.get(k, -1) for k in like.keys]
-    missing = np.array(at) < 0
-    score, gram = other.batch_score[:, at], other.batch_gram[:, at][:, :, at]
-    score[:, missing] = gram[:, missing] = gram[:, :, missing] = 0.0
+    at = [i for i, k in enumerate(like.keys) if k in other.position]
+    own = [other.position[like.keys[i]] for i in at]
+    score, gram = np.zeros_like(like.batch_score), np.zeros_like(like.batch_gram)
+    score[:, at] = other.batch_score[:, own]
+    gram[np.ix_(range(len(gram)), at, at)] = other.batch_gram[:, own][:, :, own]
     return replace(like, batch_gram=gram, batch_score=score, power=other.power)
 
 
