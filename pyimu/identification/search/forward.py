@@ -18,7 +18,6 @@ from pyimu.identification.fit.maximum_likelihood import advantage, fit
 from pyimu.identification.fit.reduction import STRUCTURE
 from pyimu.identification.fit.reference_noise import with_reference_noise
 from pyimu.identification.fit.trial import Trial
-from pyimu.identification.reference.belongs import misfit
 from pyimu.identification.search.as_sampled import GATE, ceiling_of, threshold_of
 from pyimu.identification.search.ceiling import (
     has_ceiling,
@@ -106,17 +105,18 @@ def investigate(
     held: list[Trial],
     say: Callable[[str], None] = lambda text: None,
     prior: Mapping[Coefficient, float] = MappingProxyType({}),
+    unfit: str = "",
 ) -> Investigation:
     """Find what ``sensor``, with coefficients ``free``, lacks to explain ``trials``, confirmed on
-    ``held``; ``prior`` are standard deviations of coefficients that nobody declared.
+    ``held``; ``prior`` are standard deviations of coefficients that nobody declared, ``unfit`` why
+    the reference does not belong to the sensor, so that nothing is looked for.
     """
     say(f"{sensor.kind}: fitting the model as declared")
     before, held = with_reference_noise(fit(begin(sensor, free, trials, prior)), held)
     before = fit(before) if before.echo else before
-    another = misfit(trials)
-    if another:
+    if unfit:
         none = Screening((), np.inf)
-        return Investigation(before, before, (), (), none, none, tuple(held), another)
+        return Investigation(before, before, (), (), none, none, tuple(held), unfit)
     if has_ceiling(sensor):
         before = without_lost(before)
     search = _Search(before, sensor, held)
