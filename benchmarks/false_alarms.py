@@ -1,10 +1,12 @@
-"""How often an effect is blamed on logs with nothing missing:
+"""How often an effect is blamed on logs with nothing missing.
+
 ``python benchmarks/false_alarms.py [logs]``.
 
 Each log has a gyro and an accelerometer, so each has two chances; the gate allows each one in a
 hundred.
 """
 
+import argparse
 import sys
 from pathlib import Path
 
@@ -31,4 +33,6 @@ def main(count: int) -> None:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 200)
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("logs", type=int, nargs="?", default=200, help="how many (200)")
+    main(parser.parse_args().logs)

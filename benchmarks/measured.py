@@ -8,6 +8,7 @@ are named as such.
 
 from __future__ import annotations
 
+import argparse
 import os
 import sys
 import tempfile
@@ -221,8 +222,11 @@ def _figures(closed: Closed):
 
 
 if __name__ == "__main__":
-    wanted = sys.argv[1:]
-    unknown = set(wanted) - {r.name for r in ROWS}
+    names = [r.name for r in ROWS]
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("row", nargs="*", help=f"of {', '.join(names)}; all without")
+    wanted = parser.parse_args().row
+    unknown = set(wanted) - set(names)
     if unknown:
-        sys.exit(f"no such row: {', '.join(sorted(unknown))}; there are {[r.name for r in ROWS]}")
+        parser.error(f"no such row: {', '.join(sorted(unknown))}; there are {', '.join(names)}")
     sys.exit(not table([r for r in ROWS if not wanted or r.name in wanted]))

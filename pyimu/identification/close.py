@@ -22,6 +22,7 @@ from pyimu.identification.formula.search import Look, look
 from pyimu.identification.instead import formula_less_than_noise, less_than_noise
 from pyimu.identification.made_with import called
 from pyimu.identification.reference.align import aligned
+from pyimu.identification.reference.belongs import misfit
 from pyimu.identification.reference.gravity import few, rest_trials
 from pyimu.identification.reference.positions import positions_wanted, unshown
 from pyimu.identification.reference.turns import turn_trials
@@ -134,7 +135,8 @@ def _investigated(
             free = _free(start, declared, start.sensor(kind), trials)
             trials = _shown(start, declared, free, trials)
             prior = {} if declared else _prior(kind, free)
-            found[kind] = investigate(start.sensor(kind), free, trials, held, say, prior)
+            sensor, another = start.sensor(kind), misfit(trials)
+            found[kind] = investigate(sensor, free, trials, held, say, prior, another)
             looks[kind] = _looked(found[kind], prior, _random(start, kind), say)
             found[kind] = looks[kind].investigation
             quality += late_thermometers(found[kind])

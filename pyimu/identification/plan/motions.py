@@ -211,15 +211,18 @@ def _in_a_cycle(moves: Callable[[float, Limits], Piece]) -> Callable[[float, Lim
 # The library
 
 
+ABOUT = "about x, about y and about z"
+
+
 def library(limits: Limits = Limits()) -> tuple[Motion, ...]:
     """All motions, those that need least first, said as they are within ``limits``."""
-    peak, shake = np.degrees(min(PEAK, limits.rate)), _shaking(limits)
-    warmed = f"while it is warmed by {WARMING:g} K and cools again within {CYCLE / 60:g} min"
     said = dict.fromkeys(f"{np.degrees(min(r, limits.rate)):.0f}" for r in RATES)
     rates = ", ".join(said)
-    about = "about x, about y and about z"
-    in_cycle = int(CYCLE // (6 * (45.0 + TURN_OVER)))
-    rounds = int(CYCLE // (3 * (60.0 + TURN_OVER)))
+    return (*_lying(), *_turned(limits, rates), *_moved(limits), *_warmed(rates), _supplied())
+
+
+def _lying() -> tuple[Motion, ...]:
+    """At rest, in one position or several."""
     return (
         Motion(
             "rest", f"let the part rest for {REST / 60:g} min", REST, 1 / REST, _rests(REST), True
@@ -232,9 +235,16 @@ def library(limits: Limits = Limits()) -> tuple[Motion, ...]:
             1 / LYING,
             _positions(LYING),
         ),
+    )
+
+
+def _turned(limits: Limits, rates: str) -> tuple[Motion, ...]:
+    """On a rate table."""
+    peak = np.degrees(min(PEAK, limits.rate))
+    return (
         Motion(
             "table_sines",
-            f"turn {about}, each up and for {TURNING:g} s to and fro with "
+            f"turn {ABOUT}, each up and for {TURNING:g} s to and fro with "
             f"{peak:.0f} deg/s at the most, against a reference",
             3 * TURNING + 4 * TURN_OVER,
             1 / TURN,
@@ -242,7 +252,7 @@ def library(limits: Limits = Limits()) -> tuple[Motion, ...]:
         ),
         Motion(
             "table_steps",
-            f"turn {about}, each up, with {rates} deg/s one way and the other, 10 s each, on a "
+            f"turn {ABOUT}, each up, with {rates} deg/s one way and the other, 10 s each, on a "
             "rate table",
             3 * 60.0 + 4 * TURN_OVER,
             0.05,
@@ -250,12 +260,19 @@ def library(limits: Limits = Limits()) -> tuple[Motion, ...]:
         ),
         Motion(
             "table_level",
-            f"turn {about}, each level, with {rates} deg/s one way and the other, 10 s each, on a "
+            f"turn {ABOUT}, each level, with {rates} deg/s one way and the other, 10 s each, on a "
             "rate table whose axis is level",
             3 * 60.0 + 4 * TURN_OVER,
             0.25,
             _axes_up(_steps(10.0), 1),
         ),
+    )
+
+
+def _moved(limits: Limits) -> tuple[Motion, ...]:
+    """By hand, on a vehicle, on a shaker."""
+    shake = _shaking(limits)
+    return (
         Motion(
             "by_hand",
             f"turn the part in the hand about all axes at once, to all sides, for {BY_HAND:g} s, "
@@ -281,6 +298,15 @@ def library(limits: Limits = Limits()) -> tuple[Motion, ...]:
             0.5 * sum(SWEEP),
             _shake,
         ),
+    )
+
+
+def _warmed(rates: str) -> tuple[Motion, ...]:
+    """In a climatic chamber."""
+    warmed = f"while it is warmed by {WARMING:g} K and cools again within {CYCLE / 60:g} min"
+    in_cycle = int(CYCLE // (6 * (45.0 + TURN_OVER)))
+    rounds = int(CYCLE // (3 * (60.0 + TURN_OVER)))
+    return (
         Motion(
             "rest_warmed",
             f"let the part rest {warmed}",
@@ -300,21 +326,25 @@ def library(limits: Limits = Limits()) -> tuple[Motion, ...]:
         ),
         Motion(
             "table_steps_warmed",
-            f"turn {about}, each up, with {rates} deg/s one way and the other, 10 s each, over and "
+            f"turn {ABOUT}, each up, with {rates} deg/s one way and the other, 10 s each, over and "
             f"over on a rate table {warmed}",
             CYCLE,
             1 / CYCLE,
             _in_a_cycle(_axes_up(_steps(10.0), 0, rounds)),
             warm=True,
         ),
-        Motion(
-            "supply_steps",
-            f"let the part rest for 5 min while its supply is raised and lowered by {SUPPLY:g} V "
-            "every 30 s",
-            300.0,
-            1 / 60.0,
-            _rests(300.0),
-            True,
-            supply=True,
-        ),
+    )
+
+
+def _supplied() -> Motion:
+    """At rest, with a supply that changes."""
+    return Motion(
+        "supply_steps",
+        f"let the part rest for 5 min while its supply is raised and lowered by {SUPPLY:g} V "
+        "every 30 s",
+        300.0,
+        1 / 60.0,
+        _rests(300.0),
+        True,
+        supply=True,
     )

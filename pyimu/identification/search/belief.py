@@ -40,6 +40,23 @@ def unbelievable(fit: Fit, keys: Iterable[Coefficient]) -> str:
     return ""
 
 
+def not_shown(fit: Fit, keys: Iterable[Coefficient]) -> str:
+    """Why the fitted coefficients ``keys`` are no estimate; nothing where they are.
+
+    What is larger than any sensor's and unknown by as much stands for another's share: columns that
+    are nearly one leave the sum of their coefficients alone to be seen.
+    """
+    for key in sorted(keys):
+        definition = CATALOGUE[key.effect].parameters[key.parameter]
+        largest = most(key.effect, fit.sensor.kind, key.parameter)
+        value = abs(float(fit.sensor.values[key.effect][key.parameter][key.index]))
+        if definition.scan is None and min(value, CHANCE * fit.std.get(key, 0.0)) > largest:
+            unit = fit.sensor.unit(definition.unit)
+            by = quantity(fit.std[key], unit, 2)
+            return f"{key.parameter} is not shown: {quantity(value, unit)}, give or take {by}"
+    return ""
+
+
 def most(effect: str, kind: str, parameter: str) -> float:
     """The largest size in SI units that a coefficient may have; infinite where none is known."""
     try:

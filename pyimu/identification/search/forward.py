@@ -18,7 +18,6 @@ from pyimu.identification.fit.maximum_likelihood import advantage, fit
 from pyimu.identification.fit.reduction import STRUCTURE
 from pyimu.identification.fit.reference_noise import with_reference_noise
 from pyimu.identification.fit.trial import Trial
-from pyimu.identification.reference.belongs import misfit
 from pyimu.identification.search.as_sampled import GATE, ceiling_of, threshold_of
 from pyimu.identification.search.ceiling import (
     has_ceiling,
@@ -106,65 +105,87 @@ def investigate(
     held: list[Trial],
     say: Callable[[str], None] = lambda text: None,
     prior: Mapping[Coefficient, float] = MappingProxyType({}),
+    unfit: str = "",
 ) -> Investigation:
     """Find what ``sensor``, with coefficients ``free``, lacks to explain ``trials``, confirmed on
-    ``held``; ``prior`` are standard deviations of coefficients that nobody declared.
+    ``held``; ``prior`` are standard deviations of coefficients that nobody declared, ``unfit`` why
+    the reference does not belong to the sensor, so that nothing is looked for.
     """
     say(f"{sensor.kind}: fitting the model as declared")
     before, held = with_reference_noise(fit(begin(sensor, free, trials, prior)), held)
     before = fit(before) if before.echo else before
-    another = misfit(trials)
-    if another:
+    if unfit:
         none = Screening((), np.inf)
-        return Investigation(before, before, (), (), none, none, tuple(held), another)
+        return Investigation(before, before, (), (), none, none, tuple(held), unfit)
     if has_ceiling(sensor):
         before = without_lost(before)
-    after, steps = _as_sampled(before, held)
-    refused: dict[str, Refused] = {}
-    tried = Tried(after, sensor.values)
-    first = last = seen = tried.looked()[0]
-    while len(steps) < MOST_EFFECTS:
-        say(f"{sensor.kind}: {len(steps)} added, trying {len(seen.candidates)} candidates")
-        options = _in_order([c for c in seen.above() if c.effect not in refused], after)
-        chosen, names = chosen_of(tried, options, seen.gate)
+    search = _Search(before, sensor, held)
+    while len(search.steps) < MOST_EFFECTS:
+        known, count = len(search.steps), len(search.seen.candidates)
+        say(f"{sensor.kind}: {known} added, trying {count} candidates")
+        if not search.advance():
+            break
+    after, steps = _backward(search.after, search.steps)
+    refused = tuple(search.refused.values())
+    looks = search.first, search.last
+    return Investigation(unbent(before, after), after, tuple(steps), refused, *looks, tuple(held))
+
+
+class _Search:
+    """The way from the model before to the one after: what was added and refused so far, and the
+    candidates beside it as they were ``first`` and ``last`` seen.
+    """
+
+    def __init__(self, before: Fit, sensor: Sensor, held: list[Trial]) -> None:
+        self.before, self.sensor, self.held = before, sensor, held
+        self.after, self.steps = _as_sampled(before, held)
+        self.refused: dict[str, Refused] = {}
+        self.tried = Tried(self.after, sensor.values)
+        self.first = self.last = self.seen = self.tried.looked()[0]
+
+    def advance(self) -> bool:
+        """Take the next candidate in, refuse it, or look by the next view; False where there is
+        none left.
+        """
+        options = [c for c in self.seen.above() if c.effect not in self.refused]
+        options = _in_order(options, self.after)
+        chosen, names = chosen_of(self.tried, options, self.seen.gate)
         if chosen is None:
-            if not tried.views:
-                break
-            seen, slow = tried.looked()
-            last = last if slow else seen
-            continue
-        reason = _within_form(chosen, steps)
+            return self._looks_again()
+        reason = _within_form(chosen, self.steps)
         if not reason:
-            chosen, reason = judged(tried, chosen, held, seen.gate)
+            chosen, reason = judged(self.tried, chosen, self.held, self.seen.gate)
         name = chosen.screened.effect
         if reason:
-            refused[name] = Refused(name, chosen.gain, reason)
-            continue
-        steps.append(
-            Step(
-                name,
-                keys_of(chosen.screened),
-                chosen.gain,
-                seen.gate,
-                names,
-                chosen.dispersion,
-                name in before.sensor.values,
-                fitted=tried.gains,
-            )
+            self.refused[name] = Refused(name, chosen.gain, reason)
+        else:
+            self._add(chosen, names)
+        return True
+
+    def _looks_again(self) -> bool:
+        if not self.tried.views:
+            return False
+        self.seen, slow = self.tried.looked()
+        self.last = self.last if slow else self.seen
+        return True
+
+    def _add(self, chosen: Refined, alternatives: tuple[str, ...]) -> None:
+        name = chosen.screened.effect
+        step = Step(
+            name,
+            keys_of(chosen.screened),
+            chosen.gain,
+            self.seen.gate,
+            alternatives,
+            chosen.dispersion,
+            name in self.before.sensor.values,
+            fitted=self.tried.gains,
         )
-        after = without_lost(chosen.fit) if is_ceiling(chosen.fit.sensor, name) else chosen.fit
-        tried = Tried(after, sensor.values)
-        last = seen = tried.looked()[0]
-    after, steps = _backward(after, steps)
-    return Investigation(
-        unbent(before, after),
-        after,
-        tuple(steps),
-        tuple(refused.values()),
-        first,
-        last,
-        tuple(held),
-    )
+        self.steps.append(step)
+        clipped = is_ceiling(chosen.fit.sensor, name)
+        self.after = without_lost(chosen.fit) if clipped else chosen.fit
+        self.tried = Tried(self.after, self.sensor.values)
+        self.last = self.seen = self.tried.looked()[0]
 
 
 def _as_sampled(before: Fit, held: list[Trial]) -> tuple[Fit, list[Step]]:

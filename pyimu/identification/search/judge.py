@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.trial import Trial
-from pyimu.identification.search.belief import unbelievable
+from pyimu.identification.search.belief import not_shown, unbelievable
 from pyimu.identification.search.candidates import Group
-from pyimu.identification.search.choice import SET_WIDTH, Refined, Tried, refine
+from pyimu.identification.search.choice import SET_WIDTH, Refined, Tried, ahead, refine
 from pyimu.identification.search.confirm import LEAST_OF_EXCESS, SPEAKS, Evidence, evidence
 from pyimu.identification.search.screen import (
     fitted_gain,
@@ -20,6 +20,9 @@ def judged(tried: Tried, chosen: Refined, held: list[Trial], gate: float) -> tup
     """
     old = tried.current
     if chosen.screened.effect not in old.sensor.values:
+        reason = not_shown(chosen.fit, keys_of(chosen.screened))
+        if reason:
+            return chosen, reason
         reason = unbelievable(chosen.fit, keys_of(chosen.screened))
         if reason:
             tried.impossible.append(chosen)
@@ -70,7 +73,7 @@ def _against(chosen: Refined, seen: Evidence, gate: float) -> str:
 
 def _stands_in(tried: Tried, chosen: Refined, gate: float) -> str:
     """The effect beyond belief that leaves a chosen candidate nothing to explain, if any does."""
-    for other in (o for o in tried.impossible if o.gain > chosen.gain + SET_WIDTH):
+    for other in (o for o in tried.impossible if ahead(o, chosen) > SET_WIDTH):
         beside = refine(other.fit, chosen.screened)
         if beside.gain <= gate:
             name = other.screened.effect
