@@ -68,6 +68,19 @@ class Job:
         fixes = {} if self.fixes is None else self.fixes.settings
         return with_values(self.block, values | fixes | start.settings | dict(self.settings))
 
+    def told(self, start: Start) -> dict[str, Any]:
+        """What a result says of it, by the fields of ``Outcome``."""
+        names = [v.name for v in self.block.parameters]
+        return {
+            "rest": self.rest,
+            "settings": dict(zip(names, self.p(start), strict=True)),
+            "nhc": self.nhc,
+            "heading0": start.heading,
+            "heading_from": start.source,
+            "gains": len(self.layout.gains),
+            "fixes": self.fixes,
+        }
+
     def grid(self, fixes: bool = True) -> InputGrid:
         marked = replace(self.recording, stationary=self.still.astype(float), heading=None)
         names = [v.name for v in self.block.inputs]

@@ -60,13 +60,11 @@ def run(
     ``recording`` is a ``Recording``, the path of a file, or a data frame; ``part`` a ``Part``, the
     name of one, or a TOML file, such as the ``model.toml`` of ``pyimu close``. Without a part
     the noise is that of the samples at rest. ``method`` is one of ``METHODS`` or "all", ``zupt``
-    one of ``ZUPT``; ``nhc`` says that it is a vehicle whose wheels do not slip. With ``fixes`` the
-    recording's measured positions and velocities correct the filter; ``position_std`` m and
-    ``velocity_std`` m/s are their standard deviations, else the recording's. ``latitude`` in rad
-    is else the recording's; without either, no Earth rate is taken off. ``heading0`` in rad is the
-    yaw of the first sample; without it that of the recording's heading, its reference's, the course
-    of its positions, or 0. ``settings`` are values of other parameters of the filter's block by
-    name.
+    one of ``ZUPT``; ``nhc`` is a vehicle whose wheels do not slip. With ``fixes`` the recording's
+    measured positions and velocities correct the filter, by ``position_std`` m and ``velocity_std``
+    m/s, else the recording's. ``latitude`` in rad is else the recording's; without either, no Earth
+    rate is taken off. ``heading0`` in rad is the yaw of the first sample, else that of the heading,
+    the reference, the course of the positions, or 0. ``settings`` are other parameters by name.
 
     Raises UserError for a recording that cannot be read or used (``checks``, ``measured``), an
     unknown method or setting, and where a rest is to be declared and is not.
@@ -74,14 +72,12 @@ def run(
     recording = recording_of(recording)
     _known("method", method, (*METHODS, "all"))
     _known("zupt", zupt, ZUPT)
-    given = LIMITS | {"gravity": STANDARD_GRAVITY} | dict(settings or {})
-    numbers = {name: number(name, given[name]) for name in (*LIMITS, "gravity")}
-    checks.check_columns(recording, numbers["gravity"])
-    recording, findings = checks.without_outliers(
-        recording, numbers["top_acceleration"], numbers["top_turn_rate"]
-    )
-    top_speed = numbers["top_speed"]
-    measured = fixes_of(recording, position_std, velocity_std, top_speed) if fixes else None
+    given, limits = _given(settings)
+    checks.check_columns(recording, limits["gravity"])
+    most = limits["top_acceleration"], limits["top_turn_rate"]
+    recording, findings = checks.without_outliers(recording, *most)
+    stds = position_std, velocity_std
+    measured = fixes_of(recording, *stds, limits["top_speed"]) if fixes else None
     job = _job(recording, None if part is None else part_of(part), zupt, given, findings)
     job = replace(job, latitude=latitude_of(recording, latitude), nhc=nhc, fixes=measured)
     reference = reference_of(recording)
@@ -89,8 +85,7 @@ def run(
     findings += check_fixes(recording, measured, found)
     if job.live:
         job = replace(job, still=found.scalar("at_rest") > 0.5)
-    wanted = METHODS if method == "all" else (method,)
-    tracks = _tracks(wanted, job, found, start, findings, say)
+    tracks = _tracks(METHODS if method == "all" else (method,), job, found, start, findings, say)
     best = tracks.get("smoother", tracks.get("filter"))
     return NavigationResult(
         recording.name,
@@ -99,17 +94,17 @@ def run(
         found,
         job.still,
         reference,
-        rest=job.rest,
         part="" if part is None else job.part.name,
-        settings={v.name: x for v, x in zip(job.block.parameters, job.p(start), strict=True)},
         findings=(*recording.findings, *findings, *checks.after(job.still, reference, best)),
-        nhc=nhc,
         zupt=zupt,
-        heading0=start.heading,
-        heading_from=start.source,
-        gains=len(job.layout.gains),
-        fixes=measured,
+        **job.told(start),
     )
+
+
+def _given(settings: Mapping[str, Any] | None) -> tuple[dict[str, Any], dict[str, float]]:
+    """The settings with those of a robot and of the place, and these as numbers."""
+    given = LIMITS | {"gravity": STANDARD_GRAVITY} | dict(settings or {})
+    return given, {name: number(name, given[name]) for name in (*LIMITS, "gravity")}
 
 
 def _known(name: str, value: str, values: tuple[str, ...]) -> None:
