@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "HeadingEstimator"
-#define MODEL_TOKEN "{047c83cc-3a27-e86d-92f1-9b24fcedb064}"
+#define MODEL_TOKEN "{69b334df-33a9-4374-d2e2-9ff5655b75f9}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -15,13 +15,13 @@ enum {
     N_INPUTS = 9,
     N_PARAMETERS = 24,
     N_OUTPUTS = 10,
-    N_STATES = 57,
+    N_STATES = 51,
     N_NOISE = 0,
     N_VARIABLES = 38
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 5, WORK_RES = 2, WORK_IW = 0, WORK_W = 93 };
+enum { WORK_ARG = 5, WORK_RES = 2, WORK_IW = 0, WORK_W = 92 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };

@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "HeadingEstimator"
-#define MODEL_TOKEN "{53867178-990a-2af2-0d68-f799fba37355}"
+#define MODEL_TOKEN "{b603fb51-368d-b5e8-18f3-74117150b17b}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -15,13 +15,13 @@ enum {
     N_INPUTS = 9,
     N_PARAMETERS = 24,
     N_OUTPUTS = 10,
-    N_STATES = 57,
+    N_STATES = 51,
     N_NOISE = 0,
     N_VARIABLES = 45
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 5, WORK_RES = 2, WORK_IW = 0, WORK_W = 93 };
+enum { WORK_ARG = 5, WORK_RES = 2, WORK_IW = 0, WORK_W = 92 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
-from pyimu.attitude.filter.variables import STATUS_NAMES
+from pyimu.attitude.filter.status import STATUS_NAMES
 from pyimu.attitude.outcome import NIS_BOUNDS, Outcome
 from pyimu.report.figures import (
     AFTER,
