@@ -146,3 +146,26 @@ def test_a_unit_starts_as_unsure_as_its_part_is():
         warm["std0[4]"] > start["std0[4]"]
         and warm["gravity_tolerance"] > start["gravity_tolerance"]
     )
+
+
+def test_a_turn_that_begins_slowly_ends_a_rest(block):
+    """By a third of the tolerance of a sample: the bias and the heading must not take it for rest.
+
+    A rest that goes on keeps its bias: the last 20 s of one as long are at rest.
+    """
+    rng, n = np.random.default_rng(6), 6000
+    still = samples(n, rng)
+    turning = still.copy()
+    rate = 1.5e-2 * np.clip((np.arange(n) - 2000) * H / 3.0, 0, 1)
+    turning[:, 2] += rate
+    p = parameters(
+        block, **{"rest_rate_tolerance": 0.05, "gyro_error.rate_random_walk.K": [1e-5] * 3}
+    )
+    y, _ = block.run(still, p=p)
+    assert output(block, y, "at_rest")[-2000:].all()
+    y, _ = block.run(turning, p=p)
+    assert output(block, y, "at_rest")[1900] and not output(block, y, "at_rest")[3000:].any()
+    off = np.abs(output(block, y, "gyro_bias")[3000:, 2])
+    assert np.all(off < 5 * output(block, y, "std")[3000:, 5])
+    turned = np.abs(output(block, y, "yaw")[3000:] - np.cumsum(rate)[3000:] * H)
+    assert np.all(turned < 5 * output(block, y, "heading_std")[3000:])

@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN "{4ea741a6-ddbd-de53-64b0-98db482c913f}"
+#define MODEL_TOKEN "{984cb733-bb69-dd5f-4ea3-074ee53c5054}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

@@ -7,7 +7,7 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN "{2eae51db-8953-4d78-6411-16abc02f1d13}"
+#define MODEL_TOKEN "{21e148f9-401d-5dde-31ba-8810dbe3358e}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

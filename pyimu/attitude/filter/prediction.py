@@ -22,6 +22,7 @@ from pyimu.attitude.filter.quasi_static import MEAN_TIME, where
 from pyimu.attitude.filter.sample import Sample
 from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.stillness import (
+    SLOW,
     Stillness,
     is_rest,
     is_still,
@@ -99,7 +100,9 @@ class Rest:
     is one (``moving``): none where the body is called stationary, at rest what is not noise. These
     are factors: casadi would draw a choice into every product. ``before`` is the estimate before
     the sample: where a rest ends, with the bias as it was before its last samples. By ``forgotten``
-    (3,) the variance of the bias was larger then. ``safe`` and ``later`` are those of ``Memory``.
+    (3,) the variance of the bias was larger then, or is by what it took of a turn that was so slow
+    that it looked like rest, and by ``unseen`` (3,) that of the attitude. ``safe`` and ``later``
+    are those of ``Memory``.
     """
 
     still: Stillness
@@ -107,6 +110,7 @@ class Rest:
     moving: ca.SX
     before: Estimate
     forgotten: ca.SX
+    unseen: ca.SX
     safe: ca.SX
     later: ca.SX
 
@@ -129,13 +133,17 @@ def rest_of(at: Instant, sample: Sample) -> Rest:
     known = ca.vertcat(x.bias, variance)
     safe, later = still_kept(before, still, at.memory.safe, at.memory.later, known)
     long = (before.span >= scalar["rest_time"]) * (scalar["rest_time"] > 0)
-    rests = long * before.rests * (1 - at.stationary)
+    rests = long * (before.rests > 0) * (1 - at.stationary)
     resting = alike * rests
     kept = 1 - resting * share_of_noise(still, _density(settings))
-    ends = rests > resting
+    turned = (before.rests < 0) * (1 - at.stationary)
+    ends = (rests > resting) + turned > 0
     x = replace(x, bias=ca.if_else(ends, safe[:3], x.bias))
-    forgotten = ends * ca.fmax(safe[3:] - variance, 0)
-    return Rest(still, resting, (1 - at.stationary) * kept, x, forgotten, safe, later)
+    unseen = turned * (before.slow - at.memory.estimate.bias - at.earth) ** 2
+    taken = ca.fmin(variance * SLOW / ca.fmax(before.density, _density(settings)), 1)
+    forgotten = ends * ca.fmax(safe[3:] - variance, 0) + taken**2 * unseen
+    moving = (1 - at.stationary) * kept
+    return Rest(still, resting, moving, x, forgotten, SLOW**2 * unseen, safe, later)
 
 
 def _density(settings: Settings):
@@ -144,12 +152,17 @@ def _density(settings: Settings):
 
 
 def _decided(at: Instant, x: Estimate, rest: Rest) -> Stillness:
-    """The stillness, which as soon as it is long enough is a rest or none by the estimate ``x``."""
-    still, time = rest.still, at.settings.scalar["rest_time"]
+    """The stillness, which while it is long enough is a rest or none by the estimate ``x``.
+
+    A turn that has begun so slowly that each sample is like those before shows in their mean.
+    """
+    still, span = rest.still, ca.fmin(rest.still.span, 2 * SLOW)
+    rate, noise = still.slow - x.bias - at.earth, ca.fmax(still.density, _density(at.settings))
+    found = is_rest(rate, x.covariance[3:6, 3:6], vertical(x), noise, span)
+    time = at.settings.scalar["rest_time"]
     begins = (at.memory.stillness.span < time) * (still.span >= time)
-    rate = still.slow - x.bias - at.earth
-    found = is_rest(rate, x.covariance[3:6, 3:6], vertical(x), _density(at.settings), still.span)
-    return replace(still, rests=ca.if_else(begins, found, still.rests * (still.span > 0)))
+    goes_on = (still.rests > 0) * (2 * found - 1) * (still.span > 0)
+    return replace(still, rests=ca.if_else(begins, found, goes_on))
 
 
 def added_noise(at: Instant, sample: Sample, rest: Rest):
@@ -171,7 +184,7 @@ def added_noise(at: Instant, sample: Sample, rest: Rest):
         lost = lost_variance(at.memory.lost_for, sample.lost_for, settings)
         turned = turned + ca.if_else(sample.gyro_lost, lost, 0)
     return (
-        least + (1 - moving) * at.stationary * still + moving * turned,
+        least + (1 - moving) * at.stationary * still + moving * turned + rest.unseen,
         moving * ca.diag(noise[:3, 3:]),
         ca.diag(noise[3:, 3:])
         + LEAST_K**2 * h

@@ -45,7 +45,7 @@ class Stillness:
 
     Of the rate (3,) rad/s and the force (3,) m/s^2 a ``fast`` and a ``slow`` mean; ``density``
     (rad/s)^2 s is that of the rate at low frequency, ``span`` s how long nothing has moved.
-    ``rests`` says that this is a rest and no steady turn.
+    ``rests`` says that this is a rest (1) and no steady turn (0), or was one until now (-1).
     """
 
     fast: ca.SX
