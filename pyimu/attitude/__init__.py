@@ -2,8 +2,8 @@
 
 from pyimu.attitude.calibration import MagnetometerCalibration
 from pyimu.attitude.filter.hidalgo2012 import attitude_hidalgo2012
+from pyimu.attitude.filter.status import STATUS
 from pyimu.attitude.filter.ukf import attitude_ukf
-from pyimu.attitude.filter.variables import STATUS
 from pyimu.attitude.result import AttitudeResult
 from pyimu.attitude.run import run
 

@@ -57,11 +57,18 @@ class Yaw:
 
 
 def initial_values(
-    recording: Recording, part: Part, rest: Rest, latitude: float, q0, yaw: Yaw
+    recording: Recording,
+    part: Part,
+    rest: Rest,
+    latitude: float,
+    q0,
+    yaw: Yaw,
+    unseen: np.ndarray | float = BIAS_STD,
 ) -> dict[str, float]:
     """Start values of the filter by parameter name: ``latitude``, ``q0``, ``bias0``, ``std0``.
 
-    ``q0`` is the given attitude or None. Raises UserError where it is none.
+    ``q0`` is the given attitude or None; ``unseen`` (3,) rad/s the standard deviation of the bias
+    of a gyro that was not seen at rest. Raises UserError where ``q0`` is no attitude.
     """
     rate, force = _compensated(part, rest, recording)
     attitude = _levelled(force, yaw.angle) if q0 is None else given_attitude(q0)
@@ -71,7 +78,7 @@ def initial_values(
         yaw_std = _yaw_std(yaw, attitude, tilt_std)
     axes = attitude.inv().as_matrix()
     attitude_std = np.sqrt(axes**2 @ np.array([tilt_std, tilt_std, yaw_std]) ** 2)
-    bias, bias_std = np.zeros(3), np.full(3, BIAS_STD)
+    bias, bias_std = np.zeros(3), np.broadcast_to(unseen, 3)
     if rest.seen:
         oriented, headed = force is not None or q0 is not None, yaw.known or q0 is not None
         earth = _earth(latitude, oriented, headed)

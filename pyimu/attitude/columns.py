@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from pyimu.attitude.filter.tolerances import bias_walk
 from pyimu.attitude.filter.variables import UNKNOWN_LATITUDE
 from pyimu.attitude.rest import Rest
 from pyimu.block.parameters import number
@@ -28,6 +29,9 @@ NOMINAL_RATE_NOISE = 2e-3
 turns of the order of 0.04 s. It was chosen together with ``NOMINAL_K``, which has the part that
 lasts."""
 
+LEAST_WARMING = 1.0
+"""s; in less no part warms, what changes is noise of its thermometer."""
+
 HEADING_STD = 0.035
 """rad; of a recorded heading that comes without a standard deviation."""
 
@@ -48,24 +52,60 @@ def nominal_part(recording: Recording, rest: Rest) -> Part:
     )
 
 
-def wandering(part: Part) -> Part:
-    """The part, with the nominal rate random walk where it says nothing of its gyro's wander."""
+def wandering(part: Part, warming: float = 0.0) -> Part:
+    """The part, with the nominal rate random walk where it says nothing of its gyro's wander.
+
+    To its own comes what the bias of a specimen does while it warms, which the part's tolerances
+    allow; ``warming`` K/sqrt(s) is the walk of the temperature.
+    """
     laws = [e.law for e in part.gyro.effects if e.law is not None]
-    if any(law.walk or law.markov for law in laws):
-        return part
     walk, strength = WALK
-    return part.with_sensor(part.gyro.with_values(walk, **{strength: NOMINAL_K}))
+    own = part.gyro.values.get(walk, {}).get(strength, np.zeros(3))
+    if not any(law.walk or law.markov for law in laws):
+        own = np.full(3, NOMINAL_K)
+    whole = np.hypot(own, bias_walk(part, warming))
+    return (
+        part.with_sensor(part.gyro.with_values(walk, **{strength: whole})) if whole.any() else part
+    )
+
+
+def warming(recording: Recording) -> float:
+    """K/sqrt(s); the strength of a random walk by which the temperature changes as it is recorded.
+
+    The largest that any span shows, in steps of two: over a span s it has changed by its strength
+    times the root of s.
+    """
+    if recording.temperature is None:
+        return 0.0
+    rows = np.flatnonzero(np.isfinite(recording.temperature))
+    spans = 2 ** np.arange(int(np.log2(max(len(rows), 1))))
+    found = [0.0]
+    for span in spans.tolist():
+        off = np.diff(recording.temperature[rows[::span]])
+        seconds = (recording.time[rows[-1]] - recording.time[rows[0]]) * span / len(rows)
+        if seconds >= LEAST_WARMING and len(off):
+            found.append(float(np.sqrt(np.mean(off**2) / seconds)))
+    return max(found)
+
+
+def warmer(recording: Recording, part: Part) -> float:
+    """K; root mean square of the recorded temperature against that of no thermal error."""
+    if recording.temperature is None:
+        return 0.0
+    known = recording.temperature[np.isfinite(recording.temperature)]
+    return float(np.sqrt(np.mean((known - origin(part)) ** 2))) if len(known) else 0.0
 
 
 def informed(part: Part, recording: Recording, rest: Rest) -> Part:
     """The part as the filter takes it over a recording.
 
-    Where it says nothing of its gyro's wander it has the nominal one. The samples of a real sensor
+    Where it says nothing of its gyro's wander it has the nominal one, and that of its tolerances as
+    the temperature is recorded. The samples of a real sensor
     also show its white noise at ``rest``, where the part has none: a sensor without noise would
     never be still. And they show where they pile up, at a level that the part does not say: beyond
     it no sample says how far the body turned.
     """
-    part = wandering(part)
+    part = wandering(part, warming(recording))
     if not of_a_sensor(part):
         return part
     for sensor, std in ((part.gyro, rest.rate_std), (part.accel, rest.force_std)):
@@ -134,6 +174,11 @@ def temperature_of(recording: Recording, part: Part) -> np.ndarray | float:
     """
     if recording.temperature is not None:
         return recording.temperature
+    return origin(part)
+
+
+def origin(part: Part) -> float:
+    """The temperature in degC at which the part has no thermal error."""
     origins = (s for s in part.gyro.slots if s.definition.reference and s.unit == "degC")
     found = (part.gyro.values[s.effect][s.parameter] for s in origins)
     return float(next(found, SIGNALS["temperature"].start[0]))

@@ -12,7 +12,7 @@ from scipy.stats import chi2
 
 from pyimu.attitude.driven import speed_findings
 from pyimu.attitude.error import AttitudeError, error_against
-from pyimu.attitude.filter.variables import STATUS
+from pyimu.attitude.filter.status import STATUS
 from pyimu.attitude.filters import OWN
 from pyimu.attitude.magnetometer import Magnetometer
 from pyimu.attitude.rest import Rest

@@ -9,7 +9,7 @@ from dataclasses import replace
 import casadi as ca
 import numpy as np
 
-from pyimu.attitude.alignment import MagneticNorth, Yaw, initial_values, initial_yaw
+from pyimu.attitude.alignment import BIAS_STD, MagneticNorth, Yaw, initial_values, initial_yaw
 from pyimu.attitude.calibration import (
     MagnetometerCalibration,
     calibrated,
@@ -22,10 +22,12 @@ from pyimu.attitude.columns import (
     nominal_part,
     rate_noise,
     recorded_age,
+    warmer,
 )
 from pyimu.attitude.driven import speed_findings
 from pyimu.attitude.filter.compensation import left_in, noise_of
 from pyimu.attitude.filter.timing import clock_error, estimate_latency
+from pyimu.attitude.filter.tolerances import start_values
 from pyimu.attitude.filter.ukf import recorded_ukf
 from pyimu.attitude.filter.variables import FIELD_SETTINGS, LEAST_K
 from pyimu.attitude.filters import OF_LOGS, OWN, Settings, chosen
@@ -146,9 +148,10 @@ def run(
     north = _north(block, given | told) if field.used else None
     yaw = initial_yaw(recording, rest, heading0, turned, north) if q0 is None else Yaw()
     values = told | _of_the_log(recording, known, rest, field)
-    values |= initial_values(recording, known, rest, latitude, q0, yaw)
+    values |= _of_the_part(recording, known, None if declared is None else known)
+    unseen = [values[f"std0[{i}]"] for i in (4, 5, 6)] if "std0[4]" in values else BIAS_STD
+    values |= initial_values(recording, known, rest, latitude, q0, yaw, unseen)
     values |= _numbered("bias0", bias0, 3) | _numbered("std0", std0, 6)
-    values["rate_noise"] = rate_noise(None if declared is None else known)
     has = {v.name for v in block.parameters}
     named = {n: v for n, v in values.items() if n in has} | given
     p = with_settings(block, named, "the attitude filter")
@@ -253,6 +256,13 @@ def _of_the_log(
         values["rest_time"] = 0.0
     if oldest := float(recorded_age(recording).max()):
         values["heading_memory"] = oldest
+    return values
+
+
+def _of_the_part(recording: Recording, known: Part, declared: Part | None) -> dict[str, float]:
+    """The settings that follow from what is known of the sensors, and from their tolerances."""
+    values = start_values(known, warmer(recording, known))
+    values["rate_noise"] = float(np.hypot(rate_noise(declared), values.get("rate_noise", 0.0)))
     return values
 
 

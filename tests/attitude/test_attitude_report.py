@@ -14,7 +14,7 @@ from scipy.stats import norm
 
 from pyimu.attitude import STATUS, run
 from pyimu.attitude.error import error_against
-from pyimu.attitude.filter.variables import STATUS_NAMES
+from pyimu.attitude.filter.status import STATUS_NAMES
 from pyimu.attitude.outcome import NIS_BOUNDS
 from pyimu.attitude.report.pictures import euler_std
 from pyimu.recording.recording import Recording

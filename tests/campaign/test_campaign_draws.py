@@ -7,12 +7,12 @@ import pytest
 from scipy.stats import chi2, kstest
 
 import pyimu
+from pyimu.attitude.filter.tolerances import gravity_std
 from pyimu.errors import UserError
 from pyimu.rover.campaign.draws import draws_of
 from pyimu.rover.campaign.faults import FAULTS, NONE
 from pyimu.rover.campaign.seeds import among, drawn, normal, uniform
 from pyimu.rover.campaign.settings import Settings
-from pyimu.rover.campaign.specimen import gravity_std
 from pyimu.rover.campaign.system import system_of
 
 CHANCE = 1e-4

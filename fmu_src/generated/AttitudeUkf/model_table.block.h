@@ -7,22 +7,22 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{8e14e47c-08d3-e58d-c789-f32f2fad89e9}"
-#define MODEL_TOKEN_FMI3 "{41e9374b-7dfc-baa2-c030-ed9efe2c6805}"
+#define MODEL_TOKEN_FMI2 "{3afa435d-a3f6-38ea-360f-09c35127aa93}"
+#define MODEL_TOKEN_FMI3 "{711474d5-ccab-f769-05a4-452d1bda42a3}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
 enum {
     N_INPUTS = 18,
-    N_PARAMETERS = 56,
+    N_PARAMETERS = 58,
     N_OUTPUTS = 21,
-    N_STATES = 284,
+    N_STATES = 293,
     N_NOISE = 0,
-    N_VARIABLES = 71
+    N_VARIABLES = 73
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 44, WORK_RES = 26, WORK_IW = 0, WORK_W = 2319 };
+enum { WORK_ARG = 44, WORK_RES = 27, WORK_IW = 0, WORK_W = 2428 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };
@@ -53,35 +53,37 @@ static const BlockVariable variables[] = {
     {"std0[6]", KIND_REAL, ROLE_FIXED, 13, 1, 0.0, 1000000.0},
     {"gravity", KIND_REAL, ROLE_TUNABLE, 14, 1, 0.0, INFINITY},
     {"accel_std", KIND_REAL, ROLE_TUNABLE, 15, 1, 0.0, INFINITY},
-    {"accel_correlation_time", KIND_REAL, ROLE_TUNABLE, 16, 1, 0.0, INFINITY},
-    {"gravity_walk", KIND_REAL, ROLE_TUNABLE, 17, 1, 0.0, INFINITY},
-    {"gravity_tolerance", KIND_REAL, ROLE_TUNABLE, 18, 1, 0.0, INFINITY},
-    {"motion_tolerance", KIND_REAL, ROLE_TUNABLE, 19, 1, 0.0, INFINITY},
-    {"steady_tolerance", KIND_REAL, ROLE_TUNABLE, 20, 1, 0.0, INFINITY},
-    {"motion_time", KIND_REAL, ROLE_TUNABLE, 21, 1, 0.0, INFINITY},
-    {"rate_noise", KIND_REAL, ROLE_TUNABLE, 22, 1, 0.0, INFINITY},
-    {"stationary_std", KIND_REAL, ROLE_TUNABLE, 23, 1, 0.0, INFINITY},
-    {"rest_time", KIND_REAL, ROLE_TUNABLE, 24, 1, 0.0, INFINITY},
-    {"rest_rate_tolerance", KIND_REAL, ROLE_TUNABLE, 25, 1, 0.0, INFINITY},
-    {"rest_force_tolerance", KIND_REAL, ROLE_TUNABLE, 26, 1, 0.0, INFINITY},
-    {"slip_std", KIND_REAL, ROLE_TUNABLE, 27, 1, 0.0, INFINITY},
-    {"lost_rate_std", KIND_REAL, ROLE_TUNABLE, 28, 1, 0.0, INFINITY},
-    {"stuck_time", KIND_REAL, ROLE_TUNABLE, 29, 1, 0.0, INFINITY},
-    {"axis_stuck_time", KIND_REAL, ROLE_TUNABLE, 30, 6, 0.0, 1000000.0},
-    {"heading_memory", KIND_REAL, ROLE_TUNABLE, 36, 1, 0.0, INFINITY},
-    {"declination", KIND_REAL, ROLE_TUNABLE, 37, 1, -3.141592653589793, 3.141592653589793},
-    {"field_strength", KIND_REAL, ROLE_TUNABLE, 38, 1, 0.0, INFINITY},
-    {"field_dip", KIND_REAL, ROLE_TUNABLE, 39, 1, -1.5707963267948966, 1.5707963267948966},
-    {"field_strength_std", KIND_REAL, ROLE_TUNABLE, 40, 1, 0.0, INFINITY},
-    {"field_std", KIND_REAL, ROLE_TUNABLE, 41, 1, 0.0, INFINITY},
-    {"field_time", KIND_REAL, ROLE_TUNABLE, 42, 1, 0.0, INFINITY},
-    {"field_turning_std", KIND_REAL, ROLE_TUNABLE, 43, 1, 0.0, INFINITY},
-    {"field_noise", KIND_REAL, ROLE_TUNABLE, 44, 1, 0.0, INFINITY},
-    {"field_tolerance", KIND_REAL, ROLE_TUNABLE, 45, 1, 0.0, INFINITY},
-    {"gyro_error.thermal_bias.kT", KIND_REAL, ROLE_TUNABLE, 46, 3, -INFINITY, INFINITY},
-    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 49, 1, -INFINITY, INFINITY},
-    {"gyro_error.angle_random_walk.N", KIND_REAL, ROLE_TUNABLE, 50, 3, 0.0, INFINITY},
-    {"gyro_error.rate_random_walk.K", KIND_REAL, ROLE_TUNABLE, 53, 3, 0.0, INFINITY},
+    {"accel_bias_std", KIND_REAL, ROLE_TUNABLE, 16, 1, 0.0, INFINITY},
+    {"accel_correlation_time", KIND_REAL, ROLE_TUNABLE, 17, 1, 0.0, INFINITY},
+    {"gravity_walk", KIND_REAL, ROLE_TUNABLE, 18, 1, 0.0, INFINITY},
+    {"gravity_tolerance", KIND_REAL, ROLE_TUNABLE, 19, 1, 0.0, INFINITY},
+    {"motion_tolerance", KIND_REAL, ROLE_TUNABLE, 20, 1, 0.0, INFINITY},
+    {"steady_tolerance", KIND_REAL, ROLE_TUNABLE, 21, 1, 0.0, INFINITY},
+    {"motion_time", KIND_REAL, ROLE_TUNABLE, 22, 1, 0.0, INFINITY},
+    {"rate_noise", KIND_REAL, ROLE_TUNABLE, 23, 1, 0.0, INFINITY},
+    {"bias_noise", KIND_REAL, ROLE_TUNABLE, 24, 1, 0.0, INFINITY},
+    {"stationary_std", KIND_REAL, ROLE_TUNABLE, 25, 1, 0.0, INFINITY},
+    {"rest_time", KIND_REAL, ROLE_TUNABLE, 26, 1, 0.0, INFINITY},
+    {"rest_rate_tolerance", KIND_REAL, ROLE_TUNABLE, 27, 1, 0.0, INFINITY},
+    {"rest_force_tolerance", KIND_REAL, ROLE_TUNABLE, 28, 1, 0.0, INFINITY},
+    {"slip_std", KIND_REAL, ROLE_TUNABLE, 29, 1, 0.0, INFINITY},
+    {"lost_rate_std", KIND_REAL, ROLE_TUNABLE, 30, 1, 0.0, INFINITY},
+    {"stuck_time", KIND_REAL, ROLE_TUNABLE, 31, 1, 0.0, INFINITY},
+    {"axis_stuck_time", KIND_REAL, ROLE_TUNABLE, 32, 6, 0.0, 1000000.0},
+    {"heading_memory", KIND_REAL, ROLE_TUNABLE, 38, 1, 0.0, INFINITY},
+    {"declination", KIND_REAL, ROLE_TUNABLE, 39, 1, -3.141592653589793, 3.141592653589793},
+    {"field_strength", KIND_REAL, ROLE_TUNABLE, 40, 1, 0.0, INFINITY},
+    {"field_dip", KIND_REAL, ROLE_TUNABLE, 41, 1, -1.5707963267948966, 1.5707963267948966},
+    {"field_strength_std", KIND_REAL, ROLE_TUNABLE, 42, 1, 0.0, INFINITY},
+    {"field_std", KIND_REAL, ROLE_TUNABLE, 43, 1, 0.0, INFINITY},
+    {"field_time", KIND_REAL, ROLE_TUNABLE, 44, 1, 0.0, INFINITY},
+    {"field_turning_std", KIND_REAL, ROLE_TUNABLE, 45, 1, 0.0, INFINITY},
+    {"field_noise", KIND_REAL, ROLE_TUNABLE, 46, 1, 0.0, INFINITY},
+    {"field_tolerance", KIND_REAL, ROLE_TUNABLE, 47, 1, 0.0, INFINITY},
+    {"gyro_error.thermal_bias.kT", KIND_REAL, ROLE_TUNABLE, 48, 3, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 51, 1, -INFINITY, INFINITY},
+    {"gyro_error.angle_random_walk.N", KIND_REAL, ROLE_TUNABLE, 52, 3, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K", KIND_REAL, ROLE_TUNABLE, 55, 3, 0.0, INFINITY},
     {"q", KIND_REAL, ROLE_OUTPUT, 0, 4, -INFINITY, INFINITY},
     {"roll", KIND_REAL, ROLE_OUTPUT, 4, 1, -INFINITY, INFINITY},
     {"pitch", KIND_REAL, ROLE_OUTPUT, 5, 1, -INFINITY, INFINITY},
@@ -103,12 +105,12 @@ static const BlockVariable variables[] = {
 
 /* Value references that mean something to every block. */
 enum {
-    SAMPLE_PERIOD = 70,
+    SAMPLE_PERIOD = 72,
     SEED = N_VARIABLES, /* none: there is no noise */
 };
 
 static const double input_starts[] = {0.0, 0.0, 0.0, 0.0, 0.0, 9.80665, 25.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-static const double parameter_starts[] = {10.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.1, 0.1, 0.1, 0.01, 0.01, 0.01, 9.80665, 0.1, 0.5, 0.2, 0.25, 1.0, 0.3, 1.0, 0.0, 1e-05, 1.5, 0.005, 0.2, 0.1, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 1.4e-07, 2e-07, 300.0, 1e-06, 1e-07, 0.13, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
+static const double parameter_starts[] = {10.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.1, 0.1, 0.1, 0.01, 0.01, 0.01, 9.80665, 0.1, 0.0, 0.5, 0.2, 0.25, 1.0, 0.3, 1.0, 0.0, 0.0, 1e-05, 1.5, 0.005, 0.2, 0.1, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 1.4e-07, 2e-07, 300.0, 1e-06, 1e-07, 0.13, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
 
 /* The noise stream of each channel; there is none. */
 static const uint64_t noise_channels[] = {

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "HeadingEstimator"
-#define MODEL_TOKEN_FMI2 "{13c40007-0497-5c82-b65a-dd23a6c2b267}"
-#define MODEL_TOKEN_FMI3 "{600c0924-ae09-45bc-f338-f6820a626972}"
+#define MODEL_TOKEN_FMI2 "{8c22bd63-9ff3-a542-9c45-6ed49bde5d02}"
+#define MODEL_TOKEN_FMI3 "{aaacf05e-c719-5179-578c-7544e13cd613}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -16,13 +16,13 @@ enum {
     N_INPUTS = 9,
     N_PARAMETERS = 24,
     N_OUTPUTS = 10,
-    N_STATES = 57,
+    N_STATES = 51,
     N_NOISE = 0,
     N_VARIABLES = 38
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 5, WORK_RES = 2, WORK_IW = 0, WORK_W = 93 };
+enum { WORK_ARG = 5, WORK_RES = 2, WORK_IW = 0, WORK_W = 92 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "HeadingEstimator"
-#define MODEL_TOKEN_FMI2 "{364f460d-0ba6-dcab-d0c9-e218d091dc3e}"
-#define MODEL_TOKEN_FMI3 "{bb73dbe8-7e93-8015-4865-12ecaf95b58f}"
+#define MODEL_TOKEN_FMI2 "{c2c7622f-a426-fcd8-10e2-ddaa72de87dd}"
+#define MODEL_TOKEN_FMI3 "{0f1db768-5e5e-fbaf-5780-2781a3c5107a}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -16,13 +16,13 @@ enum {
     N_INPUTS = 9,
     N_PARAMETERS = 24,
     N_OUTPUTS = 10,
-    N_STATES = 57,
+    N_STATES = 51,
     N_NOISE = 0,
     N_VARIABLES = 45
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 5, WORK_RES = 2, WORK_IW = 0, WORK_W = 93 };
+enum { WORK_ARG = 5, WORK_RES = 2, WORK_IW = 0, WORK_W = 92 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };

@@ -24,7 +24,10 @@ block AttitudeUkf "Unscented attitude filter of the part imt30, in C"
   parameter Real gravity(unit="m/s2", min=0) = 9.80665 "Magnitude of gravity"
     annotation(Dialog(group="Filter"));
   parameter Real accelStd(unit="m/s2", min=0) = 0.1
-    "Standard deviation of the acceleration that passes as quasi-static"
+    "Standard deviation of the acceleration that passes as quasi-static; 0: the body never accelerates"
+    annotation(Dialog(group="Filter"));
+  parameter Real accelBiasStd(unit="m/s2", min=0) = 0
+    "Standard deviation of a component of the accelerometer's constant error, which tilts the attitude by its share of gravity"
     annotation(Dialog(group="Filter"));
   parameter Real accelCorrelationTime(unit="s", min=0) = 0.5
     "Correlation time of that acceleration; 0 is white from sample to sample"
@@ -32,8 +35,7 @@ block AttitudeUkf "Unscented attitude filter of the part imt30, in C"
   parameter Real gravityWalk(min=0) = 0.2
     "Random walk of the magnitude in the quasi-static estimator [m/s^2/sqrt(s)]"
     annotation(Dialog(group="Filter"));
-  parameter Real gravityTolerance(unit="m/s2", min=0) = 0.25
-    "Quasi-static: largest difference of the estimated magnitude and gravity"
+  parameter Real gravityTolerance(unit="m/s2", min=0) = 0.25 "Quasi-static"
     annotation(Dialog(group="Filter"));
   parameter Real motionTolerance(unit="m/s2", min=0) = 1
     "Quasi-static: largest difference of a sample's magnitude and the estimated one"
@@ -46,6 +48,9 @@ block AttitudeUkf "Unscented attitude filter of the part imt30, in C"
     annotation(Dialog(group="Filter"));
   parameter Real rateNoise(min=0) = 0
     "Root density of the relative error of the rate, which leaks onto all axes [sqrt(s)]"
+    annotation(Dialog(group="Filter"));
+  parameter Real biasNoise(min=0) = 0
+    "Root density of the walk of the bias over the rate [1/sqrt(s)]"
     annotation(Dialog(group="Filter"));
   parameter Real stationaryStd(unit="rad/s", min=0) = 1e-05
     "Standard deviation of the rate of a body that is called stationary"
@@ -196,17 +201,17 @@ protected
   Modelica.Blocks.Interfaces.RealInput speedVarianceUsed;
   Modelica.Blocks.Interfaces.BooleanInput speedValidUsed;
   Modelica.Blocks.Interfaces.RealInput magUsed[3];
-  final parameter Real p[56] = {latitude, q0[1], q0[2], q0[3], q0[4], bias0[1], bias0[2],
+  final parameter Real p[58] = {latitude, q0[1], q0[2], q0[3], q0[4], bias0[1], bias0[2],
     bias0[3], std0[1], std0[2], std0[3], std0[4], std0[5], std0[6], gravity, accelStd,
-    accelCorrelationTime, gravityWalk, gravityTolerance, motionTolerance, steadyTolerance,
-    motionTime, rateNoise, stationaryStd, restTime, restRateTolerance, restForceTolerance,
-    slipStd, lostRateStd, stuckTime, axisStuckTime[1], axisStuckTime[2], axisStuckTime[3],
-    axisStuckTime[4], axisStuckTime[5], axisStuckTime[6], headingMemory, declination,
-    fieldStrength, fieldDip, fieldStrengthStd, fieldStd, fieldTime, fieldTurningStd, fieldNoise,
-    fieldTolerance, gyroThermalBias_kT[1], gyroThermalBias_kT[2], gyroThermalBias_kT[3],
-    gyroThermalBias_T0, gyroAngleRandomWalk_N[1], gyroAngleRandomWalk_N[2],
-    gyroAngleRandomWalk_N[3], gyroRateRandomWalk_K[1], gyroRateRandomWalk_K[2],
-    gyroRateRandomWalk_K[3]} "In the order of the co-simulation unit";
+    accelBiasStd, accelCorrelationTime, gravityWalk, gravityTolerance, motionTolerance,
+    steadyTolerance, motionTime, rateNoise, biasNoise, stationaryStd, restTime,
+    restRateTolerance, restForceTolerance, slipStd, lostRateStd, stuckTime, axisStuckTime[1],
+    axisStuckTime[2], axisStuckTime[3], axisStuckTime[4], axisStuckTime[5], axisStuckTime[6],
+    headingMemory, declination, fieldStrength, fieldDip, fieldStrengthStd, fieldStd, fieldTime,
+    fieldTurningStd, fieldNoise, fieldTolerance, gyroThermalBias_kT[1], gyroThermalBias_kT[2],
+    gyroThermalBias_kT[3], gyroThermalBias_T0, gyroAngleRandomWalk_N[1],
+    gyroAngleRandomWalk_N[2], gyroAngleRandomWalk_N[3], gyroRateRandomWalk_K[1],
+    gyroRateRandomWalk_K[2], gyroRateRandomWalk_K[3]} "In the order of the co-simulation unit";
   AttitudeUkfMemory memory = AttitudeUkfMemory(samplePeriod, p);
   discrete Real k(start=0, fixed=true) "Number of the sample; 0 is the start";
   Real u[18] "Inputs, in the order of the co-simulation unit";
@@ -222,6 +227,7 @@ equation
   assert(max(std0) <= 1000000.0, "AttitudeUkf: std0 must not be above 1e+06");
   assert(gravity >= 0, "AttitudeUkf: gravity must not be below 0");
   assert(accelStd >= 0, "AttitudeUkf: accelStd must not be below 0");
+  assert(accelBiasStd >= 0, "AttitudeUkf: accelBiasStd must not be below 0");
   assert(accelCorrelationTime >= 0, "AttitudeUkf: accelCorrelationTime must not be below 0");
   assert(gravityWalk >= 0, "AttitudeUkf: gravityWalk must not be below 0");
   assert(gravityTolerance >= 0, "AttitudeUkf: gravityTolerance must not be below 0");
@@ -229,6 +235,7 @@ equation
   assert(steadyTolerance >= 0, "AttitudeUkf: steadyTolerance must not be below 0");
   assert(motionTime >= 0, "AttitudeUkf: motionTime must not be below 0");
   assert(rateNoise >= 0, "AttitudeUkf: rateNoise must not be below 0");
+  assert(biasNoise >= 0, "AttitudeUkf: biasNoise must not be below 0");
   assert(stationaryStd >= 0, "AttitudeUkf: stationaryStd must not be below 0");
   assert(restTime >= 0, "AttitudeUkf: restTime must not be below 0");
   assert(restRateTolerance >= 0, "AttitudeUkf: restRateTolerance must not be below 0");
@@ -328,12 +335,16 @@ says.</p>
 <tr><td>headingAge</td><td>Time since the heading was true, counted in whole samples; at most
 headingMemory. An age of some tenths of a second takes no heading more precise than about 1e-3 rad
 many times a second: what is left out then adds up, and std is too small.</td></tr>
-<tr><td>accelStd</td><td>Standard deviation of the acceleration that passes as quasi-static; 0: the
-body never accelerates. Not in it, and in no std of the attitude: a constant error of the
-accelerometer tilts the attitude by its share of gravity.</td></tr>
+<tr><td>accelBiasStd</td><td>Standard deviation of a component of the accelerometer's constant
+error, which tilts the attitude by its share of gravity: std has that, no matter how long it is
+averaged, and what the size of gravity at rest says of it.</td></tr>
+<tr><td>gravityTolerance</td><td>Quasi-static: largest difference of the estimated magnitude and of
+gravity as it was measured at rest; beyond, that is called another than gravity.</td></tr>
 <tr><td>motionTime</td><td>Correlation time of the velocity of a body that stays in its place. How
 large that is the run finds out, over ten times this time; not below accelStd *
 motionTime.</td></tr>
+<tr><td>biasNoise</td><td>Root density of the walk of the bias over the rate: a gyro that feels
+forces has another bias when it has turned over.</td></tr>
 <tr><td>axisStuckTime</td><td>Equal samples of an axis (gyro, then accelerometer) for so long, while
 the others of its triad change, mean that it is stuck; 0: never.</td></tr>
 <tr><td>fieldStrengthStd</td><td>Standard deviation of the horizontal and of the vertical part of
@@ -356,7 +367,9 @@ than headingMemory, or than the run, and not used; 32: a heading was not used, a
 contradicted or not known, or as more is known already than when it was true; 64: a heading
 contradicted the attitude, and was weighed less; 128: a variance was not above zero, and its std is
 shown as 0; 256: the magnetic field was not the place's in strength or dip, and not used, or its
-direction contradicted the heading.</td></tr>
+direction contradicted the heading; 512: the force has not had the size of gravity for 10 s, or has
+another one at rest than gravityTolerance allows: it is taken as it is found, and std has what that
+means for the tilt.</td></tr>
 </table>
 </html>"));
 end AttitudeUkf;

@@ -11,6 +11,7 @@ from dataclasses import replace
 import casadi as ca
 
 from pyimu.attitude.filter.compensation import RATES
+from pyimu.attitude.filter.gravity_update import constant_variance
 from pyimu.attitude.filter.layout import Layout
 from pyimu.attitude.filter.memory import Memory
 from pyimu.attitude.filter.settings import Settings
@@ -50,7 +51,8 @@ def shown_now(layout: Layout) -> ca.Function:
         6, lambda i, j: attitude[i, j] + (left[i] if i == j else 0) if j < 3 else x.covariance[i, j]
     )
     now = replace(x, q=quaternion.product(x.q, turn), covariance=covariance)
-    shown = outputs(now, *[y[i] for i in FOUND])
+    found = [y[i] for i in FOUND]
+    shown = outputs(now, *found, constant_variance(kept.size, settings))
     return ca.Function("shown_now", [*symbols[:2], y, p, h], [shown], OPTIONS)
 
 

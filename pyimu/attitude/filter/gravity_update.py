@@ -18,6 +18,7 @@ from pyimu.attitude.filter.memory import ESTIMATE, WORKING, Memory
 from pyimu.attitude.filter.quasi_static import (
     MEAN_TIME,
     MEAN_TOLERANCE,
+    GravitySize,
     MeanForce,
     QuasiStatic,
     average,
@@ -38,6 +39,10 @@ from pyimu.symbolic.linear import reciprocal, symmetric
 INNOVATION_GATE = 25.0
 """Normalised innovation squared of three degrees of freedom, above which a measurement gets less
 weight; it is exceeded with a probability of 1.5e-5."""
+
+PUSHED = 9.0
+"""The same of the two degrees of freedom across the vertical, above which a steady force is no rest
+but a push; a rest exceeds it with a probability of 1 %."""
 
 RECOVERY = 0.2
 """s; while gravity is beyond its innovation gate, the variance of the tilt grows by a factor of e
@@ -62,6 +67,7 @@ class Inclination:
 
     quasi: QuasiStatic
     mean: MeanForce
+    size: GravitySize
     measurement: GravityMeasurement
     usable: ca.SX
     velocity: ca.SX
@@ -69,14 +75,24 @@ class Inclination:
 
 
 def inclination(
-    memory: Memory, sample: Sample, x: Estimate, motion: Motion, turned, settings: Settings, h
+    memory: Memory,
+    sample: Sample,
+    x: Estimate,
+    motion: Motion,
+    turned,
+    settings: Settings,
+    h,
+    rests,
+    at_rest_force,
 ) -> Inclination:
     """The quasi-static estimator and the mean force one sample later, and the gravity they measure.
 
     ``x`` is the propagated estimate, ``motion`` how the body moves, ``turned`` (3, 3) its turn in
-    inertial space in the period ``h`` s, from old axes to new.
+    inertial space in the period ``h`` s, from old axes to new. ``rests`` says that the body rests,
+    with the mean force ``at_rest_force`` (3,); a constant force off the vertical is a push.
     """
-    at, valid = settings.scalar, sample.force_valid
+    at, valid, size = settings.scalar, sample.force_valid, memory.size.size
+    tolerance = memory.size.tolerance(at["gravity"], at["gravity_tolerance"])
     white = white_variance(settings, h)
     noise = _acceleration_variance(settings, h) + white
     magnitude = ca.norm_2(sample.force)
@@ -85,15 +101,17 @@ def inclination(
     )
     carried = True if sample.gyro_lost is False else ca.logic_not(ca.mmax(sample.gyro_lost))
     mean = average(memory.mean, sample.force, turned, MEAN_TIME, h, valid, carried)
-    steady = is_quasi_static(
-        quasi, magnitude, at["gravity"], at["gravity_tolerance"], at["motion_tolerance"]
-    ) * (mean.scatter <= at["steady_tolerance"] ** 2 + 2 * ca.sum1(white))
-    plausible = where(valid, 1 - (1 - steady) * (1 - _is_mean_gravity(mean, settings)))
+    steady = is_quasi_static(quasi, magnitude, size, tolerance, at["motion_tolerance"]) * (
+        mean.scatter <= at["steady_tolerance"] ** 2 + 2 * ca.sum1(white)
+    )
+    plausible = where(
+        valid, 1 - (1 - steady) * (1 - _is_mean_gravity(mean, size, tolerance, settings))
+    )
     known = is_tilt_known(x)
     measured = _measured(sample.force, mean, steady, noise, white, settings, h)
     given = GravityMeasurement(
         *measured,
-        magnitude=at["gravity"],
+        magnitude=size,
         period=h,
         motion=ca.vertcat(motion.across, motion.along),
         lasting=2 * at["motion_time"] * reciprocal(h),
@@ -101,8 +119,18 @@ def inclination(
         plausible=plausible,
         contradicts=plausible * _contradicts(measured[0], mean, x, white, settings),
     )
+    rests = rests * (1 - _is_off(at_rest_force, x, ca.sum1(white) * (h / 3), settings, PUSHED))
+    learnt = memory.size.followed(
+        plausible, rests, at_rest_force, mean.force, at["gravity"], valid, h
+    )
     return Inclination(
-        quasi, mean, given, plausible * (1 - known), where(valid, known), where(valid, steady)
+        quasi,
+        mean,
+        learnt,
+        given,
+        plausible * (1 - known),
+        where(valid, known),
+        where(valid, steady),
     )
 
 
@@ -112,18 +140,38 @@ def _contradicts(force, mean: MeanForce, x: Estimate, white, settings: Settings)
     A tilt that is wrong from the start or by a fault makes a velocity that looks like motion; the
     force in itself tells them apart.
     """
-    up = vertical(x)
-    off = ca.sumsqr(force) - ca.dot(up, force) ** 2
-    own = settings.scalar["gravity"] ** 2 * tilt_variance(x.covariance, up)
     spread = (
         ca.sum1(white) * (1 / 3) + settings.scalar["accel_std"] ** 2 + SLOW_TIME**2 * mean.scatter
     )
-    return off > INNOVATION_GATE * (own + spread)
+    return _is_off(force, x, spread, settings, INNOVATION_GATE)
+
+
+def _is_off(force, x: Estimate, spread, settings: Settings, gate: float):
+    """Whether a ``force`` (3,) is farther off the vertical of ``x`` than the tilt is known.
+
+    ``spread`` (m/s^2)^2 is the variance of an axis of the force; ``gate`` is for the square over
+    the variance.
+    """
+    up = vertical(x)
+    off = ca.sumsqr(force) - ca.dot(up, force) ** 2
+    own = settings.scalar["gravity"] ** 2 * tilt_variance(x.covariance, up)
+    return off > gate * (own + spread)
 
 
 def is_tilt_known(x: Estimate):
     """Whether the tilt is known well enough for the velocity to be linear in its error, 0 or 1."""
     return tilt_variance(x.covariance, vertical(x)) <= KNOWN_TILT**2
+
+
+def constant_variance(size: GravitySize, settings: Settings):
+    """Variance in rad^2 of the tilt by which an accelerometer is off that has a constant error.
+
+    An error of b across gravity looks like a tilt of b / g, which no time averages out. Where its
+    size is not known, what the accelerometer makes of the size of gravity tells of it.
+    """
+    at = settings.scalar
+    square = at["accel_bias_std"] ** 2 + size.off(at["gravity"]) ** 2
+    return square / ca.fmax(at["gravity"], LEAST_ACCEL_STD) ** 2
 
 
 def push(memory: Memory, sample: Sample, settings: Settings, h) -> Push:
@@ -140,7 +188,7 @@ def push(memory: Memory, sample: Sample, settings: Settings, h) -> Push:
     drift = DRIFT_GAIN * memory.motion.drift * h / (at["motion_time"] + h)
     return Push(
         where(valid, h * sample.force),
-        where(valid, h * at["gravity"]),
+        where(valid, h * memory.size.size),
         h**2 * (where(valid, white, lost) + declared) + drift,
     )
 
@@ -162,16 +210,12 @@ def white_variance(settings: Settings, h):
     return (accel.white**2 + accel.relative**2 * gravity**2) * reciprocal(h) + LEAST_ACCEL_STD**2
 
 
-def _is_mean_gravity(mean: MeanForce, settings: Settings):
-    """Whether the mean force spans enough time, and has the magnitude of gravity."""
+def _is_mean_gravity(mean: MeanForce, size, tolerance, settings: Settings):
+    """Whether the mean force spans enough time, and has the ``size`` of gravity."""
     at = settings.scalar
     # A push that lasts causes no scatter, so that for it the tolerance stays narrow.
-    tolerance = at["gravity_tolerance"] + MEAN_TOLERANCE * ca.sqrt(mean.scatter)
-    return (
-        (at["accel_std"] > 0)
-        * (2 * mean.span > MEAN_TIME)
-        * is_near(mean.force, at["gravity"], tolerance)
-    )
+    wider = tolerance + MEAN_TOLERANCE * ca.sqrt(mean.scatter)
+    return (at["accel_std"] > 0) * (2 * mean.span > MEAN_TIME) * is_near(mean.force, size, wider)
 
 
 def _measured(sampled, mean: MeanForce, steady, noise, white, settings: Settings, h):

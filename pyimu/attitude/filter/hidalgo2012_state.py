@@ -8,7 +8,7 @@ import casadi as ca
 
 from pyimu.attitude.filter.compensation import Compensation
 from pyimu.attitude.filter.memory import Memory, first_estimate
-from pyimu.attitude.filter.quasi_static import MeanForce, QuasiStatic
+from pyimu.attitude.filter.quasi_static import GravitySize, MeanForce, QuasiStatic
 from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.stillness import Stillness
 from pyimu.attitude.filter.unscented import SPREAD, Estimate, N
@@ -103,9 +103,12 @@ class State:
         return Memory(
             self.estimate,
             self.quasi,
+            GravitySize(self.quasi.magnitude, ca.SX(0), ca.SX(0)),
             MeanForce(zero, ca.SX(0), self.seen),
             Motion(ca.SX(0), ca.SX(0), zero, ca.SX(0)),
             Stillness.start(),
+            safe=ca.SX.zeros(6),
+            later=ca.SX.zeros(6),
             held=self.held,
             lost_for=self.lost_for,
             same_for=self.same_for,

@@ -11,6 +11,7 @@ from pyimu.attitude.filter import late_heading
 from pyimu.attitude.filter.compensation import Compensation
 from pyimu.attitude.filter.field import FIELD
 from pyimu.attitude.filter.memory import ESTIMATE, WORKING, memory_sizes
+from pyimu.attitude.filter.tolerances import start_values
 from pyimu.attitude.filter.variables import INPUTS, OWN_PARAMETERS
 from pyimu.block.variables import Variable
 
@@ -54,7 +55,7 @@ class GravityMeasurement:
 EVERY = 5
 """Of ``Flags.which``: any of the updates."""
 
-FLAGS = 16
+FLAGS = 17
 """Numbers of ``Flags``."""
 
 
@@ -69,7 +70,8 @@ class Flags:
     correct, the variance (rad/s)^2 that ``sway`` then adds to that of a sample, whether an input
     was ``missing``, whether a magnetometer has been seen (``field``). Whether a ``speed`` corrects,
     whether the body is ``driven``, and whether its velocity begins ``anew``. ``faults`` are the
-    other bits of the status; ``vertical_noise`` is that of ``Memory``.
+    other bits of the status; ``constant`` rad^2 is the variance of the tilt by a constant error of
+    the accelerometer; ``vertical_noise`` is that of ``Memory``.
     """
 
     which: ca.SX
@@ -87,6 +89,7 @@ class Flags:
     driven: ca.SX
     anew: ca.SX
     field: ca.SX
+    constant: ca.SX
     vertical_noise: ca.SX
 
     @property
@@ -124,7 +127,9 @@ class Layout:
     @cached_property
     def parameters(self) -> tuple[Variable, ...]:
         part = self.compensation.part
-        return (*OWN_PARAMETERS, *part.gyro.variables, *part.accel.variables)
+        start = start_values(part)
+        own = (replace(v, start=start.get(v.name, v.start)) for v in OWN_PARAMETERS)
+        return (*own, *part.gyro.variables, *part.accel.variables)
 
     @cached_property
     def rings(self) -> int:

@@ -10,7 +10,7 @@ import numpy as np
 from pyimu.attitude.filter import late_heading
 from pyimu.attitude.filter.compensation import Compensation
 from pyimu.attitude.filter.field import Field
-from pyimu.attitude.filter.quasi_static import MeanForce, QuasiStatic
+from pyimu.attitude.filter.quasi_static import GravitySize, MeanForce, QuasiStatic
 from pyimu.attitude.filter.stillness import SIZES as STILLNESS
 from pyimu.attitude.filter.stillness import Stillness
 from pyimu.attitude.filter.unscented import LARGEST_STD, Estimate, N
@@ -55,20 +55,25 @@ of the covariance, row by row."""
 class Memory:
     """What is kept from sample to sample, in the order of the state.
 
-    ``held`` is the last good gyro (3), accel (3), temperature and further inputs. ``lost_for`` (3,)
-    is how many s each gyro axis has been lost, ``same_for`` (8,) how many s gyro and accelerometer
-    have not changed, and then each of their axes, while others of its triad did. ``sensors`` is the
-    compensation's memory, ``speed_for`` how many s ago there was a speed. ``vertical_noise`` is the
-    variance in rad^2 that was added about the vertical since the start. ``place`` (2,) is where the
-    newest entry stands in the rings of past yaws and past ``vertical_noise``; ``field`` 0 or 1,
-    whether a magnetometer has been seen. The rings and the memory of the magnetic field follow.
+    ``safe`` and ``later`` (6,) are the bias (3,) rad/s and its variance as ``stillness.kept`` has
+    them. ``held`` is the last good gyro (3), accel (3), temperature and further inputs.
+    ``lost_for`` (3,) is how many s each gyro axis has been lost, ``same_for`` (8,) how many s gyro
+    and accelerometer have not changed, and then each of their axes, while others of its triad did.
+    ``sensors`` is the compensation's memory, ``speed_for`` how many s ago there was a speed.
+    ``vertical_noise`` is the variance in rad^2 that was added about the vertical since the start.
+    ``place`` (2,) is where the newest entry stands in the rings of past yaws and past
+    ``vertical_noise``; ``field`` 0 or 1, whether a magnetometer has been seen. The rings and the
+    memory of the magnetic field follow.
     """
 
     estimate: Estimate
     quasi: QuasiStatic
+    size: GravitySize
     mean: MeanForce
     motion: Motion
     stillness: Stillness
+    safe: ca.SX
+    later: ca.SX
     held: ca.SX
     lost_for: ca.SX
     same_for: ca.SX
@@ -101,6 +106,7 @@ class Memory:
     def pack_memory(self) -> ca.SX:
         """All but the estimate as a column."""
         quasi = (self.quasi.magnitude, self.quasi.variance)
+        size = (self.size.size, self.size.learnt, self.size.doubted)
         mean = (faded(self.mean.force), faded(self.mean.scatter), self.mean.span)
         slow, drift = faded(self.motion.slow), faded(self.motion.drift)
         motion = (self.motion.across, self.motion.along, slow, drift)
@@ -109,9 +115,12 @@ class Memory:
         return ca.densify(
             ca.vertcat(
                 *quasi,
+                *size,
                 *mean,
                 *motion,
                 *still,
+                self.safe,
+                self.later,
                 *sensors,
                 self.speed_for,
                 self.vertical_noise,
@@ -125,16 +134,17 @@ class Memory:
         """The inverse of ``pack_estimate`` and ``pack_memory``."""
         ends = np.cumsum([0, *memory_sizes(compensation)]).tolist()
         parts = ca.vertsplit(column, ends)
-        quasi, mean = QuasiStatic(*parts[:2]), MeanForce(*parts[2:5])
-        motion, still = Motion(*parts[5:9]), Stillness(*parts[9:18])
-        return cls(cls.estimate_of(estimate), quasi, mean, motion, still, *parts[18:])
+        quasi, size = QuasiStatic(*parts[:2]), GravitySize(*parts[2:5])
+        mean = MeanForce(*parts[5:8])
+        motion, still = Motion(*parts[8:12]), Stillness(*parts[12:19])
+        return cls(cls.estimate_of(estimate), quasi, size, mean, motion, still, *parts[19:])
 
 
 def memory_sizes(compensation: Compensation) -> tuple[int, ...]:
     """Sizes of what ``Memory.pack_memory`` packs, in its order."""
     held = 7 + sum(SIGNALS[n].size for n in compensation.extra)
     own = held, 3, 8, len(compensation.start), 1, 1, 2, 1
-    return 1, 1, 3, 1, 1, 1, 1, 3, 1, *STILLNESS, *own
+    return 1, 1, 1, 1, 1, 3, 1, 1, 1, 1, 3, 1, *STILLNESS, 6, 6, *own
 
 
 def start(compensation: Compensation, p) -> tuple[Estimate, ca.SX]:
@@ -146,9 +156,12 @@ def start(compensation: Compensation, p) -> tuple[Estimate, ca.SX]:
     memory = Memory(
         estimate,
         QuasiStatic(at["gravity"], ca.fmax(at["accel_std"], LEAST_ACCEL_STD) ** 2),
+        GravitySize(at["gravity"], ca.SX(0), ca.SX(0)),
         MeanForce(ca.SX.zeros(3), ca.SX(0), ca.SX(0)),
         Motion(least, least, ca.SX.zeros(3), ca.SX(0)),
         Stillness.start(),
+        safe=ca.SX.zeros(6),
+        later=ca.SX.zeros(6),
         held=ca.vertcat(0, 0, 0, 0, 0, at["gravity"], 25, *held),
         lost_for=ca.SX.zeros(3),
         same_for=ca.SX.zeros(8),

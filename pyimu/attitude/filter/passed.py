@@ -79,14 +79,16 @@ class Passed:
     """What the filter leaves of a sample.
 
     Its ``outputs``; the estimate ``after`` the sample, and as it was ``predicted``; the
-    ``transition`` from the estimate after the sample before; whether the velocity ``begins`` anew
-    with this sample, and whether the attitude was ``bounded`` because it may be lost.
+    ``transition`` from the estimate after the sample before; ``constant``, that of ``Flags``;
+    whether the velocity ``begins`` anew with this sample, and whether the attitude was ``bounded``
+    because it may be lost.
     """
 
     outputs: ca.SX
     after: Estimate
     predicted: Estimate
     transition: Transition
+    constant: ca.SX
     begins: ca.SX
     bounded: ca.SX
 
@@ -97,7 +99,7 @@ class Passed:
         return cls(y, *estimates, Transition.unpack(transition), *flags)
 
 
-SIZES = (len(OUTPUTS), PACKED, PACKED, TRANSITION, 1, 1)
+SIZES = (len(OUTPUTS), PACKED, PACKED, TRANSITION, 1, 1, 1)
 ENDS = [sum(SIZES[:i]) for i in range(len(SIZES) + 1)]
 
 PASSED = array("passed", "1", "a number of pyimu.attitude.filter.passed.Passed", [0.0] * ENDS[-1])
@@ -116,5 +118,5 @@ def passed(y, estimate, predicted, transition, flags: Flags):
     """
     bounded = flags.lost * (1 - flags.gravity) * (1 - flags.velocity)
     begins = 1 - (1 - flags.gravity) * (1 - flags.anew)
-    rows = (y, estimate[:PACKED], predicted[:PACKED], transition, begins, bounded)
+    rows = (y, estimate[:PACKED], predicted[:PACKED], transition, flags.constant, begins, bounded)
     return ca.vertcat(*rows)

@@ -10,6 +10,7 @@ from pyimu.attitude.filter import late_heading
 from pyimu.attitude.filter.field import is_magnetometer
 from pyimu.attitude.filter.gravity_update import (
     Inclination,
+    constant_variance,
     inclination,
     is_tilt_known,
     vertical,
@@ -17,10 +18,11 @@ from pyimu.attitude.filter.gravity_update import (
 )
 from pyimu.attitude.filter.layout import EVERY, Flags, Layout
 from pyimu.attitude.filter.memory import ESTIMATE, FADING, REPORTED, Memory
-from pyimu.attitude.filter.quasi_static import where
+from pyimu.attitude.filter.quasi_static import MEAN_TIME, where
 from pyimu.attitude.filter.sample import Sample
 from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.stillness import (
+    SLOW,
     Stillness,
     is_rest,
     is_still,
@@ -28,6 +30,7 @@ from pyimu.attitude.filter.stillness import (
     sway,
 )
 from pyimu.attitude.filter.stillness import followed as still_followed
+from pyimu.attitude.filter.stillness import kept as still_kept
 from pyimu.attitude.filter.timing import clock_error
 from pyimu.attitude.filter.unscented import LARGEST_STD, LARGEST_TILT_STD, Estimate
 from pyimu.attitude.filter.variables import ABSURD, INPUTS, LEAST_K, LEAST_N, MAG
@@ -96,13 +99,20 @@ class Rest:
     How ``still`` the body has been, whether it is ``resting``, and which share of the measured turn
     is one (``moving``): none where the body is called stationary, at rest what is not noise. These
     are factors: casadi would draw a choice into every product. ``before`` is the estimate before
-    the sample: where a rest ends, with the bias as it was before its last samples.
+    the sample: where a rest ends, with the bias as it was before its last samples. By ``forgotten``
+    (3,) the variance of the bias was larger then, or is by what it took of a turn that was so slow
+    that it looked like rest, and by ``unseen`` (3,) that of the attitude. ``safe`` and ``later``
+    are those of ``Memory``.
     """
 
     still: Stillness
     resting: ca.SX
     moving: ca.SX
     before: Estimate
+    forgotten: ca.SX
+    unseen: ca.SX
+    safe: ca.SX
+    later: ca.SX
 
 
 def rest_of(at: Instant, sample: Sample) -> Rest:
@@ -118,13 +128,22 @@ def rest_of(at: Instant, sample: Sample) -> Rest:
     alike = where(sample.force_valid, alike) * (1 - drives)
     if sample.gyro_lost is not False:
         alike = alike * (1 - ca.mmax(sample.gyro_lost))
-    still = still_followed(before, sample.rate, sample.force, x.bias, alike, at.h)
+    variance = ca.diag(x.covariance)[3:6]
+    still = still_followed(before, sample.rate, sample.force, alike, at.h)
+    known = ca.vertcat(x.bias, variance)
+    safe, later = still_kept(before, still, at.memory.safe, at.memory.later, known)
     long = (before.span >= scalar["rest_time"]) * (scalar["rest_time"] > 0)
-    rests = long * before.rests * (1 - at.stationary)
+    rests = long * (before.rests > 0) * (1 - at.stationary)
     resting = alike * rests
     kept = 1 - resting * share_of_noise(still, _density(settings))
-    x = replace(x, bias=ca.if_else(rests > resting, before.safe, x.bias))
-    return Rest(still, resting, (1 - at.stationary) * kept, x)
+    turned = (before.rests < 0) * (1 - at.stationary)
+    ends = (rests > resting) + turned > 0
+    x = replace(x, bias=ca.if_else(ends, safe[:3], x.bias))
+    unseen = turned * (before.slow - at.memory.estimate.bias - at.earth) ** 2
+    taken = ca.fmin(variance * SLOW / ca.fmax(before.density, _density(settings)), 1)
+    forgotten = ends * ca.fmax(safe[3:] - variance, 0) + taken**2 * unseen
+    moving = (1 - at.stationary) * kept
+    return Rest(still, resting, moving, x, forgotten, SLOW**2 * unseen, safe, later)
 
 
 def _density(settings: Settings):
@@ -133,36 +152,44 @@ def _density(settings: Settings):
 
 
 def _decided(at: Instant, x: Estimate, rest: Rest) -> Stillness:
-    """The stillness, which as soon as it is long enough is a rest or none by the estimate ``x``."""
-    still, time = rest.still, at.settings.scalar["rest_time"]
+    """The stillness, which while it is long enough is a rest or none by the estimate ``x``.
+
+    A turn that has begun so slowly that each sample is like those before shows in their mean.
+    """
+    still, span = rest.still, ca.fmin(rest.still.span, 2 * SLOW)
+    rate, noise = still.slow - x.bias - at.earth, ca.fmax(still.density, _density(at.settings))
+    found = is_rest(rate, x.covariance[3:6, 3:6], vertical(x), noise, span)
+    time = at.settings.scalar["rest_time"]
     begins = (at.memory.stillness.span < time) * (still.span >= time)
-    rate = still.slow - x.bias - at.earth
-    found = is_rest(rate, x.covariance[3:6, 3:6], vertical(x), _density(at.settings), still.span)
-    return replace(still, rests=ca.if_else(begins, found, still.rests * (still.span > 0)))
+    goes_on = (still.rests > 0) * (2 * found - 1) * (still.span > 0)
+    return replace(still, rests=ca.if_else(begins, found, goes_on))
 
 
-def added_noise(at: Instant, sample: Sample, moving):
+def added_noise(at: Instant, sample: Sample, rest: Rest):
     """Variance (3,) that a sample adds to the attitude, to attitude and bias together, to the bias.
 
-    To that of the gyro's noise comes the noise that grows with the rate, and the angle about an
+    To that of the gyro's noise come the noises that grow with the rate, and the angle about an
     axis whose gyro is lost. A body that is called stationary does not turn by the gyro, and its
-    attitude has the noise of ``stationary_std``. ``moving`` is that of ``Rest``.
+    attitude has the noise of ``stationary_std``. What a ``rest`` had found of the bias in its last
+    samples is not known any more once it has ended.
     """
-    settings, h = at.settings, at.h
+    settings, h, moving = at.settings, at.h, rest.moving
     noise = process_noise(settings.gyro.white, settings.gyro.walk, h)
     square = sample.rate**2
-    relative = (
-        settings.scalar["rate_noise"] ** 2 * ca.sum1(square) + settings.gyro.relative**2 * square
-    ) * h
+    turning = ca.sum1(square) * h
+    relative = settings.scalar["rate_noise"] ** 2 * turning + settings.gyro.relative**2 * square * h
     still, least = (h * settings.scalar["stationary_std"]) ** 2, LEAST_N**2 * h
     turned = ca.diag(noise[:3, :3]) + relative
     if sample.gyro_lost is not False:
         lost = lost_variance(at.memory.lost_for, sample.lost_for, settings)
         turned = turned + ca.if_else(sample.gyro_lost, lost, 0)
     return (
-        least + (1 - moving) * at.stationary * still + moving * turned,
+        least + (1 - moving) * at.stationary * still + moving * turned + rest.unseen,
         moving * ca.diag(noise[:3, 3:]),
-        ca.diag(noise[3:, 3:]) + LEAST_K**2 * h,
+        ca.diag(noise[3:, 3:])
+        + LEAST_K**2 * h
+        + settings.scalar["bias_noise"] ** 2 * turning
+        + rest.forgotten,
     )
 
 
@@ -194,7 +221,9 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
     used = where(sample.force_valid, known) * (1 - rest.resting) * (1 - driven)
     time = scalar["motion_time"]
     motion = followed(kept.motion, x, turned, used, least_std(scalar), time, at.h)
-    force = inclination(kept, sample, x, motion, turned, at.settings, at.h)
+    rests = (rest.resting + at.stationary > 0) * (rest.still.span >= MEAN_TIME)
+    still_force = rest.still.slow_force
+    force = inclination(kept, sample, x, motion, turned, at.settings, at.h, rests, still_force)
     still = _decided(at, x, rest)
     vertical_noise = at.memory.vertical_noise + _about_the_vertical(x, noise[0])
     field = ca.fmax(kept.field, is_magnetometer(at.u[MAG], at.settings))
@@ -204,9 +233,12 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
     after = Memory(
         x,
         force.quasi,
+        force.size,
         force.mean,
         motion,
         still,
+        rest.safe,
+        rest.later,
         sample.held,
         sample.lost_for,
         sample.same_for,
@@ -233,6 +265,9 @@ def _flags(
     lost = sum((x.covariance[i, i] > LARGEST_TILT_STD**2 for i in range(3)), 0) > 0
     at_rest, other = stationary + rest.resting > 0, lost + heading + force.usable > 0
     usual, asked = force.velocity * (1 - other), other + at_rest + field > 0
+    off = force.size.off(at.settings.scalar["gravity"])
+    calibrated = off <= at.settings.scalar["gravity_tolerance"]
+    uncalibrated = 1 - calibrated * (1 - force.size.in_doubt())
     return Flags(
         which=usual * (1 + at_rest + 2 * field) + (1 - usual) * asked * EVERY,
         gravity=force.usable,
@@ -244,11 +279,12 @@ def _flags(
         resting=rest.resting,
         sway=sway(rest.still, _density(at.settings)) * reciprocal(at.h),
         missing=sample.missing,
-        faults=2 * sample.at_limit + 4 * sample.stuck,
+        faults=2 * sample.at_limit + 4 * sample.stuck + 512 * uncalibrated,
         speed=ca.SX(0),
         driven=ca.SX(0),
         anew=ca.SX(0),
         field=field,
+        constant=constant_variance(force.size, at.settings),
         vertical_noise=vertical_noise,
     )
 

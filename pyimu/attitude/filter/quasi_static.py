@@ -31,6 +31,20 @@ HAND_TIME = 0.06
 SCATTER_TIME = 0.3
 """s; time constant of the mean square of the samples' differences from the mean force."""
 
+DOUBT_TIME = 10.0
+"""s; a force that does not have the size of gravity for so long is that of an accelerometer that
+measures another: an acceleration along gravity that were large enough would make 2.5 m/s of it,
+upwards or downwards."""
+
+SIZE_TIME = 60.0
+"""s; of rests over which the size of gravity is averaged. A steady push of some seconds looks like
+a rest, and may not change it much."""
+
+SHARE = 0.2
+"""Of gravity; the size that an accelerometer measures of it differs by less. Uncalibrated consumer
+parts have a bias of 80 mg and a scale factor of 3 % (MPU-6000 product specification rev. 3.4,
+section 6.2)."""
+
 
 @dataclass(frozen=True)
 class QuasiStatic:
@@ -51,6 +65,51 @@ class MeanForce:
     force: ca.SX
     scatter: ca.SX
     span: ca.SX
+
+
+@dataclass(frozen=True)
+class GravitySize:
+    """What the accelerometer measures of gravity, in m/s^2.
+
+    ``size`` is the mean over rests of ``learnt`` s, of the last ``SIZE_TIME`` at most; ``doubted``
+    for how many s no force had it.
+    """
+
+    size: ca.SX
+    learnt: ca.SX
+    doubted: ca.SX
+
+    def off(self, gravity):
+        """By how much the size differs from that of ``gravity``, m/s^2."""
+        return ca.fabs(self.size - gravity)
+
+    def tolerance(self, gravity, tolerance):
+        """By how much another force of gravity may differ from the size, m/s^2.
+
+        An accelerometer that is off in one attitude may be right in another.
+        """
+        return tolerance + self.off(gravity)
+
+    def in_doubt(self):
+        """Whether no force has had the size for long, 0 or 1."""
+        return self.doubted > DOUBT_TIME
+
+    def followed(self, plausible, rests, force, mean, gravity, valid, h) -> GravitySize:
+        """The same after one more sample, which may be gravity (``plausible``, 0 or 1) or not.
+
+        At rest (``rests``) it takes the ``force`` (3,) of the rest into its mean, and in doubt it
+        is that of the mean force (3,) of the last second, ``mean``; in both cases only near
+        ``gravity``.
+        """
+        anew = self.in_doubt()
+        found = ca.norm_2(ca.if_else(anew, mean, force))
+        near = ca.fabs(found - gravity) <= SHARE * gravity
+        learns = where(valid, near * (1 - (1 - rests) * (1 - anew)))
+        span = (1 - anew * learns) * self.learnt
+        learnt = ca.fmin(span + learns * h, SIZE_TIME)
+        size = self.size + learns * h / ca.fmax(learnt, h) * (found - self.size)
+        doubted = where(valid, (1 - plausible) * (self.doubted + h), self.doubted)
+        return GravitySize(size, learnt, doubted)
 
 
 def where(flag, value, otherwise=0):

@@ -100,7 +100,7 @@ def _predict(layout: Layout) -> ca.Function:
     rest = rest_of(at, sample)
     q, velocity, w, turned = deviations_after(at, sample, rest, cholesky(rest.before.covariance))
     whole = symmetric(WHOLE, lambda i, j: ca.dot(w[i, :], w[j, :]))
-    x, noise = Estimate(q, rest.before.bias, velocity, whole), added_noise(at, sample, rest.moving)
+    x, noise = Estimate(q, rest.before.bias, velocity, whole), added_noise(at, sample, rest)
     outputs = predicted(at, sample, rest, x, turned, noise)
     return ca.Function("predict", symbols, outputs, {"cse": True})
 
@@ -132,7 +132,7 @@ def deviations_after(
     tilting = -change.gravity * ca.skew(up)
     moved = [own @ p[N:] + tilting @ e[:3] for p, e in zip(sigma.points, errors, strict=True)]
     points = [ca.vertcat(e, v) for e, v in zip(errors, moved, strict=True)]
-    noise = _root_of(added_noise(at, sample, rest.moving))
+    noise = _root_of(added_noise(at, sample, rest))
     alone = ca.horzcat(own @ root[N:, N:], ca.diag(ca.sqrt(change.variance)))
     w = ca.horzcat(
         *weighed(sigma, points),

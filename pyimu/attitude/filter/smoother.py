@@ -143,7 +143,7 @@ def _shown() -> ca.Function:
     given = Estimate(after.q, after.bias, after.velocity, covariance)
     x = moved(given, mean, _up(after))
     x = Estimate(quaternion.normalized(x.q), x.bias, x.velocity, x.covariance)
-    y = outputs(x, *(row.outputs[i] for i in FOUND))
+    y = outputs(x, *(row.outputs[i] for i in FOUND), row.constant)
     least = ROUNDING * ca.trace(row.predicted.covariance[:3, :3])
     unseen = ca.mmax(row.transition.attitude) > KNOWN_TILT**2
     return ca.Function("shown", symbols, [y, sum(_widened(row)) > least, unseen], OPTIONS)

@@ -192,7 +192,7 @@ def _predict(layout: Layout) -> ca.Function:
     rest = rest_of(at, sample)
     q, velocity, w, turned = deviations_after(at, sample, rest, before.factor)
     x = Rooted(q, rest.before.bias, velocity, triangular(w))
-    noise = added_noise(at, sample, rest.moving)
+    noise = added_noise(at, sample, rest)
     working, *others = predicted(at, sample, rest, x.estimate, turned, noise)
     working = ca.vertcat(x.pack(), working[ESTIMATE - 1 :])
     return ca.Function("predict", symbols, [working, *others], OPTIONS)

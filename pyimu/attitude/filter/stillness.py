@@ -45,9 +45,7 @@ class Stillness:
 
     Of the rate (3,) rad/s and the force (3,) m/s^2 a ``fast`` and a ``slow`` mean; ``density``
     (rad/s)^2 s is that of the rate at low frequency, ``span`` s how long nothing has moved.
-    ``rests`` says that this is a rest and no steady turn. ``safe`` and ``later`` (3,) rad/s are the
-    bias as it was ``FAST`` to twice that before, and up to that: the last samples before one that
-    shows a motion may be of that motion.
+    ``rests`` says that this is a rest (1) and no steady turn (0), or was one until now (-1).
     """
 
     fast: ca.SX
@@ -57,8 +55,6 @@ class Stillness:
     density: ca.SX
     span: ca.SX
     rests: ca.SX
-    safe: ca.SX
-    later: ca.SX
 
     @classmethod
     def start(cls) -> Stillness:
@@ -68,7 +64,7 @@ class Stillness:
         return tuple(vars(self).values())
 
 
-SIZES = (3, 3, 3, 3, 1, 1, 1, 3, 3)
+SIZES = (3, 3, 3, 3, 1, 1, 1)
 """Of what ``Stillness.pack`` gives."""
 
 
@@ -91,13 +87,12 @@ def is_still(x: Stillness, rate, force, tolerance, noise, h):
     )
 
 
-def followed(x: Stillness, rate, force, bias, still, h) -> Stillness:
+def followed(x: Stillness, rate, force, still, h) -> Stillness:
     """The same after one more sample, which ``still`` (0 or 1) says to be like the others.
 
-    ``bias`` (3,) rad/s is that before the sample. Whether it ``rests`` is left as it is.
+    Whether it ``rests`` stays as it is.
     """
     span = still * (x.span + h)
-    keep = ca.floor(span * (1 / FAST)) > ca.floor(x.span * (1 / FAST))
     share = h / ca.fmax(span, h)
 
     def mean(before, value, time):
@@ -113,9 +108,17 @@ def followed(x: Stillness, rate, force, bias, still, h) -> Stillness:
         still * mean(x.density, seen, SWAY_TIME),
         span,
         x.rests,
-        ca.if_else(keep, x.later, x.safe),
-        ca.if_else(keep, bias, x.later),
     )
+
+
+def kept(before: Stillness, after: Stillness, safe, later, now) -> tuple:
+    """What was known ``FAST`` to twice that before, and up to that, after one more sample.
+
+    The last samples before one that shows a motion may be of that motion: ``safe`` was known before
+    them. ``later`` takes its place in time, and ``now`` that one's.
+    """
+    passes = ca.floor(after.span * (1 / FAST)) > ca.floor(before.span * (1 / FAST))
+    return ca.if_else(passes, later, safe), ca.if_else(passes, now, later)
 
 
 def is_rest(rate, covariance, up, noise, span):

@@ -147,7 +147,7 @@ def _row(
 ) -> ca.Function:
     """The prediction of one sample."""
     rest = rest_of(at, sample)
-    noise = added_noise(at, sample, rest.moving)
+    noise = added_noise(at, sample, rest)
     pushed = push(at.memory, sample, at.settings, at.h)
     turn = (sample.rate, at.earth, rest.moving)
     x, turned = marginal.propagate(rest.before, *turn, noise, pushed, at.h)

@@ -118,7 +118,8 @@ def finish() -> ca.Function:
     nis, *report = ca.vertsplit(given[ESTIMATE:])
     status = _status(flags, report, ca.diag(x.covariance)[:N])
     at_rest = flags.stationary + flags.resting > 0
-    y = outputs(replace(x, q=q), flags.quasi_static, nis * flags.quasi_static, status, at_rest)
+    found = flags.quasi_static, nis * flags.quasi_static, status, at_rest
+    y = outputs(replace(x, q=q), *found, flags.constant)
     level = (1 - 2 * (q[2] * q[2] + q[3] * q[3])) ** 2 + (
         2 * (q[1] * q[2] + q[0] * q[3])
     ) ** 2 > LEVEL**2
@@ -143,10 +144,14 @@ def _status(flags: Flags, report: list, variances):
     )
 
 
-def outputs(x: Estimate, quasi_static, nis, status, at_rest) -> ca.SX:
-    """The block's outputs (``pyimu.attitude.filter.variables.OUTPUTS``) as a column."""
-    std = [ca.sqrt(ca.fmax(x.covariance[i, i], 0)) for i in range(6)]
+def outputs(x: Estimate, quasi_static, nis, status, at_rest, constant=0) -> ca.SX:
+    """The block's outputs (``pyimu.attitude.filter.variables.OUTPUTS``) as a column.
+
+    ``constant`` rad^2 is added to the variance of the tilt.
+    """
     up, pp = quaternion.to_matrix(x.q)[2, :].T, x.covariance[:3, :3]
+    added = [constant * (1 - up[i] ** 2) for i in range(3)] + [0] * 3
+    std = [ca.sqrt(ca.fmax(x.covariance[i, i], 0) + added[i]) for i in range(6)]
     heading_std = ca.sqrt(ca.fmax(ca.dot(up, pp @ up), 0))
     angles = quaternion.to_euler(x.q)
     flags = (quasi_static, nis, status, heading_std, at_rest)

@@ -6,44 +6,10 @@ import math
 from collections.abc import Iterable
 from dataclasses import replace
 
+from pyimu.attitude.filter.status import STATUS
 from pyimu.block.variables import IMU, Variable, array, in_terminal
 from pyimu.model.signals import SURROUNDINGS
 from pyimu.units import STANDARD_GRAVITY
-
-STATUS = {
-    1: (
-        "an input was not finite or absurd and its last good value was held, or a heading's "
-        "variance was not above zero"
-    ),
-    2: "a sample was at a sensor's limit, or said of more than half a turn in a sample period",
-    4: "a sensor or an axis is stuck, its samples have not changed for its stuck time",
-    8: "gravity contradicted the attitude, and was weighed less",
-    16: "a heading was older than heading_memory, or than the run, and not used",
-    32: (
-        "a heading was not used, as the tilt was contradicted or not known, or as more is known "
-        "already than when it was true"
-    ),
-    64: "a heading contradicted the attitude, and was weighed less",
-    128: "a variance was not above zero, and its std is shown as 0",
-    256: (
-        "the magnetic field was not the place's in strength or dip, and not used, or its direction "
-        "contradicted the heading"
-    ),
-}
-"""Bits of the output ``status`` and what each says; 0 is well."""
-
-STATUS_NAMES = {
-    1: "input missing",
-    2: "at a limit",
-    4: "stuck",
-    8: "gravity contradicted",
-    16: "heading too old",
-    32: "heading not used",
-    64: "heading contradicted",
-    128: "variance lost",
-    256: "field disturbed",
-}
-"""The same bits in two or three words, for pictures."""
 
 UNKNOWN_LATITUDE = 10.0
 """rad; stands for "not known", as does every finite value outside -pi/2 to pi/2. No Earth rate is
@@ -232,9 +198,16 @@ SETTINGS = (
         "accel_std",
         "m/s^2",
         "standard deviation of the acceleration that passes as quasi-static; 0: the body never "
-        "accelerates. Not in it, and in no std of the attitude: a constant error of the "
-        "accelerometer tilts the attitude by its share of gravity",
+        "accelerates",
         0.1,
+    ),
+    _setting(
+        "accel_bias_std",
+        "m/s^2",
+        "standard deviation of a component of the accelerometer's constant error, which tilts the "
+        "attitude by its share of gravity: std has that, no matter how long it is averaged, and "
+        "what the size of gravity at rest says of it",
+        0.0,
     ),
     _setting(
         "accel_correlation_time",
@@ -251,7 +224,8 @@ SETTINGS = (
     _setting(
         "gravity_tolerance",
         "m/s^2",
-        "quasi-static: largest difference of the estimated magnitude and gravity",
+        "quasi-static: largest difference of the estimated magnitude and of gravity as it was "
+        "measured at rest; beyond, that is called another than gravity",
         0.25,
     ),
     _setting(
@@ -277,6 +251,13 @@ SETTINGS = (
         "rate_noise",
         "sqrt(s)",
         "root density of the relative error of the rate, which leaks onto all axes",
+        0.0,
+    ),
+    _setting(
+        "bias_noise",
+        "1/sqrt(s)",
+        "root density of the walk of the bias over the rate: a gyro that feels forces has another "
+        "bias when it has turned over",
         0.0,
     ),
     _setting(

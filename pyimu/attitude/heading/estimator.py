@@ -25,7 +25,6 @@ from pyimu.attitude.filter.compensation import (
     noise_of,
 )
 from pyimu.attitude.filter.stillness import (
-    FAST,
     GATE,
     SIZES,
     Stillness,
@@ -35,6 +34,7 @@ from pyimu.attitude.filter.stillness import (
     share_of_noise,
     sway,
 )
+from pyimu.attitude.filter.stillness import kept as kept_before
 from pyimu.attitude.filter.timing import clock_error, timed
 from pyimu.attitude.filter.variables import (
     ABSURD,
@@ -274,8 +274,7 @@ def _step(compensation: Compensation, s, u, p, h):
     before = Stillness(*still)
     sample = _read(compensation, (held, lost_for, sensors), u, (gyro_p, accel_p), at.h)
     x, after, resting = _rest(*map(Estimate.unpack, (estimate, safe)), before, sample, at)
-    keep = ca.floor(after.span * (1 / FAST)) > ca.floor(before.span * (1 / FAST))
-    safe, later = ca.if_else(keep, later, safe), ca.if_else(keep, x.pack(), later)
+    safe, later = kept_before(before, after, safe, later, x.pack())
     x, faults = _updated(x, after, resting, sample, at)
     faults = faults + sample.missing + 2 * sample.at_limit + 128 * resting * sample.no_force
     kept = (safe, later, sample.held, sample.lost_for, sample.sensors)
@@ -322,7 +321,7 @@ def _rest(x: Estimate, safe: Estimate, before: Stillness, sample: _Sample, at: _
     noise = (ca.vertcat(1, 1, 1) * at.white / at.h, at.accel.white**2 / at.h + LEAST_ACCEL_STD**2)
     tolerance, rate = (own["rest_rate_tolerance"], own["rest_force_tolerance"]), z * sample.rate
     alike = is_still(before, rate, sample.force, tolerance, noise, at.h) * (1 - sample.lost)
-    still = followed(before, rate, sample.force, z * x.x[1], alike, at.h)
+    still = followed(before, rate, sample.force, alike, at.h)
     sought = (time > 0) * (1 - at.declared)
     resting = alike * (before.span >= time) * before.rests * sought
     x = _where(sought * (before.rests > alike), safe, x)

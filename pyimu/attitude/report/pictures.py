@@ -8,7 +8,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
-from pyimu.attitude.filter.variables import STATUS_NAMES
+from pyimu.attitude.filter.status import STATUS_NAMES
 from pyimu.attitude.outcome import NIS_BOUNDS, Outcome
 from pyimu.report.figures import (
     AFTER,

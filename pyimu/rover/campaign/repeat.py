@@ -8,7 +8,7 @@ import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
-from pyimu.attitude.filter.variables import STATUS_NAMES
+from pyimu.attitude.filter.status import STATUS_NAMES
 from pyimu.errors import UserError
 from pyimu.files import staged, write_json
 from pyimu.recording.recording import Recording

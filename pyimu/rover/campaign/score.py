@@ -73,7 +73,7 @@ def _normalised(drive: Drive) -> dict[str, float]:
     """
     all_of = np.array(
         [
-            _normalised_at(state, drive.truth.q[k - 1], bias)
+            _normalised_at(state, drive.truth.q[k - 1], bias, drive.system.constant_tilt)
             for k, state, bias in zip(drive.instants, drive.states, drive.bias, strict=True)
         ]
     )
@@ -84,13 +84,16 @@ def _normalised(drive: Drive) -> dict[str, float]:
     return out
 
 
-def _normalised_at(state: np.ndarray, q: np.ndarray, bias: np.ndarray) -> tuple[float, ...]:
+def _normalised_at(
+    state: np.ndarray, q: np.ndarray, bias: np.ndarray, constant_tilt: float
+) -> tuple[float, ...]:
     estimate = Rotation.from_quat(state[:4], scalar_first=True)
     error = (estimate.inv() * Rotation.from_quat(q, scalar_first=True)).as_rotvec()
     covariance = np.zeros((6, 6))
     covariance[np.triu_indices(6)] = state[7:28]
     covariance += np.triu(covariance, 1).T
-    up, turning = estimate.as_matrix()[2], covariance[:3, :3]
+    up = estimate.as_matrix()[2]
+    turning = covariance[:3, :3] + constant_tilt * (np.eye(3) - np.outer(up, up))
     of_bias = bias - state[4:7]
     return (
         _square(error, turning),

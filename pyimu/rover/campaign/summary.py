@@ -10,7 +10,7 @@ import numpy as np
 import pyarrow as pa
 from scipy.stats import binom, binomtest, chi2
 
-from pyimu.attitude.filter.variables import STATUS_NAMES
+from pyimu.attitude.filter.status import STATUS_NAMES
 from pyimu.rover.campaign.faults import NONE
 from pyimu.rover.campaign.score import ANGLES, FREEDOM
 from pyimu.rover.campaign.sensitivity import LEVEL, Index, chance, indices

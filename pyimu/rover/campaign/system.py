@@ -9,6 +9,7 @@ import numpy as np
 
 from pyimu.attitude.alignment import BIAS_STD, TILT_STD, YAW_STD
 from pyimu.attitude.columns import rate_noise, wandering
+from pyimu.attitude.filter.tolerances import bias_std, start_values
 from pyimu.attitude.filter.ukf import attitude_ukf
 from pyimu.attitude.filter.variables import UNKNOWN_LATITUDE
 from pyimu.attitude.stuck import LEAST
@@ -19,12 +20,20 @@ from pyimu.model.part import Part
 from pyimu.plant.bodies import BODIES
 from pyimu.plant.low_pass import low_pass
 from pyimu.plant.rover_variables import LATITUDE
+from pyimu.rover.campaign.draws import RISE, START, WARMING
 from pyimu.rover.campaign.faults import SATURATING
 from pyimu.rover.campaign.settings import Settings
-from pyimu.rover.campaign.specimen import bias_std, gravity_std, white_noise
+from pyimu.rover.campaign.specimen import white_noise
 
 SENSED = ("rate", "specific_force", "temperature")
 """What a part may measure and depend on in a campaign."""
+
+WARMER = float(np.hypot(np.mean(START) + np.mean(RISE) / 2 - 25.0, np.ptp(START) / 12**0.5))
+"""K; root mean square of a drive's temperature against 25 degC, at which a part's tolerances hold
+beside their change per kelvin. A sol's is about the same."""
+
+WALK = float(RISE[1] / 3**0.5 * (1 - np.exp(-1)) / np.mean(WARMING) ** 0.5)
+"""K/sqrt(s); of a random walk that has warmed up as much after the mean time constant."""
 
 RANGE = "gyro_error.saturation.limit"
 
@@ -61,7 +70,10 @@ class System:
         Those of an alignment at rest, and of a gyro that was not seen at rest what the part's
         tolerance says.
         """
-        return np.array([TILT_STD, TILT_STD, YAW_STD, *np.hypot(BIAS_STD, bias_std(self.part))])
+        of_specimens = bias_std(self.part, WARMER) if self.settings.draws_specimens else 0.0
+        return np.array(
+            [TILT_STD, TILT_STD, YAW_STD, *np.full(3, np.hypot(BIAS_STD, of_specimens))]
+        )
 
     def parameters(self, q0: np.ndarray, limit: np.ndarray | None) -> np.ndarray:
         """The filter's, with which it starts; ``limit`` (3,) rad/s is the gyro's range."""
@@ -79,14 +91,16 @@ class System:
 
     @property
     def of_specimens(self) -> dict[str, float]:
-        """The filter's settings for specimens: what they do to rates in motion and to gravity.
+        """The filter's settings for specimens: what they do to rates in motion and to gravity."""
+        values = start_values(self.part, WARMER)
+        of_motion = float(np.hypot(rate_noise(self.part), values.get("rate_noise", 0.0)))
+        return {n: v for n, v in values.items() if "std0" not in n} | {"rate_noise": of_motion}
 
-        An accelerometer that measures another size of gravity than the ``gravity_tolerance`` allows
-        is never believed.
-        """
-        usual = next(v.start for v in self.filter.parameters if v.name == "gravity_tolerance")
-        tolerance = usual + 3.0 * gravity_std(self.part)
-        return {"rate_noise": rate_noise(self.part), "gravity_tolerance": tolerance}
+    @property
+    def constant_tilt(self) -> float:
+        """Variance in rad^2 of a tilt by the accelerometer's constant error, as ``std`` has it."""
+        std = self.of_specimens.get("accel_bias_std", 0.0) if self.settings.draws_specimens else 0.0
+        return (std / BODIES[self.settings.on].gravity) ** 2
 
     def of_range(self, limit: np.ndarray | None) -> dict[str, np.ndarray]:
         """The parameter of sensor and filter that says the gyro's range, where it is too small."""
@@ -117,6 +131,6 @@ def system_of(settings: Settings) -> System:
         )
     known = replace(part, sample_rate=settings.sensor_rate / settings.every)
     if settings.draws_specimens:
-        known = wandering(known)
+        known = wandering(known, WALK)
     behind = low_pass(1 / settings.sensor_rate) if settings.low_pass else None
     return System(settings, part, sensor, part.block, behind, attitude_ukf(known))
