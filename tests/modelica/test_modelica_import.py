@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from modelica_cases import simulated, vector
 
+from pyimu.attitude import attitude_ukf
 from pyimu.fmu.variables import entries
 from pyimu.model.part_file import part, part_names
 from pyimu.modelica.imported import imported_name
@@ -63,10 +64,11 @@ def test_names_of_the_guide():
 @pytest.mark.parametrize("name", part_names())
 def test_no_two_variables_of_a_unit_become_one(name):
     """Nor by OpenModelica, which replaces sign by sign."""
-    names = [e.name for e in entries(part(name).block, False)]
-    assert len({imported_name(n) for n in names}) == len(names)
-    signs = str.maketrans(".[] ,()", "_______")
-    assert all(n.translate(signs) == imported_name(n) for n in names)
+    for block in (part(name).block, attitude_ukf(part(name))):
+        names = [e.name for e in entries(block, False)]
+        assert len({imported_name(n) for n in names}) == len(names)
+        signs = str.maketrans(".[] ,()", "_______")
+        assert all(n.translate(signs) == imported_name(n) for n in names)
 
 
 def test_example_wires_the_units():
