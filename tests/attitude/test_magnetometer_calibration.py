@@ -250,4 +250,4 @@ def test_a_calibration_beside_none_is_an_error(pyimu, tmp_path):
     code, out, err = pyimu("attitude", path, *words)
     assert code == 2 and out == "" and "give one of the two" in err
     code, out, err = pyimu("attitude", path, *words[:2])
-    assert code == 2 and out == "" and "m.toml: cannot be read" in err
+    assert code == 2 and out == "" and "m.toml: no such file" in err

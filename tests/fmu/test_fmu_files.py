@@ -347,7 +347,7 @@ def test_a_dimension_stands_before_the_arrays_that_it_measures(toys):
             assert dimension.get("valueReference") in seen
             sized += 1
         seen.add(variable.get("valueReference"))
-    assert sized == len(BLOCK.inputs) + 3  # y[1] and y[2] have units of their own, hence 4 outputs
+    assert sized == len(BLOCK.inputs) + 4  # y[1] and y[2] have units of their own, hence 4 outputs
 
 
 @pytest.mark.parametrize("form", (3, "block"))

@@ -165,7 +165,7 @@ def test_wrong_input_is_refused(given, message):
 def test_a_part_without_a_sample_rate_is_refused(rate):
     with pytest.raises(
         UserError,
-        match="part test: the sample rate must be a positive and finite number of Hz, not",
+        match="part test: the sample rate must be a positive and finite number of Hz, from 0",
     ):
         Part("test", rate)
 

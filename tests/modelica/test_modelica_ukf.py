@@ -186,7 +186,8 @@ def test_what_does_not_fit_is_refused(tool, block):
     assert not Filter(tool, block, period=0.0).memory
     made = Filter(tool, block, p=block.start[1:])
     assert not made.memory
-    assert made.said() == "AttitudeUkf: 55 parameters were given, 56 are needed"
+    n = len(block.start)
+    assert made.said() == f"AttitudeUkf: {n - 1} parameters were given, {n} are needed"
     made = Filter(tool, block)
     assert made.sample(0, block.start_inputs[1:]) is None and "18 inputs" in made.said()
 
@@ -204,7 +205,7 @@ ECHO = """
       y[i] := 1000*number + u[i];
     end for;
     y[19] := 5;
-    y[20] := memory[57];
+    y[20] := memory[size(memory, 1)];
     y[21] := number - 2;
   end attitudeUkfSample;
 """
@@ -214,18 +215,18 @@ def test_block_hands_its_inputs_and_parameters_over_in_their_order(block):
     """rumoca has no external C: the object is replaced by the values from which it is made, the
     function by one that shows what it was given.
     """
-    name = block.name
+    name, many = block.name, len(block.start) + 1
     text = ukf_classes(block, PREFIX, "none.c", "none")[name].replace("\nprotected\n", "\n")
-    values = ", ".join(f"p[{i + 1}]" for i in range(56))
+    values = ", ".join(f"p[{i + 1}]" for i in range(len(block.start)))
     text = text.replace(
         f"{name}Memory memory = {name}Memory(samplePeriod, p);",
-        f"parameter Real memory[57] = {{{values}, samplePeriod}};",
+        f"parameter Real memory[{many}] = {{{values}, samplePeriod}};",
     )
     bench = f"""model Bench
       {ECHO}
       {text}
       {name} ukf(samplePeriod=0.5, motionTolerance=0.25, useHeading=true, useSpeed=true);
-      Real memory[57];
+      Real memory[{many}];
     equation
       memory = ukf.memory;
       ukf.gyro = {{0.01, 0.02, 0.03}};
@@ -254,4 +255,4 @@ def test_block_hands_its_inputs_and_parameters_over_in_their_order(block):
     np.testing.assert_array_equal(rows["ukf.atRest"], k - 2 > 0.5)
     p = block.start.copy()
     p[[v.name for v in block.parameters].index("motion_tolerance")] = 0.25
-    np.testing.assert_array_equal(vector(rows, "memory", 57)[-1], [*p, 0.5])
+    np.testing.assert_array_equal(vector(rows, "memory", many)[-1], [*p, 0.5])

@@ -267,7 +267,7 @@ def test_counts_are_sized_by_gravity_and_its_turning():
         ("raw_angular_rate_z_deg_per_s", "z", "deg/s"),
         ("gyroRotationY(rad/s)", "y", "rad/s"),
         ("field.angular_velocity.y", "y", None),
-        ("Gyro_X_dps", "x", "deg/s"),
+        ("Gyro_X_dps", "x", "dps"),
         ("imu_gyr[0]", "x", None),
         ("gz", "z", None),
     ],
