@@ -8,11 +8,11 @@ from typing import Annotated
 import typer
 
 from pyimu.cli.options import (
-    FORMATS,
     Columns,
     Effects,
     Json,
     Latitude,
+    Log,
     Quiet,
     add_effects,
     check_told,
@@ -24,9 +24,6 @@ from pyimu.cli.options import (
 )
 from pyimu.errors import UserError
 
-Recorded = Annotated[
-    Path, typer.Argument(metavar="LOG", help=f"Recording: {FORMATS}.", show_default=False)
-]
 Folder = Annotated[
     Path, typer.Option("--out", help="Folder for report.html, report.json and attitude.parquet.")
 ]
@@ -89,7 +86,7 @@ Smooth = Annotated[
 
 
 def attitude_command(
-    log: Recorded,
+    log: Log,
     out: Folder = Path("out/attitude"),
     part: OfPart = None,
     columns: Columns = None,

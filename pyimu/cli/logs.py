@@ -108,54 +108,64 @@ def characterize_command(
     tell(found.report, (out / "report.json").read_text, lines, as_json=as_json, quiet=quiet)
 
 
+Logs = Annotated[
+    list[Path],
+    typer.Argument(
+        metavar="LOG",
+        help=f"Recordings: {FORMATS}.",
+        show_default=False,
+    ),
+]
+CloseOut = Annotated[
+    Path,
+    typer.Option("--out", help="Folder for report.html, report.json, model.toml and the FMUs."),
+]
+ClosePart = Annotated[
+    str | None,
+    typer.Option(
+        "--part",
+        help="Built-in part or a TOML file; without it all is estimated.",
+        autocompletion=complete_part,
+    ),
+]
+HoldOut = Annotated[
+    list[Path] | None,
+    typer.Option("--holdout", help="Log to judge by; else the last 30 % of each."),
+]
+References = Annotated[
+    list[Path] | None,
+    typer.Option(
+        "--reference",
+        help="Reference in a file of its own: one for each LOG, then for each --holdout.",
+    ),
+]
+ReferenceColumns = Annotated[
+    Path | None, typer.Option("--reference-columns", help="TOML that renames its columns.")
+]
+EarthRate = Annotated[
+    float | None,
+    typer.Option("--latitude", help="Degrees; adds the Earth's rate to a derived reference."),
+]
+ExitCode = Annotated[
+    bool,
+    typer.Option("--exit-code", help="Exit status by verdict, for scripts: see below."),
+]
+
+
 def close_command(
-    logs: Annotated[
-        list[Path],
-        typer.Argument(
-            metavar="LOG",
-            help=f"Recordings: {FORMATS}.",
-            show_default=False,
-        ),
-    ],
-    out: Annotated[
-        Path,
-        typer.Option("--out", help="Folder for report.html, report.json, model.toml and the FMUs."),
-    ] = Path("out/close"),
-    part: Annotated[
-        str | None,
-        typer.Option(
-            "--part",
-            help="Built-in part or a TOML file; without it all is estimated.",
-            autocompletion=complete_part,
-        ),
-    ] = None,
-    holdout: Annotated[
-        list[Path] | None,
-        typer.Option("--holdout", help="Log to judge by; else the last 30 % of each."),
-    ] = None,
+    logs: Logs,
+    out: CloseOut = Path("out/close"),
+    part: ClosePart = None,
+    holdout: HoldOut = None,
     columns: Columns = None,
-    reference: Annotated[
-        list[Path] | None,
-        typer.Option(
-            "--reference",
-            help="Reference in a file of its own: one for each LOG, then for each --holdout.",
-        ),
-    ] = None,
-    reference_columns: Annotated[
-        Path | None, typer.Option("--reference-columns", help="TOML that renames its columns.")
-    ] = None,
-    latitude: Annotated[
-        float | None,
-        typer.Option("--latitude", help="Degrees; adds the Earth's rate to a derived reference."),
-    ] = None,
+    reference: References = None,
+    reference_columns: ReferenceColumns = None,
+    latitude: EarthRate = None,
     effects: Effects = None,
     export: Export = None,
     as_json: Json = False,
     quiet: Quiet = False,
-    exit_code: Annotated[
-        bool,
-        typer.Option("--exit-code", help="Exit status by verdict, for scripts: see below."),
-    ] = False,
+    exit_code: ExitCode = False,
 ) -> None:
     """Example: pyimu close rover.csv --part imt30 --out out/rover
 

@@ -8,19 +8,16 @@ from typing import Annotated
 import typer
 
 from pyimu.cli.options import (
-    FORMATS,
     Columns,
     Effects,
     Latitude,
+    Log,
     add_effects,
     option,
     progress,
     radians,
 )
 
-Log = Annotated[
-    Path, typer.Argument(metavar="LOG", help=f"Recording: {FORMATS}.", show_default=False)
-]
 Out = Annotated[
     Path, typer.Option("--out", help="Folder for report.html, report.json and navigation.parquet.")
 ]

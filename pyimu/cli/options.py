@@ -29,6 +29,9 @@ def option(name: str, text: str) -> Any:
 FORMATS = "table in text, Parquet, MAT, HDF5, ROS bag, MCAP, ULog or dataflash"
 """Files that a recording may be."""
 
+Log = Annotated[
+    Path, typer.Argument(metavar="LOG", help=f"Recording: {FORMATS}.", show_default=False)
+]
 Columns = Annotated[
     Path | None, typer.Option("--columns", help="TOML that renames a foreign log's columns.")
 ]

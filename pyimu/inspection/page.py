@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 from markupsafe import Markup
 
@@ -69,7 +71,7 @@ def _pictures(found: Outcome) -> list[Picture]:
     return drawn
 
 
-def _over_time(recording: Recording, groups: list[str], rests) -> str:  # type: ignore[no-untyped-def]
+def _over_time(recording: Recording, groups: list[str], rests: Iterable[tuple[int, int]]) -> str:
     with style():
         figure, panels = new_figure(WIDTH, 1.5 * len(groups) + 0.6, len(groups))
         size, unit = unit_of_time(float(np.ptp(recording.time)))

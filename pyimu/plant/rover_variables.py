@@ -18,6 +18,9 @@ DRIVES = {
 """The drives by name, and their number in the parameter ``drive``. The last four are those of
 Hidalgo 2012, section 6.1."""
 
+CRUISE_SPEED, RADIUS, SPOT_TURN_RATE = 0.01, 1.25, 0.02
+"""m/s, m and rad/s of those drives, as they are named among the parameters."""
+
 BOULDERS = 3
 """Boulders that may lie on the ground."""
 
@@ -83,11 +86,11 @@ def _drive(drive: str) -> tuple[Variable, ...]:
             0.0,
         ),
         _fixed("heading0", "rad", "heading at the start, counter-clockwise from east", 0.0),
-        _fixed("cruise_speed", "m/s", "speed of drives 1 to 3", 0.01, LEAST_SPEED),
+        _fixed("cruise_speed", "m/s", "speed of drives 1 to 3", CRUISE_SPEED, LEAST_SPEED),
         _fixed("length", "m", "length of drives 1 and 2", 5.0, LEAST),
-        _fixed("radius", "m", "radius of drive 3, to the left", 1.25, LEAST),
+        _fixed("radius", "m", "radius of drive 3, to the left", RADIUS, LEAST),
         _fixed("angle", "rad", "angle of drives 3 and 4", math.pi, LEAST),
-        _fixed("spot_turn_rate", "rad/s", "turn rate of drive 4", 0.02, LEAST_SPEED),
+        _fixed("spot_turn_rate", "rad/s", "turn rate of drive 4", SPOT_TURN_RATE, LEAST_SPEED),
         _fixed("pause", "s", "rest of drive 4 between its way out and its way back", 0.0, 0.0),
         _fixed(
             "ramp_time",

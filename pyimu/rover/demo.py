@@ -28,6 +28,7 @@ from pyimu.identification.simulated import Simulated
 from pyimu.model.part import Part
 from pyimu.model.part_file import part
 from pyimu.model.simulate import simulate
+from pyimu.plant.rover_variables import CRUISE_SPEED, RADIUS, SPOT_TURN_RATE
 from pyimu.recording.log import read_recording
 from pyimu.recording.recording import Recording
 from pyimu.report.figures import AFTER, BEFORE, FLOOR, STYLE, legend, svg_of
@@ -38,23 +39,20 @@ from pyimu.rover.optical import optical_reference
 SAMPLE_RATE = 50.0
 """Hz; the paper samples at 976 Hz and filters at 10 Hz."""
 
-TURN_RATE, SPEED, RADIUS = 0.02, 0.01, 1.25
-"""rad/s, m/s and m; of the paper's test drives, Hidalgo 2012, section 6.1."""
-
-HALF_TURN = np.pi / TURN_RATE
+HALF_TURN = np.pi / SPOT_TURN_RATE
 """s of a turn on the spot, one way."""
 
 MANOEUVRES = (
     (60.0, 0.0, 0.0),
-    (HALF_TURN, 0.0, TURN_RATE),
-    (HALF_TURN, 0.0, -TURN_RATE),
+    (HALF_TURN, 0.0, SPOT_TURN_RATE),
+    (HALF_TURN, 0.0, -SPOT_TURN_RATE),
     (30.0, 0.0, 0.0),
-    (250.0, SPEED, 0.0),
+    (250.0, CRUISE_SPEED, 0.0),
     (30.0, 0.0, 0.0),
-    (np.pi * RADIUS / SPEED, SPEED, SPEED / RADIUS),
+    (np.pi * RADIUS / CRUISE_SPEED, CRUISE_SPEED, CRUISE_SPEED / RADIUS),
     (30.0, 0.0, 0.0),
-    (HALF_TURN, 0.0, TURN_RATE),
-    (HALF_TURN, 0.0, -TURN_RATE),
+    (HALF_TURN, 0.0, SPOT_TURN_RATE),
+    (HALF_TURN, 0.0, -SPOT_TURN_RATE),
     (20.0, 0.0, 0.0),
 )
 """The drive: s, speed in m/s and turn rate in rad/s. A turn on the spot out and back, a straight

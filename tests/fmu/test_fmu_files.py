@@ -163,7 +163,8 @@ def test_units_in_which_variables_are_shown(form):
     for element in tree.xpath("//*[@displayUnit]"):
         name = element.get("name") or element.getparent().get("name")
         (display,) = tree.xpath(
-            f"//Unit[@name='{element.get('unit')}']/DisplayUnit[@name='{element.get('displayUnit')}']"
+            f"//Unit[@name='{element.get('unit')}']"
+            f"/DisplayUnit[@name='{element.get('displayUnit')}']"
         )
         shown[name.partition("[")[0]] = (display.get("name"), float(display.get("factor")))
     assert shown["gyro"] == shown["rate"] == ("deg/s", pytest.approx(180 / np.pi, rel=1e-15))

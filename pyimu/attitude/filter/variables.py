@@ -360,13 +360,15 @@ START_VALUES = tuple(
 )
 """What the estimate is before the first sample; later it has no effect."""
 
+LATITUDE = Variable(
+    "latitude",
+    "rad",
+    "latitude; a finite value outside -pi/2 to pi/2 is unknown: no Earth rate",
+    UNKNOWN_LATITUDE,
+)
+
 OWN_PARAMETERS = (
-    Variable(
-        "latitude",
-        "rad",
-        "latitude; a finite value outside -pi/2 to pi/2 is unknown: no Earth rate",
-        UNKNOWN_LATITUDE,
-    ),
+    LATITUDE,
     *START_VALUES,
     *SETTINGS,
 )

@@ -263,21 +263,23 @@ def equations(fit: Fit, linearised: Callable[[Fit], list[Linear]] = Fit.linearis
     found = normal_equations(linearised(fit), fit.noise)
     if not has_noise(fit):
         return found
-    changed = changes(fit, linearised)
-    axes = [
-        _on(found, normal_equations([_of_axis(one, i) for one in changed], fit.noise))
-        for i in fit.noise
-    ]
-    taken = sum(n.batch_gram for n in axes)
-    gram = found.batch_gram - taken
-    score = found.batch_score - sum(n.batch_score for n in axes)
-    doubt = np.array([_error(fit, i) * n.score for i, n in zip(fit.noise, axes, strict=True)])
-    whole, seen = gram.sum(axis=0), found.gram
-    unknown = sum(_error(fit, i) * np.diag(n.gram) for i, n in zip(fit.noise, axes, strict=True))
-    hidden = np.diag(whole) <= np.maximum(LEAST_SEEN * np.diag(seen), CHANCE * unknown)
+    changed, seen = changes(fit, linearised), found.gram
+    gram, score, power = found.batch_gram, found.batch_score, found.power
+    doubt, unknown = np.zeros((len(fit.noise), len(seen))), np.zeros(len(seen))
+    for row, axis in zip(doubt, fit.noise, strict=True):
+        noise = normal_equations([_of_axis(one, axis) for one in changed], fit.noise)
+        at, own = _same(found, noise)
+        error = _error(fit, axis)
+        row[at] = error * noise.score[own]
+        unknown[at] += error * np.diag(noise.gram)[own]
+        # Gram matrices by batch are large: they are taken off where they stand.
+        score[:, at] -= noise.batch_score[:, own]
+        gram[np.ix_(range(len(gram)), at, at)] -= noise.batch_gram[:, own][:, :, own]
+        power -= noise.power
+    whole = np.diag(gram.sum(axis=0))
+    hidden = whole <= np.maximum(LEAST_SEEN * np.diag(seen), CHANCE * unknown)
     score[:, hidden] = gram[:, hidden] = gram[:, :, hidden] = doubt[:, hidden] = 0.0
-    power = found.power - sum(n.power for n in axes)
-    return replace(found, batch_gram=gram, batch_score=score, power=power, seen=seen, doubt=doubt)
+    return Normal(found.keys, gram, score, power, found.rows, found.log_det, seen, doubt)
 
 
 def power_without_noise(fit: Fit) -> float:
@@ -298,14 +300,10 @@ def _error(fit: Fit, axis: int) -> float:
     return float(np.sqrt(np.mean([t.noise_error[axis] ** 2 for t in fit.trials])))
 
 
-def _on(like: Normal, other: Normal) -> Normal:
-    """Normal equations on the columns of others, in their order; one that is missing is zero."""
-    at = [i for i, k in enumerate(like.keys) if k in other.position]
-    own = [other.position[like.keys[i]] for i in at]
-    score, gram = np.zeros_like(like.batch_score), np.zeros_like(like.batch_gram)
-    score[:, at] = other.batch_score[:, own]
-    gram[np.ix_(range(len(gram)), at, at)] = other.batch_gram[:, own][:, :, own]
-    return replace(like, batch_gram=gram, batch_score=score, power=other.power)
+def _same(one: Normal, other: Normal) -> tuple[list[int], list[int]]:
+    """Where the columns that both have stand in each."""
+    at = [i for i, k in enumerate(one.keys) if k in other.position]
+    return at, [other.position[one.keys[i]] for i in at]
 
 
 def smoothing(fit: Fit) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from pyimu.attitude.filter.variables import UNKNOWN_LATITUDE
+from pyimu.attitude.filter.variables import LATITUDE
 from pyimu.block.variables import IMU, Variable, array, in_terminal
 from pyimu.navigation.detector import WINDOW
 from pyimu.units import STANDARD_GRAVITY
@@ -124,12 +124,7 @@ SETTINGS = (
 )
 
 OWN_PARAMETERS = (
-    Variable(
-        "latitude",
-        "rad",
-        "latitude; a finite value outside -pi/2 to pi/2 is unknown: no Earth rate",
-        UNKNOWN_LATITUDE,
-    ),
+    LATITUDE,
     Variable("gravity", "m/s^2", "magnitude of gravity", STANDARD_GRAVITY, minimum=1e-3),
     *START_VALUES,
     *SETTINGS,

@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy as np
 
 from pyimu.plant.bodies import BODIES
-from pyimu.plant.rover_variables import LATITUDE
+from pyimu.plant.rover_variables import CRUISE_SPEED, LATITUDE, SPOT_TURN_RATE
 from pyimu.rover.drives import drive, free_drive
 
 BEFORE = 60.0
@@ -25,9 +25,9 @@ SOL_DURATION = BODIES["Mars"].solar_day
 MORNING = 10 * 3600.0
 """s from local midnight, where a sol begins here, until the rover drives."""
 
-LEGS, LEG, SPEED, TURN_RATE, PAUSE = 20, 5.0, 0.01, 0.02, 10.0
-"""A sol's drive: so many straight lines of so many m, a turn on the spot before each, at so many
-m/s and rad/s, with rests of so many s: 100 m, in the "2-4 h traveling" of Hidalgo 2012, section 7,
+LEGS, LEG, PAUSE = 20, 5.0, 10.0
+"""A sol's drive: so many straight lines of so many m, a turn on the spot before each, with rests of
+so many s: 100 m, in the "2-4 h traveling" of Hidalgo 2012, section 7,
 with the speeds of section 6.1."""
 
 TURNS = np.deg2rad([45.0, -60.0, 30.0, -45.0, 60.0, -30.0])
@@ -78,9 +78,9 @@ def sol_commands() -> np.ndarray:
     for i in range(LEGS):
         angle = TURNS[i % len(TURNS)]
         for duration, speed, turn_rate in (
-            (abs(angle) / TURN_RATE, 0.0, np.sign(angle) * TURN_RATE),
+            (abs(angle) / SPOT_TURN_RATE, 0.0, np.sign(angle) * SPOT_TURN_RATE),
             (PAUSE, 0.0, 0.0),
-            (LEG / SPEED, SPEED, 0.0),
+            (LEG / CRUISE_SPEED, CRUISE_SPEED, 0.0),
             (PAUSE, 0.0, 0.0),
         ):
             rows.append((time, speed, turn_rate))
