@@ -204,7 +204,8 @@ class Autoregressive:
         # keeps them regular.
         whole = sum(_lagged_products(v, order) for v in pieces)
         gram, right, power = whole[1:, 1:], whole[1:, 0], whole[0, 0]
-        coefficients = np.linalg.solve(gram + 1e-12 * np.trace(gram) * np.eye(order), right)
+        least = 1e-12 * np.trace(gram) + LEAST_VARIANCE
+        coefficients = np.linalg.solve(gram + least * np.eye(order), right)
         left = power - 2 * coefficients @ right + coefficients @ gram @ coefficients
         rows = sum(len(v) - order for v in pieces)
         return cls(tuple(coefficients), max(float(left) / rows, LEAST_VARIANCE))
