@@ -80,15 +80,15 @@ def normal_equations(linears: list[Linear], noise: Noise) -> Normal:
         edges = np.linspace(0, len(one.time), count + 1).astype(int)
         for i, columns in one.columns.items():
             at = np.array([position[k] for k in one.keys[i]], dtype=int)
-            white = noise[i].whiten(columns, one.time, one.segments)
-            left = noise[i].whiten(one.residual[:, i : i + 1], one.time, one.segments)[:, 0]
-            power += float(left @ left)
-            log_det += noise[i].log_det(one.time, one.segments)
-            rows += len(left)
-            parts = [slice(a, b) for a, b in zip(edges[:-1], edges[1:], strict=True)]
-            batch = np.arange(first, first + count)
-            gram[np.ix_(batch, at, at)] += np.array([white[p].T @ white[p] for p in parts])
-            score[np.ix_(batch, at)] += np.array([left[p] @ white[p] for p in parts])
+            white = noise[i].filter(one.time, one.segments)
+            log_det += white.log_det
+            rows += len(one.time)
+            for batch, a, b in zip(range(first, first + count), edges[:-1], edges[1:], strict=True):
+                block = white.next(np.column_stack([one.residual[a:b, i], columns[a:b]]))
+                products = block.T @ block
+                power += float(products[0, 0])
+                score[batch, at] += products[0, 1:]
+                gram[batch, at[:, None], at] += products[1:, 1:]
         first += count
     return Normal(keys, gram, score, power, rows, log_det)
 

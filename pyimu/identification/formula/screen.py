@@ -7,7 +7,7 @@ as those of any effect.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -120,7 +120,7 @@ def _dispersion(projected: Projected, columns: list[int]) -> float:
     """That of a few of many columns, without the Gram matrices by batch of all of them."""
     gram = projected.variance[np.ix_(columns, columns)]
     turn = projected.turn[:, columns]
-    few = Projected(gram, projected.score[columns], turn, projected.normal)
+    few = replace(projected, gram=gram, score=projected.score[columns], turn=turn)
     return dispersion(few, range(len(columns)))
 
 
