@@ -177,16 +177,15 @@ def linearise(
     moved = behind_dynamics(sensor, u, trial.segments, trial.h)
     moved = with_memory(rest, moved, trial.segments, trial.h)
     response = memoryless(rest.chain)
-    y, slope, entries = response(moved, rest.p, trial.h)
+    keys = [_keys_of(s, trial, sensor.kind, wanted) for s in rest.slots]
+    some = np.array([bool(k) for k in keys], dtype=bool)
+    y, slope, entries = response(moved, rest.p, trial.h, some[response.slot])
     if remembers(sensor):
         y = predict(sensor, u, trial.segments, trial.h)
     out = Regressors(trial)
     for e, (axis, slot) in enumerate(zip(response.axis, response.slot, strict=True)):
-        s = rest.slots[slot]
-        if coefficient_of(s) in wanted and not _remembered(s, sensor.kind):
-            out.add(coefficient_of(s), int(axis), entries[:, e])
-        if (s.effect, s.parameter) == POWER_ON:
-            out.add(LogBias(trial.name, s.index[0]), int(axis), entries[:, e])
+        for key in keys[slot]:
+            out.add(key, int(axis), entries[:, e])
     _turn_columns(out, trial, np.array(moved[own]).T, slope)
     _clock_columns(out, sensor, trial, state, u, slope)
     _thermometer_columns(out, rest, trial, moved)
@@ -204,6 +203,15 @@ def linearise(
         keys,
         columns,
     )
+
+
+def _keys_of(s: Slot, trial: Trial, kind: str, wanted: frozenset[Key]) -> list[Key]:
+    """What the slope against a coefficient is a column of: itself, and the log's own bias."""
+    itself = coefficient_of(s) in wanted and not _remembered(s, kind)
+    found: list[Key] = [coefficient_of(s)] if itself else []
+    if (s.effect, s.parameter) == POWER_ON:
+        found.append(LogBias(trial.name, s.index[0]))
+    return found
 
 
 def with_columns(one: Linear, trial: Trial, state: LogState, extra: Iterable) -> Linear:
