@@ -192,9 +192,9 @@ class Machine:
 @lru_cache(maxsize=64)
 def machine(step: ca.Function) -> Machine | None:
     """The machine of a step ``(s, u, p, w, h) -> (s_next, y)``; None where it has an operation that
-    this machine does not know, or an output that is not dense.
+    this machine does not know, calls other functions, or has an output that is not dense.
     """
-    if not all(step.sparsity_out(i).is_dense() for i in range(2)):
+    if not step.is_a("SXFunction") or not all(step.sparsity_out(i).is_dense() for i in range(2)):
         return None
     one = program(step)
     start, varies = np.zeros(len(one.instructions)), np.zeros(len(one.instructions), dtype=bool)

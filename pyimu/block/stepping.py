@@ -23,7 +23,7 @@ def step_through(
     A few rows, and functions that are no plain list of operations, go through casadi's virtual
     machine. Its buffer interface has the arrays bound once, so that a step allocates nothing.
     """
-    if len(u) > FEW and step.is_a("SXFunction"):
+    if len(u) > FEW:
         from pyimu.block.machine import machine  # loads numba, which few rows do without
 
         quick = machine(step)

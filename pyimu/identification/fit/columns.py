@@ -90,15 +90,18 @@ def reference_input(trial: Trial, state: LogState) -> np.ndarray:
     """Inputs (n, N_INPUT) with the reference turned into the sensor's axes, on the sensor's clock.
 
     What the clock still lacks is short against the motion: its first order is enough. A thermometer
-    that is a first-order lag shows T - lag dT/dt.
+    that is a first-order lag shows T - lag dT/dt. They are the trial's own where nothing is turned.
     """
-    u, own, rate = np.array(trial.u), OWN[trial.kind], _own_rate(trial.kind)
+    own, rate, level = OWN[trial.kind], _own_rate(trial.kind), np.eye(3)
+    if state.clock is None and not state.lag and np.array_equal(state.rotation, level):
+        return trial.u
+    u = np.array(trial.u)
     if state.clock is not None:
         late = state.clock.at(trial.time)[:, None]
         u[:, own] -= late * u[:, rate]
     # What is turned is turned by the sensor's own axes, whichever the reference has.
     turned = (COLUMNS["turned"],) if trial.kind == "gyro" else ()
-    for at in () if np.array_equal(state.rotation, np.eye(3)) else (own, rate, *turned):
+    for at in () if np.array_equal(state.rotation, level) else (own, rate, *turned):
         u[:, at] = u[:, at] @ state.rotation.T
     if state.lag:
         u[:, TEMPERATURE] += state.lag * u[:, ITS_RATE]

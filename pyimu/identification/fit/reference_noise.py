@@ -274,7 +274,8 @@ def equations(fit: Fit, linearised: Callable[[Fit], list[Linear]] = Fit.linearis
         unknown[at] += error * np.diag(noise.gram)[own]
         # Gram matrices by batch are large: they are taken off where they stand.
         score[:, at] -= noise.batch_score[:, own]
-        gram[np.ix_(range(len(gram)), at, at)] -= noise.batch_gram[:, own][:, :, own]
+        for whole, part in zip(gram, noise.batch_gram, strict=True):
+            whole[np.ix_(at, at)] -= part[np.ix_(own, own)]
         power -= noise.power
     whole = np.diag(gram.sum(axis=0))
     hidden = whole <= np.maximum(LEAST_SEEN * np.diag(seen), CHANCE * unknown)

@@ -11,14 +11,15 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.stats import chi2
+from scipy.special import chdtrc
 
 from pyimu.identification.fit.columns import Linear
 from pyimu.identification.fit.fit import Fit, with_prior
 from pyimu.identification.fit.keys import Shape
 from pyimu.identification.fit.normal import solve
 from pyimu.identification.fit.reference_noise import equations
-from pyimu.identification.formula.terms import Term, columns_of
+from pyimu.identification.formula.columns import columns_of
+from pyimu.identification.formula.terms import Term
 from pyimu.identification.search.screen import DRAWS, FALSE_ALARM, PENALTY, Projected, dispersion
 
 CHUNK = 48
@@ -109,7 +110,7 @@ def _scored(term: Term, projected: Projected, at: dict[Shape, int]) -> Scored:
         power = float(s @ solve(projected.variance[np.ix_(columns, columns)], s))
         if 0.5 * power > PENALTY:
             power /= _dispersion(projected, columns)
-        best = min(best, (float(chi2.sf(power, len(columns))), i))
+        best = min(best, (float(chdtrc(len(columns), power)), i))
         if 0.5 * power > PENALTY * len(columns):
             total += 0.5 * power - PENALTY * len(columns)
             axes.append(i)
