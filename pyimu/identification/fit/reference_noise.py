@@ -18,7 +18,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from scipy.signal import lfilter
 
 from pyimu.identification.fit.columns import Linear, band_segments, band_time, in_band
-from pyimu.identification.fit.fit import Fit, power
+from pyimu.identification.fit.fit import Fit, Last, power
 from pyimu.identification.fit.incoherent import (
     NOTHING,
     Spectrum,
@@ -240,7 +240,7 @@ def has_noise(fit: Fit) -> bool:
 def changes(fit: Fit, linearised: Callable[[Fit], list[Linear]]) -> list[Linear]:
     """What the noise of the reference makes of each trial's residual and columns."""
     up, down = (
-        linearised(replace(fit, trials=tuple(moved(t, sign) for t in fit.trials)))
+        linearised(replace(fit, trials=tuple(moved(t, sign) for t in fit.trials), last=Last()))
         for sign in (1, -1)
     )
     return [_difference(a, b) for a, b in zip(up, down, strict=True)]
