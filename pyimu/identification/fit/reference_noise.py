@@ -16,7 +16,7 @@ from dataclasses import replace
 import numpy as np
 
 from pyimu.identification.fit.columns import Linear, band_segments, band_time, in_band
-from pyimu.identification.fit.fit import Fit, power
+from pyimu.identification.fit.fit import Fit, Last, power
 from pyimu.identification.fit.incoherent import (
     CHANCE,
     NOTHING,
@@ -206,7 +206,7 @@ def has_noise(fit: Fit) -> bool:
 def changes(fit: Fit, linearised: Callable[[Fit], list[Linear]]) -> list[Linear]:
     """What the noise of the reference makes of each trial's residual and columns."""
     up, down = (
-        linearised(replace(fit, trials=tuple(moved(t, sign) for t in fit.trials)))
+        linearised(replace(fit, trials=tuple(moved(t, sign) for t in fit.trials), last=Last()))
         for sign in (1, -1)
     )
     return [_difference(a, b) for a, b in zip(up, down, strict=True)]
@@ -240,7 +240,8 @@ def equations(fit: Fit, linearised: Callable[[Fit], list[Linear]] = Fit.linearis
         unknown[at] += error * np.diag(noise.gram)[own]
         # Gram matrices by batch are large: they are taken off where they stand.
         score[:, at] -= noise.batch_score[:, own]
-        gram[np.ix_(range(len(gram)), at, at)] -= noise.batch_gram[:, own][:, :, own]
+        for whole, part in zip(gram, noise.batch_gram, strict=True):
+            whole[np.ix_(at, at)] -= part[np.ix_(own, own)]
         power -= noise.power
     whole = np.diag(gram.sum(axis=0))
     hidden = whole <= np.maximum(LEAST_SEEN * np.diag(seen), CHANCE * unknown)
