@@ -19,10 +19,16 @@ from scipy.stats import chi2
 from pyimu.identification.fit.columns import Linear, in_band
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk
+from pyimu.model.kinds import KINDS
+from pyimu.model.signals import COLUMNS
+from pyimu.recording.quality.clipping import clipped
 
 WINDOWS = 8
 """Windows that a log is cut into, half of each in the next one: enough to tell the three axes of
 the sensor from noise, and as long as that allows."""
+
+FOR_EACH = 2
+"""Windows for each further signal that what is left is compared with."""
 
 OVERLAP = 1.06
 """Windows of Hann's form that overlap by half, over independent ones of as much weight: neighbours
@@ -48,6 +54,9 @@ CHANCE = 4.0
 FOLDS = 3
 """Multiples of the rate of rows from about which noise is folded into them: of what lies beyond,
 the band lets a few millionths through."""
+
+ROUNDING = 1e-12
+"""Share of the power of signals below which what they differ by is rounding."""
 
 FEWEST_ROWS = 32
 """Rows of a window, of which there must be one frequency within the band at least."""
@@ -112,42 +121,71 @@ NOTHING = Spectrum(np.zeros(0), np.zeros(0), np.zeros(0))
 def unseen_spectrum(trial: Trial, one: Linear, axis: int, own: RandomWalk) -> Spectrum:
     """Density of what is left on an ``axis`` and is not coherent with the sensor, less what its
     ``own`` noise has of that.
+
+    Of a reference that is no derivative neither with the signals that bend it: what an effect
+    leaves is no noise of a reference, and no narrow band hides it.
     """
-    measured = in_band(trial, trial.y[:, list(trial.axes)])
-    rows = sum(b - a for a, b in one.segments)
-    length = 2 * (rows // WINDOWS // 2)
-    starts = [s for a, b in one.segments for s in range(a, b - length + 1, max(1, length // 2))]
-    inputs = measured.shape[1]
-    if length < FEWEST_ROWS or len(starts) < 2 * inputs:
+    columns, bad = trial.y[:, list(trial.axes)], np.zeros(len(trial.y), dtype=bool)
+    if trial.band_hz is None:
+        columns, bad = np.column_stack([columns, _bending(trial)]), _without_information(trial)
+    inputs, bad = in_band(trial, columns), in_band(trial, bad[:, None].astype(float))[:, 0] > 0.0
+    count, rows = inputs.shape[1], sum(b - a for a, b in one.segments)
+    length = 2 * (rows // max(WINDOWS, FOR_EACH * count - FOR_EACH * len(trial.axes)) // 2)
+    starts = [
+        s
+        for a, b in one.segments
+        for s in range(a, b - length + 1, max(1, length // 2))
+        if not bad[s : s + length].any()
+    ]
+    if length < FEWEST_ROWS or len(starts) < 2 * count:
         return NOTHING
-    both = np.column_stack([one.residual[:, axis], measured])
+    both = np.column_stack([one.residual[:, axis], inputs])
     window, interval = hann(length, sym=False), trial.h * trial.band.stride
     pieces = np.array([both[s : s + length] for s in starts])
     pieces -= pieces.mean(axis=1, keepdims=True)
-    z = np.fft.rfft(pieces * window[:, None], axis=1)
-    # (f, 1 + inputs, 1 + inputs): residual first.
-    cross = np.einsum("kfi,kfj->fij", z.conj(), z) * (
-        2 * interval / len(starts) / (window @ window)
-    )
+    z = np.fft.rfft(pieces * window[:, None], axis=1).transpose(1, 2, 0)
+    # (f, 1 + count, 1 + count): residual first.
+    cross = z.conj() @ z.transpose(0, 2, 1) * (2 * interval / len(starts) / (window @ window))
     r, by = cross[:, 0, 0].real, cross[:, 1:, 0]
-    inverse = np.linalg.pinv(cross[:, 1:, 1:], hermitian=True)
-    shown = np.einsum("fi,fij,fj->f", by.conj(), inverse, by).real
-    whole = len(starts) / OVERLAP
-    averaged = whole - inputs
-    left = np.maximum(r - shown, 0.0) * (1.0 + inputs / averaged)
+    inverse = _inverse(cross[:, 1:, 1:])
+    gain = np.einsum("fij,fj->fi", inverse, by)
+    shown = np.einsum("fi,fi->f", by.conj(), gain).real
+    averaged = len(starts) / OVERLAP - count
+    left = np.maximum(r - shown, 0.0) * (1.0 + count / averaged)
     frequency = np.fft.rfftfreq(length, interval)
     at = trial.axes.index(axis)
     mine = _own(trial, own, frequency)
-    # The sensor's own noise is in its signal as well: so much of it is not left. The mean of an
-    # inverse is too large (Goodman 1963, "Statistical analysis based on a certain multivariate
-    # complex Gaussian distribution", Ann. Math. Stat. 34).
-    level = inverse[:, at, at].real * averaged / whole
-    for some in thirds(len(level)):
-        level[some] = level[some].mean()
-    within = np.minimum(mine**2 * level, mine)
-    psd, std = left - mine + within, np.hypot(left, within) / np.sqrt(averaged)
+    # The sensor's own noise is in its signal as well: that share of it is not left.
+    share = np.clip(gain[:, at].real, 0.0, 1.0)
+    of_share = mine * np.sqrt(left * inverse[:, at, at].real)
+    psd, std = left - mine * (1.0 - share), np.hypot(left, of_share) / np.sqrt(averaged)
     psd[0] = std[0] = 0.0
     return Spectrum(frequency, psd, std)
+
+
+def _inverse(matrices: np.ndarray) -> np.ndarray:
+    """The inverses of Hermitian matrices (f, k, k) of signals that differ much in size."""
+    size = np.sqrt(np.maximum(np.diagonal(matrices, axis1=1, axis2=2).real, 1e-300))
+    scale = size[:, :, None] * size[:, None, :]
+    return np.linalg.pinv(matrices / scale, rcond=ROUNDING, hermitian=True) / scale
+
+
+def _bending(trial: Trial) -> np.ndarray:
+    """Signals (n, k) as effects make them of what a sensor shows: the other triad's, absolute
+    values, and products of two.
+    """
+    other = {"gyro": KINDS["accel"].own, "accel": KINDS["gyro"].own}[trial.kind]
+    beside = trial.u[:, COLUMNS[other]] if other in trial.known else np.zeros((len(trial.y), 0))
+    own = trial.y[:, list(trial.axes)]
+    every = np.column_stack([own - np.median(own, axis=0), beside])
+    first, second = np.triu_indices(every.shape[1])
+    return np.column_stack([beside, np.abs(own), every[:, first] * every[:, second]])
+
+
+def _without_information(trial: Trial) -> np.ndarray:
+    """Mask (n,) of the samples that are left out, or at a limit."""
+    bad = np.any([clipped(trial.y[:, i]) for i in trial.axes], axis=0)
+    return bad if trial.left_out is None else bad | trial.left_out
 
 
 def of_reference(seen: Spectrum, high: float, error: float) -> tuple[Spectrum, bool]:

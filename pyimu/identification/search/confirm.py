@@ -142,7 +142,9 @@ def _wandering_most(new: Fit, old: Fit) -> Fit:
     residuals, noise = new.residuals(), dict(new.noise)
     for i, least in new.noise.items():
         most = old.noise[i]
-        if isinstance(least, RandomWalk) and not walk[i] and most.k2 > least.k2:
+        if not (isinstance(least, RandomWalk) and isinstance(most, RandomWalk)) or walk[i]:
+            continue
+        if most.k2 > least.k2:
             tried = [replace(least, k2=k2) for k2 in np.geomspace(most.k2 * 1e-4, most.k2, LIMITS)]
             best = axis_likelihood(residuals, i, least)
             seen = [n for n in tried if axis_likelihood(residuals, i, n) > best - POSSIBLE]
