@@ -10,12 +10,16 @@ import typer
 from pyimu.cli.options import (
     Columns,
     Effects,
+    Json,
     Latitude,
     Log,
+    Quiet,
     add_effects,
+    check_told,
     option,
     progress,
     radians,
+    tell,
 )
 
 Out = Annotated[
@@ -80,6 +84,8 @@ def navigate_command(
     heading0: Heading0 = None,
     top_speed: TopSpeed = None,
     effects: Effects = None,
+    as_json: Json = False,
+    quiet: Quiet = False,
 ) -> None:
     """Example: pyimu navigate square.csv --part mpu6050 --out out/navigate
 
@@ -91,6 +97,7 @@ def navigate_command(
     from pyimu.navigation.run import run
     from pyimu.recording.log import read_recording
 
+    check_told(as_json, quiet)
     at, heading = radians("--latitude", latitude, 90), radians("--heading0", heading0, 360)
     check_folder(out)
     add_effects(effects)
@@ -113,5 +120,5 @@ def navigate_command(
         )
         say("drawing the report")
         page = found.write(out)
-    print(found.report())
-    print(f"report: {page}, estimates: {page.with_name('navigation.parquet')}")
+    lines = [f"report: {page}, estimates: {page.with_name('navigation.parquet')}"]
+    tell(found.report, (out / "report.json").read_text, lines, as_json=as_json, quiet=quiet)
