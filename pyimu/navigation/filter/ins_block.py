@@ -64,7 +64,7 @@ def strapdown_ins(part: Part, nhc: bool = True, detects: bool = True) -> Block:
     return _block(Layout(part, nhc, detects), recorded=False, constrained=False)
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=16)
 def ins_of_log(layout: Layout, recorded: bool = False) -> Block:
     """The block that runs over a log; where it is ``recorded``, with what a smoother needs."""
     return _block(layout, recorded, constrained=layout.nhc)
