@@ -111,12 +111,10 @@ def by_the_loop() -> None:
         "the paper's motion, 12.9 ms late, by rate": (swinging, "rate", {}),
         "the paper's motion, 12.9 ms late, by heading": (swinging, "heading", {}),
     }
-    noise = {"angle_random_walk": {"N": 6.2e-4}, "rate_random_walk": {"K": 2e-5}}
-    part = Part("its noise alone", 1 / H, Sensor("gyro", noise))
     for name, (motion, kind, errors) in cases.items():
         log = loop_log(motion, kind, **errors)
         plain, found = self_calibrate(log), fit(log)
-        closed = close(log, part)
+        closed = close(log, its_noise(motion))
         print(f"{name}: true s -10 %, b 0.1 rad/s")
         print(f"  least squares     s {100 * plain.s:.3f} %, b {plain.b0:.4f} rad/s")
         late = "" if found.late is None else f", reference late by {1e3 * found.late:.2f} ms"
@@ -126,6 +124,13 @@ def by_the_loop() -> None:
                 print(f"  close  {line.strip()[:150]}")
         s = closed.after.gyro.values.get("scale_factor", {}).get("s", np.full(3, np.nan))
         print(f"  close  s {100 * s[2]:.3f} %")
+
+
+def its_noise(motion) -> Part:
+    """A part that has the noise of the gyro in this motion, and nothing else."""
+    n, k = motion(H * np.arange(100), np.random.default_rng(0))[-1]
+    noise = {"angle_random_walk": {"N": n}, "rate_random_walk": {"K": k}}
+    return Part("its noise alone", 1 / H, Sensor("gyro", noise))
 
 
 def turning(time: np.ndarray, rng: np.random.Generator):
