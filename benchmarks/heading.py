@@ -10,7 +10,7 @@ size of a tactical and of a consumer gyro.
 ``--loop`` prints instead what ``pyimu close`` says of logs of 10 min with errors that least squares
 takes for scale factor: a heading whose samples stand at the ends of the periods, an asymmetry of
 the scale factor, a temperature that goes up and down, and the paper's own motion (section 3.1) with
-a late reference.
+a late reference. It is told the gyro's noise and nothing else.
 """
 
 from __future__ import annotations
@@ -23,6 +23,8 @@ from scipy.ndimage import gaussian_filter1d
 
 from pyimu.heading import fit, self_calibrate
 from pyimu.identification.close import close
+from pyimu.model.part import Part
+from pyimu.model.sensor import Sensor
 from pyimu.recording.recording import Recording
 
 H = 0.02
@@ -102,17 +104,17 @@ def one_log(rng: np.random.Generator, seconds: float, n: float, k: float):
 def by_the_loop() -> None:
     cases = {
         "heading at the ends of the periods": (turning, "heading", {}),
-        "asymmetry 0.5 %, by rate": (turning, "rate", {"asymmetry": 0.005}),
-        "asymmetry 0.5 %, by heading": (turning, "heading", {"asymmetry": 0.005}),
         "asymmetry 1 %, by rate": (turning, "rate", {"asymmetry": 0.01}),
+        "asymmetry 1 %, by heading": (turning, "heading", {"asymmetry": 0.01}),
         "0.02 deg/s/K on the axis that turns": (turning, "rate", {"thermal": np.radians(0.02)}),
+        "0.1 deg/s/K on the axis that turns": (turning, "rate", {"thermal": np.radians(0.1)}),
         "the paper's motion, 12.9 ms late, by rate": (swinging, "rate", {}),
         "the paper's motion, 12.9 ms late, by heading": (swinging, "heading", {}),
     }
     for name, (motion, kind, errors) in cases.items():
         log = loop_log(motion, kind, **errors)
         plain, found = self_calibrate(log), fit(log)
-        closed = close(log)
+        closed = close(log, its_noise(motion))
         print(f"{name}: true s -10 %, b 0.1 rad/s")
         print(f"  least squares     s {100 * plain.s:.3f} %, b {plain.b0:.4f} rad/s")
         late = "" if found.late is None else f", reference late by {1e3 * found.late:.2f} ms"
@@ -122,6 +124,13 @@ def by_the_loop() -> None:
                 print(f"  close  {line.strip()[:150]}")
         s = closed.after.gyro.values.get("scale_factor", {}).get("s", np.full(3, np.nan))
         print(f"  close  s {100 * s[2]:.3f} %")
+
+
+def its_noise(motion) -> Part:
+    """A part that has the noise of the gyro in this motion, and nothing else."""
+    n, k = motion(H * np.arange(100), np.random.default_rng(0))[-1]
+    noise = {"angle_random_walk": {"N": n}, "rate_random_walk": {"K": k}}
+    return Part("its noise alone", 1 / H, Sensor("gyro", noise))
 
 
 def turning(time: np.ndarray, rng: np.random.Generator):

@@ -5,10 +5,12 @@ and after each turn, 73 s at 100 Hz; its motors shake it by 0.3 m/s^2, its senso
 degree. Each run is another specimen of ``examples/sparkfun6dof_assumed.toml`` and other noise. The
 filter knows the part and its tolerances ("uncalibrated") or the specimen ("calibrated"). Then the
 same with ``sparkfun6dof_v2``, whose figures are those of data sheets, with a tactical part, and the
-time of a step beside the attitude filter's.
+time of a step beside the attitude filter's, in a C loop and in the unit that takes blocks. With 0
+runs only the times.
 """
 
 import sys
+import tempfile
 import time
 from dataclasses import replace
 from pathlib import Path
@@ -18,6 +20,7 @@ import numpy as np
 
 import pyimu
 from pyimu.attitude import attitude_ukf
+from pyimu.fmu import build_fmus, simulate_blocks
 from pyimu.navigation import run, strapdown_ins, strapdown_wongwirat
 from pyimu.navigation.filter.ins_block import ins_of_log
 from pyimu.navigation.filter.layout import Layout
@@ -64,6 +67,12 @@ def filtered(name, logs, parts, **how):
 
 
 def main(runs: int) -> None:
+    if runs:
+        errors(runs)
+    speed()
+
+
+def errors(runs: int) -> None:
     part, truth = pyimu.part(PART), square(**MORE)
     ins_of_log(Layout(part)).run(np.tile(ins_of_log(Layout(part)).start_inputs, (60_000, 1)))
     specimens = [part.specimen(seed) for seed in range(runs)]
@@ -81,7 +90,6 @@ def main(runs: int) -> None:
     filtered("smoother, calibrated, NHC", logs, specimens, nhc=True, method="smoother")
     by_data_sheets(truth, runs)
     tactical(runs)
-    speed()
 
 
 def by_data_sheets(truth, runs):
@@ -132,8 +140,23 @@ def speed():
         hour = 360_000e-6 * sum(times) / 2
         print(
             f"{name:24} {times[0]:6.2f} us a step in motion, {times[1]:6.2f} at rest, "
-            f"{hour:.2f} s an hour"
+            f"{hour:.2f} s an hour{of_a_unit(block, u)}"
         )
+
+
+def of_a_unit(block, u) -> str:
+    """How much longer the block form of the unit takes than its own C in a loop."""
+    with tempfile.TemporaryDirectory() as folder:
+        (path,) = build_fmus(block, folder, ["block"])
+        ratios = []
+        for _ in range(6):
+            times = []
+            for run_it in (lambda: simulate_blocks(path, u), lambda: block.run(u)):
+                begin = time.process_time()
+                run_it()
+                times.append(time.process_time() - begin)
+            ratios.append(times[0] / times[1])
+    return f"; the unit takes {median(ratios[1:]):.2f} of the loop's time"
 
 
 if __name__ == "__main__":

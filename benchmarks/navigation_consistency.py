@@ -7,7 +7,8 @@ normalised innovation squared of the first zero velocity of each stop and of the
 is right), and that of the error of the position at the end (2 is right), with its 95 % bounds over
 the runs; of the vehicle's constraint also by how much it lowers the error of the path. "Calibrated"
 is a part of which a calibration took out everything but the turn-on bias, whose tolerance is known.
-Each run is a line of FILE as soon as it is made, and is not made again.
+What a run shows is a line of FILE as soon as it is made, and no case that has one is made again: it
+may be stopped at any time, and a case of ``CASES`` that is taken out of FILE is made anew.
 """
 
 import json
@@ -61,10 +62,11 @@ CASES = {
 }
 
 
-def made(seed, truth, logs):
-    """The figures of each case for one seed."""
-    out = {"seed": seed}
-    for name, (source, calibrated, how) in CASES.items():
+def made(seed, truth, wanted):
+    """The figures of the wanted cases for one seed."""
+    out, logs = {"seed": seed}, {}
+    for name in wanted:
+        source, calibrated, how = CASES[name]
         part = known(source, calibrated)
         if (source, calibrated) not in logs:
             logs[source, calibrated] = logged(part, truth, seed)
@@ -83,19 +85,21 @@ def made(seed, truth, logs):
 
 def rows_of(file):
     """The runs that the file has, by seed."""
-    if not file.exists():
-        return {}
-    rows = [json.loads(line) for line in file.read_text().splitlines()]
-    return {row["seed"]: row for row in rows if set(CASES) <= set(row)}
+    rows = {}
+    for line in file.read_text().splitlines() if file.exists() else ():
+        row = json.loads(line)
+        rows.setdefault(row["seed"], {}).update(row)
+    return rows
 
 
 def main(runs, file):
     truth, rows = square(**MORE), rows_of(file)
     for seed in range(runs):
-        if seed not in rows:
-            rows[seed] = made(seed, truth, {})
+        row = rows.setdefault(seed, {})
+        if wanted := [name for name in CASES if name not in row]:
+            row.update(made(seed, truth, wanted))
             with file.open("a") as out:
-                out.write(json.dumps(rows[seed]) + "\n")
+                out.write(json.dumps(row) + "\n")
     shown(rows)
 
 

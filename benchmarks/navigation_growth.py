@@ -25,6 +25,7 @@ from navigation import MORE, PART, RUNS
 import pyimu
 from pyimu.attitude.filter.compensation import noise_of
 from pyimu.navigation import run
+from pyimu.navigation.filter.prediction import LASTS
 from pyimu.rover.square import square
 from pyimu.units import STANDARD_GRAVITY
 
@@ -35,7 +36,8 @@ MEDIAN = float(np.sqrt(2 * np.log(2)))
 
 def theory(part, seconds):
     """Median horizontal error in m after a leg of so many seconds and the stop."""
-    n = np.array(ca.evalf(noise_of(part.gyro, ca.SX(ca.DM(part.gyro.p)), part.sample_period).white))
+    noise = noise_of(part.gyro, ca.SX(ca.DM(part.gyro.p)), part.sample_period, LASTS)
+    n = np.array(ca.evalf(noise.white))
     return MEDIAN * STANDARD_GRAVITY * n.ravel()[0] * np.sqrt(np.asarray(seconds) ** 5 / 720)
 
 

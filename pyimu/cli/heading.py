@@ -8,7 +8,19 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from pyimu.cli.options import FORMATS, Columns, Effects, Out, add_effects, option, progress
+from pyimu.cli.options import (
+    FORMATS,
+    Columns,
+    Effects,
+    Json,
+    Out,
+    Quiet,
+    add_effects,
+    check_told,
+    option,
+    progress,
+    tell,
+)
 
 if TYPE_CHECKING:
     from pyimu.heading.motion import Reference
@@ -63,6 +75,8 @@ def heading_command(
     slip: Slip = 0.0,
     columns: Columns = None,
     effects: Effects = None,
+    as_json: Json = False,
+    quiet: Quiet = False,
 ) -> None:
     """Example: pyimu heading robot.csv --method all --out out/heading
 
@@ -73,9 +87,14 @@ def heading_command(
     """
     from pyimu.files import check_folder
     from pyimu.heading.run import run
+    from pyimu.heading.threshold import check_not_negative
     from pyimu.recording.log import read_recording
 
+    check_told(as_json, quiet)
     by = _reference(reference)
+    given = {"--threshold": threshold, "--release": release, "--hold": hold}
+    for name, value in (given | {"--start-up": start_up, "--slip": slip}).items():
+        check_not_negative(name, value)
     check_folder(out)
     add_effects(effects)
     with progress("reading") as say:
@@ -94,8 +113,8 @@ def heading_command(
         )
         say("drawing the report")
         page = found.write(out)
-    print(found.report())
-    print(f"report: {page}")
+    lines = [f"report: {page}"]
+    tell(found.report, (out / "report.json").read_text, lines, as_json=as_json, quiet=quiet)
 
 
 def _reference(text: str | None) -> Reference | None:

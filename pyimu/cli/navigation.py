@@ -10,12 +10,16 @@ import typer
 from pyimu.cli.options import (
     Columns,
     Effects,
+    Json,
     Latitude,
     Log,
+    Quiet,
     add_effects,
+    check_told,
     option,
     progress,
     radians,
+    tell,
 )
 
 Out = Annotated[
@@ -51,6 +55,13 @@ VelocityStd = Annotated[
     float | None,
     option("--velocity-std", "m/s; of those velocities, else the column velocity_std."),
 ]
+Antenna = Annotated[
+    str | None,
+    option(
+        "--antenna",
+        "X,Y,Z m forward, left and up from the sensor to where position and velocity are measured.",
+    ),
+]
 Heading0 = Annotated[
     float | None,
     option(
@@ -76,10 +87,13 @@ def navigate_command(
     fixes: UseFixes = True,
     position_std: PositionStd = None,
     velocity_std: VelocityStd = None,
+    antenna: Antenna = None,
     latitude: Latitude = None,
     heading0: Heading0 = None,
     top_speed: TopSpeed = None,
     effects: Effects = None,
+    as_json: Json = False,
+    quiet: Quiet = False,
 ) -> None:
     """Example: pyimu navigate square.csv --part mpu6050 --out out/navigate
 
@@ -91,7 +105,10 @@ def navigate_command(
     from pyimu.navigation.run import run
     from pyimu.recording.log import read_recording
 
+    check_told(as_json, quiet)
     at, heading = radians("--latitude", latitude, 90), radians("--heading0", heading0, 360)
+    settings: dict[str, object] = {} if top_speed is None else {"top_speed": top_speed}
+    settings |= {} if antenna is None else {"antenna": _three("--antenna", antenna)}
     check_folder(out)
     add_effects(effects)
     with progress("reading") as say:
@@ -108,10 +125,23 @@ def navigate_command(
             velocity_std=velocity_std,
             latitude=at,
             heading0=heading,
-            settings={} if top_speed is None else {"top_speed": top_speed},
+            settings=settings,
             say=say,
         )
         say("drawing the report")
         page = found.write(out)
-    print(found.report())
-    print(f"report: {page}, estimates: {page.with_name('navigation.parquet')}")
+    lines = [f"report: {page}, estimates: {page.with_name('navigation.parquet')}"]
+    tell(found.report, (out / "report.json").read_text, lines, as_json=as_json, quiet=quiet)
+
+
+def _three(name: str, text: str) -> tuple[float, ...]:
+    """The numbers of ``X,Y,Z``. Raises UserError for anything else."""
+    from pyimu.errors import UserError
+
+    try:
+        numbers = tuple(float(v) for v in text.split(","))
+    except ValueError:
+        numbers = ()
+    if len(numbers) != 3:
+        raise UserError(f"{name} {text}: expected X,Y,Z in m, such as 0.2,0,0.5")
+    return numbers

@@ -260,5 +260,6 @@ def _check_rests(one: KnownMotion, marked: np.ndarray) -> None:
                 raise UserError(
                     f"{one.name}: stationary from {one.time[a + i]:.6g} to "
                     f"{one.time[a + j - 1]:.6g} s, in which the reference turns by "
-                    f"{np.degrees(turned):.3g} deg: correct the column stationary, or leave it out"
+                    f"{np.degrees(turned):.3g} deg: correct the column stationary, or the "
+                    "reference's clock, or leave the column out"
                 )

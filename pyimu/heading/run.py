@@ -13,7 +13,8 @@ from pyimu.errors import UserError
 from pyimu.heading.calibration import Calibration, self_calibrate
 from pyimu.heading.filter import HeadingFilter, HeadingTrack, compensated
 from pyimu.heading.fit import fit
-from pyimu.heading.motion import Reference, Z, known_motion
+from pyimu.heading.motion import KnownMotion, Reference, Z, known_motion
+from pyimu.heading.notes import of_clock, of_log
 from pyimu.heading.outcome import Method, Track
 from pyimu.heading.result import HeadingResult
 from pyimu.heading.threshold import TYPICAL, check_not_negative, threshold_filter
@@ -157,21 +158,26 @@ class _OneLog:
             first = 1
         self.known, self.part = motion, part
         self.log, self.before = log.slice(first), log.slice(0, first)
-        self.true = _true_heading(log)
+        self.true = _true_heading(log, reference)
         self.first = first
+        self.notes += of_log(log, self.true)
 
     def tracks(self, names: list[str], explicit: bool) -> dict[str, Track]:
         """The track of each method; one that lacks a reference is left out and said to be, unless
         it was asked for by name.
         """
-        found = {}
+        found: dict[str, Track] = {}
+        left_out: dict[str, list[str]] = {}
         for name in names:
             try:
                 found[name] = self._track(name)
             except UserError as error:
                 if explicit or name not in CALIBRATED:
                     raise
-                self.notes.append(f"{name} is left out: {error}")
+                left_out.setdefault(str(error), []).append(name)
+        for reason, without in left_out.items():
+            verb = "is" if len(without) == 1 else "are"
+            self.notes.append(f"{' and '.join(without)} {verb} left out: {reason}")
         return found
 
     def _track(self, name: str) -> Track:
@@ -220,7 +226,7 @@ class _OneLog:
 
     def _check_threshold(self) -> None:
         """Refuse a threshold above the slowest turn of the log, which it would take for noise."""
-        slowest = _slowest_turn(self.log)
+        slowest = _slowest_turn(self.log, self.reference)
         if slowest is not None and self.threshold[0] > slowest:
             raise UserError(
                 f"{self.log.name}: the threshold of {np.degrees(self.threshold[0]):.3g} deg/s is "
@@ -233,6 +239,7 @@ class _OneLog:
         try:
             known = self.known if part is None else compensated(self.known, part)
             found = fit(known, self.reference)
+            self.notes += of_clock(found, known.sample_period)
         except UserError as error:
             self.notes.append(f"filter without a known motion: {error}")
         if part is None:
@@ -243,10 +250,17 @@ class _OneLog:
         return self._against(track.heading, found, track)
 
 
-def _true_heading(log: Recording) -> np.ndarray | None:
+def _judging(log: Recording, reference: Reference | None) -> KnownMotion:
+    """The log beside the ``reference`` that is believed, or beside what it has."""
+    has = {"heading": log.ref_heading is not None or log.ref_q is not None}
+    has["rate"] = log.ref_rate is not None
+    return known_motion(log, reference if reference is not None and has[reference] else None)
+
+
+def _true_heading(log: Recording, reference: Reference | None) -> np.ndarray | None:
     """The reference's heading (n,) rad, NaN where it is missing; a rate is added up."""
     try:
-        one = known_motion(log)
+        one = _judging(log, reference)
     except UserError:
         if log.ref_heading is None and log.ref_q is None and log.ref_rate is None:
             return None
@@ -260,14 +274,14 @@ def _true_heading(log: Recording) -> np.ndarray | None:
     return true
 
 
-def _slowest_turn(log: Recording) -> float | None:
+def _slowest_turn(log: Recording, reference: Reference | None) -> float | None:
     """The rate in rad/s of the slowest turn that the reference shows; None without one.
 
     A turn goes one way, without a second's stop, by ``TURN`` or more; its rate is the mean over
     its angle, which steering before and after hardly changes.
     """
     try:
-        one = known_motion(log)
+        one = _judging(log, reference)
     except UserError:
         return None
     slowest = []

@@ -68,6 +68,14 @@ def magnitudes(effect: str, kind: str) -> dict[str, Magnitude]:
     return dict(table[effect, kind])
 
 
+def largest(effect: str, kind: str) -> float:
+    """The largest size in SI units that a data sheet allows a part, 0 where none allows more than
+    ten times what is typical of a consumer part.
+    """
+    figure = _file().get(effect, {}).get(kind, {}).get("largest")
+    return 0.0 if figure is None else _si(float(figure["value"]), figure["unit"])
+
+
 def documents() -> Mapping[str, str]:
     """The documents by the key with which a source begins."""
     return _file()["documents"]

@@ -81,21 +81,30 @@ class Job:
             "fixes": self.fixes,
         }
 
-    def grid(self, fixes: bool = True) -> InputGrid:
+    def grid(self, start: Start, fixes: bool = True) -> InputGrid:
         marked = replace(self.recording, stationary=self.still.astype(float), heading=None)
         names = [v.name for v in self.block.inputs]
-        more = self.fixes.columns if fixes and self.fixes is not None else None
+        more = None
+        if fixes and self.fixes is not None:
+            more = self.fixes.of_antenna(self._antenna(start))
         return InputGrid(marked, self.part, names, more=more)
+
+    def _antenna(self, start: Start) -> np.ndarray:
+        """Where the antenna (3,) is at the start, m in world axes, of a body that stands level."""
+        p, names = self.p(start), [v.name for v in self.block.parameters]
+        x, y, z = (p[names.index(f"antenna[{i}]")] for i in (1, 2, 3))
+        c, s = np.cos(start.heading), np.sin(start.heading)
+        return np.array([c * x - s * y, s * x + c * y, z])
 
     def filtered(self, start: Start, fixes: bool = True) -> Filtered:
         p, time = self.p(start), self.recording.time
         speed = self._top_speed(p)
-        return filtered(self.block, self.layout, self.grid(fixes), p, time, speed)
+        return filtered(self.block, self.layout, self.grid(start, fixes), p, time, speed)
 
     def smoothed(self, start: Start, say: Callable[..., None]) -> Track:
         p, block = self.p(start), ins_of_log(self.layout, True)
         time = self.recording.time
-        return smoothed(block, self.layout, self.grid(), p, time, self._top_speed(p), say)
+        return smoothed(block, self.layout, self.grid(start), p, time, self._top_speed(p), say)
 
     def _top_speed(self, p: np.ndarray) -> float:
         names = [v.name for v in self.block.parameters]

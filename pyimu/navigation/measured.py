@@ -32,6 +32,14 @@ class Fixes:
     position: np.ndarray
     std: float
 
+    def of_antenna(self, arm: np.ndarray) -> Mapping[str, np.ndarray]:
+        """The columns where the sensor is the origin, and the antenna begins at ``arm`` (3,) m."""
+        names = [f"position_measured[{i}]" for i in (1, 2, 3)]
+        if names[0] not in self.columns:
+            return self.columns
+        moved = {n: self.columns[n] + v for n, v in zip(names, arm, strict=True)}
+        return {**self.columns, **moved}
+
     @property
     def settings(self) -> dict[str, float]:
         """Parameters of the filter that follow."""
@@ -144,7 +152,8 @@ def check_fixes(recording: Recording, fixes: Fixes | None, found: Filtered) -> l
             raise UserError(
                 f"{recording.name}: {share:.0%} of the measured {name} contradicts gyro and "
                 f"accelerometer by more than {name}_std allows; is {name}_east, {name}_north in "
-                "another frame, unit or order, or later than its rows? --no-fixes leaves it out"
+                "another frame, unit or order, later than its rows, or its antenna beside the "
+                "sensor (--antenna)? --no-fixes leaves it out"
             )
         out.append(Finding(f"{name}_fixes", name, wrong, {"share": share, "of": int(valid.sum())}))
     return out

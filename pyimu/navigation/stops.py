@@ -14,6 +14,7 @@ from pyimu.model.part import Part
 from pyimu.navigation.compensated import compensated
 from pyimu.navigation.detector import Detected, Noise, detect
 from pyimu.navigation.filter.layout import open_std
+from pyimu.navigation.filter.prediction import LASTS
 from pyimu.recording.recording import Recording
 
 ZUPT = ("auto", "live", "declared", "off")
@@ -108,7 +109,7 @@ def noise_at_rest(recording: Recording, part: Part, rest: Rest, declared: bool) 
     period = recording.sample_period
     stds, walks = [], []
     for sensor, seen in ((part.gyro, rest.rate_std), (part.accel, rest.force_std)):
-        noise = noise_of(sensor, ca.SX(ca.DM(sensor.p)), period)
+        noise = noise_of(sensor, ca.SX(ca.DM(sensor.p)), period, LASTS)
         white = np.array(ca.evalf(noise.white), dtype=float).ravel() / np.sqrt(period)
         most = NOISIER * white if declared else np.full(3, np.inf)
         shown = np.minimum(seen, most) if rest.seen else np.zeros(3)

@@ -138,15 +138,15 @@ def envelope(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Smallest and largest value in each of ``bins`` intervals of time.
 
-    They are NaN where an interval has no sample.
+    They are NaN where an interval has no sample but missing ones.
     """
     if len(time) <= bins:
         return time, values, values
     edges = np.linspace(time[0], time[-1], bins + 1)
     place = np.clip(np.searchsorted(edges, time, side="right") - 1, 0, bins - 1)
     low, high = np.full(bins, np.inf), np.full(bins, -np.inf)
-    np.minimum.at(low, place, values)
-    np.maximum.at(high, place, values)
+    np.fmin.at(low, place, values)
+    np.fmax.at(high, place, values)
     empty = low > high
     low[empty] = high[empty] = np.nan
     return 0.5 * (edges[1:] + edges[:-1]), low, high

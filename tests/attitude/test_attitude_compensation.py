@@ -116,6 +116,20 @@ def test_rounding_counts_as_white_noise_and_what_is_not_undone_is_said():
     assert "lag" not in attitude_ukf(part_of("gyro", excited("lag", "gyro"))).description
 
 
+@pytest.mark.parametrize("horizon", [10.0, 100.0])
+def test_what_stands_for_a_gauss_markov_process_grows_as_it_does_over_the_horizon(horizon):
+    """Of a process much faster than the horizon the sum over it has the variance 2 s^2 tau T, less
+    the share tau/T twice over; what a much slower one adds by then, s^2 T/tau twice, the walk has.
+    """
+    for tau, white, walk in ((0.05, 2 * 0.05, None), (5000.0, 0.0, 2.0 / 5000.0)):
+        sensor = Sensor("gyro", {"gauss_markov": {"q": 1e-3 * np.sqrt(2 / tau), "tau": tau}})
+        noise = noise_of(sensor, ca.SX(ca.DM(sensor.p)), H, horizon)
+        found = [np.array(ca.evalf(v)).ravel()[0] ** 2 / 1e-6 for v in (noise.white, noise.walk)]
+        assert found[0] == pytest.approx(white, rel=3 * 0.05 / horizon, abs=horizon**2 / 5000)
+        if walk is not None:
+            assert found[1] == pytest.approx(walk, rel=horizon / 5000)
+
+
 def test_filter_of_a_part_with_every_effect_at_once_stays_finite(world):
     part = Part("test", 1 / H, everything("gyro", 0.002), everything("accel", 0.002))
     measured, _ = part.block.run(columns(part.block, world[1]), seed=1)

@@ -10,6 +10,7 @@ from pyarrow import parquet
 
 from pyimu import heading, read_recording
 from pyimu.heading import METHODS
+from pyimu.recording.recording import Recording
 from pyimu.rover.indoor_runs import Assumptions, one_run
 
 
@@ -61,7 +62,7 @@ def test_without_a_reference_the_methods_that_need_none_go_on(pyimu, whole, tmp_
     replace(text, ref_heading=None).write(tmp_path / "bare.csv")
     code, out, _ = pyimu("heading", "bare.csv", "--out", "out")
     assert code == 0
-    for words in ("self-calibration is left out", "paper is left out", "without a known motion"):
+    for words in ("self-calibration and paper are left out", "without a known motion"):
         assert words in out
     assert "no log has a reference of its heading" in out
     code, _, err = pyimu("heading", "bare.csv", "--method", "paper", "--out", "other")
@@ -69,19 +70,71 @@ def test_without_a_reference_the_methods_that_need_none_go_on(pyimu, whole, tmp_
     one_line(err, "bare", "no reference", "ref_heading")
 
 
+def test_the_report_as_json_alone_or_not_at_all(pyimu, whole, tmp_path):
+    words = ("heading", whole / "run0.csv", "--method", "integrate", "--out", "out")
+    code, out, err = pyimu(*words, "--json")
+    assert code == 0 and err == "" and out == (tmp_path / "out" / "report.json").read_text()
+    assert pyimu(*words, "--quiet") == (0, "", "")
+
+
+def test_what_is_missing_or_late_is_said(pyimu, whole, tmp_path):
+    log = read_recording(whole / "run0.csv")
+    gyro, true = np.array(log.gyro), np.array(log.ref_heading)
+    gyro[2000:2003], true[8000:] = np.nan, np.nan
+    rows = np.r_[0:5000, 5100 : len(log)]
+    late = np.interp(log.time - 0.013, log.time, true)
+    groups = {"gyro": gyro, "ref_heading": late, "accel": log.accel}
+    gappy = Recording.from_arrays(
+        "gappy", time=log.time[rows], **{name: v[rows] for name, v in groups.items()}
+    )
+    gappy.write(tmp_path / "gappy.csv")
+    code, out, err = pyimu("heading", "gappy.csv", "--out", "out")
+    assert code == 0 and err == ""
+    for said in (
+        "gyro_z is missing in 3 rows, the first at 40 s",
+        "a gap of 2.02 s after 99.98 s",
+        "the reference ends at",
+        "the reference is late by 13",
+    ):
+        assert said in out, out
+
+
+def test_of_two_references_the_one_that_is_named_is_believed(pyimu, whole, tmp_path):
+    log = read_recording(whole / "run0.csv")
+    rate = np.zeros((len(log), 3))
+    rate[1:, 2] = 0.8 * np.diff(log.ref_heading) * log.sample_rate
+    replace(log, ref_rate=rate, stationary=None).write(tmp_path / "two.csv")
+    words = ("heading", "two.csv", "--method", "self-calibration", "--out", "out")
+    code, _, err = pyimu(*words)
+    assert code == 2
+    one_line(err, "ref_heading and ref_rate_z disagree", "--reference")
+    found = {}
+    for name in ("heading", "rate"):
+        assert pyimu(*words, "--reference", name, "--quiet") == (0, "", "")
+        data = json.loads((tmp_path / "out" / "report.json").read_text())
+        found[name] = data["methods"][0]["logs"][0]
+    # By the rate, which is a fifth too slow, all turns of the log are as well: 72 of 360 deg.
+    s = {name: one["calibration"]["s"]["value"] for name, one in found.items()}
+    assert (1 + s["rate"]) / (1 + s["heading"]) == pytest.approx(1 / 0.8, rel=0.01)
+    turned = found["heading"]["heading"] - found["rate"]["heading"]
+    assert turned == pytest.approx(0.2 * 2 * np.pi, rel=0.05)
+    assert abs(found["rate"]["error"]) < 0.1
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [
         (("missing.csv",), ("missing.csv", "no such file")),
         (("LOG", "--method", "papre"), ("--method papre", "paper", "known are")),
-        (("LOG", "--threshold", "-1"), ("threshold", "not negative")),
+        (("LOG", "--threshold", "-1"), ("--threshold is -1", "not negative")),
         (("LOG", "--threshold", "45"), ("slowest turn", "45 deg/s", "--threshold")),
         (("LOG", "--start-up", "500"), ("no longer than its start-up", "--start-up")),
         (("LOG", "--reference", "yaw"), ("--reference yaw", "heading, rate")),
         (("LOG", "--part", "imt31"), ("imt31", "no built-in part")),
         (("LOG", "--release", "1"), ("release", "above the threshold")),
-        (("LOG", "--slip", "-1"), ("slip is -0.01", "not negative")),
-        (("LOG", "--start-up", "nan"), ("start_up is nan", "not negative")),
+        (("LOG", "--slip", "-1"), ("--slip is -1", "not negative")),
+        (("LOG", "--start-up", "nan"), ("--start-up is nan", "not negative")),
+        (("LOG", "--json", "--quiet"), ("--json", "--quiet", "one of the two")),
         ((), ("LOG", "--help")),
     ],
 )

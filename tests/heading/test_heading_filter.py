@@ -166,6 +166,31 @@ def test_a_missing_gyro_widens_the_heading_by_the_unknown_rate():
     assert (found["status"][200:300].astype(int) & 1).all() and not found["status"][:200].any()
 
 
+@pytest.mark.parametrize("bad", [np.nan, 1e9, 200.0])
+def test_a_missing_sample_of_a_turn_holds_the_last_rate(bad):
+    """Every tenth, missing, absurd, or more than half a turn in a period; turning at 0.5 rad/s."""
+    gyro = np.full(1000, 0.5)
+    gyro[5::10] = bad
+    found = run(heading_estimator(part()), rows(1000, gyro_z=gyro), rest_time=0.0)
+    assert found["turned"][-1] == pytest.approx(0.5 * 1000 * H, rel=1e-12)
+    assert (found["status"][5::10] == (2 if bad == 200.0 else 1)).all()
+
+
+def test_the_unit_has_no_parameter_without_effect():
+    """Of a gyro with noise, a range and rounding on three axes, those about the vertical."""
+    block = heading_estimator(part_of("mpu6050"))
+    names = [v.name for v in block.parameters]
+    assert "gyro_error.saturation.limit[3]" in names and "gyro_error.quantization.q[3]" in names
+    assert not [n for n in names if n.startswith("gyro") and n.endswith(("[1]", "[2]"))]
+    depends = {
+        c
+        for f, at in ((block.step, 2), (block.initial, 1))
+        for y in (0, 1)
+        for c in f.jac_sparsity(y, at).get_triplet()[1]
+    }
+    assert depends == set(range(len(names)))
+
+
 def test_it_runs_without_an_accelerometer_and_without_a_rest():
     rng = np.random.default_rng(3)
     rate = 0.3 + 0.1 * np.sin(5 * np.arange(3000) * H)

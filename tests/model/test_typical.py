@@ -5,13 +5,15 @@ with honest sources.
 import math
 import re
 
+import numpy as np
 import pytest
 
 from pyimu.errors import UserError
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.kinds import KINDS
+from pyimu.model.part_file import part, part_names
 from pyimu.model.sensor import Sensor
-from pyimu.model.typical import CLASSES, NO_SOURCE, _table, documents, magnitudes
+from pyimu.model.typical import CLASSES, NO_SOURCE, _table, documents, largest, magnitudes
 from pyimu.units import convert, same_dimension
 
 PAIRS = sorted((e.name, kind) for e in CATALOGUE.values() for kind in e.sensors)
@@ -112,6 +114,21 @@ def test_most_magnitudes_are_sourced():
 
 def test_each_kind_is_that_of_a_sensor():
     assert {kind for _, kind in _table()} == set(KINDS)
+
+
+def test_what_data_sheets_allow_is_within_ten_times_the_typical_or_is_said():
+    """The coefficients that the tolerances of all built-in parts allow, with a hundredth for
+    rounding: those of bias over temperature of an MPU-9250 are the widest."""
+    farthest = {}
+    for name in part_names():
+        for t in part(name).tolerances:
+            kind, effect, parameter = t.key
+            typical = magnitudes(effect, kind)["consumer"]
+            if typical.parameter == parameter:
+                most = max(10 * typical.si, largest(effect, kind))
+                farthest[name, t.key] = np.sqrt(3) * np.max(np.abs(t.std)) / most
+    assert max(farthest.values()) < 1.01, max(farthest, key=farthest.get)
+    assert farthest["mpu9250", ("gyro", "thermal_bias", "kT")] == pytest.approx(1.0, abs=0.01)
 
 
 def test_unknown_effect_is_refused_with_the_nearest_name():

@@ -52,6 +52,24 @@ def test_it_writes_four_files_and_says_what_it_found(pyimu, log, tmp_path):
     assert data["parameters"]["zupt"] == 1.0
 
 
+def test_the_report_as_json_alone_or_not_at_all(pyimu, log, tmp_path):
+    words = ("navigate", log, "--part", PART, "--method", "filter", "--out", "out")
+    code, out, err = pyimu(*words, "--json")
+    assert code == 0 and err == "" and out == (tmp_path / "out" / "report.json").read_text()
+    assert pyimu(*words, "--quiet") == (0, "", "")
+    assert pyimu(*words, "--json", "--quiet")[0] == 2
+
+
+def test_an_antenna_is_three_numbers(pyimu, log, tmp_path):
+    words = ("navigate", log, "--part", PART, "--method", "filter", "--out", "out")
+    assert pyimu(*words, "--antenna", "0.2,0,0.5", "--quiet") == (0, "", "")
+    data = json.loads((tmp_path / "out" / "report.json").read_text())
+    assert [data["parameters"][f"antenna[{i}]"] for i in (1, 2, 3)] == [0.2, 0.0, 0.5]
+    code, _, err = pyimu(*words, "--antenna", "0.2,up")
+    assert code == 2
+    one_line(err, "--antenna 0.2,up", "X,Y,Z in m")
+
+
 def test_the_estimate_is_a_recording_with_the_best_path(pyimu, log, tmp_path, square_log):
     assert pyimu("navigate", log, "--part", PART, "--out", "out")[0] == 0
     back = read_recording(tmp_path / "out" / "estimate.parquet")

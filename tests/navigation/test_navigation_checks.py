@@ -62,6 +62,14 @@ def test_samples_that_no_motion_makes_are_left_out(log):
     assert infinite.filter.scalar("status")[500] == 1
 
 
+def test_outliers_of_both_sensors_are_said(log):
+    accel, gyro = log.accel.copy(), log.gyro.copy()
+    accel[300], gyro[500], gyro[700] = (900.0, 0, 0), (0, 0, 90.0), (0, -90.0, 0)
+    text = said(replace(log, accel=accel, gyro=gyro))
+    assert "1 sample of accel that no motion makes was left out, the first at 6 s" in text
+    assert "2 samples of gyro that no motion makes were left out, the first at 10 s" in text
+
+
 def test_a_reference_that_jumps_is_said(log):
     text = said(replace(log, ref_east=log.ref_east + 100 * (log.time > 20)))
     assert "jumps by 100 m at 20" in text and "reference's own" in text

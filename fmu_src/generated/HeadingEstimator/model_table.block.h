@@ -7,14 +7,14 @@
 #include "block.h"
 
 #define MODEL_NAME "HeadingEstimator"
-#define MODEL_TOKEN_FMI2 "{8c22bd63-9ff3-a542-9c45-6ed49bde5d02}"
-#define MODEL_TOKEN_FMI3 "{aaacf05e-c719-5179-578c-7544e13cd613}"
+#define MODEL_TOKEN_FMI2 "{007bfe51-36ed-6583-48a4-9ff77a0741f0}"
+#define MODEL_TOKEN_FMI3 "{2d73ef57-46aa-2bf5-952b-ec9bc058ca83}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
 enum {
     N_INPUTS = 9,
-    N_PARAMETERS = 24,
+    N_PARAMETERS = 18,
     N_OUTPUTS = 10,
     N_STATES = 51,
     N_NOISE = 0,
@@ -51,10 +51,10 @@ static const BlockVariable variables[] = {
     {"rest_force_tolerance", KIND_REAL, ROLE_TUNABLE, 11, 1, 0.0, INFINITY},
     {"lost_rate_std", KIND_REAL, ROLE_TUNABLE, 12, 1, 0.0, INFINITY},
     {"scale_factor_walk", KIND_REAL, ROLE_TUNABLE, 13, 1, 0.0, INFINITY},
-    {"gyro_error.thermal_bias.kT", KIND_REAL, ROLE_TUNABLE, 14, 3, -INFINITY, INFINITY},
-    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 17, 1, -INFINITY, INFINITY},
-    {"gyro_error.angle_random_walk.N", KIND_REAL, ROLE_TUNABLE, 18, 3, 0.0, INFINITY},
-    {"gyro_error.rate_random_walk.K", KIND_REAL, ROLE_TUNABLE, 21, 3, 0.0, INFINITY},
+    {"gyro_error.thermal_bias.kT[3]", KIND_REAL, ROLE_TUNABLE, 14, 1, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 15, 1, -INFINITY, INFINITY},
+    {"gyro_error.angle_random_walk.N[3]", KIND_REAL, ROLE_TUNABLE, 16, 1, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K[3]", KIND_REAL, ROLE_TUNABLE, 17, 1, 0.0, INFINITY},
     {"yaw", KIND_REAL, ROLE_OUTPUT, 0, 1, -INFINITY, INFINITY},
     {"heading_std", KIND_REAL, ROLE_OUTPUT, 1, 1, -INFINITY, INFINITY},
     {"bias", KIND_REAL, ROLE_OUTPUT, 2, 1, -INFINITY, INFINITY},
@@ -75,7 +75,7 @@ enum {
 };
 
 static const double input_starts[] = {0.0, 0.0, 0.0, 9.80665, 25.0, 0.0, 0.0, 1e-06, 0.0};
-static const double parameter_starts[] = {0.0, 0.0, 0.0, 0.0, 0.01, 0.03, 0.0, 0.0, 1e-05, 1.5, 0.005, 0.2, 1.0, 0.0, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
+static const double parameter_starts[] = {0.0, 0.0, 0.0, 0.0, 0.01, 0.03, 0.0, 0.0, 1e-05, 1.5, 0.005, 0.2, 1.0, 0.0, 0.0008726646259971648, 25.0, 5.960008507351969e-05, 5.187506387872035e-06};
 
 /* The noise stream of each channel; there is none. */
 static const uint64_t noise_channels[] = {

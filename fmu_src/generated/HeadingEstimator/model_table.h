@@ -7,18 +7,18 @@
 #include "block.h"
 
 #define MODEL_NAME "HeadingEstimator"
-#define MODEL_TOKEN_FMI2 "{c2c7622f-a426-fcd8-10e2-ddaa72de87dd}"
-#define MODEL_TOKEN_FMI3 "{0f1db768-5e5e-fbaf-5780-2781a3c5107a}"
+#define MODEL_TOKEN_FMI2 "{9e32f5e6-e051-bd8f-970e-2282c057c594}"
+#define MODEL_TOKEN_FMI3 "{e724a29c-28e1-f32d-8eb2-ba3aae531d4c}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
 enum {
     N_INPUTS = 9,
-    N_PARAMETERS = 24,
+    N_PARAMETERS = 18,
     N_OUTPUTS = 10,
     N_STATES = 51,
     N_NOISE = 0,
-    N_VARIABLES = 45
+    N_VARIABLES = 39
 };
 
 /* Room that the generated functions need. */
@@ -52,16 +52,10 @@ static const BlockVariable variables[] = {
     {"rest_force_tolerance", KIND_REAL, ROLE_TUNABLE, 11, 1, 0.0, INFINITY},
     {"lost_rate_std", KIND_REAL, ROLE_TUNABLE, 12, 1, 0.0, INFINITY},
     {"scale_factor_walk", KIND_REAL, ROLE_TUNABLE, 13, 1, 0.0, INFINITY},
-    {"gyro_error.thermal_bias.kT[1]", KIND_REAL, ROLE_TUNABLE, 14, 1, -INFINITY, INFINITY},
-    {"gyro_error.thermal_bias.kT[2]", KIND_REAL, ROLE_TUNABLE, 15, 1, -INFINITY, INFINITY},
-    {"gyro_error.thermal_bias.kT[3]", KIND_REAL, ROLE_TUNABLE, 16, 1, -INFINITY, INFINITY},
-    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 17, 1, -INFINITY, INFINITY},
-    {"gyro_error.angle_random_walk.N[1]", KIND_REAL, ROLE_TUNABLE, 18, 1, 0.0, INFINITY},
-    {"gyro_error.angle_random_walk.N[2]", KIND_REAL, ROLE_TUNABLE, 19, 1, 0.0, INFINITY},
-    {"gyro_error.angle_random_walk.N[3]", KIND_REAL, ROLE_TUNABLE, 20, 1, 0.0, INFINITY},
-    {"gyro_error.rate_random_walk.K[1]", KIND_REAL, ROLE_TUNABLE, 21, 1, 0.0, INFINITY},
-    {"gyro_error.rate_random_walk.K[2]", KIND_REAL, ROLE_TUNABLE, 22, 1, 0.0, INFINITY},
-    {"gyro_error.rate_random_walk.K[3]", KIND_REAL, ROLE_TUNABLE, 23, 1, 0.0, INFINITY},
+    {"gyro_error.thermal_bias.kT[3]", KIND_REAL, ROLE_TUNABLE, 14, 1, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 15, 1, -INFINITY, INFINITY},
+    {"gyro_error.angle_random_walk.N[3]", KIND_REAL, ROLE_TUNABLE, 16, 1, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K[3]", KIND_REAL, ROLE_TUNABLE, 17, 1, 0.0, INFINITY},
     {"yaw", KIND_REAL, ROLE_OUTPUT, 0, 1, -INFINITY, INFINITY},
     {"heading_std", KIND_REAL, ROLE_OUTPUT, 1, 1, -INFINITY, INFINITY},
     {"bias", KIND_REAL, ROLE_OUTPUT, 2, 1, -INFINITY, INFINITY},
@@ -77,12 +71,12 @@ static const BlockVariable variables[] = {
 
 /* Value references that mean something to every block. */
 enum {
-    SAMPLE_PERIOD = 44,
+    SAMPLE_PERIOD = 38,
     SEED = N_VARIABLES, /* none: there is no noise */
 };
 
 static const double input_starts[] = {0.0, 0.0, 0.0, 9.80665, 25.0, 0.0, 0.0, 1e-06, 0.0};
-static const double parameter_starts[] = {0.0, 0.0, 0.0, 0.0, 0.01, 0.03, 0.0, 0.0, 1e-05, 1.5, 0.005, 0.2, 1.0, 0.0, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
+static const double parameter_starts[] = {0.0, 0.0, 0.0, 0.0, 0.01, 0.03, 0.0, 0.0, 1e-05, 1.5, 0.005, 0.2, 1.0, 0.0, 0.0008726646259971648, 25.0, 5.960008507351969e-05, 5.187506387872035e-06};
 
 /* The noise stream of each channel; there is none. */
 static const uint64_t noise_channels[] = {

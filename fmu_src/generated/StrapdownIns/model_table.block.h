@@ -7,22 +7,22 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{73d16848-d1cf-41d0-94d8-71c927f03468}"
-#define MODEL_TOKEN_FMI3 "{c62dc72f-74b7-9e5b-da71-22676e85f4e6}"
+#define MODEL_TOKEN_FMI2 "{325337b8-27de-d576-97ac-1bd02d52a870}"
+#define MODEL_TOKEN_FMI3 "{7f9060e6-0d0a-a71d-ccb4-a2e767a44b5e}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
 enum {
     N_INPUTS = 21,
-    N_PARAMETERS = 38,
+    N_PARAMETERS = 41,
     N_OUTPUTS = 43,
     N_STATES = 269,
     N_NOISE = 0,
-    N_VARIABLES = 64
+    N_VARIABLES = 65
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 17, WORK_RES = 8, WORK_IW = 0, WORK_W = 1673 };
+enum { WORK_ARG = 29, WORK_RES = 8, WORK_IW = 0, WORK_W = 1725 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };
@@ -62,13 +62,14 @@ static const BlockVariable variables[] = {
     {"nhc_std", KIND_REAL, ROLE_TUNABLE, 20, 1, 1e-06, INFINITY},
     {"nhc_time", KIND_REAL, ROLE_TUNABLE, 21, 1, 0.0, INFINITY},
     {"lever_arm", KIND_REAL, ROLE_FIXED, 22, 3, -INFINITY, INFINITY},
-    {"top_speed", KIND_REAL, ROLE_TUNABLE, 25, 1, 0.001, INFINITY},
-    {"top_acceleration", KIND_REAL, ROLE_TUNABLE, 26, 1, 0.001, INFINITY},
-    {"top_turn_rate", KIND_REAL, ROLE_TUNABLE, 27, 1, 0.001, INFINITY},
-    {"gyro_error.thermal_bias.kT", KIND_REAL, ROLE_TUNABLE, 28, 3, -INFINITY, INFINITY},
-    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 31, 1, -INFINITY, INFINITY},
-    {"gyro_error.angle_random_walk.N", KIND_REAL, ROLE_TUNABLE, 32, 3, 0.0, INFINITY},
-    {"gyro_error.rate_random_walk.K", KIND_REAL, ROLE_TUNABLE, 35, 3, 0.0, INFINITY},
+    {"antenna", KIND_REAL, ROLE_FIXED, 25, 3, -INFINITY, INFINITY},
+    {"top_speed", KIND_REAL, ROLE_TUNABLE, 28, 1, 0.001, INFINITY},
+    {"top_acceleration", KIND_REAL, ROLE_TUNABLE, 29, 1, 0.001, INFINITY},
+    {"top_turn_rate", KIND_REAL, ROLE_TUNABLE, 30, 1, 0.001, INFINITY},
+    {"gyro_error.thermal_bias.kT", KIND_REAL, ROLE_TUNABLE, 31, 3, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 34, 1, -INFINITY, INFINITY},
+    {"gyro_error.angle_random_walk.N", KIND_REAL, ROLE_TUNABLE, 35, 3, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K", KIND_REAL, ROLE_TUNABLE, 38, 3, 0.0, INFINITY},
     {"q", KIND_REAL, ROLE_OUTPUT, 0, 4, -INFINITY, INFINITY},
     {"roll", KIND_REAL, ROLE_OUTPUT, 4, 1, -INFINITY, INFINITY},
     {"pitch", KIND_REAL, ROLE_OUTPUT, 5, 1, -INFINITY, INFINITY},
@@ -96,12 +97,12 @@ static const BlockVariable variables[] = {
 
 /* Value references that mean something to every block. */
 enum {
-    SAMPLE_PERIOD = 63,
+    SAMPLE_PERIOD = 64,
     SEED = N_VARIABLES, /* none: there is no noise */
 };
 
 static const double input_starts[] = {0.0, 0.0, 0.0, 0.0, 0.0, 9.80665, 25.0, 0.0, 0.0, 0.0, 0.01, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.01};
-static const double parameter_starts[] = {10.0, 9.80665, 0.0, 0.001, 0.3, 1.0, 0.0, 0.1, 0.1, 0.1, 0.5, 0.5, 0.5, 1.0, 1.0, 0.001, 1.0, 0.3, 1.0, 0.0, 0.02, 0.1, 0.0, 0.0, 0.0, 2.0, 5.0, 2.0, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
+static const double parameter_starts[] = {10.0, 9.80665, 0.0, 0.001, 0.3, 1.0, 0.0, 0.1, 0.1, 0.1, 0.5, 0.5, 0.5, 1.0, 1.0, 0.001, 1.0, 0.3, 1.0, 0.0, 0.02, 0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0, 5.0, 2.0, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
 
 /* The noise stream of each channel; there is none. */
 static const uint64_t noise_channels[] = {

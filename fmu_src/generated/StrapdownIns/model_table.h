@@ -7,22 +7,22 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{37df3a57-2f41-5b67-cfaa-04e2cfa5cab7}"
-#define MODEL_TOKEN_FMI3 "{c5252da3-73fb-f573-de2c-28ea1c3b8bbe}"
+#define MODEL_TOKEN_FMI2 "{228666a6-28f0-a69f-3464-19a7cc480b54}"
+#define MODEL_TOKEN_FMI3 "{61030a6e-7486-b9e4-3759-9fb4f664e4be}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
 enum {
     N_INPUTS = 21,
-    N_PARAMETERS = 38,
+    N_PARAMETERS = 41,
     N_OUTPUTS = 43,
     N_STATES = 269,
     N_NOISE = 0,
-    N_VARIABLES = 104
+    N_VARIABLES = 107
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 17, WORK_RES = 8, WORK_IW = 0, WORK_W = 1673 };
+enum { WORK_ARG = 29, WORK_RES = 8, WORK_IW = 0, WORK_W = 1725 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
@@ -75,19 +75,22 @@ static const BlockVariable variables[] = {
     {"lever_arm[1]", KIND_REAL, ROLE_FIXED, 22, 1, -INFINITY, INFINITY},
     {"lever_arm[2]", KIND_REAL, ROLE_FIXED, 23, 1, -INFINITY, INFINITY},
     {"lever_arm[3]", KIND_REAL, ROLE_FIXED, 24, 1, -INFINITY, INFINITY},
-    {"top_speed", KIND_REAL, ROLE_TUNABLE, 25, 1, 0.001, INFINITY},
-    {"top_acceleration", KIND_REAL, ROLE_TUNABLE, 26, 1, 0.001, INFINITY},
-    {"top_turn_rate", KIND_REAL, ROLE_TUNABLE, 27, 1, 0.001, INFINITY},
-    {"gyro_error.thermal_bias.kT[1]", KIND_REAL, ROLE_TUNABLE, 28, 1, -INFINITY, INFINITY},
-    {"gyro_error.thermal_bias.kT[2]", KIND_REAL, ROLE_TUNABLE, 29, 1, -INFINITY, INFINITY},
-    {"gyro_error.thermal_bias.kT[3]", KIND_REAL, ROLE_TUNABLE, 30, 1, -INFINITY, INFINITY},
-    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 31, 1, -INFINITY, INFINITY},
-    {"gyro_error.angle_random_walk.N[1]", KIND_REAL, ROLE_TUNABLE, 32, 1, 0.0, INFINITY},
-    {"gyro_error.angle_random_walk.N[2]", KIND_REAL, ROLE_TUNABLE, 33, 1, 0.0, INFINITY},
-    {"gyro_error.angle_random_walk.N[3]", KIND_REAL, ROLE_TUNABLE, 34, 1, 0.0, INFINITY},
-    {"gyro_error.rate_random_walk.K[1]", KIND_REAL, ROLE_TUNABLE, 35, 1, 0.0, INFINITY},
-    {"gyro_error.rate_random_walk.K[2]", KIND_REAL, ROLE_TUNABLE, 36, 1, 0.0, INFINITY},
-    {"gyro_error.rate_random_walk.K[3]", KIND_REAL, ROLE_TUNABLE, 37, 1, 0.0, INFINITY},
+    {"antenna[1]", KIND_REAL, ROLE_FIXED, 25, 1, -INFINITY, INFINITY},
+    {"antenna[2]", KIND_REAL, ROLE_FIXED, 26, 1, -INFINITY, INFINITY},
+    {"antenna[3]", KIND_REAL, ROLE_FIXED, 27, 1, -INFINITY, INFINITY},
+    {"top_speed", KIND_REAL, ROLE_TUNABLE, 28, 1, 0.001, INFINITY},
+    {"top_acceleration", KIND_REAL, ROLE_TUNABLE, 29, 1, 0.001, INFINITY},
+    {"top_turn_rate", KIND_REAL, ROLE_TUNABLE, 30, 1, 0.001, INFINITY},
+    {"gyro_error.thermal_bias.kT[1]", KIND_REAL, ROLE_TUNABLE, 31, 1, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.kT[2]", KIND_REAL, ROLE_TUNABLE, 32, 1, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.kT[3]", KIND_REAL, ROLE_TUNABLE, 33, 1, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 34, 1, -INFINITY, INFINITY},
+    {"gyro_error.angle_random_walk.N[1]", KIND_REAL, ROLE_TUNABLE, 35, 1, 0.0, INFINITY},
+    {"gyro_error.angle_random_walk.N[2]", KIND_REAL, ROLE_TUNABLE, 36, 1, 0.0, INFINITY},
+    {"gyro_error.angle_random_walk.N[3]", KIND_REAL, ROLE_TUNABLE, 37, 1, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K[1]", KIND_REAL, ROLE_TUNABLE, 38, 1, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K[2]", KIND_REAL, ROLE_TUNABLE, 39, 1, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K[3]", KIND_REAL, ROLE_TUNABLE, 40, 1, 0.0, INFINITY},
     {"q[1]", KIND_REAL, ROLE_OUTPUT, 0, 1, -INFINITY, INFINITY},
     {"q[2]", KIND_REAL, ROLE_OUTPUT, 1, 1, -INFINITY, INFINITY},
     {"q[3]", KIND_REAL, ROLE_OUTPUT, 2, 1, -INFINITY, INFINITY},
@@ -136,12 +139,12 @@ static const BlockVariable variables[] = {
 
 /* Value references that mean something to every block. */
 enum {
-    SAMPLE_PERIOD = 103,
+    SAMPLE_PERIOD = 106,
     SEED = N_VARIABLES, /* none: there is no noise */
 };
 
 static const double input_starts[] = {0.0, 0.0, 0.0, 0.0, 0.0, 9.80665, 25.0, 0.0, 0.0, 0.0, 0.01, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.01};
-static const double parameter_starts[] = {10.0, 9.80665, 0.0, 0.001, 0.3, 1.0, 0.0, 0.1, 0.1, 0.1, 0.5, 0.5, 0.5, 1.0, 1.0, 0.001, 1.0, 0.3, 1.0, 0.0, 0.02, 0.1, 0.0, 0.0, 0.0, 2.0, 5.0, 2.0, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
+static const double parameter_starts[] = {10.0, 9.80665, 0.0, 0.001, 0.3, 1.0, 0.0, 0.1, 0.1, 0.1, 0.5, 0.5, 0.5, 1.0, 1.0, 0.001, 1.0, 0.3, 1.0, 0.0, 0.02, 0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0, 5.0, 2.0, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
 
 /* The noise stream of each channel; there is none. */
 static const uint64_t noise_channels[] = {

@@ -30,7 +30,8 @@ TRUE = ("rate", "specific_force")
 """What gyro and accelerometer measure."""
 
 HORIZON = 100.0
-"""s; over this time the random walks that stand for correlated noise grow as it does."""
+"""s; over this time the random walks that stand for correlated noise grow as it does, where a
+filter does not say another."""
 
 NEWTON = 2
 """Steps by which rate and force are found where the errors depend on signals that are made of them;
@@ -294,9 +295,10 @@ def share_added(sensor: Sensor, p, signal: str):
     return total
 
 
-def noise_of(sensor: Sensor, p, h=0.0) -> TriadNoise:
+def noise_of(sensor: Sensor, p, h=0.0, horizon: float = HORIZON) -> TriadNoise:
     """White noise, random walk and rate-dependent noise of a triad, and in the first two what
-    stands for its correlated noise and its rounding; all by the laws of its effects.
+    stands for its correlated noise over ``horizon`` s and its rounding; all by the laws of its
+    effects.
 
     Rounding to a step q adds an error of variance q^2/12 to each sample of period ``h`` s (0: no
     rounding) (Widrow and Kollar 2008, section 5.3). It is white where the other noise is at least
@@ -315,20 +317,20 @@ def noise_of(sensor: Sensor, p, h=0.0) -> TriadNoise:
         if e.law.walk is not None:
             walk = ca.sqrt(walk**2 + e.law.value("walk", c))
         for variance, tau in e.law.value("markov", c) or ():
-            fast, slow = _as_random_walk(variance, tau)
+            fast, slow = _as_random_walk(variance, tau, horizon)
             white, walk = ca.sqrt(white**2 + fast), ca.sqrt(walk**2 + slow)
     return TriadNoise(white, walk, relative)
 
 
-def _as_random_walk(variance, tau):
+def _as_random_walk(variance, tau, horizon):
     """Squared root densities of the white noise and the random walk that together stand for a
     Gauss-Markov process.
 
-    The filter has no state for the process, so that its model is wider. Over ``HORIZON`` T the
+    The filter has no state for the process, so that its model is wider. Over the ``horizon`` T the
     increment of the process has the variance 2 s^2 (1 - exp(-T/tau)), which is K^2 T of the walk.
     A process that is fast against T acts on the angle like white noise of density 2 s^2 tau; of a
     slow one the walk has that part already.
     """
-    grown = -ca.expm1(-HORIZON / tau)
-    fast = 1 - grown * tau / HORIZON
-    return 2 * variance * tau * fast**2, 2 * variance * grown / HORIZON
+    grown = -ca.expm1(-horizon / tau)
+    fast = 1 - grown * tau / horizon
+    return 2 * variance * tau * fast**2, 2 * variance * grown / horizon

@@ -8,7 +8,13 @@ import casadi as ca
 import numpy as np
 
 from pyimu.attitude.filter import marginal
-from pyimu.attitude.filter.compensation import Compensation, TriadNoise, noise_of, share_added
+from pyimu.attitude.filter.compensation import (
+    HORIZON,
+    Compensation,
+    TriadNoise,
+    noise_of,
+    share_added,
+)
 from pyimu.attitude.filter.variables import OWN_PARAMETERS
 from pyimu.block.variables import Variable
 from pyimu.symbolic import quaternion
@@ -36,9 +42,15 @@ class Settings:
 
     @classmethod
     def of(
-        cls, compensation: Compensation, p, names: tuple[Variable, ...] = OWN_PARAMETERS
+        cls,
+        compensation: Compensation,
+        p,
+        names: tuple[Variable, ...] = OWN_PARAMETERS,
+        horizon: float = HORIZON,
     ) -> Settings:
-        """From the block's parameters ``p`` as a column; ``names`` are the block's own."""
+        """From the block's parameters ``p`` as a column; ``names`` are the block's own, ``horizon``
+        s is that of ``noise_of``.
+        """
         part, own = compensation.part, len(names)
         scalar = {v.name: p[i] for i, v in enumerate(names)}
         gyro_p, accel_p = ca.vertsplit(p[own:], [0, len(part.gyro.slots), p.numel() - own])
@@ -51,5 +63,6 @@ class Settings:
         turned = marginal.turn(ca.vertcat(latitude, 0, 0))[0]
         earth = quaternion.rotate(turned, earth_rate(ca.SX(0)))
         period = 1 / part.sample_rate
-        gyro, accel = noise_of(part.gyro, gyro_p, period), noise_of(part.accel, accel_p, period)
+        gyro = noise_of(part.gyro, gyro_p, period, horizon)
+        accel = noise_of(part.accel, accel_p, period, horizon)
         return cls(scalar, left * known * earth, latitude, known, gyro_p, accel_p, gyro, accel)

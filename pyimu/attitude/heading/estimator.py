@@ -17,13 +17,7 @@ from functools import lru_cache
 import casadi as ca
 import numpy as np
 
-from pyimu.attitude.filter.compensation import (
-    NOT_UNDONE,
-    Compensation,
-    TriadNoise,
-    left_in,
-    noise_of,
-)
+from pyimu.attitude.filter.compensation import Compensation, TriadNoise, noise_of
 from pyimu.attitude.filter.stillness import (
     GATE,
     SIZES,
@@ -35,7 +29,7 @@ from pyimu.attitude.filter.stillness import (
     sway,
 )
 from pyimu.attitude.filter.stillness import kept as kept_before
-from pyimu.attitude.filter.timing import clock_error, timed
+from pyimu.attitude.filter.timing import clock_error
 from pyimu.attitude.filter.variables import (
     ABSURD,
     LEAST_ACCEL_STD,
@@ -43,22 +37,17 @@ from pyimu.attitude.filter.variables import (
     LEAST_K,
     LEAST_N,
 )
+from pyimu.attitude.heading.about_vertical import about_the_vertical, left, without_idle
 from pyimu.attitude.heading.variables import INPUTS, OUTPUTS, OWN_PARAMETERS
 from pyimu.block.block import Block
 from pyimu.model.effect import Effect
-from pyimu.model.kinds import OWN
 from pyimu.model.part import Part
-from pyimu.model.sensor import Sensor
-from pyimu.model.signals import SIGNALS
 from pyimu.symbolic.process_noise import process_noise
 
 STATES = 3
 """Heading [rad], bias [rad/s], scale factor [1]."""
 
 UPPER = [(i, j) for j in range(STATES) for i in range(j + 1)]
-
-KNOWN = ("rate", "specific_force", "temperature")
-"""Signals on which the errors of the gyro about the vertical may depend and be undone."""
 
 AXES = 3
 """Of the stillness, whose noise is that of so many axes, one is seen here."""
@@ -92,55 +81,18 @@ def _of(part: Part, *effects: tuple[Effect, ...]) -> Block:
     shown = _shown(Estimate.unpack(start), 0, 0, 0)
     shown = [*map(ca.densify, (start, shown))]
     initial = ca.Function("initial", [u, p], shown, ["u", "p"], ["s", "y"])
+    step, initial, parameters = without_idle(step, initial, _parameters(known)[0])
     return Block(
         name="HeadingEstimator",
-        description=f"Heading filter about the vertical of the part {part.name}{_left(part)}",
+        description=f"Heading filter about the vertical of the part {part.name}{left(part)}",
         step=step,
         initial=initial,
         inputs=INPUTS,
-        parameters=_parameters(known)[0],
+        parameters=parameters,
         outputs=OUTPUTS,
         noise=(),
         sample_period=1.0 / part.sample_rate,
     )
-
-
-# The part about the vertical
-
-
-def about_the_vertical(part: Part) -> Part:
-    """The part with those of its gyro's effects that one axis can undo, and its noise.
-
-    Left out are effects by which the other axes leak into it, that make it late, or that depend on
-    what the unit is not told. Of the accelerometer, which only tells rest from motion, the noise
-    stays.
-    """
-    late = {e.name for e in timed(part.gyro)}
-    drop = [e.name for e in part.gyro.effects if e.name in late or not _alone(part.gyro, e)]
-    loud = [e.name for e in part.accel.effects if e.law is None]
-    return part.with_sensor(part.gyro.without(*drop)).with_sensor(part.accel.without(*loud))
-
-
-def _alone(gyro: Sensor, e: Effect) -> bool:
-    """Whether an effect on z needs no other axis, and no signal but ``KNOWN`` and the time."""
-    told = {*KNOWN, "time"}
-    for name in e.signals(gyro.kind):
-        if not ({name} | {*SIGNALS[name].of}) <= told or name.endswith("_rate"):
-            return False
-    one = Sensor(gyro.kind, {e.name: dict(gyro.values[e.name])})
-    own, z = OWN[gyro.kind], 2
-    rows, columns = one.step.jac_sparsity(1, 1).get_triplet()
-    pairs = set(zip(rows, columns, strict=True))
-    return not any((z, own.start + axis) in pairs for axis in (0, 1))
-
-
-def _left(part: Part) -> str:
-    """Which of the gyro's errors stay in, for the description."""
-    kept = {e.name for e in about_the_vertical(part).gyro.effects}
-    gone = [e.name for e in part.gyro.effects if e.name not in kept]
-    inside = [t.removesuffix(" of the gyro") for t in left_in(part) if t.endswith("gyro")]
-    names = list(dict.fromkeys([*gone, *inside]))
-    return f"; {NOT_UNDONE}: {', '.join(names)}" if names else ""
 
 
 def _parameters(part: Part) -> tuple[tuple, int]:
@@ -221,7 +173,8 @@ def _start(compensation: Compensation, p):
 @dataclass(frozen=True)
 class _Sample:
     """A row without the gyro's errors: ``rate`` rad/s, ``force`` (3,) m/s^2, and what of it cannot
-    be used (``lost``, ``no_force``); ``held``, ``lost_for`` s and ``sensors`` are kept.
+    be used (``lost``, ``no_force``); ``held``, ``lost_for`` s and ``sensors`` are kept. A rate that
+    is lost is the last good one, or the limit.
     """
 
     rate: ca.SX
@@ -285,7 +238,8 @@ def _step(compensation: Compensation, s, u, p, h):
 def _read(compensation: Compensation, kept, u, p, h) -> _Sample:
     held, lost_for, sensors = kept
     good = ca.fabs(u[:HELD]) <= ABSURD
-    now = ca.if_else(good, u[:HELD], held)
+    turn = ca.fabs(u[0]) <= ca.pi / h
+    now = ca.if_else(ca.vertcat(good[0] * turn, good[1:]), u[:HELD], held)
     measured = {
         "rate": ca.vertcat(0, 0, now[0]),
         "specific_force": now[1:4],
@@ -293,12 +247,13 @@ def _read(compensation: Compensation, kept, u, p, h) -> _Sample:
         "latitude_known": 0,
     }
     sensors, rate, force, gyro_lost, accel_lost = compensation.apply(sensors, measured, *p, h)
-    limit = (gyro_lost[2] > 0.5) + (ca.fabs(rate[2]) > ca.pi / h) > 0
-    lost = 1 - good[0] * (1 - limit) * (ca.fabs(rate[2]) <= ABSURD)
+    known = ca.fabs(rate[2]) <= ABSURD
+    limit = (gyro_lost[2] > 0.5) + good[0] * (1 - turn) > 0
+    lost = 1 - good[0] * (1 - limit) * known
     # A force of nothing is none: a unit in a simulation, or a log, without an accelerometer.
     no_force = 1 - good[1] * good[2] * good[3] * (ca.sumsqr(now[1:4]) > 0)
     return _Sample(
-        ca.if_else(lost, 0, rate[2]),
+        ca.if_else(known, rate[2], 0),
         ca.if_else(no_force, ca.vertcat(0, 0, 0), force),
         lost,
         no_force,
@@ -361,7 +316,7 @@ def _turned(x: Estimate, sample: _Sample, moving, at: _At) -> Estimate:
     """The estimate after the turn of a sample, of which the share ``moving`` is one."""
     heading, bias, scale = ca.vertsplit(x.x)
     h, gain, there = at.h, 1 / (1 + scale), 1 - sample.lost
-    rate, seen = gain * (sample.rate - bias) * there, moving * there
+    rate, seen = gain * (sample.rate - bias), moving * there
     transition = ca.SX.eye(STATES)
     transition[0, 1], transition[0, 2] = -seen * gain * h, -seen * gain * rate * h
     both = process_noise(ca.vertcat(1, 1, 1) * ca.sqrt(at.white), at.gyro.walk, h)

@@ -205,6 +205,8 @@ def of_reference(seen: Spectrum, high: float, error: float) -> tuple[Spectrum, b
     mean, std, at = np.array(
         [(seen.psd[p].mean(), seen.std_of_mean(p), seen.frequency[p].mean()) for p in pieces]
     ).T
+    if not np.all(std > 0.0):
+        return NOTHING, False
     columns = np.column_stack([np.ones(len(at)), at**-2.0]) / std[:, None]
     inverse = np.linalg.inv(columns.T @ columns)
     found = inverse @ (columns.T @ (mean / std))

@@ -10,11 +10,12 @@ from pyimu.errors import UserError
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.model.catalogue import CATALOGUE
-from pyimu.model.typical import magnitudes
+from pyimu.model.typical import largest, magnitudes
 from pyimu.report.numbers import quantity
 
 FARTHEST = 10.0
-"""Times the typical size in a consumer part, the coarsest class there is, that no part reaches."""
+"""Times the typical size in a consumer part, the coarsest class there is, that no part reaches
+unless its data sheet says so."""
 
 CHANCE = 4.0
 """Standard errors by which a coefficient of known size may miss it."""
@@ -31,11 +32,11 @@ def unbelievable(fit: Fit, keys: Iterable[Coefficient]) -> str:
             miss = abs(value - definition.known)
             if miss > CHANCE * fit.std.get(key, np.inf):
                 return f"{key.parameter} is {value:.3g}, and can be {definition.known:g} alone"
-        largest = most(effect.name, fit.sensor.kind, key.parameter)
-        if definition.scan is None and abs(value) - CHANCE * fit.std.get(key, 0.0) > largest:
+        limit = most(effect.name, fit.sensor.kind, key.parameter)
+        if definition.scan is None and abs(value) - CHANCE * fit.std.get(key, 0.0) > limit:
             return (
-                f"{key.parameter} is {quantity(value, unit)}, beyond belief: more than "
-                f"{FARTHEST:g} times what is typical of a consumer part"
+                f"{key.parameter} is {quantity(value, unit)}, beyond belief: no part has more than "
+                f"{quantity(limit, unit)}"
             )
     return ""
 
@@ -48,9 +49,9 @@ def not_shown(fit: Fit, keys: Iterable[Coefficient]) -> str:
     """
     for key in sorted(keys):
         definition = CATALOGUE[key.effect].parameters[key.parameter]
-        largest = most(key.effect, fit.sensor.kind, key.parameter)
+        limit = most(key.effect, fit.sensor.kind, key.parameter)
         value = abs(float(fit.sensor.values[key.effect][key.parameter][key.index]))
-        if definition.scan is None and min(value, CHANCE * fit.std.get(key, 0.0)) > largest:
+        if definition.scan is None and min(value, CHANCE * fit.std.get(key, 0.0)) > limit:
             unit = fit.sensor.unit(definition.unit)
             by = quantity(fit.std[key], unit, 2)
             return f"{key.parameter} is not shown: {quantity(value, unit)}, give or take {by}"
@@ -63,4 +64,6 @@ def most(effect: str, kind: str, parameter: str) -> float:
         typical = magnitudes(effect, kind)["consumer"]
     except UserError:
         return np.inf
-    return FARTHEST * typical.si if typical.parameter == parameter else np.inf
+    if typical.parameter != parameter:
+        return np.inf
+    return max(FARTHEST * typical.si, largest(effect, kind))

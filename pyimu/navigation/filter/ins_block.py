@@ -64,7 +64,7 @@ def strapdown_ins(part: Part, nhc: bool = True, detects: bool = True) -> Block:
     return _block(Layout(part, nhc, detects), recorded=False, constrained=False)
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=16)
 def ins_of_log(layout: Layout, recorded: bool = False) -> Block:
     """The block that runs over a log; where it is ``recorded``, with what a smoother needs."""
     return _block(layout, recorded, constrained=layout.nhc)
@@ -130,7 +130,7 @@ def _step(layout: Layout, recorded: bool) -> ca.Function:
         free = ca.logic_and(ca.logic_not(still), ca.logic_and(setting("nhc"), begun > 0))
         work = where(ca.logic_and(free, status <= 0), _nhc(layout), work, rate, p, h)
     measured = u[SPEED_VALID] + u[POSITION_VALID] + u[VELOCITY_VALID] > 0.5
-    work = where(measured, _measured(layout), work, u)
+    work = where(measured, _measured(layout), work, u, rate, p, h)
     after = work[: layout.packed]
     y = _finish(layout)(work, status, still)
     if recorded:
@@ -214,30 +214,33 @@ def _speed(layout: Layout) -> ca.Function:
 
 
 def _position(layout: Layout) -> ca.Function:
-    def correct(x: State, position, variance):
-        return updates.by_position(layout, x, position, variance)
+    def correct(x: State, position, variance, p):
+        settings = prediction.settings_of(layout, p)
+        return updates.by_position(layout, x, position, variance, settings)
 
-    return _update(layout, "by_position", "position", correct, 3, 1)
+    return _update(layout, "by_position", "position", correct, 3, 1, len(layout.parameters))
 
 
 def _velocity(layout: Layout) -> ca.Function:
-    def correct(x: State, velocity, variance):
-        return updates.by_velocity(layout, x, velocity, variance)
+    def correct(x: State, velocity, variance, rate, p, h):
+        settings = prediction.settings_of(layout, p)
+        return updates.by_velocity(layout, x, velocity, variance, rate, settings, h)
 
-    return _update(layout, "by_velocity", "velocity", correct, 3, 1)
+    return _update(layout, "by_velocity", "velocity", correct, 3, 1, 3, len(layout.parameters), 1)
 
 
 def _measured(layout: Layout) -> ca.Function:
-    """``work, u -> work`` of what was measured beside rate and force."""
+    """``work, u, rate, p, h -> work`` of what was measured beside rate and force."""
     work = begun = ca.MX.sym("w", layout.packed + REPORT + layout.errors)
-    u = ca.MX.sym("u", len(layout.inputs))
-    for valid, function, value, variance in (
-        (SPEED_VALID, _speed, SPEED, SPEED_VARIANCE),
-        (VELOCITY_VALID, _velocity, MEASURED_VELOCITY, VELOCITY_VARIANCE),
-        (POSITION_VALID, _position, POSITION, POSITION_VARIANCE),
+    u, rate = ca.MX.sym("u", len(layout.inputs)), ca.MX.sym("rate", 3)
+    p, h = ca.MX.sym("p", len(layout.parameters)), ca.MX.sym("h")
+    for valid, function, value, variance, more in (
+        (SPEED_VALID, _speed, SPEED, SPEED_VARIANCE, ()),
+        (VELOCITY_VALID, _velocity, MEASURED_VELOCITY, VELOCITY_VARIANCE, (rate, p, h)),
+        (POSITION_VALID, _position, POSITION, POSITION_VARIANCE, (p,)),
     ):
-        work = where(u[valid] > 0.5, function(layout), work, u[value], u[variance])
-    return ca.Function("measured", [begun, u], [work])
+        work = where(u[valid] > 0.5, function(layout), work, u[value], u[variance], *more)
+    return ca.Function("measured", [begun, u, rate, p, h], [work])
 
 
 def _finish(layout: Layout) -> ca.Function:

@@ -64,7 +64,8 @@ are those of the samples."""
 
 
 LASTS = 10.0
-"""s; the time over which what is not linear in the tilt acts the same way, a leg or a rest: as
+"""s; a leg or a rest. Over it random walks stand for the part's correlated noise, of which a rest
+takes off what came before. And over it what is not linear in the tilt acts the same way: as
 white noise of that density it grows as a constant does over that time. It matters as long as the
 bias of the accelerometer is not told from the tilt, 3 deg for 50 mg: the vertical acceleration then
 is off by 13 mm/s^2, and the vertical channel, which knows its own bias to 1 mm/s^2 after a rest,
@@ -89,7 +90,7 @@ class Sample:
 
 
 def settings_of(layout: Layout, p) -> Settings:
-    return Settings.of(layout.compensation, p, OWN_PARAMETERS)
+    return Settings.of(layout.compensation, p, OWN_PARAMETERS, LASTS)
 
 
 def read(layout: Layout, memory: Memory, q, u, settings: Settings, h) -> Sample:

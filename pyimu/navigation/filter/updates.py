@@ -116,7 +116,7 @@ def by_vehicle(layout: Layout, x: State, rate, settings: Settings, h) -> tuple:
     """
     at = settings.scalar
     back = quaternion.to_matrix(quaternion.conjugate(x.q))
-    arm = ca.vertcat(*[at[f"lever_arm[{i}]"] for i in (1, 2, 3)])
+    arm = _arm(settings, "lever_arm")
     speed = back @ x.velocity + ca.cross(rate - x.gyro_bias, arm)
     pitched, turned = x.mounting[0], x.mounting[1]
     of_speed = ca.vertcat(ca.horzcat(-turned, 1, 0), ca.horzcat(pitched, 0, 1))
@@ -141,18 +141,36 @@ def by_speed(layout: Layout, x: State, speed, variance) -> tuple:
     return corrected_by(layout, x, speed - back[0, :] @ x.velocity, slope, variance)
 
 
-def by_position(layout: Layout, x: State, position, variance) -> tuple:
-    """A measured position (3,), each of its axes with the ``variance``."""
-    slope = _slope(layout, 3, position=ca.SX.eye(3))
-    off, noise = _of_known_axes(position - x.position, variance)
+def by_position(layout: Layout, x: State, position, variance, settings: Settings) -> tuple:
+    """A measured position (3,) of the antenna, p + R l, each of its axes with the ``variance``."""
+    arm = quaternion.rotate(x.q, _arm(settings, "antenna"))
+    slope = _slope(layout, 3, position=ca.SX.eye(3), turn=-ca.skew(arm))
+    off, noise = _of_known_axes(position - x.position - arm, variance)
     return corrected_by(layout, x, off, slope, noise)
 
 
-def by_velocity(layout: Layout, x: State, velocity, variance) -> tuple:
-    """A measured velocity (3,) in world axes, v + e + phi x v, each axis with the ``variance``."""
-    slope = _slope(layout, 3, turn=-ca.skew(x.velocity), velocity=ca.SX.eye(3))
-    off, noise = _of_known_axes(velocity - x.velocity, variance)
+def by_velocity(layout: Layout, x: State, velocity, variance, rate, settings: Settings, h) -> tuple:
+    """A measured velocity (3,) of the antenna in world axes, each axis with the ``variance``.
+
+    It is u = v + R (w x l), which is u + e + phi x u - d x R l with the errors of ``prediction``;
+    the gyro's noise acts by the arm.
+    """
+    arm, axes = _arm(settings, "antenna"), quaternion.to_matrix(x.q)
+    moves = x.velocity + axes @ ca.cross(rate - x.gyro_bias, arm)
+    slope = _slope(
+        layout,
+        3,
+        turn=-ca.skew(moves),
+        velocity=ca.SX.eye(3),
+        gyro_bias=ca.skew(axes @ arm),
+    )
+    by_arm = ca.mmax(settings.gyro.white) ** 2 * reciprocal(h) * ca.sumsqr(arm)
+    off, noise = _of_known_axes(velocity - moves, variance + by_arm)
     return corrected_by(layout, x, off, slope, noise)
+
+
+def _arm(settings: Settings, name: str) -> ca.SX:
+    return ca.vertcat(*[settings.scalar[f"{name}[{i}]"] for i in (1, 2, 3)])
 
 
 UNKNOWN = 1e12

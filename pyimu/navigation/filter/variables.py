@@ -118,6 +118,14 @@ SETTINGS = (
             "from the sensor to the point of the vehicle that does not slip, body axes",
         )
     ),
+    *(
+        replace(v, fixed=True)
+        for v in array(
+            "antenna",
+            "m",
+            "from the sensor to the antenna of which position and velocity are measured, body axes",
+        )
+    ),
     _setting("top_speed", "m/s", "largest speed; what a gap in the samples may hide", 2.0, 1e-3),
     _setting("top_acceleration", "m/s^2", "largest acceleration, likewise", 5.0, 1e-3),
     _setting("top_turn_rate", "rad/s", "largest turn rate, likewise", 2.0, 1e-3),

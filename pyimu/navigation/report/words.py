@@ -57,6 +57,12 @@ def notes(a: Outcome) -> list[str]:
             "The sensor turned steadily for a while, which looks like a rest to the "
             "accelerometer; its gyro was off its bias, so it was taken for a turn"
         )
+    out += [
+        f"{_counted(f.count, 'sample')} of {f.column} that no motion makes "
+        f"{'was' if f.count == 1 else 'were'} left out, the first at {f.detail['first']:.6g} s"
+        for f in a.findings
+        if f.kind == "outliers"
+    ]
     out += list(_of_samples(kinds))
     if "coning" in kinds:
         out.append(
@@ -72,8 +78,14 @@ def notes(a: Outcome) -> list[str]:
             "No latitude: the Earth's rate was not taken off, which a rest hides in the gyro bias "
             "until the body turns"
         )
-    out += [f"{text[0].upper()}{text[1:]} ({count:,} samples)" for text, count in _status(a)]
+    out += [
+        f"{text[0].upper()}{text[1:]} ({_counted(count, 'sample')})" for text, count in _status(a)
+    ]
     return [*out, OBSERVABLE] if a.later_stops else out
+
+
+def _counted(count: int, noun: str) -> str:
+    return f"{count:,} {noun}{'' if count == 1 else 's'}"
 
 
 def _of_samples(kinds: dict[str, Finding]) -> Iterator[str]:
@@ -83,15 +95,10 @@ def _of_samples(kinds: dict[str, Finding]) -> Iterator[str]:
             f"Gravity is on {f.detail['axis']} at rest: the body lies on its side, or its axes are "
             "not forward-left-up, which a column map's [frame] says"
         )
-    if (f := kinds.get("outliers")) is not None:
-        yield (
-            f"{f.count:,} samples of {f.column} that no motion makes were left out, the first at "
-            f"{f.detail['first']:.6g} s"
-        )
     if (f := kinds.get("reference_jump")) is not None:
         yield (
             f"The reference jumps by {number(f.detail['largest'])} m at {f.detail['first']:.6g} s "
-            f"({f.count:,} times): the errors beside it are the reference's own"
+            f"({_counted(f.count, 'time')}): the errors beside it are the reference's own"
         )
     if (f := kinds.get("reference_frame")) is not None:
         mirrored = "mirrored and " if f.detail["mirrored"] else ""
@@ -116,7 +123,8 @@ def _rests(a: Outcome) -> str:
     if a.still.all():
         return "The whole log is at rest: there is no path"
     text = (
-        f"It rests in {number(100 * share, 2)} % of the time, {len(a.later_stops)} times after "
+        f"It rests in {number(100 * share, 2)} % of the time, "
+        f"{_counted(len(a.later_stops), 'time')} after "
         f"the start; the longest drive between two rests takes {quantity(a.longest_leg, 's')}"
     )
     if not a.later_stops:
@@ -183,7 +191,7 @@ def consistency(a: Outcome) -> str | None:
     zaru = a.mean_nis("zaru_nis")
     text = (
         f"first zero velocity of each stop: mean NIS {number(float(first.mean()))} over "
-        f"{len(first)} stops"
+        f"{_counted(len(first), 'stop')}"
     )
     return (
         text if zaru is None else f"{text}; zero turn rates: {number(zaru)} (3 is right for both)"

@@ -66,8 +66,19 @@ def _plateau(values: np.ndarray, sign: int) -> np.ndarray:
     count = np.count_nonzero(inside)
     if width <= 0 or count < LEAST_CLIPPED or count <= PILE_UP * below:
         return none
+    if below == 0 and count <= PILE_UP * _at_next_level(v[v < top - width]):
+        return none
     deep = inside[:-2] & inside[1:-1] & inside[2:]
     if not deep.any():
         return none
     curvature = np.abs(np.diff(v, 2))
     return inside if np.median(curvature[deep]) < QUIET * scatter(curvature[~deep], 0.25) else none
+
+
+def _at_next_level(rest: np.ndarray) -> int:
+    """How many samples have the largest value of ``rest``, those below a plateau.
+
+    Where a converter's steps are wider than the plateau, the band below it is empty whatever the
+    sensor does: a pile is one against the samples of the next step.
+    """
+    return int(np.count_nonzero(rest == rest.max())) if len(rest) else 0
