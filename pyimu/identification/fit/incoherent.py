@@ -157,7 +157,7 @@ def unseen_spectrum(trial: Trial, one: Linear, axis: int, own: RandomWalk) -> Sp
     mine = _own(trial, own, frequency)
     # The sensor's own noise is in its signal as well: that share of it is not left.
     share = np.clip(gain[:, at].real, 0.0, 1.0)
-    of_share = mine * np.sqrt(left * inverse[:, at, at].real)
+    of_share = mine * np.sqrt(left * np.maximum(inverse[:, at, at].real, 0.0))
     psd, std = left - mine * (1.0 - share), np.hypot(left, of_share) / np.sqrt(averaged)
     psd[0] = std[0] = 0.0
     return Spectrum(frequency, psd, std)
