@@ -32,6 +32,9 @@ room's field is a tenth weaker than the model's.
 A second table has the smoothed attitude of the recordings of BROAD, of which each sample is
 estimated by all others, beside vqf's ``offlineVQF``, with what the smoother claims of its error.
 The smoother has no constant of its own.
+
+The constants of the motion (``pyimu.attitude.filter.velocity``) and the noise that grows with the
+rate of a gyro of which no part says anything were chosen on 02, 11 and 26 as well.
 """
 
 import os

@@ -18,6 +18,7 @@ from attitude_cases import (
 )
 from scipy.linalg import solve_continuous_are
 from scipy.spatial.transform import Rotation
+from scipy.stats import chi2
 
 from pyimu.attitude import attitude_ukf
 from pyimu.attitude.filter.unscented import WHOLE
@@ -33,17 +34,17 @@ def block():
 
 
 def moved(
-    acceleration: np.ndarray, turning: bool = True, seed: int = 0
+    acceleration: np.ndarray, turning: bool = True, seed: int = 0, n: float = N
 ) -> tuple[np.ndarray, Rotation]:
     """Inputs (n, 15) of a body that has this ``acceleration`` (n, 3) in world axes, and its
-    attitude: level, or ``turning``.
+    attitude: level, or ``turning``; ``n`` is the gyro's white noise.
     """
-    rng, rate = np.random.default_rng(0), turning * rover_rate(len(acceleration))
+    rng, rate = np.random.default_rng(seed), turning * rover_rate(len(acceleration))
     world = attitude_after(rate)
     force = world.apply(acceleration + [0, 0, GRAVITY], inverse=True)
     gyro, accel = (rng.standard_normal(rate.shape) for _ in range(2))
     u = inputs(
-        len(rate), gyro=rate + N / np.sqrt(H) * gyro, accel=force + N_ACCEL / np.sqrt(H) * accel
+        len(rate), gyro=rate + n / np.sqrt(H) * gyro, accel=force + N_ACCEL / np.sqrt(H) * accel
     )
     return u, world
 
@@ -88,14 +89,34 @@ def test_motion_of_any_size_and_time_is_weighed_without_a_setting(block, acceler
 
 
 def test_more_motion_makes_the_tilt_less_sure_and_rest_makes_it_sure_again(block):
-    """The run finds out how large the velocity is, up and down."""
+    """The run finds out how large the velocity is, up and down: within six of its windows."""
     acceleration = sines(5.0, 3.0)
     acceleration[:3000], acceleration[6000:] = 0, 0
     u, _ = moved(acceleration, turning=False)
-    y, _ = block.run(u, p=parameters(block, std0=STD0, rest_time=0))
+    y, _ = block.run(u, p=parameters(block, std0=STD0, rest_time=0, motion_time=0.5))
     std = output(block, y, "std")[:, 0]
     assert std[5990] > 1.5 * std[2990]
     assert std[-1] < 1.1 * std[2990]
+
+
+def test_a_drive_of_long_pushes_is_no_more_off_than_claimed():
+    """Pushes of 0.5 m/s^2 for 5 s, either way along two axes, of a body that turns, by a gyro whose
+    bias is known from a rest: the squared error of the tilt over its claimed variance is no larger
+    than chi-square of as many drives lets it be.
+    """
+    block, drives, squares, claimed = attitude_ukf(part(3e-4, 1e-5, 1e-3)), 8, [], []
+    known = parameters(block, std0=[1e-3] * 3 + [1.5e-4] * 3)
+    for seed in range(drives):
+        signs = np.random.default_rng(100 + seed).choice([-0.5, 0.0, 0.5], (ROWS // 500, 3))
+        u, world = moved(np.repeat(signs * [1, 1, 0], 500, axis=0), seed=seed, n=3e-4)
+        y, _ = block.run(u, p=known)
+        claimed.append(np.linalg.norm(output(block, y, "std")[:, :2], axis=1))
+        squares.append(tilt(block, y, world) ** 2 / (claimed[-1] ** 2 / 2))
+    at = np.arange(1500, ROWS, 1500)
+    total = np.sum(squares, axis=0)[at]
+    assert np.all(total < chi2.ppf(1 - 1e-3 / len(at), 2 * drives))
+    # A force taken for gravity would be off by 3 deg.
+    assert np.degrees(np.mean(claimed)) < 2.5
 
 
 def test_velocity_of_a_body_that_never_accelerates_is_gravity_by_the_sample(block):

@@ -259,7 +259,7 @@ def test_attitude_whose_turns_no_gyro_saw_stays_that_of_the_filter():
     "given",
     [
         {"latitude": 0.7},
-        {"q0": [1.0, 0.1, 0.0, 0.0]},
+        {"q0": [1.0, 0.01, 0.0, 0.0]},
         {"heading0": 0.3},
         {"bias0": [0.01, 0, 0], "std0": [0.1, 0.1, 0.1, 0.01, 0.01, 0.01]},
         {"settings": {"motion_time": 0.5}},

@@ -23,8 +23,8 @@ block AttitudeUkf "Unscented attitude filter of the part imt30, in C"
     annotation(Dialog(group="Start"));
   parameter Real gravity(unit="m/s2", min=0) = 9.80665 "Magnitude of gravity"
     annotation(Dialog(group="Filter"));
-  parameter Real accelStd(unit="m/s2", min=0) = 0.1
-    "Standard deviation of the acceleration that passes as quasi-static; 0: the body never accelerates"
+  parameter Real accelStd(unit="m/s2", min=0) = 0.01
+    "Standard deviation of the acceleration that a body has beside its bounded velocity, and beside the pushes that the run shows"
     annotation(Dialog(group="Filter"));
   parameter Real accelBiasStd(unit="m/s2", min=0) = 0
     "Standard deviation of a component of the accelerometer's constant error, which tilts the attitude by its share of gravity"
@@ -335,14 +335,16 @@ says.</p>
 <tr><td>headingAge</td><td>Time since the heading was true, counted in whole samples; at most
 headingMemory. An age of some tenths of a second takes no heading more precise than about 1e-3 rad
 many times a second: what is left out then adds up, and std is too small.</td></tr>
+<tr><td>accelStd</td><td>Standard deviation of the acceleration that a body has beside its bounded
+velocity, and beside the pushes that the run shows; 0: the body never accelerates.</td></tr>
 <tr><td>accelBiasStd</td><td>Standard deviation of a component of the accelerometer's constant
 error, which tilts the attitude by its share of gravity: std has that, no matter how long it is
 averaged, and what the size of gravity at rest says of it.</td></tr>
 <tr><td>gravityTolerance</td><td>Quasi-static: largest difference of the estimated magnitude and of
 gravity as it was measured at rest; beyond, that is called another than gravity.</td></tr>
 <tr><td>motionTime</td><td>Correlation time of the velocity of a body that stays in its place. How
-large that is the run finds out, over ten times this time; not below accelStd *
-motionTime.</td></tr>
+large that is the run finds out, over ten times this time; not below accelStd * motionTime and 0.03
+m/s.</td></tr>
 <tr><td>biasNoise</td><td>Root density of the walk of the bias over the rate: a gyro that feels
 forces has another bias when it has turned over.</td></tr>
 <tr><td>axisStuckTime</td><td>Equal samples of an axis (gyro, then accelerometer) for so long, while

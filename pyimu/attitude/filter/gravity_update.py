@@ -26,13 +26,14 @@ from pyimu.attitude.filter.quasi_static import (
     is_near,
     is_quasi_static,
     mean_variance,
+    passing_std,
     where,
 )
 from pyimu.attitude.filter.sample import Sample
 from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.unscented import Estimate
 from pyimu.attitude.filter.variables import LEAST_ACCEL_STD
-from pyimu.attitude.filter.velocity import DRIFT_GAIN, Motion, Push, at_rest, covariance_of_motion
+from pyimu.attitude.filter.velocity import DRIFT_GAIN, Push, at_rest, covariance_of_motion
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import reciprocal, symmetric
 
@@ -78,23 +79,26 @@ def inclination(
     memory: Memory,
     sample: Sample,
     x: Estimate,
-    motion: Motion,
+    motion,
     turned,
     settings: Settings,
     h,
     rests,
     at_rest_force,
+    driven,
 ) -> Inclination:
     """The quasi-static estimator and the mean force one sample later, and the gravity they measure.
 
-    ``x`` is the propagated estimate, ``motion`` how the body moves, ``turned`` (3, 3) its turn in
+    ``x`` is the propagated estimate, ``motion`` (2,) (m/s)^2 the variance of its velocity across
+    and along the vertical, ``turned`` (3, 3) its turn in
     inertial space in the period ``h`` s, from old axes to new. ``rests`` says that the body rests,
-    with the mean force ``at_rest_force`` (3,); a constant force off the vertical is a push.
+    with the mean force ``at_rest_force`` (3,); a constant force off the vertical is a push. The
+    forces of a body that is ``driven`` do not raise doubts of the size of gravity.
     """
     at, valid, size = settings.scalar, sample.force_valid, memory.size.size
     tolerance = memory.size.tolerance(at["gravity"], at["gravity_tolerance"])
     white = white_variance(settings, h)
-    noise = _acceleration_variance(settings, h) + white
+    noise = _acceleration_variance(passing_std(at), settings, h) + white
     magnitude = ca.norm_2(sample.force)
     quasi = follow(
         memory.quasi, magnitude, at["gravity_walk"] ** 2 * h, ca.sum1(noise) * (1 / 3), valid
@@ -113,16 +117,18 @@ def inclination(
         *measured,
         magnitude=size,
         period=h,
-        motion=ca.vertcat(motion.across, motion.along),
+        motion=motion,
         lasting=2 * at["motion_time"] * reciprocal(h),
         coloured=2 * h * at["accel_correlation_time"] * at["accel_std"] ** 2,
         plausible=plausible,
         contradicts=plausible * _contradicts(measured[0], mean, x, white, settings),
     )
     rests = rests * (1 - _is_off(at_rest_force, x, ca.sum1(white) * (h / 3), settings, PUSHED))
-    learnt = memory.size.followed(
-        plausible, rests, at_rest_force, mean.force, at["gravity"], valid, h
-    )
+    # A turn on wheels makes the force larger, but not its part along the vertical.
+    up = vertical(x)
+    seen = ca.if_else(known, ca.dot(up, mean.force), ca.norm_2(mean.force))
+    sure = 1 - (1 - plausible) * (1 - driven)
+    learnt = memory.size.followed(sure, rests, at_rest_force, seen, at["gravity"], valid, h)
     return Inclination(
         quasi,
         mean,
@@ -140,9 +146,8 @@ def _contradicts(force, mean: MeanForce, x: Estimate, white, settings: Settings)
     A tilt that is wrong from the start or by a fault makes a velocity that looks like motion; the
     force in itself tells them apart.
     """
-    spread = (
-        ca.sum1(white) * (1 / 3) + settings.scalar["accel_std"] ** 2 + SLOW_TIME**2 * mean.scatter
-    )
+    passing = passing_std(settings.scalar) ** 2
+    spread = ca.sum1(white) * (1 / 3) + passing + SLOW_TIME**2 * mean.scatter
     return _is_off(force, x, spread, settings, INNOVATION_GATE)
 
 
@@ -182,7 +187,7 @@ def push(memory: Memory, sample: Sample, settings: Settings, h) -> Push:
     """
     at, valid = settings.scalar, sample.force_valid
     white = white_variance(settings, h)
-    declared = _acceleration_variance(settings, h)
+    declared = _acceleration_variance(at["accel_std"], settings, h)
     lost_for = ca.fmin(ca.fmax(MEAN_TIME - memory.mean.span, 0), at["motion_time"])
     lost = memory.mean.scatter * (1 + 2 * lost_for * reciprocal(h))
     drift = DRIFT_GAIN * memory.motion.drift * h / (at["motion_time"] + h)
@@ -193,15 +198,14 @@ def push(memory: Memory, sample: Sample, settings: Settings, h) -> Push:
     )
 
 
-def _acceleration_variance(settings: Settings, h):
-    """Variance in (m/s^2)^2 of white noise in a sample that stands for the acceleration.
+def _acceleration_variance(std, settings: Settings, h):
+    """Variance in (m/s^2)^2 of white noise in a sample that stands for an acceleration of ``std``.
 
     An acceleration that lasts for a correlation time T has the density 2 T sigma^2, so that a
     sample of white noise that stands for it has the variance 2 T sigma^2 / h: a faster log is not
     trusted more.
     """
-    at = settings.scalar
-    return at["accel_std"] ** 2 * (1 + 2 * at["accel_correlation_time"] * reciprocal(h))
+    return std**2 * (1 + 2 * settings.scalar["accel_correlation_time"] * reciprocal(h))
 
 
 def white_variance(settings: Settings, h):
@@ -227,8 +231,9 @@ def _measured(sampled, mean: MeanForce, steady, noise, white, settings: Settings
     decides whether a sample contradicts the attitude.
     """
     at = settings.scalar
-    scatter = mean.scatter + at["accel_std"] ** 2
-    noise = noise + 2 * at["accel_std"] ** 2 * at["motion_time"] * reciprocal(h)
+    passing = passing_std(at) ** 2
+    scatter = mean.scatter + passing
+    noise = noise + 2 * passing * at["motion_time"] * reciprocal(h)
     in_motion = mean_variance(scatter, MEAN_TIME + h, h) + white
     force = mean.force + steady * (sampled - mean.force)
     variance = in_motion + steady * (noise - in_motion)

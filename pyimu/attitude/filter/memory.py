@@ -10,7 +10,7 @@ import numpy as np
 from pyimu.attitude.filter import late_heading
 from pyimu.attitude.filter.compensation import Compensation
 from pyimu.attitude.filter.field import Field
-from pyimu.attitude.filter.quasi_static import GravitySize, MeanForce, QuasiStatic
+from pyimu.attitude.filter.quasi_static import GravitySize, MeanForce, QuasiStatic, passing_std
 from pyimu.attitude.filter.stillness import SIZES as STILLNESS
 from pyimu.attitude.filter.stillness import Stillness
 from pyimu.attitude.filter.unscented import LARGEST_STD, Estimate, N
@@ -21,7 +21,7 @@ from pyimu.attitude.filter.variables import (
     LEAST_N,
     OWN_PARAMETERS,
 )
-from pyimu.attitude.filter.velocity import Motion, least_std
+from pyimu.attitude.filter.velocity import Motion, first_std
 from pyimu.model.signals import SIGNALS
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import pack, unpack
@@ -151,14 +151,14 @@ def start(compensation: Compensation, p) -> tuple[Estimate, ca.SX]:
     """The estimate before the first sample, from the parameters, and the whole state."""
     at = {v.name: p[i] for i, v in enumerate(OWN_PARAMETERS)}
     estimate = first_estimate(at)
-    least = least_std(at) ** 2
+    first = first_std(at) ** 2
     held = [v for name in compensation.extra for v in SIGNALS[name].start]
     memory = Memory(
         estimate,
-        QuasiStatic(at["gravity"], ca.fmax(at["accel_std"], LEAST_ACCEL_STD) ** 2),
+        QuasiStatic(at["gravity"], ca.fmax(passing_std(at), LEAST_ACCEL_STD) ** 2),
         GravitySize(at["gravity"], ca.SX(0), ca.SX(0)),
         MeanForce(ca.SX.zeros(3), ca.SX(0), ca.SX(0)),
-        Motion(least, least, ca.SX.zeros(3), ca.SX(0)),
+        Motion(first, first, ca.SX.zeros(3), ca.SX(0)),
         Stillness.start(),
         safe=ca.SX.zeros(6),
         later=ca.SX.zeros(6),
@@ -189,6 +189,6 @@ def first_estimate(at: dict) -> Estimate:
     q = quaternion.normalized(ca.if_else(usable, q0, ca.SX([1, 0, 0, 0])))
     std = ca.vertcat(ca.fmin(ca.fmax(std0[:3], LEAST_N), LARGEST_STD), ca.fmax(std0[3:], LEAST_K))
     bias = ca.fmin(ca.fmax(bias0, -LARGEST_BIAS), LARGEST_BIAS)
-    moving = least_std(at) ** 2 * ca.SX.ones(3)
+    moving = first_std(at) ** 2 * ca.SX.ones(3)
     covariance = ca.densify(ca.diag(ca.vertcat(std * std, moving)))
     return Estimate(q, bias, ca.SX.zeros(3), covariance)

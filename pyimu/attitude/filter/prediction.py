@@ -220,10 +220,12 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
     driven = speed_for < HOLD
     used = where(sample.force_valid, known) * (1 - rest.resting) * (1 - driven)
     time = scalar["motion_time"]
-    motion = followed(kept.motion, x, turned, used, least_std(scalar), time, at.h)
+    motion, seen = followed(kept.motion, x, turned, used, least_std(scalar), time, at.h)
     rests = (rest.resting + at.stationary > 0) * (rest.still.span >= MEAN_TIME)
     still_force = rest.still.slow_force
-    force = inclination(kept, sample, x, motion, turned, at.settings, at.h, rests, still_force)
+    force = inclination(
+        kept, sample, x, seen, turned, at.settings, at.h, rests, still_force, driven
+    )
     still = _decided(at, x, rest)
     vertical_noise = at.memory.vertical_noise + _about_the_vertical(x, noise[0])
     field = ca.fmax(kept.field, is_magnetometer(at.u[MAG], at.settings))

@@ -11,6 +11,7 @@ average in the same way, in the frame of the gyro alone).
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import casadi as ca
@@ -19,6 +20,10 @@ from pyimu.symbolic.linear import reciprocal
 
 MEAN_TIME = 1.0
 """s; time constant of the mean force."""
+
+PASSING_STD = 0.1
+"""m/s^2; of the acceleration, and of the error of a consumer's accelerometer, that a force still
+passes for gravity with; chosen by hand-held recordings (``benchmarks/attitude_real.py``)."""
 
 MEAN_TOLERANCE = 0.1
 """By which share of the force's root mean square against its mean the mean may differ from gravity
@@ -94,22 +99,29 @@ class GravitySize:
         """Whether no force has had the size for long, 0 or 1."""
         return self.doubted > DOUBT_TIME
 
-    def followed(self, plausible, rests, force, mean, gravity, valid, h) -> GravitySize:
-        """The same after one more sample, which may be gravity (``plausible``, 0 or 1) or not.
+    def followed(self, sure, rests, force, mean, gravity, valid, h) -> GravitySize:
+        """The same after one more sample, which raises no doubt (``sure``, 0 or 1) or does.
 
-        At rest (``rests``) it takes the ``force`` (3,) of the rest into its mean, and in doubt it
-        is that of the mean force (3,) of the last second, ``mean``; in both cases only near
-        ``gravity``.
+        At rest (``rests``) it takes the size of the ``force`` (3,) of the rest into its mean, and
+        in doubt it is ``mean``, that of the last second; in both cases only near ``gravity``.
         """
         anew = self.in_doubt()
-        found = ca.norm_2(ca.if_else(anew, mean, force))
+        found = ca.if_else(anew, mean, ca.norm_2(force))
         near = ca.fabs(found - gravity) <= SHARE * gravity
         learns = where(valid, near * (1 - (1 - rests) * (1 - anew)))
         span = (1 - anew * learns) * self.learnt
         learnt = ca.fmin(span + learns * h, SIZE_TIME)
         size = self.size + learns * h / ca.fmax(learnt, h) * (found - self.size)
-        doubted = where(valid, (1 - plausible) * (self.doubted + h), self.doubted)
+        doubted = where(valid, (1 - sure) * (self.doubted + h), self.doubted)
         return GravitySize(size, learnt, doubted)
+
+
+def passing_std(at: Mapping[str, ca.SX]):
+    """Standard deviation in m/s^2 of what a force that passes for gravity is off it.
+
+    Zero where the settings ``at`` say that the body never accelerates.
+    """
+    return ca.fmax(at["accel_std"], PASSING_STD) * (at["accel_std"] > 0)
 
 
 def where(flag, value, otherwise=0):

@@ -197,9 +197,9 @@ SETTINGS = (
     _setting(
         "accel_std",
         "m/s^2",
-        "standard deviation of the acceleration that passes as quasi-static; 0: the body never "
-        "accelerates",
-        0.1,
+        "standard deviation of the acceleration that a body has beside its bounded velocity, and "
+        "beside the pushes that the run shows; 0: the body never accelerates",
+        0.01,
     ),
     _setting(
         "accel_bias_std",
@@ -244,7 +244,7 @@ SETTINGS = (
         "motion_time",
         "s",
         "correlation time of the velocity of a body that stays in its place. How large that is the "
-        "run finds out, over ten times this time; not below accel_std * motion_time",
+        "run finds out, over ten times this time; not below accel_std * motion_time and 0.03 m/s",
         1.0,
     ),
     _setting(

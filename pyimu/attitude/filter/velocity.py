@@ -20,20 +20,39 @@ import casadi as ca
 
 from pyimu.attitude.filter.unscented import Estimate
 from pyimu.symbolic import quaternion
-from pyimu.symbolic.linear import symmetric
+from pyimu.symbolic.linear import reciprocal, symmetric
 
-WINDOW = 10.0
-"""Correlation times of the velocity over which its variance is estimated: the mean of so many
-squares is off by half of itself."""
+LEAST_STD = 0.03
+"""m/s; of the velocity of a body that a hand turns in its place, chosen on recordings 02, 11 and 26
+of BROAD (``benchmarks/attitude_real.py``) and on drives of ``benchmarks/attitude_honesty.py`` that
+its table does not have (``--first 100``), as the other times and factors here."""
 
-SLOW = 2.0
-"""Correlation times of the velocity over which it is averaged to see its drift: of a bounded
-velocity that leaves 1/(1 + SLOW) of the variance."""
+FIRST_STD = 0.1
+"""m/s; of the velocity before the run has shown anything of it."""
 
-DRIFT_GAIN = 100.0
+WINDOW, RISE = 10.0, 5.0
+"""Correlation times of the velocity over which its variance is estimated, where it falls and where
+it rises: the mean of so many squares is off by half of itself. A motion that begins is seen soon,
+at the cost of a variance that is a quarter too large."""
+
+OUTLIER = 9.0
+"""Squared velocity over its variance beyond which it shows by itself that this is too small."""
+
+SLOW = 3.0
+"""Correlation times of the velocity over which it is averaged to see its drift."""
+
+DRIFTS = 3.0
+"""By which factor the mean square of that average must exceed what a bounded velocity leaves; that
+does so with a probability of 5 %, exp(-3) of two axes."""
+
+DRIFT_WINDOW, DRIFT_RISE = 60.0, 3.0
+"""Correlation times of the velocity over which the drift is estimated, where it falls and where it
+rises: a push shows as soon as the average does, and who drives now will push again."""
+
+DRIFT_GAIN = 300.0
 """By how much the walk that is added to the velocity in a correlation time exceeds the drift that
 is seen. The walk lets the filter follow the drift, and so take it away: what is left of it in the
-end is a hundredth."""
+end is a third of a hundredth."""
 
 
 @dataclass(frozen=True)
@@ -55,7 +74,7 @@ class Motion:
 
     ``across`` and ``along`` the vertical the variance of its velocity in (m/s)^2. ``slow`` (3,) m/s
     is the estimated velocity in body axes less what is fast in it, ``drift`` (m/s)^2 its variance
-    across beyond that of a bounded velocity.
+    across beyond ``DRIFTS`` times that of a bounded velocity.
     """
 
     across: ca.SX
@@ -99,8 +118,17 @@ def tilted(up, push: Push):
 
 
 def least_std(at: Mapping[str, ca.SX]):
-    """Standard deviation [m/s] of the velocity that a body has at least, by the settings ``at``."""
-    return at["accel_std"] * at["motion_time"]
+    """Standard deviation [m/s] of the velocity that a body has at least, by the settings ``at``.
+
+    Zero where they say that it never accelerates.
+    """
+    declared = at["accel_std"] * at["motion_time"]
+    return ca.fmax(declared, LEAST_STD) * (declared > 0)
+
+
+def first_std(at: Mapping[str, ca.SX]):
+    """Standard deviation [m/s] of the velocity before the first sample, by the settings ``at``."""
+    return ca.fmax(least_std(at), FIRST_STD) * (least_std(at) > 0)
 
 
 def at_rest(x: Estimate, motion) -> Estimate:
@@ -117,31 +145,42 @@ def covariance_of_motion(across, along, up):
     return symmetric(3, lambda i, j: across * (i == j) + (along - across) * up[i] * up[j])
 
 
-def followed(motion: Motion, x: Estimate, turned, used, std, time, h) -> Motion:
+def followed(motion: Motion, x: Estimate, turned, used, std, time, h) -> tuple[Motion, ca.SX]:
     """The motion after one more sample, whose velocity ``x`` has before its measurement.
 
+    With it the variance (2,) across and along the vertical by which that velocity is measured.
+
     The mean square of the innovation, less the filter's own variance of it, is that of the
-    measurement (Mehra 1972, section IV), here the velocity of the body: over ``WINDOW`` times its
-    correlation ``time`` in s, and not below that of ``std`` in m/s. What an average over ``SLOW``
-    times that time has beyond that is a walk: accelerations that last. ``turned`` (3, 3) is the
-    body's turn from old axes to new; ``used`` 0 or 1 whether the sample counts. A ``std`` of zero
-    says that the body does not move.
+    measurement (Mehra 1972, section IV), here the velocity of the body: over ``WINDOW`` or ``RISE``
+    times its correlation ``time`` in s, and not below that of ``std`` in m/s. The innovations of a
+    filter whose model is right are white (section III there): their mean over ``SLOW`` times that
+    time has half their density over that, the density 2 T s^2 of the velocity and P h of the
+    filter's own variance. What it has beyond ``DRIFTS`` times that is a walk: accelerations that
+    last. ``turned`` (3, 3) is the body's turn from old axes to new; ``used`` 0 or 1 whether the
+    sample counts. A ``std`` of zero says that the body does not move.
     """
     v, up = x.velocity, quaternion.to_matrix(x.q)[2, :].T
     own, whole = x.covariance[6:, 6:], ca.dot(x.velocity, x.velocity)
     above, own_along = ca.dot(up, v) ** 2, ca.dot(up, own @ up)
     own_across = (ca.trace(own) - own_along) / 2
-    gain, floor = used * h / (WINDOW * time + h), std**2
+    moves, floor = std > 0, std**2
 
-    def mean(before, excess):
-        return before + gain * (ca.fmax(excess, 0) - before)
+    def mean(before, found, fall, rise):
+        gain = h / (ca.if_else(found > before, rise, fall) * time + h)
+        return before + used * gain * (found - before)
 
-    across = ca.fmax(mean(motion.across, (whole - above) / 2 - own_across), floor)
-    along = ca.fmax(mean(motion.along, above - own_along), floor)
+    def grown(before, excess):
+        excess = ca.fmax(excess, 0)
+        after = moves * ca.fmax(mean(before, excess, WINDOW, RISE), floor)
+        return after, moves * ca.fmax(after, excess / OUTLIER)
+
+    across, seen_across = grown(motion.across, (whole - above) / 2 - own_across)
+    along, seen_along = grown(motion.along, above - own_along)
     carried = turned @ motion.slow
     slow = used * (carried + h / (SLOW * time + h) * (v - carried))
-    left = (ca.dot(slow, slow) - ca.dot(up, slow) ** 2) / 2 - (across + own_across) * (
-        1 / (1 + SLOW)
+    white = across * time + own_across * h / 2
+    left = (ca.dot(slow, slow) - ca.dot(up, slow) ** 2) / 2 - DRIFTS / SLOW * white * reciprocal(
+        time
     )
-    moves = std > 0
-    return Motion(moves * across, moves * along, slow, moves * mean(motion.drift, left))
+    drift = moves * mean(motion.drift, ca.fmax(left, 0), DRIFT_WINDOW, DRIFT_RISE)
+    return Motion(across, along, slow, drift), ca.vertcat(seen_across, seen_along)
