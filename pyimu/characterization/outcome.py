@@ -224,6 +224,21 @@ class Outcome:
             if {"motion"} == {f.kind for f in log.findings} & {"motion", "counts"}
         )
 
+    def markov(self, name: str) -> tuple[tuple[float, float], ...]:
+        """Gauss-Markov noise of a channel over the logs, slowest first.
+
+        Standard deviations in the unit of the samples and correlation times [s]: root mean squares
+        and geometric means of the logs that have it, where these are at least half.
+        """
+        each = [ch.noise.fit.markov for ch in self.channel(name) if ch.noise]
+        found = []
+        for k in range(max(map(len, each), default=0)):
+            own = [g[k] for g in each if len(g) > k and g[k].sigma.needed]
+            if own and 2 * len(own) >= len(each):
+                sigma = math.sqrt(sum(g.sigma.value**2 for g in own) / len(own))
+                found.append((sigma, math.exp(sum(math.log(g.time) for g in own) / len(own))))
+        return tuple(found)
+
     def channel(self, name: str) -> Iterator[Channel]:
         """The channel of a name in each log that has it."""
         return (c for log in self.logs for c in log.channels if c.name == name)

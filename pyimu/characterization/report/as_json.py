@@ -47,7 +47,10 @@ def contents(c: Outcome) -> dict[str, Any]:
     and ``channels``: {``gyro_x`` ...: {``unit``, ``mean``, ``coefficients``, ``allan``:
     {``tau`` [s], ``deviation``, ``low``, ``high``, ``freedom``}, ``modified`` and ``hadamard``:
     {``tau``, ``deviation``}, ``fit``: {``shortest`` tau [s], ``model_error``, ``misfit``,
-    ``freedom``, ``terms`` of the curve, their ``estimates`` and ``covariance``}, ``floor``:
+    ``freedom``, ``terms`` of the curve, their ``estimates`` and ``covariance``}, ``gauss_markov``:
+    [coefficient of the standard deviation + {``correlation_time`` [s], ``correlation_time_spread``
+    of its logarithm}], ``models``: those compared, the one taken first [{``terms``,
+    ``correlation_times`` [s], ``log_likelihood`` and ``cost`` [nat], ``model_error``}], ``floor``:
     {``deviation``, ``tau``}, ``lines``: [{``frequency``, ``frequency_std`` and ``width`` [Hz],
     ``amplitude``, ``amplitude_std``, ``unit``, ``ratio`` to the background, ``p_value``,
     ``relation``}], ``thermal`` and its ``hysteresis`` with ``kh`` and ``width`` [K] of the
@@ -105,7 +108,16 @@ def _sensor(s: SensorResult) -> dict[str, Any]:
     }
 
 
-NOISE = ("coefficients", "allan", "modified", "hadamard", "fit", "floor")
+NOISE = (
+    "coefficients",
+    "allan",
+    "modified",
+    "hadamard",
+    "fit",
+    "gauss_markov",
+    "models",
+    "floor",
+)
 """What a channel has only where its noise could be characterised, else null."""
 
 
@@ -140,6 +152,21 @@ def _noise(n: NoiseAnalysis, kind: str) -> dict[str, Any]:
             "estimates": dict(n.fit.estimates),
             "covariance": n.fit.covariance,
         },
+        "gauss_markov": [
+            _coefficient(g.sigma, SAMPLE[kind])
+            | {"correlation_time": g.time, "correlation_time_spread": g.spread}
+            for g in n.fit.markov
+        ],
+        "models": [
+            {
+                "terms": m.terms,
+                "correlation_times": [time * n.fit.sample_period for time in m.times],
+                "log_likelihood": m.nats,
+                "cost": m.cost,
+                "model_error": m.error,
+            }
+            for m in n.fit.models
+        ],
         "floor": {"deviation": n.floor.deviation, "tau": n.floor.tau},
     }
 

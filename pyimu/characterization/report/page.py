@@ -30,6 +30,7 @@ from pyimu.characterization.report.tables import (
     coefficient_table,
     line_table,
     log_table,
+    model_table,
     quality_table,
 )
 from pyimu.characterization.report.terminal import in_lines
@@ -103,6 +104,7 @@ def _sensor(c: Outcome, kind: str) -> dict[str, Any]:
             "name": SENSORS[kind],
             "allan": None,
             "coefficients": empty,
+            "models": empty,
             "notes": [],
             "others": None,
             "spectra": [],
@@ -115,6 +117,7 @@ def _sensor(c: Outcome, kind: str) -> dict[str, Any]:
         "name": SENSORS[kind],
         "allan": _allan(c, kind),
         "coefficients": coefficient_table(c, kind),
+        "models": model_table(c, kind),
         "notes": _notes(c, kind),
         "others": _deviations(c, kind),
         "spectra": [p for p in spectra if p is not None],
