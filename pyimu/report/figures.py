@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from pyimu.report.curves import Curves
+
 if TYPE_CHECKING:  # it takes half a second, which who draws nothing does without
     from matplotlib.axes import Axes
     from matplotlib.axis import Axis
@@ -77,10 +79,11 @@ def new_figure(width: float, height: float, rows: int = 1) -> tuple[Figure, list
     return figure, list(axes)
 
 
-def svg_of(figure: Figure) -> str:
+def svg_of(figure: Figure, curves: bool = False) -> str:
     """The figure as an SVG element that can stand in a page.
 
-    It has no prolog, no metadata and no repeated identifiers.
+    It has no prolog and no repeated identifiers, and no metadata but, where they are asked for, its
+    ``curves``, which a page then lets its reader zoom into and download.
     """
     buffer = io.StringIO()
     layout = figure.get_layout_engine()
@@ -106,7 +109,8 @@ def svg_of(figure: Figure) -> str:
     text = re.sub(r"\n\s*", "\n", text)
     for colour, variable in VARIABLES.items():
         text = text.replace(colour, variable)
-    return text
+    numbers = Curves.of(figure, VARIABLES) if curves else None
+    return text if numbers is None else text.replace("</svg>", numbers.element + "</svg>")
 
 
 def legend(figure: Figure, panel: Axes, columns: int) -> None:

@@ -32,7 +32,7 @@ def allan_picture(c: Outcome, kind: str) -> str:
         panels[-1].set_xlabel("cluster time τ [s]")
         logarithmic(panels)
         legend(figure, max(panels, key=lambda p: len(p.lines)), 3)
-        return svg_of(figure)
+        return svg_of(figure, curves=True)
 
 
 def deviations_picture(c: Outcome, kind: str) -> str:
@@ -53,7 +53,7 @@ def deviations_picture(c: Outcome, kind: str) -> str:
         panels[-1].set_xlabel("cluster time τ [s]")
         logarithmic(panels)
         legend(figure, max(panels, key=lambda p: len(p.lines)), 3)
-        return svg_of(figure)
+        return svg_of(figure, curves=True)
 
 
 def _scaled(values: np.ndarray, kind: str) -> np.ndarray:
