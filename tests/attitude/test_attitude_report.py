@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from attitude_cases import GRAVITY, WHITE, Drive, H, drive, measured, part, rover_rate
-from pages import alone
+from report_pages import alone
 from scipy.spatial.transform import Rotation
 from scipy.stats import norm
 

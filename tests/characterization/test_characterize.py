@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from pages import alone
+from report_pages import alone
 from scipy.stats import binom, norm
 
 import pyimu

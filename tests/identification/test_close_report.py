@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import world
 from numpy.testing import assert_allclose
-from pages import alone
+from report_pages import alone
 
 from pyimu.errors import Finding, UserError
 from pyimu.files import staged
