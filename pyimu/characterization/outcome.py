@@ -13,6 +13,7 @@ from pyimu.characterization.evidence import Evidence
 from pyimu.characterization.magnetometer.estimate import MagnetometerFit
 from pyimu.characterization.noise.coefficients import Coefficient
 from pyimu.characterization.noise.fit import ChannelFit
+from pyimu.characterization.spectrum.bandwidth import Bandwidth
 from pyimu.characterization.spectrum.lines import Line
 from pyimu.characterization.spectrum.psd import Psd
 from pyimu.characterization.temperature.fit import ThermalFit
@@ -89,7 +90,8 @@ class Channel:
     """One axis of a sensor in one log.
 
     ``noise`` is None, and ``reason`` says why, where it could not be characterised; ``thermal`` is
-    None, and ``thermal_reason`` says why, where nothing could be said of temperature.
+    None, and ``thermal_reason`` says why, where nothing could be said of temperature. ``bandwidth``
+    is None where the spectrum does not roll off.
     """
 
     name: str
@@ -101,6 +103,7 @@ class Channel:
     thermal: ThermalFit | None
     thermal_reason: str
     warm_up: WarmUp | None
+    bandwidth: Bandwidth | None = None
 
     @property
     def kind(self) -> str:

@@ -54,7 +54,8 @@ def contents(c: Outcome) -> dict[str, Any]:
     {``deviation``, ``tau``}, ``lines``: [{``frequency``, ``frequency_std`` and ``width`` [Hz],
     ``amplitude``, ``amplitude_std``, ``unit``, ``ratio`` to the background, ``p_value``,
     ``relation``}], ``thermal`` and its ``hysteresis`` with ``kh`` and ``width`` [K] of the
-    catalogue's effect, ``warm_up``, ``reason``}}.
+    catalogue's effect, ``warm_up``, ``bandwidth`` (where the noise is down by 3 dB, and the
+    ``order`` of the low-pass), ``reason``}}.
 
     A coefficient is {``value``, ``std``, ``low``, ``high``, ``unit``, ``needed``}; one that is
     not needed has the value null and the interval from 0 to its upper bound. What is not a
@@ -131,6 +132,8 @@ def _channel(c: Channel) -> dict[str, Any]:
             "lines": [_line(v, unit) for v in c.lines],
             "thermal": _thermal(c),
             "warm_up": c.warm_up and _warm_up(c.warm_up, unit),
+            "bandwidth": c.bandwidth
+            and _estimate(c.bandwidth.frequency, "Hz") | {"order": c.bandwidth.order},
         }
     )
 

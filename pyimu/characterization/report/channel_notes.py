@@ -98,6 +98,19 @@ def spectrum_note(s: SensorResult, i: int) -> str:
     )
 
 
+def bandwidth_sentence(ch: Channel) -> str:
+    """Where the noise of a channel rolls off, or nothing."""
+    if ch.bandwidth is None:
+        return ""
+    f = ch.bandwidth.frequency
+    value, low, high = (number(v, 3) for v in (f.value, f.low, f.high))
+    order = ("first", "second", "third", "fourth")[ch.bandwidth.order - 1]
+    return (
+        f"bandwidth {value} ({low} to {high}) Hz, where the noise is down by 3 dB, as through a "
+        f"low-pass of {order} order"
+    )
+
+
 # Lines
 
 

@@ -10,6 +10,7 @@ from pyimu.characterization.allan.moments import MARKOV
 from pyimu.characterization.outcome import SAMPLE, SI, LogResult, Outcome, Summary
 from pyimu.characterization.report.beside import beside_lines
 from pyimu.characterization.report.channel_notes import (
+    bandwidth_sentence,
     frequency,
     loop_sentence,
     thermal_sentence,
@@ -93,8 +94,10 @@ def _cell(s: Summary | None, kind: str, term: str) -> str:
 
 
 def _lines(log: LogResult) -> Iterator[str]:
-    """The strongest lines of each channel that has any."""
+    """The bandwidth and the strongest lines of each channel that has any."""
     for ch in log.channels:
+        if ch.bandwidth is not None:
+            yield f"{ch.name}: {bandwidth_sentence(ch)}"
         if ch.lines:
             top = sorted(ch.lines, key=lambda v: -v.amplitude)[:4]
             more = f" and {len(ch.lines) - len(top)} more" if len(ch.lines) > len(top) else ""
