@@ -21,6 +21,7 @@ LATE = {
     "pyimu.cli.navigation",
     "pyimu.cli.options",
     "pyimu.block.block",
+    "pyimu.block.stepping",
 }
 """Modules with imports of the package inside functions: casadi, scipy and numba take seconds, which
 ``pyimu --help`` and a compiled run do without."""

@@ -1,9 +1,12 @@
-"""A step function of casadi taken through a log by its virtual machine."""
+"""A step function of casadi taken through a log."""
 
 from __future__ import annotations
 
 import casadi as ca
 import numpy as np
+
+FEW = 256
+"""Rows for which casadi's virtual machine is good enough: the faster one takes as long to load."""
 
 
 def step_through(
@@ -15,10 +18,17 @@ def step_through(
     h: np.ndarray,
     y: np.ndarray,
 ) -> None:
-    """Fill ``y`` row by row and leave the last state in ``s``, by casadi's virtual machine.
+    """Fill ``y`` row by row and leave the last state in ``s``.
 
-    Its buffer interface has the arrays bound once, so that a step allocates nothing.
+    A few rows, and functions that are no plain list of operations, go through casadi's virtual
+    machine. Its buffer interface has the arrays bound once, so that a step allocates nothing.
     """
+    if len(u) > FEW:
+        from pyimu.block.machine import machine  # loads numba, which few rows do without
+
+        quick = machine(step)
+        if quick is not None:
+            return quick.run(s, u, p, w, h, y)
     buffer, evaluate = step.buffer()
     row_u, row_w = np.zeros(u.shape[1]), np.zeros(w.shape[1])
     following, row_y = np.zeros_like(s), np.zeros(y.shape[1])

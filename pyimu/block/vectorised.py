@@ -1,6 +1,7 @@
 """Evaluation of a memoryless casadi function on whole columns with numpy.
 
-There is one array operation for each of its instructions.
+There is one array operation for each of its instructions whose value is not known beforehand: a
+coefficient that is zero, or a signal that never changes, takes all with it that follows from it.
 """
 
 from __future__ import annotations
@@ -10,6 +11,8 @@ from functools import lru_cache
 
 import casadi as ca
 import numpy as np
+
+from pyimu.block.program import Program, program
 
 _UNARY = {
     ca.OP_ASSIGN: lambda a: a,
@@ -62,52 +65,119 @@ _BINARY = {
 BLOCK = 4096
 """Rows that are evaluated at once: few enough that what is worked on stays in the cache."""
 
+Value = float | int
+"""What is known of a value before any row is: itself, or the number of the instruction that gives
+it.
+"""
+
 
 def over_rows(
-    function: ca.Function, columns: Sequence[np.ndarray], fixed: np.ndarray
+    function: ca.Function,
+    columns: Sequence[np.ndarray],
+    fixed: np.ndarray,
+    wanted: np.ndarray | None = None,
 ) -> np.ndarray:
     """Values (n, m) of an SX function ``(row, fixed) -> dense (m,)`` for n rows, whose entries are
-    the k ``columns`` (n,); each column of the answer is contiguous.
+    the k ``columns`` (n,); each column of the answer is contiguous. Those that are not ``wanted``
+    (m,) are zero.
 
-    Raises NotImplementedError for an operation that has no numpy twin in the tables above.
+    Inputs are finite, so that what is multiplied by zero is zero. Raises NotImplementedError for an
+    operation that has no numpy twin in the tables above.
     """
-    rows, program = len(columns[0]), _program(function)
-    out = np.zeros((function.numel_out(0), rows))
-    work: list = [None] * function.sz_w()
+    rows, m = len(columns[0]), function.numel_out(0)
+    out = np.zeros((m, rows))
+    few = range(m) if wanted is None else np.flatnonzero(wanted).tolist()
     with np.errstate(all="ignore"):
+        known = _known(columns) if rows > BLOCK else {}
+        of_row = np.asarray(fixed, dtype=float).tobytes()
+        steps, given = _plan(function, tuple(few), of_row, tuple(known), tuple(known.values()))
+        for to, value in given:
+            if isinstance(value, float):
+                out[to] = value
         for a in range(0, rows, BLOCK):
             b = min(a + BLOCK, rows)
-            for op, to, of, twin in program:
-                if op == ca.OP_CONST:
-                    work[to] = of
-                elif op == ca.OP_INPUT:
-                    work[to] = columns[of[1]][a:b] if of[0] == 0 else float(fixed[of[1]])
-                elif op == ca.OP_OUTPUT:
-                    out[to, a:b] = work[of[0]]
+            work: dict[int, np.ndarray] = {}
+            for number, twin, of, dead in steps:
+                if twin is None:
+                    work[number] = columns[of[0]][a:b]
                 else:
-                    work[to] = twin(*[work[i] for i in of])
+                    work[number] = twin(*[work[i] if isinstance(i, int) else i for i in of])
+                for i in dead:
+                    del work[i]
+            for to, value in given:
+                if isinstance(value, int):
+                    out[to, a:b] = work[value]
     return out.T
 
 
+def _known(columns: Sequence[np.ndarray]) -> dict[int, float]:
+    """The columns that are the same in all rows."""
+    ends = ((k, c) for k, c in enumerate(columns) if c[0] == c[-1] == c[len(c) // 2])
+    return {k: float(c[0]) for k, c in ends if np.all(c == c[0])}
+
+
 @lru_cache(maxsize=256)
-def _program(function: ca.Function) -> list[tuple]:
-    """Instructions of a function: what it does, where to, of what, and the numpy twin of that."""
-    out: list[tuple] = []
-    for k in range(function.n_instructions()):
-        op, to = function.instruction_id(k), function.instruction_output(k)
-        of = function.instruction_input(k)
-        if op == ca.OP_CONST:
-            out.append((op, to[0], function.instruction_constant(k), None))
-        elif op == ca.OP_OUTPUT:
-            out.append((op, to[1], of, None))
-        elif op == ca.OP_INPUT:
-            out.append((op, to[0], of, None))
-        elif op in _UNARY:
-            out.append((op, to[0], of[:1], _UNARY[op]))
-        elif op in _BINARY:
-            out.append((op, to[0], of[:2], _BINARY[op]))
+def _plan(
+    function: ca.Function,
+    wanted: tuple[int, ...],
+    fixed: bytes,
+    at: tuple[int, ...],
+    known: tuple[float, ...],
+) -> tuple[list[tuple], list[tuple[int, Value]]]:
+    """What is left to do for each block of rows, and by number of an output what it is.
+
+    A step is the number of its value, its numpy twin (None for a column, whose number is the only
+    operand), its operands, and the numbers of the values that nobody needs after it.
+    """
+    one, of_row, alike = program(function), np.frombuffer(fixed), dict(zip(at, known, strict=True))
+    values: list[Value] = []
+    for number, i in enumerate(one.instructions):
+        if i.op == ca.OP_CONST:
+            values.append(float(i.value))
+        elif i.op == ca.OP_INPUT:
+            row = alike.get(i.of[1], number)
+            values.append(row if i.of[0] == 0 else float(of_row[i.of[1]]))
         else:
-            raise NotImplementedError(
-                f"casadi operation {op} of {function.name()} has no numpy twin"
-            )
-    return out
+            values.append(_value(i.op, [values[k] for k in i.of], number, function))
+    given = [(to, values[one.outputs[0, to]]) for to in wanted if (0, to) in one.outputs]
+    return _in_order(one, values, [v for _, v in given if isinstance(v, int)]), given
+
+
+def _value(op: int, of: list[Value], number: int, function: ca.Function) -> Value:
+    """The value of an operation: known, that of another instruction, or its own ``number``."""
+    twin = _UNARY.get(op) or _BINARY.get(op)
+    if twin is None:
+        raise NotImplementedError(f"casadi operation {op} of {function.name()} has no numpy twin")
+    of = of[: 1 if op in _UNARY else 2]
+    if all(isinstance(v, float) for v in of):
+        return float(twin(*of))
+    if op == ca.OP_ASSIGN:
+        return of[0]
+    zero, one = ([isinstance(v, float) and v == size for v in of] for size in (0.0, 1.0))
+    if op in (ca.OP_MUL, ca.OP_IF_ELSE_ZERO) and any(zero):
+        return 0.0
+    if op == ca.OP_IF_ELSE_ZERO and isinstance(of[0], float):
+        return of[1]
+    if op == ca.OP_ADD and any(zero) or op == ca.OP_MUL and any(one):
+        return of[1] if (zero if op == ca.OP_ADD else one)[0] else of[0]
+    if op == ca.OP_SUB and zero[1] or op == ca.OP_DIV and one[1]:
+        return of[0]
+    return number
+
+
+def _in_order(one: Program, values: list[Value], wanted: list[int]) -> list[tuple]:
+    """The steps that ``wanted`` instructions need."""
+    needed, operands, steps = set(wanted), {}, []
+    for number in range(len(values) - 1, -1, -1):
+        if number in needed:
+            i = one.instructions[number]
+            arity = 1 if i.op in _UNARY else 2
+            inputs = i.op == ca.OP_INPUT
+            operands[number] = (i.of[1],) if inputs else tuple(values[k] for k in i.of[:arity])
+            later = set() if inputs else {v for v in operands[number] if isinstance(v, int)}
+            steps.append((number, i.op, later - needed))
+            needed |= later
+    return [
+        (n, _UNARY.get(op) or _BINARY.get(op), operands[n], tuple(dead))
+        for n, op, dead in reversed(steps)
+    ]

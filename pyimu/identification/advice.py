@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -225,8 +226,16 @@ def _trial(
     sensor: Sensor, motion: Motion, noise: Mapping[int, RandomWalk], effects: Iterable[str]
 ) -> Trial:
     signals = frozenset().union(*(CATALOGUE[e].signals(sensor.kind) for e in effects))
-    one = trial([motion], sensor, Limits.of(sensor), step_of([motion]), signals)
+    limits = Limits.of(sensor)
+    one = _of_library(motion.name, sensor.kind, limits, step_of([motion]), signals)
     return replace(one, axes=tuple(sorted(noise)))
+
+
+@lru_cache(maxsize=16)
+def _of_library(name: str, kind: str, limits: Limits, h: float, signals: frozenset[str]) -> Trial:
+    """The trial of a motion, which no log changes."""
+    motion = next(m for m in library(limits) if m.name == name)
+    return trial([motion], Sensor(kind), limits, h, signals)
 
 
 def _gain(sensor: Sensor, told: Information, effect: str, name: str, known: _Known) -> Gain | None:

@@ -41,7 +41,7 @@ from pyimu.recording.names import distinct_names
 from pyimu.recording.quality.inspect import inspect, of_reading, rate_of_part
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.course import has_course
-from pyimu.recording.reference.file import read_reference, with_references
+from pyimu.recording.reference.file import with_references
 from pyimu.recording.reference.rate import reference_rate
 from pyimu.recording.rest import is_at_rest
 from pyimu.report.numbers import joined
@@ -72,12 +72,12 @@ def close(
 
     ``recordings`` are Recordings, paths or data frames; ``part`` is a Part, the name of a built-in
     one, a TOML path, or None for the baseline structure with every coefficient estimated. Without
-    ``holdout`` the last 30 % of each log is held out. ``reference`` are references in recordings or
-    files of their own, at their own rate and on their own clock: one for each log in order, then
-    one for each log of ``holdout``; a log without one has its own. ``latitude`` [rad] adds the
-    Earth's rate to a reference rate derived from an attitude. Raises UserError for logs that cannot
-    be read, are too short, do not overlap their reference, or do not excite what the part asks to
-    be estimated.
+    ``holdout`` the last 30 % of each log is held out. ``reference`` are references in recordings,
+    files or data frames of their own, at their own rate and on their own clock: one for each log in
+    order, then one for each log of ``holdout``; a log without one has its own. ``latitude`` [rad]
+    adds the Earth's rate to a reference rate derived from an attitude. Raises UserError for logs
+    that cannot be read, are too short, do not overlap their reference, or do not excite what the
+    part asks to be estimated.
     """
     own = _references(reference)
     logs, others = _named(*_with_references(_many(recordings), _many(holdout), own))
@@ -193,7 +193,7 @@ def _many(logs: Sequence[Given] | Given | None) -> list[Recording]:
 
 def _references(given: Sequence[Given] | Given | None) -> list[Recording]:
     each = [] if given is None else [given] if is_one(given) else given
-    return [r if isinstance(r, Recording) else read_reference(r) for r in each]
+    return [recording_of(r, "reference") for r in each]
 
 
 def _with_references(

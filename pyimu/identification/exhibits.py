@@ -26,8 +26,8 @@ from pyimu.identification.fit.noise_floor import floor_noise
 from pyimu.identification.fit.score import held_state
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk
+from pyimu.identification.formula.columns import values_of
 from pyimu.identification.formula.formula import Formula
-from pyimu.identification.formula.terms import values_of
 from pyimu.identification.found import Added
 from pyimu.identification.search.forward import Investigation
 from pyimu.identification.search.screen import Screening

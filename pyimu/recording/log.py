@@ -260,22 +260,24 @@ def is_one(given: Given | Iterable[Given]) -> bool:
     return isinstance(given, (Recording, Log, str, os.PathLike)) or is_frame(given)
 
 
-def recording_of(given: Given) -> Recording:
+def recording_of(given: Given, wanted: str = "sensor") -> Recording:
     """A recording: itself, that in a file, or that in a data frame.
 
-    The columns of a frame are named as those of a file, ``gyro_x [deg/s]``. Raises UserError as
-    ``read_recording`` does, and for anything else.
+    The columns of a frame are named as those of a file, ``gyro_x [deg/s]``. ``wanted`` is
+    "reference" where it needs no sensor. Raises UserError as ``read_recording`` does, and for
+    anything else.
     """
     if isinstance(given, Recording):
         return given
     if isinstance(given, (str, os.PathLike)):
-        return read_recording(given)
+        return Log(Source.open(Path(given), None, wanted)).read()
     if not is_frame(given):
         raise UserError(
             f"a {type(given).__name__} is no recording: give a Recording, the path of a file, or "
             "a data frame with columns as 'time [s]', 'gyro_x [rad/s]'"
         )
-    return replace(Log(Source.of(FrameReader.of(given), ForeignMap())).read(), path=None)
+    source = Source.of(FrameReader.of(given), ForeignMap(), wanted)
+    return replace(Log(source).read(), path=None)
 
 
 def _from_frame(cls: type[Recording], frame: Any, name: str = "frame") -> Recording:

@@ -482,6 +482,34 @@ def test_a_reference_of_other_axes_or_units_is_said(change, said):
 @pytest.mark.parametrize(
     ("misread", "said"),
     [
+        (np.degrees, "too large by 57.3"),
+        (np.negative, "counts the other way"),
+        (np.zeros_like, "stands still while the gyro goes"),
+    ],
+)
+def test_a_heading_of_other_units_or_sign_is_said(misread, said):
+    rng, rate = np.random.default_rng(7), Motion(7)(TIME) * [0.0, 0.0, 1.0]
+    heading = H * np.cumsum(rate[:, 2]) + 1e-3 * rng.standard_normal(len(TIME))
+    gyro = rate + NOISE * rng.standard_normal((len(TIME), 3))
+    closed = pyimu.close(
+        Recording.from_arrays(name="log", time=TIME, gyro=gyro, ref_heading=misread(heading))
+    )
+    assert closed.verdict == "reference_unfit" and said in closed.reason, closed.report()
+
+
+@pytest.mark.parametrize("gyro", [NOISE, 0.0])
+def test_a_gyro_that_stands_still_beside_its_reference_is_said(gyro):
+    noise = gyro * np.random.default_rng(8).standard_normal((len(TIME), 3))
+    closed = pyimu.close(
+        Recording.from_arrays(name="log", time=TIME, gyro=0.01 + noise, ref_rate=Motion(8)(TIME))
+    )
+    assert closed.verdict == "reference_unfit", closed.report()
+    assert "the gyro of log stands still while the reference goes" in closed.reason
+
+
+@pytest.mark.parametrize(
+    ("misread", "said"),
+    [
         (lambda q: np.roll(q, -1, axis=1), "scalar last"),
         (lambda q: q * [1.0, -1.0, -1.0, -1.0], "world to body"),
     ],

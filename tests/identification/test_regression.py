@@ -7,10 +7,11 @@ import pytest
 from loop_cases import inputs, noise, trial
 from scipy.linalg import block_diag
 from scipy.ndimage import gaussian_filter1d
+from scipy.signal import butter, sosfilt
 from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
-from pyimu.identification.fit import maximum_likelihood
+from pyimu.identification.fit import maximum_likelihood, reference_noise
 from pyimu.identification.fit.columns import Linear, LogState, in_band, linearise
 from pyimu.identification.fit.fit import begin, power
 from pyimu.identification.fit.keys import Coefficient, LogBias, LogTurn, coefficients_of
@@ -296,6 +297,61 @@ def test_noise_of_a_rate_reference_neither_pulls_the_scale_factor_nor_narrows_it
     z = np.array(z)
     assert chi2.ppf(ALARM / 2, z.size) < np.sum(z**2) < chi2.ppf(1 - ALARM / 2, z.size)
     assert abs(z.mean()) < 4.5 / np.sqrt(z.size)
+
+
+def low_pass(values: np.ndarray, hz: float, period: float) -> np.ndarray:
+    """Values (n, 3) below so many Hz, of the size that they had."""
+    out = sosfilt(butter(2, hz, fs=1 / period, output="sos"), values, axis=0)
+    return out * values.std(axis=0) / out.std(axis=0)
+
+
+@pytest.mark.parametrize("hz", [None, 8.0, 3.0])
+def test_the_noise_of_a_rate_reference_is_found_whatever_its_colour(hz):
+    """Its power by axis, within five of the standard errors that it is given; coloured or not."""
+    rng, time = np.random.default_rng(12), 0.02 * np.arange(15000)
+    u = inputs(np.random.default_rng(99), time)
+    y = u[:, :3] + 1e-3 * rng.standard_normal((len(time), 3))
+    e = 1e-3 * rng.standard_normal((len(time), 3))
+    e = e if hz is None else low_pass(e, hz, 0.02)
+    u[:, :3] += e
+    sensor = Sensor("gyro", {"angle_random_walk": {"N": 1e-3 * np.sqrt(0.02)}})
+    known = with_reference_noise(fit(begin(sensor, (), [trial(time, y, u)])), [])[0]
+    errors = np.array(known.trials[0].noise_error)
+    assert np.all(errors > 0.0) and known.coloured == (hz is not None)
+    assert np.all(np.abs(known.trials[0].noise.var(axis=0) / e.var(axis=0) - 1.0) < 5.0 * errors)
+
+
+def test_a_rate_without_noise_has_none_though_the_sensor_drifts_more_than_declared():
+    rng, time = np.random.default_rng(13), 0.02 * np.arange(15000)
+    u = inputs(np.random.default_rng(99), time)
+    white, walk = 1e-3 * rng.standard_normal((2, len(time), 3))
+    y = u[:, :3] + white + 0.05 * np.cumsum(walk, axis=0)
+    sensor = Sensor("gyro", {"angle_random_walk": {"N": 1e-3 * np.sqrt(0.02)}})
+    known = with_reference_noise(fit(begin(sensor, (), [trial(time, y, u)])), [])[0]
+    assert known.trials[0].noise is None or np.all(
+        known.trials[0].noise.var(axis=0) < 5.0 * 0.02 * white.var(axis=0)
+    )
+    assert not known.coloured
+
+
+def test_columns_that_differ_by_noise_of_the_reference_alone_show_nothing_of_their_difference():
+    """Two columns of one signal, each with as much noise again: their sum is shown, their
+    difference is noise. What is left has no direction in which less than nothing is seen.
+    """
+    rng, n = np.random.default_rng(14), 4000
+    x, noise = rng.standard_normal((n, 1)), 0.1 * rng.standard_normal((n, 2))
+    seen, drawn = x + noise, 0.1 * rng.standard_normal((n, 2))
+    gram = (seen.T @ seen - drawn.T @ drawn)[None]
+    score, doubt = seen.T @ x[:, 0], np.ones((1, 2))
+    onto, off = reference_noise._unseen_directions(gram[0], seen.T @ seen)
+    assert onto.shape == (2, 1)
+    left, scores = gram.copy(), score[None].copy()
+    reference_noise._without(left, scores, doubt, np.arange(2), onto, off)
+    values, vectors = np.linalg.eigh(left[0])
+    assert abs(values[0]) < 1e-9 * values[1]
+    assert abs(vectors[:, 0] @ scores[0]) < 1e-9 * np.linalg.norm(scores)
+    sum_of_both = solve(left[0], scores[0]).sum()
+    assert abs(sum_of_both - 1.0) < 4.5 * 0.1 / np.sqrt(n)
 
 
 def test_solve_is_the_least_norm_answer_in_units_of_each_column():

@@ -221,9 +221,13 @@ def test_projection_leaves_the_residual_of_least_squares():
     np.testing.assert_allclose(
         projected.batch_score.sum(axis=0) / size, projected.score / size, atol=1e-8
     )
+    by_batch = projected.batch_gram(range(len(CANDIDATES)))
     np.testing.assert_allclose(
-        (projected.batch_gram.sum(axis=0) - projected.gram) / np.outer(size, size), 0.0, atol=1e-9
+        (by_batch.sum(axis=0) - projected.gram) / np.outer(size, size), 0.0, atol=1e-9
     )
+    few, powers = projected.batch_gram([3, 1]), np.einsum("bii->bi", by_batch)
+    np.testing.assert_allclose(few, by_batch[:, [3, 1]][:, :, [3, 1]], rtol=1e-9)
+    np.testing.assert_allclose(projected.batch_power, powers, rtol=1e-9)
 
 
 def test_projection_leaves_nothing_of_what_the_base_explains():
@@ -237,7 +241,8 @@ def test_projection_leaves_nothing_of_what_the_base_explains():
     assert (
         projected.score[2] == 0.0
         and not projected.batch_score[:, 2].any()
-        and not projected.batch_gram[:, 2].any()
+        and not projected.batch_gram(range(3))[:, 2].any()
+        and not projected.batch_power[:, 2].any()
     )
     assert _gains(projected.score[None], Choice((2,)), projected.gram)[0] == 0.0
     assert np.all(np.delete(np.diag(projected.gram), 2) > 0)

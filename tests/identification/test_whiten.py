@@ -69,6 +69,22 @@ def test_innovations_of_a_random_walk_are_white():
 
 @pytest.mark.parametrize(
     "noise",
+    [RandomWalk(0.3, 0.7, 2.0), Autoregressive((1.5, -0.7), 0.2), Autoregressive((), 0.2)],
+    ids=lambda n: type(n).__name__,
+)
+def test_blocks_of_rows_are_whitened_as_all_together(noise):
+    """Whatever their length: none, less than the memory of an autoregression, across segments."""
+    rng = np.random.default_rng(12)
+    t, segments = irregular(rng, 300), [(0, 130), (130, 131), (140, 300)]
+    v, blocks = rng.standard_normal((300, 3)), noise.filter(t, segments)
+    edges = [0, 0, 1, 2, 3, 3, 100, 135, 141, 299, 300]
+    parts = [blocks.next(v[a:b]) for a, b in zip(edges[:-1], edges[1:], strict=True)]
+    np.testing.assert_allclose(np.concatenate(parts), noise.whiten(v, t, segments), atol=1e-12)
+    assert blocks.log_det == noise.log_det(t, segments)
+
+
+@pytest.mark.parametrize(
+    "noise",
     [RandomWalk(0.3, 0.7), Autoregressive((1.5, -0.7), 0.2)],
     ids=lambda n: type(n).__name__,
 )

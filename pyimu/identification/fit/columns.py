@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
-from pyimu.identification.fit.clock import ClockChange
+from pyimu.identification.fit.inputs import LogState, own_rate, reference_input
 from pyimu.identification.fit.keys import (
     Coefficient,
     Key,
     LogBias,
     LogClock,
-    LogKey,
     LogLag,
     LogTurn,
     coefficient_of,
@@ -37,7 +35,7 @@ from pyimu.identification.fit.trial import Trial
 from pyimu.model.arguments import Parameter
 from pyimu.model.catalogue import CATALOGUE, POWER_ON
 from pyimu.model.chain import Slot
-from pyimu.model.kinds import KINDS, OWN
+from pyimu.model.kinds import OWN
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS
 
@@ -45,32 +43,6 @@ TEMPERATURE, ITS_RATE = COLUMNS["temperature"].start, COLUMNS["temperature_rate"
 
 SMALL_LAG = 0.1
 """s; a step of a thermometer's lag that changes a temperature by far less than its noise."""
-
-
-@dataclass(frozen=True)
-class LogState:
-    """What belongs to a log and not to the part: bias (3,) at power-on, mounting rotation (3, 3)
-    of the reference, ``lag`` s of its thermometer behind the sensor's temperature, and what its
-    clock still lacks, None where that is not to be found.
-    """
-
-    bias: np.ndarray = field(default_factory=lambda: np.zeros(3))
-    rotation: np.ndarray = field(default_factory=lambda: np.eye(3))
-    lag: float = 0.0
-    clock: ClockChange | None = None
-
-    def moved(self, key: LogKey, change: float) -> LogState:
-        """The state with the coefficient of one of its columns changed."""
-        if isinstance(key, LogClock):
-            return replace(self, clock=self.clock.moved(key.order, change))
-        if isinstance(key, LogLag):
-            return replace(self, lag=self.lag + change)
-        unit = np.eye(3)[key.axis]
-        if isinstance(key, LogBias):
-            return replace(self, bias=self.bias + change * unit)
-        return replace(
-            self, rotation=Rotation.from_rotvec(change * unit).as_matrix() @ self.rotation
-        )
 
 
 @dataclass(frozen=True)
@@ -84,29 +56,6 @@ class Linear:
     residual: np.ndarray
     keys: dict[int, list[Key]]
     columns: dict[int, np.ndarray]
-
-
-def reference_input(trial: Trial, state: LogState) -> np.ndarray:
-    """Inputs (n, N_INPUT) with the reference turned into the sensor's axes, on the sensor's clock.
-
-    What the clock still lacks is short against the motion: its first order is enough. A thermometer
-    that is a first-order lag shows T - lag dT/dt.
-    """
-    u, own, rate = np.array(trial.u), OWN[trial.kind], _own_rate(trial.kind)
-    if state.clock is not None:
-        late = state.clock.at(trial.time)[:, None]
-        u[:, own] -= late * u[:, rate]
-    # What is turned is turned by the sensor's own axes, whichever the reference has.
-    turned = (COLUMNS["turned"],) if trial.kind == "gyro" else ()
-    for at in () if np.array_equal(state.rotation, np.eye(3)) else (own, rate, *turned):
-        u[:, at] = u[:, at] @ state.rotation.T
-    if state.lag:
-        u[:, TEMPERATURE] += state.lag * u[:, ITS_RATE]
-    return u
-
-
-def _own_rate(kind: str) -> slice:
-    return COLUMNS[KINDS[kind].own_rate]
 
 
 def in_log(sensor: Sensor, state: LogState) -> Sensor:
@@ -177,16 +126,15 @@ def linearise(
     moved = behind_dynamics(sensor, u, trial.segments, trial.h)
     moved = with_memory(rest, moved, trial.segments, trial.h)
     response = memoryless(rest.chain)
-    y, slope, entries = response(moved, rest.p, trial.h)
+    keys = [_keys_of(s, trial, sensor.kind, wanted) for s in rest.slots]
+    some = np.array([bool(k) for k in keys], dtype=bool)
+    y, slope, entries = response(moved, rest.p, trial.h, some[response.slot])
     if remembers(sensor):
         y = predict(sensor, u, trial.segments, trial.h)
     out = Regressors(trial)
     for e, (axis, slot) in enumerate(zip(response.axis, response.slot, strict=True)):
-        s = rest.slots[slot]
-        if coefficient_of(s) in wanted and not _remembered(s, sensor.kind):
-            out.add(coefficient_of(s), int(axis), entries[:, e])
-        if (s.effect, s.parameter) == POWER_ON:
-            out.add(LogBias(trial.name, s.index[0]), int(axis), entries[:, e])
+        for key in keys[slot]:
+            out.add(key, int(axis), entries[:, e])
     _turn_columns(out, trial, np.array(moved[own]).T, slope)
     _clock_columns(out, sensor, trial, state, u, slope)
     _thermometer_columns(out, rest, trial, moved)
@@ -204,6 +152,15 @@ def linearise(
         keys,
         columns,
     )
+
+
+def _keys_of(s: Slot, trial: Trial, kind: str, wanted: frozenset[Key]) -> list[Key]:
+    """What the slope against a coefficient is a column of: itself, and the log's own bias."""
+    itself = coefficient_of(s) in wanted and not _remembered(s, kind)
+    found: list[Key] = [coefficient_of(s)] if itself else []
+    if (s.effect, s.parameter) == POWER_ON:
+        found.append(LogBias(trial.name, s.index[0]))
+    return found
 
 
 def with_columns(one: Linear, trial: Trial, state: LogState, extra: Iterable) -> Linear:
@@ -264,7 +221,7 @@ def _clock_columns(
     """
     if state.clock is None:
         return
-    rate = u[:, _own_rate(trial.kind)]
+    rate = u[:, own_rate(trial.kind)]
     since = (trial.time - state.clock.middle)[:, None]
     for order in trial.clock.room(1.0):
         later = through_dynamics(sensor, -rate * since**order, trial.segments, trial.h)

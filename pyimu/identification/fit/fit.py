@@ -59,6 +59,14 @@ MOTION = 0.01
 """Share of a residual's power beside the motion below which it is nothing but motion."""
 
 
+class Last:
+    """What a model was last linearised to, for those that differ from it in their noise alone."""
+
+    def __init__(self) -> None:
+        self.of: tuple = ()
+        self.linears: list[Linear] = []
+
+
 @dataclass(frozen=True)
 class Fit:
     """A model fitted to trials: values in ``sensor``, per-log states, noise by axis, log-likelihood
@@ -82,6 +90,7 @@ class Fit:
     echo: Mapping[int, float] = field(default_factory=dict)
     coloured: bool = False
     seen: Noise = field(default_factory=dict)
+    last: Last = field(default_factory=Last, repr=False, compare=False)
 
     def linearise(self, candidates: Iterable[str] = (), extra: Iterable = ()) -> list[Linear]:
         """All trials with columns for the free coefficients, the logs' own, and effects
@@ -93,6 +102,23 @@ class Fit:
             wanted |= coefficients_of(sensor, name)
         return [linearise(sensor, t, self.states[t.name], wanted, extra) for t in self.trials]
 
+    def _linearised(self) -> list[Linear]:
+        """All trials with columns for what the model has."""
+        states = tuple(self.states[t.name] for t in self.trials)
+        of = (self.sensor, self.free, *self.trials, *states)
+        if not self._is_last(of):
+            self.last.linears = [
+                linearise(self.sensor, t, state, self.free)
+                for t, state in zip(self.trials, states, strict=True)
+            ]
+            self.last.of = of
+        return list(self.last.linears)
+
+    def _is_last(self, of: tuple) -> bool:
+        """Whether the same objects were linearised last."""
+        last = self.last.of
+        return len(last) == len(of) and all(a is b for a, b in zip(last, of, strict=True))
+
     def beside(self, linears: Iterable[Linear], extra: Iterable) -> list[Linear]:
         """All trials as they were linearised, with the columns that functions ``extra`` add."""
         return [
@@ -102,6 +128,9 @@ class Fit:
 
     def residuals(self) -> list[Linear]:
         """All trials' residuals in their band, without columns."""
+        states = (self.states[t.name] for t in self.trials)
+        if self._is_last((self.sensor, self.free, *self.trials, *states)):
+            return [_without_columns(one) for one in self.last.linears]
         return [self._residual(t) for t in self.trials]
 
     def _residual(self, trial: Trial) -> Linear:
@@ -162,6 +191,11 @@ def declared_variances(sensor: Sensor, h: float) -> tuple[np.ndarray, np.ndarray
         for effect, parameter in (WHITE, WALK)
     )
     return white**2 / h, walk**2
+
+
+def _without_columns(one: Linear) -> Linear:
+    none = {i: columns[:, :0] for i, columns in one.columns.items()}
+    return replace(one, keys={i: [] for i in one.keys}, columns=none)
 
 
 def bare(trial: Trial, r: np.ndarray) -> Linear:

@@ -1,5 +1,4 @@
-"""The noise of a derived reference by its spectrum: what is left against it and the sensor does not
-show.
+"""The noise of a reference by its spectrum: what is left against it and the sensor does not show.
 
 What an effect leaves is in the sensor's own signal, and at each frequency coherent with it; the
 noise of the reference is not (Bendat and Piersol 2010, Random Data, chapter 7: the residual
@@ -15,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.signal import freqz
 from scipy.signal.windows import hann
+from scipy.stats import chi2
 
 from pyimu.identification.fit.columns import Linear, in_band
 from pyimu.identification.fit.trial import Trial
@@ -29,8 +29,21 @@ OVERLAP = 1.06
 correlate by 1/6 (Welch 1967, "The use of fast Fourier transform for the estimation of power
 spectra")."""
 
+LEAKAGE = 1.0 + 2.0 * ((2 / 3) ** 2 + (1 / 6) ** 2)
+"""Variance of a mean of periodograms at neighbouring frequencies over that of as many independent
+ones: Hann's form makes the amplitudes of the next correlate by 2/3, of the next but one by 1/6."""
+
+DRIFTS = 1.0
+"""Hz; below it a sensor may drift: the Allan deviation of inertial sensors still falls at 0.1 s."""
+
+NOT_CHANCE = 1e-4
+"""Probability by chance below which the noise of a reference is not white."""
+
 CLEARLY = 2.0
 """Standard errors by which a density must be more than another one."""
+
+CHANCE = 4.0
+"""Standard errors by which a density or a variance may be more than it seems."""
 
 FOLDS = 3
 """Multiples of the rate of rows from about which noise is folded into them: of what lies beyond,
@@ -44,12 +57,14 @@ FEWEST_ROWS = 32
 class Spectrum:
     """One-sided density ``psd`` (f,) of rows in a band, at ``frequency`` (f,) in Hz.
 
-    ``std`` (f,) are its standard errors; it may lie below zero by them.
+    ``std`` (f,) are its standard errors; it may lie below zero by them. ``common`` is the standard
+    error of all of it together, over it.
     """
 
     frequency: np.ndarray
     psd: np.ndarray
     std: np.ndarray
+    common: float = 0.0
 
     @property
     def variance(self) -> float:
@@ -58,9 +73,11 @@ class Spectrum:
 
     @property
     def error(self) -> float:
-        """Standard error of the variance, over it."""
+        """Standard error of the variance, over it; infinite where that is none."""
         total = float(np.sum(self.psd))
-        return float(np.linalg.norm(self.std)) / total if total > 0.0 else 0.0
+        if total <= 0.0:
+            return np.inf
+        return float(np.hypot(np.linalg.norm(self.std) / total, self.common))
 
     def beyond(self, known: np.ndarray) -> np.ndarray:
         """The density (f,) beyond one that is ``known`` (f,), where there clearly is any.
@@ -68,14 +85,25 @@ class Spectrum:
         It is averaged over a third of an octave: cut off at zero, what single frequencies scatter
         would add up.
         """
-        left, out, first = self.psd - known, np.zeros(len(self.psd)), 1
-        while first < len(left):
-            some = slice(first, max(first + 1, round(first * 2 ** (1 / 3))))
-            mean, count = float(left[some].mean()), len(left[some])
-            if mean > CLEARLY * np.linalg.norm(self.std[some]) / count:
+        left, out = self.psd - known, np.zeros(len(self.psd))
+        for some in thirds(len(left)):
+            mean = float(left[some].mean())
+            if mean > CLEARLY * self.std_of_mean(some):
                 out[some] = mean
-            first = some.stop
         return out
+
+    def std_of_mean(self, some: slice) -> float:
+        """Standard error of the mean density over neighbouring frequencies."""
+        return float(np.sqrt(LEAKAGE) * np.linalg.norm(self.std[some])) / len(self.std[some])
+
+
+def thirds(count: int, first: int = 1) -> list[slice]:
+    """Thirds of an octave, of frequencies ``first`` to ``count`` - 1 times the lowest."""
+    out = []
+    while first < count:
+        out.append(slice(first, min(count, max(first + 1, round(first * 2 ** (1 / 3))))))
+        first = out[-1].stop
+    return out
 
 
 NOTHING = Spectrum(np.zeros(0), np.zeros(0), np.zeros(0))
@@ -101,18 +129,61 @@ def unseen_spectrum(trial: Trial, one: Linear, axis: int, own: RandomWalk) -> Sp
     cross = np.einsum("kfi,kfj->fij", z.conj(), z) * (
         2 * interval / len(starts) / (window @ window)
     )
-    r, by, yy = cross[:, 0, 0].real, cross[:, 1:, 0], cross[:, 1:, 1:]
-    shown = np.einsum("fi,fij,fj->f", by.conj(), np.linalg.pinv(yy, hermitian=True), by).real
-    averaged = len(starts) / OVERLAP - inputs
+    r, by = cross[:, 0, 0].real, cross[:, 1:, 0]
+    inverse = np.linalg.pinv(cross[:, 1:, 1:], hermitian=True)
+    shown = np.einsum("fi,fij,fj->f", by.conj(), inverse, by).real
+    whole = len(starts) / OVERLAP
+    averaged = whole - inputs
     left = np.maximum(r - shown, 0.0) * (1.0 + inputs / averaged)
     frequency = np.fft.rfftfreq(length, interval)
     at = trial.axes.index(axis)
     mine = _own(trial, own, frequency)
-    # The sensor's own noise is in its signal as well, and as much of it is left as that moves.
-    moves = 1.0 - mine / np.maximum(yy[:, at, at].real, 1e-300)
-    psd, std = left - mine * np.maximum(moves, 0.0), left / np.sqrt(averaged)
+    # The sensor's own noise is in its signal as well: so much of it is not left. The mean of an
+    # inverse is too large (Goodman 1963, "Statistical analysis based on a certain multivariate
+    # complex Gaussian distribution", Ann. Math. Stat. 34).
+    level = inverse[:, at, at].real * averaged / whole
+    for some in thirds(len(level)):
+        level[some] = level[some].mean()
+    within = np.minimum(mine**2 * level, mine)
+    psd, std = left - mine + within, np.hypot(left, within) / np.sqrt(averaged)
     psd[0] = std[0] = 0.0
     return Spectrum(frequency, psd, std)
+
+
+def of_reference(seen: Spectrum, high: float, error: float) -> tuple[Spectrum, bool]:
+    """The noise of a reference that is no derivative, by what is ``seen`` beyond the sensor's own
+    and the density ``high`` that it shows itself by its high differences, with the ``error`` of
+    that over it; and whether it is coloured.
+
+    White, with what the sensor drifts beside it as a random walk, where these two account for all
+    above ``DRIFTS``, else as seen. Below it is level: there nothing tells a reference that wanders
+    from a sensor that does, and sensors do. White noise is known better by the reference itself,
+    where that is no more than may be. Nothing where there may be none.
+    """
+    first = int(np.searchsorted(seen.frequency, DRIFTS))
+    pieces = thirds(len(seen.psd), max(first, 1))
+    if len(pieces) < 4:
+        return NOTHING, False
+    mean, std, at = np.array(
+        [(seen.psd[p].mean(), seen.std_of_mean(p), seen.frequency[p].mean()) for p in pieces]
+    ).T
+    columns = np.column_stack([np.ones(len(at)), at**-2.0]) / std[:, None]
+    inverse = np.linalg.inv(columns.T @ columns)
+    found = inverse @ (columns.T @ (mean / std))
+    missed = float(np.sum((mean / std - columns @ found) ** 2))
+    if missed <= chi2.isf(NOT_CHANCE, len(at) - 2):
+        level, doubt = float(found[0]), float(np.sqrt(inverse[0, 0]))
+        if high <= level + CHANCE * doubt:
+            level, doubt = high, high * error
+        none = np.zeros(len(seen.psd))
+        clear = level > CLEARLY * doubt
+        return Spectrum(
+            seen.frequency, none + level, none, doubt / level
+        ) if clear else NOTHING, False
+    psd, std = np.array(seen.psd), np.array(seen.std)
+    psd[: pieces[0].start], std[: pieces[0].start] = psd[pieces[0]].mean(), std[pieces[0]].mean()
+    found = Spectrum(seen.frequency, psd, std)
+    return (found, True) if CLEARLY * found.error < 1.0 else (NOTHING, False)
 
 
 def _own(trial: Trial, own: RandomWalk, frequency: np.ndarray) -> np.ndarray:
@@ -145,7 +216,7 @@ def in_rows(
     folded = [frequency]
     for k in range(1, FOLDS + 1):
         folded += [k * rate - frequency, k * rate + frequency]
-    inside = (f for f in folded if f.max() < 0.5 / trial.h)
+    inside = (f for f in folded if f.max() <= 0.5 / trial.h)
     return sum(density(f) * response(trial, f) ** 2 for f in inside)
 
 

@@ -10,11 +10,14 @@ import numpy as np
 from pyimu.identification.fit.columns import Linear
 from pyimu.identification.fit.keys import Key
 from pyimu.identification.fit.reduction import Unit
-from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
+from pyimu.identification.fit.whiten import Autoregressive, Filter, RandomWalk
 
 BATCHES = 80
 """Batches into which all rows are cut to see how much the scores really scatter."""
 
+
+TOGETHER = 2048
+"""Rows that are whitened at once."""
 
 DEAD = 1e-9
 """Share of a column's power below which what others leave of it is rounding."""
@@ -80,17 +83,36 @@ def normal_equations(linears: list[Linear], noise: Noise) -> Normal:
         edges = np.linspace(0, len(one.time), count + 1).astype(int)
         for i, columns in one.columns.items():
             at = np.array([position[k] for k in one.keys[i]], dtype=int)
-            white = noise[i].whiten(columns, one.time, one.segments)
-            left = noise[i].whiten(one.residual[:, i : i + 1], one.time, one.segments)[:, 0]
-            power += float(left @ left)
-            log_det += noise[i].log_det(one.time, one.segments)
-            rows += len(left)
-            parts = [slice(a, b) for a, b in zip(edges[:-1], edges[1:], strict=True)]
+            white = noise[i].filter(one.time, one.segments)
+            products = _products(white, one.residual[:, i], columns, edges)
             batch = np.arange(first, first + count)
-            gram[np.ix_(batch, at, at)] += np.array([white[p].T @ white[p] for p in parts])
-            score[np.ix_(batch, at)] += np.array([left[p] @ white[p] for p in parts])
+            power += float(products[:, 0, 0].sum())
+            log_det += white.log_det
+            rows += len(one.time)
+            score[np.ix_(batch, at)] += products[:, 0, 1:]
+            gram[np.ix_(batch, at, at)] += products[:, 1:, 1:]
         first += count
     return Normal(keys, gram, score, power, rows, log_det)
+
+
+def _products(
+    white: Filter, residual: np.ndarray, columns: np.ndarray, edges: np.ndarray
+) -> np.ndarray:
+    """Sums of products (batches, 1 + c, 1 + c) of whitened rows between ``edges`` (batches + 1,),
+    the residual's (m,) first and those of the columns (m, c) after it.
+    """
+    width, first = 1 + columns.shape[1], 0
+    out = np.empty((len(edges) - 1, width, width))
+    while first < len(out):
+        # As many batches as fit into the cache are whitened together.
+        last = max(first + 1, int(np.searchsorted(edges, edges[first] + TOGETHER, "right")) - 1)
+        a, b = edges[first], edges[last]
+        block = white.next(np.column_stack([residual[a:b], columns[a:b]]))
+        for batch in range(first, last):
+            rows = block[edges[batch] - a : edges[batch + 1] - a]
+            np.matmul(rows.T, rows, out=out[batch])
+        first = last
+    return out
 
 
 def _scaled(gram: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:

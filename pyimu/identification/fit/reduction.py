@@ -23,6 +23,7 @@ from pyimu.identification.fit.response import (
     predict,
     with_memory,
 )
+from pyimu.identification.fit.whiten import Filter
 from pyimu.model.kinds import OWN
 from pyimu.model.sensor import Sensor
 
@@ -97,9 +98,21 @@ class Reduction(ABC):
         return solve_triangular(self.root, values, lower=True)
 
 
+class _Unchanged(Filter):
+    """Of rows that are white already."""
+
+    log_det = 0.0
+
+    def next(self, values: np.ndarray) -> np.ndarray:
+        return np.array(values)
+
+
 @dataclass(frozen=True)
 class Unit:
     """The noise of rows that come white with unit variance."""
+
+    def filter(self, time: np.ndarray, segments: Segments) -> Filter:
+        return _Unchanged()
 
     def whiten(self, values: np.ndarray, time: np.ndarray, segments: Segments) -> np.ndarray:
         return np.array(values)

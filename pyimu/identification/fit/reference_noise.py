@@ -10,34 +10,24 @@ errors-in-variables models", Biometrika 77), the means taken over the draw.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
-from scipy.signal import lfilter
 
 from pyimu.identification.fit.columns import Linear, band_segments, band_time, in_band
-from pyimu.identification.fit.fit import Fit, power
+from pyimu.identification.fit.fit import Fit, Last, power
 from pyimu.identification.fit.incoherent import (
+    CHANCE,
     NOTHING,
     Spectrum,
     drawn,
+    of_reference,
     of_white_attitude,
     unseen_spectrum,
 )
-from pyimu.identification.fit.noise_floor import (
-    LAGS,
-    QUIET,
-    beyond_own,
-    colour,
-    lowness,
-    own_noise,
-    quiet,
-    quietest,
-    windows,
-)
-from pyimu.identification.fit.normal import Normal, normal_equations
+from pyimu.identification.fit.noise_floor import beyond_own, lowness, own_noise, quiet, windows
+from pyimu.identification.fit.normal import DEAD, Normal, normal_equations
 from pyimu.identification.fit.trial import Trial
 from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.signals import COLUMNS
@@ -50,9 +40,6 @@ STEP = 0.3
 """Share of its standard deviation by which the reference is moved either way to see what changes:
 slopes are limits, and the kinks of a dead zone scatter them the more the smaller the step."""
 
-MOST_ROWS = 20000
-"""Rows of a log in which the residual is compared with what the sensor shows."""
-
 REST = 1 / 16
 """Share of the windows in which a reference is taken to be at rest, if it ever is."""
 
@@ -60,17 +47,12 @@ LEAST_SEEN = 0.01
 """Share of a column's power that must not be noise of the reference; of the rest there is nothing
 to be seen."""
 
-SMOOTH = 1e-3
-"""Share of white noise's third differences below which what a reference shows in its quiet is a
-slow motion: noise that ends at a tenth of the sample rate has more, motion that ends at a thirtieth
-less."""
+THIRD = 20.0
+"""Power of third differences of white noise over its own: 1 + 9 + 9 + 1."""
 
-CHANCE = 4.0
-"""Standard errors by which a variance may be more than it seems."""
-
-CORRELATED = 0.2
-"""Size of a coefficient of the autoregression from which on noise is not white: six standard errors
-in a thousand rows."""
+WEIGHT = 4 * 924 / 400
+"""Rows that say as much of that power as one by itself would: a quarter of them is used, and the
+squares of the correlations of third differences add up to 924 / 400."""
 
 
 # Drawing it
@@ -83,36 +65,29 @@ def with_reference_noise(fit: Fit, held: list[Trial], seed: int = 1) -> tuple[Fi
     if any(t.reduction is not None for t in fit.trials):
         return fit, held
     linears = fit.residuals()
-    variance = _variance(fit, linears)
-    slow = _slow(fit, linears)
-    most = np.max([variance, *([s.variance for s in one] for one in slow.values())], axis=0)
+    variance, (spectra, coloured) = _variance(fit), _spectra(fit, linears)
+    most = np.max([variance, *([s.variance for s in one] for one in spectra.values())], axis=0)
     total = np.var(np.concatenate([one.residual for one in linears]), axis=0)
     if not np.any(most > LEAST * np.maximum(total, 1e-300)):
         return fit, held
-    rng, shape = np.random.default_rng(seed), _shape(fit, linears)
+    rng = np.random.default_rng(seed)
 
     def draw(trial: Trial) -> Trial:
-        found = _drawn(trial, variance, shape, rng)
-        return _with_slow(found, slow.get(trial.parent or trial.name, ()), rng)
+        found = _drawn(trial, variance, rng)
+        return _with_spectrum(found, _spectrum_of(trial, spectra), rng)
 
     trials, apart = tuple(map(draw, fit.trials)), list(map(draw, held))
-    known = replace(fit, trials=trials, coloured=bool(shape)).with_noise()
+    known = replace(fit, trials=trials, coloured=coloured).with_noise()
     return replace(known, echo=_echo(known)), apart
 
 
-def _variance(fit: Fit, linears: Sequence[Linear]) -> np.ndarray:
-    """Variance (3,) in a row of the band that the noise of the reference has.
-
-    It is the least of what must be at least as much. A rate shows it by itself in its quiet; what
-    the residual has beyond the sensor's own noise is the difference of two large numbers then, and
-    speaks only where that quiet is more than it may be by chance.
+def _variance(fit: Fit) -> np.ndarray:
+    """Variance (3,) in a row of the band that the high noise of derived references has, which is
+    that of a white attitude: the least of what must be at least as much. Zero for others.
     """
-    beyond, seen = beyond_own(fit), np.array([_in_quiet(fit, i) for i in range(3)])
     if all(t.band_hz is None for t in fit.trials):
-        rough = np.mean([_high(t, t.u[:, OWN[t.kind]]) ** 2 / 20 for t in fit.trials], axis=0)
-        beyond = np.where(seen <= beyond_own(fit, CHANCE), seen, beyond)
-        beyond = np.where(rough > SMOOTH * beyond, beyond, 0.0)
-    return np.minimum.reduce([beyond, seen, _unseen(fit, linears)])
+        return np.zeros(3)
+    return np.minimum(beyond_own(fit), [_in_quiet(fit, i) for i in range(3)])
 
 
 def _in_quiet(fit: Fit, axis: int) -> float:
@@ -124,76 +99,54 @@ def _in_quiet(fit: Fit, axis: int) -> float:
     return quiet(found, REST) / lowness(found, REST) if len(found) else 0.0
 
 
-def _unseen(fit: Fit, linears: Sequence[Linear]) -> np.ndarray:
-    """Variance (3,) of a residual that the sensor from ``LAGS`` rows before to ``LAGS`` after does
-    not show: it shows what an effect leaves, and nothing of the noise of its reference.
+def _drawn(trial: Trial, variance: np.ndarray, rng: np.random.Generator) -> Trial:
+    """The trial with a draw (n, 3) of what white noise of an attitude becomes once it is
+    differentiated, of a ``variance`` (3,) in its band.
 
-    Infinite where a band lies between the two.
-    """
-    left, rows = np.zeros(3), np.zeros(3)
-    for t, one in zip(fit.trials, linears, strict=True):
-        if t.band_hz is not None:
-            return np.full(3, np.inf)
-        axes, measured = list(t.axes), in_band(t, t.y[:, list(t.axes)])
-        for a, b in one.segments:
-            b = min(b, a + MOST_ROWS)
-            if b - a > 40 * LAGS:
-                around = sliding_window_view(measured[a:b], 2 * LAGS + 1, axis=0)
-                columns = np.column_stack([np.ones(len(around)), around.reshape(len(around), -1)])
-                r = one.residual[a + LAGS : b - LAGS, axes]
-                rest = r - columns @ np.linalg.lstsq(columns, r)[0]
-                left[axes] += np.sum(rest**2, axis=0)
-                rows[axes] += len(r) - columns.shape[1]
-    return np.where(rows > 0, left / np.maximum(rows, 1), np.inf)
-
-
-def _shape(fit: Fit, linears: Sequence[Linear]) -> tuple[float, ...]:
-    """Coefficients of an autoregression like what is left in the quiet against a reference that is
-    no derivative; none where that is white.
-    """
-    if any(t.band_hz is not None for t in fit.trials):
-        return ()
-    pieces = [windows(one.residual[:, i], one.segments) for one in linears for i in one.keys]
-    found = colour(np.concatenate([quietest(p, QUIET) for p in pieces]))
-    return found if np.any(np.abs(found) > CORRELATED) else ()
-
-
-def _drawn(
-    trial: Trial, variance: np.ndarray, shape: tuple[float, ...], rng: np.random.Generator
-) -> Trial:
-    """The trial with a draw (n, 3) of noise that has a ``variance`` (3,) in its band.
-
-    White, of the ``shape`` of an autoregression, or as a white attitude has it once it is
-    differentiated.
-
-    A derivative has no more of it than its high differences show: its band hides from the sensor
+    It is no more than the high differences of the reference show: its band hides from the sensor
     what is left beyond.
     """
-    draw = rng.standard_normal(trial.y.shape)
-    if trial.band_hz is not None:
-        draw = np.gradient(draw, axis=0)
-    draw = lfilter([1.0], [1.0, *(-c for c in shape)], draw, axis=0)
+    if trial.band_hz is None:
+        return replace(trial, noise=np.zeros(trial.y.shape))
+    draw = np.gradient(rng.standard_normal(trial.y.shape), axis=0)
     seen = in_band(trial, draw).var(axis=0) if trial.count else np.ones(3)
     wanted = np.isin(np.arange(3), trial.axes) & (seen > 0.0)
     scale = np.sqrt(np.where(wanted, variance / np.where(seen > 0.0, seen, 1.0), 0.0))
-    if trial.band_hz is None:
-        return replace(trial, noise=draw * scale)
     most = _high(trial, trial.u[:, OWN[trial.kind]]) / np.maximum(_high(trial, draw), 1e-300)
     return replace(trial, noise=draw * np.minimum(scale, most))
 
 
-def _slow(fit: Fit, linears: Sequence[Linear]) -> dict[str, list[Spectrum]]:
-    """Spectra (3,) of the noise of derived references, by the names of their trials."""
-    own = own_noise(fit)
-    return {
-        t.name: [unseen_spectrum(t, one, i, own[i]) if i in one.keys else NOTHING for i in range(3)]
-        for t, one in zip(fit.trials, linears, strict=True)
-        if t.band_hz is not None
-    }
+def _spectra(fit: Fit, linears: Sequence[Linear]) -> tuple[dict[str, list[Spectrum]], bool]:
+    """Spectra (3,) of the noise of references, by the names of their trials; and whether that of
+    one which is no derivative is coloured.
+    """
+    own, found, coloured = own_noise(fit), {}, False
+    for t, one in zip(fit.trials, linears, strict=True):
+        if t.reference == "static":
+            continue
+        found[t.name], high = [NOTHING] * 3, _white(t)
+        for i in one.keys:
+            seen = unseen_spectrum(t, one, i, own[i])
+            if t.band_hz is None:
+                known = np.sqrt(2.0 * WEIGHT / len(one.time))
+                seen, more = of_reference(seen, 2.0 * t.h * high[i], known)
+                coloured |= more
+            found[t.name][i] = seen
+    return found, coloured
 
 
-def _with_slow(trial: Trial, spectra: Sequence[Spectrum], rng: np.random.Generator) -> Trial:
-    """The trial with what its noise has at low frequencies beside the high ones."""
+def _spectrum_of(trial: Trial, spectra: Mapping[str, list[Spectrum]]) -> Sequence[Spectrum]:
+    """The spectra of a trial's reference: its own, else, where it is no derivative, those of the
+    first fitted log.
+    """
+    name = trial.parent or trial.name
+    if name in spectra or trial.band_hz is not None or trial.reference == "static":
+        return spectra.get(name, ())
+    return next(iter(spectra.values()), ())
+
+
+def _with_spectrum(trial: Trial, spectra: Sequence[Spectrum], rng: np.random.Generator) -> Trial:
+    """The trial with what its noise has by its spectrum beside what it was drawn with."""
     if not any(len(s.psd) for s in spectra):
         return trial
     noise = np.array(trial.noise)
@@ -203,7 +156,20 @@ def _with_slow(trial: Trial, spectra: Sequence[Spectrum], rng: np.random.Generat
         more = spectrum.beyond(of_white_attitude(trial, spectrum.frequency, noise[:, i].var()))
         if more.any():
             noise[:, i] += drawn(trial, spectrum.frequency, more, rng)
-    return replace(trial, noise=noise, noise_error=tuple(s.error for s in spectra))
+    errors = tuple(s.error if s.variance > 0.0 else 0.0 for s in spectra)
+    return replace(trial, noise=noise, noise_error=errors)
+
+
+def _white(trial: Trial) -> np.ndarray:
+    """Variance (3,) of white noise that a reference shows itself, by its high differences."""
+    u, out = trial.u[:, OWN[trial.kind]], np.zeros(3)
+    for i in trial.axes:
+        pieces = [
+            windows(np.diff(u[a:b, i], n=3), [(0, max(b - a - 3, 0))]) for a, b in trial.segments
+        ]
+        kept = np.concatenate(pieces) if pieces else np.zeros((0, 1))
+        out[i] = quiet(kept) / lowness(kept) / THIRD if len(kept) else 0.0
+    return out
 
 
 def _high(trial: Trial, values: np.ndarray) -> np.ndarray:
@@ -240,7 +206,7 @@ def has_noise(fit: Fit) -> bool:
 def changes(fit: Fit, linearised: Callable[[Fit], list[Linear]]) -> list[Linear]:
     """What the noise of the reference makes of each trial's residual and columns."""
     up, down = (
-        linearised(replace(fit, trials=tuple(moved(t, sign) for t in fit.trials)))
+        linearised(replace(fit, trials=tuple(moved(t, sign) for t in fit.trials), last=Last()))
         for sign in (1, -1)
     )
     return [_difference(a, b) for a, b in zip(up, down, strict=True)]
@@ -274,12 +240,50 @@ def equations(fit: Fit, linearised: Callable[[Fit], list[Linear]] = Fit.linearis
         unknown[at] += error * np.diag(noise.gram)[own]
         # Gram matrices by batch are large: they are taken off where they stand.
         score[:, at] -= noise.batch_score[:, own]
-        gram[np.ix_(range(len(gram)), at, at)] -= noise.batch_gram[:, own][:, :, own]
+        for whole, part in zip(gram, noise.batch_gram, strict=True):
+            whole[np.ix_(at, at)] -= part[np.ix_(own, own)]
         power -= noise.power
     whole = np.diag(gram.sum(axis=0))
     hidden = whole <= np.maximum(LEAST_SEEN * np.diag(seen), CHANCE * unknown)
     score[:, hidden] = gram[:, hidden] = gram[:, :, hidden] = doubt[:, hidden] = 0.0
+    shown = np.flatnonzero(~hidden)
+    onto, off = _unseen_directions(
+        gram.sum(axis=0)[np.ix_(shown, shown)], seen[np.ix_(shown, shown)]
+    )
+    if onto.size:
+        _without(gram, score, doubt, shown, onto, off)
     return Normal(found.keys, gram, score, power, found.rows, found.log_det, seen, doubt)
+
+
+def _unseen_directions(gram: np.ndarray, seen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Directions of the columns whose power is the noise of the reference, all but ``LEAST_SEEN``:
+    columns that show something each may add up to one that does not.
+
+    Two of (P, k): I - first @ second.T takes them out of scores, and from both sides out of a Gram
+    matrix. With S = U W U' the Gram matrix of the columns as they are, they are the eigenvectors V
+    of W^-1/2 U' G U W^-1/2 of small eigenvalues: U W^1/2 V and U W^-1/2 V.
+    """
+    scale = np.sqrt(np.diag(seen))
+    values, vectors = np.linalg.eigh(seen / np.outer(scale, scale))
+    keep = values > DEAD * values.max(initial=0.0)
+    root, vectors = np.sqrt(values[keep]), vectors[:, keep]
+    inner = (vectors / root).T @ (gram / np.outer(scale, scale)) @ (vectors / root)
+    share, turned = np.linalg.eigh(inner)
+    turned = turned[:, share <= LEAST_SEEN]
+    onto, off = (vectors * root) @ turned, (vectors / root) @ turned
+    return onto * scale[:, None], off / scale[:, None]
+
+
+def _without(gram, score, doubt, at: np.ndarray, onto: np.ndarray, off: np.ndarray) -> None:
+    """Take directions of the columns ``at`` out of ``gram`` (b, P, P), ``score`` (b, P) and
+    ``doubt`` (k, P).
+    """
+    for rows in (score, doubt):
+        rows[:, at] -= (rows[:, at] @ off) @ onto.T
+    for one in gram:
+        left = one[at] - onto @ (off.T @ one[at])
+        one[at] = left
+        one[:, at] -= (one[:, at] @ off) @ onto.T
 
 
 def power_without_noise(fit: Fit) -> float:

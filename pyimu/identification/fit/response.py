@@ -190,16 +190,17 @@ class Memoryless:
         self._output = ca.Function("output", [u, fixed], [ca.densify(y)])
 
     def __call__(
-        self, inputs: Columns, p: np.ndarray, h: float
+        self, inputs: Columns, p: np.ndarray, h: float, wanted: np.ndarray | None = None
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Output (n, 3) for inputs, N_INPUT + k columns (n,), and its slopes.
 
         Against the own input (n, 3, 3), and dy/dp (n, entries).
 
         Entry e of dy/dp belongs to output axis ``self.axis[e]`` and to coefficient
-        ``self.slot[e]``.
+        ``self.slot[e]``; those that are not ``wanted`` (entries,) are zero.
         """
-        flat = over_rows(self._all, inputs, np.append(p, h))
+        few = None if wanted is None else np.append(np.ones(12, dtype=bool), wanted)
+        flat = over_rows(self._all, inputs, np.append(p, h), few)
         return flat[:, :3], flat[:, 3:12].reshape(-1, 3, 3), flat[:, 12:]
 
     def output(self, inputs: Columns, p: np.ndarray, h: float) -> np.ndarray:

@@ -9,12 +9,13 @@ constant bias is left to an explicit regressor.
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
 import numpy as np
 from numba import njit
 from scipy.optimize import minimize_scalar
-from scipy.signal import lfilter, upfirdn
+from scipy.signal import lfilter
 
 Segments = list[tuple[int, int]]
 
@@ -28,42 +29,77 @@ CHUNK = 65536
 """Rows that are put side by side with their predecessors at once."""
 
 
-SIDE_BY_SIDE = 8
-"""Columns that are filtered together: while one waits for its last step the others go on."""
+LOGGED = 8
+"""Variances that are multiplied before a logarithm is taken: a product of so many, each between
+1e-38 and 1e38, is a number still."""
 
 
 @njit(cache=True)
-def _gains(steps, r, k2, gain, scale):
-    """Fill the Kalman gain (m,) of each step and one over the root of its innovation's variance.
+def _gains(steps, r, k2, gain, variance):
+    """Fill the Kalman gain (m,) of each step and the variance (m,) of its innovation.
 
     Returns the sum of the logarithms of these variances.
     """
-    variance, total = 0.0, 0.0
+    known, total, product = 0.0, 0.0, 1.0
     for k in range(len(steps)):
-        variance += k2 * steps[k]
-        f = variance + r
-        gain[k], scale[k] = variance / f, 1.0 / np.sqrt(f)
-        total += np.log(f)
-        variance = variance * r / f
-    return total
+        known += k2 * steps[k]
+        f = known + r
+        gain[k], variance[k] = known / f, f
+        known = gain[k] * r
+        product *= f
+        if k % LOGGED == LOGGED - 1:
+            total += np.log(product)
+            product = 1.0
+    return total + np.log(product)
 
 
 @njit(cache=True)
-def _filtered(values, gain, scale, out):
-    """Fill ``out`` with the innovations (c, m) of rows of ``values``."""
-    c, m = values.shape
-    level = np.zeros(SIDE_BY_SIDE)
-    for first in range(0, c, SIDE_BY_SIDE):
-        last = min(first + SIDE_BY_SIDE, c)
-        level[:] = 0.0
-        for k in range(m):
-            for j in range(first, last):
-                v = values[j, k] - level[j - first]
-                # A column that has long been zero decays into denormal numbers, a hundred times
-                # slower than any other.
-                moved = level[j - first] + gain[k] * v
-                level[j - first] = moved if abs(moved) > 1e-200 else 0.0
-                out[j, k] = v * scale[k]
+def _filtered(values, gain, scale, level, out):
+    """Fill ``out`` (m, c) with the innovations of ``values`` (m, c), from a ``level`` (c,) on."""
+    m, c = values.shape
+    for k in range(m):
+        for j in range(c):
+            v = values[k, j] - level[j]
+            # A column that has long been zero decays into denormal numbers, a hundred times
+            # slower than any other.
+            moved = level[j] + gain[k] * v
+            level[j] = moved if abs(moved) > 1e-200 else 0.0
+            out[k, j] = v * scale[k]
+
+
+@njit(cache=True)
+def _concentrated(values, steps, k2):
+    """Of innovations of a residual (m,), white noise of variance 1 and a walk of ``k2`` a second:
+    the sum of the logarithms of their variances, and that of squares less what a constant takes.
+    """
+    known, total, product = 0.0, 0.0, 1.0
+    level, constant, power, mixed, of_constant = 0.0, 0.0, 0.0, 0.0, 0.0
+    for k in range(len(steps)):
+        known += k2 * steps[k]
+        f = known + 1.0
+        gain = known / f
+        known = gain
+        product *= f
+        if k % LOGGED == LOGGED - 1:
+            total += np.log(product)
+            product = 1.0
+        v, one = values[k] - level, 1.0 - constant
+        level, constant = level + gain * v, constant + gain * one
+        power, mixed, of_constant = power + v * v / f, mixed + v * one / f, of_constant + one**2 / f
+    return total + np.log(product), power - mixed**2 / of_constant
+
+
+@njit(cache=True)
+def _predicted(values, taps, out):
+    """Fill ``out`` (m, c) with what a filter of ``taps`` (k,) makes of the last m rows of
+    ``values`` (m + k - 1, c).
+    """
+    m, c = out.shape
+    for k in range(m):
+        out[k] = 0.0
+        for t in range(len(taps)):
+            for j in range(c):
+                out[k, j] += taps[t] * values[k + len(taps) - 1 - t, j]
 
 
 def _steps(time: np.ndarray) -> np.ndarray:
@@ -71,16 +107,62 @@ def _steps(time: np.ndarray) -> np.ndarray:
     return np.diff(time, prepend=time[:1])
 
 
-def _innovations(
-    values: np.ndarray, steps: np.ndarray, r: float, k2: float
-) -> tuple[np.ndarray, float]:
-    """Innovations (m, c) of columns (m, c), and the sum of the logarithms of their variances."""
-    gain, scale = np.empty_like(steps), np.empty_like(steps)
-    total = _gains(steps, r, k2, gain, scale)
-    rows = np.ascontiguousarray(values.T)
-    out = np.empty_like(rows)
-    _filtered(rows, gain, scale, out)
-    return out.T, total
+class Filter(ABC):
+    """What makes columns white, block after block of their rows.
+
+    ``log_det`` is the sum of the logarithms of the variances that it divides by.
+    """
+
+    log_det: float
+
+    @abstractmethod
+    def next(self, values: np.ndarray) -> np.ndarray:
+        """The next rows (k, c) of columns, white with unit variance."""
+
+
+class _Innovations(Filter):
+    """Of white noise of variance ``r`` and a random walk of ``k2`` a second."""
+
+    def __init__(self, steps: np.ndarray, r: float, k2: float) -> None:
+        self.gain, self.row = np.empty_like(steps), 0
+        variance, self.level = np.empty_like(steps), np.zeros(0)
+        self.log_det = _gains(steps, r, k2, self.gain, variance)
+        self.scale = 1.0 / np.sqrt(variance)
+
+    def next(self, values: np.ndarray) -> np.ndarray:
+        if not self.row:
+            self.level = np.zeros(values.shape[1])
+        at = slice(self.row, self.row + len(values))
+        self.row += len(values)
+        out = np.empty(values.shape)
+        _filtered(np.ascontiguousarray(values), self.gain[at], self.scale[at], self.level, out)
+        return out
+
+
+class _PredictionErrors(Filter):
+    """Of an autoregression, each of ``segments`` begun anew: its first rows, which lack
+    predecessors, are zero.
+    """
+
+    def __init__(self, coefficients: tuple[float, ...], r: float, segments: Segments) -> None:
+        self.order, self.segments, self.row = len(coefficients), segments, 0
+        self.taps = np.concatenate([[1.0], -np.array(coefficients)]) / np.sqrt(r)
+        self.before = np.zeros((0, 0))
+        rows = sum(max(0, b - a - self.order) for a, b in segments)
+        self.log_det = rows * float(np.log(r))
+
+    def next(self, values: np.ndarray) -> np.ndarray:
+        if not self.row:
+            self.before = np.zeros((self.order, values.shape[1]))
+        out, known = np.zeros(values.shape), np.concatenate([self.before, values])
+        for a, b in self.segments:
+            first = max(a + self.order - self.row, 0)
+            last = min(b - self.row, len(values))
+            if first < last:
+                _predicted(known[first : last + self.order], self.taps, out[first:last])
+        self.row += len(values)
+        self.before = known[len(known) - self.order :]
+        return out
 
 
 def power_less_bias(white: np.ndarray) -> float:
@@ -104,11 +186,15 @@ class RandomWalk:
 
     def whiten(self, values: np.ndarray, time: np.ndarray, segments: Segments) -> np.ndarray:
         """Innovations (m, c), unit variance, of columns (m, c) sampled at ``time`` (m,)."""
-        return _innovations(values, self._steps(time), self.r, self.k2)[0]
+        return self.filter(time, segments).next(values)
+
+    def filter(self, time: np.ndarray, segments: Segments) -> Filter:
+        """What makes columns sampled at ``time`` (m,) white."""
+        return _Innovations(self._steps(time), self.r, self.k2)
 
     def log_det(self, time: np.ndarray, segments: Segments) -> float:
         """Sum of the logarithms of the innovation variances."""
-        return _innovations(np.zeros((len(time), 0)), self._steps(time), self.r, self.k2)[1]
+        return self.filter(time, segments).log_det
 
     def variance_along(self, values: np.ndarray, time: np.ndarray, segments: Segments) -> float:
         """Variance of the sum of products of ``values`` (m,) with this noise.
@@ -131,15 +217,14 @@ class RandomWalk:
         The bias of each log goes with the noise: one that fitted a larger random walk would keep
         that walk alive.
         """
-        parts = [(np.array([v, np.ones(len(v))]).T, _steps(t)) for v, t, _ in residuals]
+        parts = [(np.ascontiguousarray(v), _steps(t)) for v, t, _ in residuals]
         count = sum(len(v) for v, _ in parts)
         step = float(np.median(np.concatenate([d[1:] for _, d in parts])))
 
         def concentrated(log_ratio: float) -> tuple[float, float]:
-            k2 = np.exp(log_ratio) / step
-            white = [_innovations(v, d, 1.0, k2) for v, d in parts]
-            power = max(sum(power_less_bias(w) for w, _ in white) / count, LEAST_VARIANCE)
-            return 0.5 * sum(logs for _, logs in white) + 0.5 * count * np.log(power), power
+            logs, powers = zip(*(_concentrated(v, d, np.exp(log_ratio) / step) for v, d in parts))
+            power = max(sum(powers) / count, LEAST_VARIANCE)
+            return 0.5 * sum(logs) + 0.5 * count * np.log(power), power
 
         best = minimize_scalar(
             lambda x: concentrated(x)[0],
@@ -168,19 +253,15 @@ class Autoregressive:
 
         The first rows of a segment, which lack predecessors, are zero.
         """
-        out = np.zeros_like(values)
-        taps = np.concatenate([[1.0], -np.array(self.coefficients)])
-        for a, b in segments:
-            if values[a:b].size:
-                out[a:b] = upfirdn(taps, values[a:b].T)[:, : b - a].T / np.sqrt(self.r)
-            out[a : min(b, a + len(self.coefficients))] = 0.0
-        return out
+        return self.filter(time, segments).next(values)
+
+    def filter(self, time: np.ndarray, segments: Segments) -> Filter:
+        """What makes columns in these segments white."""
+        return _PredictionErrors(self.coefficients, self.r, segments)
 
     def log_det(self, time: np.ndarray, segments: Segments) -> float:
         """Sum of the logarithms of the prediction error variances."""
-        return sum(max(0, b - a - len(self.coefficients)) for a, b in segments) * float(
-            np.log(self.r)
-        )
+        return self.filter(time, segments).log_det
 
     def variance_along(self, values: np.ndarray, time: np.ndarray, segments: Segments) -> float:
         """Variance of the sum of products of ``values`` (m,) with this noise: the noise is a filter
@@ -204,7 +285,8 @@ class Autoregressive:
         # keeps them regular.
         whole = sum(_lagged_products(v, order) for v in pieces)
         gram, right, power = whole[1:, 1:], whole[1:, 0], whole[0, 0]
-        coefficients = np.linalg.solve(gram + 1e-12 * np.trace(gram) * np.eye(order), right)
+        least = 1e-12 * np.trace(gram) + LEAST_VARIANCE
+        coefficients = np.linalg.solve(gram + least * np.eye(order), right)
         left = power - 2 * coefficients @ right + coefficients @ gram @ coefficients
         rows = sum(len(v) - order for v in pieces)
         return cls(tuple(coefficients), max(float(left) / rows, LEAST_VARIANCE))

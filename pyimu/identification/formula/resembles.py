@@ -9,9 +9,9 @@ from pyimu.identification.fit.fit import Fit, with_prior
 from pyimu.identification.fit.keys import Coefficient, Shape
 from pyimu.identification.fit.normal import solve
 from pyimu.identification.fit.reference_noise import equations
+from pyimu.identification.formula.columns import columns_of
 from pyimu.identification.formula.effect import coefficients
 from pyimu.identification.formula.formula import Formula
-from pyimu.identification.formula.terms import columns_of
 from pyimu.identification.search.candidates import absent, scan_columns
 from pyimu.identification.search.candidates import groups as groups_of
 from pyimu.identification.search.forward import Investigation

@@ -7,18 +7,19 @@ as those of any effect.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.stats import chi2
+from scipy.special import chdtrc
 
 from pyimu.identification.fit.columns import Linear
 from pyimu.identification.fit.fit import Fit, with_prior
 from pyimu.identification.fit.keys import Shape
 from pyimu.identification.fit.normal import solve
 from pyimu.identification.fit.reference_noise import equations
-from pyimu.identification.formula.terms import Term, columns_of
+from pyimu.identification.formula.columns import columns_of
+from pyimu.identification.formula.terms import Term
 from pyimu.identification.search.screen import DRAWS, FALSE_ALARM, PENALTY, Projected, dispersion
 
 CHUNK = 48
@@ -109,7 +110,7 @@ def _scored(term: Term, projected: Projected, at: dict[Shape, int]) -> Scored:
         power = float(s @ solve(projected.variance[np.ix_(columns, columns)], s))
         if 0.5 * power > PENALTY:
             power /= _dispersion(projected, columns)
-        best = min(best, (float(chi2.sf(power, len(columns))), i))
+        best = min(best, (float(chdtrc(len(columns), power)), i))
         if 0.5 * power > PENALTY * len(columns):
             total += 0.5 * power - PENALTY * len(columns)
             axes.append(i)
@@ -120,7 +121,7 @@ def _dispersion(projected: Projected, columns: list[int]) -> float:
     """That of a few of many columns, without the Gram matrices by batch of all of them."""
     gram = projected.variance[np.ix_(columns, columns)]
     turn = projected.turn[:, columns]
-    few = Projected(gram, projected.score[columns], turn, projected.normal)
+    few = replace(projected, gram=gram, score=projected.score[columns], turn=turn)
     return dispersion(few, range(len(columns)))
 
 

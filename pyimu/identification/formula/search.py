@@ -16,6 +16,7 @@ import numpy as np
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.maximum_likelihood import advantage, fit_and_normal
+from pyimu.identification.formula.columns import values_of
 from pyimu.identification.formula.effect import (
     coefficients,
     free_name,
@@ -33,7 +34,6 @@ from pyimu.identification.formula.terms import (
     library,
     rounded,
     switch,
-    values_of,
 )
 from pyimu.identification.search.choice import SET_WIDTH
 from pyimu.identification.search.confirm import SPEAKS, Evidence, evidence

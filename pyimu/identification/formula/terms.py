@@ -6,19 +6,16 @@ file that a user gets, are both made of that.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import combinations_with_replacement
 
-import casadi as ca
 import numpy as np
 
-from pyimu.block.vectorised import over_rows
-from pyimu.identification.fit.keys import Shape
 from pyimu.identification.fit.trial import Trial, known_to_all, white_noise
 from pyimu.model.arguments import AXES
 from pyimu.model.kinds import KINDS
-from pyimu.model.signals import COLUMNS, N_INPUT, SIGNALS, START
+from pyimu.model.signals import COLUMNS, SIGNALS, START
 
 SYMBOLS = {
     "rate": ("w", r"\omega"),
@@ -371,38 +368,3 @@ def switch(f: Factor, level: float) -> Term:
         level,
         factors=(f,),
     )
-
-
-# Columns
-
-
-def compiled(kind: str, terms: Iterable[Term]) -> ca.Function:
-    """Values (3 a column) of the columns of terms, one after another, for an input vector."""
-    u = ca.SX.sym("u", N_INPUT)
-    names: dict[str, object] = {"ca": ca}
-    exec(HELPERS, names)
-    names |= {symbol: u[COLUMNS[name]] for name, (symbol, _) in SYMBOLS.items()}
-    names["x"] = u[COLUMNS[KINDS[kind].own]]
-    columns = [eval(code, dict(names)) for t in terms for code in t.code]
-    full = [ca.SX.ones(3) * c if ca.SX(c).numel() == 1 else c for c in columns]
-    return ca.Function("terms", [u, ca.SX.sym("none", 0)], [ca.densify(ca.vertcat(*full))])
-
-
-def columns_of(kind: str, terms: list[Term]) -> Callable:
-    """Column maker for ``Fit.beside``."""
-    function = compiled(kind, terms)
-    keys = [(t.text, k) for t in terms for k in range(len(t.code))]
-
-    def add_all(trial: Trial, u: np.ndarray, add: Callable) -> None:
-        values = over_rows(function, u.T, np.zeros(0))
-        for column, (text, number) in enumerate(keys):
-            for i in range(3):
-                add(Shape(text, number, i), i, values[:, 3 * column + i])
-
-    return add_all
-
-
-def values_of(kind: str, code: str, u: np.ndarray) -> np.ndarray:
-    """Values (n, 3) of an expression over inputs (n, N_INPUT), axis by axis."""
-    as_term = Term("", (), (code,), (), frozenset(), 0)
-    return over_rows(compiled(kind, [as_term]), u.T, np.zeros(0))

@@ -15,6 +15,9 @@ Piece = tuple[np.ndarray, np.ndarray]
 TURN_OVER = 4.0
 """s; from one face to another, by hand."""
 
+RUN = 32
+"""Turns of which the product is taken one after another."""
+
 RAMP = 1.0
 """s in which a steady rate is reached and left."""
 
@@ -65,17 +68,34 @@ def joined_pieces(pieces: Sequence[Piece]) -> Piece:
 
 
 def attitude(rate: np.ndarray, h: float) -> Rotation:
-    """Body to world, after each sample period, of a body that begins level.
-
-    The product of the turns of all periods before, by doubling: the last 1, 2, 4, ... of them.
+    """Body to world, after each sample period, of a body that begins level: the product of the
+    turns of all periods before.
     """
-    q = Rotation.from_rotvec(rate * h)
-    reach = 1
-    while reach < len(rate):
-        later = q[:-reach] * q[reach:]
-        q = Rotation.concatenate([q[:reach], later])
-        reach *= 2
-    return q
+    return _running(Rotation.from_rotvec(rate * h))
+
+
+def _running(turns: Rotation) -> Rotation:
+    """The product of each turn with all before it: within runs of ``RUN`` turns, all runs at once,
+    and of the runs by the same.
+    """
+    count = -(-len(turns) // RUN)
+    if count <= 1:
+        return _within(turns, 1)
+    missing = count * RUN - len(turns)
+    padded = Rotation.concatenate([turns, Rotation.identity(missing)]) if missing else turns
+    # The first turns of all runs, then the second ones, and so on.
+    order = np.arange(count * RUN).reshape(count, RUN).T.ravel()
+    within = _within(padded[order], count)
+    before = Rotation.concatenate([Rotation.identity(1), _running(within[-count:])[:-1]])
+    return (before[order // RUN] * within)[np.argsort(order)][: len(turns)]
+
+
+def _within(turns: Rotation, count: int) -> Rotation:
+    """The running products of ``count`` runs, whose turns follow each other ``count`` apart."""
+    parts = [turns[:count]]
+    for k in range(count, len(turns), count):
+        parts.append(parts[-1] * turns[k : k + count])
+    return Rotation.concatenate(parts)
 
 
 def force(q: Rotation, push: np.ndarray) -> np.ndarray:

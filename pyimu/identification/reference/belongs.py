@@ -11,11 +11,14 @@ from pyimu.identification.fit.trial import Trial
 from pyimu.identification.reference.clock import (
     LEAST_ROWS,
     in_own_band,
+    is_still,
     moving_rows,
     turned_onto,
 )
-from pyimu.model.kinds import OWN
+from pyimu.model.kinds import KINDS, OWN
 from pyimu.recording.reference.band import COHERENCE, LEAST_BAND
+from pyimu.recording.rest import ONE_SHOCK, RARE, seconds_of
+from pyimu.report.numbers import quantity
 
 DEGREE, ALIKE = float(np.degrees(1.0)), 0.1
 """Degrees in a radian, and how near a factor must be to one that is a mistake of units."""
@@ -28,12 +31,45 @@ def misfit(trials: Iterable[Trial]) -> str:
     """Why the reference of one of the trials does not belong to its sensor; nothing where all
     do.
     """
+    trials = list(trials)
+    alone = next(filter(None, map(moves_alone, trials)), "")
+    if alone:
+        return alone
     clocked = [t for t in trials if t.clock is not None]
     for t in clocked:
         mistake = mistaken(t)
         if mistake:
             return f"the reference of {t.name} {mistake}"
     return next(filter(None, (too_little(t, t.clock.explained) for t in clocked)), "")
+
+
+def moves_alone(trial: Trial) -> str:
+    """Which of sensor and reference moves while the other stands still; nothing where neither does
+    so. A sensor moves that goes further from its median than temperature takes any.
+    """
+    if trial.reference == "static" or trial.reduction is not None or trial.clock is not None:
+        return ""
+    axes = list(trial.axes)
+    shown = {"reference": trial.u[:, OWN[trial.kind]][:, axes], f"{trial.kind}": trial.y[:, axes]}
+    band = in_own_band(trial)
+    still = {who: is_still(band, v) for who, v in shown.items()}
+    far = {who: _farthest(trial, v) for who, v in shown.items()}
+    for mover, other in (tuple(shown), tuple(shown)[::-1]):
+        if still[other] and far[mover]:
+            most = quantity(far[mover], KINDS[trial.kind].unit, 2)
+            its = f"the {other} of {trial.name}"
+            return f"{its} stands still while the {mover} goes {most} from its median"
+    return ""
+
+
+def _farthest(trial: Trial, values: np.ndarray) -> float:
+    """How far a second's mean of a column goes from the median; zero where that is no motion."""
+    far = 0.0
+    for column in values.T:
+        seconds = seconds_of(column, trial.segments, trial.h)
+        if np.count_nonzero(seconds.far(trial.kind)) > max(RARE * len(seconds.mean), ONE_SHOCK):
+            far = max(far, float(np.abs(seconds.mean - np.median(seconds.mean)).max()))
+    return far
 
 
 def too_little(trial: Trial, share: float) -> str:
@@ -57,17 +93,27 @@ def _coheres_nowhere(trial: Trial) -> bool:
 def mistaken(trial: Trial) -> str:
     """What is wrong with the reference of a trial that would fit once that is put right.
 
-    Mirrored axes, or degrees taken for radians; nothing where neither is.
+    Mirrored axes, an axis that counts the other way, or degrees taken for radians; nothing where
+    none is.
     """
     trial, axes = in_own_band(trial), list(trial.axes)
     rows = moving_rows(trial)
     x, y = (in_band(trial, v[:, axes])[rows] for v in (trial.u[:, OWN[trial.kind]], trial.y))
-    if len(y) < LEAST_ROWS or len(axes) < 3:
+    if len(y) < LEAST_ROWS:
         return ""
     x, y = x - x.mean(axis=0), y - y.mean(axis=0)
-    turned, flipped = (_scaled(x @ turned_onto(a * x, y) * a, y) for a in (1.0, -1.0))
-    if turned[1] < COHERENCE <= flipped[1] and abs(flipped[0] - 1) < ALIKE:
+    triad = len(axes) == 3
+    turned, flipped = (
+        _scaled(a * x @ (turned_onto(a * x, y) if triad else np.eye(len(axes))), y)
+        for a in (1.0, -1.0)
+    )
+    if triad and turned[1] < COHERENCE <= flipped[1] and abs(flipped[0] - 1) < ALIKE:
         return "has mirrored axes: its frame is turned into the sensor's by a determinant of -1"
+    if not triad and flipped[1] >= COHERENCE and abs(flipped[0] - 1) < ALIKE:
+        return (
+            "counts the other way: a heading grows counterclockwise seen from above, and the "
+            "sensor's z points up"
+        )
     for factor, off, units, others in (
         (DEGREE, "small", "in rad", "in deg"),
         (1 / DEGREE, "large", "in deg", "in rad"),

@@ -61,6 +61,9 @@ BENT = 0.01
 CHI2_MEDIAN = 0.4549
 """Median of the square of a standard normal."""
 
+ROUNDING = 1e-12
+"""Share of a constant that its mean is off by, at most: sums of 10^4 doubles."""
+
 ROUNDS = 5
 TAPS, SHAPE = 12, 10.0
 """Samples on either side from which a shifted reference is interpolated, and the shape of their
@@ -107,12 +110,20 @@ def moves(trial: Trial) -> bool:
     A sensor alone that does may follow its temperature.
     """
     axes, trial = list(trial.axes), in_own_band(trial)
-    x, y = (in_band(trial, v[:, axes]) for v in (trial.u[:, OWN[trial.kind]], trial.y))
-    if len(y) < LEAST_ROWS:
-        return False
+    return not any(is_still(trial, v[:, axes]) for v in (trial.u[:, OWN[trial.kind]], trial.y))
+
+
+def is_still(trial: Trial, values: np.ndarray) -> bool:
+    """Whether values (n, axes) show no more than the sensor's own noise in the trial's band, or are
+    too few to tell.
+    """
+    x = in_band(trial, values)
+    if len(x) < LEAST_ROWS:
+        return True
     gain = np.sqrt(np.sum(np.square(trial.band.weights)))
-    least = MOTION * gain * np.linalg.norm(rest_noise(trial)[axes])
-    return all(np.linalg.norm(v.std(axis=0)) > least for v in (x, y))
+    least = MOTION * gain * np.linalg.norm(rest_noise(trial)[list(trial.axes)])
+    rounding = ROUNDING * np.linalg.norm(x, axis=1).max()
+    return bool(np.linalg.norm(x.std(axis=0)) <= max(least, rounding))
 
 
 def _explained(trial: Trial) -> float:

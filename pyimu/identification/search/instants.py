@@ -9,7 +9,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from pyimu.identification.fit.columns import Linear
 from pyimu.identification.fit.fit import Fit, with_prior
+from pyimu.identification.fit.inputs import Inputs
 from pyimu.identification.fit.keys import Coefficient, Key, Scanned
 from pyimu.identification.fit.maximum_likelihood import fit
 from pyimu.identification.fit.normal import DEAD, Normal, normal_equations, solve
@@ -48,10 +50,10 @@ def _at(fitted: Fit, effect: str, name: str, times: np.ndarray) -> Fit:
 def _found(fitted: Fit, key: Coefficient, reach: float) -> tuple[float, float]:
     """The likeliest instant of an event and its standard error, from a guess within ``reach`` s."""
     best = float(fitted.sensor.values[key.effect][key.parameter][key.index])
-    period, std = min(t.h for t in fitted.trials), np.inf
+    period, std, linears = min(t.h for t in fitted.trials), np.inf, fitted.linearise()
     while True:
         times = best + np.linspace(-reach, reach, TRIED)
-        gain = _gains(fitted, key, times)
+        gain = _gains(fitted, linears, key, times)
         likely = np.flatnonzero(gain > gain.max() - 0.5 * LIKELY)
         apart = times[1] - times[0]
         std = min(std, (times[likely[-1]] - times[likely[0]] + apart) / (2 * 1.96))
@@ -61,7 +63,7 @@ def _found(fitted: Fit, key: Coefficient, reach: float) -> tuple[float, float]:
         reach = 1.5 * apart
 
 
-def _gains(fitted: Fit, key: Coefficient, times: np.ndarray) -> np.ndarray:
+def _gains(fitted: Fit, linears: list[Linear], key: Coefficient, times: np.ndarray) -> np.ndarray:
     """Log-likelihood [nat] that the event explains at each of ``times``, its size fitted on the
     axes that it has.
     """
@@ -70,7 +72,7 @@ def _gains(fitted: Fit, key: Coefficient, times: np.ndarray) -> np.ndarray:
         for k in fitted.free
         if isinstance(k, Coefficient) and k.effect == key.effect and k.index[1:] == key.index
     }
-    linears = fitted.linearise(extra=[_steps(key, times, sorted(k.index[0] for k in sizes))])
+    linears = fitted.beside(linears, [_steps(key, times, sorted(k.index[0] for k in sizes))])
     normal = with_prior(normal_equations(linears, fitted.noise), fitted)
     return np.sum([_of_axis(normal, k, size) for k, size in sizes.items()], axis=0)
 
@@ -78,7 +80,7 @@ def _gains(fitted: Fit, key: Coefficient, times: np.ndarray) -> np.ndarray:
 def _steps(key: Coefficient, times: np.ndarray, axes: list[int]) -> Callable:
     """Column maker: a step at each of ``times``, of one axis after another."""
 
-    def add_all(trial: Trial, u: np.ndarray, y: np.ndarray, add: Callable) -> None:
+    def add_all(trial: Trial, u: Inputs, add: Callable) -> None:
         since = u[:, COLUMNS["time"].start]
         for number, instant in enumerate(times.tolist()):
             step = (since >= instant).astype(float)

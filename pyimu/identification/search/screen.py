@@ -116,13 +116,15 @@ class Screening:
 class Projected:
     """Candidate columns with everything that the model already explains projected out.
 
-    ``turn`` (P, candidates) makes them of all columns.
+    ``turn`` (P, candidates) makes them of all columns: each of its own, of the columns ``base``,
+    and of nothing else.
     """
 
     gram: np.ndarray
     score: np.ndarray
     turn: np.ndarray
     normal: Normal
+    base: Sequence[int]
 
     @classmethod
     def of(cls, normal: Normal, base: list[int], wanted: list[int]) -> Projected:
@@ -142,7 +144,7 @@ class Projected:
             dead |= left < DEAD * np.diag(normal.seen)[wanted]
         turn[:, dead] = 0.0
         gram[dead] = gram[:, dead] = 0.0
-        return cls(gram, turn.T @ normal.score, turn, normal)
+        return cls(gram, turn.T @ normal.score, turn, normal, base)
 
     @cached_property
     def batch_score(self) -> np.ndarray:
@@ -162,11 +164,23 @@ class Projected:
         seen = self.normal.seen
         return self.gram if seen is None else self.turn.T @ seen @ self.turn
 
-    @cached_property
-    def batch_gram(self) -> np.ndarray:
-        return np.einsum(
-            "ki,bkl,lj->bij", self.turn, self.normal.batch_gram, self.turn, optimize=True
-        )
+    def batch_gram(self, at: Sequence[int]) -> np.ndarray:
+        """Gram matrices (batches, k, k) of the few candidate columns ``at``."""
+        turn = self.turn[:, at]
+        acts = np.flatnonzero(np.any(turn != 0.0, axis=1))
+        turn = turn[acts]
+        return turn.T @ self.normal.batch_gram[:, acts[:, None], acts] @ turn
+
+    @property
+    def batch_power(self) -> np.ndarray:
+        """Diagonals (batches, candidates) of the Gram matrices of all candidate columns."""
+        all_grams, shared, own = self.normal.batch_gram, self.turn[self.base], np.array(self.turn)
+        own[self.base] = 0.0
+        at = own.argmax(axis=0)
+        size = own[at, np.arange(len(at))]
+        of_base = all_grams[:, np.array(self.base, dtype=int)]
+        mixed = 2.0 * size * of_base[:, :, at] + of_base[:, :, self.base] @ shared
+        return size**2 * all_grams[:, at, at] + np.sum(shared * mixed, axis=1)
 
 
 def is_slow(e: Effect) -> bool:
@@ -299,7 +313,7 @@ def dispersion(projected: Projected, columns: Sequence[int], scatter: Scatter = 
     if not np.any(np.diag(gram)):
         return 1.0
     estimate = solve(gram, projected.score[at])
-    batch_gram = projected.batch_gram[:, at][:, :, at]
+    batch_gram = projected.batch_gram(at)
     rest = projected.batch_score[:, at] - batch_gram @ estimate
     own = float(np.trace(solve(scattered, rest.T @ rest))) / len(at)
     shares = np.trace(
@@ -325,10 +339,10 @@ def _scatter(projected: Projected) -> Scatter:
     """
     gram = np.diag(projected.gram)
     seen = gram > 0.0
-    batch_gram = np.einsum("bii->bi", projected.batch_gram)[:, seen] / gram[seen]
-    rest = projected.batch_score[:, seen] - batch_gram * projected.score[seen]
+    shares = projected.batch_power[:, seen] / gram[seen]
+    rest = projected.batch_score[:, seen] - shares * projected.score[seen]
     own = np.sum(rest**2, axis=0) / np.diag(projected.scatter)[seen]
-    found = [_unbiased(*v) for v in zip(own, np.sum(batch_gram**2, axis=0), strict=True)]
+    found = [_unbiased(*v) for v in zip(own, np.sum(shares**2, axis=0), strict=True)]
     values, batches = np.array(found).reshape(-1, 2).T
     if not batches.sum() > 0.0:
         return ONE

@@ -129,19 +129,20 @@ def _first_step(known: np.ndarray, levels: np.ndarray) -> float | None:
 
 def _slope(number: np.ndarray, near: np.ndarray) -> float:
     """Of the line through levels by number; through the origin where there are too few."""
-    if len(number) < 3:
-        return float(number @ near / (number @ number))
-    return float(np.polyfit(number, near, 1)[0])
+    if len(number) >= 3:
+        number, near = number - number.mean(), near - near.mean()
+    return float(number @ near / (number @ number))
 
 
 def _refined(step: float, centre: np.ndarray) -> float:
-    reach, size = 8 * step, np.abs(centre)
+    """A step refined by the levels (n,), in order, ever farther on both sides of the ``centre``."""
+    reach, farthest = 8 * step, max(-centre[0], centre[-1])
     while True:
-        near = centre[size <= reach]
+        near = centre[slice(*np.searchsorted(centre, (-reach, np.nextafter(reach, np.inf))))]
         number = np.round(near / step)
-        if np.any(number):
+        if np.ptp(number):
             slope = _slope(number, near)
             step = slope if abs(slope - step) < 0.1 * step else step
-        if reach >= size.max():
+        if reach >= farthest:
             return step
         reach *= 2

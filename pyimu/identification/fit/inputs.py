@@ -1,0 +1,90 @@
+"""What went into a sensor in a log: the reference, as what belongs to the log has it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from pyimu.identification.fit.clock import ClockChange
+from pyimu.identification.fit.keys import LogBias, LogClock, LogKey, LogLag
+from pyimu.identification.fit.trial import Trial
+from pyimu.model.kinds import KINDS, OWN
+from pyimu.model.signals import COLUMNS
+
+TEMPERATURE, ITS_RATE = COLUMNS["temperature"], COLUMNS["temperature_rate"]
+
+
+@dataclass(frozen=True)
+class LogState:
+    """What belongs to a log and not to the part: bias (3,) at power-on, mounting rotation (3, 3)
+    of the reference, ``lag`` s of its thermometer behind the sensor's temperature, and what its
+    clock still lacks, None where that is not to be found.
+    """
+
+    bias: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    rotation: np.ndarray = field(default_factory=lambda: np.eye(3))
+    lag: float = 0.0
+    clock: ClockChange | None = None
+
+    def moved(self, key: LogKey, change: float) -> LogState:
+        """The state with the coefficient of one of its columns changed."""
+        if isinstance(key, LogClock):
+            return replace(self, clock=self.clock.moved(key.order, change))
+        if isinstance(key, LogLag):
+            return replace(self, lag=self.lag + change)
+        unit = np.eye(3)[key.axis]
+        if isinstance(key, LogBias):
+            return replace(self, bias=self.bias + change * unit)
+        return replace(
+            self, rotation=Rotation.from_rotvec(change * unit).as_matrix() @ self.rotation
+        )
+
+
+class Inputs:
+    """Inputs (n, N_INPUT) as one column after another, read like the array that they would make:
+    what changes some of them leaves the others where they are.
+    """
+
+    def __init__(self, u: np.ndarray) -> None:
+        self.T = list(u.T)
+
+    def __len__(self) -> int:
+        return len(self.T[0])
+
+    def __getitem__(self, at) -> np.ndarray:
+        rows, columns = at if isinstance(at, tuple) else (at, slice(None))
+        if isinstance(columns, slice):
+            return np.array([c[rows] for c in self.T[columns]]).T
+        return self.T[columns][rows]
+
+    def __setitem__(self, at: tuple[slice, slice], values: np.ndarray) -> None:
+        """Put columns (n, k) in the place of others."""
+        self.T[at[1]] = list(np.ascontiguousarray(values.T))
+
+    def __array__(self, dtype=None, copy=None) -> np.ndarray:
+        return np.array(self.T, dtype=dtype).T
+
+
+def reference_input(trial: Trial, state: LogState) -> Inputs:
+    """Inputs (n, N_INPUT) with the reference turned into the sensor's axes, on the sensor's clock.
+
+    What the clock still lacks is short against the motion: its first order is enough. A thermometer
+    that is a first-order lag shows T - lag dT/dt.
+    """
+    u, own, rate = Inputs(trial.u), OWN[trial.kind], own_rate(trial.kind)
+    if state.clock is not None:
+        late = state.clock.at(trial.time)[:, None]
+        u[:, own] = u[:, own] - late * u[:, rate]
+    # What is turned is turned by the sensor's own axes, whichever the reference has.
+    turned = (COLUMNS["turned"],) if trial.kind == "gyro" else ()
+    for at in () if np.array_equal(state.rotation, np.eye(3)) else (own, rate, *turned):
+        u[:, at] = u[:, at] @ state.rotation.T
+    if state.lag:
+        u[:, TEMPERATURE] = u[:, TEMPERATURE] + state.lag * u[:, ITS_RATE]
+    return u
+
+
+def own_rate(kind: str) -> slice:
+    return COLUMNS[KINDS[kind].own_rate]
