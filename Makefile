@@ -7,13 +7,14 @@ CODE := pyimu tests benchmarks examples fuzz docs/build
 PART ?= imt30
 OUT ?= out
 
-.PHONY: help demo test lint generate fmus bench fuzz
+.PHONY: help demo test lint generate docs fmus bench fuzz
 
 help:
 	@echo "make demo      the whole loop on a simulated recording; report under $(OUT)/demo"
 	@echo "make test      all tests, on all cores"
 	@echo "make lint      style, format and types"
 	@echo "make generate  what is written from the definitions: docs, pictures, fmu_src/generated, modelica"
+	@echo "make docs      the documentation as a site under $(OUT)/site/site"
 	@echo "make fmus      the FMUs of PART ($(PART)) under $(OUT)/fmus"
 	@echo "make bench     speed against named peers"
 	@echo "make fuzz      random calls and damaged files, for a long time"
@@ -39,9 +40,13 @@ lint: $(READY)
 generate: $(READY)
 	$(BIN)/python docs/build/effects_page.py
 	$(BIN)/python docs/build/noise_page.py
+	$(BIN)/python docs/build/api_page.py
 	$(BIN)/python -m pyimu.fmu.generate
 	$(BIN)/python -m pyimu.modelica.generate
 	@echo "Files that changed are named above."
+
+docs: $(READY)
+	$(BIN)/python docs/build/docs_site.py $(OUT)/site
 
 fmus: $(READY)
 	$(BIN)/pyimu build $(PART) --out $(OUT)/fmus

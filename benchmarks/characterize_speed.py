@@ -36,7 +36,7 @@ def main(rows: int = ROWS, suffix: str = ".parquet") -> None:
             [
                 sys.executable,
                 "-m",
-                "pyimu.cli",
+                "pyimu",
                 "characterize",
                 str(log),
                 "--out",

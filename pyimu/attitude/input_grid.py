@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -65,7 +65,8 @@ class InputGrid:
 
     ``rows`` (n,) is the sample number of each row, ``after_gap`` the rows that follow a gap,
     ``left_out`` the s of each gap that exceed its missing samples. ``names`` are those of the
-    block's inputs, ``more`` are columns (n,) for some of them, zero between the rows.
+    block's inputs, ``more`` are columns (n,) for some of them, zero between the rows. ``heard``
+    hears how often the grid has been gone through so far, 0.5 for a half of it.
     """
 
     def __init__(
@@ -75,7 +76,9 @@ class InputGrid:
         names: list[str],
         retiming: Retiming | None = None,
         more: Mapping[str, np.ndarray] | None = None,
+        heard: Callable[[float], None] = lambda share: None,
     ) -> None:
+        self.heard, self._asked = heard, 0
         self.rows, gaps, self.left_out = _grid(recording)
         self.after_gap = 1 + gaps
         self.period = recording.sample_period
@@ -108,6 +111,8 @@ class InputGrid:
 
     def piece(self, cut: Cut, u: np.ndarray) -> Piece:
         """The inputs of a cut, in the array ``u`` (size or more, nu)."""
+        self.heard(self._asked / (int(self.rows[-1]) + 1))
+        self._asked += cut.size
         start, stop = np.searchsorted(self.rows, [cut.first, cut.first + cut.size]).tolist()
         rows, at = slice(start, stop), self.rows[start:stop] - cut.first
         for i, (values, otherwise) in enumerate(self.columns):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import casadi as ca
@@ -68,6 +68,7 @@ def run(
     std0: np.ndarray | None = None,
     settings: Settings = None,
     smooth: bool = False,
+    heard: Callable[[float], None] = lambda share: None,
 ) -> AttitudeResult:
     """The attitude of a recording, by the filter of ``part``.
 
@@ -108,7 +109,8 @@ def run(
     With ``smooth`` each row is estimated from the whole recording, also from the rows that follow
     (``pyimu.attitude.filter.smoother``): attitude, bias and all standard deviations are those of
     the smoother, ``quasi_static``, ``nis``, ``status`` and ``at_rest`` stay those of the filter
-    that went forward, and the last row is the filter's.
+    that went forward, and the last row is the filter's. ``heard`` hears which share of the work
+    on the samples is done.
 
     Raises UserError for a recording that cannot be read, is without gyro or has one row, a latitude
     beyond -pi/2 to pi/2, a quaternion without length, ``heading0`` beside ``q0``, other than so
@@ -157,7 +159,9 @@ def run(
     p = with_settings(block, named, "the attitude filter")
     retiming = _retiming(recording, known, p)
     used = replace(recording, speed=None) if speed_findings(recording) else recording
-    grid = InputGrid(used, known, [v.name for v in block.inputs], retiming)
+    passes = 2 if smooth else 1
+    names = [v.name for v in block.inputs]
+    grid = InputGrid(used, known, names, retiming, heard=lambda times: heard(times / passes))
     steps = Run(block, grid.rows[-1] + 1, p=p, sample_period=recording.sample_period)
     walk = _bias_walk(known, p)
     if smooth:

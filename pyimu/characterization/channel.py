@@ -17,7 +17,6 @@ from pyimu.characterization.allan.deviation import (
     octave_clusters,
     overlapping_deviation,
 )
-from pyimu.characterization.allan.moments import TERMS
 from pyimu.characterization.allan.pooled import (
     Deviation,
     Segment,
@@ -79,7 +78,7 @@ def analyse_noise(
         as_measured=as_measured,
         fit=fit,
         fitted=fit.deviation(tau),
-        terms={t: terms[:, i] for i, t in enumerate(TERMS) if t in fit.estimates},
+        terms={t: terms[:, i] for i, t in enumerate(fit.letters) if t in fit.estimates},
         floor=floor(tau, deviation),
     )
 
@@ -131,7 +130,8 @@ def _with_limits(
 
     Its degrees of freedom are those that the fitted noise gives the estimate at each cluster time.
     """
-    freedom, side = equivalent_freedom(m, pool.lengths, fit.squares), (1 - level) / 2
+    freedom = equivalent_freedom(m, pool.lengths, fit.squares, fit.times_in_samples)
+    side = (1 - level) / 2
     low, high = (
         deviation * np.sqrt(freedom / chi2.isf(tail, freedom)) for tail in (side, 1 - side)
     )

@@ -13,6 +13,7 @@ from pyimu.characterization.evidence import Evidence
 from pyimu.characterization.magnetometer.estimate import MagnetometerFit
 from pyimu.characterization.noise.coefficients import Coefficient
 from pyimu.characterization.noise.fit import ChannelFit
+from pyimu.characterization.spectrum.bandwidth import Bandwidth
 from pyimu.characterization.spectrum.lines import Line
 from pyimu.characterization.spectrum.psd import Psd
 from pyimu.characterization.temperature.fit import ThermalFit
@@ -89,7 +90,8 @@ class Channel:
     """One axis of a sensor in one log.
 
     ``noise`` is None, and ``reason`` says why, where it could not be characterised; ``thermal`` is
-    None, and ``thermal_reason`` says why, where nothing could be said of temperature.
+    None, and ``thermal_reason`` says why, where nothing could be said of temperature. ``bandwidth``
+    is None where the spectrum does not roll off.
     """
 
     name: str
@@ -101,6 +103,7 @@ class Channel:
     thermal: ThermalFit | None
     thermal_reason: str
     warm_up: WarmUp | None
+    bandwidth: Bandwidth | None = None
 
     @property
     def kind(self) -> str:
@@ -223,6 +226,21 @@ class Outcome:
             for log in self.logs
             if {"motion"} == {f.kind for f in log.findings} & {"motion", "counts"}
         )
+
+    def markov(self, name: str) -> tuple[tuple[float, float], ...]:
+        """Gauss-Markov noise of a channel over the logs, slowest first.
+
+        Standard deviations in the unit of the samples and correlation times [s]: root mean squares
+        and geometric means of the logs that have it, where these are at least half.
+        """
+        each = [ch.noise.fit.markov for ch in self.channel(name) if ch.noise]
+        found = []
+        for k in range(max(map(len, each), default=0)):
+            own = [g[k] for g in each if len(g) > k and g[k].sigma.needed]
+            if own and 2 * len(own) >= len(each):
+                sigma = math.sqrt(sum(g.sigma.value**2 for g in own) / len(own))
+                found.append((sigma, math.exp(sum(math.log(g.time) for g in own) / len(own))))
+        return tuple(found)
 
     def channel(self, name: str) -> Iterator[Channel]:
         """The channel of a name in each log that has it."""

@@ -13,8 +13,9 @@ from pyimu.characterization.channel import LEAST, analyse_noise, compensate
 from pyimu.characterization.log_samples import Say
 from pyimu.characterization.outcome import Channel, NoiseAnalysis, Overview, SensorResult
 from pyimu.characterization.samples import PIECE, Samples
+from pyimu.characterization.spectrum.bandwidth import Bandwidth, find_bandwidth
 from pyimu.characterization.spectrum.lines import Line, find_lines, searched_range
-from pyimu.characterization.spectrum.psd import SpectrumAccumulator, window_length
+from pyimu.characterization.spectrum.psd import Psd, SpectrumAccumulator, window_length
 from pyimu.characterization.store import Store
 from pyimu.characterization.temperature.fit import ThermalFit, fit_thermal
 from pyimu.characterization.temperature.warm_up import WarmUp
@@ -46,7 +47,7 @@ class SensorAnalysis:
         spectrum = _spectrum(samples, self.say)
         lines, psd = find_lines(spectrum), spectrum.result()
         channels = tuple(
-            self._channel(axis, tuple(v for v in lines if v.column == axis))
+            self._channel(axis, tuple(v for v in lines if v.column == axis), psd)
             for axis in range(len(AXES))
         )
         return SensorResult(
@@ -65,7 +66,7 @@ class SensorAnalysis:
     def _column(self, axis: int) -> str:
         return f"{self.samples.kind}_{AXES[axis]}"
 
-    def _channel(self, axis: int, lines: tuple[Line, ...]) -> Channel:
+    def _channel(self, axis: int, lines: tuple[Line, ...], psd: Psd) -> Channel:
         samples, reason = self.samples, self._reason(axis)
         noise, thermal, thermal_reason, warm_up = None, None, reason, None
         if not reason:
@@ -84,7 +85,20 @@ class SensorAnalysis:
             thermal,
             thermal_reason,
             warm_up,
+            None if noise is None else self._bandwidth(axis, noise, lines, psd),
         )
+
+    def _bandwidth(
+        self, axis: int, noise: NoiseAnalysis, lines: tuple[Line, ...], psd: Psd
+    ) -> Bandwidth | None:
+        """Where the noise of a channel rolls off, if it does."""
+        if not len(psd.frequency):
+            return None
+        white = 2 * noise.fit.estimates.get("N", 0.0) ** 2
+        share = white / _fitted_density(noise, psd.frequency)
+        density = psd.density[:, axis]
+        h, f = self.samples.h, psd.frequency
+        return find_bandwidth(f, density, psd.averages, share, lines, h, self.level)
 
     def _reason(self, axis: int) -> str:
         """Why a channel cannot be characterised; empty where it can."""

@@ -141,6 +141,7 @@ def attitude_command(
             magnetometer=undone or not no_magnetometer,
             settings=given,
             smooth=smooth,
+            heard=lambda share: say("running the filter", share),
         )
         say("drawing the report")
         page = found.write(out)

@@ -25,6 +25,7 @@ from pyimu.cli.options import (
     tell,
     write_exports,
 )
+from pyimu.cli.stages import Stages
 
 EXIT_CODES = {
     "clean": 0,
@@ -190,16 +191,18 @@ def close_command(
         recordings, judges = (
             [read_recording(p, columns) for p in paths] for paths in (logs, holdout or [])
         )
+        groups = {g for r in recordings for g in ("gyro", "accel") if getattr(r, g) is not None}
+        stages = Stages(say, groups)
         closed = close(
             recordings,
             part,
             judges or None,
             reference=[read_reference(p, reference_columns) for p in reference or []],
             latitude=at,
-            say=say,
+            say=stages,
         )
         closed = closed.by_command(sys.argv[1:])
-        closed.write(out, say=say)
+        closed.write(out, say=stages)
     lines = [said] if (said := without_units()) else []
     lines.append(f"report: {out / 'report.html'}")
     if export is not None:

@@ -92,7 +92,7 @@ def _over_time(recording: Recording, groups: list[str], rests: Iterable[tuple[in
         panels[-1].set_xlabel(f"time [{unit}]")
         if len(GROUPS[groups[0]].suffixes) > 1:
             legend(figure, panels[0], 3)
-        return svg_of(figure)
+        return svg_of(figure, curves=True)
 
 
 def _steps(recording: Recording) -> str:
@@ -105,4 +105,4 @@ def _steps(recording: Recording) -> str:
         panel.set_ylim(bottom=0.7)
         panel.set_xlabel("step of the time [sample periods]")
         panel.set_ylabel("steps")
-        return svg_of(figure)
+        return svg_of(figure, curves=True)

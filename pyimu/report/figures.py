@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from pyimu.report.curves import Curves
+
 if TYPE_CHECKING:  # it takes half a second, which who draws nothing does without
     from matplotlib.axes import Axes
     from matplotlib.axis import Axis
@@ -77,12 +79,17 @@ def new_figure(width: float, height: float, rows: int = 1) -> tuple[Figure, list
     return figure, list(axes)
 
 
-def svg_of(figure: Figure) -> str:
+def svg_of(figure: Figure, curves: bool = False) -> str:
     """The figure as an SVG element that can stand in a page.
 
-    It has no prolog, no metadata and no repeated identifiers.
+    It has no prolog and no repeated identifiers, and no metadata but, where they are asked for, its
+    ``curves``, which a page then lets its reader zoom into and download.
     """
     buffer = io.StringIO()
+    layout = figure.get_layout_engine()
+    if layout is not None:  # once: saving would do it twice, which takes longer than to draw
+        layout.execute(figure)
+        figure.set_layout_engine("none")
     figure.savefig(
         buffer,
         format="svg",
@@ -102,7 +109,8 @@ def svg_of(figure: Figure) -> str:
     text = re.sub(r"\n\s*", "\n", text)
     for colour, variable in VARIABLES.items():
         text = text.replace(colour, variable)
-    return text
+    numbers = Curves.of(figure, VARIABLES) if curves else None
+    return text if numbers is None else text.replace("</svg>", numbers.element + "</svg>")
 
 
 def legend(figure: Figure, panel: Axes, columns: int) -> None:
@@ -119,13 +127,35 @@ def legend(figure: Figure, panel: Axes, columns: int) -> None:
 
 
 def plain_logarithm(axis: Axis) -> None:
-    """Numbers without powers; 1, 2, 5 where less than two decades are seen, else decades."""
-    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+    """Numbers without powers; 1, 2, 5 where less than two decades are seen, else decades.
+
+    The marks between them are drawn as one line: as ticks, each a dozen objects, they would take
+    longer than all else in a picture. So this comes last, when the limits are what they will be.
+    """
+    from matplotlib.lines import Line2D
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
     low, high = axis.get_view_interval()
     axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if high < 100 * low else (1.0,)))
     axis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}"))
-    axis.set_minor_formatter(NullFormatter())
+    axis.set_minor_locator(NullLocator())
+    decades = 10.0 ** np.arange(np.floor(np.log10(low)), np.ceil(np.log10(high)))
+    marks = np.outer(decades, np.arange(2, 10)).ravel()
+    marks = marks[(marks >= low) & (marks <= high)]
+    panel, across = axis.axes, axis.axis_name == "x"
+    places = (marks, np.zeros(len(marks)))
+    panel.add_artist(
+        Line2D(
+            *(places if across else places[::-1]),
+            linestyle="none",
+            marker=3 if across else 0,  # TICKDOWN, TICKLEFT
+            markersize=2,
+            markeredgewidth=0.6,
+            color=INK,
+            clip_on=False,
+            transform=panel.get_xaxis_transform() if across else panel.get_yaxis_transform(),
+        )
+    )
 
 
 def unit_of_time(duration: float) -> tuple[float, str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -14,6 +15,7 @@ from latex2mathml.converter import convert as latex_to_mathml
 from markupsafe import Markup, escape
 
 from pyimu.errors import Finding
+from pyimu.report.curves import METADATA, Curves
 from pyimu.report.findings import detail
 from pyimu.report.numbers import MISSING, in_unit, number, pretty, si_quantity, unit_for
 
@@ -35,14 +37,29 @@ class Picture:
     alt: str
     small: bool = False
 
+    @property
+    def drawn(self) -> Markup:
+        """The SVG without the numbers of its curves."""
+        return Markup(METADATA.sub("", self.svg))
+
+    @property
+    def curves(self) -> Curves | None:
+        """Its curves as numbers, None where it was drawn without."""
+        found = METADATA.search(self.svg)
+        return None if found is None else Curves(html.unescape(found[1]), found[2])
+
+    @property
+    def file(self) -> str:
+        """Name of the file that its curves are downloaded as."""
+        return "_".join(re.findall(r"\w+", self.alt)) + ".csv"
+
 
 @lru_cache(maxsize=4)
 def templates(package: str) -> Environment:
     """The templates of a package; ``page.html`` is what their pages extend."""
+    own = [PackageLoader("pyimu.report", folder) for folder in ("templates", "vendor")]
     return Environment(
-        loader=ChoiceLoader(
-            [PackageLoader(package, "templates"), PackageLoader("pyimu.report", "templates")]
-        ),
+        loader=ChoiceLoader([PackageLoader(package, "templates"), *own]),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,

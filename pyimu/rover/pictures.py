@@ -31,7 +31,7 @@ def over_time(o: RoverOutcome, r: DriveRuns) -> str:
                 panel.axvline(limit, color=GREY, lw=0.7, ls=(0, (2, 2)))
         panels[-1].set_xlabel("time [s]")
         legend(figure, panels[0], 4)
-        return svg_of(figure)
+        return svg_of(figure, curves=True)
 
 
 def errors_picture(o: RoverOutcome) -> str:
@@ -57,4 +57,4 @@ def errors_picture(o: RoverOutcome) -> str:
         for panel in panels[len(o.runs) :]:
             panel.set_visible(False)
         legend(figure, panels[0], 3)
-        return svg_of(figure)
+        return svg_of(figure, curves=True)

@@ -10,41 +10,31 @@ by Van Loan's method. ``describe`` puts both together in a ``NoiseModel``::
     model.poles, model.psd_two_sided(f), model.allan_deviation(tau), model.stationary_covariance
 
 Densities here are two-sided: white noise N has the density N^2 at every frequency of either sign.
+Each name is loaded when it is first used: what needs only a closed form does without
+python-control, which takes as long to load as an Allan deviation of a million samples.
 """
 
-from pyimu.shaping.allan import allan_deviation
-from pyimu.shaping.closed import (
-    angle_quantization_deviation,
-    flicker_floor,
-    gauss_markov_deviation,
-    ramp_deviation,
-    random_walk_deviation,
-    white_deviation,
-)
-from pyimu.shaping.continuous import (
-    continuous_filter,
-    discretise,
-    spectral_factor,
-    transfer_function,
-)
-from pyimu.shaping.model import NOISE_LIKE, NoiseModel, describe
-from pyimu.shaping.sampled import psd_two_sided, shaping_filter
+import lazy_loader
 
-__all__ = [
-    "NOISE_LIKE",
-    "NoiseModel",
-    "allan_deviation",
-    "angle_quantization_deviation",
-    "continuous_filter",
-    "describe",
-    "discretise",
-    "flicker_floor",
-    "gauss_markov_deviation",
-    "psd_two_sided",
-    "ramp_deviation",
-    "random_walk_deviation",
-    "shaping_filter",
-    "spectral_factor",
-    "transfer_function",
-    "white_deviation",
-]
+__getattr__, __dir__, __all__ = lazy_loader.attach(
+    __name__,
+    submod_attrs={
+        "allan": ["allan_deviation"],
+        "closed": [
+            "angle_quantization_deviation",
+            "flicker_floor",
+            "gauss_markov_deviation",
+            "ramp_deviation",
+            "random_walk_deviation",
+            "white_deviation",
+        ],
+        "continuous": [
+            "continuous_filter",
+            "discretise",
+            "spectral_factor",
+            "transfer_function",
+        ],
+        "model": ["NOISE_LIKE", "NoiseModel", "describe"],
+        "sampled": ["psd_two_sided", "shaping_filter"],
+    },
+)

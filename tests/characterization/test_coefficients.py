@@ -104,6 +104,24 @@ def test_moments_are_those_of_quadratic_forms(strengths, ramp):
     )
 
 
+@pytest.mark.parametrize("time", (0.7, 4.0, 400.0))
+def test_moments_of_gauss_markov_noise_are_those_of_quadratic_forms(time):
+    """By whole matrices, white noise and Gauss-Markov noise of the autocovariance a^|u|.
+
+    What cancels in the closed form, by the square of the correlation time, is rounding.
+    """
+    sizes, rows = np.array([1, 2, 3, 5, 8, 13, 20, 30]), np.arange(60)
+    autocovariance = np.exp(-np.abs(rows[:, None] - rows) / time)
+    factor = np.hstack([np.eye(60), 2 * np.linalg.cholesky(autocovariance)])
+    mean, covariance = by_traces(factor, sizes, np.zeros(60))
+    squares = np.array([0.0, 1.0, 0.0, 0.0, 0.0, 4.0])
+    got = moments(sizes, 60, (time,))
+    np.testing.assert_allclose(got.design @ squares, mean, rtol=1e-14 * time**2 + 1e-11)
+    np.testing.assert_allclose(
+        got.covariance(squares), covariance, rtol=1e-9, atol=1e-12 * covariance.max()
+    )
+
+
 @pytest.mark.parametrize(
     "term, psd",
     (

@@ -98,7 +98,7 @@ def _drawn(rows: int, height: float, draw, a: Outcome, columns: int) -> str:
         panels[-1].set_xlabel(f"time [{unit_of_time(a.duration)[1]}]")
         if columns:
             legend(figure, panels[0], columns)
-        return svg_of(figure)
+        return svg_of(figure, curves=True)
 
 
 # What a panel shows

@@ -248,8 +248,8 @@ def _modified_sums(s: np.ndarray, m: np.ndarray) -> np.ndarray:
 def _fill_modified(s, m, squares):
     """Fill ``squares`` (t,) with the sums of squares of the modified Allan variance.
 
-    The inner sum moves on by a third difference of S; it is compensated, because it moves through
-    the whole record.
+    The inner sum moves on by a third difference of S. It moves through the whole record, so it and
+    the sum of its squares are compensated, a tile at a time: within one, rounding does not add up.
     """
     for i in range(len(m)):
         n = m[i]
@@ -257,12 +257,22 @@ def _fill_modified(s, m, squares):
         for k in range(n):
             z += _second(s[k], s[k + n], s[k + 2 * n])
         total, missing = z * z, 0.0
-        for k in range(len(s) - 3 * n):
-            step = _second(s[k + n], s[k + 2 * n], s[k + 3 * n]) - _second(
-                s[k], s[k + n], s[k + 2 * n]
-            )
-            z, rounded = _two_sum(z, step)
+        for start in range(0, len(s) - 3 * n, TILE):
+            moved, squared = _moved(s, start, n, min(TILE, len(s) - 3 * n - start), z + lost)
+            z, rounded = _two_sum(z, moved)
             lost += rounded
-            total, rounded = _two_sum(total, (z + lost) ** 2)
+            total, rounded = _two_sum(total, squared)
             missing += rounded
         squares[i] = total + missing
+
+
+@njit(cache=True, nogil=True)
+def _moved(s, start, n, count, z):
+    """How far the inner sum moves in ``count`` steps from ``z``, and the sum of its squares."""
+    a, b = s[start : start + count], s[start + n : start + n + count]
+    c, d = s[start + 2 * n : start + 2 * n + count], s[start + 3 * n : start + 3 * n + count]
+    moved, squared = 0.0, 0.0
+    for k in range(count):
+        moved += _second(b[k], c[k], d[k]) - _second(a[k], b[k], c[k])
+        squared += (z + moved) ** 2
+    return moved, squared

@@ -5,9 +5,14 @@ sample, has for each term a generalised covariance G(u) of lag u samples:
 
     Q^2 [u = 0],    -N^2 |u| / 2,    B^2 / (2 pi) u^2 ln|u|,    K^2 (|u|^3 - |u|) / 12
 
-in units in which the sample period is one (an intrinsic random function: Matheron, Adv. Appl.
-Probab. 5 (1973), 439-468). That of flicker belongs to a density B^2 / (2 pi f) at all frequencies,
-the others are exact for samples. The estimate for clusters of m is the mean of the squares of d_j,
+and, for Gauss-Markov noise of standard deviation s with a = exp(-1 / T), T its correlation time,
+
+    -s^2 a^(1 + |u|) / (1 - a)^2 - s^2 (1 + a) / (1 - a) |u| / 2
+
+whose second difference is minus its autocovariance s^2 a^|u|. All are in units in which the sample
+period is one (an intrinsic random function: Matheron, Adv. Appl. Probab. 5 (1973), 439-468). That
+of flicker belongs to a density B^2 / (2 pi f) at all frequencies, the others are exact for samples.
+The estimate for clusters of m is the mean of the squares of d_j,
 the second differences of that sum over sqrt(2) m. The differences for clusters of m and m', at
 places u apart (from centre to centre), have the covariance
 
@@ -23,7 +28,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import pairwise
 
 import numpy as np
@@ -31,6 +36,13 @@ from scipy.special import xlogy
 
 TERMS = "QNBKR"
 """Quantization, angle random walk, bias instability, rate random walk, rate ramp (IEEE Std 952)."""
+
+MARKOV = "GH"
+"""Gauss-Markov noise, at most two of it, where it is looked for: behind the five, by its standard
+deviation."""
+
+RAMP = TERMS.index("R")
+"""The one that is no noise."""
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
 
@@ -47,9 +59,10 @@ it falls with the square of the lag."""
 class AllanMoments:
     """Means and covariances of the Allan variances at cluster sizes ``m`` (t,).
 
-    They follow from the squares (5,) of the coefficients of ``TERMS``, for a sample period of one:
-    the means through ``design`` (t, 5), the covariances through ``products`` (4, 4, t, t) and
-    ``sums`` (4, t, t).
+    They follow from the squares (k,) of the coefficients, for a sample period of one: the means
+    through ``design`` (t, k), the covariances through ``products`` (k - 1, k - 1, t, t) and
+    ``sums`` (k - 1, t, t), in which the ramp is left out. The first five are those of ``TERMS``,
+    the others variances of Gauss-Markov noise.
     """
 
     m: np.ndarray
@@ -58,45 +71,62 @@ class AllanMoments:
     sums: np.ndarray
 
     def covariance(self, squares: np.ndarray) -> np.ndarray:
-        """Covariance (t, t) of the Allan variances of noise with these squares (5,)."""
-        noise = squares[:4]
-        spread = np.einsum("i,j,ijab->ab", noise, noise, self.products)
-        return 2 * spread + 2 * squares[4] * np.outer(self.m, self.m) * np.einsum(
-            "i,iab->ab", noise, self.sums
+        """Covariance (t, t) of the Allan variances of noise with these squares (k,)."""
+        noise = np.delete(squares, RAMP)
+        there = np.flatnonzero(noise)
+        noise, products = noise[there], self.products[np.ix_(there, there)]
+        spread = np.einsum("i,j,ijab->ab", noise, noise, products)
+        return 2 * spread + 2 * squares[RAMP] * np.outer(self.m, self.m) * np.einsum(
+            "i,iab->ab", noise, self.sums[there]
         )
 
 
-def moments(clusters: np.ndarray, n: int) -> AllanMoments:
+def moments(clusters: np.ndarray, n: int, times: tuple[float, ...] = ()) -> AllanMoments:
     """The moments for a record of ``n`` samples at cluster sizes (t,).
 
+    ``times`` are the correlation times of Gauss-Markov noise beside the five terms, in samples.
     Raises ValueError for a cluster size that is no whole number from 1 to n / 2.
     """
     m = np.atleast_1d(clusters)
     if np.any(m != np.floor(m)) or np.any(m < 1) or np.any(2 * m > n):
         raise ValueError(f"cluster sizes must be whole numbers from 1 to {n // 2} for {n} samples")
-    return _moments(tuple(int(k) for k in m), int(n))
+    return _moments(tuple(int(k) for k in m), int(n), tuple(times))
 
 
 @lru_cache(maxsize=16)
-def _moments(sizes: tuple[int, ...], n: int) -> AllanMoments:
+def _moments(sizes: tuple[int, ...], n: int, times: tuple[float, ...]) -> AllanMoments:
     t, m = len(sizes), np.array(sizes, dtype=float)
-    products, sums = np.empty((4, 4, t, t)), np.empty((4, t, t))
+    markov = partial(_gauss_markov, time=np.array(times)[:, None])
+    k = len(SECOND_DIFFERENCES) + len(times)
+    products, sums = np.empty((k, k, t, t)), np.empty((k, t, t))
     for a in range(t):
         for b in range(a, t):
             u, weight = _lags(min(sizes[a], sizes[b]), max(sizes[a], sizes[b]), n)
             r = np.array([_cross(second, u, m[a], m[b]) for second in SECOND_DIFFERENCES])
+            if times:
+                r = np.vstack([r, _cross(markov, u, m[a], m[b])])
             products[:, :, a, b] = products[:, :, b, a] = (r * weight) @ r.T
             sums[:, a, b] = sums[:, b, a] = r @ weight
-    return AllanMoments(m, design(m), products, sums)
+    return AllanMoments(m, design(m, times), products, sums)
 
 
-def design(m: np.ndarray) -> np.ndarray:
-    """Allan variances (t, 5) of the terms with coefficients of one, for clusters of m (t,) samples.
+def design(m: np.ndarray, times: tuple[float, ...] = ()) -> np.ndarray:
+    """Allan variances (t, 5 + k) of the terms with coefficients of one, for clusters of m (t,)
+    samples.
 
-    The sample period is one (Hidalgo 2012, table 3; the random walk's as its samples have it).
+    The sample period is one (Hidalgo 2012, table 3; the random walk's as its samples have it). The
+    k last are those of Gauss-Markov noise of these correlation ``times``.
     """
     flat = np.full(np.shape(m), 2 * np.log(2) / np.pi)
-    return np.column_stack([3 / m**2, 1 / m, flat, m / 3 + 1 / (6 * m), m**2 / 2])
+    five = (3 / m**2, 1 / m, flat, m / 3 + 1 / (6 * m), m**2 / 2)
+    return np.column_stack([*five, *(_markov_variance(m, time) for time in times)])
+
+
+def _markov_variance(m: np.ndarray, time: float) -> np.ndarray:
+    """R(0) of Gauss-Markov noise, its Allan variances (t,)."""
+    m = np.asarray(m, dtype=float)
+    far, middle = (_gauss_markov(u, m, time) for u in (m, 0 * m))
+    return (far - middle) / m**2
 
 
 def _lags(m: int, wide: int, n: int) -> tuple[np.ndarray, np.ndarray]:
@@ -156,6 +186,16 @@ def _random_walk(u: np.ndarray, m: float) -> np.ndarray:
     far = np.abs(u)
     cube = np.where(far >= m, 6 * far * m**2, 2 * m**3 + 6 * m * u**2 - 2 * far**3)
     return cube / 12 + _white(u, m) / 6
+
+
+def _gauss_markov(u: np.ndarray, m: float, time: float | np.ndarray) -> np.ndarray:
+    a, lost = np.exp(-1 / time), -np.expm1(-1 / time)
+    far = np.abs(u)
+    hump = sum(
+        weight * np.expm1(-size / time)
+        for weight, size in ((1, abs(u + m)), (-2, far), (1, abs(u - m)))
+    )
+    return (1 + a) / lost * _white(u, m) - a / lost**2 * hump
 
 
 SECOND_DIFFERENCES = (_quantization, _white, _flicker, _random_walk)

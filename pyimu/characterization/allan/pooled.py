@@ -16,7 +16,7 @@ from functools import lru_cache
 import numpy as np
 
 from pyimu.characterization.allan.deviation import overlapping_deviation
-from pyimu.characterization.allan.moments import AllanMoments, moments
+from pyimu.characterization.allan.moments import RAMP, AllanMoments, moments
 
 Deviation = Callable[[np.ndarray, np.ndarray], np.ndarray]
 """Rates (n,) and cluster sizes (t,) to deviations (t,)."""
@@ -84,19 +84,24 @@ def pooled_deviation(
 
 
 @lru_cache(maxsize=8)
-def pooled_moments(m: tuple[int, ...], lengths: tuple[int, ...]) -> AllanMoments:
-    """Moments at cluster sizes ``m`` of Allan variances pooled over segments of these lengths."""
+def pooled_moments(
+    m: tuple[int, ...], lengths: tuple[int, ...], times: tuple[float, ...] = ()
+) -> AllanMoments:
+    """Moments at cluster sizes ``m`` of Allan variances pooled over segments of these lengths.
+
+    ``times`` are those of ``moments``.
+    """
     sizes = np.array(m)
     if len(lengths) == 1:
-        return moments(sizes, lengths[0])
+        return moments(sizes, lengths[0], times)
     alike = Counter(lengths)
     share = differences(sizes, list(alike)) / differences(sizes, lengths).sum(axis=0)
-    t, design = len(sizes), None
-    products, sums = np.zeros((4, 4, t, t)), np.zeros((4, t, t))
+    t, k, design = len(sizes), 4 + len(times), None
+    products, sums = np.zeros((k, k, t, t)), np.zeros((k, t, t))
     for weight, (n, count) in zip(share, alike.items(), strict=True):
         fits = np.flatnonzero(2 * sizes <= n)
         if len(fits):
-            one, both = moments(sizes[fits], n), np.ix_(fits, fits)
+            one, both = moments(sizes[fits], n, times), np.ix_(fits, fits)
             pair = count * np.outer(weight[fits], weight[fits])
             products[(slice(None), slice(None), *both)] += pair * one.products
             sums[(slice(None), *both)] += pair * one.sums
@@ -106,13 +111,16 @@ def pooled_moments(m: tuple[int, ...], lengths: tuple[int, ...]) -> AllanMoments
 
 @lru_cache(maxsize=8)
 def freedom_parts(
-    m: tuple[int, ...], lengths: tuple[int, ...]
+    m: tuple[int, ...], lengths: tuple[int, ...], times: tuple[float, ...] = ()
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The moments of each cluster size by itself.
 
-    They are ``design`` (t, 5), and the diagonals (t, 4, 4) of ``products`` and (t, 4) of ``sums``.
+    They are ``design`` (t, k), and the diagonals (t, k - 1, k - 1) of ``products`` and (t, k - 1)
+    of ``sums``.
     """
-    each = [pooled_moments.__wrapped__((k,), tuple(n for n in lengths if n >= 2 * k)) for k in m]
+    each = [
+        pooled_moments.__wrapped__((k,), tuple(n for n in lengths if n >= 2 * k), times) for k in m
+    ]
     return (
         np.concatenate([e.design for e in each]),
         np.array([e.products[:, :, 0, 0] for e in each]),
@@ -120,14 +128,19 @@ def freedom_parts(
     )
 
 
-def equivalent_freedom(m: np.ndarray, lengths: Sequence[int], squares: np.ndarray) -> np.ndarray:
+def equivalent_freedom(
+    m: np.ndarray, lengths: Sequence[int], squares: np.ndarray, times: tuple[float, ...] = ()
+) -> np.ndarray:
     """Equivalent degrees of freedom (t,), 2 mean^2 / variance, of pooled Allan variances.
 
-    ``squares`` (5,) are those of the coefficients of the noise, for a sample period of one.
+    ``squares`` (k,) are those of the coefficients of the noise, for a sample period of one, with
+    the variances of Gauss-Markov noise of correlation ``times`` behind those of the five terms.
     Flicker and a random walk make long clusters depend on each other more than white noise does; a
     ramp, which is no noise, does not count.
     """
-    design, products, _ = freedom_parts(tuple(int(k) for k in m), tuple(int(n) for n in lengths))
-    noise = squares[:4]
-    mean = design[:, :4] @ noise
+    design, products, _ = freedom_parts(
+        tuple(int(k) for k in m), tuple(int(n) for n in lengths), times
+    )
+    noise = np.delete(squares, RAMP)
+    mean = np.delete(design, RAMP, axis=1) @ noise
     return mean**2 / np.einsum("i,j,tij->t", noise, noise, products)

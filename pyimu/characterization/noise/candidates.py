@@ -67,12 +67,6 @@ class Candidate:
         """Degrees of freedom of the residuals."""
         return len(self.problem.measured) - len(self.terms) - self.problem.nuisance.shape[1]
 
-    def granted(self, error: float) -> Candidate:
-        """The same fit with a relative error of the five terms."""
-        return replace(
-            self, problem=replace(self.problem, moments=replace(self.problem.moments, error=error))
-        )
-
 
 def choose(m: np.ndarray, measured: np.ndarray, lengths: Sequence[int], lines: Groups) -> Candidate:
     """The first of the candidates that describes its clusters.
@@ -136,14 +130,22 @@ def _candidate(
 
 
 def _with_error(candidate: Candidate) -> Candidate:
-    """The candidate with the relative error of the five terms that its misfit requires."""
+    """The candidate with the relative error of its terms that its misfit requires."""
+    return replace(candidate, problem=loosened(candidate.problem, candidate.terms))
+
+
+def loosened(problem: Problem, terms: Sequence[int]) -> Problem:
+    """The problem with the relative error that the misfit of the fit of these terms requires."""
+    freedom = max(len(problem.measured) - len(terms) - problem.nuisance.shape[1], 1)
+
+    def granted(error: float) -> Problem:
+        return replace(problem, moments=replace(problem.moments, error=error))
 
     def excess(logarithm: float) -> float:
-        return candidate.granted(float(np.exp(logarithm))).misfit - max(candidate.freedom, 1)
+        one = granted(float(np.exp(logarithm)))
+        return one.misfit(one.fit(terms)) - freedom
 
     low, high = np.log(1e-4), np.log(WIDEST)
     if excess(high) >= 0:
-        return candidate.granted(WIDEST)
-    return candidate.granted(
-        float(np.exp(low if excess(low) <= 0 else brentq(excess, low, high, xtol=0.02)))
-    )
+        return granted(WIDEST)
+    return granted(float(np.exp(low if excess(low) <= 0 else brentq(excess, low, high, xtol=0.02))))

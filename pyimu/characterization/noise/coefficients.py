@@ -39,9 +39,9 @@ import numpy as np
 from scipy.stats import chi2, norm
 from scipy.stats import t as t_law
 
-from pyimu.characterization.allan.moments import TERMS, design, moments
+from pyimu.characterization.allan.moments import MARKOV, RAMP, TERMS, design, moments
 from pyimu.characterization.estimate import Estimate
-from pyimu.characterization.noise.least_squares import RAMP, Problem
+from pyimu.characterization.noise.least_squares import Problem, has_noise
 from pyimu.errors import UserError
 
 
@@ -66,7 +66,9 @@ class NoiseFit:
     ``estimates`` are the values of the terms that make up the fitted curve, including those that
     others might replace and that only have a bound for this reason; ``covariance`` (k, k) is
     theirs, in their order. ``misfit`` is the weighted sum of squared residuals of the fit; its mean
-    is ``freedom`` where the noise has the terms asked for and no other. ``sample_period`` is in s.
+    is ``freedom`` where the noise has the terms asked for and no other. ``sample_period`` is in s,
+    and so are the correlation ``times`` (g,) of Gauss-Markov noise, whose coefficients are its
+    standard deviations.
     """
 
     coefficients: Mapping[str, Coefficient]
@@ -75,6 +77,7 @@ class NoiseFit:
     misfit: float
     freedom: int
     sample_period: float
+    times: tuple[float, ...]
 
     def __getitem__(self, term: str) -> Coefficient:
         return self.coefficients[term]
@@ -90,11 +93,20 @@ class NoiseFit:
         return "".join(t for t in self.estimates if not self[t].needed)
 
     @property
+    def letters(self) -> str:
+        """Letters of the terms that the fit may have."""
+        return TERMS + MARKOV[: len(self.times)]
+
+    @property
     def squares(self) -> np.ndarray:
-        """Squares (5,) of the estimates for a sample period of one."""
-        return np.array([self.estimates.get(t, 0.0) for t in TERMS]) ** 2 / si_factors(
-            self.sample_period
-        )
+        """Squares (k,) of the estimates for a sample period of one."""
+        estimates = np.array([self.estimates.get(t, 0.0) for t in self.letters])
+        return estimates**2 / si_factors(self.sample_period, len(self.times))
+
+    @property
+    def times_in_samples(self) -> tuple[float, ...]:
+        """The correlation times in sample periods."""
+        return tuple(time / self.sample_period for time in self.times)
 
     def variance(self, tau: np.ndarray) -> np.ndarray:
         """Allan variance (n,) of the fitted noise at cluster times (n,) s."""
@@ -105,11 +117,11 @@ class NoiseFit:
         return np.sqrt(self.variance(tau))
 
     def term_variances(self, tau: np.ndarray) -> np.ndarray:
-        """Allan variances (n, 5) of each of ``TERMS`` by itself at cluster times (n,) s."""
+        """Allan variances (n, k) of each of ``letters`` by itself at cluster times (n,) s."""
         return self._design(tau) * self.squares
 
     def _design(self, tau: np.ndarray) -> np.ndarray:
-        return design(np.asarray(tau, dtype=float) / self.sample_period)
+        return design(np.asarray(tau, dtype=float) / self.sample_period, self.times_in_samples)
 
 
 def fit_coefficients(
@@ -154,22 +166,34 @@ LOST = 5.0
 noise from one degree of freedom has 1.4 times."""
 
 
-def si_factors(h: float) -> np.ndarray:
-    """Factors (5,) of the squares of coefficients from a sample period of one to one of h s."""
-    return float(h) ** np.array([2, 1, 0, -1, -2])
+def si_factors(h: float, markov: int = 0) -> np.ndarray:
+    """Factors (k,) of the squares of coefficients from a sample period of one to one of h s.
 
-
-def solve(problem: Problem, chosen: list[int], si: np.ndarray, h: float, level: float) -> NoiseFit:
-    """The fit of a problem with the ``chosen`` terms, given as indices of ``TERMS``.
-
-    ``si`` (5,) converts squares in the units of the problem to those of coefficients in SI.
-    Raises UserError where the record has no noise.
+    So many of ``markov``, which are standard deviations, stand behind those of ``TERMS``.
     """
-    kept = problem.needed(chosen)
+    return float(h) ** np.array([2, 1, 0, -1, -2, *[0] * markov])
+
+
+def solve(
+    problem: Problem,
+    chosen: list[int],
+    si: np.ndarray,
+    h: float,
+    level: float,
+    kept: list[int] | None = None,
+    times: tuple[float, ...] = (),
+) -> NoiseFit:
+    """The fit of a problem with the ``chosen`` terms, given as indices of ``TERMS`` + ``MARKOV``.
+
+    ``si`` (k,) converts squares in the units of the problem to those of coefficients in SI.
+    ``kept`` are the terms that are needed, None to find out; ``times`` [s] those of the
+    Gauss-Markov terms. Raises UserError where the record has no noise.
+    """
+    kept = problem.needed(chosen) if kept is None else kept
     squares = problem.fit(kept)
     covariance = (
         problem.covariance(kept, squares)
-        if np.any(squares[:RAMP])
+        if has_noise(squares)
         else np.full((len(kept), len(kept)), np.inf)
     )
     stds = dict(zip(kept, np.sqrt(np.diag(covariance)), strict=True))
@@ -182,13 +206,12 @@ def solve(problem: Problem, chosen: list[int], si: np.ndarray, h: float, level: 
             if i in kept
             else (0.0, problem.bound(i, kept, squares, level))
         )
-        found[TERMS[i]] = _coefficient(squares[i], stds.get(i), interval, np.sqrt(si[i]))
-    estimates = {TERMS[i]: float(np.sqrt(squares[i] * si[i])) for i in kept}
+        found[(TERMS + MARKOV)[i]] = _coefficient(squares[i], stds.get(i), interval, np.sqrt(si[i]))
+    estimates = {(TERMS + MARKOV)[i]: float(np.sqrt(squares[i] * si[i])) for i in kept}
     slope = np.sqrt(si[kept] / squares[kept]) / 2
     freedom = len(problem.measured) - len(kept) - problem.nuisance.shape[1]
-    return NoiseFit(
-        found, estimates, covariance * np.outer(slope, slope), problem.misfit(squares), freedom, h
-    )
+    covariance, misfit = covariance * np.outer(slope, slope), problem.misfit(squares)
+    return NoiseFit(found, estimates, covariance, misfit, freedom, h, times)
 
 
 def _coefficient(

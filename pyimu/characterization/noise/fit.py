@@ -17,6 +17,10 @@ coefficient. So the fit allows for it:
   and leaves the same 1 / tau^2 beyond. So where terms and lines do not describe all clusters, the
   shortest are left out of the fit, as many as necessary.
 
+* **A drift that stops growing**, such as that of an accelerometer that follows the temperature of a
+  room: Gauss-Markov noise of one or two correlation times, where the likelihood of the variances
+  asks for it (``ranking``, which also decides between flicker and a random walk).
+
 * **Anything else**. Where a misfit remains, each Allan variance is granted an independent relative
   error of the five terms, as large as the misfit requires: the mean of the weighted sum of squares
   is then its degrees of freedom. Intervals widen by that, and it is reported.
@@ -29,12 +33,30 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pyimu.characterization.allan.moments import TERMS
+from pyimu.characterization.allan.moments import MARKOV, TERMS
 from pyimu.characterization.noise.candidates import choose
 from pyimu.characterization.noise.coefficients import Coefficient, NoiseFit, si_factors, solve
-from pyimu.characterization.noise.least_squares import Problem
+from pyimu.characterization.noise.ranking import Model, rank
 from pyimu.characterization.noise.sines import Groups, Sine, free_variances, relevant
 from pyimu.errors import UserError
+
+
+@dataclass(frozen=True)
+class GaussMarkov:
+    """Gauss-Markov noise of a channel: its standard deviation ``sigma`` in the unit of the samples.
+
+    ``time`` [s] is its correlation time, ``spread`` the standard error of that time's logarithm
+    (nan where the data do not tell); the interval of ``sigma`` is for this time.
+    """
+
+    sigma: Coefficient
+    time: float
+    spread: float
+
+    @property
+    def drive(self) -> float:
+        """Root q of the two-sided density of the noise that drives it, unit/sqrt(s)."""
+        return self.sigma.value * np.sqrt(2 / self.time)
 
 
 @dataclass(frozen=True)
@@ -43,13 +65,26 @@ class ChannelFit(NoiseFit):
 
     ``free`` (k,) are the strengths of the groups of ``lines`` and, last, of the free term 1 / m^2,
     if there is one. ``shortest`` [s] is the first cluster time that was fitted; ``model_error`` is
-    the relative error of an Allan variance that the five terms had to be granted.
+    the relative error of an Allan variance that the terms had to be granted. ``models`` are those
+    that were compared, the one taken first; ``spread`` (g,) is the standard error of the logarithm
+    of each correlation time.
     """
 
     free: np.ndarray
     lines: Groups
     shortest: float
     model_error: float
+    models: tuple[Model, ...]
+    spread: tuple[float, ...]
+
+    @property
+    def markov(self) -> tuple[GaussMarkov, ...]:
+        """The Gauss-Markov noise, slowest first."""
+        found = (
+            GaussMarkov(self[letter], time, spread)
+            for letter, time, spread in zip(MARKOV, self.times, self.spread, strict=False)
+        )
+        return tuple(sorted(found, key=lambda g: -g.time))
 
     @property
     def filtered(self) -> bool:
@@ -76,13 +111,19 @@ class ChannelFit(NoiseFit):
     def psd_two_sided(self, f: np.ndarray) -> np.ndarray:
         """Two-sided density (m,) of the samples, unit^2/Hz, at ``f`` (m,) > 0 in Hz.
 
-        It is that of Q, N, B and K (Hidalgo 2012, table 3), without the ramp and what was left
-        free.
+        It is that of Q, N, B and K (Hidalgo 2012, table 3) and of Gauss-Markov noise, without the
+        ramp and what was left free.
         """
         f, h = np.asarray(f, dtype=float), self.sample_period
         Q, N, B, K = (self.estimates.get(t, 0.0) for t in "QNBK")
         slope = 2 * np.sin(np.pi * np.minimum(f * h, 0.5)) / h
-        return N**2 + B**2 / (2 * np.pi * f) + (K / slope) ** 2 + (Q * slope) ** 2 * h
+        density = N**2 + B**2 / (2 * np.pi * f) + (K / slope) ** 2 + (Q * slope) ** 2 * h
+        for letter, time in zip(MARKOV, self.times, strict=False):
+            # 1 - 2 a cos x + a^2 is (1 - a)^2 + a (2 sin(x / 2))^2, which does not cancel.
+            a, lost = np.exp(-h / time), -np.expm1(-h / time)
+            variance = self.estimates.get(letter, 0.0) ** 2
+            density = density + variance * h * lost * (1 + a) / (lost**2 + a * (slope * h) ** 2)
+        return density
 
 
 def fit_noise(
@@ -112,7 +153,11 @@ def fit_noise(
     sines = [Sine(f * h, spread * h, a**2 / unit) for f, spread, a in lines]
     groups = relevant(m, measured / unit, sines)
     found = choose(m, measured / unit, lengths, groups)
-    fit = solve(found.problem, found.terms, unit * si_factors(h), h, level)
+    best = rank(found.problem, found.problem.needed(found.terms), lengths)
+    times = tuple(float(time) * h for time in best.times)
+    si = unit * si_factors(h, len(times))
+    chosen = sorted({*found.terms, *best.kept})
+    fit = solve(best.problem, chosen, si, h, level, best.kept, times)
     if "Q" not in fit.coefficients:
         # The other terms only add to the variance that quantization alone would make.
         bound = float(np.min(np.sqrt(measured / 3) * m * h))
@@ -120,19 +165,10 @@ def fit_noise(
         fit = replace(fit, coefficients=quantization | dict(fit.coefficients))
     return ChannelFit(
         **vars(fit),
-        free=unit * _strengths(found.problem, fit, unit),
+        free=unit * best.problem.strengths(fit.squares / unit),
         lines=found.lines,
         shortest=float(found.problem.moments.m[0] * h),
-        model_error=found.problem.moments.error,
+        model_error=best.problem.moments.error,
+        models=best.models,
+        spread=best.spread,
     )
-
-
-def _strengths(problem: Problem, fit: NoiseFit, unit: float) -> np.ndarray:
-    """The best estimates (k,) of the strengths of what was left free, given the coefficients."""
-    squares = fit.squares / unit
-    root = np.linalg.cholesky(problem.moments.covariance(squares))
-    left = np.linalg.solve(
-        root,
-        np.column_stack([problem.nuisance, problem.measured - problem.moments.design @ squares]),
-    )
-    return np.linalg.lstsq(left[:, :-1], left[:, -1], rcond=None)[0]

@@ -13,14 +13,11 @@ from scipy.linalg import cho_factor, cho_solve
 from scipy.optimize import nnls
 from scipy.stats import chi2, gamma, norm
 
-from pyimu.characterization.allan.moments import TERMS, AllanMoments
+from pyimu.characterization.allan.moments import RAMP, AllanMoments
 
 CHANCE = 1e-3
 """A term is needed where noise without it would, with at most this probability, look as if it had
 as much of it."""
-
-RAMP = TERMS.index("R")
-"""The terms before it are noise."""
 
 ROUNDS, CLOSE = 40, 1e-6
 """The most repetitions, and the relative change that ends them."""
@@ -30,8 +27,9 @@ ROUNDS, CLOSE = 40, 1e-6
 class Problem:
     """Allan variances ``measured`` (t,) to fit, and their moments.
 
-    Squares of coefficients are (5,), for a sample period of one. ``nuisance`` (t, k) are columns of
-    which any amount, of any sign, may be in the variances: they are projected out of the fit.
+    Squares of coefficients are (k,), for a sample period of one, those of ``moments``.
+    ``nuisance`` (t, j) are columns of which any amount, of any sign, may be in the variances: they
+    are projected out of the fit.
     """
 
     moments: AllanMoments
@@ -43,32 +41,31 @@ class Problem:
             object.__setattr__(self, "nuisance", np.empty((len(self.measured), 0)))
 
     def fit(self, kept: Sequence[int]) -> np.ndarray:
-        """Squares (5,) of the terms ``kept``, none negative; those of the others are zero.
+        """Squares (k,) of the terms ``kept``, none negative; those of the others are zero.
 
         The weights are those of the noise with these squares.
         """
         root = np.diag(self.measured * np.sqrt(self.moments.m))
-        squares = np.zeros(len(TERMS))
+        squares = np.zeros(self.moments.design.shape[1])
         for _ in range(ROUNDS):
             before = squares
             squares = self._non_negative(kept, root)
-            if np.all(np.abs(squares - before) <= CLOSE * (squares + before)) or not np.any(
-                squares[:RAMP]
-            ):
+            settled = np.all(np.abs(squares - before) <= CLOSE * (squares + before))
+            if settled or not has_noise(squares):
                 break
             root = np.linalg.cholesky(self.moments.covariance(squares))
         return squares
 
     def _non_negative(self, kept: Sequence[int], root: np.ndarray) -> np.ndarray:
-        """Squares (5,) of the terms ``kept`` by least squares under the covariance root root^T."""
+        """Squares (k,) of the terms ``kept`` by least squares under the covariance root root^T."""
         # Not a triangular solve: libraries divide even such small ones among the processors, which
         # takes a hundred times longer.
         white = np.linalg.solve(
             root, np.column_stack([self.nuisance, self.moments.design[:, kept], self.measured])
         )
-        white = _without(white[:, : self.nuisance.shape[1]], white[:, self.nuisance.shape[1] :])
+        white = without(white[:, : self.nuisance.shape[1]], white[:, self.nuisance.shape[1] :])
         size = np.linalg.norm(white[:, :-1], axis=0)
-        squares = np.zeros(len(TERMS))
+        squares = np.zeros(self.moments.design.shape[1])
         squares[kept] = nnls(white[:, :-1] / size, white[:, -1])[0] / size
         return squares
 
@@ -92,11 +89,18 @@ class Problem:
 
     def misfit(self, squares: np.ndarray) -> float:
         """Weighted sum of squared residuals; infinite where the squares are those of no noise."""
-        if not np.any(squares[:RAMP]):
+        if not has_noise(squares):
             return np.inf
         left = np.column_stack([self.nuisance, self.measured - self.moments.design @ squares])
         white = np.linalg.solve(np.linalg.cholesky(self.moments.covariance(squares)), left)
-        return float(np.sum(_without(white[:, :-1], white[:, -1:]) ** 2))
+        return float(np.sum(without(white[:, :-1], white[:, -1:]) ** 2))
+
+    def strengths(self, squares: np.ndarray) -> np.ndarray:
+        """The best estimates (j,) of how much of each nuisance there is, given the squares."""
+        root = np.linalg.cholesky(self.moments.covariance(squares))
+        left = np.column_stack([self.nuisance, self.measured - self.moments.design @ squares])
+        white = np.linalg.solve(root, left)
+        return np.linalg.lstsq(white[:, :-1], white[:, -1], rcond=None)[0]
 
     def needed(self, chosen: Sequence[int]) -> list[int]:
         """The terms that remain when those not needed are dropped, the least needed first."""
@@ -119,7 +123,7 @@ class Problem:
         if squares[i] == 0:
             return 1.0
         others = self.fit([j for j in kept if j != i])
-        if not np.any(others[:RAMP]):
+        if not has_noise(others):
             return 0.0
         return 2 * min(self._tail(i, weights, others) for weights in (others, squares))
 
@@ -175,7 +179,7 @@ class Problem:
         clusters one is low by chance, so each counts with its share of the probability. A ramp is
         counted as a random walk.
         """
-        k = min(i, RAMP - 1)
+        k = i - 1 if i >= RAMP else i
         spread = np.diagonal(self.moments.products[k, k])
         freedom = self.moments.design[:, k] ** 2 / spread
         return float(
@@ -188,7 +192,12 @@ class Problem:
         )
 
 
-def _without(columns: np.ndarray, others: np.ndarray) -> np.ndarray:
+def has_noise(squares: np.ndarray) -> bool:
+    """Whether squares (k,) are those of some noise: a ramp is none."""
+    return bool(np.any(np.delete(squares, RAMP)))
+
+
+def without(columns: np.ndarray, others: np.ndarray) -> np.ndarray:
     """``others`` (t, k) less their projections on ``columns`` (t, j)."""
     if not columns.shape[1]:
         return others

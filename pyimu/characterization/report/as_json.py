@@ -47,11 +47,15 @@ def contents(c: Outcome) -> dict[str, Any]:
     and ``channels``: {``gyro_x`` ...: {``unit``, ``mean``, ``coefficients``, ``allan``:
     {``tau`` [s], ``deviation``, ``low``, ``high``, ``freedom``}, ``modified`` and ``hadamard``:
     {``tau``, ``deviation``}, ``fit``: {``shortest`` tau [s], ``model_error``, ``misfit``,
-    ``freedom``, ``terms`` of the curve, their ``estimates`` and ``covariance``}, ``floor``:
+    ``freedom``, ``terms`` of the curve, their ``estimates`` and ``covariance``}, ``gauss_markov``:
+    [coefficient of the standard deviation + {``correlation_time`` [s], ``correlation_time_spread``
+    of its logarithm}], ``models``: those compared, the one taken first [{``terms``,
+    ``correlation_times`` [s], ``log_likelihood`` and ``cost`` [nat], ``model_error``}], ``floor``:
     {``deviation``, ``tau``}, ``lines``: [{``frequency``, ``frequency_std`` and ``width`` [Hz],
     ``amplitude``, ``amplitude_std``, ``unit``, ``ratio`` to the background, ``p_value``,
     ``relation``}], ``thermal`` and its ``hysteresis`` with ``kh`` and ``width`` [K] of the
-    catalogue's effect, ``warm_up``, ``reason``}}.
+    catalogue's effect, ``warm_up``, ``bandwidth`` (where the noise is down by 3 dB, and the
+    ``order`` of the low-pass), ``reason``}}.
 
     A coefficient is {``value``, ``std``, ``low``, ``high``, ``unit``, ``needed``}; one that is
     not needed has the value null and the interval from 0 to its upper bound. What is not a
@@ -105,7 +109,16 @@ def _sensor(s: SensorResult) -> dict[str, Any]:
     }
 
 
-NOISE = ("coefficients", "allan", "modified", "hadamard", "fit", "floor")
+NOISE = (
+    "coefficients",
+    "allan",
+    "modified",
+    "hadamard",
+    "fit",
+    "gauss_markov",
+    "models",
+    "floor",
+)
 """What a channel has only where its noise could be characterised, else null."""
 
 
@@ -119,6 +132,8 @@ def _channel(c: Channel) -> dict[str, Any]:
             "lines": [_line(v, unit) for v in c.lines],
             "thermal": _thermal(c),
             "warm_up": c.warm_up and _warm_up(c.warm_up, unit),
+            "bandwidth": c.bandwidth
+            and _estimate(c.bandwidth.frequency, "Hz") | {"order": c.bandwidth.order},
         }
     )
 
@@ -140,6 +155,21 @@ def _noise(n: NoiseAnalysis, kind: str) -> dict[str, Any]:
             "estimates": dict(n.fit.estimates),
             "covariance": n.fit.covariance,
         },
+        "gauss_markov": [
+            _coefficient(g.sigma, SAMPLE[kind])
+            | {"correlation_time": g.time, "correlation_time_spread": g.spread}
+            for g in n.fit.markov
+        ],
+        "models": [
+            {
+                "terms": m.terms,
+                "correlation_times": [time * n.fit.sample_period for time in m.times],
+                "log_likelihood": m.nats,
+                "cost": m.cost,
+                "model_error": m.error,
+            }
+            for m in n.fit.models
+        ],
         "floor": {"deviation": n.floor.deviation, "tau": n.floor.tau},
     }
 

@@ -82,9 +82,30 @@ def _noise(c: Outcome, kind: str) -> Iterator[PartValue]:
         yield PartValue(effect, parameter, value, unit, source, EXACT if term == "Q" else DIGITS)
         if term == "B":
             yield from _flicker_band(c, kind)
+    yield from _markov(c, kind)
     if rounding is not None:
         source = "the step on whose multiples the samples lie"
         yield PartValue("quantization", "q", rounding, SAMPLE_UNIT[kind], source, EXACT)
+
+
+def _markov(c: Outcome, kind: str) -> Iterator[PartValue]:
+    """Gauss-Markov noise, the slower one first; an axis without has a drive of zero."""
+    axes = [c.markov(f"{kind}_{axis}") for axis in AXES]
+    for k, effect in enumerate(("gauss_markov", "second_gauss_markov")):
+        found = [own[k] if len(own) > k else None for own in axes]
+        times = [g[1] for g in found if g]
+        if not times:
+            continue
+        said = "; ".join(
+            f"{axis} {quantity(g[0], SAMPLE[kind])} with {number(g[1])} s"
+            for axis, g in zip(AXES, found, strict=True)
+            if g
+        )
+        source = f"this characterisation, standard deviation and correlation time: {said}"
+        drive = np.array([g[0] * np.sqrt(2 / g[1]) if g else 0.0 for g in found])
+        each = np.array([g[1] if g else times[0] for g in found])
+        yield PartValue(effect, "q", drive, UNITS[kind]["K"], source)
+        yield PartValue(effect, "tau", each, "s", source)
 
 
 def _summaries(c: Outcome, kind: str, term: str) -> list[Summary | None]:

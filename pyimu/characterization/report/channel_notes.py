@@ -44,7 +44,7 @@ def _headline(c: Outcome, kind: str) -> str:
 
 
 def fit_notes(ch: Channel) -> str:
-    """What the fit had to allow for besides the five terms, or nothing."""
+    """What the fit had to allow for besides the terms of the table, or nothing."""
     return "" if ch.noise is None else "; ".join(_fit_notes(ch))
 
 
@@ -55,7 +55,7 @@ def _fit_notes(ch: Channel) -> Iterator[str]:
         yield f"line{'s' * (len(fit.line_frequencies) > 1)} at {found} Hz allowed for"
     if fit.shortest > 1.5 * fit.sample_period:
         yield (
-            f"fitted from {number(fit.shortest)} s on: what is faster is none of the five kinds of "
+            f"fitted from {number(fit.shortest)} s on: what is faster is none of these kinds of "
             "noise, but a filter in the sensor or vibration"
         )
     elif fit.filtered:
@@ -64,14 +64,14 @@ def _fit_notes(ch: Channel) -> Iterator[str]:
             "of quantization only a bound can be given"
         )
     for term in fit.replaceable:
-        value = quantity(fit.estimates[term], SI[ch.kind][term])
+        value = quantity(fit.estimates[term], SI[ch.kind].get(term, SAMPLE[ch.kind]))
         yield (
             f"{term} has a bound only: another term describes the same curve as well; the fit that "
             f"is drawn takes {value} of it"
         )
     if fit.model_error:
         yield (
-            "the five kinds of noise describe the measured variances to "
+            "these kinds of noise describe the measured variances to "
             f"{number(100 * fit.model_error, 2)} % only, and the intervals are widened for that"
         )
     if ch.compensated_for:
@@ -94,7 +94,20 @@ def spectrum_note(s: SensorResult, i: int) -> str:
     return (
         f"from {number(f[white][0])} to {number(f[white][-1])} Hz the spectrum is at "
         f"{number(ratio)} of the fitted noise: "
-        "the noise is not of the five kinds there, and N depends on where it is read"
+        "the noise is not of these kinds there, and N depends on where it is read"
+    )
+
+
+def bandwidth_sentence(ch: Channel) -> str:
+    """Where the noise of a channel rolls off, or nothing."""
+    if ch.bandwidth is None:
+        return ""
+    f = ch.bandwidth.frequency
+    value, low, high = (number(v, 3) for v in (f.value, f.low, f.high))
+    order = ("first", "second", "third", "fourth")[ch.bandwidth.order - 1]
+    return (
+        f"bandwidth {value} ({low} to {high}) Hz, where the noise is down by 3 dB, as through a "
+        f"low-pass of {order} order"
     )
 
 

@@ -28,6 +28,9 @@ TERM_NAMES = {
 }
 """The field's names of the coefficients (IEEE Std 952, 1293)."""
 
+MARKOV_NAME = "Gauss-Markov noise"
+"""A drift that stops growing; IEEE Std 952 has it as exponentially correlated noise."""
+
 UNITS = {
     "gyro": {"Q": "arcsec", "N": "deg/sqrt(h)", "B": "deg/h", "K": "deg/h/sqrt(h)", "R": "deg/h/h"},
     "accel": {"Q": "m/s", "N": "ug/sqrt(Hz)", "B": "mg", "K": "ug/sqrt(s)", "R": "ug/s"},

@@ -12,6 +12,7 @@ from pyimu.characterization.evidence import Excerpt, LevelHistogram, StepHistogr
 from pyimu.characterization.outcome import Channel, LogResult, Outcome
 from pyimu.characterization.report.beside import beside_tables
 from pyimu.characterization.report.channel_notes import (
+    bandwidth_sentence,
     fit_notes,
     headline,
     loop_sentence,
@@ -30,6 +31,7 @@ from pyimu.characterization.report.tables import (
     coefficient_table,
     line_table,
     log_table,
+    model_table,
     quality_table,
 )
 from pyimu.characterization.report.terminal import in_lines
@@ -103,6 +105,7 @@ def _sensor(c: Outcome, kind: str) -> dict[str, Any]:
             "name": SENSORS[kind],
             "allan": None,
             "coefficients": empty,
+            "models": empty,
             "notes": [],
             "others": None,
             "spectra": [],
@@ -115,12 +118,26 @@ def _sensor(c: Outcome, kind: str) -> dict[str, Any]:
         "name": SENSORS[kind],
         "allan": _allan(c, kind),
         "coefficients": coefficient_table(c, kind),
+        "models": model_table(c, kind),
         "notes": _notes(c, kind),
         "others": _deviations(c, kind),
         "spectra": [p for p in spectra if p is not None],
         "lines": line_table(c, kind),
-        "searched": list(dict.fromkeys(searched(log.sensors[kind]) for log in logs)),
+        "searched": [
+            *(f"{said}." for said in _bandwidths(logs, kind)),
+            *dict.fromkeys(searched(log.sensors[kind]) for log in logs),
+        ],
     }
+
+
+def _bandwidths(logs: Iterable[LogResult], kind: str) -> Iterable[str]:
+    """Where the noise of the channels rolls off."""
+    return (
+        f"{ch.name}: {bandwidth_sentence(ch)}"
+        for log in logs
+        for ch in log.sensors[kind].channels
+        if ch.bandwidth is not None
+    )
 
 
 def _characterised(c: Outcome, kind: str) -> bool:

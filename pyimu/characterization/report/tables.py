@@ -8,12 +8,13 @@ from typing import Any
 import numpy as np
 from markupsafe import Markup, escape
 
-from pyimu.characterization.allan.moments import TERMS
+from pyimu.characterization.allan.moments import MARKOV, TERMS
 from pyimu.characterization.noise.coefficients import Coefficient
 from pyimu.characterization.outcome import SAMPLE, SI, Channel, LogResult, Outcome, Summary
 from pyimu.characterization.report.channel_notes import frequency
 from pyimu.characterization.report.coefficients import (
     DENSITY_UNIT,
+    MARKOV_NAME,
     READING_ORDER,
     SECOND_N_UNIT,
     TERM_NAMES,
@@ -22,11 +23,15 @@ from pyimu.characterization.report.coefficients import (
     with_interval,
     with_interval_si,
 )
+from pyimu.characterization.report.log_notes import duration
 from pyimu.characterization.spectrum.lines import Line
 from pyimu.model.part import AXES
 from pyimu.report.findings import grouped
-from pyimu.report.numbers import MISSING, in_unit, number, pretty, unit_for
+from pyimu.report.numbers import MISSING, in_unit, joined, number, pretty, unit_for
 from pyimu.report.page import Table, prose
+
+COMPARED = 4
+"""Models of a channel that are shown."""
 
 
 def coefficient_table(c: Outcome, kind: str) -> Table:
@@ -41,7 +46,46 @@ def coefficient_table(c: Outcome, kind: str) -> Table:
         table.rows.append((name, *(_cell(s, si, unit) for s in found)))
         if term == "N":
             table.rows.extend(_other_n(kind, found))
+    table.rows.extend(_markov(c, kind))
     table.rows.extend(_floors(c, kind))
+    return table
+
+
+def _markov(c: Outcome, kind: str) -> Iterator[tuple]:
+    """The Gauss-Markov noise of the axes: standard deviation, and correlation time below it."""
+    unit, axes = UNITS[kind]["B"], [c.markov(f"{kind}_{axis}") for axis in AXES]
+    for k in range(max(map(len, axes))):
+        name = Markup('<span class="words"><b>{}</b> {}<small>{}</small></span>').format(
+            MARKOV[k], MARKOV_NAME, f"standard deviation [{pretty(unit)}], correlation time"
+        )
+        cells = (
+            Markup("{}<small>{}</small>").format(
+                _in(own[k][0], SAMPLE[kind], unit), duration(own[k][1])
+            )
+            if len(own) > k
+            else MISSING
+            for own in axes
+        )
+        yield (name, *cells)
+
+
+def model_table(c: Outcome, kind: str) -> Table:
+    """The models of the noise that were compared, of each channel the best ``COMPARED``."""
+    table = Table(("channel", "model", "evidence [nat]", "describes to"))
+    for log in c.logs:
+        where = f", {log.name}" if len(c.logs) > 1 else ""
+        for ch in (ch for ch in log.channels if ch.kind == kind and ch.noise):
+            models, h = ch.noise.fit.models, ch.noise.fit.sample_period
+            for k, m in enumerate(models[:COMPARED] if len(models) > 1 else ()):
+                times = f" of {joined([duration(time * h) for time in m.times])}" if m.times else ""
+                table.rows.append(
+                    (
+                        prose(f"{ch.name}{where}" if not k else ""),
+                        prose(f"{' + '.join(m.terms)}{times}{' (taken)' if not k else ''}"),
+                        number(m.score - models[0].score, 2) if k else "0",
+                        f"{number(100 * m.error, 2)} %" if m.error else "its own scatter",
+                    )
+                )
     return table
 
 

@@ -6,20 +6,23 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from pyimu.characterization.allan.moments import MARKOV
 from pyimu.characterization.outcome import SAMPLE, SI, LogResult, Outcome, Summary
 from pyimu.characterization.report.beside import beside_lines
 from pyimu.characterization.report.channel_notes import (
+    bandwidth_sentence,
     frequency,
     loop_sentence,
     thermal_sentence,
 )
 from pyimu.characterization.report.coefficients import (
+    MARKOV_NAME,
     READING_ORDER,
     TERM_NAMES,
     UNITS,
     with_interval,
 )
-from pyimu.characterization.report.log_notes import about, moves, notes
+from pyimu.characterization.report.log_notes import about, duration, moves, notes
 from pyimu.characterization.report.magnetometer import magnetometer_lines
 from pyimu.model.part import AXES
 from pyimu.report.findings import SENSORS, in_line
@@ -56,6 +59,7 @@ def _rows(c: Outcome, kind: str) -> list[tuple[str, ...]]:
         if any(summaries):
             name = f"  {term} {TERM_NAMES[kind][term]}"
             rows.append((name, UNITS[kind][term], *(_cell(s, kind, term) for s in summaries)))
+    rows.extend(_markov(c, kind))
     floors = [[ch.noise.floor for ch in c.channel(f"{kind}_{axis}") if ch.noise] for axis in AXES]
     unit = UNITS[kind]["B"]
     cells = [
@@ -68,6 +72,19 @@ def _rows(c: Outcome, kind: str) -> list[tuple[str, ...]]:
     return [*rows, ("  lowest Allan deviation", unit, *cells)]
 
 
+def _markov(c: Outcome, kind: str) -> Iterator[tuple[str, ...]]:
+    """The Gauss-Markov noise of the axes, one a row."""
+    unit, axes = UNITS[kind]["B"], [c.markov(f"{kind}_{axis}") for axis in AXES]
+    for k in range(max(map(len, axes))):
+        cells = (
+            f"{number(float(in_unit(own[k][0], SAMPLE[kind], unit)))} with {duration(own[k][1])}"
+            if len(own) > k
+            else MISSING
+            for own in axes
+        )
+        yield (f"  {MARKOV[k]} {MARKOV_NAME}", unit, *cells)
+
+
 def _cell(s: Summary | None, kind: str, term: str) -> str:
     if s is None:
         return MISSING
@@ -77,8 +94,10 @@ def _cell(s: Summary | None, kind: str, term: str) -> str:
 
 
 def _lines(log: LogResult) -> Iterator[str]:
-    """The strongest lines of each channel that has any."""
+    """The bandwidth and the strongest lines of each channel that has any."""
     for ch in log.channels:
+        if ch.bandwidth is not None:
+            yield f"{ch.name}: {bandwidth_sentence(ch)}"
         if ch.lines:
             top = sorted(ch.lines, key=lambda v: -v.amplitude)[:4]
             more = f" and {len(ch.lines) - len(top)} more" if len(ch.lines) > len(top) else ""

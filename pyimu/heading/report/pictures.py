@@ -57,7 +57,7 @@ def runs_picture(found: Outcome) -> str:
         panel.set_yticks(range(len(found.methods)), [m.name for m in found.methods])
         panel.invert_yaxis()
         panel.set_xlabel("heading error at the end [deg]")
-        return svg_of(figure)
+        return svg_of(figure, curves=True)
 
 
 def transfer_picture(found: Outcome) -> str:
@@ -69,7 +69,7 @@ def transfer_picture(found: Outcome) -> str:
         panel.plot(np.degrees(t.rate), t.percent, "o", ms=4, color=AFTER)
         panel.set_xlabel("rate of the table [deg/s]")
         panel.set_ylabel("residual [% of range]")
-        return svg_of(figure)
+        return svg_of(figure, curves=True)
 
 
 def _drawn(
@@ -84,7 +84,7 @@ def _drawn(
         panels[-1].set_xlabel(f"time [{unit}]")
         if columns:
             legend(figure, panels[0], columns)
-        return svg_of(figure)
+        return svg_of(figure, curves=True)
 
 
 def _filtered(found: Outcome) -> Track | None:

@@ -65,7 +65,7 @@ def over_time(found: Sequence[Trace], floor: np.ndarray | None, si: str) -> str:
         for t, panel in zip(found, panels[-1], strict=True):
             own_time(panel, t.name, len(found))
         legend(figure, panels[0, 0], 3)
-        return svg_of(figure)
+        return svg_of(figure, curves=True)
 
 
 def _scale(residuals: Sequence[np.ndarray]) -> float:
@@ -121,7 +121,7 @@ def cloud(c: Cloud, effect: str, si: str) -> str:
         panel.locator_params(axis="x", nbins=6)
         panel.set(xlabel=label, ylabel=f"residual {AXES[c.axis]} [{pretty(unit)}]")
         legend(figure, panel, 2 if c.formula is None else 3)
-        return svg_of(figure)
+        return svg_of(figure, curves=True)
 
 
 def _curve(panel: Axes, x: np.ndarray, y: np.ndarray, edges: np.ndarray) -> None:
@@ -222,7 +222,7 @@ def comb(c: Comb) -> str:
             xlabel=f"sample {AXES[c.axis]}, distance to the nearest multiple [steps]",
             ylabel="samples [%]",
         )
-        return svg_of(figure)
+        return svg_of(figure, curves=True)
 
 
 # Screening
@@ -267,7 +267,7 @@ def screening(
         plain_logarithm(panel.xaxis)
         panel.grid(axis="y", visible=False)
         _screening_legend(figure, panel, last is not first, bool(fitted))
-        return svg_of(figure)
+        return svg_of(figure, curves=True)
 
 
 LAST: dict[str, Any] = {"marker": "D", "ms": 4.5, "mfc": "none", "mec": INK, "mew": 1.0}
@@ -319,7 +319,7 @@ def spectrum(s: Spectrum, si: str) -> str:
         for axis in (panel.xaxis, panel.yaxis):
             plain_logarithm(axis)
         legend(figure, panel, 3)
-        return svg_of(figure)
+        return svg_of(figure, curves=True)
 
 
 def _mark_band(panel: Axes, band_hz: float) -> None:

@@ -73,7 +73,7 @@ def strips(logs: Sequence[tuple[str, Overview]]) -> str:
         if warm:
             panels[1, 0].set_ylabel("temp. [°C]")
         figure.align_ylabels(panels[:, 0])
-        return svg_of(figure)
+        return svg_of(figure, curves=True)
 
 
 def lags(logs: Sequence[tuple[str, np.ndarray, np.ndarray]]) -> str:
@@ -84,7 +84,7 @@ def lags(logs: Sequence[tuple[str, np.ndarray, np.ndarray]]) -> str:
             panel.plot(time, 1e3 * late, color=AFTER, lw=1.2)
             own_time(panel, name, len(logs))
         panels[0, 0].set_ylabel("sensor late by [ms]")
-        return svg_of(figure)
+        return svg_of(figure, curves=True)
 
 
 def _filled(panel: Axes, s: Strip | None, factor: float) -> None:

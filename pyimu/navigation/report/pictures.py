@@ -50,7 +50,7 @@ def drawn(rows: int, height: float, draw: Callable[[list[Axes]], None], a: Outco
         draw(panels)
         panels[-1].set_xlabel(f"time [{unit_of_time(a.duration)[1]}]")
         legend(figure, panels[0], 5)
-        return svg_of(figure)
+        return svg_of(figure, curves=True)
 
 
 def path_picture(a: Outcome) -> str:
@@ -59,7 +59,7 @@ def path_picture(a: Outcome) -> str:
         panel = figure.subplots()
         draw_path(a, panel)
         legend(figure, panel, 5)
-        return svg_of(figure)
+        return svg_of(figure, curves=True)
 
 
 def draw_path(a: Outcome, panel: Axes) -> None:

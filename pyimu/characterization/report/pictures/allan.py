@@ -18,7 +18,7 @@ from pyimu.report.numbers import in_unit, pretty
 LOGS = (AFTER, FLOOR, "#cc79a7", "#d55e00", "#56b4e9", "#9467bd")
 """Colours of several logs, of Okabe-Ito as far as they go beside that of the fit."""
 
-LETTER_AT = {"Q": 0.0, "N": 0.12, "B": 0.5, "K": 0.85, "R": 1.0}
+LETTER_AT = {"Q": 0.0, "N": 0.12, "B": 0.5, "K": 0.85, "R": 1.0, "G": 0.72, "H": 0.62}
 """Where along its curve the letter of a term stands."""
 
 
@@ -32,7 +32,7 @@ def allan_picture(c: Outcome, kind: str) -> str:
         panels[-1].set_xlabel("cluster time τ [s]")
         logarithmic(panels)
         legend(figure, max(panels, key=lambda p: len(p.lines)), 3)
-        return svg_of(figure)
+        return svg_of(figure, curves=True)
 
 
 def deviations_picture(c: Outcome, kind: str) -> str:
@@ -53,7 +53,7 @@ def deviations_picture(c: Outcome, kind: str) -> str:
         panels[-1].set_xlabel("cluster time τ [s]")
         logarithmic(panels)
         legend(figure, max(panels, key=lambda p: len(p.lines)), 3)
-        return svg_of(figure)
+        return svg_of(figure, curves=True)
 
 
 def _scaled(values: np.ndarray, kind: str) -> np.ndarray:

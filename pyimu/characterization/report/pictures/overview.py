@@ -26,7 +26,7 @@ def overview_picture(log: LogResult, kind: str) -> str:
             panel.set_ylabel(f"{ch.axis} [{pretty(SAMPLE_UNIT[kind])}]")
         panels[-1].set_xlabel(f"time [{label}]")
         legend(figure, panels[0], 3)
-        return svg_of(figure)
+        return svg_of(figure, curves=True)
 
 
 def _samples(panel: Axes, ch: Channel, unit_of_time: float) -> None:

@@ -35,7 +35,7 @@ def spectrum_picture(s: SensorResult) -> str | None:
         panels[-1].set_xlabel("frequency [Hz]")
         logarithmic(panels)
         legend(figure, max(panels, key=lambda p: len(p.get_legend_handles_labels()[0])), 3)
-        return svg_of(figure)
+        return svg_of(figure, curves=True)
 
 
 def _mark_lines(panel: Axes, ch: Channel, f: np.ndarray, density: np.ndarray) -> None:
