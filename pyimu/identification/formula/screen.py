@@ -20,7 +20,8 @@ from pyimu.identification.fit.normal import solve
 from pyimu.identification.fit.reference_noise import equations
 from pyimu.identification.formula.columns import columns_of
 from pyimu.identification.formula.terms import Term
-from pyimu.identification.search.screen import DRAWS, FALSE_ALARM, PENALTY, Projected, dispersion
+from pyimu.identification.search.projected import Projected, dispersion
+from pyimu.identification.search.screen import DRAWS, FALSE_ALARM, PENALTY
 
 CHUNK = 48
 """Terms whose columns are held at once."""

@@ -15,8 +15,9 @@ from functools import cached_property
 import numpy as np
 from scipy.fft import next_fast_len, rfft
 
-from pyimu.identification.fit.columns import Linear, reference_input
+from pyimu.identification.fit.columns import Linear
 from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.inputs import reference_input
 from pyimu.identification.fit.keys import Coefficient, Key
 from pyimu.identification.fit.response import is_driven, predict
 from pyimu.identification.fit.trial import Trial
