@@ -13,6 +13,7 @@ from pyimu.errors import UserError
 from pyimu.identification.fit.clock import ClockChange
 from pyimu.identification.fit.columns import (
     Linear,
+    Stack,
     band_segments,
     band_time,
     in_band,
@@ -174,7 +175,7 @@ class Fit:
 
 
 def _without_columns(one: Linear) -> Linear:
-    none = {i: columns[:, :0] for i, columns in one.columns.items()}
+    none = {i: Stack(len(one.time)) for i in one.keys}
     return replace(one, keys={i: [] for i in one.keys}, columns=none)
 
 
@@ -185,7 +186,7 @@ def bare(trial: Trial, r: np.ndarray) -> Linear:
         band_segments(trial),
         r,
         {i: [] for i in trial.axes},
-        {i: np.zeros((len(r), 0)) for i in trial.axes},
+        {i: Stack(len(r)) for i in trial.axes},
     )
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -82,11 +83,11 @@ class Trial:
     up: np.ndarray | None = None
     reduction: Reduction | None = None
 
-    @property
+    @cached_property
     def band(self) -> Band:
         return Band() if self.band_hz is None else Band.below(self.band_hz, 1.0 / self.h)
 
-    @property
+    @cached_property
     def row_segments(self) -> list[tuple[int, int]]:
         """Ranges of rows that regression draws on.
 

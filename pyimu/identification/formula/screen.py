@@ -157,7 +157,9 @@ def _thinned(fit: Fit, linears: list[Linear], axis: int) -> tuple[np.ndarray, li
     stride = max(1, sum(len(one.time) for one in with_axis) // KEPT_ROWS)
     pieces = []
     for one in with_axis:
-        white = fit.noise[axis].whiten(one.columns[axis], one.time, one.segments)[::stride]
+        white = fit.noise[axis].whiten(np.asarray(one.columns[axis]), one.time, one.segments)[
+            ::stride
+        ]
         full = np.zeros((len(white), len(keys)))
         full[:, [keys.index(k) for k in one.keys[axis]]] = white
         pieces.append(full)

@@ -171,7 +171,9 @@ class Slow:
                 columns = np.zeros((len(one.time), len(keys) + 1))
                 columns[:, 0] = one.residual[:, i]
                 if i in one.keys:
-                    columns[:, [1 + keys.index(k) for k in one.keys[i]]] = one.columns[i]
+                    columns[:, [1 + keys.index(k) for k in one.keys[i]]] = np.asarray(
+                        one.columns[i]
+                    )
                 parts.append(self._white(i, _means(columns, number, full), full, count))
             whole = np.concatenate(parts)
             out[i] = whole[:, 0], whole[:, 1:]
