@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import casadi as ca
-import numpy as np
 
 
 @dataclass(frozen=True)
@@ -35,15 +34,10 @@ class Program:
     instructions: tuple[Instruction, ...]
     outputs: dict[tuple[int, int], int]
 
-    def needed(self, wanted: set[int]) -> list[int]:
-        """The numbers, in order, of what the instructions ``wanted`` are made from."""
-        known = np.zeros(len(self.instructions), dtype=bool)
-        known[list(wanted)] = True
-        for number in range(len(known) - 1, -1, -1):
-            one = self.instructions[number]
-            if known[number] and one.op != ca.OP_INPUT:
-                known[list(one.of)] = True
-        return np.flatnonzero(known).tolist()
+    def entries(self, number: int) -> list[int]:
+        """The entries of an input that the function reads."""
+        read = (i.of for i in self.instructions if i.op == ca.OP_INPUT)
+        return sorted({entry for which, entry in read if which == number})
 
 
 @lru_cache(maxsize=256)

@@ -88,7 +88,7 @@ def over_rows(
     out = np.zeros((m, rows))
     few = range(m) if wanted is None else np.flatnonzero(wanted).tolist()
     with np.errstate(all="ignore"):
-        known = _known(columns) if rows > BLOCK else {}
+        known = _known(columns, program(function).entries(0)) if rows > BLOCK else {}
         of_row = np.asarray(fixed, dtype=float).tobytes()
         steps, given = _plan(function, tuple(few), of_row, tuple(known), tuple(known.values()))
         for to, value in given:
@@ -110,9 +110,9 @@ def over_rows(
     return out.T
 
 
-def _known(columns: Sequence[np.ndarray]) -> dict[int, float]:
-    """The columns that are the same in all rows."""
-    ends = ((k, c) for k, c in enumerate(columns) if c[0] == c[-1] == c[len(c) // 2])
+def _known(columns: Sequence[np.ndarray], read: Sequence[int]) -> dict[int, float]:
+    """Those of the columns that are ``read`` which are the same in all rows."""
+    ends = ((k, c) for k in read if (c := columns[k])[0] == c[-1] == c[len(c) // 2])
     return {k: float(c[0]) for k, c in ends if np.all(c == c[0])}
 
 

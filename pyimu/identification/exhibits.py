@@ -12,15 +12,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.signal import welch
 
-from pyimu.identification.fit.columns import (
-    LogState,
-    band_segments,
-    band_time,
-    in_band,
-    reference_input,
-    residual,
-)
+from pyimu.identification.fit.columns import band_segments, band_time, in_band, residual
 from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.inputs import LogState, reference_input
 from pyimu.identification.fit.left_out import left_out
 from pyimu.identification.fit.noise_floor import floor_noise
 from pyimu.identification.fit.score import held_state

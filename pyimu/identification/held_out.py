@@ -11,9 +11,9 @@ import numpy as np
 from pyimu.attitude.error import AttitudeError
 from pyimu.identification.attitude_error import attitude_error
 from pyimu.identification.fit.clock import Clock
-from pyimu.identification.fit.fit import declared_variances
 from pyimu.identification.fit.keys import LogClock
 from pyimu.identification.fit.left_out import as_measured, left_out
+from pyimu.identification.fit.noise_fit import declared_variances
 from pyimu.identification.fit.noise_floor import floor_noise, reference_variance
 from pyimu.identification.fit.score import WINDOW, ErrorSums, floor, held_state, tally
 from pyimu.identification.fit.trial import Trial

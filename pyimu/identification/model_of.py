@@ -8,7 +8,7 @@ import numpy as np
 
 from pyimu.identification.as_part import unexamined_left_out
 from pyimu.identification.fit.fit import Fit
-from pyimu.identification.fit.trial import rest_noise
+from pyimu.identification.fit.sample_noise import rest_noise
 from pyimu.identification.noise.named import Noise
 from pyimu.identification.rounding import Rounding, rounding
 from pyimu.identification.search.forward import Investigation

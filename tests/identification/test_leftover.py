@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from loop_cases import inputs, trial
 
-from pyimu.identification.fit.trial import white_noise
+from pyimu.identification.fit.sample_noise import white_noise
 from pyimu.identification.formula.terms import usable
 from pyimu.model.kinds import OWN
 

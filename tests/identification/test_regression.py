@@ -12,8 +12,9 @@ from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
 from pyimu.identification.fit import maximum_likelihood, reference_noise
-from pyimu.identification.fit.columns import Linear, LogState, in_band, linearise
+from pyimu.identification.fit.columns import Linear, in_band, linearise
 from pyimu.identification.fit.fit import begin, power
+from pyimu.identification.fit.inputs import LogState
 from pyimu.identification.fit.keys import Coefficient, LogBias, LogTurn, coefficients_of
 from pyimu.identification.fit.maximum_likelihood import fit
 from pyimu.identification.fit.normal import normal_equations, solve

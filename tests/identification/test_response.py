@@ -9,7 +9,7 @@ from catalogue_cases import CASES, H, everything, excited, motion, own, run
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pyimu.block.vectorised import over_rows
+from pyimu.block.vectorised import BLOCK, over_rows
 from pyimu.identification.fit.response import (
     after_dynamics,
     before_dynamics,
@@ -234,6 +234,24 @@ def test_over_rows_knows_every_elementary_operation():
     np.testing.assert_allclose(
         over_rows(function, rows.T, none), machine(function, rows, none), rtol=1e-13, atol=1e-15
     )
+
+
+def test_what_never_changes_is_not_evaluated_and_what_nobody_wants_is_zero():
+    """Of many rows the columns that never change are known beforehand; of a few they are not."""
+    x, p = ca.SX.sym("x", 3), ca.SX.sym("p", 3)
+    a, b, c = ca.vertsplit(x)
+    made = [a * b + p[0] * ca.sin(c), ca.if_else(p[1] > 0, a, b), p[2] * a + b / p[2], a - p[0]]
+    made += [ca.if_else(b > 1, a, c), b * 2, p[0] * a, ca.fmax(a, b) * p[2]]
+    function = ca.Function("f", [x, p], [ca.densify(ca.vertcat(*made))])
+    columns = np.random.default_rng(3).standard_normal((3, 3 * BLOCK))
+    columns[1], fixed = 2.5, np.array([0.0, -1.0, 1.0])
+    pieces = [over_rows(function, columns[:, k : k + 100], fixed) for k in range(0, 3 * BLOCK, 100)]
+    found = over_rows(function, columns, fixed)
+    np.testing.assert_array_equal(found, np.concatenate(pieces))
+    np.testing.assert_allclose(found[:20], machine(function, columns.T[:20], fixed), rtol=1e-14)
+    wanted = np.arange(len(made)) % 3 == 0
+    few = over_rows(function, columns, fixed, wanted)
+    np.testing.assert_array_equal(few, found * wanted)
 
 
 def test_over_rows_refuses_what_it_does_not_know():

@@ -8,8 +8,8 @@ from loop_cases import inputs, noise, trial
 from scipy.spatial.transform import Rotation
 from scipy.stats import norm
 
-from pyimu.identification.fit.columns import LogState
 from pyimu.identification.fit.fit import Fit, begin
+from pyimu.identification.fit.inputs import LogState
 from pyimu.identification.fit.score import (
     FLOOR_DRAWS,
     WINDOW,

@@ -14,18 +14,16 @@ from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.maximum_likelihood import fit
 from pyimu.identification.fit.normal import Normal
 from pyimu.identification.search.candidates import Choice, Group
+from pyimu.identification.search.projected import Projected, dispersion, scatter_of
 from pyimu.identification.search.screen import (
     DRAWS,
     FALSE_ALARM,
     PENALTY,
     SHARE,
-    Projected,
     Screening,
     _gains,
     _gate,
-    _scatter,
     _screened,
-    dispersion,
     fitted_dispersion,
     fitted_gain,
     screen,
@@ -192,7 +190,7 @@ def test_a_few_batches_do_not_decide_how_scores_scatter():
         y = np.random.default_rng(seed).standard_normal(ROWS)
         projected = Projected.of(normal_of(x, y), [], CANDIDATES)
         alone.append(dispersion(projected, (0,)))
-        weighed.append(dispersion(projected, (0,), _scatter(projected)))
+        weighed.append(dispersion(projected, (0,), scatter_of(projected)))
     chance = binom(200, chi2.sf(6.0, 3))
     assert chance.ppf(ALARM) <= sum(v > 2.0 for v in alone) <= chance.isf(ALARM)
     assert sum(v > 2.0 for v in weighed) <= 3 and np.mean(weighed) < 1.1
@@ -205,7 +203,7 @@ def test_scatter_that_a_candidate_alone_has_is_its_own():
     y = np.repeat(rng.standard_normal(BATCHES), ROWS // BATCHES)
     projected = Projected.of(normal_of(x, y), [], [CANDIDATES[0], 4, 5])
     alone = dispersion(projected, (0,))
-    assert dispersion(projected, (0,), _scatter(projected)) > 0.8 * alone > 20.0
+    assert dispersion(projected, (0,), scatter_of(projected)) > 0.8 * alone > 20.0
 
 
 def test_projection_leaves_the_residual_of_least_squares():

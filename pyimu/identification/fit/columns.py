@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from pyimu.identification.fit.band import Band
 from pyimu.identification.fit.inputs import LogState, own_rate, reference_input
 from pyimu.identification.fit.keys import (
     Coefficient,
@@ -46,6 +47,35 @@ SMALL_LAG = 0.1
 
 
 @dataclass(frozen=True)
+class Stack:
+    """Columns (``count``, c), each an array of its own: together they would be too many to hold
+    twice.
+    """
+
+    count: int
+    arrays: tuple[np.ndarray, ...] = ()
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        return self.count, len(self.arrays)
+
+    def __add__(self, other: Stack) -> Stack:
+        """The columns of both, side by side."""
+        return Stack(self.count, (*self.arrays, *other.arrays))
+
+    def __array__(self, dtype=None, copy=None) -> np.ndarray:
+        return self.after(np.zeros((self.count, 0)), 0, self.count)
+
+    def after(self, first: np.ndarray, start: int, stop: int) -> np.ndarray:
+        """Rows ``start`` to ``stop``, behind columns ``first`` of these rows."""
+        out = np.empty((stop - start, first.shape[1] + len(self.arrays)))
+        out[:, : first.shape[1]] = first
+        for at, values in enumerate(self.arrays, first.shape[1]):
+            out[:, at] = values[start:stop]
+        return out
+
+
+@dataclass(frozen=True)
 class Linear:
     """A trial linearised: residual (m, 3) in its band, and for each axis the columns that act on
     it.
@@ -55,7 +85,7 @@ class Linear:
     segments: list[tuple[int, int]]
     residual: np.ndarray
     keys: dict[int, list[Key]]
-    columns: dict[int, np.ndarray]
+    columns: dict[int, Stack]
 
 
 def in_log(sensor: Sensor, state: LogState) -> Sensor:
@@ -98,15 +128,18 @@ class Regressors:
         if axis in self.trial.axes and np.any(values):
             self.items.append((key, axis, values))
 
-    def filtered(self) -> tuple[dict[int, list[Key]], dict[int, np.ndarray]]:
+    def filtered(self) -> tuple[dict[int, list[Key]], dict[int, Stack]]:
         keys = {i: [k for k, axis, _ in self.items if axis == i] for i in self.trial.axes}
-        columns = {}
-        for i in self.trial.axes:
-            arrays = [v for _, axis, v in self.items if axis == i]
-            # Each column contiguous, as what filters them one by one wants it.
-            stacked = np.array(arrays).reshape(len(arrays), len(self.trial.time))
-            columns[i] = in_band(self.trial, stacked.T)
+        columns = {i: self._filtered([v for _, axis, v in self.items if axis == i]) for i in keys}
         return keys, columns
+
+    def _filtered(self, arrays: list[np.ndarray]) -> Stack:
+        trial = self.trial
+        count = len(trial.band.centres(trial.row_segments))
+        if trial.band == Band():
+            return Stack(count, tuple(trial.band.apply(v, trial.row_segments) for v in arrays))
+        stacked = np.array(arrays).reshape(len(arrays), len(trial.time))
+        return Stack(count, tuple(in_band(trial, stacked.T).T))
 
 
 def linearise(
@@ -172,7 +205,7 @@ def with_columns(one: Linear, trial: Trial, state: LogState, extra: Iterable) ->
     return replace(
         one,
         keys={i: one.keys[i] + keys[i] for i in one.keys},
-        columns={i: np.concatenate([one.columns[i], columns[i]], axis=1) for i in one.keys},
+        columns={i: one.columns[i] + columns[i] for i in one.keys},
     )
 
 
@@ -187,7 +220,8 @@ def reduced(trial: Trial, rows: Rows, items: Iterable[tuple[Key, int, np.ndarray
     made = np.column_stack([rows.residual, *columns.values()])
     white = trial.reduction.whiten(made)
     time = trial.reduction.time
-    return Linear(time, [(0, len(time))], white[:, :1], {0: list(columns)}, {0: white[:, 1:]})
+    stack = Stack(len(time), tuple(white[:, 1:].T))
+    return Linear(time, [(0, len(time))], white[:, :1], {0: list(columns)}, {0: stack})
 
 
 def _is_turn(key: Key) -> bool:

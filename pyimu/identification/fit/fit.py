@@ -13,7 +13,7 @@ from pyimu.errors import UserError
 from pyimu.identification.fit.clock import ClockChange
 from pyimu.identification.fit.columns import (
     Linear,
-    LogState,
+    Stack,
     band_segments,
     band_time,
     in_band,
@@ -22,6 +22,7 @@ from pyimu.identification.fit.columns import (
     residual,
     with_columns,
 )
+from pyimu.identification.fit.inputs import LogState
 from pyimu.identification.fit.keys import (
     Coefficient,
     Key,
@@ -30,16 +31,15 @@ from pyimu.identification.fit.keys import (
     LogLag,
     coefficients_of,
 )
+from pyimu.identification.fit.noise_fit import declared_variances, fit_noise
 from pyimu.identification.fit.normal import Noise, Normal, normal_equations, solve
-from pyimu.identification.fit.reduction import Unit
 from pyimu.identification.fit.trial import Trial, marked
-from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
+from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.model.arguments import Parameter
-from pyimu.model.catalogue import WALK, WHITE
 from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS
-from pyimu.recording.reference.rate import DERIVED, VERTICAL
+from pyimu.recording.reference.rate import VERTICAL
 
 THERMOMETER = 30.0
 """s; standard deviation of a thermometer's lag behind the sensor: some seconds on the same die, a
@@ -49,14 +49,6 @@ minute on the same board."""
 WANDERS_LESS = 0.1
 """Share of a fitted random walk's K beside which slow effects are looked for: one of 8 sigmas that
 nothing else stands for makes K 7 to 22 times as large."""
-
-
-LEAST_ROWS = 50
-"""Rows for each column of motion that is taken out of a residual: with fewer, noise would go with
-it."""
-
-MOTION = 0.01
-"""Share of a residual's power beside the motion below which it is nothing but motion."""
 
 
 class Last:
@@ -182,19 +174,8 @@ class Fit:
         return self if less == self.noise else replace(self, noise=less)
 
 
-def declared_variances(sensor: Sensor, h: float) -> tuple[np.ndarray, np.ndarray]:
-    """Variance (3,) of a sample's white noise, and of the random walk in a second; zero where the
-    sensor declares none.
-    """
-    white, walk = (
-        np.asarray(sensor.values[effect][parameter]) if effect in sensor.values else np.zeros(3)
-        for effect, parameter in (WHITE, WALK)
-    )
-    return white**2 / h, walk**2
-
-
 def _without_columns(one: Linear) -> Linear:
-    none = {i: columns[:, :0] for i, columns in one.columns.items()}
+    none = {i: Stack(len(one.time)) for i in one.keys}
     return replace(one, keys={i: [] for i in one.keys}, columns=none)
 
 
@@ -205,43 +186,8 @@ def bare(trial: Trial, r: np.ndarray) -> Linear:
         band_segments(trial),
         r,
         {i: [] for i in trial.axes},
-        {i: np.zeros((len(r), 0)) for i in trial.axes},
+        {i: Stack(len(r)) for i in trial.axes},
     )
-
-
-def fit_noise(trials: tuple[Trial, ...], residuals: list[Linear], coloured: bool = False) -> Noise:
-    """Noise model of each axis, one for all logs: the whitening follows what the reference is."""
-    if any(t.reduction is not None for t in trials):
-        return {0: Unit()}
-    derived = coloured or any(t.reference in DERIVED for t in trials)
-    made = {}
-    for i in sorted({i for t in trials for i in t.axes}):
-        axis = [(t, one) for t, one in zip(trials, residuals, strict=True) if i in one.keys]
-        if derived:
-            parts = [(_beside_motion(t, one, i), one.time, one.segments) for t, one in axis]
-            made[i] = Autoregressive.fit(parts)
-        else:
-            made[i] = RandomWalk.fit(
-                [(one.residual[:, i], one.time, one.segments) for _, one in axis]
-            )
-    return made
-
-
-def _beside_motion(trial: Trial, one: Linear, axis: int) -> np.ndarray:
-    """A residual (m,), without what gains, axes and a delay that are not right yet make of the
-    motion, where it is hardly anything else.
-
-    A motion that repeats is what its past predicts: an autoregression would take that for noise,
-    and whiten the motion away with it. Where there is noise to be seen the residual stays as it is,
-    for the reference's own is in the motion, too.
-    """
-    left, own = one.residual[:, axis], (KINDS[trial.kind].own, KINDS[trial.kind].own_rate)
-    motion = in_band(trial, np.hstack([trial.u[:, COLUMNS[name]] for name in own]))
-    columns = np.column_stack([motion, np.ones(len(motion))])
-    if len(left) < LEAST_ROWS * columns.shape[1]:
-        return left
-    beside = left - columns @ np.linalg.lstsq(columns, left)[0]
-    return beside if beside @ beside < MOTION * (left @ left) else left
 
 
 def initial_state(sensor: Sensor, trial: Trial) -> LogState:

@@ -62,7 +62,7 @@ def left_out(fit: Fit, trial: Trial) -> LeftOut:
     normal = with_prior(normal, fit) if fitted else normal
     rows = trial.rows(fit.sensor, state.bias)
     slopes = np.zeros((len(linear.time), len(normal.keys)))
-    slopes[:, [normal.position[k] for k in linear.keys[0]]] = linear.columns[0]
+    slopes[:, [normal.position[k] for k in linear.keys[0]]] = np.asarray(linear.columns[0])
     taken = slopes @ solve(normal.gram, slopes.T)
     root = trial.reduction.root
     left = linear.residual[:, 0] - slopes @ solve(normal.gram, normal.score)

@@ -6,12 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from pyimu.identification.fit.fit import (
-    Fit,
-    declared_variances,
-    gauss_newton,
-    with_prior,
-)
+from pyimu.identification.fit.fit import Fit, gauss_newton, with_prior
+from pyimu.identification.fit.noise_fit import declared_variances
 from pyimu.identification.fit.normal import Normal, Unit, variances
 from pyimu.identification.fit.reference_noise import (
     equations,

@@ -7,8 +7,9 @@ from scipy.linalg import solve_toeplitz
 from scipy.signal import lfilter
 from scipy.stats import chi2
 
-from pyimu.identification.fit.fit import Fit, declared_variances
-from pyimu.identification.fit.trial import rest_noise
+from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.noise_fit import declared_variances
+from pyimu.identification.fit.sample_noise import rest_noise
 from pyimu.identification.fit.whiten import RandomWalk
 
 WINDOW = 64

@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from pyimu.identification.fit.columns import Linear
+from pyimu.identification.fit.columns import Linear, Stack
 from pyimu.identification.fit.keys import Key
 from pyimu.identification.fit.reduction import Unit
 from pyimu.identification.fit.whiten import Autoregressive, Filter, RandomWalk
@@ -95,9 +95,7 @@ def normal_equations(linears: list[Linear], noise: Noise) -> Normal:
     return Normal(keys, gram, score, power, rows, log_det)
 
 
-def _products(
-    white: Filter, residual: np.ndarray, columns: np.ndarray, edges: np.ndarray
-) -> np.ndarray:
+def _products(white: Filter, residual: np.ndarray, columns: Stack, edges: np.ndarray) -> np.ndarray:
     """Sums of products (batches, 1 + c, 1 + c) of whitened rows between ``edges`` (batches + 1,),
     the residual's (m,) first and those of the columns (m, c) after it.
     """
@@ -107,7 +105,7 @@ def _products(
         # As many batches as fit into the cache are whitened together.
         last = max(first + 1, int(np.searchsorted(edges, edges[first] + TOGETHER, "right")) - 1)
         a, b = edges[first], edges[last]
-        block = white.next(np.column_stack([residual[a:b], columns[a:b]]))
+        block = white.next(columns.after(residual[a:b, None], a, b))
         for batch in range(first, last):
             rows = block[edges[batch] - a : edges[batch + 1] - a]
             np.matmul(rows.T, rows, out=out[batch])

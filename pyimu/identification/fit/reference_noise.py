@@ -15,7 +15,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from pyimu.identification.fit.columns import Linear, band_segments, band_time, in_band
+from pyimu.identification.fit.columns import Linear, Stack, band_segments, band_time, in_band
 from pyimu.identification.fit.fit import Fit, Last, power
 from pyimu.identification.fit.incoherent import (
     CHANCE,
@@ -215,11 +215,10 @@ def changes(fit: Fit, linearised: Callable[[Fit], list[Linear]]) -> list[Linear]
 def _difference(up: Linear, down: Linear) -> Linear:
     columns = {}
     for i, keys in up.keys.items():
-        below = dict(zip(down.keys[i], down.columns[i].T, strict=True))
-        other = np.zeros_like(up.columns[i])
-        for at, key in enumerate(keys):
-            other[:, at] = below.get(key, 0.0)
-        columns[i] = (up.columns[i] - other) / (2 * STEP)
+        below = dict(zip(down.keys[i], down.columns[i].arrays, strict=True))
+        pairs = zip(keys, up.columns[i].arrays, strict=True)
+        changed = ((column - below.get(key, 0.0)) / (2 * STEP) for key, column in pairs)
+        columns[i] = Stack(len(up.time), tuple(changed))
     change = (up.residual - down.residual) / (2 * STEP)
     return replace(up, residual=change, columns=columns)
 

@@ -65,7 +65,7 @@ def _wander(fit: Fit, shapes: list[np.ndarray], typical: float) -> float:
     slopes, left = [], []
     for one, r in zip(linears, each, strict=True):
         full = np.zeros((len(one.time), len(normal.keys)))
-        full[:, [normal.position[k] for k in one.keys[0]]] = r.root @ one.columns[0]
+        full[:, [normal.position[k] for k in one.keys[0]]] = r.root @ np.asarray(one.columns[0])
         slopes.append(full)
         left.append(r.root @ one.residual[:, 0])
     together = np.concatenate(slopes)

@@ -13,16 +13,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pyimu.identification.fit.columns import (
-    LogState,
-    band_segments,
-    in_band,
-    in_log,
-    linearise,
-    reference_input,
-    residual,
-)
+from pyimu.identification.fit.columns import band_segments, in_band, in_log, linearise, residual
 from pyimu.identification.fit.fit import Fit, bare, initial_state
+from pyimu.identification.fit.inputs import LogState, reference_input
 from pyimu.identification.fit.keys import LogLag, LogTurn
 from pyimu.identification.fit.noise_floor import simulated
 from pyimu.identification.fit.normal import normal_equations, solve

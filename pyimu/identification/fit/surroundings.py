@@ -12,6 +12,7 @@ from functools import cache
 import casadi as ca
 import numpy as np
 
+from pyimu.block.stepping import step_through
 from pyimu.block.vectorised import over_rows
 from pyimu.characterization.temperature.averages import Averages
 from pyimu.characterization.temperature.thermometer import smoothed
@@ -126,3 +127,32 @@ def _follows(name: str) -> ca.Function:
     parts = [ca.SX.sym(n, SIGNALS[n].size) for n in SIGNALS[name].of]
     value = SIGNALS[name].advance(ca.SX(0, 1), ca.SX(1), ca.SX(1), *parts)[0]
     return ca.Function(name, [ca.vertcat(*parts), ca.SX.sym("none", 0)], [ca.densify(value)])
+
+
+def vibration_of(force: np.ndarray, recording: Recording) -> np.ndarray:
+    """Mean square (n, 3) of the force's vibration, as a simulated part would see it."""
+    now, memory, h = (
+        ca.SX.sym("now", 3),
+        ca.SX.sym("memory", SIGNALS["vibration"].memory),
+        ca.SX.sym("h"),
+    )
+    started = ca.SX.sym("started")
+    value, after = SIGNALS["vibration"].advance(memory, started, h, now)
+    step = ca.Function(
+        "vibration",
+        [ca.vertcat(started, memory), now, ca.SX(0, 1), ca.SX(0, 1), h],
+        [ca.vertcat(1, after), value],
+    )
+    out, none = np.zeros_like(force), np.zeros(0)
+    for a, b in recording.segments:
+        start = np.zeros(1 + SIGNALS["vibration"].memory)
+        step_through(
+            step,
+            start,
+            np.ascontiguousarray(force[a:b]),
+            none,
+            np.zeros((b - a, 0)),
+            np.array([recording.sample_period]),
+            out[a:b],
+        )
+    return out

@@ -7,16 +7,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from functools import cached_property
 
-import casadi as ca
 import numpy as np
 
-from pyimu.block.stepping import step_through
 from pyimu.errors import Finding
 from pyimu.identification.fit.band import Band
 from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.reduction import Reduction, Rows
-from pyimu.identification.fit.surroundings import fill_place, without_noise
+from pyimu.identification.fit.surroundings import fill_place, vibration_of, without_noise
 from pyimu.model.kinds import OWN
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS, SIGNALS, START, SURROUNDINGS
@@ -84,11 +83,11 @@ class Trial:
     up: np.ndarray | None = None
     reduction: Reduction | None = None
 
-    @property
+    @cached_property
     def band(self) -> Band:
         return Band() if self.band_hz is None else Band.below(self.band_hz, 1.0 / self.h)
 
-    @property
+    @cached_property
     def row_segments(self) -> list[tuple[int, int]]:
         """Ranges of rows that regression draws on.
 
@@ -251,7 +250,7 @@ def environment(recording: Recording) -> tuple[np.ndarray, frozenset[str]]:
     force = recording.accel if recording.ref_force is None else recording.ref_force
     if force is not None:
         u[:, OWN["accel"]] = np.nan_to_num(filled(recording.time, force))
-        u[:, COLUMNS["vibration"]] = _vibration(u[:, OWN["accel"]], recording)
+        u[:, COLUMNS["vibration"]] = vibration_of(u[:, OWN["accel"]], recording)
         known |= {"specific_force", "vibration"}
     for name in SURROUNDINGS:
         values = getattr(recording, SIGNALS[name].group)
@@ -283,35 +282,6 @@ def _turned(u: np.ndarray, recording: Recording) -> set[str]:
     steps = recording.sample_period * u[:, COLUMNS["rate"]]
     u[:, COLUMNS["turned"]] = np.cumsum(steps, axis=0)
     return {"turned"}
-
-
-def _vibration(force: np.ndarray, recording: Recording) -> np.ndarray:
-    """Mean square (n, 3) of the force's vibration, as a simulated part would see it."""
-    now, memory, h = (
-        ca.SX.sym("now", 3),
-        ca.SX.sym("memory", SIGNALS["vibration"].memory),
-        ca.SX.sym("h"),
-    )
-    started = ca.SX.sym("started")
-    value, after = SIGNALS["vibration"].advance(memory, started, h, now)
-    step = ca.Function(
-        "vibration",
-        [ca.vertcat(started, memory), now, ca.SX(0, 1), ca.SX(0, 1), h],
-        [ca.vertcat(1, after), value],
-    )
-    out, none = np.zeros_like(force), np.zeros(0)
-    for a, b in recording.segments:
-        start = np.zeros(1 + SIGNALS["vibration"].memory)
-        step_through(
-            step,
-            start,
-            np.ascontiguousarray(force[a:b]),
-            none,
-            np.zeros((b - a, 0)),
-            np.array([recording.sample_period]),
-            out[a:b],
-        )
-    return out
 
 
 def _trial(
@@ -401,32 +371,3 @@ def marked(segments: list[tuple[int, int]], n: int) -> np.ndarray:
     for a, b in segments:
         flags[a:b] = True
     return flags
-
-
-def rest_noise(trial: Trial) -> np.ndarray:
-    """Standard deviation (3,) of the white noise of the samples, in the quietest seconds."""
-    return (
-        trial.reduction.sample_std if trial.reduction is not None else white_noise(trial, trial.y)
-    )
-
-
-def white_noise(trial: Trial, values: np.ndarray) -> np.ndarray:
-    """Standard deviation (k,) of the white noise of a trial's values (n, k)."""
-    return quiet_noise(values, trial.row_segments, trial.h)
-
-
-def quiet_noise(values: np.ndarray, segments: list[tuple[int, int]], h: float) -> np.ndarray:
-    """Standard deviation (k,) of the white noise of values (n, k), sampled every ``h`` s.
-
-    From the quietest quarter of second-long segments.
-
-    Third differences take out motion up to a tenth of the sample rate; those of white noise have 20
-    times its variance.
-    """
-    length = max(8, round(1.0 / h))
-    pieces = [values[k : k + length] for a, b in segments for k in range(a, b - length + 1, length)]
-    if not pieces:
-        return np.full(values.shape[1], np.nan)
-    spreads = np.sqrt(np.mean(np.diff(np.array(pieces), n=3, axis=1) ** 2, axis=1) / 20)
-    quiet = np.argsort(spreads.sum(axis=1))[: max(1, len(pieces) // 4)]
-    return np.sqrt(np.mean(spreads[quiet] ** 2, axis=0))

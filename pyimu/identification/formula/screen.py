@@ -20,7 +20,8 @@ from pyimu.identification.fit.normal import solve
 from pyimu.identification.fit.reference_noise import equations
 from pyimu.identification.formula.columns import columns_of
 from pyimu.identification.formula.terms import Term
-from pyimu.identification.search.screen import DRAWS, FALSE_ALARM, PENALTY, Projected, dispersion
+from pyimu.identification.search.projected import Projected, dispersion
+from pyimu.identification.search.screen import DRAWS, FALSE_ALARM, PENALTY
 
 CHUNK = 48
 """Terms whose columns are held at once."""
@@ -156,7 +157,9 @@ def _thinned(fit: Fit, linears: list[Linear], axis: int) -> tuple[np.ndarray, li
     stride = max(1, sum(len(one.time) for one in with_axis) // KEPT_ROWS)
     pieces = []
     for one in with_axis:
-        white = fit.noise[axis].whiten(one.columns[axis], one.time, one.segments)[::stride]
+        white = fit.noise[axis].whiten(np.asarray(one.columns[axis]), one.time, one.segments)[
+            ::stride
+        ]
         full = np.zeros((len(white), len(keys)))
         full[:, [keys.index(k) for k in one.keys[axis]]] = white
         pieces.append(full)

@@ -12,7 +12,8 @@ from itertools import combinations_with_replacement
 
 import numpy as np
 
-from pyimu.identification.fit.trial import Trial, known_to_all, white_noise
+from pyimu.identification.fit.sample_noise import white_noise
+from pyimu.identification.fit.trial import Trial, known_to_all
 from pyimu.model.arguments import AXES
 from pyimu.model.kinds import KINDS
 from pyimu.model.signals import COLUMNS, SIGNALS, START

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 from pyimu.characterization.magnetometer.estimate import TURN, fresh_rows
 from pyimu.identification.attitude_error import on_own_clock
 from pyimu.identification.fit.clock import Clock
-from pyimu.identification.fit.trial import quiet_noise
+from pyimu.identification.fit.sample_noise import quiet_noise
 from pyimu.recording.clock import runs
 from pyimu.recording.quality.spikes import spikes
 from pyimu.recording.recording import Recording

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pyimu.identification.fit.columns import LogState, in_band, reference_input, residual
+from pyimu.identification.fit.columns import in_band, residual
 from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.inputs import LogState, reference_input
 from pyimu.identification.fit.score import held_state
 from pyimu.identification.fit.trial import Trial
 from pyimu.model.kinds import KINDS, OWN

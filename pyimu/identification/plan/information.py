@@ -13,14 +13,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pyimu.identification.fit.columns import LogState, clipped, linearise
+from pyimu.identification.fit.columns import clipped, linearise
 from pyimu.identification.fit.fit import THERMOMETER
+from pyimu.identification.fit.inputs import LogState
 from pyimu.identification.fit.keys import Coefficient, LogLag, coefficients_of
 from pyimu.identification.fit.normal import Noise, normal_equations, variances
 from pyimu.identification.fit.response import predict
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.search.candidates import has_columns
-from pyimu.identification.search.screen import Projected
+from pyimu.identification.search.projected import Projected
 from pyimu.model.catalogue import CATALOGUE, POWER_ON
 from pyimu.model.effect import Effect
 from pyimu.model.sensor import Sensor

@@ -21,7 +21,8 @@ from scipy.special import i0
 from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.columns import band_time, in_band
 from pyimu.identification.fit.response import through_dynamics
-from pyimu.identification.fit.trial import MOVING, Trial, marked, rest_noise
+from pyimu.identification.fit.sample_noise import rest_noise
+from pyimu.identification.fit.trial import MOVING, Trial, marked
 from pyimu.identification.reference.track import Level, level_of
 from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.sensor import Sensor

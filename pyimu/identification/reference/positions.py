@@ -111,7 +111,7 @@ def _imagined(fit: Fit, keys: list[Key]) -> np.ndarray:
     made = replace(trial, y=y, u=u, time=np.zeros(n), segments=each, reduction=replace(r, **like))
     linear = linearise(fit.sensor, made, state, fit.free)
     rows = np.zeros((n, len(keys)))
-    for k, column in zip(linear.keys[0], linear.columns[0].T, strict=True):
+    for k, column in zip(linear.keys[0], linear.columns[0].arrays, strict=True):
         if k in keys:
             rows[:, keys.index(k)] = column
     return rows

@@ -13,13 +13,14 @@ from scipy.integrate import trapezoid
 from scipy.optimize import brentq
 from scipy.special import erfcx
 
-from pyimu.identification.fit.columns import LogState, reference_input
 from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.inputs import LogState, reference_input
 from pyimu.identification.fit.keys import Coefficient, Key
 from pyimu.identification.fit.maximum_likelihood import fit
 from pyimu.identification.fit.response import predict
+from pyimu.identification.fit.sample_noise import rest_noise
 from pyimu.identification.fit.score import compared
-from pyimu.identification.fit.trial import Trial, counted, marked, rest_noise
+from pyimu.identification.fit.trial import Trial, counted, marked
 from pyimu.model.sensor import Sensor
 from pyimu.recording.quality.resolution import resolution
 

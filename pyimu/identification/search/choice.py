@@ -27,9 +27,9 @@ from pyimu.identification.search.ceiling import (
     stops_there,
 )
 from pyimu.identification.search.instants import at_instants
+from pyimu.identification.search.projected import Scatter
 from pyimu.identification.search.screen import (
     PENALTY,
-    Scatter,
     Screened,
     Screening,
     fitted_dispersion,

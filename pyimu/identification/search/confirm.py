@@ -9,8 +9,9 @@ import numpy as np
 from scipy.stats import chi2
 
 from pyimu.identification.fit.columns import Linear, band_time, in_band, residual
-from pyimu.identification.fit.fit import Fit, bare, declared_variances
+from pyimu.identification.fit.fit import Fit, bare
 from pyimu.identification.fit.left_out import left_out
+from pyimu.identification.fit.noise_fit import declared_variances
 from pyimu.identification.fit.noise_floor import own_noise, reference_variance
 from pyimu.identification.fit.normal import BATCHES
 from pyimu.identification.fit.reference_noise import STEP, changes, has_noise, moved, whitened

@@ -15,8 +15,9 @@ from functools import cached_property
 import numpy as np
 from scipy.fft import next_fast_len, rfft
 
-from pyimu.identification.fit.columns import Linear, reference_input
+from pyimu.identification.fit.columns import Linear
 from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.inputs import reference_input
 from pyimu.identification.fit.keys import Coefficient, Key
 from pyimu.identification.fit.response import is_driven, predict
 from pyimu.identification.fit.trial import Trial
@@ -170,7 +171,9 @@ class Slow:
                 columns = np.zeros((len(one.time), len(keys) + 1))
                 columns[:, 0] = one.residual[:, i]
                 if i in one.keys:
-                    columns[:, [1 + keys.index(k) for k in one.keys[i]]] = one.columns[i]
+                    columns[:, [1 + keys.index(k) for k in one.keys[i]]] = np.asarray(
+                        one.columns[i]
+                    )
                 parts.append(self._white(i, _means(columns, number, full), full, count))
             whole = np.concatenate(parts)
             out[i] = whole[:, 0], whole[:, 1:]

@@ -73,6 +73,8 @@ class CsvReader(Reader):
                 ):
                     done += batch.num_rows
                     yield [to_numpy(column) for column in batch.columns], share()
+            # What reading took beside the numbers would be held for the next file.
+            pa.default_memory_pool().release_unused()
         except (pa.ArrowException, OSError) as error:
             self._explain(positions, done)
             reason = (str(error).splitlines() or [type(error).__name__])[0]

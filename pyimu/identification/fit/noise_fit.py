@@ -1,0 +1,69 @@
+"""The noise of each axis: what a part declares of it, and what a residual shows."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from pyimu.identification.fit.columns import Linear, in_band
+from pyimu.identification.fit.normal import Noise
+from pyimu.identification.fit.reduction import Unit
+from pyimu.identification.fit.trial import Trial
+from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
+from pyimu.model.catalogue import WALK, WHITE
+from pyimu.model.kinds import KINDS
+from pyimu.model.sensor import Sensor
+from pyimu.model.signals import COLUMNS
+from pyimu.recording.reference.rate import DERIVED
+
+LEAST_ROWS = 50
+"""Rows for each column of motion that is taken out of a residual: with fewer, noise would go with
+it."""
+
+MOTION = 0.01
+"""Share of a residual's power beside the motion below which it is nothing but motion."""
+
+
+def declared_variances(sensor: Sensor, h: float) -> tuple[np.ndarray, np.ndarray]:
+    """Variance (3,) of a sample's white noise, and of the random walk in a second; zero where the
+    sensor declares none.
+    """
+    white, walk = (
+        np.asarray(sensor.values[effect][parameter]) if effect in sensor.values else np.zeros(3)
+        for effect, parameter in (WHITE, WALK)
+    )
+    return white**2 / h, walk**2
+
+
+def fit_noise(trials: tuple[Trial, ...], residuals: list[Linear], coloured: bool = False) -> Noise:
+    """Noise model of each axis, one for all logs: the whitening follows what the reference is."""
+    if any(t.reduction is not None for t in trials):
+        return {0: Unit()}
+    derived = coloured or any(t.reference in DERIVED for t in trials)
+    made = {}
+    for i in sorted({i for t in trials for i in t.axes}):
+        axis = [(t, one) for t, one in zip(trials, residuals, strict=True) if i in one.keys]
+        if derived:
+            parts = [(_beside_motion(t, one, i), one.time, one.segments) for t, one in axis]
+            made[i] = Autoregressive.fit(parts)
+        else:
+            made[i] = RandomWalk.fit(
+                [(one.residual[:, i], one.time, one.segments) for _, one in axis]
+            )
+    return made
+
+
+def _beside_motion(trial: Trial, one: Linear, axis: int) -> np.ndarray:
+    """A residual (m,), without what gains, axes and a delay that are not right yet make of the
+    motion, where it is hardly anything else.
+
+    A motion that repeats is what its past predicts: an autoregression would take that for noise,
+    and whiten the motion away with it. Where there is noise to be seen the residual stays as it is,
+    for the reference's own is in the motion, too.
+    """
+    left, own = one.residual[:, axis], (KINDS[trial.kind].own, KINDS[trial.kind].own_rate)
+    motion = in_band(trial, np.hstack([trial.u[:, COLUMNS[name]] for name in own]))
+    columns = np.column_stack([motion, np.ones(len(motion))])
+    if len(left) < LEAST_ROWS * columns.shape[1]:
+        return left
+    beside = left - columns @ np.linalg.lstsq(columns, left)[0]
+    return beside if beside @ beside < MOTION * (left @ left) else left
