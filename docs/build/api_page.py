@@ -62,7 +62,7 @@ def _class(name: str, cls: type) -> str:
         call = "" if isinstance(member, property) else "()"
         first = (inspect.getdoc(member) or "").partition("\n\n")[0].replace("\n", " ")
         said = ROLE.sub(r"`\1`", first)
-        rows.append(f"- `{key}{call}`: {said}")
+        rows.append(f"- `{key}{call}`" + (f": {said}" if said else ""))
     return "\n".join([f"### `{name}`", "", _doc(cls), *rows, *([""] if rows else [])])
 
 

@@ -215,11 +215,10 @@ def of_reference(seen: Spectrum, high: float, error: float) -> tuple[Spectrum, b
         level, doubt = float(found[0]), float(np.sqrt(inverse[0, 0]))
         if high <= level + CHANCE * doubt:
             level, doubt = high, high * error
+        if level <= CLEARLY * doubt:
+            return NOTHING, False
         none = np.zeros(len(seen.psd))
-        clear = level > CLEARLY * doubt
-        return Spectrum(
-            seen.frequency, none + level, none, doubt / level
-        ) if clear else NOTHING, False
+        return Spectrum(seen.frequency, none + level, none, doubt / level), False
     psd, std = np.array(seen.psd), np.array(seen.std)
     psd[: pieces[0].start], std[: pieces[0].start] = psd[pieces[0]].mean(), std[pieces[0]].mean()
     found = Spectrum(seen.frequency, psd, std)

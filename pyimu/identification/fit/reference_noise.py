@@ -239,16 +239,15 @@ def equations(fit: Fit, linearised: Callable[[Fit], list[Linear]] = Fit.linearis
         unknown[at] += error * np.diag(noise.gram)[own]
         # Gram matrices by batch are large: they are taken off where they stand.
         score[:, at] -= noise.batch_score[:, own]
-        for whole, part in zip(gram, noise.batch_gram, strict=True):
-            whole[np.ix_(at, at)] -= part[np.ix_(own, own)]
+        for one, part in zip(gram, noise.batch_gram, strict=True):
+            one[np.ix_(at, at)] -= part[np.ix_(own, own)]
         power -= noise.power
-    whole = np.diag(gram.sum(axis=0))
-    hidden = whole <= np.maximum(LEAST_SEEN * np.diag(seen), CHANCE * unknown)
+    whole = gram.sum(axis=0)
+    hidden = np.diag(whole) <= np.maximum(LEAST_SEEN * np.diag(seen), CHANCE * unknown)
     score[:, hidden] = gram[:, hidden] = gram[:, :, hidden] = doubt[:, hidden] = 0.0
     shown = np.flatnonzero(~hidden)
-    onto, off = _unseen_directions(
-        gram.sum(axis=0)[np.ix_(shown, shown)], seen[np.ix_(shown, shown)]
-    )
+    both = np.ix_(shown, shown)
+    onto, off = _unseen_directions(whole[both], seen[both])
     if onto.size:
         _without(gram, score, doubt, shown, onto, off)
     return Normal(found.keys, gram, score, power, found.rows, found.log_det, seen, doubt)
@@ -258,7 +257,7 @@ def _unseen_directions(gram: np.ndarray, seen: np.ndarray) -> tuple[np.ndarray, 
     """Directions of the columns whose power is the noise of the reference, all but ``LEAST_SEEN``:
     columns that show something each may add up to one that does not.
 
-    Two of (P, k): I - first @ second.T takes them out of scores, and from both sides out of a Gram
+    Two of (P, k): I - first second' takes them out of scores, and from both sides out of a Gram
     matrix. With S = U W U' the Gram matrix of the columns as they are, they are the eigenvectors V
     of W^-1/2 U' G U W^-1/2 of small eigenvalues: U W^1/2 V and U W^-1/2 V.
     """
