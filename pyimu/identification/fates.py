@@ -10,7 +10,7 @@ from pyimu.files import plain
 from pyimu.identification.found import Added
 from pyimu.identification.rounding import is_read, shows_samples
 from pyimu.identification.search.candidates import equivalent
-from pyimu.identification.search.choice import SET_WIDTH
+from pyimu.identification.search.choice import LEAST_SHARE, MOST_REFINED, SET_WIDTH
 from pyimu.identification.search.forward import MOST_EFFECTS, Investigation, Step
 from pyimu.identification.unasked import why_unasked
 from pyimu.model.sensor import candidates
@@ -151,7 +151,7 @@ def _by_the_steps(
         fell = f"its gain fell from {number(first)} to {number(last)} nat"
         once = f"{joined(steps)} {_was(steps)} in" if steps else "what is left was taken for noise"
         return "explained", f"{fell} once {once}{_overtaken(inv, name, first)}", steps
-    return "not taken up", _why_left(inv), ()
+    return "not taken up", _why_left(inv, name), ()
 
 
 def _overtaken(inv: Investigation, name: str, first: float | None) -> str:
@@ -171,11 +171,16 @@ def _was(names: tuple[str, ...]) -> str:
     return "was" if len(names) == 1 else "were"
 
 
-def _why_left(inv: Investigation) -> str:
+def _why_left(inv: Investigation, name: str) -> str:
     """Why a candidate that still passes the gate at the last look was not added."""
     if len(inv.steps) >= MOST_EFFECTS:
         return f"{MOST_EFFECTS} effects were added already"
+    refused = {r.effect for r in inv.refused}
     back = [r.effect for r in inv.refused if r.reason.startswith(TAKEN_BACK)]
     if back:
         return f"not looked for again after {joined(back)} was taken back"
-    return "fitted in full, beside all else, it gains less than the gate"
+    options = [c for c in inv.last.above() if c.effect not in refused]
+    best = [c for c in options[:MOST_REFINED] if c.gain > LEAST_SHARE * options[0].gain]
+    if name in [c.effect for c in best]:
+        return "fitted in full, beside all else, it gains less than the gate"
+    return f"weaker than {joined([c.effect for c in best])}, which fitted in full gain nothing"

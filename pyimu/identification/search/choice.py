@@ -7,7 +7,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from functools import reduce
-from itertools import chain
 
 import numpy as np
 
@@ -54,11 +53,10 @@ autoregression of order p knows the power at its slow end, where motions are, wi
 and order 32 a tenth, twice that for a share."""
 
 MOST_REFINED = 5
-"""Candidates that are fitted in full together, the best at first look, to be compared."""
 
 LEAST_SHARE = 0.1
-"""Share of the best gain at first look below which a candidate is not compared with the best: noise
-fitted anew reorders, but not so far."""
+"""Share of the best gain at first look below which a candidate is not fitted in full: noise fitted
+anew reorders, but not so far."""
 
 
 @dataclass(frozen=True)
@@ -132,14 +130,10 @@ def chosen_of(
 ) -> tuple[Refined | None, tuple[str, ...]]:
     """The candidate that explains most once fitted in full, and the names of those that explain as
     much.
-
-    The best few are fitted; where none of them is above the gate then, the others one by one.
     """
     share = 0.0 if _takes_it_for_noise(tried.current) else LEAST_SHARE
     worth = [c for c in options[:MOST_REFINED] if c.gain > share * options[0].gain]
-    rest = ([c] for c in options[len(worth) :])
-    each = (_above(gate, map(tried.refine, some)) for some in chain([worth], rest))
-    refined = next(filter(None, each), [])
+    refined = _above(gate, map(tried.refine, worth))
     if not refined:
         return None, ()
     derived = any(t.band_hz is not None for t in tried.current.trials)
