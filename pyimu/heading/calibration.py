@@ -16,7 +16,7 @@ import numpy as np
 
 from pyimu.errors import UserError
 from pyimu.heading.motion import KnownMotion, Reference, Z, known_motion
-from pyimu.identification.fit.columns import Linear
+from pyimu.identification.fit.columns import Linear, Stack
 from pyimu.identification.fit.keys import Coefficient, LogBias
 from pyimu.identification.fit.normal import normal_equations, variances
 from pyimu.identification.fit.whiten import RandomWalk
@@ -189,7 +189,7 @@ def observed(one: KnownMotion, reference: Reference) -> tuple[np.ndarray, tuple[
     scatter = np.diff(left) @ np.diff(left) / (2 * max(len(left) - 1, 1))
     noise = RandomWalk(max(float(scatter), 1e-30), 0.0)
     names = [Coefficient("scale_factor", "s", (Z,)), LogBias(one.name, Z)]
-    linear = Linear(one.time, one.segments, left[:, None], {0: names}, {0: columns})
+    linear = Linear(one.time, one.segments, left[:, None], {0: names}, {0: Stack.of(columns)})
     std = float(np.sqrt(variances(normal_equations([linear], {0: noise}).gram)[0]))
     return rate, (condition_number(columns), std)
 

@@ -30,7 +30,7 @@ from pyimu.heading.calibration import (
     observed,
 )
 from pyimu.heading.motion import KnownMotion, Reference, Z, known_motion
-from pyimu.identification.fit.columns import Linear
+from pyimu.identification.fit.columns import Linear, Stack
 from pyimu.identification.fit.keys import Coefficient, Key, LogBias, LogClock
 from pyimu.identification.fit.normal import normal_equations, solve, variances
 from pyimu.identification.fit.whiten import RandomWalk
@@ -193,7 +193,7 @@ def _solved(truth: _Truth, late: float, window: int, offset: bool) -> Calibratio
         # The bias is that of a row before the first: else that one row would weigh more than all
         # others together where there is walk and next to no white noise.
         noise = replace(noise, before=window * truth.one.period)
-        linear = Linear(rows.time, rows.segments, left[:, None], {0: keys}, {0: columns})
+        linear = Linear(rows.time, rows.segments, left[:, None], {0: keys}, {0: Stack.of(columns)})
         normal = normal_equations([linear], {0: noise})
         if offset and not np.isfinite(variances(normal.gram)).all():
             # A ramp that is late is a ramp with another bias.

@@ -14,7 +14,7 @@ import numpy as np
 from scipy.ndimage import uniform_filter1d
 
 from pyimu.errors import UserError
-from pyimu.identification.fit.columns import Linear
+from pyimu.identification.fit.columns import Linear, Stack
 from pyimu.identification.fit.keys import Coefficient, Key, LogBias
 from pyimu.identification.fit.normal import normal_equations, solve, variances
 from pyimu.identification.fit.whiten import LEAST_VARIANCE, RandomWalk
@@ -142,7 +142,7 @@ def _transfer(recording: Recording, axis: int) -> RateTransfer:
     noise = RandomWalk(max(float(rest @ rest) / (len(rest) - len(keys)), LEAST_VARIANCE), 0.0)
     time = np.array([recording.time[a] for a, _ in pieces])
     every = [(0, len(rates))]
-    linear = Linear(time, every, (means - rates)[:, None], {0: keys}, {0: columns})
+    linear = Linear(time, every, (means - rates)[:, None], {0: keys}, {0: Stack.of(columns)})
     normal = normal_equations([linear], {0: noise})
     answer, std = solve(normal.gram, normal.score), np.sqrt(variances(normal.gram))
     return RateTransfer(

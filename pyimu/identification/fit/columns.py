@@ -55,6 +55,11 @@ class Stack:
     count: int
     arrays: tuple[np.ndarray, ...] = ()
 
+    @classmethod
+    def of(cls, columns: np.ndarray) -> Stack:
+        """Those of an array (m, c)."""
+        return cls(len(columns), tuple(np.ascontiguousarray(columns.T)))
+
     @property
     def shape(self) -> tuple[int, int]:
         return self.count, len(self.arrays)

@@ -19,7 +19,7 @@ from scipy.stats import chi2
 from pyimu.identification.fit.columns import Linear, in_band
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk
-from pyimu.model.kinds import KINDS
+from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.signals import COLUMNS
 from pyimu.recording.quality.clipping import clipped
 
@@ -67,13 +67,18 @@ class Spectrum:
     """One-sided density ``psd`` (f,) of rows in a band, at ``frequency`` (f,) in Hz.
 
     ``std`` (f,) are its standard errors; it may lie below zero by them. ``common`` is the standard
-    error of all of it together, over it.
+    error of all of it together, over it; ``whole`` (f,) the density of all that the reference
+    shows, over which no noise of it can be, ``shown`` the largest share that it
+    has of that; ``coloured`` says that noise is known not to be white.
     """
 
     frequency: np.ndarray
     psd: np.ndarray
     std: np.ndarray
     common: float = 0.0
+    whole: np.ndarray | None = None
+    shown: float = 0.0
+    coloured: bool = False
 
     @property
     def variance(self) -> float:
@@ -139,15 +144,16 @@ def unseen_spectrum(trial: Trial, one: Linear, axis: int, own: RandomWalk) -> Sp
     ]
     if length < FEWEST_ROWS or len(starts) < 2 * count:
         return NOTHING
-    both = np.column_stack([one.residual[:, axis], inputs])
+    own_signal = in_band(trial, trial.u[:, OWN[trial.kind]][:, [axis]])
+    both = np.column_stack([one.residual[:, axis], inputs, own_signal])
     window, interval = hann(length, sym=False), trial.h * trial.band.stride
     pieces = np.array([both[s : s + length] for s in starts])
     pieces -= pieces.mean(axis=1, keepdims=True)
     z = np.fft.rfft(pieces * window[:, None], axis=1).transpose(1, 2, 0)
-    # (f, 1 + count, 1 + count): residual first.
+    # (f, 2 + count, 2 + count): residual first, the reference's own signal last.
     cross = z.conj() @ z.transpose(0, 2, 1) * (2 * interval / len(starts) / (window @ window))
-    r, by = cross[:, 0, 0].real, cross[:, 1:, 0]
-    inverse = _inverse(cross[:, 1:, 1:])
+    r, by = cross[:, 0, 0].real, cross[:, 1:-1, 0]
+    inverse = _inverse(cross[:, 1:-1, 1:-1])
     gain = np.einsum("fij,fj->fi", inverse, by)
     shown = np.einsum("fi,fi->f", by.conj(), gain).real
     averaged = len(starts) / OVERLAP - count
@@ -160,7 +166,7 @@ def unseen_spectrum(trial: Trial, one: Linear, axis: int, own: RandomWalk) -> Sp
     of_share = mine * np.sqrt(left * np.maximum(inverse[:, at, at].real, 0.0))
     psd, std = left - mine * (1.0 - share), np.hypot(left, of_share) / np.sqrt(averaged)
     psd[0] = std[0] = 0.0
-    return Spectrum(frequency, psd, std)
+    return Spectrum(frequency, psd, std, whole=cross[:, -1, -1].real)
 
 
 def _inverse(matrices: np.ndarray) -> np.ndarray:
@@ -188,10 +194,10 @@ def _without_information(trial: Trial) -> np.ndarray:
     return bad if trial.left_out is None else bad | trial.left_out
 
 
-def of_reference(seen: Spectrum, high: float, error: float) -> tuple[Spectrum, bool]:
+def of_reference(seen: Spectrum, high: float, error: float) -> Spectrum:
     """The noise of a reference that is no derivative, by what is ``seen`` beyond the sensor's own
     and the density ``high`` that it shows itself by its high differences, with the ``error`` of
-    that over it; and whether it is coloured.
+    that over it.
 
     White, with what the sensor drifts beside it as a random walk, where these two account for all
     above ``DRIFTS``, else as seen. Below it is level: there nothing tells a reference that wanders
@@ -201,12 +207,12 @@ def of_reference(seen: Spectrum, high: float, error: float) -> tuple[Spectrum, b
     first = int(np.searchsorted(seen.frequency, DRIFTS))
     pieces = thirds(len(seen.psd), max(first, 1))
     if len(pieces) < 4:
-        return NOTHING, False
+        return NOTHING
     mean, std, at = np.array(
         [(seen.psd[p].mean(), seen.std_of_mean(p), seen.frequency[p].mean()) for p in pieces]
     ).T
     if not np.all(std > 0.0):
-        return NOTHING, False
+        return NOTHING
     columns = np.column_stack([np.ones(len(at)), at**-2.0]) / std[:, None]
     inverse = np.linalg.inv(columns.T @ columns)
     found = inverse @ (columns.T @ (mean / std))
@@ -216,13 +222,29 @@ def of_reference(seen: Spectrum, high: float, error: float) -> tuple[Spectrum, b
         if high <= level + CHANCE * doubt:
             level, doubt = high, high * error
         if level <= CLEARLY * doubt:
-            return NOTHING, False
+            return NOTHING
         none = np.zeros(len(seen.psd))
-        return Spectrum(seen.frequency, none + level, none, doubt / level), False
+        return Spectrum(seen.frequency, none + level, none, doubt / level)
+    share = _shown_by_itself(seen, pieces, mean, std)
     psd, std = np.array(seen.psd), np.array(seen.std)
     psd[: pieces[0].start], std[: pieces[0].start] = psd[pieces[0]].mean(), std[pieces[0]].mean()
-    found = Spectrum(seen.frequency, psd, std)
-    return (found, True) if CLEARLY * found.error < 1.0 else (NOTHING, False)
+    found = Spectrum(seen.frequency, psd, std, shown=share, coloured=True)
+    return found if CLEARLY * found.error < 1.0 else NOTHING
+
+
+def _shown_by_itself(
+    seen: Spectrum, pieces: list[slice], mean: np.ndarray, std: np.ndarray
+) -> float:
+    """The largest share that noise of densities ``mean`` (k,) in ``pieces`` clearly has of what the
+    reference shows itself; nothing where it would be more than that anywhere.
+    """
+    if seen.whole is None:
+        return 0.0
+    most = np.array([seen.whole[p].mean() for p in pieces])
+    clear = mean > CLEARLY * std
+    if np.any(mean > most + CHANCE * std):
+        return 0.0
+    return float(np.max(mean[clear] / most[clear], initial=0.0))
 
 
 def _own(trial: Trial, own: RandomWalk, frequency: np.ndarray) -> np.ndarray:

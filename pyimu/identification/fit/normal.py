@@ -117,7 +117,8 @@ def _scaled(gram: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.nd
     """Scale of each column, eigenvalues and eigenvectors of the scaled matrix, and which directions
     the data show.
     """
-    scale = np.sqrt(np.maximum(np.diag(gram), 1e-300))
+    power = np.diag(gram)
+    scale = np.sqrt(np.where(power > 1e-300, power, 1.0))
     values, vectors = np.linalg.eigh(gram / np.outer(scale, scale))
     return scale, values, vectors, values > DEAD * max(values.max(initial=0.0), 1e-300)
 

@@ -28,7 +28,9 @@ from pyimu.identification.fit.incoherent import (
 )
 from pyimu.identification.fit.noise_floor import beyond_own, lowness, own_noise, quiet, windows
 from pyimu.identification.fit.normal import DEAD, Normal, normal_equations
+from pyimu.identification.fit.sample_noise import rest_noise
 from pyimu.identification.fit.trial import Trial
+from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.signals import COLUMNS
 
@@ -46,6 +48,10 @@ REST = 1 / 16
 LEAST_SEEN = 0.01
 """Share of a column's power that must not be noise of the reference; of the rest there is nothing
 to be seen."""
+
+SHOWN = 1 / 3
+"""Share of what a reference shows at some frequency that coloured noise of it must have there, on
+one axis at least."""
 
 THIRD = 20.0
 """Power of third differences of white noise over its own: 1 + 9 + 9 + 1."""
@@ -124,15 +130,28 @@ def _spectra(fit: Fit, linears: Sequence[Linear]) -> tuple[dict[str, list[Spectr
     for t, one in zip(fit.trials, linears, strict=True):
         if t.reference == "static":
             continue
-        found[t.name], high = [NOTHING] * 3, _white(t)
+        found[t.name] = [NOTHING] * 3
         for i in one.keys:
-            seen = unseen_spectrum(t, one, i, own[i])
             if t.band_hz is None:
-                known = np.sqrt(2.0 * WEIGHT / len(one.time))
-                seen, more = of_reference(seen, 2.0 * t.h * high[i], known)
-                coloured |= more
-            found[t.name][i] = seen
+                found[t.name][i] = _of_direct(t, one, i, own[i])
+            else:
+                found[t.name][i] = unseen_spectrum(t, one, i, own[i])
+        bent = [s.coloured for s in found[t.name]]
+        if any(bent) and max(s.shown for s in found[t.name]) < SHOWN:
+            # The reference shows none of it: an effect left it.
+            found[t.name] = [NOTHING if s.coloured else s for s in found[t.name]]
+        coloured |= any(s.coloured for s in found[t.name])
     return found, coloured
+
+
+def _of_direct(trial: Trial, one: Linear, axis: int, own: RandomWalk) -> Spectrum:
+    """The noise on an axis of a reference that is no derivative; what the sensor has beyond its
+    ``own`` declared noise is not the reference's.
+    """
+    seen = max(own.r, float(rest_noise(trial)[axis]) ** 2)
+    left = unseen_spectrum(trial, one, axis, replace(own, r=seen))
+    high = 2.0 * trial.h * float(_white(trial)[axis])
+    return of_reference(left, high, float(np.sqrt(2.0 * WEIGHT / len(one.time))))
 
 
 def _spectrum_of(trial: Trial, spectra: Mapping[str, list[Spectrum]]) -> Sequence[Spectrum]:
@@ -250,6 +269,8 @@ def equations(fit: Fit, linearised: Callable[[Fit], list[Linear]] = Fit.linearis
     onto, off = _unseen_directions(whole[both], seen[both])
     if onto.size:
         _without(gram, score, doubt, shown, onto, off)
+        gone = np.diag(gram.sum(axis=0)) <= DEAD * np.diag(seen)
+        score[:, gone] = gram[:, gone] = gram[:, :, gone] = doubt[:, gone] = 0.0
     return Normal(found.keys, gram, score, power, found.rows, found.log_det, seen, doubt)
 
 
