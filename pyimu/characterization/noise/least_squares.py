@@ -58,6 +58,9 @@ class Problem:
 
     def _non_negative(self, kept: Sequence[int], root: np.ndarray) -> np.ndarray:
         """Squares (k,) of the terms ``kept`` by least squares under the covariance root root^T."""
+        squares = np.zeros(self.moments.design.shape[1])
+        if not len(kept):  # nnls of scipy 1.17 frees memory twice where there is nothing to fit
+            return squares
         # Not a triangular solve: libraries divide even such small ones among the processors, which
         # takes a hundred times longer.
         white = np.linalg.solve(
@@ -65,7 +68,6 @@ class Problem:
         )
         white = without(white[:, : self.nuisance.shape[1]], white[:, self.nuisance.shape[1] :])
         size = np.linalg.norm(white[:, :-1], axis=0)
-        squares = np.zeros(self.moments.design.shape[1])
         squares[kept] = nnls(white[:, :-1] / size, white[:, -1])[0] / size
         return squares
 

@@ -79,7 +79,8 @@ def find_bandwidth(
     scatter = max(2 * best.cost / freedom, 1.0)
     gain = (np.sum(((measured - flat) / spread) ** 2) - 2 * best.cost) / scatter
     corner = float(np.exp(best.x[1]))
-    if gain < chi2.isf(CHANCE / ORDERS, 2) or corner > f[-1]:
+    # Below the first frequency there is no level from which it would be down.
+    if gain < chi2.isf(CHANCE / ORDERS, 2) or not f[0] < corner <= f[-1]:
         return None
     std = float(np.sqrt(np.linalg.inv(best.jac.T @ best.jac)[1, 1] * scatter))
     half = norm.isf((1 - level) / 2) * std
