@@ -131,7 +131,7 @@ def test_a_field_that_is_not_the_same_everywhere_is_no_calibration():
 
 @pytest.mark.filterwarnings("error")
 def test_a_simulated_magnetometer_without_noise():
-    """What a prior alone knows is not lost beside samples that know all else to their last digit."""
+    """What a prior alone knows is not lost beside samples that tell the rest to the last digit."""
     _, attitude = attitudes(120, 12000)
     true = attitude.apply(FIELD, inverse=True)
     nothing = look(log(120, rows=12000, mag=true))
