@@ -69,7 +69,7 @@ def _found(made: Made, c: Closed) -> dict[str, Any]:
         "candidates": [f.as_dict() for f in c.candidates],
         "visible": {f"{v.sensor}.{v.effect}": v.reason for v in c.observability},
         "quality": sorted({f.kind for f in c.quality}),
-        "errors": {kind: _errors(made, kind, e) for kind, e in c.errors.items()},
+        "errors": {k: _errors(made, k, e) for k, e in c.errors.items() if k in made.left[0]},
     }
 
 

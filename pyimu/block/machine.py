@@ -150,8 +150,7 @@ def _through(code, one, two, to, reads, source, work, ends, answers, s, u, w, y)
                 work[reads[i, 1]] = u[k, at]
             else:
                 work[reads[i, 1]] = w[k, at]
-        for i in range(len(code)):
-            work[to[i]] = _done(code[i], work[one[i]], work[two[i]])
+        _evaluated(code, one, two, to, work)
         for i in range(len(ends)):
             s[i] = work[ends[i]]
         for i in range(len(answers)):

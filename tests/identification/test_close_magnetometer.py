@@ -129,6 +129,20 @@ def test_a_field_that_is_not_the_same_everywhere_is_no_calibration():
     assert found.outcome == UNEVEN and not found.adopted and found.times_noise > 3
 
 
+@pytest.mark.filterwarnings("error")
+def test_a_simulated_magnetometer_without_noise():
+    """What a prior alone knows is not lost beside samples that tell the rest to the last digit."""
+    _, attitude = attitudes(120, 12000)
+    true = attitude.apply(FIELD, inverse=True)
+    nothing = look(log(120, rows=12000, mag=true))
+    assert nothing.outcome == NOTHING
+    found = look(log(120, rows=12000, mag=true @ MATRIX.T + BIAS))
+    assert found.outcome == FOUND
+    np.testing.assert_allclose(found.after.calibration.bias, BIAS, rtol=1e-6)
+    np.testing.assert_allclose(found.after.calibration.matrix, MATRIX, atol=1e-6)
+    assert np.all(np.diag(found.after.covariance) > 0)
+
+
 def test_held_out_logs_judge_with_a_field_of_their_own():
     found = look(log(110), holdout=[log(111, name="held", field=1.2 * FIELD)])
     assert found.outcome == FOUND and set(found.by_log) == {"held"}

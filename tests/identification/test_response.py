@@ -6,7 +6,7 @@ import casadi as ca
 import numpy as np
 import pytest
 from catalogue_cases import CASES, H, everything, excited, motion, own, run
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from pyimu.block.vectorised import BLOCK, over_rows
@@ -160,7 +160,7 @@ def machine(function: ca.Function, rows: np.ndarray, fixed: np.ndarray) -> np.nd
 @pytest.mark.parametrize(("name", "kind"), [(n, k) for n, k in CASES if not CATALOGUE[n].states])
 def test_over_rows_is_the_virtual_machine(name, kind, seed):
     """Output and Jacobian of every effect without memory, at random inputs and coefficients of
-    either sign.
+    either sign, where no number overflows: what zero times infinity is, is left to either.
     """
     sensor = Sensor(kind, {name: {}})
     c = sensor.chain
@@ -172,9 +172,11 @@ def test_over_rows_is_the_virtual_machine(name, kind, seed):
     rows = rng.standard_normal((20, N_INPUT)) * 10.0 ** rng.uniform(-3, 3, N_INPUT)
     rows[rng.random(rows.shape) < 0.1] = 0.0
     p = rng.standard_normal(len(sensor.slots)) * (rng.random(len(sensor.slots)) < 0.9)
-    np.testing.assert_allclose(
-        over_rows(function, rows.T, p), machine(function, rows, p), rtol=1e-14, atol=0
-    )
+    expected = machine(function, rows, p)
+    finite = np.isfinite(expected).all(axis=1)
+    assume(finite.any())
+    found = over_rows(function, rows.T, p)
+    np.testing.assert_allclose(found[finite], expected[finite], rtol=1e-14, atol=0)
 
 
 def test_over_rows_knows_every_elementary_operation():

@@ -8,7 +8,7 @@ end, where the high differences of a reference show nothing of it.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,11 +17,11 @@ from scipy.signal.windows import hann
 from scipy.stats import chi2
 
 from pyimu.identification.fit.columns import Linear, in_band
+from pyimu.identification.fit.sample_noise import without_information
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.signals import COLUMNS
-from pyimu.recording.quality.clipping import clipped
 
 WINDOWS = 8
 """Windows that a log is cut into, half of each in the next one: enough to tell the three axes of
@@ -123,50 +123,69 @@ def thirds(count: int, first: int = 1) -> list[slice]:
 NOTHING = Spectrum(np.zeros(0), np.zeros(0), np.zeros(0))
 
 
-def unseen_spectrum(trial: Trial, one: Linear, axis: int, own: RandomWalk) -> Spectrum:
-    """Density of what is left on an ``axis`` and is not coherent with the sensor, less what its
-    ``own`` noise has of that.
+def unseen_spectra(trial: Trial, one: Linear, own: Mapping[int, RandomWalk]) -> dict[int, Spectrum]:
+    """Densities by axis of what is left and is not coherent with the sensor, less what its ``own``
+    noise has of that; none where there are too few rows.
 
     Of a reference that is no derivative neither with the signals that bend it: what an effect
     leaves is no noise of a reference, and no narrow band hides it.
     """
-    columns, bad = trial.y[:, list(trial.axes)], np.zeros(len(trial.y), dtype=bool)
-    if trial.band_hz is None:
-        columns, bad = np.column_stack([columns, _bending(trial)]), _without_information(trial)
-    inputs, bad = in_band(trial, columns), in_band(trial, bad[:, None].astype(float))[:, 0] > 0.0
-    count, rows = inputs.shape[1], sum(b - a for a, b in one.segments)
-    length = 2 * (rows // max(WINDOWS, FOR_EACH * count - FOR_EACH * len(trial.axes)) // 2)
-    starts = [
-        s
-        for a, b in one.segments
-        for s in range(a, b - length + 1, max(1, length // 2))
-        if not bad[s : s + length].any()
-    ]
+    axes = list(one.keys)
+    inputs, bad = _known(trial)
+    count = inputs.shape[1]
+    signal = in_band(trial, trial.u[:, OWN[trial.kind]][:, axes])
+    every = np.column_stack([one.residual[:, axes], inputs, signal])
+    length, starts = _frames(one, bad, max(WINDOWS, FOR_EACH * (count - len(trial.axes))))
     if length < FEWEST_ROWS or len(starts) < 2 * count:
-        return NOTHING
-    own_signal = in_band(trial, trial.u[:, OWN[trial.kind]][:, [axis]])
-    both = np.column_stack([one.residual[:, axis], inputs, own_signal])
-    window, interval = hann(length, sym=False), trial.h * trial.band.stride
-    pieces = np.array([both[s : s + length] for s in starts])
+        return {}
+    interval = trial.h * trial.band.stride
+    cross, frequency = _cross(every, starts, length, interval), np.fft.rfftfreq(length, interval)
+    known = slice(len(axes), len(axes) + count)
+    inverse, averaged = _inverse(cross[:, known, known]), len(starts) / OVERLAP - count
+    found = {}
+    for k, axis in enumerate(axes):
+        by, at = cross[:, known, k], trial.axes.index(axis)
+        gain = np.einsum("fij,fj->fi", inverse, by)
+        shown = np.einsum("fi,fi->f", by.conj(), gain).real
+        left = np.maximum(cross[:, k, k].real - shown, 0.0) * (1.0 + count / averaged)
+        mine = _own(trial, own[axis], frequency)
+        # The sensor's own noise is in its signal as well: that share of it is not left.
+        share = np.clip(gain[:, at].real, 0.0, 1.0)
+        of_share = mine * np.sqrt(left * np.maximum(inverse[:, at, at].real, 0.0))
+        psd, std = left - mine * (1.0 - share), np.hypot(left, of_share) / np.sqrt(averaged)
+        psd[0] = std[0] = 0.0
+        whole = cross[:, known.stop + k, known.stop + k].real
+        found[axis] = Spectrum(frequency, psd, std, whole=whole)
+    return found
+
+
+def _known(trial: Trial) -> tuple[np.ndarray, np.ndarray]:
+    """The signals (m, k), in rows, that a residual is compared with, and the rows (m,) in which
+    they say nothing.
+    """
+    columns, bad = trial.y[:, list(trial.axes)], np.zeros(len(trial.y))
+    if trial.band_hz is None:
+        columns = np.column_stack([columns, _bending(trial)])
+        bad = without_information(trial).astype(float)
+    return in_band(trial, columns), in_band(trial, bad[:, None])[:, 0] > 0.0
+
+
+def _frames(one: Linear, bad: np.ndarray, count: int) -> tuple[int, list[int]]:
+    """Length and starts of frames, half of each in the next, as many as ``count`` if there are no
+    gaps; none holds a ``bad`` row.
+    """
+    length = 2 * (sum(b - a for a, b in one.segments) // count // 2)
+    every = (s for a, b in one.segments for s in range(a, b - length + 1, max(1, length // 2)))
+    return length, [s for s in every if not bad[s : s + length].any()]
+
+
+def _cross(every: np.ndarray, starts: list[int], length: int, interval: float) -> np.ndarray:
+    """One-sided cross-spectral densities (f, k, k) of signals (m, k), by their frames."""
+    window = hann(length, sym=False)
+    pieces = np.array([every[s : s + length] for s in starts])
     pieces -= pieces.mean(axis=1, keepdims=True)
     z = np.fft.rfft(pieces * window[:, None], axis=1).transpose(1, 2, 0)
-    # (f, 2 + count, 2 + count): residual first, the reference's own signal last.
-    cross = z.conj() @ z.transpose(0, 2, 1) * (2 * interval / len(starts) / (window @ window))
-    r, by = cross[:, 0, 0].real, cross[:, 1:-1, 0]
-    inverse = _inverse(cross[:, 1:-1, 1:-1])
-    gain = np.einsum("fij,fj->fi", inverse, by)
-    shown = np.einsum("fi,fi->f", by.conj(), gain).real
-    averaged = len(starts) / OVERLAP - count
-    left = np.maximum(r - shown, 0.0) * (1.0 + count / averaged)
-    frequency = np.fft.rfftfreq(length, interval)
-    at = trial.axes.index(axis)
-    mine = _own(trial, own, frequency)
-    # The sensor's own noise is in its signal as well: that share of it is not left.
-    share = np.clip(gain[:, at].real, 0.0, 1.0)
-    of_share = mine * np.sqrt(left * np.maximum(inverse[:, at, at].real, 0.0))
-    psd, std = left - mine * (1.0 - share), np.hypot(left, of_share) / np.sqrt(averaged)
-    psd[0] = std[0] = 0.0
-    return Spectrum(frequency, psd, std, whole=cross[:, -1, -1].real)
+    return z.conj() @ z.transpose(0, 2, 1) * (2 * interval / len(starts) / (window @ window))
 
 
 def _inverse(matrices: np.ndarray) -> np.ndarray:
@@ -186,12 +205,6 @@ def _bending(trial: Trial) -> np.ndarray:
     every = np.column_stack([own - np.median(own, axis=0), beside])
     first, second = np.triu_indices(every.shape[1])
     return np.column_stack([beside, np.abs(own), every[:, first] * every[:, second]])
-
-
-def _without_information(trial: Trial) -> np.ndarray:
-    """Mask (n,) of the samples that are left out, or at a limit."""
-    bad = np.any([clipped(trial.y[:, i]) for i in trial.axes], axis=0)
-    return bad if trial.left_out is None else bad | trial.left_out
 
 
 def of_reference(seen: Spectrum, high: float, error: float) -> Spectrum:

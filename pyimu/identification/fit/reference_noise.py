@@ -24,9 +24,16 @@ from pyimu.identification.fit.incoherent import (
     drawn,
     of_reference,
     of_white_attitude,
-    unseen_spectrum,
+    unseen_spectra,
 )
-from pyimu.identification.fit.noise_floor import beyond_own, lowness, own_noise, quiet, windows
+from pyimu.identification.fit.noise_floor import (
+    WINDOW,
+    beyond_own,
+    lowness,
+    own_noise,
+    quiet,
+    windows,
+)
 from pyimu.identification.fit.normal import DEAD, Normal, normal_equations
 from pyimu.identification.fit.sample_noise import rest_noise
 from pyimu.identification.fit.trial import Trial
@@ -71,7 +78,7 @@ def with_reference_noise(fit: Fit, held: list[Trial], seed: int = 1) -> tuple[Fi
     if any(t.reduction is not None for t in fit.trials):
         return fit, held
     linears = fit.residuals()
-    variance, (spectra, coloured) = _variance(fit), _spectra(fit, linears)
+    variance, spectra = _variance(fit), _spectra(fit, linears)
     most = np.max([variance, *([s.variance for s in one] for one in spectra.values())], axis=0)
     total = np.var(np.concatenate([one.residual for one in linears]), axis=0)
     if not np.any(most > LEAST * np.maximum(total, 1e-300)):
@@ -83,6 +90,7 @@ def with_reference_noise(fit: Fit, held: list[Trial], seed: int = 1) -> tuple[Fi
         return _with_spectrum(found, _spectrum_of(trial, spectra), rng)
 
     trials, apart = tuple(map(draw, fit.trials)), list(map(draw, held))
+    coloured = any(s.coloured for each in spectra.values() for s in each)
     known = replace(fit, trials=trials, coloured=coloured).with_noise()
     return replace(known, echo=_echo(known)), apart
 
@@ -122,36 +130,32 @@ def _drawn(trial: Trial, variance: np.ndarray, rng: np.random.Generator) -> Tria
     return replace(trial, noise=draw * np.minimum(scale, most))
 
 
-def _spectra(fit: Fit, linears: Sequence[Linear]) -> tuple[dict[str, list[Spectrum]], bool]:
-    """Spectra (3,) of the noise of references, by the names of their trials; and whether that of
-    one which is no derivative is coloured.
-    """
-    own, found, coloured = own_noise(fit), {}, False
-    for t, one in zip(fit.trials, linears, strict=True):
-        if t.reference == "static":
-            continue
-        found[t.name] = [NOTHING] * 3
-        for i in one.keys:
-            if t.band_hz is None:
-                found[t.name][i] = _of_direct(t, one, i, own[i])
-            else:
-                found[t.name][i] = unseen_spectrum(t, one, i, own[i])
-        bent = [s.coloured for s in found[t.name]]
-        if any(bent) and max(s.shown for s in found[t.name]) < SHOWN:
-            # The reference shows none of it: an effect left it.
-            found[t.name] = [NOTHING if s.coloured else s for s in found[t.name]]
-        coloured |= any(s.coloured for s in found[t.name])
-    return found, coloured
+def _spectra(fit: Fit, linears: Sequence[Linear]) -> dict[str, list[Spectrum]]:
+    """Spectra (3,) of the noise of references, by the names of their trials."""
+    own = own_noise(fit)
+    found = {
+        t.name: _of_direct(t, one, own) if t.band_hz is None else unseen_spectra(t, one, own)
+        for t, one in zip(fit.trials, linears, strict=True)
+        if t.reference != "static"
+    }
+    return {name: [by.get(i, NOTHING) for i in range(3)] for name, by in found.items()}
 
 
-def _of_direct(trial: Trial, one: Linear, axis: int, own: RandomWalk) -> Spectrum:
-    """The noise on an axis of a reference that is no derivative; what the sensor has beyond its
+def _of_direct(trial: Trial, one: Linear, own: Mapping[int, RandomWalk]) -> dict[int, Spectrum]:
+    """The noise by axis of a reference that is no derivative; what the sensor has beyond its
     ``own`` declared noise is not the reference's.
     """
-    seen = max(own.r, float(rest_noise(trial)[axis]) ** 2)
-    left = unseen_spectrum(trial, one, axis, replace(own, r=seen))
-    high = 2.0 * trial.h * float(_white(trial)[axis])
-    return of_reference(left, high, float(np.sqrt(2.0 * WEIGHT / len(one.time))))
+    seen, high = np.square(rest_noise(trial)), 2.0 * trial.h * _white(trial)
+    known = {i: replace(n, r=max(n.r, float(seen[i]))) for i, n in own.items()}
+    error = float(np.sqrt(2.0 * WEIGHT / len(one.time)))
+    found = {
+        i: of_reference(s, float(high[i]), error)
+        for i, s in unseen_spectra(trial, one, known).items()
+    }
+    if any(s.shown >= SHOWN for s in found.values()):
+        return found
+    # The reference shows none of what is coloured: an effect left it.
+    return {i: NOTHING if s.coloured else s for i, s in found.items()}
 
 
 def _spectrum_of(trial: Trial, spectra: Mapping[str, list[Spectrum]]) -> Sequence[Spectrum]:
@@ -181,25 +185,24 @@ def _with_spectrum(trial: Trial, spectra: Sequence[Spectrum], rng: np.random.Gen
 
 def _white(trial: Trial) -> np.ndarray:
     """Variance (3,) of white noise that a reference shows itself, by its high differences."""
-    u, out = trial.u[:, OWN[trial.kind]], np.zeros(3)
-    for i in trial.axes:
-        pieces = [
-            windows(np.diff(u[a:b, i], n=3), [(0, max(b - a - 3, 0))]) for a, b in trial.segments
-        ]
-        kept = np.concatenate(pieces) if pieces else np.zeros((0, 1))
-        out[i] = quiet(kept) / lowness(kept) / THIRD if len(kept) else 0.0
-    return out
+    rough = _third_differences(trial, trial.u[:, OWN[trial.kind]])
+    each = [quiet(w) / lowness(w) / THIRD if len(w) else 0.0 for w in rough]
+    return np.where(np.isin(np.arange(3), trial.axes), each, 0.0)
 
 
 def _high(trial: Trial, values: np.ndarray) -> np.ndarray:
     """Root mean square (3,) of third differences of values (n, 3), in their quietest quarter."""
+    rough = _third_differences(trial, values)
+    return np.nan_to_num([np.sqrt(quiet(w)) if len(w) else 0.0 for w in rough])
+
+
+def _third_differences(trial: Trial, values: np.ndarray) -> list[np.ndarray]:
+    """Windows of the third differences of values (n, 3), by axis."""
     pieces = [np.diff(values[a:b], n=3, axis=0) for a, b in trial.segments]
-    out = np.zeros(3)
-    for i in range(3):
-        short = [windows(p[:, i], [(0, len(p))]) for p in pieces]
-        kept = np.concatenate(short) if short else np.zeros((0, 1))
-        out[i] = np.sqrt(quiet(kept)) if len(kept) else np.nan
-    return np.nan_to_num(out)
+    none = [np.zeros((0, WINDOW))]
+    return [
+        np.concatenate(none + [windows(p[:, i], [(0, len(p))]) for p in pieces]) for i in range(3)
+    ]
 
 
 # Taking it out

@@ -1,10 +1,11 @@
-"""The white noise of a trial's samples, told from the samples themselves."""
+"""What a trial's samples say by themselves: their white noise, and which of them say nothing."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from pyimu.identification.fit.trial import Trial
+from pyimu.recording.quality.clipping import clipped
 
 
 def rest_noise(trial: Trial) -> np.ndarray:
@@ -34,3 +35,9 @@ def quiet_noise(values: np.ndarray, segments: list[tuple[int, int]], h: float) -
     spreads = np.sqrt(np.mean(np.diff(np.array(pieces), n=3, axis=1) ** 2, axis=1) / 20)
     quiet = np.argsort(spreads.sum(axis=1))[: max(1, len(pieces) // 4)]
     return np.sqrt(np.mean(spreads[quiet] ** 2, axis=0))
+
+
+def without_information(trial: Trial) -> np.ndarray:
+    """Mask (n,) of the samples that are left out, or at a limit."""
+    bad = np.any([clipped(trial.y[:, i]) for i in trial.axes], axis=0)
+    return bad if trial.left_out is None else bad | trial.left_out

@@ -21,13 +21,12 @@ from scipy.special import i0
 from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.columns import band_time, in_band
 from pyimu.identification.fit.response import through_dynamics
-from pyimu.identification.fit.sample_noise import rest_noise
+from pyimu.identification.fit.sample_noise import rest_noise, without_information
 from pyimu.identification.fit.trial import MOVING, Trial, marked
 from pyimu.identification.reference.track import Level, level_of
 from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS
-from pyimu.recording.quality.clipping import clipped
 from pyimu.recording.reference.band import trusted_band
 
 WINDOW, ROWS = 2.5, 32
@@ -374,10 +373,8 @@ def _mean_share(left: np.ndarray, places: list[tuple[int, int]]) -> np.ndarray:
 
 def moving_rows(trial: Trial) -> np.ndarray:
     """Rows of the band (m,) on which no clipped or left-out sample has any weight."""
-    bad = np.any([clipped(trial.y[:, i]) for i in trial.axes], axis=0)
-    if trial.left_out is not None:
-        bad = bad | trial.left_out
-    return in_band(trial, bad.astype(float)[:, None])[:, 0] < 1e-6
+    bad = without_information(trial).astype(float)
+    return in_band(trial, bad[:, None])[:, 0] < 1e-6
 
 
 def in_own_band(trial: Trial) -> Trial:
