@@ -1,10 +1,10 @@
 """Many drives of the shortest test as a campaign: runs a second, a worker killed in the middle, and
 the same drives by another scheduler.
 
-``python benchmarks/campaign.py [drives] [part]`` runs the turn on the spot (10,000 times, of an
-imt30) on as many local processes as there are cores, kills one of them when half of the drives are
-there, and then once more on a scheduler of its own that is reached by its address. Both tables must
-be the same to the byte.
+``python benchmarks/campaign.py [drives] [part] [rate]`` runs the turn on the spot (10,000 times, of
+an imt30, at its own rate in Hz) on as many local processes as there are cores, kills one of them
+when half of the drives are there, and then once more on a scheduler of its own that is reached by
+its address. Both tables must be the same to the byte.
 """
 
 import os
@@ -22,8 +22,8 @@ from pyimu.rover.campaign import Settings, run
 DRIVES = 10_000
 
 
-def main(drives: int = DRIVES, part: str = "imt30") -> bool:
-    settings, cores = Settings(pyimu.part(part)), len(os.sched_getaffinity(0))
+def main(drives: int = DRIVES, part: str = "imt30", rate: float | None = None) -> bool:
+    settings, cores = Settings(pyimu.part(part), rate=rate), len(os.sched_getaffinity(0))
     with tempfile.TemporaryDirectory(prefix="pyimu-") as folder:
         killed = Killer()
         first = run(settings, drives, Path(folder, "local"), workers=cores, say=killed)
@@ -93,5 +93,5 @@ class Scheduler:
 
 
 if __name__ == "__main__":
-    given = [int(sys.argv[1])] if len(sys.argv) > 1 else []
-    sys.exit(not main(*given, *sys.argv[2:3]))
+    given = [kind(word) for kind, word in zip((int, str, float), sys.argv[1:], strict=False)]
+    sys.exit(not main(*given))

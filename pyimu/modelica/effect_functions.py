@@ -16,6 +16,9 @@ from pyimu.model.signals import SIGNALS
 from pyimu.modelica.functions import Argument, Function, array, function
 from pyimu.modelica.names import camel, identifier
 
+OUTPUT = "y"
+"""The output of an effect."""
+
 STARTED = "started"
 """Whether there has been a sample before this one."""
 
@@ -24,6 +27,9 @@ STARTED = "started"
 class EffectFunctions:
     """The functions of an effect; ``following`` by the state whose next value they give,
     ``limits`` by the text of what is broken where they are true.
+
+    A next value that is the output is not computed again, and the output is one of next values
+    (arguments ``b_next``) where that makes its function shorter.
     """
 
     effect: Effect
@@ -59,22 +65,19 @@ def effect_functions(e: Effect) -> EffectFunctions:
     started = ca.SX.sym(STARTED) if chain.waits else None
     arguments = _arguments(chain, e, kind, started)
     y, after = chain.apply(e, chain.x, chain.noises[e.name], started)
-    name, following, at = camel(e.name), {}, 0
+    name = camel(e.name)
     positive = {n for n, q in e.parameters.items() if q.minimum and q.minimum > 0} | {"h"}
-    output = function(f"{name}Output", e.term, arguments, y, (3,), what, positive=positive)
+    following, at, known = {}, 0, []
     for state, q in e.states.items():
-        size = int(np.prod(q.shape))
-        following[state] = function(
-            f"{name}Next{state[0].upper()}{state[1:]}",
-            f"{state} of the next sample",
-            arguments,
-            after[at : at + size],
-            q.shape,
-            what,
-            result="following",
-            positive=positive,
-        )
-        at += size
+        given = array(next_of(state), q.shape, after[at : at + int(np.prod(q.shape))])
+        at += int(np.prod(q.shape))
+        following[state] = _next(name, state, given, arguments, y, what, positive)
+        known += [] if following[state].plain else [given]
+    outputs = [
+        function(f"{name}Output", e.term, arguments, y, (3,), what, positive=positive, known=k)
+        for k in ((), known)
+    ]
+    output = min(outputs, key=lambda f: len(f.lines) + len(f.variables))
     limits = {
         text: function(
             f"{name}Broken{i + 1}",
@@ -90,6 +93,40 @@ def effect_functions(e: Effect) -> EffectFunctions:
         for i, (text, broken) in enumerate(e.limits.items())
     }
     return EffectFunctions(e, output, following, limits, chain.waits)
+
+
+def next_of(state: str) -> str:
+    """What the next value of a state is called among the arguments of the output."""
+    return f"{identifier(state)}_next"
+
+
+def _next(
+    name: str,
+    state: str,
+    given: Argument,
+    arguments: list[Argument],
+    y: ca.SX,
+    what: str,
+    positive: set[str],
+) -> Function:
+    """The function of the next value ``given`` of a state; it is ``plain`` where that is the output
+    ``y``, too.
+    """
+    forms = [
+        function(
+            f"{name}Next{state[0].upper()}{state[1:]}",
+            f"{state} of the next sample",
+            arguments,
+            given.symbols,
+            given.shape,
+            what,
+            result="following",
+            positive=positive,
+            known=known,
+        )
+        for known in ([array(OUTPUT, (3,), y)], ())
+    ]
+    return forms[0] if forms[0].plain == OUTPUT else forms[1]
 
 
 def _kind(e: Effect) -> str:

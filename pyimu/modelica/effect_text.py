@@ -11,7 +11,14 @@ from pyimu.model.effect import Effect
 from pyimu.model.kinds import KINDS
 from pyimu.model.signals import EVERY_SAMPLE, SIGNALS
 from pyimu.modelica.bounds import bound_asserts
-from pyimu.modelica.effect_functions import STARTED, EffectFunctions, effect_functions, signal_of
+from pyimu.modelica.effect_functions import (
+    OUTPUT,
+    STARTED,
+    EffectFunctions,
+    effect_functions,
+    next_of,
+    signal_of,
+)
 from pyimu.modelica.names import identifier, pascal
 from pyimu.modelica.text import GENERATED, capital, comment, number, rendered, wrapped
 from pyimu.modelica.unit_names import modelica_unit
@@ -64,8 +71,7 @@ def _block(f: EffectFunctions, kind: str) -> EffectBlock:
     e, unit = f.effect, modelica_unit(KINDS[kind].unit)
     states = list(_states(f, kind))
     equations = [
-        f"y = {f.output.call(_given(f))};",
-        *(f"{identifier(s)} = {g.call(_given(f))};" for s, g in f.following.items()),
+        *_in_order(f),
         *([f"{STARTED} = true;"] if f.waits else []),
     ]
     return EffectBlock(
@@ -80,9 +86,20 @@ def _block(f: EffectFunctions, kind: str) -> EffectBlock:
     )
 
 
+def _in_order(f: EffectFunctions) -> list[str]:
+    """The equations of output and states, those first that others are made of."""
+    output = f"{OUTPUT} = {f.output.call(_given(f))};"
+    first, then = [], []
+    for state, g in f.following.items():
+        used = any(a.name == next_of(state) for a in f.output.arguments)
+        (first if used else then).append(f"{identifier(state)} = {g.call(_given(f))};")
+    return [*first, output, *then]
+
+
 def _given(f: EffectFunctions) -> dict[str, str]:
     """What stands for the arguments of a function in a block: of the memory its last value."""
     past = {identifier(s): f"pre({identifier(s)})" for s in f.effect.states}
+    past |= {next_of(s): identifier(s) for s in f.effect.states}
     waits = {STARTED: f"pre({STARTED})"} if f.waits else {}
     return {**past, **waits, "h": "samplePeriod"}
 

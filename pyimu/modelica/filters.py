@@ -10,8 +10,9 @@ from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.effects.noise import DECADES, POLES, end_weight
 from pyimu.model.law import Law
 from pyimu.modelica.bounds import bound_asserts
+from pyimu.modelica.effect_functions import effect_functions
 from pyimu.modelica.names import pascal
-from pyimu.modelica.text import GENERATED, comment, number, rendered
+from pyimu.modelica.text import GENERATED, comment, number, rendered, wrapped
 from pyimu.modelica.unit_names import modelica_unit
 from pyimu.shaping.continuous import has_filter
 
@@ -81,6 +82,9 @@ def _text(name: str, found: Filter) -> str:
         start = q.start or 1.0
         said = q.description + ("" if unit else f" [{q.unit}]")
         parameters.append(f"parameter Real {n}{shown} = {number(start)}{comment(said)};")
+    for text, broken in effect_functions(e).limits.items():
+        call = f"PyImu.Effects.{pascal(name)}.{broken.call({})}"
+        asserts += wrapped(f'assert(not {call}, "{name}: {text}");')
     if e.law.needs("x"):
         parameters.append('parameter Real x = 1 "Input of the axis";')
     return GENERATED + rendered(

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
 
-from pyimu.modelica.graph import Node, nodes_of
+from pyimu.modelica.graph import Node, nodes_of, replaced
 from pyimu.modelica.names import indexed
 from pyimu.modelica.printer import Statements, below, statements
 from pyimu.modelica.text import wrapped
+
+_CHOICE = re.compile(r"\w+(\[[\d,]+\]) := (if \w+ then \w+)\1( else \w+)\1;")
+"""An element that is one of two arrays' elements at the same place."""
 
 
 @dataclass(frozen=True)
@@ -83,10 +87,15 @@ class Function:
     def plain(self) -> str:
         """The one expression that a call may be replaced by; empty where there is none.
 
-        It is a constant or an argument as it is.
+        It is a constant, an argument as it is, or a choice between two.
         """
         if self.body.variables:
             return ""
+        chosen = {
+            "".join(m.groups()[1:]) if m else "" for m in map(_CHOICE.fullmatch, self.body.lines)
+        }
+        if len(chosen) == 1 and self._whole(*chosen):
+            return chosen.pop()
         if not self.arguments and not self.shape:
             return self.body.lines[0].partition(" := ")[2].rstrip(";")
         if len(self.arguments) == 1 and self.arguments[0].shape == self.shape:
@@ -98,10 +107,15 @@ class Function:
                 return name
         return ""
 
+    def _whole(self, text: str) -> bool:
+        """Whether a text names, beside Booleans, nothing but arrays of the result's shape."""
+        named = [a for a in self.arguments if re.search(rf"\b{a.name}\b", text)]
+        return bool(text) and all(a.boolean or a.shape == self.shape for a in named)
+
     def call(self, given: Mapping[str, str]) -> str:
         """A call with an expression for each argument by its name, its own name where none is."""
         if self.plain:
-            return given.get(self.plain, self.plain)
+            return re.sub(r"[A-Za-z_]\w*", lambda name: given.get(name[0], name[0]), self.plain)
         return f"{self.name}({', '.join(given.get(a.name, a.name) for a in self.arguments)})"
 
 
@@ -127,18 +141,24 @@ def function(
     result: str = "y",
     boolean: bool = False,
     positive: Iterable[str] = (),
+    known: Sequence[Argument] = (),
 ) -> Function:
     """The function whose result is ``expression``, of those ``arguments`` that it depends on.
 
     The expression's elements stand column by column; ``positive`` are arguments that are never
-    zero. Raises UserError, which starts with ``what``,
+    zero. ``known`` are further arguments, whose symbols are expressions of the others: what of
+    them the result is made of is not computed again. Raises UserError, which starts with ``what``,
     where an operation cannot be said in Modelica.
     """
     given = [a.symbols for a in arguments]
-    dense = ca.cse(ca.densify(ca.vec(ca.SX(expression))))
+    parts = [ca.vec(ca.SX(expression)), *(ca.vec(ca.SX(a.symbols)) for a in known)]
+    dense = ca.cse(ca.densify(ca.vertcat(*parts)))
     compiled = ca.Function("f", given, [dense])
     order, found = nodes_of(compiled, lambda argument, k: arguments[argument].leaf(k))
     names = [indexed(result, i) for i in _columns(shape)]
+    leaves = [a.leaf(k) for a in known for k in range(len(a.elements))]
+    order, found = replaced(order, found[: len(names)], dict(zip(found[len(names) :], leaves)))
+    arguments = [*arguments, *known]
     read = {node.text.partition("[")[0] for node in below(*found)}
     used = [a for a in arguments if a.name in read]
     taken = {a.name for a in arguments} | {result}

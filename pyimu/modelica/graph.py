@@ -7,8 +7,8 @@ casadi writes as a sum of two products with a condition, is one node.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import casadi as ca
 
@@ -55,6 +55,7 @@ def nodes_of(
     ``leaf(argument, element)`` is the node of an element of an argument.
     """
     work: dict[int, Node] = {}
+    seen: dict[tuple, Node] = {}  # what was two before numbers were known to be such may be one
     made: list[Node] = []
     outputs: dict[int, Node] = {}
     for i in range(function.n_instructions()):
@@ -69,6 +70,7 @@ def nodes_of(
             node = number(function.instruction_constant(i))
         else:
             node = _simplified(op, [work[j] for j in inputs[: _arity(op, inputs)]])
+        node = seen.setdefault((node.op, node.args, node.text, repr(node.value)), node)
         work[results[0]] = node
         made.append(node)
     return made, [outputs.get(k, number(0.0)) for k in range(function.nnz_out(0))]
@@ -129,3 +131,15 @@ def _sum(a: Node, b: Node) -> Node:
 
 def _is(node: Node, value: float) -> bool:
     return node.op == "CONST" and node.value == value
+
+
+def replaced(
+    order: Sequence[Node], results: Sequence[Node], others: Mapping[Node, Node]
+) -> tuple[list[Node], list[Node]]:
+    """The same graph with operations replaced by what ``others`` gives for them."""
+    new = {node: other for node, other in others.items() if not node.is_leaf}
+    for node in order:
+        if node not in new:
+            args = tuple(new.get(a, a) for a in node.args)
+            new[node] = node if args == node.args else replace(node, args=args)
+    return [new[node] for node in order], [new.get(node, node) for node in results]

@@ -122,10 +122,10 @@ def test_a_scheduler_without_workers_is_one_line(monkeypatch, tmp_path):
             run(settings(), 5, tmp_path, scheduler=cluster.scheduler_address)
 
 
-def test_another_version_on_the_workers_is_one_line(monkeypatch, tmp_path):
+def test_other_code_on_the_workers_is_one_line(monkeypatch, tmp_path):
     """Of a worker of this process, as another one would take seconds to start."""
     theirs = iter(["0.0.1", "0.0.2"])
-    monkeypatch.setattr(room, "version", lambda name: next(theirs))
+    monkeypatch.setattr(room, "made_by", lambda: next(theirs))
     with distributed.LocalCluster(
         n_workers=1, dashboard_address=None, processes=False, protocol="tcp"
     ) as cluster:

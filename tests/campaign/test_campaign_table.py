@@ -16,7 +16,7 @@ from pyarrow import parquet
 
 import pyimu
 from pyimu.errors import UserError
-from pyimu.rover.campaign import table
+from pyimu.rover.campaign import made_by, table
 from pyimu.rover.campaign.campaign import run
 from pyimu.rover.campaign.score import row_of
 from pyimu.rover.campaign.settings import Settings
@@ -125,6 +125,34 @@ def test_a_folder_of_another_part_is_refused(whole):
             whole,
             workers=0,
         )
+
+
+def test_a_folder_of_other_code_is_refused(whole, monkeypatch):
+    """As after a change in a checkout, whose version stays; its parts are not used either."""
+    monkeypatch.setattr(table, "made_by", lambda: "0.1.0+other")
+    with pytest.raises(
+        UserError, match=r"holds another campaign \(its version is .*, not 0.1.0\+o"
+    ):
+        run(settings(), RUNS, whole, workers=0)
+    assert Folder(whole, settings()).missing(RUNS) == batches(RUNS)
+
+
+def test_the_code_is_told_by_every_file_and_not_by_its_place(tmp_path, monkeypatch):
+    def told(folder, **files):
+        package = tmp_path / folder
+        for name, text in files.items():
+            (package / name).mkdir(parents=True)
+            (package / name / "a.py").write_bytes(text)
+        monkeypatch.setattr(made_by, "PACKAGE", package)
+        made_by.made_by.cache_clear()
+        return made_by.made_by()
+
+    try:
+        same = [told("one", x=b"a\n", y=b"b\n"), told("two", x=b"a\r\n", y=b"b\n")]
+        others = [told("three", x=b"a\n", y=b"c\n"), told("four", x=b"b\n", y=b"a\n")]
+    finally:
+        made_by.made_by.cache_clear()
+    assert same[0] == same[1] and len({same[0], *others}) == 3
 
 
 def test_a_full_disk_is_one_line_and_leaves_what_is_whole(whole, tmp_path, monkeypatch):

@@ -22,47 +22,6 @@ package FirstOrderLag "Bandwidth, first-order lag"
       + 2*(if started then y3[3] else x[3]))/6)/v2;
   end firstOrderLagOutput;
 
-  function firstOrderLagNextY1 "y1 of the next sample"
-    extends Modelica.Icons.Function;
-    input Real x[3], tau, y1[3], y2[3], y3[3];
-    input Boolean started;
-    input Real h;
-    output Real following[3];
-  protected
-    Real v1, v2;
-  algorithm
-    v1 := tau/h;
-    v2 := 1 + 1.8333333333333333*tau/h;
-    following[1] := (x[1] + v1*(18*(if started then y1[1] else x[1]) - 9*(if started then y2[1]
-      else x[1]) + 2*(if started then y3[1] else x[1]))/6)/v2;
-    following[2] := (x[2] + v1*(18*(if started then y1[2] else x[2]) - 9*(if started then y2[2]
-      else x[2]) + 2*(if started then y3[2] else x[2]))/6)/v2;
-    following[3] := (x[3] + v1*(18*(if started then y1[3] else x[3]) - 9*(if started then y2[3]
-      else x[3]) + 2*(if started then y3[3] else x[3]))/6)/v2;
-  end firstOrderLagNextY1;
-
-  function firstOrderLagNextY2 "y2 of the next sample"
-    extends Modelica.Icons.Function;
-    input Real x[3], y1[3];
-    input Boolean started;
-    output Real following[3];
-  algorithm
-    following[1] := if started then y1[1] else x[1];
-    following[2] := if started then y1[2] else x[2];
-    following[3] := if started then y1[3] else x[3];
-  end firstOrderLagNextY2;
-
-  function firstOrderLagNextY3 "y3 of the next sample"
-    extends Modelica.Icons.Function;
-    input Real x[3], y2[3];
-    input Boolean started;
-    output Real following[3];
-  algorithm
-    following[1] := if started then y2[1] else x[1];
-    following[2] := if started then y2[2] else x[2];
-    following[3] := if started then y2[3] else x[3];
-  end firstOrderLagNextY3;
-
   block Gyro "Bandwidth, first-order lag, of a gyro"
     extends PyImu.Interfaces.SampledEffect(x(each unit="rad/s"), y(each unit="rad/s"));
     parameter Real tau(unit="s", min=0) = 0
@@ -78,9 +37,9 @@ package FirstOrderLag "Bandwidth, first-order lag"
     when sample(samplePeriod, samplePeriod) then
       y = firstOrderLagOutput(x, tau, pre(y1), pre(y2), pre(y3), pre(started), samplePeriod);
       x1 = x;
-      y1 = firstOrderLagNextY1(x, tau, pre(y1), pre(y2), pre(y3), pre(started), samplePeriod);
-      y2 = firstOrderLagNextY2(x, pre(y1), pre(started));
-      y3 = firstOrderLagNextY3(x, pre(y2), pre(started));
+      y1 = y;
+      y2 = if pre(started) then pre(y1) else x;
+      y3 = if pre(started) then pre(y2) else x;
       started = true;
     end when;
   end Gyro;

@@ -37,62 +37,6 @@ package Lag "Bandwidth, second-order lag"
       x[3]) else x[3];
   end lagOutput;
 
-  function lagNextX2 "x2 of the next sample"
-    extends Modelica.Icons.Function;
-    input Real x[3], x1[3];
-    input Boolean started;
-    output Real following[3];
-  algorithm
-    following[1] := if started then x1[1] else x[1];
-    following[2] := if started then x1[2] else x[2];
-    following[3] := if started then x1[3] else x[3];
-  end lagNextX2;
-
-  function lagNextY1 "y1 of the next sample"
-    extends Modelica.Icons.Function;
-    input Real x[3], wn, zeta, x1[3], x2[3], y1[3], y2[3];
-    input Boolean started;
-    input Real h;
-    output Real following[3];
-  protected
-    Real v1, v2, v3, v4, v5, v6, v7, v8, v9, v10, v11, v12, v13, v14;
-  algorithm
-    v1 := wn*h;
-    v2 := zeta*v1;
-    v3 := if wn > 0 then sqrt(abs(zeta*zeta - 1))*v1 else 0;
-    v4 := if zeta < 1 then 2*exp(-v2)*cos(v3) else exp(v3 - v2) + exp(-(v3 + v2));
-    v5 := -2*zeta;
-    v6 := exp(v5*v1);
-    v7 := 1 - v4 + v6;
-    v8 := 2*v6 - v4;
-    v9 := if wn > 0 then v5/v1 else 0;
-    v10 := v8 - v7*v9;
-    v11 := if wn > 0 then 4*v6 - v4 - 2*v8*v9 + 2*v7*((4*zeta*zeta - 1)/(v1*v1)) - v10 else 0;
-    v12 := v10 - v11;
-    v13 := v11/2;
-    v14 := v7 - v12 - v13;
-    following[1] := if wn > 0 then v14*x[1] + v12*(if started then x1[1] else x[1]) + v13*(if
-      started then x2[1] else x[1]) + v4*(if started then y1[1] else x[1]) - v6*(if started then
-      y2[1] else x[1]) else x[1];
-    following[2] := if wn > 0 then v14*x[2] + v12*(if started then x1[2] else x[2]) + v13*(if
-      started then x2[2] else x[2]) + v4*(if started then y1[2] else x[2]) - v6*(if started then
-      y2[2] else x[2]) else x[2];
-    following[3] := if wn > 0 then v14*x[3] + v12*(if started then x1[3] else x[3]) + v13*(if
-      started then x2[3] else x[3]) + v4*(if started then y1[3] else x[3]) - v6*(if started then
-      y2[3] else x[3]) else x[3];
-  end lagNextY1;
-
-  function lagNextY2 "y2 of the next sample"
-    extends Modelica.Icons.Function;
-    input Real x[3], y1[3];
-    input Boolean started;
-    output Real following[3];
-  algorithm
-    following[1] := if started then y1[1] else x[1];
-    following[2] := if started then y1[2] else x[2];
-    following[3] := if started then y1[3] else x[3];
-  end lagNextY2;
-
   block Gyro "Bandwidth, second-order lag, of a gyro"
     extends PyImu.Interfaces.SampledEffect(x(each unit="rad/s"), y(each unit="rad/s"));
     parameter Real wn(unit="rad/s", min=0) = 0 "Natural frequency; 0 switches the lag off";
@@ -110,9 +54,9 @@ package Lag "Bandwidth, second-order lag"
     when sample(samplePeriod, samplePeriod) then
       y = lagOutput(x, wn, zeta, pre(x1), pre(x2), pre(y1), pre(y2), pre(started), samplePeriod);
       x1 = x;
-      x2 = lagNextX2(x, pre(x1), pre(started));
-      y1 = lagNextY1(x, wn, zeta, pre(x1), pre(x2), pre(y1), pre(y2), pre(started), samplePeriod);
-      y2 = lagNextY2(x, pre(y1), pre(started));
+      x2 = if pre(started) then pre(x1) else x;
+      y1 = y;
+      y2 = if pre(started) then pre(y1) else x;
       started = true;
     end when;
   end Gyro;

@@ -5,23 +5,12 @@ package SecondGaussMarkov "Second exponentially correlated (Gauss-Markov) noise"
 
   function secondGaussMarkovOutput "second exponentially correlated (Gauss-Markov) noise"
     extends Modelica.Icons.Function;
-    input Real x[3], q[3], tau[3], b[3], started, w[3], h;
+    input Real x[3], b_next[3];
     output Real y[3];
-  protected
-    Real v1, v2, v3, v4, v5, v6;
   algorithm
-    v1 := h/tau[1];
-    v2 := q[1]*q[1]*tau[1]/2;
-    v3 := h/tau[2];
-    v4 := q[2]*q[2]*tau[2]/2;
-    v5 := h/tau[3];
-    v6 := q[3]*q[3]*tau[3]/2;
-    y[1] := x[1] + (if started <> 0 then exp(-v1)*b[1] + sqrt(-v2*PyImu.Math.expm1(-2*v1))*w[1]
-      else sqrt(v2)*w[1]);
-    y[2] := x[2] + (if started <> 0 then exp(-v3)*b[2] + sqrt(-v4*PyImu.Math.expm1(-2*v3))*w[2]
-      else sqrt(v4)*w[2]);
-    y[3] := x[3] + (if started <> 0 then exp(-v5)*b[3] + sqrt(-v6*PyImu.Math.expm1(-2*v5))*w[3]
-      else sqrt(v6)*w[3]);
+    y[1] := x[1] + b_next[1];
+    y[2] := x[2] + b_next[2];
+    y[3] := x[3] + b_next[3];
   end secondGaussMarkovOutput;
 
   function secondGaussMarkovNextB "b of the next sample"
@@ -62,8 +51,8 @@ package SecondGaussMarkov "Second exponentially correlated (Gauss-Markov) noise"
     assert(min(q) >= 0, "second_gauss_markov: q must not be below 0");
     assert(min(tau) >= 1e-06, "second_gauss_markov: tau must not be below 1e-06");
     when sample(samplePeriod, samplePeriod) then
-      y = secondGaussMarkovOutput(x, q, tau, pre(b), pre(started), w, samplePeriod);
       b = secondGaussMarkovNextB(q, tau, pre(b), pre(started), w, samplePeriod);
+      y = secondGaussMarkovOutput(x, b);
       started = 1;
     end when;
   end Gyro;

@@ -7,7 +7,7 @@ package TimeDelay "Time delay, timestamp offset"
     extends Modelica.Icons.Function;
     input Real x[3], td, past[32,3];
     input Boolean started;
-    input Real h;
+    input Real h, past_next[32,3];
     output Real y[3];
   protected
     Real v1;
@@ -187,57 +187,33 @@ package TimeDelay "Time delay, timestamp offset"
     v132 := 2 - v131;
     v133 := if v131 < 1 then (1 - v130*v130)*v132/2 else if v131 < 2 then (1 - v131)*v132*(3 -
       v131)/6 else 0;
-    y[1] := if td > 0 then v8*x[1] + v11*(if started then past[1,1] else x[1]) + v14*(if started
-      then past[2,1] else x[1]) + v17*(if started then past[3,1] else x[1]) + v21*(if started then
-      past[4,1] else x[1]) + v25*(if started then past[5,1] else x[1]) + v29*(if started then
-      past[6,1] else x[1]) + v33*(if started then past[7,1] else x[1]) + v37*(if started then
-      past[8,1] else x[1]) + v41*(if started then past[9,1] else x[1]) + v45*(if started then
-      past[10,1] else x[1]) + v49*(if started then past[11,1] else x[1]) + v53*(if started then
-      past[12,1] else x[1]) + v57*(if started then past[13,1] else x[1]) + v61*(if started then
-      past[14,1] else x[1]) + v65*(if started then past[15,1] else x[1]) + v69*(if started then
-      past[16,1] else x[1]) + v73*(if started then past[17,1] else x[1]) + v77*(if started then
-      past[18,1] else x[1]) + v81*(if started then past[19,1] else x[1]) + v85*(if started then
-      past[20,1] else x[1]) + v89*(if started then past[21,1] else x[1]) + v93*(if started then
-      past[22,1] else x[1]) + v97*(if started then past[23,1] else x[1]) + v101*(if started then
-      past[24,1] else x[1]) + v105*(if started then past[25,1] else x[1]) + v109*(if started then
-      past[26,1] else x[1]) + v113*(if started then past[27,1] else x[1]) + v117*(if started then
-      past[28,1] else x[1]) + v121*(if started then past[29,1] else x[1]) + v125*(if started then
-      past[30,1] else x[1]) + v129*(if started then past[31,1] else x[1]) + v133*(if started then
-      past[32,1] else x[1]) else x[1];
-    y[2] := if td > 0 then v8*x[2] + v11*(if started then past[1,2] else x[2]) + v14*(if started
-      then past[2,2] else x[2]) + v17*(if started then past[3,2] else x[2]) + v21*(if started then
-      past[4,2] else x[2]) + v25*(if started then past[5,2] else x[2]) + v29*(if started then
-      past[6,2] else x[2]) + v33*(if started then past[7,2] else x[2]) + v37*(if started then
-      past[8,2] else x[2]) + v41*(if started then past[9,2] else x[2]) + v45*(if started then
-      past[10,2] else x[2]) + v49*(if started then past[11,2] else x[2]) + v53*(if started then
-      past[12,2] else x[2]) + v57*(if started then past[13,2] else x[2]) + v61*(if started then
-      past[14,2] else x[2]) + v65*(if started then past[15,2] else x[2]) + v69*(if started then
-      past[16,2] else x[2]) + v73*(if started then past[17,2] else x[2]) + v77*(if started then
-      past[18,2] else x[2]) + v81*(if started then past[19,2] else x[2]) + v85*(if started then
-      past[20,2] else x[2]) + v89*(if started then past[21,2] else x[2]) + v93*(if started then
-      past[22,2] else x[2]) + v97*(if started then past[23,2] else x[2]) + v101*(if started then
-      past[24,2] else x[2]) + v105*(if started then past[25,2] else x[2]) + v109*(if started then
-      past[26,2] else x[2]) + v113*(if started then past[27,2] else x[2]) + v117*(if started then
-      past[28,2] else x[2]) + v121*(if started then past[29,2] else x[2]) + v125*(if started then
-      past[30,2] else x[2]) + v129*(if started then past[31,2] else x[2]) + v133*(if started then
-      past[32,2] else x[2]) else x[2];
-    y[3] := if td > 0 then v8*x[3] + v11*(if started then past[1,3] else x[3]) + v14*(if started
-      then past[2,3] else x[3]) + v17*(if started then past[3,3] else x[3]) + v21*(if started then
-      past[4,3] else x[3]) + v25*(if started then past[5,3] else x[3]) + v29*(if started then
-      past[6,3] else x[3]) + v33*(if started then past[7,3] else x[3]) + v37*(if started then
-      past[8,3] else x[3]) + v41*(if started then past[9,3] else x[3]) + v45*(if started then
-      past[10,3] else x[3]) + v49*(if started then past[11,3] else x[3]) + v53*(if started then
-      past[12,3] else x[3]) + v57*(if started then past[13,3] else x[3]) + v61*(if started then
-      past[14,3] else x[3]) + v65*(if started then past[15,3] else x[3]) + v69*(if started then
-      past[16,3] else x[3]) + v73*(if started then past[17,3] else x[3]) + v77*(if started then
-      past[18,3] else x[3]) + v81*(if started then past[19,3] else x[3]) + v85*(if started then
-      past[20,3] else x[3]) + v89*(if started then past[21,3] else x[3]) + v93*(if started then
-      past[22,3] else x[3]) + v97*(if started then past[23,3] else x[3]) + v101*(if started then
-      past[24,3] else x[3]) + v105*(if started then past[25,3] else x[3]) + v109*(if started then
-      past[26,3] else x[3]) + v113*(if started then past[27,3] else x[3]) + v117*(if started then
-      past[28,3] else x[3]) + v121*(if started then past[29,3] else x[3]) + v125*(if started then
-      past[30,3] else x[3]) + v129*(if started then past[31,3] else x[3]) + v133*(if started then
-      past[32,3] else x[3]) else x[3];
+    y[1] := if td > 0 then v8*x[1] + v11*past_next[2,1] + v14*past_next[3,1] + v17*past_next[4,1]
+      + v21*past_next[5,1] + v25*past_next[6,1] + v29*past_next[7,1] + v33*past_next[8,1] +
+      v37*past_next[9,1] + v41*past_next[10,1] + v45*past_next[11,1] + v49*past_next[12,1] +
+      v53*past_next[13,1] + v57*past_next[14,1] + v61*past_next[15,1] + v65*past_next[16,1] +
+      v69*past_next[17,1] + v73*past_next[18,1] + v77*past_next[19,1] + v81*past_next[20,1] +
+      v85*past_next[21,1] + v89*past_next[22,1] + v93*past_next[23,1] + v97*past_next[24,1] +
+      v101*past_next[25,1] + v105*past_next[26,1] + v109*past_next[27,1] + v113*past_next[28,1] +
+      v117*past_next[29,1] + v121*past_next[30,1] + v125*past_next[31,1] + v129*past_next[32,1] +
+      v133*(if started then past[32,1] else x[1]) else x[1];
+    y[2] := if td > 0 then v8*x[2] + v11*past_next[2,2] + v14*past_next[3,2] + v17*past_next[4,2]
+      + v21*past_next[5,2] + v25*past_next[6,2] + v29*past_next[7,2] + v33*past_next[8,2] +
+      v37*past_next[9,2] + v41*past_next[10,2] + v45*past_next[11,2] + v49*past_next[12,2] +
+      v53*past_next[13,2] + v57*past_next[14,2] + v61*past_next[15,2] + v65*past_next[16,2] +
+      v69*past_next[17,2] + v73*past_next[18,2] + v77*past_next[19,2] + v81*past_next[20,2] +
+      v85*past_next[21,2] + v89*past_next[22,2] + v93*past_next[23,2] + v97*past_next[24,2] +
+      v101*past_next[25,2] + v105*past_next[26,2] + v109*past_next[27,2] + v113*past_next[28,2] +
+      v117*past_next[29,2] + v121*past_next[30,2] + v125*past_next[31,2] + v129*past_next[32,2] +
+      v133*(if started then past[32,2] else x[2]) else x[2];
+    y[3] := if td > 0 then v8*x[3] + v11*past_next[2,3] + v14*past_next[3,3] + v17*past_next[4,3]
+      + v21*past_next[5,3] + v25*past_next[6,3] + v29*past_next[7,3] + v33*past_next[8,3] +
+      v37*past_next[9,3] + v41*past_next[10,3] + v45*past_next[11,3] + v49*past_next[12,3] +
+      v53*past_next[13,3] + v57*past_next[14,3] + v61*past_next[15,3] + v65*past_next[16,3] +
+      v69*past_next[17,3] + v73*past_next[18,3] + v77*past_next[19,3] + v81*past_next[20,3] +
+      v85*past_next[21,3] + v89*past_next[22,3] + v93*past_next[23,3] + v97*past_next[24,3] +
+      v101*past_next[25,3] + v105*past_next[26,3] + v109*past_next[27,3] + v113*past_next[28,3] +
+      v117*past_next[29,3] + v121*past_next[30,3] + v125*past_next[31,3] + v129*past_next[32,3] +
+      v133*(if started then past[32,3] else x[3]) else x[3];
   end timeDelayOutput;
 
   function timeDelayNextPast "past of the next sample"
@@ -364,8 +340,8 @@ package TimeDelay "Time delay, timestamp offset"
     assert(not timeDelayBroken1(td, samplePeriod),
       "time_delay: td must not be above 30 sample periods");
     when sample(samplePeriod, samplePeriod) then
-      y = timeDelayOutput(x, td, pre(past), pre(started), samplePeriod);
       past = timeDelayNextPast(x, pre(past), pre(started));
+      y = timeDelayOutput(x, td, pre(past), pre(started), samplePeriod, past);
       started = true;
     end when;
   end Gyro;

@@ -22,6 +22,8 @@ equation
   assert(B >= 0, "bias_instability: B must not be below 0");
   assert(f_low >= 1e-12, "bias_instability: f_low must not be below 1e-12");
   assert(f_high >= 1e-12, "bias_instability: f_high must not be below 1e-12");
+  assert(not PyImu.Effects.BiasInstability.biasInstabilityBroken1(f_low, f_high),
+    "bias_instability: f_high must lie 2 to 5 decades above f_low");
   for k in 1:6 loop
     der(b[k]) = -rate[k]*b[k] + strength[k]*u[k];
   end for;

@@ -9,8 +9,8 @@ block Heating "Temperature of a part in surroundings of another, with its own he
   Modelica.Blocks.Interfaces.RealOutput temperature(unit="degC", start=start, fixed=true) "Temperature of the part"
     annotation(Placement(transformation(extent={{100,-10},{120,10}})));
 equation
-  assert(tau > 0, "tau must be a positive number of seconds");
-  tau*der(temperature) = ambient + rise - temperature;
+  assert(tau >= 1e-3, "tau must not be below 1e-3 s");
+  der(temperature) = (ambient + rise - temperature)/max(tau, 1e-3);
   annotation(Documentation(info="<html>
 <p>tau dT/dt = ambient + rise - T: a body of one heat capacity (Newton's law of cooling) that heats
 itself by as much as makes it rise K warmer in the end.</p>

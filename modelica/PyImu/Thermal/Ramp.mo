@@ -7,8 +7,8 @@ block Ramp "Temperature that rises steadily from one to another"
   Modelica.Blocks.Interfaces.RealOutput temperature(unit="degC") "Temperature"
     annotation(Placement(transformation(extent={{100,-10},{120,10}})));
 equation
-  assert(duration > 0, "duration must be a positive number of seconds");
-  temperature = from + (to - from)*min(time/duration, 1);
+  assert(duration >= 1e-3, "duration must not be below 1e-3 s");
+  temperature = from + (to - from)*min(time/max(duration, 1e-3), 1);
   annotation(Documentation(info="<html>
 <p>T = from + (to - from) min(t/duration, 1): the ramp of a climatic chamber.</p>
 </html>"));

@@ -7,8 +7,8 @@ block WarmUp "Temperature of a part that warms up after power-on"
   Modelica.Blocks.Interfaces.RealOutput temperature(unit="degC") "Temperature of the part"
     annotation(Placement(transformation(extent={{100,-10},{120,10}})));
 equation
-  assert(tau > 0, "tau must be a positive number of seconds");
-  temperature = start + rise*(1 - exp(-time/tau));
+  assert(tau >= 1e-3, "tau must not be below 1e-3 s");
+  temperature = start + rise*(1 - exp(-time/max(tau, 1e-3)));
   annotation(Documentation(info="<html>
 <p>T = start + rise (1 - exp(-t/tau)): Heating in closed form, in surroundings that stay at
 start.</p>

@@ -84,9 +84,9 @@ def _led(fates: list[Fate], fitted: dict[str, float]) -> str:
     if not fitted:
         return ""
     said = (
-        " Dots: what each explains alone once it is fitted in full, which decides; the first look "
-        "takes slopes where the effect is nought and the noise as it was, and only picks the few "
-        "that are worth it."
+        " Dots, and numbers behind an arrow: what each explains alone once it is fitted in full, "
+        "which decides; the first look takes slopes where the effect is nought and the noise as it "
+        "was, and only picks the few that are worth it."
     )
     chosen = [c for c in fates if c.outcome == "added" and c.gain is not None and c.fitted]
     ahead = [

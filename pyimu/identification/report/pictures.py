@@ -232,7 +232,7 @@ def screening(
     first: Screening, last: Screening, added: Sequence[str], fitted: Mapping[str, float]
 ) -> str:
     """Gain of each candidate at the first look (bars), ``fitted`` in full (dots) and at the last
-    look (diamonds), with the gate.
+    look (diamonds), with the gate. The numbers are of the first look and, behind an arrow, in full.
     """
     rows = sorted(first.candidates, key=lambda c: c.gain)
     remaining = {c.effect: c.gain for c in last.candidates}
@@ -244,8 +244,9 @@ def screening(
             colour = AFTER if c.effect in added else BEFORE if c.gain > gate else GREY
             panel.barh(k, max(c.gain, left) - left, left=left, height=0.62, color=colour)
             clear = max(c.gain, gate, remaining.get(c.effect, 0.0), fitted.get(c.effect, 0.0))
+            gains = [c.gain, fitted[c.effect]] if c.effect in fitted else [c.gain]
             panel.annotate(
-                number(c.gain) if c.gain > left else "nothing",
+                " → ".join(number(g) if g > left else "nothing" for g in gains),
                 (clear, k),
                 xytext=(7, 0),
                 color=INK,
@@ -261,7 +262,7 @@ def screening(
         panel.set_yticks(range(len(rows)), [c.effect for c in rows])
         panel.set(
             xscale="log",
-            xlim=(left, 6 * max([gate, *(c.gain for c in rows)])),
+            xlim=(left, 6 * max([gate, *(c.gain for c in rows), *fitted.values()])),
             xlabel="gain in log-likelihood [nat]",
         )
         plain_logarithm(panel.xaxis)

@@ -10,7 +10,6 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from importlib.metadata import version
 from pathlib import Path
 
 import pyarrow as pa
@@ -18,6 +17,7 @@ from pyarrow import parquet
 
 from pyimu.errors import UserError
 from pyimu.files import check_folder, plain, whole, write_json
+from pyimu.rover.campaign.made_by import made_by
 from pyimu.rover.campaign.score import Row
 from pyimu.rover.campaign.settings import Settings
 
@@ -118,9 +118,9 @@ def batches(runs: int) -> list[range]:
 
 
 def described(settings: Settings) -> dict:
-    """What ``campaign.json`` says: the settings, the package's version, and a key of both."""
-    made_by = version("pyimu")
-    return plain({"key": f"{settings.key()}-{made_by}", "version": made_by, **settings.contents()})
+    """What ``campaign.json`` says: the settings, the code that makes the runs, a key of both."""
+    code = made_by()
+    return plain({"key": f"{settings.key()}-{code}", "version": code, **settings.contents()})
 
 
 def _difference(there: dict, mine: dict) -> str:

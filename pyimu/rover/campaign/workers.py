@@ -6,11 +6,11 @@ import logging
 from collections.abc import Iterable, Iterator
 from concurrent.futures import CancelledError
 from contextlib import contextmanager, suppress
-from importlib.metadata import version
 from queue import Empty, SimpleQueue
 from typing import Any
 
 from pyimu.errors import UserError
+from pyimu.rover.campaign.made_by import made_by
 from pyimu.rover.campaign.score import Row, row_of
 from pyimu.rover.campaign.settings import Settings
 
@@ -50,8 +50,8 @@ def on_dask(
     """The rows of each batch, in the order in which they are done.
 
     A batch whose worker has died is given to another one. Raises UserError where dask is not
-    installed, the scheduler does not answer or has no worker, or the workers have another version
-    of the package.
+    installed, the scheduler does not answer or has no worker, or the workers have other code of the
+    package.
     """
     with _client(scheduler, workers) as client:
         if scheduler is not None:
@@ -137,7 +137,7 @@ def _client_of(distributed: Any, scheduler: str) -> Any:
 
 
 def _check_workers(client: Any, scheduler: str) -> None:
-    """Raise UserError where there is no worker, or one of another version."""
+    """Raise UserError where there is no worker, or one of other code."""
     try:
         client.wait_for_workers(1, timeout=ARRIVAL)
     except TimeoutError:
@@ -145,9 +145,9 @@ def _check_workers(client: Any, scheduler: str) -> None:
             f"--scheduler {scheduler}: no worker has come within {ARRIVAL:g} s; `dask worker "
             f"{scheduler}` starts one"
         ) from None
-    mine = version("pyimu")
+    mine = made_by()
     try:
-        theirs = client.run(own_version)
+        theirs = client.run(made_by)
     except Exception as error:
         raise UserError(
             f"--scheduler {scheduler}: its workers cannot load pyimu {mine} ({str(error)[:80]}); "
@@ -157,13 +157,8 @@ def _check_workers(client: Any, scheduler: str) -> None:
         if found != mine:
             raise UserError(
                 f"--scheduler {scheduler}: worker {worker} has pyimu {found}, not {mine}: runs "
-                "would not be the same; install the same version there"
+                "would not be the same; install the same there"
             )
-
-
-def own_version() -> str:
-    """The package's version in this process."""
-    return version("pyimu")
 
 
 def _dask() -> tuple[Any, Any]:
