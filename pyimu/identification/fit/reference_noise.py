@@ -10,7 +10,7 @@ errors-in-variables models", Biometrika 77), the means taken over the draw.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -46,8 +46,8 @@ LEAST = 1e-3
 to a gain is less than the scatter of that gain in a million rows."""
 
 STEP = 0.3
-"""Share of its standard deviation by which the reference is moved to see what changes: slopes are
-limits, and the kinks of a dead zone scatter them the more the smaller the step."""
+"""Share of its standard deviation by which the reference is moved either way to see what changes:
+slopes are limits, and the kinks of a dead zone scatter them the more the smaller the step."""
 
 REST = 1 / 16
 """Share of the windows in which a reference is taken to be at rest, if it ever is."""
@@ -208,11 +208,11 @@ def _third_differences(trial: Trial, values: np.ndarray) -> list[np.ndarray]:
 # Taking it out
 
 
-def moved(trial: Trial) -> Trial:
+def moved(trial: Trial, sign: int) -> Trial:
     """The trial with its reference moved by ``STEP`` of its noise."""
     if trial.noise is None:
         return trial
-    u, more = np.array(trial.u), STEP * trial.noise
+    u, more = np.array(trial.u), sign * STEP * trial.noise
     u[:, OWN[trial.kind]] += more
     for a, b in trial.segments:
         if b - a > 1:
@@ -225,35 +225,32 @@ def has_noise(fit: Fit) -> bool:
     return any(t.noise is not None for t in fit.trials)
 
 
-def changes(
-    fit: Fit, linears: Iterable[Linear], linearised: Callable[[Fit], list[Linear]]
-) -> list[Linear]:
-    """What the noise of the reference makes of each trial's residual and columns as they were
-    ``linearised``.
-    """
-    noisier = replace(fit, trials=tuple(map(moved, fit.trials)), last=Last())
-    return [_difference(a, b) for a, b in zip(linearised(noisier), linears, strict=True)]
+def changes(fit: Fit, linearised: Callable[[Fit], list[Linear]]) -> list[Linear]:
+    """What the noise of the reference makes of each trial's residual and columns."""
+    up, down = (
+        linearised(replace(fit, trials=tuple(moved(t, sign) for t in fit.trials), last=Last()))
+        for sign in (1, -1)
+    )
+    return [_difference(a, b) for a, b in zip(up, down, strict=True)]
 
 
-def _difference(more: Linear, usual: Linear) -> Linear:
+def _difference(up: Linear, down: Linear) -> Linear:
     columns = {}
-    for i, keys in more.keys.items():
-        before = dict(zip(usual.keys[i], usual.columns[i].arrays, strict=True))
-        pairs = zip(keys, more.columns[i].arrays, strict=True)
-        changed = ((column - before.get(key, 0.0)) / STEP for key, column in pairs)
-        columns[i] = Stack(len(more.time), tuple(changed))
-    change = (more.residual - usual.residual) / STEP
-    return replace(more, residual=change, columns=columns)
+    for i, keys in up.keys.items():
+        below = dict(zip(down.keys[i], down.columns[i].arrays, strict=True))
+        pairs = zip(keys, up.columns[i].arrays, strict=True)
+        changed = ((column - below.get(key, 0.0)) / (2 * STEP) for key, column in pairs)
+        columns[i] = Stack(len(up.time), tuple(changed))
+    change = (up.residual - down.residual) / (2 * STEP)
+    return replace(up, residual=change, columns=columns)
 
 
-def _changes(
-    fit: Fit, linears: Iterable[Linear], linearised: Callable[[Fit], list[Linear]]
-) -> list[Linear]:
+def _changes(fit: Fit, linearised: Callable[[Fit], list[Linear]]) -> list[Linear]:
     """The same, once for all fits that differ in their noise alone."""
     if linearised is not Fit.linearise:
-        return changes(fit, linears, linearised)
+        return changes(fit, linearised)
     if not fit.last.changes:
-        fit.last.changes = changes(fit, linears, linearised)
+        fit.last.changes = changes(fit, linearised)
     return fit.last.changes
 
 
@@ -261,16 +258,15 @@ def residual_changes(fit: Fit) -> list[Linear]:
     """What the noise of the reference makes of each trial's residual."""
     if fit.is_last and fit.last.changes:
         return fit.last.changes
-    return changes(fit, fit.residuals(), Fit.residuals)
+    return changes(fit, Fit.residuals)
 
 
 def equations(fit: Fit, linearised: Callable[[Fit], list[Linear]] = Fit.linearise) -> Normal:
     """Normal equations of a fit's columns as a reference without noise would have them."""
-    linears = linearised(fit)
-    found = normal_equations(linears, fit.noise)
+    found = normal_equations(linearised(fit), fit.noise)
     if not has_noise(fit):
         return found
-    changed, seen = _changes(fit, linears, linearised), found.gram
+    changed, seen = _changes(fit, linearised), found.gram
     gram, score, power = found.batch_gram, found.batch_score, found.power
     doubt, unknown = np.zeros((len(fit.noise), len(seen))), np.zeros(len(seen))
     for row, axis in zip(doubt, fit.noise, strict=True):

@@ -187,10 +187,10 @@ def _rows(rest: Trial, pairs):
     def left(trial: Trial) -> list[np.ndarray]:
         return [in_band(trial, residual(sensor, trial, state)) for sensor, state in pairs]
 
-    seen = left(rest)
-    yield 1, seen
+    yield 1, left(rest)
     if rest.noise is not None:
-        yield -1, [(a - b) / STEP for a, b in zip(left(moved(rest)), seen, strict=True)]
+        up, down = (left(moved(rest, sign)) for sign in (1, -1))
+        yield -1, [(a - b) / (2 * STEP) for a, b in zip(up, down, strict=True)]
 
 
 def _whitened(fit: Fit, trial: Trial, one: Linear) -> np.ndarray:
