@@ -16,6 +16,7 @@ from pyimu.errors import UserError
 from pyimu.recording.clock import runs
 from pyimu.recording.quality.clipping import PLATEAU, clipped
 from pyimu.recording.recording import Recording
+from pyimu.recording.reference.rate import check_radians
 
 Reference = Literal["heading", "rate"]
 
@@ -116,6 +117,7 @@ def known_motion(recording: Recording, reference: Reference | None = None) -> Kn
 
 def _heading(recording: Recording) -> np.ndarray | None:
     if recording.ref_heading is not None:
+        check_radians(recording)
         return np.array(recording.ref_heading)
     if recording.ref_q is None:
         return None

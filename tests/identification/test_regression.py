@@ -2,6 +2,8 @@
 about the truth.
 """
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from loop_cases import inputs, noise, trial
@@ -14,6 +16,7 @@ from scipy.stats import chi2
 from pyimu.identification.fit import maximum_likelihood, reference_noise
 from pyimu.identification.fit.columns import Linear, in_band, linearise
 from pyimu.identification.fit.fit import begin, power
+from pyimu.identification.fit.incoherent import in_rows
 from pyimu.identification.fit.inputs import LogState
 from pyimu.identification.fit.keys import Coefficient, LogBias, LogTurn, coefficients_of
 from pyimu.identification.fit.maximum_likelihood import fit
@@ -64,6 +67,16 @@ def wander(seed: int, time: np.ndarray) -> np.ndarray:
     that of the first one.
     """
     return noise(np.random.default_rng(seed), time, R, K2, zero_at=SETTLE)
+
+
+@pytest.mark.parametrize("rate", [50.0, 100.0, 104.0, 976.0])
+def test_a_level_density_reaches_half_the_sample_rate(rate):
+    """Whichever way the highest frequency of a frame of any length is rounded."""
+    time = np.arange(100) / rate
+    log = replace(small_log(0, n=100), h=1 / rate, time=time)
+    for length in range(32, 800, 2):
+        frequency = np.fft.rfftfreq(length, 1 / rate)
+        np.testing.assert_allclose(in_rows(log, frequency, np.ones_like), 1.0, rtol=1e-12)
 
 
 @pytest.fixture(scope="module")

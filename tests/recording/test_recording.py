@@ -562,6 +562,17 @@ def test_latitude_in_degrees_is_refused():
         reference_rate(Recording.from_arrays(time=TIME, ref_q=ATTITUDE), latitude=52.0)
 
 
+@pytest.mark.parametrize("low", [0.0, -180.0])
+def test_a_heading_in_degrees_is_told_by_where_it_goes_back(low):
+    heading = (40.0 * TIME - low) % 360.0 + low
+    log = Recording.from_arrays(name="yard", time=TIME, gyro=RATE, ref_heading=heading)
+    said = r"yard: ref_heading goes back by 3\d\d.*write ref_heading \[deg\]"
+    with pytest.raises(UserError, match=said):
+        reference_rate(log)
+    there = Recording.from_arrays(time=TIME, gyro=RATE, ref_heading=np.radians(heading))
+    assert reference_rate(there).kind == "heading"
+
+
 def test_heading_gives_the_rate_about_z():
     heading = np.angle(np.exp(1j * 3 * np.sin(TIME)))
     reference = reference_rate(Recording.from_arrays(time=TIME, gyro=RATE, ref_heading=heading))

@@ -52,11 +52,17 @@ nothing else stands for makes K 7 to 22 times as large."""
 
 
 class Last:
-    """What a model was last linearised to, for those that differ from it in their noise alone."""
+    """What a model was last linearised to, for those that differ from it in their noise alone, and
+    what the noise of the reference changes of it, once that was asked for.
+    """
 
     def __init__(self) -> None:
+        self.forget()
+
+    def forget(self) -> None:
         self.of: tuple = ()
         self.linears: list[Linear] = []
+        self.changes: list[Linear] = []
 
 
 @dataclass(frozen=True)
@@ -88,6 +94,8 @@ class Fit:
         """All trials with columns for the free coefficients, the logs' own, and effects
         ``candidates`` put in at their identity.
         """
+        if not candidates and not extra:
+            return self._linearised()
         sensor, wanted = self.sensor, self.free
         for name in candidates:
             sensor = sensor if name in sensor.values else sensor.with_values(name)
@@ -96,20 +104,24 @@ class Fit:
 
     def _linearised(self) -> list[Linear]:
         """All trials with columns for what the model has."""
-        states = tuple(self.states[t.name] for t in self.trials)
-        of = (self.sensor, self.free, *self.trials, *states)
-        if not self._is_last(of):
+        if not self.is_last:
+            self.last.forget()
             self.last.linears = [
-                linearise(self.sensor, t, state, self.free)
-                for t, state in zip(self.trials, states, strict=True)
+                linearise(self.sensor, t, self.states[t.name], self.free) for t in self.trials
             ]
-            self.last.of = of
+            self.last.of = self._linearised_by
         return list(self.last.linears)
 
-    def _is_last(self, of: tuple) -> bool:
+    @property
+    def _linearised_by(self) -> tuple:
+        """What a linearisation depends on."""
+        return self.sensor, self.free, *self.trials, *(self.states[t.name] for t in self.trials)
+
+    @property
+    def is_last(self) -> bool:
         """Whether the same objects were linearised last."""
-        last = self.last.of
-        return len(last) == len(of) and all(a is b for a, b in zip(last, of, strict=True))
+        last, own = self.last.of, self._linearised_by
+        return len(last) == len(own) and all(a is b for a, b in zip(last, own, strict=True))
 
     def beside(self, linears: Iterable[Linear], extra: Iterable) -> list[Linear]:
         """All trials as they were linearised, with the columns that functions ``extra`` add."""
@@ -120,8 +132,7 @@ class Fit:
 
     def residuals(self) -> list[Linear]:
         """All trials' residuals in their band, without columns."""
-        states = (self.states[t.name] for t in self.trials)
-        if self._is_last((self.sensor, self.free, *self.trials, *states)):
+        if self.is_last:
             return [_without_columns(one) for one in self.last.linears]
         return [self._residual(t) for t in self.trials]
 
@@ -281,11 +292,18 @@ def power(fit: Fit) -> float:
     """Sum of squares of the whitened residual: what ``normal_equations`` calls power, without its
     columns.
     """
-    return sum(
-        float(np.sum(fit.noise[i].whiten(one.residual[:, i : i + 1], one.time, one.segments) ** 2))
-        for one in fit.residuals()
-        for i in one.keys
-    )
+    return whitened_power(fit, fit.residuals())
+
+
+def whitened_power(fit: Fit, linears: Iterable[Linear]) -> float:
+    """Sum of squares of what linearised trials leave, whitened by the noise of a fit."""
+    return sum(whitened(fit.noise[i], one, i) for one in linears for i in one.keys)
+
+
+def whitened(noise, one: Linear, axis: int) -> float:
+    """Sum of squares of a residual on an axis, whitened."""
+    r = one.residual[:, axis : axis + 1]
+    return float(np.sum(noise.whiten(r, one.time, one.segments) ** 2))
 
 
 def plain_equations(fit: Fit) -> Normal:

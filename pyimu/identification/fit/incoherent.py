@@ -290,7 +290,8 @@ def in_rows(
     folded = [frequency]
     for k in range(1, FOLDS + 1):
         folded += [k * rate - frequency, k * rate + frequency]
-    inside = (f for f in folded if f.max() <= 0.5 / trial.h)
+    # The highest may be half the sample rate, give or take its rounding.
+    inside = (f for f in folded if f.max() * trial.h <= 0.5 + ROUNDING)
     return sum(density(f) * response(trial, f) ** 2 for f in inside)
 
 

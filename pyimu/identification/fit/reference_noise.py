@@ -16,7 +16,7 @@ from dataclasses import replace
 import numpy as np
 
 from pyimu.identification.fit.columns import Linear, Stack, band_segments, band_time, in_band
-from pyimu.identification.fit.fit import Fit, Last, power
+from pyimu.identification.fit.fit import Fit, Last, power, whitened, whitened_power
 from pyimu.identification.fit.incoherent import (
     CHANCE,
     NOTHING,
@@ -245,12 +245,28 @@ def _difference(up: Linear, down: Linear) -> Linear:
     return replace(up, residual=change, columns=columns)
 
 
+def _changes(fit: Fit, linearised: Callable[[Fit], list[Linear]]) -> list[Linear]:
+    """The same, once for all fits that differ in their noise alone."""
+    if linearised is not Fit.linearise:
+        return changes(fit, linearised)
+    if not fit.last.changes:
+        fit.last.changes = changes(fit, linearised)
+    return fit.last.changes
+
+
+def residual_changes(fit: Fit) -> list[Linear]:
+    """What the noise of the reference makes of each trial's residual."""
+    if fit.is_last and fit.last.changes:
+        return fit.last.changes
+    return changes(fit, Fit.residuals)
+
+
 def equations(fit: Fit, linearised: Callable[[Fit], list[Linear]] = Fit.linearise) -> Normal:
     """Normal equations of a fit's columns as a reference without noise would have them."""
     found = normal_equations(linearised(fit), fit.noise)
     if not has_noise(fit):
         return found
-    changed, seen = changes(fit, linearised), found.gram
+    changed, seen = _changes(fit, linearised), found.gram
     gram, score, power = found.batch_gram, found.batch_score, found.power
     doubt, unknown = np.zeros((len(fit.noise), len(seen))), np.zeros(len(seen))
     for row, axis in zip(doubt, fit.noise, strict=True):
@@ -310,8 +326,7 @@ def _without(gram, score, doubt, at: np.ndarray, onto: np.ndarray, off: np.ndarr
 
 def power_without_noise(fit: Fit) -> float:
     """Sum of squares of the whitened residual as a reference without noise would have it."""
-    noise = changes(fit, Fit.residuals)
-    return power(fit) - sum(whitened(fit.noise[i], one, i) for one in noise for i in one.keys)
+    return power(fit) - whitened_power(fit, residual_changes(fit))
 
 
 def _of_axis(one: Linear, axis: int) -> Linear:
@@ -349,7 +364,7 @@ def smoothing(fit: Fit) -> float:
 def _echo(fit: Fit) -> dict[int, float]:
     """What the reference's noise adds, by axis, to the variance of a fit's innovations."""
     rows, grown = _rows(fit), {}
-    linears = changes(fit, Fit.residuals)
+    linears = residual_changes(fit)
     for i, noise in fit.noise.items():
         power = sum(whitened(noise, one, i) for one in linears if i in one.keys)
         grown[i] = power / max(rows[i], 1) * noise.r
@@ -358,9 +373,3 @@ def _echo(fit: Fit) -> dict[int, float]:
 
 def _rows(fit: Fit) -> dict[int, int]:
     return {i: sum(len(band_time(t)) for t in fit.trials if i in t.axes) for i in fit.noise}
-
-
-def whitened(noise, one: Linear, axis: int) -> float:
-    """Sum of squares of a residual, whitened."""
-    r = one.residual[:, axis : axis + 1]
-    return float(np.sum(noise.whiten(r, one.time, one.segments) ** 2))

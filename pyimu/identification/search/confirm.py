@@ -9,12 +9,12 @@ import numpy as np
 from scipy.stats import chi2
 
 from pyimu.identification.fit.columns import Linear, band_time, in_band, residual
-from pyimu.identification.fit.fit import Fit, bare
+from pyimu.identification.fit.fit import Fit, bare, whitened
 from pyimu.identification.fit.left_out import left_out
 from pyimu.identification.fit.noise_fit import declared_variances
 from pyimu.identification.fit.noise_floor import own_noise, reference_variance
 from pyimu.identification.fit.normal import BATCHES
-from pyimu.identification.fit.reference_noise import STEP, changes, has_noise, moved, whitened
+from pyimu.identification.fit.reference_noise import STEP, has_noise, moved, residual_changes
 from pyimu.identification.fit.score import held_state
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk
@@ -204,9 +204,7 @@ def _squares(fit: Fit) -> np.ndarray:
     seen = np.sum([np.sum(one.residual**2, axis=0) for one in fit.residuals()], axis=0)
     if not has_noise(fit):
         return seen
-    return seen - np.sum(
-        [np.sum(c.residual**2, axis=0) for c in changes(fit, Fit.residuals)], axis=0
-    )
+    return seen - np.sum([np.sum(c.residual**2, axis=0) for c in residual_changes(fit)], axis=0)
 
 
 def _noise(fit: Fit, held: Sequence[Trial]) -> np.ndarray | None:

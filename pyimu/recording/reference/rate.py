@@ -29,6 +29,9 @@ from pyimu.recording.reference.track import Track, fresh
 from pyimu.recording.rest import is_at_rest, motion_in
 from pyimu.symbolic.earth import EARTH_RATE
 
+HALF = 180.0
+"""Half a turn in degrees; in radians more than any heading turns from one sample to the next."""
+
 DERIVED = ("attitude", "heading", "course")
 """Kinds of reference whose rate was differentiated."""
 
@@ -186,6 +189,7 @@ def _from_attitude(
 def _from_heading(
     recording: Recording, source: Recording, latitude: np.ndarray | float | None
 ) -> Reference:
+    check_radians(source)
     heading, time = source.ref_heading, recording.time
     known = fresh(heading[:, None])
     unwrapped = np.full(len(source), np.nan)
@@ -199,6 +203,18 @@ def _from_heading(
         rate[:, 2] += EARTH_RATE * np.sin(latitude)
     made = _derived(recording, rate, "heading", track, latitude is not None)
     return replace(made, up=np.array([0.0, 0.0, 1.0]))
+
+
+def check_radians(source: Recording) -> None:
+    """Refuse a heading that goes back by 360 where it should by 2 pi: it counts degrees."""
+    heading = source.ref_heading[np.isfinite(source.ref_heading)]
+    steps = np.abs(np.diff(heading))
+    back = steps[steps > HALF]
+    if len(back) and np.all(np.abs(back / (2 * HALF) - 1) < 0.1):
+        raise UserError(
+            f"{source.name}: ref_heading goes back by {back[0]:.4g} from one sample to the next, "
+            "where a heading in rad does by 6.283: its numbers are degrees, write ref_heading [deg]"
+        )
 
 
 def _of_another_clock(recording: Recording, source: Recording) -> Reference:
