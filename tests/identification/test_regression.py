@@ -16,7 +16,7 @@ from scipy.stats import chi2
 from pyimu.identification.fit import maximum_likelihood, reference_noise
 from pyimu.identification.fit.columns import Linear, in_band, linearise
 from pyimu.identification.fit.fit import begin, power
-from pyimu.identification.fit.incoherent import in_rows
+from pyimu.identification.fit.incoherent import Spectrum, in_rows, of_reference
 from pyimu.identification.fit.inputs import LogState
 from pyimu.identification.fit.keys import Coefficient, LogBias, LogTurn, coefficients_of
 from pyimu.identification.fit.maximum_likelihood import fit
@@ -77,6 +77,16 @@ def test_a_level_density_reaches_half_the_sample_rate(rate):
     for length in range(32, 800, 2):
         frequency = np.fft.rfftfreq(length, 1 / rate)
         np.testing.assert_allclose(in_rows(log, frequency, np.ones_like), 1.0, rtol=1e-12)
+
+
+@pytest.mark.parametrize(("size", "shown"), [(0.3, False), (3.0, True)])
+def test_coloured_noise_of_a_reference_is_more_than_the_sensors_own(size, shown):
+    """Noise up to 5 Hz, known to a hundredth of the sensor's own density."""
+    frequency = np.fft.rfftfreq(512, 0.01)
+    own, low = np.ones(len(frequency)), frequency < 5.0
+    seen = Spectrum(frequency, size * low, 0.01 * own, whole=size * low + 1e-3, own=own)
+    found = of_reference(seen, 0.0, 0.1)
+    assert found.coloured and (found.shown > 0.9) == shown and (found.shown == 0.0) != shown
 
 
 @pytest.fixture(scope="module")

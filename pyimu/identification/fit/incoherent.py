@@ -68,8 +68,9 @@ class Spectrum:
 
     ``std`` (f,) are its standard errors; it may lie below zero by them. ``common`` is the standard
     error of all of it together, over it; ``whole`` (f,) the density of all that the reference
-    shows, over which no noise of it can be, ``shown`` the largest share that it
-    has of that; ``coloured`` says that noise is known not to be white.
+    shows, over which no noise of it can be, ``own`` (f,) that of the sensor's own noise, ``shown``
+    the largest share of ``whole`` that it has where it is more than ``own``; ``coloured`` says that
+    noise is known not to be white.
     """
 
     frequency: np.ndarray
@@ -77,6 +78,7 @@ class Spectrum:
     std: np.ndarray
     common: float = 0.0
     whole: np.ndarray | None = None
+    own: np.ndarray | None = None
     shown: float = 0.0
     coloured: bool = False
 
@@ -155,7 +157,7 @@ def unseen_spectra(trial: Trial, one: Linear, own: Mapping[int, RandomWalk]) -> 
         psd, std = left - mine * (1.0 - share), np.hypot(left, of_share) / np.sqrt(averaged)
         psd[0] = std[0] = 0.0
         whole = cross[:, known.stop + k, known.stop + k].real
-        found[axis] = Spectrum(frequency, psd, std, whole=whole)
+        found[axis] = Spectrum(frequency, psd, std, whole=whole, own=mine)
     return found
 
 
@@ -248,13 +250,17 @@ def of_reference(seen: Spectrum, high: float, error: float) -> Spectrum:
 def _shown_by_itself(
     seen: Spectrum, pieces: list[slice], mean: np.ndarray, std: np.ndarray
 ) -> float:
-    """The largest share that noise of densities ``mean`` (k,) in ``pieces`` clearly has of what the
-    reference shows itself; nothing where it would be more than that anywhere.
+    """The largest share that noise of densities ``mean`` (k,) in ``pieces`` has of what the
+    reference shows itself, where it is clearly more than the sensor's own noise; nothing where it
+    would be more than the reference shows anywhere.
+
+    Of less than its own a sensor tells little: where a motion fades into the sensor's noise, what
+    of that seems not to be in its signal is off by some tenths of it.
     """
-    if seen.whole is None:
+    if seen.whole is None or seen.own is None:
         return 0.0
-    most = np.array([seen.whole[p].mean() for p in pieces])
-    clear = mean > CLEARLY * std
+    most, own = (np.array([v[p].mean() for p in pieces]) for v in (seen.whole, seen.own))
+    clear = mean - CLEARLY * std > own
     if np.any(mean > most + CHANCE * std):
         return 0.0
     return float(np.max(mean[clear] / most[clear], initial=0.0))
