@@ -150,31 +150,3 @@ def test_a_rest_before_the_turn_begins_is_kept():
     rest = find_rest(Recording.from_arrays(time=H * np.arange(1500), gyro=gyro, accel=accel))
     assert rest.seen and 3.0 < rest.duration < 8.5
     assert abs(np.linalg.norm(rest.force) - GRAVITY) < 0.01
-
-
-PUSH, EVERY, DRIVEN = 0.5, 12, 72
-"""m/s^2 of a push of 6 s, to and fro; s from one to the next; s of drive between two stops."""
-
-
-@pytest.mark.parametrize("shakes", [False, True])
-def test_a_stop_shows_only_after_a_drive_that_shook(block, shakes):
-    """The pushes leave a velocity that nobody knows: on a smooth way the even drive between them is
-    no rest, and nor is the stop. Where the drive shook, the stop is one, and the drive is none.
-    What the first push is, a steady force after a rest, only its end shows.
-    """
-    n = round((5 + DRIVEN + 10) / H)
-    t = H * np.arange(n) - 5
-    rng, drives = np.random.default_rng(8), (t > 0) & (t < DRIVEN)
-    pushed = drives * (t % EVERY < EVERY / 2)
-    along = PUSH * pushed * np.where(t % (2 * EVERY) < EVERY, 1, -1)
-    rough = 0.3 * shakes * drives[:, None] * rng.standard_normal((n, 3))
-    accel = np.column_stack([along, 0 * t, GRAVITY + 0 * t]) + rough
-    accel += 1e-3 / np.sqrt(H) * rng.standard_normal((n, 3))
-    gyro = 0.002 + 3e-4 / np.sqrt(H) * rng.standard_normal((n, 3))
-    quiet = attitude_ukf(part(3e-4, 1e-5, 1e-3))
-    start = parameters(quiet, std0=STD0)
-    y, _ = quiet.run(inputs(n, gyro=gyro, accel=accel), p=start)
-    rests = output(quiet, y, "at_rest") > 0
-    assert rests[(t > -3) & (t < 0)].all()
-    assert not rests[drives & (t > EVERY / 2 + 1)].any()
-    assert rests[t > DRIVEN + 2].all() == rests[t > DRIVEN + 2].any() == shakes

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{fe0d5b5a-9f0c-57ba-52da-72b8ebf239ad}"
-#define MODEL_TOKEN_FMI3 "{5e66adbd-150e-35e5-d291-de90328bbc71}"
+#define MODEL_TOKEN_FMI2 "{0c2131e5-3c76-e79b-a707-f1d53a104262}"
+#define MODEL_TOKEN_FMI3 "{2c1305f9-b7f9-0e18-4469-a630a13c8dd3}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -16,13 +16,13 @@ enum {
     N_INPUTS = 18,
     N_PARAMETERS = 58,
     N_OUTPUTS = 21,
-    N_STATES = 294,
+    N_STATES = 293,
     N_NOISE = 0,
     N_VARIABLES = 99
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 44, WORK_RES = 27, WORK_IW = 0, WORK_W = 2433 };
+enum { WORK_ARG = 44, WORK_RES = 27, WORK_IW = 0, WORK_W = 2428 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };

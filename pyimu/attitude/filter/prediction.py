@@ -22,10 +22,8 @@ from pyimu.attitude.filter.quasi_static import MEAN_TIME, where
 from pyimu.attitude.filter.sample import Sample
 from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.stillness import (
-    CALM,
     SLOW,
     Stillness,
-    calmer,
     is_rest,
     is_still,
     share_of_noise,
@@ -51,13 +49,7 @@ HOLD = 1.0
 """s; so long after a speed the body still drives."""
 
 DRIVES = 0.2
-"""m/s; a body of which speeds say more is not at rest, however even its drive. One whose velocity
-is not known to that may drive."""
-
-PUSHED = 0.05
-"""m/s; a drift (``velocity.Motion``) beyond which a body was pushed for long. A tilt that is wrong
-by three standard deviations at the start looks like less. Chosen on runs 100 to 129 of the vehicles
-of ``benchmarks/attitude_honesty.py``."""
+"""m/s; a body of which speeds say more is not at rest, however even its drive."""
 
 
 ARGUMENTS = "estimate memory u p h"
@@ -109,8 +101,8 @@ class Rest:
     are factors: casadi would draw a choice into every product. ``before`` is the estimate before
     the sample: where a rest ends, with the bias as it was before its last samples. By ``forgotten``
     (3,) the variance of the bias was larger then, or is by what it took of a turn that was so slow
-    that it looked like rest, and by ``unseen`` (3,) that of the attitude. ``safe``, ``later``
-    and ``calm`` are those of ``Memory``.
+    that it looked like rest, and by ``unseen`` (3,) that of the attitude. ``safe`` and ``later``
+    are those of ``Memory``.
     """
 
     still: Stillness
@@ -121,7 +113,6 @@ class Rest:
     unseen: ca.SX
     safe: ca.SX
     later: ca.SX
-    calm: ca.SX
 
 
 def rest_of(at: Instant, sample: Sample) -> Rest:
@@ -152,18 +143,7 @@ def rest_of(at: Instant, sample: Sample) -> Rest:
     taken = ca.fmin(variance * SLOW / ca.fmax(before.density, _density(settings)), 1)
     forgotten = ends * ca.fmax(safe[3:] - variance, 0) + taken**2 * unseen
     moving = (1 - at.stationary) * kept
-    may_drive = _may_drive(at.memory, at.memory.estimate)
-    calm = calmer(at.memory.calm, before, alike, may_drive, at.h)
-    return Rest(still, resting, moving, x, forgotten, SLOW**2 * unseen, safe, later, calm)
-
-
-def _may_drive(memory: Memory, x: Estimate):
-    """Whether a body that looks still may drive, 0 or 1.
-
-    It was fast or was pushed for long, and its velocity by the estimate ``x`` is not known since.
-    """
-    motion, unknown = memory.motion, ca.trace(x.covariance[6:, 6:]) > DRIVES**2
-    return unknown * (motion.across > DRIVES**2 * (motion.drift <= PUSHED**2))
+    return Rest(still, resting, moving, x, forgotten, SLOW**2 * unseen, safe, later)
 
 
 def _density(settings: Settings):
@@ -179,7 +159,6 @@ def _decided(at: Instant, x: Estimate, rest: Rest) -> Stillness:
     still, span = rest.still, ca.fmin(rest.still.span, 2 * SLOW)
     rate, noise = still.slow - x.bias - at.earth, ca.fmax(still.density, _density(at.settings))
     found = is_rest(rate, x.covariance[3:6, 3:6], vertical(x), noise, span)
-    found *= 1 - _may_drive(at.memory, x) * (rest.calm > CALM)
     time = at.settings.scalar["rest_time"]
     begins = (at.memory.stillness.span < time) * (still.span >= time)
     goes_on = (still.rests > 0) * (2 * found - 1) * (still.span > 0)
@@ -267,7 +246,6 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
         sample.same_for,
         sample.sensors,
         speed_for,
-        rest.calm,
         vertical_noise,
         ca.vertcat(*place),
         field,
