@@ -240,7 +240,11 @@ def test_a_free_drive_goes_as_far_as_its_commands_say(commands):
     way = fine.speed[:, None] * np.column_stack([np.cos(heading), np.sin(heading)])
     place = np.cumsum((way[1:] + way[:-1]) / 800.0, axis=0)[-1] + fine.position[0, :2]
     assert np.abs(m.position[-1, :2] - place).max() < 1e-6
-    np.testing.assert_allclose(m.outputs, fine.outputs[7::8][: len(m.time)], atol=1e-9)
+    # The last sample is there or not as the end of the table rounds.
+    there = fine.outputs[7::8]
+    count = min(len(m.time), len(there))
+    assert len(m.time) - count <= 1
+    np.testing.assert_allclose(m.outputs[:count], there[:count], atol=1e-9)
 
 
 def test_force_and_rate_of_a_free_drive_are_those_of_its_motion():

@@ -213,7 +213,8 @@ def check_radians(source: Recording) -> None:
     if len(back) and np.all(np.abs(back / (2 * HALF) - 1) < 0.1):
         raise UserError(
             f"{source.name}: ref_heading goes back by {back[0]:.4g} from one sample to the next, "
-            "where a heading in rad does by 6.283: its numbers are degrees, write ref_heading [deg]"
+            "where a heading in rad does by 6.283, a factor of 57: its numbers are degrees, write "
+            "ref_heading [deg]"
         )
 
 
