@@ -12,6 +12,7 @@ vertical most of all, by more than a bias is known to.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -54,7 +55,7 @@ class Turns(Reduction):
 
     def middles(self, i: int, j: int) -> np.ndarray:
         """The rows from the middle of rest ``i`` to that of rest ``j``."""
-        return np.arange(self.rests[i].mean().astype(int), self.rests[j].mean().astype(int))
+        return np.arange(middle(self.rests[i]), middle(self.rests[j]))
 
     def _turn(self, rate: np.ndarray, i: int, j: int):
         """Residual (2,), its directions (2, 3), rows (n,), and slopes (2, n, 3) of a turn."""
@@ -80,6 +81,30 @@ class Turns(Reduction):
                 end = _turned(rate[at], self.seconds[at])[-1] if k == i else -np.eye(3)
                 out[2 * n : 2 * n + 2] = _across(self.down[j]) @ end / self.seconds[at].sum()
         return out
+
+
+def middle(rest: np.ndarray) -> int:
+    """The row in the middle of a rest's rows."""
+    return int(rest.mean())
+
+
+def at_middle(
+    down: np.ndarray, rate: np.ndarray, seconds: np.ndarray, rests: Sequence[np.ndarray]
+) -> np.ndarray:
+    """The directions of gravity (k, 3) in the middle of rests, from their means ``down`` (k, 3).
+
+    A body that rests in a hand turns by some tenths of a degree. With C_t, what turns a vector from
+    the axes in the middle into those at t, the mean of C_t d is what was measured, d what is asked
+    for. A constant error of the rate (n, 3) cancels to first order, as the middle is the mean time.
+    """
+    out = []
+    for rows, mean in zip(rests, down, strict=True):
+        first = rows[0]
+        turned = _turned(rate[first : rows[-1] + 1], seconds[first : rows[-1] + 1])
+        from_start = turned[rows - first].mean(axis=0)
+        at = turned[middle(rows) - first] @ np.linalg.solve(from_start, mean)
+        out.append(at / np.linalg.norm(at))
+    return np.array(out)
 
 
 def _sparse(each: list, n: int) -> tuple[csr_array, csr_array, csr_array]:

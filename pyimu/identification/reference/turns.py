@@ -15,7 +15,7 @@ from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.scatter import scaled, weighed
 from pyimu.identification.fit.score import held_state
 from pyimu.identification.fit.trial import Trial, environment
-from pyimu.identification.fit.turns import Turns
+from pyimu.identification.fit.turns import Turns, at_middle
 from pyimu.identification.reference.gravity import rest_rows, sample_std, typical_wander
 from pyimu.identification.search.forward import Investigation
 from pyimu.model.kinds import OWN
@@ -114,6 +114,8 @@ def _reduction(
     m, ends = 2 * len(pairs), [kept[j][0] for _, j in pairs]
     std = sample_std(recording.gyro, kept)
     bias = np.mean([recording.gyro[at].mean(axis=0) for at in kept], axis=0)
+    seconds = np.gradient(recording.time)
+    rate = np.nan_to_num(recording.gyro) - bias
     made = Turns(
         white=np.eye(m),
         wander=typical_wander("gyro") ** 2 * np.eye(m),
@@ -126,8 +128,8 @@ def _reduction(
         bias=bias,
         rests=kept,
         turns=pairs,
-        down=rows.along[used],
-        seconds=np.gradient(recording.time),
+        down=at_middle(rows.along[used], rate, seconds, kept),
+        seconds=seconds,
     )
     return replace(made, **_covariance(made, recording, rests, used))
 
