@@ -34,8 +34,13 @@ def named(record: Record) -> list[tuple[str, str]]:
     """What the result says that the part lacks or has wrong: sensor and effect."""
     out = [(a["sensor"], a["effect"]) for a in record.get("added", ())]
     out += [(s, e) for s, e, _ in record.get("changed", ()) if e not in NOISE]
-    wanted = {t["effect"] for t in record["truths"]} & NOISE
-    out += [(s, e) for s, e, _ in record.get("changed", ()) if e in wanted]
+    truths = {t["effect"] for t in record["truths"]}
+    wanted = truths & NOISE
+    out += [
+        (s, e)
+        for s, e, _ in record.get("changed", ())
+        if e in wanted or e in NOISE and truths & _instead(record, s, e)
+    ]
     if "rate_random_walk" in wanted:
         out += [(s, "rate_random_walk") for s in record.get("drift", ())]
     out += _by_finding(record)
@@ -56,12 +61,19 @@ def stands_for(record: Record, sensor: str, effect: str, truth: Record) -> bool:
     if sensor != truth["kind"]:
         return False
     return effect == truth["effect"] or (
-        confounded(effect, truth["effect"]) and truth["effect"] in _alternatives(record, effect)
+        confounded(effect, truth["effect"])
+        and truth["effect"] in _alternatives(record, sensor, effect)
     )
 
 
-def _alternatives(record: Record, effect: str) -> set[str]:
-    return {n for a in record["added"] if a["effect"] == effect for n in a["alternatives"]}
+def _alternatives(record: Record, sensor: str, effect: str) -> set[str]:
+    found = {n for a in record["added"] if a["effect"] == effect for n in a["alternatives"]}
+    return found | _instead(record, sensor, effect)
+
+
+def _instead(record: Record, sensor: str, effect: str) -> set[str]:
+    """What explains as much as a declared noise that was changed."""
+    return set(record.get("instead", {}).get(f"{sensor}.{effect}", ()))
 
 
 def outcome(record: Record) -> str:

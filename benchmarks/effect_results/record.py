@@ -62,6 +62,7 @@ def _found(made: Made, c: Closed) -> dict[str, Any]:
         "reason": c.reason,
         "added": [a.as_dict() for a in c.added],
         "changed": [[x.sensor, x.effect, x.parameter] for x in c.changed],
+        "instead": {f"{x.sensor}.{x.effect}": list(x.alternatives) for x in c.changed},
         "refused": [{"sensor": s} | r.as_dict() for s, r in c.refused],
         "drift": [s for s, axes in c.drift.items() if axes],
         "unexplained": [u.as_dict() for u in c.unexplained],

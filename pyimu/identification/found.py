@@ -46,7 +46,9 @@ class Added:
 
 @dataclass(frozen=True)
 class Changed:
-    """A declared value that the data contradict."""
+    """A declared value that the data contradict; ``alternatives`` are effects that would explain
+    as much instead.
+    """
 
     sensor: str
     effect: str
@@ -55,6 +57,7 @@ class Changed:
     fitted: np.ndarray
     std: np.ndarray
     unit: str
+    alternatives: tuple[str, ...] = ()
 
     def as_dict(self) -> dict[str, Any]:
         return {
@@ -65,6 +68,7 @@ class Changed:
             "declared": plain(self.declared),
             "fitted": plain(self.fitted),
             "std": plain(self.std),
+            "alternatives": list(self.alternatives),
         }
 
 

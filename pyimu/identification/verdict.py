@@ -12,6 +12,7 @@ from pyimu.identification.fates import NOT_LOOKED_FOR, Fate
 from pyimu.identification.found import Added, Changed, Errors
 from pyimu.identification.search.forward import AS_NOISE, Refused
 from pyimu.identification.search.leftover import Unexplained
+from pyimu.model.catalogue import WALK
 from pyimu.report.numbers import joined, number
 
 FAR = 3.0
@@ -118,8 +119,18 @@ def _verdict(e: Evidence) -> Verdict:
         does = f"depends on {' x '.join(u.depends_on)}"
         return Verdict("unexplained", f"{u.sensor} {u.axis} {does}")
     if any(e.drift.values()):
-        return Verdict("drift", "more random walk than declared: an input that nobody logged")
+        why = "more random walk than declared: an input that nobody logged"
+        return Verdict("drift", why, instead_of_drift(e.changed))
     return _nothing_found(e, left)
+
+
+def instead_of_drift(changed: Iterable[Changed]) -> tuple[str, ...]:
+    """What explains as much as a random walk that is larger than declared."""
+    return tuple(
+        f"instead of the {c.sensor}'s larger random walk the data allow {joined(c.alternatives)}"
+        for c in changed
+        if c.effect == WALK[0] and c.alternatives
+    )
 
 
 def _nothing_found(e: Evidence, left: str) -> Verdict:

@@ -43,6 +43,18 @@ def test_white_noise_that_is_larger_by_its_third_digit_is_said():
     assert [c.effect for c in found.changed] == ["angle_random_walk"], found.report()
 
 
+def test_what_explains_as_much_as_a_larger_walk_is_said():
+    """A Gauss-Markov process of 19 s beside the declared walk: 64 nat by a walk three times as
+    large, 67 by itself.
+    """
+    found = closed(make("one/12/accel.gauss_markov", 0, (6.0, 9.0)))
+    (changed,) = found.changed
+    assert found.verdict == "drift"
+    assert changed.effect == "rate_random_walk" and "gauss_markov" in changed.alternatives
+    assert any("the data allow gauss_markov" in r for r in found.remarks)
+    assert "data allow as well: gauss_markov" in found.report()
+
+
 def test_effects_of_one_law_share_their_names_as_far_as_a_part_lacks_them():
     first, second = "gauss_markov", "second_gauss_markov"
     both = {first: {"q": [1e-4] * 3, "tau": [5.0] * 3}}

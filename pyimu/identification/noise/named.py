@@ -149,9 +149,12 @@ class _Named(Explained):
         same = names_of(one.kind, self.sensor)
         kind, parameter = self.sensor.kind, one.kind.parameter
         name = next((n for n in same if most(n, kind, parameter) >= size), same[0])
+        return name, tuple(n for n in dict.fromkeys((*same, *self._others(one))) if n != name)
+
+    def _others(self, one: Chosen) -> tuple[str, ...]:
+        """The names of the kinds that gain as much."""
         kinds = (k for other in one.alternatives for k in self.kinds if k.name == other)
-        others = [n for k in kinds for n in names_of(k, self.sensor)]
-        return name, tuple(n for n in dict.fromkeys((*same, *others)) if n != name)
+        return tuple(n for k in kinds for n in names_of(k, self.sensor))
 
     def _term(self, kind: Kind, i: int) -> Term:
         return next(t for t in self.state.found[i] if t.kind is kind)
@@ -187,7 +190,7 @@ class _Named(Explained):
             square, error = self._square(one.kind, i)
             fitted[i] = np.sqrt(had[i] ** 2 + square)
             std[i] = 0.5 * error / max(fitted[i], 1e-300)
-        return self._contradicted(one.kind, had, fitted, std)
+        return self._contradicted(one.kind, had, fitted, std, self._others(one))
 
     def _changed_beside(self) -> Changed | None:
         """Declared white noise where other noise follows the motion."""
@@ -208,11 +211,13 @@ class _Named(Explained):
                 fitted[i], std[i] = now, error
         return self._contradicted(kind, had, fitted, std)
 
-    def _contradicted(self, kind: Kind, had, fitted, std) -> Changed | None:
+    def _contradicted(
+        self, kind: Kind, had, fitted, std, others: tuple[str, ...] = ()
+    ) -> Changed | None:
         if not np.any(np.abs(fitted - had) > RELEVANT * had):
             return None
         unit = self.sensor.unit(kind.effect.parameters[kind.parameter].unit)
-        return Changed(self.sensor.kind, kind.name, kind.parameter, had, fitted, std, unit)
+        return Changed(self.sensor.kind, kind.name, kind.parameter, had, fitted, std, unit, others)
 
     def _drift(self) -> dict[int, float]:
         """The axes that walk more than the part declares, and what letting them gains."""

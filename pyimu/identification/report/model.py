@@ -15,6 +15,7 @@ from pyimu.identification.outcome import Outcome
 from pyimu.identification.report import pictures
 from pyimu.identification.report.coefficients import rows
 from pyimu.identification.report.words import FEW, dependence, in_words, si_of
+from pyimu.identification.verdict import instead_of_drift
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.kinds import KINDS, MAGNETOMETER
 from pyimu.model.part import AXES
@@ -163,14 +164,11 @@ def _changed_rows(c: Changed) -> list[tuple]:
 
 def remains(closed: Outcome) -> list[str]:
     """What no effect of the catalogue explains."""
-    lines = (
-        [f"No effect of the catalogue describes that {dependence(closed)}."]
-        if closed.unexplained
-        else []
-    )
-    return lines + [
-        f"The {SENSORS[s]} wanders more than declared on {'xyz'[i]}: a larger random walk gains "
-        f"{number(g)} nat."
-        for s, axes in closed.drift.items()
-        for i, g in axes.items()
-    ]
+    lines = []
+    if closed.unexplained:
+        lines.append(f"No effect of the catalogue describes that {dependence(closed)}.")
+    for s, axes in closed.drift.items():
+        for i, gain in axes.items():
+            wanders = f"The {SENSORS[s]} wanders more than declared on {'xyz'[i]}"
+            lines.append(f"{wanders}: a larger random walk gains {number(gain)} nat.")
+    return lines + [f"{said[0].upper()}{said[1:]}." for said in instead_of_drift(closed.changed)]

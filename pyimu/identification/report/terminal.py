@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
@@ -48,16 +48,15 @@ def in_lines(closed: Outcome) -> str:
 
 def _found(closed: Outcome) -> Iterator[str]:
     for a in closed.added:
-        names = joined([named(e) for e in a.alternatives])
-        others = f"; the data allow as well: {names}" if names else ""
-        yield f"added to the {SENSORS[a.sensor]}: {missing(a)}{others}"
+        yield f"added to the {SENSORS[a.sensor]}: {missing(a)}{_allowed(a.alternatives)}"
         if a.note:
             yield f"  {a.note}"
     for c in closed.changed:
         si = si_of(c.effect, c.parameter, c.unit)
         unit = unit_for(c.declared, si)
         had, now = (_short(in_unit(v, si, unit)) for v in (c.declared, c.fitted))
-        yield f"{c.sensor} {c.effect}.{c.parameter}: declared {had}, found {now} {unit}"
+        said = f"{c.sensor} {c.effect}.{c.parameter}: declared {had}, found {now} {unit}"
+        yield said + _allowed(c.alternatives)
     beside = [c for c in closed.candidates if c.outcome not in ("added", "changed")]
     for c in beside[:MOST_CANDIDATES]:
         yield f"{c.sensor} {named(c.effect)}, {c.outcome}: {c.reason}"
@@ -66,6 +65,11 @@ def _found(closed: Outcome) -> Iterator[str]:
     for u in closed.unexplained:
         inputs = f"depends on {' x '.join(u.depends_on)} (p = {u.p_value:.1g})"
         yield f"unexplained: {u.sensor} {u.axis} {f'is {u.shape}' if u.shape else inputs}"
+
+
+def _allowed(alternatives: Iterable[str]) -> str:
+    names = joined([named(e) for e in alternatives])
+    return f"; the data allow as well: {names}" if names else ""
 
 
 def _short(values: np.ndarray) -> str:
