@@ -18,7 +18,7 @@ from generators.motion import rover, shaker, static, table, thermal_cycle, tumbl
 from effect_logs import nameless
 from effect_logs.chain import NAMED, TERMS, Chain, NotShown, at_typical, size_of_all, tuned
 from effect_logs.scene import HZ, Scene, new_scene
-from effect_logs.term import Term
+from effect_logs.term import Case, Term
 
 MOTIONS = {m.__name__: m for m in (table, rover, tumble, shaker, static, thermal_cycle)}
 SIZES = (8, 12, 30)
@@ -54,7 +54,8 @@ class Truth:
 @dataclass(frozen=True)
 class Made:
     """A case: the columns of its logs, its part's file, the form in which it is judged, the truth,
-    its motions, and by log and kind what the true model leaves (n, 3).
+    its motions, by log and kind what the true model leaves (n, 3), the sensor that has the effects
+    by log, and their cases by name.
     """
 
     logs: tuple[dict[str, np.ndarray], ...]
@@ -63,6 +64,8 @@ class Made:
     truths: tuple[Truth, ...]
     motions: tuple[str, ...]
     left: tuple[dict[str, np.ndarray], ...]
+    chains: tuple[Chain, ...]
+    cases: dict[str, Case]
 
 
 @dataclass(frozen=True)
@@ -225,7 +228,8 @@ def _made(wanted: Wanted, form, motions, chains, effects, sensor: Sensor, rng) -
         left.append({kind: _left(one[kind], effects, y) for kind, y in measured.items()})
     truths = tuple(_truth(wanted.kind, TERMS[n], e, chains) for n, e in effects.items())
     part = sensor.part_file(HZ)
-    return Made(tuple(logs), part, form, truths, tuple(motions), tuple(left))
+    own = tuple(one[wanted.kind] for one in chains) if effects else ()
+    return Made(tuple(logs), part, form, truths, tuple(motions), tuple(left), own, effects)
 
 
 def _left(chain: Chain, effects, measured: np.ndarray) -> np.ndarray:

@@ -13,7 +13,7 @@ from scipy.optimize import brentq
 from effect_logs import bias_terms, gain_terms, motion_terms, nameless, noise_terms
 from effect_logs.scene import Scene
 from effect_logs.term import Case, Term
-from effect_logs.whitening import norm
+from effect_logs.whitening import grams
 
 INPUT = (*motion_terms.TERMS, *gain_terms.TERMS, *bias_terms.TERMS, *nameless.TERMS)
 NOISE, OUTPUT = noise_terms.TERMS, noise_terms.OUTPUT
@@ -83,12 +83,20 @@ class Chain:
         """Of one effect over the fitted rows, in sigmas."""
         if term.gain is not None:
             return term.gain(case, self.triad, self.free)
-        return self.size_of(self.measure({term.name: case}) - self.measure({}))
+        return self.size_of(self.error({term.name: case}))
+
+    def error(self, effects: Mapping[str, Case]) -> np.ndarray:
+        """What effects change (n, 3) of what it shows."""
+        return self.measure(effects) - self.measure({})
 
     def size_of(self, error: np.ndarray) -> float:
+        return float(np.sqrt(sum(g[0, 0] for g in self.grams(error[:, :, None]))))
+
+    def grams(self, errors: np.ndarray) -> list[np.ndarray]:
+        """Products (k, k) of errors (n, 3, k) over the fitted rows, whitened, by axis."""
         rows = self.scene.fitted
-        free = self.scene.own(self.kind)[:rows] if self.free else None
-        return norm(error[:rows], self.triad, self.scene.h, free)
+        free = self.scene.own(self.kind)[:rows] if self.free else np.zeros((rows, 0))
+        return grams(errors[:rows], self.triad, self.scene.h, free)
 
     def quieter(self, share: float) -> Chain:
         """Raises NotShown where it would be quieter than ``QUIETEST``."""

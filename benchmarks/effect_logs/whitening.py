@@ -20,33 +20,30 @@ from scipy.linalg import lstsq, solveh_banded
 from scipy.optimize import minimize
 
 
-def norm(error: np.ndarray, triad: Triad, h: float, free: np.ndarray | None = None) -> float:
-    """Size of an error (n, 3) in sigmas of a sensor's noise, over all its rows and axes.
+def grams(errors: np.ndarray, triad: Triad, h: float, free: np.ndarray) -> list[np.ndarray]:
+    """Products (k, k) of errors (n, 3, k) in a sensor's noise, by axis: of one error its squared
+    size in sigmas.
 
     ``free`` (n, p) are columns with free coefficients on every axis; a bias always is free.
     """
-    return float(np.sqrt(sum(squares(error, triad, h, free))))
+    axes = zip(errors.transpose(1, 0, 2), triad.n**2 / h, triad.k**2 * h, strict=True)
+    return [_gram(e, r, step, free) for e, r, step in axes]
 
 
-def squares(
-    error: np.ndarray, triad: Triad, h: float, free: np.ndarray | None = None
-) -> np.ndarray:
-    """The squared norm of each axis (3,)."""
-    free = np.zeros((len(error), 0)) if free is None else free
-    axes = zip(error.T, triad.n**2 / h, triad.k**2 * h, strict=True)
-    return np.array([_square(e, r, step, free) for e, r, step in axes])
-
-
-def _square(e: np.ndarray, r: float, step: float, free: np.ndarray) -> float:
+def _gram(e: np.ndarray, r: float, step: float, free: np.ndarray) -> np.ndarray:
     d = np.diff(np.column_stack([e, free]), axis=0)
     band = np.vstack([np.full(len(d), -r), np.full(len(d), 2 * r + step)])
     gram = d.T @ solveh_banded(band, d, check_finite=False)
-    own, cross, other = gram[0, 0], gram[1:, 0], gram[1:, 1:]
+    k = e.shape[1]
+    own, cross, other = gram[:k, :k], gram[k:, :k], gram[k:, k:]
     if not len(cross):
-        return float(own)
+        return own
     scale = np.sqrt(np.maximum(np.diag(other), 1e-300))
-    share = lstsq(other / np.outer(scale, scale), cross / scale, cond=1e-9)[0]
-    return float(max(own - cross / scale @ share, 0.0))
+    cross = cross / scale[:, None]
+    share = lstsq(other / np.outer(scale, scale), cross, cond=1e-9)[0]
+    left = own - cross.T @ share
+    left[np.diag_indices(k)] = np.maximum(np.diag(left), 0.0)
+    return left
 
 
 def gain_of_variance(extra: np.ndarray, triad: Triad, h: float) -> float:

@@ -11,6 +11,10 @@ Record = dict[str, Any]
 NOISE = frozenset({"angle_random_walk", "rate_random_walk"})
 """Effects that a part declares and that the loop reports as changed, or as drift."""
 
+NAMED_APART = 6.0
+"""nat; effects that explain as much to within so many are told by the loop as each other's
+alternatives."""
+
 OWN = "found_effect"
 """The name of a formula that the loop found by itself."""
 
@@ -57,13 +61,23 @@ def _by_finding(record: Record) -> list[tuple[str, str]]:
 
 
 def stands_for(record: Record, sensor: str, effect: str, truth: Record) -> bool:
-    """Whether what was named is a true effect, or is listed as one that no log tells from it."""
+    """Whether what was named is a true effect, or one that the result says the truth may be instead
+    and that is listed as one that no log tells from it, or these logs do not.
+    """
     if sensor != truth["kind"]:
         return False
-    return effect == truth["effect"] or (
-        confounded(effect, truth["effect"])
-        and truth["effect"] in _alternatives(record, sensor, effect)
-    )
+    if effect == truth["effect"]:
+        return True
+    as_good = truth["effect"] in _alternatives(record, sensor, effect)
+    return as_good and (confounded(effect, truth["effect"]) or alike(record, effect, truth))
+
+
+def alike(record: Record, effect: str, truth: Record) -> bool:
+    """Whether the logs are expected to speak for a true effect against another by too little to
+    name it, by the generator's own motion and noise.
+    """
+    apart = record.get("nat_apart", {}).get(f"{effect} {truth['effect']}")
+    return apart is not None and apart < NAMED_APART
 
 
 def _alternatives(record: Record, sensor: str, effect: str) -> set[str]:

@@ -8,6 +8,7 @@ from dataclasses import asdict
 from typing import Any
 
 import numpy as np
+from effect_logs.alike import nat_apart
 from effect_logs.cases import Made, make
 
 import pyimu
@@ -63,6 +64,7 @@ def _found(made: Made, c: Closed) -> dict[str, Any]:
         "added": [a.as_dict() for a in c.added],
         "changed": [[x.sensor, x.effect, x.parameter] for x in c.changed],
         "instead": {f"{x.sensor}.{x.effect}": list(x.alternatives) for x in c.changed},
+        "nat_apart": _apart(made, c),
         "refused": [{"sensor": s} | r.as_dict() for s, r in c.refused],
         "drift": [s for s, axes in c.drift.items() if axes],
         "unexplained": [u.as_dict() for u in c.unexplained],
@@ -72,6 +74,20 @@ def _found(made: Made, c: Closed) -> dict[str, Any]:
         "quality": sorted({f.kind for f in c.quality}),
         "errors": {k: _errors(made, k, e) for k, e in c.errors.items() if k in made.left[0]},
     }
+
+
+def _apart(made: Made, c: Closed) -> dict[str, float]:
+    """By "named truth" the expected nat by which the logs speak for the truth, where another effect
+    was named and the result says that the truth explains as much.
+    """
+    named = [(x.sensor, x.effect, x.alternatives) for x in (*c.added, *c.changed)]
+    found = {
+        f"{effect} {t.effect}": nat_apart(made.chains, t.term, made.cases[t.term], effect)
+        for sensor, effect, others in named
+        for t in made.truths
+        if sensor == t.kind and t.effect in others
+    }
+    return {k: v for k, v in found.items() if v is not None}
 
 
 def _errors(made: Made, kind: str, e) -> dict[str, float]:

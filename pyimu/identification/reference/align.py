@@ -24,6 +24,9 @@ from pyimu.recording.clock import runs
 SIGNIFICANT = 5.0
 """Standard errors from which on a lag is no chance."""
 
+DOUBTFUL = 3.0
+"""Standard errors within which a log that shows no lag by itself must have that of the others."""
+
 ALIKE = 0.1
 """Logs whose lags differ by less than this share of their mean have one in common."""
 
@@ -86,8 +89,10 @@ def in_common(clocks: Sequence[Clock]) -> float:
     late = np.array([c.mean for c in clocks])
     weight = np.array([c.std for c in clocks]) ** -2.0
     mean = float(weight @ late / weight.sum())
-    chance = SIGNIFICANT * np.array([c.std for c in clocks])
-    certain = np.all(late > chance) and mean < LONGEST_OWN
+    std = weight**-0.5
+    certain = mean * np.sqrt(weight.sum()) > SIGNIFICANT and mean < LONGEST_OWN
+    # A log that shows no lag by itself may have any near it.
+    chance = np.where(late > SIGNIFICANT * std, SIGNIFICANT, DOUBTFUL) * std
     alike = np.all(np.abs(late - mean) < np.maximum(ALIKE * mean, chance))
     return mean if certain and alike else 0.0
 

@@ -8,12 +8,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.stats import chi2
 
-from pyimu.identification.fit.columns import Linear, band_time, in_band, residual
+from pyimu.identification.fit.columns import Linear, band_time, in_band, linearise, residual
 from pyimu.identification.fit.fit import Fit, bare, whitened
+from pyimu.identification.fit.inputs import LogState
+from pyimu.identification.fit.keys import LogClock
 from pyimu.identification.fit.left_out import left_out
 from pyimu.identification.fit.noise_fit import declared_variances
 from pyimu.identification.fit.noise_floor import own_noise, reference_variance
-from pyimu.identification.fit.normal import BATCHES
+from pyimu.identification.fit.normal import BATCHES, Noise
 from pyimu.identification.fit.reference_noise import STEP, has_noise, moved, residual_changes
 from pyimu.identification.fit.score import held_state
 from pyimu.identification.fit.trial import Trial
@@ -119,8 +121,10 @@ def evidence(old: Fit, new: Fit, held: Sequence[Trial]) -> Evidence:
         (state_old, rest), (state_new, _) = held_state(old, trial), held_state(new, trial)
         pairs = ((old.sensor, state_old), (new.sensor, state_new))
         there = _on_held_out(wander, trial, rest)
+        drift = _drift(there, rest, state_new)
         for sign, rows in _rows(rest, pairs):
-            first, second = (bare(rest, r) for r in rows)
+            first, second = (drift.taken_from(bare(rest, r)) for r in rows)
+            rows = (first.residual, second.residual)
             between = bare(rest, rows[1] - rows[0])
             powers = [_whitened(there, rest, one) for one in (first, second, between)]
             sums["gained"] += sign * 0.5 * (powers[0] - powers[1])
@@ -168,6 +172,53 @@ def _on_held_out(fit: Fit, held: Trial, rest: Trial) -> Fit:
         for i, n in fit.noise.items()
     }
     return replace(fit, noise=noise)
+
+
+@dataclass(frozen=True)
+class _Drift:
+    """What a drift of a log's clock changes in held-out rows (m, 3), by its standard error on the
+    fitted rows, and the ``noise`` of a fit.
+    """
+
+    noise: Noise
+    change: Linear | None = None
+
+    def taken_from(self, one: Linear) -> Linear:
+        """A residual whose square, once whitened, is what is left where the drift is as likely
+        another as its variance has it.
+
+        With v the whitened change, r'r - (v'r)^2 / (1 + v'v) is the square of
+        r - (1 - 1 / sqrt(1 + v'v)) v (v'r) / (v'v).
+        """
+        v = self.change
+        if v is None:
+            return one
+        axes = [i for i in one.keys if i in self.noise]
+        own = sum(whitened(self.noise[i], v, i) for i in axes)
+        if own <= 0.0:
+            return one
+        both = replace(v, residual=v.residual + one.residual)
+        sums = [whitened(self.noise[i], w, i) for i in axes for w in (both, one)]
+        product = 0.5 * (sum(sums[0::2]) - sum(sums[1::2]) - own)
+        share = 1.0 - 1.0 / np.sqrt(1.0 + own)
+        return replace(one, residual=one.residual - share * product / own * v.residual)
+
+
+def _drift(fit: Fit, rest: Trial, state: LogState) -> _Drift:
+    """The drift of the clock of a log whose end is held out: it is carried on to there from the
+    fitted rows, and an effect that makes a sensor late is known no better.
+    """
+    key = LogClock(rest.name, 1)
+    std = fit.std.get(key)
+    if rest.parent is None or state.clock is None or std is None or not np.isfinite(std):
+        return _Drift(fit.noise)
+    one = linearise(fit.sensor, rest, state, ())
+    change = np.zeros_like(one.residual)
+    for i, keys in one.keys.items():
+        for k, column in zip(keys, one.columns[i].arrays, strict=True):
+            if k == key:
+                change[:, i] = std * column
+    return _Drift(fit.noise, bare(rest, change))
 
 
 def _chance(fit: Fit, one: Linear) -> np.ndarray:
