@@ -7,8 +7,10 @@ from scipy.signal import lfilter
 from world import K_ACCEL, K_GYRO, N_ACCEL, N_GYRO, changes, drive, recording, size_for
 
 import pyimu
+from pyimu.identification.fit.columns import Linear
+from pyimu.identification.fit.fit import whitened
 from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
-from pyimu.identification.search.confirm import Evidence
+from pyimu.identification.search.confirm import Evidence, _Drift
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
 
@@ -122,3 +124,21 @@ def test_surprise_is_standard_normal_where_the_new_model_is_true():
     # Four standard errors of mean and variance.
     assert abs(np.mean(surprises)) < 4 / np.sqrt(400)
     assert abs(np.var(surprises) - 1.0) < 4 * np.sqrt(2 / 400)
+
+
+def test_what_a_drift_may_be_is_taken_from_held_out_rows():
+    """The square that is left is that of noise to whose covariance the drift's is added (Woodbury),
+    of white noise and a walk alike.
+    """
+    rng, n = np.random.default_rng(11), 60
+    time = np.arange(n) * 0.01
+    noise = {0: RandomWalk(2.0, 30.0)}
+    rows = [Linear(time, [(0, n)], rng.standard_normal((n, 3)), {0: []}, {}) for _ in range(2)]
+    change, left = rows
+    found = _Drift(noise, change).taken_from(left)
+    steps = np.minimum(time[:, None], time)
+    covariance = 2.0 * np.eye(n) + 30.0 * steps
+    covariance += np.outer(change.residual[:, 0], change.residual[:, 0])
+    r = left.residual[:, 0]
+    assert whitened(noise[0], found, 0) == pytest.approx(r @ np.linalg.solve(covariance, r), 1e-4)
+    assert _Drift(noise).taken_from(left) is left
