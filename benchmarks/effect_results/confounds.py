@@ -61,6 +61,13 @@ CONFOUNDS: dict[frozenset[str], str] = {
     frozenset({"g_sensitivity", "g2_sensitivity"}): (
         "near level the vertical force is g, and its products with the others are linear in those"
     ),
+    frozenset({"temperature_rate", "thermal_bias"}): (
+        "a thermometer that is tau seconds late shows kT (T + tau T') for kT T, and how late it is "
+        "no log of one sensor says"
+    ),
+    frozenset({"thermal_hysteresis", "thermal_bias"}): (
+        "a play is late on each way of the temperature, as a thermometer may be"
+    ),
     frozenset({"quantization", "angle_quantization"}): (
         "a rounded integral makes a comb of the samples, too; apart only by the spectrum of what "
         "rounding leaves, which a step far below the noise does not show"

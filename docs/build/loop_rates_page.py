@@ -19,7 +19,7 @@ from pages import DOCS, row, write_changed
 sys.path.insert(0, str(DOCS.parent / "benchmarks"))
 
 from effect_results.confounds import CONFOUNDS, FINDINGS  # noqa: E402
-from effect_results.judge import OUTCOMES, Record  # noqa: E402
+from effect_results.judge import NAMED_APART, OUTCOMES, Record  # noqa: E402
 from effect_results.table import confusion, failures, figures, rows  # noqa: E402
 from runs.pool import finished  # noqa: E402
 
@@ -52,7 +52,12 @@ def page(records: list[Record]) -> str:
     lines += ["", "## What was said of what", "", f"![Confusion matrix]({NAME}.png)", ""]
     lines += ["## How the failures failed", "", *_failures(records), ""]
     lines += ["## What no log of this kind tells apart", ""]
-    lines += ["Where the alternatives name the truth these count as right.", ""]
+    lines += [
+        "Where the alternatives name the truth these count as right, and so do two effects of",
+        "which a log, by its own motion and noise, is expected to speak for the true one by less",
+        f"than {NAMED_APART:g} nat (`benchmarks/effect_logs/alike.py`).",
+        "",
+    ]
     pairs = [(", ".join(f"`{n}`" for n in sorted(p)), why) for p, why in CONFOUNDS.items()]
     pairs += [(f"`{e}`, by the finding `{name}`", why) for e, (name, why) in FINDINGS.items()]
     return "\n".join([*lines, *_table(["effects", "reason"], pairs), ""])

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from effect_logs import cases, nameless, noise_terms, whitening
+from effect_logs.alike import nat_apart
 from effect_logs.chain import NAMED, TERMS, Chain, NotShown, at_typical, tuned
 from effect_logs.scene import new_scene
 from effect_logs.term import Case
@@ -39,7 +40,7 @@ def test_the_norm_is_that_of_the_innovations_filter():
     rng = np.random.default_rng(1)
     error = np.cumsum(rng.standard_normal((400, 3)), axis=0)
     free = rng.standard_normal((400, 2))
-    found = whitening.squares(error, TRIAD, H, free)
+    found = [g[0, 0] for g in whitening.grams(error[:, :, None], TRIAD, H, free)]
     for i in range(3):
         r, k2h = TRIAD.n[i] ** 2 / H, TRIAD.k[i] ** 2 * H
         np.testing.assert_allclose(found[i], innovations_norm(error[:, i], r, k2h, free), rtol=1e-9)
@@ -50,7 +51,25 @@ def test_the_norm_in_white_noise_is_the_root_of_the_sum_of_squares():
     error = np.random.default_rng(2).standard_normal((500, 3))
     white = Triad(np.zeros(3), TRIAD.n, np.zeros(3))
     wanted = np.sqrt(np.sum(((error - error.mean(axis=0)) / (TRIAD.n / np.sqrt(H))) ** 2))
-    np.testing.assert_allclose(whitening.norm(error, white, H), wanted, rtol=1e-9)
+    found = sum(g[0, 0] for g in whitening.grams(error[:, :, None], white, H, np.zeros((500, 0))))
+    np.testing.assert_allclose(np.sqrt(found), wanted, rtol=1e-9)
+
+
+def test_a_log_tells_an_effect_from_another_by_what_that_leaves():
+    """Of an error that the other effect makes as well nothing is left; of one that has nothing to
+    do with it half its squared size.
+    """
+    made = cases.make("one/12/gyro.scale_factor_g_sensitivity", 0, (6.0, 9.0))
+    (truth,), case = made.truths, made.cases["scale_factor_g_sensitivity"]
+
+    def apart(other):
+        return nat_apart(made.chains, "scale_factor_g_sensitivity", case, other)
+
+    assert apart("scale_factor_g_sensitivity") < 1e-6
+    assert apart("scale_factor") < 0.1  # the vertical axis turns, and the force on it is g
+    assert 0.5 * truth.size**2 - 6.0 < apart("thermal_bias") < 0.5 * truth.size**2
+    assert apart("rate_random_walk") is None
+    assert apart("no_effect") is None
 
 
 def test_the_size_of_excess_white_noise_is_the_likelihoods():

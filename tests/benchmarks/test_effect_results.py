@@ -71,7 +71,19 @@ def test_outcomes():
 def test_a_confound_is_right_only_where_it_is_listed_and_the_alternatives_name_the_truth():
     assert outcome(result("lag", added("time_delay", alternatives=["lag"]))) == "right"
     assert outcome(result("lag", added("time_delay"))) == "wrong"
-    assert outcome(result("lag", added("rate_ramp", alternatives=["lag"]))) == "wrong"
+    ramp = added("rate_ramp", alternatives=["lag"])
+    assert outcome(result("lag", ramp)) == "wrong"
+    assert outcome(result("lag", ramp, nat_apart={"rate_ramp lag": 5.9})) == "right"
+    assert outcome(result("lag", ramp, nat_apart={"rate_ramp lag": 6.1})) == "wrong"
+    assert outcome(result("lag", added("rate_ramp"), nat_apart={"rate_ramp lag": 0.0})) == "wrong"
+
+
+def test_a_walk_that_may_be_another_noise_is_right_where_that_is_listed():
+    changed = {"changed": [["gyro", "rate_random_walk", "K"]], "verdict": "drift"}
+    others = {"gyro.rate_random_walk": ["gauss_markov"]}
+    assert outcome(result("gauss_markov", **changed, instead=others)) == "right"
+    assert outcome(result("gauss_markov", **changed)) == "drift"
+    assert outcome(result("lag", **changed, instead=others)) == "drift"
 
 
 def test_a_failure_says_why():

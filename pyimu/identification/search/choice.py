@@ -199,7 +199,7 @@ def ahead(one: Refined, other: Refined) -> float:
     """
     more = len(keys_of(one.screened)) - len(keys_of(other.screened))
     if not (_takes_it_for_noise(one.fit) and _takes_it_for_noise(other.fit)):
-        apart = one.fit.log_likelihood - other.fit.log_likelihood
+        apart = _apart(one.fit, other.fit)
     elif min(one.explained, other.explained) < MUCH_THE_SAME * max(one.explained, other.explained):
         apart = one.explained - other.explained
     elif one.fit.log_likelihood >= other.fit.log_likelihood:
@@ -208,6 +208,20 @@ def ahead(one: Refined, other: Refined) -> float:
         apart = -advantage(other.fit, one.fit)
     toll = one.screened.toll - other.screened.toll
     return apart / max(one.dispersion, other.dispersion) - PENALTY * more - toll
+
+
+def _apart(one: Fit, other: Fit) -> float:
+    """Log-likelihood [nat] by which one fit is ahead of another.
+
+    Where one leaves no more random walk than the part declares and the other does, both are judged
+    by the part's word: by a larger walk what is slow and not explained would hardly count.
+    """
+    first, second = (f.as_declared() is f for f in (one, other))
+    if first and not second:
+        return advantage(one, other)
+    if second and not first:
+        return -advantage(other, one)
+    return one.log_likelihood - other.log_likelihood
 
 
 def _takes_it_for_noise(fitted: Fit) -> bool:

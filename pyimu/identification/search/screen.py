@@ -8,13 +8,13 @@ that the data's own Gram matrix gives them (max-T).
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from pyimu.identification.fit.fit import Fit, with_prior
-from pyimu.identification.fit.keys import Key
+from pyimu.identification.fit.keys import Coefficient, Key
 from pyimu.identification.fit.normal import Normal, solve
 from pyimu.identification.fit.reference_noise import equations
 from pyimu.identification.search.candidates import (
@@ -218,9 +218,13 @@ def fitted_gain(
 ) -> float:
     """Gain [nat] of coefficients that are fitted over their being zero, corrected for scatter and
     penalised.
+
+    The form of their effect is taken as it was fitted: of an effect that is zero any form will do
+    (Davies 1977, "Hypothesis testing when a nuisance parameter is present only under the
+    alternative", Biometrika 64), and what choosing it gains is charged for as a toll.
     """
     keys = [k for k in keys if k in normal.position]
-    projected = _projected(normal, keys)
+    projected = _projected(normal, keys, _forms_beside(normal, sensor, keys))
     if projected is None:
         return -np.inf
     value = np.array([sensor.values[k.effect][k.parameter][k.index] for k in keys])
@@ -229,13 +233,21 @@ def fitted_gain(
     return gain / dispersion(projected, range(len(keys)), scatter) - PENALTY * len(keys)
 
 
-def _projected(normal: Normal, keys: Iterable[Key]) -> Projected | None:
+def _forms_beside(normal: Normal, sensor: Sensor, keys: Iterable[Key]) -> set[Key]:
+    """Coefficients that form the effects whose sizes are ``keys``."""
+    effects = {k.effect for k in keys}
+    beside = (k for k in normal.keys if isinstance(k, Coefficient) and k.effect in effects)
+    return {k for k in beside if sensor.effect(k.effect).parameters[k.parameter].form} - {*keys}
+
+
+def _projected(
+    normal: Normal, keys: Iterable[Key], fixed: Collection[Key] = ()
+) -> Projected | None:
+    """Columns ``keys`` without what all others explain but those of ``fixed`` coefficients."""
     wanted = [normal.position[k] for k in keys if k in normal.position]
-    return (
-        Projected.of(normal, [i for i in range(len(normal.keys)) if i not in wanted], wanted)
-        if wanted
-        else None
-    )
+    apart = {*wanted, *(normal.position[k] for k in fixed)}
+    base = [i for i in range(len(normal.keys)) if i not in apart]
+    return Projected.of(normal, base, wanted) if wanted else None
 
 
 def _with_twins(
