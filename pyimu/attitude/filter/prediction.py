@@ -22,8 +22,10 @@ from pyimu.attitude.filter.quasi_static import MEAN_TIME, where
 from pyimu.attitude.filter.sample import Sample
 from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.stillness import (
+    CALM,
     SLOW,
     Stillness,
+    calmer,
     is_rest,
     is_still,
     share_of_noise,
@@ -49,7 +51,13 @@ HOLD = 1.0
 """s; so long after a speed the body still drives."""
 
 DRIVES = 0.2
-"""m/s; a body of which speeds say more is not at rest, however even its drive."""
+"""m/s; a body of which speeds say more is not at rest, however even its drive. One whose velocity
+is not known to that may drive."""
+
+PUSHED = 0.05
+"""m/s; a drift (``velocity.Motion``) beyond which a body was pushed for long. A tilt that is wrong
+by three standard deviations at the start looks like less. Chosen on runs 100 to 129 of the vehicles
+of ``benchmarks/attitude_honesty.py``."""
 
 
 ARGUMENTS = "estimate memory u p h"
@@ -96,23 +104,26 @@ class Instant:
 class Rest:
     """What a sample says of rest.
 
-    How ``still`` the body has been, whether it is ``resting``, and which share of the measured turn
-    is one (``moving``): none where the body is called stationary, at rest what is not noise. These
-    are factors: casadi would draw a choice into every product. ``before`` is the estimate before
+    How ``still`` the body has been, whether it is ``resting``, whether there is ``doubt``, because
+    it may drive on, and which share of the measured turn is one (``moving``): none where the body
+    is called stationary, at rest without doubt what is not noise. These are factors: casadi would
+    draw a choice into every product. ``before`` is the estimate before
     the sample: where a rest ends, with the bias as it was before its last samples. By ``forgotten``
     (3,) the variance of the bias was larger then, or is by what it took of a turn that was so slow
-    that it looked like rest, and by ``unseen`` (3,) that of the attitude. ``safe`` and ``later``
-    are those of ``Memory``.
+    that it looked like rest, and by ``unseen`` (3,) that of the attitude. ``safe``, ``later``
+    and ``calm`` are those of ``Memory``.
     """
 
     still: Stillness
     resting: ca.SX
+    doubt: ca.SX
     moving: ca.SX
     before: Estimate
     forgotten: ca.SX
     unseen: ca.SX
     safe: ca.SX
     later: ca.SX
+    calm: ca.SX
 
 
 def rest_of(at: Instant, sample: Sample) -> Rest:
@@ -135,15 +146,27 @@ def rest_of(at: Instant, sample: Sample) -> Rest:
     long = (before.span >= scalar["rest_time"]) * (scalar["rest_time"] > 0)
     rests = long * (before.rests > 0) * (1 - at.stationary)
     resting = alike * rests
-    kept = 1 - resting * share_of_noise(still, _density(settings))
+    doubt = _may_drive(at.memory, x) * (at.memory.calm > CALM)
+    kept = 1 - resting * (1 - doubt) * share_of_noise(still, _density(settings))
     turned = (before.rests < 0) * (1 - at.stationary)
     ends = (rests > resting) + turned > 0
     x = replace(x, bias=ca.if_else(ends, safe[:3], x.bias))
-    unseen = turned * (before.slow - at.memory.estimate.bias - at.earth) ** 2
+    up, rate = vertical(x), before.slow - at.memory.estimate.bias - at.earth
+    unseen = turned * (rate - doubt * ca.dot(up, rate) * up) ** 2
     taken = ca.fmin(variance * SLOW / ca.fmax(before.density, _density(settings)), 1)
     forgotten = ends * ca.fmax(safe[3:] - variance, 0) + taken**2 * unseen
     moving = (1 - at.stationary) * kept
-    return Rest(still, resting, moving, x, forgotten, SLOW**2 * unseen, safe, later)
+    calm = calmer(at.memory.calm, before, alike, _may_drive(at.memory, x), at.h)
+    return Rest(still, resting, doubt, moving, x, forgotten, SLOW**2 * unseen, safe, later, calm)
+
+
+def _may_drive(memory: Memory, x: Estimate):
+    """Whether a body that looks still may drive, 0 or 1.
+
+    It was fast or was pushed for long, and its velocity by the estimate ``x`` is not known since.
+    """
+    motion, unknown = memory.motion, ca.trace(x.covariance[6:, 6:]) > DRIVES**2
+    return unknown * (motion.across > DRIVES**2 * (motion.drift <= PUSHED**2))
 
 
 def _density(settings: Settings):
@@ -246,6 +269,7 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
         sample.same_for,
         sample.sensors,
         speed_for,
+        rest.calm,
         vertical_noise,
         ca.vertcat(*place),
         field,
@@ -279,6 +303,7 @@ def _flags(
         heading=heading,
         stationary=stationary,
         resting=rest.resting,
+        doubt=rest.doubt,
         sway=sway(rest.still, _density(at.settings)) * reciprocal(at.h),
         missing=sample.missing,
         faults=2 * sample.at_limit + 4 * sample.stuck + 512 * uncalibrated,
