@@ -173,8 +173,9 @@ def driven(turn: float, shakes: bool):
     quiet = attitude_ukf(part(3e-4, 1e-5, 1e-3))
     y, _ = quiet.run(inputs(n, gyro=gyro, accel=accel), p=parameters(quiet, std0=STD0))
     yaw = output(quiet, y, "yaw") - H * np.cumsum(rate[:, 2])
-    names = ("at_rest", "gyro_bias", "std", "heading_std")
-    return {k: output(quiet, y, k) for k in names} | {"off": yaw}, t, drives
+    names = ("at_rest", "gyro_bias", "std", "heading_std", "status")
+    tilt = np.hypot(output(quiet, y, "roll"), output(quiet, y, "pitch"))
+    return {k: output(quiet, y, k) for k in names} | {"off": yaw, "tilt": tilt}, t, drives
 
 
 @pytest.mark.parametrize("shakes", [False, True])
@@ -201,3 +202,16 @@ def test_a_slow_bend_is_turned_by_the_gyro_and_is_no_bias_of_it():
     assert np.abs(np.diff(found["gyro_bias"][[begins, ends], 2])) < turn / 10
     level, upright = found["std"][:, 3], found["std"][:, 5]
     assert level[ends] < 0.7 * level[begins] and upright[ends] > 0.95 * upright[begins]
+
+
+def test_a_rest_makes_the_tilt_so_sure_that_a_push_after_it_is_none():
+    """The body at rest had no velocity: half a m/s^2 for 6 s, which would be a tilt of 3 deg, and
+    the even drive after it, are not taken for one. No more do they contradict the attitude.
+    """
+    found, t, _ = driven(0.0, shakes=False)
+    whole = np.linalg.norm(found["std"][:, :2], axis=1)
+    first = (t > 0) & (t < EVERY)
+    assert np.degrees(whole[np.searchsorted(t, 0.0)]) < 0.1
+    assert np.degrees(found["tilt"][first].max()) < 3.0 / 15
+    assert (found["tilt"][first] < 3 * whole[first]).all()
+    assert not (found["status"].astype(int)[t < EVERY / 2] & 8).any()

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{b4191e00-fa85-6e8c-a652-bd3f52c97b21}"
-#define MODEL_TOKEN_FMI3 "{1a5e1805-9605-8a2e-522d-ae8f7b7d9bbd}"
+#define MODEL_TOKEN_FMI2 "{c4368c6c-b81d-bb29-6ae2-a54337ad88d3}"
+#define MODEL_TOKEN_FMI3 "{f347ddaa-fff1-b4e6-ff47-22782aebbb3b}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

@@ -104,10 +104,11 @@ class Instant:
 class Rest:
     """What a sample says of rest.
 
-    How ``still`` the body has been, whether it is ``resting``, whether there is ``doubt``, because
-    it may drive on, and which share of the measured turn is one (``moving``): none where the body
-    is called stationary, at rest without doubt what is not noise. These are factors: casadi would
-    draw a choice into every product. ``before`` is the estimate before
+    How ``still`` the body has been, whether it is ``resting``, whether that is ``sure`` because the
+    body did not drive before or shook, whether there is ``doubt``, because its velocity is not
+    known either, and which share of the measured turn is one (``moving``): none where the body is
+    called stationary, at rest without doubt what is not noise. These are factors: casadi would draw
+    a choice into every product. ``before`` is the estimate before
     the sample: where a rest ends, with the bias as it was before its last samples. By ``forgotten``
     (3,) the variance of the bias was larger then, or is by what it took of a turn that was so slow
     that it looked like rest, and by ``unseen`` (3,) that of the attitude. ``safe``, ``later``
@@ -116,6 +117,7 @@ class Rest:
 
     still: Stillness
     resting: ca.SX
+    sure: ca.SX
     doubt: ca.SX
     moving: ca.SX
     before: Estimate
@@ -146,7 +148,10 @@ def rest_of(at: Instant, sample: Sample) -> Rest:
     long = (before.span >= scalar["rest_time"]) * (scalar["rest_time"] > 0)
     rests = long * (before.rests > 0) * (1 - at.stationary)
     resting = alike * rests
-    doubt = _may_drive(at.memory, x) * (at.memory.calm > CALM)
+    velocity = ca.trace(x.covariance[6:, 6:]) + ca.sumsqr(x.velocity)
+    drove, unknown = _drove(at.memory), velocity > DRIVES**2
+    unsure = drove * (at.memory.calm > CALM)
+    doubt = unsure * unknown
     kept = 1 - resting * (1 - doubt) * share_of_noise(still, _density(settings))
     turned = (before.rests < 0) * (1 - at.stationary)
     ends = (rests > resting) + turned > 0
@@ -156,17 +161,15 @@ def rest_of(at: Instant, sample: Sample) -> Rest:
     taken = ca.fmin(variance * SLOW / ca.fmax(before.density, _density(settings)), 1)
     forgotten = ends * ca.fmax(safe[3:] - variance, 0) + taken**2 * unseen
     moving = (1 - at.stationary) * kept
-    calm = calmer(at.memory.calm, before, alike, _may_drive(at.memory, x), at.h)
-    return Rest(still, resting, doubt, moving, x, forgotten, SLOW**2 * unseen, safe, later, calm)
+    calm = calmer(at.memory.calm, before, alike, drove * unknown, at.h)
+    unseen, both = SLOW**2 * unseen, (1 - unsure, doubt)
+    return Rest(still, resting, *both, moving, x, forgotten, unseen, safe, later, calm)
 
 
-def _may_drive(memory: Memory, x: Estimate):
-    """Whether a body that looks still may drive, 0 or 1.
-
-    It was fast or was pushed for long, and its velocity by the estimate ``x`` is not known since.
-    """
-    motion, unknown = memory.motion, ca.trace(x.covariance[6:, 6:]) > DRIVES**2
-    return unknown * (motion.across > DRIVES**2 * (motion.drift <= PUSHED**2))
+def _drove(memory: Memory):
+    """Whether a body that looks still may drive on, 0 or 1: it was fast, or was pushed for long."""
+    motion = memory.motion
+    return motion.across > DRIVES**2 * (motion.drift <= PUSHED**2)
 
 
 def _density(settings: Settings):
@@ -247,7 +250,7 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
     rests = (rest.resting + at.stationary > 0) * (rest.still.span >= MEAN_TIME)
     still_force = rest.still.slow_force
     force = inclination(
-        kept, sample, x, seen, turned, at.settings, at.h, rests, still_force, driven
+        kept, sample, x, seen, turned, at.settings, at.h, rests, still_force, driven, rest.sure
     )
     still = _decided(at, x, rest)
     vertical_noise = at.memory.vertical_noise + _about_the_vertical(x, noise[0])
