@@ -192,6 +192,24 @@ def with_speed(rng, push: float, lasting: tuple[float, float]) -> Log:
     return replace(log, heading={"speed": speed})
 
 
+def with_stops(rng, duration: float):
+    """A car on a rough road that stops for 8 to 15 s every half minute or so.
+
+    It shakes while it drives: 0.3 m/s^2 of force and 0.02 rad/s of turn between 2 and 12 Hz.
+    """
+    t = grid(duration)
+    drives = eased(t, busy_spans(rng, duration, (15, 30), (8, 15)), 6.0)
+    speed = rng.uniform(5.0, 10.0) * drives
+    turn = 0.1 * smooth_noise(rng, t, 1, 0.0, 0.1)[:, 0] * drives
+    yaw = np.cumsum(turn) / KNOTS
+    velocity = np.column_stack([speed * np.cos(yaw), speed * np.sin(yaw), np.zeros_like(t)])
+    rough = np.minimum(speed, 1.0)[:, None]
+    pushed = np.gradient(velocity, t, axis=0) + 0.3 * smooth_noise(rng, t, 3, 2.0, 12.0) * rough
+    slopes = 0.02 * smooth_noise(rng, t, 3, 2.0, 12.0) * rough
+    slopes[:, 2] += turn
+    return motion_of("stops", t, slopes, pushed, speed)
+
+
 def markov(rng, t: np.ndarray, size: float, tau: float) -> np.ndarray:
     """A Gauss-Markov process (n, 3)."""
     keep = np.exp(-1 / (KNOTS * tau))
@@ -335,4 +353,9 @@ CASES = (
     Case("an axis sticks", stuck_axis, since=51.0, headed=True),
     Case("undeclared clip", clipped, headed=True),
     Case("latitude not told", untold_latitude, headed=True),
+    Case(
+        "vehicle that stops",
+        lambda rng: record(rng, with_stops(rng, 300.0), 300.0),
+        (1.0, 4.0),
+    ),
 )

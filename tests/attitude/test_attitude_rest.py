@@ -150,3 +150,68 @@ def test_a_rest_before_the_turn_begins_is_kept():
     rest = find_rest(Recording.from_arrays(time=H * np.arange(1500), gyro=gyro, accel=accel))
     assert rest.seen and 3.0 < rest.duration < 8.5
     assert abs(np.linalg.norm(rest.force) - GRAVITY) < 0.01
+
+
+PUSH, EVERY, DRIVEN = 0.5, 12, 72
+"""m/s^2 of a push of 6 s, to and fro; s from one to the next; s of drive between two stops."""
+
+
+def driven(turn: float, shakes: bool):
+    """Outputs by name and times (n,) of a vehicle with ``EVERY`` pushes, which turns by ``turn``
+    rad/s where nothing pushes it; it rests for 5 s before.
+    """
+    n = round((5 + DRIVEN + 10) / H)
+    t = H * np.arange(n) - 5
+    rng, drives = np.random.default_rng(8), (t > 0) & (t < DRIVEN)
+    pushed = drives * (t % EVERY < EVERY / 2)
+    along = PUSH * pushed * np.where(t % (2 * EVERY) < EVERY, 1, -1)
+    rough = 0.3 * shakes * drives[:, None] * rng.standard_normal((n, 3))
+    accel = np.column_stack([along, 0 * t, GRAVITY + 0 * t]) + rough
+    accel += 1e-3 / np.sqrt(H) * rng.standard_normal((n, 3))
+    rate = turn * (drives & ~pushed.astype(bool))[:, None] * [0, 0, 1]
+    gyro = 0.002 + rate + 3e-4 / np.sqrt(H) * rng.standard_normal((n, 3))
+    quiet = attitude_ukf(part(3e-4, 1e-5, 1e-3))
+    y, _ = quiet.run(inputs(n, gyro=gyro, accel=accel), p=parameters(quiet, std0=STD0))
+    yaw = output(quiet, y, "yaw") - H * np.cumsum(rate[:, 2])
+    names = ("at_rest", "gyro_bias", "std", "heading_std", "status")
+    tilt = np.hypot(output(quiet, y, "roll"), output(quiet, y, "pitch"))
+    return {k: output(quiet, y, k) for k in names} | {"off": yaw, "tilt": tilt}, t, drives
+
+
+@pytest.mark.parametrize("shakes", [False, True])
+def test_a_stop_shows_only_after_a_drive_that_shook(shakes):
+    """The pushes leave a velocity that nobody knows: on a smooth way the even drive between them is
+    no rest, and nor is the stop. Where the drive shook, the stop is one, and the drive is none.
+    What the first push is, a steady force after a rest, only its end shows.
+    """
+    found, t, drives = driven(0.0, shakes)
+    rests = found["at_rest"] > 0
+    assert rests[(t > -3) & (t < 0)].all()
+    assert not rests[drives & (t > EVERY / 2 + 1)].any()
+    assert rests[t > DRIVEN + 2].all() == rests[t > DRIVEN + 2].any() == shakes
+
+
+def test_a_slow_bend_is_turned_by_the_gyro_and_is_no_bias_of_it():
+    """A turn of three standard deviations of the bias, on a smooth way at even speed. Nothing about
+    the vertical is learnt of it; about the level axes the bias is.
+    """
+    turn = 6e-4
+    found, t, drives = driven(turn, shakes=False)
+    begins, ends = np.flatnonzero((t > EVERY / 2) & drives)[[0, -1]]
+    assert np.all(np.abs(found["off"][drives]) < 4 * found["heading_std"][drives])
+    assert np.abs(np.diff(found["gyro_bias"][[begins, ends], 2])) < turn / 10
+    level, upright = found["std"][:, 3], found["std"][:, 5]
+    assert level[ends] < 0.7 * level[begins] and upright[ends] > 0.95 * upright[begins]
+
+
+def test_a_rest_makes_the_tilt_so_sure_that_a_push_after_it_is_none():
+    """The body at rest had no velocity: half a m/s^2 for 6 s, which would be a tilt of 3 deg, and
+    the even drive after it, are not taken for one. No more do they contradict the attitude.
+    """
+    found, t, _ = driven(0.0, shakes=False)
+    whole = np.linalg.norm(found["std"][:, :2], axis=1)
+    first = (t > 0) & (t < EVERY)
+    assert np.degrees(whole[np.searchsorted(t, 0.0)]) < 0.1
+    assert np.degrees(found["tilt"][first].max()) < 3.0 / 15
+    assert (found["tilt"][first] < 3 * whole[first]).all()
+    assert not (found["status"].astype(int)[t < EVERY / 2] & 8).any()

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{258b0e51-47ea-67f7-f3d2-d4037c9f0015}"
-#define MODEL_TOKEN_FMI3 "{036a19a3-533d-8d47-bb8e-986b5e694c99}"
+#define MODEL_TOKEN_FMI2 "{c4368c6c-b81d-bb29-6ae2-a54337ad88d3}"
+#define MODEL_TOKEN_FMI3 "{f347ddaa-fff1-b4e6-ff47-22782aebbb3b}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -16,13 +16,13 @@ enum {
     N_INPUTS = 18,
     N_PARAMETERS = 58,
     N_OUTPUTS = 21,
-    N_STATES = 293,
+    N_STATES = 294,
     N_NOISE = 0,
     N_VARIABLES = 73
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 44, WORK_RES = 27, WORK_IW = 0, WORK_W = 2428 };
+enum { WORK_ARG = 44, WORK_RES = 28, WORK_IW = 0, WORK_W = 2437 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };

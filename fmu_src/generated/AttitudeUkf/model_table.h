@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{0c2131e5-3c76-e79b-a707-f1d53a104262}"
-#define MODEL_TOKEN_FMI3 "{2c1305f9-b7f9-0e18-4469-a630a13c8dd3}"
+#define MODEL_TOKEN_FMI2 "{9776966f-9b6f-b011-5ca7-610faa778c7c}"
+#define MODEL_TOKEN_FMI3 "{773601da-70d3-c2fd-97f9-e59ee0ac3a65}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -16,13 +16,13 @@ enum {
     N_INPUTS = 18,
     N_PARAMETERS = 58,
     N_OUTPUTS = 21,
-    N_STATES = 293,
+    N_STATES = 294,
     N_NOISE = 0,
     N_VARIABLES = 99
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 44, WORK_RES = 27, WORK_IW = 0, WORK_W = 2428 };
+enum { WORK_ARG = 44, WORK_RES = 28, WORK_IW = 0, WORK_W = 2437 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };

@@ -8,7 +8,7 @@ the body is quasi-static, and in motion the mean force of the last second
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 import casadi as ca
@@ -31,6 +31,7 @@ from pyimu.attitude.filter.quasi_static import (
 )
 from pyimu.attitude.filter.sample import Sample
 from pyimu.attitude.filter.settings import Settings
+from pyimu.attitude.filter.stillness import FAST, STEADY
 from pyimu.attitude.filter.unscented import Estimate
 from pyimu.attitude.filter.variables import LEAST_ACCEL_STD
 from pyimu.attitude.filter.velocity import DRIFT_GAIN, Push, at_rest, covariance_of_motion
@@ -49,6 +50,12 @@ RECOVERY = 0.2
 """s; while gravity is beyond its innovation gate, the variance of the tilt grows by a factor of e
 in this time."""
 
+
+PUSH_STD = 0.2
+"""m/s^2; of a push that lasts, on a vehicle: five times that, beyond which its force contradicts a
+tilt that is known, are 0.1 g, a drive without haste. A larger one leaves a tilt that is wrong by a
+fault wrong for longer; chosen on runs 100 to 115 of the vehicles of
+``benchmarks/attitude_honesty.py``."""
 
 SLOW_TIME = 0.3
 """s; velocity over acceleration of a slow motion by hand, of three rad/s."""
@@ -86,14 +93,16 @@ def inclination(
     rests,
     at_rest_force,
     driven,
+    sure,
 ) -> Inclination:
     """The quasi-static estimator and the mean force one sample later, and the gravity they measure.
 
     ``x`` is the propagated estimate, ``motion`` (2,) (m/s)^2 the variance of its velocity across
     and along the vertical, ``turned`` (3, 3) its turn in
     inertial space in the period ``h`` s, from old axes to new. ``rests`` says that the body rests,
-    with the mean force ``at_rest_force`` (3,); a constant force off the vertical is a push. The
-    forces of a body that is ``driven`` do not raise doubts of the size of gravity.
+    with the mean force ``at_rest_force`` (3,), and ``sure`` that it does not drive on; a constant
+    force off the vertical is a push. The forces of a body that is ``driven`` do not raise doubts of
+    the size of gravity.
     """
     at, valid, size = settings.scalar, sample.force_valid, memory.size.size
     tolerance = memory.size.tolerance(at["gravity"], at["gravity_tolerance"])
@@ -113,6 +122,8 @@ def inclination(
     )
     known = is_tilt_known(x)
     measured = _measured(sample.force, mean, steady, noise, white, settings, h)
+    rests = rests * (1 - _is_off(at_rest_force, x, ca.sum1(white) * (h / 3), settings, PUSHED))
+    motion += rests * sure * (ca.fmin(motion, _std_at_rest(at) ** 2) - motion)
     given = GravityMeasurement(
         *measured,
         magnitude=size,
@@ -123,12 +134,11 @@ def inclination(
         plausible=plausible,
         contradicts=plausible * _contradicts(measured[0], mean, x, white, settings),
     )
-    rests = rests * (1 - _is_off(at_rest_force, x, ca.sum1(white) * (h / 3), settings, PUSHED))
     # A turn on wheels makes the force larger, but not its part along the vertical.
     up = vertical(x)
     seen = ca.if_else(known, ca.dot(up, mean.force), ca.norm_2(mean.force))
-    sure = 1 - (1 - plausible) * (1 - driven)
-    learnt = memory.size.followed(sure, rests, at_rest_force, seen, at["gravity"], valid, h)
+    no_doubt = 1 - (1 - plausible) * (1 - driven)
+    learnt = memory.size.followed(no_doubt, rests, at_rest_force, seen, at["gravity"], valid, h)
     return Inclination(
         quasi,
         mean,
@@ -144,10 +154,11 @@ def _contradicts(force, mean: MeanForce, x: Estimate, white, settings: Settings)
     """Whether a ``force`` (3,) that may be gravity is too far off the vertical of ``x``.
 
     A tilt that is wrong from the start or by a fault makes a velocity that looks like motion; the
-    force in itself tells them apart.
+    force in itself tells them apart, where it is farther off than a push makes it.
     """
-    passing = passing_std(settings.scalar) ** 2
-    spread = ca.sum1(white) * (1 / 3) + passing + SLOW_TIME**2 * mean.scatter
+    passing = passing_std(settings.scalar)
+    pushes = ca.fmax(passing, PUSH_STD) * (passing > 0)
+    spread = ca.sum1(white) * (1 / 3) + pushes**2 + SLOW_TIME**2 * mean.scatter
     return _is_off(force, x, spread, settings, INNOVATION_GATE)
 
 
@@ -166,6 +177,16 @@ def _is_off(force, x: Estimate, spread, settings: Settings, gate: float):
 def is_tilt_known(x: Estimate):
     """Whether the tilt is known well enough for the velocity to be linear in its error, 0 or 1."""
     return tilt_variance(x.covariance, vertical(x)) <= KNOWN_TILT**2
+
+
+def _std_at_rest(at: Mapping[str, ca.SX]):
+    """Standard deviation in m/s of the velocity of a body at rest, by the settings ``at``.
+
+    It is that of a motion which has begun and does not show yet: the mean force may be off by its
+    share of the tolerance for the time of the fast mean. A larger one would leave the tilt so
+    unsure that a velocity that begins is taken for it.
+    """
+    return STEADY * at["rest_force_tolerance"] * FAST
 
 
 def constant_variance(size: GravitySize, settings: Settings):

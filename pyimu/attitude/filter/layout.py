@@ -55,7 +55,7 @@ class GravityMeasurement:
 EVERY = 5
 """Of ``Flags.which``: any of the updates."""
 
-FLAGS = 17
+FLAGS = 18
 """Numbers of ``Flags``."""
 
 
@@ -67,11 +67,12 @@ class Flags:
     magnetic field's, 4: both; ``EVERY``: any. Whether ``gravity`` corrects, whether the
     ``velocity`` does, whether the body is ``quasi_static``, whether its attitude may be ``lost``,
     whether a ``heading`` and a zero rate (``stationary`` by its input, ``resting`` as found)
-    correct, the variance (rad/s)^2 that ``sway`` then adds to that of a sample, whether an input
-    was ``missing``, whether a magnetometer has been seen (``field``). Whether a ``speed`` corrects,
-    whether the body is ``driven``, and whether its velocity begins ``anew``. ``faults`` are the
-    other bits of the status; ``constant`` rad^2 is the variance of the tilt by a constant error of
-    the accelerometer; ``vertical_noise`` is that of ``Memory``.
+    correct, whether there is ``doubt`` of the rest that was found, the variance (rad/s)^2 that
+    ``sway`` then adds to that of a sample, whether an input was ``missing``, whether a magnetometer
+    has been seen (``field``). Whether a ``speed`` corrects, whether the body is ``driven``, and
+    whether its velocity begins ``anew``. ``faults`` are the other bits of the status; ``constant``
+    rad^2 is the variance of the tilt by a constant error of the accelerometer; ``vertical_noise``
+    is that of ``Memory``.
     """
 
     which: ca.SX
@@ -82,6 +83,7 @@ class Flags:
     heading: ca.SX
     stationary: ca.SX
     resting: ca.SX
+    doubt: ca.SX
     sway: ca.SX
     missing: ca.SX
     faults: ca.SX
@@ -94,8 +96,13 @@ class Flags:
 
     @property
     def rest(self):
-        """``resting`` and ``sway`` (2,), as the update by a zero rate takes them."""
-        return ca.vertcat(self.resting, self.sway)
+        """``resting``, ``doubt`` and ``sway`` (3,), as the update by a zero rate takes them."""
+        return ca.vertcat(self.resting, self.doubt, self.sway)
+
+    @property
+    def at_rest(self):
+        """Whether the body is at rest without doubt, 0 or 1."""
+        return self.stationary + self.resting * (1 - self.doubt) > 0
 
     def with_speed(self, speed, driven, anew) -> Flags:
         """The flags of a body that may be driven: it is then none that stays in its place."""

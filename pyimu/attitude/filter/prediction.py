@@ -22,8 +22,10 @@ from pyimu.attitude.filter.quasi_static import MEAN_TIME, where
 from pyimu.attitude.filter.sample import Sample
 from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.stillness import (
+    CALM,
     SLOW,
     Stillness,
+    calmer,
     is_rest,
     is_still,
     share_of_noise,
@@ -49,7 +51,13 @@ HOLD = 1.0
 """s; so long after a speed the body still drives."""
 
 DRIVES = 0.2
-"""m/s; a body of which speeds say more is not at rest, however even its drive."""
+"""m/s; a body of which speeds say more is not at rest, however even its drive. One whose velocity
+is not known to that may drive."""
+
+PUSHED = 0.05
+"""m/s; a drift (``velocity.Motion``) beyond which a body was pushed for long. A tilt that is wrong
+by three standard deviations at the start looks like less. Chosen on runs 100 to 129 of the vehicles
+of ``benchmarks/attitude_honesty.py``."""
 
 
 ARGUMENTS = "estimate memory u p h"
@@ -96,23 +104,28 @@ class Instant:
 class Rest:
     """What a sample says of rest.
 
-    How ``still`` the body has been, whether it is ``resting``, and which share of the measured turn
-    is one (``moving``): none where the body is called stationary, at rest what is not noise. These
-    are factors: casadi would draw a choice into every product. ``before`` is the estimate before
+    How ``still`` the body has been, whether it is ``resting``, whether that is ``sure`` because the
+    body did not drive before or shook, whether there is ``doubt``, because its velocity is not
+    known either, and which share of the measured turn is one (``moving``): none where the body is
+    called stationary, at rest without doubt what is not noise. These are factors: casadi would draw
+    a choice into every product. ``before`` is the estimate before
     the sample: where a rest ends, with the bias as it was before its last samples. By ``forgotten``
     (3,) the variance of the bias was larger then, or is by what it took of a turn that was so slow
-    that it looked like rest, and by ``unseen`` (3,) that of the attitude. ``safe`` and ``later``
-    are those of ``Memory``.
+    that it looked like rest, and by ``unseen`` (3,) that of the attitude. ``safe``, ``later``
+    and ``calm`` are those of ``Memory``.
     """
 
     still: Stillness
     resting: ca.SX
+    sure: ca.SX
+    doubt: ca.SX
     moving: ca.SX
     before: Estimate
     forgotten: ca.SX
     unseen: ca.SX
     safe: ca.SX
     later: ca.SX
+    calm: ca.SX
 
 
 def rest_of(at: Instant, sample: Sample) -> Rest:
@@ -135,15 +148,28 @@ def rest_of(at: Instant, sample: Sample) -> Rest:
     long = (before.span >= scalar["rest_time"]) * (scalar["rest_time"] > 0)
     rests = long * (before.rests > 0) * (1 - at.stationary)
     resting = alike * rests
-    kept = 1 - resting * share_of_noise(still, _density(settings))
+    velocity = ca.trace(x.covariance[6:, 6:]) + ca.sumsqr(x.velocity)
+    drove, unknown = _drove(at.memory), velocity > DRIVES**2
+    unsure = drove * (at.memory.calm > CALM)
+    doubt = unsure * unknown
+    kept = 1 - resting * (1 - doubt) * share_of_noise(still, _density(settings))
     turned = (before.rests < 0) * (1 - at.stationary)
     ends = (rests > resting) + turned > 0
     x = replace(x, bias=ca.if_else(ends, safe[:3], x.bias))
-    unseen = turned * (before.slow - at.memory.estimate.bias - at.earth) ** 2
+    up, rate = vertical(x), before.slow - at.memory.estimate.bias - at.earth
+    unseen = turned * (rate - doubt * ca.dot(up, rate) * up) ** 2
     taken = ca.fmin(variance * SLOW / ca.fmax(before.density, _density(settings)), 1)
     forgotten = ends * ca.fmax(safe[3:] - variance, 0) + taken**2 * unseen
     moving = (1 - at.stationary) * kept
-    return Rest(still, resting, moving, x, forgotten, SLOW**2 * unseen, safe, later)
+    calm = calmer(at.memory.calm, before, alike, drove * unknown, at.h)
+    unseen, both = SLOW**2 * unseen, (1 - unsure, doubt)
+    return Rest(still, resting, *both, moving, x, forgotten, unseen, safe, later, calm)
+
+
+def _drove(memory: Memory):
+    """Whether a body that looks still may drive on, 0 or 1: it was fast, or was pushed for long."""
+    motion = memory.motion
+    return motion.across > DRIVES**2 * (motion.drift <= PUSHED**2)
 
 
 def _density(settings: Settings):
@@ -224,7 +250,7 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
     rests = (rest.resting + at.stationary > 0) * (rest.still.span >= MEAN_TIME)
     still_force = rest.still.slow_force
     force = inclination(
-        kept, sample, x, seen, turned, at.settings, at.h, rests, still_force, driven
+        kept, sample, x, seen, turned, at.settings, at.h, rests, still_force, driven, rest.sure
     )
     still = _decided(at, x, rest)
     vertical_noise = at.memory.vertical_noise + _about_the_vertical(x, noise[0])
@@ -246,6 +272,7 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
         sample.same_for,
         sample.sensors,
         speed_for,
+        rest.calm,
         vertical_noise,
         ca.vertcat(*place),
         field,
@@ -279,6 +306,7 @@ def _flags(
         heading=heading,
         stationary=stationary,
         resting=rest.resting,
+        doubt=rest.doubt,
         sway=sway(rest.still, _density(at.settings)) * reciprocal(at.h),
         missing=sample.missing,
         faults=2 * sample.at_limit + 4 * sample.stuck + 512 * uncalibrated,

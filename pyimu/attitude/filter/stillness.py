@@ -5,6 +5,11 @@ the force. The gyro then measures its own bias, and what noise it has since the 
 turn. A body that turns steadily about the vertical looks the same; it is taken for one at rest
 only where the bias is not known better.
 
+A body that drives on evenly, on a smooth way, looks the same, too, and may turn slowly about the
+vertical, as on a bend. While the velocity is not known, stillness is a rest without doubt only of a
+body that was seen to shake where it drove. In doubt the gyro measures its bias about the level axes
+alone, and the heading is turned on by it.
+
 A body that is held still sways. Below ``1 / FAST`` Hz the density of the rate beyond the gyro's own
 is that of the sway, by which a sample is trusted less.
 """
@@ -37,6 +42,13 @@ STEADY, SLOW_SWAY = 0.1, 0.5
 """Shares of a sample's tolerance that are those of the mean, of force and rate: gravity that turns
 in the body's axes by 2e-3 rad changes the mean force by 0.02 m/s^2. The mean shows that a motion
 begins while its samples are still lost in noise."""
+
+CALM_TIME = 10.0
+"""s; of a drive, over which the share of it that looks like rest is averaged."""
+
+CALM = 0.2
+"""That share beyond which a rest is not told from driving on: of a drive that begins by being taken
+for calm, 16 s must shake, or a sixth of that for each second that looked like rest before."""
 
 
 @dataclass(frozen=True)
@@ -109,6 +121,18 @@ def followed(x: Stillness, rate, force, still, h) -> Stillness:
         span,
         x.rests,
     )
+
+
+def calmer(calm, before: Stillness, still, may_drive, h):
+    """The share ``calm`` of a drive that looks like rest, after one more sample.
+
+    It changes where the body ``may_drive`` (0 or 1) because its velocity is not known, with every
+    sample that is not ``still`` (0 or 1): that ends what had looked like rest ``before`` without
+    being one, if it lasted longer than samples of a shaking body do by chance.
+    """
+    ended = before.span * (before.rests <= 0) * (before.span > FAST)
+    after = (calm * CALM_TIME + ended) / (CALM_TIME + ended + h)
+    return calm + may_drive * (1 - still) * (after - calm)
 
 
 def kept(before: Stillness, after: Stillness, safe, later, now) -> tuple:

@@ -16,9 +16,12 @@ from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.speed_update import by_speed, velocity_anew
 from pyimu.attitude.filter.unscented import Estimate, N, bounded, bounded_tilt
 from pyimu.symbolic import quaternion
-from pyimu.symbolic.linear import reciprocal
+from pyimu.symbolic.linear import reciprocal, symmetric
 
 OPTIONS = {"cse": True}
+
+DRIVEN_RATE = 1.0
+"""rad/s; of a vehicle that turns: so large that a sample tells nothing of a bias."""
 
 
 def where(condition, function: ca.Function, values, *more):
@@ -78,8 +81,8 @@ def after_gravity(
     x = where(flags.anew, velocity_anew(layout), x, gravity, u, p, flags.driven)
     x = where(flags.speed * (1 - flags.anew), by_speed(layout), x, gravity, u, p)
     x = where(flags.heading, by_heading(layout), x, s, u, p, h, rate, flags.vertical_noise)
-    at_rest = flags.stationary + flags.resting > 0
-    return where(at_rest, zero_rate, x, rate, p, h, flags.rest)
+    resting = flags.stationary + flags.resting > 0
+    return where(resting, zero_rate, x, rate, p, h, flags.rest)
 
 
 def by_zero_rate(layout: Layout, correct: Callable = unscented.correct) -> ca.Function:
@@ -87,20 +90,21 @@ def by_zero_rate(layout: Layout, correct: Callable = unscented.correct) -> ca.Fu
 
     It measures bias and Earth rate, z = b + R_nb^T w_e + n. To first order R_nb^T w_e of the true
     attitude is w_b + w_b x p, with w_b that of the estimate: linear in the error state. ``rest``
-    (2,) says whether it was found, and with what sway, as ``Flags`` have them. ``correct`` is the
-    correction of one of the filters.
+    (3,) says whether it was found, whether in doubt, and with what sway, as ``Flags`` have them. A
+    body that may drive on may turn about the vertical. ``correct`` is the correction of one of the
+    filters.
     """
-    rest = ca.SX.sym("rest", 2)
+    rest = ca.SX.sym("rest", 3)
     s, rate, p, h = layout.symbols(ca.SX, "x rate p h")
     x, settings = Memory.estimate_of(s), Settings.of(layout.compensation, p)
     earth = quaternion.rotate(quaternion.conjugate(x.q), settings.earth)
     slope = ca.horzcat(ca.skew(earth), ca.SX.eye(3), ca.SX(3, 3))
     cross = x.covariance @ slope.T
-    slow = ca.if_else(rest[0], rest[1], settings.scalar["stationary_std"] ** 2)
-    noise = settings.gyro.white**2 * reciprocal(h) + slow
-    after, _, _ = correct(
-        x, rate - x.bias - earth, slope @ cross + ca.diag(noise), cross, vertical(x)
-    )
+    slow = ca.if_else(rest[0], rest[2], settings.scalar["stationary_std"] ** 2)
+    noise, up = settings.gyro.white**2 * reciprocal(h) + slow, vertical(x)
+    turning = rest[0] * rest[1] * DRIVEN_RATE**2
+    variance = symmetric(3, lambda i, j: (noise[i] if i == j else 0) + turning * up[i] * up[j])
+    after, _, _ = correct(x, rate - x.bias - earth, slope @ cross + variance, cross, up)
     return ca.Function("by_zero_rate", [s, rate, p, h, rest], [_with_estimate(s, after)], OPTIONS)
 
 
@@ -117,8 +121,7 @@ def finish() -> ca.Function:
     q = x.q * reciprocal(ca.norm_2(x.q))
     nis, *report = ca.vertsplit(given[ESTIMATE:])
     status = _status(flags, report, ca.diag(x.covariance)[:N])
-    at_rest = flags.stationary + flags.resting > 0
-    found = flags.quasi_static, nis * flags.quasi_static, status, at_rest
+    found = flags.quasi_static, nis * flags.quasi_static, status, flags.at_rest
     y = outputs(replace(x, q=q), *found, flags.constant)
     level = (1 - 2 * (q[2] * q[2] + q[3] * q[3])) ** 2 + (
         2 * (q[1] * q[2] + q[0] * q[3])
