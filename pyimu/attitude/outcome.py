@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 from scipy.spatial.transform import Rotation
-from scipy.stats import chi2
+from pyimu.laws import chi2
 
 from pyimu.attitude.driven import speed_findings
 from pyimu.attitude.error import AttitudeError, error_against

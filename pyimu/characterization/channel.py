@@ -8,7 +8,7 @@ from functools import partial
 from typing import Self
 
 import numpy as np
-from scipy.stats import chi2
+from pyimu.laws import chi2
 
 from pyimu.characterization.allan.deviation import (
     hadamard_deviation,

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.spatial.transform import Rotation
-from scipy.stats import chi2
+from pyimu.laws import chi2
 
 from pyimu.attitude.filter.status import STATUS_NAMES
 from pyimu.attitude.outcome import NIS_BOUNDS, Outcome

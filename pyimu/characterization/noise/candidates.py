@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.optimize import brentq
-from scipy.stats import chi2
+from pyimu.laws import chi2
 
 from pyimu.characterization.allan.moments import TERMS, AllanMoments
 from pyimu.characterization.allan.pooled import pooled_moments

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 from scipy.optimize import nnls
-from scipy.stats import chi2, gamma, norm
+from scipy.special import gammaincc
+from pyimu.laws import chi2, norm
 
 from pyimu.characterization.allan.moments import RAMP, AllanMoments
 
@@ -137,7 +138,7 @@ class Problem:
         row = self.functionals([i, *(j for j in np.flatnonzero(weights) if j != i)], weights)[0]
         std, shape = self._spread(row, others)
         excess = row @ (self.measured - self.moments.design @ others) / std
-        return float(gamma.sf(shape + excess * np.sqrt(shape), shape))
+        return float(gammaincc(shape, max(shape + excess * np.sqrt(shape), 0.0)))
 
     def _spread(self, row: np.ndarray, squares: np.ndarray) -> tuple[float, float]:
         """Standard deviation of an estimate, and the shape of a gamma distribution as skew.

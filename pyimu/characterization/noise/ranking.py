@@ -27,7 +27,7 @@ from itertools import combinations
 import numpy as np
 from scipy.optimize import nnls
 from scipy.special import ndtri_exp
-from scipy.stats import chi2
+from pyimu.laws import chi2
 
 from pyimu.characterization.allan.moments import MARKOV, TERMS
 from pyimu.characterization.allan.pooled import pooled_moments

@@ -18,7 +18,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import chi2
+from pyimu.laws import chi2
 
 from pyimu.characterization.spectrum.background import Background, Scale
 from pyimu.characterization.spectrum.cascade import hann

@@ -28,7 +28,7 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 import numpy as np
-from scipy.stats import chi2
+from pyimu.laws import chi2
 
 from pyimu.characterization.spectrum.cascade import DECIMATION, Stage, hann
 
