@@ -35,14 +35,12 @@ class chi2:
     @staticmethod
     def logcdf(x: ArrayLike, df: ArrayLike) -> np.ndarray:
         """The logarithm of the probability below ``x``."""
-        with np.errstate(divide="ignore"):
-            return np.log(special.chdtr(df, x))
+        return _log(special.chdtr(df, x), special.chdtrc(df, x))
 
     @staticmethod
     def logsf(x: ArrayLike, df: ArrayLike) -> np.ndarray:
         """The logarithm of the probability above ``x``."""
-        with np.errstate(divide="ignore"):
-            return np.log(special.chdtrc(df, x))
+        return _log(special.chdtrc(df, x), special.chdtr(df, x))
 
     @staticmethod
     def logpdf(x: ArrayLike, df: ArrayLike) -> np.ndarray:
@@ -73,3 +71,9 @@ class norm:
     def ppf(p: ArrayLike) -> np.ndarray:
         """What is not exceeded with the probability ``p``."""
         return special.ndtri(p)
+
+
+def _log(p: np.ndarray, rest: np.ndarray) -> np.ndarray:
+    """The logarithm of a probability, near one from the ``rest``."""
+    with np.errstate(divide="ignore"):
+        return np.where(p < 0.5, np.log(p), np.log1p(-rest))

@@ -37,12 +37,12 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.special import stdtrit
-from pyimu.laws import chi2, norm
 
 from pyimu.characterization.allan.moments import MARKOV, RAMP, TERMS, design, moments
 from pyimu.characterization.estimate import Estimate
 from pyimu.characterization.noise.least_squares import Problem, has_noise
 from pyimu.errors import UserError
+from pyimu.laws import chi2, norm
 
 
 @dataclass(frozen=True)

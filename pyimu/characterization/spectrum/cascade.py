@@ -23,8 +23,8 @@ _RAW = np.sinc(_AT / DECIMATION) * np.kaiser(len(_AT), 0.1102 * (STOP - 8.7))
 
 TAPS = _RAW / _RAW.sum()
 """Low-pass filter, by Kaiser's window (Oppenheim and Schafer, Discrete-Time Signal Processing,
-equations 7.75 and 7.76). In shares of the sample rate after decimation it is flat to 1e-5 up to 0.16 and
-at -120 dB from 0.84 on; so a level is read up to 0.16 only."""
+equations 7.75 and 7.76). In shares of the sample rate after decimation it is flat to 1e-5 up to
+0.16 and at -120 dB from 0.84 on; so a level is read up to 0.16 only."""
 
 BATCH = 2**16
 """Samples in the windows that are transformed at a time; as many as fit into a core's cache."""
