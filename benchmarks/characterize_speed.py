@@ -1,4 +1,4 @@
-"""Time and peak memory of ``pyimu characterize`` on a log of 14 million rows.
+"""Time, processor time and peak memory of ``pyimu characterize`` on a log of 14 million rows.
 
 ``python benchmarks/characterize_speed.py [rows] [.parquet|.csv]``. The log has six channels and a
 temperature, for four hours at 976 Hz, and is made in a temporary folder. The Allan deviation alone,
@@ -7,6 +7,7 @@ of Linux); the temporary files that hold the samples are mapped, and their pages
 system when it needs them: they are in the second figure.
 """
 
+import resource
 import subprocess
 import sys
 import tempfile
@@ -47,8 +48,10 @@ def main(rows: int = ROWS, suffix: str = ".parquet") -> None:
             f"{rows} rows of {len(COLUMNS)} columns, {log.stat().st_size / 2**20:.0f} MiB as "
             f"{suffix}, {size / 2**20:.0f} MiB as numbers"
         )
+        used = resource.getrusage(resource.RUSAGE_CHILDREN)
         print(
-            f"pyimu characterize: {seconds:.1f} s, {rows / seconds / 1e6:.2f} million rows a second"
+            f"pyimu characterize: {seconds:.1f} s, {rows / seconds / 1e6:.2f} million rows a "
+            f"second; {used.ru_utime + used.ru_stime:.1f} s of processor"
         )
         print(
             f"peak memory: {own / 2**20:.0f} MiB of its own, {own / size:.2f} of the numbers; with "

@@ -26,7 +26,10 @@ BATCH = 200
 """Files that a child process tries, at most: a new one has no memory of the old."""
 
 LONGEST = 20
-"""s for one file."""
+"""s of processor for one file."""
+
+PATIENCE = 10 * LONGEST
+"""s by the clock: something that waits uses no processor, and a busy machine gives little of it."""
 
 MEMORY = 2 << 30
 """Bytes that a child process may have beside what it begins with."""
@@ -109,7 +112,7 @@ class Child:
         wrong = "\n".join(line[1:] for line in lines if line.startswith("!"))
         if os.WIFSIGNALED(status):
             name = signal.Signals(os.WTERMSIG(status)).name
-            wrong = f"ended by {name}" + (" (too slow)" if name == "SIGALRM" else "")
+            wrong = f"ended by {name}" + (" (too slow)" if name in ("SIGPROF", "SIGALRM") else "")
         return counts, wrong
 
     def _work(self, write: int) -> None:
@@ -124,7 +127,8 @@ class Child:
                 if time.monotonic() > self.until:
                     break
                 path = self.fuzzer.mutate(rng.choice(self.names), self.folder, rng)
-                signal.alarm(LONGEST)
+                signal.setitimer(signal.ITIMER_PROF, LONGEST)
+                signal.alarm(PATIENCE)
                 try:
                     said = self.fuzzer.try_one(path)
                 except BaseException:  # noqa: BLE001
@@ -132,6 +136,7 @@ class Child:
                     stream.write("".join(f"!{line}\n" for line in text.splitlines()[-14:]))
                     stream.flush()
                     os._exit(1)
+                signal.setitimer(signal.ITIMER_PROF, 0)
                 signal.alarm(0)
                 stream.write(f"{said}\n")
         os._exit(0)

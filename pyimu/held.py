@@ -86,7 +86,7 @@ def work_folder() -> Iterator[Path]:
         sweep(Path(tempfile.gettempdir()))
         made = tempfile.TemporaryDirectory(prefix=PREFIX, ignore_cleanup_errors=True)
     except OSError as error:
-        where = os.environ.get("TMPDIR", "/tmp")
+        where = tempfile.tempdir or os.environ.get("TMPDIR", "/tmp")
         raise UserError(
             f"{where}: cannot be written ({error.strerror or error}); TMPDIR names another folder "
             "for temporary files"

@@ -321,6 +321,18 @@ def test_build_without_a_compiler(here, pyimu, monkeypatch):
     refused(pyimu, ["build", "imt30", "--out", "out"], *words)
 
 
+def test_build_with_half_a_quotation(here, pyimu, monkeypatch):
+    monkeypatch.setenv("CC", 'cc "-O2')
+    refused(pyimu, ["build", "imt30", "--out", "out"], "environment variable CC", 'cc "-O2')
+
+
+def test_build_without_room_for_temporary_files(here, pyimu, monkeypatch, tmp_path):
+    (tmp_path / "nowhere").write_text("no folder")
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "nowhere"))
+    monkeypatch.setenv("PYIMU_CACHE", "")
+    refused(pyimu, ["build", "imt30", "--out", "out"], "nowhere", "TMPDIR names another folder")
+
+
 def test_close_without_a_compiler_leaves_the_units_out_and_says_so(here, pyimu, monkeypatch):
     monkeypatch.setenv("CC", "no-such-compiler")
     status, said, _ = pyimu(*COMMANDS[0], "--out", "new")

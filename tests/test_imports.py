@@ -22,9 +22,11 @@ LATE = {
     "pyimu.cli.options",
     "pyimu.block.block",
     "pyimu.block.stepping",
+    "pyimu.characterization.run",
+    "pyimu.model.truth",
 }
 """Modules with imports of the package inside functions: casadi, scipy and numba take seconds, which
-``pyimu --help`` and a compiled run do without."""
+``pyimu --help``, a compiled run and most logs do without."""
 
 
 def module_of(path):

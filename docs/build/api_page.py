@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import inspect
 import re
+from functools import cached_property
 from types import ModuleType
 
 from pages import DOCS, write_changed
@@ -54,16 +55,22 @@ def _class(name: str, cls: type) -> str:
     """A class: what it says of itself, and its own methods and properties."""
     rows = []
     for key, member in inspect.getmembers(cls):
-        behind = member.fget if isinstance(member, property) else member
-        described = isinstance(member, property) or inspect.isroutine(member)
+        is_property = isinstance(member, (property, cached_property))
+        behind = _behind(member) if is_property else member
+        described = is_property or inspect.isroutine(member)
         where = getattr(behind, "__module__", None) or ""
         if key.startswith("_") or not described or not where.startswith("pyimu"):
             continue
-        call = "" if isinstance(member, property) else "()"
+        call = "" if is_property else "()"
         first = (inspect.getdoc(member) or "").partition("\n\n")[0].replace("\n", " ")
         said = ROLE.sub(r"`\1`", first)
         rows.append(f"- `{key}{call}`" + (f": {said}" if said else ""))
     return "\n".join([f"### `{name}`", "", _doc(cls), *rows, *([""] if rows else [])])
+
+
+def _behind(member: property | cached_property) -> object:
+    """The function of a property."""
+    return member.fget if isinstance(member, property) else member.func
 
 
 def _module(name: str, module: ModuleType) -> str:

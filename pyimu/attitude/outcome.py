@@ -8,7 +8,6 @@ from functools import cached_property
 
 import numpy as np
 from scipy.spatial.transform import Rotation
-from scipy.stats import chi2
 
 from pyimu.attitude.driven import speed_findings
 from pyimu.attitude.error import AttitudeError, error_against
@@ -17,6 +16,7 @@ from pyimu.attitude.filters import OWN
 from pyimu.attitude.magnetometer import Magnetometer
 from pyimu.attitude.rest import Rest
 from pyimu.errors import Finding
+from pyimu.laws import chi2
 from pyimu.recording.quality.in_pieces import quality
 from pyimu.recording.recording import Recording
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import f
+from scipy.special import fdtri
 
 from pyimu.recording.recording import Recording
 from pyimu.recording.rest import still_rows
@@ -129,7 +129,7 @@ def _slope(recording: Recording, stop: int) -> tuple[np.ndarray, float]:
     left = means - means.mean(axis=0) - np.outer(away, slope)
     degrees = 3 * (PARTS - 2)
     variance = np.sum(left**2) / degrees / (away @ away)
-    return slope, 3 * f.isf(BY_CHANCE, 3, degrees) * variance + STEADY**2
+    return slope, 3 * fdtri(3, degrees, 1 - BY_CHANCE) * variance + STEADY**2
 
 
 def _declared(recording: Recording) -> int | None:

@@ -64,13 +64,14 @@ ZIG = (sys.executable, "-m", "ziglang", "cc")
 
 def compiler_command() -> list[str]:
     """The command that compiles for this machine: ``CC``, else ``cc``, else the package ``ziglang``
-    if it is there; empty without a compiler.
+    if it is there; empty without a compiler. Raises UserError for a ``CC`` with half a quotation.
     """
     named = os.environ.get("CC", "")
-    if os.name == "nt":  # where a backslash is part of a path
-        given = [word.strip('"') for word in shlex.split(named, posix=False)]
-    else:
-        given = shlex.split(named)
+    try:
+        words = shlex.split(named, posix=os.name != "nt")  # there a backslash is part of a path
+    except ValueError as error:
+        raise UserError(f"environment variable CC: {error} in {named!r}") from None
+    given = [word.strip('"') for word in words] if os.name == "nt" else words
     command = given or ["cc"]
     if shutil.which(command[0]):
         return command

@@ -8,7 +8,6 @@ from functools import partial
 from typing import Self
 
 import numpy as np
-from scipy.stats import chi2
 
 from pyimu.characterization.allan.deviation import (
     hadamard_deviation,
@@ -32,6 +31,7 @@ from pyimu.characterization.spectrum.lines import Line
 from pyimu.characterization.store import Store
 from pyimu.characterization.temperature.fit import ThermalFit
 from pyimu.characterization.temperature.warm_up import WarmUp, find_warm_up
+from pyimu.laws import chi2
 
 POINTS = 100
 """Cluster times of a curve, evenly spaced in the logarithm; those an octave apart are added."""

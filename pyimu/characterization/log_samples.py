@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pyimu.characterization.samples import KINDS, PIECE, Collector, Samples
+from pyimu.characterization.samples import KINDS, Collector, Samples
 from pyimu.characterization.store import Store
 from pyimu.errors import Finding, UserError
 from pyimu.model.part import AXES
@@ -18,6 +18,10 @@ from pyimu.recording.recording import Recording
 
 TWO_RATES = 0.01
 """Share of a log at another rate beyond which it cannot be characterised as one."""
+
+PIECE = 1 << 18
+"""Rows that are read at a time: few enough to stay in a processor's cache from one look at them to
+the next."""
 
 REPEATED = 0.01
 """Share of rows without a time of their own beyond which the times are too coarse."""

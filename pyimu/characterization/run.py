@@ -11,7 +11,6 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping, Sequence
 
-from pyimu.attitude.run import run as attitude
 from pyimu.characterization.allan.moments import TERMS
 from pyimu.characterization.evidence import evidence
 from pyimu.characterization.log_samples import Say, read_samples
@@ -103,6 +102,8 @@ def _magnetometer(
     turns = any(f.column.startswith("gyro") for f in moving)
     if not turns or not {"mag", "gyro", "accel"} <= set(source.groups):
         return None, ""
+    from pyimu.attitude.run import run as attitude
+
     say(f"magnetometer of {source.name}", None)
     whole = source.read() if isinstance(source, Log) else source
     try:

@@ -100,10 +100,11 @@ class Collector:
     def add(self, piece: Recording) -> None:
         """Add the next piece of the log."""
         values = self._present(getattr(piece, self.kind))
-        whole = np.isfinite(values).all(axis=1)
+        columns = [np.ascontiguousarray(column) for column in values.T]
+        whole = _finite(columns)
         self.store.append(f"{self.kind}_missing", np.flatnonzero(~whole) + self._rows)
         self._rows += len(piece)
-        time, rows = piece.time[whole], values[whole]
+        time, *columns = _at(whole, [piece.time, *columns])
         if not len(time):
             return
         if self.cadence is None:
@@ -112,10 +113,10 @@ class Collector:
         self._starts.append(self._gaps.add(time)[0])
         self._count += len(time)
         self.store.append(f"{self.kind}_time", time)
-        for axis, column in zip(AXES, rows.T, strict=True):
+        for axis, column in zip(AXES, columns, strict=True):
             self.store.append(f"{self.kind}_{axis}", column)
         if piece.temperature is not None:
-            self._average(time, self._temperature(piece)[whole], rows)
+            self._average(time, *_at(whole, [self._temperature(piece)]), columns)
 
     def _present(self, values: np.ndarray) -> np.ndarray:
         """The values (k, 3), with zeros on axes that have had none so far.
@@ -130,14 +131,19 @@ class Collector:
         empty = ~self._seen
         return values if not self._seen.any() or not empty.any() else np.where(empty, 0.0, values)
 
-    def _average(self, time: np.ndarray, temperature: np.ndarray, rows: np.ndarray) -> None:
+    def _average(
+        self, time: np.ndarray, temperature: np.ndarray, columns: list[np.ndarray]
+    ) -> None:
         if self._averages is None:
             self._averages = AverageAccumulator(self.cadence.period)
-        self._averages.add(time, temperature, rows)
+        self._averages.add(time, temperature, np.transpose(columns))
 
     def _temperature(self, piece: Recording) -> np.ndarray:
         """Temperature (k,) of the rows: the last known one, nan where that is ``HELD`` s ago."""
         known = np.flatnonzero(np.isfinite(piece.temperature))
+        if len(known) == len(piece):
+            self._last_temperature = (piece.time[-1], piece.temperature[-1])
+            return piece.temperature
         last_time, last_reading = self._last_temperature
         times = np.append(last_time, piece.time[known])
         readings = np.append(last_reading, piece.temperature[known])
@@ -170,6 +176,16 @@ class Collector:
             for i, rows in self._late.items()
         }
         return late | {i: "all its cells are empty" for i in np.flatnonzero(~self._seen).tolist()}
+
+
+def _finite(columns: list[np.ndarray]) -> np.ndarray:
+    """Mask (k,) of the rows in which no column (k,) misses a cell."""
+    return np.logical_and.reduce([np.isfinite(column) for column in columns])
+
+
+def _at(rows: np.ndarray, columns: list[np.ndarray]) -> list[np.ndarray]:
+    """The columns at the rows of a mask; those of a whole log are not copied."""
+    return columns if rows.all() else [column[rows] for column in columns]
 
 
 def _cadence(piece: Recording, time: np.ndarray) -> Cadence:

@@ -18,7 +18,6 @@ from pyimu.model.sensor import Sensor
 from pyimu.model.signals import SIGNALS, inputs_of
 from pyimu.recording.columns import column_names
 from pyimu.recording.recording import Recording, filled
-from pyimu.recording.reference.rate import reference_rate
 
 SAME_PERIOD = 1e-6
 """Up to this share of it a recording's sample period is the part's own: time stamps are rounded."""
@@ -83,6 +82,8 @@ class Truth:
         self.needed = [*self.own, *sorted(others - set(self.own))]
         self.rate, self.at_rest = recording.ref_rate, False
         if self.rate is None:
+            from pyimu.recording.reference.rate import reference_rate
+
             reference = reference_rate(recording)
             self.at_rest = reference.kind == "static"
             self.rate = np.zeros(3) if self.at_rest else reference.rate

@@ -12,6 +12,7 @@ import os
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, make_dataclass, replace
 from functools import cached_property
+from inspect import cleandoc
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -196,9 +197,13 @@ class Recording(_Columns):
         return table
 
 
-Recording.__doc__ += "\n    Groups:\n\n" + "".join(
-    f"    ``{name}`` {f'(n, {len(g.suffixes)})' if g.suffixes else '(n,)'} [{g.unit}]: {g.text}\n"
-    for name, g in GROUPS.items()
+Recording.__doc__ = (
+    cleandoc(Recording.__doc__)
+    + "\n\nGroups:\n\n"
+    + "".join(
+        f"``{name}`` {f'(n, {len(g.suffixes)})' if g.suffixes else '(n,)'} [{g.unit}]: {g.text}\n"
+        for name, g in GROUPS.items()
+    )
 )
 
 

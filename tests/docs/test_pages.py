@@ -22,6 +22,7 @@ PAGES = sorted(
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```", re.MULTILINE | re.DOTALL)
 SPAN = re.compile(r"`(pyimu [a-z][^`]*)`")
+QUICK = ("parts", "export", "inspect", "modelica")
 COMMANDS = typer.main.get_command(app).commands
 
 
@@ -114,3 +115,58 @@ def test_every_effect_is_found_by_a_symptom_and_none_that_is_not():
     cells = [line.split("|")[2] for line in rows]
     named = {e for cell in cells for e in re.findall(r"`(\w+)`", cell)}
     assert named == {e.name for e in EFFECTS}
+
+
+RUN = {
+    "README.md": "docs/test_readme.py",
+    "docs/api.md": "docs/test_site.py",  # signatures: the page is what the package says
+    "docs/noise.md": "docs/test_readme.py",
+    "docs/simulators.md": "docs/test_simulators_page.py",
+}
+"""Pages with Python, and the test that runs it."""
+
+TESTED = {
+    "attitude": "attitude/test_attitude_cli.py",
+    "build": "test_cli.py",
+    "campaign": "campaign/test_campaign_dask.py",
+    "characterize": "characterization/test_characterize_cli.py",
+    "close": "test_cli.py",
+    "heading": "heading/test_heading_command.py",
+    "navigate": "navigation/test_navigate_cli.py",
+    "plan": "identification/test_plan.py",
+}
+"""Commands that take longer than a reader of pages waits, and logs that only their owner has: the
+tests that run them. All others are run as they are shown, by ``test_shown_commands.py``."""
+
+NOT_RUN = {
+    "make": "installs and runs all of this",
+    "$ dask": "starts servers on other machines; test_campaign_dask.py runs them on this one",
+    "$ git": "from wherever the project is",
+    "$ python3": "needs a network; test_install.py installs a wheel",
+    "oms_": "OMSimulator is in no registry",
+    "function ": "a piece of the library, which tests/modelica compiles whole",
+    "model ": "needs a compiler of Modelica's own library",
+}
+"""How lines begin that no test runs as they stand, and why."""
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name)
+def test_every_block_of_code_is_run_or_it_is_said_why_not(page):
+    for language, block in FENCE.findall(text(page)):
+        if language == "python":
+            assert (CHECKOUT / "tests" / RUN[name(page)]).is_file()
+        elif language != "toml":
+            prompts = [line for line in block.splitlines() if line.startswith("$ ")]
+            for line in prompts or block.splitlines()[:1]:
+                command = line.split()[1] if line.startswith("$ pyimu ") else ""
+                assert (
+                    line.split()[2] in (*QUICK, *TESTED)
+                    if command
+                    else line.startswith(tuple(NOT_RUN))
+                ), line
+
+
+@pytest.mark.parametrize(("command", "path"), TESTED.items())
+def test_a_command_that_takes_long_has_its_own_test(command, path):
+    written = (CHECKOUT / "tests" / path).read_text(encoding="utf-8")
+    assert re.search(rf"[\"'\s]{command}[\"'\s,]", written)

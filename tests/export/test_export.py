@@ -6,6 +6,8 @@ are those of the part.
 
 import math
 import re
+import shutil
+import subprocess
 import sys
 import xml.etree.ElementTree as ET
 
@@ -83,6 +85,19 @@ def test_vins_adds_the_variance_of_the_part_to_the_velocity():
         assert (read[k] * dt) ** 2 * RATE == pytest.approx((scale * np.max(K)) ** 2, rel=FIGURES)
 
 
+@pytest.mark.parametrize("to", ["vins", "openvins"])
+def test_opencv_reads_it_as_the_estimator_does(to, tmp_path):
+    """Both open their files by cv::FileStorage, which takes less of YAML than YAML is."""
+    cv2 = pytest.importorskip("cv2", reason="needs pip install opencv-python-headless")
+    (tmp_path / "imu.yaml").write_text(text(to))
+    file, read = cv2.FileStorage(str(tmp_path / "imu.yaml"), cv2.FILE_STORAGE_READ), read_yaml(to)
+    node = file.root() if to == "vins" else file.getNode("imu0")
+    numbers = {k: v for k, v in read.get("imu0", read).items() if isinstance(v, float)}
+    assert len(numbers) >= 4
+    for name, value in numbers.items():
+        assert node.getNode(name).real() == value, name
+
+
 def test_isaac_ros_has_the_densities_of_the_worst_axis():
     read = read_yaml("isaac")["visual_slam_node"]["ros__parameters"]
     assert read["gyro_noise_density"] == pytest.approx(np.max(N), rel=FIGURES)
@@ -136,6 +151,45 @@ def test_gazebo_s_samples_have_noise_bias_and_step_of_the_part():
             bias = MADE.gyro.values["turn_on_bias"]["b0"][i] if scale == 1 else 0.0
             assert get["mean"] == pytest.approx(bias, abs=1e-12) and get["bias_mean"] == 0
             assert noise.get("type") == ("gaussian_quantized" if scale == 1 else "gaussian")
+
+
+LOADS = """
+#include <iostream>
+#include <sdf/sdf.hh>
+int main(int, char **word) {
+    sdf::Root root;
+    for (const auto &error : root.Load(word[1])) std::cout << error << "\\n";
+    if (!root.Model()) return 0;
+    const auto *sensor = root.Model()->LinkByIndex(0)->SensorByIndex(0);
+    std::cout.precision(17);
+    std::cout << sensor->ImuSensor()->AngularVelocityXNoise().StdDev() << "\\n";
+}
+"""
+
+
+def test_gazebo_s_own_library_reads_the_sensor(tmp_path):
+    """Within a model, as sensors are in links; without a warning."""
+    found = shutil.which("pkg-config") and subprocess.run(
+        ["pkg-config", "--cflags", "--libs", "sdformat12"], capture_output=True, text=True
+    )
+    if not found or found.returncode or not shutil.which("g++"):
+        pytest.skip("needs g++ and Debian's libsdformat-dev")
+    (tmp_path / "load.cc").write_text(LOADS)
+    subprocess.run(
+        ["g++", "-std=c++17", "load.cc", "-o", "load", *found.stdout.split()],
+        cwd=tmp_path,
+        check=True,
+    )
+    sensor = ET.fromstring(text("gazebo")).find("sensor")
+    model = ET.SubElement(whole := ET.Element("sdf", version="1.9"), "model", name="m")
+    ET.SubElement(model, "link", name="l").append(sensor)
+    ET.ElementTree(whole).write(tmp_path / "model.sdf")
+    done = subprocess.run(
+        ["./load", tmp_path / "model.sdf"], cwd=tmp_path, capture_output=True, text=True, check=True
+    )
+    want = float(sensor.find("imu/angular_velocity/x/noise/stddev").text)
+    assert done.stderr == "" and done.stdout.count("\n") == 1, done.stdout + done.stderr
+    assert float(done.stdout) == pytest.approx(want, rel=1e-15)
 
 
 def test_gazebo_draws_the_bias_of_specimens():

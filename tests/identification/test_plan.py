@@ -7,9 +7,11 @@ from itertools import product
 import numpy as np
 import pytest
 from scipy.stats import chi2
+from typer.testing import CliRunner
 
 import pyimu
 from pyimu import Part, Sensor, UserError
+from pyimu.cli import app
 from pyimu.identification.fit.fit import begin, gauss_newton, power
 from pyimu.identification.fit.keys import Coefficient, coefficients_of
 from pyimu.identification.fit.trial import accel_trial, gyro_trial
@@ -279,6 +281,16 @@ def test_plan_writes_a_motion_that_can_be_read(planned, tmp_path):
     for m in planned.motions:
         assert m.name.replace("_", " ") in text
     assert "bias step" in text and "NaN" not in text and "nan" not in text.replace("nanom", "")
+
+
+def test_the_command_writes_what_the_function_plans(tmp_path):
+    words = ["plan", "mpu6050", "--for", "g_sensitivity", "--out", str(tmp_path / "plan")]
+    ended = CliRunner().invoke(app, words)
+    assert ended.exit_code == 0, (ended.output, ended.exception)
+    alone = pyimu.plan("mpu6050", "g_sensitivity")
+    assert ended.output.startswith(alone.report().splitlines()[0])
+    said = json.loads((tmp_path / "plan" / "plan.json").read_text())
+    assert said["duration"]["value"] == pytest.approx(alone.as_dict()["duration"]["value"])
 
 
 def test_wanted_error_is_reached():

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.spatial.transform import Rotation
-from scipy.stats import chi2
 
 from pyimu.attitude.filter.status import STATUS_NAMES
 from pyimu.attitude.outcome import NIS_BOUNDS, Outcome
+from pyimu.laws import chi2
 from pyimu.report.figures import (
     AFTER,
     BEFORE,
@@ -154,8 +154,9 @@ def draw_nis(a: Outcome, panel: Axes) -> None:
     """The normalised innovations squared, and between which bounds 95 % of them should lie."""
     time, nis = a.time[a.updates] - a.time[0], a.nis[a.updates]
     second = unit_of_time(a.duration)[0]
-    for level, dash in zip((*NIS_BOUNDS, chi2.median(3)), ("--", "--", ":"), strict=True):
-        label = {NIS_BOUNDS[0]: "its 95 % bounds", chi2.median(3): "its median"}.get(level)
+    median = float(chi2.ppf(0.5, 3))
+    for level, dash in zip((*NIS_BOUNDS, median), ("--", "--", ":"), strict=True):
+        label = {NIS_BOUNDS[0]: "its 95 % bounds", median: "its median"}.get(level)
         panel.axhline(level, color=INK, lw=0.9, ls=dash, label=label)
     bins = min(len(nis) // PER_BIN, MOST_BINS)
     if bins < 2:

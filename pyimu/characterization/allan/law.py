@@ -33,8 +33,8 @@ import numpy as np
 from scipy.fft import dct
 from scipy.linalg import eigvalsh, toeplitz
 from scipy.optimize import brentq
-from scipy.stats import chi2, norm
 
+from pyimu.laws import chi2, norm
 from pyimu.shaping import allan_deviation
 
 Density = Callable[[np.ndarray], np.ndarray]

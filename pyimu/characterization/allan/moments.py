@@ -72,13 +72,13 @@ class AllanMoments:
 
     def covariance(self, squares: np.ndarray) -> np.ndarray:
         """Covariance (t, t) of the Allan variances of noise with these squares (k,)."""
-        noise = np.delete(squares, RAMP)
-        there = np.flatnonzero(noise)
-        noise, products = noise[there], self.products[np.ix_(there, there)]
-        spread = np.einsum("i,j,ijab->ab", noise, noise, products)
-        return 2 * spread + 2 * squares[RAMP] * np.outer(self.m, self.m) * np.einsum(
-            "i,iab->ab", noise, self.sums[there]
-        )
+        # Products of matrices, as fits ask for it thousands of times.
+        noise, t = np.concatenate((squares[:RAMP], squares[RAMP + 1 :])), len(self.m)
+        spread = np.outer(noise, noise).ravel() @ self.products.reshape(-1, t * t)
+        if squares[RAMP]:
+            area = np.outer(self.m, self.m).ravel()
+            spread += squares[RAMP] * area * (noise @ self.sums.reshape(-1, t * t))
+        return 2 * spread.reshape(t, t)
 
 
 def moments(clusters: np.ndarray, n: int, times: tuple[float, ...] = ()) -> AllanMoments:

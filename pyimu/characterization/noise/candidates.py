@@ -7,12 +7,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.optimize import brentq
-from scipy.stats import chi2
 
 from pyimu.characterization.allan.moments import TERMS, AllanMoments
 from pyimu.characterization.allan.pooled import pooled_moments
 from pyimu.characterization.noise.least_squares import Problem
 from pyimu.characterization.noise.sines import Groups, free_variances, sine_variance
+from pyimu.laws import chi2
 
 CHANCE = 0.01
 """A misfit that chance makes more rarely than this is one of the model."""
@@ -39,9 +39,11 @@ class LooseMoments(AllanMoments):
 
     def covariance(self, squares: np.ndarray) -> np.ndarray:
         """Covariance (t, t) of the Allan variances, the errors of the model included."""
-        return super().covariance(squares) + np.diag(
-            (self.error * (self.design @ squares)) ** 2 + np.square(self.ends)
+        spread = super().covariance(squares)
+        np.einsum("ii->i", spread)[...] += (self.error * (self.design @ squares)) ** 2 + np.square(
+            self.ends
         )
+        return spread
 
 
 @dataclass(frozen=True)

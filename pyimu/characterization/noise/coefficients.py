@@ -36,13 +36,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import chi2, norm
-from scipy.stats import t as t_law
+from scipy.special import stdtrit
 
 from pyimu.characterization.allan.moments import MARKOV, RAMP, TERMS, design, moments
 from pyimu.characterization.estimate import Estimate
 from pyimu.characterization.noise.least_squares import Problem, has_noise
 from pyimu.errors import UserError
+from pyimu.laws import chi2, norm
 
 
 @dataclass(frozen=True)
@@ -301,7 +301,7 @@ def mean_coefficient(
     # In squares, as for one log: the mean has the degrees of freedom of all logs together.
     low, high = _unextended(values.mean(), std, level)
     spread = float(values.std(ddof=1))
-    half = spread / np.sqrt(len(tests)) * t_law.isf((1 - level) / 2, len(tests) - 1)
+    half = -stdtrit(len(tests) - 1, (1 - level) / 2) * spread / np.sqrt(len(tests))
     low, high = min(low, float(values.mean() - half)), max(high, float(values.mean() + half))
     std = max(std, float(spread / np.sqrt(len(tests))))
     below, above = np.mean([_extension(c, level) for c in tests], axis=0)

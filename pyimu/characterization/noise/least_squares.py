@@ -11,9 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 from scipy.optimize import nnls
-from scipy.stats import chi2, gamma, norm
+from scipy.special import gammaincc
 
 from pyimu.characterization.allan.moments import RAMP, AllanMoments
+from pyimu.laws import chi2, norm
 
 CHANCE = 1e-3
 """A term is needed where noise without it would, with at most this probability, look as if it had
@@ -46,28 +47,32 @@ class Problem:
         The weights are those of the noise with these squares.
         """
         root = np.diag(self.measured * np.sqrt(self.moments.m))
+        columns = np.column_stack([self.nuisance, self.moments.design[:, kept], self.measured])
         squares = np.zeros(self.moments.design.shape[1])
         for _ in range(ROUNDS):
             before = squares
-            squares = self._non_negative(kept, root)
+            squares = self._non_negative(kept, columns, root)
             settled = np.all(np.abs(squares - before) <= CLOSE * (squares + before))
             if settled or not has_noise(squares):
                 break
             root = np.linalg.cholesky(self.moments.covariance(squares))
         return squares
 
-    def _non_negative(self, kept: Sequence[int], root: np.ndarray) -> np.ndarray:
-        """Squares (k,) of the terms ``kept`` by least squares under the covariance root root^T."""
+    def _non_negative(
+        self, kept: Sequence[int], columns: np.ndarray, root: np.ndarray
+    ) -> np.ndarray:
+        """Squares (k,) of the terms ``kept`` by least squares under the covariance root root^T.
+
+        ``columns`` (t, j + k + 1) are the nuisance, the terms and what was measured.
+        """
         squares = np.zeros(self.moments.design.shape[1])
         if not len(kept):  # nnls of scipy 1.17 frees memory twice where there is nothing to fit
             return squares
         # Not a triangular solve: libraries divide even such small ones among the processors, which
         # takes a hundred times longer.
-        white = np.linalg.solve(
-            root, np.column_stack([self.nuisance, self.moments.design[:, kept], self.measured])
-        )
+        white = np.linalg.solve(root, columns)
         white = without(white[:, : self.nuisance.shape[1]], white[:, self.nuisance.shape[1] :])
-        size = np.linalg.norm(white[:, :-1], axis=0)
+        size = np.sqrt(np.sum(np.square(white[:, :-1]), axis=0))
         squares[kept] = nnls(white[:, :-1] / size, white[:, -1])[0] / size
         return squares
 
@@ -137,7 +142,7 @@ class Problem:
         row = self.functionals([i, *(j for j in np.flatnonzero(weights) if j != i)], weights)[0]
         std, shape = self._spread(row, others)
         excess = row @ (self.measured - self.moments.design @ others) / std
-        return float(gamma.sf(shape + excess * np.sqrt(shape), shape))
+        return float(gammaincc(shape, max(shape + excess * np.sqrt(shape), 0.0)))
 
     def _spread(self, row: np.ndarray, squares: np.ndarray) -> tuple[float, float]:
         """Standard deviation of an estimate, and the shape of a gamma distribution as skew.
@@ -196,7 +201,7 @@ class Problem:
 
 def has_noise(squares: np.ndarray) -> bool:
     """Whether squares (k,) are those of some noise: a ramp is none."""
-    return bool(np.any(np.delete(squares, RAMP)))
+    return bool(np.any(squares[:RAMP]) or np.any(squares[RAMP + 1 :]))
 
 
 def without(columns: np.ndarray, others: np.ndarray) -> np.ndarray:

@@ -27,13 +27,13 @@ from itertools import combinations
 import numpy as np
 from scipy.optimize import nnls
 from scipy.special import ndtri_exp
-from scipy.stats import chi2
 
 from pyimu.characterization.allan.moments import MARKOV, TERMS
 from pyimu.characterization.allan.pooled import pooled_moments
 from pyimu.characterization.noise.candidates import CHANCE, LooseMoments, loosened
 from pyimu.characterization.noise.least_squares import CHANCE as GATE
 from pyimu.characterization.noise.least_squares import Problem, has_noise, without
+from pyimu.laws import chi2
 
 STEP = np.sqrt(2.0)
 """Ratio of the correlation times that are tried."""

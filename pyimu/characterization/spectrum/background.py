@@ -204,7 +204,8 @@ class _LocalLine:
         own = np.clip((np.minimum(scale.k, to_end) / scale.bins / 2).astype(int), GUARD + 5, half)
         apart = np.abs(self.near - at[:, None])
         self.weight = ((apart > GUARD) & (apart <= own[:, None])).astype(float)
-        self.x = np.log(scale.k[self.near] / scale.k[:, None])
+        k = np.log(scale.k)
+        self.x = k[self.near] - k[:, None]
         self.y = np.log(scale.density)[self.near]
 
     def __call__(self, quiet: np.ndarray, before: Background) -> Background:

@@ -17,10 +17,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import least_squares
 from scipy.special import digamma, polygamma
-from scipy.stats import chi2, norm
 
 from pyimu.characterization.estimate import Estimate
 from pyimu.characterization.spectrum.lines import Line
+from pyimu.laws import chi2, norm
 
 ORDERS = 4
 """Highest order that is tried."""

@@ -28,9 +28,9 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 import numpy as np
-from scipy.stats import chi2
 
 from pyimu.characterization.spectrum.cascade import DECIMATION, Stage, hann
+from pyimu.laws import chi2
 
 PIECE = 2**17
 """Samples of a column that are processed, and wait, at a time."""

@@ -66,16 +66,21 @@ class AverageAccumulator:
 
     def add(self, time: np.ndarray, temperature: np.ndarray, values: np.ndarray) -> None:
         """Add the next rows: (k,) s, (k,) degC and (k, c) or (k,)."""
-        rows = np.column_stack([time, temperature, values]).astype(float)
-        rows = rows[np.isfinite(rows).all(axis=1)]
-        if not len(rows):
+        given = [time, temperature, *np.reshape(values, (len(time), -1)).T]
+        columns = [np.asarray(column, dtype=float) for column in given]
+        whole = np.logical_and.reduce([np.isfinite(column) for column in columns])
+        if not whole.all():
+            columns = [column[whole] for column in columns]
+        if not len(columns[0]):
             return
         if self._start is None:
             # Half a sample before the first, so that samples do not lie on the edges.
-            self._start, self._sums = rows[0, 0] - self.h / 2, np.empty((0, rows.shape[1]))
-        rows[:, 0] -= self._start
-        index = np.floor(rows[:, 0] / self.length).astype(np.int64)
-        self._append(index, np.ones(len(rows), dtype=np.int64), rows)
+            self._start, self._sums = columns[0][0] - self.h / 2, np.empty((0, len(columns)))
+        columns[0] = columns[0] - self._start
+        index = np.floor(columns[0] / self.length).astype(np.int64)
+        first = np.flatnonzero(np.diff(index, prepend=index[0] - 1))
+        sums = np.column_stack([np.add.reduceat(column, first) for column in columns])
+        self._append(index[first], np.diff(first, append=len(index)), sums)
         while len(self._index) > 2 * self.target:
             self.length *= 2
             halved, count, sums = self._index // 2, self._count, self._sums

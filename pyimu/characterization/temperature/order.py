@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import f as f_law
+from scipy.special import fdtrc
 
 from pyimu.characterization.temperature.averages import Averages
 from pyimu.characterization.temperature.hysteresis import (
@@ -100,9 +100,9 @@ def _gain(low: Regression, high: Regression) -> float:
     terms = low.freedom - high.freedom
     return float(
         high.weights
-        @ f_law.sf(
-            (low.squares - high.squares) / terms / (high.squares / high.freedom),
+        @ fdtrc(
             terms,
             high.freedom,
+            np.maximum(low.squares - high.squares, 0.0) / terms / (high.squares / high.freedom),
         )
     )

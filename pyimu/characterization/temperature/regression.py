@@ -22,8 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 from numba import njit
 from scipy.optimize import brentq
-from scipy.special import expit, stdtr
-from scipy.stats import t as t_law
+from scipy.special import expit, stdtr, stdtrit
 
 from pyimu.characterization.estimate import Estimate
 from pyimu.characterization.temperature.averages import Averages
@@ -132,7 +131,7 @@ class Regression:
         It lies above them as often as below.
         """
         side = (1 - level) / 2
-        reach = t_law.isf(side, self.freedom) * 1.001 * self._stds(j)
+        reach = -stdtrit(self.freedom, side) * 1.001 * self._stds(j)
         ends = (
             float(np.min(self.coefficients[:, j] - reach)),
             float(np.max(self.coefficients[:, j] + reach)),

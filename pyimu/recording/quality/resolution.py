@@ -47,14 +47,15 @@ def quantization_step(values: np.ndarray) -> float | None:
     below the noise is the file's rounding, and is not reported.
     """
     known = values[np.isfinite(values)]
-    levels = np.unique(known)
+    ordered = np.sort(known)
+    levels = ordered[np.diff(ordered, prepend=-np.inf) > 0]
     if len(levels) < 4:
         return (
             float(np.diff(levels).min())
             if len(levels) > 1 and len(known) > 20 * len(levels)
             else None
         )
-    step = _first_step(known, levels)
+    step = _first_step(ordered, levels)
     if step is None or step < RELEVANT_STEP * scatter(np.abs(np.diff(known, 2)), 0.1) / np.sqrt(6):
         return None
     return _on_comb(step, known, levels)
@@ -118,10 +119,11 @@ def _on_comb(step: float, known: np.ndarray, levels: np.ndarray) -> float | None
     return step if np.abs(phases.mean()) > CONCENTRATION else None
 
 
-def _first_step(known: np.ndarray, levels: np.ndarray) -> float | None:
+def _first_step(ordered: np.ndarray, levels: np.ndarray) -> float | None:
     """The median distance between levels, where they are dense: the samples' middle half."""
-    low, high = np.quantile(known, (0.25, 0.75))
-    dense = levels[(levels >= low) & (levels <= high)]
+    quarter = (len(ordered) - 1) // 4
+    low, high = ordered[quarter], ordered[-1 - quarter]
+    dense = levels[slice(*np.searchsorted(levels, (low, np.nextafter(high, np.inf))))]
     gaps = np.diff(dense if len(dense) > 8 else levels)
     gaps = gaps[gaps > 1e-9 * (levels[-1] - levels[0])]
     return float(np.median(gaps)) if len(gaps) else None

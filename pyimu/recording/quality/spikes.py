@@ -6,7 +6,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from scipy.ndimage import maximum_filter1d
 
-from pyimu.recording.quality.scatter import WINDOW
+from pyimu.recording.quality.scatter import WINDOW, medians
 from pyimu.recording.recording import filled
 
 SPIKE_SIGMA = 6.0
@@ -65,10 +65,13 @@ def _alone(values: np.ndarray) -> np.ndarray:
     mask = np.zeros(values.shape, bool)
     off = _residuals(values)
     sigma = _local_sigma(off)
-    tail = np.quantile(np.where(off == maximum_filter1d(off, 5, axis=0), off, 0.0), 0.99, axis=0)
     loud = off > SPIKE_SIGMA * sigma
+    for column in np.flatnonzero(loud.any(axis=0)):
+        loud[:, column] &= off[:, column] > SPIKE_TAIL * _tail(off[:, column])
+    if not loud.any():
+        return mask
     several = np.count_nonzero(widened(off > 4 * sigma), axis=1) > 1
-    for k, column in np.argwhere(loud & (off > SPIKE_TAIL * tail)):
+    for k, column in np.argwhere(loud):
         factor = CORRUPT_ISOLATION if several[k] else SPIKE_ISOLATION
         if _isolated(off[:, column], k, factor):
             mask[k, column] = True
@@ -89,9 +92,14 @@ def _residuals(v: np.ndarray) -> np.ndarray:
 
 def _local_sigma(off: np.ndarray) -> np.ndarray:
     """Robust standard deviation of the residuals near each, at least a quarter of the column's."""
-    windows = 1.4826 * np.median(sliding_window_view(off, 2 * WINDOW, axis=0)[::WINDOW], axis=-1)
+    windows = 1.4826 * medians(sliding_window_view(off, 2 * WINDOW, axis=0)[::WINDOW])
     rows = np.minimum(np.arange(len(off)) // WINDOW, len(windows) - 1)
     return np.maximum(windows, np.median(windows, axis=0) / 4)[rows]
+
+
+def _tail(off: np.ndarray) -> float:
+    """The 99 % quantile of the residuals (n,), where the largest of five stands for all five."""
+    return float(np.quantile(np.where(off == maximum_filter1d(off, 5), off, 0.0), 0.99))
 
 
 def widened(mask: np.ndarray) -> np.ndarray:

@@ -90,8 +90,11 @@ def _clean_chance(repeats: np.ndarray, starts: np.ndarray, stops: np.ndarray) ->
 
 
 def stuck_findings(name: str, values: np.ndarray) -> Iterator[Finding]:
+    runs = stuck_runs(values)
+    if not runs:
+        return
     at_limit = clipped(values)
-    runs = [(a, b) for a, b in stuck_runs(values) if not at_limit[a]]
+    runs = [(a, b) for a, b in runs if not at_limit[a]]
     if runs:
         lengths = [b - a for a, b in runs]
         yield Finding(

@@ -33,7 +33,7 @@ def wraps(values: np.ndarray) -> tuple[np.ndarray, float]:
     reach = np.nanmax(values) - np.nanmin(values)
     if (
         len(values) < 4 * WINDOW
-        or not np.isfinite(size).any()
+        or not (size > WRAP * reach).any()
         or not 0 < np.nanmedian(size) < SMOOTH * reach
     ):
         return rows, 0.0
