@@ -1,6 +1,6 @@
 """How often ``close`` names what a part lacks, and what it says instead.
 
-``python benchmarks/effects.py [ROW ...] [--logs N] [--jobs J]`` closes the loop on simulated logs
+``python benchmarks/effects.py [ROW ...] [--first F] [--logs N] [--jobs J]`` closes the loop on simulated logs
 (see ``effect_logs``): with nothing missing, with one effect of the whole catalogue at 8, 12 and 30
 sigmas over the fitted rows or at a consumer part's size, with two effects, with a rover's and a
 table's log together, and with errors that no effect describes. Each result is a line in a file;
@@ -32,13 +32,15 @@ CODE = (*(Path(m.__path__[0]) for m in (pyimu, effect_logs, generators)), Path(k
 """What a result depends on; how it is judged may change, and the results be judged again."""
 
 
-def keys(rows, only: str, logs: int, clean: int, minutes) -> Iterator[tuple]:
-    """One case of each name after another, so that a run that is stopped has seen them all."""
+def keys(rows, only: str, first: int, logs: int, clean: int, minutes) -> Iterator[tuple]:
+    """One case of each name after another, so that a run that is stopped has seen them all; their
+    numbers begin with ``first``.
+    """
     chosen = [(row, n) for row in rows for n in names(row) if only in n]
     for number in range(max(logs, clean)):
         for row, name in chosen:
             if number < (clean if row == "clean" else logs):
-                yield name, number, *minutes
+                yield name, first + number, *minutes
 
 
 def tell(key: str, result: Record) -> None:
@@ -53,6 +55,7 @@ def tell(key: str, result: Record) -> None:
 def options() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("row", nargs="*", help=f"of {', '.join(ROWS)}; all without")
+    parser.add_argument("--first", type=int, default=0, help="number of the first case (0)")
     parser.add_argument("--logs", type=int, default=2, help="cases a name (2)")
     parser.add_argument("--clean", type=int, default=20, help="clean cases a motion (20)")
     parser.add_argument("--only", default="", help="names that hold this text")
@@ -67,7 +70,8 @@ def main(arguments: list[str]) -> int:
     unknown = set(given.row) - set(ROWS)
     if unknown:
         parser.error(f"no such row: {', '.join(sorted(unknown))}; there are {', '.join(ROWS)}")
-    wanted = list(keys(given.row or ROWS, given.only, given.logs, given.clean, given.minutes))
+    which = given.only, given.first, given.logs, given.clean, given.minutes
+    wanted = list(keys(given.row or ROWS, *which))
     if not wanted:
         parser.error(f"no case's name holds {given.only!r}")
 
