@@ -3,9 +3,10 @@
 ``python benchmarks/effects.py [ROW ...] [--first F] [--logs N] [--jobs J]`` closes the loop on
 simulated logs (see ``effect_logs``): with nothing missing, with one effect of the whole catalogue
 at 8, 12 and 30 sigmas over the fitted rows or at a consumer part's size, with two effects, with a
-rover's and a table's log together, and with errors that no effect describes. Each result is a line in a file;
-a run that was stopped goes on where it was. It prints the rates with their 95 % intervals
-(Wilson) beside what is wanted, the coverage of the intervals, what was named for what, and how the
+rover's and a table's log together, and with errors that no effect describes. Each result is a line
+in a file; a run that was stopped goes on where it was. It prints the rates with their 95 %
+intervals (Wilson) beside what is wanted, the coverage of the intervals, what was named for what,
+and how the
 failures failed. ``docs/build/loop_rates_page.py`` makes a page of the file.
 """
 
