@@ -6,8 +6,7 @@ at 8, 12 and 30 sigmas over the fitted rows or at a consumer part's size, with t
 rover's and a table's log together, and with errors that no effect describes. Each result is a line
 in a file; a run that was stopped goes on where it was. It prints the rates with their 95 %
 intervals (Wilson) beside what is wanted, the coverage of the intervals, what was named for what,
-and how the
-failures failed. ``docs/build/loop_rates_page.py`` makes a page of the file.
+and how the failures failed. ``docs/build/loop_rates_page.py`` makes a page of the file.
 """
 
 from __future__ import annotations
