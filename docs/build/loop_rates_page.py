@@ -1,12 +1,13 @@
 """Write ``loop_rates.md`` and its picture: how often the loop names what a part lacks.
 
-``python docs/build/loop_rates_page.py RESULTS [FOLDER]``, with the results that
-``benchmarks/effects.py`` has written. Where a row has fewer cases than ``ENOUGH`` the page says
-that its figures are a first look.
+``python docs/build/loop_rates_page.py RESULTS [--folder FOLDER] [--commit COMMIT]``, with the
+results that ``benchmarks/effects.py`` has written, with the code of a commit that the page names.
+Where a row has fewer cases than ``ENOUGH`` the page says that its figures are a first look.
 """
 
 from __future__ import annotations
 
+import argparse
 import sys
 from collections import Counter
 from pathlib import Path
@@ -33,8 +34,8 @@ INCH = 0.16
 """Of the picture for each row and column."""
 
 
-def page(records: list[Record]) -> str:
-    """The page's text."""
+def page(records: list[Record], commit: str = "") -> str:
+    """The page's text; ``commit`` is whose code made the results."""
     counts = [r.of for r in rows(records)]
     lines = [
         "# How often the loop names what a part lacks",
@@ -46,6 +47,14 @@ def page(records: list[Record]) -> str:
         "lies on one side of it, and open where not.",
         "",
     ]
+    told = sum(r.get("form") == "declared" for r in records)
+    lines += [
+        f"In {told} of them a part declares the sensor's noise, scale factor and misalignment; in",
+        f"{len(records) - told} nobody declares anything, which is harder.",
+        "",
+    ]
+    if commit:
+        lines += [f"Made with the code of commit `{commit}`.", ""]
     if min(counts) < ENOUGH:
         lines += [f"**A first look: rows of {min(counts)} to {max(counts)} cases.**", ""]
     lines += _table(["row", "figure", "target"], figures(records))
@@ -101,13 +110,13 @@ def _by_kind(name: str) -> tuple[bool, str]:
     return name.startswith("("), name
 
 
-def write(results: Path, folder: Path = DOCS) -> list[Path]:
+def write(results: Path, folder: Path = DOCS, commit: str = "") -> list[Path]:
     """Write page and picture from a file of results; gives the paths of what changed."""
     records = list(finished(results).values())
     if not records:
         raise SystemExit(f"{results}: no results; benchmarks/effects.py writes them")
     path = folder / f"{NAME}.md"
-    if not write_changed(path, page(records)):
+    if not write_changed(path, page(records, commit)):
         return []
     image = folder / f"{NAME}.png"
     picture(confusion(records)).savefig(image, dpi=130, metadata={"Software": None})
@@ -115,5 +124,10 @@ def write(results: Path, folder: Path = DOCS) -> list[Path]:
 
 
 if __name__ == "__main__":
-    for written in write(Path(sys.argv[1]), *map(Path, sys.argv[2:3])):
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("results", type=Path)
+    parser.add_argument("--folder", type=Path, default=DOCS)
+    parser.add_argument("--commit", default="", help="whose code made the results")
+    given = parser.parse_args()
+    for written in write(given.results, given.folder, given.commit):
         print(written)

@@ -33,6 +33,9 @@ def test_the_page_says_how_few_cases_it_has(tmp_path):
     with Image.open(image) as opened:
         assert min(opened.size) > 100
     assert loop_rates_page.write(tmp_path / "results.jsonl", tmp_path) == []
+    assert "commit" not in text
+    loop_rates_page.write(tmp_path / "results.jsonl", tmp_path, "a1b2c3d")
+    assert "Made with the code of commit `a1b2c3d`." in page.read_text()
 
 
 def test_the_matrix_has_a_row_for_each_truth():
