@@ -141,6 +141,12 @@ def variances(gram: np.ndarray, seen: np.ndarray | None = None) -> np.ndarray:
     return np.where(hidden > 1e-6, np.inf, shown)
 
 
+def log_determinant(gram: np.ndarray) -> float:
+    """Logarithm of the determinant of normal equations, in the directions that the data show."""
+    scale, values, _, keep = _scaled(gram)
+    return float(np.sum(np.log(values[keep])) + 2.0 * np.sum(np.log(scale)))
+
+
 def solve(gram: np.ndarray, right: np.ndarray) -> np.ndarray:
     """Least-norm solution of normal equations.
 

@@ -270,7 +270,7 @@ def equations(fit: Fit, linearised: Callable[[Fit], list[Linear]] = Fit.linearis
     gram, score, power = found.batch_gram, found.batch_score, found.power
     doubt, unknown = np.zeros((len(fit.noise), len(seen))), np.zeros(len(seen))
     for row, axis in zip(doubt, fit.noise, strict=True):
-        noise = normal_equations([_of_axis(one, axis) for one in changed], fit.noise)
+        noise = normal_equations([of_axis(one, axis) for one in changed], fit.noise)
         at, own = _same(found, noise)
         error = _error(fit, axis)
         row[at] = error * noise.score[own]
@@ -329,7 +329,7 @@ def power_without_noise(fit: Fit) -> float:
     return power(fit) - whitened_power(fit, residual_changes(fit))
 
 
-def _of_axis(one: Linear, axis: int) -> Linear:
+def of_axis(one: Linear, axis: int) -> Linear:
     """The rows of one axis."""
     if axis not in one.keys:
         return replace(one, keys={}, columns={})

@@ -4,13 +4,14 @@ each other, and of those that the data do not tell apart the plainest.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import reduce
 
 import numpy as np
 
 from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.keys import Key
 from pyimu.identification.fit.maximum_likelihood import (
     advantage,
     fit_and_normal,
@@ -18,6 +19,7 @@ from pyimu.identification.fit.maximum_likelihood import (
 )
 from pyimu.identification.fit.normal import Normal
 from pyimu.identification.fit.reduction import STRUCTURE
+from pyimu.identification.fit.walk import widening
 from pyimu.identification.fit.whiten import Autoregressive
 from pyimu.identification.search.candidates import Group, equivalent, with_start
 from pyimu.identification.search.ceiling import (
@@ -33,6 +35,7 @@ from pyimu.identification.search.screen import (
     Screening,
     fitted_dispersion,
     fitted_gain,
+    is_slow,
     keys_of,
     screen,
 )
@@ -242,7 +245,8 @@ def refine(current: Fit, c: Screened) -> Refined:
         replace(current, sensor=sensor, free=current.free | keys_of(c)).with_noise()
     )
     declared = c.effect in current.sensor.values
-    needed = tuple(g for g in c.groups if _needed(fitted, normal, g, declared, c.scatter))
+    wider = widening(fitted) if len(c.groups) > 1 and is_slow(sensor.effect(c.effect)) else {}
+    needed = tuple(g for g in c.groups if _needed(fitted, normal, g, declared, c.scatter, wider))
     if needed and len(needed) < len(c.groups):
         return refine(current, c.only(needed))
     spread = fitted_dispersion(normal, keys_of(c), c.scatter)
@@ -254,18 +258,27 @@ def refine(current: Fit, c: Screened) -> Refined:
     return Refined(c, fitted, gain if needed else -np.inf, explained, spread, normal)
 
 
-def _needed(fitted: Fit, normal: Normal, group: Group, declared: bool, scatter: Scatter) -> bool:
+def _needed(
+    fitted: Fit,
+    normal: Normal,
+    group: Group,
+    declared: bool,
+    scatter: Scatter,
+    wider: Mapping[Key, float],
+) -> bool:
     """True where the part of an effect that a group stands for explains something once all is
-    fitted together.
+    fitted together; ``wider`` are factors by which standard errors are larger than the fitted noise
+    says.
     """
     if is_ceiling(fitted.sensor, group.effect):
         return stops_there(fitted, group.keys[0].index[0])
     if is_threshold(fitted.sensor, group.effect):
         return is_held_there(fitted, group.keys[0].index[0])
     whole = any(t.reduction is not None for t in fitted.trials) and group.effect in STRUCTURE
+    beyond = max((wider.get(k, 1.0) for k in group.keys), default=1.0)
     return (
         declared
         or whole
         or group.measure is not None
-        or fitted_gain(normal, fitted.sensor, group.keys, scatter) > 0
+        or fitted_gain(normal, fitted.sensor, group.keys, scatter, beyond) > 0
     )

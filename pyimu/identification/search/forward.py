@@ -18,6 +18,7 @@ from pyimu.identification.fit.maximum_likelihood import advantage, fit
 from pyimu.identification.fit.reduction import STRUCTURE
 from pyimu.identification.fit.reference_noise import with_reference_noise
 from pyimu.identification.fit.trial import Trial
+from pyimu.identification.fit.walk import with_unknown_walk
 from pyimu.identification.search.as_sampled import GATE, ceiling_of, threshold_of
 from pyimu.identification.search.ceiling import (
     has_ceiling,
@@ -27,6 +28,7 @@ from pyimu.identification.search.ceiling import (
 )
 from pyimu.identification.search.choice import Refined, Tried, chosen_of
 from pyimu.identification.search.judge import judged
+from pyimu.identification.search.left_out import with_left_out
 from pyimu.identification.search.screen import (
     PENALTY,
     Screened,
@@ -126,6 +128,7 @@ def investigate(
         if not search.advance():
             break
     after, steps = _backward(search.after, search.steps)
+    after = _with_intervals(after, steps)
     refused = tuple(search.refused.values())
     looks = search.first, search.last
     return Investigation(unbent(before, after), after, tuple(steps), refused, *looks, tuple(held))
@@ -235,13 +238,21 @@ def without(inv: Investigation, effect: str, reason: str) -> Investigation:
     step = next(s for s in inv.steps if s.effect == effect)
     sensor = inv.after.sensor.without(effect)
     after = fit(replace(inv.after, sensor=sensor, free=inv.after.free - step.keys).with_noise())
+    steps = tuple(s for s in inv.steps if s is not step)
     return replace(
         inv,
-        after=after,
-        steps=tuple(s for s in inv.steps if s is not step),
+        after=_with_intervals(after, steps),
+        steps=steps,
         refused=(*inv.refused, Refused(effect, step.gain, reason)),
         last=screen(after, inv.before.sensor.values),
     )
+
+
+def _with_intervals(after: Fit, steps: Iterable[Step]) -> Fit:
+    """The fit with standard errors that hold although noise and elements were chosen by the same
+    rows.
+    """
+    return with_unknown_walk(with_left_out(after, [s.effect for s in steps if not s.declared]))
 
 
 def _backward(after: Fit, steps: list[Step]) -> tuple[Fit, list[Step]]:

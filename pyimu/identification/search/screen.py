@@ -214,10 +214,10 @@ def fitted_dispersion(normal: Normal, keys: Iterable[Key], scatter: Scatter = ON
 
 
 def fitted_gain(
-    normal: Normal, sensor: Sensor, keys: Iterable[Key], scatter: Scatter = ONE
+    normal: Normal, sensor: Sensor, keys: Iterable[Key], scatter: Scatter = ONE, wider: float = 1.0
 ) -> float:
     """Gain [nat] of coefficients that are fitted over their being zero, corrected for scatter and
-    penalised.
+    penalised; their standard errors are ``wider`` than the noise says by a factor.
 
     The form of their effect is taken as it was fitted: of an effect that is zero any form will do
     (Davies 1977, "Hypothesis testing when a nuisance parameter is present only under the
@@ -230,7 +230,8 @@ def fitted_gain(
     value = np.array([sensor.values[k.effect][k.parameter][k.index] for k in keys])
     score = projected.gram @ value
     gain = 0.5 * float(score @ solve(projected.variance, score))
-    return gain / dispersion(projected, range(len(keys)), scatter) - PENALTY * len(keys)
+    spread = wider**2 * dispersion(projected, range(len(keys)), scatter)
+    return gain / spread - PENALTY * len(keys)
 
 
 def _forms_beside(normal: Normal, sensor: Sensor, keys: Iterable[Key]) -> set[Key]:

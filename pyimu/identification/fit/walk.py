@@ -1,0 +1,121 @@
+"""What is not known of a random walk, in the standard errors of the coefficients beside it.
+
+A walk that nobody declared is fitted to the rows that show the coefficients, too, and a slow
+coefficient takes a part of it for its own: the walk comes out too small, and with it the
+coefficient's error. Here the coefficients are estimated beside every walk that the rows allow, each
+weighed by its restricted likelihood (Patterson and Thompson 1971, "Recovery of inter-block
+information when block sizes are unequal", Biometrika 58), with all sizes K alike beforehand (Gelman
+2006, "Prior distributions for variance parameters in hierarchical models", Bayesian Analysis 1).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+from scipy.special import logsumexp
+
+from pyimu.identification.fit.columns import Linear
+from pyimu.identification.fit.fit import Fit, with_prior
+from pyimu.identification.fit.keys import Key
+from pyimu.identification.fit.mixture import standard_error
+from pyimu.identification.fit.noise_fit import declared_variances
+from pyimu.identification.fit.normal import (
+    Normal,
+    log_determinant,
+    normal_equations,
+    solve,
+    variances,
+)
+from pyimu.identification.fit.reference_noise import of_axis
+from pyimu.identification.fit.whiten import RandomWalk
+
+FACTOR = 2.0
+"""From one K^2 that is tried to the next."""
+
+LEAST_WEIGHT = 1e-3
+"""Of a walk, in units of the likeliest's, below which those beyond it are not tried."""
+
+
+def with_unknown_walk(fit: Fit) -> Fit:
+    """The fit with standard errors whose intervals hold although the random walk is not known."""
+    wider = widening(fit)
+    std = {k: v * wider.get(k, 1.0) for k, v in fit.std.items()}
+    return replace(fit, std=std) if wider else fit
+
+
+def widening(fit: Fit) -> Mapping[Key, float]:
+    """By what factor a coefficient's standard error is larger for a walk that nobody knows."""
+    walks = {i: n for i, n in fit.noise.items() if isinstance(n, RandomWalk)}
+    unknown = {i: n for i, n in walks.items() if not 0.0 < n.k2 <= _declared(fit, i)}
+    if not unknown:
+        return {}
+    linears = fit.linearise()
+    whole = with_prior(normal_equations(linears, fit.noise), fit)
+    out: dict[Key, float] = {}
+    for i, noise in unknown.items():
+        rows = [of_axis(one, i) for one in linears]
+        for key, factor in _Axis(rows, i, noise, whole, _declared(fit, i)).widening().items():
+            out[key] = out.get(key, 1.0) * factor
+    return out
+
+
+def _declared(fit: Fit, axis: int) -> float:
+    return float(declared_variances(fit.sensor, fit.trials[0].h)[1][axis])
+
+
+class _Axis:
+    """The equations of all axes with those of one taken anew for each walk that is tried."""
+
+    def __init__(
+        self, linears: list[Linear], axis: int, noise: RandomWalk, whole: Normal, declared: float
+    ) -> None:
+        self.axis, self.linears, self.noise = axis, linears, noise
+        own = normal_equations(linears, {axis: noise})
+        self.keys, self.at = own.keys, [whole.position[k] for k in own.keys]
+        self.gram, self.score = np.array(whole.gram), np.array(whole.score)
+        self.gram[np.ix_(self.at, self.at)] -= own.gram
+        self.score[self.at] -= own.score
+        # A walk that stays within the error of a mean is as good as none.
+        rows = sum(len(one.time) for one in linears)
+        lasts = max(float(one.time[-1] - one.time[0]) for one in linears)
+        self.least = max(declared, noise.r / rows / lasts)
+
+    def beside(self, k2: float) -> tuple[float, np.ndarray, np.ndarray]:
+        """Restricted log-likelihood [nat] of a walk, and where the axis' coefficients (k,) lie
+        beside it and their standard errors (k,).
+        """
+        own = normal_equations(self.linears, {self.axis: replace(self.noise, k2=k2)})
+        gram, score = np.array(self.gram), np.array(self.score)
+        gram[np.ix_(self.at, self.at)] += own.gram
+        score[self.at] += own.score
+        step = solve(gram, score)
+        likely = own.log_likelihood + 0.5 * float(step @ score) - 0.5 * log_determinant(gram)
+        return likely, step[self.at], np.sqrt(variances(gram))[self.at]
+
+    def widening(self) -> dict[Key, float]:
+        """By what factor the standard errors of the axis' coefficients are larger."""
+        fitted = max(self.noise.k2, self.least)
+        tried = {fitted: self.beside(fitted)}
+        for factor in (FACTOR, 1.0 / FACTOR):
+            k2 = fitted * factor
+            while k2 >= self.least:
+                tried[k2] = self.beside(k2)
+                if _weight(k2, tried) < LEAST_WEIGHT * max(_weight(k, tried) for k in tried):
+                    break
+                k2 *= factor
+        log_weights = np.array([likely + 0.5 * np.log(k) for k, (likely, _, _) in tried.items()])
+        weights = np.exp(log_weights - logsumexp(log_weights))
+        steps, stds = (np.array([t[n] for t in tried.values()]) for n in (1, 2))
+        return {
+            key: standard_error(weights, steps[:, n] - steps[0, n], stds[:, n]) / stds[0, n]
+            for n, key in enumerate(self.keys)
+            if np.all(np.isfinite(stds[:, n])) and stds[0, n] > 0.0
+        }
+
+
+def _weight(k2: float, tried: Mapping[float, tuple]) -> float:
+    """Of a walk, for steps that are all of one factor."""
+    best = max(t[0] for t in tried.values())
+    return float(np.sqrt(k2) * np.exp(tried[k2][0] - best))
