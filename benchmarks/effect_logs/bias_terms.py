@@ -172,5 +172,6 @@ TERMS = (
         shape=(3, 3),
         needs=("mag",),
     ),
-    _two("vibration_line", vibration_line, "A", 0.05 * DEG, 5e-3 * G, form=_line),
+    # Its sign is half a turn of the phase, which the catalogue keeps for each axis.
+    _two("vibration_line", vibration_line, "A", 0.05 * DEG, 5e-3 * G, form=_line, told=np.abs),
 )
