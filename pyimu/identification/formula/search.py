@@ -139,7 +139,10 @@ def _tried(
     try:
         for first in _firsts(scores, needed):
             chosen, fitted = _composed(start, name, first, scores, terms, needed)
-            found, kept = _beside(inv, name, chosen, fitted, needed, again)
+            # Held-out rows refuse most formulas, and a whole investigation is long.
+            kept, found = _left(chosen, evidence(start, fitted, inv.held)), None
+            if kept == chosen:
+                found, kept = _beside(inv, name, chosen, fitted, needed, again)
             if found is None and 0 < sum(map(len, (a for _, a in kept))) < len(_keys(name, chosen)):
                 fewer = [(t, a) for t, a in kept if a]
                 fitted = _with(start, name, fewer)
@@ -168,8 +171,7 @@ def _beside(
     apart = advantage(beside.after, inv.after)
     ahead = apart / spread - PENALTY * (len(keys) + _count(beside) - _count(inv))
     seen = evidence(inv.after, beside.after, inv.held)
-    denied = (seen.difference > SPEAKS) & (seen.gained < CONFIRMED * seen.difference)
-    kept = [(t, tuple(i for i in a if not denied[i])) for t, a in chosen]
+    kept = _left(chosen, seen)
     if gain <= needed or ahead <= needed + DISPLACES * _displaced(inv, beside):
         return None, kept
     if not _confirmed(seen):
@@ -179,6 +181,12 @@ def _beside(
     kind, parts = inv.after.sensor.kind, _parted(chosen)
     text = function_text(name, kind, parts[0])
     return (ahead, whole, Formula(kind, name, *parts, CATALOGUE[name], text)), kept
+
+
+def _left(chosen: Chosen, seen: Evidence) -> Chosen:
+    """The terms with the axes that held-out rows do not speak against."""
+    denied = (seen.difference > SPEAKS) & (seen.gained < CONFIRMED * seen.difference)
+    return [(t, tuple(i for i in a if not denied[i])) for t, a in chosen]
 
 
 def _displaced(inv: Investigation, beside: Investigation) -> float:
