@@ -124,6 +124,12 @@ class Effect:
     """The file of the user's own that defines it; empty for one of the catalogue."""
 
     @property
+    def is_line(self) -> bool:
+        """Whether it is a line of the spectrum, whose frequency is looked for."""
+        scans = (p.scan for p in self.parameters.values())
+        return any(s is not None and s.measure == "line" for s in scans)
+
+    @property
     def stochastic(self) -> bool:
         return bool(self.noises)
 

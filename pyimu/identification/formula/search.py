@@ -96,7 +96,7 @@ def look(
     judged = inv.after.as_declared()
     left = scored(judged, terms)
     fires = left.p_value < UNEXPLAINED
-    if not fires and len([s for s in inv.steps if not s.declared]) < 2:
+    if not fires and not _may_be_one(inv):
         return Look(inv)
     say(f"{kind}: looking for a formula")
     starts = [(inv.after, left)] if fires else []
@@ -119,6 +119,14 @@ def look(
     # a slow input by chance.
     seen = left if judged is inv.after else scored(inv.after, terms)
     return Look(inv, None, _unexplained(kind, seen))
+
+
+def _may_be_one(inv: Investigation) -> bool:
+    """Whether what was found may be parts of one thing that has no name: several effects, or a line
+    in time, as what goes round with the heading leaves it where that turns steadily.
+    """
+    named = [CATALOGUE[s.effect] for s in inv.steps if not s.declared]
+    return len(named) > 1 or any(e.is_line for e in named)
 
 
 def _unexplained(kind: str, scores: Scores) -> Unexplained | None:

@@ -95,8 +95,7 @@ def forms(fit: Fit, effects: Iterable[Effect], penalty: float) -> dict[str, Form
     linears, out = fit.linearise(), {}
     slow = Slow(fit, linears, penalty)
     for e in wanted:
-        is_line = e.parameters[form_of(e)].scan.measure == "line"
-        found = _line(fit, linears, e, penalty) if is_line else slow.form(e)
+        found = _line(fit, linears, e, penalty) if e.is_line else slow.form(e)
         if found is not None:
             out[e.name] = found
     return out

@@ -89,8 +89,7 @@ def is_slow(e: Effect) -> bool:
     """Whether an effect may be slow: a bias that depends on something else than the sensor's own
     signal, and is no vibration.
     """
-    line = any(p.scan is not None and p.scan.measure == "line" for p in e.parameters.values())
-    return e.stage == "bias" and not line
+    return e.stage == "bias" and not e.is_line
 
 
 def screen(fit: Fit, declared: Iterable[str], seed: int = 1, *, slow: bool = False) -> Screening:
