@@ -199,6 +199,25 @@ def test_named_sentence(closed):
     )
 
 
+def test_a_product_of_forces_that_is_the_largest_is_named(tmp_path):
+    """Six columns, which are no axes: the largest coefficient is in the last."""
+    motion, size = world.drive(minutes=2.5, rate_hz=25), 1e-5
+    product = motion.force[:, 0] * motion.force[:, 1]
+    made = world.recording(motion, lambda v: v + np.outer(product, [0.0, size, 0.0]))
+    closed = close(made)
+    (added,) = closed.added
+    value, std, _ = added.parameters["Q"]
+    assert added.effect == "g2_sensitivity" and np.abs(value).argmax() == 11  # row y, the last
+    assert abs(value[1, 5] - size) < 5 * std[1, 5]
+    closed.write(tmp_path, units=False)
+    page = (tmp_path / "report.html").read_text()
+    for text in (headline(closed), closed.report(), page):
+        assert "(y from xy)" in text
+    assert "g2_sensitivity Q xy" in closed.report()
+    read = part(tmp_path / "model.toml").gyro.values["g2_sensitivity"]["Q"]
+    assert_allclose(read, value, rtol=1e-2, atol=1e-3 * size)
+
+
 VERDICTS = {
     "unexplained": (
         {"unexplained": (Unexplained("gyro", "z", ("rate_x", "specific_force_z"), 1e-9),)},
