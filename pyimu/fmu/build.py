@@ -12,6 +12,7 @@ import zlib
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
 from typing import BinaryIO
@@ -113,11 +114,11 @@ def build_fmus(
     generated = texts(block, forms)
     try:
         with work_folder() as work:
-            libraries = {}
+            libraries: dict[Platform, dict[Form, bytes]] = {}
             for k, (p, compiler) in enumerate(platforms):
                 libraries[p] = _compile(
                     *(block.name, generated, forms, p, compiler, work / p.name),
-                    lambda share, k=k: heard((k + share) / len(platforms)),
+                    partial(_part_of, heard, k, len(platforms)),
                 )
     except OSError as error:
         raise UserError(
@@ -131,6 +132,11 @@ def build_fmus(
         )
         for form in forms
     ]
+
+
+def _part_of(heard: Callable[[float], None], k: int, parts: int, share: float) -> None:
+    """Tell ``heard`` the share of all where ``share`` is that of part ``k``."""
+    heard((k + share) / parts)
 
 
 def file_name(name: str, form: Form) -> str:
@@ -209,8 +215,8 @@ def _compile(
     objects = {form: _objects(form) for form in missing}
     jobs = {target: job for of_form in objects.values() for target, job in of_form.items()}
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        made = pool.map(lambda target: _make(target, *jobs[target], compiler, work), jobs)
-        for done, _ in enumerate(made):
+        compiling = pool.map(lambda target: _make(target, *jobs[target], compiler, work), jobs)
+        for done, _ in enumerate(compiling):
             heard((done + 1) / len(jobs))
     for form in missing:
         found[form] = _link(name, list(objects[form]), platform, compiler, work)
