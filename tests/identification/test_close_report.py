@@ -155,6 +155,14 @@ def test_page_needs_nothing_beside_it(folder):
     assert len(page) < 1_500_000
 
 
+def test_words_of_the_page_are_explained_on_it(folder):
+    page = (folder / "report.html").read_text()
+    words = page[page.index("<h2>Words</h2>") :]
+    for word in ("residual", "held out", "floor", "nat", "gate", "not shown", "explained"):
+        assert page.count(word) > words.count(word), f"{word} is not used"
+        assert re.search(rf"<dt>[^<]*\b{word}\b", words), f"{word} is not explained"
+
+
 def test_only_the_three_files_are_left(folder):
     assert sorted(f.name for f in folder.iterdir()) == sorted(FILES)
 
