@@ -10,6 +10,7 @@ import json
 import math
 import os
 import shutil
+import stat
 import tempfile
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping
@@ -31,19 +32,16 @@ def check_regular(path: Path) -> None:
     end.
     """
     try:
-        if not path.exists():
-            raise UserError(f"{path}: no such file")
-        if path.is_dir():
-            raise UserError(f"{path}: cannot be read, it is a folder")
-        if not path.is_file():
-            raise UserError(
-                f"{path}: no regular file (a pipe or a device); save it to a file first"
-            )
-    except UserError:
-        raise
+        mode = path.stat().st_mode
+    except (FileNotFoundError, NotADirectoryError):
+        raise UserError(f"{path}: no such file") from None
     except (OSError, ValueError) as error:  # a name that no system takes
         reason = getattr(error, "strerror", None) or error
         raise UserError(f"{shortened(path)}: cannot be read ({reason})") from None
+    if stat.S_ISDIR(mode):
+        raise UserError(f"{path}: cannot be read, it is a folder")
+    if not stat.S_ISREG(mode):
+        raise UserError(f"{path}: no regular file (a pipe or a device); save it to a file first")
 
 
 def exists(path: Path) -> bool:

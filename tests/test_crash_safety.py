@@ -21,7 +21,7 @@ KILLED = Path(__file__).parent / "support" / "killed.py"
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="kills by signals")
 def test_killed_at_random_moments(tmp_path):
-    """Twenty-one kills over three commands; a run takes longer than the moment is drawn from only
+    """Twenty-eight kills over four commands; a run takes longer than the moment is drawn from only
     by chance, so that nearly all come before its end.
     """
     environment = os.environ | {"PYTHONPATH": f"{CHECKOUT}{os.pathsep}{KILLED.parent}"}
@@ -34,7 +34,7 @@ def test_killed_at_random_moments(tmp_path):
         env=environment,
     )
     lines = done.stdout.splitlines()
-    assert done.returncode == 0 and len(lines) == 3, done.stderr
+    assert done.returncode == 0 and len(lines) == 4, done.stderr
     assert all(re.fullmatch(r"\w+: killed \d+; ", line) for line in lines), done.stdout
 
 

@@ -6,6 +6,7 @@ import pytest
 import pyimu
 from pyimu.attitude.smoothing import SEGMENT
 from pyimu.cli.stages import Stages
+from pyimu.derivations import DERIVATIONS, derive
 from pyimu.recording.recording import Recording
 
 
@@ -47,3 +48,22 @@ def test_the_filter_says_how_far_it_is(smooth):
     pyimu.attitude.run(log, smooth=smooth, heard=shares.append)
     assert shares[0] == 0 and np.all(np.diff(shares) >= 0) and shares[-1] < 1
     assert not smooth or len(shares) > 2
+
+
+def test_a_build_says_how_far_the_compiler_is(tmp_path, monkeypatch):
+    """Of two units, the first ends where the second begins; nothing was compiled before."""
+    monkeypatch.setenv("PYIMU_CACHE", str(tmp_path / "cache"))
+    heard = []
+    out, units = tmp_path / "out", ["low-pass", "sensor"]
+    pyimu.build("imt30", out, units, [2, 3], say=lambda text, share: heard.append((text, share)))
+    texts, shares = zip(*heard, strict=True)
+    assert list(dict.fromkeys(texts)) == ["compiling LowPass", "compiling ImuSensor"]
+    assert shares[0] == 0 and shares[-1] == 1 and np.all(np.diff(shares) >= 0)
+    assert shares[texts.index("compiling ImuSensor")] == 0.5 and len(set(shares)) > 10
+
+
+def test_derivations_say_which_share_is_checked(monkeypatch):
+    monkeypatch.setattr("pyimu.derivations.DERIVATIONS", DERIVATIONS[:3])
+    shares = []
+    derive(lambda text, share: shares.append(share))
+    assert shares == [0, 1 / 3, 2 / 3]

@@ -51,7 +51,7 @@ def demo(out: Out = Path("out/demo")) -> None:
     from pyimu.rover.demo import run_demo
 
     with progress("simulating the rover") as say:
-        shown = run_demo(out, say)
+        shown = run_demo(out, Stages(say, ("gyro", "accel")))
     print(shown.report())
     if left_out := without_units():
         print(left_out)

@@ -169,7 +169,7 @@ def build(
     wired: Form = next((form for form in forms.values() if form in chosen), "block")
     if ssp is not None:
         check_drive(ssp, wired)
-    with progress(f"compiling {part}"):
+    with progress(f"compiling {part}") as say:
         paths = build_part(
             part,
             out,
@@ -177,6 +177,7 @@ def build(
             chosen,
             platform,
             specimen,
+            say,
         )
         if ssp is not None:
             rover = write_rover(part, out, ssp, form=wired, platform=platform, specimen=specimen)

@@ -48,13 +48,13 @@ DERIVATIONS: tuple[Derivation, ...] = (
 """Every result, in the order in which they are printed."""
 
 
-def derive(say: Callable[[str], None] = lambda text: None) -> Derived:
+def derive(say: Callable[[str, float], None] = lambda text, share: None) -> Derived:
     """Every result with its checks, which are computed now.
 
-    ``say`` is told what is being checked.
+    ``say(text, share)`` is told what is being checked, and which share of all has been.
     """
     results = []
-    for d in DERIVATIONS:
-        say(f"checking {d.key}")
+    for k, d in enumerate(DERIVATIONS):
+        say(f"checking {d.key}", k / len(DERIVATIONS))
         results.append(Result(d, tuple(d.check(d)), tuple(d.tables(d))))
     return Derived(tuple(results))

@@ -9,9 +9,10 @@ import subprocess
 import tempfile
 import zipfile
 import zlib
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
 from typing import BinaryIO
@@ -88,7 +89,11 @@ def build_fmu(block: Block, out_dir: Path | str, form: Form = 2, platform: str =
 
 
 def build_fmus(
-    block: Block, out_dir: Path | str, forms: Sequence[Form] = SCALAR_FORMS, platform: str = "host"
+    block: Block,
+    out_dir: Path | str,
+    forms: Sequence[Form] = SCALAR_FORMS,
+    platform: str = "host",
+    heard: Callable[[float], None] = lambda share: None,
 ) -> list[Path]:
     """Write the block as co-simulation units; gives their paths, in the order of ``forms``.
 
@@ -97,6 +102,7 @@ def build_fmus(
     arrays, written to ``NAME.block.fmu``. ``platform`` is ``"host"``, which takes the compiler
     named in ``CC``, ``cc`` or the package ``ziglang``; one of ``PLATFORMS`` or ``"all"``, which
     take that of the package ``ziglang``. What does not depend on the form is compiled once.
+    ``heard`` is told which share of the compiler's work is done.
 
     Raises UserError for an unknown form or platform, a missing compiler, C that does not compile,
     and a folder that cannot be written to.
@@ -108,10 +114,12 @@ def build_fmus(
     generated = texts(block, forms)
     try:
         with work_folder() as work:
-            libraries = {
-                p: _compile(block.name, generated, forms, p, compiler, work / p.name)
-                for p, compiler in platforms
-            }
+            libraries: dict[Platform, dict[Form, bytes]] = {}
+            for k, (p, compiler) in enumerate(platforms):
+                libraries[p] = _compile(
+                    *(block.name, generated, forms, p, compiler, work / p.name),
+                    partial(_part_of, heard, k, len(platforms)),
+                )
     except OSError as error:
         raise UserError(
             f"{tempfile.gettempdir()}: cannot be written ({error.strerror or error}); TMPDIR names "
@@ -124,6 +132,11 @@ def build_fmus(
         )
         for form in forms
     ]
+
+
+def _part_of(heard: Callable[[float], None], k: int, parts: int, share: float) -> None:
+    """Tell ``heard`` the share of all where ``share`` is that of part ``k``."""
+    heard((k + share) / parts)
 
 
 def file_name(name: str, form: Form) -> str:
@@ -190,6 +203,7 @@ def _compile(
     platform: Platform,
     compiler: list[str],
     work: Path,
+    heard: Callable[[float], None],
 ) -> dict[Form, bytes]:
     """The shared library of each form, in bytes; what was made before is not made again."""
     files = {form: source_files(generated, form) for form in forms}
@@ -201,7 +215,9 @@ def _compile(
     objects = {form: _objects(form) for form in missing}
     jobs = {target: job for of_form in objects.values() for target, job in of_form.items()}
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        list(pool.map(lambda target: _make(target, *jobs[target], compiler, work), jobs))
+        compiling = pool.map(lambda target: _make(target, *jobs[target], compiler, work), jobs)
+        for done, _ in enumerate(compiling):
+            heard((done + 1) / len(jobs))
     for form in missing:
         found[form] = _link(name, list(objects[form]), platform, compiler, work)
         keep(keys[form], found[form])

@@ -38,6 +38,7 @@ def build(
     fmi: Sequence[Form] = FORMS,
     platform: str = "host",
     specimen: int | None = None,
+    say: Callable[[str, float], None] = lambda text, share: None,
 ) -> list[Path]:
     """Build the FMUs of a part into ``out``; gives their paths.
 
@@ -45,6 +46,7 @@ def build(
     ``fmi`` forms (2, 3, "block"), ``platform`` the machine ("host", "all", or one by name). The
     sensor has every coefficient of the part, and of its tolerances, as parameters; ``specimen`` is
     the seed of a specimen whose coefficients they start at, which the filters know nothing of.
+    ``say(text, share)`` hears what is being compiled, and which share of all is done.
     Raises UserError for an unknown name, a part that cannot be read, a specimen of a part without
     tolerances, a folder that cannot be made, or a missing compiler.
     """
@@ -58,4 +60,12 @@ def build(
     sensor = found if specimen is None else found.specimen(specimen)
     check_folder(out)
     blocks = [BLOCKS[name](sensor if name == SENSOR else found) for name in fmu]
-    return [path for block in blocks for path in build_fmus(block, out, tuple(fmi), platform)]
+    paths = []
+    for k, block in enumerate(blocks):
+
+        def heard(share: float, k: int = k, name: str = block.name) -> None:
+            say(f"compiling {name}", (k + share) / len(blocks))
+
+        heard(0.0)
+        paths += build_fmus(block, out, tuple(fmi), platform, heard)
+    return paths

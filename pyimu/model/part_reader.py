@@ -39,6 +39,9 @@ _ENTRY_KEYS = ("value", "start", *NOTE_KEYS)
 
 _TOLERANCE_KEYS = ("value", "unit", "distribution", "source", "quoted")
 
+_LONGEST_NAME = 200
+"""Characters of a part's name: it becomes the name of files and classes, and stands in tables."""
+
 
 def parse_part(text: str, file: str = "part") -> Part:
     """The part that TOML ``text`` describes; ``file`` is what errors call it. Raises UserError."""
@@ -68,7 +71,7 @@ class _Reader:
         self._known("", data, _TOP_KEYS)
         sensors = {kind: self._sensor(kind, data.get(kind, {})) for kind in TRIADS}
         name, rate, description = (
-            self._required_text(data, "name"),
+            self._name(data),
             self._sample_rate(data),
             self._optional_text("", data, "description"),
         )
@@ -91,10 +94,12 @@ class _Reader:
             if key not in known:
                 raise self.error(f"{where}{key}", f"unknown key; {meant(key, known)}")
 
-    def _required_text(self, data: Mapping[str, Any], key: str) -> str:
-        text = self._optional_text("", data, key)
+    def _name(self, data: Mapping[str, Any]) -> str:
+        text = self._optional_text("", data, "name")
         if not text:
-            raise self.error(key, f'is missing, write {key} = "imt30"')
+            raise self.error("name", 'is missing, write name = "imt30"')
+        if len(text) > _LONGEST_NAME:
+            raise self.error("name", f"has {len(text)} characters, may have {_LONGEST_NAME}")
         return text
 
     def _optional_text(self, where: str, table: Mapping[str, Any], key: str) -> str:

@@ -43,7 +43,7 @@ def as_after_the_commands(closed, tmp_path, monkeypatch):
     """A folder with what the commands that stand above the blocks leave there."""
     recording().write(tmp_path / "out" / "demo" / "rover.csv")
     pyimu.save_part(closed.after, tmp_path / "out" / "demo" / "model.toml")
-    pyimu.build("imt30", tmp_path / "out" / "fmus", ["sensor"], [3])
+    pyimu.build("mpu6050", tmp_path / "out" / "fmus", ["sensor"], [3])
     monkeypatch.chdir(tmp_path)
 
 

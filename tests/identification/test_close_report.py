@@ -155,6 +155,14 @@ def test_page_needs_nothing_beside_it(folder):
     assert len(page) < 1_500_000
 
 
+def test_words_of_the_page_are_explained_on_it(folder):
+    page = (folder / "report.html").read_text()
+    words = page[page.index("<h2>Words</h2>") :]
+    for word in ("residual", "held out", "floor", "nat", "gate", "not shown", "explained"):
+        assert page.count(word) > words.count(word), f"{word} is not used"
+        assert re.search(rf"<dt>[^<]*\b{word}\b", words), f"{word} is not explained"
+
+
 def test_only_the_three_files_are_left(folder):
     assert sorted(f.name for f in folder.iterdir()) == sorted(FILES)
 
@@ -197,6 +205,25 @@ def test_named_sentence(closed):
         r"it was\.",
         text,
     )
+
+
+def test_a_product_of_forces_that_is_the_largest_is_named(tmp_path):
+    """Six columns, which are no axes: the largest coefficient is in the last."""
+    motion, size = world.drive(minutes=2.5, rate_hz=25), 1e-5
+    product = motion.force[:, 0] * motion.force[:, 1]
+    made = world.recording(motion, lambda v: v + np.outer(product, [0.0, size, 0.0]))
+    closed = close(made)
+    (added,) = closed.added
+    value, std, _ = added.parameters["Q"]
+    assert added.effect == "g2_sensitivity" and np.abs(value).argmax() == 11  # row y, the last
+    assert abs(value[1, 5] - size) < 5 * std[1, 5]
+    closed.write(tmp_path, units=False)
+    page = (tmp_path / "report.html").read_text()
+    for text in (headline(closed), closed.report(), page):
+        assert "(y from xy)" in text
+    assert "g2_sensitivity Q xy" in closed.report()
+    read = part(tmp_path / "model.toml").gyro.values["g2_sensitivity"]["Q"]
+    assert_allclose(read, value, rtol=1e-2, atol=1e-3 * size)
 
 
 VERDICTS = {

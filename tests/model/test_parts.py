@@ -10,6 +10,7 @@ from importlib.resources import files
 import numpy as np
 import pytest
 from catalogue_cases import one_of_each_kind
+from places import CHECKOUT
 
 from pyimu import units
 from pyimu.block.normals import normals
@@ -70,6 +71,13 @@ def test_every_figure_names_document_and_place(name):
         assert PAGE.search(note.get("source", "")), (
             f"{name} {'.'.join(key)}: {note.get('source')!r}"
         )
+
+
+def test_the_page_counts_the_figures_of_which_no_text_was_found():
+    texts = [(files("pyimu.model") / "parts" / f"{name}.toml").read_text() for name in part_names()]
+    counts = [text.count("unchecked") for text in texts]
+    said = f"the {sum(counts)} figures that bear the word, of {sum(c > 0 for c in counts)} parts"
+    assert said in (CHECKOUT / "docs" / "parts.md").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("name", DATA_SHEETS)

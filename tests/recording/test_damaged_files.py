@@ -157,6 +157,10 @@ PART = 'name = "p"\nsample_rate = {value = 100.0, unit = "Hz"}\n'
         (PART.replace("100.0", "1e308"), "sample rate must be"),
         (PART + "x = " + "[" * 5000 + "]" * 5000, "cannot be read as TOML"),
         (PART + "[gyro.turn_on_bias]\nb0 = " + "[" * 90 + "]" * 90, "gyro.turn_on_bias.b0"),
+        (PART.replace('"p"', '"' + "x" * 5000 + '"'), "name: has 5000 characters, may have 200"),
+        (PART + f"[gyro.{'x' * 5000}]", "unknown effect"),
+        (PART + f"[gyro.turn_on_bias]\n{'x' * 5000} = 1", "unknown parameter"),
+        (PART + "[gyro.turn_on_bias]\nb0 = {value = 1, unit = '" + "x" * 5000 + "'}", "unit"),
         (PART.replace('"p"', '"\\u001b[2J"') + "x = 1", "x: unknown key"),
     ],
 )

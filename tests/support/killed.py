@@ -22,12 +22,14 @@ COMMANDS = {
     "characterize": ["characterize", "log.csv", "--out"],
     "inspect": ["inspect", "log.csv", "--out"],
     "modelica": ["modelica", "imt30", "--out"],
+    "export": ["export", "mpu6050", "--to", "kalibr,vins,gazebo,ros2,matlab,px4", "--out"],
 }
 
 LOADED = (
     "pyimu.characterization.run",
     "pyimu.inspection.run",
     "pyimu.modelica.part_text",
+    "pyimu.export",
     "scipy.signal",
 )
 
