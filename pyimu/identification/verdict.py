@@ -98,39 +98,30 @@ def _verdict(e: Evidence) -> Verdict:
     if e.unfit:
         return Verdict("reference_unfit", e.unfit)
     left = left_of(e)
-    more = tuple(filter(None, [left, _still_there(e.unexplained)]))
     if e.added and all(a.effect in e.formulas for a in e.added):
         said = joined([f"{a.sensor}: {e.formulas[a.effect]}" for a in e.added])
         why = f"no effect of the catalogue describes it, a formula does: {said}"
-        return Verdict("unexplained", why, more)
+        return Verdict("unexplained", why, (left,) if left else ())
     if e.added:
         names = ", ".join(f"{a.sensor} {a.effect}" for a in e.added)
-        return Verdict("partly" if left else "named", names, more)
+        return Verdict("partly", names, (left,)) if left else Verdict("named", names)
     shapes = [u for u in e.unexplained if u.shape]
     if shapes:
-        return Verdict("unexplained", _in_words(shapes[0]))
+        u = shapes[0]
+        return Verdict("unexplained", f"{u.sensor} {u.axis} shows {u.shape}")
     refused = [r for r in e.refused if r[1].reason != AS_NOISE]
     if refused:
         kind, most = max(refused, key=lambda r: r[1].gain)
         gain = f"{kind} {most.effect} explains the fitted rows ({most.gain:.0f} nat)"
         return Verdict("not_confirmed", f"{gain}, but {most.reason}")
     if e.unexplained:
-        return Verdict("unexplained", _in_words(e.unexplained[0]))
+        u = e.unexplained[0]
+        does = f"depends on {' x '.join(u.depends_on)}"
+        return Verdict("unexplained", f"{u.sensor} {u.axis} {does}")
     if any(e.drift.values()):
         why = "more random walk than declared: an input that nobody logged"
         return Verdict("drift", why, instead_of_drift(e.changed))
     return _nothing_found(e, left)
-
-
-def _in_words(u: Unexplained) -> str:
-    does = f"shows {u.shape}" if u.shape else f"depends on {' x '.join(u.depends_on)}"
-    return f"{u.sensor} {u.axis} {does}"
-
-
-def _still_there(unexplained: Iterable[Unexplained]) -> str:
-    """What is left beside the effects that were named, although it may be as small as noise."""
-    said = joined([_in_words(u) for u in unexplained])
-    return f"what is left is not noise: {said}" if said else ""
 
 
 def instead_of_drift(changed: Iterable[Changed]) -> tuple[str, ...]:

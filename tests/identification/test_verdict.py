@@ -154,16 +154,3 @@ def test_one_log_far_above_the_noise_is_not_lost_among_the_others():
 def test_a_sensor_without_held_out_rows_is_not_called_clean():
     found = verdict(Evidence(("gyro",), {}, "", True, SHORT))
     assert found.word == "undecidable" and "no held-out row" in found.reason
-
-
-@settings(deadline=None, max_examples=200)
-@given(evidence)
-def test_what_is_left_beside_a_name_is_said(e):
-    """However little of the residual it is: the name alone would say that all is explained."""
-    found = verdict(e)
-    if not e.added or e.unfit:
-        return
-    said = [r for r in found.remarks if r.startswith("what is left is not noise")]
-    assert len(said) == bool(e.unexplained)
-    for u in e.unexplained:
-        assert f"{u.sensor} {u.axis}" in said[0] and (u.shape or u.depends_on[0]) in said[0]
