@@ -191,6 +191,18 @@ def test_a_stop_shows_only_after_a_drive_that_shook(shakes):
     assert rests[t > DRIVEN + 2].all() == rests[t > DRIVEN + 2].any() == shakes
 
 
+def test_a_stop_after_pushes_gives_the_tilt():
+    """Long pushes make the tilt unsure by degrees; where the body stands, gravity shows it again to
+    the tenth of one."""
+    found, t, _ = driven(0.0, shakes=True)
+    whole = np.degrees(np.linalg.norm(found["std"][:, :2], axis=1))
+    tilt = np.degrees(found["tilt"])
+    assert whole[np.searchsorted(t, DRIVEN - 1.0)] > 0.5
+    stands = t > DRIVEN + 6
+    assert whole[stands].max() < 0.1
+    assert (tilt[stands] < 3 * whole[stands]).all()
+
+
 def test_a_slow_bend_is_turned_by_the_gyro_and_is_no_bias_of_it():
     """A turn of three standard deviations of the bias, on a smooth way at even speed. Nothing about
     the vertical is learnt of it; about the level axes the bias is.

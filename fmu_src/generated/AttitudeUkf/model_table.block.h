@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{c4368c6c-b81d-bb29-6ae2-a54337ad88d3}"
-#define MODEL_TOKEN_FMI3 "{f347ddaa-fff1-b4e6-ff47-22782aebbb3b}"
+#define MODEL_TOKEN_FMI2 "{cd8e4775-ab77-1361-5eee-4a7a871455fa}"
+#define MODEL_TOKEN_FMI3 "{21e4a0bf-1db3-4802-ed84-c453da46c39f}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{9776966f-9b6f-b011-5ca7-610faa778c7c}"
-#define MODEL_TOKEN_FMI3 "{773601da-70d3-c2fd-97f9-e59ee0ac3a65}"
+#define MODEL_TOKEN_FMI2 "{c39e0250-ac2e-43ab-beba-761505993000}"
+#define MODEL_TOKEN_FMI3 "{f77d6e51-cec2-d55c-dd0b-569664d147b3}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

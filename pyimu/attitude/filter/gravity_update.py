@@ -200,18 +200,19 @@ def constant_variance(size: GravitySize, settings: Settings):
     return square / ca.fmax(at["gravity"], LEAST_ACCEL_STD) ** 2
 
 
-def push(memory: Memory, sample: Sample, settings: Settings, h) -> Push:
+def push(memory: Memory, sample: Sample, settings: Settings, h, resting) -> Push:
     """What the sample changes of the velocity.
 
-    A force that is lost is taken for gravity, with the scatter that it had: for as long as the body
-    may keep an acceleration the unknown change of the velocity grows as its time.
+    Pushes that last are none where the body is ``resting``, 0 or 1. A force that is lost is taken
+    for gravity, with the scatter that it had: for as long as the body may keep an acceleration the
+    unknown change of the velocity grows as its time.
     """
     at, valid = settings.scalar, sample.force_valid
     white = white_variance(settings, h)
     declared = _acceleration_variance(at["accel_std"], settings, h)
     lost_for = ca.fmin(ca.fmax(MEAN_TIME - memory.mean.span, 0), at["motion_time"])
     lost = memory.mean.scatter * (1 + 2 * lost_for * reciprocal(h))
-    drift = DRIFT_GAIN * memory.motion.drift * h / (at["motion_time"] + h)
+    drift = (1 - resting) * DRIFT_GAIN * memory.motion.drift * h / (at["motion_time"] + h)
     return Push(
         where(valid, h * sample.force),
         where(valid, h * memory.size.size),

@@ -161,7 +161,9 @@ def rest_of(at: Instant, sample: Sample) -> Rest:
     taken = ca.fmin(variance * SLOW / ca.fmax(before.density, _density(settings)), 1)
     forgotten = ends * ca.fmax(safe[3:] - variance, 0) + taken**2 * unseen
     moving = (1 - at.stationary) * kept
-    calm = calmer(at.memory.calm, before, alike, drove * unknown, at.h)
+    # What a push has left goes on, though the filter, which follows it, measures no velocity.
+    may_drive = drove * (ca.fmax(velocity, at.memory.motion.drift) > DRIVES**2)
+    calm = calmer(at.memory.calm, before, alike, may_drive, at.h)
     unseen, both = SLOW**2 * unseen, (1 - unsure, doubt)
     return Rest(still, resting, *both, moving, x, forgotten, unseen, safe, later, calm)
 
