@@ -26,7 +26,7 @@ package Adis16405 "Analog Devices ADIS16405, industrial IMU with magnetometer"
       "Input range, saturation; limit: ADIS16400/ADIS16405 data sheet Rev. B, table 1, unchecked (default range)";
     PyImu.Effects.Quantization.Gyro quantization(samplePeriod=samplePeriod, y0=y0,
       q={0.0008726646259971648, 0.0008726646259971648, 0.0008726646259971648})
-      "Resolution, quantization; q: 0.05 deg/s per LSB, ADIS16400/ADIS16405 data sheet Rev. B, table 1, unchecked (default range)";
+      "Resolution, quantization; q: 0.05 deg/s per LSB, ADIS16400/ADIS16405 data sheet Rev. B, table 1, default range, second-hand (Linux, drivers/iio/imu/adis16400.c)";
   equation
     connect(rate, angleRandomWalk.x);
     connect(angleRandomWalkNormals.y, angleRandomWalk.w);
@@ -60,7 +60,7 @@ package Adis16405 "Analog Devices ADIS16405, industrial IMU with magnetometer"
       "Input range, saturation; limit: ADIS16400/ADIS16405 data sheet Rev. B, table 1, unchecked";
     PyImu.Effects.Quantization.Accel quantization(samplePeriod=samplePeriod, y0=y0,
       q={0.0326561445, 0.0326561445, 0.0326561445})
-      "Resolution, quantization; q: 3.33 mg per LSB, ADIS16400/ADIS16405 data sheet Rev. B, table 1, unchecked";
+      "Resolution, quantization; q: 3.33 mg per LSB, ADIS16400/ADIS16405 data sheet Rev. B, table 1, second-hand (Linux, drivers/iio/imu/adis16400.c)";
   equation
     connect(specificForce, angleRandomWalk.x);
     connect(angleRandomWalkNormals.y, angleRandomWalk.w);

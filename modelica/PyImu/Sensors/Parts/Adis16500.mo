@@ -47,7 +47,8 @@ package Adis16500 "Analog Devices ADIS16500, miniature industrial IMU"
       382902963, 264868850, 1243929653, 1396698484, 2014494391, 1628016630, 776476977, 928196720,
       478051251, 90524402, 2197640765});
     PyImu.Effects.Saturation.Accel saturation(samplePeriod=samplePeriod, y0=y0, limit={392, 392,
-      392}) "Input range, saturation; limit: ADIS16500 data sheet, page 1, features, unchecked";
+      392})
+      "Input range, saturation; limit: ADIS16500 data sheet, page 1, features, second-hand (Linux, drivers/iio/imu/adis16475.c)";
   equation
     connect(specificForce, biasInstability.x);
     connect(biasInstabilityNormals.y, biasInstability.w);
@@ -78,7 +79,7 @@ package Adis16500 "Analog Devices ADIS16500, miniature industrial IMU"
   annotation(Documentation(info="<html>
 <p>Analog Devices ADIS16500, miniature industrial IMU.</p>
 <p>Sampled at 2000 Hz (ADIS16500 data sheet, table 1, internal sample rate 2000 samples/s, no
-decimation, unchecked). Coefficients are in SI units; their sources stand behind the blocks that
-have them.</p>
+decimation, second-hand (Linux, drivers/iio/imu/adis16475.c)). Coefficients are in SI units; their
+sources stand behind the blocks that have them.</p>
 </html>"));
 end Adis16500;

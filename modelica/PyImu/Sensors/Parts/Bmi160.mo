@@ -18,7 +18,7 @@ package Bmi160 "Bosch Sensortec BMI160, low-power six-axis IMU"
       "Input range, saturation; limit: BMI160 data sheet BST-BMI160-DS000, table of the gyro, second-hand (comparison table of BMI160, BMI055, ICM-20602 and ICM-42688, blog.csdn.net 103731233)";
     PyImu.Effects.Quantization.Gyro quantization(samplePeriod=samplePeriod, y0=y0,
       q={0.0010642251536550791, 0.0010642251536550791, 0.0010642251536550791})
-      "Resolution, quantization; q: 16.4 LSB/(deg/s), BMI160 data sheet BST-BMI160-DS000, register GYR_RANGE, unchecked";
+      "Resolution, quantization; q: 16.4 LSB/(deg/s), BMI160 data sheet BST-BMI160-DS000, register GYR_RANGE, second-hand (community.bosch-sensortec.com, BMI160 converting data with resolution: 2^15 counts over the range)";
   equation
     connect(rate, angleRandomWalk.x);
     connect(angleRandomWalkNormals.y, angleRandomWalk.w);
@@ -39,10 +39,10 @@ package Bmi160 "Bosch Sensortec BMI160, low-power six-axis IMU"
       channel={562850750, 178337917, 330959164});
     PyImu.Effects.Saturation.Accel saturation(samplePeriod=samplePeriod, y0=y0, limit={19.6133,
       19.6133, 19.6133})
-      "Input range, saturation; limit: BMI160 data sheet BST-BMI160-DS000, register ACC_RANGE, reset state, unchecked";
+      "Input range, saturation; limit: BMI160 data sheet BST-BMI160-DS000, register ACC_RANGE, reset state, second-hand (topic.alibabacloud.com, notes on commissioning a BMI160, default configuration)";
     PyImu.Effects.Quantization.Accel quantization(samplePeriod=samplePeriod, y0=y0,
       q={0.0005985504150390625, 0.0005985504150390625, 0.0005985504150390625})
-      "Resolution, quantization; q: 16384 LSB/g, BMI160 data sheet BST-BMI160-DS000, register ACC_RANGE, unchecked";
+      "Resolution, quantization; q: 16384 LSB/g, BMI160 data sheet BST-BMI160-DS000, register ACC_RANGE, second-hand (community.bosch-sensortec.com, BMI160 converting data with resolution: 2^15 counts over the range)";
   equation
     connect(specificForce, angleRandomWalk.x);
     connect(angleRandomWalkNormals.y, angleRandomWalk.w);
@@ -74,6 +74,7 @@ package Bmi160 "Bosch Sensortec BMI160, low-power six-axis IMU"
   annotation(Documentation(info="<html>
 <p>Bosch Sensortec BMI160, low-power six-axis IMU.</p>
 <p>Sampled at 100 Hz (BMI160 data sheet BST-BMI160-DS000, register GYR_CONF, reset state 100 Hz,
-unchecked). Coefficients are in SI units; their sources stand behind the blocks that have them.</p>
+second-hand (topic.alibabacloud.com, notes on commissioning a BMI160, default configuration)).
+Coefficients are in SI units; their sources stand behind the blocks that have them.</p>
 </html>"));
 end Bmi160;

@@ -15,10 +15,10 @@ package Icm45686 "TDK InvenSense ICM-45686, high-precision six-axis IMU"
       channel={2090672062, 1471171709, 1319861564});
     PyImu.Effects.Saturation.Gyro saturation(samplePeriod=samplePeriod, y0=y0,
       limit={34.90658503988659, 34.90658503988659, 34.90658503988659})
-      "Input range, saturation; limit: ICM-45686 data sheet DS-000577, table 1, unchecked";
+      "Input range, saturation; limit: ICM-45686 data sheet DS-000577, table 1, second-hand (Linux, drivers/iio/imu/inv_icm45600)";
     PyImu.Effects.Quantization.Gyro quantization(samplePeriod=samplePeriod, y0=y0,
       q={0.0010642251536550791, 0.0010642251536550791, 0.0010642251536550791})
-      "Resolution, quantization; q: 16.4 LSB/(deg/s), ICM-45686 data sheet DS-000577, table 1, unchecked";
+      "Resolution, quantization; q: 16.4 LSB/(deg/s), ICM-45686 data sheet DS-000577, table 1, second-hand (Linux, drivers/iio/imu/inv_icm45600)";
   equation
     connect(rate, angleRandomWalk.x);
     connect(angleRandomWalkNormals.y, angleRandomWalk.w);
