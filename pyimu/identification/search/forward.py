@@ -20,6 +20,7 @@ from pyimu.identification.fit.reference_noise import with_reference_noise
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.walk import with_unknown_walk
 from pyimu.identification.search.as_sampled import GATE, ceiling_of, threshold_of
+from pyimu.identification.search.candidates import has_form, scanned
 from pyimu.identification.search.ceiling import (
     has_ceiling,
     is_ceiling,
@@ -27,8 +28,9 @@ from pyimu.identification.search.ceiling import (
     without_lost,
 )
 from pyimu.identification.search.choice import Refined, Tried, chosen_of
+from pyimu.identification.search.confirm import evidence
 from pyimu.identification.search.judge import judged
-from pyimu.identification.search.left_out import with_left_out
+from pyimu.identification.search.left_out import largest_left_out, with_left_out
 from pyimu.identification.search.screen import (
     PENALTY,
     Screened,
@@ -143,6 +145,7 @@ class _Search:
         self.before, self.sensor, self.held = before, sensor, held
         self.after, self.steps = _as_sampled(before, held)
         self.refused: dict[str, Refused] = {}
+        self.kept_out: set[Coefficient] = set()
         self.tried = Tried(self.after, sensor.values)
         self.first = self.last = self.seen = self.tried.looked()[0]
 
@@ -152,6 +155,8 @@ class _Search:
         """
         options = [c for c in self.seen.above() if c.effect not in self.refused]
         options = _in_order(options, self.after)
+        if self._grows(max((c.gain for c in options), default=0.0)):
+            return True
         chosen, names = chosen_of(self.tried, options, self.seen.gate)
         if chosen is None:
             return self._looks_again()
@@ -163,6 +168,27 @@ class _Search:
             self.refused[name] = Refused(name, chosen.gain, reason)
         else:
             self._add(chosen, names)
+        return True
+
+    def _grows(self, other: float) -> bool:
+        """Let in an element of an effect that is in the model, where it explains more than any
+        ``other`` candidate does [nat]: what is left of an effect is no other one.
+        """
+        few = [s.effect for s in self.steps if _may_grow(s, self.after)]
+        found = largest_left_out(self.after.as_declared(), few, self.kept_out) if few else None
+        if found is None or found[1] <= max(self.seen.gate, other):
+            return False
+        key, _, spread = found
+        fitted = fit(replace(self.after, free=self.after.free | {key}).with_noise())
+        gain = advantage(fitted, self.after) / spread - PENALTY
+        seen = evidence(self.after, fitted, self.held)
+        if seen.raises or gain + float(seen.gained.sum()) / spread <= self.seen.gate:
+            self.kept_out.add(key)
+            return True
+        at = next(n for n, s in enumerate(self.steps) if s.effect == key.effect)
+        step = self.steps[at]
+        self.steps[at] = replace(step, keys=step.keys | {key}, gain=step.gain + gain)
+        self._goes_on(fitted)
         return True
 
     def _looks_again(self) -> bool:
@@ -186,9 +212,19 @@ class _Search:
         )
         self.steps.append(step)
         clipped = is_ceiling(chosen.fit.sensor, name)
-        self.after = without_lost(chosen.fit) if clipped else chosen.fit
-        self.tried = Tried(self.after, self.sensor.values)
+        self._goes_on(without_lost(chosen.fit) if clipped else chosen.fit)
+
+    def _goes_on(self, after: Fit) -> None:
+        """Look for more beside a model."""
+        self.after, self.tried = after, Tried(after, self.sensor.values)
         self.last = self.seen = self.tried.looked()[0]
+
+
+def _may_grow(step: Step, after: Fit) -> bool:
+    """Whether elements of an added effect may be let in one by one: no form is theirs to find."""
+    e = after.sensor.effect(step.effect)
+    simple = not (has_form(e) or scanned(e) or step.declared or step.as_sampled)
+    return simple and all(t.reduction is None for t in after.trials)
 
 
 def _as_sampled(before: Fit, held: list[Trial]) -> tuple[Fit, list[Step]]:

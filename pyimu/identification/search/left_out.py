@@ -1,4 +1,5 @@
-"""What the elements of an effect that were left out may still be, in the errors of its others.
+"""The elements of an effect that were left out: which of them goes in after all, and what the
+others may still be, in the errors of those that are in.
 
 Of a row of a matrix the elements that explain enough go in, one by one. What the motion hardly
 tells from them goes with it to those that are there: their values are off by it, and their standard
@@ -10,8 +11,8 @@ Hoeting et al. 1999, "Bayesian model averaging", Statistical Science 14).
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import replace
+from collections.abc import Collection, Iterable
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -20,7 +21,8 @@ from pyimu.identification.fit.fit import Fit, with_prior
 from pyimu.identification.fit.keys import Coefficient, Key, coefficients_of
 from pyimu.identification.fit.mixture import standard_error
 from pyimu.identification.fit.reference_noise import equations
-from pyimu.identification.search.projected import Projected
+from pyimu.identification.search.projected import Projected, dispersion
+from pyimu.identification.search.screen import PENALTY
 from pyimu.model.typical import CLASSES, magnitudes
 
 ODDS = 1.0
@@ -32,24 +34,61 @@ def with_left_out(fit: Fit, effects: Iterable[str]) -> Fit:
     """The fit, the standard errors of ``effects`` such that intervals hold although some of their
     elements were left out.
     """
-    out = {e: _left_out(fit, e) for e in effects}
-    out = {e: keys for e, keys in out.items() if keys}
-    if not out:
+    beside = _Beside.of(fit, effects)
+    if beside is None:
         return fit
-    normal = with_prior(equations(fit, lambda f: f.linearise(out)), fit)
-    few = {k for keys in out.values() for k in keys if k in normal.position}
-    base = [i for i, k in enumerate(normal.keys) if k in fit.free or not isinstance(k, Coefficient)]
-    wanted = sorted(few)
-    projected = Projected.of(normal, base, [normal.position[k] for k in wanted])
-    std = dict(fit.std)
-    for effect, keys in out.items():
-        at = [n for n, k in enumerate(wanted) if k in keys]
+    std, projected = dict(fit.std), beside.projected
+    for effect in {k.effect for k in beside.keys}:
+        at = [n for n, k in enumerate(beside.keys) if k.effect == effect]
         size = magnitudes(effect, fit.sensor.kind)[CLASSES[-1]].si
         for key in _estimated(fit, effect):
-            turn = projected.turn[normal.position[key], at] if key in normal.position else []
+            place = projected.normal.position.get(key)
+            turn = np.zeros(0) if place is None else projected.turn[place, at]
             if np.any(turn):
                 std[key] = _averaged(std[key], turn, projected, at, size)
     return replace(fit, std=std)
+
+
+def largest_left_out(
+    fit: Fit, effects: Iterable[str], but: Collection[Key] = ()
+) -> tuple[Coefficient, float, float] | None:
+    """The element of ``effects`` that was left out and explains most, ``but`` for some, with its
+    gain [nat] and the scatter that it is corrected for; None where there is none.
+    """
+    beside = _Beside.of(fit, effects)
+    if beside is None:
+        return None
+    found = [(k, *beside.gain(n)) for n, k in enumerate(beside.keys) if k not in but]
+    return max(found, key=lambda f: f[1], default=None)
+
+
+@dataclass(frozen=True)
+class _Beside:
+    """The columns of the elements that were left out, beside all that a fit has."""
+
+    keys: list[Coefficient]
+    projected: Projected
+
+    @classmethod
+    def of(cls, fit: Fit, effects: Iterable[str]) -> _Beside | None:
+        """None where none was left out, or none shows."""
+        out = {e: keys for e in effects if (keys := _left_out(fit, e))}
+        if not out:
+            return None
+        normal = with_prior(equations(fit, lambda f: f.linearise(out)), fit)
+        keys = sorted(k for some in out.values() for k in some if k in normal.position)
+        base = [
+            i for i, k in enumerate(normal.keys) if k in fit.free or not isinstance(k, Coefficient)
+        ]
+        return cls(keys, Projected.of(normal, base, [normal.position[k] for k in keys]))
+
+    def gain(self, number: int) -> tuple[float, float]:
+        """Log-likelihood [nat] that an element adds, penalised, and the scatter of its score."""
+        score, variance = self.projected.score[number], self.projected.variance[number, number]
+        if not variance > 0.0:
+            return -np.inf, 1.0
+        spread = dispersion(self.projected, [number])
+        return float(0.5 * score**2 / variance / spread - PENALTY), spread
 
 
 def _estimated(fit: Fit, effect: str) -> list[Coefficient]:
@@ -59,7 +98,7 @@ def _estimated(fit: Fit, effect: str) -> list[Coefficient]:
     return [k for k in free if not (parameters[k.parameter].form or parameters[k.parameter].sought)]
 
 
-def _left_out(fit: Fit, effect: str) -> set[Key]:
+def _left_out(fit: Fit, effect: str) -> set[Coefficient]:
     """The elements of an effect beside those that are estimated."""
     free = _estimated(fit, effect)
     names = {k.parameter for k in free}
