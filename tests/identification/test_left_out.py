@@ -1,0 +1,69 @@
+"""Elements of an effect that were left out: the one that explains most, and what they leave unsure
+of the others.
+"""
+
+import numpy as np
+from loop_cases import inputs, noise, trial
+from scipy.stats import binom, norm
+
+from pyimu.identification.fit.fit import begin
+from pyimu.identification.fit.keys import Coefficient, coefficients_of
+from pyimu.identification.fit.maximum_likelihood import fit
+from pyimu.identification.search.left_out import largest_left_out, with_left_out
+from pyimu.model.sensor import Sensor
+
+H, ROWS, R = 0.04, 1500, 1e-4
+LOGS = 80
+NEAR = 0.1
+"""How far the rate about z is from that about y, over both: what the one shows the other hides."""
+
+
+def fitted(seed: int, m: np.ndarray, left_out: tuple[int, int] = (0, 2)):
+    """Misalignment of all elements but one, of a log that turns about y and z almost alike."""
+    rng, time = np.random.default_rng(seed), H * np.arange(ROWS)
+    u = inputs(np.random.default_rng(5), time)
+    u[:, 2] = u[:, 1] + NEAR * u[:, 2]
+    y = u[:, :3] @ (np.eye(3) + m).T + noise(rng, time, R, 0.0)
+    sensor = Sensor("gyro", {}).with_values("misalignment")
+    free = coefficients_of(sensor, "misalignment") - {element(left_out)}
+    return fit(begin(sensor, free, [trial(time, y, u)]))
+
+
+def element(index: tuple[int, int]) -> Coefficient:
+    return Coefficient("misalignment", "m", index)
+
+
+def small(size: float) -> np.ndarray:
+    m = np.zeros((3, 3))
+    m[0, 2] = size
+    return m
+
+
+def test_the_largest_element_that_was_left_out_is_found():
+    model = fitted(1, small(0.05))
+    key, gain, spread = largest_left_out(model, ["misalignment"])
+    assert key == element((0, 2)) and gain > 10.0 and spread >= 1.0
+    assert largest_left_out(model, ["misalignment"], {key}) is None
+
+
+def test_intervals_hold_although_an_element_was_left_out():
+    """It is there in half of the logs, too small to be seen: what stands for it is off by it."""
+    size = np.where(np.arange(LOGS) % 2, 0.01, 0.0)
+    models = [fitted(100 + n, small(s)) for n, s in enumerate(size)]
+    least = binom.ppf(1e-4, LOGS, 0.95)
+    assert inside(models) < least <= inside(with_left_out(m, ["misalignment"]) for m in models)
+
+
+def test_what_no_element_moves_stays_as_it_was():
+    model = fitted(3, small(0.0))
+    wider = with_left_out(model, ["misalignment"])
+    for key in coefficients_of(model.sensor, "misalignment") - {element((0, 2))}:
+        ratio = wider.std[key] / model.std[key]
+        assert ratio > 1.5 if key == element((0, 1)) else ratio < 1.01
+
+
+def inside(models) -> int:
+    """How many intervals of the element that is like the one left out hold the truth, none."""
+    key = element((0, 1))
+    errors = (m.sensor.values["misalignment"]["m"][key.index] / m.std[key] for m in models)
+    return int(np.sum(np.abs(list(errors)) <= norm.ppf(0.975)))
