@@ -67,3 +67,11 @@ def inside(models) -> int:
     key = element((0, 1))
     errors = (m.sensor.values["misalignment"]["m"][key.index] / m.std[key] for m in models)
     return int(np.sum(np.abs(list(errors)) <= norm.ppf(0.975)))
+
+
+def test_an_element_that_the_rows_show_beyond_doubt_leaves_an_interval():
+    """However many nat speak for it: it may have been refused for another reason."""
+    model = fitted(2, small(2.0))
+    wider = with_left_out(model, ["misalignment"])
+    assert all(np.isfinite(v) and v >= model.std[k] for k, v in wider.std.items() if k in model.std)
+    assert wider.std[element((0, 1))] > 10 * model.std[element((0, 1))]

@@ -102,10 +102,12 @@ class _Axis:
             k2 = fitted * factor
             while k2 >= self.least:
                 tried[k2] = self.beside(k2)
-                if _weight(k2, tried) < LEAST_WEIGHT * max(_weight(k, tried) for k in tried):
+                if not _weight(k2, tried) >= LEAST_WEIGHT * max(_weight(k, tried) for k in tried):
                     break
                 k2 *= factor
         log_weights = np.array([likely + 0.5 * np.log(k) for k, (likely, _, _) in tried.items()])
+        if not np.all(np.isfinite(log_weights)):
+            return {}
         weights = np.exp(log_weights - logsumexp(log_weights))
         steps, stds = (np.array([t[n] for t in tried.values()]) for n in (1, 2))
         return {

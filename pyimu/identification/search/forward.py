@@ -20,6 +20,7 @@ from pyimu.identification.fit.reference_noise import with_reference_noise
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.walk import with_unknown_walk
 from pyimu.identification.search.as_sampled import GATE, ceiling_of, threshold_of
+from pyimu.identification.search.belief import unbelievable
 from pyimu.identification.search.candidates import has_form, scanned
 from pyimu.identification.search.ceiling import (
     has_ceiling,
@@ -182,11 +183,12 @@ class _Search:
         fitted = fit(replace(self.after, free=self.after.free | {key}).with_noise())
         gain = advantage(fitted, self.after) / spread - PENALTY
         seen = evidence(self.after, fitted, self.held)
-        if seen.raises or gain + float(seen.gained.sum()) / spread <= self.seen.gate:
+        at = next(n for n, s in enumerate(self.steps) if s.effect == key.effect)
+        step, held = self.steps[at], float(seen.gained.sum()) / spread
+        denied = seen.raises or gain + held <= self.seen.gate
+        if denied or unbelievable(fitted, step.keys | {key}):
             self.kept_out.add(key)
             return True
-        at = next(n for n, s in enumerate(self.steps) if s.effect == key.effect)
-        step = self.steps[at]
         self.steps[at] = replace(step, keys=step.keys | {key}, gain=step.gain + gain)
         self._goes_on(fitted)
         return True

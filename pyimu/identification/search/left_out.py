@@ -15,6 +15,7 @@ from collections.abc import Collection, Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.special import logsumexp
 
 from pyimu.errors import UserError
 from pyimu.identification.fit.fit import Fit, with_prior
@@ -44,7 +45,7 @@ def with_left_out(fit: Fit, effects: Iterable[str]) -> Fit:
         for key in _estimated(fit, effect):
             place = projected.normal.position.get(key)
             turn = np.zeros(0) if place is None else projected.turn[place, at]
-            if np.any(turn):
+            if np.any(turn) and 0.0 < std.get(key, 0.0) < np.inf:
                 std[key] = _averaged(std[key], turn, projected, at, size)
     return replace(fit, std=std)
 
@@ -115,14 +116,14 @@ def _averaged(
     """The standard error of an element, each of those left out that are ``at`` projected columns
     moving it by ``turn`` (k,) times its own value.
     """
-    seen = turn != 0.0
+    seen = (turn != 0.0) & (np.diag(projected.variance)[at] > 0.0)
     turn, at = turn[seen], np.array(at)[seen]
     gram, score = np.diag(projected.gram)[at], projected.score[at]
     variance, value = np.diag(projected.variance)[at] / gram**2, score / gram
     both = variance + size**2
-    odds = ODDS * np.sqrt(variance / both) * np.exp(0.5 * value**2 * size**2 / variance / both)
+    log_odds = 0.5 * (np.log(variance / both) + value**2 * size**2 / variance / both)
     mean, left = value * size**2 / both, variance * size**2 / both
-    weights = np.append(1.0, odds)
+    log_weights = np.append(0.0, np.log(ODDS) + log_odds)
     means = np.append(0.0, turn * mean)
     deviations = np.sqrt(std**2 + np.append(0.0, turn**2 * left))
-    return standard_error(weights / weights.sum(), means, deviations)
+    return standard_error(np.exp(log_weights - logsumexp(log_weights)), means, deviations)
