@@ -71,6 +71,7 @@ def released(declared: Sensor, fit: Fit, step: Step) -> Changed:
         fitted=np.array(fitted),
         std=std,
         unit=declared.unit(parameters[name].unit),
+        alternatives=step.alternatives,
     )
 
 

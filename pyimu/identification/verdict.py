@@ -120,17 +120,23 @@ def _verdict(e: Evidence) -> Verdict:
         return Verdict("unexplained", f"{u.sensor} {u.axis} {does}")
     if any(e.drift.values()):
         why = "more random walk than declared: an input that nobody logged"
-        return Verdict("drift", why, instead_of_drift(e.changed))
+        return Verdict("drift", why, instead(e.changed))
     return _nothing_found(e, left)
 
 
-def instead_of_drift(changed: Iterable[Changed]) -> tuple[str, ...]:
-    """What explains as much as a random walk that is larger than declared."""
+def instead(changed: Iterable[Changed]) -> tuple[str, ...]:
+    """What may be missing instead of a declared value that the data contradict."""
     return tuple(
-        f"instead of the {c.sensor}'s larger random walk the data allow {joined(c.alternatives)}"
+        f"instead of {_another(c)} the data allow {joined(c.alternatives)}"
         for c in changed
-        if c.effect == WALK[0] and c.alternatives
+        if c.alternatives
     )
+
+
+def _another(c: Changed) -> str:
+    if c.effect == WALK[0]:
+        return f"the {c.sensor}'s larger random walk"
+    return f"another {c.effect} of the {c.sensor}"
 
 
 def _nothing_found(e: Evidence, left: str) -> Verdict:
@@ -162,7 +168,7 @@ def _nothing_found(e: Evidence, left: str) -> Verdict:
         return e.beside
     corrected = "; declared values that the data contradict are listed as changed"
     said = "nothing is missing" + (corrected if e.changed else "")
-    return Verdict("clean", said, _not_looked_for(e.fates))
+    return Verdict("clean", said, (*instead(e.changed), *_not_looked_for(e.fates)))
 
 
 def _not_looked_for(fates: Iterable[Fate]) -> tuple[str, ...]:

@@ -6,6 +6,7 @@ from effect_results.record import closed
 
 from pyimu.identification.noise.laws import kinds, names_of
 from pyimu.identification.noise.named import POPCORN
+from pyimu.identification.report.page import page
 from pyimu.identification.search.forward import AS_NOISE
 from pyimu.model.sensor import Sensor
 
@@ -53,6 +54,17 @@ def test_what_explains_as_much_as_a_larger_walk_is_said():
     assert changed.effect == "rate_random_walk" and "gauss_markov" in changed.alternatives
     assert any("the data allow gauss_markov" in r for r in found.remarks)
     assert "data allow as well: gauss_markov" in found.report()
+
+
+def test_what_explains_as_much_as_another_declared_value_is_said():
+    """A scale factor that follows a temperature far from 25 degC all through the log: what speaks
+    against another scale factor is expected to be 0.4 nat.
+    """
+    found = closed(make("one/30/gyro.thermal_scale_factor", 0, (6.0, 9.0)))
+    (changed,) = found.changed
+    assert changed.effect == "scale_factor" and "thermal_scale_factor" in changed.alternatives
+    assert any("the data allow thermal_scale_factor" in r for r in found.remarks)
+    assert "thermal_scale_factor" in page(found)
 
 
 def test_effects_of_one_law_share_their_names_as_far_as_a_part_lacks_them():

@@ -15,11 +15,19 @@ from pyimu.identification.outcome import Outcome
 from pyimu.identification.report import pictures
 from pyimu.identification.report.coefficients import rows
 from pyimu.identification.report.words import FEW, dependence, in_words, si_of
-from pyimu.identification.verdict import instead_of_drift
+from pyimu.identification.verdict import instead
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.kinds import KINDS, MAGNETOMETER
 from pyimu.model.part import AXES
-from pyimu.report.numbers import in_unit, number, pretty, si_quantity, unit_for, with_error
+from pyimu.report.numbers import (
+    in_unit,
+    joined,
+    number,
+    pretty,
+    si_quantity,
+    unit_for,
+    with_error,
+)
 from pyimu.report.page import Picture, Table, equation, prose
 
 
@@ -135,9 +143,10 @@ def _parameters(a: Added) -> Table:
 
 def changed_table(closed: Outcome) -> Table:
     """Declared values that the data contradict."""
-    table = Table(("sensor", "value", "declared", "fitted", "SI, declared", "SI, fitted"))
+    names = ("sensor", "value", "declared", "fitted", "SI, declared", "SI, fitted")
+    table = Table((*names, "the data allow as well"))
     for c in closed.changed:
-        table.rows.extend(_changed_rows(c))
+        table.rows.extend((*row, joined(c.alternatives)) for row in _changed_rows(c))
     return table
 
 
@@ -171,4 +180,4 @@ def remains(closed: Outcome) -> list[str]:
         for i, gain in axes.items():
             wanders = f"The {SENSORS[s]} wanders more than declared on {'xyz'[i]}"
             lines.append(f"{wanders}: a larger random walk gains {number(gain)} nat.")
-    return lines + [f"{said[0].upper()}{said[1:]}." for said in instead_of_drift(closed.changed)]
+    return lines + [f"{said[0].upper()}{said[1:]}." for said in instead(closed.changed)]
