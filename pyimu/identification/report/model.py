@@ -19,15 +19,7 @@ from pyimu.identification.verdict import instead
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.kinds import KINDS, MAGNETOMETER
 from pyimu.model.part import AXES
-from pyimu.report.numbers import (
-    in_unit,
-    joined,
-    number,
-    pretty,
-    si_quantity,
-    unit_for,
-    with_error,
-)
+from pyimu.report.numbers import in_unit, number, pretty, si_quantity, unit_for, with_error
 from pyimu.report.page import Picture, Table, equation, prose
 
 
@@ -143,10 +135,9 @@ def _parameters(a: Added) -> Table:
 
 def changed_table(closed: Outcome) -> Table:
     """Declared values that the data contradict."""
-    names = ("sensor", "value", "declared", "fitted", "SI, declared", "SI, fitted")
-    table = Table((*names, "the data allow as well"))
+    table = Table(("sensor", "value", "declared", "fitted", "SI, declared", "SI, fitted"))
     for c in closed.changed:
-        table.rows.extend((*row, joined(c.alternatives)) for row in _changed_rows(c))
+        table.rows.extend(_changed_rows(c))
     return table
 
 
@@ -156,7 +147,7 @@ def _changed_rows(c: Changed) -> list[tuple]:
     place, rows = CATALOGUE[c.effect].parameters[c.parameter].place, []
     for index in np.ndindex(*np.shape(c.declared)):
         had, now, std = (float(np.asarray(v)[index]) for v in (c.declared, c.fitted, c.std))
-        if np.isfinite(now) and (had or now):
+        if np.isfinite(now) and now != had:
             shown = [float(in_unit(v, si, unit)) for v in (had, now, std)]
             rows.append(
                 (
