@@ -16,8 +16,9 @@ import numpy as np
 
 from pyimu.errors import UserError
 from pyimu.files import plain
-from pyimu.identification.estimated import REACH, Estimated
+from pyimu.identification.estimated import Estimated
 from pyimu.identification.fit.keys import Coefficient
+from pyimu.identification.fit.mixture import REACH
 from pyimu.identification.fit.noise_floor import own_noise, reference_variance
 from pyimu.identification.fit.normal import variances
 from pyimu.identification.fit.trial import Trial

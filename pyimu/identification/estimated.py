@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.stats import norm
 
 from pyimu.files import plain
 from pyimu.identification.confounds import what_no_log_tells_apart
 from pyimu.identification.fit.fit import with_prior
 from pyimu.identification.fit.keys import Coefficient, LogBias
+from pyimu.identification.fit.mixture import REACH
 from pyimu.identification.fit.reference_noise import equations
 from pyimu.identification.found import Added
 from pyimu.identification.noise.named import Noise
@@ -22,12 +22,6 @@ from pyimu.identification.search.screen import fitted_dispersion
 from pyimu.model.catalogue import POWER_ON, WALK, WHITE
 from pyimu.model.effect import Effect
 from pyimu.model.part import Part
-
-LEVEL = 0.95
-"""Probability of the intervals."""
-
-REACH = float(norm.ppf(0.5 + LEVEL / 2))
-"""Standard errors from a value to either end of its interval."""
 
 OUTWEIGHED = np.sqrt(0.5)
 """Standard error, in units of the prior's, from which on the prior says more of a coefficient than

@@ -6,11 +6,11 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.stats import norm
 
-CONFIDENCE = 0.95
-"""Of the interval that is made right."""
+LEVEL = 0.95
+"""Probability of the intervals."""
 
-REACH = float(norm.isf((1.0 - CONFIDENCE) / 2))
-"""Standard errors from an estimate to either end of it."""
+REACH = float(norm.isf((1.0 - LEVEL) / 2))
+"""Standard errors from a value to either end of its interval."""
 
 
 def standard_error(weights: np.ndarray, at: np.ndarray, std: np.ndarray) -> float:
@@ -21,7 +21,7 @@ def standard_error(weights: np.ndarray, at: np.ndarray, std: np.ndarray) -> floa
 
     def outside(reach: float) -> float:
         both = norm.sf((reach - at) / std) + norm.cdf((-reach - at) / std)
-        return float(weights @ both) - (1.0 - CONFIDENCE)
+        return float(weights @ both) - (1.0 - LEVEL)
 
     most = float(np.max(np.abs(at) + 10.0 * std))
     return float(brentq(outside, 0.0, most)) / REACH

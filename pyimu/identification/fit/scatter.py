@@ -13,11 +13,10 @@ from dataclasses import replace
 
 import numpy as np
 from scipy.linalg import block_diag, cho_factor, cho_solve, null_space
-from scipy.optimize import brentq
 from scipy.special import logsumexp
-from scipy.stats import norm
 
 from pyimu.identification.fit.fit import Fit, begin, gauss_newton
+from pyimu.identification.fit.mixture import standard_error
 from pyimu.identification.fit.normal import normal_equations
 from pyimu.identification.fit.structure import prior_of, with_structure
 from pyimu.identification.fit.trial import Trial
@@ -31,9 +30,6 @@ PRIOR_ROWS = 1.0
 
 GRID = np.geomspace(1e-2, 1e4, 121)
 """Times the typical wander that are tried."""
-
-CONFIDENCE = 0.95
-"""Of the intervals that the wander is to make right."""
 
 RANK = 1e-6
 """Singular value of the scaled slopes below which a direction of coefficients is not shown."""
@@ -82,7 +78,7 @@ def _wander(fit: Fit, shapes: list[np.ndarray], typical: float) -> float:
 def _size(
     left: np.ndarray, known: np.ndarray, unit: np.ndarray, white: float, typical: float
 ) -> float:
-    """The wander that gives intervals of ``CONFIDENCE`` their length, given contrasts (d,) of rows
+    """The wander that gives intervals their length, given contrasts (d,) of rows
     in which no coefficient is left, with covariance ``known`` + wander^2 ``unit``.
 
     Its likelihood is that of Patterson and Thompson 1971; the prior is a scaled inverse chi-square.
@@ -91,12 +87,8 @@ def _size(
     likely = np.array([_log_likelihood(left, known + s**2 * unit) for s in tried])
     prior = -PRIOR_ROWS * (np.log(GRID) + 0.5 / GRID**2)
     weight = np.exp(likely + prior - logsumexp(likely + prior))
-
-    def outside(reach: float) -> float:
-        return float(weight @ norm.sf(reach / np.sqrt(white + tried**2))) * 2 - (1 - CONFIDENCE)
-
-    reach = brentq(outside, 0.0, 50 * np.sqrt(white + tried[-1] ** 2))
-    return float(np.sqrt(max((reach / norm.isf((1 - CONFIDENCE) / 2)) ** 2 - white, tried[0] ** 2)))
+    std = standard_error(weight, np.zeros(len(tried)), np.sqrt(white + tried**2))
+    return float(np.sqrt(max(std**2 - white, tried[0] ** 2)))
 
 
 def _log_likelihood(left: np.ndarray, covariance: np.ndarray) -> float:
