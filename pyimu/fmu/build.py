@@ -118,7 +118,7 @@ def build_fmus(
             for k, (p, compiler) in enumerate(platforms):
                 libraries[p] = _compile(
                     *(block.name, generated, forms, p, compiler, work / p.name),
-                    partial(_part_of, heard, k, len(platforms)),
+                    partial(part_of, heard, k, len(platforms)),
                 )
     except OSError as error:
         raise UserError(
@@ -134,7 +134,7 @@ def build_fmus(
     ]
 
 
-def _part_of(heard: Callable[[float], None], k: int, parts: int, share: float) -> None:
+def part_of(heard: Callable[[float], None], k: int, parts: int, share: float) -> None:
     """Tell ``heard`` the share of all where ``share`` is that of part ``k``."""
     heard((k + share) / parts)
 

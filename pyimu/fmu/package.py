@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 
 from pyimu.attitude.filters import FILTERS
@@ -10,7 +11,7 @@ from pyimu.attitude.heading.estimator import heading_estimator
 from pyimu.block.block import Block
 from pyimu.errors import UserError
 from pyimu.files import check_folder
-from pyimu.fmu.build import FORMS, build_fmus
+from pyimu.fmu.build import FORMS, build_fmus, part_of
 from pyimu.fmu.sources import Form
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as find_part
@@ -62,10 +63,7 @@ def build(
     blocks = [BLOCKS[name](sensor if name == SENSOR else found) for name in fmu]
     paths = []
     for k, block in enumerate(blocks):
-
-        def heard(share: float, k: int = k, name: str = block.name) -> None:
-            say(f"compiling {name}", (k + share) / len(blocks))
-
+        heard = partial(part_of, partial(say, f"compiling {block.name}"), k, len(blocks))
         heard(0.0)
         paths += build_fmus(block, out, tuple(fmi), platform, heard)
     return paths

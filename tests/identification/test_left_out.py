@@ -9,7 +9,7 @@ from scipy.stats import binom, norm
 from pyimu.identification.fit.fit import begin
 from pyimu.identification.fit.keys import Coefficient, coefficients_of
 from pyimu.identification.fit.maximum_likelihood import fit
-from pyimu.identification.search.left_out import largest_left_out, with_left_out
+from pyimu.identification.search.left_out import LeftOut, with_left_out
 from pyimu.model.sensor import Sensor
 
 H, ROWS, R = 0.04, 1500, 1e-4
@@ -41,9 +41,9 @@ def small(size: float) -> np.ndarray:
 
 def test_the_largest_element_that_was_left_out_is_found():
     model = fitted(1, small(0.05))
-    key, gain, spread = largest_left_out(model, ["misalignment"])
+    key, gain, spread = LeftOut.of(model, ["misalignment"]).largest()
     assert key == element((0, 2)) and gain > 10.0 and spread >= 1.0
-    assert largest_left_out(model, ["misalignment"], {key}) is None
+    assert LeftOut.of(model, ["misalignment"]).largest({key}) is None
 
 
 def test_intervals_hold_although_an_element_was_left_out():

@@ -108,11 +108,11 @@ class Rest:
     body did not drive before or shook, whether there is ``doubt``, because its velocity is not
     known either, and which share of the measured turn is one (``moving``): none where the body is
     called stationary, at rest without doubt what is not noise. These are factors: casadi would draw
-    a choice into every product. ``before`` is the estimate before
-    the sample: where a rest ends, with the bias as it was before its last samples. By ``forgotten``
-    (3,) the variance of the bias was larger then, or is by what it took of a turn that was so slow
-    that it looked like rest, and by ``unseen`` (3,) that of the attitude. ``safe``, ``later``
-    and ``calm`` are those of ``Memory``.
+    a choice into every product. ``before`` is the estimate before the sample: where a rest ends,
+    with the bias as it was before its last samples. By ``forgotten`` (3,) the variance of the bias
+    was larger then, or is by what it took of a turn that was so slow that it looked like rest, and
+    by ``unseen`` (3,) that of the attitude. ``safe``, ``later`` and ``calm`` are those of
+    ``Memory``.
     """
 
     still: Stillness
@@ -126,6 +126,11 @@ class Rest:
     safe: ca.SX
     later: ca.SX
     calm: ca.SX
+
+    @property
+    def surely(self):
+        """Whether the body is resting, and that is sure, 0 or 1."""
+        return self.resting * self.sure
 
 
 def rest_of(at: Instant, sample: Sample) -> Rest:

@@ -117,8 +117,7 @@ def deviations_after(
     in one matrix they are definite however uncertain the attitude is. The turn (3, 3) is that in
     inertial space, from old body axes to new.
     """
-    before, sure = rest.before, rest.resting * rest.sure
-    change = push(at.memory, sample, at.settings, at.h, sure)
+    before, change = rest.before, push(at.memory, sample, at.settings, at.h, rest.surely)
 
     def turn(rate, error):
         return rest.moving * (rate - quaternion.rotate(quaternion.conjugate(error), at.earth))

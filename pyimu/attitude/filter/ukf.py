@@ -148,7 +148,7 @@ def _row(
     """The prediction of one sample."""
     rest = rest_of(at, sample)
     noise = added_noise(at, sample, rest)
-    pushed = push(at.memory, sample, at.settings, at.h, rest.resting * rest.sure)
+    pushed = push(at.memory, sample, at.settings, at.h, rest.surely)
     turn = (sample.rate, at.earth, rest.moving)
     x, turned = marginal.propagate(rest.before, *turn, noise, pushed, at.h)
     out = predicted(at, sample, rest, x, turned, noise)

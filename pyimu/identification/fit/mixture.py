@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 from scipy.optimize import brentq
-from scipy.stats import norm
+
+from pyimu.laws import norm
 
 LEVEL = 0.95
 """Probability of the intervals."""
@@ -20,7 +21,7 @@ def standard_error(weights: np.ndarray, at: np.ndarray, std: np.ndarray) -> floa
     """
 
     def outside(reach: float) -> float:
-        both = norm.sf((reach - at) / std) + norm.cdf((-reach - at) / std)
+        both = norm.sf((reach - at) / std) + norm.sf((reach + at) / std)
         return float(weights @ both) - (1.0 - LEVEL)
 
     most = float(np.max(np.abs(at) + 10.0 * std))

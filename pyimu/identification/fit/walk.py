@@ -72,7 +72,7 @@ class _Axis:
         self, linears: list[Linear], axis: int, noise: RandomWalk, whole: Normal, declared: float
     ) -> None:
         self.axis, self.linears, self.noise = axis, linears, noise
-        own = normal_equations(linears, {axis: noise})
+        self.own = own = normal_equations(linears, {axis: noise})
         self.keys, self.at = own.keys, [whole.position[k] for k in own.keys]
         self.gram, self.score = np.array(whole.gram), np.array(whole.score)
         self.gram[np.ix_(self.at, self.at)] -= own.gram
@@ -86,7 +86,9 @@ class _Axis:
         """Restricted log-likelihood [nat] of a walk, and where the axis' coefficients (k,) lie
         beside it and their standard errors (k,).
         """
-        own = normal_equations(self.linears, {self.axis: replace(self.noise, k2=k2)})
+        own = self.own
+        if k2 != self.noise.k2:
+            own = normal_equations(self.linears, {self.axis: replace(self.noise, k2=k2)})
         gram, score = np.array(self.gram), np.array(self.score)
         gram[np.ix_(self.at, self.at)] += own.gram
         score[self.at] += own.score

@@ -31,7 +31,7 @@ from pyimu.identification.search.ceiling import (
 from pyimu.identification.search.choice import Refined, Tried, chosen_of
 from pyimu.identification.search.confirm import evidence
 from pyimu.identification.search.judge import judged
-from pyimu.identification.search.left_out import largest_left_out, with_left_out
+from pyimu.identification.search.left_out import LeftOut, with_left_out
 from pyimu.identification.search.screen import (
     PENALTY,
     Screened,
@@ -147,6 +147,7 @@ class _Search:
         self.after, self.steps = _as_sampled(before, held)
         self.refused: dict[str, Refused] = {}
         self.kept_out: set[Coefficient] = set()
+        self.left_out: LeftOut | None = None
         self.tried = Tried(self.after, sensor.values)
         self.first = self.last = self.seen = self.tried.looked()[0]
 
@@ -175,8 +176,7 @@ class _Search:
         """Let in an element of an effect that is in the model, where it explains more than any
         ``other`` candidate does [nat]: what is left of an effect is no other one.
         """
-        few = [s.effect for s in self.steps if _may_grow(s, self.after)]
-        found = largest_left_out(self.after.as_declared(), few, self.kept_out) if few else None
+        found = None if self.left_out is None else self.left_out.largest(self.kept_out)
         if found is None or found[1] <= max(self.seen.gate, other):
             return False
         key, _, spread = found
@@ -219,6 +219,8 @@ class _Search:
     def _goes_on(self, after: Fit) -> None:
         """Look for more beside a model."""
         self.after, self.tried = after, Tried(after, self.sensor.values)
+        few = [s.effect for s in self.steps if _may_grow(s, after)]
+        self.left_out = LeftOut.of(after.as_declared(), few)
         self.last = self.seen = self.tried.looked()[0]
 
 

@@ -31,11 +31,47 @@ ODDS = 1.0
 some are and some are not."""
 
 
+@dataclass(frozen=True)
+class LeftOut:
+    """The columns of the elements that were left out, beside all that a fit has."""
+
+    keys: list[Coefficient]
+    projected: Projected
+
+    @classmethod
+    def of(cls, fit: Fit, effects: Iterable[str]) -> LeftOut | None:
+        """Those of ``effects``; None where none was left out."""
+        out = {e: keys for e in effects if (keys := _left_out(fit, e))}
+        if not out:
+            return None
+        normal = with_prior(equations(fit, lambda f: f.linearise(out)), fit)
+        keys = sorted(k for some in out.values() for k in some if k in normal.position)
+        base = [
+            i for i, k in enumerate(normal.keys) if k in fit.free or not isinstance(k, Coefficient)
+        ]
+        return cls(keys, Projected.of(normal, base, [normal.position[k] for k in keys]))
+
+    def largest(self, but: Collection[Key] = ()) -> tuple[Coefficient, float, float] | None:
+        """The element that explains most, ``but`` for some, with its gain [nat] and the scatter
+        that it is corrected for; None where there is none.
+        """
+        found = [(k, *self._gain(n)) for n, k in enumerate(self.keys) if k not in but]
+        return max(found, key=lambda f: f[1], default=None)
+
+    def _gain(self, number: int) -> tuple[float, float]:
+        """Log-likelihood [nat] that an element adds, penalised, and the scatter of its score."""
+        score, variance = self.projected.score[number], self.projected.variance[number, number]
+        if not variance > 0.0:
+            return -np.inf, 1.0
+        spread = dispersion(self.projected, [number])
+        return float(0.5 * score**2 / variance / spread - PENALTY), spread
+
+
 def with_left_out(fit: Fit, effects: Iterable[str]) -> Fit:
     """The fit, the standard errors of ``effects`` such that intervals hold although some of their
     elements were left out.
     """
-    beside = _Beside.of(fit, effects)
+    beside = LeftOut.of(fit, effects)
     if beside is None:
         return fit
     std, projected = dict(fit.std), beside.projected
@@ -48,48 +84,6 @@ def with_left_out(fit: Fit, effects: Iterable[str]) -> Fit:
             if np.any(turn) and 0.0 < std.get(key, 0.0) < np.inf:
                 std[key] = _averaged(std[key], turn, projected, at, size)
     return replace(fit, std=std)
-
-
-def largest_left_out(
-    fit: Fit, effects: Iterable[str], but: Collection[Key] = ()
-) -> tuple[Coefficient, float, float] | None:
-    """The element of ``effects`` that was left out and explains most, ``but`` for some, with its
-    gain [nat] and the scatter that it is corrected for; None where there is none.
-    """
-    beside = _Beside.of(fit, effects)
-    if beside is None:
-        return None
-    found = [(k, *beside.gain(n)) for n, k in enumerate(beside.keys) if k not in but]
-    return max(found, key=lambda f: f[1], default=None)
-
-
-@dataclass(frozen=True)
-class _Beside:
-    """The columns of the elements that were left out, beside all that a fit has."""
-
-    keys: list[Coefficient]
-    projected: Projected
-
-    @classmethod
-    def of(cls, fit: Fit, effects: Iterable[str]) -> _Beside | None:
-        """None where none was left out, or none shows."""
-        out = {e: keys for e in effects if (keys := _left_out(fit, e))}
-        if not out:
-            return None
-        normal = with_prior(equations(fit, lambda f: f.linearise(out)), fit)
-        keys = sorted(k for some in out.values() for k in some if k in normal.position)
-        base = [
-            i for i, k in enumerate(normal.keys) if k in fit.free or not isinstance(k, Coefficient)
-        ]
-        return cls(keys, Projected.of(normal, base, [normal.position[k] for k in keys]))
-
-    def gain(self, number: int) -> tuple[float, float]:
-        """Log-likelihood [nat] that an element adds, penalised, and the scatter of its score."""
-        score, variance = self.projected.score[number], self.projected.variance[number, number]
-        if not variance > 0.0:
-            return -np.inf, 1.0
-        spread = dispersion(self.projected, [number])
-        return float(0.5 * score**2 / variance / spread - PENALTY), spread
 
 
 def _estimated(fit: Fit, effect: str) -> list[Coefficient]:
