@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import fdtri
 
+from pyimu.attitude.filter.prediction import DRIVES
 from pyimu.recording.recording import Recording
 from pyimu.recording.rest import still_rows
 from pyimu.units import STANDARD_GRAVITY
@@ -71,14 +72,14 @@ def find_rest(recording: Recording, gravity: float = STANDARD_GRAVITY) -> Rest:
     Where the recording has a column ``stationary``, that decides.
 
     A steady turn about the vertical looks like a rest with a bias; only ``stationary`` tells the
-    two apart.
+    two apart. An even drive looks like one, too; a recorded ``speed`` tells that.
     """
     declared = _declared(recording)
     if declared is not None and declared > 1:
         return _rest(recording, declared, gravity, seen=True, declared=True)
     for length in LENGTHS if declared is None else ():
         stop = _without_turn(recording, _still_until(recording, length))
-        if stop > 3 and _is_level(recording, stop, gravity):
+        if stop > 3 and _is_level(recording, stop, gravity) and not _drives(recording, stop):
             return _rest(recording, stop, gravity, seen=True)
     return _rest(recording, max(2, _rows(recording, SHORTEST)), gravity, seen=False)
 
@@ -166,6 +167,13 @@ def _is_level(recording: Recording, stop: int, gravity: float) -> bool:
     """
     rate, force = (_finite(v, stop) for v in (recording.gyro, recording.accel))
     return bool(len(rate)) and (not np.any(force) or _is_gravity(force, gravity, FORCE_OFF))
+
+
+def _drives(recording: Recording, stop: int) -> bool:
+    """Whether a body that looks still before the row ``stop`` has a speed there, and drives on."""
+    speed = getattr(recording, "speed", None)
+    known = np.zeros(0) if speed is None else speed[:stop][np.isfinite(speed[:stop])]
+    return bool(len(known)) and abs(float(np.median(known))) > DRIVES
 
 
 def _rest(

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{cd8e4775-ab77-1361-5eee-4a7a871455fa}"
-#define MODEL_TOKEN_FMI3 "{21e4a0bf-1db3-4802-ed84-c453da46c39f}"
+#define MODEL_TOKEN_FMI2 "{c05fb00c-f5cc-b03f-2810-0aef0e46daff}"
+#define MODEL_TOKEN_FMI3 "{18b8ad8c-da45-494a-958a-b25bea63022a}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{c39e0250-ac2e-43ab-beba-761505993000}"
-#define MODEL_TOKEN_FMI3 "{f77d6e51-cec2-d55c-dd0b-569664d147b3}"
+#define MODEL_TOKEN_FMI2 "{91908392-f558-e7fc-9eb7-e1cad052ec8b}"
+#define MODEL_TOKEN_FMI3 "{3b78952b-d3b3-6dc1-9aaf-3d7434518513}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

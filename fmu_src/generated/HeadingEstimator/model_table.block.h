@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "HeadingEstimator"
-#define MODEL_TOKEN_FMI2 "{007bfe51-36ed-6583-48a4-9ff77a0741f0}"
-#define MODEL_TOKEN_FMI3 "{2d73ef57-46aa-2bf5-952b-ec9bc058ca83}"
+#define MODEL_TOKEN_FMI2 "{a5f1437b-2709-75c8-cdf4-49678df858dd}"
+#define MODEL_TOKEN_FMI3 "{b8b644c8-944d-a3bb-93df-0585aacaca11}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

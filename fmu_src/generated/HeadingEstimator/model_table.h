@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "HeadingEstimator"
-#define MODEL_TOKEN_FMI2 "{9e32f5e6-e051-bd8f-970e-2282c057c594}"
-#define MODEL_TOKEN_FMI3 "{e724a29c-28e1-f32d-8eb2-ba3aae531d4c}"
+#define MODEL_TOKEN_FMI2 "{6084f324-58b2-c1d1-3ce9-a5363b49bc79}"
+#define MODEL_TOKEN_FMI3 "{48d56a36-8e36-2706-a707-35bb3009b14f}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

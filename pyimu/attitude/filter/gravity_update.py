@@ -217,6 +217,7 @@ def push(memory: Memory, sample: Sample, settings: Settings, h, resting) -> Push
         where(valid, h * sample.force),
         where(valid, h * memory.size.size),
         h**2 * (where(valid, white, lost) + declared) + drift,
+        sample.driven,
     )
 
 

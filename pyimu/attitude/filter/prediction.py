@@ -17,9 +17,9 @@ from pyimu.attitude.filter.gravity_update import (
     white_variance,
 )
 from pyimu.attitude.filter.layout import EVERY, Flags, Layout
-from pyimu.attitude.filter.memory import ESTIMATE, FADING, REPORTED, Memory
+from pyimu.attitude.filter.memory import ESTIMATE, FADING, HOLD, REPORTED, Memory
 from pyimu.attitude.filter.quasi_static import MEAN_TIME, where
-from pyimu.attitude.filter.sample import Sample
+from pyimu.attitude.filter.sample import Sample, unknown_turn
 from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.stillness import (
     CALM,
@@ -46,9 +46,6 @@ STATIONARY, HEADING_VALID, SPEED, SPEED_VARIANCE, SPEED_VALID = (
     [v.name for v in INPUTS].index(name)
     for name in ("stationary", "heading_valid", "speed", "speed_variance", "speed_valid")
 )
-
-HOLD = 1.0
-"""s; so long after a speed the body still drives."""
 
 DRIVES = 0.2
 """m/s; a body of which speeds say more is not at rest, however even its drive. One whose velocity
@@ -214,7 +211,9 @@ def added_noise(at: Instant, sample: Sample, rest: Rest):
     still, least = (h * settings.scalar["stationary_std"]) ** 2, LEAST_N**2 * h
     turned = ca.diag(noise[:3, :3]) + relative
     if sample.gyro_lost is not False:
-        lost = lost_variance(at.memory.lost_for, sample.lost_for, settings)
+        lost = settings.scalar["lost_rate_std"] ** 2 * unknown_turn(
+            at.memory.lost_for, sample.lost_for
+        )
         turned = turned + ca.if_else(sample.gyro_lost, lost, 0)
     return (
         least + (1 - moving) * at.stationary * still + moving * turned + rest.unseen,
@@ -224,15 +223,6 @@ def added_noise(at: Instant, sample: Sample, rest: Rest):
         + settings.scalar["bias_noise"] ** 2 * turning
         + rest.forgotten,
     )
-
-
-def lost_variance(before, after, settings: Settings):
-    """Growth in a sample of the variance (3,) rad^2 of the angle about an axis of unknown rate.
-
-    Over a loss of duration T the unknown rate is one number of variance s^2: the variance of the
-    angle grows as s^2 T^2. T is ``before`` and ``after`` the sample.
-    """
-    return settings.scalar["lost_rate_std"] ** 2 * (after**2 - before**2)
 
 
 def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, noise) -> list[ca.SX]:
