@@ -31,6 +31,10 @@ STEADY = 2e-3
 """m/s^3; change of an accelerometer at rest, that of a consumer part that warms up by 0.2 K in a
 second (1 mg/K)."""
 
+SHOWN = 4.0
+"""By which factor the square of a turn must exceed what shows it in a part of a rest, for that part
+to show it with certainty: at the limit itself it does so half of the times."""
+
 SHORTER = 0.7
 """A rest that turns is looked at once more over so much of it: it may have begun to turn later."""
 
@@ -108,7 +112,7 @@ def _without_turn(recording: Recording, stop: int) -> int:
     while stop > 3 and recording.time[stop - 1] - recording.time[0] >= SHORTEST:
         slope, least = _slope(recording, stop)
         whole = slope if whole is None else whole
-        if slope @ slope <= least and (slope is whole or whole @ whole > least):
+        if slope @ slope <= least and (slope is whole or whole @ whole > SHOWN * least):
             return stop
         stop = int(SHORTER * stop)
     return 0

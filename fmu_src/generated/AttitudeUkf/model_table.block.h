@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{c05fb00c-f5cc-b03f-2810-0aef0e46daff}"
-#define MODEL_TOKEN_FMI3 "{18b8ad8c-da45-494a-958a-b25bea63022a}"
+#define MODEL_TOKEN_FMI2 "{2c94f1b8-eb89-838b-ee87-d34413bdbd0a}"
+#define MODEL_TOKEN_FMI3 "{a4bd63d4-b148-d895-5189-24648b189a50}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

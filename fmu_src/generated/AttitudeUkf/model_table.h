@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{91908392-f558-e7fc-9eb7-e1cad052ec8b}"
-#define MODEL_TOKEN_FMI3 "{3b78952b-d3b3-6dc1-9aaf-3d7434518513}"
+#define MODEL_TOKEN_FMI2 "{17a1e854-dddc-1e40-a7c3-ff305a0c59af}"
+#define MODEL_TOKEN_FMI3 "{9192c669-cbc6-466c-41ed-6a404867368d}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

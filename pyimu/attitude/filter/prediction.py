@@ -25,6 +25,7 @@ from pyimu.attitude.filter.stillness import (
     CALM,
     SLOW,
     Stillness,
+    begins,
     calmer,
     is_rest,
     is_still,
@@ -147,7 +148,7 @@ def rest_of(at: Instant, sample: Sample) -> Rest:
     still = still_followed(before, sample.rate, sample.force, alike, at.h)
     known = ca.vertcat(x.bias, variance)
     safe, later = still_kept(before, still, at.memory.safe, at.memory.later, known)
-    long = (before.span >= scalar["rest_time"]) * (scalar["rest_time"] > 0)
+    long = scalar["rest_time"] > 0
     rests = long * (before.rests > 0) * (1 - at.stationary)
     resting = alike * rests
     velocity = ca.trace(x.covariance[6:, 6:]) + ca.sumsqr(x.velocity)
@@ -190,9 +191,9 @@ def _decided(at: Instant, x: Estimate, rest: Rest) -> Stillness:
     rate, noise = still.slow - x.bias - at.earth, ca.fmax(still.density, _density(at.settings))
     found = is_rest(rate, x.covariance[3:6, 3:6], vertical(x), noise, span)
     time = at.settings.scalar["rest_time"]
-    begins = (at.memory.stillness.span < time) * (still.span >= time)
+    now = begins(at.memory.stillness, still, time, x.covariance[3:6, 3:6], vertical(x), at.h)
     goes_on = (still.rests > 0) * (2 * found - 1) * (still.span > 0)
-    return replace(still, rests=ca.if_else(begins, found, goes_on))
+    return replace(still, rests=ca.if_else(now, found, goes_on))
 
 
 def added_noise(at: Instant, sample: Sample, rest: Rest):
