@@ -8,10 +8,14 @@ from pyimu.identification.search.belief import not_shown, unbelievable
 from pyimu.identification.search.candidates import Group
 from pyimu.identification.search.choice import SET_WIDTH, Refined, Tried, ahead, refine
 from pyimu.identification.search.confirm import LEAST_OF_EXCESS, SPEAKS, Evidence, evidence
+from pyimu.identification.search.own_signal import is_of_reference
 from pyimu.identification.search.screen import (
     fitted_gain,
     keys_of,
 )
+
+OF_REFERENCE = "is the reference's noise: the sensor's own signal does not show it"
+"""The reason for which an effect is refused that only a noisy reference makes look like one."""
 
 
 def judged(tried: Tried, chosen: Refined, held: list[Trial], gate: float) -> tuple[Refined, str]:
@@ -19,6 +23,8 @@ def judged(tried: Tried, chosen: Refined, held: list[Trial], gate: float) -> tup
     same; nothing where it is not.
     """
     old = tried.current
+    if is_of_reference(old, chosen.fit):
+        return chosen, OF_REFERENCE
     if chosen.screened.effect not in old.sensor.values:
         reason = not_shown(chosen.fit, keys_of(chosen.screened))
         if reason:
