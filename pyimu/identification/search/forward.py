@@ -164,7 +164,7 @@ class _Search:
         self.after, self.steps = _as_sampled(before, held)
         self.refused: dict[str, Refused] = {}
         self.kept_out: set[Coefficient] = set()
-        self.left_out: LeftOut | None = None
+        self.left_out = self._left_out()
         self.tried = Tried(self.after, sensor.values)
         self.first = self.last = self.seen = self.tried.looked()[0]
 
@@ -210,6 +210,11 @@ class _Search:
         self._goes_on(fitted)
         return True
 
+    def _left_out(self) -> LeftOut | None:
+        """The elements that effects in the model may grow by."""
+        few = [s.effect for s in self.steps if _may_grow(s, self.after)]
+        return LeftOut.of(self.after.as_declared(), few)
+
     def _looks_again(self) -> bool:
         if not self.tried.views:
             return False
@@ -236,15 +241,14 @@ class _Search:
     def _goes_on(self, after: Fit) -> None:
         """Look for more beside a model."""
         self.after, self.tried = after, Tried(after, self.sensor.values)
-        few = [s.effect for s in self.steps if _may_grow(s, after)]
-        self.left_out = LeftOut.of(after.as_declared(), few)
+        self.left_out = self._left_out()
         self.last = self.seen = self.tried.looked()[0]
 
 
 def _may_grow(step: Step, after: Fit) -> bool:
     """Whether elements of an added effect may be let in one by one: no form is theirs to find."""
     e = after.sensor.effect(step.effect)
-    simple = not (has_form(e) or scanned(e) or step.declared or step.as_sampled)
+    simple = not (has_form(e) or scanned(e) or step.declared)
     return simple and all(t.reduction is None for t in after.trials)
 
 
