@@ -190,11 +190,13 @@ class _Search:
         return True
 
     def _grows(self, other: float) -> bool:
-        """Let in an element of an effect that is in the model, where it explains more than any
-        ``other`` candidate does [nat]: what is left of an effect is no other one.
+        """Let in an element of an effect that is in the model, unless some ``other`` candidate
+        explains so much more [nat] that it is likelier, though there are many of them and each is
+        as likely beforehand: what is left of an effect is no other one.
         """
         found = None if self.left_out is None else self.left_out.largest(self.kept_out)
-        if found is None or found[1] <= max(self.seen.gate, other):
+        many = float(np.log(max(len(self.seen.candidates), 1)))
+        if found is None or found[1] <= max(self.seen.gate, other - many):
             return False
         key, _, spread = found
         fitted = fit(replace(self.after, free=self.after.free | {key}).with_noise())
