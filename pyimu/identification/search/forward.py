@@ -174,11 +174,15 @@ class _Search:
         """
         options = [c for c in self.seen.above() if c.effect not in self.refused]
         options = _in_order(options, self.after)
-        if self._grows(max((c.gain for c in options), default=0.0)):
+        most = max((c.gain for c in options), default=0.0)
+        if self._grows(max(self.seen.gate, self._likelier_than(most)), self.seen.gate):
             return True
         chosen, names = chosen_of(self.tried, options, self.seen.gate)
         if chosen is None:
             return self._looks_again()
+        instead = max(self._likelier_than(chosen.gain), 0.0)
+        if self._grows(instead, instead):
+            return True
         reason = _within_form(chosen, self.steps)
         if not reason:
             chosen, reason = judged(self.tried, chosen, self.held, self.seen.gate)
@@ -189,14 +193,19 @@ class _Search:
             self._add(chosen, names)
         return True
 
-    def _grows(self, other: float) -> bool:
-        """Let in an element of an effect that is in the model, unless some ``other`` candidate
-        explains so much more [nat] that it is likelier, though there are many of them and each is
-        as likely beforehand: what is left of an effect is no other one.
+    def _likelier_than(self, gain: float) -> float:
+        """What an element of an effect that is in the model must explain [nat] to be likelier than
+        a candidate that explains ``gain``: of those there are many, and each is as likely
+        beforehand. What is left of an effect is no other one.
+        """
+        return gain - float(np.log(max(len(self.seen.candidates), 1)))
+
+    def _grows(self, above: float, gate: float) -> bool:
+        """Let in an element of an effect that is in the model where it explains more than ``above``
+        [nat] at first look, and more than ``gate`` once fitted.
         """
         found = None if self.left_out is None else self.left_out.largest(self.kept_out)
-        many = float(np.log(max(len(self.seen.candidates), 1)))
-        if found is None or found[1] <= max(self.seen.gate, other - many):
+        if found is None or found[1] <= above:
             return False
         key, _, spread = found
         fitted = fit(replace(self.after, free=self.after.free | {key}).with_noise())
@@ -204,7 +213,7 @@ class _Search:
         seen = evidence(self.after, fitted, self.held)
         at = next(n for n, s in enumerate(self.steps) if s.effect == key.effect)
         step, held = self.steps[at], float(seen.gained.sum()) / spread
-        denied = seen.raises or gain + held <= self.seen.gate
+        denied = seen.raises or gain + held <= gate
         if denied or unbelievable(fitted, step.keys | {key}):
             self.kept_out.add(key)
             return True
