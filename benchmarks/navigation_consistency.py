@@ -22,6 +22,7 @@ from navigation import MORE, PART, nees
 from scipy.stats import chi2
 
 import pyimu
+from pyimu.attitude.columns import wandering
 from pyimu.block.parameters import with_values
 from pyimu.navigation import run
 from pyimu.rover.square import square
@@ -32,8 +33,10 @@ BIAS = "turn_on_bias"
 
 @cache
 def known(name, calibrated):
-    """A part at 100 Hz, and calibrated."""
-    part = replace(pyimu.part(name), sample_rate=100.0)
+    """A part at 100 Hz, and calibrated; where it is silent of its gyro's wander with that which the
+    filter then takes.
+    """
+    part = wandering(replace(pyimu.part(name), sample_rate=100.0))
     kept = tuple(t for t in part.tolerances if t.key[1] == BIAS or not calibrated)
     return replace(part, tolerances=kept)
 

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{325337b8-27de-d576-97ac-1bd02d52a870}"
-#define MODEL_TOKEN_FMI3 "{7f9060e6-0d0a-a71d-ccb4-a2e767a44b5e}"
+#define MODEL_TOKEN_FMI2 "{aa3d268b-bd50-b69b-00e8-f1b22d4f8a90}"
+#define MODEL_TOKEN_FMI3 "{c66a12ac-d46b-39f9-ae79-1980d9932ec9}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{228666a6-28f0-a69f-3464-19a7cc480b54}"
-#define MODEL_TOKEN_FMI3 "{61030a6e-7486-b9e4-3759-9fb4f664e4be}"
+#define MODEL_TOKEN_FMI2 "{93890a8f-8fcc-82bf-e9a9-30694c0bf033}"
+#define MODEL_TOKEN_FMI3 "{8850e857-910a-e91c-98b6-1cca1f987f35}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

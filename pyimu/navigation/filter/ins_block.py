@@ -9,20 +9,24 @@ from functools import lru_cache
 import casadi as ca
 
 from pyimu.attitude.filter.filter_block import left_in_words
+from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.updates import where
 from pyimu.block.block import Block
 from pyimu.block.variables import Variable
 from pyimu.model.part import Part
 from pyimu.navigation.filter import prediction, updates
+from pyimu.navigation.filter import start as beginning
 from pyimu.navigation.filter.layout import (
-    ACCEL_BIAS,
     BASE,
     GYRO_BIAS,
+    RESTING,
+    TURN,
     VELOCITY,
     Layout,
     Memory,
     State,
 )
+from pyimu.navigation.filter.layout import POSITION as PLACE
 from pyimu.navigation.filter.variables import (
     OUTPUTS,
     POSITION,
@@ -78,10 +82,10 @@ def _block(layout: Layout, recorded: bool, constrained: bool) -> Block:
     p = ca.SX.sym("p", len(parameters))
     u = ca.SX.sym("u", len(layout.inputs))
     settings = prediction.settings_of(layout, p)
-    start = prediction.zero(layout, settings)
+    start = beginning.zero(layout, settings)
     state = ca.vertcat(layout.pack(start), prediction.empty(layout, settings).pack())
     names = (*OUTPUTS, *_recorded_names(layout)) if recorded else OUTPUTS
-    shown = _outputs(start, ca.SX.zeros(REPORT), ca.SX(0), ca.SX(0))
+    shown = _outputs(layout, start, settings, ca.SX.zeros(REPORT), ca.SX(0), ca.SX(0))
     shown = ca.vertcat(shown, ca.SX.zeros(len(names) - len(OUTPUTS)))
     return Block(
         name="StrapdownIns",
@@ -132,7 +136,7 @@ def _step(layout: Layout, recorded: bool) -> ca.Function:
     measured = u[SPEED_VALID] + u[POSITION_VALID] + u[VELOCITY_VALID] > 0.5
     work = where(measured, _measured(layout), work, u, rate, p, h)
     after = work[: layout.packed]
-    y = _finish(layout)(work, status, still)
+    y = _finish(layout)(work, p, status, still)
     if recorded:
         before = x[layout.nominal : layout.packed]
         y = ca.vertcat(y, before, after, work[layout.packed + REPORT :], transition)
@@ -158,7 +162,7 @@ def _predict(layout: Layout) -> ca.Function:
     sample = prediction.read(layout, memory, x.q, u, settings, h)
     sample = prediction.with_rest(layout, x, memory, sample, settings, h)
     after, transition, means = prediction.predicted(layout, x, memory, sample, settings, h)
-    first = prediction.first(layout, sample, settings)
+    first = beginning.first(layout, sample.force, settings)
     start = ca.logic_and(memory.begun <= 0, sample.accel_lost <= 0)
     packed = ca.if_else(memory.begun > 0, layout.pack(after), s[: layout.packed])
     packed = ca.if_else(start, layout.pack(first), packed)
@@ -245,19 +249,24 @@ def _measured(layout: Layout) -> ca.Function:
 
 def _finish(layout: Layout) -> ca.Function:
     w = ca.SX.sym("w", layout.packed + REPORT + layout.errors)
+    p = ca.SX.sym("p", len(layout.parameters))
     lost, still = ca.SX.sym("lost"), ca.SX.sym("still")
     report = w[layout.packed : layout.packed + REPORT]
-    y = _outputs(layout.unpack(w), report, lost, still)
-    return ca.Function("finish", [w, lost, still], [y], OPTIONS)
+    settings = prediction.settings_of(layout, p)
+    y = _outputs(layout, layout.unpack(w), settings, report, lost, still)
+    return ca.Function("finish", [w, p, lost, still], [y], OPTIONS)
 
 
-def _outputs(x: State, report, lost, still) -> ca.SX:
+def _outputs(layout: Layout, x: State, settings: Settings, report, lost, still) -> ca.SX:
     """The outputs (``OUTPUTS``) as a column."""
     p, back = ca.SX(x.covariance), quaternion.to_matrix(quaternion.conjugate(x.q))
-    for place in (GYRO_BIAS, ACCEL_BIAS):
-        p[place, place] = back @ p[place, place] @ back.T
-    plain = ca.horzcat(-ca.skew(x.velocity), ca.SX.eye(3))
-    p[VELOCITY, VELOCITY] = plain @ x.covariance[:6, :6] @ plain.T
+    p[GYRO_BIAS, GYRO_BIAS] = back @ p[GYRO_BIAS, GYRO_BIAS] @ back.T
+    accel_bias, p[RESTING, RESTING] = beginning.bias_of(layout, x, settings)
+    turned = prediction.about_the_start(x.position)
+    for place, of_turn in ((VELOCITY, -ca.skew(x.velocity)), (PLACE, turned)):
+        plain = ca.SX(3, layout.errors)
+        plain[:, TURN], plain[:, place] = of_turn, ca.SX.eye(3)
+        p[place, place] = plain @ x.covariance @ plain.T
     std = ca.vertcat(*[ca.sqrt(ca.fmax(p[i, i], 0)) for i in range(BASE)])
     correlation = p[6, 7] / ca.fmax(std[6] * std[7], 1e-30)
     beyond = sum(
@@ -274,7 +283,7 @@ def _outputs(x: State, report, lost, still) -> ca.SX:
             x.velocity,
             x.position,
             x.gyro_bias,
-            x.accel_bias,
+            accel_bias,
             std,
             correlation,
             report,

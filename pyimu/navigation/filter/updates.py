@@ -14,15 +14,16 @@ from scipy.stats import chi2
 
 from pyimu.attitude.filter.settings import Settings
 from pyimu.navigation.filter.layout import (
-    ACCEL_BIAS,
     BASE,
     GYRO_BIAS,
     POSITION,
+    RESTING,
     TURN,
     VELOCITY,
     Layout,
     State,
 )
+from pyimu.navigation.filter.prediction import about_the_start
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import cholesky, forward, reciprocal, symmetric
 from pyimu.symbolic.missing import is_finite
@@ -60,17 +61,15 @@ def corrected_by(layout: Layout, x: State, innovation, slope, noise) -> tuple[St
 def changed(layout: Layout, x: State, error) -> State:
     """The estimate with an ``error`` (n,) added."""
     gains = slice(BASE, BASE + len(layout.gains))
-    q = quaternion.normalized(quaternion.product(quaternion.exponential(error[TURN]), x.q))
-    back = quaternion.to_matrix(quaternion.conjugate(q))
+    about = quaternion.exponential(ca.vertcat(0, 0, error[TURN][2]))
+    turn, back = quaternion.exponential(error[TURN]), quaternion.conjugate(x.q)
     return replace(
         x,
-        q=q,
-        velocity=quaternion.rotate(
-            quaternion.exponential(error[TURN]), x.velocity + error[VELOCITY]
-        ),
-        position=x.position + error[POSITION],
-        gyro_bias=x.gyro_bias + back @ error[GYRO_BIAS],
-        accel_bias=x.accel_bias + back @ error[ACCEL_BIAS],
+        q=quaternion.normalized(quaternion.product(turn, x.q)),
+        velocity=quaternion.rotate(turn, x.velocity + error[VELOCITY]),
+        position=quaternion.rotate(about, x.position + error[POSITION]),
+        gyro_bias=x.gyro_bias + quaternion.rotate(back, error[GYRO_BIAS]),
+        resting=x.resting + quaternion.rotate(back, error[RESTING]),
         gains=x.gains + error[gains],
         mounting=x.mounting + error[layout.mounting],
     )
@@ -144,7 +143,8 @@ def by_speed(layout: Layout, x: State, speed, variance) -> tuple:
 def by_position(layout: Layout, x: State, position, variance, settings: Settings) -> tuple:
     """A measured position (3,) of the antenna, p + R l, each of its axes with the ``variance``."""
     arm = quaternion.rotate(x.q, _arm(settings, "antenna"))
-    slope = _slope(layout, 3, position=ca.SX.eye(3), turn=-ca.skew(arm))
+    turns = about_the_start(x.position) - ca.skew(arm)
+    slope = _slope(layout, 3, position=ca.SX.eye(3), turn=turns)
     off, noise = _of_known_axes(position - x.position - arm, variance)
     return corrected_by(layout, x, off, slope, noise)
 
