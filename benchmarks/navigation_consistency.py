@@ -65,25 +65,20 @@ CASES = {
 }
 
 
-def made(seed, truth, wanted):
-    """The figures of the wanted cases for one seed."""
-    out, logs = {"seed": seed}, {}
-    for name in wanted:
-        source, calibrated, how = CASES[name]
-        part = known(source, calibrated)
-        if (source, calibrated) not in logs:
-            logs[source, calibrated] = logged(part, truth, seed)
-        r = run(logs[source, calibrated], part, method="filter", **how)
-        e = r.errors["filter"]
-        out[name] = {
-            "end": e.end,
-            "rms": e.rms,
-            "yaw": float(np.degrees(e.yaw)),
-            "first": [float(v) for v in r.first_zupts],
-            "zaru": r.mean_nis("zaru_nis"),
-            "nees": float(nees(r)),
-        }
-    return out
+def made(seed, truth, name):
+    """The figures of a case for one seed."""
+    source, calibrated, how = CASES[name]
+    part = known(source, calibrated)
+    r = run(logged(part, truth, seed), part, method="filter", **how)
+    e = r.errors["filter"]
+    return {
+        "end": e.end,
+        "rms": e.rms,
+        "yaw": float(np.degrees(e.yaw)),
+        "first": [float(v) for v in r.first_zupts],
+        "zaru": r.mean_nis("zaru_nis"),
+        "nees": float(nees(r)),
+    }
 
 
 def rows_of(file):
@@ -97,12 +92,14 @@ def rows_of(file):
 
 def main(runs, file):
     truth, rows = square(**MORE), rows_of(file)
-    for seed in range(runs):
-        row = rows.setdefault(seed, {})
-        if wanted := [name for name in CASES if name not in row]:
-            row.update(made(seed, truth, wanted))
-            with file.open("a") as out:
-                out.write(json.dumps(row) + "\n")
+    for name in CASES:
+        # case by case, as each has filters of its own to build
+        for seed in range(runs):
+            row = rows.setdefault(seed, {"seed": seed})
+            if name not in row:
+                row[name] = made(seed, truth, name)
+                with file.open("a") as out:
+                    out.write(json.dumps({"seed": seed, name: row[name]}) + "\n")
     shown(rows)
 
 

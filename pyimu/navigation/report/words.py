@@ -67,7 +67,8 @@ def notes(a: Outcome) -> list[str]:
     if "coning" in kinds:
         out.append(
             f"Up to {np.degrees(kinds['coning'].detail['turn']):.3g} deg of turn lie between two "
-            "samples: the sample rate is too low for the turn rate"
+            "samples: the sample rate is too low for the turn rate, or the gyro's unit is another "
+            "than in its header"
         )
     out += list(_fixes(a))
     for f in a.findings:
