@@ -187,11 +187,18 @@ def _random(start: Part, kind: str) -> frozenset[str]:
 
 
 def _again(
-    inv: Investigation, prior: Mapping[Key, float], sensor: Sensor, free: frozenset[Key]
+    inv: Investigation,
+    prior: Mapping[Key, float],
+    sensor: Sensor,
+    free: frozenset[Key],
+    believed: bool = False,
 ) -> Investigation:
-    """The investigation once more, with a formula in the model from the start."""
+    """The investigation once more, with a formula in the model from the start, or the noise of the
+    reference ``believed``.
+    """
     trials, held = list(inv.before.trials), list(inv.held)
-    return investigate(sensor, free, trials, held, prior=prior)
+    believed = believed or inv.believed
+    return investigate(sensor, free, trials, held, prior=prior, believed=believed)
 
 
 def _file_of(part: Part | str | Path | None) -> list[Path]:
