@@ -66,7 +66,8 @@ def fixes_of(
     """The recording's positions and velocities, None without; what was ``told`` of them stands for
     columns. At a ``top_speed`` in m/s the body may have moved before the first position.
 
-    Raises UserError where a standard deviation is missing or not above zero, or an age below zero.
+    Raises UserError where a standard deviation is missing or not above zero, an age is below zero
+    or as long as the recording, and where something was told of measurements that are not there.
     """
     columns: dict[str, np.ndarray] = {}
     found, told = {}, told or Told()
@@ -76,11 +77,18 @@ def fixes_of(
     ):
         values = _values(recording, name)
         if values is None:
+            _check_needed(recording, name, {"std": given, "age": age})
             continue
         rows = np.flatnonzero(np.isfinite(values[:, :2]).all(axis=1))
         std = _std(recording, name, unit, given, rows)
-        values, std = _at_their_rows(recording, values, std, _age(recording, name, age, rows))
-        rows = np.flatnonzero(np.isfinite(values[:, :2]).all(axis=1))
+        late = _age(recording, name, age, rows)
+        values, std = _at_their_rows(recording, values, std, late)
+        measured, rows = rows, np.flatnonzero(np.isfinite(values[:, :2]).all(axis=1))
+        if len(measured) and not len(rows):
+            raise UserError(
+                f"{recording.name}: {name}_age is {late[measured].min():g} s or more, by which "
+                f"each measured {name} is of before the log or of a gap; an age is in s"
+            )
         if name == "position" and len(rows):
             values = values - _origin(values[rows])
         found[name] = rows, values[rows], std[rows]
@@ -93,6 +101,16 @@ def fixes_of(
         return Fixes(columns, rows, position, 0.0)
     waited = float(recording.time[rows[0]] - recording.time[0])
     return Fixes(columns, rows, position, float(np.hypot(std[0], top_speed * waited)))
+
+
+def _check_needed(recording: Recording, name: str, told: Mapping[str, float | None]) -> None:
+    """Raise UserError where something was told of measurements that the recording has not."""
+    for what, value in told.items():
+        if value is not None:
+            raise UserError(
+                f"{recording.name}: {name}_{what} was told, and there is no measured {name}; the "
+                f"log's columns {name}_east, {name}_north, {name}_up are one"
+            )
 
 
 def _age(recording: Recording, name: str, given: float | None, rows: np.ndarray) -> np.ndarray:

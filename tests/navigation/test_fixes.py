@@ -131,9 +131,23 @@ def test_positions_that_come_late_are_of_their_instant(truth, by):
     assert np.mean([r.errors["filter"].rms for r in parts]) < 0.5 * np.mean(ends)
 
 
-def test_an_age_below_zero_is_refused(log):
-    with pytest.raises(UserError, match=r"position_age is -0.1 s, expected 0 or more"):
-        navigate(fixed(log), position_age=-0.1)
+@pytest.mark.parametrize(
+    ("age", "said"),
+    (
+        (-0.1, "position_age is -0.1 s, expected 0 or more"),
+        (float("nan"), "position_age"),
+        (700.0, "position_age is 700 s or more, by which each measured position is of before"),
+    ),
+)
+def test_an_age_that_is_none_is_refused(log, age, said):
+    with pytest.raises(UserError, match=said):
+        navigate(fixed(log), position_age=age)
+
+
+@pytest.mark.parametrize("name", ("position_std", "position_age", "velocity_std", "velocity_age"))
+def test_what_is_told_of_measurements_that_are_not_there_is_refused(log, name):
+    with pytest.raises(UserError, match=f"{name} was told, and there is no measured"):
+        navigate(log, **{name: 0.5})
 
 
 def test_a_fix_without_height_leaves_the_height_alone(log):

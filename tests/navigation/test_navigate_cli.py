@@ -92,6 +92,7 @@ def test_one_method_and_no_updates(pyimu, log):
         (("--zupt", "declared"), ("stationary [1]", "--zupt auto")),
         (("--latitude", "95"), ("--latitude 95", "-90 and 90")),
         (("--top-speed", "-1"), ("top_speed",)),
+        (("--position-age", "0.2"), ("position_age was told", "position_east")),
     ),
 )
 def test_wrong_options_end_with_a_line(pyimu, log, tmp_path, words, said):
@@ -147,7 +148,8 @@ def test_a_rate_too_high_for_the_sample_rate_is_said(square_log):
     fast = np.array(square_log.gyro)
     fast[700] = [0.0, 0.0, 20.0]
     found = run(replace(square_log, gyro=fast), assumed(), method="filter")
-    assert "too low for the turn rate, or the gyro's unit" in found.report()
+    assert "between two samples (at 14 s): the sample rate is too low" in found.report()
+    assert "or the unit of gyro or time" in found.report()
 
 
 def test_integration_alone_is_left_out_where_samples_are_missing(square_log):

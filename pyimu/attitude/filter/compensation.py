@@ -360,7 +360,8 @@ def _by_allan(variance, tau, short, long):
     """
     one, two = (_allan_times_time(variance, tau, t) for t in (short, long))
     walk = 3 * (two - one) / (long**2 - short**2)
-    return one - walk * short**2 / 3, walk
+    # of a very slow process the difference is rounding, of any sign
+    return ca.fmax(one - walk * short**2 / 3, 0), walk
 
 
 def _allan_times_time(variance, tau, time):
