@@ -99,7 +99,7 @@ class Unscented:
         for k in range(n):
             if k == 0:
                 packed, kept, *_ = self.step(state, u[0], self.p, self.h)
-                packed = np.array(packed).ravel()
+                packed = np.array(ins_block._first(layout)(packed, kept, self.p)).ravel()
                 x, memory = packed[: layout.nominal], np.array(kept).ravel()
                 covariance = _unpacked(packed[layout.nominal :], self.n) + 1e-12 * np.eye(self.n)
                 continue

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{aa3d268b-bd50-b69b-00e8-f1b22d4f8a90}"
-#define MODEL_TOKEN_FMI3 "{c66a12ac-d46b-39f9-ae79-1980d9932ec9}"
+#define MODEL_TOKEN_FMI2 "{0ca744ba-72b3-87fb-d5c4-4f4a114a2ab4}"
+#define MODEL_TOKEN_FMI3 "{41851647-a73d-3823-90ef-827ec75e2f2c}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -22,7 +22,7 @@ enum {
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 29, WORK_RES = 8, WORK_IW = 0, WORK_W = 1725 };
+enum { WORK_ARG = 29, WORK_RES = 8, WORK_IW = 0, WORK_W = 1898 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{93890a8f-8fcc-82bf-e9a9-30694c0bf033}"
-#define MODEL_TOKEN_FMI3 "{8850e857-910a-e91c-98b6-1cca1f987f35}"
+#define MODEL_TOKEN_FMI2 "{d41bad24-110c-a276-bcdd-2fbef48efadf}"
+#define MODEL_TOKEN_FMI3 "{9b9d48a0-ae3a-aa58-4a3c-88b3eb7688ab}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -22,7 +22,7 @@ enum {
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 29, WORK_RES = 8, WORK_IW = 0, WORK_W = 1725 };
+enum { WORK_ARG = 29, WORK_RES = 8, WORK_IW = 0, WORK_W = 1898 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };

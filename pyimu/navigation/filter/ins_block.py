@@ -118,9 +118,10 @@ def _step(layout: Layout, recorded: bool) -> ca.Function:
     sizes = {"s": layout.state, "u": len(layout.inputs), "p": len(layout.parameters), "h": 1}
     s, u, p, h = (ca.MX.sym(name, size) for name, size in sizes.items())
     x, memory, rate, status, rest, transition = _predict(layout)(s, u, p, h)
-    n = layout.errors
+    n, begun = layout.errors, s[layout.begun]
+    starts = ca.logic_and(begun <= 0, memory[layout.begun - layout.packed] > 0)
+    x = where(starts, _first(layout), x, memory, p)
     work = ca.vertcat(x, ca.MX.zeros(REPORT + n))
-    begun = s[layout.begun]
     nominal_at = {v.name: i for i, v in enumerate(layout.parameters)}
 
     def setting(name: str):
@@ -162,10 +163,7 @@ def _predict(layout: Layout) -> ca.Function:
     sample = prediction.read(layout, memory, x.q, u, settings, h)
     sample = prediction.with_rest(layout, x, memory, sample, settings, h)
     after, transition, means = prediction.predicted(layout, x, memory, sample, settings, h)
-    first = beginning.first(layout, sample.force, settings)
-    start = ca.logic_and(memory.begun <= 0, sample.accel_lost <= 0)
     packed = ca.if_else(memory.begun > 0, layout.pack(after), s[: layout.packed])
-    packed = ca.if_else(start, layout.pack(first), packed)
     status = ca.fmax(sample.gyro_lost, sample.accel_lost)
     kept = prediction.remembered(memory, sample, means, h).pack()
     return ca.Function(
@@ -174,6 +172,16 @@ def _predict(layout: Layout) -> ca.Function:
         [packed, kept, sample.rate, status, sample.still, ca.densify(transition[:])],
         OPTIONS,
     )
+
+
+def _first(layout: Layout) -> ca.Function:
+    """``x, memory, p -> x`` of the first sample with a force."""
+    x = ca.SX.sym("x", layout.packed)
+    packed = ca.SX.sym("memory", layout.state - layout.packed)
+    p = ca.SX.sym("p", len(layout.parameters))
+    force = Memory.unpack(packed, layout).force
+    first = beginning.first(layout, force, prediction.settings_of(layout, p))
+    return ca.Function("first", [x, packed, p], [layout.pack(first)], OPTIONS)
 
 
 def _update(layout: Layout, name: str, kind: str, correct: Callable, *sizes: int) -> ca.Function:
