@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{0ca744ba-72b3-87fb-d5c4-4f4a114a2ab4}"
-#define MODEL_TOKEN_FMI3 "{41851647-a73d-3823-90ef-827ec75e2f2c}"
+#define MODEL_TOKEN_FMI2 "{6c6ff24f-dbe4-c9cb-105e-6422f76d7d18}"
+#define MODEL_TOKEN_FMI3 "{c97b302e-1a14-5866-9578-bbe9f938680c}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

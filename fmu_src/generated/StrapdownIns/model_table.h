@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{d41bad24-110c-a276-bcdd-2fbef48efadf}"
-#define MODEL_TOKEN_FMI3 "{9b9d48a0-ae3a-aa58-4a3c-88b3eb7688ab}"
+#define MODEL_TOKEN_FMI2 "{058266e7-461e-25a9-0b87-a7c30b6fa31d}"
+#define MODEL_TOKEN_FMI3 "{bbcaee19-2730-f242-6909-8f57be0c54a2}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

@@ -219,10 +219,10 @@ def _nhc(layout: Layout) -> ca.Function:
 
 
 def _speed(layout: Layout) -> ca.Function:
-    def correct(x: State, speed, variance):
-        return updates.by_speed(layout, x, speed, variance)
+    def correct(x: State, speed, variance, p):
+        return updates.by_speed(layout, x, speed, variance, prediction.settings_of(layout, p))
 
-    return _update(layout, "by_speed", "speed", correct, 1, 1)
+    return _update(layout, "by_speed", "speed", correct, 1, 1, len(layout.parameters))
 
 
 def _position(layout: Layout) -> ca.Function:
@@ -247,7 +247,7 @@ def _measured(layout: Layout) -> ca.Function:
     u, rate = ca.MX.sym("u", len(layout.inputs)), ca.MX.sym("rate", 3)
     p, h = ca.MX.sym("p", len(layout.parameters)), ca.MX.sym("h")
     for valid, function, value, variance, more in (
-        (SPEED_VALID, _speed, SPEED, SPEED_VARIANCE, ()),
+        (SPEED_VALID, _speed, SPEED, SPEED_VARIANCE, (p,)),
         (VELOCITY_VALID, _velocity, MEASURED_VELOCITY, VELOCITY_VARIANCE, (rate, p, h)),
         (POSITION_VALID, _position, POSITION, POSITION_VARIANCE, (p,)),
     ):

@@ -21,6 +21,9 @@ TURN, VELOCITY, POSITION, GYRO_BIAS, RESTING = (slice(i, i + 3) for i in range(0
 """Where the error state has attitude, velocity, position, gyro bias and the force of a rest, all in
 world axes."""
 
+UP = RESTING.stop - 1
+"""Where it has the resting force upwards."""
+
 BASE = 15
 """Errors that every filter has."""
 

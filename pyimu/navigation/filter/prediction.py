@@ -24,7 +24,8 @@ A rest tells s, and of tilt, bias and gains only that together they make it. As 
 rest knows is one number of the state, whatever the tilt: at rest and along a straight leg all of
 it is linear, however large the errors. With the bias as the state, the weight of a body tilted by
 phi is wrong by c phi^2 / 2, 13 mm/s^2 for 3 deg, where the rest knows it to 1 mm/s^2. Linear in
-small angles alone is what a turn does: see ``weight``.
+small angles alone is what a turn does: see ``weight``. And what of a tilt comes up on the way, by
+the gyro's errors, bends the weight once more: see ``_bending`` and ``updates``.
 """
 
 from __future__ import annotations
@@ -42,6 +43,7 @@ from pyimu.navigation.filter.layout import (
     POSITION,
     RESTING,
     TURN,
+    UP,
     VELOCITY,
     Layout,
     Memory,
@@ -191,11 +193,21 @@ def predicted(
     by_gains = wander.by_gains(layout, (rates[0] + rates[1]) / 2, axes)
     transition = _transition(layout, step, (by_gains, means[1] - upright, shift), settings, h)
     both = transition @ x.covariance @ transition.T + _noise(layout, step, settings, h)
+    both[UP, UP] = both[UP, UP] + _bending(x.covariance, both, settings)
     covariance = symmetric(layout.errors, lambda i, j: both[i, j])
     x = replace(
         x, q=q, velocity=velocity, position=position, resting=resting, covariance=covariance
     )
     return _unseen(x, step, memory, sample, settings, h), transition, means
+
+
+def _bending(before, after, settings: Settings):
+    """Variance that the resting force gains upwards in a step, as the tilt's grows from the
+    covariance ``before`` to that ``after``: that of c phi^2 / 2, of second order, is c^2 P^2 / 2 of
+    each axis.
+    """
+    grown = [before[i, i] * ca.fmax(after[i, i] - before[i, i], 0) for i in (0, 1)]
+    return settings.scalar["gravity"] ** 2 * sum(grown)
 
 
 def _means(memory: Memory, rate, force, at_rest: tuple, rest, h) -> tuple:
@@ -293,8 +305,7 @@ def _noise(layout: Layout, step: Step, settings: Settings, h) -> ca.SX:
     q[POSITION, VELOCITY] = q[VELOCITY, POSITION].T
     for place, noise in ((GYRO_BIAS, settings.gyro), (RESTING, settings.accel)):
         q[place, place] = q[place, place] + h * axes @ ca.diag(noise.walk**2) @ axes.T
-    up = RESTING.stop - 1
-    q[up, up] = q[up, up] + h * step.wander.noise
+    q[UP, UP] = q[UP, UP] + h * step.wander.noise
     return q
 
 

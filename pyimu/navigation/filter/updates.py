@@ -19,6 +19,7 @@ from pyimu.navigation.filter.layout import (
     POSITION,
     RESTING,
     TURN,
+    UP,
     VELOCITY,
     Layout,
     State,
@@ -37,7 +38,9 @@ def gate(freedom: int) -> float:
     return float(chi2.isf(BY_CHANCE, freedom))
 
 
-def corrected_by(layout: Layout, x: State, innovation, slope, noise) -> tuple[State, ca.SX, ca.SX]:
+def corrected_by(
+    layout: Layout, x: State, innovation, slope, noise, settings: Settings
+) -> tuple[State, ca.SX, ca.SX]:
     """The estimate after a measurement, its normalised innovation squared, and the error (n,) that
     it took out.
 
@@ -55,6 +58,7 @@ def corrected_by(layout: Layout, x: State, innovation, slope, noise) -> tuple[St
     covariance = symmetric(
         layout.errors, lambda i, j: x.covariance[i, j] - ca.dot(gain[:, i], gain[:, j])
     )
+    change[UP] = change[UP] + _bent(change, settings.scalar["gravity"])
     return changed(layout, replace(x, covariance=covariance), change), nis, change
 
 
@@ -75,6 +79,18 @@ def changed(layout: Layout, x: State, error) -> State:
     )
 
 
+def _bent(error, gravity):
+    """What is of second order in the tilt of an ``error`` (n,) of the resting force upwards.
+
+    A body that is tilted by phi feels less of its weight c there, by c phi^2 / 2. What of the tilt
+    was there at the last rest is in the force that this has shown: it is the part of the error that
+    looks like a bias, r - c x phi. The other part came up on the way.
+    """
+    tilt = error[TURN][:2]
+    taken = error[RESTING][:2] / gravity - ca.vertcat(-tilt[1], tilt[0])
+    return gravity / 2 * (ca.sumsqr(taken) - ca.sumsqr(tilt))
+
+
 def _slope(layout: Layout, rows: int, **parts) -> ca.SX:
     out = ca.SX(rows, layout.errors)
     places = {"turn": TURN, "velocity": VELOCITY, "position": POSITION, "gyro_bias": GYRO_BIAS}
@@ -92,7 +108,7 @@ def by_zero_velocity(layout: Layout, x: State, settings: Settings) -> tuple:
     """
     slope = _slope(layout, 3, velocity=ca.SX.eye(3))
     noise = settings.scalar["zupt_std"] ** 2 * ca.SX.ones(3)
-    return corrected_by(layout, x, -x.velocity, slope, noise)
+    return corrected_by(layout, x, -x.velocity, slope, noise, settings)
 
 
 def by_zero_rate(layout: Layout, x: State, rate, settings: Settings, h) -> tuple:
@@ -102,7 +118,7 @@ def by_zero_rate(layout: Layout, x: State, rate, settings: Settings, h) -> tuple
     slope = _slope(layout, 3, turn=back @ ca.skew(settings.earth), gyro_bias=back)
     expected = earth + layout.matrix(x.gains, "gyro") @ earth + x.gyro_bias
     noise = settings.gyro.white**2 * reciprocal(h) + 1e-16
-    return corrected_by(layout, x, rate - expected, slope, noise)
+    return corrected_by(layout, x, rate - expected, slope, noise, settings)
 
 
 def by_vehicle(layout: Layout, x: State, rate, settings: Settings, h) -> tuple:
@@ -130,14 +146,14 @@ def by_vehicle(layout: Layout, x: State, rate, settings: Settings, h) -> tuple:
     own = settings.gyro.white**2 * reciprocal(h)
     of_arm = (of_speed @ ca.skew(arm)) ** 2 @ own
     noise = at["nhc_std"] ** 2 * ca.fmax(2 * at["nhc_time"] * reciprocal(h), 1) + of_arm
-    return corrected_by(layout, x, -of_speed @ speed, slope, noise)
+    return corrected_by(layout, x, -of_speed @ speed, slope, noise, settings)
 
 
-def by_speed(layout: Layout, x: State, speed, variance) -> tuple:
+def by_speed(layout: Layout, x: State, speed, variance, settings: Settings) -> tuple:
     """A measured speed along the body's x axis."""
     back = quaternion.to_matrix(quaternion.conjugate(x.q))
     slope = _slope(layout, 1, velocity=back[0, :])
-    return corrected_by(layout, x, speed - back[0, :] @ x.velocity, slope, variance)
+    return corrected_by(layout, x, speed - back[0, :] @ x.velocity, slope, variance, settings)
 
 
 def by_position(layout: Layout, x: State, position, variance, settings: Settings) -> tuple:
@@ -146,7 +162,7 @@ def by_position(layout: Layout, x: State, position, variance, settings: Settings
     turns = about_the_start(x.position) - ca.skew(arm)
     slope = _slope(layout, 3, position=ca.SX.eye(3), turn=turns)
     off, noise = _of_known_axes(position - x.position - arm, variance)
-    return corrected_by(layout, x, off, slope, noise)
+    return corrected_by(layout, x, off, slope, noise, settings)
 
 
 def by_velocity(layout: Layout, x: State, velocity, variance, rate, settings: Settings, h) -> tuple:
@@ -166,7 +182,7 @@ def by_velocity(layout: Layout, x: State, velocity, variance, rate, settings: Se
     )
     by_arm = ca.mmax(settings.gyro.white) ** 2 * reciprocal(h) * ca.sumsqr(arm)
     off, noise = _of_known_axes(velocity - moves, variance + by_arm)
-    return corrected_by(layout, x, off, slope, noise)
+    return corrected_by(layout, x, off, slope, noise, settings)
 
 
 def _arm(settings: Settings, name: str) -> ca.SX:
