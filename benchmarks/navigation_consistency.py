@@ -22,6 +22,7 @@ from navigation import MORE, PART, nees
 from scipy.stats import chi2
 
 import pyimu
+from pyimu.attitude.columns import wandering
 from pyimu.block.parameters import with_values
 from pyimu.navigation import run
 from pyimu.rover.square import square
@@ -32,8 +33,10 @@ BIAS = "turn_on_bias"
 
 @cache
 def known(name, calibrated):
-    """A part at 100 Hz, and calibrated."""
-    part = replace(pyimu.part(name), sample_rate=100.0)
+    """A part at 100 Hz, and calibrated; where it is silent of its gyro's wander with that which the
+    filter then takes.
+    """
+    part = wandering(replace(pyimu.part(name), sample_rate=100.0))
     kept = tuple(t for t in part.tolerances if t.key[1] == BIAS or not calibrated)
     return replace(part, tolerances=kept)
 
@@ -62,25 +65,20 @@ CASES = {
 }
 
 
-def made(seed, truth, wanted):
-    """The figures of the wanted cases for one seed."""
-    out, logs = {"seed": seed}, {}
-    for name in wanted:
-        source, calibrated, how = CASES[name]
-        part = known(source, calibrated)
-        if (source, calibrated) not in logs:
-            logs[source, calibrated] = logged(part, truth, seed)
-        r = run(logs[source, calibrated], part, method="filter", **how)
-        e = r.errors["filter"]
-        out[name] = {
-            "end": e.end,
-            "rms": e.rms,
-            "yaw": float(np.degrees(e.yaw)),
-            "first": [float(v) for v in r.first_zupts],
-            "zaru": r.mean_nis("zaru_nis"),
-            "nees": float(nees(r)),
-        }
-    return out
+def made(seed, truth, name):
+    """The figures of a case for one seed."""
+    source, calibrated, how = CASES[name]
+    part = known(source, calibrated)
+    r = run(logged(part, truth, seed), part, method="filter", **how)
+    e = r.errors["filter"]
+    return {
+        "end": e.end,
+        "rms": e.rms,
+        "yaw": float(np.degrees(e.yaw)),
+        "first": [float(v) for v in r.first_zupts],
+        "zaru": r.mean_nis("zaru_nis"),
+        "nees": float(nees(r)),
+    }
 
 
 def rows_of(file):
@@ -94,12 +92,14 @@ def rows_of(file):
 
 def main(runs, file):
     truth, rows = square(**MORE), rows_of(file)
-    for seed in range(runs):
-        row = rows.setdefault(seed, {})
-        if wanted := [name for name in CASES if name not in row]:
-            row.update(made(seed, truth, wanted))
-            with file.open("a") as out:
-                out.write(json.dumps(row) + "\n")
+    for name in CASES:
+        # case by case, as each has filters of its own to build
+        for seed in range(runs):
+            row = rows.setdefault(seed, {"seed": seed})
+            if name not in row:
+                row[name] = made(seed, truth, name)
+                with file.open("a") as out:
+                    out.write(json.dumps({"seed": seed, name: row[name]}) + "\n")
     shown(rows)
 
 

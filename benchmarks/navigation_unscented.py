@@ -3,7 +3,7 @@
 
 The same errors, mechanisation, noise, measurements and gates, but the covariance through points of
 the error state (Julier and Uhlmann 2004, with the spread of a normal distribution's fourth moment)
-in place of its derivative, and without the noise that stands for what the derivative leaves out.
+in place of its derivative.
 Printed is, for the drive of ``benchmarks/navigation.py`` with declared rests, how far the two paths
 lie apart in standard deviations of the linear one (root mean square, at most and when, at the end),
 the error of each at the end in m, and how their standard deviations at the end compare.
@@ -99,7 +99,7 @@ class Unscented:
         for k in range(n):
             if k == 0:
                 packed, kept, *_ = self.step(state, u[0], self.p, self.h)
-                packed = np.array(packed).ravel()
+                packed = np.array(ins_block._first(layout)(packed, kept, self.p)).ravel()
                 x, memory = packed[: layout.nominal], np.array(kept).ravel()
                 covariance = _unpacked(packed[layout.nominal :], self.n) + 1e-12 * np.eye(self.n)
                 continue
@@ -141,13 +141,13 @@ def _functions(layout, p):
     turn = quaternion.product(y.q, quaternion.conjugate(x.q))
     size = ca.norm_2(turn[1:] + 1e-150)
     angle = 2 * ca.atan2(size, ca.fabs(turn[0])) / size * ca.sign(turn[0]) * turn[1:]
-    axes = quaternion.to_matrix(y.q)
+    axes, about = quaternion.to_matrix(x.q), ca.vertcat(0, 0, -angle[2])
     off = [
         angle,
         quaternion.rotate(quaternion.conjugate(turn), y.velocity) - x.velocity,
-        y.position - x.position,
+        quaternion.rotate(quaternion.exponential(about), y.position) - x.position,
         axes @ (y.gyro_bias - x.gyro_bias),
-        axes @ (y.accel_bias - x.accel_bias),
+        axes @ (y.resting - x.resting),
         y.gains - x.gains,
         y.mounting - x.mounting,
     ]

@@ -21,12 +21,12 @@ KILLED = Path(__file__).parent / "support" / "killed.py"
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="kills by signals")
 def test_killed_at_random_moments(tmp_path):
-    """Twenty-eight kills over four commands; a run takes longer than the moment is drawn from only
+    """Twenty-seven kills over nine commands; a run takes longer than the moment is drawn from only
     by chance, so that nearly all come before its end.
     """
     environment = os.environ | {"PYTHONPATH": f"{CHECKOUT}{os.pathsep}{KILLED.parent}"}
     done = subprocess.run(
-        [sys.executable, KILLED, tmp_path, "7"],
+        [sys.executable, KILLED, tmp_path, "3"],
         capture_output=True,
         text=True,
         timeout=600,
@@ -34,7 +34,7 @@ def test_killed_at_random_moments(tmp_path):
         env=environment,
     )
     lines = done.stdout.splitlines()
-    assert done.returncode == 0 and len(lines) == 4, done.stderr
+    assert done.returncode == 0 and len(lines) == 9, done.stderr
     assert all(re.fullmatch(r"\w+: killed \d+; ", line) for line in lines), done.stdout
 
 

@@ -65,14 +65,18 @@ class Chain:
         return Case(self.kind, self.scene, c, form, self.seed)
 
     def measure(self, effects: Mapping[str, Case]) -> np.ndarray:
-        """What it shows (n, 3) of the scene with effects by name."""
+        """What it shows (n, 3) of the scene with effects by name: one that the part declares, too,
+        is by how much the declared value is off.
+        """
         own = {"misalignment": self.triad.skew, "scale_factor": self.triad.scale}
         y = self.scene.own(self.kind)
         for term in INPUT:
+            case = effects.get(term.name)
             if term.name in own:
-                y = term.apply(y, self.case(own[term.name], {}))
-            if term.name in effects:
-                y = term.apply(y, effects[term.name])
+                off = 0.0 if case is None else case.c
+                case = self.case(own[term.name] + off, {})
+            if case is not None:
+                y = term.apply(y, case)
         y = y + self.noise()
         for term in (*NOISE, *OUTPUT):
             if term.name in effects:

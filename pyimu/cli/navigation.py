@@ -55,6 +55,14 @@ VelocityStd = Annotated[
     float | None,
     option("--velocity-std", "m/s; of those velocities, else the column velocity_std."),
 ]
+PositionAge = Annotated[
+    float | None,
+    option("--position-age", "s; by which those positions are late, else the column position_age."),
+]
+VelocityAge = Annotated[
+    float | None,
+    option("--velocity-age", "s; by which those velocities are late, else velocity_age."),
+]
 Antenna = Annotated[
     str | None,
     option(
@@ -87,6 +95,8 @@ def navigate_command(
     fixes: UseFixes = True,
     position_std: PositionStd = None,
     velocity_std: VelocityStd = None,
+    position_age: PositionAge = None,
+    velocity_age: VelocityAge = None,
     antenna: Antenna = None,
     latitude: Latitude = None,
     heading0: Heading0 = None,
@@ -123,6 +133,8 @@ def navigate_command(
             fixes=fixes,
             position_std=position_std,
             velocity_std=velocity_std,
+            position_age=position_age,
+            velocity_age=velocity_age,
             latitude=at,
             heading0=heading,
             settings=settings,

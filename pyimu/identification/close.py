@@ -21,7 +21,7 @@ from pyimu.identification.formula.effect import forget
 from pyimu.identification.formula.search import Look, look
 from pyimu.identification.instead import formula_less_than_noise, less_than_noise
 from pyimu.identification.made_with import called
-from pyimu.identification.reference.align import aligned, wanders_little
+from pyimu.identification.reference.align import aligned
 from pyimu.identification.reference.belongs import misfit
 from pyimu.identification.reference.gravity import few, rest_trials
 from pyimu.identification.reference.positions import positions_wanted, unshown
@@ -124,8 +124,7 @@ def _investigated(
     looks: dict[str, Look] = {}
     quality: list[Finding] = []
     for kind, make in (("accel", accel_trial), ("gyro", gyro_trial)):
-        made = partial(_trials, make=make, logs=logs, others=others, latitude=latitude)
-        trials, held = made(start.sensor(kind))
+        trials, held = _trials(start.sensor(kind), make, logs, others, latitude)
         if kind == "accel":
             at_rest = rest_trials(start.accel, logs, others, latitude)
             trials, held = at_rest or (trials, held)
@@ -136,35 +135,14 @@ def _investigated(
             free = _free(start, declared, start.sensor(kind), trials)
             trials = _shown(start, declared, free, trials)
             prior = {} if declared else _prior(kind, free)
-            looked = partial(
-                investigate, start.sensor(kind), free, say=say, prior=prior, unfit=misfit(trials)
+            seen = investigate(
+                start.sensor(kind), free, trials, held, say=say, prior=prior, unfit=misfit(trials)
             )
-            found[kind] = looked(trials, held)
-            if (steadier := _steadier(found[kind], made)) is not None:
-                trials, held = steadier
-                found[kind] = looked(trials, held)
-            looks[kind] = _looked(found[kind], prior, _random(start, kind), say)
+            looks[kind] = _looked(seen, prior, _random(start, kind), say)
             found[kind] = looks[kind].investigation
             quality += late_thermometers(found[kind])
         quality += _of_trials([*trials, *held])
     return {k: found[k] for k in ("gyro", "accel") if k in found}, looks, quality
-
-
-def _steadier(inv: Investigation, made: Callable) -> tuple[list[Trial], list[Trial]] | None:
-    """The trials of an investigation made anew, where a clock wanders no more beside the effects
-    that it found; None otherwise.
-
-    What an effect does, seen before it is known, may be all that there is of a clock that wanders
-    by less than a sample.
-    """
-
-    def wandering(trials: Sequence[Trial]) -> int:
-        return sum(wanders_little(t, t.clock) for t in trials)
-
-    if not inv.steps or not wandering(inv.after.trials):
-        return None
-    trials, held = made(inv.after.sensor, free=inv.after.free)
-    return (trials, held) if wandering(trials) < wandering(inv.after.trials) else None
 
 
 def _looked(
@@ -187,11 +165,18 @@ def _random(start: Part, kind: str) -> frozenset[str]:
 
 
 def _again(
-    inv: Investigation, prior: Mapping[Key, float], sensor: Sensor, free: frozenset[Key]
+    inv: Investigation,
+    prior: Mapping[Key, float],
+    sensor: Sensor,
+    free: frozenset[Key],
+    believed: bool = False,
 ) -> Investigation:
-    """The investigation once more, with a formula in the model from the start."""
+    """The investigation once more, with a formula in the model from the start, or the noise of the
+    reference ``believed``.
+    """
     trials, held = list(inv.before.trials), list(inv.held)
-    return investigate(sensor, free, trials, held, prior=prior)
+    believed = believed or inv.believed
+    return investigate(sensor, free, trials, held, prior=prior, believed=believed)
 
 
 def _file_of(part: Part | str | Path | None) -> list[Path]:
@@ -308,11 +293,8 @@ def _trials(
     logs: list[Recording],
     others: list[Recording],
     latitude: float | None,
-    free: frozenset[Key] = frozenset(),
 ) -> tuple[list[Trial], list[Trial]]:
-    """Trials to fit and to judge by, the references on the sensor's clock, through one band;
-    coefficients ``free`` of the sensor may explain what a clock seems to do.
-    """
+    """Trials to fit and to judge by, the references on the sensor's clock, through one band."""
 
     def trial(r: Recording) -> Trial | None:
         static = is_at_rest(r)
@@ -322,7 +304,7 @@ def _trials(
 
     fitted = [t for t in map(trial, logs) if t is not None and t.count >= SHORTEST]
     apart = [t for t in map(trial, others) if t is not None and t.count >= SHORTEST]
-    together = aligned(fitted, apart, sensor, free)
+    together = aligned(fitted, apart, sensor)
     fitted, apart = together[: len(fitted)], together[len(fitted) :]
     bands = [t.band_hz for t in fitted if t.band_hz is not None]
     if bands:

@@ -104,8 +104,9 @@ class Errors:
     """Held-out error of one sensor before, after, and as the noise alone would leave it.
 
     ``floor`` is what the white noise of sensor and reference leaves, ``drift`` what the random walk
-    of the sensor would add to it. ``data`` says what was held out where that is not the same for
-    all sensors.
+    of the sensor would add to it, ``unsure`` what gravity there and coefficients that nobody
+    declared may add, as far as the other rows leave them open. ``data`` says what was held out
+    where that is not the same for all sensors.
     """
 
     unit: str
@@ -114,6 +115,7 @@ class Errors:
     floor: ErrorSums | None
     drift: ErrorSums | None = None
     data: str = ""
+    unsure: ErrorSums | None = None
 
     @property
     def noise(self) -> float:
@@ -131,10 +133,24 @@ class Errors:
         drift = np.zeros(3) if self.drift is None else np.nan_to_num(self.drift.per_axis)
         return np.hypot(self.floor.per_axis, drift)
 
+    @property
+    def expected(self) -> float:
+        """RMS that noise leaves, and what nobody knows beforehand."""
+        unsure = 0.0 if self.unsure is None else np.nan_to_num(self.unsure.total)
+        return float(np.hypot(self.noise, unsure))
+
+    @property
+    def expected_per_axis(self) -> np.ndarray:
+        """The same of each axis (3,)."""
+        unsure = 0.0 if self.unsure is None else np.nan_to_num(self.unsure.per_axis)
+        return np.hypot(self.noise_per_axis, unsure)
+
     def __add__(self, other: Errors) -> Errors:
-        before, after = self.before + other.before, self.after + other.after
-        floor, drift = _both(self.floor, other.floor), _both(self.drift, other.drift)
-        return Errors(self.unit, before, after, floor, drift, self.data)
+        sums = {
+            n: _both(getattr(self, n), getattr(other, n))
+            for n in ("before", "after", "floor", "drift", "unsure")
+        }
+        return Errors(self.unit, **sums, data=self.data)
 
     def as_dict(self) -> dict[str, Any]:
         data = {"data": self.data} if self.data else {}
@@ -150,6 +166,8 @@ class Errors:
 
     def _row(self, name: str) -> dict[str, Any]:
         tallies = {n: getattr(self, n) for n in ("before", "after", "floor", "drift")}
+        if self.unsure is not None:
+            tallies["unsure"] = self.unsure
         return {k: None if t is None else plain(getattr(t, name)) for k, t in tallies.items()}
 
 

@@ -94,9 +94,11 @@ def _errors_of_rows(inv: Investigation, trial: Trial) -> Errors:
     wander = trial.reduction.wander.max()
     # More than any sensor wanders is no noise, but something that the model lacks.
     share = min(1.0, (FARTHEST * typical_wander(trial.kind)) ** 2 / wander)
-    unit, shares = inv.after.sensor.output.unit, (after.white, share * after.wander)
-    noise = (after.sums(v) for v in shares)
-    return Errors(unit, *sums, *noise, data=FOLDS[trial.kind])
+    # The rest of what is expected is in what the other rows leave open of the model.
+    open_ = np.maximum(after.variance - after.white - after.wander, 0.0)
+    noise = (after.sums(v) for v in (after.white, share * after.wander))
+    unit, unsure = inv.after.sensor.output.unit, after.sums(open_)
+    return Errors(unit, *sums, *noise, data=FOLDS[trial.kind], unsure=unsure)
 
 
 def at_rest(found: dict[str, Investigation]) -> tuple[AtRest, ...]:

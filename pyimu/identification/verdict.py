@@ -104,7 +104,8 @@ def _verdict(e: Evidence) -> Verdict:
         return Verdict("unexplained", why, (left,) if left else ())
     if e.added:
         names = ", ".join(f"{a.sensor} {a.effect}" for a in e.added)
-        return Verdict("partly", names, (left,)) if left else Verdict("named", names)
+        still_open = tuple(filter(None, [open_of(e)]))
+        return Verdict("partly", names, (left,)) if left else Verdict("named", names, still_open)
     shapes = [u for u in e.unexplained if u.shape]
     if shapes:
         u = shapes[0]
@@ -154,6 +155,8 @@ def _nothing_found(e: Evidence, left: str) -> Verdict:
         return Verdict("unexplained", f"no effect of the catalogue accounts for it: {left}")
     if e.beside is not None and e.beside.word != "undecidable":
         return e.beside
+    if still_open := open_of(e):
+        return Verdict("undecidable", f"{still_open}: let it rest in more of them")
     unjudged = [k for k in e.examined if not _is_judged(e.errors.get(k))]
     if unjudged:
         reason = f"no held-out row is left to judge the {joined(unjudged)} by"
@@ -212,29 +215,42 @@ def left_of(e: Evidence) -> str:
 def _left(kind: str, e: Evidence) -> str:
     """The same of one sensor, whose errors are compared in all logs, in each, and by axis."""
     whole, logs = e.errors[kind], {n: by[kind] for n, by in e.by_log.items() if kind in by}
-    ratio = _ratio(whole.after.total, whole.noise)
     axes = _by_axis(whole)
     pieces = {(name, i): r for name, one in logs.items() for i, r in _by_axis(one).items()}
     most_of_log = max(pieces, key=lambda at: pieces[at], default=None)
     limit = max(FAR, float(np.sqrt(chi2.isf(CHANCE / max(len(pieces), len(axes), 1), 1))))
     axis = max(axes, key=lambda i: axes[i], default=None)
-    band = f" below {number(e.band_hz[kind])} Hz" if e.band_hz.get(kind) else ""
-    what = f"the {kind} residual{band} is {{}}"
-    if ratio > FAR:
+    if _ratio(whole.after.total, whole.expected) > FAR:
         most = "" if axis is None else f", most on {'xyz'[axis]}"
-        return what.format(_times(ratio) + most)
+        return _residual(kind, e) + _times(whole) + most
     if axis is not None and axes[axis] > limit:
-        return what.format(f"{_times(axes[axis])} on {'xyz'[axis]}")
+        return _residual(kind, e) + f"{_times(whole, axis)} on {'xyz'[axis]}"
     if most_of_log is not None and pieces[most_of_log] > limit:
         name, i = most_of_log
-        return what.format(f"{_times(pieces[most_of_log])} on {'xyz'[i]} in {name}")
+        return _residual(kind, e) + f"{_times(logs[name], i)} on {'xyz'[i]} in {name}"
     return ""
 
 
+def _residual(kind: str, e: Evidence) -> str:
+    band = f" below {number(e.band_hz[kind])} Hz" if e.band_hz.get(kind) else ""
+    return f"the {kind} residual{band} is "
+
+
+def open_of(e: Evidence) -> str:
+    """Of which sensors more than noise is left that coefficients which nobody declared may leave,
+    as too few positions show them; nothing where there is none.
+    """
+    far = [k for k, v in e.errors.items() if _ratio(v.after.total, v.noise) > FAR]
+    said = [_residual(k, e) + _times(e.errors[k]) for k in far if not _left(k, e)]
+    if not said:
+        return ""
+    return f"{joined(said)}, which is no more than these positions leave open of its coefficients"
+
+
 def _by_axis(e: Errors) -> dict[int, float]:
-    """The ratio of what is left to the noise by axis, of those that have both."""
-    noise = e.noise_per_axis
-    ratios = {i: _ratio(e.after.per_axis[i], noise[i]) for i in range(3)}
+    """The ratio of what is left to what is expected by axis, of those that have both."""
+    expected = e.expected_per_axis
+    ratios = {i: _ratio(e.after.per_axis[i], expected[i]) for i in range(3)}
     return {i: r for i, r in ratios.items() if not np.isnan(r)}
 
 
@@ -245,7 +261,10 @@ def _ratio(left: float, noise: float) -> float:
     return float(left / noise) if noise > 0.0 else float("inf")
 
 
-def _times(ratio: float) -> str:
+def _times(e: Errors, axis: int | None = None) -> str:
+    """How many times its noise is left of a sensor, of all axes or of one."""
+    left, noise = (e.after.total, e.noise) if axis is None else (e.after.per_axis, e.noise_per_axis)
+    ratio = _ratio(*(v if axis is None else float(v[axis]) for v in (left, noise)))
     return (
         f"{number(ratio, 2)} times its noise" if np.isfinite(ratio) else "there without any noise"
     )

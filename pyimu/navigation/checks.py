@@ -114,9 +114,11 @@ def findings(recording: Recording, rest: Rest, gravity: float) -> list[Finding]:
         found.append(
             Finding("gravity_off", "accel", 1, {"magnitude": size, "share": size / gravity - 1})
         )
-    turn = np.nanmax(np.linalg.norm(recording.gyro, axis=1)) * recording.sample_period
-    if turn > CONING:
-        found.append(Finding("coning", "gyro", 1, {"turn": float(turn)}))
+    turns = np.nan_to_num(np.linalg.norm(recording.gyro, axis=1)) * recording.sample_period
+    most = int(np.argmax(turns))
+    if turns[most] > CONING:
+        detail = {"turn": float(turns[most]), "at": float(recording.time[most])}
+        found.append(Finding("coning", "gyro", int(np.sum(turns > CONING)), detail))
     return found
 
 

@@ -46,27 +46,49 @@ class Fixes:
         return {"position_std0": self.std} if len(self.rows) else {}
 
 
+@dataclass(frozen=True)
+class Told:
+    """What was told of positions and velocities beside the recording: their standard deviations in
+    m and m/s, and how many s before its row each was true; None where its column says it.
+    """
+
+    position_std: float | None = None
+    velocity_std: float | None = None
+    position_age: float | None = None
+    velocity_age: float | None = None
+
+
 def fixes_of(
     recording: Recording,
-    position_std: float | None = None,
-    velocity_std: float | None = None,
+    told: Told | None = None,
     top_speed: float = 0.0,
 ) -> Fixes | None:
-    """The recording's positions and velocities, None without.
+    """The recording's positions and velocities, None without; what was ``told`` of them stands for
+    columns. At a ``top_speed`` in m/s the body may have moved before the first position.
 
-    ``position_std`` m and ``velocity_std`` m/s stand for missing columns of those names. At a
-    ``top_speed`` in m/s the body may have moved before the first position.
-
-    Raises UserError where a standard deviation is missing or not above zero.
+    Raises UserError where a standard deviation is missing or not above zero, an age is below zero
+    or as long as the recording, and where something was told of measurements that are not there.
     """
     columns: dict[str, np.ndarray] = {}
-    found = {}
-    for name, unit, given in (("position", "m", position_std), ("velocity", "m/s", velocity_std)):
+    found, told = {}, told or Told()
+    for name, unit, given, age in (
+        ("position", "m", told.position_std, told.position_age),
+        ("velocity", "m/s", told.velocity_std, told.velocity_age),
+    ):
         values = _values(recording, name)
         if values is None:
+            _check_needed(recording, name, {"std": given, "age": age})
             continue
         rows = np.flatnonzero(np.isfinite(values[:, :2]).all(axis=1))
         std = _std(recording, name, unit, given, rows)
+        late = _age(recording, name, age, rows)
+        values, std = _at_their_rows(recording, values, std, late)
+        measured, rows = rows, np.flatnonzero(np.isfinite(values[:, :2]).all(axis=1))
+        if len(measured) and not len(rows):
+            raise UserError(
+                f"{recording.name}: {name}_age is {late[measured].min():g} s or more, by which "
+                f"each measured {name} is of before the log or of a gap; an age is in s"
+            )
         if name == "position" and len(rows):
             values = values - _origin(values[rows])
         found[name] = rows, values[rows], std[rows]
@@ -79,6 +101,58 @@ def fixes_of(
         return Fixes(columns, rows, position, 0.0)
     waited = float(recording.time[rows[0]] - recording.time[0])
     return Fixes(columns, rows, position, float(np.hypot(std[0], top_speed * waited)))
+
+
+def _check_needed(recording: Recording, name: str, told: Mapping[str, float | None]) -> None:
+    """Raise UserError where something was told of measurements that the recording has not."""
+    for what, value in told.items():
+        if value is not None:
+            raise UserError(
+                f"{recording.name}: {name}_{what} was told, and there is no measured {name}; the "
+                f"log's columns {name}_east, {name}_north, {name}_up are one"
+            )
+
+
+def _age(recording: Recording, name: str, given: float | None, rows: np.ndarray) -> np.ndarray:
+    """How many s (n,) before its row each measurement was true."""
+    age = getattr(recording, f"{name}_age")
+    if given is not None:
+        age = np.full(len(recording), number(f"{name}_age", given))
+    if age is None:
+        return np.zeros(len(recording))
+    wrong = rows[~(age[rows] >= 0)]
+    if len(wrong):
+        where = "" if given is not None else f" at {recording.time[wrong[0]]:g} s"
+        raise UserError(
+            f"{recording.name}: {name}_age is {age[wrong[0]]:g} s{where}, expected 0 or more"
+        )
+    return age
+
+
+def _at_their_rows(
+    recording: Recording, values: np.ndarray, std: np.ndarray, age: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """The measurements (n, 3) and their standard deviations (n,) at the rows of their ``age`` ago.
+
+    Between the instants of two measurements a row's is on the line through them: it is at most
+    half a sample from one of them. What is of before the first row, or of a gap, is left out.
+    """
+    seen = np.flatnonzero(np.isfinite(values[:, :2]).all(axis=1))
+    if not np.any(age[seen]):
+        return values, std
+    time = recording.time
+    order = np.argsort(time[seen] - age[seen], kind="stable")
+    seen, instant = seen[order], (time[seen] - age[seen])[order]
+    rows = np.searchsorted((time[1:] + time[:-1]) / 2, instant)
+    near = np.abs(time[rows] - instant) <= recording.sample_period
+    out, wide = np.full(values.shape, np.nan), np.full(std.shape, np.nan)
+    for axis, column in enumerate(values[seen].T):
+        known = np.isfinite(column)
+        if known.any():
+            line = np.interp(time[rows], instant[known], column[known])
+            out[rows[near & known], axis] = line[near & known]
+    wide[rows[near]] = std[seen[near]]
+    return out, wide
 
 
 def _values(recording: Recording, name: str) -> np.ndarray | None:
@@ -152,8 +226,9 @@ def check_fixes(recording: Recording, fixes: Fixes | None, found: Filtered) -> l
             raise UserError(
                 f"{recording.name}: {share:.0%} of the measured {name} contradicts gyro and "
                 f"accelerometer by more than {name}_std allows; is {name}_east, {name}_north in "
-                "another frame, unit or order, later than its rows, or its antenna beside the "
-                "sensor (--antenna)? --no-fixes leaves it out"
+                "another frame, unit or order, later than its rows "
+                f"(--{name}-age), or its antenna beside the sensor (--antenna)? --no-fixes leaves "
+                "it out"
             )
         out.append(Finding(f"{name}_fixes", name, wrong, {"share": share, "of": int(valid.sum())}))
     return out

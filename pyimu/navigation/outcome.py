@@ -10,6 +10,7 @@ import numpy as np
 
 from pyimu.attitude.rest import Rest
 from pyimu.errors import Finding
+from pyimu.navigation.detector import WINDOW
 from pyimu.navigation.filtered import Filtered
 from pyimu.navigation.measured import Fixes
 from pyimu.navigation.track import PositionError, Reference, Track, error_of
@@ -66,10 +67,21 @@ class Outcome:
         """The rests as ranges of rows."""
         return runs(self.still)
 
-    @property
+    @cached_property
     def later_stops(self) -> list[tuple[int, int]]:
-        """Those after the start."""
-        return [(a, b) for a, b in self.stops if a > 0]
+        """Those after the start, each with a drive before it.
+
+        A rest that is found by the samples until now begins a window late, at the start too, and a
+        sample that a detector misses parts a rest: what is no longer than a window is no drive.
+        """
+        begun = self.rest.rows.stop if self.rest is not None and self.rest.seen else 1
+        found, end = [], 0
+        for first, after in self.stops:
+            driven = self.time[first] - self.time[max(end - 1, 0)]
+            if driven > WINDOW and (end or first >= begun):
+                found.append((first, after))
+            end = after
+        return found
 
     @property
     def longest_leg(self) -> float:

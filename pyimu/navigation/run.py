@@ -18,7 +18,7 @@ from pyimu.navigation.filtered import Filtered
 from pyimu.navigation.integrated import integrated
 from pyimu.navigation.job import Job, Start
 from pyimu.navigation.known import known_part
-from pyimu.navigation.measured import check_fixes, fixes_of
+from pyimu.navigation.measured import Told, check_fixes, fixes_of
 from pyimu.navigation.result import NavigationResult
 from pyimu.navigation.stops import ZUPT, clean_of, noise_at_rest, rest_at_start, stops_of
 from pyimu.navigation.track import Track, reference_of
@@ -50,6 +50,8 @@ def run(
     fixes: bool = True,
     position_std: float | None = None,
     velocity_std: float | None = None,
+    position_age: float | None = None,
+    velocity_age: float | None = None,
     latitude: float | None = None,
     heading0: float | None = None,
     settings: Mapping[str, Any] | None = None,
@@ -62,9 +64,11 @@ def run(
     the noise is that of the samples at rest. ``method`` is one of ``METHODS`` or "all", ``zupt``
     one of ``ZUPT``; ``nhc`` is a vehicle whose wheels do not slip. With ``fixes`` the recording's
     measured positions and velocities correct the filter, by ``position_std`` m and ``velocity_std``
-    m/s, else the recording's. ``latitude`` in rad is else the recording's; without either, no Earth
-    rate is taken off. ``heading0`` in rad is the yaw of the first sample, else that of the heading,
-    the reference, the course of the positions, or 0. ``settings`` are other parameters by name.
+    m/s, else the recording's; they were true ``position_age`` and ``velocity_age`` s before their
+    rows, else as the recording says, else at their rows. ``latitude`` in rad is else the
+    recording's; without either, no Earth rate is taken off. ``heading0`` in rad is the yaw of the
+    first sample, else that of the heading, the reference, the course of the positions, or 0.
+    ``settings`` are other parameters by name.
 
     Raises UserError for a recording that cannot be read or used (``checks``, ``measured``), an
     unknown method or setting, and where a rest is to be declared and is not.
@@ -76,8 +80,8 @@ def run(
     checks.check_columns(recording, limits["gravity"])
     most = limits["top_acceleration"], limits["top_turn_rate"]
     recording, findings = checks.without_outliers(recording, *most)
-    stds = position_std, velocity_std
-    measured = fixes_of(recording, *stds, limits["top_speed"]) if fixes else None
+    told = Told(position_std, velocity_std, position_age, velocity_age)
+    measured = fixes_of(recording, told, limits["top_speed"]) if fixes else None
     job = _job(recording, None if part is None else part_of(part), zupt, given, findings)
     job = replace(job, latitude=latitude_of(recording, latitude), nhc=nhc, fixes=measured)
     reference = reference_of(recording)
@@ -125,10 +129,13 @@ def _job(
     gravity = float(given["gravity"])
     clean = clean_of(recording, declared)
     rest = rest_at_start(clean, declared, gravity)
-    findings += checks.findings(recording, rest, gravity)
     part = known_part(declared, recording, rest)
     noise = noise_at_rest(recording, part, rest, declared is not None)
-    still, _ = stops_of(clean, noise, zupt, findings)
+    turns: list[Finding] = []
+    still, _ = stops_of(clean, noise, zupt, turns)
+    if zupt == "auto" and not still[rest.rows].any():
+        rest = replace(rest, seen=False)  # a steady drive, as the part's noise shows
+    findings += [*checks.findings(recording, rest, gravity), *turns]
     updates = float(zupt != "off")
     settings = {"zupt": updates, "zaru": updates} | given
     return Job(

@@ -139,16 +139,17 @@ class _Rows:
         self.q[rows] = q.as_quat(scalar_first=True)
         velocity = turn.apply(y[:, 7:10] + mean[:, VELOCITY])
         self.velocity[rows] = velocity
-        plain = np.zeros((len(y), 3, 6))
-        plain[:, :, VELOCITY] = np.eye(3)
-        plain[:, :, TURN] = -_skew(velocity)
-        self.position[rows] = y[:, 10:13] + mean[:, POSITION]
-        variance = np.maximum(np.diagonal(covariance, axis1=1, axis2=2)[:, :9], 0).copy()
-        of_velocity = plain @ covariance[:, :6, :6] @ plain.transpose(0, 2, 1)
-        variance[:, VELOCITY] = np.maximum(np.diagonal(of_velocity, axis1=1, axis2=2), 0)
+        about = Rotation.from_rotvec(mean[:, TURN] * [0.0, 0.0, 1.0])
+        position = about.apply(y[:, 10:13] + mean[:, POSITION])
+        self.position[rows] = position
+        plain = np.tile(np.eye(9), (len(y), 1, 1))
+        plain[:, VELOCITY, TURN] = -_skew(velocity)
+        plain[:, POSITION, 2] = -_skew(position)[:, :, 2]
+        own = plain @ covariance[:, :9, :9] @ plain.transpose(0, 2, 1)
+        variance = np.maximum(np.diagonal(own, axis1=1, axis2=2), 0)
         self.std[rows] = np.sqrt(variance)
         both = np.sqrt(variance[:, 6] * variance[:, 7])
-        self.correlation[rows] = covariance[:, 6, 7] / np.maximum(both, 1e-30)
+        self.correlation[rows] = own[:, 6, 7] / np.maximum(both, 1e-30)
 
     def track(self, time: np.ndarray) -> Track:
         return Track(

@@ -85,10 +85,12 @@ GROUPS: Mapping[str, Group] = MappingProxyType(
         "position_east": Group("m", "measured position to the east"),
         "position_up": Group("m", "measured position above"),
         "position_std": Group("m", "standard deviation of the measured position, per axis"),
+        "position_age": Group("s", "time since the measured position was true"),
         "velocity_north": Group("m/s", "measured velocity to the north"),
         "velocity_east": Group("m/s", "measured velocity to the east"),
         "velocity_up": Group("m/s", "measured velocity upwards"),
         "velocity_std": Group("m/s", "standard deviation of the measured velocity, per axis"),
+        "velocity_age": Group("s", "time since the measured velocity was true"),
     }
 )
 """What a recording can hold beside its time, by name. The signals on which a sensor's errors may

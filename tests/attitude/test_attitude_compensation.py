@@ -130,6 +130,31 @@ def test_what_stands_for_a_gauss_markov_process_grows_as_it_does_over_the_horizo
             assert found[1] == pytest.approx(walk, rel=horizon / 5000)
 
 
+@pytest.mark.parametrize("tau", [0.05, 1.0, 5.0, 30.0, 900.0, 5000.0])
+def test_what_stands_for_a_gauss_markov_process_has_its_allan_variance(tau):
+    """Of a process with unit variance by the integral of its density (two-sided, 2 tau / (1 + (2 pi
+    f tau)^2)) with the weight 2 sin^4(pi f t) / (pi f t)^2, at both times.
+    """
+    sensor = Sensor("gyro", {"gauss_markov": {"q": np.sqrt(2 / tau), "tau": tau}})
+    noise = noise_of(sensor, ca.SX(ca.DM(sensor.p)), H, (3.0, 10.0))
+    white, walk = (np.array(ca.evalf(v)).ravel()[0] ** 2 for v in (noise.white, noise.walk))
+    for t in (3.0, 10.0):
+        f = np.geomspace(1e-7, 1e3, 2_000_001)
+        density = 2 * tau / (1 + (2 * np.pi * f * tau) ** 2)
+        seen = 4 * density * np.sin(np.pi * f * t) ** 4 / (np.pi * f * t) ** 2
+        want = np.trapezoid(seen * f, np.log(f))
+        assert white / t + walk * t / 3 == pytest.approx(want, rel=2e-3)
+
+
+def test_a_gauss_markov_process_that_is_a_walk_has_no_white_noise():
+    """Of correlation times at which the difference of the two is rounding."""
+    for tau in np.geomspace(1e15, 1e24, 50):
+        sensor = Sensor("gyro", {"gauss_markov": {"q": 1.0, "tau": tau}})
+        noise = noise_of(sensor, ca.SX(ca.DM(sensor.p)), H, (3.0, 10.0))
+        white, walk = (np.array(ca.evalf(v)).ravel()[0] for v in (noise.white, noise.walk))
+        assert 0 <= white < 1e-6 and walk == pytest.approx(1.0, rel=1e-9)
+
+
 def test_filter_of_a_part_with_every_effect_at_once_stays_finite(world):
     part = Part("test", 1 / H, everything("gyro", 0.002), everything("accel", 0.002))
     measured, _ = part.block.run(columns(part.block, world[1]), seed=1)

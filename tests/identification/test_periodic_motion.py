@@ -6,7 +6,7 @@ import pytest
 from pyimu.identification.close import close
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient
-from pyimu.identification.search.belief import not_shown, unbelievable
+from pyimu.identification.search.belief import hidden, unbelievable
 from pyimu.model.part_reader import parse_part
 from pyimu.model.sensor import Sensor
 from pyimu.recording.recording import Recording
@@ -81,8 +81,8 @@ def test_a_coefficient_that_may_be_anything_is_not_believed():
     keys = [Coefficient("misalignment", "m", (2, i)) for i in (0, 1)]
     sensor = Sensor("gyro").with_values("misalignment", m=m)
     loose = Fit(sensor, frozenset(keys), (), {}, {}, std=dict.fromkeys(keys, 200.0))
-    assert "not shown" in not_shown(loose, keys)
+    assert set(hidden(loose, keys)) == {*keys} and "not shown" in hidden(loose, keys)[keys[0]]
     near = Fit(sensor, frozenset(keys), (), {}, {}, std=dict.fromkeys(keys, 1e-3))
-    assert not not_shown(near, keys) and "beyond belief" in unbelievable(near, keys)
+    assert not hidden(near, keys) and "beyond belief" in unbelievable(near, keys)
     small = sensor.with_values("misalignment", m=1e-5 * m)
-    assert not not_shown(Fit(small, frozenset(keys), (), {}, {}, std={keys[0]: 0.003}), keys)
+    assert not hidden(Fit(small, frozenset(keys), (), {}, {}, std={keys[0]: 0.003}), keys)

@@ -6,10 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from loop_cases import inputs, noise, trial
+from loop_cases import inputs, low_pass, noise, trial
 from scipy.linalg import block_diag
 from scipy.ndimage import gaussian_filter1d
-from scipy.signal import butter, sosfilt
 from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
@@ -321,12 +320,6 @@ def test_noise_of_a_rate_reference_neither_pulls_the_scale_factor_nor_narrows_it
     z = np.array(z)
     assert chi2.ppf(ALARM / 2, z.size) < np.sum(z**2) < chi2.ppf(1 - ALARM / 2, z.size)
     assert abs(z.mean()) < 4.5 / np.sqrt(z.size)
-
-
-def low_pass(values: np.ndarray, hz: float, period: float) -> np.ndarray:
-    """Values (n, 3) below so many Hz, of the size that they had."""
-    out = sosfilt(butter(2, hz, fs=1 / period, output="sos"), values, axis=0)
-    return out * values.std(axis=0) / out.std(axis=0)
 
 
 @pytest.mark.parametrize("hz", [None, 8.0, 3.0])

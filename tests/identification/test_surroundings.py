@@ -29,14 +29,22 @@ def log(temperature, kT=0.0):
 
 
 @pytest.mark.parametrize(
-    "kind, most", [("noisy", 0.03 / np.sqrt(50)), ("coarse", 0.5 / np.sqrt(12)), ("exact", 1e-3)]
+    "kind, most", [("noisy", 0.03 / np.sqrt(50)), ("coarse", 0.5 / np.sqrt(12)), ("exact", 2.3e-4)]
 )
 def test_what_is_left_is_less_than_the_mean_of_an_interval_has(kind, most):
-    """White noise of a second's mean; the rounding itself; the line between means of a curve, of
-    which the second difference is 8 (2 pi / 240)^2 = 5.5e-3 K/s^2.
+    """White noise of a second's mean; the rounding itself; the spline through means of a curve, of
+    which the second difference over 24, 8 (2 pi / 240)^2 / 24 = 2.3e-4 K, is what they are off.
     """
     found = without_noise(log(READINGS[kind]), READINGS[kind])
     assert np.sqrt(np.mean((found - TRUE) ** 2)) < most
+
+
+def test_the_rate_of_an_exact_temperature_has_no_steps():
+    """Lines between the means of seconds would make its rate one of steps of 5.5e-3 K/s, the second
+    difference; the third, 1.4e-4, is more than what a spline leaves of it.
+    """
+    rate = np.gradient(without_noise(log(TRUE), TRUE), TIME)
+    assert np.abs(rate - np.gradient(TRUE, TIME)).max() < 1.4e-4
 
 
 def test_what_is_switched_stays_a_jump():

@@ -154,3 +154,14 @@ def test_one_log_far_above_the_noise_is_not_lost_among_the_others():
 def test_a_sensor_without_held_out_rows_is_not_called_clean():
     found = verdict(Evidence(("gyro",), {}, "", True, SHORT))
     assert found.word == "undecidable" and "no held-out row" in found.reason
+
+
+@pytest.mark.parametrize("left, word", [(8.0, "undecidable"), (40.0, "unexplained")])
+def test_what_positions_leave_open_of_coefficients_is_not_blamed_on_the_sensor(left, word):
+    """Ten floors may be left open: eight are no sign of anything, and not clean either."""
+    seen = sums(np.full(3, left))
+    known = Errors("m/s^2", seen, seen, sums(np.ones(3)), unsure=sums(np.full(3, 10.0)))
+    found = verdict(Evidence(("accel",), {}, "", True, SHORT, errors={"accel": known}))
+    assert found.word == word, found.reason
+    assert f"{left:.0f}" in found.reason or f"{left:.1f}" in found.reason
+    assert ("leave open" in found.reason) == (word == "undecidable")

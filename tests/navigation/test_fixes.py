@@ -98,8 +98,56 @@ def test_an_antenna_beside_the_sensor_is_known_to_be(truth):
     for name in ("position_nis", "velocity_nis"):
         within_bounds([r.filter.scalar(name) for r in parts])
     assert max(r.errors["filter"].most for r in parts) < 5 * STD
+    # most of what is seen after the first turn contradicts: of short legs that is most of all
+    short = replace(DRIVE, side=1.0)
+    log = of_antenna(drawn(declared(perfect(short, 50.0), short), 0), 0)
     with pytest.raises(UserError, match="--antenna"):
-        navigate(logs[0], settings=DRAWN)
+        navigate(log, settings=DRAWN)
+
+
+def late(log, age, seed=0):
+    """The log with a position every half second that was true ``age`` s before, between samples."""
+    rng, seen = np.random.default_rng(seed), np.arange(len(log.time)) % 25 == 0
+    columns = {}
+    for axis in ("east", "north", "up"):
+        true = np.interp(log.time - age, log.time, getattr(log, f"ref_{axis}"))
+        values = true + STD * rng.standard_normal(len(seen))
+        columns[f"position_{axis}"] = np.where(seen, values, np.nan)
+    return replace(log, **columns, position_std=np.full(len(seen), STD))
+
+
+@pytest.mark.parametrize("by", ("column", "option"))
+def test_positions_that_come_late_are_of_their_instant(truth, by):
+    """At 0.3 m/s those of 0.73 s before are off by 0.22 m, four times their noise. By their age the
+    innovations are right; what is new since the last of them is the inertial unit's."""
+    age, parts, ends = 0.73, [], []
+    for seed in range(4):
+        log = late(drawn(truth, seed), age, seed)
+        told = {"position_age": age} if by == "option" else {}
+        aged = log if told else replace(log, position_age=np.full(len(log.time), age))
+        parts.append(navigate(aged, settings=DRAWN, **told))
+        ends.append(navigate(log, settings=DRAWN).errors["filter"].rms)
+    within_bounds([r.filter.scalar("position_nis") for r in parts])
+    assert np.mean([r.errors["filter"].rms for r in parts]) < 0.5 * np.mean(ends)
+
+
+@pytest.mark.parametrize(
+    ("age", "said"),
+    (
+        (-0.1, "position_age is -0.1 s, expected 0 or more"),
+        (float("nan"), "position_age"),
+        (700.0, "position_age is 700 s or more, by which each measured position is of before"),
+    ),
+)
+def test_an_age_that_is_none_is_refused(log, age, said):
+    with pytest.raises(UserError, match=said):
+        navigate(fixed(log), position_age=age)
+
+
+@pytest.mark.parametrize("name", ("position_std", "position_age", "velocity_std", "velocity_age"))
+def test_what_is_told_of_measurements_that_are_not_there_is_refused(log, name):
+    with pytest.raises(UserError, match=f"{name} was told, and there is no measured"):
+        navigate(log, **{name: 0.5})
 
 
 def test_a_fix_without_height_leaves_the_height_alone(log):

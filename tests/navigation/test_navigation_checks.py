@@ -70,6 +70,42 @@ def test_outliers_of_both_sensors_are_said(log):
     assert "2 samples of gyro that no motion makes were left out, the first at 10 s" in text
 
 
+def test_a_gap_is_said_with_its_time_and_the_position_is_wider_by_the_top_speed(log):
+    kept = (log.time < 15.0) | (log.time > 18.0)
+    cut = replace(log, time=log.time[kept], **{k: v[kept] for k, v in log.groups.items()})
+    found = run(cut, assumed(), method="filter", settings={"top_speed": 5.0})
+    assert "No samples for up to 3.04 s (from 14.98 s; 1 gap)" in found.report()
+    assert "a robot of at most 5 m/s" in found.report()
+    last, first = (
+        found.filter.vector("position_std")[np.sum(cut.time < 15.0) + i] for i in (-1, 0)
+    )
+    assert np.all(first - last > 0.9 * 5.0 * 3.0) and np.all(first - last < 1.1 * 5.0 * 3.04)
+
+
+def test_rests_that_a_log_declares_and_that_are_none_are_said(log):
+    still = np.zeros(len(log.time))
+    assert "The column stationary declares no rest in this log" in said(
+        replace(log, stationary=still)
+    )
+    still[log.time < 5.0] = 1.0
+    still[(log.time > 8.0) & (log.time < 8.3)] = 1.0
+    text = said(replace(log, stationary=still))
+    assert "weighed down (" in text and "the first at 8.02 s). The column stationary may" in text
+
+
+def test_a_constant_speed_that_is_taken_for_a_rest_is_said():
+    """Without vibration nothing tells the two apart but what the zero velocities contradict."""
+    drive = replace(SHORT, legs=1, side=6.0, vibration=0.0)
+    text = said(assumed().specimen(4).simulate(motion(drive, 50.0), seed=4))
+    assert "A drive at constant speed looks like a rest; a column stationary would tell" in text
+
+
+def test_a_steady_turn_is_said_with_its_time():
+    drive = replace(SHORT, legs=1, turn=6 * np.pi, vibration=0.0)
+    text = said(assumed().specimen(4).simulate(motion(drive, 50.0), seed=4))
+    assert "The sensor turned steadily, 1 time, the longest at 1" in text
+
+
 def test_a_reference_that_jumps_is_said(log):
     text = said(replace(log, ref_east=log.ref_east + 100 * (log.time > 20)))
     assert "jumps by 100 m at 20" in text and "reference's own" in text

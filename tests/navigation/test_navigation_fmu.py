@@ -56,13 +56,13 @@ def test_a_measured_position_and_speed_pull_the_estimate(unit, log):
     east = names.index("position[1]")
     for name, value in (
         ("position_valid", 1.0),
-        ("position_measured[1]", 2.3),
+        ("position_measured[1]", 2.2),
         ("position_variance", 1e-6),
     ):
         u[-1, at[name]] = value
     free, held = (unit.run(x)[0][-1, east] for x in (rows(log), u))
-    assert abs(free - 2.3) > 0.1
-    assert held == pytest.approx(2.3, abs=1e-4)
+    assert abs(free - 2.2) > 0.1
+    assert held == pytest.approx(2.2, abs=1e-4)
     u = rows(log)[:800]
     u[-1, at["velocity_valid"]], u[-1, at["velocity_variance"]] = 1.0, 1e-10
     u[-1, at["velocity_measured[1]"] :][:3] = [0.25, 0.05, np.nan]

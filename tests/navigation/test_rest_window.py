@@ -94,6 +94,8 @@ def test_it_finds_the_stops_of_a_drive_a_window_after_they_begin():
         assert abs(end - min(stop, at[-1])) < WINDOW
     assert found.errors["filter"].end < 1.0
     assert found.settings["detect"] == 1.0
+    # that at the start is found a window late, and is none of them
+    assert len(found.later_stops) == len(stops) - 1 == len(found.first_zupts)
 
 
 def test_a_steady_turn_without_vibration_is_none():

@@ -22,6 +22,11 @@ COMMANDS = {
     "characterize": ["characterize", "log.csv", "--out"],
     "inspect": ["inspect", "log.csv", "--out"],
     "modelica": ["modelica", "imt30", "--out"],
+    "plan": ["plan", "mpu6050", "--for", "scale_factor", "--out"],
+    "attitude": ["attitude", "log.csv", "--part", "imt30", "--out"],
+    "navigate": ["navigate", "log.csv", "--part", "imt30", "--out"],
+    "close": ["close", "log.csv", "--part", "imt30", "--out"],
+    "build": ["build", "imt30", "--fmu", "sensor", "--fmi", "3", "--out"],
     "export": ["export", "mpu6050", "--to", "kalibr,vins,gazebo,ros2,matlab,px4", "--out"],
 }
 

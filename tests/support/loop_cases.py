@@ -5,6 +5,7 @@ loop.
 from __future__ import annotations
 
 import numpy as np
+from scipy.signal import butter, sosfilt
 
 from pyimu.identification.fit.trial import Trial
 from pyimu.model.kinds import OWN
@@ -49,3 +50,9 @@ def trial(
     """A trial with all inputs known and one segment, unless ``more`` says otherwise."""
     settings = {"segments": [(0, len(time))], "known": STATE_NAMES, "reference": "rate", **more}
     return Trial(name, kind, float(np.median(np.diff(time))), time, y, u, **settings)
+
+
+def low_pass(values: np.ndarray, hz: float, period: float) -> np.ndarray:
+    """Values (n, 3) below so many Hz, of the size that they had."""
+    out = sosfilt(butter(2, hz, fs=1 / period, output="sos"), values, axis=0)
+    return out * values.std(axis=0) / out.std(axis=0)

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{325337b8-27de-d576-97ac-1bd02d52a870}"
-#define MODEL_TOKEN_FMI3 "{7f9060e6-0d0a-a71d-ccb4-a2e767a44b5e}"
+#define MODEL_TOKEN_FMI2 "{6c6ff24f-dbe4-c9cb-105e-6422f76d7d18}"
+#define MODEL_TOKEN_FMI3 "{c97b302e-1a14-5866-9578-bbe9f938680c}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -22,7 +22,7 @@ enum {
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 29, WORK_RES = 8, WORK_IW = 0, WORK_W = 1725 };
+enum { WORK_ARG = 29, WORK_RES = 8, WORK_IW = 0, WORK_W = 1898 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{228666a6-28f0-a69f-3464-19a7cc480b54}"
-#define MODEL_TOKEN_FMI3 "{61030a6e-7486-b9e4-3759-9fb4f664e4be}"
+#define MODEL_TOKEN_FMI2 "{058266e7-461e-25a9-0b87-a7c30b6fa31d}"
+#define MODEL_TOKEN_FMI3 "{bbcaee19-2730-f242-6909-8f57be0c54a2}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -22,7 +22,7 @@ enum {
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 29, WORK_RES = 8, WORK_IW = 0, WORK_W = 1725 };
+enum { WORK_ARG = 29, WORK_RES = 8, WORK_IW = 0, WORK_W = 1898 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };

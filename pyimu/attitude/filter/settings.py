@@ -11,6 +11,7 @@ from pyimu.attitude.filter import marginal
 from pyimu.attitude.filter.compensation import (
     HORIZON,
     Compensation,
+    Horizon,
     TriadNoise,
     noise_of,
     share_added,
@@ -46,7 +47,7 @@ class Settings:
         compensation: Compensation,
         p,
         names: tuple[Variable, ...] = OWN_PARAMETERS,
-        horizon: float = HORIZON,
+        horizon: Horizon = HORIZON,
     ) -> Settings:
         """From the block's parameters ``p`` as a column; ``names`` are the block's own, ``horizon``
         s is that of ``noise_of``.

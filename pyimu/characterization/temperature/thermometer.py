@@ -35,17 +35,24 @@ jump between plateaus."""
 
 def smoothed(averages: Averages) -> np.ndarray:
     """Expected temperature (m,) in each interval, given all the averages."""
+    return smoothed_by_order(averages)[0]
+
+
+def smoothed_by_order(averages: Averages) -> tuple[np.ndarray, int]:
+    """The same, and the order of the difference that is a random walk: 1 of the temperature, 2 of
+    its slope.
+    """
     y, w = without_steps(averages.temperature), averages.count / np.median(averages.count)
     step = np.diff(averages.time) / np.median(np.diff(averages.time))
     best = min(
         (
-            _fit(y - y[0], w, squared, stiffness)
-            for squared in (_squared_differences(step, order) for order in (1, 2))
+            (*_fit(y - y[0], w, squared, stiffness), order)
+            for order, squared in ((order, _squared_differences(step, order)) for order in (1, 2))
             for stiffness in STIFFNESS
         ),
         key=lambda fit: fit[0],
     )
-    return best[1] + y[0]
+    return best[1] + y[0], best[2]
 
 
 def without_steps(temperature: np.ndarray) -> np.ndarray:

@@ -9,7 +9,7 @@ end, where the high differences of a reference show nothing of it.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.signal import freqz
@@ -18,7 +18,7 @@ from scipy.stats import chi2
 
 from pyimu.identification.fit.columns import Linear, in_band
 from pyimu.identification.fit.sample_noise import without_information
-from pyimu.identification.fit.trial import Trial
+from pyimu.identification.fit.trial import Doubt, Trial
 from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.signals import COLUMNS
@@ -63,6 +63,16 @@ FEWEST_ROWS = 32
 
 
 @dataclass(frozen=True)
+class Frames:
+    """Transforms (f, n) of what is ``left`` and of the sensor's own ``signal``, frame by frame:
+    their squares are one-sided densities.
+    """
+
+    left: np.ndarray
+    signal: np.ndarray
+
+
+@dataclass(frozen=True)
 class Spectrum:
     """One-sided density ``psd`` (f,) of rows in a band, at ``frequency`` (f,) in Hz.
 
@@ -70,7 +80,8 @@ class Spectrum:
     error of all of it together, over it; ``whole`` (f,) the density of all that the reference
     shows, over which no noise of it can be, ``own`` (f,) that of the sensor's own noise, ``shown``
     the largest share of ``whole`` that it has where it is more than ``own``; ``coloured`` says that
-    noise is known not to be white.
+    noise is known not to be white, ``doubt`` that it may be none of the reference; ``frames`` is
+    what it was read from.
     """
 
     frequency: np.ndarray
@@ -81,6 +92,8 @@ class Spectrum:
     own: np.ndarray | None = None
     shown: float = 0.0
     coloured: bool = False
+    doubt: Doubt = Doubt.NONE
+    frames: Frames | None = None
 
     @property
     def variance(self) -> float:
@@ -141,7 +154,8 @@ def unseen_spectra(trial: Trial, one: Linear, own: Mapping[int, RandomWalk]) -> 
     if length < FEWEST_ROWS or len(starts) < 2 * count:
         return {}
     interval = trial.h * trial.band.stride
-    cross, frequency = _cross(every, starts, length, interval), np.fft.rfftfreq(length, interval)
+    z, frequency = _transforms(every, starts, length, interval), np.fft.rfftfreq(length, interval)
+    cross = z.conj() @ z.transpose(0, 2, 1) / len(starts)
     known = slice(len(axes), len(axes) + count)
     inverse, averaged = _inverse(cross[:, known, known]), len(starts) / OVERLAP - count
     found = {}
@@ -157,7 +171,8 @@ def unseen_spectra(trial: Trial, one: Linear, own: Mapping[int, RandomWalk]) -> 
         psd, std = left - mine * (1.0 - share), np.hypot(left, of_share) / np.sqrt(averaged)
         psd[0] = std[0] = 0.0
         whole = cross[:, known.stop + k, known.stop + k].real
-        found[axis] = Spectrum(frequency, psd, std, whole=whole, own=mine)
+        frames = Frames(z[:, k], z[:, known.start + at])
+        found[axis] = Spectrum(frequency, psd, std, whole=whole, own=mine, frames=frames)
     return found
 
 
@@ -181,13 +196,15 @@ def _frames(one: Linear, bad: np.ndarray, count: int) -> tuple[int, list[int]]:
     return length, [s for s in every if not bad[s : s + length].any()]
 
 
-def _cross(every: np.ndarray, starts: list[int], length: int, interval: float) -> np.ndarray:
-    """One-sided cross-spectral densities (f, k, k) of signals (m, k), by their frames."""
+def _transforms(every: np.ndarray, starts: list[int], length: int, interval: float) -> np.ndarray:
+    """Transforms (f, k, n) of signals (m, k) in their n frames, whose squares are one-sided
+    densities.
+    """
     window = hann(length, sym=False)
     pieces = np.array([every[s : s + length] for s in starts])
     pieces -= pieces.mean(axis=1, keepdims=True)
     z = np.fft.rfft(pieces * window[:, None], axis=1).transpose(1, 2, 0)
-    return z.conj() @ z.transpose(0, 2, 1) * (2 * interval / len(starts) / (window @ window))
+    return z * np.sqrt(2 * interval / (window @ window))
 
 
 def _inverse(matrices: np.ndarray) -> np.ndarray:
@@ -243,7 +260,7 @@ def of_reference(seen: Spectrum, high: float, error: float) -> Spectrum:
     share = _shown_by_itself(seen, pieces, mean, std)
     psd, std = np.array(seen.psd), np.array(seen.std)
     psd[: pieces[0].start], std[: pieces[0].start] = psd[pieces[0]].mean(), std[pieces[0]].mean()
-    found = Spectrum(seen.frequency, psd, std, shown=share, coloured=True)
+    found = replace(seen, psd=psd, std=std, shown=share, coloured=True)
     return found if CLEARLY * found.error < 1.0 else NOTHING
 
 

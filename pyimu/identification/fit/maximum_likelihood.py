@@ -8,13 +8,18 @@ import numpy as np
 
 from pyimu.identification.fit.fit import Fit, gauss_newton, with_prior
 from pyimu.identification.fit.noise_fit import declared_variances
-from pyimu.identification.fit.normal import Normal, Unit, variances
+from pyimu.identification.fit.normal import Noise, Normal, Unit, variances
 from pyimu.identification.fit.reference_noise import (
     equations,
     has_noise,
     power_without_noise,
     smoothing,
 )
+from pyimu.identification.fit.whiten import RandomWalk
+
+ROUNDS = 25
+"""Fits of noise and coefficients in turn at most; an effect that was taken for a walk comes out of
+it by a factor of about three a round."""
 
 
 def fit(start: Fit) -> Fit:
@@ -22,15 +27,16 @@ def fit(start: Fit) -> Fit:
     return fit_and_normal(start)[0]
 
 
-def fit_and_normal(start: Fit, rounds: int = 3, steps: int = 6) -> tuple[Fit, Normal]:
+def fit_and_normal(start: Fit, steps: int = 6) -> tuple[Fit, Normal]:
     """Maximum likelihood of the free coefficients and the logs' own, and the equations there.
 
-    The whitening is fitted anew in each round.
+    The whitening is fitted anew in each round, until it or they stay.
     """
-    for _ in range(rounds):
-        before = _values(start)
+    for _ in range(ROUNDS):
+        before = start
         start = _least_squares(start, steps).with_noise()
-        if np.allclose(before, _values(start), rtol=1e-4, atol=1e-9):
+        stay = np.allclose(_values(before), _values(start), rtol=1e-4, atol=1e-9)
+        if stay or _alike(before.noise, start.noise):
             break
     normal = with_prior(equations(start), start)
     variance = variances(normal.gram, normal.variance if normal.seen is not None else None)
@@ -47,6 +53,16 @@ def _least_squares(start: Fit, steps: int) -> Fit:
     if has_noise(start):
         return gauss_newton(start, steps, equations, power_without_noise)
     return gauss_newton(start, steps)
+
+
+def _alike(one: Noise, other: Noise) -> bool:
+    """Whether white noise and walk of each axis are the same to 1e-4 and 1e-3."""
+    pairs = [(n, other[i]) for i, n in one.items()]
+    walks = [(a, b) for a, b in pairs if isinstance(a, RandomWalk) and isinstance(b, RandomWalk)]
+    return len(walks) == len(pairs) and all(
+        np.isclose(a.r, b.r, rtol=1e-4, atol=0.0) and np.isclose(a.k2, b.k2, rtol=1e-3, atol=0.0)
+        for a, b in walks
+    )
 
 
 def _values(fit: Fit) -> np.ndarray:

@@ -16,6 +16,7 @@ from dataclasses import replace
 import numpy as np
 
 from pyimu.identification.fit.columns import Linear, Stack, band_segments, band_time, in_band
+from pyimu.identification.fit.doubted import doubted
 from pyimu.identification.fit.fit import Fit, Last, power, whitened, whitened_power
 from pyimu.identification.fit.incoherent import (
     CHANCE,
@@ -36,7 +37,7 @@ from pyimu.identification.fit.noise_floor import (
 )
 from pyimu.identification.fit.normal import DEAD, Normal, normal_equations
 from pyimu.identification.fit.sample_noise import rest_noise
-from pyimu.identification.fit.trial import Trial
+from pyimu.identification.fit.trial import Doubt, Trial
 from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.signals import COLUMNS
@@ -56,10 +57,6 @@ LEAST_SEEN = 0.01
 """Share of a column's power that must not be noise of the reference; of the rest there is nothing
 to be seen."""
 
-SHOWN = 1 / 3
-"""Share of what a reference shows at some frequency that coloured noise of it must have there, on
-one axis at least."""
-
 THIRD = 20.0
 """Power of third differences of white noise over its own: 1 + 9 + 9 + 1."""
 
@@ -71,14 +68,19 @@ squares of the correlations of third differences add up to 924 / 400."""
 # Drawing it
 
 
-def with_reference_noise(fit: Fit, held: list[Trial], seed: int = 1) -> tuple[Fit, list[Trial]]:
+def with_reference_noise(
+    fit: Fit, held: list[Trial], believed: bool = False, seed: int = 1
+) -> tuple[Fit, list[Trial]]:
     """The fit and the held-out trials with a draw of their reference's noise, where there is any
-    to speak of.
+    to speak of. Where that is coloured and may as well be what an effect left, it is drawn only if
+    it is ``believed``, and the trials are marked as doubted else.
     """
     if any(t.reduction is not None for t in fit.trials):
         return fit, held
     linears = fit.residuals()
     variance, spectra = _variance(fit), _spectra(fit, linears)
+    if not believed:
+        fit, spectra = _without_doubted(fit, spectra)
     most = np.max([variance, *([s.variance for s in one] for one in spectra.values())], axis=0)
     total = np.var(np.concatenate([one.residual for one in linears]), axis=0)
     if not np.any(most > LEAST * np.maximum(total, 1e-300)):
@@ -152,10 +154,17 @@ def _of_direct(trial: Trial, one: Linear, own: Mapping[int, RandomWalk]) -> dict
         i: of_reference(s, float(high[i]), error)
         for i, s in unseen_spectra(trial, one, known).items()
     }
-    if any(s.shown >= SHOWN for s in found.values()):
-        return found
-    # The reference shows none of what is coloured: an effect left it.
-    return {i: NOTHING if s.coloured else s for i, s in found.items()}
+    return doubted(found)
+
+
+def _without_doubted(
+    fit: Fit, spectra: Mapping[str, list[Spectrum]]
+) -> tuple[Fit, dict[str, list[Spectrum]]]:
+    """The fit with the doubts of its trials, and the spectra less what is doubted."""
+    kept = {n: [NOTHING if s.doubt else s for s in each] for n, each in spectra.items()}
+    doubts = {n: max(s.doubt for s in each) for n, each in spectra.items()}
+    trials = tuple(replace(t, doubt=doubts.get(t.name, Doubt.NONE)) for t in fit.trials)
+    return (replace(fit, trials=trials) if any(doubts.values()) else fit), kept
 
 
 def _spectrum_of(trial: Trial, spectra: Mapping[str, list[Spectrum]]) -> Sequence[Spectrum]:

@@ -11,11 +11,12 @@ from functools import cache
 
 import casadi as ca
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from pyimu.block.stepping import step_through
 from pyimu.block.vectorised import over_rows
 from pyimu.characterization.temperature.averages import Averages
-from pyimu.characterization.temperature.thermometer import smoothed
+from pyimu.characterization.temperature.thermometer import smoothed_by_order
 from pyimu.model.signals import COLUMNS, SIGNALS
 from pyimu.recording.recording import Recording, filled
 from pyimu.recording.reference.rate import Reference
@@ -35,7 +36,9 @@ def without_noise(recording: Recording, values: np.ndarray) -> np.ndarray:
     """The slow signal behind ``values`` (n,), which have no gap, at the recording's rows.
 
     It is the expected value given all readings, of the interval means by their likeliest smoothing;
-    between the middles of intervals it is a line. What is switched, as a supply is, stays a jump.
+    between the middles of intervals it is a line where it wanders, and a cubic spline where its
+    slope does (Wahba, J. R. Stat. Soc. B 40 (1978), 364-372). What is switched, as a supply is,
+    stays a jump.
     """
     out, period = np.array(values), recording.sample_period
     for a, b in recording.segments:
@@ -74,8 +77,9 @@ def _smoothed(time: np.ndarray, values: np.ndarray, period: float) -> np.ndarray
         return values
     count = np.bincount(number).astype(float)
     middle, mean = (np.bincount(number, weights=v) / count for v in (time, values))
-    level = smoothed(Averages(middle, mean, np.zeros((len(mean), 0)), count, period))
-    return _between(middle, level, time)
+    averages = Averages(middle, mean, np.zeros((len(mean), 0)), count, period)
+    level, order = smoothed_by_order(averages)
+    return _between(middle, level, time) if order == 1 else CubicSpline(middle, level)(time)
 
 
 def _between(middle: np.ndarray, level: np.ndarray, time: np.ndarray) -> np.ndarray:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from enum import IntEnum
 from functools import cached_property
 
 import numpy as np
@@ -43,6 +44,15 @@ MOVING = 0.2
 mounting and no clock, but its own noise."""
 
 
+class Doubt(IntEnum):
+    """Whether a reference has noise that is not white: ``NONE`` where that is known, ``OPEN`` where
+    an effect may have left what looks like it, ``LIKELY`` where the sensor's own signal has little
+    of it, and it is there in quiet as in motion.
+    """
+
+    NONE, OPEN, LIKELY = range(3)
+
+
 @dataclass(frozen=True)
 class Trial:
     """Rows of one log for one sensor.
@@ -57,8 +67,9 @@ class Trial:
     reference, at most ``band_limit``; ``clock`` what was taken out of the reference's clock; ``up``
     (3,) the direction upward in the sensor's axes where the reference knows only the turn about it;
     ``noise`` (n, 3) a draw of the reference's noise, where it has any to speak of, and
-    ``noise_error`` (3,) the standard error of its power over that power. ``reduction`` is how
-    samples become rows where these are whole stretches of the log.
+    ``noise_error`` (3,) the standard error of its power over that power, ``doubt`` whether it may
+    have noise that was not drawn. ``reduction`` is how samples become rows where these are whole
+    stretches of the log.
     """
 
     name: str
@@ -80,6 +91,7 @@ class Trial:
     clock: Clock | None = None
     noise: np.ndarray | None = None
     noise_error: tuple[float, ...] = (0.0, 0.0, 0.0)
+    doubt: Doubt = Doubt.NONE
     up: np.ndarray | None = None
     reduction: Reduction | None = None
 

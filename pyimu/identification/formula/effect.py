@@ -27,7 +27,7 @@ from pyimu.model.effect import Environment, Parameter, effect
 
 EFFECT = """\
 @effect(
-    stage="bias",
+    stage="{stage}",
     term="{term}",
     equation=r"{equation}",
     source="no source: found by pyimu close",
@@ -62,7 +62,10 @@ def function_text(name: str, kind: str, terms: Sequence[Term]) -> str:
         for c, t, k in named
     ]
     lines += [f'    {SYMBOLS[s][0]}: Environment("{s}"),\n' for s in signals]
+    # What depends on the sensor's own signal follows the motion itself, not the bias of a day.
+    follows = any(own in t.signals for t in terms)
     return EFFECT.format(
+        stage="gain" if follows else "bias",
         term=TERM,
         equation=equation(terms),
         kind=kind,

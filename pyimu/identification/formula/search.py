@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -39,6 +40,7 @@ from pyimu.identification.search.choice import SET_WIDTH
 from pyimu.identification.search.confirm import SPEAKS, Evidence, evidence
 from pyimu.identification.search.forward import Investigation, Step, form_error
 from pyimu.identification.search.leftover import Unexplained
+from pyimu.identification.search.own_signal import is_of_reference
 from pyimu.identification.search.screen import PENALTY, fitted_dispersion, fitted_gain
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.signals import COLUMNS, START
@@ -82,7 +84,8 @@ def look(
 ) -> Look:
     """Look for a formula for what an investigation left.
 
-    ``again(sensor, free)`` investigates with one in the model.
+    ``again(sensor, free, believed=False)`` investigates with one in the model, or what may be noise
+    of the reference believed.
     """
     trials, kind = inv.after.trials, inv.after.sensor.kind
     if any(t.reduction is not None for t in trials) or all(
@@ -98,6 +101,9 @@ def look(
     fires = left.p_value < UNEXPLAINED
     if not fires and not _may_be_one(inv):
         return Look(inv)
+    if fires and _is_of_reference(judged, left):
+        again = partial(again, believed=True)
+        return look(again(inv.before.sensor, inv.before.free), again, say)
     say(f"{kind}: looking for a formula")
     starts = [(inv.after, left)] if fires else []
     if inv.steps:
@@ -127,6 +133,18 @@ def _may_be_one(inv: Investigation) -> bool:
     """
     named = [CATALOGUE[s.effect] for s in inv.steps if not s.declared]
     return len(named) > 1 or any(e.is_line for e in named)
+
+
+def _is_of_reference(left: Fit, scores: Scores) -> bool:
+    """Whether the clearest dependence is only what a reference's noise makes look like one."""
+    if not any(t.doubt for t in left.trials):
+        return False
+    best, name = min(scores.terms, key=lambda s: s.p_value), free_name()
+    try:
+        return is_of_reference(left, _with(left, name, [(best.term, (best.axis,))]))
+    finally:
+        if name in CATALOGUE:
+            CATALOGUE.remove(name)
 
 
 def _unexplained(kind: str, scores: Scores) -> Unexplained | None:
@@ -182,7 +200,7 @@ def _beside(
     kept = _left(chosen, seen)
     if gain <= needed or ahead <= needed + DISPLACES * _displaced(inv, beside):
         return None, kept
-    if not _confirmed(seen):
+    if not _confirmed(seen) or is_of_reference(inv.after, beside.after):
         return None, kept
     step = Step(name, keys, gain, needed, (), spread)
     whole = replace(beside, before=inv.before, steps=(step, *beside.steps), first=inv.first)

@@ -13,7 +13,6 @@ import numpy as np
 from pyimu.errors import Finding
 from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.fit import Fit, begin
-from pyimu.identification.fit.keys import Key
 from pyimu.identification.fit.maximum_likelihood import advantage, fit
 from pyimu.identification.fit.structure import prior_of, with_structure
 from pyimu.identification.fit.trial import Trial, marked
@@ -39,10 +38,8 @@ def aligned(
     trials: Sequence[Trial],
     held: Sequence[Trial],
     sensor: Sensor,
-    free: frozenset[Key] = frozenset(),
 ) -> list[Trial]:
-    """All trials, fitted and ``held``, with the reference's clock taken out, as far as coefficients
-    ``free`` of the sensor do not explain what it seems to do.
+    """All trials, fitted and ``held``, with the reference's clock taken out.
 
     As far as it is the reference's; their ``clock`` and ``findings`` say what was taken out.
 
@@ -50,7 +47,7 @@ def aligned(
     is left in then, for the effects that make one. What differs from log to log, wanders, makes the
     sensor early, or is longer than any sensor's is the clock's.
     """
-    clocks = [_borne_out(t, _level(measure(t, sensor)), sensor, free) for t in (*trials, *held)]
+    clocks = [_borne_out(t, _level(measure(t, sensor)), sensor) for t in (*trials, *held)]
     own = in_common([c for c in clocks[: len(trials)] if c is not None and np.isfinite(c.std)])
     return [_aligned(t, c, own) for t, c in zip((*trials, *held), clocks, strict=True)]
 
@@ -67,35 +64,28 @@ def _level(clock: Clock | None) -> Clock | None:
     return clock.kept_in_step()
 
 
-def _borne_out(
-    trial: Trial, clock: Clock | None, sensor: Sensor, free: frozenset[Key]
-) -> Clock | None:
+def _borne_out(trial: Trial, clock: Clock | None, sensor: Sensor) -> Clock | None:
     """One lag where a lag that changes by less than a sample does not explain the samples better.
 
-    Windows weigh a bias that wanders by its size alone; all rows together know its spectrum.
+    Windows weigh a bias that wanders by its size alone; all rows together know its spectrum, and
+    the mean of the lags that it bends.
     """
     if clock is None or clock.keeps_step or not clock.is_seen:
         return clock
-    steady = clock.kept_in_step()
-    if not wanders_little(trial, clock):
+    if np.ptp(clock.late) >= trial.h:
         return clock
+    steady = clock.kept_in_step()
     changes, keeps = (rebanded(shifted(trial, c)) for c in (clock, steady))
+    keeps = replace(keeps, clock=replace(steady, taken_out=True))
     both = marked(changes.segments, len(trial.time)) & marked(keeps.segments, len(trial.time))
-    fits = [_fitted(replace(t, segments=runs(both)), sensor, free) for t in (changes, keeps)]
+    fits = [_fitted(replace(t, segments=runs(both)), sensor) for t in (changes, keeps)]
     return clock if advantage(*fits) > WANDERS else steady
 
 
-def wanders_little(trial: Trial, clock: Clock | None) -> bool:
-    """Whether a lag changes, by less than a sample."""
-    return clock is not None and not clock.keeps_step and float(np.ptp(clock.late)) < trial.h
-
-
-def _fitted(trial: Trial, sensor: Sensor, free: frozenset[Key]) -> Fit:
-    """The structure of a sensor and what else is ``free`` of it, its bias and its noise, fitted to
-    a trial.
-    """
+def _fitted(trial: Trial, sensor: Sensor) -> Fit:
+    """The structure of a sensor, its bias and its noise, fitted to a trial."""
     sensor, structure = with_structure(sensor)
-    return fit(begin(sensor, structure | free, [trial], prior_of(sensor, structure)))
+    return fit(begin(sensor, structure, [trial], prior_of(sensor, structure)))
 
 
 def in_common(clocks: Sequence[Clock]) -> float:

@@ -41,12 +41,13 @@ def unbelievable(fit: Fit, keys: Iterable[Coefficient]) -> str:
     return ""
 
 
-def not_shown(fit: Fit, keys: Iterable[Coefficient]) -> str:
-    """Why the fitted coefficients ``keys`` are no estimate; nothing where they are.
+def hidden(fit: Fit, keys: Iterable[Coefficient]) -> dict[Coefficient, str]:
+    """The fitted coefficients of ``keys`` that are no estimate, with why.
 
     What is larger than any sensor's and unknown by as much stands for another's share: columns that
     are nearly one leave the sum of their coefficients alone to be seen.
     """
+    out = {}
     for key in sorted(keys):
         definition = CATALOGUE[key.effect].parameters[key.parameter]
         limit = most(key.effect, fit.sensor.kind, key.parameter)
@@ -54,8 +55,9 @@ def not_shown(fit: Fit, keys: Iterable[Coefficient]) -> str:
         if definition.scan is None and min(value, CHANCE * fit.std.get(key, 0.0)) > limit:
             unit = fit.sensor.unit(definition.unit)
             by = quantity(fit.std[key], unit, 2)
-            return f"{key.parameter} is not shown: {quantity(value, unit)}, give or take {by}"
-    return ""
+            said = f"{quantity(value, unit)}, give or take {by}"
+            out[key] = f"{key.parameter} is not shown: {said}"
+    return out
 
 
 def most(effect: str, kind: str, parameter: str) -> float:

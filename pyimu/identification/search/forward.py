@@ -17,7 +17,7 @@ from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.maximum_likelihood import advantage, fit
 from pyimu.identification.fit.reduction import STRUCTURE
 from pyimu.identification.fit.reference_noise import with_reference_noise
-from pyimu.identification.fit.trial import Trial
+from pyimu.identification.fit.trial import Doubt, Trial
 from pyimu.identification.fit.walk import with_unknown_walk
 from pyimu.identification.search.as_sampled import GATE, ceiling_of, threshold_of
 from pyimu.identification.search.belief import unbelievable
@@ -30,7 +30,7 @@ from pyimu.identification.search.ceiling import (
 )
 from pyimu.identification.search.choice import Refined, Tried, chosen_of
 from pyimu.identification.search.confirm import evidence
-from pyimu.identification.search.judge import judged
+from pyimu.identification.search.judge import OF_REFERENCE, judged
 from pyimu.identification.search.left_out import LeftOut, with_left_out
 from pyimu.identification.search.screen import (
     PENALTY,
@@ -90,7 +90,8 @@ class Refused:
 class Investigation:
     """What the loop found for one sensor: the model before and after, and the way between.
 
-    ``unfit`` says why a reference does not belong to the sensor: nothing was looked for then.
+    ``unfit`` says why a reference does not belong to the sensor: nothing was looked for then;
+    ``believed`` that what may be noise of the reference was taken for it.
     """
 
     before: Fit
@@ -101,6 +102,7 @@ class Investigation:
     last: Screening
     held: tuple[Trial, ...]
     unfit: str = ""
+    believed: bool = False
 
 
 def investigate(
@@ -111,30 +113,45 @@ def investigate(
     say: Callable[[str], None] = lambda text: None,
     prior: Mapping[Coefficient, float] = MappingProxyType({}),
     unfit: str = "",
+    believed: bool = False,
 ) -> Investigation:
     """Find what ``sensor``, with coefficients ``free``, lacks to explain ``trials``, confirmed on
     ``held``; ``prior`` are standard deviations of coefficients that nobody declared, ``unfit`` why
-    the reference does not belong to the sensor, so that nothing is looked for.
+    the reference does not belong to the sensor, so that nothing is looked for. What may be noise of
+    the reference or what an effect left is ``believed`` to be the former, or told by the sensor's
+    own signal.
     """
     say(f"{sensor.kind}: fitting the model as declared")
-    before, held = with_reference_noise(fit(begin(sensor, free, trials, prior)), held)
+    first = fit(begin(sensor, free, trials, prior))
+    before, apart = with_reference_noise(first, held, believed)
     before = fit(before) if before.echo else before
     if unfit:
         none = Screening((), np.inf)
-        return Investigation(before, before, (), (), none, none, tuple(held), unfit)
+        return Investigation(before, before, (), (), none, none, tuple(apart), unfit)
     if has_ceiling(sensor):
         before = without_lost(before)
-    search = _Search(before, sensor, held)
+    search = _Search(before, sensor, apart)
     while len(search.steps) < MOST_EFFECTS:
         known, count = len(search.steps), len(search.seen.candidates)
         say(f"{sensor.kind}: {known} added, trying {count} candidates")
         if not search.advance():
             break
+    if _is_of_reference(search):
+        return investigate(sensor, free, trials, held, say, prior, believed=True)
     after, steps = _backward(search.after, search.steps)
     after = _with_intervals(after, steps)
     refused = tuple(search.refused.values())
     looks = search.first, search.last
-    return Investigation(unbent(before, after), after, tuple(steps), refused, *looks, tuple(held))
+    left = unbent(before, after), after, tuple(steps), refused, *looks, tuple(apart)
+    return Investigation(*left, believed=believed)
+
+
+def _is_of_reference(search: _Search) -> bool:
+    """Whether what a search ran into, or left with nothing found, is the reference's noise."""
+    if any(r.reason == OF_REFERENCE for r in search.refused.values()):
+        return True
+    doubts = [t.doubt for t in search.after.trials if t.doubt]
+    return bool(doubts) and not search.steps and min(doubts) is Doubt.LIKELY
 
 
 class _Search:
@@ -147,7 +164,7 @@ class _Search:
         self.after, self.steps = _as_sampled(before, held)
         self.refused: dict[str, Refused] = {}
         self.kept_out: set[Coefficient] = set()
-        self.left_out: LeftOut | None = None
+        self.left_out = self._left_out()
         self.tried = Tried(self.after, sensor.values)
         self.first = self.last = self.seen = self.tried.looked()[0]
 
@@ -157,11 +174,15 @@ class _Search:
         """
         options = [c for c in self.seen.above() if c.effect not in self.refused]
         options = _in_order(options, self.after)
-        if self._grows(max((c.gain for c in options), default=0.0)):
+        most = max((c.gain for c in options), default=0.0)
+        if self._grows(max(self.seen.gate, self._likelier_than(most)), self.seen.gate):
             return True
         chosen, names = chosen_of(self.tried, options, self.seen.gate)
         if chosen is None:
             return self._looks_again()
+        instead = max(self._likelier_than(chosen.gain), 0.0)
+        if self._grows(instead, instead):
+            return True
         reason = _within_form(chosen, self.steps)
         if not reason:
             chosen, reason = judged(self.tried, chosen, self.held, self.seen.gate)
@@ -172,12 +193,19 @@ class _Search:
             self._add(chosen, names)
         return True
 
-    def _grows(self, other: float) -> bool:
-        """Let in an element of an effect that is in the model, where it explains more than any
-        ``other`` candidate does [nat]: what is left of an effect is no other one.
+    def _likelier_than(self, gain: float) -> float:
+        """What an element of an effect that is in the model must explain [nat] to be likelier than
+        a candidate that explains ``gain``: of those there are many, and each is as likely
+        beforehand. What is left of an effect is no other one.
+        """
+        return gain - float(np.log(max(len(self.seen.candidates), 1)))
+
+    def _grows(self, above: float, gate: float) -> bool:
+        """Let in an element of an effect that is in the model where it explains more than ``above``
+        [nat] at first look, and more than ``gate`` once fitted.
         """
         found = None if self.left_out is None else self.left_out.largest(self.kept_out)
-        if found is None or found[1] <= max(self.seen.gate, other):
+        if found is None or found[1] <= above:
             return False
         key, _, spread = found
         fitted = fit(replace(self.after, free=self.after.free | {key}).with_noise())
@@ -185,13 +213,18 @@ class _Search:
         seen = evidence(self.after, fitted, self.held)
         at = next(n for n, s in enumerate(self.steps) if s.effect == key.effect)
         step, held = self.steps[at], float(seen.gained.sum()) / spread
-        denied = seen.raises or gain + held <= self.seen.gate
+        denied = seen.raises or gain + held <= gate
         if denied or unbelievable(fitted, step.keys | {key}):
             self.kept_out.add(key)
             return True
         self.steps[at] = replace(step, keys=step.keys | {key}, gain=step.gain + gain)
         self._goes_on(fitted)
         return True
+
+    def _left_out(self) -> LeftOut | None:
+        """The elements that effects in the model may grow by."""
+        few = [s.effect for s in self.steps if _may_grow(s, self.after)]
+        return LeftOut.of(self.after.as_declared(), few)
 
     def _looks_again(self) -> bool:
         if not self.tried.views:
@@ -219,15 +252,14 @@ class _Search:
     def _goes_on(self, after: Fit) -> None:
         """Look for more beside a model."""
         self.after, self.tried = after, Tried(after, self.sensor.values)
-        few = [s.effect for s in self.steps if _may_grow(s, after)]
-        self.left_out = LeftOut.of(after.as_declared(), few)
+        self.left_out = self._left_out()
         self.last = self.seen = self.tried.looked()[0]
 
 
 def _may_grow(step: Step, after: Fit) -> bool:
     """Whether elements of an added effect may be let in one by one: no form is theirs to find."""
     e = after.sensor.effect(step.effect)
-    simple = not (has_form(e) or scanned(e) or step.declared or step.as_sampled)
+    simple = not (has_form(e) or scanned(e) or step.declared)
     return simple and all(t.reduction is None for t in after.trials)
 
 

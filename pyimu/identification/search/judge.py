@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.trial import Trial
-from pyimu.identification.search.belief import not_shown, unbelievable
+from pyimu.identification.search.belief import hidden, unbelievable
 from pyimu.identification.search.candidates import Group
 from pyimu.identification.search.choice import SET_WIDTH, Refined, Tried, ahead, refine
 from pyimu.identification.search.confirm import LEAST_OF_EXCESS, SPEAKS, Evidence, evidence
+from pyimu.identification.search.own_signal import is_of_reference
 from pyimu.identification.search.screen import (
     fitted_gain,
     keys_of,
 )
+
+OF_REFERENCE = "is the reference's noise: the sensor's own signal does not show it"
+"""The reason for which an effect is refused that only a noisy reference makes look like one."""
 
 
 def judged(tried: Tried, chosen: Refined, held: list[Trial], gate: float) -> tuple[Refined, str]:
@@ -19,8 +25,10 @@ def judged(tried: Tried, chosen: Refined, held: list[Trial], gate: float) -> tup
     same; nothing where it is not.
     """
     old = tried.current
+    if is_of_reference(old, chosen.fit):
+        return chosen, OF_REFERENCE
     if chosen.screened.effect not in old.sensor.values:
-        reason = not_shown(chosen.fit, keys_of(chosen.screened))
+        chosen, reason = _shown(old, chosen, gate)
         if reason:
             return chosen, reason
         reason = unbelievable(chosen.fit, keys_of(chosen.screened))
@@ -29,6 +37,27 @@ def judged(tried: Tried, chosen: Refined, held: list[Trial], gate: float) -> tup
             return chosen, reason
     chosen, seen = _confirmed(old, chosen, held)
     return chosen, _against(chosen, seen, gate) or _stands_in(tried, chosen, gate)
+
+
+def _shown(old: Fit, chosen: Refined, gate: float) -> tuple[Refined, str]:
+    """The chosen candidate less the elements that the data do not show beside the others, and why
+    nothing is left of it where that is so.
+    """
+    unseen, reason = hidden(chosen.fit, keys_of(chosen.screened)), ""
+    while unseen:
+        reason = reason or next(iter(unseen.values()))
+        kept = tuple(
+            replace(g, keys=keys)
+            for g in chosen.screened.groups
+            if (keys := tuple(k for k in g.keys if k not in unseen))
+        )
+        if not kept:
+            return chosen, reason
+        fewer = refine(old, chosen.screened.only(kept))
+        if fewer.gain <= gate:
+            return chosen, reason
+        chosen, unseen = fewer, hidden(fewer.fit, keys_of(fewer.screened))
+    return chosen, ""
 
 
 def _confirmed(old: Fit, chosen: Refined, held: list[Trial]) -> tuple[Refined, Evidence]:

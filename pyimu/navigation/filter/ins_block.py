@@ -9,20 +9,24 @@ from functools import lru_cache
 import casadi as ca
 
 from pyimu.attitude.filter.filter_block import left_in_words
+from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.updates import where
 from pyimu.block.block import Block
 from pyimu.block.variables import Variable
 from pyimu.model.part import Part
 from pyimu.navigation.filter import prediction, updates
+from pyimu.navigation.filter import start as beginning
 from pyimu.navigation.filter.layout import (
-    ACCEL_BIAS,
     BASE,
     GYRO_BIAS,
+    RESTING,
+    TURN,
     VELOCITY,
     Layout,
     Memory,
     State,
 )
+from pyimu.navigation.filter.layout import POSITION as PLACE
 from pyimu.navigation.filter.variables import (
     OUTPUTS,
     POSITION,
@@ -78,10 +82,10 @@ def _block(layout: Layout, recorded: bool, constrained: bool) -> Block:
     p = ca.SX.sym("p", len(parameters))
     u = ca.SX.sym("u", len(layout.inputs))
     settings = prediction.settings_of(layout, p)
-    start = prediction.zero(layout, settings)
+    start = beginning.zero(layout, settings)
     state = ca.vertcat(layout.pack(start), prediction.empty(layout, settings).pack())
     names = (*OUTPUTS, *_recorded_names(layout)) if recorded else OUTPUTS
-    shown = _outputs(start, ca.SX.zeros(REPORT), ca.SX(0), ca.SX(0))
+    shown = _outputs(layout, start, settings, ca.SX.zeros(REPORT), ca.SX(0), ca.SX(0))
     shown = ca.vertcat(shown, ca.SX.zeros(len(names) - len(OUTPUTS)))
     return Block(
         name="StrapdownIns",
@@ -114,9 +118,10 @@ def _step(layout: Layout, recorded: bool) -> ca.Function:
     sizes = {"s": layout.state, "u": len(layout.inputs), "p": len(layout.parameters), "h": 1}
     s, u, p, h = (ca.MX.sym(name, size) for name, size in sizes.items())
     x, memory, rate, status, rest, transition = _predict(layout)(s, u, p, h)
-    n = layout.errors
+    n, begun = layout.errors, s[layout.begun]
+    starts = ca.logic_and(begun <= 0, memory[layout.begun - layout.packed] > 0)
+    x = where(starts, _first(layout), x, memory, p)
     work = ca.vertcat(x, ca.MX.zeros(REPORT + n))
-    begun = s[layout.begun]
     nominal_at = {v.name: i for i, v in enumerate(layout.parameters)}
 
     def setting(name: str):
@@ -132,7 +137,7 @@ def _step(layout: Layout, recorded: bool) -> ca.Function:
     measured = u[SPEED_VALID] + u[POSITION_VALID] + u[VELOCITY_VALID] > 0.5
     work = where(measured, _measured(layout), work, u, rate, p, h)
     after = work[: layout.packed]
-    y = _finish(layout)(work, status, still)
+    y = _finish(layout)(work, p, status, still)
     if recorded:
         before = x[layout.nominal : layout.packed]
         y = ca.vertcat(y, before, after, work[layout.packed + REPORT :], transition)
@@ -158,10 +163,7 @@ def _predict(layout: Layout) -> ca.Function:
     sample = prediction.read(layout, memory, x.q, u, settings, h)
     sample = prediction.with_rest(layout, x, memory, sample, settings, h)
     after, transition, means = prediction.predicted(layout, x, memory, sample, settings, h)
-    first = prediction.first(layout, sample, settings)
-    start = ca.logic_and(memory.begun <= 0, sample.accel_lost <= 0)
     packed = ca.if_else(memory.begun > 0, layout.pack(after), s[: layout.packed])
-    packed = ca.if_else(start, layout.pack(first), packed)
     status = ca.fmax(sample.gyro_lost, sample.accel_lost)
     kept = prediction.remembered(memory, sample, means, h).pack()
     return ca.Function(
@@ -170,6 +172,16 @@ def _predict(layout: Layout) -> ca.Function:
         [packed, kept, sample.rate, status, sample.still, ca.densify(transition[:])],
         OPTIONS,
     )
+
+
+def _first(layout: Layout) -> ca.Function:
+    """``x, memory, p -> x`` of the first sample with a force."""
+    x = ca.SX.sym("x", layout.packed)
+    packed = ca.SX.sym("memory", layout.state - layout.packed)
+    p = ca.SX.sym("p", len(layout.parameters))
+    force = Memory.unpack(packed, layout).force
+    first = beginning.first(layout, force, prediction.settings_of(layout, p))
+    return ca.Function("first", [x, packed, p], [layout.pack(first)], OPTIONS)
 
 
 def _update(layout: Layout, name: str, kind: str, correct: Callable, *sizes: int) -> ca.Function:
@@ -207,10 +219,10 @@ def _nhc(layout: Layout) -> ca.Function:
 
 
 def _speed(layout: Layout) -> ca.Function:
-    def correct(x: State, speed, variance):
-        return updates.by_speed(layout, x, speed, variance)
+    def correct(x: State, speed, variance, p):
+        return updates.by_speed(layout, x, speed, variance, prediction.settings_of(layout, p))
 
-    return _update(layout, "by_speed", "speed", correct, 1, 1)
+    return _update(layout, "by_speed", "speed", correct, 1, 1, len(layout.parameters))
 
 
 def _position(layout: Layout) -> ca.Function:
@@ -235,7 +247,7 @@ def _measured(layout: Layout) -> ca.Function:
     u, rate = ca.MX.sym("u", len(layout.inputs)), ca.MX.sym("rate", 3)
     p, h = ca.MX.sym("p", len(layout.parameters)), ca.MX.sym("h")
     for valid, function, value, variance, more in (
-        (SPEED_VALID, _speed, SPEED, SPEED_VARIANCE, ()),
+        (SPEED_VALID, _speed, SPEED, SPEED_VARIANCE, (p,)),
         (VELOCITY_VALID, _velocity, MEASURED_VELOCITY, VELOCITY_VARIANCE, (rate, p, h)),
         (POSITION_VALID, _position, POSITION, POSITION_VARIANCE, (p,)),
     ):
@@ -245,19 +257,24 @@ def _measured(layout: Layout) -> ca.Function:
 
 def _finish(layout: Layout) -> ca.Function:
     w = ca.SX.sym("w", layout.packed + REPORT + layout.errors)
+    p = ca.SX.sym("p", len(layout.parameters))
     lost, still = ca.SX.sym("lost"), ca.SX.sym("still")
     report = w[layout.packed : layout.packed + REPORT]
-    y = _outputs(layout.unpack(w), report, lost, still)
-    return ca.Function("finish", [w, lost, still], [y], OPTIONS)
+    settings = prediction.settings_of(layout, p)
+    y = _outputs(layout, layout.unpack(w), settings, report, lost, still)
+    return ca.Function("finish", [w, p, lost, still], [y], OPTIONS)
 
 
-def _outputs(x: State, report, lost, still) -> ca.SX:
+def _outputs(layout: Layout, x: State, settings: Settings, report, lost, still) -> ca.SX:
     """The outputs (``OUTPUTS``) as a column."""
     p, back = ca.SX(x.covariance), quaternion.to_matrix(quaternion.conjugate(x.q))
-    for place in (GYRO_BIAS, ACCEL_BIAS):
-        p[place, place] = back @ p[place, place] @ back.T
-    plain = ca.horzcat(-ca.skew(x.velocity), ca.SX.eye(3))
-    p[VELOCITY, VELOCITY] = plain @ x.covariance[:6, :6] @ plain.T
+    p[GYRO_BIAS, GYRO_BIAS] = back @ p[GYRO_BIAS, GYRO_BIAS] @ back.T
+    accel_bias, p[RESTING, RESTING] = beginning.bias_of(layout, x, settings)
+    turned = prediction.about_the_start(x.position)
+    for place, of_turn in ((VELOCITY, -ca.skew(x.velocity)), (PLACE, turned)):
+        plain = ca.SX(3, layout.errors)
+        plain[:, TURN], plain[:, place] = of_turn, ca.SX.eye(3)
+        p[place, place] = plain @ x.covariance @ plain.T
     std = ca.vertcat(*[ca.sqrt(ca.fmax(p[i, i], 0)) for i in range(BASE)])
     correlation = p[6, 7] / ca.fmax(std[6] * std[7], 1e-30)
     beyond = sum(
@@ -274,7 +291,7 @@ def _outputs(x: State, report, lost, still) -> ca.SX:
             x.velocity,
             x.position,
             x.gyro_bias,
-            x.accel_bias,
+            accel_bias,
             std,
             correlation,
             report,

@@ -17,8 +17,12 @@ from pyimu.navigation.filter import rest_window
 from pyimu.navigation.filter.variables import INPUTS, OWN_PARAMETERS
 from pyimu.symbolic.linear import pack, unpack
 
-TURN, VELOCITY, POSITION, GYRO_BIAS, ACCEL_BIAS = (slice(i, i + 3) for i in range(0, 15, 3))
-"""Where the error state has attitude, velocity, position and the two biases, all in world axes."""
+TURN, VELOCITY, POSITION, GYRO_BIAS, RESTING = (slice(i, i + 3) for i in range(0, 15, 3))
+"""Where the error state has attitude, velocity, position, gyro bias and the force of a rest, all in
+world axes."""
+
+UP = RESTING.stop - 1
+"""Where it has the resting force upwards."""
 
 BASE = 15
 """Errors that every filter has."""
@@ -74,16 +78,17 @@ def open_std(part: Part, key: tuple[str, str, str], otherwise: float) -> np.ndar
 class State:
     """An estimate: nominal values, and the covariance of their error.
 
-    ``q`` (4,) body to east-north-up; ``velocity`` and ``position`` (3,); ``gyro_bias`` and
-    ``accel_bias`` (3,); ``gains`` (g,) in the order of ``Layout.gains``; ``mounting`` (2,) rad,
-    by which the vehicle's axes are pitched and turned against the body's; ``covariance`` (n, n).
+    ``q`` (4,) body to east-north-up; ``velocity`` and ``position`` (3,); ``gyro_bias`` (3,);
+    ``resting`` (3,) m/s^2 is what the accelerometer would show at rest in this attitude, its bias
+    and gravity; ``gains`` (g,) in the order of ``Layout.gains``; ``mounting`` (2,) rad, by which
+    the vehicle's axes are pitched and turned against the body's; ``covariance`` (n, n).
     """
 
     q: ca.SX
     velocity: ca.SX
     position: ca.SX
     gyro_bias: ca.SX
-    accel_bias: ca.SX
+    resting: ca.SX
     gains: ca.SX
     mounting: ca.SX
     covariance: ca.SX

@@ -1,21 +1,31 @@
 """From one sample to the next: the row without the sensors' errors, the strapdown step, the noise.
 
 The error state is what the truth has beyond the estimate: q_true = exp(phi) q in world axes,
-v_true = exp(phi) (v + e), the differences of position p and gains M, and those of the biases turned
-into world axes, d = R (b_true - b). Of rates and forces measured = (1 + M) true + bias + noise,
-with the Earth's rate w_e and gravity g, which points down,
+v_true = exp(phi) (v + e), p_true = exp(z) (p + o), where z is the upright part of phi, the
+difference of gains M, and those of gyro bias b and resting force s turned into world axes,
+d = R (b_true - b), r = R (s_true - s). The resting force is what the accelerometer would show at
+rest in the present attitude, b_a + (1 + M) R^T c, where c is gravity's reaction, upwards. Of rates
+and forces measured = (1 + M) true + bias + noise, with the Earth's rate w_e, A = R (1 + M) R^T and
+a = (1 + M)^-1 (f - s),
 
-    phi' = -d_g - R (d_M w + n_g) - w_e x phi,
-    e' = g x phi + v x phi' - d_a - R (d_M f + n_a) - 2 w_e x e,
-    p' = e + phi x v,    d' = (R w) x d.
+    phi' = -d - R (d_M w + n_g) - w_e x phi,
+    e' = v x phi' - r - R (d_M a + n_a) - 2 w_e x e,
+    o' = e + (phi - z) x v + p x z',    d' = (R w) x d,
+    r' = (R w) x r - A ((R w) x (c x phi) - c x phi') - R d_M (w x R^T c).
 
-It is the error of the invariant filter (Barrau and Bonnabel 2017), with biases turned along. In
-body axes and with the plain difference of velocities (Groves 2013, section 14.2.4), what cannot be
-told apart has a direction in the state that follows the estimate: a tilt from a bias of the
-accelerometer at rest, a yaw from the direction of the velocity. Each correction then turns it, and
-the filter seems to see it from several sides and learns from nothing: within 10 s at rest a bias
-known to 50 mg became one known to 19 mg by its own noise. Here these directions, phi x g = d_a and
-phi upright, stay.
+It is the error of the invariant filter (Barrau and Bonnabel 2017), with the sensors' errors turned
+along. In body axes and with the plain difference of velocities (Groves 2013, section 14.2.4), what
+cannot be told apart has a direction in the state that follows the estimate: a tilt from a bias of
+the accelerometer at rest, a yaw from the direction of the velocity. Each correction then turns it,
+and the filter seems to see it from several sides and learns from nothing: within 10 s at rest a
+bias known to 50 mg became one known to 19 mg by its own noise. Here these directions stay.
+
+A rest tells s, and of tilt, bias and gains only that together they make it. As s is a state, what a
+rest knows is one number of the state, whatever the tilt: at rest and along a straight leg all of
+it is linear, however large the errors. With the bias as the state, the weight of a body tilted by
+phi is wrong by c phi^2 / 2, 13 mm/s^2 for 3 deg, where the rest knows it to 1 mm/s^2. Linear in
+small angles alone is what a turn does: see ``weight``. And what of a tilt comes up on the way, by
+the gyro's errors, bends the weight once more: see ``_bending`` and ``updates``.
 """
 
 from __future__ import annotations
@@ -28,11 +38,12 @@ from pyimu.attitude.filter.settings import Settings
 from pyimu.model.signals import SIGNALS
 from pyimu.navigation.filter import rest_window
 from pyimu.navigation.filter.layout import (
-    ACCEL_BIAS,
     BASE,
     GYRO_BIAS,
     POSITION,
+    RESTING,
     TURN,
+    UP,
     VELOCITY,
     Layout,
     Memory,
@@ -47,6 +58,7 @@ from pyimu.navigation.filter.variables import (
     STATIONARY,
     TEMPERATURE,
 )
+from pyimu.navigation.filter.weight import Wander, counted, in_world, upright_of
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import symmetric
 from pyimu.symbolic.missing import is_finite
@@ -57,19 +69,14 @@ ABSURD = 1e6
 OPTIONS = {"cse": True}
 
 MEAN_TIME = 0.3
-"""s; of the means of rate and force in the transition. With the samples themselves there, whose
-noise the transition would take for motion, the filter would learn from noise what only motion
-shows: the tilt apart from the accelerometer's bias, and the gains. Their integrals over a manoeuvre
-are those of the samples."""
+"""s; of the means of rate and force by which the transition knows a motion. With the samples
+themselves there, whose noise it would take for motion, the filter would learn from noise what only
+motion shows: the tilt apart from the accelerometer's bias, and the gains."""
 
 
-LASTS = 10.0
-"""s; a leg or a rest. Over it random walks stand for the part's correlated noise, of which a rest
-takes off what came before. And over it what is not linear in the tilt acts the same way: as
-white noise of that density it grows as a constant does over that time. It matters as long as the
-bias of the accelerometer is not told from the tilt, 3 deg for 50 mg: the vertical acceleration then
-is off by 13 mm/s^2, and the vertical channel, which knows its own bias to 1 mm/s^2 after a rest,
-would take that for a motion."""
+LASTS = (10 / 3, 10.0)
+"""s; a rest and a leg. Over them white noise and random walk stand for the part's correlated noise,
+of which a rest takes off what came before."""
 
 
 @dataclass(frozen=True)
@@ -141,13 +148,10 @@ def with_rest(
     return replace(sample, still=still, window=found.memory)
 
 
-def corrected(layout: Layout, x: State, rate, force) -> tuple:
-    """Rate and force (3,) less the estimated errors; of (1 + M)^-1 the terms up to M^2."""
-    out = []
-    for kind, measured, bias in (("gyro", rate, x.gyro_bias), ("accel", force, x.accel_bias)):
-        m, raw = layout.matrix(x.gains, kind), measured - bias
-        out.append(raw - m @ (raw - m @ raw))
-    return tuple(out)
+def without_gains(layout: Layout, x: State, kind: str, measured):
+    """What a triad would measure (3,) without its gains; of (1 + M)^-1 the terms up to M^2."""
+    m = layout.matrix(x.gains, kind)
+    return measured - m @ (measured - m @ measured)
 
 
 def predicted(
@@ -160,37 +164,50 @@ def predicted(
     """
     rest = memory.still * sample.still * (settings.scalar["zaru"] > 0)
     blind = [ca.if_else(lost, 1, 0) for lost in (sample.gyro_lost, sample.accel_lost)]
-    before, after = (
-        corrected(layout, x, *pair)
-        for pair in ((memory.rate, memory.force), (sample.rate, sample.force))
-    )
     turning = (1 - rest) * (1 - blind[0])
     earth = settings.earth
     still_rate = quaternion.rotate(quaternion.conjugate(x.q), earth)
-    rates = tuple(ca.if_else(turning, w, still_rate) for w in (before[0], after[0]))
+    rates = tuple(
+        ca.if_else(turning, without_gains(layout, x, "gyro", w - x.gyro_bias), still_rate)
+        for w in (memory.rate, sample.rate)
+    )
     q = turned(x.q, rates, earth, h)
-    gravity = ca.vertcat(0, 0, settings.scalar["gravity"])
+    upright = upright_of(settings)
+    weights = tuple(quaternion.rotate(quaternion.conjugate(at), upright) for at in (x.q, q))
+    shift = weights[1] - weights[0]
+    resting = x.resting + shift + layout.matrix(x.gains, "accel") @ shift
     forces = tuple(
-        ca.if_else(blind[1], quaternion.rotate(quaternion.conjugate(at), gravity), f)
-        for at, f in ((x.q, before[1]), (q, after[1]))
+        weight + ca.if_else(blind[1], 0, without_gains(layout, x, "accel", f - s))
+        for weight, f, s in zip(
+            weights, (memory.force, sample.force), (x.resting, resting), strict=True
+        )
     )
     velocity, position, force = moved(
         (x.q, q), forces, x.velocity, x.position, earth, settings.scalar["gravity"], h
     )
-    axes = (quaternion.to_matrix(x.q) + quaternion.to_matrix(q)) / 2
-    means = _means(memory, (rates[0] + rates[1]) / 2, force, (still_rate, gravity), rest, h)
-    mean = means[0], axes.T @ means[1]
-    spin = quaternion.to_matrix(q) @ quaternion.to_matrix(x.q).T
+    means = _means(memory, (rates[0] + rates[1]) / 2, force, (still_rate, upright), rest, h)
+    axes = quaternion.to_matrix(q)
+    wander = Wander.of(layout, x, means[0] - still_rate, axes, MEAN_TIME, settings)
     felt = turning, 1 - blind[1]
-    between = (x.velocity + velocity) / 2
-    transition = _transition(layout, axes, spin, mean, between, settings, felt, h)
-    noise = _noise(layout, axes, between, settings, felt, h)
-    bent = h * LASTS * _bent(x.covariance[TURN, TURN], settings.scalar["gravity"])
-    noise[VELOCITY, VELOCITY] = noise[VELOCITY, VELOCITY] + ca.diag(bent)
-    both = transition @ x.covariance @ transition.T + noise
+    step = Step.of(layout, x, q, (x.velocity + velocity) / 2, upright, felt, wander)
+    by_gains = wander.by_gains(layout, (rates[0] + rates[1]) / 2, axes)
+    transition = _transition(layout, step, (by_gains, means[1] - upright, shift), settings, h)
+    both = transition @ x.covariance @ transition.T + _noise(layout, step, settings, h)
+    both[UP, UP] = both[UP, UP] + _bending(x.covariance, both, settings)
     covariance = symmetric(layout.errors, lambda i, j: both[i, j])
-    x = replace(x, q=q, velocity=velocity, position=position, covariance=covariance)
-    return _unseen(x, memory, sample, settings, h), transition, means
+    x = replace(
+        x, q=q, velocity=velocity, position=position, resting=resting, covariance=covariance
+    )
+    return _unseen(x, step, memory, sample, settings, h), transition, means
+
+
+def _bending(before, after, settings: Settings):
+    """Variance that the resting force gains upwards in a step, as the tilt's grows from the
+    covariance ``before`` to that ``after``: that of c phi^2 / 2, of second order, is c^2 P^2 / 2 of
+    each axis.
+    """
+    grown = [before[i, i] * ca.fmax(after[i, i] - before[i, i], 0) for i in (0, 1)]
+    return settings.scalar["gravity"] ** 2 * sum(grown)
 
 
 def _means(memory: Memory, rate, force, at_rest: tuple, rest, h) -> tuple:
@@ -203,70 +220,96 @@ def _means(memory: Memory, rate, force, at_rest: tuple, rest, h) -> tuple:
     )
 
 
-def _transition(
-    layout: Layout, axes, spin, mean: tuple, velocity, settings: Settings, felt: tuple, h
-) -> ca.SX:
-    """F (n, n).
+def about_the_start(position):
+    """What an attitude error makes of a ``position`` (3,), (3, 3): its upright part turns it."""
+    turns = ca.SX(3, 3)
+    turns[:, 2] = -ca.skew(position)[:, 2]
+    return turns
 
-    ``axes`` (3, 3) is R, ``spin`` (3, 3) by what the body has turned, in world axes; ``mean`` are
-    rate and force (3,) in body axes; ``felt`` says whether gyro and accelerometer count.
+
+@dataclass(frozen=True)
+class Step:
+    """What a sample makes of errors: ``axes`` (3, 3) is R in the middle of the step, ``spin``
+    (3, 3) by what the body has turned, in world axes; ``velocity`` (3,) is that between the
+    samples, as far as it counts; ``felt`` says whether gyro and accelerometer count; ``by_turn``
+    (n, 3) is what an attitude error that comes up in the step makes of the error state, ``by_tilt``
+    (3, 3) what one before it makes of the error of the resting force, by how the weight
+    ``wander``s.
     """
-    rate, body_force = mean
-    earth, gravity = settings.earth, ca.vertcat(0, 0, -settings.scalar["gravity"])
-    halfway = (ca.SX.eye(3) + spin) / 2
-    f = ca.SX.eye(layout.errors)
-    turn = h * felt[0] * axes
-    push = h * felt[1] * axes
-    f[TURN, TURN] = ca.SX.eye(3) - h * ca.skew(earth)
-    f[TURN, GYRO_BIAS] = -h * felt[0] * halfway
-    f[VELOCITY, TURN] = h * felt[1] * ca.skew(gravity) - h * ca.skew(velocity) @ ca.skew(earth)
-    f[VELOCITY, GYRO_BIAS] = ca.skew(velocity) @ f[TURN, GYRO_BIAS]
-    f[VELOCITY, VELOCITY] = ca.SX.eye(3) - 2 * h * ca.skew(earth)
-    f[VELOCITY, ACCEL_BIAS] = -h * felt[1] * halfway
-    f[GYRO_BIAS, GYRO_BIAS] = f[ACCEL_BIAS, ACCEL_BIAS] = spin
+
+    axes: ca.SX
+    spin: ca.SX
+    velocity: ca.SX
+    felt: tuple
+    by_turn: ca.SX
+    by_tilt: ca.SX
+    wander: Wander
+
+    @classmethod
+    def of(
+        cls, layout: Layout, x: State, q, velocity, upright, felt: tuple, wander: Wander
+    ) -> Step:
+        before, after = quaternion.to_matrix(x.q), quaternion.to_matrix(q)
+        spin, triad = after @ before.T, in_world(layout, x, after)
+        by_turn = ca.SX(layout.errors, 3)
+        by_turn[TURN, :] = ca.SX.eye(3)
+        of_speed = ca.trace(x.covariance[VELOCITY, VELOCITY]) / 3
+        speed = counted(velocity, of_speed)
+        by_turn[VELOCITY, :] = ca.skew(speed)
+        by_turn[POSITION, :] = -about_the_start(x.position)
+        by_turn[RESTING, :] = triad @ ca.skew(upright)
+        by_tilt = triad @ wander.by_tilt(spin, upright)
+        return cls((before + after) / 2, spin, speed, felt, by_turn, by_tilt, wander)
+
+
+def _transition(layout: Layout, step: Step, mean: tuple, settings: Settings, h) -> ca.SX:
+    """F (n, n); ``mean`` is what the gyro's gains make of the rate (3, g), the mean acceleration
+    (3,), both in world axes, and by how much the weight (3,) in body axes changes.
+    """
+    by_gains, acceleration, shift = mean
+    axes, earth = step.axes, settings.earth
+    halfway = (ca.SX.eye(3) + step.spin) / 2
     gains = slice(BASE, BASE + len(layout.gains))
-    if layout.gains:
-        f[TURN, gains] = -turn @ layout.slopes("gyro", rate)
-        f[VELOCITY, gains] = ca.skew(velocity) @ f[TURN, gains]
-        f[VELOCITY, gains] = f[VELOCITY, gains] - push @ layout.slopes("accel", body_force)
-    f[POSITION, TURN] = -h * ca.skew(velocity) + h / 2 * (f[VELOCITY, TURN])
+    turn = ca.SX(3, layout.errors)
+    turn[:, TURN] = -h * ca.skew(earth)
+    turn[:, GYRO_BIAS] = -h * step.felt[0] * halfway
+    turn[:, gains] = -h * step.felt[0] * by_gains
+    f = ca.SX.eye(layout.errors) + step.by_turn @ turn
+    f[GYRO_BIAS, GYRO_BIAS] = f[RESTING, RESTING] = step.spin
+    f[RESTING, TURN] = f[RESTING, TURN] + step.by_tilt
+    f[RESTING, gains] = f[RESTING, gains] + axes @ layout.slopes("accel", shift)
+    push = h * step.felt[1]
+    f[VELOCITY, VELOCITY] = f[VELOCITY, VELOCITY] - 2 * h * ca.skew(earth)
+    f[VELOCITY, RESTING] = -push * halfway
+    for errors in (TURN, GYRO_BIAS, gains):
+        f[VELOCITY, errors] = f[VELOCITY, errors] - push / 2 * f[RESTING, errors]
+    body = axes.T @ acceleration
+    f[VELOCITY, gains] = f[VELOCITY, gains] - push * axes @ layout.slopes("accel", body)
+    f[POSITION, TURN.start : 2] = f[POSITION, TURN.start : 2] - h * ca.skew(step.velocity)[:, :2]
     f[POSITION, VELOCITY] = h * ca.SX.eye(3)
-    f[POSITION, ACCEL_BIAS] = h / 2 * f[VELOCITY, ACCEL_BIAS]
+    f[POSITION, RESTING] = h / 2 * f[VELOCITY, RESTING]
     return ca.sparsify(f)
 
 
-def _bent(turn, gravity):
-    """Mean squares (3,) of the acceleration phi x (phi x g) / 2, which F leaves out.
-
-    The attitude error phi is normal with the covariance ``turn`` (3, 3).
-    """
-    xx, yy, zz = (turn[i, i] for i in range(3))
-    xy, xz, yz = turn[0, 1], turn[0, 2], turn[1, 2]
-    vertical = 3 * xx * xx + 3 * yy * yy + 2 * xx * yy + 4 * xy * xy
-    level = xx * zz + 2 * xz * xz, yy * zz + 2 * yz * yz
-    return gravity * gravity / 4 * ca.vertcat(*level, vertical)
-
-
-def _noise(layout: Layout, axes, velocity, settings: Settings, felt: tuple, h) -> ca.SX:
+def _noise(layout: Layout, step: Step, settings: Settings, h) -> ca.SX:
     """Q (n, n): white noise and random walks of the part (Groves 2013, eq. 14.82)."""
-    q = ca.SX(layout.errors, layout.errors)
+    axes = step.axes
     turn, push = (
-        felt[i] * axes @ ca.diag(noise.white**2) @ axes.T
+        step.felt[i] * axes @ ca.diag(noise.white**2) @ axes.T
         for i, noise in enumerate((settings.gyro, settings.accel))
     )
-    q[TURN, TURN] = h * turn
-    along = ca.skew(velocity)
-    q[VELOCITY, TURN] = h * along @ turn
-    q[TURN, VELOCITY] = q[VELOCITY, TURN].T
-    q[VELOCITY, VELOCITY] = h * (push + along @ turn @ along.T)
-    q[VELOCITY, POSITION] = q[POSITION, VELOCITY] = h * h / 2 * push
-    q[POSITION, POSITION] = h * h * h / 3 * push
-    for place, noise in ((GYRO_BIAS, settings.gyro), (ACCEL_BIAS, settings.accel)):
-        q[place, place] = h * axes @ ca.diag(noise.walk**2) @ axes.T
+    q = h * step.by_turn @ turn @ step.by_turn.T
+    q[VELOCITY, VELOCITY] = q[VELOCITY, VELOCITY] + h * push
+    q[POSITION, POSITION] = q[POSITION, POSITION] + h * h * h / 3 * push
+    q[VELOCITY, POSITION] = q[VELOCITY, POSITION] + h * h / 2 * push
+    q[POSITION, VELOCITY] = q[VELOCITY, POSITION].T
+    for place, noise in ((GYRO_BIAS, settings.gyro), (RESTING, settings.accel)):
+        q[place, place] = q[place, place] + h * axes @ ca.diag(noise.walk**2) @ axes.T
+    q[UP, UP] = q[UP, UP] + h * step.wander.noise
     return q
 
 
-def _unseen(x: State, memory: Memory, sample: Sample, settings: Settings, h) -> State:
+def _unseen(x: State, step: Step, memory: Memory, sample: Sample, settings: Settings, h) -> State:
     """The estimate, less sure by what the body may have done while sensors were lost.
 
     After T s without a rate the attitude may be off by the top turn rate times T, half a turn at
@@ -278,11 +321,7 @@ def _unseen(x: State, memory: Memory, sample: Sample, settings: Settings, h) -> 
     grown = [ca.if_else(t > 0, h * (2 * t - h), 0) for t in gone]
     angle = at["top_turn_rate"] * gone[0]
     wider = ca.if_else(angle < ca.pi, at["top_turn_rate"] ** 2 * grown[0], 0)
-    along = ca.skew(x.velocity)
-    p[TURN, TURN] = p[TURN, TURN] + wider * ca.SX.eye(3)
-    p[VELOCITY, TURN] = p[VELOCITY, TURN] + wider * along
-    p[TURN, VELOCITY] = p[VELOCITY, TURN].T
-    p[VELOCITY, VELOCITY] = p[VELOCITY, VELOCITY] + wider * along @ along.T
+    p = p + wider * step.by_turn @ step.by_turn.T
     most = at["top_speed"]
     anew = at["top_acceleration"] * gone[1] >= most
     wider = ca.if_else(anew, 0, at["top_acceleration"] ** 2 * grown[1])
@@ -298,48 +337,6 @@ def _unseen(x: State, memory: Memory, sample: Sample, settings: Settings, h) -> 
 
 def _lost(memory: Memory, sample: Sample) -> tuple:
     return (memory.gyro_lost, sample.gyro_lost), (memory.accel_lost, sample.accel_lost)
-
-
-def first(layout: Layout, sample: Sample, settings: Settings) -> State:
-    """The estimate at the first sample: level by its force, at the origin, without velocity."""
-    at = settings.scalar
-    fx, fy, fz = ca.vertsplit(sample.force)
-    roll, pitch = ca.atan2(fy, fz), ca.atan2(-fx, ca.sqrt(fy * fy + fz * fz))
-    q, x = quaternion.from_euler(roll, pitch, at["heading0"]), zero(layout, settings)
-    axes, p = quaternion.to_matrix(q), ca.SX(x.covariance)
-    for place in (GYRO_BIAS, ACCEL_BIAS):
-        p[place, place] = axes @ p[place, place] @ axes.T
-    return replace(x, q=q, covariance=p)
-
-
-def zero(layout: Layout, settings: Settings) -> State:
-    """The estimate before the first sample."""
-    at, n = settings.scalar, layout.errors
-
-    def three(name: str) -> list:
-        return [at[f"{name}[{i}]"] for i in (1, 2, 3)]
-
-    std = ca.vertcat(
-        *[at["tilt_std0"]] * 2,
-        at["heading_std0"],
-        *[at["velocity_std0"]] * 3,
-        *[at["position_std0"]] * 3,
-        *three("gyro_bias_std0"),
-        *three("accel_bias_std0"),
-        *[gain.std for gain in layout.gains],
-        *[layout.mounting_std] * (2 * layout.nhc),
-    )
-    none = ca.SX.zeros(3)
-    return State(
-        quaternion.from_euler(0, 0, at["heading0"]),
-        none,
-        none,
-        none,
-        none,
-        ca.SX.zeros(len(layout.gains)),
-        ca.SX.zeros(n - layout.mounting.start),
-        ca.densify(ca.diag(std**2)),
-    )
 
 
 def remembered(memory: Memory, sample: Sample, means: tuple, h) -> Memory:

@@ -14,15 +14,17 @@ from scipy.stats import chi2
 
 from pyimu.attitude.filter.settings import Settings
 from pyimu.navigation.filter.layout import (
-    ACCEL_BIAS,
     BASE,
     GYRO_BIAS,
     POSITION,
+    RESTING,
     TURN,
+    UP,
     VELOCITY,
     Layout,
     State,
 )
+from pyimu.navigation.filter.prediction import about_the_start
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import cholesky, forward, reciprocal, symmetric
 from pyimu.symbolic.missing import is_finite
@@ -36,7 +38,9 @@ def gate(freedom: int) -> float:
     return float(chi2.isf(BY_CHANCE, freedom))
 
 
-def corrected_by(layout: Layout, x: State, innovation, slope, noise) -> tuple[State, ca.SX, ca.SX]:
+def corrected_by(
+    layout: Layout, x: State, innovation, slope, noise, settings: Settings
+) -> tuple[State, ca.SX, ca.SX]:
     """The estimate after a measurement, its normalised innovation squared, and the error (n,) that
     it took out.
 
@@ -54,26 +58,37 @@ def corrected_by(layout: Layout, x: State, innovation, slope, noise) -> tuple[St
     covariance = symmetric(
         layout.errors, lambda i, j: x.covariance[i, j] - ca.dot(gain[:, i], gain[:, j])
     )
+    change[UP] = change[UP] + _bent(change, settings.scalar["gravity"])
     return changed(layout, replace(x, covariance=covariance), change), nis, change
 
 
 def changed(layout: Layout, x: State, error) -> State:
     """The estimate with an ``error`` (n,) added."""
     gains = slice(BASE, BASE + len(layout.gains))
-    q = quaternion.normalized(quaternion.product(quaternion.exponential(error[TURN]), x.q))
-    back = quaternion.to_matrix(quaternion.conjugate(q))
+    about = quaternion.exponential(ca.vertcat(0, 0, error[TURN][2]))
+    turn, back = quaternion.exponential(error[TURN]), quaternion.conjugate(x.q)
     return replace(
         x,
-        q=q,
-        velocity=quaternion.rotate(
-            quaternion.exponential(error[TURN]), x.velocity + error[VELOCITY]
-        ),
-        position=x.position + error[POSITION],
-        gyro_bias=x.gyro_bias + back @ error[GYRO_BIAS],
-        accel_bias=x.accel_bias + back @ error[ACCEL_BIAS],
+        q=quaternion.normalized(quaternion.product(turn, x.q)),
+        velocity=quaternion.rotate(turn, x.velocity + error[VELOCITY]),
+        position=quaternion.rotate(about, x.position + error[POSITION]),
+        gyro_bias=x.gyro_bias + quaternion.rotate(back, error[GYRO_BIAS]),
+        resting=x.resting + quaternion.rotate(back, error[RESTING]),
         gains=x.gains + error[gains],
         mounting=x.mounting + error[layout.mounting],
     )
+
+
+def _bent(error, gravity):
+    """What is of second order in the tilt of an ``error`` (n,) of the resting force upwards.
+
+    A body that is tilted by phi feels less of its weight c there, by c phi^2 / 2. What of the tilt
+    was there at the last rest is in the force that this has shown: it is the part of the error that
+    looks like a bias, r - c x phi. The other part came up on the way.
+    """
+    tilt = error[TURN][:2]
+    taken = error[RESTING][:2] / gravity - ca.vertcat(-tilt[1], tilt[0])
+    return gravity / 2 * (ca.sumsqr(taken) - ca.sumsqr(tilt))
 
 
 def _slope(layout: Layout, rows: int, **parts) -> ca.SX:
@@ -93,7 +108,7 @@ def by_zero_velocity(layout: Layout, x: State, settings: Settings) -> tuple:
     """
     slope = _slope(layout, 3, velocity=ca.SX.eye(3))
     noise = settings.scalar["zupt_std"] ** 2 * ca.SX.ones(3)
-    return corrected_by(layout, x, -x.velocity, slope, noise)
+    return corrected_by(layout, x, -x.velocity, slope, noise, settings)
 
 
 def by_zero_rate(layout: Layout, x: State, rate, settings: Settings, h) -> tuple:
@@ -103,7 +118,7 @@ def by_zero_rate(layout: Layout, x: State, rate, settings: Settings, h) -> tuple
     slope = _slope(layout, 3, turn=back @ ca.skew(settings.earth), gyro_bias=back)
     expected = earth + layout.matrix(x.gains, "gyro") @ earth + x.gyro_bias
     noise = settings.gyro.white**2 * reciprocal(h) + 1e-16
-    return corrected_by(layout, x, rate - expected, slope, noise)
+    return corrected_by(layout, x, rate - expected, slope, noise, settings)
 
 
 def by_vehicle(layout: Layout, x: State, rate, settings: Settings, h) -> tuple:
@@ -131,22 +146,23 @@ def by_vehicle(layout: Layout, x: State, rate, settings: Settings, h) -> tuple:
     own = settings.gyro.white**2 * reciprocal(h)
     of_arm = (of_speed @ ca.skew(arm)) ** 2 @ own
     noise = at["nhc_std"] ** 2 * ca.fmax(2 * at["nhc_time"] * reciprocal(h), 1) + of_arm
-    return corrected_by(layout, x, -of_speed @ speed, slope, noise)
+    return corrected_by(layout, x, -of_speed @ speed, slope, noise, settings)
 
 
-def by_speed(layout: Layout, x: State, speed, variance) -> tuple:
+def by_speed(layout: Layout, x: State, speed, variance, settings: Settings) -> tuple:
     """A measured speed along the body's x axis."""
     back = quaternion.to_matrix(quaternion.conjugate(x.q))
     slope = _slope(layout, 1, velocity=back[0, :])
-    return corrected_by(layout, x, speed - back[0, :] @ x.velocity, slope, variance)
+    return corrected_by(layout, x, speed - back[0, :] @ x.velocity, slope, variance, settings)
 
 
 def by_position(layout: Layout, x: State, position, variance, settings: Settings) -> tuple:
     """A measured position (3,) of the antenna, p + R l, each of its axes with the ``variance``."""
     arm = quaternion.rotate(x.q, _arm(settings, "antenna"))
-    slope = _slope(layout, 3, position=ca.SX.eye(3), turn=-ca.skew(arm))
+    turns = about_the_start(x.position) - ca.skew(arm)
+    slope = _slope(layout, 3, position=ca.SX.eye(3), turn=turns)
     off, noise = _of_known_axes(position - x.position - arm, variance)
-    return corrected_by(layout, x, off, slope, noise)
+    return corrected_by(layout, x, off, slope, noise, settings)
 
 
 def by_velocity(layout: Layout, x: State, velocity, variance, rate, settings: Settings, h) -> tuple:
@@ -166,7 +182,7 @@ def by_velocity(layout: Layout, x: State, velocity, variance, rate, settings: Se
     )
     by_arm = ca.mmax(settings.gyro.white) ** 2 * reciprocal(h) * ca.sumsqr(arm)
     off, noise = _of_known_axes(velocity - moves, variance + by_arm)
-    return corrected_by(layout, x, off, slope, noise)
+    return corrected_by(layout, x, off, slope, noise, settings)
 
 
 def _arm(settings: Settings, name: str) -> ca.SX:

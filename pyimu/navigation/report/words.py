@@ -20,6 +20,12 @@ TITLES = {
     "smoother": "smoothed by the whole log",
 }
 
+WRONG_REST = 2
+"""Bit of the status of a zero velocity that contradicted the estimate."""
+
+FIXES = ("position_fixes", "velocity_fixes")
+"""Kinds of the findings about measured positions and velocities."""
+
 OBSERVABLE = (
     "Yaw cannot be seen from zero velocities: between two headings it is the integral of the gyro, "
     "and its error turns the path about the start"
@@ -44,7 +50,8 @@ def notes(a: Outcome) -> list[str]:
     if "no_rest" in kinds:
         out.append(
             "There is no rest at the start: tilt and biases were not known when the drive began, "
-            "and the standard deviations are wide for that reason"
+            "and the standard deviations are wide for that reason; some seconds of rest before it "
+            "would tell them"
         )
     if "gravity_off" in kinds:
         off = kinds["gravity_off"].detail
@@ -52,10 +59,13 @@ def notes(a: Outcome) -> list[str]:
             f"The force at rest is {number(off['magnitude'], 4)} m/s^2, {off['share']:+.1%} of "
             "gravity off: a scale factor, a bias, or a unit"
         )
-    if "steady_turn" in kinds:
+    turns = [f.detail for f in a.findings if f.kind == "steady_turn"]
+    if turns:
+        longest = max(turns, key=lambda d: d["seconds"])
         out.append(
-            "The sensor turned steadily for a while, which looks like a rest to the "
-            "accelerometer; its gyro was off its bias, so it was taken for a turn"
+            f"The sensor turned steadily, {_counted(len(turns), 'time')}, the longest at "
+            f"{longest['first']:.6g} s for {quantity(longest['seconds'], 's')}: that looks like a "
+            "rest to the accelerometer, but the gyro was off its bias, so it was taken for a turn"
         )
     out += [
         f"{_counted(f.count, 'sample')} of {f.column} that no motion makes "
@@ -65,11 +75,13 @@ def notes(a: Outcome) -> list[str]:
     ]
     out += list(_of_samples(kinds))
     if "coning" in kinds:
+        detail = kinds["coning"].detail
         out.append(
-            f"Up to {np.degrees(kinds['coning'].detail['turn']):.3g} deg of turn lie between two "
-            "samples: the sample rate is too low for the turn rate"
+            f"Up to {np.degrees(detail['turn']):.3g} deg of turn lie between two samples (at "
+            f"{detail['at']:.6g} s): the sample rate is too low for the turn rate, or the unit of "
+            "gyro or time is another than in its header"
         )
-    out += list(_fixes(a))
+    out += [*_gaps(a), *_fixes(a)]
     for f in a.findings:
         if f.kind == "not_integrated":
             out.append(f"The method {f.detail['method']} was left out: {f.detail['reason']}")
@@ -78,14 +90,23 @@ def notes(a: Outcome) -> list[str]:
             "No latitude: the Earth's rate was not taken off, which a rest hides in the gyro bias "
             "until the body turns"
         )
-    out += [
-        f"{text[0].upper()}{text[1:]} ({_counted(count, 'sample')})" for text, count in _status(a)
-    ]
+    out += _status(a)
     return [*out, OBSERVABLE] if a.later_stops else out
 
 
 def _counted(count: int, noun: str) -> str:
     return f"{count:,} {noun}{'' if count == 1 else 's'}"
+
+
+def _gaps(a: Outcome) -> Iterator[str]:
+    found = [(a.time[b] - a.time[b - 1], a.time[b - 1]) for _, b in a.recording.segments[:-1]]
+    if found:
+        longest, start = max(found)
+        yield (
+            f"No samples for up to {quantity(longest, 's')} (from {start:.6g} s; "
+            f"{_counted(len(found), 'gap')}): the standard deviations are wider by what a robot of "
+            f"at most {a.settings['top_speed']:g} m/s may have done meanwhile (--top-speed)"
+        )
 
 
 def _of_samples(kinds: dict[str, Finding]) -> Iterator[str]:
@@ -116,8 +137,10 @@ def _rests(a: Outcome) -> str:
     if not a.still.any() and a.fixes is not None:
         return "There is no rest in this log: what it measured of position and velocity holds it"
     if not a.still.any():
+        declared = a.zupt != "live" and a.recording.stationary is not None
+        where = "The column stationary declares no rest" if declared else "There is no rest"
         return (
-            "There is no rest in this log, so nothing to update with: the position is integrated "
+            f"{where} in this log, so nothing to update with: the position is integrated "
             "alone, and its standard deviations say how little that is worth"
         )
     if a.still.all():
@@ -134,7 +157,7 @@ def _rests(a: Outcome) -> str:
 
 def _fixes(a: Outcome) -> Iterator[str]:
     for f in a.findings:
-        if f.kind not in ("position_fixes", "velocity_fixes"):
+        if f.kind not in FIXES:
             continue
         text = f"{f.detail['of']:,} measured {f.column} samples correct the filter"
         nis = a.mean_nis(f"{f.column}_nis")
@@ -143,19 +166,33 @@ def _fixes(a: Outcome) -> Iterator[str]:
         if f.count:
             text += (
                 f"; {f.count:,} of them ({f.detail['share']:.2%}) contradicted it and were weighed "
-                "down: a jump, or a standard deviation that is too small"
+                "down: a jump, another frame, or a standard deviation that is too small"
             )
         yield text
 
 
-def _status(a: Outcome) -> Iterator[tuple[str, int]]:
+def _status(a: Outcome) -> Iterator[str]:
     status = a.filter.scalar("status").astype(int)
     for bit, text in STATUS_NAMES.items():
         if bit in CONTRADICTED.values():
             continue
-        count = int(np.count_nonzero(status & bit))
-        if count:
-            yield text, count
+        rows = np.flatnonzero(status & bit)
+        if len(rows):
+            where = f"{_counted(len(rows), 'sample')}, the first at {a.time[rows[0]]:.6g} s"
+            text = f"{text[0].upper()}{text[1:]} ({where})"
+            yield text if bit != WRONG_REST else text + _wrong_rest(a)
+
+
+def _wrong_rest(a: Outcome) -> str:
+    """What may be wrong where zero velocities contradict the estimate."""
+    if any(f.kind in FIXES and f.count for f in a.findings):
+        return ""  # those that are wrong may have made it
+    if a.zupt != "live" and a.recording.stationary is not None:
+        return ". The column stationary may declare a rest that is none"
+    return (
+        ". A drive at constant speed looks like a rest; a column stationary would tell the two "
+        "apart"
+    )
 
 
 def ends(a: Outcome) -> Iterator[tuple[str, str]]:

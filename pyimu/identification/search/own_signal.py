@@ -1,0 +1,95 @@
+"""Whether the sensor's own signal shows what a candidate explains.
+
+With e the noise of the reference, the columns c(x + e) of a candidate meet the residual's own -e,
+and seem to explain it. With the sensor's signal in the place of the reference they do not: that has
+none of e, and its own noise is known. It is an instrument (Durbin 1954, "Errors in variables",
+Review of the International Statistical Institute 22), and what an effect left is in both.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from pyimu.identification.fit.columns import band_segments, band_time, in_band, in_log, residual
+from pyimu.identification.fit.doubted import CERTAIN
+from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.inputs import Inputs, own_rate, reference_input
+from pyimu.identification.fit.noise_floor import own_noise
+from pyimu.identification.fit.reference_noise import STEP
+from pyimu.identification.fit.response import predict
+from pyimu.identification.fit.trial import Trial
+from pyimu.model.kinds import OWN
+
+
+@dataclass(frozen=True)
+class _Sums:
+    """Sums of whitened products: of what lies between two models by the sensor's signal with
+    itself, with the same by the reference, and with the residual.
+    """
+
+    own: float = 0.0
+    effect: float = 0.0
+    seen: float = 0.0
+
+    def __add__(self, other: _Sums) -> _Sums:
+        return _Sums(self.own + other.own, self.effect + other.effect, self.seen + other.seen)
+
+
+def is_of_reference(old: Fit, new: Fit, seed: int = 1) -> bool:
+    """Whether what a ``new`` model explains beyond an ``old`` one is the noise of a doubted
+    reference: by the sensor's own signal nothing is likelier than a true effect.
+    """
+    rng = np.random.default_rng(seed)
+    total = sum((_sums(old, new, t, rng) for t in new.trials if t.doubt), _Sums())
+    if total.own <= 0.0:
+        return False
+    nothing = (0.5 * total.effect - total.seen) * total.effect / total.own
+    return nothing > CERTAIN
+
+
+def _sums(old: Fit, new: Fit, trial: Trial, rng: np.random.Generator) -> _Sums:
+    state = old.states[trial.name]
+    left = residual(old.sensor, trial, state)
+    noise = own_noise(old)
+    own = np.array([np.sqrt(noise[i].r) if i in noise else 0.0 for i in range(3)])
+    drawn = own * rng.standard_normal(trial.y.shape)
+
+    def between(change: np.ndarray) -> np.ndarray:
+        after, before = (_predicted(f, trial, change) for f in (new, old))
+        return in_band(trial, after - before)
+
+    by_reference, by_sensor = between(np.zeros_like(left)), between(left)
+    up, down = (between(left + sign * STEP * drawn) for sign in (1.0, -1.0))
+    echo, time = (up - down) / (2.0 * STEP), band_time(trial)
+    rows, known = in_band(trial, left), in_band(trial, drawn)
+    total = _Sums()
+    for i in trial.axes:
+        columns = [v[:, i] for v in (by_sensor, by_reference, rows, echo, known)]
+        white = old.noise[i].whiten(np.column_stack(columns), time, band_segments(trial))
+        a, b, r, c, e = white.T
+        total += _Sums(float(a @ a), float(a @ b), float(a @ r - c @ e))
+    return total
+
+
+def _predicted(fit: Fit, trial: Trial, change: np.ndarray) -> np.ndarray:
+    """What a model says (n, 3) where the sensor's input is the reference's and a ``change`` (n, 3)
+    of it.
+    """
+    state = fit.states[trial.name]
+    u = reference_input(trial, state)
+    at, rate = OWN[trial.kind], own_rate(trial.kind)
+    slope = np.zeros_like(change)
+    for a, b in trial.segments:
+        if b - a > 1:
+            slope[a:b] = np.gradient(change[a:b], trial.time[a:b], axis=0)
+    _moved(u, trial, at, change)
+    _moved(u, trial, rate, slope)
+    return predict(in_log(fit.sensor, state), u, trial.segments, trial.h)
+
+
+def _moved(u: Inputs, trial: Trial, at: slice, change: np.ndarray) -> None:
+    """Add a change (n, 3) on the axes that were measured."""
+    wanted = np.isin(np.arange(3), trial.axes)
+    u[:, at] = u[:, at] + np.where(wanted, change, 0.0)

@@ -1,0 +1,107 @@
+"""Whether what is left against a rate reference is its own noise, or an effect left it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import traps
+from loop_cases import inputs, low_pass, trial
+
+from pyimu.identification.fit.fit import begin
+from pyimu.identification.fit.keys import Coefficient, coefficients_of
+from pyimu.identification.fit.maximum_likelihood import fit
+from pyimu.identification.fit.reference_noise import with_reference_noise
+from pyimu.identification.fit.trial import Doubt
+from pyimu.identification.formula.columns import columns_of
+from pyimu.identification.formula.effect import made
+from pyimu.identification.formula.terms import library
+from pyimu.identification.search.own_signal import is_of_reference
+from pyimu.model.catalogue import CATALOGUE
+from pyimu.model.sensor import Sensor
+
+PERIOD, WHITE = 0.02, 1e-3
+SENSOR = Sensor("gyro", {"angle_random_walk": {"N": WHITE * np.sqrt(PERIOD)}})
+
+
+def log(seed: int, hz: float, whose: str, dead: float = 0.0):
+    """A gyro in a motion of 0.3 rad/s with rests, half hidden in which there is noise below ``hz``,
+    of the ``reference`` or of the ``sensor``; it may have a dead zone, too.
+    """
+    rng, time = np.random.default_rng(seed), PERIOD * np.arange(15000)
+    u = inputs(np.random.default_rng(99), time)
+    u[:, :3] *= 0.3 * (0.2 + (time % 20.0 >= 6.0))[:, None]
+    x = u[:, :3]
+    more = low_pass(WHITE * rng.standard_normal(x.shape), hz, PERIOD)
+    y = x - np.clip(x, -dead, dead) + WHITE * rng.standard_normal(x.shape)
+    if whose == "sensor":
+        y = y + more
+    else:
+        u[:, :3] += more
+    return trial(time, y, u)
+
+
+def looked(seed: int, hz: float, whose: str, dead: float = 0.0):
+    return with_reference_noise(fit(begin(SENSOR, (), [log(seed, hz, whose, dead)])), [])[0]
+
+
+@pytest.mark.parametrize("hz", [3.0, 6.0, 12.0])
+@pytest.mark.parametrize("seed", range(4))
+def test_coloured_noise_of_the_sensor_is_none_of_the_reference(hz, seed):
+    """Wrong, by what is asked of it, in one log of a hundred at most."""
+    found = looked(seed, hz, "sensor")
+    assert found.trials[0].doubt is not Doubt.LIKELY and not found.coloured
+
+
+@pytest.mark.parametrize("hz", [6.0, 12.0])
+@pytest.mark.parametrize("seed", range(4))
+def test_coloured_noise_of_the_reference_is_told_from_what_an_effect_leaves(hz, seed):
+    """Below 3 Hz too few frames tell in one log of six: it stays open there."""
+    found = looked(seed, hz, "reference")
+    assert found.coloured or found.trials[0].doubt is Doubt.LIKELY
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_what_a_dead_zone_leaves_is_not_taken_for_noise_of_the_reference(seed):
+    """Neither at first nor once the effect is known, beside such noise."""
+    old = looked(seed, 6.0, "reference", dead=0.01)
+    assert _is_of_reference(old) is False
+
+
+def _is_of_reference(old) -> bool:
+    """Whether a dead zone beside a model is only what the reference's noise looks like."""
+    sensor = old.sensor.with_values("dead_zone", d=5e-3)
+    free = old.free | coefficients_of(sensor, "dead_zone")
+    new = fit(replace(old, sensor=sensor, free=free))
+    return is_of_reference(old, new)
+
+
+@pytest.mark.parametrize(
+    "number, seed, form", [(0, 5, "undeclared"), (0, 21, "declared"), (1, 7, "declared")]
+)
+def test_a_rate_with_noise_that_motion_hides_blames_no_sensor(number, seed, form):
+    """Its noise was thrown away, and a dead zone, a switch, or "depends on rate" was found."""
+    case = traps.case("rate_with_correlated_noise", seed=seed, number=number)
+    found = traps.closed(case, form)
+    assert not traps.blamed(case, form, found) and not found.unexplained
+    assert traps.NAMED[case.cause](case, found)
+
+
+def test_a_formula_of_the_sensors_own_signal_follows_the_motion_not_the_bias():
+    """Its slope is the term that was scored, at a bias a hundred times the level of the switch."""
+    time = PERIOD * np.arange(4000)
+    u = inputs(np.random.default_rng(3), time)
+    one = trial(time, u[:, :3] + 0.05, u)
+    term = next(t for t in library("gyro", (one,)) if t.switch is not None and "rate" in t.signals)
+    made("found_effect", "gyro", [term])
+    try:
+        start = begin(SENSOR.with_values("found_effect"), (), [one])
+        key = Coefficient("found_effect", "c1", (0,))
+        free = begin(start.sensor, {key}, [one])
+        (linear,) = free.linearise()
+        (scored,) = start.beside(start.linearise(), [columns_of("gyro", [term])])
+        slope = linear.columns[0].arrays[linear.keys[0].index(key)]
+        of_term = [n for n, k in enumerate(scored.keys[0]) if getattr(k, "term", "") == term.text]
+        np.testing.assert_array_equal(slope, scored.columns[0].arrays[of_term[0]])
+        assert 0.01 < slope.mean() < 0.99
+    finally:
+        CATALOGUE.remove("found_effect")
