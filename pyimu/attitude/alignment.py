@@ -19,7 +19,7 @@ from pyimu.attitude.filter.compensation import Compensation, noise_of
 from pyimu.attitude.filter.heading_update import LEVEL
 from pyimu.attitude.filter.unscented import LARGEST_STD
 from pyimu.attitude.filter.variables import ABSURD, EXTRA_INPUTS
-from pyimu.attitude.rest import Rest
+from pyimu.attitude.rest import Rest, finite_rows
 from pyimu.errors import UserError
 from pyimu.model.part import Part
 from pyimu.model.signals import SIGNALS
@@ -294,7 +294,7 @@ def _tilt_std(recording: Recording, rest: Rest, force: np.ndarray | None) -> flo
         return LARGEST_STD
     if rest.seen:
         return TILT_STD
-    scatter = float(np.linalg.norm(np.nanstd(recording.accel[rest.rows], axis=0)))
+    scatter = float(np.linalg.norm(finite_rows(recording.accel, rest.rows.stop).std(axis=0)))
     return min(float(np.hypot(PUSHED_TILT_STD, scatter / rest.gravity)), MOVING_TILT_STD)
 
 

@@ -149,7 +149,7 @@ def _declared(recording: Recording) -> int | None:
     return min(int(np.argmin(still)), _rows(recording, LONGEST))
 
 
-def _finite(values: np.ndarray | None, stop: int) -> np.ndarray:
+def finite_rows(values: np.ndarray | None, stop: int) -> np.ndarray:
     """The finite ones of the rows before ``stop``."""
     if values is None:
         return np.empty((0, 3))
@@ -169,7 +169,7 @@ def _is_level(recording: Recording, stop: int, gravity: float) -> bool:
 
     A force of zeros alone says nothing about it.
     """
-    rate, force = (_finite(v, stop) for v in (recording.gyro, recording.accel))
+    rate, force = (finite_rows(v, stop) for v in (recording.gyro, recording.accel))
     return bool(len(rate)) and (not np.any(force) or _is_gravity(force, gravity, FORCE_OFF))
 
 
@@ -184,7 +184,7 @@ def _rest(
     recording: Recording, stop: int, gravity: float, seen: bool, declared: bool = False
 ) -> Rest:
     """The rest of the rows before ``stop``."""
-    rate, force = (_finite(v, stop) for v in (recording.gyro, recording.accel))
+    rate, force = (finite_rows(v, stop) for v in (recording.gyro, recording.accel))
     mean, mean_std = np.zeros(3), np.zeros(3)
     if len(rate):
         mean, mean_std = rate.mean(axis=0), rate.std(axis=0) / np.sqrt(len(rate))

@@ -89,8 +89,10 @@ def test_motion_of_any_size_and_time_is_weighed_without_a_setting(block, acceler
 
 
 def test_more_motion_makes_the_tilt_less_sure_and_rest_makes_it_sure_again(block):
-    """The run finds out how large the velocity is, up and down: within six of its windows."""
-    acceleration = sines(5.0, 3.0)
+    """The run finds out how large the velocity is, up and down: within six of its windows, of which
+    the longest is that of the drift, 60 correlation times.
+    """
+    acceleration = np.vstack([sines(5.0, 3.0), np.zeros((2 * ROWS, 3))])
     acceleration[:3000], acceleration[6000:] = 0, 0
     u, _ = moved(acceleration, turning=False)
     y, _ = block.run(u, p=parameters(block, std0=STD0, rest_time=0, motion_time=0.5))

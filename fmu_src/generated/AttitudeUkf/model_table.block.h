@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{2c94f1b8-eb89-838b-ee87-d34413bdbd0a}"
-#define MODEL_TOKEN_FMI3 "{a4bd63d4-b148-d895-5189-24648b189a50}"
+#define MODEL_TOKEN_FMI2 "{e087a799-cb1c-e9d3-38ae-ce8182242a5d}"
+#define MODEL_TOKEN_FMI3 "{41c69687-c21e-4ae7-70e1-e7fd64016d01}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{17a1e854-dddc-1e40-a7c3-ff305a0c59af}"
-#define MODEL_TOKEN_FMI3 "{9192c669-cbc6-466c-41ed-6a404867368d}"
+#define MODEL_TOKEN_FMI2 "{d491dc26-df81-1d57-11dd-017a78a3e3a0}"
+#define MODEL_TOKEN_FMI3 "{707eb0f2-cb6d-9907-f201-2a0e265b35f2}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "HeadingEstimator"
-#define MODEL_TOKEN_FMI2 "{a5f1437b-2709-75c8-cdf4-49678df858dd}"
-#define MODEL_TOKEN_FMI3 "{b8b644c8-944d-a3bb-93df-0585aacaca11}"
+#define MODEL_TOKEN_FMI2 "{ce1af11e-5a0a-ae73-664f-b272731281ae}"
+#define MODEL_TOKEN_FMI3 "{187120a7-edb7-4458-a39a-4641b32656bf}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

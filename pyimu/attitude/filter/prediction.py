@@ -148,8 +148,8 @@ def rest_of(at: Instant, sample: Sample) -> Rest:
     still = still_followed(before, sample.rate, sample.force, alike, at.h)
     known = ca.vertcat(x.bias, variance)
     safe, later = still_kept(before, still, at.memory.safe, at.memory.later, known)
-    long = scalar["rest_time"] > 0
-    rests = long * (before.rests > 0) * (1 - at.stationary)
+    wanted = scalar["rest_time"] > 0
+    rests = wanted * (before.rests > 0) * (1 - at.stationary)
     resting = alike * rests
     velocity = ca.trace(x.covariance[6:, 6:]) + ca.sumsqr(x.velocity)
     drove, unknown = _drove(at.memory), velocity > DRIVES**2

@@ -23,18 +23,19 @@ from pyimu.attitude.filter.unscented import Estimate
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import reciprocal, symmetric
 
-LEAST_STD = 0.03
-"""m/s; of the velocity of a body that a hand turns in its place, chosen on recordings 02, 11 and 26
-of BROAD (``benchmarks/attitude_real.py``) and on drives of ``benchmarks/attitude_honesty.py`` that
-its table does not have (``--first 100``), as the other times and factors here."""
+LEAST_STD = 0.01
+"""m/s; of the velocity of a body that is turned in its place about a point near the sensor. Chosen
+as the other times and factors here on recordings 02, 11 and 26 of BROAD
+(``benchmarks/attitude_real.py``), and with seed 11 of ``benchmarks/attitude_honesty.py``."""
 
-FIRST_STD = 0.1
-"""m/s; of the velocity before the run has shown anything of it."""
+FIRST_STD = 0.08
+"""m/s; of the velocity before the run has shown anything of it. A faster one shows at once
+(``OUTLIER``), a slower one in several times ``WINDOW``."""
 
-WINDOW, RISE = 10.0, 5.0
+WINDOW, RISE = 8.0, 7.0
 """Correlation times of the velocity over which its variance is estimated, where it falls and where
-it rises: the mean of so many squares is off by half of itself. A motion that begins is seen soon,
-at the cost of a variance that is a quarter too large."""
+it rises: the mean of so many squares is off by half of itself. With a rise that is much faster than
+the fall, or with negative values taken for none, it would be too large."""
 
 OUTLIER = 9.0
 """Squared velocity over its variance beyond which it shows by itself that this is too small."""
@@ -45,6 +46,9 @@ SLOW = 3.0
 DRIFTS = 3.0
 """By which factor the mean square of that average must exceed what a bounded velocity leaves; that
 does so with a probability of 5 %, exp(-3) of two axes."""
+
+SLIGHT = 0.005
+"""m/s; a smaller drift is none."""
 
 DRIFT_WINDOW, DRIFT_RISE = 60.0, 3.0
 """Correlation times of the velocity over which the drift is estimated, where it falls and where it
@@ -171,9 +175,9 @@ def followed(motion: Motion, x: Estimate, turned, used, std, time, h) -> tuple[M
     times its correlation ``time`` in s, and not below that of ``std`` in m/s. The innovations of a
     filter whose model is right are white (section III there): their mean over ``SLOW`` times that
     time has half their density over that, the density 2 T s^2 of the velocity and P h of the
-    filter's own variance. What it has beyond ``DRIFTS`` times that is a walk: accelerations that
-    last. ``turned`` (3, 3) is the body's turn from old axes to new; ``used`` 0 or 1 whether the
-    sample counts. A ``std`` of zero says that the body does not move.
+    filter's own variance. What it has beyond ``DRIFTS`` times that, and ``SLIGHT``, is a walk:
+    accelerations that last. ``turned`` (3, 3) is the body's turn from old axes to new; ``used`` 0
+    or 1 whether the sample counts. A ``std`` of zero says that the body does not move.
     """
     v, up = x.velocity, quaternion.to_matrix(x.q)[2, :].T
     own, whole = x.covariance[6:, 6:], ca.dot(x.velocity, x.velocity)
@@ -186,7 +190,6 @@ def followed(motion: Motion, x: Estimate, turned, used, std, time, h) -> tuple[M
         return before + used * gain * (found - before)
 
     def grown(before, excess):
-        excess = ca.fmax(excess, 0)
         after = moves * ca.fmax(mean(before, excess, WINDOW, RISE), floor)
         return after, moves * ca.fmax(after, excess / OUTLIER)
 
@@ -195,8 +198,7 @@ def followed(motion: Motion, x: Estimate, turned, used, std, time, h) -> tuple[M
     carried = turned @ motion.slow
     slow = used * (carried + h / (SLOW * time + h) * (v - carried))
     white = across * time + own_across * h / 2
-    left = (ca.dot(slow, slow) - ca.dot(up, slow) ** 2) / 2 - DRIFTS / SLOW * white * reciprocal(
-        time
-    )
+    bounded = DRIFTS / SLOW * white * reciprocal(time)
+    left = (ca.dot(slow, slow) - ca.dot(up, slow) ** 2) / 2 - bounded - SLIGHT**2
     drift = moves * mean(motion.drift, ca.fmax(left, 0), DRIFT_WINDOW, DRIFT_RISE)
     return Motion(across, along, slow, drift), ca.vertcat(seen_across, seen_along)
