@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{e087a799-cb1c-e9d3-38ae-ce8182242a5d}"
-#define MODEL_TOKEN_FMI3 "{41c69687-c21e-4ae7-70e1-e7fd64016d01}"
+#define MODEL_TOKEN_FMI2 "{6f4e2f4b-2c94-d564-0bf5-1b7713fdc2ec}"
+#define MODEL_TOKEN_FMI3 "{905c4ee9-7acb-e78c-63ee-86d191b9af72}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

@@ -50,11 +50,10 @@ RECOVERY = 0.2
 """s; while gravity is beyond its innovation gate, the variance of the tilt grows by a factor of e
 in this time."""
 
-
 PUSH_STD = 0.2
-"""m/s^2; of a push that lasts, on a vehicle: five times that, beyond which its force contradicts a
-tilt that is known, are 0.1 g, a drive without haste. A larger one leaves a tilt that is wrong by a
-fault wrong for longer; chosen on runs 100 to 115 of the vehicles of
+"""m/s^2; of a push that lasts, before the run has shown any. Five times that, beyond which its
+force contradicts a tilt that is known, are 0.1 g, a drive without haste. A larger one leaves a tilt
+that is wrong by a fault wrong for longer; chosen on runs 100 to 115 of the vehicles of
 ``benchmarks/attitude_honesty.py``."""
 
 SLOW_TIME = 0.3
@@ -124,6 +123,7 @@ def inclination(
     measured = _measured(sample.force, mean, steady, noise, white, settings, h)
     rests = rests * (1 - _is_off(at_rest_force, x, ca.sum1(white) * (h / 3), settings, PUSHED))
     motion += rests * sure * (ca.fmin(motion, _std_at_rest(at) ** 2) - motion)
+    pushed = memory.motion.drift * reciprocal(at["motion_time"] + h) ** 2
     given = GravityMeasurement(
         *measured,
         magnitude=size,
@@ -132,7 +132,7 @@ def inclination(
         lasting=2 * at["motion_time"] * reciprocal(h),
         coloured=2 * h * at["accel_correlation_time"] * at["accel_std"] ** 2,
         plausible=plausible,
-        contradicts=plausible * _contradicts(measured[0], mean, x, white, settings),
+        contradicts=plausible * _contradicts(measured[0], mean, pushed, x, white, settings),
     )
     # A turn on wheels makes the force larger, but not its part along the vertical.
     up = vertical(x)
@@ -150,15 +150,16 @@ def inclination(
     )
 
 
-def _contradicts(force, mean: MeanForce, x: Estimate, white, settings: Settings):
+def _contradicts(force, mean: MeanForce, pushed, x: Estimate, white, settings: Settings):
     """Whether a ``force`` (3,) that may be gravity is too far off the vertical of ``x``.
 
     A tilt that is wrong from the start or by a fault makes a velocity that looks like motion; the
-    force in itself tells them apart, where it is farther off than a push makes it.
+    force in itself tells them apart, where it is farther off than a push makes it. ``pushed``
+    (m/s^2)^2 is the variance of the pushes that the run has seen.
     """
     passing = passing_std(settings.scalar)
-    pushes = ca.fmax(passing, PUSH_STD) * (passing > 0)
-    spread = ca.sum1(white) * (1 / 3) + pushes**2 + SLOW_TIME**2 * mean.scatter
+    pushes = ca.fmax(ca.fmax(passing, PUSH_STD) ** 2, pushed)
+    spread = ca.sum1(white) * (1 / 3) + (passing > 0) * pushes + SLOW_TIME**2 * mean.scatter
     return _is_off(force, x, spread, settings, INNOVATION_GATE)
 
 
