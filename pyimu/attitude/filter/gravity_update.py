@@ -97,11 +97,10 @@ def inclination(
     """The quasi-static estimator and the mean force one sample later, and the gravity they measure.
 
     ``x`` is the propagated estimate, ``motion`` (2,) (m/s)^2 the variance of its velocity across
-    and along the vertical, ``turned`` (3, 3) its turn in
-    inertial space in the period ``h`` s, from old axes to new. ``rests`` says that the body rests,
-    with the mean force ``at_rest_force`` (3,), and ``sure`` that it does not drive on; a constant
-    force off the vertical is a push. The forces of a body that is ``driven`` do not raise doubts of
-    the size of gravity.
+    and along the vertical, ``turned`` (3, 3) its turn in inertial space in the period ``h`` s, from
+    old axes to new. ``rests`` says that the body rests, with the mean force ``at_rest_force`` (3,),
+    and ``sure`` that it does not drive on; a constant force off the vertical is a push. The forces
+    of a body that is ``driven`` do not raise doubts of the size of gravity.
     """
     at, valid, size = settings.scalar, sample.force_valid, memory.size.size
     tolerance = memory.size.tolerance(at["gravity"], at["gravity_tolerance"])
@@ -124,7 +123,21 @@ def inclination(
     rests = rests * (1 - _is_off(at_rest_force, x, ca.sum1(white) * (h / 3), settings, PUSHED))
     motion += rests * sure * (ca.fmin(motion, _std_at_rest(at) ** 2) - motion)
     pushed = memory.motion.drift * reciprocal(at["motion_time"] + h) ** 2
-    given = GravityMeasurement(
+    contradicts = plausible * _contradicts(measured[0], mean, pushed, x, white, settings)
+    given = _measurement(measured, size, motion, plausible, contradicts, settings, h)
+    # A turn on wheels makes the force larger, but not its part along the vertical.
+    up = vertical(x)
+    seen = ca.if_else(known, ca.dot(up, mean.force), ca.norm_2(mean.force))
+    no_doubt = 1 - (1 - plausible) * (1 - driven)
+    learnt = memory.size.followed(no_doubt, rests, at_rest_force, seen, at["gravity"], valid, h)
+    usable, velocity = plausible * (1 - known), where(valid, known)
+    return Inclination(quasi, mean, learnt, given, usable, velocity, where(valid, steady))
+
+
+def _measurement(measured, size, motion, plausible, contradicts, settings: Settings, h):
+    """What ``_measured`` gave and the ``motion`` as the updates take them."""
+    at = settings.scalar
+    return GravityMeasurement(
         *measured,
         magnitude=size,
         period=h,
@@ -132,21 +145,7 @@ def inclination(
         lasting=2 * at["motion_time"] * reciprocal(h),
         coloured=2 * h * at["accel_correlation_time"] * at["accel_std"] ** 2,
         plausible=plausible,
-        contradicts=plausible * _contradicts(measured[0], mean, pushed, x, white, settings),
-    )
-    # A turn on wheels makes the force larger, but not its part along the vertical.
-    up = vertical(x)
-    seen = ca.if_else(known, ca.dot(up, mean.force), ca.norm_2(mean.force))
-    no_doubt = 1 - (1 - plausible) * (1 - driven)
-    learnt = memory.size.followed(no_doubt, rests, at_rest_force, seen, at["gravity"], valid, h)
-    return Inclination(
-        quasi,
-        mean,
-        learnt,
-        given,
-        plausible * (1 - known),
-        where(valid, known),
-        where(valid, steady),
+        contradicts=contradicts,
     )
 
 
