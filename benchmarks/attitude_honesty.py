@@ -12,8 +12,9 @@ NEES is the mean over runs and instants of the squared error over the claimed va
 marks an error above both peers', ``says too little`` a NEES above 1.3 (too sure) and ``too much``
 one below 0.8. Of a case whose samples have errors that nobody declared only ``too little`` counts.
 What the filter has for constants of a drive's pushes and of the least motion of a hand was chosen
-on runs 100 to 109 (``--first 100 --runs 10``) of the cases of hands and vehicles, and when a body
-that looks still may drive on runs 100 to 129 of the vehicles.
+on runs 100 to 109 (``--first 100 --runs 10``) of the cases of hands and vehicles, when a body that
+looks still may drive on runs 100 to 129 of the vehicles, and over which times the size of a motion
+is estimated with ``--seed 11``.
 
 With ``--smooth`` it is the smoothed attitude, each sample by the whole log, and vqf's
 ``offlineVQF`` is the peer; the extended Kalman filter stays one.

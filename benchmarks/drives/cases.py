@@ -62,8 +62,7 @@ class Case:
     ``make(rng)`` gives a log; ``since`` s of it are not scored. ``pushed`` (m/s^2, s) is by how
     much the body accelerates and for how long, for the plain filter beside, which is told so.
     ``headed`` says that headings come, so that the error of heading is scored as it is, else
-    against the heading at ``since``. ``free`` says that the samples have errors that nobody
-    declared: no consistency is asked then but that errors stay below what is claimed.
+    against the heading at ``since``.
     """
 
     name: str

@@ -19,7 +19,7 @@ from pyimu.attitude.filter.compensation import Compensation, noise_of
 from pyimu.attitude.filter.heading_update import LEVEL
 from pyimu.attitude.filter.unscented import LARGEST_STD
 from pyimu.attitude.filter.variables import ABSURD, EXTRA_INPUTS
-from pyimu.attitude.rest import Rest
+from pyimu.attitude.rest import Rest, finite_rows
 from pyimu.errors import UserError
 from pyimu.model.part import Part
 from pyimu.model.signals import SIGNALS
@@ -31,7 +31,10 @@ TILT_STD = 0.01
 """rad; tilt of an attitude levelled at rest: an accelerometer's turn-on bias of 10 mg."""
 
 MOVING_TILT_STD = 0.3
-"""rad; tilt of an attitude levelled while moving."""
+"""rad; tilt of an attitude levelled while moving, at most."""
+
+PUSHED_TILT_STD = 0.1
+"""rad; the same where the force does not change: a push of 1 m/s^2."""
 
 YAW_STD = 1e-3
 """rad; yaw starts at the given heading, or defines where it is zero."""
@@ -74,7 +77,7 @@ def initial_values(
     attitude = _levelled(force, yaw.angle) if q0 is None else given_attitude(q0)
     tilt_std, yaw_std = TILT_STD, YAW_STD
     if q0 is None:
-        tilt_std = _tilt_std(rest, force)
+        tilt_std = _tilt_std(recording, rest, force)
         yaw_std = _yaw_std(yaw, attitude, tilt_std)
     axes = attitude.inv().as_matrix()
     attitude_std = np.sqrt(axes**2 @ np.array([tilt_std, tilt_std, yaw_std]) ** 2)
@@ -277,15 +280,22 @@ def _magnetic_yaw(recording: Recording, rest: Rest, north: MagneticNorth) -> Yaw
     east, ahead, up = _levelled(rest.force, 0.0).apply(rows.mean(axis=0))
     level = max(float(np.hypot(east, ahead)), 1e-12)
     angle = np.pi / 2 - north.declination - np.arctan2(ahead, east)
-    std = np.hypot(north.across(level, up), _tilt_std(rest, rest.force) * up) / level
+    tilt_std = _tilt_std(recording, rest, rest.force)
+    std = np.hypot(north.across(level, up), tilt_std * up) / level
     return Yaw(float(angle), min(REUSED * max(std, YAW_STD), LARGEST_STD), known=True)
 
 
-def _tilt_std(rest: Rest, force: np.ndarray | None) -> float:
-    """Standard deviation of the tilt of an attitude levelled by ``force``, rad."""
+def _tilt_std(recording: Recording, rest: Rest, force: np.ndarray | None) -> float:
+    """Standard deviation of the tilt of an attitude levelled by ``force``, rad.
+
+    In motion a mean is off by no more than its samples are, beside a push that lasts.
+    """
     if force is None:
         return LARGEST_STD
-    return TILT_STD if rest.seen else MOVING_TILT_STD
+    if rest.seen:
+        return TILT_STD
+    scatter = float(np.linalg.norm(finite_rows(recording.accel, rest.rows.stop).std(axis=0)))
+    return min(float(np.hypot(PUSHED_TILT_STD, scatter / rest.gravity)), MOVING_TILT_STD)
 
 
 def _yaw_std(yaw: Yaw, attitude: Rotation, tilt_std: float) -> float:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import fdtri
 
+from pyimu.attitude.filter.prediction import DRIVES
 from pyimu.recording.recording import Recording
 from pyimu.recording.rest import still_rows
 from pyimu.units import STANDARD_GRAVITY
@@ -29,6 +30,10 @@ BY_CHANCE = 1e-4
 STEADY = 2e-3
 """m/s^3; change of an accelerometer at rest, that of a consumer part that warms up by 0.2 K in a
 second (1 mg/K)."""
+
+SHOWN = 4.0
+"""By which factor the square of a turn must exceed what shows it in a part of a rest, for that part
+to show it with certainty: at the limit itself it does so half of the times."""
 
 SHORTER = 0.7
 """A rest that turns is looked at once more over so much of it: it may have begun to turn later."""
@@ -71,14 +76,14 @@ def find_rest(recording: Recording, gravity: float = STANDARD_GRAVITY) -> Rest:
     Where the recording has a column ``stationary``, that decides.
 
     A steady turn about the vertical looks like a rest with a bias; only ``stationary`` tells the
-    two apart.
+    two apart. An even drive looks like one, too; a recorded ``speed`` tells that.
     """
     declared = _declared(recording)
     if declared is not None and declared > 1:
         return _rest(recording, declared, gravity, seen=True, declared=True)
     for length in LENGTHS if declared is None else ():
         stop = _without_turn(recording, _still_until(recording, length))
-        if stop > 3 and _is_level(recording, stop, gravity):
+        if stop > 3 and _is_level(recording, stop, gravity) and not _drives(recording, stop):
             return _rest(recording, stop, gravity, seen=True)
     return _rest(recording, max(2, _rows(recording, SHORTEST)), gravity, seen=False)
 
@@ -107,7 +112,7 @@ def _without_turn(recording: Recording, stop: int) -> int:
     while stop > 3 and recording.time[stop - 1] - recording.time[0] >= SHORTEST:
         slope, least = _slope(recording, stop)
         whole = slope if whole is None else whole
-        if slope @ slope <= least and (slope is whole or whole @ whole > least):
+        if slope @ slope <= least and (slope is whole or whole @ whole > SHOWN * least):
             return stop
         stop = int(SHORTER * stop)
     return 0
@@ -144,7 +149,7 @@ def _declared(recording: Recording) -> int | None:
     return min(int(np.argmin(still)), _rows(recording, LONGEST))
 
 
-def _finite(values: np.ndarray | None, stop: int) -> np.ndarray:
+def finite_rows(values: np.ndarray | None, stop: int) -> np.ndarray:
     """The finite ones of the rows before ``stop``."""
     if values is None:
         return np.empty((0, 3))
@@ -164,15 +169,22 @@ def _is_level(recording: Recording, stop: int, gravity: float) -> bool:
 
     A force of zeros alone says nothing about it.
     """
-    rate, force = (_finite(v, stop) for v in (recording.gyro, recording.accel))
+    rate, force = (finite_rows(v, stop) for v in (recording.gyro, recording.accel))
     return bool(len(rate)) and (not np.any(force) or _is_gravity(force, gravity, FORCE_OFF))
+
+
+def _drives(recording: Recording, stop: int) -> bool:
+    """Whether a body that looks still before the row ``stop`` has a speed there, and drives on."""
+    speed = getattr(recording, "speed", None)
+    known = np.zeros(0) if speed is None else speed[:stop][np.isfinite(speed[:stop])]
+    return bool(len(known)) and abs(float(np.median(known))) > DRIVES
 
 
 def _rest(
     recording: Recording, stop: int, gravity: float, seen: bool, declared: bool = False
 ) -> Rest:
     """The rest of the rows before ``stop``."""
-    rate, force = (_finite(v, stop) for v in (recording.gyro, recording.accel))
+    rate, force = (finite_rows(v, stop) for v in (recording.gyro, recording.accel))
     mean, mean_std = np.zeros(3), np.zeros(3)
     if len(rate):
         mean, mean_std = rate.mean(axis=0), rate.std(axis=0) / np.sqrt(len(rate))

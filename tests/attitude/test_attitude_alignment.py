@@ -115,6 +115,24 @@ def test_without_gravity_nothing_is_levelled(case):
         )
 
 
+@pytest.mark.parametrize(
+    "size, least, most", [(0.0, 0.1, 0.102), (1.5, 0.13, 0.165), (9.0, 0.29, 0.31)]
+)
+def test_levelled_in_motion_the_tilt_is_as_unsure_as_the_force_scatters(size, least, most):
+    """An even force may be a push of 1 m/s^2; to that a sine adds its root mean square over g, as
+    half a second has it, up to 0.3 rad in all. A row without a finite force has no say.
+    """
+    world, rows = drive(turning(1.0, 1000)), np.arange(1000)
+    for phase in range(8):
+        force = recorded(world).accel.copy()
+        force[:, 0] += size * np.sin(2 * np.pi * 1.7 * H * rows + phase)
+        force[7] = np.inf
+        result = run(recorded(world, accel=force), quiet())
+        std = np.array([result.parameters[f"std0[{i}]"] for i in (1, 2)])
+        assert (least <= std).all() and (std <= most).all()
+        assert np.abs(normalised(result, world)[0, :2]).max() < FAR
+
+
 # Bias
 
 

@@ -17,6 +17,7 @@ from attitude_cases import (
     rover_rate,
 )
 from scipy.linalg import solve_continuous_are
+from scipy.signal import lfilter
 from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
@@ -89,8 +90,10 @@ def test_motion_of_any_size_and_time_is_weighed_without_a_setting(block, acceler
 
 
 def test_more_motion_makes_the_tilt_less_sure_and_rest_makes_it_sure_again(block):
-    """The run finds out how large the velocity is, up and down: within six of its windows."""
-    acceleration = sines(5.0, 3.0)
+    """The run finds out how large the velocity is, up and down: within six of its windows, of which
+    the longest is that of the drift, 60 correlation times.
+    """
+    acceleration = np.vstack([sines(5.0, 3.0), np.zeros((2 * ROWS, 3))])
     acceleration[:3000], acceleration[6000:] = 0, 0
     u, _ = moved(acceleration, turning=False)
     y, _ = block.run(u, p=parameters(block, std0=STD0, rest_time=0, motion_time=0.5))
@@ -117,6 +120,26 @@ def test_a_drive_of_long_pushes_is_no_more_off_than_claimed():
     assert np.all(total < chi2.ppf(1 - 1e-3 / len(at), 2 * drives))
     # A force taken for gravity would be off by 3 deg.
     assert np.degrees(np.mean(claimed)) < 2.5
+
+
+def test_hard_pushes_do_not_contradict_a_tilt_once_the_run_has_seen_such():
+    """Of 2 m/s^2, twice what contradicts a tilt at first, 11 deg if taken for gravity: after the
+    first, from 24 to 28 s, no force contradicts the tilt, which is no more off than claimed.
+    """
+    block, drives, squares = attitude_ukf(part(3e-4, 1e-5, 1e-3)), 8, []
+    known = parameters(block, std0=[1e-3] * 3 + [1.5e-4] * 3)
+    acceleration = pushes(2.0, 4.0)
+    acceleration[:2000] = 0
+    acceleration = lfilter(np.full(50, 1 / 50), 1, acceleration, axis=0)
+    for seed in range(drives):
+        u, world = moved(acceleration, seed=seed, n=3e-4)
+        y, _ = block.run(u, p=known)
+        contradicted = np.flatnonzero(output(block, y, "status").astype(int) & 8)
+        assert 2400 < contradicted[0] and contradicted[-1] < 2850
+        std = np.linalg.norm(output(block, y, "std")[:, :2], axis=1)
+        squares.append(tilt(block, y, world) ** 2 / (std**2 / 2))
+    at = np.arange(1500, ROWS, 1500)
+    assert np.all(np.sum(squares, axis=0)[at] < chi2.ppf(1 - 1e-3 / len(at), 2 * drives))
 
 
 def test_velocity_of_a_body_that_never_accelerates_is_gravity_by_the_sample(block):

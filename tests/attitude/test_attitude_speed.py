@@ -1,5 +1,8 @@
 """A vehicle whose speed is measured: pushes and turns do not tilt its attitude."""
 
+from itertools import pairwise
+
+import casadi as ca
 import numpy as np
 import pytest
 from attitude_cases import (
@@ -17,7 +20,10 @@ from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
 from pyimu.attitude import attitude_ukf, run
+from pyimu.attitude.filter.passed import Passed
 from pyimu.attitude.filter.sigma_point_filter import sigma_point_filter
+from pyimu.attitude.filter.ukf import recorded_ukf
+from pyimu.attitude.rest import find_rest
 from pyimu.recording.recording import Recording
 
 STD0 = np.array([0.02, 0.02, 0.02, 0.005, 0.005, 0.005])
@@ -52,6 +58,10 @@ def vehicle(rows: int = ROWS) -> tuple[Drive, np.ndarray]:
     force = np.column_stack([along, 0 * t, 0 * t]) + np.cross(rate, forward)
     force += attitude.apply([0, 0, GRAVITY], inverse=True)
     return Drive(rate, attitude, force, rate), speed
+
+
+def numbers(expression: ca.SX) -> np.ndarray:
+    return np.array(ca.evalf(ca.densify(expression)))
 
 
 def filtered(block, world: Drive, speed, seed: int, told=True, until=ROWS, **settings):
@@ -155,9 +165,59 @@ def test_a_car_that_drives_evenly_is_not_at_rest_if_its_speed_is_known(block):
         assert output(block, y, "at_rest")[300:].any() == (not told)
 
 
+def test_a_log_that_begins_with_an_even_drive_has_no_rest_there():
+    """Nothing but the speed tells it from one: 8 m/s, or the 0.05 m/s by which it is off."""
+    n = 1500
+    zero, force = np.zeros((n, 3)), np.tile([0.0, 0.0, GRAVITY], (n, 1))
+    world = Drive(zero, Rotation.identity(n), force, zero)
+    for speed, rests in ((8.0, False), (0.0, True)):
+        assert find_rest(log(world, np.full(n, speed))).seen is rests
+        found = run(log(world, np.full(n, speed)), part())
+        assert (found.std[-1, 5] < STD0[5] / 2) == rests
+
+
 @pytest.mark.parametrize("bad", [np.nan, -1.0, np.inf])
 def test_a_speed_without_a_usable_variance_is_none(block, bad):
     u = inputs(400, speed=5.0, speed_variance=bad, speed_valid=1)
     none = inputs(400)
     p = parameters(block, std0=STD0)
     np.testing.assert_array_equal(block.run(u, p=p)[0], block.run(none, p=p)[0])
+
+
+def test_turns_at_a_known_speed_show_the_bias_about_the_vertical(block):
+    """A turn of a body at the speed v has the force w v across, so that an error of its rate shows
+    where v changes, and with it the heading is known better than by the gyro's first bias: heading
+    and bias are as far off as is claimed, by chi-square, up to what slip and accelerations beside
+    the drive's are allowed for: these are none here.
+    """
+    world, speed = vehicle()
+    draws, squares = 20, []
+    for seed in range(100, 100 + draws):
+        y, _, bias = filtered(block, world, speed, seed)
+        heading, std = output(block, y, "heading_std")[-1], output(block, y, "std")[-1]
+        assert heading < STD0[5] * H * ROWS / 2 and std[5] < STD0[5] / 2
+        turned = error(output(block, y, "q")[-1:], world.attitude[-1:])[0]
+        off = output(block, y, "gyro_bias")[-1] - bias[-1]
+        squares.append([turned[2] ** 2 / heading**2, off[2] ** 2 / std[5] ** 2])
+    total = np.sum(squares, axis=0)
+    assert np.all(total < chi2.ppf(1 - 1e-4, draws)) and np.all(total > chi2.ppf(1e-4, draws))
+
+
+def test_the_errors_of_a_driven_body_change_as_a_smoother_is_told():
+    """The covariance that the filter predicts is that of T (F x + w) with the recorded transition,
+    of x after the sample before; with speeds, and where they begin and end.
+    """
+    world, speed = vehicle(1500)
+    rows = filtered(recorded_ukf(part()), world, speed, 2, until=1000)[0]
+    driven = 0
+    for before, now in pairwise(rows[950:1150]):
+        was, row = (Passed.unpack(ca.SX(ca.DM(v))) for v in (before, now))
+        to, whole = row.transition, numbers(was.after.covariance)
+        f, t = (np.linalg.inv(numbers(m(ca.SX.eye(9)))) for m in (to.undone, to.untilted))
+        made = t @ (f @ whole @ f.T + numbers(to.noise)) @ t.T
+        predicted = numbers(row.predicted.covariance)
+        std = np.sqrt(np.diag(predicted))
+        np.testing.assert_allclose((made - predicted) / np.outer(std, std), 0, atol=1e-9)
+        driven += bool(np.linalg.norm(numbers(to.carried)) > 1)
+    # The last speed is that of row 990; a second later the body drives no more.
+    assert driven == 990 + 100 - 950

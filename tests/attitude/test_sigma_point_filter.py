@@ -67,7 +67,7 @@ def test_fast_filter_is_the_other_where_axes_and_triads_are_stuck():
     gyro[5001:5800:2], accel[:3] = gyro[5000:5799:2], 0
     u, (fast, plain) = inputs(6000, gyro=gyro, accel=accel), (f(part()) for f in FILTERS)
     times = {"stuck_time": 0.5 - H / 2, "axis_stuck_time": np.full(6, 0.2 - H / 2)}
-    p = parameters(fast, std0=ALIGNED, lost_rate_std=0.01, **times)
+    p = parameters(fast, std0=ALIGNED, lost_rate_std=0.02, **times)
     (y, _), (want, _) = fast.run(u, p=p), plain.run(u, p=p)
     turned = error(output(fast, y, "q"), Rotation.from_quat(want[:, :4], scalar_first=True))
     std = output(plain, want, "std")

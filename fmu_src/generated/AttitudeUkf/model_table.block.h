@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{cd8e4775-ab77-1361-5eee-4a7a871455fa}"
-#define MODEL_TOKEN_FMI3 "{21e4a0bf-1db3-4802-ed84-c453da46c39f}"
+#define MODEL_TOKEN_FMI2 "{6f4e2f4b-2c94-d564-0bf5-1b7713fdc2ec}"
+#define MODEL_TOKEN_FMI3 "{905c4ee9-7acb-e78c-63ee-86d191b9af72}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "HeadingEstimator"
-#define MODEL_TOKEN_FMI2 "{007bfe51-36ed-6583-48a4-9ff77a0741f0}"
-#define MODEL_TOKEN_FMI3 "{2d73ef57-46aa-2bf5-952b-ec9bc058ca83}"
+#define MODEL_TOKEN_FMI2 "{ce1af11e-5a0a-ae73-664f-b272731281ae}"
+#define MODEL_TOKEN_FMI3 "{187120a7-edb7-4458-a39a-4641b32656bf}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

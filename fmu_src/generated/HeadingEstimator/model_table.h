@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "HeadingEstimator"
-#define MODEL_TOKEN_FMI2 "{9e32f5e6-e051-bd8f-970e-2282c057c594}"
-#define MODEL_TOKEN_FMI3 "{e724a29c-28e1-f32d-8eb2-ba3aae531d4c}"
+#define MODEL_TOKEN_FMI2 "{8a0f770f-5180-6ff6-2277-030d9271adbf}"
+#define MODEL_TOKEN_FMI3 "{e0ae0dd7-fe7d-a22a-85e8-f1dd5a9f1d55}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

@@ -34,6 +34,7 @@
 #define casadi_f1 CASADI_PREFIX(f1)
 #define casadi_fabs CASADI_PREFIX(fabs)
 #define casadi_fmax CASADI_PREFIX(fmax)
+#define casadi_fmin CASADI_PREFIX(fmin)
 #define casadi_s0 CASADI_PREFIX(s0)
 #define casadi_s1 CASADI_PREFIX(s1)
 #define casadi_s2 CASADI_PREFIX(s2)
@@ -74,6 +75,15 @@ casadi_real casadi_fmax(casadi_real x, casadi_real y) {
   return x>y ? x : y;
 #else
   return x >= y || y != y ? x : y;
+#endif
+}
+
+casadi_real casadi_fmin(casadi_real x, casadi_real y) {
+/* Pre-c99 compatibility */
+#if __STDC_VERSION__ < 199901L
+  return x<y ? x : y;
+#else
+  return x <= y || y != y ? x : y;
 #endif
 }
 
@@ -498,15 +508,20 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a50=casadi_sq(a50);
   a63=arg[0][47];
   a63=(a63+a16);
-  a57=casadi_sq(a63);
-  a57=(a43?a57:0);
-  a57=(a43?a57:0);
   a63=(a43?a63:0);
+  a57=casadi_fmin(a63,a25);
+  a75=casadi_sq(a57);
   a43=(a43*a16);
   a43=(a63-a43);
-  a43=casadi_sq(a43);
+  a90=casadi_fmin(a43,a25);
+  a91=casadi_sq(a90);
+  a75=(a75-a91);
+  a57=(a63-a57);
+  a43=(a43-a90);
   a57=(a57-a43);
-  a50=(a50*a57);
+  a57=(2.*a57);
+  a75=(a75+a57);
+  a50=(a50*a75);
   a51=(a51*a50);
   a65=(a65+a51);
   a64=(a64+a65);
@@ -532,15 +547,15 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a50=(a03?a50:0);
   a50=(a50/a80);
   a50=casadi_fmax(a05,a50);
-  a57=(a65/a50);
-  a43=(a57*a02);
-  a43=(a03?a43:0);
-  a43=(a82+a43);
-  a43=(a03?a43:0);
-  a75=(!a03);
-  a82=(a75?a82:0);
-  a43=(a43+a82);
-  if (res[0]!=0) res[0][0]=a43;
+  a75=(a65/a50);
+  a57=(a75*a02);
+  a57=(a03?a57:0);
+  a57=(a82+a57);
+  a57=(a03?a57:0);
+  a43=(!a03);
+  a82=(a43?a82:0);
+  a57=(a57+a82);
+  if (res[0]!=0) res[0][0]=a57;
   a82=(a77/a79);
   a90=(a82*a54);
   a90=(a52+a90);
@@ -562,7 +577,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a91=(a03?a91:0);
   a91=(a90+a91);
   a91=(a03?a91:0);
-  a90=(a75?a90:0);
+  a90=(a43?a90:0);
   a91=(a91+a90);
   if (res[0]!=0) res[0][1]=a91;
   a90=(a72/a79);
@@ -585,22 +600,22 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a02=(a03?a02:0);
   a02=(a54+a02);
   a02=(a03?a02:0);
-  a75=(a75?a54:0);
-  a02=(a02+a75);
+  a43=(a43?a54:0);
+  a02=(a02+a43);
   if (res[0]!=0) res[0][2]=a02;
-  a75=(a57*a65);
-  a75=(a65-a75);
-  a75=(a03?a75:0);
+  a43=(a75*a65);
+  a43=(a65-a43);
+  a43=(a03?a43:0);
   a54=(!a03);
   a65=(a54?a65:0);
-  a75=(a75+a65);
-  if (res[0]!=0) res[0][3]=a75;
+  a43=(a43+a65);
+  if (res[0]!=0) res[0][3]=a43;
   a65=(a81*a77);
   a65=(a76-a65);
   a65=(a08?a65:0);
   a76=(a51?a76:0);
   a65=(a65+a76);
-  a76=(a57*a74);
+  a76=(a75*a74);
   a76=(a65-a76);
   a76=(a03?a76:0);
   a65=(a54?a65:0);
@@ -622,17 +637,17 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a81=(a08?a81:0);
   a73=(a51?a73:0);
   a81=(a81+a73);
-  a57=(a57*a70);
-  a57=(a81-a57);
-  a57=(a03?a57:0);
+  a75=(a75*a70);
+  a75=(a81-a75);
+  a75=(a03?a75:0);
   a81=(a54?a81:0);
-  a57=(a57+a81);
-  if (res[0]!=0) res[0][6]=a57;
+  a75=(a75+a81);
+  if (res[0]!=0) res[0][6]=a75;
   a82=(a82*a72);
   a82=(a88-a82);
   a82=(a08?a82:0);
-  a57=(a51?a88:0);
-  a82=(a82+a57);
+  a75=(a51?a88:0);
+  a82=(a82+a75);
   a85=(a85*a70);
   a85=(a82-a85);
   a85=(a03?a85:0);
@@ -817,15 +832,15 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a63=arg[0][49];
   if (res[0]!=0) res[0][49]=a63;
   if (res[0]!=0) res[0][50]=a17;
-  a15=(a43+a15);
+  a15=(a57+a15);
   a15=(a15/a64);
   a15=floor(a15);
   a64=(a64*a15);
-  a64=(a43-a64);
+  a64=(a57-a64);
   if (res[1]!=0) res[1][0]=a64;
-  a75=casadi_fmax(a75,a06);
-  a75=sqrt(a75);
-  if (res[1]!=0) res[1][1]=a75;
+  a43=casadi_fmax(a43,a06);
+  a43=sqrt(a43);
+  if (res[1]!=0) res[1][1]=a43;
   if (res[1]!=0) res[1][2]=a91;
   a74=casadi_fmax(a74,a06);
   a74=sqrt(a74);
@@ -838,36 +853,36 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a02=(a25+a02);
   a19=(a19/a02);
   if (res[1]!=0) res[1][6]=a19;
-  if (res[1]!=0) res[1][7]=a43;
-  a43=(a00<a07);
-  a43=casadi_fmax(a28,a43);
-  if (res[1]!=0) res[1][8]=a43;
-  a43=8.;
-  a43=(a43*a08);
+  if (res[1]!=0) res[1][7]=a57;
+  a57=(a00<a07);
+  a57=casadi_fmax(a28,a57);
+  if (res[1]!=0) res[1][8]=a57;
+  a57=8.;
+  a57=(a57*a08);
   a00=(a00<a07);
-  a43=(a43*a00);
+  a57=(a57*a00);
   a78=(a78<a79);
-  a43=(a43*a78);
+  a57=(a57*a78);
   a78=64.;
   a78=(a78*a03);
   a05=(a05<a50);
   a78=(a78*a05);
-  a43=(a43+a78);
+  a57=(a57+a78);
   a03=(a25-a03);
   a01=(a01*a03);
   a13=(a13*a21);
   a13=(a25-a13);
   a25=(a25-a13);
   a01=(a01*a25);
-  a43=(a43+a01);
-  a43=(a43+a13);
+  a57=(a57+a01);
+  a57=(a57+a13);
   a14=(2.*a14);
-  a43=(a43+a14);
+  a57=(a57+a14);
   a14=128.;
   a14=(a14*a28);
   a14=(a14*a33);
-  a43=(a43+a14);
-  if (res[1]!=0) res[1][9]=a43;
+  a57=(a57+a14);
+  if (res[1]!=0) res[1][9]=a57;
   return 0;
 }
 

@@ -56,7 +56,7 @@ block AttitudeUkf "Unscented attitude filter of the part imt30, in C"
     "Standard deviation of the rate of a body that is called stationary"
     annotation(Dialog(group="Filter"));
   parameter Real restTime(unit="s", min=0) = 1.5
-    "A body of which no sample differs from the others for so long is at rest; 0: never"
+    "A body of which no sample differs from the others for so long is at rest, or for 2.5 s where its bias about the vertical is not known to 2e-3 rad/s"
     annotation(Dialog(group="Filter"));
   parameter Real restRateTolerance(unit="rad/s", min=0) = 0.005
     "Largest difference of a sample's rate from the others' mean at rest, beside white noise"
@@ -343,10 +343,12 @@ averaged, and what the size of gravity at rest says of it.</td></tr>
 <tr><td>gravityTolerance</td><td>Quasi-static: largest difference of the estimated magnitude and of
 gravity as it was measured at rest; beyond, that is called another than gravity.</td></tr>
 <tr><td>motionTime</td><td>Correlation time of the velocity of a body that stays in its place. How
-large that is the run finds out, over ten times this time; not below accelStd * motionTime and 0.03
-m/s.</td></tr>
+large that is the run finds out, over eight times this time; not below accelStd * motionTime and
+0.01 m/s.</td></tr>
 <tr><td>biasNoise</td><td>Root density of the walk of the bias over the rate: a gyro that feels
 forces has another bias when it has turned over.</td></tr>
+<tr><td>restTime</td><td>A body of which no sample differs from the others for so long is at rest,
+or for 2.5 s where its bias about the vertical is not known to 2e-3 rad/s; 0: never.</td></tr>
 <tr><td>axisStuckTime</td><td>Equal samples of an axis (gyro, then accelerometer) for so long, while
 the others of its triad change, mean that it is stuck; 0: never.</td></tr>
 <tr><td>fieldStrengthStd</td><td>Standard deviation of the horizontal and of the vertical part of

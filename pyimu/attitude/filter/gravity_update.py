@@ -50,11 +50,10 @@ RECOVERY = 0.2
 """s; while gravity is beyond its innovation gate, the variance of the tilt grows by a factor of e
 in this time."""
 
-
 PUSH_STD = 0.2
-"""m/s^2; of a push that lasts, on a vehicle: five times that, beyond which its force contradicts a
-tilt that is known, are 0.1 g, a drive without haste. A larger one leaves a tilt that is wrong by a
-fault wrong for longer; chosen on runs 100 to 115 of the vehicles of
+"""m/s^2; of a push that lasts, before the run has shown any. Five times that, beyond which its
+force contradicts a tilt that is known, are 0.1 g, a drive without haste. A larger one leaves a tilt
+that is wrong by a fault wrong for longer; chosen on runs 100 to 115 of the vehicles of
 ``benchmarks/attitude_honesty.py``."""
 
 SLOW_TIME = 0.3
@@ -98,11 +97,10 @@ def inclination(
     """The quasi-static estimator and the mean force one sample later, and the gravity they measure.
 
     ``x`` is the propagated estimate, ``motion`` (2,) (m/s)^2 the variance of its velocity across
-    and along the vertical, ``turned`` (3, 3) its turn in
-    inertial space in the period ``h`` s, from old axes to new. ``rests`` says that the body rests,
-    with the mean force ``at_rest_force`` (3,), and ``sure`` that it does not drive on; a constant
-    force off the vertical is a push. The forces of a body that is ``driven`` do not raise doubts of
-    the size of gravity.
+    and along the vertical, ``turned`` (3, 3) its turn in inertial space in the period ``h`` s, from
+    old axes to new. ``rests`` says that the body rests, with the mean force ``at_rest_force`` (3,),
+    and ``sure`` that it does not drive on; a constant force off the vertical is a push. The forces
+    of a body that is ``driven`` do not raise doubts of the size of gravity.
     """
     at, valid, size = settings.scalar, sample.force_valid, memory.size.size
     tolerance = memory.size.tolerance(at["gravity"], at["gravity_tolerance"])
@@ -124,7 +122,22 @@ def inclination(
     measured = _measured(sample.force, mean, steady, noise, white, settings, h)
     rests = rests * (1 - _is_off(at_rest_force, x, ca.sum1(white) * (h / 3), settings, PUSHED))
     motion += rests * sure * (ca.fmin(motion, _std_at_rest(at) ** 2) - motion)
-    given = GravityMeasurement(
+    pushed = memory.motion.drift * reciprocal(at["motion_time"] + h) ** 2
+    contradicts = plausible * _contradicts(measured[0], mean, pushed, x, white, settings)
+    given = _measurement(measured, size, motion, plausible, contradicts, settings, h)
+    # A turn on wheels makes the force larger, but not its part along the vertical.
+    up = vertical(x)
+    seen = ca.if_else(known, ca.dot(up, mean.force), ca.norm_2(mean.force))
+    no_doubt = 1 - (1 - plausible) * (1 - driven)
+    learnt = memory.size.followed(no_doubt, rests, at_rest_force, seen, at["gravity"], valid, h)
+    usable, velocity = plausible * (1 - known), where(valid, known)
+    return Inclination(quasi, mean, learnt, given, usable, velocity, where(valid, steady))
+
+
+def _measurement(measured, size, motion, plausible, contradicts, settings: Settings, h):
+    """What ``_measured`` gave and the ``motion`` as the updates take them."""
+    at = settings.scalar
+    return GravityMeasurement(
         *measured,
         magnitude=size,
         period=h,
@@ -132,33 +145,20 @@ def inclination(
         lasting=2 * at["motion_time"] * reciprocal(h),
         coloured=2 * h * at["accel_correlation_time"] * at["accel_std"] ** 2,
         plausible=plausible,
-        contradicts=plausible * _contradicts(measured[0], mean, x, white, settings),
-    )
-    # A turn on wheels makes the force larger, but not its part along the vertical.
-    up = vertical(x)
-    seen = ca.if_else(known, ca.dot(up, mean.force), ca.norm_2(mean.force))
-    no_doubt = 1 - (1 - plausible) * (1 - driven)
-    learnt = memory.size.followed(no_doubt, rests, at_rest_force, seen, at["gravity"], valid, h)
-    return Inclination(
-        quasi,
-        mean,
-        learnt,
-        given,
-        plausible * (1 - known),
-        where(valid, known),
-        where(valid, steady),
+        contradicts=contradicts,
     )
 
 
-def _contradicts(force, mean: MeanForce, x: Estimate, white, settings: Settings):
+def _contradicts(force, mean: MeanForce, pushed, x: Estimate, white, settings: Settings):
     """Whether a ``force`` (3,) that may be gravity is too far off the vertical of ``x``.
 
     A tilt that is wrong from the start or by a fault makes a velocity that looks like motion; the
-    force in itself tells them apart, where it is farther off than a push makes it.
+    force in itself tells them apart, where it is farther off than a push makes it. ``pushed``
+    (m/s^2)^2 is the variance of the pushes that the run has seen.
     """
     passing = passing_std(settings.scalar)
-    pushes = ca.fmax(passing, PUSH_STD) * (passing > 0)
-    spread = ca.sum1(white) * (1 / 3) + pushes**2 + SLOW_TIME**2 * mean.scatter
+    pushes = ca.fmax(ca.fmax(passing, PUSH_STD) ** 2, pushed)
+    spread = ca.sum1(white) * (1 / 3) + (passing > 0) * pushes + SLOW_TIME**2 * mean.scatter
     return _is_off(force, x, spread, settings, INNOVATION_GATE)
 
 
@@ -217,6 +217,7 @@ def push(memory: Memory, sample: Sample, settings: Settings, h, resting) -> Push
         where(valid, h * sample.force),
         where(valid, h * memory.size.size),
         h**2 * (where(valid, white, lost) + declared) + drift,
+        sample.driven,
     )
 
 

@@ -59,9 +59,8 @@ from pyimu.attitude.filter.hidalgo2012_state import (
     gravity_of,
     packed,
 )
-from pyimu.attitude.filter.prediction import lost_variance
 from pyimu.attitude.filter.quasi_static import follow
-from pyimu.attitude.filter.sample import Sample, look_closely
+from pyimu.attitude.filter.sample import Sample, look_closely, unknown_turn
 from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.sigma_point_filter import propagate
 from pyimu.attitude.filter.timing import clock_error
@@ -203,7 +202,7 @@ def _propagated(before: State, sample: Sample, settings: Settings, h) -> Estimat
         return rate - quaternion.rotate(quaternion.conjugate(error), earth)
 
     noise = process_noise(settings.gyro.white, settings.gyro.walk, h)
-    lost = lost_variance(before.lost_for, sample.lost_for, settings)
+    lost = settings.scalar["lost_rate_std"] ** 2 * unknown_turn(before.lost_for, sample.lost_for)
     attitude = LEAST_N**2 * h + before.started * ca.if_else(sample.gyro_lost, lost, 0)
     more = ca.diag(ca.vertcat(attitude, LEAST_K**2 * h * ca.SX.ones(3)))
     after = propagate(x, before.rate, turn, noise + more, h, at["lambda"])

@@ -43,6 +43,9 @@ exceeded its innovation gate; whether the magnetic field was disturbed."""
 NO_SPEED = 1e9
 """s ago; stands for a speed that never was."""
 
+HOLD = 1.0
+"""s; so long after a speed the body still drives."""
+
 WORKING = ESTIMATE + REPORTED
 """Numbers of the working estimate, which the updates take and give."""
 

@@ -10,14 +10,14 @@ from pyimu.attitude.filter.layout import Flags
 from pyimu.attitude.filter.memory import ESTIMATE, Memory
 from pyimu.attitude.filter.unscented import Estimate, N
 from pyimu.attitude.filter.variables import OUTPUTS
-from pyimu.attitude.filter.velocity import Push, tilted
+from pyimu.attitude.filter.velocity import Push
 from pyimu.block.variables import array
 from pyimu.symbolic import quaternion
 
 PACKED = ESTIMATE - 1
 """Numbers of a packed estimate."""
 
-TRANSITION = 36
+TRANSITION = 39
 """Numbers of a ``Transition``."""
 
 
@@ -26,15 +26,17 @@ class Transition:
     """How a sample's prediction changes the error state: x' = T (F x + w), w of covariance Q.
 
     ``own`` (3, 3) and ``leak`` (3, 3) are R^T and G of ``marginal.turned``. With F the attitude
-    error becomes R^T p + G b, that of the velocity R^T v, and that of the bias stays. T adds [t] p
-    to the velocity, ``tilting`` t (3,), what the tilt after the period makes of it, noise included.
-    ``attitude``, ``both`` and ``bias`` (3,) are the noise of ``prediction.added_noise``,
-    ``velocity`` (3,) that of the velocity. Before it the estimated bias was changed by ``set_back``
-    (3,) rad/s, as where a rest ends (``prediction.Rest``): the truth was not.
+    error becomes R^T p + G b, that of the velocity R^T v - [c] R^T p with ``carried`` c (3,), and
+    that of the bias stays. T adds [t] p to the velocity, ``tilting`` t (3,), what the tilt after
+    the period makes of it, noise included (``velocity.pushed``). ``attitude``, ``both`` and
+    ``bias`` (3,) are the noise of ``prediction.added_noise``, ``velocity`` (3,) that of the
+    velocity. Before it the estimated bias was changed by ``set_back`` (3,) rad/s, as where a rest
+    ends (``prediction.Rest``): the truth was not.
     """
 
     own: ca.SX
     leak: ca.SX
+    carried: ca.SX
     tilting: ca.SX
     attitude: ca.SX
     both: ca.SX
@@ -43,18 +45,22 @@ class Transition:
     set_back: ca.SX
 
     @classmethod
-    def of(cls, own, leak, after: Estimate, push: Push, noise, set_back) -> Transition:
-        """That of a prediction which gave ``after``, by the arguments of ``velocity.pushed``."""
-        skew = tilted(quaternion.to_matrix(after.q)[2, :].T, push)
-        tilting = ca.vertcat(skew[2, 1], skew[0, 2], skew[1, 0])
-        return cls(own, leak, tilting, *noise, push.variance, set_back)
+    def of(
+        cls, own, leak, before: Estimate, after: Estimate, push: Push, noise, set_back
+    ) -> Transition:
+        """That of a prediction which made ``after`` of ``before``, by the arguments of
+        ``velocity.pushed``.
+        """
+        carried = push.carried(own @ before.velocity)
+        tilting = push.tilting(quaternion.to_matrix(after.q)[2, :].T, carried)
+        return cls(own, leak, ca.densify(carried), tilting, *noise, push.variance, set_back)
 
     def pack(self) -> ca.SX:
         return ca.densify(ca.vertcat(*[ca.vec(v) for v in vars(self).values()]))
 
     @classmethod
     def unpack(cls, column) -> Transition:
-        own, leak, *others = ca.vertsplit(column, [0, 9, 18, 21, 24, 27, 30, 33, 36])
+        own, leak, *others = ca.vertsplit(column, [0, 9, *range(18, TRANSITION + 1, 3)])
         return cls(ca.reshape(own, 3, 3), ca.reshape(leak, 3, 3), *others)
 
     @property
@@ -71,7 +77,9 @@ class Transition:
     def undone(self, error) -> ca.SX:
         """F^-1 ``error`` (9, m)."""
         p, b, v = ca.vertsplit(error, [0, 3, N, N + 3])
-        return ca.vertcat(self.own.T @ (p - self.leak @ b), b, self.own.T @ v)
+        turned = p - self.leak @ b
+        carried = ca.skew(self.carried) @ turned
+        return ca.vertcat(self.own.T @ turned, b, self.own.T @ (v + carried))
 
 
 @dataclass(frozen=True)

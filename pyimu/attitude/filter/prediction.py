@@ -17,14 +17,15 @@ from pyimu.attitude.filter.gravity_update import (
     white_variance,
 )
 from pyimu.attitude.filter.layout import EVERY, Flags, Layout
-from pyimu.attitude.filter.memory import ESTIMATE, FADING, REPORTED, Memory
+from pyimu.attitude.filter.memory import ESTIMATE, FADING, HOLD, REPORTED, Memory
 from pyimu.attitude.filter.quasi_static import MEAN_TIME, where
-from pyimu.attitude.filter.sample import Sample
+from pyimu.attitude.filter.sample import Sample, unknown_turn
 from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.stillness import (
     CALM,
     SLOW,
     Stillness,
+    begins,
     calmer,
     is_rest,
     is_still,
@@ -46,9 +47,6 @@ STATIONARY, HEADING_VALID, SPEED, SPEED_VARIANCE, SPEED_VALID = (
     [v.name for v in INPUTS].index(name)
     for name in ("stationary", "heading_valid", "speed", "speed_variance", "speed_valid")
 )
-
-HOLD = 1.0
-"""s; so long after a speed the body still drives."""
 
 DRIVES = 0.2
 """m/s; a body of which speeds say more is not at rest, however even its drive. One whose velocity
@@ -150,8 +148,8 @@ def rest_of(at: Instant, sample: Sample) -> Rest:
     still = still_followed(before, sample.rate, sample.force, alike, at.h)
     known = ca.vertcat(x.bias, variance)
     safe, later = still_kept(before, still, at.memory.safe, at.memory.later, known)
-    long = (before.span >= scalar["rest_time"]) * (scalar["rest_time"] > 0)
-    rests = long * (before.rests > 0) * (1 - at.stationary)
+    wanted = scalar["rest_time"] > 0
+    rests = wanted * (before.rests > 0) * (1 - at.stationary)
     resting = alike * rests
     velocity = ca.trace(x.covariance[6:, 6:]) + ca.sumsqr(x.velocity)
     drove, unknown = _drove(at.memory), velocity > DRIVES**2
@@ -193,9 +191,9 @@ def _decided(at: Instant, x: Estimate, rest: Rest) -> Stillness:
     rate, noise = still.slow - x.bias - at.earth, ca.fmax(still.density, _density(at.settings))
     found = is_rest(rate, x.covariance[3:6, 3:6], vertical(x), noise, span)
     time = at.settings.scalar["rest_time"]
-    begins = (at.memory.stillness.span < time) * (still.span >= time)
+    now = begins(at.memory.stillness, still, time, x.covariance[3:6, 3:6], vertical(x), at.h)
     goes_on = (still.rests > 0) * (2 * found - 1) * (still.span > 0)
-    return replace(still, rests=ca.if_else(begins, found, goes_on))
+    return replace(still, rests=ca.if_else(now, found, goes_on))
 
 
 def added_noise(at: Instant, sample: Sample, rest: Rest):
@@ -214,7 +212,9 @@ def added_noise(at: Instant, sample: Sample, rest: Rest):
     still, least = (h * settings.scalar["stationary_std"]) ** 2, LEAST_N**2 * h
     turned = ca.diag(noise[:3, :3]) + relative
     if sample.gyro_lost is not False:
-        lost = lost_variance(at.memory.lost_for, sample.lost_for, settings)
+        lost = settings.scalar["lost_rate_std"] ** 2 * unknown_turn(
+            at.memory.lost_for, sample.lost_for
+        )
         turned = turned + ca.if_else(sample.gyro_lost, lost, 0)
     return (
         least + (1 - moving) * at.stationary * still + moving * turned + rest.unseen,
@@ -224,15 +224,6 @@ def added_noise(at: Instant, sample: Sample, rest: Rest):
         + settings.scalar["bias_noise"] ** 2 * turning
         + rest.forgotten,
     )
-
-
-def lost_variance(before, after, settings: Settings):
-    """Growth in a sample of the variance (3,) rad^2 of the angle about an axis of unknown rate.
-
-    Over a loss of duration T the unknown rate is one number of variance s^2: the variance of the
-    angle grows as s^2 T^2. T is ``before`` and ``after`` the sample.
-    """
-    return settings.scalar["lost_rate_std"] ** 2 * (after**2 - before**2)
 
 
 def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, noise) -> list[ca.SX]:

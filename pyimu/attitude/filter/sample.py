@@ -1,8 +1,8 @@
 """One row of the inputs: the sensors' errors undone, and which numbers of it can be trusted.
 
 Nearly every row is ordinary: all numbers are finite, inside the sensors' ranges, and not the same
-for too long. One comparison for all of them together finds that out, so that only the few other
-rows take the time of being looked at number by number.
+for too long, and no speed is known. One comparison for all of them together finds that out, so that
+only the few other rows take the time of being looked at number by number.
 """
 
 from __future__ import annotations
@@ -12,8 +12,9 @@ from dataclasses import dataclass
 import casadi as ca
 
 from pyimu.attitude.filter.compensation import Compensation
-from pyimu.attitude.filter.memory import Memory
+from pyimu.attitude.filter.memory import HOLD, Memory
 from pyimu.attitude.filter.settings import Settings
+from pyimu.attitude.filter.tolerances import TURN_TIME
 from pyimu.attitude.filter.variables import ABSURD, INPUTS, MAG
 from pyimu.model.signals import SIGNALS
 
@@ -34,9 +35,10 @@ class Sample:
     ``held`` is what was measured, in place of a bad number its last good one; ``rate`` (3,) rad/s
     and ``force`` (3,) m/s^2 are compensated. ``sensors`` is the compensation's memory after the
     row, ``same_for`` (8,) and ``lost_for`` (3,) are those of ``Memory``. ``gyro_lost`` (3,) marks
-    the axes without a rate, ``force_valid`` whether the force can be used. ``missing``,
-    ``at_limit`` and ``stuck`` make the status. What is known beforehand of an ordinary row is a
-    Python value, and costs nothing in the generated code.
+    the axes without a rate, ``force_valid`` whether the force can be used. ``driven`` says that
+    the velocity of the body is that of a speed. ``missing``, ``at_limit`` and ``stuck`` make the
+    status. What is known beforehand of an ordinary row is a Python value, and costs nothing in the
+    generated code.
     """
 
     held: ca.SX
@@ -47,6 +49,7 @@ class Sample:
     lost_for: ca.SX
     gyro_lost: ca.SX | bool = False
     force_valid: ca.SX | bool = True
+    driven: ca.SX | bool = False
     missing: ca.SX | float = 0
     at_limit: ca.SX | float = 0
     stuck: ca.SX | float = 0
@@ -81,6 +84,7 @@ def read(
         * (ca.sumsqr(force) <= ABSURD**2)
         * (ca.dot(_beyond(same_for, settings), _stuck_times(settings)) <= 0)
         * (1 - _before_the_first(raw, memory))
+        * (memory.speed_for >= HOLD)
     )
     if compensation.start:
         ordinary = ordinary * (ca.sumsqr(sensors) <= LARGEST_KEPT)
@@ -129,10 +133,22 @@ def look_closely(compensation: Compensation, memory: Memory, u, settings: Settin
         lost_for=ca.if_else(lost, ca.fmax(memory.lost_for + h, since), 0),
         gyro_lost=lost,
         force_valid=ca.logic_not(ca.logic_or(ca.mmax(unusable), _before_the_first(raw, memory))),
+        driven=memory.speed_for < HOLD,
         missing=ca.logic_not(ca.mmin(good)),
         at_limit=ca.logic_or(at_limit, ca.mmax(beyond)),
         stuck=ca.mmax(stuck),
     )
+
+
+def unknown_turn(before, after):
+    """Growth in s^2 of the square of an angle over that of the rate, which nobody knows, about an
+    axis that has been lost for ``before`` s, and for ``after`` with the sample.
+
+    For ``TURN_TIME`` it is one number, and the angle grows with the time T. A body that turns to
+    and fro has its variance 2 T TURN_TIME later on.
+    """
+    once, twice = (ca.fmin(t, TURN_TIME) for t in (before, after))
+    return twice**2 - once**2 + 2 * TURN_TIME * (after - twice - (before - once))
 
 
 def _before_the_first(raw, memory: Memory):

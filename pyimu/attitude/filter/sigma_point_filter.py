@@ -113,7 +113,7 @@ def deviations_after(
     ``root`` (9, 9) is the Cholesky factor of the covariance before. Its first six columns are the
     sigma points, in which attitude and bias take along what the velocity has in common with them;
     what it has alone, the last three columns, is linear. The velocity's error turns with the body,
-    and a tilt adds to it -g h [u] p, u the vertical (``pyimu.attitude.filter.velocity``). Together
+    and a tilt adds to it as ``pyimu.attitude.filter.velocity`` has it. Together
     in one matrix they are definite however uncertain the attitude is. The turn (3, 3) is that in
     inertial space, from old body axes to new.
     """
@@ -129,8 +129,13 @@ def deviations_after(
         quaternion.to_matrix(quaternion.exponential(r * at.h)).T
         for r in (turn(rate, ca.SX([1, 0, 0, 0])), rest.moving * rate)
     )
-    tilting = -change.gravity * ca.skew(up)
-    moved = [own @ p[N:] + tilting @ e[:3] for p, e in zip(sigma.points, errors, strict=True)]
+    velocity = own @ before.velocity
+    carried = change.carried(velocity)
+    tilting, turning = ca.skew(change.tilting(up, carried)), ca.skew(carried)
+    moved = [
+        own @ p[N:] - turning @ (own @ p[:3]) + tilting @ e[:3]
+        for p, e in zip(sigma.points, errors, strict=True)
+    ]
     points = [ca.vertcat(e, v) for e, v in zip(errors, moved, strict=True)]
     noise = _root_of(added_noise(at, sample, rest))
     alone = ca.horzcat(own @ root[N:, N:], ca.diag(ca.sqrt(change.variance)))
@@ -139,7 +144,7 @@ def deviations_after(
         ca.vertcat(noise, tilting @ noise[:3, :]),
         ca.vertcat(ca.SX(N, 6), alone),
     )
-    return q, own @ before.velocity + change.change - change.gravity * up, w, turned
+    return q, velocity + change.change - change.gravity * up, w, turned
 
 
 def weighed(sigma: Sigma, values: list) -> list:

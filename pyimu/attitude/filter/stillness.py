@@ -38,6 +38,11 @@ of 1.4e-6."""
 GATE = 25.0
 """Squared difference of rate and bias over its variance beyond which a body turns steadily."""
 
+UNKNOWN, LONGER = 2e-3, 2.5
+"""rad/s, s; of a gyro whose bias about the vertical is less known than that a turn by hand would
+pass for a rest unless gravity moves in the body's axes. That it does not shows in so long a time to
+a thirtieth of a degree per second."""
+
 STEADY, SLOW_SWAY = 0.1, 0.5
 """Shares of a sample's tolerance that are those of the mean, of force and rate: gravity that turns
 in the body's axes by 2e-3 rad changes the mean force by 0.02 m/s^2. The mean shows that a motion
@@ -154,6 +159,17 @@ def is_rest(rate, covariance, up, noise, span):
     along, own, white = ca.dot(up, rate), ca.dot(up, covariance @ up), noise / span
     level = ca.sumsqr(rate) - along**2 <= GATE * (ca.trace(covariance) - own + 2 * white)
     return level * (along**2 <= GATE * (own + white))
+
+
+def begins(before: Stillness, after: Stillness, time, covariance, up, h):
+    """Whether with this sample the body has been still so long that it may rest, 0 or 1.
+
+    That is ``time`` s, and ``LONGER`` where the bias, of this ``covariance`` (3, 3), is
+    ``UNKNOWN`` about the vertical, ``up`` (3,).
+    """
+    unknown, longer = ca.dot(up, covariance @ up) > UNKNOWN**2, ca.fmax(time, LONGER)
+    soon, late = ((before.span + h / 2 < t) * (after.span + h / 2 >= t) for t in (time, longer))
+    return ca.fmax(soon * (1 - unknown), late * (before.rests <= 0))
 
 
 def share_of_noise(x: Stillness, noise):

@@ -155,7 +155,7 @@ def _row(
     if recorded:
         _, own, leak = marginal.turned(rest.before, *turn, at.h)
         set_back = rest.before.bias - at.memory.estimate.bias
-        out.append(Transition.of(own, leak, x, pushed, noise, set_back).pack())
+        out.append(Transition.of(own, leak, rest.before, x, pushed, noise, set_back).pack())
     return ca.Function(name, symbols, out, OPTIONS)
 
 

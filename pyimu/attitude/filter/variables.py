@@ -244,7 +244,7 @@ SETTINGS = (
         "motion_time",
         "s",
         "correlation time of the velocity of a body that stays in its place. How large that is the "
-        "run finds out, over ten times this time; not below accel_std * motion_time and 0.03 m/s",
+        "run finds out, over eight times this time; not below accel_std * motion_time and 0.01 m/s",
         1.0,
     ),
     _setting(
@@ -269,7 +269,8 @@ SETTINGS = (
     _setting(
         "rest_time",
         "s",
-        "a body of which no sample differs from the others for so long is at rest; 0: never",
+        "a body of which no sample differs from the others for so long is at rest, or for 2.5 s "
+        "where its bias about the vertical is not known to 2e-3 rad/s; 0: never",
         1.5,
     ),
     _setting(

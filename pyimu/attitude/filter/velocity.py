@@ -7,8 +7,9 @@ beyond. Without any motion the same measurement is that of gravity by the sample
 of navigation with zero velocity updates (Groves 2013, section 15.3), weighed by the motion.
 
 In body axes the error of the velocity depends on the tilt alone and on no yaw, so that nothing is
-learnt of the yaw. What an error of the rate turns of the velocity itself is left out: of the second
-order.
+learnt of the yaw. A body whose speed is known turns that velocity by its rate, and an error of the
+rate turns it too far: e x v for the angle e that the rate is off. Of any other body that is left
+out: of the second order.
 """
 
 from __future__ import annotations
@@ -22,18 +23,19 @@ from pyimu.attitude.filter.unscented import Estimate
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import reciprocal, symmetric
 
-LEAST_STD = 0.03
-"""m/s; of the velocity of a body that a hand turns in its place, chosen on recordings 02, 11 and 26
-of BROAD (``benchmarks/attitude_real.py``) and on drives of ``benchmarks/attitude_honesty.py`` that
-its table does not have (``--first 100``), as the other times and factors here."""
+LEAST_STD = 0.01
+"""m/s; of the velocity of a body that is turned in its place about a point near the sensor. Chosen
+as the other times and factors here on recordings 02, 11 and 26 of BROAD
+(``benchmarks/attitude_real.py``), and with seed 11 of ``benchmarks/attitude_honesty.py``."""
 
-FIRST_STD = 0.1
-"""m/s; of the velocity before the run has shown anything of it."""
+FIRST_STD = 0.08
+"""m/s; of the velocity before the run has shown anything of it. A faster one shows at once
+(``OUTLIER``), a slower one in several times ``WINDOW``."""
 
-WINDOW, RISE = 10.0, 5.0
+WINDOW, RISE = 8.0, 7.0
 """Correlation times of the velocity over which its variance is estimated, where it falls and where
-it rises: the mean of so many squares is off by half of itself. A motion that begins is seen soon,
-at the cost of a variance that is a quarter too large."""
+it rises: the mean of so many squares is off by half of itself. With a rise that is much faster than
+the fall, or with negative values taken for none, it would be too large."""
 
 OUTLIER = 9.0
 """Squared velocity over its variance beyond which it shows by itself that this is too small."""
@@ -44,6 +46,9 @@ SLOW = 3.0
 DRIFTS = 3.0
 """By which factor the mean square of that average must exceed what a bounded velocity leaves; that
 does so with a probability of 5 %, exp(-3) of two axes."""
+
+SLIGHT = 0.005
+"""m/s; a smaller drift is none."""
 
 DRIFT_WINDOW, DRIFT_RISE = 60.0, 3.0
 """Correlation times of the velocity over which the drift is estimated, where it falls and where it
@@ -60,12 +65,26 @@ class Push:
     """What a sample of the force changes of the velocity.
 
     ``change`` (3,) m/s is force times period, ``gravity`` in m/s that of gravity, both zero without
-    a force; ``variance`` (3,) (m/s)^2 is added.
+    a force; ``variance`` (3,) (m/s)^2 is added. ``driven`` says that the velocity is that of a
+    speed.
     """
 
     change: ca.SX
     gravity: ca.SX
     variance: ca.SX
+    driven: ca.SX | bool = False
+
+    def carried(self, velocity):
+        """The ``velocity`` (3,) m/s where it is that of a speed, else zero."""
+        return ca.SX(3, 1) if self.driven is False else self.driven * velocity
+
+    def tilting(self, up, carried):
+        """t (3,) m/s: a tilt p after the period adds t x p to the velocity, ``up`` the vertical.
+
+        So does an angle by which the body has turned further; ``carried`` (3,) m/s is what it turns
+        of the velocity, in new axes.
+        """
+        return carried - self.gravity * up
 
 
 @dataclass(frozen=True)
@@ -88,16 +107,22 @@ def pushed(before: Estimate, after: Estimate, own, leak, push: Push) -> Estimate
 
     ``own`` (3, 3) is the body's turn from old axes to new, ``leak`` (3, 3) the attitude error that
     an error of the bias makes in the period, in new axes. The error of the velocity becomes own v -
-    g h [u] p with u the vertical and p the attitude error after the period, linearly.
+    g h [u] p + [c] (p - own o), linearly, with u the vertical, p the attitude error after the
+    period and o that before it, and c what is ``carried`` of the velocity.
     """
-    up = quaternion.to_matrix(after.q)[2, :].T
-    tilting = tilted(up, push)
+    up, moved = quaternion.to_matrix(after.q)[2, :].T, own @ before.velocity
+    carried = push.carried(moved)
+    tilting, turning = ca.skew(push.tilting(up, carried)), ca.skew(carried)
+    pp, pb = before.covariance[:3, :3], before.covariance[:3, 3:6]
     vp, vb, vv = (before.covariance[6:, at] for at in (slice(0, 3), slice(3, 6), slice(6, 9)))
-    turned = own @ vp
-    carried, biased = turned @ own.T + (own @ vb) @ leak.T, own @ vb
-    attitude = carried + tilting @ after.covariance[:3, :3]
+    turned, biased = own @ vp - turning @ (own @ pp), own @ vb - turning @ (own @ pb)
+    shared = turned @ own.T
+    both = shared + biased @ leak.T
+    attitude = both + tilting @ after.covariance[:3, :3]
     bias = biased + tilting @ after.covariance[:3, 3:]
-    half, one, two = own @ vv, tilting @ carried.T, attitude @ tilting.T
+    half, one, two = own @ vv, tilting @ both.T, attitude @ tilting.T
+    lessened = turning @ shared.T
+    lessened += lessened.T + turning @ (own @ pp @ own.T) @ turning.T
 
     def entry(i: int, j: int):
         if j < 6:
@@ -105,16 +130,11 @@ def pushed(before: Estimate, after: Estimate, own, leak, push: Push) -> Estimate
         if i < 6:
             return attitude[j - 6, i] if i < 3 else bias[j - 6, i - 3]
         k, m = i - 6, j - 6
-        whole = ca.dot(half[k, :], own[m, :]) + one[k, m] + two[k, m]
+        whole = ca.dot(half[k, :], own[m, :]) + one[k, m] + two[k, m] - lessened[k, m]
         return whole + push.variance[k] if k == m else whole
 
-    velocity = own @ before.velocity + push.change - push.gravity * up
+    velocity = moved + push.change - push.gravity * up
     return Estimate(after.q, after.bias, velocity, symmetric(9, entry))
-
-
-def tilted(up, push: Push):
-    """The error (3, 3) of the velocity that a tilt makes in a period; ``up`` is the vertical."""
-    return -push.gravity * ca.skew(up)
 
 
 def least_std(at: Mapping[str, ca.SX]):
@@ -155,9 +175,9 @@ def followed(motion: Motion, x: Estimate, turned, used, std, time, h) -> tuple[M
     times its correlation ``time`` in s, and not below that of ``std`` in m/s. The innovations of a
     filter whose model is right are white (section III there): their mean over ``SLOW`` times that
     time has half their density over that, the density 2 T s^2 of the velocity and P h of the
-    filter's own variance. What it has beyond ``DRIFTS`` times that is a walk: accelerations that
-    last. ``turned`` (3, 3) is the body's turn from old axes to new; ``used`` 0 or 1 whether the
-    sample counts. A ``std`` of zero says that the body does not move.
+    filter's own variance. What it has beyond ``DRIFTS`` times that, and ``SLIGHT``, is a walk:
+    accelerations that last. ``turned`` (3, 3) is the body's turn from old axes to new; ``used`` 0
+    or 1 whether the sample counts. A ``std`` of zero says that the body does not move.
     """
     v, up = x.velocity, quaternion.to_matrix(x.q)[2, :].T
     own, whole = x.covariance[6:, 6:], ca.dot(x.velocity, x.velocity)
@@ -170,7 +190,6 @@ def followed(motion: Motion, x: Estimate, turned, used, std, time, h) -> tuple[M
         return before + used * gain * (found - before)
 
     def grown(before, excess):
-        excess = ca.fmax(excess, 0)
         after = moves * ca.fmax(mean(before, excess, WINDOW, RISE), floor)
         return after, moves * ca.fmax(after, excess / OUTLIER)
 
@@ -179,8 +198,7 @@ def followed(motion: Motion, x: Estimate, turned, used, std, time, h) -> tuple[M
     carried = turned @ motion.slow
     slow = used * (carried + h / (SLOW * time + h) * (v - carried))
     white = across * time + own_across * h / 2
-    left = (ca.dot(slow, slow) - ca.dot(up, slow) ** 2) / 2 - DRIFTS / SLOW * white * reciprocal(
-        time
-    )
+    bounded = DRIFTS / SLOW * white * reciprocal(time)
+    left = (ca.dot(slow, slow) - ca.dot(up, slow) ** 2) / 2 - bounded - SLIGHT**2
     drift = moves * mean(motion.drift, ca.fmax(left, 0), DRIFT_WINDOW, DRIFT_RISE)
     return Motion(across, along, slow, drift), ca.vertcat(seen_across, seen_along)

@@ -18,6 +18,7 @@ import casadi as ca
 import numpy as np
 
 from pyimu.attitude.filter.compensation import Compensation, TriadNoise, noise_of
+from pyimu.attitude.filter.sample import unknown_turn
 from pyimu.attitude.filter.stillness import (
     GATE,
     SIZES,
@@ -321,9 +322,8 @@ def _turned(x: Estimate, sample: _Sample, moving, at: _At) -> Estimate:
     transition[0, 1], transition[0, 2] = -seen * gain * h, -seen * gain * rate * h
     both = process_noise(ca.vertcat(1, 1, 1) * ca.sqrt(at.white), at.gyro.walk, h)
     relative = (at.own["rate_noise"] ** 2 + at.gyro.relative[2] ** 2) * rate**2 * h
-    # Over a loss of duration T the unknown rate is one number: the angle's variance grows as T^2.
     before = sample.lost_for - sample.lost * h
-    unknown = at.own["lost_rate_std"] ** 2 * (sample.lost_for**2 - before**2)
+    unknown = at.own["lost_rate_std"] ** 2 * unknown_turn(before, sample.lost_for)
     noise = ca.SX.zeros(STATES, STATES)
     noise[0, 0] = seen * (gain**2 * both[2, 2] + relative) + sample.lost * moving * unknown
     noise[0, 1] = noise[1, 0] = seen * gain * both[2, 5]
