@@ -15,7 +15,7 @@ from functools import partial
 import numpy as np
 
 from pyimu.identification.fit.fit import Fit
-from pyimu.identification.fit.keys import Coefficient
+from pyimu.identification.fit.keys import Coefficient, coefficients_of
 from pyimu.identification.fit.maximum_likelihood import advantage, fit_and_normal
 from pyimu.identification.formula.columns import values_of
 from pyimu.identification.formula.effect import (
@@ -188,9 +188,10 @@ def _beside(
     investigation; None where they gain too little. Gives the terms with the axes, too, that
     held-out rows leave them.
     """
-    keys = _keys(name, chosen)
     bare = inv.before.sensor.with_values(name, **fitted.sensor.values[name])
-    beside = again(bare, inv.before.free | keys)
+    beside = again(bare, inv.before.free | _keys(name, chosen))
+    keys = coefficients_of(beside.after.sensor, name) & beside.after.free
+    chosen = _grown(chosen, keys)
     own = fit_and_normal(beside.after)[1]
     spread = fitted_dispersion(own, keys)
     gain = fitted_gain(own, beside.after.sensor, keys)
@@ -207,6 +208,16 @@ def _beside(
     kind, parts = inv.after.sensor.kind, _parted(chosen)
     text = function_text(name, kind, parts[0])
     return (ahead, whole, Formula(kind, name, *parts, CATALOGUE[name], text)), kept
+
+
+def _grown(chosen: Chosen, keys: frozenset[Coefficient]) -> Chosen:
+    """The terms with the axes on which one of their coefficients is among ``keys``."""
+    named = coefficients([t for t, _ in chosen])
+    axes = {
+        t.text: {k.index[0] for c, of, _ in named if of is t for k in keys if k.parameter == c}
+        for t, _ in chosen
+    }
+    return [(t, tuple(sorted(axes[t.text]))) for t, _ in chosen]
 
 
 def _left(chosen: Chosen, seen: Evidence) -> Chosen:

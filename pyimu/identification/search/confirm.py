@@ -28,6 +28,10 @@ SPEAKS = 0.5
 CHANCE = 3.0
 """Standard errors by which held-out squares must be more than a true effect would leave."""
 
+BORNE_OUT = 0.5
+"""Share of its own difference that a true effect gains on held-out rows, all of it on the average,
+at least: one that is not there loses as much."""
+
 POSSIBLE = 2.0
 """Log-likelihood [nat] that a size of the random walk may lack: two standard errors."""
 
@@ -82,9 +86,19 @@ class Evidence:
         return missing / chance if chance > 0.0 else np.inf
 
     @property
+    def bears_out(self) -> bool:
+        """Whether held-out rows gain, by the sensor's own noise, nearer to what a true effect gains
+        than to nothing; a sum of squares is mostly of slow noise, which that noise weighs.
+        """
+        return self.noise is None and self.gained.sum() > BORNE_OUT * self.difference.sum()
+
+    @property
     def raises(self) -> bool:
-        """Whether the held-out error rises by more than chance."""
-        return self.speaks and self.rise > 0.0 and self.surprise > CHANCE
+        """Whether the held-out error rises by more than chance, and the rows do not bear out what
+        raises it.
+        """
+        rises = self.rise > 0.0 and self.surprise > CHANCE
+        return self.speaks and rises and not self.bears_out
 
     @property
     def is_little(self) -> bool:

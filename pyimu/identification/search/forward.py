@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from pyimu.identification.fit.fit import Fit, begin
-from pyimu.identification.fit.keys import Coefficient
+from pyimu.identification.fit.keys import Coefficient, coefficients_of
 from pyimu.identification.fit.maximum_likelihood import advantage, fit
 from pyimu.identification.fit.reduction import STRUCTURE
 from pyimu.identification.fit.reference_noise import with_reference_noise
@@ -40,6 +40,7 @@ from pyimu.identification.search.screen import (
     screen,
 )
 from pyimu.model.catalogue import CATALOGUE
+from pyimu.model.effects import EFFECTS
 from pyimu.model.sensor import Sensor
 
 FORM = 0.01
@@ -204,27 +205,33 @@ class _Search:
         """Let in an element of an effect that is in the model where it explains more than ``above``
         [nat] at first look, and more than ``gate`` once fitted.
         """
-        found = None if self.left_out is None else self.left_out.largest(self.kept_out)
-        if found is None or found[1] <= above:
+        if self.left_out is None:
             return False
-        key, _, spread = found
-        fitted = fit(replace(self.after, free=self.after.free | {key}).with_noise())
-        gain = advantage(fitted, self.after) / spread - PENALTY
+        keys, first, spread = self.left_out.largest(self.kept_out)
+        if first <= above:
+            return False
+        fitted = fit(replace(self.after, free=self.after.free | keys).with_noise())
+        gain = advantage(fitted, self.after) / spread - PENALTY * len(keys)
         seen = evidence(self.after, fitted, self.held)
-        at = next(n for n, s in enumerate(self.steps) if s.effect == key.effect)
-        step, held = self.steps[at], float(seen.gained.sum()) / spread
+        (name,) = {k.effect for k in keys}
+        held = float(seen.gained.sum()) / spread
         denied = seen.raises or gain + held <= gate
-        if denied or unbelievable(fitted, step.keys | {key}):
-            self.kept_out.add(key)
+        if denied or unbelievable(fitted, coefficients_of(fitted.sensor, name) & fitted.free):
+            self.kept_out |= keys
             return True
-        self.steps[at] = replace(step, keys=step.keys | {key}, gain=step.gain + gain)
+        self.steps = [
+            replace(s, keys=s.keys | keys, gain=s.gain + gain) if s.effect == name else s
+            for s in self.steps
+        ]
         self._goes_on(fitted)
         return True
 
     def _left_out(self) -> LeftOut | None:
-        """The elements that effects in the model may grow by."""
+        """The elements that effects in the model may grow by; a formula of the user's own, too."""
         few = [s.effect for s in self.steps if _may_grow(s, self.after)]
-        return LeftOut.of(self.after.as_declared(), few)
+        free = {k.effect for k in self.before.free if isinstance(k, Coefficient)}
+        own = sorted(e for e in free if CATALOGUE[e] not in EFFECTS)
+        return LeftOut.of(self.after.as_declared(), [*few, *own])
 
     def _looks_again(self) -> bool:
         if not self.tried.views:

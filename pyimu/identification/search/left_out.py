@@ -11,19 +11,20 @@ Hoeting et al. 1999, "Bayesian model averaging", Statistical Science 14).
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Hashable, Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.special import logsumexp
 
-from pyimu.errors import UserError
 from pyimu.identification.fit.fit import Fit, with_prior
 from pyimu.identification.fit.keys import Coefficient, Key, coefficients_of
 from pyimu.identification.fit.mixture import standard_error
 from pyimu.identification.fit.reference_noise import equations
 from pyimu.identification.search.projected import Projected, dispersion
 from pyimu.identification.search.screen import PENALTY
+from pyimu.model.catalogue import CATALOGUE
+from pyimu.model.effects import EFFECTS
 from pyimu.model.typical import CLASSES, magnitudes
 
 ODDS = 1.0
@@ -51,27 +52,33 @@ class LeftOut:
         ]
         return cls(keys, Projected.of(normal, base, [normal.position[k] for k in keys]))
 
-    def largest(self, but: Collection[Key] = ()) -> tuple[Coefficient, float, float] | None:
+    def largest(self, but: Collection[Key] = ()) -> tuple[frozenset[Coefficient], float, float]:
         """The element that explains most, ``but`` for some, with its gain [nat] and the scatter
-        that it is corrected for; None where there is none.
+        that it is corrected for; of a formula all on an axis are one. Empty where there is none.
         """
-        found = [(k, *self._gain(n)) for n, k in enumerate(self.keys) if k not in but]
-        return max(found, key=lambda f: f[1], default=None)
+        groups: dict[Hashable, list[int]] = {}
+        for n, k in enumerate(self.keys):
+            if k not in but:
+                own = k if CATALOGUE[k.effect] in EFFECTS else (k.effect, k.index)
+                groups.setdefault(own, []).append(n)
+        found = ((frozenset(self.keys[n] for n in at), *self._gain(at)) for at in groups.values())
+        return max(found, key=lambda f: f[1], default=(frozenset(), -np.inf, 1.0))
 
-    def _gain(self, number: int) -> tuple[float, float]:
-        """Log-likelihood [nat] that an element adds, penalised, and the scatter of its score."""
-        score, variance = self.projected.score[number], self.projected.variance[number, number]
-        if not variance > 0.0:
+    def _gain(self, at: list[int]) -> tuple[float, float]:
+        """Log-likelihood [nat] that elements add, penalised, and the scatter of their score."""
+        score, variance = self.projected.score[at], self.projected.variance[np.ix_(at, at)]
+        if not np.all(np.diag(variance) > 0.0):
             return -np.inf, 1.0
-        spread = dispersion(self.projected, [number])
-        return float(0.5 * score**2 / variance / spread - PENALTY), spread
+        spread = dispersion(self.projected, at)
+        gain = 0.5 * float(score @ np.linalg.lstsq(variance, score)[0])
+        return gain / spread - PENALTY * len(at), spread
 
 
 def with_left_out(fit: Fit, effects: Iterable[str]) -> Fit:
     """The fit, the standard errors of ``effects`` such that intervals hold although some of their
-    elements were left out.
+    elements were left out; of the user's own nobody knows how large they are.
     """
-    beside = LeftOut.of(fit, effects)
+    beside = LeftOut.of(fit, [e for e in effects if CATALOGUE[e] in EFFECTS])
     if beside is None:
         return fit
     std, projected = dict(fit.std), beside.projected
@@ -97,10 +104,6 @@ def _left_out(fit: Fit, effect: str) -> set[Coefficient]:
     """The elements of an effect beside those that are estimated."""
     free = _estimated(fit, effect)
     names = {k.parameter for k in free}
-    try:
-        magnitudes(effect, fit.sensor.kind)
-    except UserError:
-        return set()  # an effect of the user's own
     return {k for k in coefficients_of(fit.sensor, effect) if k.parameter in names} - {*free}
 
 
