@@ -15,7 +15,7 @@ from pyimu.identification.fit.reference_noise import (
     power_without_noise,
     smoothing,
 )
-from pyimu.identification.fit.whiten import RandomWalk
+from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
 
 ROUNDS = 25
 """Fits of noise and coefficients in turn at most; an effect that was taken for a walk comes out of
@@ -56,13 +56,19 @@ def _least_squares(start: Fit, steps: int) -> Fit:
 
 
 def _alike(one: Noise, other: Noise) -> bool:
-    """Whether white noise and walk of each axis are the same to 1e-4 and 1e-3."""
-    pairs = [(n, other[i]) for i, n in one.items()]
-    walks = [(a, b) for a, b in pairs if isinstance(a, RandomWalk) and isinstance(b, RandomWalk)]
-    return len(walks) == len(pairs) and all(
-        np.isclose(a.r, b.r, rtol=1e-4, atol=0.0) and np.isclose(a.k2, b.k2, rtol=1e-3, atol=0.0)
-        for a, b in walks
-    )
+    """Whether the noise of each axis is the same: its white part to 1e-4, and its walk or what it
+    is predicted by to 1e-3.
+    """
+    return all(_is_same(n, other[i]) for i, n in one.items())
+
+
+def _is_same(a, b) -> bool:
+    if isinstance(a, RandomWalk) and isinstance(b, RandomWalk):
+        return bool(np.isclose(a.r, b.r, 1e-4, 0.0) and np.isclose(a.k2, b.k2, 1e-3, 0.0))
+    if isinstance(a, Autoregressive) and isinstance(b, Autoregressive):
+        alike = len(a.coefficients) == len(b.coefficients) and np.isclose(a.r, b.r, 1e-4, 0.0)
+        return bool(alike and np.allclose(a.coefficients, b.coefficients, 0.0, 1e-3))
+    return False
 
 
 def _values(fit: Fit) -> np.ndarray:

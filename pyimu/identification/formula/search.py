@@ -8,7 +8,7 @@ effects that only mimicked it are not found again.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -67,6 +67,9 @@ Chosen = list[tuple[Term, tuple[int, ...]]]
 
 Found = tuple[float, Investigation, Formula]
 
+Done = dict[frozenset[tuple[str, tuple[int, ...]]], tuple[Found | None, Chosen]]
+"""What became of each formula, by its terms' texts and axes, that was investigated in full."""
+
 
 @dataclass(frozen=True)
 class Look:
@@ -109,7 +112,8 @@ def look(
     if inv.steps:
         before = inv.before.as_declared()
         starts.append((inv.before, scored(before, terms)))
-    found = [_tried(inv, start, scores, terms, again) for start, scores in starts]
+    done: Done = {}
+    found = [_tried(inv, start, scores, terms, again, done) for start, scores in starts]
     found = [f for f in found if f is not None]
     best = max(found, key=lambda f: f[0], default=None)
     if best is not None:
@@ -156,29 +160,51 @@ def _unexplained(kind: str, scores: Scores) -> Unexplained | None:
 
 
 def _tried(
-    inv: Investigation, start: Fit, scores: Scores, terms: list[Term], again: Again
+    inv: Investigation,
+    start: Fit,
+    scores: Scores,
+    terms: list[Term],
+    again: Again,
+    done: Done,
 ) -> Found | None:
     """The formula that the residual of a fit speaks for and that held-out rows confirm, less the
-    axes on which these speak against it; None where there is none.
+    axes on which these speak against it; None where there is none. What is ``done`` is not done
+    again: a whole investigation is long.
     """
     name, needed = free_name(), max(gate(scores), form_error(inv.steps))
     try:
         for first in _firsts(scores, needed):
             chosen, fitted = _composed(start, name, first, scores, terms, needed)
-            # Held-out rows refuse most formulas, and a whole investigation is long.
+            # Held-out rows refuse most formulas.
             kept, found = _left(chosen, evidence(start, fitted, inv.held)), None
             if kept == chosen:
-                found, kept = _beside(inv, name, chosen, fitted, needed, again)
-            if found is None and 0 < sum(map(len, (a for _, a in kept))) < len(_keys(name, chosen)):
-                fewer = [(t, a) for t, a in kept if a]
+                found, kept = _once(done, inv, name, chosen, fitted, needed, again)
+            fewer = [(t, a) for t, a in kept if a]
+            if found is None and fewer and kept != chosen:
                 fitted = _with(start, name, fewer)
-                found, _ = _beside(inv, name, fewer, fitted, needed, again)
+                found, _ = _once(done, inv, name, fewer, fitted, needed, again)
             if found is not None:
                 return found
         return None
     finally:
         if name in CATALOGUE:
             CATALOGUE.remove(name)
+
+
+def _once(
+    done: Done,
+    inv: Investigation,
+    name: str,
+    chosen: Chosen,
+    fitted: Fit,
+    needed: float,
+    again: Again,
+) -> tuple[Found | None, Chosen]:
+    """``_beside``, or what it gave of the same formula before."""
+    known = frozenset((t.text, axes) for t, axes in chosen)
+    if known not in done:
+        done[known] = _beside(inv, name, chosen, fitted, needed, again)
+    return done[known]
 
 
 def _beside(
@@ -261,7 +287,11 @@ def _firsts(scores: Scores, needed: float) -> list[Scored]:
     if not scores.terms or scores.terms[0].gain <= needed:
         return []
     close = [s for s in scores.terms if s.gain > scores.terms[0].gain - SET_WIDTH]
-    return sorted(close, key=_how_simple)[:MOST_FIRSTS]
+    # On one axis a term by the axis's name and one by its place are the same column.
+    columns: dict[Hashable, Scored] = {}
+    for s in sorted(close, key=_how_simple):
+        columns.setdefault((s.axes, f"{s.gain:.6g}"), s)
+    return list(columns.values())[:MOST_FIRSTS]
 
 
 def _how_simple(s: Scored) -> tuple[int, bool, float]:

@@ -228,10 +228,11 @@ class _Search:
 
     def _left_out(self) -> LeftOut | None:
         """The elements that effects in the model may grow by; a formula of the user's own, too."""
-        few = [s.effect for s in self.steps if _may_grow(s, self.after)]
+        added = [s.effect for s in self.steps if not s.declared]
         free = {k.effect for k in self.before.free if isinstance(k, Coefficient)}
         own = sorted(e for e in free if CATALOGUE[e] not in EFFECTS)
-        return LeftOut.of(self.after.as_declared(), [*few, *own])
+        few = [e for e in (*added, *own) if _may_grow(e, self.after)]
+        return LeftOut.of(self.after.as_declared(), few)
 
     def _looks_again(self) -> bool:
         if not self.tried.views:
@@ -263,11 +264,10 @@ class _Search:
         self.last = self.seen = self.tried.looked()[0]
 
 
-def _may_grow(step: Step, after: Fit) -> bool:
-    """Whether elements of an added effect may be let in one by one: no form is theirs to find."""
-    e = after.sensor.effect(step.effect)
-    simple = not (has_form(e) or scanned(e) or step.declared)
-    return simple and all(t.reduction is None for t in after.trials)
+def _may_grow(effect: str, after: Fit) -> bool:
+    """Whether elements of an effect may be let in one by one: no form is theirs to find."""
+    e = after.sensor.effect(effect)
+    return not (has_form(e) or scanned(e)) and all(t.reduction is None for t in after.trials)
 
 
 def _as_sampled(before: Fit, held: list[Trial]) -> tuple[Fit, list[Step]]:
