@@ -115,18 +115,35 @@ def _check_needed(recording: Recording, name: str, told: Mapping[str, float | No
 
 def _age(recording: Recording, name: str, given: float | None, rows: np.ndarray) -> np.ndarray:
     """How many s (n,) before its row each measurement was true."""
-    age = getattr(recording, f"{name}_age")
-    if given is not None:
-        age = np.full(len(recording), number(f"{name}_age", given))
+    age = _told(recording, f"{name}_age", given)
     if age is None:
         return np.zeros(len(recording))
-    wrong = rows[~(age[rows] >= 0)]
+    _check(recording, f"{name}_age", "s", age, given, rows[~(age[rows] >= 0)], "0 or more")
+    return age
+
+
+def _told(recording: Recording, name: str, given: float | None) -> np.ndarray | None:
+    """A figure of measurements (n,): what was ``given``, else the column of its name."""
+    if given is not None:
+        return np.full(len(recording), number(name, given))
+    return getattr(recording, name)
+
+
+def _check(
+    recording: Recording,
+    name: str,
+    unit: str,
+    values: np.ndarray,
+    given: float | None,
+    wrong: np.ndarray,
+    expected: str,
+) -> None:
+    """Raise UserError at the first of the rows that are ``wrong``."""
     if len(wrong):
         where = "" if given is not None else f" at {recording.time[wrong[0]]:g} s"
         raise UserError(
-            f"{recording.name}: {name}_age is {age[wrong[0]]:g} s{where}, expected 0 or more"
+            f"{recording.name}: {name} is {values[wrong[0]]:g} {unit}{where}, expected {expected}"
         )
-    return age
 
 
 def _at_their_rows(
@@ -179,20 +196,13 @@ def _std(
     recording: Recording, name: str, unit: str, given: float | None, rows: np.ndarray
 ) -> np.ndarray:
     """The standard deviations (n,)."""
-    std = getattr(recording, f"{name}_std")
-    if given is not None:
-        std = np.full(len(recording), number(f"{name}_std", given))
+    std = _told(recording, f"{name}_std", given)
     if std is None:
         raise UserError(
             f"{recording.name}: {name}_east, {name}_north come without a standard deviation; a "
             f"column '{name}_std [{unit}]' or --{name}-std says it, --no-fixes leaves them out"
         )
-    wrong = rows[~(std[rows] > 0)]
-    if len(wrong):
-        where = "" if given is not None else f" at {recording.time[wrong[0]]:g} s"
-        raise UserError(
-            f"{recording.name}: {name}_std is {std[wrong[0]]:g} {unit}{where}, expected above 0"
-        )
+    _check(recording, f"{name}_std", unit, std, given, rows[~(std[rows] > 0)], "above 0")
     return std
 
 
