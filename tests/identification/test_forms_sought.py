@@ -8,10 +8,13 @@ import numpy as np
 import pytest
 from loop_cases import inputs, noise, trial
 
+from pyimu.identification.fit.columns import residual
 from pyimu.identification.fit.fit import begin
+from pyimu.identification.fit.inputs import LogState
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.maximum_likelihood import fit
 from pyimu.identification.fit.response import is_driven, predict, with_memory
+from pyimu.identification.fit.trial import marked
 from pyimu.identification.search.choice import refine
 from pyimu.identification.search.forms import form_of, forms
 from pyimu.identification.search.screen import PENALTY, screen
@@ -77,7 +80,7 @@ def test_what_follows_from_other_signals_is_remembered_alone():
     sensor = Sensor("gyro", {"thermal_hysteresis": CASES["thermal_hysteresis"]})
     assert is_driven(CATALOGUE["thermal_hysteresis"], "gyro")
     assert not is_driven(CATALOGUE["angle_quantization"], "gyro")
-    assert len(with_memory(sensor, list(t.u.T), t.segments, H)) > t.u.shape[1]
+    assert len(with_memory(sensor, list(t.u.T), H)) > t.u.shape[1]
     kh, width = 0.01, 2.0
     played, at = [], t.u[0, COLUMNS["temperature"].start]
     for now in t.u[:, COLUMNS["temperature"].start]:
@@ -85,6 +88,32 @@ def test_what_follows_from_other_signals_is_remembered_alone():
         played.append(at - now)
     change = predict(sensor, t.u, t.segments, H) - t.u[:, OWN["gyro"]]
     np.testing.assert_allclose(change[:, 0], kh * np.array(played), atol=1e-12)
+
+
+@pytest.mark.parametrize("lag", [0.0, 20.0])
+def test_the_end_of_a_log_remembers_what_came_before_it(lag):
+    (whole,) = world().trials
+    sensor = Sensor("gyro", {"thermal_hysteresis": CASES["thermal_hysteresis"]})
+    state = LogState(lag=lag)
+    expected = residual(sensor, whole, state)
+    first, rest = whole.split(0.4)
+    _, end = rest.head()
+    assert end.count > 1000
+    np.testing.assert_allclose(residual(sensor, first, state), expected[: len(first.time)])
+    for part in (rest, end):
+        np.testing.assert_allclose(residual(sensor, part, state), expected[-len(part.time) :])
+        forgetful = residual(sensor, replace(part, earlier=None), state)
+        assert np.abs(forgetful - expected[-len(part.time) :]).max() > 1e-3
+
+
+def test_a_gap_does_not_make_a_play_forget():
+    (t,) = world().trials
+    sensor = Sensor("gyro", {"thermal_hysteresis": CASES["thermal_hysteresis"]})
+    n = len(t.time)
+    broken = replace(t, segments=[(0, n // 2), (n // 2 + 50, n)])
+    rows = marked(broken.segments, n)
+    whole, pieces = (residual(sensor, one, LogState()) for one in (t, broken))
+    np.testing.assert_allclose(pieces[rows], whole[rows])
 
 
 def test_forms_are_not_sought_in_rows_that_are_no_samples():

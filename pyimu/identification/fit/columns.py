@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pyimu.identification.fit.band import Band
-from pyimu.identification.fit.inputs import LogState, own_rate, reference_input
+from pyimu.identification.fit.inputs import LogState, before, own_rate, reference_input
 from pyimu.identification.fit.keys import (
     Coefficient,
     Key,
@@ -103,7 +103,9 @@ def in_log(sensor: Sensor, state: LogState) -> Sensor:
 def residual(sensor: Sensor, trial: Trial, state: LogState) -> np.ndarray:
     """Measured less model (n, 3), at the sample rate."""
     u = reference_input(trial, state)
-    return trial.y - predict(in_log(sensor, state), u, trial.segments, trial.h)
+    return trial.y - predict(
+        in_log(sensor, state), u, trial.segments, trial.h, before(trial, state)
+    )
 
 
 def in_band(trial: Trial, values: np.ndarray) -> np.ndarray:
@@ -161,8 +163,9 @@ def linearise(
     u = reference_input(trial, state) if rows is None else rows.u
     own, sensor = OWN[trial.kind], in_log(sensor, state)
     rest = after_dynamics(sensor)
-    moved = behind_dynamics(sensor, u, trial.segments, trial.h)
-    moved = with_memory(rest, moved, trial.segments, trial.h)
+    earlier = None if rows is not None else before(trial, state)
+    moved = behind_dynamics(sensor, u, trial.segments, trial.h, earlier)
+    moved = with_memory(rest, moved, trial.h, earlier)
     response = memoryless(rest.chain)
     keys = [_keys_of(s, trial, sensor.kind, wanted) for s in rest.slots]
     some = np.array([bool(k) for k in keys], dtype=bool)
@@ -303,15 +306,15 @@ def _motion_columns(
     chain = before_dynamics(sensor)
     if not any(coefficient_of(s) in wanted for s in chain.slots):
         return
-    before = memoryless(chain.chain)
-    known = with_memory(chain, list(u.T), trial.segments, trial.h)
-    entries = before(known, chain.p, trial.h)[2]
+    response = memoryless(chain.chain)
+    known = with_memory(chain, list(u.T), trial.h)
+    entries = response(known, chain.p, trial.h)[2]
     for number, s in enumerate(chain.slots):
-        of_slot = np.flatnonzero(before.slot == number)
+        of_slot = np.flatnonzero(response.slot == number)
         if coefficient_of(s) not in wanted or not len(of_slot):
             continue
         change = np.zeros((len(u), 3))
-        change[:, before.axis[of_slot]] = entries[:, of_slot]
+        change[:, response.axis[of_slot]] = entries[:, of_slot]
         change = np.einsum(
             "nij,nj->ni", slope, through_dynamics(sensor, change, trial.segments, trial.h)
         )

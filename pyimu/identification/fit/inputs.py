@@ -86,5 +86,16 @@ def reference_input(trial: Trial, state: LogState) -> Inputs:
     return u
 
 
+def before(trial: Trial, state: LogState) -> np.ndarray | None:
+    """Inputs (m, N_INPUT) of the log before the trial's first row, from which what is remembered
+    of other signals than the sensor's own follows; None where there are none.
+    """
+    if trial.earlier is None or not state.lag:
+        return trial.earlier
+    u = np.array(trial.earlier)
+    u[:, TEMPERATURE] += state.lag * u[:, ITS_RATE]
+    return u
+
+
 def own_rate(kind: str) -> slice:
     return COLUMNS[KINDS[kind].own_rate]

@@ -131,7 +131,7 @@ def compensated(
     response = memoryless(rest.chain)
     u[:, own] = y
     for _ in range(ROUNDS):
-        moved = with_memory(rest, behind_dynamics(sensor, u, segments, h), segments, h)
+        moved = with_memory(rest, behind_dynamics(sensor, u, segments, h), h)
         back = _inverse(response(moved, rest.p, h)[1])
         change = np.einsum("nij,nj->ni", back, y - predict(sensor, u, segments, h))
         u[:, own] += change

@@ -53,22 +53,21 @@ def is_driven(e: Effect, kind: str) -> bool:
 
 
 def with_memory(
-    rest: Sensor, inputs: Columns, segments: list[tuple[int, int]], h: float
+    rest: Sensor, inputs: Columns, h: float, earlier: np.ndarray | None = None
 ) -> Columns:
     """Inputs, N_INPUT + k columns (n,), of what is ``memoryless``: with the memory that the chain's
-    effects have of other signals as it stands before each sample, each segment from the start.
+    effects have of other signals as it stands before each sample. It begins with the inputs
+    ``earlier`` (m, N_INPUT), and goes on where the sensor's own signal has a gap.
     """
     chain = rest.chain
     if not has_memory(chain):
         return inputs
-    u, step = np.column_stack(inputs), _memory(chain)
-    memory = np.tile(chain.start, (len(u), 1))
-    for a, b in segments:
-        none = np.zeros((b - a, 0))
-        before = np.empty((b - a, len(chain.start)))
-        step_through(step, chain.start.copy(), u[a:b], rest.p, none, np.array([h]), before)
-        memory[a:b] = before
-    return [*inputs, *memory.T]
+    u, first = np.column_stack(inputs), 0
+    if earlier is not None:
+        u, first = np.concatenate([earlier, u]), len(earlier)
+    memory, none = np.empty((len(u), len(chain.start))), np.zeros((len(u), 0))
+    step_through(_memory(chain), chain.start.copy(), u, rest.p, none, np.array([h]), memory)
+    return [*inputs, *memory[first:].T]
 
 
 def has_memory(chain: Chain) -> bool:
@@ -160,15 +159,19 @@ def through_dynamics(
 
 
 def behind_dynamics(
-    sensor: Sensor, u: np.ndarray, segments: list[tuple[int, int]], h: float
+    sensor: Sensor,
+    u: np.ndarray,
+    segments: list[tuple[int, int]],
+    h: float,
+    earlier: np.ndarray | None = None,
 ) -> Columns:
     """Inputs (n, N_INPUT), column by column, with the sensor's own signal as it comes out of the
-    dynamics.
+    dynamics; ``earlier`` (m, N_INPUT) are those before them.
     """
     own, before = OWN[sensor.kind], before_dynamics(sensor)
     out, x = list(u.T), u[:, own]
     if before.effects:
-        x = memoryless(before.chain).output(with_memory(before, out, segments, h), before.p, h)
+        x = memoryless(before.chain).output(with_memory(before, out, h, earlier), before.p, h)
     out[own] = through_dynamics(sensor, x, segments, h).T
     return out
 
@@ -214,8 +217,16 @@ def memoryless(chain: Chain) -> Memoryless:
     return Memoryless(chain)
 
 
-def predict(sensor: Sensor, u: np.ndarray, segments: list[tuple[int, int]], h: float) -> np.ndarray:
-    """Noise-free answer (n, 3) of a sensor to a log (rounding left out)."""
+def predict(
+    sensor: Sensor,
+    u: np.ndarray,
+    segments: list[tuple[int, int]],
+    h: float,
+    earlier: np.ndarray | None = None,
+) -> np.ndarray:
+    """Noise-free answer (n, 3) of a sensor to a log (rounding left out), of which ``earlier``
+    (m, N_INPUT) are the inputs before the first row of ``u`` (n, N_INPUT).
+    """
     if remembers(sensor):
         return _stepped(
             sensor.without(*[e.name for e in sensor.effects if is_step(e, sensor.kind)]),
@@ -224,8 +235,8 @@ def predict(sensor: Sensor, u: np.ndarray, segments: list[tuple[int, int]], h: f
             h,
         )
     rest = after_dynamics(sensor)
-    moved = with_memory(rest, behind_dynamics(sensor, u, segments, h), segments, h)
-    return memoryless(rest.chain).output(moved, rest.p, h)
+    moved = behind_dynamics(sensor, u, segments, h, earlier)
+    return memoryless(rest.chain).output(with_memory(rest, moved, h, earlier), rest.p, h)
 
 
 def _stepped(

@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 
 from pyimu.identification.fit.columns import band_segments, in_band, in_log, linearise, residual
 from pyimu.identification.fit.fit import Fit, bare, initial_state
-from pyimu.identification.fit.inputs import LogState, reference_input
+from pyimu.identification.fit.inputs import LogState, before, reference_input
 from pyimu.identification.fit.keys import LogLag, LogTurn
 from pyimu.identification.fit.noise_floor import simulated
 from pyimu.identification.fit.normal import normal_equations, solve
@@ -164,7 +164,8 @@ def sides(
     sensor: Sensor, trial: Trial, state: LogState, axis: int
 ) -> tuple[np.ndarray, np.ndarray]:
     """The output of an axis by a sensor, and as measured, in the rows that count."""
-    x = predict(in_log(sensor, state), reference_input(trial, state), trial.segments, trial.h)
+    u, earlier = reference_input(trial, state), before(trial, state)
+    x = predict(in_log(sensor, state), u, trial.segments, trial.h, earlier)
     counted = marked(trial.row_segments, len(x))
     return x[counted, axis], trial.y[counted, axis]
 

@@ -61,7 +61,8 @@ class Trial:
     knows them), ``known`` the signals that are really known, ``axes`` those that the reference
     covers, ``segments`` the ranges without gap. ``reference`` is "rate", "attitude", "heading",
     "course", "force", "gravity" or "static"; ``free_rotation`` says that the reference's mounting
-    is not known. ``parent`` names the fitted trial that has the same power-on, if any; ``left_out``
+    is not known. ``parent`` names the fitted trial that has the same power-on, if any, and
+    ``earlier`` (m, N_INPUT) are the inputs of the log before the first row, if any; ``left_out``
     (n,) marks samples that are missing or carry no information (spikes, repeats, at a limit),
     heeded where no band mixes them with their neighbours. ``band_hz`` is the band of a derived
     reference, at most ``band_limit``; ``clock`` what was taken out of the reference's clock; ``up``
@@ -85,6 +86,7 @@ class Trial:
     axes: tuple[int, ...] = (0, 1, 2)
     free_rotation: bool = False
     parent: str | None = None
+    earlier: np.ndarray | None = None
     left_out: np.ndarray | None = None
     findings: tuple[Finding, ...] = ()
     band_limit: float | None = None
@@ -136,6 +138,9 @@ class Trial:
             if b > start and a < stop
         ]
         flags = None if self.left_out is None else self.left_out[start:stop]
+        earlier = self.u[:start]
+        if self.earlier is not None:
+            earlier = np.concatenate([self.earlier, earlier])
         return replace(
             self,
             time=self.time[start:stop],
@@ -143,6 +148,7 @@ class Trial:
             u=self.u[start:stop],
             segments=inside,
             left_out=flags,
+            earlier=earlier if len(earlier) else None,
             noise=None if self.noise is None else self.noise[start:stop],
             **changes,
         )
