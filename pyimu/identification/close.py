@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from pyimu.errors import Finding, UserError
+from pyimu.identification.clock_or_effect import likelier_clock
 from pyimu.identification.conclude import conclude
 from pyimu.identification.fit.keys import Key, coefficient_of
 from pyimu.identification.fit.trial import HELD_OUT, Trial, accel_trial, gyro_trial
@@ -124,7 +125,8 @@ def _investigated(
     looks: dict[str, Look] = {}
     quality: list[Finding] = []
     for kind, make in (("accel", accel_trial), ("gyro", gyro_trial)):
-        trials, held = _trials(start.sensor(kind), make, logs, others, latitude)
+        made = partial(_trials, start.sensor(kind), make, logs, others, latitude)
+        trials, held = made()
         if kind == "accel":
             at_rest = rest_trials(start.accel, logs, others, latitude)
             trials, held = at_rest or (trials, held)
@@ -132,17 +134,27 @@ def _investigated(
             turned = turn_trials(start.gyro, logs, others, found.get("accel"))
             trials, held = turned or (trials, held)
         if trials:
-            free = _free(start, declared, start.sensor(kind), trials)
-            trials = _shown(start, declared, free, trials)
-            prior = {} if declared else _prior(kind, free)
-            seen = investigate(
-                start.sensor(kind), free, trials, held, say=say, prior=prior, unfit=misfit(trials)
-            )
-            looks[kind] = _looked(seen, prior, _random(start, kind), say)
+            examine, keeps = partial(_examined, start, declared, say), partial(made, lines=False)
+            looks[kind] = likelier_clock(examine(trials, held), lambda: examine(*keeps()))
             found[kind] = looks[kind].investigation
+            trials, held = list(found[kind].before.trials), list(found[kind].held)
             quality += late_thermometers(found[kind])
         quality += _of_trials([*trials, *held])
     return {k: found[k] for k in ("gyro", "accel") if k in found}, looks, quality
+
+
+def _examined(
+    start: Part, declared: bool, say: Say, trials: list[Trial], held: list[Trial]
+) -> Look:
+    """What was found of one sensor in its trials."""
+    kind = trials[0].kind
+    free = _free(start, declared, start.sensor(kind), trials)
+    trials = _shown(start, declared, free, trials)
+    prior = {} if declared else _prior(kind, free)
+    seen = investigate(
+        start.sensor(kind), free, trials, held, say=say, prior=prior, unfit=misfit(trials)
+    )
+    return _looked(seen, prior, _random(start, kind), say)
 
 
 def _looked(
@@ -293,8 +305,11 @@ def _trials(
     logs: list[Recording],
     others: list[Recording],
     latitude: float | None,
+    lines: bool = True,
 ) -> tuple[list[Trial], list[Trial]]:
-    """Trials to fit and to judge by, the references on the sensor's clock, through one band."""
+    """Trials to fit and to judge by, the references on the sensor's clock, through one band; a
+    clock that seems to drift a little has its line where ``lines`` are wanted.
+    """
 
     def trial(r: Recording) -> Trial | None:
         static = is_at_rest(r)
@@ -304,7 +319,7 @@ def _trials(
 
     fitted = [t for t in map(trial, logs) if t is not None and t.count >= SHORTEST]
     apart = [t for t in map(trial, others) if t is not None and t.count >= SHORTEST]
-    together = aligned(fitted, apart, sensor)
+    together = aligned(fitted, apart, sensor, lines)
     fitted, apart = together[: len(fitted)], together[len(fitted) :]
     bands = [t.band_hz for t in fitted if t.band_hz is not None]
     if bands:

@@ -16,7 +16,7 @@ from pyimu.identification.noise.known import state_of
 from pyimu.identification.noise.laws import kinds
 from pyimu.identification.noise.rows import Rows
 from pyimu.identification.noise.spectrum import bands
-from pyimu.identification.noise.telegraph import RATES, _likelihood, telegraph_likelihood
+from pyimu.identification.noise.telegraph import RATES, _filtered, _likelihood, telegraph_likelihood
 from pyimu.identification.search.screen import PENALTY
 from pyimu.model.sensor import Sensor
 
@@ -242,10 +242,9 @@ def test_likelihood_of_a_telegraph_is_the_sum_over_all_ways_of_it(seed):
     steps = np.full(8, h)
     biases = np.linspace(-3, 3, 6001)
     one = np.array([gap])
+    sure, gain, _, variances = _filtered(steps, np.full((8, 1), white), np.zeros(1))
     logs = [
-        _likelihood(
-            r[:, None], steps, np.full((8, 1), white), np.zeros(1), np.array([b]), one, up, down
-        )[0]
+        _likelihood(r[:, None], steps, sure, gain, np.array([b]), one, up, down) - variances
         for b in biases
     ]
     # Over all biases what is left is the density of the differences, but for a normal's constant.

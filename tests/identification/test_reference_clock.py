@@ -325,7 +325,7 @@ def test_a_clock_is_no_effect_of_the_sensor(late):
     assert reached < (1.05 if np.ndim(late) == 0 else 1.5)
 
 
-@pytest.mark.parametrize("drift", [5e-5, -5e-5, 5e-4])
+@pytest.mark.parametrize("drift", [2e-6, -2e-6, 5e-5, -5e-5, 5e-4])
 def test_a_clock_that_runs_is_the_references_and_its_drift_is_known(drift):
     """The rows that were fitted say how fast, weighed as the model weighs them."""
     closed = pyimu.close(log(drift * TIME, 4))

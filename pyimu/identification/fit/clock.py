@@ -52,6 +52,7 @@ class Clock:
     late; ``taken_out`` says whether ``late`` was taken out of the reference, or is too small for
     that. ``skew`` is by how much ``late`` grows in a second, with its standard error, where it
     does so steadily but for ``slips``; None where the clocks keep step or the lag wanders.
+    ``doubtful`` says that an effect may have made it look as if it drifted.
     """
 
     time: np.ndarray
@@ -62,6 +63,7 @@ class Clock:
     taken_out: bool = False
     skew: tuple[float, float] | None = None
     slips: tuple[Slip, ...] = ()
+    doubtful: bool = False
 
     @property
     def keeps_step(self) -> bool:

@@ -16,8 +16,8 @@ BATCHES = 80
 """Batches into which all rows are cut to see how much the scores really scatter."""
 
 
-TOGETHER = 2048
-"""Rows that are whitened at once."""
+TOGETHER = 1 << 16
+"""Numbers that are whitened at once: as many as the cache holds."""
 
 DEAD = 1e-9
 """Share of a column's power below which what others leave of it is rounding."""
@@ -103,7 +103,8 @@ def _products(white: Filter, residual: np.ndarray, columns: Stack, edges: np.nda
     out = np.empty((len(edges) - 1, width, width))
     while first < len(out):
         # As many batches as fit into the cache are whitened together.
-        last = max(first + 1, int(np.searchsorted(edges, edges[first] + TOGETHER, "right")) - 1)
+        most = edges[first] + TOGETHER // width
+        last = max(first + 1, int(np.searchsorted(edges, most, "right")) - 1)
         a, b = edges[first], edges[last]
         block = white.next(columns.after(residual[a:b, None], a, b))
         for batch in range(first, last):

@@ -239,6 +239,28 @@ def predict(
     return memoryless(rest.chain).output(with_memory(rest, moved, h, earlier), rest.p, h)
 
 
+def predict_each(
+    sensor: Sensor, u: np.ndarray, h: float, slot: int, values: np.ndarray
+) -> np.ndarray:
+    """Answers (n, k, 3) of a sensor that remembers nothing and has no dynamics to inputs (n,
+    N_INPUT), for each of ``values`` (k,) of its coefficient number ``slot``.
+    """
+    n, k = len(u), len(values)
+    inputs = [*np.repeat(np.asarray(u).T, k, axis=1), np.tile(values, n)]
+    fixed = np.append(sensor.p, h)
+    return over_rows(_with_free(sensor.chain, slot), inputs, fixed).reshape(n, k, 3)
+
+
+@lru_cache(maxsize=32)
+def _with_free(chain: Chain, slot: int) -> ca.Function:
+    """The output of a chain without memory, of rows that hold one of its coefficients, too."""
+    free, p = ca.SX.sym("free"), ca.SX(chain.p)
+    p[slot] = free
+    y = chain.step(chain.start, chain.u, p, np.zeros(len(chain.noise)), chain.h)[1]
+    row, fixed = ca.vertcat(chain.u, free), ca.vertcat(chain.p, chain.h)
+    return ca.Function("output", [row, fixed], [ca.densify(y)])
+
+
 def _stepped(
     sensor: Sensor, u: np.ndarray, segments: list[tuple[int, int]], h: float
 ) -> np.ndarray:

@@ -29,6 +29,12 @@ CHUNK = 65536
 """Rows that are put side by side with their predecessors at once."""
 
 
+SAME = 1e-9
+"""Share by which steps may differ and be taken for one: stamps are rounded."""
+
+ROUNDING = 1e-15
+"""Share by which a gain changes from row to row once it has settled."""
+
 LOGGED = 8
 """Variances that are multiplied before a logarithm is taken: a product of so many, each between
 1e-38 and 1e38, is a number still."""
@@ -41,11 +47,17 @@ def _gains(steps, r, k2, gain, variance):
     Returns the sum of the logarithms of these variances.
     """
     known, total, product = 0.0, 0.0, 1.0
+    step, settled, f, share = -1.0, False, 1.0, 0.0
     for k in range(len(steps)):
-        known += k2 * steps[k]
-        f = known + r
-        gain[k], variance[k] = known / f, f
-        known = gain[k] * r
+        if abs(steps[k] - step) > SAME * step:
+            step, settled = steps[k], False
+        if not settled:
+            grown = known + k2 * step
+            f = grown + r
+            share = grown / f
+            settled = abs(share * r - known) <= ROUNDING * known
+            known = share * r
+        gain[k], variance[k] = share, f
         product *= f
         if k % LOGGED == LOGGED - 1:
             total += np.log(product)
@@ -73,19 +85,25 @@ def _concentrated(values, steps, k2):
     the sum of the logarithms of their variances, and that of squares less what a constant takes.
     """
     known, total, product = 0.0, 0.0, 1.0
+    step, settled, f, sure = -1.0, False, 1.0, 1.0
     level, constant, power, mixed, of_constant = 0.0, 0.0, 0.0, 0.0, 0.0
     for k in range(len(steps)):
-        known += k2 * steps[k]
-        f = known + 1.0
-        gain = known / f
-        known = gain
+        if abs(steps[k] - step) > SAME * step:
+            step, settled = steps[k], False
+        if not settled:
+            grown = known + k2 * step
+            f = grown + 1.0
+            sure = 1.0 / f
+            settled = abs(grown * sure - known) <= ROUNDING * known
+            known = grown * sure
         product *= f
         if k % LOGGED == LOGGED - 1:
             total += np.log(product)
             product = 1.0
         v, one = values[k] - level, 1.0 - constant
-        level, constant = level + gain * v, constant + gain * one
-        power, mixed, of_constant = power + v * v / f, mixed + v * one / f, of_constant + one**2 / f
+        level, constant = level + known * v, constant + known * one
+        power, mixed = power + v * v * sure, mixed + v * one * sure
+        of_constant += one**2 * sure
     return total + np.log(product), power - mixed**2 / of_constant
 
 

@@ -33,43 +33,56 @@ RATES = 2
 
 
 @njit(cache=True)
-def _likelihood(r, steps, white, walk, low, gap, up, down):
-    """Log-likelihood [nat, constant left out] of residuals (n, m) beside a bias that goes between
-    ``low`` and ``low + gap`` (m,), ``up`` and ``down`` being jumps a second; and what the rows tell
-    of each axis's bias, one over its variance, (m,).
+def _filtered(steps, white, walk):
+    """Of a bias that walks by ``walk`` (m,) a second, seen in rows of variance ``white`` (n, m):
+    one over the variance of each innovation and the gain, (n, m), what the rows tell of the bias,
+    one over its variance, (m,), and half the sum of the logarithms of the variances.
+    """
+    n, m = white.shape
+    sure, gain = np.empty((n, m)), np.empty((n, m))
+    told, logs = np.zeros(m), 0.0
+    for a in range(m):
+        variance, constant = 0.0, 1.0
+        for k in range(n):
+            variance += walk[a] * steps[k]
+            f = variance + white[k, a]
+            sure[k, a], gain[k, a] = 1.0 / f, variance / f
+            variance *= white[k, a] / f
+            told[a] += constant**2 / f
+            constant *= 1.0 - gain[k, a]
+            logs += 0.5 * np.log(f)
+    return sure, gain, told, logs
 
-    The bias walks by ``walk`` (m,) a second. What is known of it in either state is one normal
-    each, of one variance: after each row the two that lead to a state are put together in their
-    mean (Kim 1994).
+
+@njit(cache=True)
+def _likelihood(r, steps, sure, gain, low, gap, up, down):
+    """Log-likelihood [nat, constant and variances left out] of residuals (n, m) beside a bias that
+    goes between ``low`` and ``low + gap`` (m,), ``up`` and ``down`` being jumps a second.
+
+    The bias walks, with innovations of one over variance ``sure`` (n, m) and ``gain`` (n, m). What
+    is known of it in either state is one normal each, of one variance: after each row the two that
+    lead to a state are put together in their mean (Kim 1994).
     """
     n, m = r.shape
     both, share, total = up + down, up / (up + down), 0.0
-    mean, variance = np.zeros((2, m)), np.zeros(m)
-    told, constant = np.zeros(m), np.ones(m)
-    f, gain = np.ones(m), np.zeros(m)
+    mean, step, kept = np.zeros((2, m)), -1.0, 1.0
     for a in range(m):
         mean[:, a] = low[a]
-    weight, moved = np.zeros((2, 2)), np.zeros((2, m))
+    weight, moved, logs = np.zeros((2, 2)), np.zeros((2, m)), np.zeros((2, 2))
     for k in range(n):
-        kept = np.exp(-both * steps[k])
+        if steps[k] != step:
+            step = steps[k]
+            kept = np.exp(-both * step)
         rise, fall = up / both * (1.0 - kept), down / both * (1.0 - kept)
         weight[0, 0], weight[0, 1] = (1.0 - share) * (1.0 - rise), (1.0 - share) * rise
         weight[1, 0], weight[1, 1] = share * fall, share * (1.0 - fall)
-        for a in range(m):
-            variance[a] += walk[a] * steps[k]
-            f[a] = variance[a] + white[k, a]
-            gain[a] = variance[a] / f[a]
-            variance[a] *= white[k, a] / f[a]
-            told[a] += constant[a] ** 2 / f[a]
-            constant[a] *= 1.0 - gain[a]
-            total -= 0.5 * np.log(f[a])
         best = -np.inf
-        logs = np.zeros((2, 2))
         for i in range(2):
             for j in range(2):
+                logs[i, j] = 0.0
                 for a in range(m):
                     v = r[k, a] - mean[i, a] - j * gap[a]
-                    logs[i, j] -= 0.5 * v * v / f[a]
+                    logs[i, j] -= 0.5 * v * v * sure[k, a]
                 best = max(best, logs[i, j])
         for i in range(2):
             for j in range(2):
@@ -82,10 +95,10 @@ def _likelihood(r, steps, white, walk, low, gap, up, down):
                 moved[j, a] = 0.0
                 for i in range(2):
                     v = r[k, a] - mean[i, a] - j * gap[a]
-                    moved[j, a] += weight[i, j] / into * (mean[i, a] + gain[a] * v)
+                    moved[j, a] += weight[i, j] / into * (mean[i, a] + gain[k, a] * v)
         mean[:] = moved
         share = (weight[0, 1] + weight[1, 1]) / mixed
-    return total, told
+    return total
 
 
 def telegraph_likelihood(axes: Sequence[Rows], white: np.ndarray, walk: np.ndarray) -> float:
@@ -100,13 +113,14 @@ def telegraph_likelihood(axes: Sequence[Rows], white: np.ndarray, walk: np.ndarr
     if not np.any(gap):
         return -np.inf
     m, size, steps = len(axes), np.abs(gap).max(), axes[0].steps
+    sure, gain, told, logs = _filtered(steps, white, walk)
+    # The bias is as unknown as that of other noises, whose first row shows it.
+    known = logs + 0.5 * float(np.log(told).sum())
 
     def lost(p: np.ndarray) -> float:
         up, down = np.exp(np.clip(p[2 * m :], -12.0, 6.0))
         low, step = size * p[:m], size * p[m : 2 * m]
-        found, told = _likelihood(r, steps, white, walk, low, step, up, down)
-        # The bias is as unknown as that of other noises, whose first row shows it.
-        return 0.5 * float(np.log(told).sum()) - found
+        return known - _likelihood(r, steps, sure, gain, low, step, up, down)
 
     def start(dwell: float) -> np.ndarray:
         return np.concatenate([-0.5 * gap / size, gap / size, np.full(2, -np.log(dwell))])

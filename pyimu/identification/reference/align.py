@@ -13,6 +13,7 @@ import numpy as np
 from pyimu.errors import Finding
 from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.fit import Fit, begin
+from pyimu.identification.fit.keys import LogClock
 from pyimu.identification.fit.maximum_likelihood import advantage, fit
 from pyimu.identification.fit.structure import prior_of, with_structure
 from pyimu.identification.fit.trial import Trial, marked
@@ -38,6 +39,7 @@ def aligned(
     trials: Sequence[Trial],
     held: Sequence[Trial],
     sensor: Sensor,
+    lines: bool = True,
 ) -> list[Trial]:
     """All trials, fitted and ``held``, with the reference's clock taken out.
 
@@ -45,9 +47,10 @@ def aligned(
 
     A lag may be the sensor's own where all fitted logs have it in common and the sensor is late. It
     is left in then, for the effects that make one. What differs from log to log, wanders, makes the
-    sensor early, or is longer than any sensor's is the clock's.
+    sensor early, or is longer than any sensor's is the clock's. A clock that seems to drift by less
+    than a sample is ``doubtful``, and has one lag where ``lines`` are not wanted.
     """
-    clocks = [_borne_out(t, _level(measure(t, sensor)), sensor) for t in (*trials, *held)]
+    clocks = [_borne_out(t, _level(measure(t, sensor)), sensor, lines) for t in (*trials, *held)]
     own = in_common([c for c in clocks[: len(trials)] if c is not None and np.isfinite(c.std)])
     return [_aligned(t, c, own) for t, c in zip((*trials, *held), clocks, strict=True)]
 
@@ -64,8 +67,9 @@ def _level(clock: Clock | None) -> Clock | None:
     return clock.kept_in_step()
 
 
-def _borne_out(trial: Trial, clock: Clock | None, sensor: Sensor) -> Clock | None:
-    """One lag where a lag that changes by less than a sample does not explain the samples better.
+def _borne_out(trial: Trial, clock: Clock | None, sensor: Sensor, lines: bool) -> Clock | None:
+    """One lag where a lag that changes by less than a sample does not explain the samples better,
+    or a line through it.
 
     Windows weigh a bias that wanders by its size alone; all rows together know its spectrum, and
     the mean of the lags that it bends.
@@ -79,7 +83,22 @@ def _borne_out(trial: Trial, clock: Clock | None, sensor: Sensor) -> Clock | Non
     keeps = replace(keeps, clock=replace(steady, taken_out=True))
     both = marked(changes.segments, len(trial.time)) & marked(keeps.segments, len(trial.time))
     fits = [_fitted(replace(t, segments=runs(both)), sensor) for t in (changes, keeps)]
-    return clock if advantage(*fits) > WANDERS else steady
+    if advantage(*fits) > WANDERS:
+        return clock
+    line = _drifting(trial, steady, fits[1])
+    return steady if line is None else replace(line if lines else steady, doubtful=True)
+
+
+def _drifting(trial: Trial, steady: Clock, fitted: Fit) -> Clock | None:
+    """The line that a fit finds about one lag, where that lag is not seen and the line is no
+    chance: a clock that drifts is right at no instant that is known beforehand. None where there
+    is no such line.
+    """
+    change, std = fitted.states[trial.name].clock, fitted.std.get(LogClock(trial.name, 1), np.inf)
+    if change is None or abs(steady.mean) >= SIGNIFICANT * steady.std:
+        return None
+    line = steady.corrected(change, std, float(trial.time[0]), float(trial.time[-1]))
+    return None if line.keeps_step else line
 
 
 def _fitted(trial: Trial, sensor: Sensor) -> Fit:
@@ -108,6 +127,10 @@ def _aligned(trial: Trial, clock: Clock | None, own: float) -> Trial:
         return trial
     if not np.isfinite(clock.std):
         return replace(trial, clock=clock)
+    if clock.doubtful:
+        # Its line moves the reference by less than a row at either end: with it and without the
+        # same rows are fitted.
+        trial = replace(trial, segments=[(a + 1, b - 1) for a, b in trial.segments if b - a > 2])
     rest = clock.less(own)
     chance = max(SIGNIFICANT * clock.std, ALIKE * own)
     if rest.keeps_step and abs(rest.mean) < chance:

@@ -66,8 +66,8 @@ anew reorders, but not so far."""
 class Refined:
     """A candidate fitted in full.
 
-    ``gain`` [nat] over the model without it, corrected for scatter and penalised; ``explained`` the
-    same as it stands.
+    ``gain`` [nat] over the model without it, corrected for scatter, its sizes penalised and its
+    form charged for; ``explained`` the same as it stands.
     """
 
     screened: Screened
@@ -82,14 +82,15 @@ class Refined:
 class Tried:
     """Candidates beside one model, each fitted in full once.
 
-    ``impossible`` are those whose coefficients are beyond belief; ``views`` are the model with the
-    noises by which it is still to be looked at, and whether for slow effects alone.
+    ``denied`` are those that were refused whatever they explain, and what they are: beyond belief,
+    or not so on held-out rows; ``views`` are the model with the noises by which it is still to be
+    looked at, and whether for slow effects alone.
     """
 
     current: Fit
     declared: Iterable[str]
     refined: dict[str, Refined] = field(default_factory=dict)
-    impossible: list[Refined] = field(default_factory=list)
+    denied: list[tuple[Refined, str]] = field(default_factory=list)
     views: list[tuple[Fit, bool]] = field(init=False)
     usual: Screening | None = None
 
@@ -254,7 +255,8 @@ def refine(current: Fit, c: Screened) -> Refined:
     fitted = at_threshold(fitted) if is_threshold(sensor, c.effect) else fitted
     fitted = at_instants(fitted, c.effect)
     explained = advantage(fitted, current)
-    gain = explained / spread - PENALTY * len(keys_of(c)) - c.toll
+    # What the choice of a form gains by chance is its toll, however many coefficients it has.
+    gain = explained / spread - PENALTY * sum(len(g.keys) for g in c.groups) - c.toll
     return Refined(c, fitted, gain if needed else -np.inf, explained, spread, normal)
 
 

@@ -19,7 +19,7 @@ from pyimu.identification.fit.columns import Linear
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.inputs import reference_input
 from pyimu.identification.fit.keys import Coefficient, Key
-from pyimu.identification.fit.response import is_driven, predict
+from pyimu.identification.fit.response import is_driven, predict, predict_each
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
 from pyimu.model.effect import Effect
@@ -238,10 +238,18 @@ class Slow:
         """What a unit of size adds to each axis (blocks, values, 3)."""
         kind, out = self.fit.sensor.kind, np.empty((len(u), len(values), 3))
         sizes = {n: _unit(p.shape) for n, p in e.parameters.items() if not (p.form or p.reference)}
-        for k, value in enumerate(values):
-            sensor = Sensor(kind, {e.name: {**sizes, name: _placed(e, name, value)}})
-            out[:, k] = predict(sensor, u, [(0, len(u))], self.block) - u[:, OWN[kind]]
-        return out
+
+        def at(value: float) -> Sensor:
+            return Sensor(kind, {e.name: {**sizes, name: _placed(e, name, value)}})
+
+        if e.remembers:
+            for k, value in enumerate(values):
+                out[:, k] = predict(at(value), u, [(0, len(u))], self.block)
+        else:
+            one = at(values[0])
+            slot = next(k for k, s in enumerate(one.slots) if s.parameter == name)
+            out = predict_each(one, u, self.block, slot, values)
+        return out - u[:, None, OWN[kind]]
 
 
 def _unit(shape: tuple[int, ...]) -> np.ndarray:

@@ -33,10 +33,14 @@ def judged(tried: Tried, chosen: Refined, held: list[Trial], gate: float) -> tup
             return chosen, reason
         reason = unbelievable(chosen.fit, keys_of(chosen.screened))
         if reason:
-            tried.impossible.append(chosen)
+            tried.denied.append((chosen, "whose size is beyond belief"))
             return chosen, reason
     chosen, seen = _confirmed(old, chosen, held)
-    return chosen, _against(chosen, seen, gate) or _stands_in(tried, chosen, gate)
+    reason = _against(chosen, seen, gate)
+    if not reason:
+        return chosen, _stands_in(tried, chosen, gate)
+    tried.denied.append((chosen, "and was refused"))
+    return chosen, reason
 
 
 def _shown(old: Fit, chosen: Refined, gate: float) -> tuple[Refined, str]:
@@ -87,6 +91,8 @@ def _denied(group: Group, chosen: Refined, seen: Evidence) -> bool:
 
 def _against(chosen: Refined, seen: Evidence, gate: float) -> str:
     """What fitted and held-out rows say against a chosen candidate."""
+    if chosen.gain <= gate:
+        return "explains no more than chance would on the axes that held-out data leave it"
     if seen.raises:
         return f"raises the error on held-out data by {100 * seen.rise:.2g} %"
     apart = float(seen.gained.sum()) / chosen.dispersion
@@ -101,10 +107,11 @@ def _against(chosen: Refined, seen: Evidence, gate: float) -> str:
 
 
 def _stands_in(tried: Tried, chosen: Refined, gate: float) -> str:
-    """The effect beyond belief that leaves a chosen candidate nothing to explain, if any does."""
-    for other in (o for o in tried.impossible if ahead(o, chosen) > SET_WIDTH):
+    """The refused effect that explains more than a chosen candidate and leaves it nothing to
+    explain, if any does: what it stands for is not known, and the candidate only mimics it.
+    """
+    for other, what in ((o, what) for o, what in tried.denied if ahead(o, chosen) > SET_WIDTH):
         beside = refine(other.fit, chosen.screened)
         if beside.gain <= gate:
-            name = other.screened.effect
-            return f"explains what {name} would explain, whose size is beyond belief"
+            return f"explains what {other.screened.effect} would explain, {what}"
     return ""
