@@ -12,7 +12,7 @@ from pyimu.identification.fates import NOT_LOOKED_FOR, Fate
 from pyimu.identification.found import Added, Changed, Errors
 from pyimu.identification.search.forward import AS_NOISE, Refused
 from pyimu.identification.search.leftover import Unexplained
-from pyimu.model.catalogue import WALK
+from pyimu.model.catalogue import WALK, WHITE
 from pyimu.report.numbers import joined, number
 
 FAR = 3.0
@@ -208,8 +208,21 @@ def left_of(e: Evidence) -> str:
     """Of which sensors more than noise is left: how much, in which band, on which axis, and in
     which log where it is one of several; nothing where it is noise.
     """
-    each = [_left(kind, e) for kind in e.errors]
+    each = [_left(kind, e) or _noisier(kind, e.changed) for kind in e.errors]
     return joined([said for said in each if said])
+
+
+def _noisier(kind: str, changed: Iterable[Changed]) -> str:
+    """On which axis white noise is so much more than a part declares that it is no noise of it."""
+    for c in (c for c in changed if (c.sensor, c.effect) == (kind, WHITE[0])):
+        ratios = {
+            i: _ratio(n, d) for i, (d, n) in enumerate(zip(c.declared, c.fitted, strict=True))
+        }
+        axis = max(ratios, key=lambda i: np.nan_to_num(ratios[i]))
+        if FAR < ratios[axis] < np.inf:
+            times = number(ratios[axis], 2)
+            return f"the {kind} noise is {times} times what is declared on {'xyz'[axis]}"
+    return ""
 
 
 def _left(kind: str, e: Evidence) -> str:

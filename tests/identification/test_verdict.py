@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pyimu.identification.fit.score import ErrorSums
-from pyimu.identification.found import Added, Errors
+from pyimu.identification.found import Added, Changed, Errors
 from pyimu.identification.search.forward import AS_NOISE, Refused
 from pyimu.identification.search.leftover import Unexplained
 from pyimu.identification.verdict import FAR, SHORT, VERDICTS, Evidence, Verdict, verdict
@@ -149,6 +149,23 @@ def test_one_log_far_above_the_noise_is_not_lost_among_the_others():
     found = verdict(Evidence(("gyro",), {}, "", True, SHORT, errors={"gyro": whole}, by_log=logs))
     assert whole.after.total < FAR and found.word == "unexplained"
     assert "8.0 times its noise on x in bad" in found.reason
+
+
+@pytest.mark.parametrize("added", [(), (Added("gyro", "lag", (), {}, 9.0, 7.0),)])
+@pytest.mark.parametrize("times, much", [(2.9, False), (24.0, True)])
+def test_noise_that_no_part_has_is_more_than_noise(added, times, much):
+    """A floor that follows the residual would call anything noise."""
+    declared = np.array([1e-3, 0.0, 1e-3])
+    noise = Changed(
+        "gyro", "angle_random_walk", "N", declared, declared * [1, 1, times], np.zeros(3), "rad"
+    )
+    level = errors(np.ones(3), 1.0)
+    found = verdict(
+        Evidence(("gyro",), {}, "", True, SHORT, added, (noise,), errors={"gyro": level})
+    )
+    assert found.word == (("partly", "unexplained") if much else ("named", "clean"))[not added]
+    said = " ".join([found.reason, *found.remarks])
+    assert ("the gyro noise is 24 times what is declared on z" in said) == much
 
 
 def test_a_sensor_without_held_out_rows_is_not_called_clean():
