@@ -31,6 +31,7 @@ from pyimu.attitude.filter.tolerances import start_values
 from pyimu.attitude.filter.ukf import recorded_ukf
 from pyimu.attitude.filter.variables import FIELD_SETTINGS, LEAST_K
 from pyimu.attitude.filters import OF_LOGS, OWN, Settings, chosen
+from pyimu.attitude.headed import heading_findings
 from pyimu.attitude.input_grid import InputGrid
 from pyimu.attitude.magnetometer import Magnetometer, magnetometer_of
 from pyimu.attitude.outputs import filtered
@@ -134,6 +135,7 @@ def run(
     rest = find_rest(recording, gravity or STANDARD_GRAVITY)
     declared = None if part is None else part_of(part)
     as_given, calibration = recording, calibration_of(magnetometer)
+    recording = _believed(recording)
     if calibration is None and declared is not None and bool(magnetometer):
         calibration = None if recording.mag is None else of_sensor(declared.mag)
     if calibration is not None:
@@ -158,10 +160,9 @@ def run(
     named = {n: v for n, v in values.items() if n in has} | given
     p = with_settings(block, named, "the attitude filter")
     retiming = _retiming(recording, known, p)
-    used = replace(recording, speed=None) if speed_findings(recording) else recording
     passes = 2 if smooth else 1
     names = [v.name for v in block.inputs]
-    grid = InputGrid(used, known, names, retiming, heard=lambda times: heard(times / passes))
+    grid = InputGrid(recording, known, names, retiming, heard=lambda times: heard(times / passes))
     steps = Run(block, grid.rows[-1] + 1, p=p, sample_period=recording.sample_period)
     walk = _bias_walk(known, p)
     if smooth:
@@ -185,6 +186,13 @@ def run(
         smoothed=smooth,
         magnetometer=replace(field, calibration=calibration).in_world(world),
     )
+
+
+def _believed(recording: Recording) -> Recording:
+    """The recording without a speed and without headings that its samples contradict."""
+    if speed_findings(recording):
+        recording = replace(recording, speed=None)
+    return replace(recording, heading=None) if heading_findings(recording) else recording
 
 
 def _known(part: Part | None, recording: Recording, rest: Rest) -> Part:
