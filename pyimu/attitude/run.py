@@ -118,11 +118,7 @@ def run(
     many finite numbers, and a setting that is unknown or outside its bounds; a place without date,
     beside a latitude, or beside a setting of what it tells.
     """
-    recording = recording_of(recording)
-    if recording.gyro is None:
-        raise UserError(f"{recording.name}: no gyro, an attitude needs gyro_x, gyro_y, gyro_z")
-    if len(recording.time) < 2:
-        raise UserError(f"{recording.name}: one sample, an attitude over time needs two or more")
+    recording = _with_gyro(recording_of(recording))
     method, given = chosen(settings)
     world = _world(place, date, latitude, given)
     latitude = latitude_of(recording, latitude if place is None else float(place[0]))
@@ -159,19 +155,7 @@ def run(
     has = {v.name for v in block.parameters}
     named = {n: v for n, v in values.items() if n in has} | given
     p = with_settings(block, named, "the attitude filter")
-    retiming = _retiming(recording, known, p)
-    passes = 2 if smooth else 1
-    names = [v.name for v in block.inputs]
-    grid = InputGrid(recording, known, names, retiming, heard=lambda times: heard(times / passes))
-    steps = Run(block, grid.rows[-1] + 1, p=p, sample_period=recording.sample_period)
-    walk = _bias_walk(known, p)
-    if smooth:
-        outputs = smoothed(recorded_ukf(known), grid, steps, walk)
-    else:
-        outputs = filtered(block, grid, steps, walk)
-    outputs["status"][grid.after_gap] |= 1
-    if retiming is not None:
-        outputs = retiming.to_rows(outputs)
+    outputs = _estimated(block, recording, known, p, smooth, heard)
     parameters = {v.name: value for v, value in zip(block.parameters, p.tolist(), strict=True)}
     return AttitudeResult(
         recording.name,
@@ -186,6 +170,15 @@ def run(
         smoothed=smooth,
         magnetometer=replace(field, calibration=calibration).in_world(world),
     )
+
+
+def _with_gyro(recording: Recording) -> Recording:
+    """The recording. Raises UserError where it has no gyro, or one row."""
+    if recording.gyro is None:
+        raise UserError(f"{recording.name}: no gyro, an attitude needs gyro_x, gyro_y, gyro_z")
+    if len(recording.time) < 2:
+        raise UserError(f"{recording.name}: one sample, an attitude over time needs two or more")
+    return recording
 
 
 def _believed(recording: Recording) -> Recording:
@@ -249,6 +242,31 @@ def _world(
         if name in settings:
             raise UserError(f"{name} beside place, by which it is known: give one of the two")
     return found
+
+
+def _estimated(
+    block: Block,
+    recording: Recording,
+    known: Part,
+    p: np.ndarray,
+    smooth: bool,
+    heard: Callable[[float], None],
+) -> dict[str, np.ndarray]:
+    """The outputs by name, a row for each of the recording's, by the filter or the smoother."""
+    retiming = _retiming(recording, known, p)
+    passes = 2 if smooth else 1
+    names = [v.name for v in block.inputs]
+    grid = InputGrid(recording, known, names, retiming, heard=lambda times: heard(times / passes))
+    steps = Run(block, grid.rows[-1] + 1, p=p, sample_period=recording.sample_period)
+    walk = _bias_walk(known, p)
+    if smooth:
+        outputs = smoothed(recorded_ukf(known), grid, steps, walk)
+    else:
+        outputs = filtered(block, grid, steps, walk)
+    outputs["status"][grid.after_gap] |= 1
+    if retiming is not None:
+        outputs = retiming.to_rows(outputs)
+    return outputs
 
 
 # Parameters
