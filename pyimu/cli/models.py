@@ -68,10 +68,16 @@ def plan_command(
         typer.Option(
             "--for",
             metavar="EFFECT",
-            help="Effect to show, as docs/effects.md names it; several by commas or given again.",
+            help="Effect to show, as docs/effects.md names it; several by blanks or commas, or "
+            "given again.",
             show_default=False,
         ),
     ],
+    further: Annotated[
+        list[str] | None,
+        # A blank ends the value of an option: what follows it are arguments.
+        typer.Argument(metavar="EFFECT", help="Further effects, behind that of --for."),
+    ] = None,
     sensor: Annotated[
         str | None,
         typer.Option("--sensor", help="gyro or accel; else the first that has the effects."),
@@ -111,7 +117,8 @@ def plan_command(
     check_told(as_json, quiet)
     check_folder(out)
     add_effects(effects)
-    names = [name.strip() for text in wanted for name in text.split(",") if name.strip()]
+    texts = [*wanted, *(further or ())]
+    names = [name.strip() for text in texts for name in text.split(",") if name.strip()]
     with progress("reading") as say:
         planned = plan(part, names, sensor, within or (), sigmas, say)
         page = planned.write(out, lambda text, share: say(text, CHOSEN + (1 - CHOSEN) * share))

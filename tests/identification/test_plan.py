@@ -294,6 +294,19 @@ def test_the_command_writes_what_the_function_plans(tmp_path):
     assert said["duration"]["value"] == pytest.approx(alone.as_dict()["duration"]["value"])
 
 
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["--for", "g_sensitivity", "scale_factor"],
+        ["--for", "g_sensitivity,scale_factor"],
+        ["--for", "g_sensitivity", "--for", "scale_factor"],
+    ],
+)
+def test_several_effects_are_given_as_one_likes(words, tmp_path):
+    ended = CliRunner().invoke(app, ["plan", "mpu6050", *words, "--out", str(tmp_path), "--json"])
+    assert json.loads(ended.output)["effects"] == ["g_sensitivity", "scale_factor"], ended.output
+
+
 def test_the_command_gives_its_data_or_nothing(tmp_path):
     words = ["plan", "mpu6050", "--for", "g_sensitivity", "--out", str(tmp_path)]
     ended = CliRunner().invoke(app, [*words, "--json"])
