@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from pyimu.errors import Finding, UserError
+from pyimu.errors import Finding, UserError, printable
 from pyimu.recording.clock import RATES, Cadence, Clock, cadence_of
 from pyimu.recording.column_map import ForeignMap
 from pyimu.recording.columns import GROUPS
@@ -35,7 +35,7 @@ class Log:
     def __init__(self, source: Source) -> None:
         self._source = source
         self.path: Path = source.header.path
-        self.name = stem(self.path)
+        self.name = printable(stem(self.path))
         self.findings: tuple[Finding, ...] = ()
         """What was seen in reading; complete once all of it was read."""
 
