@@ -41,6 +41,7 @@ generate: $(READY)
 	$(BIN)/python docs/build/effects_page.py
 	$(BIN)/python docs/build/noise_page.py
 	$(BIN)/python docs/build/api_page.py
+	$(BIN)/python docs/build/attitude_page.py
 	$(BIN)/python -m pyimu.fmu.generate
 	$(BIN)/python -m pyimu.modelica.generate
 	@echo "Files that changed are named above."

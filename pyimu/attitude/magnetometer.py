@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import permutations
 
 import numpy as np
 
@@ -22,8 +23,11 @@ OTHER = 0.05
 """Share by which the median strength may differ from the place's before that is said: beyond it the
 field is another one by many times what the model leaves open."""
 
-UNITS = ("T", "gauss", "mT", "uT", "nT")
-"""Units in which magnetometers are logged."""
+UNITS = ("T", "gauss", "uT", "nT", "mT")
+"""Units in which magnetometers are logged, the one that hardly anybody takes last."""
+
+MISTAKEN = sorted(permutations(UNITS, 2), key=lambda pair: UNITS[-1] in pair)
+"""Pairs of the unit in a header and that of its numbers, the likely ones first."""
 
 
 @dataclass(frozen=True)
@@ -79,9 +83,8 @@ def _other_size(strength: float) -> Finding:
     Numbers in gauss under a header of tesla, say, are 10^4 times too large.
     """
     detail: dict[str, float | str] = {"strength": strength}
-    for stated in UNITS:
-        for right in UNITS:
-            true = strength * parse(right).factor / parse(stated).factor
-            if EARTH[0] <= true <= EARTH[1]:
-                return Finding("mag_unit", "mag", 1, detail | {"stated": stated, "as": right})
+    for stated, right in MISTAKEN:
+        true = strength * parse(right).factor / parse(stated).factor
+        if EARTH[0] <= true <= EARTH[1]:
+            return Finding("mag_unit", "mag", 1, detail | {"stated": stated, "as": right})
     return Finding("mag_strength", "mag", 1, detail)

@@ -13,6 +13,7 @@ from pyimu.attitude.driven import speed_findings
 from pyimu.attitude.error import AttitudeError, error_against
 from pyimu.attitude.filter.status import STATUS
 from pyimu.attitude.filters import OWN
+from pyimu.attitude.headed import heading_findings
 from pyimu.attitude.magnetometer import Magnetometer
 from pyimu.attitude.rest import Rest
 from pyimu.errors import Finding
@@ -105,8 +106,8 @@ class Outcome:
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
         """What reading the recording found, and what its samples show."""
-        found = (*self.magnetometer.findings, *speed_findings(self.recording))
-        return (*quality(self.recording), *found)
+        measured = (*speed_findings(self.recording), *heading_findings(self.recording))
+        return (*quality(self.recording), *self.magnetometer.findings, *measured)
 
     @property
     def disturbed(self) -> float:

@@ -31,6 +31,7 @@ from pyimu.attitude.filter.tolerances import start_values
 from pyimu.attitude.filter.ukf import recorded_ukf
 from pyimu.attitude.filter.variables import FIELD_SETTINGS, LEAST_K
 from pyimu.attitude.filters import OF_LOGS, OWN, Settings, chosen
+from pyimu.attitude.headed import heading_findings
 from pyimu.attitude.input_grid import InputGrid
 from pyimu.attitude.magnetometer import Magnetometer, magnetometer_of
 from pyimu.attitude.outputs import filtered
@@ -117,11 +118,7 @@ def run(
     many finite numbers, and a setting that is unknown or outside its bounds; a place without date,
     beside a latitude, or beside a setting of what it tells.
     """
-    recording = recording_of(recording)
-    if recording.gyro is None:
-        raise UserError(f"{recording.name}: no gyro, an attitude needs gyro_x, gyro_y, gyro_z")
-    if len(recording.time) < 2:
-        raise UserError(f"{recording.name}: one sample, an attitude over time needs two or more")
+    recording = _with_gyro(recording_of(recording))
     method, given = chosen(settings)
     world = _world(place, date, latitude, given)
     latitude = latitude_of(recording, latitude if place is None else float(place[0]))
@@ -134,6 +131,7 @@ def run(
     rest = find_rest(recording, gravity or STANDARD_GRAVITY)
     declared = None if part is None else part_of(part)
     as_given, calibration = recording, calibration_of(magnetometer)
+    recording = _believed(recording)
     if calibration is None and declared is not None and bool(magnetometer):
         calibration = None if recording.mag is None else of_sensor(declared.mag)
     if calibration is not None:
@@ -157,20 +155,7 @@ def run(
     has = {v.name for v in block.parameters}
     named = {n: v for n, v in values.items() if n in has} | given
     p = with_settings(block, named, "the attitude filter")
-    retiming = _retiming(recording, known, p)
-    used = replace(recording, speed=None) if speed_findings(recording) else recording
-    passes = 2 if smooth else 1
-    names = [v.name for v in block.inputs]
-    grid = InputGrid(used, known, names, retiming, heard=lambda times: heard(times / passes))
-    steps = Run(block, grid.rows[-1] + 1, p=p, sample_period=recording.sample_period)
-    walk = _bias_walk(known, p)
-    if smooth:
-        outputs = smoothed(recorded_ukf(known), grid, steps, walk)
-    else:
-        outputs = filtered(block, grid, steps, walk)
-    outputs["status"][grid.after_gap] |= 1
-    if retiming is not None:
-        outputs = retiming.to_rows(outputs)
+    outputs = _estimated(block, recording, known, p, smooth, heard)
     parameters = {v.name: value for v, value in zip(block.parameters, p.tolist(), strict=True)}
     return AttitudeResult(
         recording.name,
@@ -185,6 +170,22 @@ def run(
         smoothed=smooth,
         magnetometer=replace(field, calibration=calibration).in_world(world),
     )
+
+
+def _with_gyro(recording: Recording) -> Recording:
+    """The recording. Raises UserError where it has no gyro, or one row."""
+    if recording.gyro is None:
+        raise UserError(f"{recording.name}: no gyro, an attitude needs gyro_x, gyro_y, gyro_z")
+    if len(recording.time) < 2:
+        raise UserError(f"{recording.name}: one sample, an attitude over time needs two or more")
+    return recording
+
+
+def _believed(recording: Recording) -> Recording:
+    """The recording without a speed and without headings that its samples contradict."""
+    if speed_findings(recording):
+        recording = replace(recording, speed=None)
+    return replace(recording, heading=None) if heading_findings(recording) else recording
 
 
 def _known(part: Part | None, recording: Recording, rest: Rest) -> Part:
@@ -241,6 +242,31 @@ def _world(
         if name in settings:
             raise UserError(f"{name} beside place, by which it is known: give one of the two")
     return found
+
+
+def _estimated(
+    block: Block,
+    recording: Recording,
+    known: Part,
+    p: np.ndarray,
+    smooth: bool,
+    heard: Callable[[float], None],
+) -> dict[str, np.ndarray]:
+    """The outputs by name, a row for each of the recording's, by the filter or the smoother."""
+    retiming = _retiming(recording, known, p)
+    passes = 2 if smooth else 1
+    names = [v.name for v in block.inputs]
+    grid = InputGrid(recording, known, names, retiming, heard=lambda times: heard(times / passes))
+    steps = Run(block, grid.rows[-1] + 1, p=p, sample_period=recording.sample_period)
+    walk = _bias_walk(known, p)
+    if smooth:
+        outputs = smoothed(recorded_ukf(known), grid, steps, walk)
+    else:
+        outputs = filtered(block, grid, steps, walk)
+    outputs["status"][grid.after_gap] |= 1
+    if retiming is not None:
+        outputs = retiming.to_rows(outputs)
+    return outputs
 
 
 # Parameters

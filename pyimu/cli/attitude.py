@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -23,6 +24,9 @@ from pyimu.cli.options import (
     tell,
 )
 from pyimu.errors import UserError
+
+if TYPE_CHECKING:
+    from pyimu.model.part import Part
 
 Folder = Annotated[
     Path, typer.Option("--out", help="Folder for report.html, report.json and attitude.parquet.")
@@ -127,13 +131,14 @@ def attitude_command(
         raise UserError("--magnetometer beside --no-magnetometer: give one of the two")
     check_folder(out)
     add_effects(effects)
+    declared = _declared(part, quiet)
     with progress("reading") as say:
         undone = None if magnetometer is None else MagnetometerCalibration.read(magnetometer)
         recording = read_recording(log, columns)
         say("running the filter")
         found = run(
             recording,
-            part,
+            declared,
             latitude=at,
             place=where,
             date=date,
@@ -147,6 +152,21 @@ def attitude_command(
         page = found.write(out)
     lines = [f"report: {page}, estimates: {page.with_name('attitude.parquet')}"]
     tell(found.report, (out / "report.json").read_text, lines, as_json=as_json, quiet=quiet)
+
+
+def _declared(name: str | None, quiet: bool) -> Part | None:
+    """The part; which of its errors the filter leaves in is said before it runs."""
+    from pyimu.attitude.filter.compensation import NOT_UNDONE, left_in
+    from pyimu.model.part_file import part
+    from pyimu.report.numbers import joined
+
+    if name is None:
+        return None
+    declared = part(name)
+    left = left_in(declared, retimed=True)
+    if left and not quiet:
+        print(f"{declared.name}: left in, {NOT_UNDONE}: {joined(left)}", file=sys.stderr)
+    return declared
 
 
 def _told_twice(values: dict[str, float | None]) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -12,13 +12,21 @@ from pyimu.cli.options import (
     Json,
     Out,
     PartName,
+    Quiet,
     add_effects,
+    check_told,
     complete_part,
     progress,
     tell,
     write_exports,
 )
 from pyimu.errors import UserError
+
+if TYPE_CHECKING:
+    from pyimu.fmu.sources import Form
+
+FORMS: dict[str, Form] = {"2": 2, "3": 3, "block": "block"}
+"""The forms of a unit, by how ``--fmi`` names them."""
 
 
 def rover_command(
@@ -29,6 +37,8 @@ def rover_command(
     seeds: Annotated[
         int, typer.Option("--seeds", min=1, help="Noises that each drive is simulated with.")
     ] = 3,
+    as_json: Json = False,
+    quiet: Quiet = False,
 ) -> None:
     """Example: pyimu rover --part imt30 --out out/rover
 
@@ -41,13 +51,14 @@ def rover_command(
     from pyimu.model.part_file import part as find_part
     from pyimu.rover.table6 import rover_tests
 
+    check_told(as_json, quiet)
     check_folder(out)
     with progress("simulating the rover") as say:
         found = rover_tests(find_part(part), range(1, seeds + 1), say=say)
         say("drawing the report")
         page = found.write(out)
-    print(found.report())
-    print(f"report: {page}")
+    data = (out / "report.json").read_text
+    tell(found.report, data, [f"report: {page}"], as_json=as_json, quiet=quiet)
 
 
 def plan_command(
@@ -57,10 +68,16 @@ def plan_command(
         typer.Option(
             "--for",
             metavar="EFFECT",
-            help="Effect to show, as docs/effects.md names it; several by commas or given again.",
+            help="Effect to show, as docs/effects.md names it; several by blanks or commas, or "
+            "given again.",
             show_default=False,
         ),
     ],
+    further: Annotated[
+        list[str] | None,
+        # A blank ends the value of an option: what follows it are arguments.
+        typer.Argument(metavar="EFFECT", help="Further effects, behind that of --for."),
+    ] = None,
     sensor: Annotated[
         str | None,
         typer.Option("--sensor", help="gyro or accel; else the first that has the effects."),
@@ -83,6 +100,8 @@ def plan_command(
         Path, typer.Option("--out", help="Folder for plan.html, plan.json and motion.csv.")
     ] = Path("out/plan"),
     effects: Effects = None,
+    as_json: Json = False,
+    quiet: Quiet = False,
 ) -> None:
     """Example: pyimu plan mpu6050 --for g_sensitivity --out out/plan
 
@@ -93,18 +112,19 @@ def plan_command(
     recording.
     """
     from pyimu.files import check_folder
-    from pyimu.identification.plan.plan import plan
+    from pyimu.identification.plan.plan import CHOSEN, plan
 
+    check_told(as_json, quiet)
     check_folder(out)
     add_effects(effects)
-    names = [name.strip() for text in wanted for name in text.split(",") if name.strip()]
+    texts = [*wanted, *(further or ())]
+    names = [name.strip() for text in texts for name in text.split(",") if name.strip()]
     with progress("reading") as say:
         planned = plan(part, names, sensor, within or (), sigmas, say)
-        say("drawing the page")
-        page = planned.write(out)
-    print(planned.report())
+        page = planned.write(out, lambda text, share: say(text, CHOSEN + (1 - CHOSEN) * share))
     files = ", ".join(str(out / name) for name in planned.files()[: len(planned.logs)])
-    print(f"page: {page}{f', motion: {files}' if files else ''}")
+    lines = [f"page: {page}{f', motion: {files}' if files else ''}"]
+    tell(planned.report, (out / "plan.json").read_text, lines, as_json=as_json, quiet=quiet)
 
 
 def build(
@@ -157,33 +177,29 @@ def build(
     (pyimu parts NAME shows them), and the filter still knows the data sheet alone.
     """
     from pyimu.fmu.package import build as build_part
-    from pyimu.fmu.sources import Form
     from pyimu.rover.system import check_drive, write_rover
 
-    forms: dict[str, Form] = {"2": 2, "3": 3, "block": "block"}
-    names = [name.strip() for name in fmi.split(",")]
-    if not all(name in forms for name in names):
-        raise UserError(f"--fmi {fmi}: unknown; known are {', '.join(forms)}, separated by commas")
+    chosen = _forms(fmi)
     add_effects(effects)
-    chosen = [forms[name] for name in names]
-    wired: Form = next((form for form in forms.values() if form in chosen), "block")
+    wired: Form = next((form for form in FORMS.values() if form in chosen), "block")
     if ssp is not None:
         check_drive(ssp, wired)
     with progress(f"compiling {part}") as say:
-        paths = build_part(
-            part,
-            out,
-            [f.strip() for f in fmu.split(",")],
-            chosen,
-            platform,
-            specimen,
-            say,
-        )
+        blocks = [f.strip() for f in fmu.split(",")]
+        paths = build_part(part, out, blocks, chosen, platform, specimen, say)
         if ssp is not None:
             rover = write_rover(part, out, ssp, form=wired, platform=platform, specimen=specimen)
             paths.append(rover)
     for path in paths:
         print(path)
+
+
+def _forms(fmi: str) -> list[Form]:
+    """The forms of an ``--fmi``, of which several are separated by commas."""
+    names = [name.strip() for name in fmi.split(",")]
+    if not all(name in FORMS for name in names):
+        raise UserError(f"--fmi {fmi}: unknown; known are {', '.join(FORMS)}, separated by commas")
+    return [FORMS[name] for name in names]
 
 
 def modelica_command(

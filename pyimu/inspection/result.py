@@ -21,6 +21,8 @@ class Inspection(Outcome):
         questions = [q for p in self.proposals for q in p.open_questions]
         if self.problem:
             said.append(f"not readable so: {self.problem}")
+        if self.proposals and self.proposals[0].timeless and self.kind != "map":
+            said.append("no column is a time: say the sample rate in the map, sample_rate")
         if questions:
             said.append(f"choose the unit of {', '.join(questions)} in the map")
         return "\n".join(said)

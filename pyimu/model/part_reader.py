@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from pyimu import units
-from pyimu.errors import UserError
+from pyimu.errors import UserError, printable
 from pyimu.files import parse_toml, shortened
 from pyimu.model.arguments import Parameter
 from pyimu.model.catalogue import CATALOGUE
@@ -100,6 +100,8 @@ class _Reader:
             raise self.error("name", 'is missing, write name = "imt30"')
         if len(text) > _LONGEST_NAME:
             raise self.error("name", f"has {len(text)} characters, may have {_LONGEST_NAME}")
+        if printable(text) != text:
+            raise self.error("name", f"{text!r:.60} has a character that no terminal shows")
         return text
 
     def _optional_text(self, where: str, table: Mapping[str, Any], key: str) -> str:

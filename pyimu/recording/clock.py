@@ -40,6 +40,9 @@ TWO = 0.4
 """Of two rates the windows make two heaps, and between them lies so much of their range, or, with a
 window that holds both, half of it; of one rate that wanders the windows fill the range."""
 
+FEW = 16
+"""Windows of a log, fewer than which are too few to fill a range: their parts tell then."""
+
 RATES = (1e-3, 1e6)
 """Hz; no inertial sensor is sampled more slowly or faster: such a rate is one of a wrong unit."""
 
@@ -163,6 +166,7 @@ class Clock:
         self._variance, self._windows = 0.0, 0
         self._others: list[tuple[float, float]] = []
         self._periods: list[float] = []
+        self._parts: list[float] = []
 
     def add(self, time: np.ndarray) -> None:
         """``time`` (n,) follows what was added before."""
@@ -204,6 +208,8 @@ class Clock:
             zip(period.tolist(), (rate.var(axis=1) / (PARTS - 1)).tolist())
         ):
             if not math.isnan(value):
+                if len(self._periods) < FEW:
+                    self._parts += rate[k].tolist()
                 self._periods.append(value)
                 self._variance, self._windows = self._variance + variance, self._windows + 1
             if not self._off(value) <= OTHER_RATE:
@@ -224,7 +230,7 @@ class Clock:
         """
         done = copy(self)  # more may be added, and tell of the last rows
         done._finder, done._others = copy(self._finder), self._others.copy()
-        done._periods = self._periods.copy()
+        done._periods, done._parts = self._periods.copy(), self._parts.copy()
         done._look(*done._finder.end())
         return done._found()
 
@@ -242,11 +248,13 @@ class Clock:
             for start, period in self._others
             if self._off(period) > max(OTHER_RATE, least)
         ]
-        if others and self._periods and not _two_heaps(np.sort(self._periods)):
+        heaps = self._parts if len(self._periods) < FEW else self._periods
+        if others and self._periods and not _two_heaps(np.sort(heaps)):
+            periods = (self.cadence.period, *self._periods)
             detail = {
                 "rate": 1 / self.cadence.period,
-                "least_rate": 1 / max(self._periods),
-                "largest_rate": 1 / min(self._periods),
+                "least_rate": 1 / max(periods),
+                "largest_rate": 1 / min(periods),
             }
             found.append(Finding("rate_wanders", "time", len(others) * WINDOW, detail))
         elif others:

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from pyimu.errors import Finding, UserError
+from pyimu.errors import Finding, UserError, printable
 from pyimu.recording.clock import RATES, Cadence, Clock, cadence_of
 from pyimu.recording.column_map import ForeignMap
 from pyimu.recording.columns import GROUPS
@@ -22,7 +22,8 @@ from pyimu.recording.formats.suffix import stem
 from pyimu.recording.gaps import GapFinder
 from pyimu.recording.guess.numbers import SECONDS, USUAL
 from pyimu.recording.recording import Recording, copied, join
-from pyimu.recording.rows import Rows, Source
+from pyimu.recording.rows import LEAST_ROWS, Rows, Source
+from pyimu.recording.waking import Batch
 
 HEAD = 1 << 16
 """Rows at the start of a log from which its sample period is taken before the rest is read."""
@@ -34,7 +35,7 @@ class Log:
     def __init__(self, source: Source) -> None:
         self._source = source
         self.path: Path = source.header.path
-        self.name = stem(self.path)
+        self.name = printable(stem(self.path))
         self.findings: tuple[Finding, ...] = ()
         """What was seen in reading; complete once all of it was read."""
 
@@ -144,18 +145,30 @@ class Log:
 
     def _found(self, passing: Rows, clock: Clock) -> tuple[Finding, ...]:
         others = [finding for c in self._companions for finding in c.said()]
-        return (*passing.findings, *others, *clock.findings())
+        return (*passing.findings, *passing.waking.findings(), *others, *clock.findings())
 
     def _batches(self, passing: Rows) -> Iterator[tuple[Recording, float]]:
-        for time, groups, share in passing.batches():
-            for companion in self._companions:
-                groups |= companion.at(time, passing)
+        kept = 0
+        for time, groups, share in passing.waking.awake(self._whole(passing)):
+            kept += len(time)
             yield (
                 Recording(
                     self.name, time, **groups, path=self.path, frame_declared=self.frame_declared
                 ),
                 share,
             )
+        if kept < LEAST_ROWS:
+            raise UserError(
+                f"{self.path}: {kept} rows behind rows of zeros, a recording needs at least "
+                f"{LEAST_ROWS}"
+            )
+
+    def _whole(self, passing: Rows) -> Iterator[Batch]:
+        """The batches with the groups of further files beside their own."""
+        for time, groups, share in passing.batches():
+            for companion in self._companions:
+                groups |= companion.at(time, passing)
+            yield time, groups, share
 
 
 def _marked(

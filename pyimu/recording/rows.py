@@ -23,6 +23,7 @@ from pyimu.recording.header import Header
 from pyimu.recording.known import merged, recognised, said
 from pyimu.recording.phone import is_phone, of_phone
 from pyimu.recording.quality.tally import Tally
+from pyimu.recording.waking import Waking
 
 NORM_TOLERANCE = 1e-2
 """How far the norm of a reference quaternion may be from one before it is reported."""
@@ -137,6 +138,7 @@ class Rows:
     def __init__(self, source: Source) -> None:
         self.source = source
         self.kept = 0
+        self.waking = Waking()
         self._tally = Tally([*source.reader.findings, *source.header.findings])
         header = source.header
         self._raw = RawCounts(

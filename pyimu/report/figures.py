@@ -152,6 +152,8 @@ def plain_logarithm(axis: Axis) -> None:
     decades = 10.0 ** np.arange(np.floor(np.log10(low)), np.ceil(np.log10(high)))
     marks = np.outer(decades, np.arange(2, 10)).ravel()
     marks = marks[(marks >= low) & (marks <= high)]
+    if not len(marks):
+        return  # an empty line lies at the figure's corner, and the layout makes room for it there
     panel, across = axis.axes, axis.axis_name == "x"
     places = (marks, np.zeros(len(marks)))
     panel.add_artist(

@@ -17,6 +17,7 @@ from markupsafe import Markup, escape
 from pyimu.errors import Finding
 from pyimu.report.curves import METADATA, Curves
 from pyimu.report.findings import detail
+from pyimu.report.glossary import words_on
 from pyimu.report.numbers import MISSING, in_unit, number, pretty, si_quantity, unit_for
 
 
@@ -56,26 +57,34 @@ class Picture:
 
 @lru_cache(maxsize=4)
 def templates(package: str) -> Environment:
-    """The templates of a package; ``page.html`` is what their pages extend."""
+    """The templates of a package; ``page.html`` is what their pages extend, and explains their
+    words.
+    """
     own = [PackageLoader("pyimu.report", folder) for folder in ("templates", "vendor")]
-    return Environment(
+    environment = Environment(
         loader=ChoiceLoader([PackageLoader(package, "templates"), *own]),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    environment.globals["words_on"] = words_on
+    return environment
 
 
 def prose(text: str) -> Markup:
     """A cell of prose, which may break into lines."""
-    return Markup('<span class="words">{}</span>').format(text)
+    return Markup('<span class="words">{}</span>').format(_breakable(text))
 
 
 def file_name(name: str) -> Markup:
     """A cell with the name of a file, which may break behind underscores."""
-    words = Markup("<wbr>").join(re.findall(r"[^_]+_*|_+", name))
-    return Markup('<span class="file">{}</span>').format(words)
+    return Markup('<span class="file">{}</span>').format(_breakable(name))
+
+
+def _breakable(text: str) -> Markup:
+    """Text that may break behind underscores, as a name of three words must on a phone."""
+    return Markup("<wbr>").join(re.findall(r"[^_]+_*|_+", text))
 
 
 def equation(latex: str) -> Markup:

@@ -59,6 +59,21 @@ def test_its_options_are_those_of_the_function(pyimu, log, tmp_path):
     assert data["parameters"]["latitude"] == pytest.approx(LATITUDE)
 
 
+def test_what_the_filter_leaves_in_is_said_before_it_runs(pyimu, log, tmp_path):
+    """Also where the log then cannot be read; not with ``--quiet``, and not in the data."""
+    (tmp_path / "coarse.toml").write_text(
+        'name = "coarse"\nsample_rate = {value = 100.0, unit = "Hz"}\n'
+        '[gyro.quantization]\nq = {value = 0.01, unit = "deg/s"}\n'
+    )
+    said = "coarse: left in, not undone"
+    code, out, err = pyimu("attitude", log, "--part", "coarse.toml", "--out", "out", "--json")
+    assert code == 0 and err.startswith(said) and "quantization of the gyro" in err
+    assert json.loads(out)["left_in"] == ["quantization of the gyro"]
+    assert pyimu("attitude", "none.csv", "--part", "coarse.toml")[2].startswith(said)
+    quiet = pyimu("attitude", log, "--part", "coarse.toml", "--out", "out", "--quiet")
+    assert quiet == (0, "", "")
+
+
 def test_a_foreign_log_goes_through_a_column_map(pyimu, log, tmp_path):
     text = log.read_text().replace("gyro_x [rad/s]", "wx", 1)
     (tmp_path / "foreign.csv").write_text(text)

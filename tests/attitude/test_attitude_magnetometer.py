@@ -243,6 +243,9 @@ WRONG = {
     "one axis": ([1, 0, 0], 1, "axis y, z shows zeros"),
     "gauss": (1, 1e4, "numbers in gauss under a header of T"),
     "nT": (1, 1e9, "numbers in nT under a header of T"),
+    "nT under uT": (1, 1e3, "numbers in nT under a header of uT"),
+    "uT under nT": (1, 1e-3, "numbers in uT under a header of nT"),
+    "gauss under uT": (1, 1e-2, "numbers in gauss under a header of uT"),
 }
 
 

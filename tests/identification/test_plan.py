@@ -21,6 +21,7 @@ from pyimu.identification.plan.goals import class_of, wanted_errors
 from pyimu.identification.plan.information import Information, information
 from pyimu.identification.plan.motions import SHARE, Limits, library
 from pyimu.identification.plan.noise import declared_noise
+from pyimu.identification.plan.plan import CHOSEN
 from pyimu.identification.plan.scene import recorded, trial_of
 from pyimu.identification.plan.words import place
 from pyimu.recording.reference.file import read_reference
@@ -291,6 +292,36 @@ def test_the_command_writes_what_the_function_plans(tmp_path):
     assert ended.output.startswith(alone.report().splitlines()[0])
     said = json.loads((tmp_path / "plan" / "plan.json").read_text())
     assert said["duration"]["value"] == pytest.approx(alone.as_dict()["duration"]["value"])
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["--for", "g_sensitivity", "scale_factor"],
+        ["--for", "g_sensitivity,scale_factor"],
+        ["--for", "g_sensitivity", "--for", "scale_factor"],
+    ],
+)
+def test_several_effects_are_given_as_one_likes(words, tmp_path):
+    ended = CliRunner().invoke(app, ["plan", "mpu6050", *words, "--out", str(tmp_path), "--json"])
+    assert json.loads(ended.output)["effects"] == ["g_sensitivity", "scale_factor"], ended.output
+
+
+def test_the_command_gives_its_data_or_nothing(tmp_path):
+    words = ["plan", "mpu6050", "--for", "g_sensitivity", "--out", str(tmp_path)]
+    ended = CliRunner().invoke(app, [*words, "--json"])
+    assert json.loads(ended.output) == json.loads((tmp_path / "plan.json").read_text())
+    assert CliRunner().invoke(app, [*words, "--quiet"]).output == ""
+    assert CliRunner().invoke(app, [*words, "--quiet", "--json"]).exit_code != 0
+
+
+def test_what_is_heard_of_the_work_rises_to_the_end(tmp_path):
+    heard = []
+    found = pyimu.plan("mpu6050", "g_sensitivity", say=lambda text, share: heard.append(share))
+    assert heard[0] == 0 and np.all(np.diff(heard) >= 0) and 0.5 < heard[-1] <= CHOSEN
+    written = []
+    found.write(tmp_path, lambda text, share: written.append(share))
+    assert written[0] == 0 and np.all(np.diff(written) > 0) and 0.5 <= written[-1] < 1
 
 
 def test_wanted_error_is_reached():

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pyimu.errors import UserError
+from pyimu.errors import UserError, printable
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.part import Part
 from pyimu.model.part_entry import RATE_KEY
@@ -362,7 +362,9 @@ def test_any_part_reads_back_equal(v, choice, one_sided, text, estimate):
         },
     )
     leave = frozenset({("gyro", "thermal_bias", "kT")}) if estimate else frozenset()
-    made = Part("x" + text, 1 / 0.3, gyro=gyro, notes=notes, estimate=leave, description=text)
+    made = Part(
+        "x" + printable(text), 1 / 0.3, gyro=gyro, notes=notes, estimate=leave, description=text
+    )
     assert parse_part(format_part(made)) == made
 
 

@@ -46,6 +46,27 @@ def test_two_rates_are_reported_with_where_they_begin():
     assert found.kind == "two_rates" and abs(found.detail["first"] - 30) <= WINDOW * 0.01
 
 
+@pytest.mark.parametrize("n", [1200, 2000, 5000])
+@pytest.mark.parametrize("period", [10.0, 30.0, 100.0])
+def test_a_short_log_whose_rate_wanders_has_one_rate(n, period):
+    """Of a few windows the mean periods lie apart, as two heaps do; within them they do not."""
+    time = np.cumsum(0.01 * (1 + 0.05 * np.sin(2 * np.pi * 0.01 * np.arange(n) / period)))
+    clock = Clock(cadence_of(time))
+    clock.add(time)
+    assert [f.kind for f in clock.findings()] == ["rate_wanders"]
+
+
+@pytest.mark.parametrize("n", [1200, 2000, 5000])
+@pytest.mark.parametrize("jitter", [0.0, 0.1])
+def test_a_short_log_of_two_rates_has_two(n, jitter):
+    """Stamps that are late by a tenth of a period blur the mean of 32 steps by 0.4 %."""
+    late = jitter * 0.01 * np.random.default_rng(4).random(n)
+    time = np.cumsum(np.where(np.arange(n) < 0.6 * n, 0.01, 0.0105)) + late
+    clock = Clock(cadence_of(time))
+    clock.add(time)
+    assert [f.kind for f in clock.findings()] == ["two_rates"]
+
+
 @pytest.mark.parametrize("shape", ["drift", "wave"])
 @pytest.mark.parametrize("size", [0.02, 0.1])
 def test_a_rate_that_wanders_is_one_rate(shape, size):

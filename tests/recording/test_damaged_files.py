@@ -158,6 +158,7 @@ PART = 'name = "p"\nsample_rate = {value = 100.0, unit = "Hz"}\n'
         (PART + "x = " + "[" * 5000 + "]" * 5000, "cannot be read as TOML"),
         (PART + "[gyro.turn_on_bias]\nb0 = " + "[" * 90 + "]" * 90, "gyro.turn_on_bias.b0"),
         (PART.replace('"p"', '"' + "x" * 5000 + '"'), "name: has 5000 characters, may have 200"),
+        (PART.replace('"p"', r'"p\u001b[31m"'), "name: 'p\\x1b[31m' has a character that no"),
         (PART + f"[gyro.{'x' * 5000}]", "unknown effect"),
         (PART + f"[gyro.turn_on_bias]\n{'x' * 5000} = 1", "unknown parameter"),
         (PART + "[gyro.turn_on_bias]\nb0 = {value = 1, unit = '" + "x" * 5000 + "'}", "unit"),
@@ -186,3 +187,15 @@ def test_fuzzers_find_nothing(name, tmp_path):
         env=os.environ | {"PYTHONPATH": str(CHECKOUT)},
     )
     assert done.returncode == 0, f"seed {seed}: {done.stdout[-3000:]}{done.stderr[-2000:]}"
+
+
+def test_the_name_of_a_log_has_nothing_that_a_terminal_obeys(tmp_path):
+    path = tmp_path / "drive\x1b[31m.csv"
+    rows = [
+        "time [s],gyro_x [rad/s],gyro_y [rad/s],gyro_z [rad/s]",
+        "0,1,2,3",
+        "1,2,3,4",
+        "2,3,4,5",
+    ]
+    path.write_text("\n".join(rows))
+    assert read_recording(path).name == "drive?[31m"

@@ -56,12 +56,47 @@ def notes(a: Outcome) -> list[str]:
             "one in g does: gravity corrected nothing; write accel_x [g] in the log's header, or "
             "map it there with --columns"
         )
-    if any(f.kind == "speed_sign" for f in a.findings):
+    return found + _about_columns(a) + [_about_field(f) for f in a.magnetometer.findings]
+
+
+READ_AS = {
+    "compass": "they count clockwise, as a compass does: write 90 deg less the compass heading, or "
+    'map the log with [frame] world = "ned"',
+    "degrees": "their numbers are degrees: write heading [deg] in the log's header, or map it "
+    "there with --columns",
+}
+"""What to do about headings that are something else than their header says."""
+
+ALONE = {"heading_std": "heading", "heading_age": "heading", "speed_std": "speed"}
+"""Columns that say nothing without another."""
+
+
+def _about_columns(a: Outcome) -> list[str]:
+    """What is wrong with the columns beside the gyro, and what would be right."""
+    found, kinds, there = [], {f.kind: f for f in a.findings}, a.recording.groups
+    if "accel" not in there:
+        found.append(
+            "no accelerometer: nothing shows the vertical, roll and pitch are the gyro's from a "
+            "level start"
+        )
+    if "gravity_down" in kinds:
+        found.append(
+            "gravity lies on -z at rest: the body is upside down, or its axes are not "
+            'forward-left-up; map the log with [frame] body = "frd" then'
+        )
+    if "speed_sign" in kinds:
         found.append(
             "the forces say that the speed has the wrong sign, or is not along the body's x axis: "
             "it was not used; turn its sign, or the axes"
         )
-    return found + [_about_field(f) for f in a.magnetometer.findings]
+    if "heading_reading" in kinds:
+        kind = str(kinds["heading_reading"].detail["as"])
+        what = "; ".join(text for name, text in READ_AS.items() if name in kind)
+        found.append(f"the headings do not turn as the gyro does, and were not used: {what}")
+    for name, of in ALONE.items():
+        if name in there and of not in there:
+            found.append(f"the column {name} has no column {of} beside it, and was not used")
+    return found
 
 
 def _about_field(finding: Finding) -> str:
@@ -97,6 +132,7 @@ def heading_from(a: Outcome) -> str:
     if not a.magnetometer.used:
         return ""
     headings = getattr(a.recording, "heading", None) is not None
+    headings &= not any(f.kind == "heading_reading" for f in a.findings)
     start = ", beside the headings, by which it starts" if headings else ""
     undone = ", calibrated" if a.magnetometer.calibration is not None else ""
     place = _place_of(a.magnetometer.world)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -24,12 +24,21 @@ from pyimu.report.numbers import MISSING, number, quantity
 from pyimu.report.page import Picture, Table, both, prose, templates
 
 
-def page(p: Outcome) -> str:
-    """The plan as one HTML page that needs nothing beside it."""
-    return templates("pyimu.identification.plan").get_template("plan.html").render(**_contents(p))
+def page(p: Outcome, heard: Callable[[float], None] = lambda share: None) -> str:
+    """The plan as one HTML page that needs nothing beside it.
+
+    ``heard`` hears which share of its pictures is drawn.
+    """
+    contents = _contents(p, heard)
+    return templates("pyimu.identification.plan").get_template("plan.html").render(**contents)
 
 
-def _contents(p: Outcome) -> dict[str, Any]:
+def _contents(p: Outcome, heard: Callable[[float], None]) -> dict[str, Any]:
+    logs, own = [*zip(p.files(), p.logs), *((None, log) for log in p.library)], len(p.logs)
+    pictures = []
+    for i, (name, log) in enumerate(logs):
+        heard(i / len(logs))
+        pictures.append(_of_library(log) if name is None else _of_log(name, log))
     return {
         "part": p.part,
         "sensor": SENSORS[p.kind],
@@ -38,10 +47,10 @@ def _contents(p: Outcome) -> dict[str, Any]:
         "of_class": p.of_class,
         "sigmas": number(p.sigmas, 2),
         "steps": steps_table(p),
-        "pictures": list(_pictures(p)),
+        "pictures": pictures[:own],
         "effects": [_effect(p, name) for name in p.effects],
         "library": library_table(p),
-        "motions": [_of_library(log) for log in p.library],
+        "motions": pictures[own:],
         "pairs": pairs_table(p),
         "hidden": hidden_table(p),
         "notes": [f"{n[0].upper()}{n[1:]}." for n in p.notes],
@@ -79,10 +88,9 @@ def steps_table(p: Outcome) -> Table:
     )
 
 
-def _pictures(p: Outcome) -> Iterable[Picture]:
-    for name, log in zip(p.files(), p.logs):
-        text = f"{name}: rate, specific force and temperature."
-        yield Picture(Markup(motion_picture(log.recording)), text, f"motion of {name}")
+def _of_log(name: str, log: Log) -> Picture:
+    text = f"{name}: rate, specific force and temperature."
+    return Picture(Markup(motion_picture(log.recording)), text, f"motion of {name}")
 
 
 def _of_library(log: Log) -> Picture:

@@ -51,6 +51,10 @@ LONG = 600.0
 RELAXED = 1.25
 """Times by which the wanted errors grow until a plan is found that is no day's work."""
 
+TRIED, CHOSEN = 0.2, 0.7
+"""Shares of the work until the motions are tried, and until the plan is made of them; the rest is
+the page and the files. They differ with the plan's length: so it is for one of an hour."""
+
 Say = Callable[..., None]
 
 
@@ -125,11 +129,11 @@ class _Planner:
     def plan(self) -> Plan:
         found = []
         for i, m in enumerate(self.motions):
-            self.say(f"trying {m.name.replace('_', ' ')}", i / len(self.motions))
+            self.say(f"trying {m.name.replace('_', ' ')}", TRIED * i / len(self.motions))
             found.append(self._of([m]))
-        self.say("choosing")
+        self.say("choosing", TRIED)
         counts, why = self._chosen(found)
-        self.say("the plan itself")
+        self.say("the plan itself", TRIED)
         logs = self._logs(counts)
         total = self._total(logs) if logs else Information((), np.zeros((0, 0)))
         keys = self._keys(total)
@@ -153,10 +157,15 @@ class _Planner:
         """A motion as it is drawn."""
         return recorded([motion], self.limits, step_of([motion]), self.signals)
 
-    def _of(self, motions: Sequence[Motion]) -> Information:
+    def _of(
+        self, motions: Sequence[Motion], heard: Callable[[float], None] = lambda share: None
+    ) -> Information:
+        """What motions one after the other show; ``heard`` hears which share of that is done."""
         h = step_of(motions, self.part.sample_period)
         log = recorded(motions, self.limits, h, self.signals)
+        heard(1 / 4)
         one = trial_of(log, self.kind, all(m.fixed for m in motions))
+        heard(3 / 4)
         noise = declared_noise(self.noisy, h)
         return information(self.sensor, one, noise, self.looked, self.free, self.values)
 
@@ -214,7 +223,15 @@ class _Planner:
         return tuple(logs)
 
     def _total(self, logs: Sequence[Log]) -> Information:
-        made = [self._of([s.motion for s in log.steps for _ in range(s.times)]) for log in logs]
+        made, size = [], sum(len(log.recording) for log in logs)
+        for log in logs:
+            behind = sum(len(before.recording) for before in logs[: len(made)])
+
+            def heard(share: float, behind: int = behind, own: int = len(log.recording)) -> None:
+                done = (behind + share * own) / size
+                self.say("the plan itself", TRIED + (CHOSEN - TRIED) * done)
+
+            made.append(self._of([s.motion for s in log.steps for _ in range(s.times)], heard))
         return sum(made[1:], made[0])
 
     def _predicted(

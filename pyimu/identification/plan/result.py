@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -20,15 +21,22 @@ class Plan(Outcome):
         """A few lines for a terminal or a notebook."""
         return in_lines(self)
 
-    def write(self, out: str | os.PathLike) -> Path:
+    def write(
+        self,
+        out: str | os.PathLike,
+        say: Callable[[str, float], None] = lambda text, share: None,
+    ) -> Path:
         """Write ``plan.html``, ``plan.json`` and the motions as recordings into the folder ``out``.
 
-        Gives the page's path. Raises UserError where the folder cannot be written.
+        Gives the page's path; ``say(text, share)`` hears what is being done, and which share of it
+        is. Raises UserError where the folder cannot be written.
         """
         out = Path(out)
         with staged(out) as stage:
-            write_text(stage / "plan.html", page(self))
+            html = page(self, lambda share: say("drawing the page", share / 2))
+            write_text(stage / "plan.html", html)
             write_json(stage / "plan.json", self.as_dict())
-            for name, log in zip(self.files(), self.logs, strict=True):
+            for i, (name, log) in enumerate(zip(self.files(), self.logs, strict=True)):
+                say(f"writing {name}", (1 + i / len(self.logs)) / 2)
                 log.recording.write(stage / name)
         return out / "plan.html"

@@ -138,7 +138,9 @@ def rate_unit(rate: np.ndarray, force: np.ndarray | None, period: float | None) 
         return UnitGuess(None, "whole numbers: counts? see the data sheet for LSB/(deg/s)")
     if largest > FASTEST:
         return UnitGuess("deg/s", f"{largest:.4g} rad/s would be faster than anything turns")
-    lacks = "there is no accelerometer beside it" if force is None else "it does not turn enough"
+    lacks = "it does not turn enough"
+    if force is None or period is None:
+        lacks = f"there is no {'accelerometer' if force is None else 'time'} beside it"
     return UnitGuess(None, f"rad/s or deg/s? {lacks} to tell")
 
 

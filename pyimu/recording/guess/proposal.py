@@ -64,6 +64,11 @@ class Proposal:
     rate: float | None = None
 
     @property
+    def timeless(self) -> bool:
+        """Whether neither a column nor the file says when its samples were taken."""
+        return self.rate is None and "time" not in self.groups
+
+    @property
     def open_questions(self) -> list[str]:
         """Groups whose unit nobody knows."""
         return list(dict.fromkeys(g.group for g in self.guesses if g.unit is None))

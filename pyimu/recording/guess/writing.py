@@ -26,7 +26,7 @@ def text_of(proposals: Sequence[Proposal]) -> str:
         ]
     if first.rate is not None:
         lines += ["", _remarked(_rate(first.rate), "what the file says; it has no times")]
-    elif "time" not in first.groups:
+    elif first.timeless:
         lines += ["", "# No column rises as a time does; say the rate if there is none:"]
         lines += ["# " + _rate(100.0)]
     lines += ["", "[columns]", *_columns(first.guesses)]
