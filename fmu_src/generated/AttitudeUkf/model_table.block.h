@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{dff40f13-ecec-3912-7f04-d1477149897a}"
-#define MODEL_TOKEN_FMI3 "{d86c7567-8c05-db7e-a7ea-27261f2625c8}"
+#define MODEL_TOKEN_FMI2 "{2008a6d9-aa8a-bada-d4f3-71c656b868d7}"
+#define MODEL_TOKEN_FMI3 "{d12af318-c878-fc5e-74db-50a8d5e34ea4}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{95a4f167-a380-e3fa-8d14-bf9dcb62da92}"
-#define MODEL_TOKEN_FMI3 "{6b61f87e-d439-0e78-a54d-cc984cbe9eb5}"
+#define MODEL_TOKEN_FMI2 "{0796ce4d-ca19-cd04-b7ee-b9faeb4a126f}"
+#define MODEL_TOKEN_FMI3 "{c004a219-e90c-0220-8160-35878200172d}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
