@@ -202,7 +202,7 @@ def gravity_seen(x):
 
 
 def instructions(step: ca.Function) -> str:
-    """Instructions of the functions that the step calls: always a reading, one of the rows, and one
+    """Instructions of the functions that the step calls: always the first, one of the rows, and one
     of the updates.
     """
     counted = {f.name(): f.n_instructions() for f in step.find_functions() if f.is_a("SXFunction")}

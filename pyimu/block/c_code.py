@@ -1,4 +1,4 @@
-"""Functions of casadi in C, with the few lines of its runtime that cost time written anew."""
+"""Functions of casadi in C, with the few lines of it that cost time written anew."""
 
 from __future__ import annotations
 
@@ -23,13 +23,43 @@ instructions, and as in C the other argument stands for a NaN."""
 _IF_GIVEN = re.compile(r"arg\[(\d+)\]\? (arg\[\1\]\[\d+\]) : 0;")
 """Casadi reads an argument that is not given as zeros; here every argument is given."""
 
+_FUNCTION = re.compile(r"^(?=static int |CASADI_SYMBOL_EXPORT int )", re.MULTILINE)
+
+_COPIED = re.compile(
+    r"^  (?:if \(res\[\d+\]\) )?casadi_copy\((w\d+), \d+, ((res\[\d+\])(?:\+\d+)?)\);\n",
+    re.MULTILINE,
+)
+"""A work vector that becomes a result, or a part of one."""
+
 
 def c_code(name: str, functions: Iterable[ca.Function]) -> str:
-    """The C of ``functions``, as casadi writes it for a file ``name``."""
+    """The C of ``functions``, as casadi writes it for a file ``name``.
+
+    Whoever calls them gives every argument, and results places that are none of the arguments'.
+    """
     generator = ca.CodeGenerator(name)
     for function in functions:
         generator.add(function)
     text = generator.dump()
     for line, faster in FASTER.items():
         text = text.replace(line, faster)
-    return _IF_GIVEN.sub(r"\2;", text)
+    functions_in_c = _FUNCTION.split(_IF_GIVEN.sub(r"\2;", text))
+    return "".join(_in_place(function) for function in functions_in_c)
+
+
+def _in_place(function: str) -> str:
+    """A function in C whose results are made where they belong, and not copied there.
+
+    That is so for a work vector that becomes one result, and is only read after that. A result that
+    nobody asks for has no place, and is made in the work vector.
+    """
+    for copy in _COPIED.finditer(function):
+        vector, place, result = copy.groups()
+        own = re.compile(rf"\*{vector}=(w\+\d+)(?=[,;])")
+        used = rf"(?<!\w){vector}(?!\w)"
+        after = function.partition(copy[0])[2]
+        read = re.findall(rf"(?:cs!?=|arg\d*\[\d+\]=){used}", after)
+        if own.search(function) and len(read) == len(re.findall(used, after)):
+            function = function.replace(copy[0], "", 1)
+            function = own.sub(rf"*{vector}={result} ? {place} : \1", function, count=1)
+    return function

@@ -22,8 +22,9 @@ def kept(after, before):
     return ca.if_else(is_number(after), after, before)
 
 
-FADED = 1e-100
-"""What is smaller, in any unit, is zero."""
+FADED = 1e-60
+"""What is smaller, in any unit, is zero. Its square is no denormal number, nor is that of what it
+fades to before it is looked at again."""
 
 
 def faded(memory):

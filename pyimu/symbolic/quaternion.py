@@ -131,11 +131,16 @@ def to_euler(q):
     Pitch is an arc tangent, not an arc sine: it keeps its digits close to +-pi/2, and needs no
     clamp.
     """
+    return ca.vertcat(*[ca.atan2(*sides) for sides in euler_sides(q)])
+
+
+def euler_sides(q) -> tuple:
+    """The pairs (y, x) of which roll, pitch and yaw are the arc tangents."""
     w, x, y, z = (q[i] for i in range(4))
     forward_east, forward_north = 1 - 2 * (y * y + z * z), 2 * (x * y + w * z)
     level = ca.sqrt(forward_east * forward_east + forward_north * forward_north)
-    return ca.vertcat(
-        ca.atan2(2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
-        ca.atan2(2 * (w * y - x * z), level),
-        ca.atan2(forward_north, forward_east),
+    return (
+        (2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
+        (2 * (w * y - x * z), level),
+        (forward_north, forward_east),
     )

@@ -81,8 +81,8 @@ def filtered(block, world: Drive, speed, seed: int, told=True, until=ROWS, **set
 
 
 def test_pushes_and_turns_do_not_tilt_a_vehicle_whose_speed_is_known(block):
-    """The squared error of tilt and bias over the claimed variances is chi-square, up to what
-    accelerations beside the drive's are allowed for: these are none here.
+    """The squared error of the tilt over the claimed variance is chi-square: what accelerates a
+    body of known speed is in its force, and nothing is allowed for beside that.
     """
     world, speed = vehicle()
     draws, at, squares = 20, np.array([1500, 3000, 4500, 5999]), []
@@ -98,6 +98,7 @@ def test_pushes_and_turns_do_not_tilt_a_vehicle_whose_speed_is_known(block):
         assert shown < 0.5
     total = np.sum(squares, axis=0)
     assert np.all(total < chi2.ppf(1 - 1e-4 / len(at), 2 * draws))
+    assert np.all(total > chi2.ppf(1e-4 / len(at), 2 * draws))
     without, _, _ = filtered(block, world, speed, 0, told=False)
     lost = error(output(block, without, "q"), world.attitude)[1000:]
     assert np.degrees(np.sqrt(np.mean(np.sum(lost[:, :2] ** 2, axis=1)))) > 1.5
@@ -187,8 +188,7 @@ def test_a_speed_without_a_usable_variance_is_none(block, bad):
 def test_turns_at_a_known_speed_show_the_bias_about_the_vertical(block):
     """A turn of a body at the speed v has the force w v across, so that an error of its rate shows
     where v changes, and with it the heading is known better than by the gyro's first bias: heading
-    and bias are as far off as is claimed, by chi-square, up to what slip and accelerations beside
-    the drive's are allowed for: these are none here.
+    and bias are as far off as is claimed, by chi-square.
     """
     world, speed = vehicle()
     draws, squares = 20, []
@@ -201,6 +201,17 @@ def test_turns_at_a_known_speed_show_the_bias_about_the_vertical(block):
         squares.append([turned[2] ** 2 / heading**2, off[2] ** 2 / std[5] ** 2])
     total = np.sum(squares, axis=0)
     assert np.all(total < chi2.ppf(1 - 1e-4, draws)) and np.all(total > chi2.ppf(1e-4, draws))
+
+
+def test_what_accelerates_a_body_of_known_speed_is_in_its_force():
+    """Only the accelerometer's noise adds to the errors of its velocity, no acceleration beside."""
+    world, speed = vehicle(500)
+    noise = []
+    for accel_std in (0.01, 0.5):
+        rows = filtered(recorded_ukf(part()), world, speed, 2, accel_std=accel_std)[0]
+        recorded = [Passed.unpack(ca.SX(ca.DM(row))) for row in rows[50::50]]
+        noise.append([numbers(row.transition.velocity) for row in recorded])
+    np.testing.assert_array_equal(*noise)
 
 
 def test_the_errors_of_a_driven_body_change_as_a_smoother_is_told():

@@ -112,6 +112,26 @@ def test_compiled_step_equals_the_virtual_machine_bit_for_bit(block):
     np.testing.assert_array_equal(state, last)
 
 
+def test_a_result_that_nobody_asks_for_is_made_nowhere():
+    """One function calls another for one of its two results, each a vector that is copied out."""
+    x = ca.MX.sym("x", 40)
+    squares, chosen = ca.sqrt(x * x + 1), ca.MX(x)
+    chosen[3] = squares[5]
+    inner = ca.Function("inner", [x], [squares, chosen], {"never_inline": True})
+    symbols = [ca.MX.sym(n, k) for n, k in (("s", 40), ("u", 2), ("p", 1), ("w", 2), ("h", 1))]
+    s, u = symbols[:2]
+    outer = ca.Function("outer", [s], [inner(s)[1]], {"never_inline": True})
+    step = ca.Function("step", symbols, [outer(s), u + inner(s)[0][:2] + inner(u[0] + s)[1][:2]])
+    block = replace(toy(), step=step)
+    u, start = np.random.default_rng(4).standard_normal((300, 2)), np.arange(40.0)
+    last, want = start.copy(), np.empty((300, 2))
+    step_through(step, last, u, block.start, np.zeros((300, 2)), np.array([0.01]), want)
+    assert native.compiled(step, 300) is not None
+    y, state = block.run(u, state=start)
+    np.testing.assert_array_equal(y, want)
+    np.testing.assert_array_equal(state, last)
+
+
 def test_greater_and_lesser_of_nan_infinity_and_zeros_are_those_of_the_virtual_machine():
     values = [np.nan, np.inf, -np.inf, 0.0, -0.0, 1.0, -1.0]
     u = np.array([(a, b) for a in values for b in values])

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{6f4e2f4b-2c94-d564-0bf5-1b7713fdc2ec}"
-#define MODEL_TOKEN_FMI3 "{905c4ee9-7acb-e78c-63ee-86d191b9af72}"
+#define MODEL_TOKEN_FMI2 "{2008a6d9-aa8a-bada-d4f3-71c656b868d7}"
+#define MODEL_TOKEN_FMI3 "{d12af318-c878-fc5e-74db-50a8d5e34ea4}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -22,7 +22,7 @@ enum {
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 44, WORK_RES = 28, WORK_IW = 0, WORK_W = 2437 };
+enum { WORK_ARG = 44, WORK_RES = 28, WORK_IW = 0, WORK_W = 2420 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };

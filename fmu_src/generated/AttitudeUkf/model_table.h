@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{07ba04bf-2443-7412-4672-c579f84c9332}"
-#define MODEL_TOKEN_FMI3 "{ad693213-e378-3371-8073-3f1d52dd61fe}"
+#define MODEL_TOKEN_FMI2 "{0796ce4d-ca19-cd04-b7ee-b9faeb4a126f}"
+#define MODEL_TOKEN_FMI3 "{c004a219-e90c-0220-8160-35878200172d}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -22,7 +22,7 @@ enum {
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 44, WORK_RES = 28, WORK_IW = 0, WORK_W = 2437 };
+enum { WORK_ARG = 44, WORK_RES = 28, WORK_IW = 0, WORK_W = 2420 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{6c6ff24f-dbe4-c9cb-105e-6422f76d7d18}"
-#define MODEL_TOKEN_FMI3 "{c97b302e-1a14-5866-9578-bbe9f938680c}"
+#define MODEL_TOKEN_FMI2 "{5dc757b7-fe2b-005e-d9c7-1d9d5df7bdff}"
+#define MODEL_TOKEN_FMI3 "{bac347f3-4b80-77d4-755d-ab8f9806ae07}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

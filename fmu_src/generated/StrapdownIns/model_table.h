@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{058266e7-461e-25a9-0b87-a7c30b6fa31d}"
-#define MODEL_TOKEN_FMI3 "{bbcaee19-2730-f242-6909-8f57be0c54a2}"
+#define MODEL_TOKEN_FMI2 "{ba93088d-6464-95dc-818e-3eabb69f233f}"
+#define MODEL_TOKEN_FMI3 "{7395a454-6e50-38e0-6f5f-89a5d45d0d95}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

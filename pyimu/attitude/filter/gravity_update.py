@@ -203,7 +203,8 @@ def constant_variance(size: GravitySize, settings: Settings):
 def push(memory: Memory, sample: Sample, settings: Settings, h, resting) -> Push:
     """What the sample changes of the velocity.
 
-    Pushes that last are none where the body is ``resting``, 0 or 1. A force that is lost is taken
+    Pushes that last are none where the body is ``resting``, 0 or 1, and no acceleration is unknown
+    where the velocity is that of a speed: it is in the force. A force that is lost is taken
     for gravity, with the scatter that it had: for as long as the body may keep an acceleration the
     unknown change of the velocity grows as its time.
     """
@@ -213,10 +214,13 @@ def push(memory: Memory, sample: Sample, settings: Settings, h, resting) -> Push
     lost_for = ca.fmin(ca.fmax(MEAN_TIME - memory.mean.span, 0), at["motion_time"])
     lost = memory.mean.scatter * (1 + 2 * lost_for * reciprocal(h))
     drift = (1 - resting) * DRIFT_GAIN * memory.motion.drift * h / (at["motion_time"] + h)
+    unknown = h**2 * declared + drift
+    if sample.driven is not False:
+        unknown *= 1 - sample.driven
     return Push(
         where(valid, h * sample.force),
         where(valid, h * memory.size.size),
-        h**2 * (where(valid, white, lost) + declared) + drift,
+        h**2 * where(valid, white, lost) + unknown,
         sample.driven,
     )
 

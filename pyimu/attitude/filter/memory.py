@@ -32,8 +32,8 @@ ESTIMATE = 56
 covariance (21), velocity (3), its covariance with them (18) and its own upper triangle (6), and the
 sum in rad of all corrections of yaw by headings."""
 
-FADING = slice(4, 49)
-"""Of these numbers those that may fade on a body that stands: bias, velocity, and covariances."""
+FADING = slice(0, ESTIMATE - 1)
+"""Of these numbers those that may fade on a body that stands, all but that sum."""
 
 REPORTED = 7
 """Numbers by which the updates report: gravity's normalised innovation squared and whether it
@@ -108,12 +108,13 @@ class Memory:
         """The same without the velocity."""
         return Estimate(column[:4], column[4:7], ca.SX(0, 1), unpack(column[7:28], N))
 
-    def pack_memory(self) -> ca.SX:
-        """All but the estimate as a column."""
+    def pack_memory(self, without_faded: bool = True) -> ca.SX:
+        """All but the estimate as a column; ``without_faded``, what has faded is zero in it."""
+        kept = faded if without_faded else lambda value: value
         quasi = (self.quasi.magnitude, self.quasi.variance)
         size = (self.size.size, self.size.learnt, self.size.doubted)
-        mean = (faded(self.mean.force), faded(self.mean.scatter), self.mean.span)
-        slow, drift = faded(self.motion.slow), faded(self.motion.drift)
+        mean = (kept(self.mean.force), kept(self.mean.scatter), self.mean.span)
+        slow, drift = kept(self.motion.slow), kept(self.motion.drift)
         motion = (self.motion.across, self.motion.along, slow, drift)
         sensors = (self.held, self.lost_for, self.same_for, self.sensors)
         still = self.stillness.pack()

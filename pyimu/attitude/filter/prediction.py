@@ -276,11 +276,18 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
         field,
     )
     working = ca.vertcat(Memory.pack_estimate(x), at.estimate[ESTIMATE - 1], ca.SX.zeros(REPORTED))
-    working[FADING] = faded(working[FADING])
+    if sample.faded:
+        working[FADING] = faded(working[FADING])
     flags = _flags(at, sample, rest, x, force, field, vertical_noise)
     was = kept.speed_for < HOLD
     flags = flags.with_speed(speed, driven, was + driven - 2 * was * driven)
-    return [working, after.pack_memory(), sample.rate, force.measurement.pack(), flags.pack()]
+    return [
+        working,
+        after.pack_memory(sample.faded),
+        sample.rate,
+        force.measurement.pack(),
+        flags.pack(),
+    ]
 
 
 def _flags(

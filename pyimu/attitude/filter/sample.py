@@ -2,7 +2,9 @@
 
 Nearly every row is ordinary: all numbers are finite, inside the sensors' ranges, and not the same
 for too long, and no speed is known. One comparison for all of them together finds that out, so that
-only the few other rows take the time of being looked at number by number.
+only the few other rows take the time of being looked at number by number. One row of each turn of
+the rings (``pyimu.attitude.filter.late_heading``) is no ordinary one, so that what fades in memory
+is looked at long before it is a denormal number.
 """
 
 from __future__ import annotations
@@ -37,7 +39,8 @@ class Sample:
     row, ``same_for`` (8,) and ``lost_for`` (3,) are those of ``Memory``. ``gyro_lost`` (3,) marks
     the axes without a rate, ``force_valid`` whether the force can be used. ``driven`` says that
     the velocity of the body is that of a speed. ``missing``, ``at_limit`` and ``stuck`` make the
-    status. What is known beforehand of an ordinary row is a Python value, and costs nothing in the
+    status. With a row that is looked at closely, what has ``faded`` from memory becomes zero.
+    What is known beforehand of an ordinary row is a Python value, and costs nothing in the
     generated code.
     """
 
@@ -50,6 +53,7 @@ class Sample:
     gyro_lost: ca.SX | bool = False
     force_valid: ca.SX | bool = True
     driven: ca.SX | bool = False
+    faded: bool = True
     missing: ca.SX | float = 0
     at_limit: ca.SX | float = 0
     stuck: ca.SX | float = 0
@@ -85,12 +89,13 @@ def read(
         * (ca.dot(_beyond(same_for, settings), _stuck_times(settings)) <= 0)
         * (1 - _before_the_first(raw, memory))
         * (memory.speed_for >= HOLD)
+        * (ca.sum1(memory.place) > 0)
     )
     if compensation.start:
         ordinary = ordinary * (ca.sumsqr(sensors) <= LARGEST_KEPT)
     if not lost.is_zero():
         ordinary = ordinary * (lost <= 0)
-    return Sample(raw, rate, force, sensors, same_for, ca.SX.zeros(3)), ordinary
+    return Sample(raw, rate, force, sensors, same_for, ca.SX.zeros(3), faded=False), ordinary
 
 
 def look_closely(compensation: Compensation, memory: Memory, u, settings: Settings, h) -> Sample:

@@ -33,7 +33,7 @@ from pyimu.attitude.filter.layout import GRAVITY, Flags, GravityMeasurement, Lay
 from pyimu.attitude.filter.memory import ESTIMATE, WORKING, Memory
 from pyimu.attitude.filter.passed import PASSED, Transition, passed
 from pyimu.attitude.filter.prediction import ARGUMENTS, Instant, added_noise, predicted, rest_of
-from pyimu.attitude.filter.sample import Sample, look_closely, raw_of, read
+from pyimu.attitude.filter.sample import Sample, look_closely, read
 from pyimu.attitude.filter.updates import (
     after_gravity,
     bounded_where_lost,
@@ -112,34 +112,16 @@ def _predict(layout: Layout, recorded: bool = False) -> ca.Function:
     An ordinary sample is taken as it was read; any other is looked at number by number.
     """
     symbols = layout.symbols(ca.SX, ARGUMENTS)
-    at, reading = Instant.of(layout, symbols), _reading(layout, symbols)
-    packed = ca.SX.sym("reading", reading.numel_out(0))
-    closely = look_closely(layout.compensation, at.memory, at.u, at.settings, at.h)
-    ordinary, other = (
-        _row(name, at, sample, [*symbols, packed], recorded)
-        for name, sample in (
-            ("ordinary_row", _unpacked(layout, packed, at.u)),
-            ("other_row", closely),
-        )
-    )
-    given = layout.symbols(ca.MX, ARGUMENTS)
-    sample, is_ordinary = reading(*given)
-    outputs = ca.Function.if_else("row", ordinary, other)(is_ordinary, *given, sample)
-    return ca.Function("predict", given, list(outputs), {"always_inline": True})
-
-
-def _reading(layout: Layout, symbols: list[ca.SX]) -> ca.Function:
-    """The sample as if it were ordinary, packed, and whether it is."""
     at = Instant.of(layout, symbols)
-    sample, ordinary = read(layout.compensation, at.memory, at.u, at.settings, at.h)
-    packed = ca.densify(ca.vertcat(sample.rate, sample.force, sample.same_for, sample.sensors))
-    return ca.Function("reading", symbols, [packed, ordinary], OPTIONS)
-
-
-def _unpacked(layout: Layout, reading, u) -> Sample:
-    """The ordinary sample that ``_reading`` packed."""
-    raw = raw_of(layout.compensation, u)
-    return Sample(raw, reading[:3], reading[3:6], reading[14:], reading[6:14], ca.SX.zeros(3))
+    given = (layout.compensation, at.memory, at.u, at.settings, at.h)
+    sample, is_ordinary = read(*given)
+    # What this reads is read again by the row: handed over, a processor would wait for it.
+    whether = ca.Function("is_ordinary", symbols, [is_ordinary], OPTIONS)
+    rows = {"ordinary_row": sample, "other_row": look_closely(*given)}
+    row = ca.Function.if_else("row", *(_row(n, at, s, symbols, recorded) for n, s in rows.items()))
+    given = layout.symbols(ca.MX, ARGUMENTS)
+    outputs = row(whether(*given), *given)
+    return ca.Function("predict", given, list(outputs), {"always_inline": True})
 
 
 def _row(

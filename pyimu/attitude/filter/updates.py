@@ -16,6 +16,7 @@ from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.speed_update import by_speed, velocity_anew
 from pyimu.attitude.filter.unscented import Estimate, N, bounded, bounded_tilt
 from pyimu.symbolic import quaternion
+from pyimu.symbolic.arc_tangent import arc_tangent
 from pyimu.symbolic.linear import reciprocal, symmetric
 
 OPTIONS = {"cse": True}
@@ -118,7 +119,8 @@ def finish() -> ca.Function:
     """
     given, packed = ca.SX.sym("x", WORKING), ca.SX.sym("flags", FLAGS)
     x, flags = Memory.estimate_of(given), Flags.unpack(packed)
-    q = x.q * reciprocal(ca.norm_2(x.q))
+    # Of unit length but for rounding, so that one step of Newton's for 1 / |q| does it.
+    q = x.q * (1.5 - 0.5 * ca.sumsqr(x.q))
     nis, *report = ca.vertsplit(given[ESTIMATE:])
     status = _status(flags, report, ca.diag(x.covariance)[:N])
     found = flags.quasi_static, nis * flags.quasi_static, status, flags.at_rest
@@ -156,6 +158,6 @@ def outputs(x: Estimate, quasi_static, nis, status, at_rest, constant=0) -> ca.S
     added = [constant * (1 - up[i] ** 2) for i in range(3)] + [0] * 3
     std = [ca.sqrt(ca.fmax(x.covariance[i, i], 0) + added[i]) for i in range(6)]
     heading_std = ca.sqrt(ca.fmax(ca.dot(up, pp @ up), 0))
-    angles = quaternion.to_euler(x.q)
+    angles = ca.vertcat(*[arc_tangent(*sides) for sides in quaternion.euler_sides(x.q)])
     flags = (quasi_static, nis, status, heading_std, at_rest)
     return ca.densify(ca.vertcat(x.q, angles, x.bias, *std, *flags))
