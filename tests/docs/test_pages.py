@@ -120,6 +120,7 @@ def test_every_effect_is_found_by_a_symptom_and_none_that_is_not():
 RUN = {
     "README.md": "docs/test_readme.py",
     "docs/attitude.md": "docs/test_attitude_page.py",
+    "docs/close.md": "docs/test_close_page.py",
     "docs/api.md": "docs/test_site.py",  # signatures: the page is what the package says
     "docs/noise.md": "docs/test_readme.py",
     "docs/simulators.md": "docs/test_simulators_page.py",
