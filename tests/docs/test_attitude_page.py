@@ -28,7 +28,7 @@ def test_the_tables_are_fresh():
     assert attitude_page.filled(TEXT.replace("| `slip_std` |", "| `slip` |")) == TEXT
 
 
-@pytest.mark.parametrize("name", {v.name.partition("[")[0] for v in SETTINGS})
+@pytest.mark.parametrize("name", sorted({v.name.partition("[")[0] for v in SETTINGS}))
 def test_every_setting_is_in_the_table(name):
     assert re.search(rf"^\| `{name}(\[1\.\.6\])?` \|", TEXT, re.MULTILINE)
 
