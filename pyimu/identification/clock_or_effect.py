@@ -6,7 +6,7 @@ log alike. What the search finds beside each is the evidence.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 
 from pyimu.identification.fit.maximum_likelihood import advantage
 from pyimu.identification.fit.trial import Trial
@@ -16,9 +16,9 @@ from pyimu.identification.search.screen import PENALTY
 from pyimu.model.catalogue import CATALOGUE
 
 
-def _is_doubtful(trials: Iterable[Trial]) -> bool:
-    """Whether some clock may only look as if it drifted."""
-    return any(t.clock is not None and t.clock.doubtful for t in trials)
+def _is_doubtful(trial: Trial) -> bool:
+    """Whether the clock of a trial's reference may only look as if it drifted."""
+    return trial.clock is not None and trial.clock.doubtful
 
 
 def likelier_clock(one: Look, keeps: Callable[[], Look]) -> Look:
@@ -26,7 +26,7 @@ def likelier_clock(one: Look, keeps: Callable[[], Look]) -> Look:
     something to find, the likelier of it and of what is found beside one that ``keeps`` its lag.
     """
     inv = one.investigation
-    if _is_clean(one) or not _is_doubtful([*inv.before.trials, *inv.held]):
+    if _is_clean(one) or not any(map(_is_doubtful, (*inv.before.trials, *inv.held))):
         return one
     _forget(one)
     other = keeps()
@@ -53,7 +53,7 @@ def _ahead(one: Look, other: Look) -> float:
     """Log-likelihood [nat], penalised, by which a clock that drifts explains more with what was
     found beside it; its offset is one coefficient of each log that is fitted.
     """
-    lines = sum(t.clock is not None and t.clock.doubtful for t in one.investigation.after.trials)
-    count, others = (sum(len(s.keys) for s in v.investigation.steps) for v in (one, other))
-    apart = advantage(one.investigation.after, other.investigation.after)
-    return apart - PENALTY * (count + lines - others)
+    drifts, keeps = one.investigation, other.investigation
+    lines = sum(map(_is_doubtful, drifts.after.trials))
+    more = drifts.brought_in + lines - keeps.brought_in
+    return advantage(drifts.after, keeps.after) - PENALTY * more

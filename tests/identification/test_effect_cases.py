@@ -8,18 +8,26 @@ from effect_results.record import closed
 MINUTES = 6.0, 9.0
 
 
-@pytest.mark.parametrize("kind", ["accel", "gyro"])
-def test_a_dead_zone_whose_zeros_one_axis_shows_is_looked_for_on_the_others(kind):
-    """On each within four standard errors: 1 in 16,000 by chance."""
-    made = make(f"one/30/{kind}.dead_zone", 0, MINUTES)
+def named_alone(name: str, number: int, parameter: str):
+    """Closes the loop on a case, whose effect must be all that is added: true values, those found,
+    and their standard errors.
+    """
+    made = make(name, number, MINUTES)
     (truth,) = made.truths
     found = closed(made)
     (added,) = found.added
-    assert added.effect == "dead_zone", found.report()
-    value, std, _ = added.parameters["d"]
-    assert np.array_equal(value > 0.0, truth.value > 0.0)
-    there = truth.value > 0.0
-    assert np.all(np.abs(value - truth.value)[there] < 4.0 * std[there])
+    assert added.effect == truth.effect, found.report()
+    value, std, _ = added.parameters[parameter]
+    return truth.value, value, std
+
+
+@pytest.mark.parametrize("kind", ["accel", "gyro"])
+def test_a_dead_zone_whose_zeros_one_axis_shows_is_looked_for_on_the_others(kind):
+    """On each within four standard errors: 1 in 16,000 by chance."""
+    true, value, std = named_alone(f"one/30/{kind}.dead_zone", 0, "d")
+    assert np.array_equal(value > 0.0, true > 0.0)
+    there = true > 0.0
+    assert np.all(np.abs(value - true)[there] < 4.0 * std[there])
 
 
 def test_an_element_that_is_not_shown_does_not_take_its_effect_along():
@@ -41,13 +49,8 @@ def test_an_effect_that_was_taken_for_a_walk_comes_out_of_it_whole():
     """Fitted in turn with its noise three times it stood at 0.280 m/s^2 s/K of 0.314, and what it
     left was named vibration_line; four standard errors: 1 in 16,000 by chance.
     """
-    made = make("size1/accel.temperature_rate", 4, MINUTES)
-    (truth,) = made.truths
-    found = closed(made)
-    (added,) = found.added
-    assert added.effect == "temperature_rate", found.report()
-    value, std, _ = added.parameters["kd"]
-    assert np.all(np.abs(value - truth.value) <= 4.0 * std)
+    true, value, std = named_alone("size1/accel.temperature_rate", 4, "kd")
+    assert np.all(np.abs(value - true) <= 4.0 * std)
 
 
 def test_what_left_out_elements_of_an_effect_do_is_no_other_effect():
@@ -78,14 +81,9 @@ def test_a_play_is_not_refused_for_having_forgotten_the_fitted_rows():
     """Begun anew where the held-out rows begin it raised their error by 0.44 %, eight standard
     errors, and a bias_step was named in its place.
     """
-    made = make("size1/accel.thermal_hysteresis", 6, MINUTES)
-    (truth,) = made.truths
-    found = closed(made)
-    (added,) = found.added
-    assert added.effect == "thermal_hysteresis", found.report()
-    value, std, _ = added.parameters["kh"]
+    true, value, std = named_alone("size1/accel.thermal_hysteresis", 6, "kh")
     # Four standard errors: 1 in 16,000 by chance.
-    assert np.all(np.abs(value - truth.value) < 4.0 * std + 1e-12)
+    assert np.all(np.abs(value - true) < 4.0 * std + 1e-12)
 
 
 def test_what_a_stronger_effect_that_was_refused_explains_is_no_weaker_one():

@@ -222,7 +222,7 @@ def _beside(
     spread = fitted_dispersion(own, keys)
     gain = fitted_gain(own, beside.after.sensor, keys)
     apart = advantage(beside.after, inv.after)
-    ahead = apart / spread - PENALTY * (len(keys) + _count(beside) - _count(inv))
+    ahead = apart / spread - PENALTY * (len(keys) + beside.brought_in - inv.brought_in)
     seen = evidence(inv.after, beside.after, inv.held)
     kept = _left(chosen, seen)
     if gain <= needed or ahead <= needed + DISPLACES * _displaced(inv, beside):
@@ -260,11 +260,6 @@ def _displaced(inv: Investigation, beside: Investigation) -> float:
 
 def _parted(chosen) -> tuple[tuple[Term, ...], tuple[tuple[int, ...], ...]]:
     return tuple(t for t, _ in chosen), tuple(a for _, a in chosen)
-
-
-def _count(inv: Investigation) -> int:
-    """Coefficients that the steps of an investigation brought in."""
-    return sum(len(s.keys) for s in inv.steps)
 
 
 def _confirmed(seen: Evidence) -> bool:

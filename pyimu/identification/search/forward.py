@@ -105,6 +105,11 @@ class Investigation:
     unfit: str = ""
     believed: bool = False
 
+    @property
+    def brought_in(self) -> int:
+        """Coefficients that its steps brought in."""
+        return sum(len(s.keys) for s in self.steps)
+
 
 def investigate(
     sensor: Sensor,
