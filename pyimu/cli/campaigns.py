@@ -7,10 +7,18 @@ from typing import Annotated
 
 import typer
 
-from pyimu.cli.options import Out, progress, radians
+from pyimu.cli.options import (
+    Json,
+    Out,
+    PartName,
+    Quiet,
+    check_told,
+    progress,
+    radians,
+    tell,
+)
 from pyimu.errors import UserError
 
-PartName = Annotated[str, typer.Argument(help="Built-in part or a TOML file.", show_default=False)]
 DriveName = Annotated[
     str, typer.Option("--drive", help="turn-on-spot, straight, obstacle, ackermann or sol.")
 ]
@@ -84,6 +92,8 @@ def campaign_command(
     body: Body = None,
     terrains: Terrains = 4,
     number: Number = None,
+    as_json: Json = False,
+    quiet: Quiet = False,
 ) -> None:
     """Example: pyimu campaign imt30 --drive turn-on-spot --runs 1000 --out out/campaign
 
@@ -98,6 +108,7 @@ def campaign_command(
     from pyimu.rover.campaign.settings import Settings
     from pyimu.rover.campaign.sol import sols
 
+    check_told(as_json, quiet)
     if sol and (heading_every or number is not None or drive not in ("turn-on-spot", "sol")):
         raise UserError("--sol goes without --drive, --heading-every and --run: it sets them")
     settings = Settings(
@@ -115,10 +126,11 @@ def campaign_command(
     if number is not None:
         with progress(f"run {number}"):
             folder = repeat(settings, number, out)
-        print(f"log: {folder / 'log.parquet'}, picture: {folder / 'errors.png'}")
+        made = f"log: {folder / 'log.parquet'}, picture: {folder / 'errors.png'}"
+        data = (folder / "run.json").read_text
+        tell(lambda: made, data, as_json=as_json, quiet=quiet)
         return
     with progress("preparing") as say:
         go = sols if sol else run
         done = go(settings, runs, out, scheduler=scheduler, workers=workers, say=say)
-    print(done.report())
-    print(done.where)
+    tell(done.report, done.data.read_text, [done.where], as_json=as_json, quiet=quiet)

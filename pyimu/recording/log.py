@@ -159,8 +159,8 @@ class Log:
             )
         if kept < LEAST_ROWS:
             raise UserError(
-                f"{self.path}: {kept} rows behind rows of zeros, a recording needs at least "
-                f"{LEAST_ROWS}"
+                f"{self.path}: a recording needs at least {LEAST_ROWS} rows, and behind rows of "
+                f"zeros this one has {kept}"
             )
 
     def _whole(self, passing: Rows) -> Iterator[Batch]:

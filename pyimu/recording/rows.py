@@ -196,8 +196,8 @@ class Rows:
             yield time, self._grouped(values), share
         if self.kept < LEAST_ROWS:
             raise UserError(
-                f"{self.source.header.path}: {self.kept} rows of data, a recording needs at least "
-                f"{LEAST_ROWS}"
+                f"{self.source.header.path}: a recording needs at least {LEAST_ROWS} rows of data, "
+                f"this one has {self.kept}"
             )
         self._tally.add(self._raw.findings())
 

@@ -188,6 +188,18 @@ def test_a_command_that_is_killed_goes_on_where_it_was(whole, tmp_path):
     assert table_of(tmp_path) == table_of(whole)
 
 
+@pytest.mark.parametrize("more, file", [([], "report.json"), (["--run", "3"], "run.json")])
+def test_the_command_prints_its_json_alone_or_nothing(whole, tmp_path, pyimu, more, file):
+    words = ["campaign", "imt30", "--rate", "25", "--terrains", "1", "--workers", "0"]
+    words += ["--runs", str(RUNS), "--out", str(tmp_path / "out"), *more]
+    if not more:
+        shutil.copytree(whole, tmp_path / "out")
+    code, out, _ = pyimu(*words, "--json")
+    (written,) = tmp_path.rglob(file)
+    assert (code, json.loads(out)) == (0, json.loads(written.read_text()))
+    assert pyimu(*words, "--quiet")[:2] == (0, "")
+
+
 def test_the_report_is_of_the_table(whole):
     report = json.loads((whole / "report.json").read_text())
     assert report["runs"] == RUNS

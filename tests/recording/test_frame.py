@@ -50,7 +50,7 @@ def test_a_recording_and_a_path_are_themselves(tmp_path):
         (frame(**{"accel_x [g]": "much"}), "frame: column accel_y is missing"),
         (frame(**{f"accel_{a} [g]": "much" for a in "xyz"}), "column accel_x [g] holds "),
         (frame().iloc[::-1], "frame: row 1 from 0: the time runs backwards"),
-        (frame(2), "frame: 2 rows of data"),
+        (frame(2), "frame: a recording needs at least 3 rows of data, this one has 2"),
         (np.zeros((5, 3)), "a ndarray is no recording"),
         (None, "a NoneType is no recording"),
     ],

@@ -170,9 +170,9 @@ def test_stamps_coarser_than_the_period_are_named(kind, said, tmp_path):
             GYRO + "0,1,2,3\n0.02,4,5,6\n\n0.01,7,8,9\n",
             "row 5: the time runs backwards, 0.01 s follows 0.02 s",
         ),
-        (GYRO + "0,1,2,3\n0.01,4,5,6\n", "2 rows of data, a recording needs at least 3"),
-        (GYRO, "0 rows of data"),
-        (GYRO + "0,1,2,3\n0,1,2,3\n0.01,1,2,3\n", "2 rows of data"),
+        (GYRO + "0,1,2,3\n0.01,4,5,6\n", "needs at least 3 rows of data, this one has 2"),
+        (GYRO, "this one has 0"),
+        (GYRO + "0,1,2,3\n0,1,2,3\n0.01,1,2,3\n", "this one has 2"),
     ],
 )
 def test_refused_in_one_line_that_names_the_place(write, text, says):

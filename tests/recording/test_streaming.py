@@ -243,7 +243,7 @@ def test_error_comes_where_it_stands(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "rows, says", [(0, "0 rows of data"), (2, "2 rows of data, a recording needs at least 3")]
+    "rows, says", [(0, "this one has 0"), (2, "needs at least 3 rows of data, this one has 2")]
 )
 def test_too_short_log_is_refused_when_opened(rows, says, tmp_path):
     (tmp_path / "log.csv").write_text(text_of(faulty_rows()[:rows]))

@@ -103,7 +103,7 @@ def test_zeros_of_one_sensor_alone_are_samples(log):
 
 
 def test_too_few_samples_behind_the_zeros_are_refused(log):
-    with pytest.raises(UserError, match="2 rows behind rows of zeros"):
+    with pytest.raises(UserError, match="behind rows of zeros this one has 2"):
         read_recording(log(samples(ASLEEP, ASLEEP + 2)))
 
 

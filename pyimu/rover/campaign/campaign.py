@@ -41,6 +41,11 @@ class Done:
         """Where table and report are."""
         return f"table: {self.folder.runs}, report: {self.folder.page}"
 
+    @property
+    def data(self) -> Path:
+        """The file that has the report as JSON."""
+        return self.folder.data
+
 
 def run(
     settings: Settings,

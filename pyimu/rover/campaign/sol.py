@@ -24,6 +24,8 @@ class Sols:
     """The campaigns of the claim by the names of their folders."""
 
     done: dict[str, Done]
+    data: Path
+    """The file that has their shares as JSON."""
 
     def report(self) -> str:
         """The shares line by line."""
@@ -64,5 +66,6 @@ def sols(
         name: {kind: share_of(one.summary.within(kind)) for kind in ("end", "max")}
         for name, one in done.items()
     }
-    write_json(Path(out) / "sol.json", shares)
-    return Sols(done)
+    data = Path(out) / "sol.json"
+    write_json(data, shares)
+    return Sols(done, data)

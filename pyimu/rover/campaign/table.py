@@ -46,6 +46,10 @@ class Folder:
     def page(self) -> Path:
         return self.path / "report.html"
 
+    @property
+    def data(self) -> Path:
+        return self.path / "report.json"
+
     def check(self) -> None:
         """Raise UserError where the folder holds another campaign, or cannot be written to."""
         check_folder(self.path)

@@ -14,6 +14,6 @@ from pyimu.rover.campaign.table import Folder
 def deliver(folder: Folder) -> Summary:
     """Write ``report.json`` and ``report.html`` of the table in a folder."""
     summary = Summary(parquet.read_table(folder.runs))
-    write_json(folder.path / "report.json", contents(folder.settings, summary))
+    write_json(folder.data, contents(folder.settings, summary))
     write_text(folder.page, page(folder.settings, summary))
     return summary
