@@ -28,6 +28,7 @@ from pyimu.identification.fit.incoherent import (
     unseen_spectra,
 )
 from pyimu.identification.fit.noise_floor import (
+    QUIET,
     WINDOW,
     beyond_own,
     lowness,
@@ -203,6 +204,29 @@ def _high(trial: Trial, values: np.ndarray) -> np.ndarray:
     """Root mean square (3,) of third differences of values (n, 3), in their quietest quarter."""
     rough = _third_differences(trial, values)
     return np.nan_to_num([np.sqrt(quiet(w)) if len(w) else 0.0 for w in rough])
+
+
+def sensor_white(trial: Trial, left: np.ndarray) -> np.ndarray:
+    """Variance (3,) of white noise that the sensor shows where a model leaves ``left`` (n, 3).
+
+    High differences of sensor and residual have the sensor's noise in common, and neither the
+    motion nor the reference's noise. The windows are those in which the reference is quiet: taken
+    by the sensor's own quiet they would be quieter than it is.
+    """
+    by_reference, seen, rest = (
+        _third_differences(trial, v) for v in (trial.u[:, OWN[trial.kind]], trial.y, left)
+    )
+    each = [
+        _common(*pieces) / THIRD if len(pieces[0]) else 0.0
+        for pieces in zip(by_reference, seen, rest, strict=True)
+    ]
+    return np.where(np.isin(np.arange(3), trial.axes), np.maximum(each, 0.0), 0.0)
+
+
+def _common(by: np.ndarray, one: np.ndarray, other: np.ndarray) -> float:
+    """Mean product of two signals' windows (k, m) where a third is quiet."""
+    calm = np.argsort(by.var(axis=1))[: max(1, int(len(by) * QUIET))]
+    return float(np.mean(one[calm] * other[calm]))
 
 
 def _third_differences(trial: Trial, values: np.ndarray) -> list[np.ndarray]:

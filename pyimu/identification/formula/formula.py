@@ -6,10 +6,12 @@ from dataclasses import dataclass
 
 from pyimu.identification.formula.effect import plain
 from pyimu.identification.formula.terms import Term
+from pyimu.identification.search.forward import Step
 from pyimu.model.effect import Effect
 
-TWIN = 0.98
-"""Correlation with an effect of the catalogue from which on a formula is nothing new."""
+TWIN = 0.995
+"""Correlation with an effect of the catalogue from which on a formula is nothing new, however well
+the rest is seen: a tenth of its size is less than what formulas leave out."""
 
 
 @dataclass(frozen=True)
@@ -27,10 +29,11 @@ class Formula:
     text: str
     resembles: tuple[tuple[str, float], ...] = ()
 
-    @property
-    def is_new(self) -> bool:
-        """Whether it says what no effect with a name would say in these logs."""
-        return all(r < TWIN for _, r in self.resembles)
+    def is_new(self, step: Step) -> bool:
+        """Whether it says what no effect with a name would say in these logs: what the likest one
+        leaves of its gain in the ``step`` that added it would pass the gate.
+        """
+        return all(r < TWIN and (1.0 - r**2) * step.gain > step.gate for _, r in self.resembles)
 
     @property
     def said(self) -> str:

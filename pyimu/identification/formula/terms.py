@@ -14,6 +14,7 @@ import numpy as np
 
 from pyimu.identification.fit.sample_noise import white_noise
 from pyimu.identification.fit.trial import Trial, known_to_all
+from pyimu.identification.formula.levels import SHARES, Levels
 from pyimu.model.arguments import AXES
 from pyimu.model.kinds import KINDS
 from pyimu.model.signals import COLUMNS, SIGNALS, START
@@ -68,9 +69,6 @@ HARMONICS = 4
 NAMED = frozenset({"angular_acceleration", "temperature_rate", "time"})
 """Signals of which a multiple alone is an effect of the catalogue. So is one of the rate of the
 sensor's own signal: a delay, or a clock."""
-
-LEVELS = np.linspace(0.05, 0.95, 19)
-"""Shares of the rows below the levels at which a switch is tried."""
 
 
 @dataclass(frozen=True)
@@ -267,7 +265,7 @@ def library(kind: str, trials: tuple[Trial, ...]) -> list[Term]:
         terms += [_absolute(f) for f in three]
     terms += [_absolute(f) for f in numbers]
     terms += _harmonics(moving)
-    terms += _switches(trials, moving, own, LEVELS)
+    terms += _switches(trials, moving, own)
     return list({t.text: t for t in terms}.values())
 
 
@@ -328,7 +326,7 @@ def _harmonics(moving: Mapping[str, tuple[int, ...]]) -> list[Term]:
     ]
 
 
-def _switches(trials, moving, own: str, shares: np.ndarray) -> list[Term]:
+def _switches(trials, moving, own: str) -> list[Term]:
     """A step at each of some levels of each number that moves, and of the size of a vector."""
     out = []
     for name in ("rate", "specific_force"):
@@ -337,11 +335,11 @@ def _switches(trials, moving, own: str, shares: np.ndarray) -> list[Term]:
         values = np.concatenate([t.u[a:b, COLUMNS[name]] for t in trials for a, b in t.segments])
         for i in moving[name]:
             f = _single(name, i, own)
-            out += [switch(f, level) for level in np.quantile(values[:, i], shares)]
+            out += [switch(f, level) for level in Levels.of(values[:, i]).at(SHARES)]
         if len(moving[name]) > 1:
             f = _size_of(name, own)
             sizes = np.linalg.norm(values, axis=1)
-            out += [switch(f, level) for level in np.quantile(sizes, shares)]
+            out += [switch(f, level) for level in Levels.of(sizes).at(SHARES)]
     return out
 
 

@@ -16,8 +16,8 @@ from pyimu.identification.fit.columns import band_segments, band_time, in_band, 
 from pyimu.identification.fit.doubted import CERTAIN
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.inputs import Inputs, own_rate, reference_input
-from pyimu.identification.fit.noise_floor import own_noise
-from pyimu.identification.fit.reference_noise import STEP
+from pyimu.identification.fit.noise_fit import declared_variances
+from pyimu.identification.fit.reference_noise import STEP, sensor_white
 from pyimu.identification.fit.response import predict
 from pyimu.identification.fit.trial import Trial
 from pyimu.model.kinds import OWN
@@ -37,24 +37,26 @@ class _Sums:
         return _Sums(self.own + other.own, self.effect + other.effect, self.seen + other.seen)
 
 
-def is_of_reference(old: Fit, new: Fit, seed: int = 1) -> bool:
+def is_of_reference(old: Fit, new: Fit, certain: float = CERTAIN, seed: int = 1) -> bool:
     """Whether what a ``new`` model explains beyond an ``old`` one is the noise of a doubted
-    reference: by the sensor's own signal nothing is likelier than a true effect.
+    reference: by the sensor's own signal nothing is likelier than a true effect, by more than
+    ``certain`` [nat].
     """
     rng = np.random.default_rng(seed)
     total = sum((_sums(old, new, t, rng) for t in new.trials if t.doubt), _Sums())
     if total.own <= 0.0:
         return False
     nothing = (0.5 * total.effect - total.seen) * total.effect / total.own
-    return nothing > CERTAIN
+    return nothing > certain
 
 
 def _sums(old: Fit, new: Fit, trial: Trial, rng: np.random.Generator) -> _Sums:
     state = old.states[trial.name]
     left = residual(old.sensor, trial, state)
-    noise = own_noise(old)
-    own = np.array([np.sqrt(noise[i].r) if i in noise else 0.0 for i in range(3)])
-    drawn = own * rng.standard_normal(trial.y.shape)
+    own, _ = declared_variances(old.sensor, trial.h)
+    if not own.any():
+        own = sensor_white(trial, left)
+    drawn = np.sqrt(own) * rng.standard_normal(trial.y.shape)
 
     def between(change: np.ndarray) -> np.ndarray:
         after, before = (_predicted(f, trial, change) for f in (new, old))
