@@ -14,8 +14,8 @@ from pyimu.errors import Finding
 from pyimu.recording.columns import GROUPS, column_names
 from pyimu.recording.guess.proposal import Proposal
 from pyimu.recording.recording import Recording
-from pyimu.report.findings import in_line
-from pyimu.report.numbers import quantity
+from pyimu.report.findings import grouped
+from pyimu.report.numbers import number, quantity
 
 KINDS = {
     "own": "the header names columns and units as recordings do",
@@ -76,7 +76,9 @@ class Outcome:
         if not len(seen):
             return "no numbers"
         unit = GROUPS[group].unit
-        return f"{quantity(float(seen.min()), unit)} to {quantity(float(seen.max()), unit)}"
+        ends = float(seen.min()), float(seen.max())
+        # A quaternion is no share of something.
+        return " to ".join(number(v) if unit == "1" else quantity(v, unit) for v in ends)
 
     def lines(self) -> Iterator[str]:
         """What is to be said of the log as a whole."""
@@ -90,7 +92,9 @@ class Outcome:
             yield from (f"  or: {note}" for note in proposal.notes)
         if self.recording is not None:
             yield from _of_recording(self.recording, self.rests, self.still)
-            yield from (f"  {line}" for line in in_line(in_short(self.findings)))
+            for said in grouped(in_short(self.findings)):
+                yield f"  {said.line}"
+                yield from [f"    {said.meaning}"] * bool(said.meaning)
 
     def as_dict(self) -> dict[str, Any]:
         """All of it as plain types, for JSON, in SI."""

@@ -51,7 +51,7 @@ def page(found: Outcome) -> str:
             columns=Table(head, rows),
             notes=[note for p in found.proposals for note in p.notes],
             pictures=[] if found.recording is None else _pictures(found),
-            quality=quality_table(found.findings),
+            quality=quality_table((found.path.name, found.findings)),
             column_map=found.column_map,
         )
     )

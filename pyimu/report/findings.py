@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
 from pyimu.errors import Finding
+from pyimu.report.meaning import MEANING
 from pyimu.report.numbers import number, quantity
 
 SENSORS = {"gyro": "gyro", "accel": "accelerometer"}
@@ -64,17 +66,30 @@ def detail(f: Finding) -> str:
     return ", ".join(parts)
 
 
-def grouped(findings: Iterable[Finding]) -> list[tuple[str, str, int, str]]:
-    """Findings as (kind, columns, count, detail).
+class Said(NamedTuple):
+    """A finding in words: its ``columns`` as ``gyro x, y, z``, its numbers as the ``detail``."""
 
-    Those that differ in the axis alone are one: ``gyro x, y, z``.
-    """
+    kind: str
+    columns: str
+    count: int
+    detail: str
+    meaning: str
+
+    @property
+    def line(self) -> str:
+        """All but what it means in a line for a terminal."""
+        where = f" of {self.columns}" if self.columns not in ("time", "") else ""
+        return f"{self.kind}{where}: {self.count:,}{f' ({self.detail})' if self.detail else ''}"
+
+
+def grouped(findings: Iterable[Finding]) -> list[Said]:
+    """Findings in words; those that differ in the axis alone are one."""
     rows: dict[tuple, list[Finding]] = {}
     for f in findings:
         sensor = f.column.partition("_")[0] if f.column.startswith(tuple(SENSORS)) else f.column
         rows.setdefault((f.kind, sensor, f.count, detail(f)), []).append(f)
     return [
-        (kind.replace("_", " "), _axes(sensor, found), count, text)
+        Said(kind.replace("_", " "), _axes(sensor, found), count, text, MEANING.get(kind, ""))
         for (kind, sensor, count, text), found in rows.items()
     ]
 
@@ -88,6 +103,4 @@ def _axes(sensor: str, found: Sequence[Finding]) -> str:
 
 def in_line(findings: Iterable[Finding]) -> Iterator[str]:
     """Each in a line for a terminal."""
-    for kind, columns, count, text in grouped(findings):
-        where = f" of {columns}" if columns not in ("time", "") else ""
-        yield f"{kind}{where}: {count:,}{f' ({text})' if text else ''}"
+    yield from (said.line for said in grouped(findings))

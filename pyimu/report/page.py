@@ -16,7 +16,7 @@ from markupsafe import Markup, escape
 
 from pyimu.errors import Finding
 from pyimu.report.curves import METADATA, Curves
-from pyimu.report.findings import detail
+from pyimu.report.findings import grouped
 from pyimu.report.glossary import words_on
 from pyimu.report.numbers import MISSING, in_unit, number, pretty, si_quantity, unit_for
 
@@ -74,7 +74,12 @@ def templates(package: str) -> Environment:
 
 def prose(text: str) -> Markup:
     """A cell of prose, which may break into lines."""
-    return Markup('<span class="words">{}</span>').format(_breakable(text))
+    return words(_breakable(text))
+
+
+def words(text: Markup) -> Markup:
+    """The same of prose that has marks of its own."""
+    return Markup('<span class="words">{}</span>').format(text)
 
 
 def file_name(name: str) -> Markup:
@@ -102,11 +107,13 @@ def both(value: Any, si: str, unit: str | None = None) -> Markup:
     return escape(shown) if plain == shown else Markup("{}<small>{}</small>").format(shown, plain)
 
 
-def quality_table(findings: Iterable[Finding]) -> Table:
-    return Table(
-        ("finding", "column", "count", "detail"),
-        [
-            (f.kind.replace("_", " "), f.column or "all", f"{f.count}", prose(detail(f)))
-            for f in findings
-        ],
-    )
+def quality_table(*logs: tuple[str, Iterable[Finding]]) -> Table:
+    """The findings of each log, by its name, and what they mean."""
+    table = Table(("finding", "column", "count", "detail"))
+    for name, findings in logs:
+        where = f"{name}: " if len(logs) > 1 else ""
+        for said in grouped(findings):
+            about = Markup("{}<small>{}</small>").format(_breakable(said.detail), said.meaning)
+            column = prose(f"{where}{said.columns or 'all'}")
+            table.rows.append((said.kind, column, f"{said.count:,}", words(about)))
+    return table

@@ -52,7 +52,7 @@ def _contents(a: Outcome) -> dict[str, Any]:
         "nis": _nis(a) if a.updates.any() else None,
         "status": _status(a),
         "events": _events(a),
-        "quality": quality_table(a.findings),
+        "quality": quality_table((a.recording.name, a.findings)),
         "files": Table(
             ("file", "what it is"),
             [

@@ -32,12 +32,11 @@ from pyimu.characterization.report.tables import (
     line_table,
     log_table,
     model_table,
-    quality_table,
 )
 from pyimu.characterization.report.terminal import in_lines
 from pyimu.model.part import AXES
 from pyimu.report.findings import SENSORS
-from pyimu.report.page import Picture, Table, prose, templates
+from pyimu.report.page import Picture, Table, prose, quality_table, templates
 
 PART = "part.toml"
 """Name of the part's file."""
@@ -74,7 +73,7 @@ def _contents(c: Outcome) -> dict[str, Any]:
         "thermal": _thermal(c),
         "thermal_reasons": _thermal_reasons(c),
         "magnetometer": magnetometer_lines(c),
-        "quality": quality_table(c),
+        "quality": quality_table(*((log.name, log.findings) for log in c.logs)),
         "evidence": _evidence(c),
         "overviews": [_overview(log, kind) for log in c.logs for kind in log.sensors],
         "by_log": log_table(c),

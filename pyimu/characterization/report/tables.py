@@ -26,7 +26,6 @@ from pyimu.characterization.report.coefficients import (
 from pyimu.characterization.report.log_notes import duration
 from pyimu.characterization.spectrum.lines import Line
 from pyimu.model.part import AXES
-from pyimu.report.findings import grouped
 from pyimu.report.numbers import MISSING, in_unit, joined, number, pretty, unit_for
 from pyimu.report.page import Table, prose
 
@@ -194,15 +193,3 @@ def _log_row(name: str, term: str, s: Summary, each: Iterable[Channel | None]) -
     label = Markup("{} {}<small>{}</small>").format(term, name, pretty(unit))
     spread = number(float(in_unit(s.spread, si, unit)), 2) if np.isfinite(s.spread) else MISSING
     return (label, *cells, _interval(s.mean, si, unit), spread)
-
-
-def quality_table(c: Outcome) -> Table:
-    """The findings of all logs."""
-    table = Table(("finding", "column", "count", "detail"))
-    for log in c.logs:
-        for kind, columns, count, text in grouped(log.findings):
-            where = f"{log.name}: " if len(c.logs) > 1 else ""
-            table.rows.append(
-                (kind, prose(f"{where}{columns or 'all'}"), f"{count:,}", prose(text))
-            )
-    return table

@@ -78,7 +78,7 @@ def _contents(found: Outcome) -> dict[str, Any]:
         if any(m.tracks[0].filter is not None for m in found.methods)
         else None,
         "transfer": _transfer(found),
-        "quality": quality_table([f for r in logs for f in r.findings]),
+        "quality": quality_table(*((r.name, r.findings) for r in logs)),
         "files": Table(
             ("file", "what it is"),
             [

@@ -67,7 +67,7 @@ def _contents(closed: Outcome, fmus: tuple[str, ...], left_out: str | None) -> d
         "observability": observability_table(closed.observability),
         "next": next_table(closed),
         "spectra": spectra(closed),
-        "quality": quality_table(closed.quality),
+        "quality": quality_table(("", closed.quality)),
         "files": _files(closed, fmus, left_out),
         "made_with": closed.made_with,
         "digests": _digests(closed),

@@ -49,7 +49,7 @@ def _errors(s: Summary, name: str, panel: Axes) -> None:
         panel.axvline(np.rad2deg(q.value), color=INK, lw=1, ls=style)
     if values.max() > np.rad2deg(CLAIM):
         panel.axvline(np.rad2deg(CLAIM), color=BEFORE, lw=1.4)
-    said = ", ".join(f"{q.p:.0%} below {np.rad2deg(q.value):.3g}" for q, _ in shown)
+    said = "\n".join(f"{q.p:.0%} below {np.rad2deg(q.value):.3g} deg" for q, _ in shown)
     panel.set_title(said, fontsize=8.5)
     panel.set(xlabel=f"largest {name} error [deg]", xlim=(0, None))
     if name == "heading":
