@@ -243,9 +243,11 @@ def _grown(chosen: Chosen, keys: frozenset[Coefficient]) -> Chosen:
 
 def _least(difference: np.ndarray) -> np.ndarray:
     """Gain [nat] that held-out rows have at least by what is true, where models differ by so much
-    there: its mean is that ``difference``, its variance twice that.
+    there: its mean is that ``difference``, its variance twice that. Held-out rows are all rows less
+    the fitted ones, so that an axis where the models agree may have a little less than none.
     """
-    return np.minimum(CONFIRMED * difference, difference - CHANCE * np.sqrt(2.0 * difference))
+    there = np.maximum(difference, 0.0)
+    return np.minimum(CONFIRMED * there, there - CHANCE * np.sqrt(2.0 * there))
 
 
 def _left(chosen: Chosen, seen: Evidence) -> Chosen:
