@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{2008a6d9-aa8a-bada-d4f3-71c656b868d7}"
-#define MODEL_TOKEN_FMI3 "{d12af318-c878-fc5e-74db-50a8d5e34ea4}"
+#define MODEL_TOKEN_FMI2 "{145f84aa-036b-1ece-5667-b3a08a43b62b}"
+#define MODEL_TOKEN_FMI3 "{d5ac3aaa-8e5b-1539-05c6-2c6c33f4453e}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -16,13 +16,13 @@ enum {
     N_INPUTS = 18,
     N_PARAMETERS = 58,
     N_OUTPUTS = 21,
-    N_STATES = 294,
+    N_STATES = 295,
     N_NOISE = 0,
     N_VARIABLES = 73
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 44, WORK_RES = 28, WORK_IW = 0, WORK_W = 2420 };
+enum { WORK_ARG = 44, WORK_RES = 28, WORK_IW = 0, WORK_W = 2425 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };

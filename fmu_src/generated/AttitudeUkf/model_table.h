@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{0796ce4d-ca19-cd04-b7ee-b9faeb4a126f}"
-#define MODEL_TOKEN_FMI3 "{c004a219-e90c-0220-8160-35878200172d}"
+#define MODEL_TOKEN_FMI2 "{4051b8a8-58d2-33b3-edbc-073c9f7c9dea}"
+#define MODEL_TOKEN_FMI3 "{fac5b49d-0869-20a7-d6e3-e32ac47b8ce1}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -16,13 +16,13 @@ enum {
     N_INPUTS = 18,
     N_PARAMETERS = 58,
     N_OUTPUTS = 21,
-    N_STATES = 294,
+    N_STATES = 295,
     N_NOISE = 0,
     N_VARIABLES = 99
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 44, WORK_RES = 28, WORK_IW = 0, WORK_W = 2420 };
+enum { WORK_ARG = 44, WORK_RES = 28, WORK_IW = 0, WORK_W = 2425 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };

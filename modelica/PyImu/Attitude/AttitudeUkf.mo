@@ -24,7 +24,7 @@ block AttitudeUkf "Unscented attitude filter of the part imt30, in C"
   parameter Real gravity(unit="m/s2", min=0) = 9.80665 "Magnitude of gravity"
     annotation(Dialog(group="Filter"));
   parameter Real accelStd(unit="m/s2", min=0) = 0.01
-    "Standard deviation of the acceleration that a body has beside its bounded velocity, and beside the pushes that the run shows"
+    "Standard deviation of the acceleration that a body has beside its bounded velocity, and beside the pushes that the run shows, and down to a tenth of it where the body moves less for a minute"
     annotation(Dialog(group="Filter"));
   parameter Real accelBiasStd(unit="m/s2", min=0) = 0
     "Standard deviation of a component of the accelerometer's constant error, which tilts the attitude by its share of gravity"
@@ -336,7 +336,8 @@ says.</p>
 headingMemory. An age of some tenths of a second takes no heading more precise than about 1e-3 rad
 many times a second: what is left out then adds up, and std is too small.</td></tr>
 <tr><td>accelStd</td><td>Standard deviation of the acceleration that a body has beside its bounded
-velocity, and beside the pushes that the run shows; 0: the body never accelerates.</td></tr>
+velocity, and beside the pushes that the run shows, and down to a tenth of it where the body moves
+less for a minute; 0: the body never accelerates.</td></tr>
 <tr><td>accelBiasStd</td><td>Standard deviation of a component of the accelerometer's constant
 error, which tilts the attitude by its share of gravity: std has that, no matter how long it is
 averaged, and what the size of gravity at rest says of it.</td></tr>
@@ -344,7 +345,7 @@ averaged, and what the size of gravity at rest says of it.</td></tr>
 gravity as it was measured at rest; beyond, that is called another than gravity.</td></tr>
 <tr><td>motionTime</td><td>Correlation time of the velocity of a body that stays in its place. How
 large that is the run finds out, over eight times this time; not below accelStd * motionTime and
-0.01 m/s.</td></tr>
+0.01 m/s, or a tenth of it where the body moves less for sixty times this time.</td></tr>
 <tr><td>biasNoise</td><td>Root density of the walk of the bias over the rate: a gyro that feels
 forces has another bias when it has turned over.</td></tr>
 <tr><td>restTime</td><td>A body of which no sample differs from the others for so long is at rest,

@@ -214,7 +214,7 @@ def push(memory: Memory, sample: Sample, settings: Settings, h, resting) -> Push
     lost_for = ca.fmin(ca.fmax(MEAN_TIME - memory.mean.span, 0), at["motion_time"])
     lost = memory.mean.scatter * (1 + 2 * lost_for * reciprocal(h))
     drift = (1 - resting) * DRIFT_GAIN * memory.motion.drift * h / (at["motion_time"] + h)
-    unknown = h**2 * declared + drift
+    unknown = h**2 * declared * memory.motion.share + drift
     if sample.driven is not False:
         unknown *= 1 - sample.driven
     return Push(

@@ -115,7 +115,7 @@ class Memory:
         size = (self.size.size, self.size.learnt, self.size.doubted)
         mean = (kept(self.mean.force), kept(self.mean.scatter), self.mean.span)
         slow, drift = kept(self.motion.slow), kept(self.motion.drift)
-        motion = (self.motion.across, self.motion.along, slow, drift)
+        motion = (self.motion.across, self.motion.along, slow, drift, self.motion.share)
         sensors = (self.held, self.lost_for, self.same_for, self.sensors)
         still = self.stillness.pack()
         return ca.densify(
@@ -143,15 +143,15 @@ class Memory:
         parts = ca.vertsplit(column, ends)
         quasi, size = QuasiStatic(*parts[:2]), GravitySize(*parts[2:5])
         mean = MeanForce(*parts[5:8])
-        motion, still = Motion(*parts[8:12]), Stillness(*parts[12:19])
-        return cls(cls.estimate_of(estimate), quasi, size, mean, motion, still, *parts[19:])
+        motion, still = Motion(*parts[8:13]), Stillness(*parts[13:20])
+        return cls(cls.estimate_of(estimate), quasi, size, mean, motion, still, *parts[20:])
 
 
 def memory_sizes(compensation: Compensation) -> tuple[int, ...]:
     """Sizes of what ``Memory.pack_memory`` packs, in its order."""
     held = 7 + sum(SIGNALS[n].size for n in compensation.extra)
     own = held, 3, 8, len(compensation.start), 1, 1, 1, 2, 1
-    return 1, 1, 1, 1, 1, 3, 1, 1, 1, 1, 3, 1, *STILLNESS, 6, 6, *own
+    return 1, 1, 1, 1, 1, 3, 1, 1, 1, 1, 3, 1, 1, *STILLNESS, 6, 6, *own
 
 
 def start(compensation: Compensation, p) -> tuple[Estimate, ca.SX]:
@@ -165,7 +165,7 @@ def start(compensation: Compensation, p) -> tuple[Estimate, ca.SX]:
         QuasiStatic(at["gravity"], ca.fmax(passing_std(at), LEAST_ACCEL_STD) ** 2),
         GravitySize(at["gravity"], ca.SX(0), ca.SX(0)),
         MeanForce(ca.SX.zeros(3), ca.SX(0), ca.SX(0)),
-        Motion(first, first, ca.SX.zeros(3), ca.SX(0)),
+        Motion(first, first, ca.SX.zeros(3), ca.SX(0), ca.SX(1)),
         Stillness.start(),
         safe=ca.SX.zeros(6),
         later=ca.SX.zeros(6),

@@ -198,7 +198,8 @@ SETTINGS = (
         "accel_std",
         "m/s^2",
         "standard deviation of the acceleration that a body has beside its bounded velocity, and "
-        "beside the pushes that the run shows; 0: the body never accelerates",
+        "beside the pushes that the run shows, and down to a tenth of it where the body moves less "
+        "for a minute; 0: the body never accelerates",
         0.01,
     ),
     _setting(
@@ -244,7 +245,8 @@ SETTINGS = (
         "motion_time",
         "s",
         "correlation time of the velocity of a body that stays in its place. How large that is the "
-        "run finds out, over eight times this time; not below accel_std * motion_time and 0.01 m/s",
+        "run finds out, over eight times this time; not below accel_std * motion_time and 0.01 m/s,"
+        " or a tenth of it where the body moves less for sixty times this time",
         1.0,
     ),
     _setting(

@@ -40,12 +40,23 @@ the fall, or with negative values taken for none, it would be too large."""
 OUTLIER = 9.0
 """Squared velocity over its variance beyond which it shows by itself that this is too small."""
 
+QUIET, QUIET_RISE = 60.0, 10.0
+"""Correlation times of the velocity over which the run shows that a body moves less than the least
+that was taken for it, where that share falls and where it rises again. A share falls by nothing
+faster than linearly, to zero in so long, however unsure the filter's own velocity is."""
+
+LEAST_SHARE = 0.01
+"""Of the variances that a body has at least; a tenth of the velocity."""
+
 SLOW = 3.0
 """Correlation times of the velocity over which it is averaged to see its drift."""
 
 DRIFTS = 3.0
 """By which factor the mean square of that average must exceed what a bounded velocity leaves; that
 does so with a probability of 5 %, exp(-3) of two axes."""
+
+TINY = 1e-12
+"""(m/s)^2; stands for no variance where it is divided by."""
 
 SLIGHT = 0.005
 """m/s; a smaller drift is none."""
@@ -93,13 +104,15 @@ class Motion:
 
     ``across`` and ``along`` the vertical the variance of its velocity in (m/s)^2. ``slow`` (3,) m/s
     is the estimated velocity in body axes less what is fast in it, ``drift`` (m/s)^2 its variance
-    across beyond ``DRIFTS`` times that of a bounded velocity.
+    across beyond ``DRIFTS`` times that of a bounded velocity. ``share`` is how much of the least
+    variances that the settings speak of the body shows at most, ``LEAST_SHARE`` to 1.
     """
 
     across: ca.SX
     along: ca.SX
     slow: ca.SX
     drift: ca.SX
+    share: ca.SX
 
 
 def pushed(before: Estimate, after: Estimate, own, leak, push: Push) -> Estimate:
@@ -172,28 +185,31 @@ def followed(motion: Motion, x: Estimate, turned, used, std, time, h) -> tuple[M
 
     The mean square of the innovation, less the filter's own variance of it, is that of the
     measurement (Mehra 1972, section IV), here the velocity of the body: over ``WINDOW`` or ``RISE``
-    times its correlation ``time`` in s, and not below that of ``std`` in m/s. The innovations of a
-    filter whose model is right are white (section III there): their mean over ``SLOW`` times that
-    time has half their density over that, the density 2 T s^2 of the velocity and P h of the
-    filter's own variance. What it has beyond ``DRIFTS`` times that, and ``SLIGHT``, is a walk:
-    accelerations that last. ``turned`` (3, 3) is the body's turn from old axes to new; ``used`` 0
-    or 1 whether the sample counts. A ``std`` of zero says that the body does not move.
+    times its correlation ``time`` in s, and not below the share of ``std`` in m/s that the run
+    shows. The innovations of a filter whose model is right are white (section III there): their
+    mean over ``SLOW`` times that time has half their density over that, the density 2 T s^2 of the
+    velocity and P h of the filter's own variance. What it has beyond ``DRIFTS`` times that, and
+    ``SLIGHT``, is a walk: accelerations that last. ``turned`` (3, 3) is the body's turn from old
+    axes to new; ``used`` 0 or 1 whether the sample counts. A ``std`` of zero says that the body
+    does not move.
     """
     v, up = x.velocity, quaternion.to_matrix(x.q)[2, :].T
     own, whole = x.covariance[6:, 6:], ca.dot(x.velocity, x.velocity)
     above, own_along = ca.dot(up, v) ** 2, ca.dot(up, own @ up)
     own_across = (ca.trace(own) - own_along) / 2
     moves, floor = std > 0, std**2
+    least = motion.share * floor
 
     def mean(before, found, fall, rise):
         gain = h / (ca.if_else(found > before, rise, fall) * time + h)
         return before + used * gain * (found - before)
 
     def grown(before, excess):
-        after = moves * ca.fmax(mean(before, excess, WINDOW, RISE), floor)
+        after = moves * ca.fmax(mean(before, excess, WINDOW, RISE), least)
         return after, moves * ca.fmax(after, excess / OUTLIER)
 
-    across, seen_across = grown(motion.across, (whole - above) / 2 - own_across)
+    excess = (whole - above) / 2 - own_across
+    across, seen_across = grown(motion.across, excess)
     along, seen_along = grown(motion.along, above - own_along)
     carried = turned @ motion.slow
     slow = used * (carried + h / (SLOW * time + h) * (v - carried))
@@ -201,4 +217,16 @@ def followed(motion: Motion, x: Estimate, turned, used, std, time, h) -> tuple[M
     bounded = DRIFTS / SLOW * white * reciprocal(time)
     left = (ca.dot(slow, slow) - ca.dot(up, slow) ** 2) / 2 - bounded - SLIGHT**2
     drift = moves * mean(motion.drift, ca.fmax(left, 0), DRIFT_WINDOW, DRIFT_RISE)
-    return Motion(across, along, slow, drift), ca.vertcat(seen_across, seen_along)
+    shown = (excess + DRIFT_GAIN * drift) * reciprocal(ca.fmax(floor, TINY))
+    share = _share(motion.share, shown, used, time, h)
+    return Motion(across, along, slow, drift, share), ca.vertcat(seen_across, seen_along)
+
+
+def _share(before, shown, used, time, h):
+    """The share of the least variances of motion after a sample that has ``shown`` so much of them.
+
+    A walk that lets the filter follow pushes hides them from its velocity, and counts as shown.
+    """
+    gain = h / (ca.if_else(shown > before, QUIET_RISE, QUIET) * time + h)
+    after = before + used * gain * (ca.fmax(shown, -1) - before)
+    return ca.fmin(ca.fmax(after, LEAST_SHARE), 1)

@@ -143,7 +143,7 @@ void casadi_copy(const casadi_real* restrict x, casadi_int n, casadi_real* restr
   #define casadi_nan NAN
 #endif
 
-static const casadi_int casadi_s0[3] = {294, 1, 1};
+static const casadi_int casadi_s0[3] = {295, 1, 1};
 static const casadi_int casadi_s1[3] = {18, 1, 1};
 static const casadi_int casadi_s2[3] = {58, 1, 1};
 static const casadi_int casadi_s3[3] = {0, 1, 1};
@@ -152,10 +152,10 @@ static const casadi_int casadi_s5[3] = {21, 1, 1};
 
 static const casadi_real casadi_c0[2] = {0., 64.};
 
-static const casadi_real casadi_zeros[294] = 
+static const casadi_real casadi_zeros[295] = 
   {0.};
 
-/* is_ordinary:(i0[56],i1[70],i2[18],i3[58],i4)->(o0) */
+/* is_ordinary:(i0[56],i1[71],i2[18],i3[58],i4)->(o0) */
 static int casadi_f1(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   casadi_real a00, a01, a02, a03, a04, a05, a06, a07, a08, a09, a10, a11;
   casadi_real a12, a13, a14, a15, a16, a17;
@@ -181,7 +181,7 @@ static int casadi_f1(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a01=(a01+a11);
   a11=1000000000000.;
   a01=(a01<=a11);
-  a12=arg[1][61];
+  a12=arg[1][62];
   a13=(a00-a12);
   a14=arg[3][48];
   a15=arg[3][51];
@@ -189,14 +189,14 @@ static int casadi_f1(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a14=(a14*a10);
   a13=(a13-a14);
   a13=casadi_sq(a13);
-  a14=arg[1][62];
+  a14=arg[1][63];
   a15=(a02-a14);
   a16=arg[3][49];
   a16=(a16*a10);
   a15=(a15-a16);
   a15=casadi_sq(a15);
   a13=(a13+a15);
-  a15=arg[1][63];
+  a15=arg[1][64];
   a16=(a03-a15);
   a17=arg[3][50];
   a17=(a17*a10);
@@ -214,27 +214,27 @@ static int casadi_f1(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a11=(a05<=a11);
   a01=(a01*a11);
   a11=arg[3][31];
-  a09=arg[1][53];
+  a09=arg[1][54];
   a09=(a09+a17);
-  a07=arg[1][43];
-  a00=(a00==a07);
   a07=arg[1][44];
+  a00=(a00==a07);
+  a07=arg[1][45];
   a02=(a02==a07);
   a07=(a00*a02);
-  a13=arg[1][45];
+  a13=arg[1][46];
   a03=(a03==a13);
   a07=(a07*a03);
   a09=(a09*a07);
   a09=(a11<=a09);
   a09=(a09*a11);
-  a13=arg[1][54];
+  a13=arg[1][55];
   a13=(a13+a17);
-  a16=arg[1][46];
-  a04=(a04==a16);
   a16=arg[1][47];
+  a04=(a04==a16);
+  a16=arg[1][48];
   a06=(a06==a16);
   a16=(a04*a06);
-  a10=arg[1][48];
+  a10=arg[1][49];
   a08=(a08==a10);
   a16=(a16*a08);
   a13=(a13*a16);
@@ -242,7 +242,7 @@ static int casadi_f1(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a13=(a13*a11);
   a09=(a09+a13);
   a13=arg[3][32];
-  a11=arg[1][55];
+  a11=arg[1][56];
   a10=1.;
   a07=(a10-a07);
   a07=(a17*a07);
@@ -252,21 +252,21 @@ static int casadi_f1(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a11=(a11*a13);
   a09=(a09+a11);
   a11=arg[3][33];
-  a13=arg[1][56];
+  a13=arg[1][57];
   a13=(a13+a07);
   a13=(a13*a02);
   a13=(a11<=a13);
   a13=(a13*a11);
   a09=(a09+a13);
   a13=arg[3][34];
-  a11=arg[1][57];
+  a11=arg[1][58];
   a11=(a11+a07);
   a11=(a11*a03);
   a11=(a13<=a11);
   a11=(a11*a13);
   a09=(a09+a11);
   a11=arg[3][35];
-  a13=arg[1][58];
+  a13=arg[1][59];
   a16=(a10-a16);
   a17=(a17*a16);
   a13=(a13+a17);
@@ -275,14 +275,14 @@ static int casadi_f1(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a13=(a13*a11);
   a09=(a09+a13);
   a13=arg[3][36];
-  a11=arg[1][59];
+  a11=arg[1][60];
   a11=(a11+a17);
   a11=(a11*a06);
   a11=(a13<=a11);
   a11=(a11*a13);
   a09=(a09+a11);
   a11=arg[3][37];
-  a13=arg[1][60];
+  a13=arg[1][61];
   a13=(a13+a17);
   a13=(a13*a08);
   a13=(a11<=a13);
@@ -297,11 +297,11 @@ static int casadi_f1(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a05=(a05*a09);
   a05=(a10-a05);
   a01=(a01*a05);
-  a05=arg[1][64];
+  a05=arg[1][65];
   a10=(a10<=a05);
   a01=(a01*a10);
-  a10=arg[1][67];
-  a05=arg[1][68];
+  a10=arg[1][68];
+  a05=arg[1][69];
   a10=(a10+a05);
   a13=(a13<a10);
   a01=(a01*a13);
@@ -317,7 +317,7 @@ static int casadi_f1(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   return 0;
 }
 
-/* other_row:(i0[56],i1[70],i2[18],i3[58],i4)->(o0[63],o1[70],o2[3],o3[17],o4[18]) */
+/* other_row:(i0[56],i1[71],i2[18],i3[58],i4)->(o0[63],o1[71],o2[3],o3[17],o4[18]) */
 static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   casadi_real a000, a001, a002, a003, a004, a005, a006, a007, a008, a009, a010, a011;
   casadi_real a012, a013, a014, a015, a016, a017, a018, a019, a020, a021, a022, a023;
@@ -349,10 +349,10 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a003=(a003<=a004);
   a002=(a003?a002:0);
   a005=(!a003);
-  a006=arg[1][43];
+  a006=arg[1][44];
   a007=(a005?a006:0);
   a002=(a002+a007);
-  a007=arg[1][61];
+  a007=arg[1][62];
   a008=(a002-a007);
   a009=arg[3][48];
   a010=arg[2][6];
@@ -360,7 +360,7 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a011=(a011<=a004);
   a010=(a011?a010:0);
   a012=(!a011);
-  a013=arg[1][49];
+  a013=arg[1][50];
   a012=(a012?a013:0);
   a010=(a010+a012);
   a012=arg[3][51];
@@ -382,9 +382,9 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a019=(a019<=a004);
   a020=(!a019);
   a021=arg[3][35];
-  a022=arg[1][58];
+  a022=arg[1][59];
   a023=(a019?a018:0);
-  a024=arg[1][46];
+  a024=arg[1][47];
   a025=(a020?a024:0);
   a023=(a023+a025);
   a024=(a023==a024);
@@ -394,7 +394,7 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a026=(a026<=a004);
   a027=(a026?a025:0);
   a028=(!a026);
-  a029=arg[1][47];
+  a029=arg[1][48];
   a030=(a028?a029:0);
   a027=(a027+a030);
   a029=(a027==a029);
@@ -405,7 +405,7 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a032=(a032<=a004);
   a033=(a032?a031:0);
   a034=(!a032);
-  a035=arg[1][48];
+  a035=arg[1][49];
   a036=(a034?a035:0);
   a033=(a033+a036);
   a035=(a033==a035);
@@ -419,7 +419,7 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a021=(a017<a021);
   a024=(a024&&a021);
   a021=arg[3][31];
-  a037=arg[1][54];
+  a037=arg[1][55];
   a037=(a037+a014);
   a037=(a037*a030);
   a030=(a021<=a037);
@@ -433,7 +433,7 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a020=(a020||a040);
   a020=(a020||a017);
   a040=arg[3][36];
-  a041=arg[1][59];
+  a041=arg[1][60];
   a041=(a041+a036);
   a041=(a041*a029);
   a029=(a040<=a041);
@@ -448,7 +448,7 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a028=(a028||a017);
   a020=casadi_fmax(a020,a028);
   a028=arg[3][37];
-  a042=arg[1][60];
+  a042=arg[1][61];
   a042=(a042+a036);
   a042=(a042*a035);
   a035=(a028<=a042);
@@ -473,7 +473,7 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a018=(a018*a025);
   a020=(a020||a018);
   a018=(!a020);
-  a025=arg[1][19];
+  a025=arg[1][20];
   a034=(a016-a025);
   a028=casadi_sq(a034);
   a036=arg[2][1];
@@ -481,10 +481,10 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a043=(a043<=a004);
   a036=(a043?a036:0);
   a044=(!a043);
-  a045=arg[1][44];
+  a045=arg[1][45];
   a046=(a044?a045:0);
   a036=(a036+a046);
-  a046=arg[1][62];
+  a046=arg[1][63];
   a047=(a036-a046);
   a048=arg[3][49];
   a048=(a048*a012);
@@ -494,7 +494,7 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a047=(a048?a047:0);
   a049=casadi_fmax(a047,a015);
   a049=casadi_fmin(a049,a013);
-  a050=arg[1][20];
+  a050=arg[1][21];
   a051=(a049-a050);
   a052=casadi_sq(a051);
   a028=(a028+a052);
@@ -503,10 +503,10 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a053=(a053<=a004);
   a052=(a053?a052:0);
   a054=(!a053);
-  a055=arg[1][45];
+  a055=arg[1][46];
   a056=(a054?a055:0);
   a052=(a052+a056);
-  a056=arg[1][63];
+  a056=arg[1][64];
   a057=(a052-a056);
   a058=arg[3][50];
   a058=(a058*a012);
@@ -516,7 +516,7 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a057=(a058?a057:0);
   a015=casadi_fmax(a057,a015);
   a015=casadi_fmin(a015,a013);
-  a012=arg[1][21];
+  a012=arg[1][22];
   a059=(a015-a012);
   a060=casadi_sq(a059);
   a028=(a028+a060);
@@ -540,16 +540,16 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a061=(a061+a068);
   a028=(a028<=a061);
   a061=(a039?a023:0);
-  a068=arg[1][25];
+  a068=arg[1][26];
   a069=(a061-a068);
   a070=casadi_sq(a069);
   a071=(a040?a027:0);
-  a072=arg[1][26];
+  a072=arg[1][27];
   a073=(a071-a072);
   a074=casadi_sq(a073);
   a070=(a070+a074);
   a074=(a030?a033:0);
-  a075=arg[1][27];
+  a075=arg[1][28];
   a076=(a074-a075);
   a077=casadi_sq(a076);
   a070=(a070+a077);
@@ -559,14 +559,14 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a078=(a078+a079);
   a070=(a070<=a078);
   a028=(a028*a070);
-  a070=arg[1][22];
+  a070=arg[1][23];
   a078=(a070-a068);
   a078=casadi_sq(a078);
-  a079=arg[1][23];
+  a079=arg[1][24];
   a080=(a079-a072);
   a080=casadi_sq(a080);
   a078=(a078+a080);
-  a080=arg[1][24];
+  a080=arg[1][25];
   a081=(a080-a075);
   a081=casadi_sq(a081);
   a078=(a078+a081);
@@ -578,14 +578,14 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a082=(a082+a083);
   a078=(a078<=a082);
   a028=(a028*a078);
-  a078=arg[1][16];
+  a078=arg[1][17];
   a082=(a078-a025);
   a082=casadi_sq(a082);
-  a083=arg[1][17];
+  a083=arg[1][18];
   a084=(a083-a050);
   a084=casadi_sq(a084);
   a082=(a082+a084);
-  a084=arg[1][18];
+  a084=arg[1][19];
   a085=(a084-a012);
   a085=casadi_sq(a085);
   a082=(a082+a085);
@@ -598,7 +598,7 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a060=(a060+a086);
   a082=(a082<=a060);
   a028=(a028*a082);
-  a082=arg[1][64];
+  a082=arg[1][65];
   a060=(a082<a001);
   a086=4.0000000000000008e-02;
   a065=arg[0][28];
@@ -614,7 +614,7 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a090=(a001-a090);
   a028=(a028*a090);
   a090=arg[3][32];
-  a091=arg[1][55];
+  a091=arg[1][56];
   a006=(a002==a006);
   a006=(a003*a006);
   a045=(a036==a045);
@@ -630,7 +630,7 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a006=(a090<=a091);
   a090=(a017<a090);
   a006=(a006&&a090);
-  a090=arg[1][53];
+  a090=arg[1][54];
   a090=(a090+a014);
   a090=(a090*a092);
   a021=(a021<=a090);
@@ -644,7 +644,7 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a008=(a013<a008);
   a005=(a005||a008);
   a009=arg[3][33];
-  a038=arg[1][56];
+  a038=arg[1][57];
   a038=(a038+a093);
   a038=(a038*a045);
   a045=(a009<=a038);
@@ -660,7 +660,7 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a044=(a044||a047);
   a048=casadi_fmax(a005,a044);
   a009=arg[3][34];
-  a092=arg[1][57];
+  a092=arg[1][58];
   a092=(a092+a093);
   a092=(a092*a055);
   a055=(a009<=a092);
@@ -679,7 +679,7 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a028=(a028*a057);
   a057=arg[3][26];
   a058=(a017<a057);
-  a021=arg[1][30];
+  a021=arg[1][31];
   a009=(a017<a021);
   a058=(a058*a009);
   a093=arg[2][11];
@@ -694,7 +694,7 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a058=(a058+a097);
   a058=(a017<a058);
   a098=3.3333333333333335e+00;
-  a099=arg[1][29];
+  a099=arg[1][30];
   a100=(a098*a099);
   a100=floor(a100);
   a101=(a099+a014);
@@ -703,10 +703,10 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a098=(a018?a098:0);
   a098=floor(a098);
   a100=(a100<a098);
-  a098=arg[1][37];
+  a098=arg[1][38];
   a102=(a100?a098:0);
   a103=(!a100);
-  a104=arg[1][31];
+  a104=arg[1][32];
   a104=(a103?a104:0);
   a102=(a102+a104);
   a104=(a058?a102:0);
@@ -816,7 +816,7 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a136=arg[1][10];
   a135=(a135<a136);
   a137=2.0000000000000001e-01;
-  a138=arg[1][65];
+  a138=arg[1][66];
   a139=(a137<a138);
   a139=(a135*a139);
   a140=arg[0][49];
@@ -835,7 +835,7 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a145=(a145*a146);
   a146=1.0000000000000001e-18;
   a145=(a145+a146);
-  a147=arg[1][28];
+  a147=arg[1][29];
   a101=(a018?a101:0);
   a148=casadi_fmax(a101,a014);
   a148=(a014/a148);
@@ -891,9 +891,9 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a144=(a014*a094);
   a107=(a107*a144);
   a155=casadi_sq(a107);
-  a156=arg[1][38];
+  a156=arg[1][39];
   a157=(a100?a156:0);
-  a158=arg[1][32];
+  a158=arg[1][33];
   a158=(a103?a158:0);
   a157=(a157+a158);
   a158=(a058?a157:0);
@@ -911,9 +911,9 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a160=(a160*a144);
   a161=casadi_sq(a160);
   a155=(a155+a161);
-  a161=arg[1][39];
+  a161=arg[1][40];
   a162=(a100?a161:0);
-  a163=arg[1][33];
+  a163=arg[1][34];
   a163=(a103?a163:0);
   a162=(a162+a163);
   a163=(a058?a162:0);
@@ -1413,7 +1413,7 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a063=(a063+a218);
   a220=arg[3][30];
   a220=casadi_sq(a220);
-  a221=arg[1][50];
+  a221=arg[1][51];
   a222=(a221+a014);
   a223=casadi_fmax(a090,a091);
   a223=(a006?a223:0);
@@ -1552,7 +1552,7 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a207=(a207/a154);
   a066=(a066+a207);
   a066=(a066+a218);
-  a207=arg[1][51];
+  a207=arg[1][52];
   a120=(a207+a014);
   a226=casadi_fmax(a090,a038);
   a226=(a045?a226:0);
@@ -1653,7 +1653,7 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a217=(a217/a154);
   a067=(a067+a217);
   a067=(a067+a218);
-  a218=arg[1][52];
+  a218=arg[1][53];
   a217=(a218+a014);
   a196=casadi_fmax(a090,a092);
   a196=(a055?a196:0);
@@ -1716,9 +1716,9 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a012=casadi_sq(a012);
   a012=(a012*a219);
   a125=(a125+a012);
-  a219=arg[1][40];
+  a219=arg[1][41];
   a225=(a100?a219:0);
-  a110=arg[1][34];
+  a110=arg[1][35];
   a110=(a103?a110:0);
   a225=(a225+a110);
   a110=(a225-a127);
@@ -1751,9 +1751,9 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a203=(a203*a014);
   a203=(a203+a094);
   a203=(a203+a012);
-  a110=arg[1][41];
+  a110=arg[1][42];
   a067=(a100?a110:0);
-  a025=arg[1][35];
+  a025=arg[1][36];
   a025=(a103?a025:0);
   a067=(a067+a025);
   a025=(a067-a194);
@@ -1780,9 +1780,9 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a186=(a186*a014);
   a186=(a186+a094);
   a186=(a186+a012);
-  a012=arg[1][42];
+  a012=arg[1][43];
   a094=(a100?a012:0);
-  a025=arg[1][36];
+  a025=arg[1][37];
   a025=(a103?a025:0);
   a094=(a094+a025);
   a025=(a094-a201);
@@ -2384,19 +2384,21 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a207=(a001+a207);
   a180=(a183*a207);
   a191=(a191*a180);
-  a180=300.;
+  a180=arg[1][16];
+  a191=(a191*a180);
+  a160=300.;
   a139=(a001-a139);
   a095=(a095*a139);
   a095=(a018?a095:0);
   a095=(a001-a095);
-  a180=(a180*a095);
-  a180=(a180*a132);
-  a180=(a180*a014);
-  a095=(a123+a014);
-  a180=(a180/a095);
-  a191=(a191+a180);
-  a180=(a001-a060);
-  a191=(a191*a180);
+  a095=(a160*a095);
+  a095=(a095*a132);
+  a095=(a095*a014);
+  a247=(a123+a014);
+  a095=(a095/a247);
+  a191=(a191+a095);
+  a095=(a001-a060);
+  a191=(a191*a095);
   a000=(a000+a191);
   a206=(a206+a000);
   a191=casadi_fabs(a206);
@@ -2405,21 +2407,21 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a191=(a191?a206:0);
   if (res[0]!=0) res[0][49]=a191;
   a191=(a209*a165);
-  a180=(a240*a174);
-  a191=(a191+a180);
-  a180=(a171*a170);
-  a191=(a191+a180);
-  a180=(a218*a236);
+  a095=(a240*a174);
+  a191=(a191+a095);
+  a095=(a171*a170);
+  a191=(a191+a095);
+  a095=(a218*a236);
   a257=(a147*a257);
-  a180=(a180-a257);
-  a191=(a191+a180);
-  a180=(a239*a147);
+  a095=(a095-a257);
+  a191=(a191+a095);
+  a095=(a239*a147);
   a228=(a228*a050);
-  a180=(a180-a228);
-  a191=(a191+a180);
-  a180=(a220*a253);
+  a095=(a095-a228);
+  a191=(a191+a095);
+  a095=(a220*a253);
   a228=(a065*a197);
-  a180=(a180-a228);
+  a095=(a095-a228);
   a228=(a065*a226);
   a119=(a058*a119);
   a228=(a228-a119);
@@ -2440,13 +2442,13 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a251=(a251*a058);
   a224=(a224-a251);
   a228=(a228+a224);
-  a180=(a180+a228);
-  a191=(a191-a180);
-  a180=casadi_fabs(a191);
-  a180=(a180<a173);
-  a180=(!a180);
-  a180=(a180?a191:0);
-  if (res[0]!=0) res[0][50]=a180;
+  a095=(a095+a228);
+  a191=(a191-a095);
+  a095=casadi_fabs(a191);
+  a095=(a095<a173);
+  a095=(!a095);
+  a095=(a095?a191:0);
+  if (res[0]!=0) res[0][50]=a095;
   a209=(a209*a133);
   a240=(a240*a172);
   a209=(a209+a240);
@@ -2916,33 +2918,33 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   if (res[1]!=0) res[1][9]=a223;
   a258=(a258*a123);
   a223=1.0000000000000000e-02;
-  a223=casadi_fmax(a258,a223);
+  a020=casadi_fmax(a258,a223);
   a258=(a017<a258);
-  a223=(a223*a258);
-  a258=(a017<a223);
-  a020=(a001-a096);
-  a020=(a134*a020);
-  a020=(a020*a000);
-  a167=casadi_sq(a025);
-  a144=casadi_sq(a216);
-  a167=(a167+a144);
-  a144=casadi_sq(a089);
-  a167=(a167+a144);
-  a144=(a054*a025);
-  a004=(a196*a216);
+  a020=(a020*a258);
+  a258=(a017<a020);
+  a167=(a001-a096);
+  a167=(a134*a167);
+  a167=(a167*a000);
+  a144=casadi_sq(a025);
+  a004=casadi_sq(a216);
   a144=(a144+a004);
-  a004=(a088*a089);
+  a004=casadi_sq(a089);
   a144=(a144+a004);
-  a144=casadi_sq(a144);
-  a167=(a167-a144);
-  a167=(a167/a118);
-  a004=(a206+a250);
-  a004=(a004+a140);
+  a004=(a054*a025);
+  a218=(a196*a216);
+  a004=(a004+a218);
+  a218=(a088*a089);
+  a004=(a004+a218);
+  a004=casadi_sq(a004);
+  a144=(a144-a004);
+  a144=(a144/a118);
+  a218=(a206+a250);
+  a218=(a218+a140);
   a206=(a206*a054);
-  a218=(a191*a196);
-  a206=(a206+a218);
-  a218=(a209*a088);
-  a206=(a206+a218);
+  a050=(a191*a196);
+  a206=(a206+a050);
+  a050=(a209*a088);
+  a206=(a206+a050);
   a206=(a054*a206);
   a191=(a191*a054);
   a250=(a250*a196);
@@ -2958,10 +2960,10 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a209=(a209+a140);
   a209=(a088*a209);
   a206=(a206+a209);
-  a004=(a004-a206);
-  a004=(a004/a118);
-  a167=(a167-a004);
-  a209=(a136<a167);
+  a218=(a218-a206);
+  a218=(a218/a118);
+  a144=(a144-a218);
+  a209=(a136<a144);
   a140=7.;
   a252=(a209?a140:0);
   a209=(!a209);
@@ -2970,18 +2972,19 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a252=(a252*a123);
   a252=(a252+a014);
   a252=(a014/a252);
-  a252=(a020*a252);
-  a209=(a167-a136);
+  a252=(a167*a252);
+  a209=(a144-a136);
   a252=(a252*a209);
   a252=(a018?a252:0);
   a136=(a136+a252);
-  a223=casadi_sq(a223);
-  a136=casadi_fmax(a136,a223);
+  a020=casadi_sq(a020);
+  a252=(a180*a020);
+  a136=casadi_fmax(a136,a252);
   a136=(a258*a136);
   if (res[1]!=0) res[1][10]=a136;
-  a252=arg[1][11];
-  a144=(a144-a206);
-  a206=(a252<a144);
+  a209=arg[1][11];
+  a004=(a004-a206);
+  a206=(a209<a004);
   a140=(a206?a140:0);
   a206=(!a206);
   a206=(a206?a130:0);
@@ -2989,16 +2992,16 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a140=(a140*a123);
   a140=(a140+a014);
   a140=(a014/a140);
-  a140=(a020*a140);
-  a206=(a144-a252);
+  a140=(a167*a140);
+  a206=(a004-a209);
   a140=(a140*a206);
   a140=(a018?a140:0);
-  a252=(a252+a140);
-  a252=casadi_fmax(a252,a223);
-  a252=(a258*a252);
-  if (res[1]!=0) res[1][11]=a252;
-  a223=arg[1][12];
-  a175=(a175*a223);
+  a209=(a209+a140);
+  a209=casadi_fmax(a209,a252);
+  a209=(a258*a209);
+  if (res[1]!=0) res[1][11]=a209;
+  a252=arg[1][12];
+  a175=(a175*a252);
   a140=arg[1][13];
   a131=(a131*a140);
   a175=(a175+a131);
@@ -3011,14 +3014,14 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a025=(a025-a175);
   a025=(a166*a025);
   a175=(a175+a025);
-  a175=(a020*a175);
+  a175=(a167*a175);
   a025=(a018?a175:0);
   a206=casadi_fabs(a025);
   a206=(a206<a173);
   a206=(!a206);
   a206=(a206?a025:0);
   if (res[1]!=0) res[1][12]=a206;
-  a165=(a165*a223);
+  a165=(a165*a252);
   a174=(a174*a140);
   a165=(a165+a174);
   a170=(a170*a131);
@@ -3026,14 +3029,14 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a216=(a216-a165);
   a216=(a166*a216);
   a165=(a165+a216);
-  a165=(a020*a165);
+  a165=(a167*a165);
   a216=(a018?a165:0);
   a170=casadi_fabs(a216);
   a170=(a170<a173);
   a170=(!a170);
   a170=(a170?a216:0);
   if (res[1]!=0) res[1][13]=a170;
-  a133=(a133*a223);
+  a133=(a133*a252);
   a172=(a172*a140);
   a133=(a133+a172);
   a176=(a176*a131);
@@ -3041,7 +3044,7 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a089=(a089-a133);
   a166=(a166*a089);
   a133=(a133+a166);
-  a133=(a020*a133);
+  a133=(a167*a133);
   a166=(a018?a133:0);
   a089=casadi_fabs(a166);
   a089=(a089<a173);
@@ -3066,12 +3069,12 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a089=(a089-a175);
   a089=(a089/a118);
   a175=(a136*a123);
-  a004=(a004*a014);
-  a004=(a004/a118);
-  a175=(a175+a004);
-  a004=(1./a123);
-  a004=casadi_fabs(a004);
-  a175=(a175*a004);
+  a218=(a218*a014);
+  a218=(a218/a118);
+  a175=(a175+a218);
+  a218=(1./a123);
+  a218=casadi_fabs(a218);
+  a175=(a175*a218);
   a089=(a089-a175);
   a175=2.5000000000000001e-05;
   a089=(a089-a175);
@@ -3084,40 +3087,65 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a154=(a154*a123);
   a154=(a154+a014);
   a154=(a014/a154);
-  a020=(a020*a154);
+  a154=(a167*a154);
   a089=(a089-a132);
-  a020=(a020*a089);
-  a020=(a018?a020:0);
-  a020=(a132+a020);
-  a020=(a258*a020);
-  a089=casadi_fabs(a020);
+  a154=(a154*a089);
+  a154=(a018?a154:0);
+  a154=(a132+a154);
+  a154=(a258*a154);
+  a089=casadi_fabs(a154);
   a089=(a089<a173);
   a089=(!a089);
-  a089=(a089?a020:0);
+  a089=(a089?a154:0);
   if (res[1]!=0) res[1][15]=a089;
-  if (res[1]!=0) res[1][16]=a078;
-  if (res[1]!=0) res[1][17]=a083;
-  if (res[1]!=0) res[1][18]=a084;
-  if (res[1]!=0) res[1][19]=a034;
-  if (res[1]!=0) res[1][20]=a051;
-  if (res[1]!=0) res[1][21]=a059;
+  a160=(a160*a154);
+  a160=(a144+a160);
+  a154=9.9999999999999998e-13;
+  a020=casadi_fmax(a020,a154);
+  a020=(1./a020);
+  a020=casadi_fabs(a020);
+  a160=(a160*a020);
+  a020=(a180<a160);
+  a154=(a020?a062:0);
+  a020=(!a020);
+  a020=(a020?a148:0);
+  a154=(a154+a020);
+  a154=(a154*a123);
+  a154=(a154+a014);
+  a154=(a014/a154);
+  a167=(a167*a154);
+  a154=-1.;
+  a160=casadi_fmax(a160,a154);
+  a160=(a160-a180);
+  a167=(a167*a160);
+  a167=(a018?a167:0);
+  a180=(a180+a167);
+  a180=casadi_fmax(a180,a223);
+  a180=casadi_fmin(a180,a001);
+  if (res[1]!=0) res[1][16]=a180;
+  if (res[1]!=0) res[1][17]=a078;
+  if (res[1]!=0) res[1][18]=a083;
+  if (res[1]!=0) res[1][19]=a084;
+  if (res[1]!=0) res[1][20]=a034;
+  if (res[1]!=0) res[1][21]=a051;
+  if (res[1]!=0) res[1][22]=a059;
   a061=(a061-a070);
   a061=(a153*a061);
   a070=(a070+a061);
-  if (res[1]!=0) res[1][22]=a070;
+  if (res[1]!=0) res[1][23]=a070;
   a071=(a071-a079);
   a071=(a153*a071);
   a079=(a079+a071);
-  if (res[1]!=0) res[1][23]=a079;
+  if (res[1]!=0) res[1][24]=a079;
   a074=(a074-a080);
   a153=(a153*a074);
   a080=(a080+a153);
-  if (res[1]!=0) res[1][24]=a080;
-  if (res[1]!=0) res[1][25]=a068;
-  if (res[1]!=0) res[1][26]=a072;
-  if (res[1]!=0) res[1][27]=a075;
-  if (res[1]!=0) res[1][28]=a149;
-  if (res[1]!=0) res[1][29]=a101;
+  if (res[1]!=0) res[1][25]=a080;
+  if (res[1]!=0) res[1][26]=a068;
+  if (res[1]!=0) res[1][27]=a072;
+  if (res[1]!=0) res[1][28]=a075;
+  if (res[1]!=0) res[1][29]=a149;
+  if (res[1]!=0) res[1][30]=a101;
   a118=(a014/a118);
   a075=(a099+a118);
   a072=(a075<a057);
@@ -3199,69 +3227,69 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a009=(a009*a101);
   a072=(a072?a009:0);
   a034=(a034+a072);
-  if (res[1]!=0) res[1][30]=a034;
-  if (res[1]!=0) res[1][31]=a102;
-  if (res[1]!=0) res[1][32]=a157;
-  if (res[1]!=0) res[1][33]=a162;
-  if (res[1]!=0) res[1][34]=a225;
-  if (res[1]!=0) res[1][35]=a067;
-  if (res[1]!=0) res[1][36]=a094;
+  if (res[1]!=0) res[1][31]=a034;
+  if (res[1]!=0) res[1][32]=a102;
+  if (res[1]!=0) res[1][33]=a157;
+  if (res[1]!=0) res[1][34]=a162;
+  if (res[1]!=0) res[1][35]=a225;
+  if (res[1]!=0) res[1][36]=a067;
+  if (res[1]!=0) res[1][37]=a094;
   a106=(a100?a106:0);
   a098=(a103?a098:0);
   a106=(a106+a098);
-  if (res[1]!=0) res[1][37]=a106;
+  if (res[1]!=0) res[1][38]=a106;
   a159=(a100?a159:0);
   a156=(a103?a156:0);
   a159=(a159+a156);
-  if (res[1]!=0) res[1][38]=a159;
+  if (res[1]!=0) res[1][39]=a159;
   a164=(a100?a164:0);
   a161=(a103?a161:0);
   a164=(a164+a161);
-  if (res[1]!=0) res[1][39]=a164;
+  if (res[1]!=0) res[1][40]=a164;
   a127=(a100?a127:0);
   a219=(a103?a219:0);
   a127=(a127+a219);
-  if (res[1]!=0) res[1][40]=a127;
+  if (res[1]!=0) res[1][41]=a127;
   a194=(a100?a194:0);
   a110=(a103?a110:0);
   a194=(a194+a110);
-  if (res[1]!=0) res[1][41]=a194;
+  if (res[1]!=0) res[1][42]=a194;
   a100=(a100?a201:0);
   a103=(a103?a012:0);
   a100=(a100+a103);
-  if (res[1]!=0) res[1][42]=a100;
-  if (res[1]!=0) res[1][43]=a002;
-  if (res[1]!=0) res[1][44]=a036;
-  if (res[1]!=0) res[1][45]=a052;
-  if (res[1]!=0) res[1][46]=a023;
-  if (res[1]!=0) res[1][47]=a027;
-  if (res[1]!=0) res[1][48]=a033;
-  if (res[1]!=0) res[1][49]=a010;
-  if (res[1]!=0) res[1][50]=a222;
-  if (res[1]!=0) res[1][51]=a120;
-  if (res[1]!=0) res[1][52]=a217;
-  if (res[1]!=0) res[1][53]=a090;
-  if (res[1]!=0) res[1][54]=a037;
-  if (res[1]!=0) res[1][55]=a091;
-  if (res[1]!=0) res[1][56]=a038;
-  if (res[1]!=0) res[1][57]=a092;
-  if (res[1]!=0) res[1][58]=a022;
-  if (res[1]!=0) res[1][59]=a041;
-  if (res[1]!=0) res[1][60]=a042;
+  if (res[1]!=0) res[1][43]=a100;
+  if (res[1]!=0) res[1][44]=a002;
+  if (res[1]!=0) res[1][45]=a036;
+  if (res[1]!=0) res[1][46]=a052;
+  if (res[1]!=0) res[1][47]=a023;
+  if (res[1]!=0) res[1][48]=a027;
+  if (res[1]!=0) res[1][49]=a033;
+  if (res[1]!=0) res[1][50]=a010;
+  if (res[1]!=0) res[1][51]=a222;
+  if (res[1]!=0) res[1][52]=a120;
+  if (res[1]!=0) res[1][53]=a217;
+  if (res[1]!=0) res[1][54]=a090;
+  if (res[1]!=0) res[1][55]=a037;
+  if (res[1]!=0) res[1][56]=a091;
+  if (res[1]!=0) res[1][57]=a038;
+  if (res[1]!=0) res[1][58]=a092;
+  if (res[1]!=0) res[1][59]=a022;
+  if (res[1]!=0) res[1][60]=a041;
+  if (res[1]!=0) res[1][61]=a042;
   a042=casadi_fabs(a007);
   a041=1.0000000000000000e+100;
   a042=(a042<=a041);
   a042=(a042?a007:0);
-  if (res[1]!=0) res[1][61]=a042;
+  if (res[1]!=0) res[1][62]=a042;
   a042=casadi_fabs(a046);
   a042=(a042<=a041);
   a042=(a042?a046:0);
-  if (res[1]!=0) res[1][62]=a042;
+  if (res[1]!=0) res[1][63]=a042;
   a042=casadi_fabs(a056);
   a042=(a042<=a041);
   a042=(a042?a056:0);
-  if (res[1]!=0) res[1][63]=a042;
-  if (res[1]!=0) res[1][64]=a117;
+  if (res[1]!=0) res[1][64]=a042;
+  if (res[1]!=0) res[1][65]=a117;
   a142=casadi_fmax(a142,a132);
   a086=(a086<a142);
   a135=(a135*a086);
@@ -3279,8 +3307,8 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a028=(a028-a138);
   a135=(a135*a028);
   a138=(a138+a135);
-  if (res[1]!=0) res[1][65]=a138;
-  a138=arg[1][66];
+  if (res[1]!=0) res[1][66]=a138;
+  a138=arg[1][67];
   a054=casadi_sq(a054);
   a054=(a054*a063);
   a196=casadi_sq(a196);
@@ -3296,10 +3324,10 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a146=(a146?a088:0);
   a054=(a054+a146);
   a138=(a138+a054);
-  if (res[1]!=0) res[1][66]=a138;
-  a054=arg[1][67];
+  if (res[1]!=0) res[1][67]=a138;
+  a054=arg[1][68];
   a146=arg[3][38];
-  a088=arg[1][68];
+  a088=arg[1][69];
   a088=(a088+a001);
   a196=9.9999999999999995e-07;
   a196=(a088+a196);
@@ -3311,11 +3339,11 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a196=(a112<=a054);
   a112=(a112*a196);
   a054=(a054-a112);
-  if (res[1]!=0) res[1][67]=a054;
+  if (res[1]!=0) res[1][68]=a054;
   a146=(a001-a146);
   a146=(a146*a088);
-  if (res[1]!=0) res[1][68]=a146;
-  a146=arg[1][69];
+  if (res[1]!=0) res[1][69]=a146;
+  a146=arg[1][70];
   a088=arg[2][15];
   a088=casadi_sq(a088);
   a054=arg[2][16];
@@ -3332,7 +3360,7 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a088=(a017<a088);
   a054=(a054*a088);
   a146=casadi_fmax(a146,a054);
-  if (res[1]!=0) res[1][69]=a146;
+  if (res[1]!=0) res[1][70]=a146;
   if (res[2]!=0) res[2][0]=a016;
   if (res[2]!=0) res[2][1]=a049;
   if (res[2]!=0) res[2][2]=a015;
@@ -3378,8 +3406,8 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   if (res[3]!=0) res[3][8]=a182;
   if (res[3]!=0) res[3][9]=a097;
   if (res[3]!=0) res[3][10]=a014;
-  a167=(a167/a005);
-  a136=casadi_fmax(a136,a167);
+  a144=(a144/a005);
+  a136=casadi_fmax(a136,a144);
   a136=(a258*a136);
   a076=(a076*a139);
   a139=2.9999999999999999e-02;
@@ -3390,9 +3418,9 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a077=(a076*a077);
   a136=(a136+a077);
   if (res[3]!=0) res[3][11]=a136;
-  a144=(a144/a005);
-  a252=casadi_fmax(a252,a144);
-  a258=(a258*a252);
+  a004=(a004/a005);
+  a209=casadi_fmax(a209,a004);
+  a258=(a258*a209);
   a139=casadi_fmin(a258,a139);
   a139=(a139-a258);
   a076=(a076*a139);
@@ -3409,9 +3437,9 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a058=(a017<a122);
   a122=casadi_fmax(a122,a137);
   a122=casadi_sq(a122);
-  a095=(1./a095);
-  a095=casadi_sq(a095);
-  a132=(a132*a095);
+  a247=(1./a247);
+  a247=casadi_sq(a247);
+  a132=(a132*a247);
   a122=casadi_fmax(a122,a132);
   a058=(a058*a122);
   a232=(a232+a058);
@@ -3546,7 +3574,7 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   return 0;
 }
 
-/* ordinary_row:(i0[56],i1[70],i2[18],i3[58],i4)->(o0[63],o1[70],o2[3],o3[17],o4[18]) */
+/* ordinary_row:(i0[56],i1[71],i2[18],i3[58],i4)->(o0[63],o1[71],o2[3],o3[17],o4[18]) */
 static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   casadi_real a000, a001, a002, a003, a004, a005, a006, a007, a008, a009, a010, a011;
   casadi_real a012, a013, a014, a015, a016, a017, a018, a019, a020, a021, a022, a023;
@@ -3567,7 +3595,7 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a000=arg[0][0];
   a001=1.;
   a002=arg[2][0];
-  a003=arg[1][61];
+  a003=arg[1][62];
   a004=(a002-a003);
   a005=arg[3][48];
   a006=arg[2][6];
@@ -3576,26 +3604,26 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a005=(a005*a007);
   a004=(a004-a005);
   a005=0.;
-  a008=arg[1][19];
+  a008=arg[1][20];
   a009=(a004-a008);
   a010=casadi_sq(a009);
   a011=arg[2][1];
-  a012=arg[1][62];
+  a012=arg[1][63];
   a013=(a011-a012);
   a014=arg[3][49];
   a014=(a014*a007);
   a013=(a013-a014);
-  a014=arg[1][20];
+  a014=arg[1][21];
   a015=(a013-a014);
   a016=casadi_sq(a015);
   a010=(a010+a016);
   a016=arg[2][2];
-  a017=arg[1][63];
+  a017=arg[1][64];
   a018=(a016-a017);
   a019=arg[3][50];
   a019=(a019*a007);
   a018=(a018-a019);
-  a019=arg[1][21];
+  a019=arg[1][22];
   a007=(a018-a019);
   a020=casadi_sq(a007);
   a010=(a010+a020);
@@ -3620,16 +3648,16 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a021=(a021+a029);
   a010=(a010<=a021);
   a021=arg[2][3];
-  a029=arg[1][25];
+  a029=arg[1][26];
   a030=(a021-a029);
   a031=casadi_sq(a030);
   a032=arg[2][4];
-  a033=arg[1][26];
+  a033=arg[1][27];
   a034=(a032-a033);
   a035=casadi_sq(a034);
   a031=(a031+a035);
   a035=arg[2][5];
-  a036=arg[1][27];
+  a036=arg[1][28];
   a037=(a035-a036);
   a038=casadi_sq(a037);
   a031=(a031+a038);
@@ -3639,14 +3667,14 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a039=(a039+a040);
   a031=(a031<=a039);
   a010=(a010*a031);
-  a031=arg[1][22];
+  a031=arg[1][23];
   a039=(a031-a029);
   a039=casadi_sq(a039);
-  a040=arg[1][23];
+  a040=arg[1][24];
   a041=(a040-a033);
   a041=casadi_sq(a041);
   a039=(a039+a041);
-  a041=arg[1][24];
+  a041=arg[1][25];
   a042=(a041-a036);
   a042=casadi_sq(a042);
   a039=(a039+a042);
@@ -3658,14 +3686,14 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a043=(a043+a044);
   a039=(a039<=a043);
   a010=(a010*a039);
-  a039=arg[1][16];
+  a039=arg[1][17];
   a043=(a039-a008);
   a043=casadi_sq(a043);
-  a044=arg[1][17];
+  a044=arg[1][18];
   a045=(a044-a014);
   a045=casadi_sq(a045);
   a043=(a043+a045);
-  a045=arg[1][18];
+  a045=arg[1][19];
   a046=(a045-a019);
   a046=casadi_sq(a046);
   a043=(a043+a046);
@@ -3678,7 +3706,7 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a020=(a020+a047);
   a043=(a043<=a020);
   a010=(a010*a043);
-  a043=arg[1][64];
+  a043=arg[1][65];
   a020=(a043<a001);
   a047=4.0000000000000008e-02;
   a026=arg[0][28];
@@ -3695,7 +3723,7 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a010=(a010*a051);
   a051=arg[3][26];
   a052=(a005<a051);
-  a053=arg[1][30];
+  a053=arg[1][31];
   a054=(a005<a053);
   a052=(a052*a054);
   a055=arg[2][11];
@@ -3709,7 +3737,7 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a052=(a052+a058);
   a052=(a005<a052);
   a059=3.3333333333333335e+00;
-  a060=arg[1][29];
+  a060=arg[1][30];
   a061=(a059*a060);
   a061=floor(a061);
   a062=(a060+a024);
@@ -3717,10 +3745,10 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a059=(a059*a062);
   a059=floor(a059);
   a061=(a061<a059);
-  a059=arg[1][37];
+  a059=arg[1][38];
   a063=(a061?a059:0);
   a064=(!a061);
-  a065=arg[1][31];
+  a065=arg[1][32];
   a065=(a064?a065:0);
   a063=(a063+a065);
   a065=(a052?a063:0);
@@ -3830,7 +3858,7 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a097=arg[1][10];
   a096=(a096<a097);
   a098=2.0000000000000001e-01;
-  a099=arg[1][65];
+  a099=arg[1][66];
   a100=(a098<a099);
   a100=(a096*a100);
   a101=arg[0][49];
@@ -3849,7 +3877,7 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a106=(a106*a107);
   a107=1.0000000000000001e-18;
   a106=(a106+a107);
-  a108=arg[1][28];
+  a108=arg[1][29];
   a109=casadi_fmax(a062,a024);
   a109=(a024/a109);
   a110=(a022+a024);
@@ -3902,9 +3930,9 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a105=(a024*a056);
   a068=(a068*a105);
   a116=casadi_sq(a068);
-  a117=arg[1][38];
+  a117=arg[1][39];
   a118=(a061?a117:0);
-  a119=arg[1][32];
+  a119=arg[1][33];
   a119=(a064?a119:0);
   a118=(a118+a119);
   a119=(a052?a118:0);
@@ -3922,9 +3950,9 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a121=(a121*a105);
   a122=casadi_sq(a121);
   a116=(a116+a122);
-  a122=arg[1][39];
+  a122=arg[1][40];
   a123=(a061?a122:0);
-  a124=arg[1][33];
+  a124=arg[1][34];
   a124=(a064?a124:0);
   a123=(a123+a124);
   a124=(a052?a123:0);
@@ -4579,9 +4607,9 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a161=casadi_sq(a161);
   a161=(a161*a177);
   a086=(a086+a161);
-  a177=arg[1][40];
+  a177=arg[1][41];
   a154=(a061?a177:0);
-  a140=arg[1][34];
+  a140=arg[1][35];
   a140=(a064?a140:0);
   a154=(a154+a140);
   a140=(a154-a088);
@@ -4602,9 +4630,9 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a164=(a164*a024);
   a164=(a164+a056);
   a164=(a164+a161);
-  a140=arg[1][41];
+  a140=arg[1][42];
   a019=(a061?a140:0);
-  a008=arg[1][35];
+  a008=arg[1][36];
   a008=(a064?a008:0);
   a019=(a019+a008);
   a008=(a019-a155);
@@ -4623,9 +4651,9 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a147=(a147*a024);
   a147=(a147+a056);
   a147=(a147+a161);
-  a161=arg[1][42];
+  a161=arg[1][43];
   a056=(a061?a161:0);
-  a008=arg[1][36];
+  a008=arg[1][37];
   a008=(a064?a008:0);
   a056=(a056+a008);
   a008=(a056-a162);
@@ -5020,28 +5048,30 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a188=(a001+a188);
   a087=(a142*a188);
   a159=(a159*a087);
-  a087=300.;
+  a087=arg[1][16];
+  a159=(a159*a087);
+  a084=300.;
   a100=(a001-a100);
-  a084=(a057*a100);
-  a084=(a001-a084);
-  a087=(a087*a084);
-  a087=(a087*a093);
-  a087=(a087*a024);
-  a084=arg[3][22];
-  a144=(a084+a024);
-  a087=(a087/a144);
-  a159=(a159+a087);
+  a144=(a057*a100);
+  a144=(a001-a144);
+  a144=(a084*a144);
+  a144=(a144*a093);
+  a144=(a144*a024);
+  a080=arg[3][22];
+  a068=(a080+a024);
+  a144=(a144/a068);
+  a159=(a159+a144);
   a176=(a176+a159);
   a171=(a171+a176);
   if (res[0]!=0) res[0][49]=a171;
   a159=(a090*a126);
-  a087=(a150*a135);
-  a159=(a159+a087);
-  a087=(a149*a131);
-  a159=(a159+a087);
+  a144=(a150*a135);
+  a159=(a159+a144);
+  a144=(a149*a131);
+  a159=(a159+a144);
   a187=(a058*a187);
-  a087=(a028*a138);
-  a187=(a187-a087);
+  a144=(a028*a138);
+  a187=(a187-a144);
   a159=(a159+a187);
   a170=(a170*a182);
   a187=(a157*a058);
@@ -5403,35 +5433,35 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   if (res[1]!=0) res[1][7]=a102;
   if (res[1]!=0) res[1][8]=a105;
   if (res[1]!=0) res[1][9]=a104;
-  a129=(a129*a084);
+  a129=(a129*a080);
   a104=1.0000000000000000e-02;
-  a104=casadi_fmax(a129,a104);
+  a163=casadi_fmax(a129,a104);
   a129=(a005<a129);
-  a104=(a104*a129);
-  a129=(a005<a104);
-  a163=(a001-a057);
-  a163=(a095*a163);
-  a163=(a163*a160);
-  a058=casadi_sq(a052);
-  a180=casadi_sq(a014);
-  a058=(a058+a180);
-  a180=casadi_sq(a026);
-  a058=(a058+a180);
-  a180=(a108*a052);
-  a150=(a071*a014);
+  a163=(a163*a129);
+  a129=(a005<a163);
+  a058=(a001-a057);
+  a058=(a095*a058);
+  a058=(a058*a160);
+  a180=casadi_sq(a052);
+  a150=casadi_sq(a014);
   a180=(a180+a150);
-  a150=(a050*a026);
+  a150=casadi_sq(a026);
   a180=(a180+a150);
-  a180=casadi_sq(a180);
-  a058=(a058-a180);
-  a058=(a058/a079);
-  a150=(a171+a081);
-  a150=(a150+a101);
+  a150=(a108*a052);
+  a149=(a071*a014);
+  a150=(a150+a149);
+  a149=(a050*a026);
+  a150=(a150+a149);
+  a150=casadi_sq(a150);
+  a180=(a180-a150);
+  a180=(a180/a079);
+  a149=(a171+a081);
+  a149=(a149+a101);
   a171=(a171*a108);
-  a149=(a159*a071);
-  a171=(a171+a149);
-  a149=(a090*a050);
-  a171=(a171+a149);
+  a074=(a159*a071);
+  a171=(a171+a074);
+  a074=(a090*a050);
+  a171=(a171+a074);
   a171=(a108*a171);
   a159=(a159*a108);
   a081=(a081*a071);
@@ -5447,60 +5477,61 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a090=(a090+a101);
   a090=(a050*a090);
   a171=(a171+a090);
-  a150=(a150-a171);
-  a150=(a150/a079);
-  a058=(a058-a150);
-  a090=(a097<a058);
+  a149=(a149-a171);
+  a149=(a149/a079);
+  a180=(a180-a149);
+  a090=(a097<a180);
   a101=7.;
   a157=(a090?a101:0);
   a090=(!a090);
   a090=(a090?a091:0);
   a157=(a157+a090);
-  a157=(a157*a084);
+  a157=(a157*a080);
   a157=(a157+a024);
   a157=(a024/a157);
-  a157=(a163*a157);
-  a090=(a058-a097);
+  a157=(a058*a157);
+  a090=(a180-a097);
   a157=(a157*a090);
   a097=(a097+a157);
-  a104=casadi_sq(a104);
-  a097=casadi_fmax(a097,a104);
+  a163=casadi_sq(a163);
+  a157=(a087*a163);
+  a097=casadi_fmax(a097,a157);
   a097=(a129*a097);
   if (res[1]!=0) res[1][10]=a097;
-  a157=arg[1][11];
-  a180=(a180-a171);
-  a171=(a157<a180);
+  a090=arg[1][11];
+  a150=(a150-a171);
+  a171=(a090<a150);
   a101=(a171?a101:0);
   a171=(!a171);
   a171=(a171?a091:0);
   a101=(a101+a171);
-  a101=(a101*a084);
+  a101=(a101*a080);
   a101=(a101+a024);
   a101=(a024/a101);
-  a101=(a163*a101);
-  a171=(a180-a157);
+  a101=(a058*a101);
+  a171=(a150-a090);
   a101=(a101*a171);
-  a157=(a157+a101);
-  a157=casadi_fmax(a157,a104);
-  a157=(a129*a157);
-  if (res[1]!=0) res[1][11]=a157;
-  a104=arg[1][12];
-  a136=(a136*a104);
+  a090=(a090+a101);
+  a090=casadi_fmax(a090,a157);
+  a090=(a129*a090);
+  if (res[1]!=0) res[1][11]=a090;
+  a157=arg[1][12];
+  a136=(a136*a157);
   a101=arg[1][13];
   a092=(a092*a101);
   a136=(a136+a092);
   a092=arg[1][14];
   a127=(a127*a092);
   a136=(a136+a127);
-  a127=(a115*a084);
+  a127=(a115*a080);
   a127=(a127+a024);
   a127=(a024/a127);
   a052=(a052-a136);
   a052=(a127*a052);
   a136=(a136+a052);
-  a136=(a163*a136);
+  a136=(a058*a136);
   if (res[1]!=0) res[1][12]=a136;
-  a126=(a126*a104);
+  a126=(a126*a157);
   a135=(a135*a101);
   a126=(a126+a135);
   a131=(a131*a092);
@@ -5508,9 +5539,9 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a014=(a014-a126);
   a014=(a127*a014);
   a126=(a126+a014);
-  a126=(a163*a126);
+  a126=(a058*a126);
   if (res[1]!=0) res[1][13]=a126;
-  a094=(a094*a104);
+  a094=(a094*a157);
   a133=(a133*a101);
   a094=(a094+a133);
   a137=(a137*a092);
@@ -5518,7 +5549,7 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a026=(a026-a094);
   a127=(a127*a026);
   a094=(a094+a127);
-  a094=(a163*a094);
+  a094=(a058*a094);
   if (res[1]!=0) res[1][14]=a094;
   a127=casadi_sq(a136);
   a026=casadi_sq(a126);
@@ -5533,13 +5564,13 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a136=casadi_sq(a136);
   a127=(a127-a136);
   a127=(a127/a079);
-  a136=(a097*a084);
-  a150=(a150*a024);
-  a150=(a150/a079);
-  a136=(a136+a150);
-  a150=(1./a084);
-  a150=casadi_fabs(a150);
-  a136=(a136*a150);
+  a136=(a097*a080);
+  a149=(a149*a024);
+  a149=(a149/a079);
+  a136=(a136+a149);
+  a149=(1./a080);
+  a149=casadi_fabs(a149);
+  a136=(a136*a149);
   a127=(a127-a136);
   a136=2.5000000000000001e-05;
   a127=(a127-a136);
@@ -5549,38 +5580,62 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a136=(!a136);
   a136=(a136?a109:0);
   a115=(a115+a136);
-  a115=(a115*a084);
+  a115=(a115*a080);
   a115=(a115+a024);
   a115=(a024/a115);
-  a163=(a163*a115);
+  a115=(a058*a115);
   a127=(a127-a093);
-  a163=(a163*a127);
-  a163=(a093+a163);
-  a163=(a129*a163);
-  if (res[1]!=0) res[1][15]=a163;
-  if (res[1]!=0) res[1][16]=a039;
-  if (res[1]!=0) res[1][17]=a044;
-  if (res[1]!=0) res[1][18]=a045;
-  if (res[1]!=0) res[1][19]=a009;
-  if (res[1]!=0) res[1][20]=a015;
-  if (res[1]!=0) res[1][21]=a007;
+  a115=(a115*a127);
+  a115=(a093+a115);
+  a115=(a129*a115);
+  if (res[1]!=0) res[1][15]=a115;
+  a084=(a084*a115);
+  a084=(a180+a084);
+  a115=9.9999999999999998e-13;
+  a163=casadi_fmax(a163,a115);
+  a163=(1./a163);
+  a163=casadi_fabs(a163);
+  a084=(a084*a163);
+  a163=(a087<a084);
+  a115=(a163?a022:0);
+  a163=(!a163);
+  a163=(a163?a109:0);
+  a115=(a115+a163);
+  a115=(a115*a080);
+  a115=(a115+a024);
+  a115=(a024/a115);
+  a058=(a058*a115);
+  a115=-1.;
+  a084=casadi_fmax(a084,a115);
+  a084=(a084-a087);
+  a058=(a058*a084);
+  a087=(a087+a058);
+  a087=casadi_fmax(a087,a104);
+  a087=casadi_fmin(a087,a001);
+  if (res[1]!=0) res[1][16]=a087;
+  if (res[1]!=0) res[1][17]=a039;
+  if (res[1]!=0) res[1][18]=a044;
+  if (res[1]!=0) res[1][19]=a045;
+  if (res[1]!=0) res[1][20]=a009;
+  if (res[1]!=0) res[1][21]=a015;
+  if (res[1]!=0) res[1][22]=a007;
   a045=(a021-a031);
   a045=(a114*a045);
   a031=(a031+a045);
-  if (res[1]!=0) res[1][22]=a031;
+  if (res[1]!=0) res[1][23]=a031;
   a031=(a032-a040);
   a031=(a114*a031);
   a040=(a040+a031);
-  if (res[1]!=0) res[1][23]=a040;
+  if (res[1]!=0) res[1][24]=a040;
   a040=(a035-a041);
   a114=(a114*a040);
   a041=(a041+a114);
-  if (res[1]!=0) res[1][24]=a041;
-  if (res[1]!=0) res[1][25]=a029;
-  if (res[1]!=0) res[1][26]=a033;
-  if (res[1]!=0) res[1][27]=a036;
-  if (res[1]!=0) res[1][28]=a110;
-  if (res[1]!=0) res[1][29]=a062;
+  if (res[1]!=0) res[1][25]=a041;
+  if (res[1]!=0) res[1][26]=a029;
+  if (res[1]!=0) res[1][27]=a033;
+  if (res[1]!=0) res[1][28]=a036;
+  if (res[1]!=0) res[1][29]=a110;
+  if (res[1]!=0) res[1][30]=a062;
   a079=(a024/a079);
   a036=(a060+a079);
   a033=(a036<a051);
@@ -5662,103 +5717,103 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a054=(a054*a062);
   a033=(a033?a054:0);
   a009=(a009+a033);
-  if (res[1]!=0) res[1][30]=a009;
-  if (res[1]!=0) res[1][31]=a063;
-  if (res[1]!=0) res[1][32]=a118;
-  if (res[1]!=0) res[1][33]=a123;
-  if (res[1]!=0) res[1][34]=a154;
-  if (res[1]!=0) res[1][35]=a019;
-  if (res[1]!=0) res[1][36]=a056;
+  if (res[1]!=0) res[1][31]=a009;
+  if (res[1]!=0) res[1][32]=a063;
+  if (res[1]!=0) res[1][33]=a118;
+  if (res[1]!=0) res[1][34]=a123;
+  if (res[1]!=0) res[1][35]=a154;
+  if (res[1]!=0) res[1][36]=a019;
+  if (res[1]!=0) res[1][37]=a056;
   a067=(a061?a067:0);
   a059=(a064?a059:0);
   a067=(a067+a059);
-  if (res[1]!=0) res[1][37]=a067;
+  if (res[1]!=0) res[1][38]=a067;
   a120=(a061?a120:0);
   a117=(a064?a117:0);
   a120=(a120+a117);
-  if (res[1]!=0) res[1][38]=a120;
+  if (res[1]!=0) res[1][39]=a120;
   a125=(a061?a125:0);
   a122=(a064?a122:0);
   a125=(a125+a122);
-  if (res[1]!=0) res[1][39]=a125;
+  if (res[1]!=0) res[1][40]=a125;
   a088=(a061?a088:0);
   a177=(a064?a177:0);
   a088=(a088+a177);
-  if (res[1]!=0) res[1][40]=a088;
+  if (res[1]!=0) res[1][41]=a088;
   a155=(a061?a155:0);
   a140=(a064?a140:0);
   a155=(a155+a140);
-  if (res[1]!=0) res[1][41]=a155;
+  if (res[1]!=0) res[1][42]=a155;
   a061=(a061?a162:0);
   a064=(a064?a161:0);
   a061=(a061+a064);
-  if (res[1]!=0) res[1][42]=a061;
-  if (res[1]!=0) res[1][43]=a002;
-  if (res[1]!=0) res[1][44]=a011;
-  if (res[1]!=0) res[1][45]=a016;
-  if (res[1]!=0) res[1][46]=a021;
-  if (res[1]!=0) res[1][47]=a032;
-  if (res[1]!=0) res[1][48]=a035;
-  if (res[1]!=0) res[1][49]=a006;
-  if (res[1]!=0) res[1][50]=a005;
+  if (res[1]!=0) res[1][43]=a061;
+  if (res[1]!=0) res[1][44]=a002;
+  if (res[1]!=0) res[1][45]=a011;
+  if (res[1]!=0) res[1][46]=a016;
+  if (res[1]!=0) res[1][47]=a021;
+  if (res[1]!=0) res[1][48]=a032;
+  if (res[1]!=0) res[1][49]=a035;
+  if (res[1]!=0) res[1][50]=a006;
   if (res[1]!=0) res[1][51]=a005;
   if (res[1]!=0) res[1][52]=a005;
-  a006=arg[1][53];
+  if (res[1]!=0) res[1][53]=a005;
+  a006=arg[1][54];
   a006=(a006+a024);
-  a061=arg[1][43];
-  a002=(a002==a061);
   a061=arg[1][44];
+  a002=(a002==a061);
+  a061=arg[1][45];
   a011=(a011==a061);
   a061=(a002*a011);
-  a064=arg[1][45];
+  a064=arg[1][46];
   a016=(a016==a064);
   a061=(a061*a016);
   a006=(a006*a061);
-  if (res[1]!=0) res[1][53]=a006;
-  a006=arg[1][54];
+  if (res[1]!=0) res[1][54]=a006;
+  a006=arg[1][55];
   a006=(a006+a024);
-  a064=arg[1][46];
-  a021=(a021==a064);
   a064=arg[1][47];
+  a021=(a021==a064);
+  a064=arg[1][48];
   a032=(a032==a064);
   a064=(a021*a032);
-  a161=arg[1][48];
+  a161=arg[1][49];
   a035=(a035==a161);
   a064=(a064*a035);
   a006=(a006*a064);
-  if (res[1]!=0) res[1][54]=a006;
-  a006=arg[1][55];
+  if (res[1]!=0) res[1][55]=a006;
+  a006=arg[1][56];
   a061=(a001-a061);
   a061=(a024*a061);
   a006=(a006+a061);
   a006=(a006*a002);
-  if (res[1]!=0) res[1][55]=a006;
-  a006=arg[1][56];
-  a006=(a006+a061);
-  a006=(a006*a011);
   if (res[1]!=0) res[1][56]=a006;
   a006=arg[1][57];
   a006=(a006+a061);
-  a006=(a006*a016);
+  a006=(a006*a011);
   if (res[1]!=0) res[1][57]=a006;
   a006=arg[1][58];
+  a006=(a006+a061);
+  a006=(a006*a016);
+  if (res[1]!=0) res[1][58]=a006;
+  a006=arg[1][59];
   a064=(a001-a064);
   a064=(a024*a064);
   a006=(a006+a064);
   a006=(a006*a021);
-  if (res[1]!=0) res[1][58]=a006;
-  a006=arg[1][59];
-  a006=(a006+a064);
-  a006=(a006*a032);
   if (res[1]!=0) res[1][59]=a006;
   a006=arg[1][60];
   a006=(a006+a064);
-  a006=(a006*a035);
+  a006=(a006*a032);
   if (res[1]!=0) res[1][60]=a006;
-  if (res[1]!=0) res[1][61]=a003;
-  if (res[1]!=0) res[1][62]=a012;
-  if (res[1]!=0) res[1][63]=a017;
-  if (res[1]!=0) res[1][64]=a030;
+  a006=arg[1][61];
+  a006=(a006+a064);
+  a006=(a006*a035);
+  if (res[1]!=0) res[1][61]=a006;
+  if (res[1]!=0) res[1][62]=a003;
+  if (res[1]!=0) res[1][63]=a012;
+  if (res[1]!=0) res[1][64]=a017;
+  if (res[1]!=0) res[1][65]=a030;
   a103=casadi_fmax(a103,a093);
   a047=(a047<a103);
   a096=(a096*a047);
@@ -5775,8 +5830,8 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a010=(a010-a099);
   a096=(a096*a010);
   a099=(a099+a096);
-  if (res[1]!=0) res[1][65]=a099;
-  a099=arg[1][66];
+  if (res[1]!=0) res[1][66]=a099;
+  a099=arg[1][67];
   a108=casadi_sq(a108);
   a108=(a108*a023);
   a071=casadi_sq(a071);
@@ -5792,10 +5847,10 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a107=(a107?a050:0);
   a108=(a108+a107);
   a099=(a099+a108);
-  if (res[1]!=0) res[1][66]=a099;
-  a108=arg[1][67];
+  if (res[1]!=0) res[1][67]=a099;
+  a108=arg[1][68];
   a107=arg[3][38];
-  a050=arg[1][68];
+  a050=arg[1][69];
   a050=(a050+a001);
   a071=9.9999999999999995e-07;
   a071=(a050+a071);
@@ -5807,11 +5862,11 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a071=(a073<=a108);
   a073=(a073*a071);
   a108=(a108-a073);
-  if (res[1]!=0) res[1][67]=a108;
+  if (res[1]!=0) res[1][68]=a108;
   a107=(a001-a107);
   a107=(a107*a050);
-  if (res[1]!=0) res[1][68]=a107;
-  a107=arg[1][69];
+  if (res[1]!=0) res[1][69]=a107;
+  a107=arg[1][70];
   a050=arg[2][15];
   a050=casadi_sq(a050);
   a108=arg[2][16];
@@ -5828,7 +5883,7 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a050=(a005<a050);
   a108=(a108*a050);
   a107=casadi_fmax(a107,a108);
-  if (res[1]!=0) res[1][69]=a107;
+  if (res[1]!=0) res[1][70]=a107;
   if (res[2]!=0) res[2][0]=a004;
   if (res[2]!=0) res[2][1]=a013;
   if (res[2]!=0) res[2][2]=a018;
@@ -5848,7 +5903,7 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a049=(a049*a025);
   a049=(a049+a179);
   a028=(2.*a028);
-  a028=(a028*a084);
+  a028=(a028*a080);
   a028=(a028*a025);
   a188=(a188+a028);
   a188=(a188-a049);
@@ -5857,7 +5912,7 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   if (res[3]!=0) res[3][3]=a049;
   if (res[3]!=0) res[3][4]=a049;
   if (res[3]!=0) res[3][5]=a049;
-  a188=(a181+a084);
+  a188=(a181+a080);
   a188=(a188-a001);
   a188=(a069*a188);
   a188=(a001+a188);
@@ -5874,8 +5929,8 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   if (res[3]!=0) res[3][8]=a049;
   if (res[3]!=0) res[3][9]=a008;
   if (res[3]!=0) res[3][10]=a024;
-  a058=(a058/a178);
-  a097=casadi_fmax(a097,a058);
+  a180=(a180/a178);
+  a097=casadi_fmax(a097,a180);
   a097=(a129*a097);
   a037=(a037*a100);
   a100=2.9999999999999999e-02;
@@ -5886,17 +5941,17 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a038=(a037*a038);
   a097=(a097+a038);
   if (res[3]!=0) res[3][11]=a097;
-  a180=(a180/a178);
-  a157=casadi_fmax(a157,a180);
-  a129=(a129*a157);
+  a150=(a150/a178);
+  a090=casadi_fmax(a090,a150);
+  a129=(a129*a090);
   a100=casadi_fmin(a129,a100);
   a100=(a100-a129);
   a037=(a037*a100);
   a129=(a129+a037);
   if (res[3]!=0) res[3][12]=a129;
-  a084=(2.*a084);
-  a084=(a084*a025);
-  if (res[3]!=0) res[3][13]=a084;
+  a080=(2.*a080);
+  a080=(a080*a025);
+  if (res[3]!=0) res[3][13]=a080;
   a024=(2.*a024);
   a024=(a024*a181);
   a024=(a024*a142);
@@ -5905,9 +5960,9 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a024=(a005<a066);
   a066=casadi_fmax(a066,a098);
   a066=casadi_sq(a066);
-  a144=(1./a144);
-  a144=casadi_sq(a144);
-  a093=(a093*a144);
+  a068=(1./a068);
+  a068=casadi_sq(a068);
+  a093=(a093*a068);
   a066=casadi_fmax(a066,a093);
   a024=(a024*a066);
   a179=(a179+a024);
@@ -6016,7 +6071,7 @@ static int casadi_f4(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   return 0;
 }
 
-/* row:(i0,i1[56],i2[70],i3[18],i4[58],i5)->(o0[63],o1[70],o2[3],o3[17],o4[18]) */
+/* row:(i0,i1[56],i2[71],i3[18],i4[58],i5)->(o0[63],o1[71],o2[3],o3[17],o4[18]) */
 static int casadi_f2(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   if (arg[0] ? casadi_to_int(*arg[0]) : 0) {
     if (casadi_f4(arg+1, res, iw, w, 0)) return 1;
@@ -6026,7 +6081,7 @@ static int casadi_f2(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   return 0;
 }
 
-/* no_update:(i0[63],i1[294],i2[18],i3[58],i4,i5[3],i6[17],i7[18])->(o0[56],o1,o2[21],o3[40]) */
+/* no_update:(i0[63],i1[295],i2[18],i3[58],i4,i5[3],i6[17],i7[18])->(o0[56],o1,o2[21],o3[40]) */
 static int casadi_f6(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   casadi_real a00, a01, a02, a03, a04, a05, a06, a07, a08, a09, a10, a11;
   casadi_real a12, a13, a14, a15, a16, a17, a18, a19, a20, a21, a22, a23;
@@ -6477,90 +6532,90 @@ static int casadi_f6(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a07=(a07+a16);
   a24=(a24<a07);
   if (res[2]!=0) res[2][20]=a24;
-  a24=arg[1][254];
-  if (res[3]!=0) res[3][0]=a24;
   a24=arg[1][255];
-  if (res[3]!=0) res[3][1]=a24;
+  if (res[3]!=0) res[3][0]=a24;
   a24=arg[1][256];
-  if (res[3]!=0) res[3][2]=a24;
+  if (res[3]!=0) res[3][1]=a24;
   a24=arg[1][257];
-  if (res[3]!=0) res[3][3]=a24;
+  if (res[3]!=0) res[3][2]=a24;
   a24=arg[1][258];
-  if (res[3]!=0) res[3][4]=a24;
+  if (res[3]!=0) res[3][3]=a24;
   a24=arg[1][259];
-  if (res[3]!=0) res[3][5]=a24;
+  if (res[3]!=0) res[3][4]=a24;
   a24=arg[1][260];
-  if (res[3]!=0) res[3][6]=a24;
+  if (res[3]!=0) res[3][5]=a24;
   a24=arg[1][261];
-  if (res[3]!=0) res[3][7]=a24;
+  if (res[3]!=0) res[3][6]=a24;
   a24=arg[1][262];
-  if (res[3]!=0) res[3][8]=a24;
+  if (res[3]!=0) res[3][7]=a24;
   a24=arg[1][263];
-  if (res[3]!=0) res[3][9]=a24;
+  if (res[3]!=0) res[3][8]=a24;
   a24=arg[1][264];
-  if (res[3]!=0) res[3][10]=a24;
+  if (res[3]!=0) res[3][9]=a24;
   a24=arg[1][265];
-  if (res[3]!=0) res[3][11]=a24;
+  if (res[3]!=0) res[3][10]=a24;
   a24=arg[1][266];
-  if (res[3]!=0) res[3][12]=a24;
+  if (res[3]!=0) res[3][11]=a24;
   a24=arg[1][267];
-  if (res[3]!=0) res[3][13]=a24;
+  if (res[3]!=0) res[3][12]=a24;
   a24=arg[1][268];
-  if (res[3]!=0) res[3][14]=a24;
+  if (res[3]!=0) res[3][13]=a24;
   a24=arg[1][269];
-  if (res[3]!=0) res[3][15]=a24;
+  if (res[3]!=0) res[3][14]=a24;
   a24=arg[1][270];
-  if (res[3]!=0) res[3][16]=a24;
+  if (res[3]!=0) res[3][15]=a24;
   a24=arg[1][271];
-  if (res[3]!=0) res[3][17]=a24;
+  if (res[3]!=0) res[3][16]=a24;
   a24=arg[1][272];
-  if (res[3]!=0) res[3][18]=a24;
+  if (res[3]!=0) res[3][17]=a24;
   a24=arg[1][273];
-  if (res[3]!=0) res[3][19]=a24;
+  if (res[3]!=0) res[3][18]=a24;
   a24=arg[1][274];
-  if (res[3]!=0) res[3][20]=a24;
+  if (res[3]!=0) res[3][19]=a24;
   a24=arg[1][275];
-  if (res[3]!=0) res[3][21]=a24;
+  if (res[3]!=0) res[3][20]=a24;
   a24=arg[1][276];
-  if (res[3]!=0) res[3][22]=a24;
+  if (res[3]!=0) res[3][21]=a24;
   a24=arg[1][277];
-  if (res[3]!=0) res[3][23]=a24;
+  if (res[3]!=0) res[3][22]=a24;
   a24=arg[1][278];
-  if (res[3]!=0) res[3][24]=a24;
+  if (res[3]!=0) res[3][23]=a24;
   a24=arg[1][279];
-  if (res[3]!=0) res[3][25]=a24;
+  if (res[3]!=0) res[3][24]=a24;
   a24=arg[1][280];
-  if (res[3]!=0) res[3][26]=a24;
+  if (res[3]!=0) res[3][25]=a24;
   a24=arg[1][281];
-  if (res[3]!=0) res[3][27]=a24;
+  if (res[3]!=0) res[3][26]=a24;
   a24=arg[1][282];
-  if (res[3]!=0) res[3][28]=a24;
+  if (res[3]!=0) res[3][27]=a24;
   a24=arg[1][283];
-  if (res[3]!=0) res[3][29]=a24;
+  if (res[3]!=0) res[3][28]=a24;
   a24=arg[1][284];
-  if (res[3]!=0) res[3][30]=a24;
+  if (res[3]!=0) res[3][29]=a24;
   a24=arg[1][285];
-  if (res[3]!=0) res[3][31]=a24;
+  if (res[3]!=0) res[3][30]=a24;
   a24=arg[1][286];
-  if (res[3]!=0) res[3][32]=a24;
+  if (res[3]!=0) res[3][31]=a24;
   a24=arg[1][287];
-  if (res[3]!=0) res[3][33]=a24;
+  if (res[3]!=0) res[3][32]=a24;
   a24=arg[1][288];
-  if (res[3]!=0) res[3][34]=a24;
+  if (res[3]!=0) res[3][33]=a24;
   a24=arg[1][289];
-  if (res[3]!=0) res[3][35]=a24;
+  if (res[3]!=0) res[3][34]=a24;
   a24=arg[1][290];
-  if (res[3]!=0) res[3][36]=a24;
+  if (res[3]!=0) res[3][35]=a24;
   a24=arg[1][291];
-  if (res[3]!=0) res[3][37]=a24;
+  if (res[3]!=0) res[3][36]=a24;
   a24=arg[1][292];
-  if (res[3]!=0) res[3][38]=a24;
+  if (res[3]!=0) res[3][37]=a24;
   a24=arg[1][293];
+  if (res[3]!=0) res[3][38]=a24;
+  a24=arg[1][294];
   if (res[3]!=0) res[3][39]=a24;
   return 0;
 }
 
-/* usual_update:(i0[63],i1[294],i2[18],i3[58],i4,i5[3],i6[17],i7[18])->(o0[56],o1,o2[21],o3[40]) */
+/* usual_update:(i0[63],i1[295],i2[18],i3[58],i4,i5[3],i6[17],i7[18])->(o0[56],o1,o2[21],o3[40]) */
 static int casadi_f7(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   casadi_real a00, a01, a02, a03, a04, a05, a06, a07, a08, a09, a10, a11;
   casadi_real a12, a13, a14, a15, a16, a17, a18, a19, a20, a21, a22, a23;
@@ -7873,85 +7928,85 @@ static int casadi_f7(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a94=(a94+a35);
   a36=(a36<a94);
   if (res[2]!=0) res[2][20]=a36;
-  a36=arg[1][254];
-  if (res[3]!=0) res[3][0]=a36;
   a36=arg[1][255];
-  if (res[3]!=0) res[3][1]=a36;
+  if (res[3]!=0) res[3][0]=a36;
   a36=arg[1][256];
-  if (res[3]!=0) res[3][2]=a36;
+  if (res[3]!=0) res[3][1]=a36;
   a36=arg[1][257];
-  if (res[3]!=0) res[3][3]=a36;
+  if (res[3]!=0) res[3][2]=a36;
   a36=arg[1][258];
-  if (res[3]!=0) res[3][4]=a36;
+  if (res[3]!=0) res[3][3]=a36;
   a36=arg[1][259];
-  if (res[3]!=0) res[3][5]=a36;
+  if (res[3]!=0) res[3][4]=a36;
   a36=arg[1][260];
-  if (res[3]!=0) res[3][6]=a36;
+  if (res[3]!=0) res[3][5]=a36;
   a36=arg[1][261];
-  if (res[3]!=0) res[3][7]=a36;
+  if (res[3]!=0) res[3][6]=a36;
   a36=arg[1][262];
-  if (res[3]!=0) res[3][8]=a36;
+  if (res[3]!=0) res[3][7]=a36;
   a36=arg[1][263];
-  if (res[3]!=0) res[3][9]=a36;
+  if (res[3]!=0) res[3][8]=a36;
   a36=arg[1][264];
-  if (res[3]!=0) res[3][10]=a36;
+  if (res[3]!=0) res[3][9]=a36;
   a36=arg[1][265];
-  if (res[3]!=0) res[3][11]=a36;
+  if (res[3]!=0) res[3][10]=a36;
   a36=arg[1][266];
-  if (res[3]!=0) res[3][12]=a36;
+  if (res[3]!=0) res[3][11]=a36;
   a36=arg[1][267];
-  if (res[3]!=0) res[3][13]=a36;
+  if (res[3]!=0) res[3][12]=a36;
   a36=arg[1][268];
-  if (res[3]!=0) res[3][14]=a36;
+  if (res[3]!=0) res[3][13]=a36;
   a36=arg[1][269];
-  if (res[3]!=0) res[3][15]=a36;
+  if (res[3]!=0) res[3][14]=a36;
   a36=arg[1][270];
-  if (res[3]!=0) res[3][16]=a36;
+  if (res[3]!=0) res[3][15]=a36;
   a36=arg[1][271];
-  if (res[3]!=0) res[3][17]=a36;
+  if (res[3]!=0) res[3][16]=a36;
   a36=arg[1][272];
-  if (res[3]!=0) res[3][18]=a36;
+  if (res[3]!=0) res[3][17]=a36;
   a36=arg[1][273];
-  if (res[3]!=0) res[3][19]=a36;
+  if (res[3]!=0) res[3][18]=a36;
   a36=arg[1][274];
-  if (res[3]!=0) res[3][20]=a36;
+  if (res[3]!=0) res[3][19]=a36;
   a36=arg[1][275];
-  if (res[3]!=0) res[3][21]=a36;
+  if (res[3]!=0) res[3][20]=a36;
   a36=arg[1][276];
-  if (res[3]!=0) res[3][22]=a36;
+  if (res[3]!=0) res[3][21]=a36;
   a36=arg[1][277];
-  if (res[3]!=0) res[3][23]=a36;
+  if (res[3]!=0) res[3][22]=a36;
   a36=arg[1][278];
-  if (res[3]!=0) res[3][24]=a36;
+  if (res[3]!=0) res[3][23]=a36;
   a36=arg[1][279];
-  if (res[3]!=0) res[3][25]=a36;
+  if (res[3]!=0) res[3][24]=a36;
   a36=arg[1][280];
-  if (res[3]!=0) res[3][26]=a36;
+  if (res[3]!=0) res[3][25]=a36;
   a36=arg[1][281];
-  if (res[3]!=0) res[3][27]=a36;
+  if (res[3]!=0) res[3][26]=a36;
   a36=arg[1][282];
-  if (res[3]!=0) res[3][28]=a36;
+  if (res[3]!=0) res[3][27]=a36;
   a36=arg[1][283];
-  if (res[3]!=0) res[3][29]=a36;
+  if (res[3]!=0) res[3][28]=a36;
   a36=arg[1][284];
-  if (res[3]!=0) res[3][30]=a36;
+  if (res[3]!=0) res[3][29]=a36;
   a36=arg[1][285];
-  if (res[3]!=0) res[3][31]=a36;
+  if (res[3]!=0) res[3][30]=a36;
   a36=arg[1][286];
-  if (res[3]!=0) res[3][32]=a36;
+  if (res[3]!=0) res[3][31]=a36;
   a36=arg[1][287];
-  if (res[3]!=0) res[3][33]=a36;
+  if (res[3]!=0) res[3][32]=a36;
   a36=arg[1][288];
-  if (res[3]!=0) res[3][34]=a36;
+  if (res[3]!=0) res[3][33]=a36;
   a36=arg[1][289];
-  if (res[3]!=0) res[3][35]=a36;
+  if (res[3]!=0) res[3][34]=a36;
   a36=arg[1][290];
-  if (res[3]!=0) res[3][36]=a36;
+  if (res[3]!=0) res[3][35]=a36;
   a36=arg[1][291];
-  if (res[3]!=0) res[3][37]=a36;
+  if (res[3]!=0) res[3][36]=a36;
   a36=arg[1][292];
-  if (res[3]!=0) res[3][38]=a36;
+  if (res[3]!=0) res[3][37]=a36;
   a36=arg[1][293];
+  if (res[3]!=0) res[3][38]=a36;
+  a36=arg[1][294];
   if (res[3]!=0) res[3][39]=a36;
   return 0;
 }
@@ -10543,7 +10598,7 @@ static int casadi_f11(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* update_at_rest:(i0[63],i1[294],i2[18],i3[58],i4,i5[3],i6[17],i7[18])->(o0[56],o1,o2[21],o3[40]) */
+/* update_at_rest:(i0[63],i1[295],i2[18],i3[58],i4,i5[3],i6[17],i7[18])->(o0[56],o1,o2[21],o3[40]) */
 static int casadi_f8(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   casadi_real **res1=res+4, *rr, *w00=w+90, *w02=w+153, *w03=w+216, w05, w07, w08, w09, *w10=w+219, *w11=res[0] ? res[0] : w+222, *w12=res[2] ? res[2] : w+278;
   const casadi_real **arg1=arg+8, *wr00, *wr01, *wr04, *wr06, *wr13, *wr14;
@@ -10594,8 +10649,8 @@ static int casadi_f8(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   /* #13: output[2][0] = @12 */
   /* #14: @13 = input[1][0] */
   wr13 = arg[1] ? arg[1] : casadi_zeros;
-  /* #15: @14 = @13[254:294] */
-  wr14 = wr13+254;
+  /* #15: @14 = @13[255:295] */
+  wr14 = wr13+255;
   /* #16: output[3][0] = @14 */
   casadi_copy(wr14, 40, res[3]);
   return 0;
@@ -13867,7 +13922,7 @@ static int casadi_f13(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* update_in_field:(i0[63],i1[294],i2[18],i3[58],i4,i5[3],i6[17],i7[18])->(o0[56],o1,o2[21],o3[40]) */
+/* update_in_field:(i0[63],i1[295],i2[18],i3[58],i4,i5[3],i6[17],i7[18])->(o0[56],o1,o2[21],o3[40]) */
 static int casadi_f12(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   casadi_int i;
   casadi_real **res1=res+4, *rr, *w00=w+228, *w02=w+291, *w04=res[3] ? res[3] : w+354, *w05=w+394, w08, *w09=w+497, *w11=w+500, *w12=res[0] ? res[0] : w+603, *w13=res[2] ? res[2] : w+659;
@@ -13883,8 +13938,8 @@ static int casadi_f12(const casadi_real** arg, casadi_real** res, casadi_int* iw
   if (casadi_f9(arg1, res1, iw, w, 0)) return 1;
   /* #3: @3 = input[1][0] */
   wr03 = arg[1] ? arg[1] : casadi_zeros;
-  /* #4: @4 = @3[254:294] */
-  wr04 = wr03+254;
+  /* #4: @4 = @3[255:295] */
+  wr04 = wr03+255;
   /* #5: @5 = vertcat(@2, @4) */
   rr=w05;
   for (i=0, cs=w02; i<63; ++i) *rr++ = *cs++;
@@ -13928,7 +13983,7 @@ static int casadi_f12(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* update_at_rest_in_field:(i0[63],i1[294],i2[18],i3[58],i4,i5[3],i6[17],i7[18])->(o0[56],o1,o2[21],o3[40]) */
+/* update_at_rest_in_field:(i0[63],i1[295],i2[18],i3[58],i4,i5[3],i6[17],i7[18])->(o0[56],o1,o2[21],o3[40]) */
 static int casadi_f14(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   casadi_int i;
   casadi_real **res1=res+4, *rr, *w00=w+228, *w02=w+291, *w03=w+354, w05, w07, w08, w09, *w10=w+357, *w11=w+360, *w13=res[3] ? res[3] : w+423;
@@ -13970,8 +14025,8 @@ static int casadi_f14(const casadi_real** arg, casadi_real** res, casadi_int* iw
   if (casadi_f10(arg1, res1, iw, w, 0)) return 1;
   /* #10: @12 = input[1][0] */
   wr12 = arg[1] ? arg[1] : casadi_zeros;
-  /* #11: @13 = @12[254:294] */
-  wr13 = wr12+254;
+  /* #11: @13 = @12[255:295] */
+  wr13 = wr12+255;
   /* #12: @14 = vertcat(@11, @13) */
   rr=w14;
   for (i=0, cs=w11; i<63; ++i) *rr++ = *cs++;
@@ -16946,7 +17001,7 @@ static int casadi_f30(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* without_by_heading:(i0[63],i1[294],i2[18],i3[58],i4,i5[3],i6)->(o0[63]) */
+/* without_by_heading:(i0[63],i1[295],i2[18],i3[58],i4,i5[3],i6)->(o0[63]) */
 static int casadi_f34(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   const casadi_real *wr0;
   /* #0: @0 = input[0][0] */
@@ -18442,7 +18497,7 @@ static int casadi_f37(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* by_heading:(i0[63],i1[294],i2[18],i3[58],i4,i5[3],i6)->(o0[63]) */
+/* by_heading:(i0[63],i1[295],i2[18],i3[58],i4,i5[3],i6)->(o0[63]) */
 static int casadi_f35(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   casadi_int i;
   casadi_real **res1=res+1, *rr, w02, w03, w04, w07, *w08=w+97, w09, w10, w11, w12, w13;
@@ -18452,10 +18507,10 @@ static int casadi_f35(const casadi_real** arg, casadi_real** res, casadi_int* iw
   wr00 = arg[0] ? arg[0] : casadi_zeros;
   /* #1: @1 = input[1][0] */
   wr01 = arg[1] ? arg[1] : casadi_zeros;
-  /* #2: @2 = 126 */
-  w02 = 126.;
-  /* #3: @3 = @1[123] */
-  w03 = wr01[123];
+  /* #2: @2 = 127 */
+  w02 = 127.;
+  /* #3: @3 = @1[124] */
+  w03 = wr01[124];
   /* #4: @4 = 1 */
   w04 = 1.;
   /* #5: @5 = input[2][0] */
@@ -18486,8 +18541,8 @@ static int casadi_f35(const casadi_real** arg, casadi_real** res, casadi_int* iw
   w07  = (w04-w07);
   /* #15: @11 = 1 */
   w11 = 1.;
-  /* #16: @12 = @1[124] */
-  w12 = wr01[124];
+  /* #16: @12 = @1[125] */
+  w12 = wr01[125];
   /* #17: @13 = 1 */
   w13 = 1.;
   /* #18: @13 = (@10-@13) */
@@ -18535,9 +18590,9 @@ static int casadi_f35(const casadi_real** arg, casadi_real** res, casadi_int* iw
   /* #39: @2 = (@2+@3) */
   w02 += w03;
   /* #40: @11 = @1[@2] */
-  for (rr=(&w11), cr=(&w02); rr!=(&w11)+1; ++rr) { i=(int) *cr++; *rr = i>=0 && i<294 ? wr01[i] : casadi_nan; }
-  /* #41: @2 = 126 */
-  w02 = 126.;
+  for (rr=(&w11), cr=(&w02); rr!=(&w11)+1; ++rr) { i=(int) *cr++; *rr = i>=0 && i<295 ? wr01[i] : casadi_nan; }
+  /* #41: @2 = 127 */
+  w02 = 127.;
   /* #42: @13 = 1 */
   w13 = 1.;
   /* #43: @13 = (@3-@13) */
@@ -18555,7 +18610,7 @@ static int casadi_f35(const casadi_real** arg, casadi_real** res, casadi_int* iw
   /* #49: @2 = (@2+@13) */
   w02 += w13;
   /* #50: @15 = @1[@2] */
-  for (rr=(&w15), cr=(&w02); rr!=(&w15)+1; ++rr) { i=(int) *cr++; *rr = i>=0 && i<294 ? wr01[i] : casadi_nan; }
+  for (rr=(&w15), cr=(&w02); rr!=(&w15)+1; ++rr) { i=(int) *cr++; *rr = i>=0 && i<295 ? wr01[i] : casadi_nan; }
   /* #51: @2 = 1 */
   w02 = 1.;
   /* #52: @4 = (@4-@2) */
@@ -18578,18 +18633,18 @@ static int casadi_f35(const casadi_real** arg, casadi_real** res, casadi_int* iw
   w07  = (w07?w14:0);
   /* #61: @4 = (@4+@7) */
   w04 += w07;
-  /* #62: @7 = 190 */
-  w07 = 190.;
+  /* #62: @7 = 191 */
+  w07 = 191.;
   /* #63: @7 = (@7+@3) */
   w07 += w03;
   /* #64: @3 = @1[@7] */
-  for (rr=(&w03), cr=(&w07); rr!=(&w03)+1; ++rr) { i=(int) *cr++; *rr = i>=0 && i<294 ? wr01[i] : casadi_nan; }
-  /* #65: @7 = 190 */
-  w07 = 190.;
+  for (rr=(&w03), cr=(&w07); rr!=(&w03)+1; ++rr) { i=(int) *cr++; *rr = i>=0 && i<295 ? wr01[i] : casadi_nan; }
+  /* #65: @7 = 191 */
+  w07 = 191.;
   /* #66: @7 = (@7+@13) */
   w07 += w13;
   /* #67: @13 = @1[@7] */
-  for (rr=(&w13), cr=(&w07); rr!=(&w13)+1; ++rr) { i=(int) *cr++; *rr = i>=0 && i<294 ? wr01[i] : casadi_nan; }
+  for (rr=(&w13), cr=(&w07); rr!=(&w13)+1; ++rr) { i=(int) *cr++; *rr = i>=0 && i<295 ? wr01[i] : casadi_nan; }
   /* #68: @17 = vertcat(@11, @15, @4, @3, @13) */
   rr=w17;
   *rr++ = w11;
@@ -18615,7 +18670,7 @@ static int casadi_f35(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* perhaps_by_heading:(i0,i1[63],i2[294],i3[18],i4[58],i5,i6[3],i7)->(o0[63]) */
+/* perhaps_by_heading:(i0,i1[63],i2[295],i3[18],i4[58],i5,i6[3],i7)->(o0[63]) */
 static int casadi_f33(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   if (arg[0] ? casadi_to_int(*arg[0]) : 0) {
     if (casadi_f35(arg+1, res, iw, w, 0)) return 1;
@@ -18665,12 +18720,12 @@ static int casadi_f40(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* every_update:(i0[63],i1[294],i2[18],i3[58],i4,i5[3],i6[17],i7[18])->(o0[56],o1,o2[21],o3[40]) */
+/* every_update:(i0[63],i1[295],i2[18],i3[58],i4,i5[3],i6[17],i7[18])->(o0[56],o1,o2[21],o3[40]) */
 static int casadi_f15(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   casadi_int i;
   casadi_real **res1=res+4, *rr, w01, w02, w03, w04, w05, w06, w07, w08, w09, w10;
-  casadi_real w11, w12, w13, *w14=w+621, *w15=w+684, *w16=w+747, *w21=w+810, *w22=w+813, *w23=res[3] ? res[3] : w+816, *w24=w+856, *w25=w+959, *w26=res[0] ? res[0] : w+1062;
-  casadi_real *w27=res[2] ? res[2] : w+1118;
+  casadi_real w11, w12, w13, *w14=w+622, *w15=w+685, *w16=w+748, *w21=w+811, *w22=w+814, *w23=res[3] ? res[3] : w+817, *w24=w+857, *w25=w+960, *w26=res[0] ? res[0] : w+1063;
+  casadi_real *w27=res[2] ? res[2] : w+1119;
   const casadi_real **arg1=arg+8, *cs, *wr00, *wr14, *wr17, *wr18, *wr19, *wr20, *wr23;
   /* #0: @0 = input[7][0] */
   wr00 = arg[7] ? arg[7] : casadi_zeros;
@@ -18784,8 +18839,8 @@ static int casadi_f15(const casadi_real** arg, casadi_real** res, casadi_int* iw
   arg1[5]=w22;
   res1[0]=w16;
   if (casadi_f38(arg1, res1, iw, w, 0)) return 1;
-  /* #28: @23 = @20[254:294] */
-  wr23 = wr20+254;
+  /* #28: @23 = @20[255:295] */
+  wr23 = wr20+255;
   /* #29: @24 = vertcat(@16, @23) */
   rr=w24;
   for (i=0, cs=w16; i<63; ++i) *rr++ = *cs++;
@@ -18820,7 +18875,7 @@ static int casadi_f15(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* updates:(i0,i1[63],i2[294],i3[18],i4[58],i5,i6[3],i7[17],i8[18])->(o0[56],o1,o2[21],o3[40]) */
+/* updates:(i0,i1[63],i2[295],i3[18],i4[58],i5,i6[3],i7[17],i8[18])->(o0[56],o1,o2[21],o3[40]) */
 static int casadi_f5(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   switch (arg[0] ? casadi_to_int(*arg[0]) : 0) {
     case 0:
@@ -18845,17 +18900,17 @@ static int casadi_f5(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   return 0;
 }
 
-/* step:(s[294],u[18],p[58],w[0],h)->(s_next[294],y[21]) */
+/* step:(s[295],u[18],p[58],w[0],h)->(s_next[295],y[21]) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   casadi_int i;
-  casadi_real **res1=res+2, *rr, *w01=res[0] ? res[0] : w+1557, w05, w06, *w07=w+1613, *w08=res[0] ? res[0]+56 : w+1676, *w09=w+1746, *w10=w+1749, *w11=w+1766, w12, *w13=res[1] ? res[1] : w+1784;
-  casadi_real *w14=res[0] ? res[0]+254 : w+1805, *w15=res[0] ? res[0]+126 : w+1845, *w16=w+1973, *w17=w+1975;
+  casadi_real **res1=res+2, *rr, *w01=res[0] ? res[0] : w+1559, w05, w06, *w07=w+1615, *w08=res[0] ? res[0]+56 : w+1678, *w09=w+1749, *w10=w+1752, *w11=w+1769, w12, *w13=res[1] ? res[1] : w+1787;
+  casadi_real *w14=res[0] ? res[0]+255 : w+1808, *w15=res[0] ? res[0]+127 : w+1848, *w16=w+1976, *w17=w+1978;
   const casadi_real **arg1=arg+5, *cr, *cs, *wr00, *wr01, *wr02, *wr03, *wr04, *wr15;
   /* #0: @0 = input[0][0] */
   wr00 = arg[0] ? arg[0] : casadi_zeros;
   /* #1: @1 = @0[:56] */
   wr01 = wr00+0;
-  /* #2: @2 = @0[56:126] */
+  /* #2: @2 = @0[56:127] */
   wr02 = wr00+56;
   /* #3: @3 = input[1][0] */
   wr03 = arg[1] ? arg[1] : casadi_zeros;
@@ -18903,18 +18958,18 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   if (casadi_f5(arg1, res1, iw, w, 0)) return 1;
   /* #10: output[0][0] = @1 */
   /* #11: output[0][1] = @8 */
-  /* #12: @15 = @0[126:254] */
-  wr15 = wr00+126;
-  /* #13: @6 = @8[66] */
-  for (rr=(&w06), cs=w08+66; cs!=w08+67; cs+=1) *rr++ = *cs;
+  /* #12: @15 = @0[127:255] */
+  wr15 = wr00+127;
+  /* #13: @6 = @8[67] */
+  for (rr=(&w06), cs=w08+67; cs!=w08+68; cs+=1) *rr++ = *cs;
   /* #14: @16 = vertcat(@12, @6) */
   rr=w16;
   *rr++ = w12;
   *rr++ = w06;
   /* #15: @17 = [0, 64] */
   casadi_copy(casadi_c0, 2, w17);
-  /* #16: @12 = @8[67] */
-  for (rr=(&w12), cs=w08+67; cs!=w08+68; cs+=1) *rr++ = *cs;
+  /* #16: @12 = @8[68] */
+  for (rr=(&w12), cs=w08+68; cs!=w08+69; cs+=1) *rr++ = *cs;
   /* #17: @17 = (@17+@12) */
   for (i=0, rr=w17; i<2; ++i) (*rr++) += w12;
   /* #18: @15 = (@15[@17] = @16) */
@@ -18930,7 +18985,7 @@ static int pyimu_imt30_ukf_step(const casadi_real** arg, casadi_real** res, casa
   return casadi_f0(arg, res, iw, w, mem);
 }
 
-/* initial:(u[18],p[58])->(s[294],y[21]) */
+/* initial:(u[18],p[58])->(s[295],y[21]) */
 static int casadi_f42(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   casadi_real a00, a01, a02, a03, a04, a05, a06, a07, a08, a09, a10, a11;
   casadi_real a12, a13, a14, a15, a16, a17, a18, a19, a20, a21, a22, a23;
@@ -19119,7 +19174,7 @@ static int casadi_f42(const casadi_real** arg, casadi_real** res, casadi_int* iw
   if (res[0]!=0) res[0][69]=a11;
   if (res[0]!=0) res[0][70]=a11;
   if (res[0]!=0) res[0][71]=a11;
-  if (res[0]!=0) res[0][72]=a11;
+  if (res[0]!=0) res[0][72]=a06;
   if (res[0]!=0) res[0][73]=a11;
   if (res[0]!=0) res[0][74]=a11;
   if (res[0]!=0) res[0][75]=a11;
@@ -19151,10 +19206,10 @@ static int casadi_f42(const casadi_real** arg, casadi_real** res, casadi_int* iw
   if (res[0]!=0) res[0][101]=a11;
   if (res[0]!=0) res[0][102]=a11;
   if (res[0]!=0) res[0][103]=a11;
-  if (res[0]!=0) res[0][104]=a19;
-  a19=25.;
+  if (res[0]!=0) res[0][104]=a11;
   if (res[0]!=0) res[0][105]=a19;
-  if (res[0]!=0) res[0][106]=a11;
+  a19=25.;
+  if (res[0]!=0) res[0][106]=a19;
   if (res[0]!=0) res[0][107]=a11;
   if (res[0]!=0) res[0][108]=a11;
   if (res[0]!=0) res[0][109]=a11;
@@ -19168,15 +19223,15 @@ static int casadi_f42(const casadi_real** arg, casadi_real** res, casadi_int* iw
   if (res[0]!=0) res[0][117]=a11;
   if (res[0]!=0) res[0][118]=a11;
   if (res[0]!=0) res[0][119]=a11;
+  if (res[0]!=0) res[0][120]=a11;
   a19=1000000000.;
-  if (res[0]!=0) res[0][120]=a19;
-  if (res[0]!=0) res[0][121]=a06;
-  if (res[0]!=0) res[0][122]=a11;
+  if (res[0]!=0) res[0][121]=a19;
+  if (res[0]!=0) res[0][122]=a06;
+  if (res[0]!=0) res[0][123]=a11;
   a20=63.;
-  if (res[0]!=0) res[0][123]=a20;
-  if (res[0]!=0) res[0][124]=a19;
-  if (res[0]!=0) res[0][125]=a11;
-  if (res[0]!=0) res[0][126]=a19;
+  if (res[0]!=0) res[0][124]=a20;
+  if (res[0]!=0) res[0][125]=a19;
+  if (res[0]!=0) res[0][126]=a11;
   if (res[0]!=0) res[0][127]=a19;
   if (res[0]!=0) res[0][128]=a19;
   if (res[0]!=0) res[0][129]=a19;
@@ -19240,7 +19295,7 @@ static int casadi_f42(const casadi_real** arg, casadi_real** res, casadi_int* iw
   if (res[0]!=0) res[0][187]=a19;
   if (res[0]!=0) res[0][188]=a19;
   if (res[0]!=0) res[0][189]=a19;
-  if (res[0]!=0) res[0][190]=a11;
+  if (res[0]!=0) res[0][190]=a19;
   if (res[0]!=0) res[0][191]=a11;
   if (res[0]!=0) res[0][192]=a11;
   if (res[0]!=0) res[0][193]=a11;
@@ -19304,18 +19359,19 @@ static int casadi_f42(const casadi_real** arg, casadi_real** res, casadi_int* iw
   if (res[0]!=0) res[0][251]=a11;
   if (res[0]!=0) res[0][252]=a11;
   if (res[0]!=0) res[0][253]=a11;
+  if (res[0]!=0) res[0][254]=a11;
   a19=arg[1][40];
   a20=(a11<a19);
   a18=arg[1][41];
   a05=cos(a18);
   a05=(a19*a05);
   a05=(a20*a05);
-  if (res[0]!=0) res[0][254]=a05;
+  if (res[0]!=0) res[0][255]=a05;
   a18=sin(a18);
   a19=(a19*a18);
   a19=(a20*a19);
   a19=(-a19);
-  if (res[0]!=0) res[0][255]=a19;
+  if (res[0]!=0) res[0][256]=a19;
   a19=arg[1][45];
   a18=casadi_sq(a19);
   a05=1.0000000000000001e-30;
@@ -19328,16 +19384,15 @@ static int casadi_f42(const casadi_real** arg, casadi_real** res, casadi_int* iw
   a18=casadi_fmin(a18,a16);
   a20=(a20*a18);
   a20=(-a20);
-  if (res[0]!=0) res[0][256]=a20;
-  if (res[0]!=0) res[0][257]=a11;
+  if (res[0]!=0) res[0][257]=a20;
   if (res[0]!=0) res[0][258]=a11;
+  if (res[0]!=0) res[0][259]=a11;
   a19=casadi_sq(a19);
-  if (res[0]!=0) res[0][259]=a19;
-  if (res[0]!=0) res[0][260]=a11;
+  if (res[0]!=0) res[0][260]=a19;
   if (res[0]!=0) res[0][261]=a11;
+  if (res[0]!=0) res[0][262]=a11;
   a19=10000.;
-  if (res[0]!=0) res[0][262]=a19;
-  if (res[0]!=0) res[0][263]=a11;
+  if (res[0]!=0) res[0][263]=a19;
   if (res[0]!=0) res[0][264]=a11;
   if (res[0]!=0) res[0][265]=a11;
   if (res[0]!=0) res[0][266]=a11;
@@ -19368,6 +19423,7 @@ static int casadi_f42(const casadi_real** arg, casadi_real** res, casadi_int* iw
   if (res[0]!=0) res[0][291]=a11;
   if (res[0]!=0) res[0][292]=a11;
   if (res[0]!=0) res[0][293]=a11;
+  if (res[0]!=0) res[0][294]=a11;
   if (res[1]!=0) res[1][0]=a01;
   if (res[1]!=0) res[1][1]=a03;
   if (res[1]!=0) res[1][2]=a04;
@@ -19622,13 +19678,13 @@ static int pyimu_imt30_ukf_initial(const casadi_real** arg, casadi_real** res, c
 
 /* What is remembered from sample to sample. */
 typedef struct {
-    double before[294], after[294]; /* the states from which the last sample was made, and that it left */
+    double before[295], after[295]; /* the states from which the last sample was made, and that it left */
     double period, parameters[58];
     double sample; /* the number of the last sample; 0 at the start, less before */
     const double *arg[44];
     double *res[28];
     long long iw[1];
-    double w[2420];
+    double w[2425];
 } pyimu_imt30_ukf_memory;
 
 void *pyimu_imt30_ukf_create(double period, const double *parameters, size_t n) {
