@@ -62,6 +62,27 @@ def test_names_that_no_system_takes(tmp_path):
         refused(load_part, tmp_path / f"{name}.toml", says=says)
 
 
+@pytest.mark.parametrize(
+    ("row", "line"),
+    [(1, HEAD.replace("gyro_x", '"gyro_x').strip()), (4, '0.02,"0,0,0'), (4, '"0.02,0,0,0')],
+)
+def test_a_quotation_mark_that_is_left_open_is_the_reason(row, line, tmp_path):
+    """What stands behind it is one cell: neither are columns missing nor is the row short."""
+    rows = [HEAD.strip(), *(f"{0.01 * k:.2f},0.1,0.2,0.3" for k in range(200))]
+    rows[row - 1] = line
+    path = tmp_path / "log.csv"
+    path.write_text("\n".join(rows) + "\n")
+    refused(read_recording, path, says=f"row {row}: a quotation mark is not closed")
+
+
+def test_quotation_marks_that_are_closed_are_none(tmp_path):
+    path = tmp_path / "log.csv"
+    names = ",".join(f'"{name}"' for name in HEAD.strip().split(","))
+    rows = [f'"{0.01 * k:.2f}",0.1,0.2,0.3' for k in range(200)]
+    path.write_text("\n".join([names, *rows]) + "\n")
+    assert len(read_recording(path).time) == 200
+
+
 def test_absurd_numbers_count_as_missing(tmp_path):
     (tmp_path / "log.csv").write_text(HEAD + "0,1,2,3\n1,1e308,-1e300,3\n2,1,2,3\n")
     found = read_recording(tmp_path / "log.csv")

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
 
+from pyimu.errors import UserError
 from pyimu.recording.formats.lines import lines
 from pyimu.recording.spelling import unit_of
 
@@ -33,6 +34,11 @@ FORMS = ((",", "."), (";", "."), ("\t", "."), ("|", "."), (" ", "."))
 """Separators and decimal marks, the likelier first; a blank stands for any run of blanks."""
 
 COMMAS = ((";", ","), ("\t", ","), ("|", ","), (" ", ","))
+
+OPEN = "unexpected end of data"
+"""What the standard library's reader says of a line that ends within quotation marks."""
+
+UNCLOSED = "a quotation mark is not closed, so that the cells behind it are one"
 
 MOST_NAMES = 3
 """Rows of names and units, at most."""
@@ -80,10 +86,29 @@ class Layout:
         except csv.Error:
             return [line]
 
+    def is_open(self, line: str) -> bool:
+        """Whether a quotation mark that begins a cell of the line is not closed in it."""
+        if self.separator == " ":
+            return False
+        try:
+            next(csv.reader([line], delimiter=self.separator, strict=True), None)
+        except csv.Error as error:
+            return str(error) == OPEN
+        return False
+
 
 def layout_of(path: Path) -> Layout:
-    """The layout of the table in ``path``. Raises UserError for what is no text."""
-    return told_from(list(islice(lines(path), HEAD)))
+    """The layout of the table in ``path``.
+
+    Raises UserError for what is no text, and for names of which a quotation mark is left open.
+    """
+    head = list(islice(lines(path), HEAD))
+    found = told_from(head)
+    for row, line in enumerate(head[: found.first - 1], 1):
+        line = line.rstrip("\r\n")
+        if not line.startswith(COMMENTS) and len(found.cells(line)) > 1 and found.is_open(line):
+            raise UserError(f"{path}: row {row}: {UNCLOSED}")
+    return found
 
 
 def told_from(head: Sequence[str]) -> Layout:

@@ -15,7 +15,7 @@ import pyarrow as pa
 from pyarrow import csv as pacsv
 
 from pyimu.errors import Finding, UserError
-from pyimu.recording.formats.layout import HEAD, MISSING, Layout, is_number, layout_of
+from pyimu.recording.formats.layout import HEAD, MISSING, UNCLOSED, Layout, is_number, layout_of
 from pyimu.recording.formats.lines import Body, is_gzip, lines, opened
 from pyimu.recording.formats.reader import Columns, Reader
 
@@ -123,12 +123,16 @@ class CsvReader(Reader):
 
     def _rows(self) -> Iterator[tuple[int, list[str]]]:
         """(row, cells) of each row of numbers that is not blank, as a spreadsheet counts them."""
+        return ((row, self.layout.cells(line)) for row, line in self._lines())
+
+    def _lines(self) -> Iterator[tuple[int, str]]:
+        """(row, line) of each row of numbers that is not blank, as a spreadsheet counts them."""
         layout = self.layout
         for number, line in enumerate(lines(self.path), 1):
             if number < layout.first or not line.strip():
                 continue
             if not layout.comment or not line.startswith(layout.comment):
-                yield number, layout.cells(line.rstrip("\r\n"))
+                yield number, line.rstrip("\r\n")
 
     def _first_row(self) -> list[str] | None:
         return next(self._rows(), (0, None))[1]
@@ -146,8 +150,11 @@ class CsvReader(Reader):
 
         A cell is wrong where it is not a number, a row where it is too long or too short.
         """
-        for row, cells in islice(self._rows(), good, None):
+        for row, line in islice(self._lines(), good, None):
+            cells = self.layout.cells(line)
             if len(cells) != len(self.header):
+                if self.layout.is_open(line):
+                    raise UserError(f"{self.path}: row {row}: {UNCLOSED}")
                 raise UserError(
                     f"{self.path}: row {row}: {len(cells)} cells, expected {len(self.header)} as "
                     f"in {'the header' if self.layout.named else 'the others'}"
