@@ -183,7 +183,7 @@ BAD_LOGS = {
         ["row 6", "8 cells, expected 7"],
     ),
     "too short": (lambda lines: lines[:30], ["too short", "29 rows, at least 64"]),
-    "no rows": (lambda lines: lines[:1], ["0 rows of data"]),
+    "no rows": (lambda lines: lines[:1], ["rows of data, this one has 0"]),
     "empty file": (lambda lines: [], ["no 'time [s]' column"]),
 }
 
