@@ -51,6 +51,21 @@ def test_broad_lag_fitted_on_02_holds_on_07():
     assert moving_average_ratio(judge, closed.before, closed.after) <= 1 / 5
 
 
+def test_broad_a_delay_gains_no_more_than_the_squares_allow():
+    """White noise of the residual's size is the least likely of all that have it: over n rows no
+    likelihood rises by more than n log(before / after). The noise of the model that lacks the delay
+    is nearly all motion; fitted beside the motion and with it in turns it never stood. A band of
+    some hertz has twice as many independent rows a second, and is sampled no more than twice as
+    often.
+    """
+    (log,) = recordings("broad_07_undisturbed_fast_rotation_B")
+    closed = pyimu.close(log)
+    found = next(a for a in closed.added if a.effect == "time_delay")
+    time, error = pyimu.read_recording(log).time, closed.errors["gyro"]
+    rows = 3 * 4 * closed.band_hz["gyro"] * (time[-1] - time[0])
+    assert found.gain <= rows * np.log(error.before.total / error.after.total)
+
+
 def moving_average_ratio(path, before, after, taps=15):
     """Residual after over before, gyro and reference both through the same moving average, without
     the package's own filter.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
@@ -142,9 +142,11 @@ class Fit:
             return reduced(trial, trial.rows(self.sensor, state.bias))
         return bare(trial, in_band(trial, residual(self.sensor, trial, state)))
 
-    def with_noise(self) -> Fit:
-        """The same model with the noise that its present residual shows, and the part declares."""
-        seen = fit_noise(self.trials, self.residuals(), self.coloured)
+    def with_noise(self, whole: Collection[int] = ()) -> Fit:
+        """The same model with the noise that its present residual shows, and the part declares; on
+        the axes ``whole`` by all of the residual, also where that is hardly anything but motion.
+        """
+        seen = fit_noise(self.trials, self.residuals(), self.coloured, whole)
         return replace(self, seen=seen, noise=self._at_least_declared(seen))
 
     def _at_least_declared(self, seen: Noise) -> Noise:

@@ -30,11 +30,15 @@ def fit(start: Fit) -> Fit:
 def fit_and_normal(start: Fit, steps: int = 6) -> tuple[Fit, Normal]:
     """Maximum likelihood of the free coefficients and the logs' own, and the equations there.
 
-    The whitening is fitted anew in each round, until it or they stay.
+    The whitening is fitted anew in each round, until it or they stay. Where the residual of an axis
+    has shown more than motion it is taken whole from then on: by the noise beside the motion the
+    coefficients go where less than motion is left, by that of the whole they come back, for ever.
     """
+    whole: frozenset[int] = frozenset()
     for _ in range(ROUNDS):
         before = start
-        start = _least_squares(start, steps).with_noise()
+        start = _least_squares(start, steps).with_noise(whole)
+        whole |= _beside_motion(before.seen) - _beside_motion(start.seen)
         stay = np.allclose(_values(before), _values(start), rtol=1e-4, atol=1e-9)
         if stay or _alike(before.noise, start.noise):
             break
@@ -53,6 +57,11 @@ def _least_squares(start: Fit, steps: int) -> Fit:
     if has_noise(start):
         return gauss_newton(start, steps, equations, power_without_noise)
     return gauss_newton(start, steps)
+
+
+def _beside_motion(noise: Noise) -> frozenset[int]:
+    """The axes whose noise is that of a residual less motion."""
+    return frozenset(i for i, n in noise.items() if getattr(n, "beside_motion", False))
 
 
 def _alike(one: Noise, other: Noise) -> bool:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+from dataclasses import replace
+
 import numpy as np
 
 from pyimu.identification.fit.columns import Linear, in_band
@@ -34,8 +37,15 @@ def declared_variances(sensor: Sensor, h: float) -> tuple[np.ndarray, np.ndarray
     return white**2 / h, walk**2
 
 
-def fit_noise(trials: tuple[Trial, ...], residuals: list[Linear], coloured: bool = False) -> Noise:
-    """Noise model of each axis, one for all logs: the whitening follows what the reference is."""
+def fit_noise(
+    trials: tuple[Trial, ...],
+    residuals: list[Linear],
+    coloured: bool = False,
+    whole: Collection[int] = (),
+) -> Noise:
+    """Noise model of each axis, one for all logs: the whitening follows what the reference is. The
+    residual of the axes ``whole`` is taken as it stands, motion and all.
+    """
     if any(t.reduction is not None for t in trials):
         return {0: Unit()}
     derived = coloured or any(t.reference in DERIVED for t in trials)
@@ -43,8 +53,7 @@ def fit_noise(trials: tuple[Trial, ...], residuals: list[Linear], coloured: bool
     for i in sorted({i for t in trials for i in t.axes}):
         axis = [(t, one) for t, one in zip(trials, residuals, strict=True) if i in one.keys]
         if derived:
-            parts = [(_beside_motion(t, one, i), one.time, one.segments) for t, one in axis]
-            made[i] = Autoregressive.fit(parts)
+            made[i] = _autoregression(axis, i, i in whole)
         else:
             made[i] = RandomWalk.fit(
                 [(one.residual[:, i], one.time, one.segments) for _, one in axis]
@@ -52,15 +61,26 @@ def fit_noise(trials: tuple[Trial, ...], residuals: list[Linear], coloured: bool
     return made
 
 
-def _beside_motion(trial: Trial, one: Linear, axis: int) -> np.ndarray:
-    """A residual (m,), without what gains, axes and a delay that are not right yet make of the
-    motion, where it is hardly anything else.
+def _autoregression(rows: list[tuple[Trial, Linear]], axis: int, whole: bool) -> Autoregressive:
+    """The autoregression of an axis' residual, ``whole`` or less the motion in it."""
+    parts, less = [], False
+    for trial, one in rows:
+        left = one.residual[:, axis]
+        noise = left if whole else _beside_motion(trial, left)
+        parts.append((noise, one.time, one.segments))
+        less |= noise is not left
+    return replace(Autoregressive.fit(parts), beside_motion=less)
+
+
+def _beside_motion(trial: Trial, left: np.ndarray) -> np.ndarray:
+    """The residual ``left`` (m,) of an axis, without what gains, axes and a delay that are not right
+    yet make of the motion, where it is hardly anything else.
 
     A motion that repeats is what its past predicts: an autoregression would take that for noise,
     and whiten the motion away with it. Where there is noise to be seen the residual stays as it is,
     for the reference's own is in the motion, too.
     """
-    left, own = one.residual[:, axis], (KINDS[trial.kind].own, KINDS[trial.kind].own_rate)
+    own = KINDS[trial.kind].own, KINDS[trial.kind].own_rate
     motion = in_band(trial, np.hstack([trial.u[:, COLUMNS[name]] for name in own]))
     columns = np.column_stack([motion, np.ones(len(motion))])
     if len(left) < LEAST_ROWS * columns.shape[1]:

@@ -260,11 +260,12 @@ class RandomWalk:
 @dataclass(frozen=True)
 class Autoregressive:
     """Residual whose prediction from its ``len(coefficients)`` predecessors leaves variance
-    ``r``.
+    ``r``; ``beside_motion`` says that the motion in it was left out.
     """
 
     coefficients: tuple[float, ...]
     r: float
+    beside_motion: bool = False
 
     def whiten(self, values: np.ndarray, time: np.ndarray, segments: Segments) -> np.ndarray:
         """Prediction errors (m, c), unit variance.
