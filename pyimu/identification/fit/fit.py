@@ -51,18 +51,33 @@ WANDERS_LESS = 0.1
 nothing else stands for makes K 7 to 22 times as large."""
 
 
+NEAR = 1.0
+"""nat; a step that promises less moves the coefficients by hardly more than a standard error, and
+what the noise of the reference changes, itself a small part of the columns, by a share of that."""
+
+
 class Last:
     """What a model was last linearised to, for those that differ from it in their noise alone, and
     what the noise of the reference changes of it, once that was asked for.
+
+    While a search for the coefficients is ``near`` their place the changes are those of where it
+    was; ``settle`` lets them be asked for anew.
     """
 
     def __init__(self) -> None:
+        self.near = self.moved = False
         self.forget()
 
     def forget(self) -> None:
         self.of: tuple = ()
         self.linears: list[Linear] = []
-        self.changes: list[Linear] = []
+        self.moved = self.near
+        if not self.near:
+            self.changes: list[Linear] = []
+
+    def settle(self) -> None:
+        if self.moved:
+            self.changes, self.moved = [], False
 
 
 @dataclass(frozen=True)
@@ -320,24 +335,47 @@ def gauss_newton(
     left: Callable[[Fit], float] = power,
 ) -> Fit:
     """Least squares by normal ``equations``, each step halved until it lowers what is ``left``."""
+    start.last.settle()
     normal = with_prior(equations(start), start)
     for _ in range(steps):
         change = solve(normal.gram, normal.score)
-        if float(change @ normal.score) < 1e-3:
+        promised = float(change @ normal.score)
+        if promised < 1e-3:
             break
-        moved = next(
-            (
-                m
-                for m in (stepped(start, normal.keys, change / 2**k) for k in range(8))
-                if left(m) + prior_power(m) < normal.power
-            ),
-            None,
-        )
+        start.last.near = promised < NEAR
+        moved = _lower(start, normal, change, left)
         if moved is None:
             break
         start = moved
         normal = with_prior(equations(start), start)
+    start.last.near = False
     return start
+
+
+def _lower(
+    start: Fit, normal: Normal, change: np.ndarray, left: Callable[[Fit], float]
+) -> Fit | None:
+    """The fit a ``change`` further, or the largest half of a half of it that lowers what is
+    ``left``; None where that is none of eight.
+    """
+    last, changes = start.last, start.last.changes
+    for share in (change / 2**k for k in range(8)):
+        moved = stepped(start, normal.keys, share)
+        if last.near:
+            last.changes = [_carried(one, normal.keys, share) for one in changes]
+        if left(moved) + prior_power(moved) < normal.power:
+            return moved
+    last.changes = changes
+    return None
+
+
+def _carried(one: Linear, keys: list[Key], change: np.ndarray) -> Linear:
+    """A linearised trial a ``change`` of the coefficients further."""
+    moved, residual = dict(zip(keys, change, strict=True)), np.array(one.residual)
+    for i, stack in one.columns.items():
+        for key, column in zip(one.keys[i], stack.arrays, strict=True):
+            residual[:, i] -= moved.get(key, 0.0) * column
+    return replace(one, residual=residual)
 
 
 def stepped(start: Fit, keys: list[Key], change: np.ndarray) -> Fit:

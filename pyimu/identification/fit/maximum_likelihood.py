@@ -42,6 +42,7 @@ def fit_and_normal(start: Fit, steps: int = 6) -> tuple[Fit, Normal]:
         stay = np.allclose(_values(before), _values(start), rtol=1e-4, atol=1e-9)
         if stay or _alike(before.noise, start.noise):
             break
+    start.last.settle()
     normal = with_prior(equations(start), start)
     variance = variances(normal.gram, normal.variance if normal.seen is not None else None)
     # A coefficient that was set by other means than regression keeps the standard error it came

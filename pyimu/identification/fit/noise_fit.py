@@ -73,8 +73,8 @@ def _autoregression(rows: list[tuple[Trial, Linear]], axis: int, whole: bool) ->
 
 
 def _beside_motion(trial: Trial, left: np.ndarray) -> np.ndarray:
-    """The residual ``left`` (m,) of an axis, without what gains, axes and a delay that are not right
-    yet make of the motion, where it is hardly anything else.
+    """The residual ``left`` (m,) of an axis, without what gains, axes and a delay that are not
+    right yet make of the motion, where it is hardly anything else.
 
     A motion that repeats is what its past predicts: an autoregression would take that for noise,
     and whiten the motion away with it. Where there is noise to be seen the residual stays as it is,

@@ -289,7 +289,7 @@ def _changes(fit: Fit, linearised: Callable[[Fit], list[Linear]]) -> list[Linear
 
 def residual_changes(fit: Fit) -> list[Linear]:
     """What the noise of the reference makes of each trial's residual."""
-    if fit.is_last and fit.last.changes:
+    if fit.last.changes and (fit.is_last or fit.last.near):
         return fit.last.changes
     return changes(fit, Fit.residuals)
 
