@@ -15,6 +15,7 @@ import casadi as ca
 import numpy as np
 from scipy.signal import oaconvolve
 
+from pyimu.block.program import program
 from pyimu.block.stepping import step_through
 from pyimu.block.vectorised import over_rows
 from pyimu.model.chain import Chain, chain_of
@@ -246,9 +247,11 @@ def predict_each(
     N_INPUT), for each of ``values`` (k,) of its coefficient number ``slot``.
     """
     n, k = len(u), len(values)
-    inputs = [*np.repeat(np.asarray(u).T, k, axis=1), np.tile(values, n)]
+    function, unread = _with_free(sensor.chain, slot), np.broadcast_to(0.0, n * k)
+    read = set(program(function).entries(0))
+    inputs = [np.repeat(c, k) if i in read else unread for i, c in enumerate(np.asarray(u).T)]
     fixed = np.append(sensor.p, h)
-    return over_rows(_with_free(sensor.chain, slot), inputs, fixed).reshape(n, k, 3)
+    return over_rows(function, [*inputs, np.tile(values, n)], fixed).reshape(n, k, 3)
 
 
 @lru_cache(maxsize=32)
