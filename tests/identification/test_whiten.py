@@ -5,7 +5,7 @@ import pytest
 from scipy.signal import lfilter
 from scipy.stats import chi2, norm
 
-from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
+from pyimu.identification.fit.whiten import Autoregressive, RandomWalk, power_less_bias
 
 ALARM = 1e-4
 """Chance with which a right program fails a statistical test under another seed; the seeds here are
@@ -195,3 +195,25 @@ def test_rows_without_predecessors_are_zero_and_count_for_nothing():
     assert not white[[0, 1, 2, 30, 31, 32, 33, 34]].any()
     assert np.count_nonzero(white) == 27 + 0 + 25
     np.testing.assert_allclose(noise.log_det(np.arange(60.0), segments), 52 * np.log(2.0))
+
+
+@pytest.mark.parametrize("seed", [18, 42, *range(6)])
+def test_no_walk_is_much_likelier_than_the_likeliest(seed):
+    """Against the likelihood of all rows on a grid of walks, from one that no row shows to one that
+    hides the noise. Half of what one coefficient more gains by chance (half a nat, Wilks 1938) is
+    no difference to anyone. A golden section of that range misses weak walks: over most of it the
+    likelihood is flat.
+    """
+    rng = np.random.default_rng(seed)
+    rows, ratio = int(10 ** rng.uniform(3.5, 4.6)), 10 ** rng.uniform(-8.5, -5)
+    time = np.arange(rows) * 0.01 if seed % 6 == 0 else irregular(rng, rows)
+    values = walked(rng, time, 1.0, 100.0 * ratio)
+    both, whole = np.column_stack([values, np.ones(rows)]), [(0, rows)]
+
+    def likelihood(noise):
+        """Of the residual beside a noise, the white part and a constant as they suit it best."""
+        power = power_less_bias(noise.whiten(both, time, whole))
+        return -0.5 * (rows * np.log(power / rows) + noise.log_det(time, whole))
+
+    best = max(likelihood(RandomWalk(1.0, np.exp(x))) for x in np.arange(-30.0, 8.0, 0.5))
+    assert likelihood(RandomWalk.fit([(values, time, whole)])) > best - 0.25

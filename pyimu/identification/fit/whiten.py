@@ -14,8 +14,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from numba import njit
-from scipy.optimize import minimize_scalar
 from scipy.signal import lfilter
+
+from pyimu.identification.fit.local_level import LOGGED, ROUNDING, SAME, likeliest
 
 Segments = list[tuple[int, int]]
 
@@ -27,17 +28,6 @@ AR_ORDER = 32
 
 CHUNK = 65536
 """Rows that are put side by side with their predecessors at once."""
-
-
-SAME = 1e-9
-"""Share by which steps may differ and be taken for one: stamps are rounded."""
-
-ROUNDING = 1e-15
-"""Share by which a gain changes from row to row once it has settled."""
-
-LOGGED = 8
-"""Variances that are multiplied before a logarithm is taken: a product of so many, each between
-1e-38 and 1e38, is a number still."""
 
 
 @njit(cache=True)
@@ -77,34 +67,6 @@ def _filtered(values, gain, scale, level, out):
             moved = level[j] + gain[k] * v
             level[j] = moved if abs(moved) > 1e-200 else 0.0
             out[k, j] = v * scale[k]
-
-
-@njit(cache=True)
-def _concentrated(values, steps, k2):
-    """Of innovations of a residual (m,), white noise of variance 1 and a walk of ``k2`` a second:
-    the sum of the logarithms of their variances, and that of squares less what a constant takes.
-    """
-    known, total, product = 0.0, 0.0, 1.0
-    step, settled, f, sure = -1.0, False, 1.0, 1.0
-    level, constant, power, mixed, of_constant = 0.0, 0.0, 0.0, 0.0, 0.0
-    for k in range(len(steps)):
-        if abs(steps[k] - step) > SAME * step:
-            step, settled = steps[k], False
-        if not settled:
-            grown = known + k2 * step
-            f = grown + 1.0
-            sure = 1.0 / f
-            settled = abs(grown * sure - known) <= ROUNDING * known
-            known = grown * sure
-        product *= f
-        if k % LOGGED == LOGGED - 1:
-            total += np.log(product)
-            product = 1.0
-        v, one = values[k] - level, 1.0 - constant
-        level, constant = level + known * v, constant + known * one
-        power, mixed = power + v * v * sure, mixed + v * one * sure
-        of_constant += one**2 * sure
-    return total + np.log(product), power - mixed**2 / of_constant
 
 
 @njit(cache=True)
@@ -236,25 +198,8 @@ class RandomWalk:
         that walk alive.
         """
         parts = [(np.ascontiguousarray(v), _steps(t)) for v, t, _ in residuals]
-        count = sum(len(v) for v, _ in parts)
-        step = float(np.median(np.concatenate([d[1:] for _, d in parts])))
-
-        def concentrated(log_ratio: float) -> tuple[float, float]:
-            logs, powers = zip(*(_concentrated(v, d, np.exp(log_ratio) / step) for v, d in parts))
-            power = max(sum(powers) / count, LEAST_VARIANCE)
-            return 0.5 * sum(logs) + 0.5 * count * np.log(power), power
-
-        best = minimize_scalar(
-            lambda x: concentrated(x)[0],
-            bounds=(-40.0, 8.0),
-            method="bounded",
-            options={"xatol": 0.02},
-        )
-        low, high = concentrated(-40.0), concentrated(best.x)
-        # A random walk that does not pay for itself is left out: the likelihood is flat towards
-        # zero.
-        ratio, power = (0.0, low[1]) if low[0] <= high[0] + 0.01 else (np.exp(best.x), high[1])
-        return cls(power, power * ratio / step)
+        r, k2 = likeliest(parts, LEAST_VARIANCE)
+        return cls(r, k2)
 
 
 @dataclass(frozen=True)
