@@ -16,7 +16,8 @@ from pyimu.identification.fit.maximum_likelihood import fit
 from pyimu.identification.fit.response import is_driven, predict, with_memory
 from pyimu.identification.fit.trial import marked
 from pyimu.identification.search.choice import refine
-from pyimu.identification.search.forms import form_of, forms
+from pyimu.identification.search.form import form_of
+from pyimu.identification.search.forms import forms
 from pyimu.identification.search.screen import PENALTY, screen
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.kinds import OWN

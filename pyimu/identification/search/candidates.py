@@ -14,7 +14,7 @@ from pyimu.identification.fit.keys import Key, Scanned, coefficients_of
 from pyimu.identification.fit.normal import Normal
 from pyimu.identification.fit.response import is_step, predict
 from pyimu.identification.fit.trial import Trial, known_to_all
-from pyimu.identification.search.forms import Form, can_be_formed
+from pyimu.identification.search.form import Form, can_be_formed
 from pyimu.model.arguments import Parameter
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.effect import Effect

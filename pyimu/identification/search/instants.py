@@ -16,7 +16,7 @@ from pyimu.identification.fit.keys import Coefficient, Key, Scanned
 from pyimu.identification.fit.maximum_likelihood import fit
 from pyimu.identification.fit.normal import DEAD, Normal, normal_equations, solve
 from pyimu.identification.fit.trial import Trial
-from pyimu.identification.search.forms import BLOCK, UNUSED, form_of
+from pyimu.identification.search.form import BLOCK, UNUSED, form_of
 from pyimu.identification.search.threshold import LIKELY
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.signals import COLUMNS

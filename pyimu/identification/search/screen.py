@@ -27,7 +27,8 @@ from pyimu.identification.search.candidates import (
     scanned,
     with_start,
 )
-from pyimu.identification.search.forms import Form, form_of, forms
+from pyimu.identification.search.form import Form, form_of
+from pyimu.identification.search.forms import forms
 from pyimu.identification.search.projected import ONE, Projected, Scatter, dispersion, scatter_of
 from pyimu.model.effect import Effect
 from pyimu.model.sensor import Sensor
