@@ -7,17 +7,20 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from loop_cases import inputs, noise, trial
+from scipy.stats import binom
 
 from pyimu.identification.fit.columns import residual
 from pyimu.identification.fit.fit import begin
 from pyimu.identification.fit.inputs import LogState
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.maximum_likelihood import fit
+from pyimu.identification.fit.mixture import LEVEL, REACH
 from pyimu.identification.fit.response import is_driven, predict, with_memory
 from pyimu.identification.fit.trial import marked
 from pyimu.identification.search.choice import refine
-from pyimu.identification.search.form import form_of
+from pyimu.identification.search.form import UNUSED, form_of
 from pyimu.identification.search.forms import forms
+from pyimu.identification.search.instants import at_instants
 from pyimu.identification.search.screen import PENALTY, screen
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.kinds import OWN
@@ -62,6 +65,28 @@ def test_an_effect_is_found_with_its_form(name):
     true = np.ravel(CASES[name][parameter])[0]
     index = (0,) if CATALOGUE[name].parameters[parameter].shape else ()
     assert abs(found - true) < ERRORS * refined.fit.std[Coefficient(name, parameter, index)]
+
+
+@pytest.mark.parametrize("size", [0.002, 0.006])
+def test_an_instant_lies_within_its_interval(size):
+    """Of a step of 0.2 and of 0.6 standard deviations of a sample, whose instant is known to some
+    seconds and to a few tenths; it is looked for from a second beside it.
+    """
+    rng, time, runs, inside = np.random.default_rng(8), np.arange(2000) * H, 60, 0
+    u = inputs(rng, time)
+    u[:, COLUMNS["time"].start] = time
+    for _ in range(runs):
+        y = u[:, OWN["gyro"]] + noise(rng, time, R, 0.0)
+        y[:, 0] += size * (time >= 40.0)
+        case = trial(time, y, u, known=frozenset({"rate", "time"}))
+        sizes = np.zeros((3, 4))
+        sizes[0, 0] = size
+        sensor = Sensor("gyro", {"bias_step": {"A": sizes, "t0": [41.0, UNUSED, UNUSED, UNUSED]}})
+        begun = begin(sensor, [Coefficient("bias_step", "A", (0, 0))], [case])
+        found = at_instants(fit(begun), "bias_step")
+        off = found.sensor.values["bias_step"]["t0"][0] - 40.0
+        inside += abs(off) < REACH * found.std[Coefficient("bias_step", "t0", (0,))]
+    assert inside >= binom.ppf(1e-3, runs, LEVEL)
 
 
 @pytest.mark.parametrize("name", CASES)

@@ -14,9 +14,10 @@ from pyimu.identification.fit.fit import Fit, with_prior
 from pyimu.identification.fit.inputs import Inputs
 from pyimu.identification.fit.keys import Coefficient, Key, Scanned
 from pyimu.identification.fit.maximum_likelihood import fit
+from pyimu.identification.fit.mixture import REACH
 from pyimu.identification.fit.normal import DEAD, Normal, normal_equations, solve
 from pyimu.identification.fit.trial import Trial
-from pyimu.identification.search.form import BLOCK, UNUSED, form_of
+from pyimu.identification.search.form import BLOCK, UNUSED, form_of, since_power_on
 from pyimu.identification.search.threshold import LIKELY
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.signals import COLUMNS
@@ -50,14 +51,20 @@ def _at(fitted: Fit, effect: str, name: str, times: np.ndarray) -> Fit:
 def _found(fitted: Fit, key: Coefficient, reach: float) -> tuple[float, float]:
     """The likeliest instant of an event and its standard error, from a guess within ``reach`` s."""
     best = float(fitted.sensor.values[key.effect][key.parameter][key.index])
-    period, std, linears = min(t.h for t in fitted.trials), np.inf, fitted.linearise()
+    period, linears = min(t.h for t in fitted.trials), fitted.linearise()
+    longest, std = max(since_power_on(t, t.time[-1]) for t in fitted.trials), np.inf
     while True:
         times = best + np.linspace(-reach, reach, TRIED)
-        gain = _gains(fitted, linears, key, times)
+        gain, apart = _gains(fitted, linears, key, times), times[1] - times[0]
         likely = np.flatnonzero(gain > gain.max() - 0.5 * LIKELY)
-        apart = times[1] - times[0]
-        std = min(std, (times[likely[-1]] - times[likely[0]] + apart) / (2 * 1.96))
         best = float(times[np.argmax(gain)])
+        # Instants that are as likely and lie beyond are not seen by those that were tried.
+        ends = likely[0] > 0 and likely[-1] < TRIED - 1
+        if ends or reach >= longest:
+            std = min(std, (times[likely[-1]] - times[likely[0]] + apart) / (2 * REACH))
+        elif np.isinf(std):
+            reach *= 2.0
+            continue
         if apart <= period:
             return best, std
         reach = 1.5 * apart
