@@ -37,7 +37,10 @@ PUSHED_TILT_STD = 0.1
 """rad; the same where the force does not change: a push of 1 m/s^2."""
 
 YAW_STD = 1e-3
-"""rad; yaw starts at the given heading, or defines where it is zero."""
+"""rad; yaw starts at the given heading."""
+
+DEFINED_STD = 1e-5
+"""rad; yaw starts where it is defined to be zero."""
 
 BIAS_STD = 0.01
 """rad/s; of the bias of a gyro that was not seen at rest."""
@@ -55,7 +58,7 @@ class Yaw:
     """
 
     angle: float = 0.0
-    std: float = YAW_STD
+    std: float = DEFINED_STD
     known: bool = False
 
 

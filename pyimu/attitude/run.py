@@ -27,7 +27,7 @@ from pyimu.attitude.columns import (
 from pyimu.attitude.driven import speed_findings
 from pyimu.attitude.filter.compensation import left_in, noise_of
 from pyimu.attitude.filter.timing import clock_error, estimate_latency
-from pyimu.attitude.filter.tolerances import start_values
+from pyimu.attitude.filter.tolerances import of_motion, start_values
 from pyimu.attitude.filter.ukf import recorded_ukf
 from pyimu.attitude.filter.variables import FIELD_SETTINGS, LEAST_K
 from pyimu.attitude.filters import OF_LOGS, OWN, Settings, chosen
@@ -152,6 +152,8 @@ def run(
     unseen = [values[f"std0[{i}]"] for i in (4, 5, 6)] if "std0[4]" in values else BIAS_STD
     values |= initial_values(recording, known, rest, latitude, q0, yaw, unseen)
     values |= _numbered("bias0", bias0, 3) | _numbered("std0", std0, 6)
+    if method == OWN:
+        values |= of_motion(number("rate_noise", (values | given)["rate_noise"]))
     has = {v.name for v in block.parameters}
     named = {n: v for n, v in values.items() if n in has} | given
     p = with_settings(block, named, "the attitude filter")

@@ -62,7 +62,8 @@ def off(part: Part, measured: np.ndarray, world) -> float:
     block = attitude_ukf(part)
     u = columns(block, {**signals, "gyro": measured[:, :3], "accel": measured[:, 3:6]})
     std0 = np.array([1e-4] * 3 + [1e-7] * 3)
-    y, state = block.run(u, p=parameters(block, std0=std0, field_tolerance=0))
+    p = parameters(block, std0=std0, field_tolerance=0, accel_std=0.1)
+    y, state = block.run(u, p=p)
     assert np.isfinite(state).all()
     return np.linalg.norm(error(output(block, y, "q"), driven.attitude), axis=1).max()
 

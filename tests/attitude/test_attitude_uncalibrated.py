@@ -137,7 +137,7 @@ def test_a_unit_starts_as_unsure_as_its_part_is():
     start = {v.name: v.start for v in attitude_ukf(found).parameters}
     usual = {v.name: v.start for v in attitude_ukf(replace(found, tolerances=())).parameters}
     differs = {name for name in usual if start[name] != usual[name]}
-    assert differs == set(tolerances.start_values(found))
+    assert differs == {*tolerances.start_values(found), *tolerances.REAL}
     assert tolerances.start_values(found.specimen(1)) == {}
     # 20 deg/s, uniform, are 11.5 deg/s; far from 25 degC the thermal bias comes to them.
     assert start["std0[4]"] == pytest.approx(np.deg2rad(20 / np.sqrt(3)), rel=0.01)

@@ -196,8 +196,8 @@ def far_start(n: int, known) -> tuple:
 def test_covariance_stays_definite_where_attitude_and_bias_are_hardly_known(noise):
     """The velocity takes part in the sigma points: linear shares beside them were not definite.
 
-    A step's rounding counts as often as the factor's condition says: attitude and bias are known
-    from each other to a five hundredth.
+    A step's rounding counts as often as the condition of the covariance says, the square of the
+    factor's: attitude and bias are known from each other to a five hundredth.
     """
     plain, root = sigma_point_filter(part(*noise)), square_root_filter(part(*noise))
     u, start = far_start(1500, part(*noise))
@@ -212,7 +212,7 @@ def test_covariance_stays_definite_where_attitude_and_bias_are_hardly_known(nois
         assert (np.diag(factor) > 0).all()
     off = (factor @ factor.T - covariance) / np.outer(scale, scale)
     condition = np.linalg.cond(factor / scale[:, None])
-    assert np.abs(off).max() < len(u) * EPS * condition
+    assert np.abs(off).max() < len(u) * EPS * condition**2
 
 
 def test_factor_kept_in_single_precision_serves_where_a_covariance_does_not():

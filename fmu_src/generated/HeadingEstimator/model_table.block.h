@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "HeadingEstimator"
-#define MODEL_TOKEN_FMI2 "{ce1af11e-5a0a-ae73-664f-b272731281ae}"
-#define MODEL_TOKEN_FMI3 "{187120a7-edb7-4458-a39a-4641b32656bf}"
+#define MODEL_TOKEN_FMI2 "{ce1baffb-90f3-b40d-1ff4-992f77cd6ae8}"
+#define MODEL_TOKEN_FMI3 "{40c967b2-6e13-849f-887d-c0c0273f551a}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

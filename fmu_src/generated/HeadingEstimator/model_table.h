@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "HeadingEstimator"
-#define MODEL_TOKEN_FMI2 "{8a0f770f-5180-6ff6-2277-030d9271adbf}"
-#define MODEL_TOKEN_FMI3 "{e0ae0dd7-fe7d-a22a-85e8-f1dd5a9f1d55}"
+#define MODEL_TOKEN_FMI2 "{a655432c-b55b-d3fe-8466-0b9c59c329f3}"
+#define MODEL_TOKEN_FMI3 "{06cae619-9842-347b-bc13-0ec43370dcb3}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

@@ -23,8 +23,8 @@ block AttitudeUkf "Unscented attitude filter of the part imt30, in C"
     annotation(Dialog(group="Start"));
   parameter Real gravity(unit="m/s2", min=0) = 9.80665 "Magnitude of gravity"
     annotation(Dialog(group="Filter"));
-  parameter Real accelStd(unit="m/s2", min=0) = 0.01
-    "Standard deviation of the acceleration that a body has beside its bounded velocity, and beside the pushes that the run shows, and down to a tenth of it where the body moves less for a minute"
+  parameter Real accelStd(unit="m/s2", min=0) = 0.0001
+    "Standard deviation of the acceleration that a body has beside its bounded velocity, and beside the pushes that the run shows"
     annotation(Dialog(group="Filter"));
   parameter Real accelBiasStd(unit="m/s2", min=0) = 0
     "Standard deviation of a component of the accelerometer's constant error, which tilts the attitude by its share of gravity"
@@ -45,6 +45,9 @@ block AttitudeUkf "Unscented attitude filter of the part imt30, in C"
     annotation(Dialog(group="Filter"));
   parameter Real motionTime(unit="s", min=0) = 1
     "Correlation time of the velocity of a body that stays in its place"
+    annotation(Dialog(group="Filter"));
+  parameter Real motionShare(unit="1", min=0) = 0.0001
+    "Least share that the density of that velocity has at low frequency of one of that correlation time, as far as the run shows less"
     annotation(Dialog(group="Filter"));
   parameter Real rateNoise(min=0) = 0
     "Root density of the relative error of the rate, which leaks onto all axes [sqrt(s)]"
@@ -201,10 +204,10 @@ protected
   Modelica.Blocks.Interfaces.RealInput speedVarianceUsed;
   Modelica.Blocks.Interfaces.BooleanInput speedValidUsed;
   Modelica.Blocks.Interfaces.RealInput magUsed[3];
-  final parameter Real p[58] = {latitude, q0[1], q0[2], q0[3], q0[4], bias0[1], bias0[2],
+  final parameter Real p[59] = {latitude, q0[1], q0[2], q0[3], q0[4], bias0[1], bias0[2],
     bias0[3], std0[1], std0[2], std0[3], std0[4], std0[5], std0[6], gravity, accelStd,
     accelBiasStd, accelCorrelationTime, gravityWalk, gravityTolerance, motionTolerance,
-    steadyTolerance, motionTime, rateNoise, biasNoise, stationaryStd, restTime,
+    steadyTolerance, motionTime, motionShare, rateNoise, biasNoise, stationaryStd, restTime,
     restRateTolerance, restForceTolerance, slipStd, lostRateStd, stuckTime, axisStuckTime[1],
     axisStuckTime[2], axisStuckTime[3], axisStuckTime[4], axisStuckTime[5], axisStuckTime[6],
     headingMemory, declination, fieldStrength, fieldDip, fieldStrengthStd, fieldStd, fieldTime,
@@ -234,6 +237,7 @@ equation
   assert(motionTolerance >= 0, "AttitudeUkf: motionTolerance must not be below 0");
   assert(steadyTolerance >= 0, "AttitudeUkf: steadyTolerance must not be below 0");
   assert(motionTime >= 0, "AttitudeUkf: motionTime must not be below 0");
+  assert(motionShare >= 0, "AttitudeUkf: motionShare must not be below 0");
   assert(rateNoise >= 0, "AttitudeUkf: rateNoise must not be below 0");
   assert(biasNoise >= 0, "AttitudeUkf: biasNoise must not be below 0");
   assert(stationaryStd >= 0, "AttitudeUkf: stationaryStd must not be below 0");
@@ -336,16 +340,20 @@ says.</p>
 headingMemory. An age of some tenths of a second takes no heading more precise than about 1e-3 rad
 many times a second: what is left out then adds up, and std is too small.</td></tr>
 <tr><td>accelStd</td><td>Standard deviation of the acceleration that a body has beside its bounded
-velocity, and beside the pushes that the run shows, and down to a tenth of it where the body moves
-less for a minute; 0: the body never accelerates.</td></tr>
+velocity, and beside the pushes that the run shows; 0: the body never accelerates. The errors of a
+real accelerometer in motion are such an acceleration: a run over a log takes 0.01 m/s^2 where
+rateNoise is not 0.</td></tr>
 <tr><td>accelBiasStd</td><td>Standard deviation of a component of the accelerometer's constant
 error, which tilts the attitude by its share of gravity: std has that, no matter how long it is
 averaged, and what the size of gravity at rest says of it.</td></tr>
 <tr><td>gravityTolerance</td><td>Quasi-static: largest difference of the estimated magnitude and of
 gravity as it was measured at rest; beyond, that is called another than gravity.</td></tr>
 <tr><td>motionTime</td><td>Correlation time of the velocity of a body that stays in its place. How
-large that is the run finds out, over eight times this time; not below accelStd * motionTime and
-0.01 m/s, or a tenth of it where the body moves less for sixty times this time.</td></tr>
+large that is the run finds out, over eight times this time.</td></tr>
+<tr><td>motionShare</td><td>Least share that the density of that velocity has at low frequency of
+one of that correlation time, as far as the run shows less. The errors of a real accelerometer in
+motion look like a slow velocity: a run over a log takes 1, which does not ask the run, where
+rateNoise is not 0.</td></tr>
 <tr><td>biasNoise</td><td>Root density of the walk of the bias over the rate: a gyro that feels
 forces has another bias when it has turned over.</td></tr>
 <tr><td>restTime</td><td>A body of which no sample differs from the others for so long is at rest,

@@ -34,7 +34,13 @@ from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.stillness import FAST, STEADY
 from pyimu.attitude.filter.unscented import Estimate
 from pyimu.attitude.filter.variables import LEAST_ACCEL_STD
-from pyimu.attitude.filter.velocity import DRIFT_GAIN, Push, at_rest, covariance_of_motion
+from pyimu.attitude.filter.velocity import (
+    DRIFT_GAIN,
+    Bounded,
+    Push,
+    at_rest,
+    covariance_of_motion,
+)
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import reciprocal, symmetric
 
@@ -42,9 +48,10 @@ INNOVATION_GATE = 25.0
 """Normalised innovation squared of three degrees of freedom, above which a measurement gets less
 weight; it is exceeded with a probability of 1.5e-5."""
 
-PUSHED = 9.0
+PUSHED = 25.0
 """The same of the two degrees of freedom across the vertical, above which a steady force is no rest
-but a push; a rest exceeds it with a probability of 1 %."""
+but a push: what is a rest and is taken for none leaves the tilt wrong for as long as it lasts. With
+9, one of a hundred rests was lost, and more after a stop that had tilted the estimate."""
 
 RECOVERY = 0.2
 """s; while gravity is beyond its innovation gate, the variance of the tilt grows by a factor of e
@@ -56,12 +63,31 @@ force contradicts a tilt that is known, are 0.1 g, a drive without haste. A larg
 that is wrong by a fault wrong for longer; chosen on runs 100 to 115 of the vehicles of
 ``benchmarks/attitude_honesty.py``."""
 
+SHOWN = 9.0
+"""Variances of a mean force; what the square of its difference from gravity exceeds them by is no
+noise of the accelerometer."""
+
+LEAST_LEARNT = 1e-3
+"""s; of rests over which the size of gravity is averaged, where it is divided by."""
+
 SLOW_TIME = 0.3
 """s; velocity over acceleration of a slow motion by hand, of three rad/s."""
 
 KNOWN_TILT = 0.05
 """rad; standard deviation of the tilt up to which the velocity measures gravity: what is not linear
 in the tilt is then below 0.025 m/s^2."""
+
+
+@dataclass(frozen=True)
+class Body:
+    """What is known of the body: whether it ``rests``, with the mean force ``at_rest_force`` (3,),
+    whether it is ``sure`` that it does not drive on, and whether it is ``driven``, as speeds say.
+    """
+
+    rests: ca.SX
+    at_rest_force: ca.SX
+    sure: ca.SX
+    driven: ca.SX
 
 
 @dataclass(frozen=True)
@@ -85,22 +111,17 @@ def inclination(
     memory: Memory,
     sample: Sample,
     x: Estimate,
-    motion,
+    motion: Bounded,
     turned,
     settings: Settings,
     h,
-    rests,
-    at_rest_force,
-    driven,
-    sure,
+    body: Body,
 ) -> Inclination:
     """The quasi-static estimator and the mean force one sample later, and the gravity they measure.
 
-    ``x`` is the propagated estimate, ``motion`` (2,) (m/s)^2 the variance of its velocity across
-    and along the vertical, ``turned`` (3, 3) its turn in inertial space in the period ``h`` s, from
-    old axes to new. ``rests`` says that the body rests, with the mean force ``at_rest_force`` (3,),
-    and ``sure`` that it does not drive on; a constant force off the vertical is a push. The forces
-    of a body that is ``driven`` do not raise doubts of the size of gravity.
+    ``x`` is the propagated estimate, ``turned`` (3, 3) its turn in inertial space in the period
+    ``h`` s, from old axes to new. A constant force off the vertical is a push and no rest. The
+    forces of a body that is driven do not raise doubts of the size of gravity.
     """
     at, valid, size = settings.scalar, sample.force_valid, memory.size.size
     tolerance = memory.size.tolerance(at["gravity"], at["gravity_tolerance"])
@@ -120,29 +141,39 @@ def inclination(
     )
     known = is_tilt_known(x)
     measured = _measured(sample.force, mean, steady, noise, white, settings, h)
-    rests = rests * (1 - _is_off(at_rest_force, x, ca.sum1(white) * (h / 3), settings, PUSHED))
-    motion += rests * sure * (ca.fmin(motion, _std_at_rest(at) ** 2) - motion)
+    rests = body.rests * (1 - is_pushed(body.at_rest_force, x, settings, h))
+    resting = rests * body.sure
+    variance = _lessened(motion.variance, resting, _std_at_rest(at) ** 2)
+    # Pushes that lasted are in a slow velocity, and not in that of a body that rests.
+    slow = _lessened(motion.slow, resting, 1)
     pushed = memory.motion.drift * reciprocal(at["motion_time"] + h) ** 2
     contradicts = plausible * _contradicts(measured[0], mean, pushed, x, white, settings)
+    motion = Bounded(variance, slow)
     given = _measurement(measured, size, motion, plausible, contradicts, settings, h)
     # A turn on wheels makes the force larger, but not its part along the vertical.
     up = vertical(x)
     seen = ca.if_else(known, ca.dot(up, mean.force), ca.norm_2(mean.force))
-    no_doubt = 1 - (1 - plausible) * (1 - driven)
-    learnt = memory.size.followed(no_doubt, rests, at_rest_force, seen, at["gravity"], valid, h)
+    no_doubt = 1 - (1 - plausible) * (1 - body.driven)
+    force = body.at_rest_force
+    learnt = memory.size.followed(no_doubt, rests, force, seen, at["gravity"], valid, h)
     usable, velocity = plausible * (1 - known), where(valid, known)
     return Inclination(quasi, mean, learnt, given, usable, velocity, where(valid, steady))
 
 
-def _measurement(measured, size, motion, plausible, contradicts, settings: Settings, h):
+def _lessened(value, resting, most):
+    """The ``value``, and at most ``most`` where the body is ``resting``, 0 or 1."""
+    return value + resting * (ca.fmin(value, most) - value)
+
+
+def _measurement(measured, size, motion: Bounded, plausible, contradicts, settings: Settings, h):
     """What ``_measured`` gave and the ``motion`` as the updates take them."""
     at = settings.scalar
     return GravityMeasurement(
         *measured,
         magnitude=size,
         period=h,
-        motion=motion,
-        lasting=2 * at["motion_time"] * reciprocal(h),
+        motion=motion.variance,
+        lasting=2 * at["motion_time"] * motion.slow * reciprocal(h),
         coloured=2 * h * at["accel_correlation_time"] * at["accel_std"] ** 2,
         plausible=plausible,
         contradicts=contradicts,
@@ -159,10 +190,15 @@ def _contradicts(force, mean: MeanForce, pushed, x: Estimate, white, settings: S
     passing = passing_std(settings.scalar)
     pushes = ca.fmax(ca.fmax(passing, PUSH_STD) ** 2, pushed)
     spread = ca.sum1(white) * (1 / 3) + (passing > 0) * pushes + SLOW_TIME**2 * mean.scatter
-    return _is_off(force, x, spread, settings, INNOVATION_GATE)
+    return is_off(force, x, spread, settings, INNOVATION_GATE)
 
 
-def _is_off(force, x: Estimate, spread, settings: Settings, gate: float):
+def is_pushed(force, x: Estimate, settings: Settings, h):
+    """Whether the mean ``force`` (3,) of a body that looks still pushes it, 0 or 1."""
+    return is_off(force, x, ca.sum1(white_variance(settings, h)) * (h / 3), settings, PUSHED)
+
+
+def is_off(force, x: Estimate, spread, settings: Settings, gate: float):
     """Whether a ``force`` (3,) is farther off the vertical of ``x`` than the tilt is known.
 
     ``spread`` (m/s^2)^2 is the variance of an axis of the force; ``gate`` is for the square over
@@ -193,10 +229,13 @@ def constant_variance(size: GravitySize, settings: Settings):
     """Variance in rad^2 of the tilt by which an accelerometer is off that has a constant error.
 
     An error of b across gravity looks like a tilt of b / g, which no time averages out. Where its
-    size is not known, what the accelerometer makes of the size of gravity tells of it.
+    size is not known, what the accelerometer makes of the size of gravity tells of it, beyond what
+    its noise makes of that.
     """
-    at = settings.scalar
-    square = at["accel_bias_std"] ** 2 + size.off(at["gravity"]) ** 2
+    at, white = settings.scalar, settings.accel.white
+    by_noise = ca.sumsqr(white) * (1 / 3) * reciprocal(size.learnt + LEAST_LEARNT)
+    beyond = ca.fmax(size.off(at["gravity"]) ** 2 - SHOWN * by_noise, 0)
+    square = at["accel_bias_std"] ** 2 + beyond
     return square / ca.fmax(at["gravity"], LEAST_ACCEL_STD) ** 2
 
 
@@ -214,7 +253,7 @@ def push(memory: Memory, sample: Sample, settings: Settings, h, resting) -> Push
     lost_for = ca.fmin(ca.fmax(MEAN_TIME - memory.mean.span, 0), at["motion_time"])
     lost = memory.mean.scatter * (1 + 2 * lost_for * reciprocal(h))
     drift = (1 - resting) * DRIFT_GAIN * memory.motion.drift * h / (at["motion_time"] + h)
-    unknown = h**2 * declared * memory.motion.share + drift
+    unknown = h**2 * declared + drift
     if sample.driven is not False:
         unknown *= 1 - sample.driven
     return Push(

@@ -11,7 +11,7 @@ from pyimu.attitude.filter import late_heading
 from pyimu.attitude.filter.compensation import Compensation
 from pyimu.attitude.filter.field import FIELD
 from pyimu.attitude.filter.memory import ESTIMATE, WORKING, memory_sizes
-from pyimu.attitude.filter.tolerances import start_values
+from pyimu.attitude.filter.tolerances import of_motion, start_values
 from pyimu.attitude.filter.variables import INPUTS, OWN_PARAMETERS
 from pyimu.block.variables import Variable
 
@@ -135,6 +135,7 @@ class Layout:
     def parameters(self) -> tuple[Variable, ...]:
         part = self.compensation.part
         start = start_values(part)
+        start |= of_motion(start.get("rate_noise", 0.0))
         own = (replace(v, start=start.get(v.name, v.start)) for v in OWN_PARAMETERS)
         return (*own, *part.gyro.variables, *part.accel.variables)
 

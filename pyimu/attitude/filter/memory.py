@@ -21,6 +21,7 @@ from pyimu.attitude.filter.variables import (
     LEAST_N,
     OWN_PARAMETERS,
 )
+from pyimu.attitude.filter.velocity import SIZES as MOTION
 from pyimu.attitude.filter.velocity import Motion, first_std
 from pyimu.model.signals import SIGNALS
 from pyimu.symbolic import quaternion
@@ -114,8 +115,8 @@ class Memory:
         quasi = (self.quasi.magnitude, self.quasi.variance)
         size = (self.size.size, self.size.learnt, self.size.doubted)
         mean = (kept(self.mean.force), kept(self.mean.scatter), self.mean.span)
-        slow, drift = kept(self.motion.slow), kept(self.motion.drift)
-        motion = (self.motion.across, self.motion.along, slow, drift, self.motion.share)
+        across, along, *fading = self.motion.pack()
+        motion = (across, along, *(kept(v) for v in fading))
         sensors = (self.held, self.lost_for, self.same_for, self.sensors)
         still = self.stillness.pack()
         return ca.densify(
@@ -143,29 +144,30 @@ class Memory:
         parts = ca.vertsplit(column, ends)
         quasi, size = QuasiStatic(*parts[:2]), GravitySize(*parts[2:5])
         mean = MeanForce(*parts[5:8])
-        motion, still = Motion(*parts[8:13]), Stillness(*parts[13:20])
-        return cls(cls.estimate_of(estimate), quasi, size, mean, motion, still, *parts[20:])
+        after = 8 + len(MOTION)
+        motion, others = Motion.unpack(parts[8:after]), parts[after + len(STILLNESS) :]
+        still = Stillness(*parts[after : after + len(STILLNESS)])
+        return cls(cls.estimate_of(estimate), quasi, size, mean, motion, still, *others)
 
 
 def memory_sizes(compensation: Compensation) -> tuple[int, ...]:
     """Sizes of what ``Memory.pack_memory`` packs, in its order."""
     held = 7 + sum(SIGNALS[n].size for n in compensation.extra)
     own = held, 3, 8, len(compensation.start), 1, 1, 1, 2, 1
-    return 1, 1, 1, 1, 1, 3, 1, 1, 1, 1, 3, 1, 1, *STILLNESS, 6, 6, *own
+    return 1, 1, 1, 1, 1, 3, 1, 1, *MOTION, *STILLNESS, 6, 6, *own
 
 
 def start(compensation: Compensation, p) -> tuple[Estimate, ca.SX]:
     """The estimate before the first sample, from the parameters, and the whole state."""
     at = {v.name: p[i] for i, v in enumerate(OWN_PARAMETERS)}
     estimate = first_estimate(at)
-    first = first_std(at) ** 2
     held = [v for name in compensation.extra for v in SIGNALS[name].start]
     memory = Memory(
         estimate,
         QuasiStatic(at["gravity"], ca.fmax(passing_std(at), LEAST_ACCEL_STD) ** 2),
         GravitySize(at["gravity"], ca.SX(0), ca.SX(0)),
         MeanForce(ca.SX.zeros(3), ca.SX(0), ca.SX(0)),
-        Motion(first, first, ca.SX.zeros(3), ca.SX(0), ca.SX(1)),
+        Motion.start(at),
         Stillness.start(),
         safe=ca.SX.zeros(6),
         later=ca.SX.zeros(6),

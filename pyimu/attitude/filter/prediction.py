@@ -9,9 +9,11 @@ import casadi as ca
 from pyimu.attitude.filter import late_heading
 from pyimu.attitude.filter.field import is_magnetometer
 from pyimu.attitude.filter.gravity_update import (
+    Body,
     Inclination,
     constant_variance,
     inclination,
+    is_pushed,
     is_tilt_known,
     vertical,
     white_variance,
@@ -21,6 +23,7 @@ from pyimu.attitude.filter.memory import ESTIMATE, FADING, HOLD, REPORTED, Memor
 from pyimu.attitude.filter.quasi_static import MEAN_TIME, where
 from pyimu.attitude.filter.sample import Sample, unknown_turn
 from pyimu.attitude.filter.settings import Settings
+from pyimu.attitude.filter.slow_motion import Bounds
 from pyimu.attitude.filter.stillness import (
     CALM,
     SLOW,
@@ -37,7 +40,7 @@ from pyimu.attitude.filter.stillness import kept as still_kept
 from pyimu.attitude.filter.timing import clock_error
 from pyimu.attitude.filter.unscented import LARGEST_STD, LARGEST_TILT_STD, Estimate
 from pyimu.attitude.filter.variables import ABSURD, INPUTS, LEAST_K, LEAST_N, MAG
-from pyimu.attitude.filter.velocity import followed, least_std
+from pyimu.attitude.filter.velocity import followed
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import reciprocal
 from pyimu.symbolic.missing import faded
@@ -152,7 +155,8 @@ def rest_of(at: Instant, sample: Sample) -> Rest:
     rests = wanted * (before.rests > 0) * (1 - at.stationary)
     resting = alike * rests
     velocity = ca.trace(x.covariance[6:, 6:]) + ca.sumsqr(x.velocity)
-    drove, unknown = _drove(at.memory), velocity > DRIVES**2
+    pushed = is_pushed(before.slow_force, x, settings, at.h)
+    drove, unknown = _drove(at.memory), (velocity > DRIVES**2) + pushed > 0
     unsure = drove * (at.memory.calm > CALM)
     doubt = unsure * unknown
     kept = 1 - resting * (1 - doubt) * share_of_noise(still, _density(settings))
@@ -242,14 +246,14 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
     speed = (at.u[SPEED_VALID] > 0.5) * usable * known
     speed_for = ca.if_else(speed, 0, kept.speed_for + at.h)
     driven = speed_for < HOLD
-    used = where(sample.force_valid, known) * (1 - rest.resting) * (1 - driven)
-    time = scalar["motion_time"]
-    motion, seen = followed(kept.motion, x, turned, used, least_std(scalar), time, at.h)
+    goes_on = known * (1 - rest.resting) * (1 - driven)
+    used = where(sample.force_valid, goes_on)
+    white = ca.sum1(white_variance(at.settings, at.h)) * (at.h / 3)
+    bounds = Bounds(scalar["motion_share"], white, scalar["motion_time"])
+    motion, bounded = followed(kept.motion, x, used, goes_on, scalar["accel_std"] > 0, bounds, at.h)
     rests = (rest.resting + at.stationary > 0) * (rest.still.span >= MEAN_TIME)
-    still_force = rest.still.slow_force
-    force = inclination(
-        kept, sample, x, seen, turned, at.settings, at.h, rests, still_force, driven, rest.sure
-    )
+    body = Body(rests, rest.still.slow_force, rest.sure, driven)
+    force = inclination(kept, sample, x, bounded, turned, at.settings, at.h, body)
     still = _decided(at, x, rest)
     vertical_noise = at.memory.vertical_noise + _about_the_vertical(x, noise[0])
     field = ca.fmax(kept.field, is_magnetometer(at.u[MAG], at.settings))

@@ -31,6 +31,9 @@ SWAY_TIME = 10.0
 """s; time constant of the density of the sway: some thirty independent values of that difference,
 on three axes."""
 
+BY_CHANCE = 1.3
+"""Times the density of white noise that the sway must exceed: twice by what it scatters."""
+
 OUTLIER = 30.0
 """Squared noise of three axes over the variance of one, which a sample exceeds with a probability
 of 1.4e-6."""
@@ -182,4 +185,4 @@ def share_of_noise(x: Stillness, noise):
 
 def sway(x: Stillness, noise):
     """Density in (rad/s)^2 s of the rate that is no ``noise`` of the gyro."""
-    return ca.fmax(x.density - noise, 0)
+    return ca.fmax(x.density - BY_CHANCE * noise, 0)

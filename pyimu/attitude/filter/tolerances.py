@@ -42,6 +42,20 @@ def start_values(part: Part, warmer: float = 0.0) -> dict[str, float]:
     }
 
 
+REAL = {"accel_std": 0.01, "motion_share": 1.0}
+"""Parameters of a filter of real sensors."""
+
+
+def of_motion(rate_noise: float) -> dict[str, float]:
+    """The parameters that say of what motion looks like, of a filter with this ``rate_noise``.
+
+    Where something of the gyro is left out of the model, so it is of the accelerometer, and what
+    that makes of motion lasts: an error turns with the body, a scale factor rectifies what shakes.
+    On recordings 02, 11 and 26 of BROAD a share that the run shows makes the tilt too sure.
+    """
+    return REAL if rate_noise > 0 else {n: USUAL[n] for n in REAL}
+
+
 def bias_std(part: Part, warmer: float = 0.0) -> np.ndarray:
     """Standard deviation (3,) rad/s of the gyro's bias among specimens, level and at rest."""
     own, thermal = (_std(part, "gyro", *k) for k in (TURN_ON, THERMAL))

@@ -198,9 +198,10 @@ SETTINGS = (
         "accel_std",
         "m/s^2",
         "standard deviation of the acceleration that a body has beside its bounded velocity, and "
-        "beside the pushes that the run shows, and down to a tenth of it where the body moves less "
-        "for a minute; 0: the body never accelerates",
-        0.01,
+        "beside the pushes that the run shows; 0: the body never accelerates. The errors of a real "
+        "accelerometer in motion are such an acceleration: a run over a log takes 0.01 m/s^2 where "
+        "rate_noise is not 0",
+        1e-4,
     ),
     _setting(
         "accel_bias_std",
@@ -245,9 +246,17 @@ SETTINGS = (
         "motion_time",
         "s",
         "correlation time of the velocity of a body that stays in its place. How large that is the "
-        "run finds out, over eight times this time; not below accel_std * motion_time and 0.01 m/s,"
-        " or a tenth of it where the body moves less for sixty times this time",
+        "run finds out, over eight times this time",
         1.0,
+    ),
+    _setting(
+        "motion_share",
+        "1",
+        "least share that the density of that velocity has at low frequency of one of that "
+        "correlation time, as far as the run shows less. The errors of a real accelerometer in "
+        "motion look like a slow velocity: a run over a log takes 1, which does not ask the run, "
+        "where rate_noise is not 0",
+        1e-4,
     ),
     _setting(
         "rate_noise",

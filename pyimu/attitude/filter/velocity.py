@@ -19,18 +19,21 @@ from dataclasses import dataclass
 
 import casadi as ca
 
+from pyimu.attitude.filter import slow_motion
+from pyimu.attitude.filter.slow_motion import SIZES as SLOW_SIZES
+from pyimu.attitude.filter.slow_motion import Bounds, SlowMotion
 from pyimu.attitude.filter.unscented import Estimate
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import reciprocal, symmetric
 
-LEAST_STD = 0.01
-"""m/s; of the velocity of a body that is turned in its place about a point near the sensor. Chosen
-as the other times and factors here on recordings 02, 11 and 26 of BROAD
-(``benchmarks/attitude_real.py``), and with seed 11 of ``benchmarks/attitude_honesty.py``."""
-
 FIRST_STD = 0.08
 """m/s; of the velocity before the run has shown anything of it. A faster one shows at once
-(``OUTLIER``), a slower one in several times ``WINDOW``."""
+(``OUTLIER``). The times and factors here were chosen on recordings 02, 11 and 26 of BROAD
+(``benchmarks/attitude_real.py``), and with seeds 11 and 911 of
+``benchmarks/attitude_honesty.py``."""
+
+FIRST_TIME = 2.0
+"""Correlation times of the velocity over which a slower one must show to count as much as that."""
 
 WINDOW, RISE = 8.0, 7.0
 """Correlation times of the velocity over which its variance is estimated, where it falls and where
@@ -40,23 +43,12 @@ the fall, or with negative values taken for none, it would be too large."""
 OUTLIER = 9.0
 """Squared velocity over its variance beyond which it shows by itself that this is too small."""
 
-QUIET, QUIET_RISE = 60.0, 10.0
-"""Correlation times of the velocity over which the run shows that a body moves less than the least
-that was taken for it, where that share falls and where it rises again. A share falls by nothing
-faster than linearly, to zero in so long, however unsure the filter's own velocity is."""
-
-LEAST_SHARE = 0.01
-"""Of the variances that a body has at least; a tenth of the velocity."""
-
 SLOW = 3.0
 """Correlation times of the velocity over which it is averaged to see its drift."""
 
 DRIFTS = 3.0
 """By which factor the mean square of that average must exceed what a bounded velocity leaves; that
 does so with a probability of 5 %, exp(-3) of two axes."""
-
-TINY = 1e-12
-"""(m/s)^2; stands for no variance where it is divided by."""
 
 SLIGHT = 0.005
 """m/s; a smaller drift is none."""
@@ -102,17 +94,50 @@ class Push:
 class Motion:
     """How much the body moves, as the run itself has shown.
 
-    ``across`` and ``along`` the vertical the variance of its velocity in (m/s)^2. ``slow`` (3,) m/s
-    is the estimated velocity in body axes less what is fast in it, ``drift`` (m/s)^2 its variance
-    across beyond ``DRIFTS`` times that of a bounded velocity. ``share`` is how much of the least
-    variances that the settings speak of the body shows at most, ``LEAST_SHARE`` to 1.
+    ``across`` and ``along`` the vertical the variance of its velocity in (m/s)^2. ``slow`` (2,) m/s
+    is the estimated velocity east and north less what is fast in it, ``drift`` (m/s)^2 its variance
+    beyond ``DRIFTS`` times that of a bounded velocity. ``slowly`` is what is slow in it, ``known``
+    over how many correlation times the run has shown it, ``WINDOW`` at most.
     """
 
     across: ca.SX
     along: ca.SX
     slow: ca.SX
     drift: ca.SX
-    share: ca.SX
+    known: ca.SX
+    slowly: SlowMotion
+
+    @classmethod
+    def start(cls, at: Mapping[str, ca.SX]) -> Motion:
+        """That before the first sample, by the settings ``at``."""
+        first = first_std(at) ** 2
+        slowly = SlowMotion.start(first, at["motion_time"])
+        return cls(first, first, ca.SX.zeros(2), ca.SX(0), ca.SX(0), slowly)
+
+    def pack(self) -> tuple:
+        """Its numbers, in the order of ``SIZES``."""
+        return (*list(vars(self).values())[:5], *self.slowly.pack())
+
+    @classmethod
+    def unpack(cls, parts) -> Motion:
+        """The inverse of ``pack``."""
+        return cls(*parts[:5], SlowMotion(*parts[5:]))
+
+
+SIZES = (1, 1, 2, 1, 1, *SLOW_SIZES)
+"""Of what ``Motion.pack`` gives."""
+
+
+@dataclass(frozen=True)
+class Bounded:
+    """The velocity of a body that stays in its place, as it is measured to be zero.
+
+    ``variance`` (2,) (m/s)^2 across and along the vertical; ``slow`` is its density at low
+    frequency over that of the correlation time of the settings.
+    """
+
+    variance: ca.SX
+    slow: ca.SX
 
 
 def pushed(before: Estimate, after: Estimate, own, leak, push: Push) -> Estimate:
@@ -150,18 +175,12 @@ def pushed(before: Estimate, after: Estimate, own, leak, push: Push) -> Estimate
     return Estimate(after.q, after.bias, velocity, symmetric(9, entry))
 
 
-def least_std(at: Mapping[str, ca.SX]):
-    """Standard deviation [m/s] of the velocity that a body has at least, by the settings ``at``.
+def first_std(at: Mapping[str, ca.SX]):
+    """Standard deviation [m/s] of the velocity before the first sample, by the settings ``at``.
 
     Zero where they say that it never accelerates.
     """
-    declared = at["accel_std"] * at["motion_time"]
-    return ca.fmax(declared, LEAST_STD) * (declared > 0)
-
-
-def first_std(at: Mapping[str, ca.SX]):
-    """Standard deviation [m/s] of the velocity before the first sample, by the settings ``at``."""
-    return ca.fmax(least_std(at), FIRST_STD) * (least_std(at) > 0)
+    return ca.fmax(at["accel_std"] * at["motion_time"], FIRST_STD) * (at["accel_std"] > 0)
 
 
 def at_rest(x: Estimate, motion) -> Estimate:
@@ -178,55 +197,48 @@ def covariance_of_motion(across, along, up):
     return symmetric(3, lambda i, j: across * (i == j) + (along - across) * up[i] * up[j])
 
 
-def followed(motion: Motion, x: Estimate, turned, used, std, time, h) -> tuple[Motion, ca.SX]:
+def followed(
+    motion: Motion, x: Estimate, used, goes_on, moves, bounds: Bounds, h
+) -> tuple[Motion, Bounded]:
     """The motion after one more sample, whose velocity ``x`` has before its measurement.
 
-    With it the variance (2,) across and along the vertical by which that velocity is measured.
+    With it how that velocity is measured.
 
     The mean square of the innovation, less the filter's own variance of it, is that of the
     measurement (Mehra 1972, section IV), here the velocity of the body: over ``WINDOW`` or ``RISE``
-    times its correlation ``time`` in s, and not below the share of ``std`` in m/s that the run
-    shows. The innovations of a filter whose model is right are white (section III there): their
-    mean over ``SLOW`` times that time has half their density over that, the density 2 T s^2 of the
-    velocity and P h of the filter's own variance. What it has beyond ``DRIFTS`` times that, and
-    ``SLIGHT``, is a walk: accelerations that last. ``turned`` (3, 3) is the body's turn from old
-    axes to new; ``used`` 0 or 1 whether the sample counts. A ``std`` of zero says that the body
-    does not move.
+    times its correlation time T of ``bounds``. The innovations of a filter whose model is right are
+    white (section III there): their mean over ``SLOW`` times T has half their density over that,
+    the density 2 T s^2 of the velocity and P h of the filter's own variance. What it has beyond
+    ``DRIFTS`` times that, and ``SLIGHT``, is a walk: accelerations that last. ``used`` 0 or 1 says
+    whether the sample counts, ``moves`` whether the body moves at all.
     """
-    v, up = x.velocity, quaternion.to_matrix(x.q)[2, :].T
-    own, whole = x.covariance[6:, 6:], ca.dot(x.velocity, x.velocity)
+    v, axes, time = x.velocity, quaternion.to_matrix(x.q), bounds.time
+    level, up = axes[:2, :] @ v, axes[2, :].T
+    own, whole = x.covariance[6:, 6:], ca.dot(v, v)
     above, own_along = ca.dot(up, v) ** 2, ca.dot(up, own @ up)
     own_across = (ca.trace(own) - own_along) / 2
-    moves, floor = std > 0, std**2
-    least = motion.share * floor
+    least = bounds.least / 2 * reciprocal(time + h)
+    window = ca.fmin(motion.known + FIRST_TIME, WINDOW)
+    known = ca.fmin(motion.known + used * h * reciprocal(time + h), WINDOW)
 
     def mean(before, found, fall, rise):
         gain = h / (ca.if_else(found > before, rise, fall) * time + h)
         return before + used * gain * (found - before)
 
     def grown(before, excess):
-        after = moves * ca.fmax(mean(before, excess, WINDOW, RISE), least)
+        after = moves * ca.fmax(mean(before, excess, window, RISE), least)
         return after, moves * ca.fmax(after, excess / OUTLIER)
 
     excess = (whole - above) / 2 - own_across
     across, seen_across = grown(motion.across, excess)
     along, seen_along = grown(motion.along, above - own_along)
-    carried = turned @ motion.slow
-    slow = used * (carried + h / (SLOW * time + h) * (v - carried))
+    slow = goes_on * (motion.slow + used * h / (SLOW * time + h) * (level - motion.slow))
     white = across * time + own_across * h / 2
     bounded = DRIFTS / SLOW * white * reciprocal(time)
-    left = (ca.dot(slow, slow) - ca.dot(up, slow) ** 2) / 2 - bounded - SLIGHT**2
+    left = ca.sumsqr(slow) / 2 - bounded - SLIGHT**2
     drift = moves * mean(motion.drift, ca.fmax(left, 0), DRIFT_WINDOW, DRIFT_RISE)
-    shown = (excess + DRIFT_GAIN * drift) * reciprocal(ca.fmax(floor, TINY))
-    share = _share(motion.share, shown, used, time, h)
-    return Motion(across, along, slow, drift, share), ca.vertcat(seen_across, seen_along)
-
-
-def _share(before, shown, used, time, h):
-    """The share of the least variances of motion after a sample that has ``shown`` so much of them.
-
-    A walk that lets the filter follow pushes hides them from its velocity, and counts as shown.
-    """
-    gain = h / (ca.if_else(shown > before, QUIET_RISE, QUIET) * time + h)
-    after = before + used * gain * (ca.fmax(shown, -1) - before)
-    return ca.fmin(ca.fmax(after, LEAST_SHARE), 1)
+    slowly, slow_share = slow_motion.followed(
+        motion.slowly, level, seen_across, drift, own_across, bounds, used, h
+    )
+    after = Motion(across, along, slow, drift, known, slowly)
+    return after, Bounded(ca.vertcat(seen_across, seen_along), slow_share)

@@ -9,7 +9,7 @@ import numpy as np
 
 from pyimu.attitude.alignment import BIAS_STD, TILT_STD, YAW_STD
 from pyimu.attitude.columns import rate_noise, wandering
-from pyimu.attitude.filter.tolerances import bias_std, start_values
+from pyimu.attitude.filter.tolerances import bias_std, of_motion, start_values
 from pyimu.attitude.filter.ukf import attitude_ukf
 from pyimu.attitude.filter.variables import UNKNOWN_LATITUDE
 from pyimu.attitude.stuck import LEAST
@@ -93,8 +93,9 @@ class System:
     def of_specimens(self) -> dict[str, float]:
         """The filter's settings for specimens: what they do to rates in motion and to gravity."""
         values = start_values(self.part, WARMER)
-        of_motion = float(np.hypot(rate_noise(self.part), values.get("rate_noise", 0.0)))
-        return {n: v for n, v in values.items() if "std0" not in n} | {"rate_noise": of_motion}
+        turning = float(np.hypot(rate_noise(self.part), values.get("rate_noise", 0.0)))
+        known = {n: v for n, v in values.items() if "std0" not in n}
+        return known | {"rate_noise": turning} | of_motion(turning)
 
     @property
     def constant_tilt(self) -> float:
