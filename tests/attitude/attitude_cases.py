@@ -109,13 +109,13 @@ def rover_rate(n: int, still: int = 0) -> np.ndarray:
 
 
 def measured(
-    world: Drive, rng: np.random.Generator, bias: np.ndarray
+    world: Drive, rng: np.random.Generator, bias: np.ndarray, n_accel: float = N_ACCEL
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Gyro, accel and the true bias (n, 3) of one noise draw."""
     shape = world.rate.shape
     walk = bias + K * np.sqrt(H) * np.cumsum(rng.standard_normal(shape), axis=0)
     gyro = world.inertial + walk + N / np.sqrt(H) * rng.standard_normal(shape)
-    return gyro, world.force + N_ACCEL / np.sqrt(H) * rng.standard_normal(shape), walk
+    return gyro, world.force + n_accel / np.sqrt(H) * rng.standard_normal(shape), walk
 
 
 def error(q: np.ndarray, truth: Rotation) -> np.ndarray:

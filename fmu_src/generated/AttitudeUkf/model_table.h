@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{62ea0c82-0403-ab89-4287-a81067a180d9}"
-#define MODEL_TOKEN_FMI3 "{f8390f85-5d1a-d2de-efe7-9cfc5347eee4}"
+#define MODEL_TOKEN_FMI2 "{ce52ae2e-3357-d7f5-888b-4c9a5988336a}"
+#define MODEL_TOKEN_FMI3 "{fe10f9b9-f67d-2fae-547e-442d9234c918}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

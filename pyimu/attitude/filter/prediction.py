@@ -27,6 +27,7 @@ from pyimu.attitude.filter.slow_motion import Bounds
 from pyimu.attitude.filter.stillness import (
     CALM,
     SLOW,
+    UNKNOWN,
     Stillness,
     begins,
     calmer,
@@ -34,6 +35,7 @@ from pyimu.attitude.filter.stillness import (
     is_still,
     share_of_noise,
     sway,
+    turns,
 )
 from pyimu.attitude.filter.stillness import followed as still_followed
 from pyimu.attitude.filter.stillness import kept as still_kept
@@ -193,9 +195,11 @@ def _decided(at: Instant, x: Estimate, rest: Rest) -> Stillness:
     """
     still, span = rest.still, ca.fmin(rest.still.span, 2 * SLOW)
     rate, noise = still.slow - x.bias - at.earth, ca.fmax(still.density, _density(at.settings))
-    found = is_rest(rate, x.covariance[3:6, 3:6], vertical(x), noise, span)
-    time = at.settings.scalar["rest_time"]
-    now = begins(at.memory.stillness, still, time, x.covariance[3:6, 3:6], vertical(x), at.h)
+    up, known, scalar = vertical(x), x.covariance[3:6, 3:6], at.settings.scalar
+    found = is_rest(rate, known, up, noise, span)
+    unknown = ca.dot(up, known @ up) > UNKNOWN**2
+    moves = turns(still, scalar["gravity"], white_variance(at.settings, at.h), at.h)
+    now = begins(at.memory.stillness, still, scalar["rest_time"], unknown, moves, at.h)
     goes_on = (still.rests > 0) * (2 * found - 1) * (still.span > 0)
     return replace(still, rests=ca.if_else(now, found, goes_on))
 

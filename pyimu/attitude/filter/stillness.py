@@ -38,13 +38,16 @@ OUTLIER = 30.0
 """Squared noise of three axes over the variance of one, which a sample exceeds with a probability
 of 1.4e-6."""
 
+MOVES = 16.3
+"""The same, which the mean force of one rest in a thousand exceeds: that is put off."""
+
 GATE = 25.0
 """Squared difference of rate and bias over its variance beyond which a body turns steadily."""
 
-UNKNOWN, LONGER = 2e-3, 2.5
-"""rad/s, s; of a gyro whose bias about the vertical is less known than that a turn by hand would
-pass for a rest unless gravity moves in the body's axes. That it does not shows in so long a time to
-a thirtieth of a degree per second."""
+UNKNOWN, LONGER, LEAST_TURN = 2e-3, 2.5, 6e-4
+"""rad/s, s, rad/s; of a gyro whose bias about the vertical is less known than that a turn by hand
+would pass for a rest unless gravity moves in the body's axes. That it does not shows in so long a
+time to a thirtieth of a degree per second, the last."""
 
 STEADY, SLOW_SWAY = 0.1, 0.5
 """Shares of a sample's tolerance that are those of the mean, of force and rate: gravity that turns
@@ -164,15 +167,26 @@ def is_rest(rate, covariance, up, noise, span):
     return level * (along**2 <= GATE * (own + white))
 
 
-def begins(before: Stillness, after: Stillness, time, covariance, up, h):
+def turns(x: Stillness, gravity, noise, h):
+    """Whether gravity [m/s^2] moves in the axes of a body that has been still, 0 or 1.
+
+    ``noise`` (3,) (m/s^2)^2 is the variance of a sample of the accelerometer.
+    """
+    later = ca.fmin(x.span / 2, SLOW) - FAST
+    by_noise = MOVES / 3 * ca.sum1(noise) * SHARE * h
+    return ca.sumsqr(x.fast_force - x.slow_force) > (LEAST_TURN * gravity * later) ** 2 + by_noise
+
+
+def begins(before: Stillness, after: Stillness, time, unknown, moves, h):
     """Whether with this sample the body has been still so long that it may rest, 0 or 1.
 
-    That is ``time`` s, and ``LONGER`` where the bias, of this ``covariance`` (3, 3), is
-    ``UNKNOWN`` about the vertical, ``up`` (3,).
+    That is ``time`` s, and each ``LONGER`` where the bias about the vertical is ``unknown`` (0 or
+    1): then gravity may not move (``turns``), which ``moves`` says.
     """
-    unknown, longer = ca.dot(up, covariance @ up) > UNKNOWN**2, ca.fmax(time, LONGER)
-    soon, late = ((before.span + h / 2 < t) * (after.span + h / 2 >= t) for t in (time, longer))
-    return ca.fmax(soon * (1 - unknown), late * (before.rests <= 0))
+    longer = ca.fmax(time, LONGER)
+    soon = (before.span + h / 2 < time) * (after.span + h / 2 >= time)
+    late = ca.floor((after.span + h / 2) / longer) > ca.floor((before.span + h / 2) / longer)
+    return ca.fmax(soon * (1 - unknown), late * (before.rests <= 0) * (1 - unknown * moves))
 
 
 def share_of_noise(x: Stillness, noise):
