@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -11,9 +9,10 @@ import numpy as np
 from pyimu.identification.fit.columns import Linear
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient
-from pyimu.identification.search.blocks import Blocks, basis, beside
+from pyimu.identification.search.blocks import Blocks, beside
 from pyimu.identification.search.by_chance import CHANCE, Chance
 from pyimu.identification.search.form import UNUSED, Form, form_of
+from pyimu.identification.search.walks import Explained, Placed, Walk
 from pyimu.model.effect import Effect
 
 MOST_BLOCKS = 1200
@@ -21,25 +20,6 @@ MOST_BLOCKS = 1200
 
 LEAST_BLOCKS = 20
 """Fewer tell nothing of a slow form."""
-
-
-@dataclass(frozen=True)
-class _Tried:
-    """Columns of one axis for each value, of unit length and free of what the model explains, and
-    the residual [standard deviations] that is left to explain.
-    """
-
-    columns: np.ndarray
-    residual: np.ndarray
-
-    @property
-    def gain(self) -> np.ndarray:
-        return 0.5 * (self.columns.T @ self.residual) ** 2
-
-    def without(self, number: int) -> _Tried:
-        """What is left once one value is in."""
-        one = self.columns[:, number]
-        return _Tried(self.columns, self.residual - one * (one @ self.residual))
 
 
 class Slow:
@@ -54,12 +34,13 @@ class Slow:
         return Chance(self.fit, self.linears, self.penalty)
 
     @cached_property
-    def base(self) -> dict[int, tuple[np.ndarray, np.ndarray]]:
-        """By axis the residual, white, and an orthonormal basis of the columns of the model."""
+    def axes(self) -> dict[int, list[Walk]]:
+        """Of each axis the residual beside each noise that it may have."""
         out = {}
         for i, noise in self.fit.noise.items():
-            white, _ = self.blocks.white(self.blocks.left[i], noise)
-            out[i] = white[:, 0], basis(white[:, 1:])
+            walks = self.chance.walks[i][0] if i in self.chance.walks else [noise]
+            left = self.blocks.left[i]
+            out[i] = [Walk.of(self.blocks, n, left, [v[:, :1] for v in left]) for n in walks]
         return out
 
     def form(self, e: Effect) -> Form | None:
@@ -70,38 +51,34 @@ class Slow:
         values = values[:: max(1, -(-len(values) // MOST_BLOCKS))]
         if blocks.count < LEAST_BLOCKS or not len(values):
             return None
-        tried, events = self._tried(e, name, values), e.parameters[name].shape
-        first = _total(tried.values(), self.penalty)
-        best = int(np.argmax(first))
+        placed, events = self._placed(e, name, values), e.parameters[name].shape
+        best, gain = placed.best()
         # What explains nothing explains no more than by chance.
         most = events[0] if events else 1
-        tolls = self.chance.tolls(e, name, values, most) if first[best] > 0.0 else np.zeros(most)
+        tolls = self.chance.tolls(e, name, values, most) if gain[0] > 0.0 else np.zeros(most)
         if not events:
-            return Form({name: values[best]}, (Coefficient(e.name, name, ()),), float(tolls[0]))
-        instants = sorted(values[self._one_by_one(tried, tolls)])
+            return Form({name: values[best[0]]}, (Coefficient(e.name, name, ()),), float(tolls[0]))
+        instants = sorted(values[_one_by_one(placed, tolls)])
         padded = np.concatenate([instants, np.full(events[0] - len(instants), UNUSED)])
         return Form({name: padded}, (), float(tolls[len(instants) - 1]))
 
-    def _one_by_one(self, tried: dict[int, _Tried], tolls: np.ndarray) -> list[int]:
-        """Numbers of the values that explain most, each beside those before; at least one."""
-        found: list[int] = []
-        for toll in np.diff(tolls, prepend=0.0):
-            total = _total(tried.values(), self.penalty)
-            best = int(np.argmax(total))
-            if found and (total[best] <= toll - np.log(CHANCE) or best in found):
-                break
-            found.append(best)
-            tried = {i: t.without(best) for i, t in tried.items()}
-        return found
-
-    def _tried(self, e: Effect, name: str, values: np.ndarray) -> dict[int, _Tried]:
-        made, out = self.blocks.columns(e, name, values), {}
-        for i, (residual, base) in self.base.items():
-            white, _ = self.blocks.white([one[:, :, i] for one in made], self.fit.noise[i])
-            out[i] = _Tried(beside(white, base), residual)
-        return out
+    def _placed(self, e: Effect, name: str, values: np.ndarray) -> Placed:
+        made, axes = self.blocks.columns(e, name, values), {}
+        for i, walks in self.axes.items():
+            of_axis = [one[:, :, i] for one in made]
+            axes[i] = [
+                Explained(w, beside(self.blocks.white(of_axis, w.noise)[0], w.base)) for w in walks
+            ]
+        return Placed(axes, self.penalty)
 
 
-def _total(tried: Iterable[_Tried], penalty: float) -> np.ndarray:
-    """Gain [nat] of each value, on the axes that pay for themselves."""
-    return np.sum([np.maximum(t.gain - penalty, 0.0) for t in tried], axis=0)
+def _one_by_one(placed: Placed, tolls: np.ndarray) -> list[int]:
+    """Numbers of the values that explain most, each beside those before; at least one."""
+    found: list[int] = []
+    for toll in np.diff(tolls, prepend=0.0):
+        best, gain = placed.best()
+        if found and (gain[0] <= toll - np.log(CHANCE) or int(best[0]) in found):
+            break
+        found.append(int(best[0]))
+        placed.take(best)
+    return found

@@ -1,0 +1,169 @@
+"""What values of a form explain of a residual beside a random walk whose size nobody knows.
+
+The walk is estimated anew beside each value, for a step that is taken for the walk makes it look
+larger, and a walk that is taken for steps makes it look smaller. A part's declared walk may be
+larger than it says, and is never smaller.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.special import logsumexp
+
+from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
+from pyimu.identification.search.blocks import Blocks, basis
+
+FACTOR = 4.0
+"""From one walk's K^2 that is tried to the next."""
+
+BEYOND = 2
+"""Larger walks that are tried than the residual allows."""
+
+UNLIKELY = 1e-4
+"""Weight of a walk that the residual does not allow."""
+
+LARGER = 0.01
+"""Share of declared walks that are larger than they were declared."""
+
+SHOWN = 1e-6
+"""Share of a column that others must leave of it to explain something."""
+
+
+@dataclass(frozen=True)
+class Walk:
+    """An axis beside one noise: an orthonormal ``base`` (n, b) of what the model explains, draws
+    (n, d) of the residual, white and without that, and their log-likelihood (d,) [nat].
+    """
+
+    noise: RandomWalk | Autoregressive
+    base: np.ndarray
+    draws: np.ndarray
+    likelihood: np.ndarray
+
+    @classmethod
+    def of(
+        cls,
+        blocks: Blocks,
+        noise: RandomWalk | Autoregressive,
+        left: Sequence[np.ndarray],
+        drawn: Sequence[np.ndarray],
+    ) -> Walk:
+        """That of draws (blocks, d) of each trial; its ``left`` (blocks, 1 + P) has the columns of
+        the model.
+        """
+        count = drawn[0].shape[1]
+        both = [np.hstack([d, c[:, 1:]]) for d, c in zip(drawn, left, strict=True)]
+        white, log_det = blocks.white(both, noise)
+        base, draws = basis(white[:, count:]), white[:, :count]
+        draws = draws - base @ (base.T @ draws)
+        return cls(noise, base, draws, -0.5 * (np.sum(draws**2, axis=0) + log_det))
+
+
+def allowed(
+    blocks: Blocks, noise: RandomWalk, left: Sequence[np.ndarray], declared: float
+) -> tuple[list[RandomWalk], np.ndarray]:
+    """The walks that a residual allows or that are less, and the logarithms of their weights: the
+    restricted likelihood, all sizes K alike beforehand (``fit/walk.py``) where none is ``declared``
+    (K^2), else no less than that, and larger with the probability ``LARGER``.
+    """
+    rows = sum(len(one.time) for _, one, *_ in blocks.trials)
+    least = declared or noise.r / rows / blocks.length
+    count = max(c for *_, c in blocks.trials)
+    most = FACTOR**BEYOND * max(noise.r / count / blocks.block, FACTOR * noise.k2)
+    number = 1 + int(np.ceil(np.log(most / least) / np.log(FACTOR)))
+    tried, weights = [], []
+    for k2 in least * FACTOR ** np.arange(max(number, 2)):
+        one = replace(noise, k2=float(k2))
+        white, log_det = blocks.white(left, one)
+        base = basis(white[:, 1:])
+        rest = white[:, 0] - base @ (base.T @ white[:, 0])
+        tried.append(one)
+        weights.append(-0.5 * (float(rest @ rest) + log_det) - _log_volume(white[:, 1:]))
+    sizes = np.array([n.k2 for n in tried])
+    before = np.log(LARGER) * (sizes > declared) if declared else 0.5 * np.log(sizes)
+    likely = np.array(weights) + before
+    likely -= logsumexp(likely)
+    # Of a draw a larger walk may be the likeliest than the one that it was drawn with.
+    last = int(np.flatnonzero(likely > np.log(UNLIKELY))[-1]) + BEYOND
+    return tried[: last + 1], likely[: last + 1]
+
+
+class Explained:
+    """What values explain of the draws of an axis beside one walk, those before being in.
+
+    ``score`` and ``power`` (T, d) are those of each value's column without the columns before,
+    ``likelihood`` (d,) that of what is in.
+    """
+
+    def __init__(self, walk: Walk, columns: np.ndarray) -> None:
+        self.columns, self.score = columns, columns.T @ walk.draws
+        count = walk.draws.shape[1]
+        self.gram = columns.T @ columns if count > columns.shape[1] else None
+        self.power = np.repeat(np.sum(columns**2, axis=0)[:, None], count, axis=1)
+        self.likelihood, self.before = walk.likelihood.copy(), []
+
+    def gain(self) -> np.ndarray:
+        """Log-likelihood (T, d) [nat] beside each value."""
+        shown = self.power > SHOWN
+        found = 0.5 * self.score**2 / np.where(shown, self.power, 1.0)
+        return self.likelihood + np.where(shown, found, 0.0)
+
+    def take(self, best: np.ndarray, wanted: np.ndarray) -> None:
+        """Put the values ``best`` (d,) in, in the draws that are ``wanted`` (d,)."""
+        every = np.arange(len(best))
+        if self.gram is None:
+            column = self.columns.T @ self.columns[:, best]
+        else:
+            column = self.gram[:, best]
+        for other in self.before:
+            column = column - other * other[best, every]
+        power = self.power[best, every]
+        use = wanted & (power > SHOWN)
+        column = np.where(use, column / np.sqrt(np.where(use, power, 1.0)), 0.0)
+        along = np.where(use, self.score[best, every] / np.sqrt(np.where(use, power, 1.0)), 0.0)
+        self.likelihood += 0.5 * along**2
+        self.score -= column * along
+        self.power -= column**2
+        self.before.append(column)
+
+
+class Placed:
+    """Values that are put in one after another, in each of the draws where they explain most.
+
+    ``axes`` has the walks of each axis, ``penalty`` [nat] is what a coefficient has to pay.
+    """
+
+    def __init__(self, axes: dict[int, list[Explained]], penalty: float) -> None:
+        self.axes, self.penalty = axes, penalty
+
+    def gains(self) -> dict[int, np.ndarray]:
+        """By axis the gain (T, d) [nat], penalised, of each value, beside the walk that suits it
+        best, over the likeliest walk without it.
+        """
+        return {i: self._of(walks) for i, walks in self.axes.items()}
+
+    def _of(self, walks: list[Explained]) -> np.ndarray:
+        with_it = np.max([one.gain() for one in walks], axis=0)
+        return with_it - np.max([one.likelihood for one in walks], axis=0) - self.penalty
+
+    def best(self) -> tuple[np.ndarray, np.ndarray]:
+        """The value (d,) that explains most, and its gain (d,) on the axes that pay for it."""
+        total = np.sum([np.maximum(g, 0.0) for g in self.gains().values()], axis=0)
+        best = np.argmax(total, axis=0)
+        return best, total[best, np.arange(len(best))]
+
+    def take(self, best: np.ndarray) -> None:
+        """Put the values ``best`` (d,) in, on the axes that pay for them."""
+        every = np.arange(len(best))
+        for i, gain in self.gains().items():
+            for one in self.axes[i]:
+                one.take(best, gain[best, every] > 0.0)
+
+
+def _log_volume(columns: np.ndarray) -> float:
+    """Half the logarithm of the determinant of what columns say of their coefficients."""
+    sizes = np.linalg.svd(columns, compute_uv=False)
+    return float(np.log(sizes[sizes > 1e-9 * sizes.max(initial=0.0)]).sum())
