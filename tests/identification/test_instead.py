@@ -7,18 +7,18 @@ from effect_results.record import closed
 from pyimu.identification.noise.laws import kinds, names_of
 from pyimu.identification.noise.named import POPCORN
 from pyimu.identification.report.page import page
-from pyimu.identification.search.forward import AS_NOISE
 from pyimu.model.sensor import Sensor
 
 MINUTES = (5.0, 8.0)
 
 
 def test_a_walk_that_a_step_explains_on_the_fitted_rows_is_a_walk():
-    """Held-out rows walk on; the step explained 35 nat of the fitted ones."""
+    """A step explained 35 nat of the fitted ones beside the walk as it was declared; beside one
+    that is estimated anew it explains no more than the best of as many steps does of a walk.
+    """
     found = closed(make("one/8/gyro.rate_random_walk", 0, MINUTES))
-    assert not found.added, found.report()
+    assert not found.added and not found.refused, found.report()
     assert found.verdict == "drift"
-    assert [(r.effect, r.reason) for _, r in found.refused] == [("bias_step", AS_NOISE)]
     assert [c.effect for c in found.changed] == ["rate_random_walk"]
 
 
