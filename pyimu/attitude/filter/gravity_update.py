@@ -190,15 +190,15 @@ def _contradicts(force, mean: MeanForce, pushed, x: Estimate, white, settings: S
     passing = passing_std(settings.scalar)
     pushes = ca.fmax(ca.fmax(passing, PUSH_STD) ** 2, pushed)
     spread = ca.sum1(white) * (1 / 3) + (passing > 0) * pushes + SLOW_TIME**2 * mean.scatter
-    return is_off(force, x, spread, settings, INNOVATION_GATE)
+    return _is_off(force, x, spread, settings, INNOVATION_GATE)
 
 
 def is_pushed(force, x: Estimate, settings: Settings, h):
     """Whether the mean ``force`` (3,) of a body that looks still pushes it, 0 or 1."""
-    return is_off(force, x, ca.sum1(white_variance(settings, h)) * (h / 3), settings, PUSHED)
+    return _is_off(force, x, ca.sum1(white_variance(settings, h)) * (h / 3), settings, PUSHED)
 
 
-def is_off(force, x: Estimate, spread, settings: Settings, gate: float):
+def _is_off(force, x: Estimate, spread, settings: Settings, gate: float):
     """Whether a ``force`` (3,) is farther off the vertical of ``x`` than the tilt is known.
 
     ``spread`` (m/s^2)^2 is the variance of an axis of the force; ``gate`` is for the square over

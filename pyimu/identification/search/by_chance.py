@@ -94,8 +94,8 @@ class Chance:
         """What the best values gain [nat] in all but ``CHANCE`` of the draws, one, two, ..."""
         total, out = np.zeros(DRAWS), []
         for _ in range(most):
-            best, gain = placed.best()
-            total = total + gain
+            best = placed.best()
+            total = total + best.gain
             out.append(float(np.quantile(total, 1.0 - CHANCE)))
             placed.take(best)
         return np.array(out)

@@ -52,12 +52,13 @@ class Slow:
         if blocks.count < LEAST_BLOCKS or not len(values):
             return None
         placed, events = self._placed(e, name, values), e.parameters[name].shape
-        best, gain = placed.best()
+        first = placed.best()
         # What explains nothing explains no more than by chance.
         most = events[0] if events else 1
-        tolls = self.chance.tolls(e, name, values, most) if gain[0] > 0.0 else np.zeros(most)
+        tolls = self.chance.tolls(e, name, values, most) if first.gain[0] > 0.0 else np.zeros(most)
         if not events:
-            return Form({name: values[best[0]]}, (Coefficient(e.name, name, ()),), float(tolls[0]))
+            key = Coefficient(e.name, name, ())
+            return Form({name: values[first.number[0]]}, (key,), float(tolls[0]))
         instants = sorted(values[_one_by_one(placed, tolls)])
         padded = np.concatenate([instants, np.full(events[0] - len(instants), UNUSED)])
         return Form({name: padded}, (), float(tolls[len(instants) - 1]))
@@ -76,9 +77,10 @@ def _one_by_one(placed: Placed, tolls: np.ndarray) -> list[int]:
     """Numbers of the values that explain most, each beside those before; at least one."""
     found: list[int] = []
     for toll in np.diff(tolls, prepend=0.0):
-        best, gain = placed.best()
-        if found and (gain[0] <= toll - np.log(CHANCE) or int(best[0]) in found):
+        best = placed.best()
+        number = int(best.number[0])
+        if found and (best.gain[0] <= toll - np.log(CHANCE) or number in found):
             break
-        found.append(int(best[0]))
+        found.append(number)
         placed.take(best)
     return found

@@ -130,6 +130,17 @@ class Explained:
         self.before.append(column)
 
 
+@dataclass(frozen=True)
+class Best:
+    """The ``number`` (d,) of the value that explains most of each draw, its ``gain`` (d,) [nat] on
+    the axes that pay for it, and which those are (d,), by axis.
+    """
+
+    number: np.ndarray
+    gain: np.ndarray
+    pays: dict[int, np.ndarray]
+
+
 class Placed:
     """Values that are put in one after another, in each of the draws where they explain most.
 
@@ -139,28 +150,26 @@ class Placed:
     def __init__(self, axes: dict[int, list[Explained]], penalty: float) -> None:
         self.axes, self.penalty = axes, penalty
 
-    def gains(self) -> dict[int, np.ndarray]:
-        """By axis the gain (T, d) [nat], penalised, of each value, beside the walk that suits it
+    def best(self) -> Best:
+        """What explains most beside what is in."""
+        gains = {i: self._gain(walks) for i, walks in self.axes.items()}
+        total = np.sum([np.maximum(g, 0.0) for g in gains.values()], axis=0)
+        number = np.argmax(total, axis=0)
+        at = number, np.arange(len(number))
+        return Best(number, total[at], {i: g[at] > 0.0 for i, g in gains.items()})
+
+    def _gain(self, walks: list[Explained]) -> np.ndarray:
+        """Gain (T, d) [nat], penalised, of each value on an axis, beside the walk that suits it
         best, over the likeliest walk without it.
         """
-        return {i: self._of(walks) for i, walks in self.axes.items()}
-
-    def _of(self, walks: list[Explained]) -> np.ndarray:
         with_it = np.max([one.gain() for one in walks], axis=0)
         return with_it - np.max([one.likelihood for one in walks], axis=0) - self.penalty
 
-    def best(self) -> tuple[np.ndarray, np.ndarray]:
-        """The value (d,) that explains most, and its gain (d,) on the axes that pay for it."""
-        total = np.sum([np.maximum(g, 0.0) for g in self.gains().values()], axis=0)
-        best = np.argmax(total, axis=0)
-        return best, total[best, np.arange(len(best))]
-
-    def take(self, best: np.ndarray) -> None:
-        """Put the values ``best`` (d,) in, on the axes that pay for them."""
-        every = np.arange(len(best))
-        for i, gain in self.gains().items():
-            for one in self.axes[i]:
-                one.take(best, gain[best, every] > 0.0)
+    def take(self, best: Best) -> None:
+        """Put it in, on the axes that pay for it."""
+        for i, walks in self.axes.items():
+            for one in walks:
+                one.take(best.number, best.pays[i])
 
 
 def _log_volume(columns: np.ndarray) -> float:
