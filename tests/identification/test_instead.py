@@ -1,5 +1,6 @@
 """Random errors that look like something else, on cases of the benchmark."""
 
+import numpy as np
 import pytest
 from effect_logs.cases import make
 from effect_results.record import closed
@@ -7,6 +8,8 @@ from effect_results.record import closed
 from pyimu.identification.noise.laws import kinds, names_of
 from pyimu.identification.noise.named import POPCORN
 from pyimu.identification.report.page import page
+from pyimu.identification.search.by_chance import Chance
+from pyimu.identification.search.forward import AS_NOISE
 from pyimu.model.sensor import Sensor
 
 MINUTES = (5.0, 8.0)
@@ -19,6 +22,17 @@ def test_a_walk_that_a_step_explains_on_the_fitted_rows_is_a_walk():
     found = closed(make("one/8/gyro.rate_random_walk", 0, MINUTES))
     assert not found.added and not found.refused, found.report()
     assert found.verdict == "drift"
+    assert [c.effect for c in found.changed] == ["rate_random_walk"]
+
+
+def test_a_step_that_was_let_in_is_taken_back_for_a_walk(monkeypatch):
+    """Events that are placed beside the walk as it was declared, and are charged for nothing."""
+    monkeypatch.setattr(Chance, "walks", {})
+    monkeypatch.setattr(Chance, "tolls", lambda self, e, name, values, most: np.zeros(most))
+    found = closed(make("one/8/accel.rate_random_walk", 0, MINUTES))
+    assert not found.added, found.report()
+    assert found.verdict == "drift"
+    assert [(r.effect, r.reason) for _, r in found.refused] == [("bias_step", AS_NOISE)]
     assert [c.effect for c in found.changed] == ["rate_random_walk"]
 
 
