@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{510e679e-4549-337f-56a0-66873f7f6b37}"
-#define MODEL_TOKEN_FMI3 "{b7e6b950-009b-5be4-409b-5a812fa1e9d4}"
+#define MODEL_TOKEN_FMI2 "{d31594be-ae41-028d-4a62-19ccd2603af4}"
+#define MODEL_TOKEN_FMI3 "{04e754c0-0b1a-369a-d186-8bd4554fbfce}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -60,7 +60,7 @@ static const BlockVariable variables[] = {
     {"motion_tolerance", KIND_REAL, ROLE_TUNABLE, 20, 1, 0.0, INFINITY},
     {"steady_tolerance", KIND_REAL, ROLE_TUNABLE, 21, 1, 0.0, INFINITY},
     {"motion_time", KIND_REAL, ROLE_TUNABLE, 22, 1, 0.0, INFINITY},
-    {"motion_share", KIND_REAL, ROLE_TUNABLE, 23, 1, 0.0, INFINITY},
+    {"motion_share", KIND_REAL, ROLE_TUNABLE, 23, 1, 0.0, 1.0},
     {"rate_noise", KIND_REAL, ROLE_TUNABLE, 24, 1, 0.0, INFINITY},
     {"bias_noise", KIND_REAL, ROLE_TUNABLE, 25, 1, 0.0, INFINITY},
     {"stationary_std", KIND_REAL, ROLE_TUNABLE, 26, 1, 0.0, INFINITY},

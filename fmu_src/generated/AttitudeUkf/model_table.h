@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{ce52ae2e-3357-d7f5-888b-4c9a5988336a}"
-#define MODEL_TOKEN_FMI3 "{fe10f9b9-f67d-2fae-547e-442d9234c918}"
+#define MODEL_TOKEN_FMI2 "{bc8a191f-e5f4-be4f-9c33-72ffff0c6a65}"
+#define MODEL_TOKEN_FMI3 "{fc968225-aac4-da90-4ac7-99806924065e}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -70,7 +70,7 @@ static const BlockVariable variables[] = {
     {"motion_tolerance", KIND_REAL, ROLE_TUNABLE, 20, 1, 0.0, INFINITY},
     {"steady_tolerance", KIND_REAL, ROLE_TUNABLE, 21, 1, 0.0, INFINITY},
     {"motion_time", KIND_REAL, ROLE_TUNABLE, 22, 1, 0.0, INFINITY},
-    {"motion_share", KIND_REAL, ROLE_TUNABLE, 23, 1, 0.0, INFINITY},
+    {"motion_share", KIND_REAL, ROLE_TUNABLE, 23, 1, 0.0, 1.0},
     {"rate_noise", KIND_REAL, ROLE_TUNABLE, 24, 1, 0.0, INFINITY},
     {"bias_noise", KIND_REAL, ROLE_TUNABLE, 25, 1, 0.0, INFINITY},
     {"stationary_std", KIND_REAL, ROLE_TUNABLE, 26, 1, 0.0, INFINITY},

@@ -46,7 +46,7 @@ block AttitudeUkf "Unscented attitude filter of the part imt30, in C"
   parameter Real motionTime(unit="s", min=0) = 1
     "Correlation time of the velocity of a body that stays in its place"
     annotation(Dialog(group="Filter"));
-  parameter Real motionShare(unit="1", min=0) = 0.0001
+  parameter Real motionShare(unit="1", min=0, max=1) = 0.0001
     "Least share that the density of that velocity has at low frequency of one of that correlation time, as far as the run shows less"
     annotation(Dialog(group="Filter"));
   parameter Real rateNoise(min=0) = 0
@@ -238,6 +238,7 @@ equation
   assert(steadyTolerance >= 0, "AttitudeUkf: steadyTolerance must not be below 0");
   assert(motionTime >= 0, "AttitudeUkf: motionTime must not be below 0");
   assert(motionShare >= 0, "AttitudeUkf: motionShare must not be below 0");
+  assert(motionShare <= 1, "AttitudeUkf: motionShare must not be above 1");
   assert(rateNoise >= 0, "AttitudeUkf: rateNoise must not be below 0");
   assert(biasNoise >= 0, "AttitudeUkf: biasNoise must not be below 0");
   assert(stationaryStd >= 0, "AttitudeUkf: stationaryStd must not be below 0");

@@ -249,7 +249,7 @@ SETTINGS = (
         "run finds out, over eight times this time",
         1.0,
     ),
-    _setting(
+    Variable(
         "motion_share",
         "1",
         "least share that the density of that velocity has at low frequency of one of that "
@@ -257,6 +257,8 @@ SETTINGS = (
         "motion look like a slow velocity: a run over a log takes 1, which does not ask the run, "
         "where rate_noise is not 0",
         1e-4,
+        minimum=0.0,
+        maximum=1.0,
     ),
     _setting(
         "rate_noise",
