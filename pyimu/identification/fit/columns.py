@@ -125,15 +125,19 @@ def band_time(trial: Trial) -> np.ndarray:
 
 
 class Regressors:
-    """Collects regressors as (key, axis, values at the sample rate) and filters them together."""
+    """Collects regressors as (key, axis, values at the sample rate) and filters them together.
 
-    def __init__(self, trial: Trial) -> None:
-        self.trial = trial
+    Many are kept in single precision (``many``): what others must leave of a column to count
+    (``normal.DEAD``) is far above its rounding.
+    """
+
+    def __init__(self, trial: Trial, many: bool = False) -> None:
+        self.trial, self.precision = trial, np.float32 if many else np.float64
         self.items: list[tuple[Key, int, np.ndarray]] = []
 
     def add(self, key: Key, axis: int, values: np.ndarray) -> None:
         if axis in self.trial.axes and np.any(values):
-            self.items.append((key, axis, values))
+            self.items.append((key, axis, values.astype(self.precision, copy=False)))
 
     def filtered(self) -> tuple[dict[int, list[Key]], dict[int, Stack]]:
         keys = {i: [k for k, axis, _ in self.items if axis == i] for i in self.trial.axes}
@@ -172,7 +176,7 @@ def linearise(
     y, slope, entries = response(moved, rest.p, trial.h, some[response.slot])
     if remembers(sensor):
         y = predict(sensor, u, trial.segments, trial.h)
-    out = Regressors(trial)
+    out = Regressors(trial, bool(extra))
     for e, (axis, slot) in enumerate(zip(response.axis, response.slot, strict=True)):
         for key in keys[slot]:
             out.add(key, int(axis), entries[:, e])

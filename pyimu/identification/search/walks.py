@@ -99,9 +99,10 @@ class Explained:
     """
 
     def __init__(self, walk: Walk, columns: np.ndarray) -> None:
-        self.columns, self.score = columns, columns.T @ walk.draws
-        count = walk.draws.shape[1]
-        self.gram = columns.T @ columns if count > columns.shape[1] else None
+        self.score, count = columns.T @ walk.draws, walk.draws.shape[1]
+        # What is kept of many walks at once is kept in single precision.
+        self.columns = columns.astype(np.float32)
+        self.gram = self.columns.T @ self.columns if count > columns.shape[1] else None
         self.power = np.repeat(np.sum(columns**2, axis=0)[:, None], count, axis=1)
         self.likelihood, self.before = walk.likelihood.copy(), []
 
@@ -127,7 +128,7 @@ class Explained:
         self.likelihood += 0.5 * along**2
         self.score -= column * along
         self.power -= column**2
-        self.before.append(column)
+        self.before.append(column.astype(np.float32))
 
 
 @dataclass(frozen=True)
