@@ -21,6 +21,9 @@ from pyimu.recording.clock import runs
 WINDOW = 0.3
 """s; of a test. Shorter than a stop, longer than the period of what shakes a small robot."""
 
+LEAST_ROWS = 5
+"""Samples of a window at least: two of a slow log are alike by chance in the middle of a drive."""
+
 FALSE_ALARM = 1e-6
 """Probability that a window at rest is taken for one in motion, by chance."""
 
@@ -107,7 +110,7 @@ def detect(
     The mean rate of a rest must be the bias, as known from the rests before it and the walk since:
     a steady turn is none. The bias of the first is ``noise.bias``.
     """
-    rows = max(2, round(window / period))
+    rows = max(LEAST_ROWS, round(window / period))
     passed = ratio(gyro, accel, noise, rows) <= threshold(rows, false_alarm)
     still = ~maximum_filter1d(~passed, rows, mode="nearest")
     bias, at = noise.bias, float(time[0])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -17,13 +17,10 @@ from pyimu.model.part import Part
 from pyimu.navigation.filter.ins_block import ins_of_log
 from pyimu.navigation.filter.layout import Layout
 from pyimu.navigation.filtered import Filtered, filtered
-from pyimu.navigation.measured import Fixes
+from pyimu.navigation.measured import COURSE, Fixes
 from pyimu.navigation.smoothing import smoothed
 from pyimu.navigation.track import Reference, Track
 from pyimu.recording.recording import Recording
-
-COURSE = 2.0
-"""m; of a way, by whose direction the first heading is known where nothing tells it."""
 
 FIXES = 10.0
 """Standard deviations of a position that such a way is long at least."""
@@ -31,6 +28,11 @@ FIXES = 10.0
 COURSE_STD = 0.1
 """rad; standard deviation of a heading that is a course: a body may stand askew on its vehicle, and
 its way bend. Assumed."""
+
+
+LATER_STD = 1e-3
+"""rad; standard deviation of a heading that the log has, as the filter takes one of the first
+sample (``heading_std0``)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,19 +121,41 @@ class Job:
             return self.filtered(start), start
         start = Start(0.0, "nothing: it is called 0")
         found = self.filtered(start, fixes=False)
-        course = self._by_course(reference, found.track("filter"))
-        if course is None:
-            return (found if self.fixes is None else self.filtered(start)), start
-        return self.filtered(course), course
+        track = found.track("filter")
+        later = self._by_later(track) or self._by_course(reference, track)
+        if later is None and self.fixes is None:
+            return found, start
+        return self.filtered(later or start), later or start
+
+    def _by_later(self, track: Track) -> Start | None:
+        """The heading by the first that the log has later, turned back by the gyro."""
+        for source, yaw in _told_headings(self.recording):
+            rows = np.flatnonzero(np.isfinite(yaw))
+            if not len(rows):
+                continue
+            row = rows[0]
+            turned = track.yaw[row] - track.yaw[0]
+            std = 0.0
+            if track.attitude_std is not None:
+                of_gyro = track.attitude_std[row, 2] ** 2 - track.attitude_std[0, 2] ** 2
+                std = float(np.sqrt(max(of_gyro, 0.0)))
+            source = f"{source} at {self.recording.time[row]:.6g} s"
+            return Start(float(yaw[row] - turned), source, float(np.hypot(std, LATER_STD)))
+        return None
 
     def _by_course(self, reference: Reference | None, track: Track) -> Start | None:
-        """The heading by the course of the first positions, else by the reference's."""
-        if self.fixes is not None and len(self.fixes.rows):
-            far = max(COURSE, FIXES * self.fixes.std)
-            course = _course(self.fixes.rows, self.fixes.position, track, far)
-            if course is not None:
-                std = float(np.hypot(COURSE_STD, np.sqrt(2) * self.fixes.std / far))
-                return Start(course, f"the course of the first {far:.2g} m of positions", std)
+        """The heading by the course of the first positions, else of the first velocities, else by
+        the reference's.
+        """
+        if self.fixes is not None:
+            for name, rows, position, std in self.fixes.ways(self.recording.time):
+                far = max(COURSE, FIXES * std)
+                course = _course(rows, position, track, far)
+                if course is not None:
+                    of_course = float(np.hypot(COURSE_STD, np.sqrt(2) * std / far))
+                    return Start(
+                        course, f"the course of the first {far:.2g} m of {name}", of_course
+                    )
         if reference is None:
             return None
         course = _course(reference.rows, reference.position, track, COURSE)
@@ -160,15 +184,21 @@ def _heading(recording: Recording, heading0: float | None) -> Start | None:
     """What is told of the heading at the start, None where nothing is."""
     if heading0 is not None:
         return Start(number("heading0", heading0), "what was given")
+    for source, yaw in _told_headings(recording):
+        if np.isfinite(yaw[0]):
+            return Start(float(yaw[0]), source)
+    return None
+
+
+def _told_headings(recording: Recording) -> Iterator[tuple[str, np.ndarray]]:
+    """The headings (n,) rad that a recording has, and where."""
     for name in ("heading", "ref_heading"):
         values = getattr(recording, name)
-        if values is not None and np.isfinite(values[0]):
-            return Start(float(values[0]), f"the log's column {name}")
-    if recording.ref_q is not None and np.isfinite(recording.ref_q[0]).all():
-        w, x, y, z = recording.ref_q[0]
-        yaw = float(np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)))
-        return Start(yaw, "the log's ref_q")
-    return None
+        if values is not None:
+            yield f"the log's column {name}", values
+    if recording.ref_q is not None:
+        w, x, y, z = recording.ref_q.T
+        yield "the log's ref_q", np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
 
 
 def _course(rows: np.ndarray, position: np.ndarray, track: Track, far: float) -> float | None:
@@ -178,6 +208,9 @@ def _course(rows: np.ndarray, position: np.ndarray, track: Track, far: float) ->
         return None
     end = int(np.argmax(away > far))
     begin = int(np.flatnonzero(away[: end + 1] < far / 4)[-1])
-    east, north = (position[end] - position[begin])[:2]
-    turned = track.yaw[rows[begin] : rows[end] + 1].mean() - track.yaw[0]
-    return float(np.arctan2(north, east) - turned)
+    steps = np.diff(position[begin : end + 1, 0] + 1j * position[begin : end + 1, 1])
+    # each step as it would be had the body not turned since the start
+    total = np.append(0.0, np.cumsum(track.yaw - track.yaw[0]))
+    at = rows[begin : end + 1]
+    turned = np.diff(total[at]) / np.diff(at)
+    return float(np.angle(np.sum(steps * np.exp(-1j * turned))))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,8 +14,12 @@ from pyimu.recording.recording import Recording
 
 ENU = ("east", "north", "up")
 
+COURSE = 2.0
+"""m; of a way, by whose direction the first heading is known where nothing tells it."""
+
 MOST_WRONG = 0.5
-"""Share of positions that contradict the estimate, beyond which they are of another frame."""
+"""Share of what was told of the motion that contradicts the estimate, beyond which it is of another
+frame."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,6 +48,24 @@ class Fixes:
     def settings(self) -> dict[str, float]:
         """Parameters of the filter that follow."""
         return {"position_std0": self.std} if len(self.rows) else {}
+
+    def ways(self, time: np.ndarray) -> Iterator[tuple[str, np.ndarray, np.ndarray, float]]:
+        """The ways that positions, and velocities over the ``time`` (n,), tell: of what, their rows
+        (k,), the positions there (k, 3) m from the first on, and the standard deviation of one.
+        """
+        if len(self.rows):
+            yield "positions", self.rows, self.position, self.std
+        rows = np.flatnonzero(self.columns.get("velocity_valid", np.zeros(0)))
+        if len(rows) < 2:
+            return
+        velocity = np.column_stack([self.columns[f"velocity_measured[{i}]"][rows] for i in (1, 2)])
+        step = np.diff(time[rows])
+        moved = (velocity[1:] + velocity[:-1]) / 2 * step[:, None]
+        position = np.zeros((len(rows), 3))
+        position[1:, :2] = np.cumsum(moved, axis=0)
+        end = np.argmax(np.linalg.norm(position, axis=1) > COURSE) or len(rows) - 1
+        errors = self.columns["velocity_variance"][rows[1 : end + 1]] * step[:end] ** 2
+        yield "measured velocities", rows, position, float(np.sqrt(errors.sum()))
 
 
 @dataclass(frozen=True)
@@ -219,26 +241,48 @@ CONTRADICTED = {"position": 16, "velocity": 32}
 """Bits of the filter's status."""
 
 
-def check_fixes(recording: Recording, fixes: Fixes | None, found: Filtered) -> list[Finding]:
-    """What the filter's run says of the positions and velocities.
+def contradicted(found: Filtered, name: str, fixes: Fixes) -> np.ndarray:
+    """Marks (n,) of the measurements, of ``CONTRADICTED``, that contradicted the estimate."""
+    status = found.scalar("status").astype(int)
+    return (status & CONTRADICTED[name] > 0) & (fixes.columns[f"{name}_valid"] > 0)
+
+
+def check_fixes(
+    recording: Recording, fixes: Fixes | None, found: Filtered, moves: bool
+) -> list[Finding]:
+    """What the filter's run says of the positions and velocities; ``moves`` says that the positions
+    go a way during rests.
 
     Raises UserError where most of them contradict it.
     """
     out = []
-    status = found.scalar("status").astype(int)
-    for name, bit in CONTRADICTED.items():
+    for name in CONTRADICTED:
         valid = None if fixes is None else fixes.columns.get(f"{name}_valid")
-        if valid is None or not valid.any():
+        if fixes is None or valid is None or not valid.any():
             continue
-        wrong = int(np.count_nonzero((status & bit > 0) & (valid > 0)))
-        share = wrong / np.count_nonzero(valid)
+        wrong = contradicted(found, name, fixes)
+        share = np.count_nonzero(wrong) / np.count_nonzero(valid)
+        first = float(recording.time[np.argmax(wrong)])
         if share > MOST_WRONG:
             raise UserError(
                 f"{recording.name}: {share:.0%} of the measured {name} contradicts gyro and "
-                f"accelerometer by more than {name}_std allows; is {name}_east, {name}_north in "
-                "another frame, unit or order, later than its rows "
-                f"(--{name}-age), or its antenna beside the sensor (--antenna)? --no-fixes leaves "
-                "it out"
+                f"accelerometer by more than {name}_std allows, the first at {first:.6g} s; "
+                + _why(name, moves)
             )
-        out.append(Finding(f"{name}_fixes", name, wrong, {"share": share, "of": int(valid.sum())}))
+        detail = {"share": share, "of": int(valid.sum()), "first": first}
+        out.append(Finding(f"{name}_fixes", name, int(wrong.sum()), detail))
     return out
+
+
+def _why(name: str, moves: bool) -> str:
+    """What may be wrong with measurements of which most contradict the estimate."""
+    if moves:
+        return (
+            "the positions move during what was taken for rests: a drive at constant speed looks "
+            "like a rest, and a column stationary or --zupt off leaves such rests out"
+        )
+    return (
+        f"is {name}_east, {name}_north in another frame, unit or order, did it jump there, is it "
+        f"later than its rows (--{name}-age), or its antenna beside the sensor (--antenna)? "
+        "--no-fixes leaves it out"
+    )

@@ -18,10 +18,10 @@ from pyimu.navigation.filtered import Filtered
 from pyimu.navigation.integrated import integrated
 from pyimu.navigation.job import Job, Start
 from pyimu.navigation.known import known_part
-from pyimu.navigation.measured import Told, check_fixes, fixes_of
+from pyimu.navigation.measured import Told, check_fixes, contradicted, fixes_of
 from pyimu.navigation.result import NavigationResult
 from pyimu.navigation.stops import ZUPT, clean_of, noise_at_rest, rest_at_start, stops_of
-from pyimu.navigation.track import Track, reference_of
+from pyimu.navigation.track import Reference, Track, reference_of
 from pyimu.recording.log import Given, recording_of
 from pyimu.recording.recording import Recording
 from pyimu.units import STANDARD_GRAVITY, did_you_mean
@@ -86,7 +86,10 @@ def run(
     job = replace(job, latitude=latitude_of(recording, latitude), nhc=nhc, fixes=measured)
     reference = reference_of(recording)
     found, start = job.started(heading0, reference)
-    findings += check_fixes(recording, measured, found)
+    findings += _of_fixes(job, found, start)
+    if nhc:
+        free = replace(job, nhc=False).filtered(start)
+        findings += checks.constraint(found, job.still, free)
     if job.live:
         job = replace(job, still=found.scalar("at_rest") > 0.5)
     tracks = _tracks(METHODS if method == "all" else (method,), job, found, start, findings, say)
@@ -103,6 +106,18 @@ def run(
         zupt=zupt,
         **job.told(start),
     )
+
+
+def _of_fixes(job: Job, found: Filtered, start: Start) -> list[Finding]:
+    """What the run says of measured positions and velocities."""
+    fixes, moves = job.fixes, False
+    if fixes is not None and len(fixes.rows) > 1:
+        positions = Reference(fixes.rows, fixes.position)
+        moves = any(checks.rests_that_move(positions, job.still, job.recording.time))
+        if contradicted(found, "position", fixes).any():
+            free = job.filtered(start, fixes=False).track("filter")
+            checks.check_not_mirrored(job.recording.name, positions, free)
+    return check_fixes(job.recording, fixes, found, moves)
 
 
 def _given(settings: Mapping[str, Any] | None) -> tuple[dict[str, Any], dict[str, float]]:

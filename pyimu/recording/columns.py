@@ -97,6 +97,9 @@ GROUPS: Mapping[str, Group] = MappingProxyType(
 depend are those that groups are the truth of, in this order, and what follows from them
 (``pyimu.model.signals``)."""
 
+MARKS = ("moving", "stationary")
+"""Groups that mark rows: 1 is yes, 0 is no, and NaN is not known."""
+
 
 def column_names(group: str) -> tuple[str, ...]:
     """Names of the columns of a group, without unit: ``("gyro_x", "gyro_y", "gyro_z")``."""

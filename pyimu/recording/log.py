@@ -21,7 +21,7 @@ from pyimu.recording.formats.frame import FrameReader, is_frame
 from pyimu.recording.formats.suffix import stem
 from pyimu.recording.gaps import GapFinder
 from pyimu.recording.guess.numbers import SECONDS, USUAL
-from pyimu.recording.recording import Recording, copied, join
+from pyimu.recording.recording import Recording, check_marks, copied, join
 from pyimu.recording.rows import LEAST_ROWS, Rows, Source
 from pyimu.recording.waking import Batch
 
@@ -151,6 +151,7 @@ class Log:
         kept = 0
         for time, groups, share in passing.waking.awake(self._whole(passing)):
             kept += len(time)
+            check_marks(self.path, time, groups)
             yield (
                 Recording(
                     self.name, time, **groups, path=self.path, frame_declared=self.frame_declared

@@ -9,7 +9,7 @@ missing value is NaN.
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, make_dataclass, replace
 from functools import cached_property
 from inspect import cleandoc
@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike
 from pyimu.errors import Finding, UserError
 from pyimu.recording import show
 from pyimu.recording.clock import Cadence, cadence_of, segments
-from pyimu.recording.columns import GROUPS, column_names
+from pyimu.recording.columns import GROUPS, MARKS, column_names
 from pyimu.recording.formats.suffix import write_table
 from pyimu.recording.gaps import gap_rows
 from pyimu.units import did_you_mean
@@ -72,7 +72,8 @@ class Recording(_Columns):
 
         A group is such as ``gyro`` (n, 3) rad/s.
 
-        Raises UserError for an unknown group, a wrong shape, or a time that does not increase.
+        Raises UserError for an unknown group, a wrong shape, a time that does not increase, or a
+        mark that is not from 0 to 1.
         """
         time = np.asarray(time, dtype=float)
         if (
@@ -94,6 +95,7 @@ class Recording(_Columns):
             for g in GROUPS
             if groups.get(g) is not None
         }
+        check_marks(name, time, arrays)
         return cls(name=name, time=time, **(groups | arrays))
 
     def __len__(self) -> int:
@@ -214,6 +216,20 @@ def _shaped(name: str, group: str, values, n: int) -> np.ndarray:
     if array.shape != shape:
         raise UserError(f"{name}: {group} has shape {array.shape}, expected {shape}")
     return array
+
+
+def check_marks(name: str | os.PathLike, time: np.ndarray, groups: Mapping[str, Any]) -> None:
+    """Raise UserError for a mark of rows (``stationary``, ``moving``) that is below 0 or above 1:
+    a count or a code, which says something else. ``name`` is that of the log.
+    """
+    for mark in MARKS:
+        values = groups.get(mark)
+        wrong = () if values is None else np.flatnonzero((values < 0.0) | (values > 1.0))
+        if len(wrong):
+            raise UserError(
+                f"{name}: {mark} is {values[wrong[0]]:g} at {time[wrong[0]]:g} s, expected 0 or 1: "
+                f"the {GROUPS[mark].text}"
+            )
 
 
 def filled(time: np.ndarray, values: np.ndarray) -> np.ndarray:

@@ -226,3 +226,43 @@ def test_what_is_no_position_ends_with_a_line(log, change, said):
 def test_a_standard_deviation_of_an_option_is_above_zero(log, std):
     with pytest.raises(UserError, match="position_std"):
         navigate(fixed(log), position_std=std)
+
+
+def test_positions_in_a_mirror_are_refused(log):
+    """East and north swapped, where only some of the positions contradict."""
+    east, north = fixed(log).position_east, fixed(log).position_north
+    with pytest.raises(UserError, match="mirrored, .* swapped, or one has the other sign"):
+        navigate(replace(fixed(log), position_east=north, position_north=east))
+
+
+def test_positions_that_move_during_a_rest_say_that_it_is_none(log):
+    """An even drive is a rest to gyro and accelerometer; the positions know better."""
+    n = len(log.time)
+    even = replace(
+        log,
+        gyro=np.repeat(log.gyro[:1], n, axis=0),
+        accel=np.repeat(log.accel[:1], n, axis=0),
+        stationary=np.ones(n),
+    )
+    moved = replace(fixed(even), position_east=fixed(even).position_east + 0.5 * log.time)
+    with pytest.raises(UserError, match="during what was taken for rests.*--zupt off"):
+        navigate(moved)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_first_velocities_tell_the_heading(truth, seed):
+    """Of a vehicle that begins 2 rad from east, by its velocities alone; 0.1 rad is what a course
+    is good to."""
+    log, rng = drawn(truth, seed), np.random.default_rng(seed)
+    n, c, s = len(log.time), np.cos(2.0), np.sin(2.0)
+    east, north = log.ref_velocity[:, :2].T
+    noise = STD * rng.standard_normal((2, n))
+    measured = {
+        "velocity_east": c * east - s * north + noise[0],
+        "velocity_north": s * east + c * north + noise[1],
+        "velocity_std": np.full(n, STD),
+    }
+    bare = {"ref_q": None, "ref_east": None, "ref_north": None}
+    found = navigate(replace(log, **measured, **bare), settings=DRAWN)
+    assert found.heading_from == "the course of the first 2 m of measured velocities"
+    assert abs(found.heading0 - 2.0) < 3 * 0.1

@@ -9,6 +9,7 @@ from navigation_cases import SHORT, assumed
 import pyimu
 from pyimu.errors import UserError
 from pyimu.navigation import run
+from pyimu.navigation.checks import JUMP
 from pyimu.rover.square import motion
 
 
@@ -82,6 +83,16 @@ def test_a_gap_is_said_with_its_time_and_the_position_is_wider_by_the_top_speed(
     assert np.all(first - last > 0.9 * 5.0 * 3.0) and np.all(first - last < 1.1 * 5.0 * 3.04)
 
 
+def test_what_a_reference_goes_in_a_gap_is_no_jump(log):
+    """The truth drives on through 3 s without samples; a jump of that size between two is one."""
+    kept = (log.time < 6.0) | (log.time > 11.0)
+    cut = replace(log, time=log.time[kept], **{k: v[kept] for k, v in log.groups.items()})
+    far = np.hypot(*[np.ptp(getattr(log, n)[~kept]) for n in ("ref_east", "ref_north")])
+    assert far > JUMP
+    assert "reference jumps" not in said(cut)
+    assert "jumps by 1" in said(replace(log, ref_east=log.ref_east + far * (log.time > 20)))
+
+
 def test_rests_that_a_log_declares_and_that_are_none_are_said(log):
     still = np.zeros(len(log.time))
     assert "The column stationary declares no rest in this log" in said(
@@ -98,6 +109,77 @@ def test_a_constant_speed_that_is_taken_for_a_rest_is_said():
     drive = replace(SHORT, legs=1, side=6.0, vibration=0.0)
     text = said(assumed().specimen(4).simulate(motion(drive, 50.0), seed=4))
     assert "A drive at constant speed looks like a rest; a column stationary would tell" in text
+    assert "The reference moves during 1 rest, by up to" in text
+    assert "times as large" not in text
+
+
+def test_rests_that_are_rests_do_not_move(log):
+    """The reference's own noise and a slow wander of a receiver are no way."""
+    rng, n = np.random.default_rng(7), len(log.time)
+    wander = 0.01 * np.sqrt(0.02) * np.cumsum(rng.standard_normal((n, 2)), axis=0)
+    east = log.ref_east + wander[:, 0] + 0.05 * rng.standard_normal(n)
+    north = log.ref_north + wander[:, 1] + 0.05 * rng.standard_normal(n)
+    assert "reference moves" not in said(replace(log, ref_east=east, ref_north=north))
+
+
+@pytest.mark.parametrize("factor", (100.0, 1 / 0.3048, 1e-3))
+def test_a_reference_in_another_unit_is_said_with_its_factor(log, factor):
+    other = {name: factor * getattr(log, name) for name in ("ref_east", "ref_north")}
+    found = run(replace(log, **other), assumed(), method="filter")
+    detail = next(f.detail for f in found.findings if f.kind == "reference_scale")
+    assert detail["factor"] == pytest.approx(factor, rel=0.1)
+    assert "times as large as the estimate's and of its shape" in found.report()
+    assert "times as large" not in said(log)
+
+
+@pytest.mark.parametrize("backwards", (False, True))
+def test_a_vehicle_that_does_not_drive_along_x_is_said(backwards):
+    """What is mounted backwards drives along x all the same: there the constraint holds."""
+    log = assumed().specimen(4).simulate(motion(replace(SHORT, vibration=0.1), 50.0), seed=4)
+
+    def turned(v):
+        return v * (-1, -1, 1) if backwards else v[:, [1, 0, 2]] * (1, -1, 1)
+
+    found = run(
+        replace(log, accel=turned(log.accel), gyro=turned(log.gyro), ref_q=None),
+        assumed(),
+        method="filter",
+        nhc=True,
+    )
+    said = [f.detail for f in found.findings if f.kind == "constraint"]
+    assert bool(said) != backwards
+    if said:
+        assert abs(np.degrees(said[0]["along"]) + 90) < 20
+        assert "[frame]" in found.report() and "deg to the right of x" in found.report()
+
+
+@pytest.mark.parametrize("value", (2.0, -1.0))
+def test_a_mark_that_is_no_mark_is_refused(log, tmp_path, value):
+    still = np.zeros(len(log.time))
+    still[100] = value
+    path = replace(log, stationary=still).write(tmp_path / "log.csv")
+    with pytest.raises(UserError, match=f"stationary is {value:g} at 2 s, expected 0 or 1"):
+        pyimu.read_recording(path)
+    with pytest.raises(UserError, match="expected 0 or 1"):
+        pyimu.Recording.from_arrays(time=log.time, stationary=still)
+
+
+def test_the_heading_is_that_of_the_first_reference_turned_back(log):
+    late = np.array(log.ref_q)
+    late[log.time < 20.0] = np.nan
+    found = run(replace(log, ref_q=late), assumed(), method="filter")
+    assert found.heading_from == "the log's ref_q at 20 s"
+    own = run(log, assumed(), method="filter")
+    std = own.filter.vector("attitude_std")[np.searchsorted(log.time, 20.0), 2]
+    assert abs(found.heading0 - own.heading0) < 5 * std
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_of_a_slow_log_no_drive_is_a_rest_by_two_samples(seed):
+    """At 5 Hz a window of 0.3 s has two samples, which are alike by chance at an even speed."""
+    drive = replace(SHORT, vibration=0.1, stops=3.0)
+    log = assumed().specimen(seed).simulate(motion(drive, 5.0), seed=seed)
+    assert len(run(log, assumed(), method="filter").later_stops) == 4
 
 
 def test_a_steady_turn_is_said_with_its_time():

@@ -20,6 +20,9 @@ TITLES = {
     "smoother": "smoothed by the whole log",
 }
 
+UNSEEN = 1
+"""Bit of the status of samples that are missing."""
+
 WRONG_REST = 2
 """Bit of the status of a zero velocity that contradicted the estimate."""
 
@@ -53,6 +56,9 @@ def notes(a: Outcome) -> list[str]:
             "and the standard deviations are wide for that reason; some seconds of rest before it "
             "would tell them"
         )
+    if "constraint" in kinds:
+        lost = np.any(a.filter.scalar("status").astype(int) & UNSEEN)
+        out.append(_constraint(kinds["constraint"], bool(lost)))
     if "gravity_off" in kinds:
         off = kinds["gravity_off"].detail
         out.append(
@@ -94,6 +100,23 @@ def notes(a: Outcome) -> list[str]:
     return [*out, OBSERVABLE] if a.later_stops else out
 
 
+def _constraint(f: Finding, lost: bool) -> str:
+    angle = abs(np.degrees(f.detail["along"]))
+    if np.isfinite(angle):
+        side = "left" if f.detail["along"] > 0 else "right"
+        return (
+            f"Without the vehicle's constraint the body moves {angle:.0f} deg to the {side} of x: "
+            "its axes are not forward-left-up, which a column map's [frame] says, and what comes "
+            "out is of no use; --nhc is for a vehicle that drives along x"
+        )
+    why = "is it a vehicle, and are the axes forward-left-up?"
+    return (
+        f"{f.detail['share']:.0%} of the drive contradicts the vehicle's constraint, and what "
+        "comes out is of no use: "
+        + ("the attitude was lost where samples are missing" if lost else why)
+    )
+
+
 def _counted(count: int, noun: str) -> str:
     return f"{count:,} {noun}{'' if count == 1 else 's'}"
 
@@ -120,6 +143,19 @@ def _of_samples(kinds: dict[str, Finding]) -> Iterator[str]:
         yield (
             f"The reference jumps by {number(f.detail['largest'])} m at {f.detail['first']:.6g} s "
             f"({_counted(f.count, 'time')}): the errors beside it are the reference's own"
+        )
+    if (f := kinds.get("rest_moves")) is not None:
+        yield (
+            f"The reference moves during {_counted(f.count, 'rest')}, by up to "
+            f"{number(f.detail['largest'])} m (the first at {f.detail['first']:.6g} s, "
+            f"{quantity(f.detail['seconds'], 's')} in all): these are none, as a drive at "
+            "constant speed looks like a rest; a column stationary or --zupt off leaves them out"
+        )
+    if (f := kinds.get("reference_scale")) is not None:
+        yield (
+            f"The reference's path is {number(f.detail['factor'])} times as large as the "
+            f"estimate's and of its shape ({number(f.detail['after'])} m from it in that size, not "
+            f"{number(f.detail['before'])} m): is it in another unit than m?"
         )
     if (f := kinds.get("reference_frame")) is not None:
         mirrored = "mirrored and " if f.detail["mirrored"] else ""
@@ -165,8 +201,9 @@ def _fixes(a: Outcome) -> Iterator[str]:
             text += f", mean NIS {number(nis)}"
         if f.count:
             text += (
-                f"; {f.count:,} of them ({f.detail['share']:.2%}) contradicted it and were weighed "
-                "down: a jump, another frame, or a standard deviation that is too small"
+                f"; {f.count:,} of them ({f.detail['share']:.2%}, the first at "
+                f"{f.detail['first']:.6g} s) contradicted it and were weighed down: a jump, "
+                "another frame, or a standard deviation that is too small"
             )
         yield text
 
