@@ -82,7 +82,7 @@ class Advice:
 
     ``why`` says what its gain follows from where that is no noise. ``motion`` names one of the
     library of ``pyimu.plan``, which takes ``duration`` s; ``separates`` are effects that it tells
-    apart, by ``distance`` standard errors.
+    apart, by ``distance`` standard errors; ``shows`` that it shows what these logs do not at all.
     """
 
     sensor: str
@@ -93,10 +93,15 @@ class Advice:
     duration: float | None = None
     separates: tuple[str, ...] = ()
     distance: float | None = None
+    shows: bool = False
 
     @property
     def worth(self) -> float:
-        return np.inf if self.separates else max((g.factor for g in self.gains), default=1.0)
+        return (
+            np.inf
+            if self.separates or self.shows
+            else max((g.factor for g in self.gains), default=1.0)
+        )
 
     def as_dict(self) -> dict[str, Any]:
         gains = [asdict(g) | {"std": g.std} for g in self.gains]
@@ -116,6 +121,7 @@ def advice(
     for kind, inv in found.items():
         of_kind = ([v for v in vs if v.sensor == kind] for vs in (entries, seen))
         known = _Known(*of_kind)
+        made += _more_positions(kind, inv)
         made += _separated(kind, inv)
         made += _planned(kind, inv, known)
         made += _unlogged(kind, inv, seen)
@@ -160,6 +166,13 @@ class _Known:
         """Of one coefficient; NaN of one that is held where it is."""
         half = self.half.get((key.effect, key.parameter))
         return np.nan if half is None else float(half[key.index])
+
+
+def _more_positions(kind: str, inv: Investigation) -> Iterator[Advice]:
+    """Positions at rest that would show what those of the logs do not."""
+    for f in (f for t in inv.after.trials for f in t.findings if f.kind == "not_shown_at_rest"):
+        why = f"these show nothing of the {kind}'s {f.detail['effects']}"
+        yield Advice(kind, f.detail["wanted"], why=why, shows=True)
 
 
 # Measurements that are put through the model

@@ -366,14 +366,20 @@ def _shown(start: Part, declared: bool, free: frozenset[Key], trials: list[Trial
         return trials
     names = joined([f"{k.effect}.{k.parameter}{list(k.index)}" for k in hidden])
     more = positions_wanted(sensor, free, trials)
-    said = f"{len(more)} more at rest would: {joined(more)}" if more else "many more would"
+    turns = "turns by 90 deg and more about each of its axes, from rest to rest"
+    wanted = turns if sensor.kind == "gyro" else "rests in many more positions"
+    said = f"{wanted}, would"
+    if more:
+        wanted = f"rests with {joined(more)}"
+        said = f"{len(more)} more at rest would: {joined(more)}"
     if declared:
         have = sum(len(np.unique(t.reduction.group)) for t in trials)
         raise UserError(
             f"{name}: {have} positions at rest do not show {names} of the {sensor.kind}, which "
             f"part {start.name} asks to estimate; {said}"
         )
-    detail = {"coefficients": names, "positions": said}
+    effects = joined([e.replace("_", " ") for e in dict.fromkeys(k.effect for k in hidden)])
+    detail = {"coefficients": names, "effects": effects, "positions": said, "wanted": wanted}
     found = Finding("not_shown_at_rest", sensor.kind, len(hidden), detail)
     first = replace(trials[0], findings=(*trials[0].findings, found))
     return [first, *trials[1:]]

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from pyimu.identification.advice import advice
-from pyimu.identification.as_part import as_part
+from pyimu.identification.as_part import SENSORS, as_part
 from pyimu.identification.by_attitude import settled
 from pyimu.identification.can_tell import rows_fitted, shows_anything, unfit
 from pyimu.identification.clocks import taken_out
@@ -101,6 +101,7 @@ def conclude(
         lost=lost,
         clocks=taken_out(found, heading),
         formulas={f.name: f.said for f in formulas},
+        unshown=_unshown(found),
     )
     say("the whole model, and what to measure next")
     whole = estimated(start, model.after, fitting, added, noises)
@@ -166,6 +167,22 @@ def _unexplained(looks: Mapping[str, Look], noises: Mapping[str, Noise]) -> tupl
 def _refused(found: Found, noises: Mapping[str, Noise]) -> tuple[tuple[str, Refused], ...]:
     of_search = [(kind, r) for kind, inv in found.items() for r in inv.refused]
     return (*of_search, *((kind, r) for kind, n in noises.items() for r in n.refused))
+
+
+def _unshown(found: Found) -> tuple[str, ...]:
+    """Which coefficients of each sensor the positions at rest leave open, and what would not."""
+    of_rests = [
+        (kind, f.detail)
+        for kind, inv in found.items()
+        for t in inv.after.trials
+        for f in t.findings
+        if f.kind == "not_shown_at_rest"
+    ]
+    return tuple(
+        f"the positions at rest do not show the {SENSORS[kind]}'s {said['effects']}; "
+        f"{said['positions']}"
+        for kind, said in of_rests
+    )
 
 
 def _kept(looks: Iterable[Look], found: Found) -> tuple[Formula, ...]:

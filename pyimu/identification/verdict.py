@@ -62,7 +62,8 @@ class Evidence:
     fitted. ``errors`` are those of a sensor in all logs, ``by_log`` in each, ``band_hz`` the band
     in which they are. ``fates`` says what became of the candidates, ``beside`` is the verdict on
     the magnetometer where there is something to say, ``lost`` of which logs the attitude is lost;
-    ``clocks`` what was taken out of the references, ``formulas`` by name how a formula is said.
+    ``clocks`` what was taken out of the references, ``formulas`` by name how a formula is said,
+    ``unshown`` which coefficients the positions at rest do not show.
     """
 
     examined: tuple[str, ...]
@@ -84,6 +85,7 @@ class Evidence:
     lost: tuple[str, ...] = ()
     clocks: str = ""
     formulas: Mapping[str, str] = field(default_factory=dict)
+    unshown: tuple[str, ...] = ()
 
 
 def verdict(e: Evidence) -> Verdict:
@@ -157,6 +159,8 @@ def _nothing_found(e: Evidence, left: str) -> Verdict:
         return e.beside
     if still_open := open_of(e):
         return Verdict("undecidable", f"{still_open}: let it rest in more of them")
+    if e.unshown:
+        return Verdict("undecidable", "; ".join(e.unshown))
     unjudged = [k for k in e.examined if not _is_judged(e.errors.get(k))]
     if unjudged:
         reason = f"no held-out row is left to judge the {joined(unjudged)} by"

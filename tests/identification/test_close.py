@@ -2,6 +2,7 @@
 be blamed on an effect.
 """
 
+from dataclasses import replace
 from itertools import zip_longest
 
 import numpy as np
@@ -275,3 +276,14 @@ def test_moving_log_without_reference_is_refused():
 def test_result_does_not_depend_on_the_order_of_calls(world):
     log = recording(world, gyro_change=changes(world, "gyro")["g_sensitivity"](4e-5), seed=5)
     assert pyimu.close(log).as_dict() == pyimu.close(log).as_dict()
+
+
+@pytest.mark.parametrize("kind", ("gyro", "accel"))
+def test_an_axis_of_one_value_is_left_out_and_said(world, kind):
+    """Dead or at its limit, it tells nothing: no scale factor of -100 %, no noise of zero."""
+    log = recording(world, seed=5)
+    dead = np.array(getattr(log, kind))
+    dead[:, 2] = 0.25
+    closed = pyimu.close(replace(log, **{kind: dead}), part=noise_only())
+    assert not closed.added and not [c for c in closed.changed if c.sensor == kind]
+    assert f"constant channel of {kind} z" in closed.report()

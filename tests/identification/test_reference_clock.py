@@ -555,3 +555,21 @@ def test_what_an_effect_does_is_no_clock_that_wanders(number):
     log = pyimu.Recording.from_arrays("log", **made.logs[0])
     (kept,) = aligned([accel_trial(log, False)], [], undeclared(100.0).accel)
     assert kept.clock.keeps_step and not kept.clock.taken_out
+
+
+def test_a_walk_larger_than_declared_is_no_noise_of_the_reference():
+    """80 times on one axis: it follows many a slow input by chance, and is said as what it is."""
+    found = closed(make("size1/gyro.rate_random_walk", 120, (6.0, 9.0)))
+    assert found.verdict == "drift", found.report()
+    (found,) = [c for c in found.changed if (c.sensor, c.parameter) == ("gyro", "K")]
+    assert 40 < found.fitted[0] / found.declared[0] < 160
+
+
+def test_a_small_drift_is_taken_out_whatever_the_mean_lag():
+    """0.5 ppm over eight minutes, a gain of 12 nat beside the mean lag, which is seen, too."""
+    made = make("one/12/accel.clock_skew", 120, (6.0, 9.0))
+    found = closed(made)
+    assert not found.added and found.verdict != "unexplained", found.report()
+    (clock,) = [f.detail for f in found.quality if f.kind == "reference_clock"]
+    drift = (clock["most_late"] - clock["least_late"]) / made.logs[0]["time"][-1]
+    assert drift == pytest.approx(float(made.truths[0].value), rel=0.5)

@@ -84,6 +84,7 @@ evidence = st.builds(
     band_hz=st.just({"gyro": 12.0}),
     beside=st.one_of(st.none(), st.builds(Verdict, words, st.just("the magnetometer"))),
     formulas=st.sampled_from([{}, {"found_effect": "w x f"}]),
+    unshown=st.sampled_from([(), ("its scale factor",)]),
 )
 
 some = st.floats(1e-3, 5.0)
@@ -110,7 +111,7 @@ def test_clean_stands_beside_nothing_that_speaks_against_it(e):
     assert not (e.unfit or e.added or e.unexplained or e.unexamined) and e.beside is None
     assert all(r.reason == AS_NOISE for _, r in e.refused)
     assert not any(e.drift.values())
-    assert e.shows and e.rows >= SHORT
+    assert e.shows and e.rows >= SHORT and not e.unshown
     assert {*e.examined} <= {*e.errors}
     assert all(e.errors[k].after.total <= FAR * e.errors[k].noise for k in e.examined)
 

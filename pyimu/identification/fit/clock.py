@@ -102,11 +102,13 @@ class Clock:
         drift = {1: WIDE * self.std * np.sqrt(12.0) / seconds}
         return {0: WIDE * self.std, **drift} if self.taken_out and not self.own else drift
 
-    def corrected(self, change: ClockChange, std: float, first: float, last: float) -> Clock:
+    def corrected(
+        self, change: ClockChange, std: float, first: float, last: float, least: float = WIDE
+    ) -> Clock:
         """The clock with what a fit found beside it, from ``first`` to ``last`` s, ``std`` being
-        the standard error of its drift; a new drift that may be chance is none.
+        the standard error of its drift; a new drift below so many of them as ``least`` is none.
         """
-        if self.skew is None and abs(change.drift) <= WIDE * std:
+        if self.skew is None and abs(change.drift) <= least * std:
             change = replace(change, drift=0.0)
         drifts = self.keeps_step and change.drift != 0.0
         time = np.array([first, last]) if drifts else self.time

@@ -193,11 +193,7 @@ def gyro_trial(recording: Recording, latitude: float | None = None) -> Trial | N
         return None
     if reference.time is not None:
         recording = at_times(recording, reference.time)
-    axes = tuple(
-        i
-        for i in range(3)
-        if np.isfinite(reference.rate[:, i]).any() and np.isfinite(recording.gyro[:, i]).any()
-    )
+    axes = tuple(i for i in _live(recording.gyro) if np.isfinite(reference.rate[:, i]).any())
     u, known = environment(recording)
     u[:, OWN["gyro"]] = np.where(np.isfinite(reference.rate), reference.rate, 0.0)
     known = known | {"rate"} | _slope(u, recording, "rate", "angular_acceleration")
@@ -243,7 +239,7 @@ def accel_trial(recording: Recording, static: bool) -> Trial | None:
         u[:, COLUMNS["vibration"]] = 0.0
     else:
         known = known | _slope(u, recording, "specific_force", "jerk")
-    axes = tuple(i for i in range(3) if np.isfinite(recording.accel[:, i]).any())
+    axes = _live(recording.accel)
     return _trial(
         recording,
         "accel",
@@ -254,6 +250,15 @@ def accel_trial(recording: Recording, static: bool) -> Trial | None:
         "static" if recording.ref_force is None else "force",
         axes=axes,
     )
+
+
+def _live(values: np.ndarray) -> tuple[int, ...]:
+    """The axes of samples (n, 3) that tell something: not those that show one value all the time
+    beside others that do not, which are dead, or at their limit.
+    """
+    known = [v[np.isfinite(v)] for v in values.T]
+    moves = [i for i, v in enumerate(known) if len(v) and np.ptp(v) > 0.0]
+    return tuple(moves or (i for i, v in enumerate(known) if len(v)))
 
 
 def environment(recording: Recording) -> tuple[np.ndarray, frozenset[str]]:

@@ -99,7 +99,10 @@ def look(
     fires = left.p_value < UNEXPLAINED
     if not fires and not _may_be_one(inv):
         return Look(inv)
-    if fires and _is_of_reference(judged, left):
+    # By the noise that it shows itself: a residual that wanders more than is declared follows many
+    # a slow input by chance.
+    seen = left if judged is inv.after or not fires else scored(inv.after, terms)
+    if fires and seen.p_value < UNEXPLAINED and _is_of_reference(judged, left):
         again = partial(again, believed=True)
         return look(again(inv.before.sensor, inv.before.free), again, say)
     say(f"{kind}: looking for a formula")
@@ -120,9 +123,6 @@ def look(
         CATALOGUE.remove(formula.name)
     if not fires:
         return Look(inv)
-    # By the noise that it shows itself: a residual that wanders more than is declared follows many
-    # a slow input by chance.
-    seen = left if judged is inv.after else scored(inv.after, terms)
     return Look(inv, None, _unexplained(kind, seen))
 
 

@@ -28,6 +28,10 @@ SIGNIFICANT = 5.0
 DOUBTFUL = 3.0
 """Standard errors within which a log that shows no lag by itself must have that of the others."""
 
+LIKELIER = 3.5
+"""Standard errors of a drift from which on a line is likelier than one lag by the 6 nat that an
+effect must explain."""
+
 ALIKE = 0.1
 """Logs whose lags differ by less than this share of their mean have one in common."""
 
@@ -97,7 +101,8 @@ def _drifting(trial: Trial, steady: Clock, fitted: Fit) -> Clock | None:
     change, std = fitted.states[trial.name].clock, fitted.std.get(LogClock(trial.name, 1), np.inf)
     if change is None or abs(steady.mean) >= SIGNIFICANT * steady.std:
         return None
-    line = steady.corrected(change, std, float(trial.time[0]), float(trial.time[-1]))
+    ends = float(trial.time[0]), float(trial.time[-1])
+    line = steady.corrected(change, std, *ends, least=LIKELIER)
     return None if line.keeps_step else line
 
 

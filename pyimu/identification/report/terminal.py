@@ -18,6 +18,7 @@ from pyimu.identification.report.words import (
     named,
     si_of,
 )
+from pyimu.report.findings import in_line
 from pyimu.report.lines import in_columns
 from pyimu.report.numbers import in_unit, joined, number, unit_for
 
@@ -26,7 +27,7 @@ MOST_CANDIDATES = 8
 
 
 def in_lines(closed: Outcome) -> str:
-    """The findings in lines of text: verdict, what was found, the model, the error."""
+    """The findings in lines of text: verdict, what was found, the model, the error, the logs."""
     lines = [*closed.simulated.lines, ""] if closed.simulated else []
     lines += [f"verdict: {closed.verdict}" + (f" ({closed.reason})" if closed.reason else "")]
     lines += [f"  {text}" for text in (*closed.remarks, *_found(closed))]
@@ -39,6 +40,8 @@ def in_lines(closed: Outcome) -> str:
     if closed.estimated:
         lines += ["", LEGEND]
     lines += ["", *_errors(closed)]
+    seen = (f for f in closed.quality if f.kind != "not_shown_at_rest")
+    lines += [f"log: {text}" for text in in_line(seen)]
     if closed.next:
         best = closed.next[0]
         said = "; ".join((*gains(best), *([best.why] if best.why else [])))
