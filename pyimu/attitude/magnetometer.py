@@ -74,16 +74,18 @@ def magnetometer_of(recording: Recording, wanted: bool) -> Magnetometer:
         )
     if EARTH[0] / ROOM <= strength <= EARTH[1] * ROOM:
         return Magnetometer(True, strength)
-    return Magnetometer(False, strength, (_other_size(strength),))
+    return Magnetometer(False, strength, (_other_size(strength, recording.stated.get("mag")),))
 
 
-def _other_size(strength: float) -> Finding:
+def _other_size(strength: float, header: str | None) -> Finding:
     """The finding about a field whose ``strength`` in T is not the Earth's.
 
-    Numbers in gauss under a header of tesla, say, are 10^4 times too large.
+    Numbers in gauss under a header of tesla, say, are 10^4 times too large. What the ``header``
+    states is known of a file alone.
     """
     detail: dict[str, float | str] = {"strength": strength}
-    for stated, right in MISTAKEN:
+    pairs = MISTAKEN if header is None else [(header, right) for right in UNITS]
+    for stated, right in pairs:
         true = strength * parse(right).factor / parse(stated).factor
         if EARTH[0] <= true <= EARTH[1]:
             return Finding("mag_unit", "mag", 1, detail | {"stated": stated, "as": right})

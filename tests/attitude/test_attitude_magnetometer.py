@@ -23,6 +23,7 @@ from scipy.stats import chi2, norm
 
 from pyimu.attitude import attitude_ukf, run
 from pyimu.recording.recording import Recording
+from pyimu.units import parse
 
 FIELD = np.array([0.0, 19e-6, -45e-6])
 """T; east, north, up, of a dip of 67 degrees."""
@@ -257,3 +258,13 @@ def test_a_magnetometer_that_cannot_be_right_is_said_and_not_used(case):
     assert not found.magnetometer.used and said in found.report()
     plain = run(recording(world, world.mag()), part(), magnetometer=False)
     np.testing.assert_array_equal(found.q, plain.q)
+
+
+@pytest.mark.parametrize("header, numbers", [("mT", "uT"), ("uT", "nT"), ("gauss", "uT")])
+def test_the_unit_that_is_named_is_that_of_the_header(header, numbers, tmp_path):
+    """Numbers in uT under a header of mT are as much too large as those in nT under one of uT."""
+    world = World(111, rows=500, still=300)
+    path = recording(world, world.mag() / parse(numbers).factor).write(tmp_path / "log.csv")
+    path.write_text(path.read_text().replace("[T]", f"[{header}]"))
+    said = run(path, part()).report()
+    assert f"numbers in {numbers} under a header of {header} look so" in said
