@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from pyimu.attitude.columns import recorded_age
 from pyimu.errors import Finding
 from pyimu.recording.recording import Recording
+from pyimu.recording.turning import carried
 
-SPAN = 2.0
-"""s; between the headings whose differences are compared with how far the gyro turned."""
+SPAN, LONGEST = 2.0, 10.0
+"""s; between the headings whose differences are compared with how far the gyro turned, and at most
+where headings are rare: a gyro's bias turns it meanwhile."""
 
 LEAST_TURN, MOST_TURN = 0.03, 2.0
 """rad in a span: less is noise, and of more nobody knows how often it went round."""
@@ -78,30 +79,27 @@ def _spans(r: Recording) -> tuple[np.ndarray, np.ndarray]:
         return np.zeros(0), np.zeros(0)
     at = np.arange(r.time[known[0]], r.time[known[-1]], SPAN)
     rows = np.unique(known[np.searchsorted(r.time[known], at)])
-    true_at = np.searchsorted(r.time, r.time[rows] - recorded_age(r)[rows])
-    turns, usable = _turns(r, np.minimum(true_at, rows))
-    return np.diff(r.heading[rows])[usable], turns[usable]
+    true_at = np.minimum(np.searchsorted(r.time, r.time[rows] - recorded_age(r)[rows]), rows)
+    near = np.diff(r.time[true_at]) < LONGEST
+    turns, usable = _turns(r, true_at[:-1][near], true_at[1:][near])
+    return np.diff(r.heading[rows])[near][usable], turns[usable]
 
 
-def _turns(r: Recording, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """By how many rad the heading of the body's x axis turns from each of ``rows`` to the next.
+def _turns(r: Recording, first: np.ndarray, last: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """By how many rad the heading of the body's x axis turns from the ``first`` rows to the last.
 
     Beside it which of them can be used. Within a span the gyro tells how the body turns; the
     forces, turned back to where it began, have the vertical as their mean, as what moves a body to
     and fro has none.
     """
-    rate, force = np.nan_to_num(r.gyro), np.nan_to_num(r.accel)
+    lengths = np.maximum(last - first, 0)
+    row = first + np.arange(1, max(lengths, default=0) + 1)[:, None]
+    row = np.minimum(row, last)
     step = np.diff(r.time, prepend=r.time[0])
-    first, last = rows[:-1], rows[1:]
-    turned = Rotation.identity(len(first))
-    up, along = np.zeros((len(first), 3)), np.zeros((len(first), 3))
-    for k in range(1, int(np.max(last - first, initial=0)) + 1):
-        row = np.minimum(first + k, last)
-        angle = rate[row] * (step[row] * (first + k <= last))[:, None]
-        along += turned.apply(angle)
-        turned = turned * Rotation.from_rotvec(angle)
-        up += turned.apply(force[row]) * (first + k <= last)[:, None]
-    up /= np.maximum(np.linalg.norm(up, axis=1, keepdims=True), 1e-12)
+    angle = np.nan_to_num(r.gyro)[row] * step[row][:, :, None]
+    turned, sums = carried(angle, np.stack([np.nan_to_num(r.accel)[row], angle], axis=3), lengths)
+    up, along = sums[:, :, 0], sums[:, :, 1]
+    up = up / np.maximum(np.linalg.norm(up, axis=1, keepdims=True), 1e-12)
     start = np.tile([1.0, 0.0, 0.0], (len(first), 1))
     end = turned.apply(start)
     level = [v - np.sum(v * up, axis=1, keepdims=True) * up for v in (start, end)]

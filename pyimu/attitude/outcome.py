@@ -9,11 +9,10 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pyimu.attitude.driven import speed_findings
+from pyimu.attitude.contradicted import contradicted
 from pyimu.attitude.error import AttitudeError, error_against
 from pyimu.attitude.filter.status import STATUS
 from pyimu.attitude.filters import OWN
-from pyimu.attitude.headed import heading_findings
 from pyimu.attitude.magnetometer import Magnetometer
 from pyimu.attitude.rest import Rest
 from pyimu.errors import Finding
@@ -106,7 +105,7 @@ class Outcome:
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
         """What reading the recording found, and what its samples show."""
-        measured = (*speed_findings(self.recording), *heading_findings(self.recording))
+        measured = contradicted(self.recording)
         return (*quality(self.recording), *self.magnetometer.findings, *measured)
 
     @property

@@ -84,6 +84,7 @@ def _about_columns(a: Outcome) -> list[str]:
             "gravity lies on -z at rest: the body is upside down, or its axes are not "
             'forward-left-up; map the log with [frame] body = "frd" then'
         )
+    found += [_about_gyro(f) for f in a.findings if f.kind in ("gyro_unit", "gyro_axes")]
     if "speed_sign" in kinds:
         found.append(
             "the forces say that the speed has the wrong sign, or is not along the body's x axis: "
@@ -97,6 +98,28 @@ def _about_columns(a: Outcome) -> list[str]:
         if name in there and of not in there:
             found.append(f"the column {name} has no column {of} beside it, and was not used")
     return found
+
+
+def _about_gyro(finding: Finding) -> str:
+    """What gravity or the reference say of the gyro, and what would be right."""
+    if finding.kind == "gyro_axes":
+        return (
+            "gravity does not turn in the body as the gyro says, but as if the right axes of the "
+            f"gyro were others of its columns ({finding.detail['axes']}); or those of the "
+            "accelerometer are the wrong ones: put their names and signs right, in the log or with "
+            "--columns"
+        )
+    factor = float(finding.detail["factor"])
+    if factor > 1:
+        stated, right, off = "rad/s", "deg/s", "large"
+    else:
+        stated, right, off = "deg/s", "rad/s", "small"
+    return (
+        f"the gyro's rates are {number(max(factor, 1 / factor))} times too {off}, by how gravity "
+        f"or the reference turns: numbers in {right} under a header of {stated} look so, or "
+        f"converted twice; write gyro_x [{right}] in the log's header, or map it there with "
+        "--columns"
+    )
 
 
 def _about_field(finding: Finding) -> str:
