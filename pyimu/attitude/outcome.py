@@ -14,7 +14,7 @@ from pyimu.attitude.error import AttitudeError, error_against
 from pyimu.attitude.filter.status import STATUS
 from pyimu.attitude.filters import OWN
 from pyimu.attitude.magnetometer import Magnetometer
-from pyimu.attitude.rest import Rest
+from pyimu.attitude.rest import Rest, gravity_findings
 from pyimu.errors import Finding
 from pyimu.laws import chi2
 from pyimu.recording.quality.in_pieces import quality
@@ -105,8 +105,10 @@ class Outcome:
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
         """What reading the recording found, and what its samples show."""
-        measured = contradicted(self.recording)
-        return (*quality(self.recording), *self.magnetometer.findings, *measured)
+        found = quality(self.recording)
+        if not any(f.kind == "force_in_g" for f in found):
+            found += gravity_findings(self.rest)
+        return (*found, *self.magnetometer.findings, *contradicted(self.recording))
 
     @property
     def disturbed(self) -> float:

@@ -26,7 +26,10 @@ FREEDOM = "3 degrees of freedom, if accelerations are as accel_std"
 def about(a: Outcome) -> str:
     """What was run over what."""
     seen = a.rest is not None and a.rest.seen
+    other = a.rest is not None and a.rest.other_force is not None
     start = f"{a.rest.duration:.1f} s at rest" if seen else "in motion"
+    if other:
+        start = "still, under a force that is not gravity"
     part = f"part {a.part}" if a.part else "no part, noise as in the log"
     if a.method != OWN:
         part = f"filter {a.method}, {part}"
@@ -85,6 +88,13 @@ def _about_columns(a: Outcome) -> list[str]:
             'forward-left-up; map the log with [frame] body = "frd" then'
         )
     found += [_about_gyro(f) for f in a.findings if f.kind in ("gyro_unit", "gyro_axes")]
+    if "gravity_off" in kinds:
+        off = kinds["gravity_off"].detail
+        found.append(
+            f"gravity at rest is {number(off['magnitude'])} m/s^2, {off['share']:+.1%} off: a "
+            "scale factor, a bias, or another unit of the accelerometer; the tilt is less sure by "
+            "that"
+        )
     if "speed_sign" in kinds:
         found.append(
             "the forces say that the speed has the wrong sign, or is not along the body's x axis: "
