@@ -52,6 +52,7 @@ MEANING = {
     "reference_frame": "the reference fits once it is turned: is it in another frame?",
     "reference_jump": "a step in the reference's path that no body makes",
     "reference_norm": "quaternions of another length than one; those near zero count as not seen",
+    "reference_order": "the reference attitude fits in another order, or in other axes",
     "reference_spikes": "single samples of the reference that no motion makes: they were left out",
     "repeated_rows": "rows that are the same as the row before: they were left out",
     "repeated_samples": "values that are the same as in the row before, to the last bit",

@@ -227,6 +227,18 @@ def error_sizes(error: AttitudeError) -> dict[str, tuple[float, float]]:
     return {n: (root_mean_square(v), float(np.percentile(np.abs(v), 95))) for n, v in sides.items()}
 
 
+def reference_words(a: Outcome) -> str:
+    """What the reference seems to be that its columns do not say; nothing where they fit."""
+    found = next((f for f in a.findings if f.kind == "reference_order"), None)
+    if found is None:
+        return ""
+    return (
+        f"that is the reference's: read as {found.detail['as']}, ref_q is "
+        f"{number(np.degrees(found.detail['rms']))} deg RMS off; put its columns right, or map "
+        "them with --columns"
+    )
+
+
 def error_words(error: AttitudeError) -> str:
     """The error against the reference in a line."""
     sizes = [
