@@ -58,6 +58,7 @@ MEANING = {
     "repeated_samples": "values that are the same as in the row before, to the last bit",
     "repeated_time": "rows with the time of the row before: the first of them counts",
     "speed_sign": "the forces contradict the speed's sign: it was not used",
+    "speed_unit": "the forces say that the speed is of another unit: it was not used",
     "spikes": "single samples far off both neighbours",
     "steady_turn": "an even turn, which is rest to an accelerometer",
     "stuck_samples": "one value for longer than its noise lets it: the sensor or its line hung",

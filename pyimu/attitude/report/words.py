@@ -100,6 +100,8 @@ def _about_columns(a: Outcome) -> list[str]:
             "the forces say that the speed has the wrong sign, or is not along the body's x axis: "
             "it was not used; turn its sign, or the axes"
         )
+    if "speed_unit" in kinds:
+        found.append(_about_speed(kinds["speed_unit"]))
     if "heading_reading" in kinds:
         kind = str(kinds["heading_reading"].detail["as"])
         what = "; ".join(text for name, text in READ_AS.items() if name in kind)
@@ -130,6 +132,14 @@ def _about_gyro(finding: Finding) -> str:
         f"converted twice; write gyro_x [{right}] in the log's header, or map it there with "
         "--columns"
     )
+
+
+def _about_speed(finding: Finding) -> str:
+    """By which factor the forces say that the speed is off, and the unit that has it."""
+    factor, read = float(finding.detail["factor"]), finding.detail["as"]
+    size = f"{number(max(factor, 1 / factor))} times too {'large' if factor > 1 else 'small'}"
+    looks = f": numbers in {read} look so; write that unit in the header, or" if read else "; write"
+    return f"the forces say that the speed is {size}, and it was not used{looks} speed in m/s"
 
 
 def _about_field(finding: Finding) -> str:
