@@ -10,6 +10,8 @@ import numpy as np
 from pyimu.attitude.calibration import MagnetometerCalibration
 from pyimu.attitude.world_field import WorldField
 from pyimu.errors import Finding
+from pyimu.recording.quality.field_axes import field_findings
+from pyimu.recording.quality.gyro_axes import gyro_findings
 from pyimu.recording.recording import Recording
 from pyimu.units import parse
 
@@ -73,8 +75,15 @@ def magnetometer_of(recording: Recording, wanted: bool) -> Magnetometer:
             False, strength, (Finding("mag_axis_missing", "mag", len(mag), detail),)
         )
     if EARTH[0] / ROOM <= strength <= EARTH[1] * ROOM:
-        return Magnetometer(True, strength)
+        found = _axes(recording)
+        return Magnetometer(not found, strength, found)
     return Magnetometer(False, strength, (_other_size(strength, recording.stated.get("mag")),))
+
+
+def _axes(recording: Recording) -> tuple[Finding, ...]:
+    """What its turning says against the axes, by a gyro that nothing contradicts."""
+    found = field_findings(recording)
+    return () if found and gyro_findings(recording) else found
 
 
 def _other_size(strength: float, header: str | None) -> Finding:

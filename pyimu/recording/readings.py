@@ -12,6 +12,9 @@ from pyimu.recording.columns import XYZ
 BY_CHANCE = 1e-6
 """Probability that a reading is believed that is no better than the stated one."""
 
+TINY = 1e-30
+"""A scatter below which all are alike; that of a magnetic field in T^2 is small."""
+
 
 def changed(matrix: np.ndarray) -> float:
     """How much a signed permutation (3, 3) changes: a swap of two axes as much as one sign."""
@@ -34,27 +37,27 @@ def clearly_less(one: np.ndarray, other: np.ndarray) -> bool:
 
     Student's t of the logarithms of their ratios, span by span: so one of a shock decides nothing.
     """
-    ratios = np.log(np.maximum(other, 1e-12) / np.maximum(one, 1e-12))
+    ratios = np.log(np.maximum(other, TINY) / np.maximum(one, TINY))
     if len(ratios) < 3 or not ratios.std() > 0:
         return False
     t = ratios.mean() / (ratios.std(ddof=1) / np.sqrt(len(ratios)))
     return bool(stdtr(len(ratios) - 1, t) > 1 - BY_CHANCE)
 
 
-def likeliest(scatters: np.ndarray, without: np.ndarray, costs: np.ndarray) -> int | None:
-    """Which of c readings is the right one by their ``scatters`` (c, m) in m spans.
+def likely(scatters: np.ndarray, without: np.ndarray, costs: np.ndarray) -> list[int]:
+    """Which of c readings may be the right one by their ``scatters`` (c, m) in m spans.
 
-    Of those than which none is clearly better it is the cheapest by its ``costs`` (c,), of equal
-    ones that of the least scatter. So the stated one, if that costs nothing, stays unless another
-    is clearly better. None where the best explains nothing: where the scatter is not clearly less
-    than ``without`` any (m,).
+    Those than which none is clearly better, the cheapest by their ``costs`` (c,) first, of equal
+    ones that of the least scatter. So the stated one, if that costs nothing, is the first unless
+    another is clearly better. None where the best explains nothing: where the scatter is not
+    clearly less than ``without`` any (m,).
     """
-    sizes = np.sum(np.log(np.maximum(scatters, 1e-12)), axis=1)
+    sizes = np.sum(np.log(np.maximum(scatters, TINY)), axis=1)
     best = scatters[np.argmin(sizes)]
     if not clearly_less(best, without):
-        return None
+        return []
     left = [i for i, own in enumerate(scatters) if not clearly_less(best, own)]
-    return min(left, key=lambda i: (costs[i], sizes[i]))
+    return sorted(left, key=lambda i: (costs[i], sizes[i]))
 
 
 def named(matrix: np.ndarray) -> str:

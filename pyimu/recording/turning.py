@@ -9,6 +9,19 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from pyimu.recording.recording import Recording
+
+SPAN, STEP = 2.0, 0.02
+"""s; of a span over which a vector is carried along, and of its steps: a hand pushes to and fro
+within the one, and turns by a few degrees in the other."""
+
+MOST_SPANS = 100
+"""Spans that are looked at."""
+
+TURNS = 0.1
+"""Share of the rates of its fastest spans from which on a body turns in a span: one at rest tells
+nothing, in any unit of the gyro."""
+
 
 def carried(
     turns: np.ndarray, vectors: np.ndarray, lengths: np.ndarray
@@ -30,3 +43,38 @@ def carried(
 def drawn(count: int, most: int) -> np.ndarray:
     """Numbers of at most ``most`` of ``count`` spans, evenly over all of them."""
     return np.linspace(0, count - 1, min(count, most)).astype(int)
+
+
+def turning_spans(recording: Recording, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """What the gyro turns in the steps of m spans in which it does, and ``values`` (n, 3) there.
+
+    Both are (m, k, 3), the turns in rad, the values as means of each step.
+    """
+    period = recording.sample_period
+    step = max(round(STEP / period), 1)
+    count = max(round(SPAN / (step * period)), 2)
+    turns, values = (_in_spans(recording, v, step, count) for v in (recording.gyro, values))
+    known = np.isfinite(turns).all(axis=(1, 2)) & np.isfinite(values).all(axis=(1, 2))
+    turns, values = turns[known] * step * period, values[known]
+    if not len(turns):
+        return turns, values
+    size = np.sqrt(np.mean(np.sum(turns**2, axis=2), axis=1))
+    rows = np.flatnonzero(size > TURNS * np.quantile(size, 0.9))
+    rows = rows[drawn(len(rows), MOST_SPANS)]
+    return turns[rows], values[rows]
+
+
+def _in_spans(recording: Recording, values: np.ndarray, step: int, count: int) -> np.ndarray:
+    """Means (m, count, 3) of steps of as many samples, in the spans without gap."""
+    rows = count * step
+    spans = [
+        values[a : a + (b - a) // rows * rows].reshape(-1, count, step, 3).mean(axis=2)
+        for a, b in recording.segments
+    ]
+    return np.concatenate([np.zeros((0, count, 3)), *spans])
+
+
+def scatter(vectors: np.ndarray) -> np.ndarray:
+    """Variance (m,) of the ``vectors`` (m, k, 3) of each span about their mean."""
+    away = vectors - vectors.mean(axis=1, keepdims=True)
+    return np.mean(np.sum(away**2, axis=2), axis=1)

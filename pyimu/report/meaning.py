@@ -26,6 +26,7 @@ MEANING = {
     "layout": "how the table was taken apart",
     "leaning": "the body lies on its side, or its axes are not forward-left-up",
     "log_time": "the messages have no stamps: the times at which they were logged count",
+    "mag_axes": "the field does not turn as the gyro says: axes in disorder, or of another sign?",
     "mag_axis_missing": "an axis of the magnetometer shows zeros alone: it was not used",
     "mag_missing": "the magnetometer has no sample: it was not used",
     "mag_not_of_the_place": "the field is not the one of the place that was given",

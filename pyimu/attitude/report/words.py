@@ -20,6 +20,9 @@ ALIGNED = (
 SMOOTHED = "each sample is smoothed by all of the log, also by what follows it"
 """Said of a smoothed attitude."""
 
+MOSTLY = 0.5
+"""Share of the samples from which on a disturbed field is said first."""
+
 FREEDOM = "3 degrees of freedom, if accelerations are as accel_std"
 
 
@@ -59,7 +62,14 @@ def notes(a: Outcome) -> list[str]:
             "one in g does: gravity corrected nothing; write accel_x [g] in the log's header, or "
             "map it there with --columns"
         )
-    return found + _about_columns(a) + [_about_field(f) for f in a.magnetometer.findings]
+    of_field = [_about_field(f) for f in a.magnetometer.findings]
+    if a.magnetometer.used and a.disturbed > MOSTLY:
+        of_field.append(
+            f"the magnetic field is disturbed in {a.disturbed:.1%} of the samples: iron near by or "
+            "on board, no calibration, or axes of the magnetometer that are not the body's; the "
+            "heading is by what is left"
+        )
+    return found + _about_columns(a) + of_field
 
 
 READ_AS = {
@@ -151,6 +161,12 @@ def _about_field(finding: Finding) -> str:
         return "the magnetometer has no sample, and was not used"
     if finding.kind == "mag_axis_missing":
         return f"the magnetometer's axis {detail['axes']} shows zeros alone: it was not used"
+    if finding.kind == "mag_axes":
+        return (
+            "the magnetic field does not turn in the body as the gyro says, but as if the right "
+            f"axes of the magnetometer were others of its columns ({detail['axes']}): it was not "
+            "used; put their names and signs right, in the log or with --columns"
+        )
     if finding.kind == "mag_not_of_the_place":
         return (
             f"the magnetometer shows a field of {number(1e6 * detail['strength'])} uT where the "

@@ -6,20 +6,9 @@ import numpy as np
 from scipy.special import stdtr
 
 from pyimu.errors import Finding
-from pyimu.recording.readings import BY_CHANCE, READINGS, changed, likeliest, named
+from pyimu.recording.readings import BY_CHANCE, READINGS, changed, likely, named
 from pyimu.recording.recording import Recording
-from pyimu.recording.turning import carried, drawn
-
-SPAN, STEP = 2.0, 0.02
-"""s; of a span over which gravity is carried along, and of its steps: a hand pushes to and fro
-within the one, and turns by a few degrees in the other."""
-
-MOST_SPANS = 100
-"""Spans that are looked at."""
-
-TURNS = 0.1
-"""Share of the rates of its fastest spans from which on a body turns in a span: one at rest tells
-nothing, in any unit."""
+from pyimu.recording.turning import carried, scatter, turning_spans
 
 DEGREE = 180 / np.pi
 
@@ -65,35 +54,11 @@ def gyro_findings(recording: Recording) -> tuple[Finding, ...]:
 
 def _by_gravity(recording: Recording) -> int | None:
     """Which of ``CHANGES`` gravity says, None where it says nothing."""
-    turns, force = (_spans(recording, v) for v in (recording.gyro, recording.accel))
-    known = np.isfinite(turns).all(axis=(1, 2)) & np.isfinite(force).all(axis=(1, 2))
-    size = np.sqrt(np.mean(np.sum(turns**2, axis=2), axis=1))
-    known &= size > TURNS * np.quantile(size[known], 0.9) if known.any() else False
-    rows = np.flatnonzero(known)
-    if not len(rows):
+    turns, force = turning_spans(recording, recording.accel)
+    if not len(turns):
         return None
-    rows = rows[drawn(len(rows), MOST_SPANS)]
-    force, turns = force[rows], turns[rows] * _step(recording) * recording.sample_period
     scatters = _scatters(turns, force)
-    without = np.mean(np.sum((force - force.mean(axis=1, keepdims=True)) ** 2, axis=2), axis=1)
-    return likeliest(scatters, without, COSTS)
-
-
-def _step(recording: Recording) -> int:
-    """Samples of a step."""
-    return max(round(STEP / recording.sample_period), 1)
-
-
-def _spans(recording: Recording, values: np.ndarray) -> np.ndarray:
-    """Means (m, k, 3) of the steps of m spans without gap of ``values`` (n, 3)."""
-    step = _step(recording)
-    count = max(round(SPAN / (step * recording.sample_period)), 2)
-    rows = count * step
-    spans = [
-        values[a : a + (b - a) // rows * rows].reshape(-1, count, step, 3).mean(axis=2)
-        for a, b in recording.segments
-    ]
-    return np.concatenate([np.zeros((0, count, 3)), *spans])
+    return next(iter(likely(scatters, scatter(force), COSTS)), None)
 
 
 def _scatters(turns: np.ndarray, force: np.ndarray) -> np.ndarray:
