@@ -7,11 +7,14 @@ import numpy as np
 from pyimu.attitude.columns import recorded_age
 from pyimu.errors import Finding
 from pyimu.recording.recording import Recording
-from pyimu.recording.turning import carried
+from pyimu.recording.turning import carried, drawn
 
 SPAN, LONGEST = 2.0, 10.0
 """s; between the headings whose differences are compared with how far the gyro turned, and at most
 where headings are rare: a gyro's bias turns it meanwhile."""
+
+MOST_SPANS = 500
+"""Spans that are looked at, from all of a long log."""
 
 LEAST_TURN, MOST_TURN = 0.03, 2.0
 """rad in a span: less is noise, and of more nobody knows how often it went round."""
@@ -80,8 +83,9 @@ def _spans(r: Recording) -> tuple[np.ndarray, np.ndarray]:
     at = np.arange(r.time[known[0]], r.time[known[-1]], SPAN)
     rows = np.unique(known[np.searchsorted(r.time[known], at)])
     true_at = np.minimum(np.searchsorted(r.time, r.time[rows] - recorded_age(r)[rows]), rows)
-    near = np.diff(r.time[true_at]) < LONGEST
-    turns, usable = _turns(r, true_at[:-1][near], true_at[1:][near])
+    near = np.flatnonzero(np.diff(r.time[true_at]) < LONGEST)
+    near = near[drawn(len(near), MOST_SPANS)]
+    turns, usable = _turns(r, true_at[near], true_at[near + 1])
     return np.diff(r.heading[rows])[near][usable], turns[usable]
 
 
