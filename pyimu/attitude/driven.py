@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from itertools import pairwise
+
 import numpy as np
 
 from pyimu.errors import Finding
 from pyimu.recording.recording import Recording
+from pyimu.units import parse
 
 SPEED_STD = 0.05
 """m/s; of a recorded speed that comes without a standard deviation."""
@@ -20,6 +24,21 @@ LEAST_SPANS = 10
 """Of these, fewer than which say nothing."""
 
 
+LEANS = 1.25
+"""By which factor the forces may contradict the size of a speed: a body that leans in turns, and
+squats where it speeds up, feels a share of gravity that grows with them."""
+
+UNITS = {
+    "m/s": 1.0,
+    "km/h": 1 / 3.6,
+    "knots": 1852 / 3600,
+    "miles/h": 0.44704,
+    "cm/s": 1e-2,
+    "mm/s": 1e-3,
+}
+"""m/s; one of the units in which speeds are logged."""
+
+
 def recorded_speed(recording: Recording) -> tuple[np.ndarray, np.ndarray]:
     """Speed (n,) and its standard deviation (n,) in m/s, NaN where there is none."""
     std = getattr(recording, "speed_std", None)
@@ -27,45 +46,85 @@ def recorded_speed(recording: Recording) -> tuple[np.ndarray, np.ndarray]:
 
 
 def speed_findings(recording: Recording) -> tuple[Finding, ...]:
-    """A finding ``speed_sign`` where the forces say that the vehicle drives the other way.
+    """A finding ``speed_sign`` or ``speed_unit`` where the forces contradict a vehicle's speed.
 
     A vehicle that turns at the rate w about its z axis has the force w v along y, and one that
-    speeds up has v' along x: the regression of a force on that is 1, and -1 for a speed of the
-    wrong sign.
+    speeds up has v' along x: the regression of a force on that is 1, -1 for a speed of the wrong
+    sign, and one over the ``factor`` by which a speed is too large. It is read ``as`` the units
+    that the slope allows: errors of the speed make the slope too flat, others of the force that of
+    the inverse regression, so that the right one is between the two.
     """
     if getattr(recording, "speed", None) is None or recording.accel is None:
         return ()
-    share, std = _along_the_forces(recording)
-    if share + SIGMAS * std > 0 or share > -0.5:
+    slope = _along_the_forces(recording)
+    if slope is None:
         return ()
-    return (Finding("speed_sign", "speed", len(recording), {"share": share, "std": std}),)
+    if slope.share + SIGMAS * slope.std <= 0 and slope.share <= -0.5:
+        detail = {"share": slope.share, "std": slope.std}
+        return (Finding("speed_sign", "speed", len(recording), detail),)
+    low, high = slope.bounds
+    if low <= LEANS and high >= 1 / LEANS:
+        return ()
+    stated = parse(recording.stated.get("speed", "m/s")).factor
+    shares = {unit: one / stated for unit, one in UNITS.items()}
+    middle = np.log(slope.share * slope.inverse) / 2
+    fits = [unit for unit, share in shares.items() if low / LEANS < share < high * LEANS]
+    fits.sort(key=lambda unit: abs(np.log(shares[unit]) - middle))
+    found = {"factor": float(np.exp(-middle)), "as": " or ".join(fits)}
+    return (Finding("speed_unit", "speed", len(recording), found),)
 
 
-def _along_the_forces(r: Recording) -> tuple[float, float]:
-    """The regression of a force on what the speed lets expect of it, and its standard error.
+@dataclass(frozen=True)
+class Slope:
+    """The slope ``share`` of y over x with its standard error ``std``, and the ``inverse``.
+
+    That is one over the slope of x over y, which has the standard error ``back``.
+    """
+
+    share: float
+    std: float
+    inverse: float
+    back: float
+
+    @property
+    def bounds(self) -> tuple[float, float]:
+        """Within which the slope is, whichever of x and y has the errors."""
+        steepest = 1 / self.inverse - SIGMAS * self.back
+        low = self.share - SIGMAS * self.std
+        return (low, 1 / steepest) if low > 0 and steepest > 0 else (-np.inf, np.inf)
+
+
+def _along_the_forces(r: Recording) -> Slope | None:
+    """The regression of a force on what the speed lets expect of it.
 
     That across or that along the drive, whichever is known better: a ramp is in the second, too.
     """
     known = np.isfinite(r.speed)
     if np.count_nonzero(known) < 3:
-        return 1.0, np.inf
+        return None
     v = np.interp(r.time, r.time[known], r.speed[known])
-    groups = np.array_split(np.arange(len(r)), max(1, round((r.time[-1] - r.time[0]) / SPAN)))
-    if len(groups) < LEAST_SPANS:
-        return 1.0, np.inf
-    force, rate, speed, time = (
-        np.array([np.nanmean(x[g], axis=0) for g in groups]) for x in (r.accel, r.gyro, v, r.time)
+    count = max(1, round((r.time[-1] - r.time[0]) / SPAN))
+    if count < LEAST_SPANS:
+        return None
+    bounds = np.linspace(0, len(r) - 1, count + 1).astype(int)
+    groups = [slice(a, max(b, a + 1)) for a, b in pairwise(bounds)]
+    force, rate, speed = (
+        np.array([np.nanmean(x[g], axis=0) for g in groups]) for x in (r.accel, r.gyro, v)
     )
     turned = (rate[:, 2] - np.nanmedian(rate[:, 2])) * speed
-    both = (_regression(force[:, 1], turned), _regression(force[:, 0], np.gradient(speed, time)))
-    return min(both, key=lambda found: found[1])
+    pushed = np.diff(v[bounds]) / np.diff(r.time[bounds])
+    both = (_regression(force[:, 1], turned), _regression(force[:, 0], pushed))
+    there = [slope for slope in both if slope is not None]
+    return min(there, key=lambda slope: slope.std / abs(slope.share), default=None)
 
 
-def _regression(y: np.ndarray, x: np.ndarray) -> tuple[float, float]:
-    """The slope of y (n,) over x (n,) beside a constant, and its standard error."""
+def _regression(y: np.ndarray, x: np.ndarray) -> Slope | None:
+    """The slope of y (n,) over x (n,) beside a constant; None where there is none."""
     good = np.isfinite(x) & np.isfinite(y)
     x, y = x[good] - x[good].mean(), y[good] - y[good].mean()
-    if not x @ x > 0:
-        return 1.0, np.inf
-    share = float(x @ y / (x @ x))
-    return share, float(np.sqrt(np.mean((y - share * x) ** 2) / (x @ x)))
+    xx, xy, yy = float(x @ x), float(x @ y), float(y @ y)
+    if not (xx > 0 and yy > 0 and xy):
+        return None
+    left = yy - xy**2 / xx, xx - xy**2 / yy
+    std, back = (np.sqrt(max(v, 0.0) / len(x) / of) for v, of in zip(left, (xx, yy), strict=True))
+    return Slope(xy / xx, float(std), yy / xy, float(back))

@@ -10,6 +10,8 @@ import numpy as np
 from pyimu.attitude.calibration import MagnetometerCalibration
 from pyimu.attitude.world_field import WorldField
 from pyimu.errors import Finding
+from pyimu.recording.quality.field_axes import field_findings
+from pyimu.recording.quality.gyro_axes import gyro_findings
 from pyimu.recording.recording import Recording
 from pyimu.units import parse
 
@@ -73,17 +75,26 @@ def magnetometer_of(recording: Recording, wanted: bool) -> Magnetometer:
             False, strength, (Finding("mag_axis_missing", "mag", len(mag), detail),)
         )
     if EARTH[0] / ROOM <= strength <= EARTH[1] * ROOM:
-        return Magnetometer(True, strength)
-    return Magnetometer(False, strength, (_other_size(strength),))
+        found = _axes(recording)
+        return Magnetometer(not found, strength, found)
+    return Magnetometer(False, strength, (_other_size(strength, recording.stated.get("mag")),))
 
 
-def _other_size(strength: float) -> Finding:
+def _axes(recording: Recording) -> tuple[Finding, ...]:
+    """What its turning says against the axes, by a gyro that nothing contradicts."""
+    found = field_findings(recording)
+    return () if found and gyro_findings(recording) else found
+
+
+def _other_size(strength: float, header: str | None) -> Finding:
     """The finding about a field whose ``strength`` in T is not the Earth's.
 
-    Numbers in gauss under a header of tesla, say, are 10^4 times too large.
+    Numbers in gauss under a header of tesla, say, are 10^4 times too large. What the ``header``
+    states is known of a file alone.
     """
     detail: dict[str, float | str] = {"strength": strength}
-    for stated, right in MISTAKEN:
+    pairs = MISTAKEN if header is None else [(header, right) for right in UNITS]
+    for stated, right in pairs:
         true = strength * parse(right).factor / parse(stated).factor
         if EARTH[0] <= true <= EARTH[1]:
             return Finding("mag_unit", "mag", 1, detail | {"stated": stated, "as": right})

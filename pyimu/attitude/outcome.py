@@ -9,13 +9,13 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pyimu.attitude.driven import speed_findings
+from pyimu.attitude.contradicted import contradicted
 from pyimu.attitude.error import AttitudeError, error_against
 from pyimu.attitude.filter.status import STATUS
 from pyimu.attitude.filters import OWN
-from pyimu.attitude.headed import heading_findings
 from pyimu.attitude.magnetometer import Magnetometer
-from pyimu.attitude.rest import Rest
+from pyimu.attitude.reference_reading import reference_findings
+from pyimu.attitude.rest import Rest, gravity_findings
 from pyimu.errors import Finding
 from pyimu.laws import chi2
 from pyimu.recording.quality.in_pieces import quality
@@ -106,8 +106,15 @@ class Outcome:
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
         """What reading the recording found, and what its samples show."""
-        measured = (*speed_findings(self.recording), *heading_findings(self.recording))
-        return (*quality(self.recording), *self.magnetometer.findings, *measured)
+        found = quality(self.recording)
+        if not any(f.kind == "force_in_g" for f in found):
+            found += gravity_findings(self.rest)
+        found = (*found, *self.magnetometer.findings, *contradicted(self.recording))
+        rows = self._referenced
+        if not len(rows):
+            return found
+        reference = self.recording.ref_q[rows]
+        return (*found, *reference_findings(self.time[rows], self.q[rows], reference))
 
     @property
     def disturbed(self) -> float:
@@ -120,13 +127,18 @@ class Outcome:
 
         The reference's body axes are taken for the sensor's.
         """
-        if self.recording.ref_q is None:
-            return None
-        rows = np.flatnonzero(np.isfinite(self.recording.ref_q).all(axis=1))
+        rows = self._referenced
         if not len(rows):
             return None
         reference = Rotation.from_quat(self.recording.ref_q[rows], scalar_first=True)
         return error_against(self.time[rows], self.q[rows], reference)
+
+    @property
+    def _referenced(self) -> np.ndarray:
+        """The rows (m,) with a reference attitude."""
+        if self.recording.ref_q is None:
+            return np.zeros(0, dtype=int)
+        return np.flatnonzero(np.isfinite(self.recording.ref_q).all(axis=1))
 
     @property
     def updates(self) -> np.ndarray:

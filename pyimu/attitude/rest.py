@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.special import fdtri
 
 from pyimu.attitude.filter.prediction import DRIVES
+from pyimu.errors import Finding
 from pyimu.recording.recording import Recording
 from pyimu.recording.rest import still_rows
 from pyimu.units import STANDARD_GRAVITY
@@ -44,6 +45,11 @@ at rest is off by 0.2 g of the Earth. On the Moon that is more than gravity, so 
 differ by more than half of that either."""
 
 
+GRAVITY_OFF = 0.02
+"""Share by which the mean force of a rest may differ from gravity before it is said: a scale factor
+or a unit."""
+
+
 @dataclass(frozen=True)
 class Rest:
     """The rows of a rest, its ``duration`` in s, and statistics of its samples.
@@ -54,6 +60,8 @@ class Rest:
     ``declared`` says that the recording's own column ``stationary`` marks it. ``force`` is None
     where no accelerometer measures gravity. ``rate_std`` and ``force_std`` are those of a sample's
     white noise, ``rate_mean_std`` that of the mean rate. ``gravity`` in m/s^2 is that of the place.
+    ``other_force`` in m/s^2 is the size of the mean force of a start that would be a rest if that
+    were gravity; None where there is no such start.
     """
 
     seen: bool
@@ -66,6 +74,20 @@ class Rest:
     rate_mean_std: np.ndarray
     gravity: float
     declared: bool = False
+    other_force: float | None = None
+
+
+def gravity_findings(rest: Rest | None) -> tuple[Finding, ...]:
+    """A finding ``gravity_off`` where the force at rest is not gravity, beyond ``GRAVITY_OFF``."""
+    if rest is None:
+        return ()
+    size = rest.other_force
+    if size is None and rest.seen and rest.force is not None:
+        size = float(np.linalg.norm(rest.force))
+    if size is None or abs(size / rest.gravity - 1) <= GRAVITY_OFF:
+        return ()
+    detail = {"magnitude": size, "share": size / rest.gravity - 1}
+    return (Finding("gravity_off", "accel", 1, detail),)
 
 
 def find_rest(recording: Recording, gravity: float = STANDARD_GRAVITY) -> Rest:
@@ -81,11 +103,16 @@ def find_rest(recording: Recording, gravity: float = STANDARD_GRAVITY) -> Rest:
     declared = _declared(recording)
     if declared is not None and declared > 1:
         return _rest(recording, declared, gravity, seen=True, declared=True)
+    other = None
     for length in LENGTHS if declared is None else ():
         stop = _without_turn(recording, _still_until(recording, length))
-        if stop > 3 and _is_level(recording, stop, gravity) and not _drives(recording, stop):
+        if stop <= 3 or _drives(recording, stop):
+            continue
+        if _is_level(recording, stop, gravity):
             return _rest(recording, stop, gravity, seen=True)
-    return _rest(recording, max(2, _rows(recording, SHORTEST)), gravity, seen=False)
+        other = _size(recording, stop) if other is None else other
+    found = _rest(recording, max(2, _rows(recording, SHORTEST)), gravity, seen=False)
+    return replace(found, other_force=other)
 
 
 def _rows(recording: Recording, seconds: float) -> int:
@@ -171,6 +198,12 @@ def _is_level(recording: Recording, stop: int, gravity: float) -> bool:
     """
     rate, force = (finite_rows(v, stop) for v in (recording.gyro, recording.accel))
     return bool(len(rate)) and (not np.any(force) or _is_gravity(force, gravity, FORCE_OFF))
+
+
+def _size(recording: Recording, stop: int) -> float | None:
+    """m/s^2; of the mean force before the row ``stop``, None without a force or a rate."""
+    rate, force = (finite_rows(v, stop) for v in (recording.gyro, recording.accel))
+    return float(np.linalg.norm(force.mean(axis=0))) if len(force) and len(rate) else None
 
 
 def _drives(recording: Recording, stop: int) -> bool:

@@ -24,14 +24,13 @@ from pyimu.attitude.columns import (
     recorded_age,
     warmer,
 )
-from pyimu.attitude.driven import speed_findings
+from pyimu.attitude.contradicted import believed
 from pyimu.attitude.filter.compensation import left_in, noise_of
 from pyimu.attitude.filter.timing import clock_error, estimate_latency
 from pyimu.attitude.filter.tolerances import of_motion, start_values
 from pyimu.attitude.filter.ukf import recorded_ukf
 from pyimu.attitude.filter.variables import FIELD_SETTINGS, LEAST_K
 from pyimu.attitude.filters import OF_LOGS, OWN, Settings, chosen
-from pyimu.attitude.headed import heading_findings
 from pyimu.attitude.input_grid import InputGrid
 from pyimu.attitude.magnetometer import Magnetometer, magnetometer_of
 from pyimu.attitude.outputs import filtered
@@ -131,7 +130,7 @@ def run(
     rest = find_rest(recording, gravity or STANDARD_GRAVITY)
     declared = None if part is None else part_of(part)
     as_given, calibration = recording, calibration_of(magnetometer)
-    recording = _believed(recording)
+    recording = believed(recording)
     if calibration is None and declared is not None and bool(magnetometer):
         calibration = None if recording.mag is None else of_sensor(declared.mag)
     if calibration is not None:
@@ -181,13 +180,6 @@ def _with_gyro(recording: Recording) -> Recording:
     if len(recording.time) < 2:
         raise UserError(f"{recording.name}: one sample, an attitude over time needs two or more")
     return recording
-
-
-def _believed(recording: Recording) -> Recording:
-    """The recording without a speed and without headings that its samples contradict."""
-    if speed_findings(recording):
-        recording = replace(recording, speed=None)
-    return replace(recording, heading=None) if heading_findings(recording) else recording
 
 
 def _known(part: Part | None, recording: Recording, rest: Rest) -> Part:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pyimu.attitude.rest import Rest
+from pyimu.attitude.rest import GRAVITY_OFF, Rest
 from pyimu.errors import Finding, UserError
 from pyimu.navigation.filtered import Filtered
 from pyimu.navigation.measured import MOST_WRONG
@@ -24,10 +24,6 @@ from pyimu.units import STANDARD_GRAVITY
 ANY_UNIT = 2.0
 """A median force that is off gravity by this factor, up or down, is no force in that unit; one of
 about 1 is in g."""
-
-GRAVITY_OFF = 0.02
-"""Share by which the mean force of a rest may differ from gravity before it is said: a scale factor
-or a unit."""
 
 UPRIGHT = 0.7
 """Share of gravity on z below which a body at rest leans by more than 45 deg."""

@@ -83,6 +83,13 @@ class Header:
     def groups(self) -> tuple[str, ...]:
         return tuple(group for group in GROUPS if column_names(group)[0] in self.names)
 
+    @property
+    def group_units(self) -> dict[str, str]:
+        """The stated unit of each group, of its first column; none of a group in counts."""
+        found = dict(zip(self.names, self.units, strict=True))
+        firsts = {group: column_names(group)[0] for group in self.groups}
+        return {g: found[n].plain for g, n in firsts.items() if n not in self._counted}
+
     def _add(self, position: int, cell: str) -> None:
         name, _, rest = cell.partition("[")
         name, unit = name.strip(), rest.strip()

@@ -61,6 +61,16 @@ class Log:
         """Whether the log's axes were stated."""
         return self._source.foreign.body is not None
 
+    @property
+    def stated(self) -> dict[str, str]:
+        """The unit that the files state of each group, by its name; none of counts."""
+        found = [c.header.group_units for c in self._source.companions]
+        return {
+            g: unit
+            for units in [*found, self._source.header.group_units]
+            for g, unit in units.items()
+        }
+
     @cached_property
     def cadence(self) -> Cadence:
         """That of the first 65,536 samples."""
@@ -154,7 +164,12 @@ class Log:
             check_marks(self.path, time, groups)
             yield (
                 Recording(
-                    self.name, time, **groups, path=self.path, frame_declared=self.frame_declared
+                    self.name,
+                    time,
+                    **groups,
+                    path=self.path,
+                    frame_declared=self.frame_declared,
+                    stated=self.stated,
                 ),
                 share,
             )

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields, make_dataclass, replace
+from dataclasses import dataclass, field, fields, make_dataclass, replace
 from functools import cached_property
 from inspect import cleandoc
 from pathlib import Path
@@ -45,16 +45,18 @@ class Recording(_Columns):
     A group is an attribute by its name in ``GROUPS``, listed below: an array (n,) or (n, columns)
     in SI, NaN where a value is missing, or None where the log has no such group.
 
-    ``frame_declared`` says that the log's axes were stated, not assumed. ``period`` [s] is the
-    sample period, ``longest`` [s] the step above which there may be a gap, and ``gaps`` (m,) the
-    rows that follow one, where they are known otherwise than from ``time``: of a piece of a log
-    they are the log's. ``reference`` is where the log's reference came from, if that has times of
-    its own.
+    ``stated`` has the unit that a file states of a group, by the group's name: none of arrays, nor
+    of counts. ``frame_declared`` says that the log's axes were stated, not assumed. ``period`` [s]
+    is the sample period, ``longest`` [s] the step above which there may be a gap, and ``gaps``
+    (m,) the rows that follow one, where they are known otherwise than from ``time``: of a piece of
+    a log they are the log's. ``reference`` is where the log's reference came from, if that has
+    times of its own.
     """
 
     path: Path | None = None
     findings: tuple[Finding, ...] = ()
     frame_declared: bool = False
+    stated: Mapping[str, str] = field(default_factory=dict)
     period: float | None = None
     longest: float | None = None
     gaps: np.ndarray | None = None

@@ -4,6 +4,8 @@ rejected and said, a new field is learnt.
 The world is made by numpy and scipy alone.
 """
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from attitude_cases import (
@@ -22,7 +24,9 @@ from scipy.spatial.transform import Rotation
 from scipy.stats import chi2, norm
 
 from pyimu.attitude import attitude_ukf, run
+from pyimu.recording.quality.field_axes import field_findings
 from pyimu.recording.recording import Recording
+from pyimu.units import parse
 
 FIELD = np.array([0.0, 19e-6, -45e-6])
 """T; east, north, up, of a dip of 67 degrees."""
@@ -257,3 +261,56 @@ def test_a_magnetometer_that_cannot_be_right_is_said_and_not_used(case):
     assert not found.magnetometer.used and said in found.report()
     plain = run(recording(world, world.mag()), part(), magnetometer=False)
     np.testing.assert_array_equal(found.q, plain.q)
+
+
+@pytest.mark.parametrize("header, numbers", [("mT", "uT"), ("uT", "nT"), ("gauss", "uT")])
+def test_the_unit_that_is_named_is_that_of_the_header(header, numbers, tmp_path):
+    """Numbers in uT under a header of mT are as much too large as those in nT under one of uT."""
+    world = World(111, rows=500, still=300)
+    path = recording(world, world.mag() / parse(numbers).factor).write(tmp_path / "log.csv")
+    path.write_text(path.read_text().replace("[T]", f"[{header}]"))
+    said = run(path, part()).report()
+    assert f"numbers in {numbers} under a header of {header} look so" in said
+
+
+AXES = {
+    "forward-right-down": (np.diag([1.0, -1, -1]), "y is -y, z is -z"),
+    "y mirrored": (np.diag([1.0, -1, 1]), "y is -y"),
+    "x and y swapped": (np.eye(3)[[1, 0, 2]], "x is y, y is x"),
+    "north-east-down": (np.array([[0.0, 1, 0], [1, 0, 0], [0, 0, -1]]), "x is y, y is x, z is -z"),
+}
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("iron", [0.0, 20e-6])
+@pytest.mark.parametrize("case", AXES)
+def test_a_magnetometer_in_other_axes_is_named(case, iron, seed):
+    """Iron on board, which turns with the body, hides that no more than it makes it up."""
+    matrix, said = AXES[case]
+    world = World(seed, rows=6000, still=300)
+    right = recording(world, world.mag() + iron)
+    assert field_findings(right) == ()
+    (found,) = field_findings(replace(right, mag=right.mag @ matrix.T))
+    assert said in found.detail["axes"].split("; or ")
+
+
+def test_it_is_said_and_not_used():
+    world = World(5, rows=6000, still=300)
+    right = recording(world, world.mag())
+    result = run(replace(right, mag=right.mag * [1, -1, 1]), part())
+    assert "(y is -y; or x is -x, z is -z): it was not used" in result.report().splitlines()[1]
+    np.testing.assert_array_equal(result.q, run(right, part(), magnetometer=False).q)
+
+
+def test_by_a_gyro_that_is_wrong_no_magnetometer_is_judged():
+    world = World(6, rows=9000, still=300)
+    right = recording(world, world.mag())
+    result = run(replace(right, gyro=right.gyro * [1, -1, 1]), part())
+    kinds = {f.kind for f in result.findings}
+    assert "gyro_axes" in kinds and "mag_axes" not in kinds
+
+
+def test_a_field_that_is_disturbed_in_most_of_the_log_is_said_first():
+    world = World(7, rows=3000, still=300)
+    field = world.mag() * (1 + 0.6 * (np.arange(3000) % 500 > 150))[:, None]
+    assert "the magnetic field is disturbed in" in run(recording(world, field), part()).report()

@@ -7,6 +7,7 @@ from attitude_cases import (
     N_ACCEL,
     H,
     N,
+    attitude_after,
     drive,
     error,
     inputs,
@@ -19,7 +20,7 @@ from attitude_cases import (
 from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
-from pyimu.attitude import attitude_ukf
+from pyimu.attitude import attitude_ukf, run
 from pyimu.attitude.filter.sigma_point_filter import sigma_point_filter
 from pyimu.attitude.rest import find_rest
 from pyimu.recording.recording import Recording
@@ -250,3 +251,17 @@ def test_a_rest_makes_the_tilt_so_sure_that_a_push_after_it_is_none():
     assert np.degrees(found["tilt"][first].max()) < 3.0 / 15
     assert (found["tilt"][first] < 3 * whole[first]).all()
     assert not (found["status"].astype(int)[t < EVERY / 2] & 8).any()
+
+
+@pytest.mark.parametrize("factor", [0.3, 0.9, 1.0, 1.01, 1.15, 1.6, 3.0])
+def test_a_force_at_rest_that_is_not_gravity_is_said(factor):
+    """Where it is off by so much that no accelerometer at rest is, too."""
+    rng = np.random.default_rng(2)
+    world = attitude_after(rover_rate(3000, still=800))
+    accel = factor * world.apply([0, 0, GRAVITY], inverse=True) + rng.normal(0, 0.02, (3000, 3))
+    gyro = rover_rate(3000, still=800) + rng.normal(0, 1e-3, (3000, 3))
+    result = run(Recording.from_arrays(time=H * np.arange(3000), gyro=gyro, accel=accel))
+    found = [f.detail["magnitude"] for f in result.findings if f.kind == "gravity_off"]
+    assert found == ([] if abs(factor - 1) < 0.02 else [pytest.approx(factor * GRAVITY, 0.01)])
+    assert ("gravity at rest is" in result.report()) == bool(found)
+    assert "in motion" not in result.report().splitlines()[0]

@@ -1,5 +1,6 @@
 """A vehicle whose speed is measured: pushes and turns do not tilt its attitude."""
 
+from dataclasses import replace
 from itertools import pairwise
 
 import casadi as ca
@@ -20,6 +21,8 @@ from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
 from pyimu.attitude import attitude_ukf, run
+from pyimu.attitude.contradicted import believed
+from pyimu.attitude.driven import speed_findings
 from pyimu.attitude.filter.passed import Passed
 from pyimu.attitude.filter.sigma_point_filter import sigma_point_filter
 from pyimu.attitude.filter.ukf import recorded_ukf
@@ -145,7 +148,7 @@ def test_a_log_with_speeds_is_run_with_them():
     ups = [q.apply([0, 0, 1], inverse=True)[1000:] for q in (found, world.attitude)]
     off = np.linalg.norm(ups[0] - ups[1], axis=1)
     assert np.degrees(np.sqrt(np.mean(off**2))) < 0.5
-    assert not [f for f in result.findings if f.kind == "speed_sign"]
+    assert not [f for f in result.findings if f.kind.startswith("speed")]
 
 
 def test_a_speed_of_the_wrong_sign_is_said_and_not_used():
@@ -155,6 +158,49 @@ def test_a_speed_of_the_wrong_sign_is_said_and_not_used():
     assert "the speed has the wrong sign" in result.report()
     plain = run(Recording.from_arrays(time=right.time, gyro=right.gyro, accel=right.accel), part())
     np.testing.assert_array_equal(result.q, plain.q)
+
+
+def level(seed: int, n: int = 9000) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """A car on level ground: the speed (n,), gyro and accel (n, 3). It leans in turns and squats
+    where it speeds up, by which it feels a tenth more.
+    """
+    rng, t = np.random.default_rng(seed), H * np.arange(n)
+    tone = rng.uniform(0.02, 0.06, 2)
+    speed = 8 + 4 * np.sin(2 * np.pi * tone[0] * t)
+    rate = 0.2 * np.sin(2 * np.pi * tone[1] * t) * (t % 60 > 20)
+    gyro = np.column_stack([0 * t, 0 * t, rate]) + rng.normal(0, 2e-3, (n, 3)) + [0.01, 0, -0.01]
+    accel = 1.1 * np.column_stack([np.gradient(speed, H), rate * speed, 0 * t])
+    return speed, gyro, accel + [0.1, -0.1, GRAVITY] + rng.normal(0, 0.3, (n, 3))
+
+
+IN_UNITS = {"m/s": 1, "km/h": 3.6, "knots": 1.94384, "miles/h": 2.23694, "cm/s": 100, "mm/s": 1000}
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.1, 1.0])
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("unit", IN_UNITS)
+def test_a_speed_in_another_unit_is_named(unit, seed, noise):
+    """Noise makes the slope of the forces flat, as a factor does, and is not taken for one."""
+    speed, gyro, accel = level(seed)
+    speed = speed + noise * np.random.default_rng(seed).normal(size=len(speed))
+    seen = speed * IN_UNITS[unit]
+    found = speed_findings(
+        Recording.from_arrays(time=H * np.arange(len(speed)), gyro=gyro, accel=accel, speed=seen)
+    )
+    if unit == "m/s":
+        assert found == ()
+    elif noise < 1.0:
+        assert found[0].kind == "speed_unit" and unit in found[0].detail["as"]
+        assert found[0].detail["factor"] == pytest.approx(IN_UNITS[unit], rel=0.25)
+
+
+def test_a_speed_in_another_unit_is_said_and_not_used():
+    speed, gyro, accel = level(0, 4000)
+    time = H * np.arange(4000)
+    right = Recording.from_arrays(time=time, gyro=gyro, accel=accel)
+    wrong = replace(right, speed=3.6 * speed)
+    assert "times too large, and it was not used: numbers in km/h" in run(wrong, part()).report()
+    assert believed(wrong).speed is None and believed(replace(right, speed=speed)).speed is not None
 
 
 def test_a_car_that_drives_evenly_is_not_at_rest_if_its_speed_is_known(block):

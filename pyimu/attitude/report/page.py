@@ -26,6 +26,7 @@ from pyimu.attitude.report.words import (
     last_attitude,
     last_bias,
     notes,
+    reference_words,
 )
 from pyimu.report.numbers import number
 from pyimu.report.page import Picture, Table, prose, quality_table, templates
@@ -87,6 +88,7 @@ def _error(a: Outcome) -> dict[str, Any] | None:
     )
     return {
         "assumed": f"Over {len(a.error.time):,} rows: {ALIGNED}.",
+        "other": reference_words(a),
         "sizes": Table(("", "RMS", "95 % below"), rows),
         "picture": _picture(error_picture, a, caption, "attitude error over time"),
     }

@@ -13,6 +13,7 @@ from pyimu.attitude.report.words import (
     last_attitude,
     last_bias,
     notes,
+    reference_words,
 )
 from pyimu.report.findings import in_line
 
@@ -31,6 +32,8 @@ def _indented(a: Outcome) -> Iterator[str]:
         yield f"  heading         {heading_from(a)}"
     if a.error is not None:
         yield f"  error           {error_words(a.error)}"
+        if other := reference_words(a):
+            yield f"  reference       {other}"
     for event in a.events:
         name = f"status {event.bit}"
         yield (

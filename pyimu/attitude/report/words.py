@@ -20,13 +20,19 @@ ALIGNED = (
 SMOOTHED = "each sample is smoothed by all of the log, also by what follows it"
 """Said of a smoothed attitude."""
 
+MOSTLY = 0.5
+"""Share of the samples from which on a disturbed field is said first."""
+
 FREEDOM = "3 degrees of freedom, if accelerations are as accel_std"
 
 
 def about(a: Outcome) -> str:
     """What was run over what."""
     seen = a.rest is not None and a.rest.seen
+    other = a.rest is not None and a.rest.other_force is not None
     start = f"{a.rest.duration:.1f} s at rest" if seen else "in motion"
+    if other:
+        start = "still, under a force that is not gravity"
     part = f"part {a.part}" if a.part else "no part, noise as in the log"
     if a.method != OWN:
         part = f"filter {a.method}, {part}"
@@ -56,7 +62,14 @@ def notes(a: Outcome) -> list[str]:
             "one in g does: gravity corrected nothing; write accel_x [g] in the log's header, or "
             "map it there with --columns"
         )
-    return found + _about_columns(a) + [_about_field(f) for f in a.magnetometer.findings]
+    of_field = [_about_field(f) for f in a.magnetometer.findings]
+    if a.magnetometer.used and a.disturbed > MOSTLY:
+        of_field.append(
+            f"the magnetic field is disturbed in {a.disturbed:.1%} of the samples: iron near by or "
+            "on board, no calibration, or axes of the magnetometer that are not the body's; the "
+            "heading is by what is left"
+        )
+    return found + _about_columns(a) + of_field
 
 
 READ_AS = {
@@ -84,11 +97,21 @@ def _about_columns(a: Outcome) -> list[str]:
             "gravity lies on -z at rest: the body is upside down, or its axes are not "
             'forward-left-up; map the log with [frame] body = "frd" then'
         )
+    found += [_about_gyro(f) for f in a.findings if f.kind in ("gyro_unit", "gyro_axes")]
+    if "gravity_off" in kinds:
+        off = kinds["gravity_off"].detail
+        found.append(
+            f"gravity at rest is {number(off['magnitude'])} m/s^2, {off['share']:+.1%} off: a "
+            "scale factor, a bias, or another unit of the accelerometer; the tilt is less sure by "
+            "that"
+        )
     if "speed_sign" in kinds:
         found.append(
             "the forces say that the speed has the wrong sign, or is not along the body's x axis: "
             "it was not used; turn its sign, or the axes"
         )
+    if "speed_unit" in kinds:
+        found.append(_about_speed(kinds["speed_unit"]))
     if "heading_reading" in kinds:
         kind = str(kinds["heading_reading"].detail["as"])
         what = "; ".join(text for name, text in READ_AS.items() if name in kind)
@@ -97,6 +120,36 @@ def _about_columns(a: Outcome) -> list[str]:
         if name in there and of not in there:
             found.append(f"the column {name} has no column {of} beside it, and was not used")
     return found
+
+
+def _about_gyro(finding: Finding) -> str:
+    """What gravity or the reference say of the gyro, and what would be right."""
+    if finding.kind == "gyro_axes":
+        return (
+            "gravity does not turn in the body as the gyro says, but as if the right axes of the "
+            f"gyro were others of its columns ({finding.detail['axes']}); or those of the "
+            "accelerometer are the wrong ones: put their names and signs right, in the log or with "
+            "--columns"
+        )
+    factor = float(finding.detail["factor"])
+    if factor > 1:
+        stated, right, off = "rad/s", "deg/s", "large"
+    else:
+        stated, right, off = "deg/s", "rad/s", "small"
+    return (
+        f"the gyro's rates are {number(max(factor, 1 / factor))} times too {off}, by how gravity "
+        f"or the reference turns: numbers in {right} under a header of {stated} look so, or "
+        f"converted twice; write gyro_x [{right}] in the log's header, or map it there with "
+        "--columns"
+    )
+
+
+def _about_speed(finding: Finding) -> str:
+    """By which factor the forces say that the speed is off, and the unit that has it."""
+    factor, read = float(finding.detail["factor"]), finding.detail["as"]
+    size = f"{number(max(factor, 1 / factor))} times too {'large' if factor > 1 else 'small'}"
+    looks = f": numbers in {read} look so; write that unit in the header, or" if read else "; write"
+    return f"the forces say that the speed is {size}, and it was not used{looks} speed in m/s"
 
 
 def _about_field(finding: Finding) -> str:
@@ -108,6 +161,12 @@ def _about_field(finding: Finding) -> str:
         return "the magnetometer has no sample, and was not used"
     if finding.kind == "mag_axis_missing":
         return f"the magnetometer's axis {detail['axes']} shows zeros alone: it was not used"
+    if finding.kind == "mag_axes":
+        return (
+            "the magnetic field does not turn in the body as the gyro says, but as if the right "
+            f"axes of the magnetometer were others of its columns ({detail['axes']}): it was not "
+            "used; put their names and signs right, in the log or with --columns"
+        )
     if finding.kind == "mag_not_of_the_place":
         return (
             f"the magnetometer shows a field of {number(1e6 * detail['strength'])} uT where the "
@@ -192,6 +251,18 @@ def error_sizes(error: AttitudeError) -> dict[str, tuple[float, float]]:
     """RMS and 95 % [rad] of the error's inclination, of all of it and of its heading, by name."""
     sides = {"inclination": error.inclination, "total": error.total, "heading": error.heading}
     return {n: (root_mean_square(v), float(np.percentile(np.abs(v), 95))) for n, v in sides.items()}
+
+
+def reference_words(a: Outcome) -> str:
+    """What the reference seems to be that its columns do not say; nothing where they fit."""
+    found = next((f for f in a.findings if f.kind == "reference_order"), None)
+    if found is None:
+        return ""
+    return (
+        f"that is the reference's: read as {found.detail['as']}, ref_q is "
+        f"{number(np.degrees(found.detail['rms']))} deg RMS off; put its columns right, or map "
+        "them with --columns"
+    )
 
 
 def error_words(error: AttitudeError) -> str:

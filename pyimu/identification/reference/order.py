@@ -5,22 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 
-import numpy as np
-
 from pyimu.identification.fit.trial import gyro_trial
 from pyimu.identification.reference.clock import measure
 from pyimu.model.sensor import Sensor
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.band import COHERENCE
-
-ORDERS = {
-    "scalar last (x, y, z, w)": lambda q: np.roll(q, 1, axis=1),
-    "world to body": lambda q: q * [1.0, -1.0, -1.0, -1.0],
-}
-"""What a quaternion may be that is not body to world, scalar first, and how it becomes that.
-
-A gyro tells neither from the other: one is the other between two constant turns, of the world and
-of the mounting."""
+from pyimu.recording.reference.orders import ORDERS
 
 
 def other_order(logs: Iterable[Recording]) -> str:

@@ -1,0 +1,117 @@
+"""Whether gravity turns in the body as the gyro says: its unit, its axes, their signs."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.special import stdtr
+
+from pyimu.errors import Finding
+from pyimu.recording.readings import BY_CHANCE, READINGS, changed, likely, named
+from pyimu.recording.recording import Recording
+from pyimu.recording.turning import carried, scatter, turning_spans
+
+DEGREE = 180 / np.pi
+
+UNITS = (1.0, DEGREE, 1 / DEGREE)
+"""By how much the numbers of a gyro may be too large: as stated, degrees a second under a header of
+radians, and the other way round."""
+
+LIKE = 2.0
+"""A factor is that of a unit to this one."""
+
+CHANGES = np.concatenate([READINGS, [np.eye(3) / unit for unit in UNITS[1:]]])
+"""(50, 3, 3), times the stated rates those of a reading."""
+
+COSTS = np.array([*map(changed, READINGS), 0.5, 0.5])
+"""Of each: another unit is likelier than axes in disorder."""
+
+
+def gyro_findings(recording: Recording) -> tuple[Finding, ...]:
+    """What gravity, or else a reference, says against the gyro: ``gyro_unit`` or ``gyro_axes``.
+
+    ``gyro_unit`` has the ``factor`` by which its rates are too large, ``gyro_axes`` the ``axes`` as
+    they would be right. Gravity tells where the forces, turned back by the gyro to where they were
+    at the start of a span, scatter clearly less than as they are: it hardly does so of a vehicle,
+    and not of a body that stays level. There a reference attitude or rate still tells the unit.
+    """
+    if recording.gyro is None:
+        return ()
+    reading = None if recording.accel is None else _by_gravity(recording)
+    if reading is None:
+        factor = _factor_by_reference(recording)
+    elif reading < len(READINGS):
+        factor = 1.0
+    else:
+        factor = UNITS[reading - len(READINGS) + 1]
+    found = []
+    if factor != 1:
+        found.append(Finding("gyro_unit", "gyro", len(recording), {"factor": factor}))
+    if reading is not None and 0 < reading < len(READINGS):
+        detail = {"axes": named(READINGS[reading])}
+        found.append(Finding("gyro_axes", "gyro", len(recording), detail))
+    return tuple(found)
+
+
+def _by_gravity(recording: Recording) -> int | None:
+    """Which of ``CHANGES`` gravity says, None where it says nothing."""
+    turns, force = turning_spans(recording, recording.accel)
+    if not len(turns):
+        return None
+    scatters = _scatters(turns, force)
+    return next(iter(likely(scatters, scatter(force), COSTS)), None)
+
+
+def _scatters(turns: np.ndarray, force: np.ndarray) -> np.ndarray:
+    """Variance (c, m) of the forces (m, k, 3) carried along by each of the ``CHANGES``."""
+    (m, k, _), c = turns.shape, len(CHANGES)
+    each = np.einsum("cij,mkj->kcmi", CHANGES, turns).reshape(k, c * m, 3)
+    same = np.broadcast_to(force.transpose(1, 0, 2)[:, None], (k, c, m, 3))
+    _, sums = carried(each, same.reshape(k, c * m, 3, 1), np.full(c * m, k))
+    mean = sums[:, :, 0].reshape(c, m, 3) / k
+    return np.mean(np.sum(force**2, axis=2), axis=1) - np.sum(mean**2, axis=2)
+
+
+# By a reference
+
+
+WINDOW = 0.2
+"""s; over which the sizes of the turns of gyro and reference are compared."""
+
+
+def _factor_by_reference(recording: Recording) -> float:
+    """Which of ``UNITS`` the turns of ``ref_q`` or ``ref_rate`` say the rates are too large by.
+
+    It is by their size alone, which is the same in all axes. 1 where they say nothing.
+    """
+    turns = _reference_turns(recording)
+    if turns is None:
+        return 1.0
+    ours, theirs = turns
+    known = np.isfinite(ours) & np.isfinite(theirs)
+    x, y = theirs[known], ours[known]
+    if len(x) < 3 or not (x.std() > 0 and y.std() > 0):
+        return 1.0
+    correlation = float(np.corrcoef(x, y)[0, 1])
+    t = correlation * np.sqrt((len(x) - 2) / max(1 - correlation**2, 1e-12))
+    if stdtr(len(x) - 2, t) < 1 - BY_CHANCE:
+        return 1.0
+    # Both have errors: the slope of the one on the other is too flat, that of their spreads not.
+    factor = float(y.std() / x.std())
+    return next((u for u in UNITS if 1 / LIKE < factor / u < LIKE), 1.0)
+
+
+def _reference_turns(recording: Recording) -> tuple[np.ndarray, np.ndarray] | None:
+    """Sizes (m,) rad of the turns in each window by the gyro and by the reference."""
+    rows = max(round(WINDOW / recording.sample_period), 1)
+    at = np.arange(0, len(recording), rows)
+    if recording.ref_q is None and recording.ref_rate is None or len(at) < 4:
+        return None
+    seconds = rows * recording.sample_period
+    ours = np.linalg.norm(np.add.reduceat(recording.gyro, at[:-1])[:-1], axis=1) / rows * seconds
+    if recording.ref_rate is not None:
+        rate = np.add.reduceat(recording.ref_rate, at[:-1])[:-1]
+        return ours, np.linalg.norm(rate, axis=1) / rows * seconds
+    q = recording.ref_q[at[:-1]]
+    q = q / np.linalg.norm(q, axis=1, keepdims=True)
+    cosine = np.abs(np.sum(q[1:] * q[:-1], axis=1))
+    return ours, 2 * np.arccos(np.minimum(cosine, 1.0))
