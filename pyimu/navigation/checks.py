@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pyimu.attitude.rest import GRAVITY_OFF, Rest
+from pyimu.attitude.rest import Rest, gravity_findings
 from pyimu.errors import Finding, UserError
 from pyimu.navigation.filtered import Filtered
 from pyimu.navigation.measured import MOST_WRONG
@@ -129,12 +129,9 @@ def findings(recording: Recording, rest: Rest, gravity: float) -> list[Finding]:
     if rest.force is not None and force[2] < UPRIGHT * size:
         axis = XYZ[int(np.argmax(np.abs(force)))]
         found.append(Finding("leaning", "accel", 1, {"axis": axis, "share": force[2] / size}))
-    if not rest.seen:
+    if not rest.seen and rest.other_force is None:
         found.append(Finding("no_rest", "", 1, {"seconds": rest.duration}))
-    elif abs(size / gravity - 1) > GRAVITY_OFF:
-        found.append(
-            Finding("gravity_off", "accel", 1, {"magnitude": size, "share": size / gravity - 1})
-        )
+    found += gravity_findings(rest)
     turns = np.nan_to_num(np.linalg.norm(recording.gyro, axis=1)) * recording.sample_period
     most = int(np.argmax(turns))
     if turns[most] > CONING:

@@ -241,7 +241,7 @@ CONTRADICTED = {"position": 16, "velocity": 32}
 """Bits of the filter's status."""
 
 
-def contradicted(found: Filtered, name: str, fixes: Fixes) -> np.ndarray:
+def wrong_rows(found: Filtered, name: str, fixes: Fixes) -> np.ndarray:
     """Marks (n,) of the measurements, of ``CONTRADICTED``, that contradicted the estimate."""
     status = found.scalar("status").astype(int)
     return (status & CONTRADICTED[name] > 0) & (fixes.columns[f"{name}_valid"] > 0)
@@ -260,7 +260,7 @@ def check_fixes(
         valid = None if fixes is None else fixes.columns.get(f"{name}_valid")
         if fixes is None or valid is None or not valid.any():
             continue
-        wrong = contradicted(found, name, fixes)
+        wrong = wrong_rows(found, name, fixes)
         share = np.count_nonzero(wrong) / np.count_nonzero(valid)
         first = float(recording.time[np.argmax(wrong)])
         if share > MOST_WRONG:

@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 from pyimu.attitude.columns import latitude_of
+from pyimu.attitude.contradicted import believed, contradicted
 from pyimu.block.parameters import number
 from pyimu.errors import Finding, UserError
 from pyimu.model.part import Part
@@ -18,7 +19,7 @@ from pyimu.navigation.filtered import Filtered
 from pyimu.navigation.integrated import integrated
 from pyimu.navigation.job import Job, Start
 from pyimu.navigation.known import known_part
-from pyimu.navigation.measured import Told, check_fixes, contradicted, fixes_of
+from pyimu.navigation.measured import Told, check_fixes, fixes_of, wrong_rows
 from pyimu.navigation.result import NavigationResult
 from pyimu.navigation.stops import ZUPT, clean_of, noise_at_rest, rest_at_start, stops_of
 from pyimu.navigation.track import Reference, Track, reference_of
@@ -80,6 +81,8 @@ def run(
     checks.check_columns(recording, limits["gravity"])
     most = limits["top_acceleration"], limits["top_turn_rate"]
     recording, findings = checks.without_outliers(recording, *most)
+    findings += contradicted(recording)
+    as_given, recording = recording, believed(recording)
     told = Told(position_std, velocity_std, position_age, velocity_age)
     measured = fixes_of(recording, told, limits["top_speed"]) if fixes else None
     job = _job(recording, None if part is None else part_of(part), zupt, given, findings)
@@ -96,7 +99,7 @@ def run(
     best = tracks.get("smoother", tracks.get("filter"))
     return NavigationResult(
         recording.name,
-        recording,
+        as_given,
         tracks,
         found,
         job.still,
@@ -114,7 +117,7 @@ def _of_fixes(job: Job, found: Filtered, start: Start) -> list[Finding]:
     if fixes is not None and len(fixes.rows) > 1:
         positions = Reference(fixes.rows, fixes.position)
         moves = any(checks.rests_that_move(positions, job.still, job.recording.time))
-        if contradicted(found, "position", fixes).any():
+        if wrong_rows(found, "position", fixes).any():
             free = job.filtered(start, fixes=False).track("filter")
             checks.check_not_mirrored(job.recording.name, positions, free)
     return check_fixes(job.recording, fixes, found, moves)

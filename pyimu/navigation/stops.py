@@ -107,12 +107,13 @@ def noise_at_rest(recording: Recording, part: Part, rest: Rest, declared: bool) 
     where it is larger. ``declared`` says that the noise is that of a part.
     """
     period = recording.sample_period
+    still = rest.seen or rest.other_force is not None
     stds, walks = [], []
     for sensor, seen in ((part.gyro, rest.rate_std), (part.accel, rest.force_std)):
         noise = noise_of(sensor, ca.SX(ca.DM(sensor.p)), period, LASTS)
         white = np.array(ca.evalf(noise.white), dtype=float).ravel() / np.sqrt(period)
         most = NOISIER * white if declared else np.full(3, np.inf)
-        shown = np.minimum(seen, most) if rest.seen else np.zeros(3)
+        shown = np.minimum(seen, most) if still else np.zeros(3)
         stds.append(np.maximum(np.maximum(white, shown), 1e-9))
         walks.append(np.array(ca.evalf(noise.walk), dtype=float).ravel())
-    return Noise(stds[0], stds[1], walks[0], rest.rate if rest.seen else np.zeros(3))
+    return Noise(stds[0], stds[1], walks[0], rest.rate if still else np.zeros(3))

@@ -234,3 +234,28 @@ def test_a_gyro_with_a_wide_null_is_at_rest_where_its_part_allows_it():
     assert found.rest.seen and len(found.later_stops) == 4
     assert found.errors["filter"].end < 2.0
     assert not run(own, assumed(), method="filter").rest.seen
+
+
+def test_a_force_at_rest_that_is_not_gravity_is_said_and_the_rest_is_one(log):
+    """60 %: no gravity by any consumer part, yet the body stands; its gyro's bias is known so."""
+    found = run(replace(log, accel=1.6 * log.accel), None, method="filter")
+    text = found.report()
+    assert "The force at rest is 15." in text and "% of gravity off" in text
+    assert "turned steadily" not in text and "no rest at the start" not in text
+
+
+def test_a_gyro_in_another_unit_is_said(log):
+    text = run(replace(log, gyro=np.radians(log.gyro)), None, method="filter").report()
+    assert "The gyro's rates are 57.3 times too small" in text
+
+
+def test_headings_that_count_clockwise_are_said_and_not_used(log):
+    """A compass in a world of east-north-up."""
+    w, x, y, z = log.ref_q.T
+    yaw = np.unwrap(np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)))
+    rng = np.random.default_rng(3)
+    compass = np.pi / 2 - yaw + 0.02 * rng.standard_normal(len(yaw))
+    bare = replace(log, ref_q=None, heading=compass)
+    found = run(bare, assumed(), method="filter")
+    assert "count clockwise, as a compass does" in found.report()
+    assert found.heading_from != "the log's column heading"

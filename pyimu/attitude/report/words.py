@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 
 from pyimu.attitude.error import AttitudeError, root_mean_square
@@ -97,7 +99,6 @@ def _about_columns(a: Outcome) -> list[str]:
             "gravity lies on -z at rest: the body is upside down, or its axes are not "
             'forward-left-up; map the log with [frame] body = "frd" then'
         )
-    found += [_about_gyro(f) for f in a.findings if f.kind in ("gyro_unit", "gyro_axes")]
     if "gravity_off" in kinds:
         off = kinds["gravity_off"].detail
         found.append(
@@ -105,6 +106,17 @@ def _about_columns(a: Outcome) -> list[str]:
             "scale factor, a bias, or another unit of the accelerometer; the tilt is less sure by "
             "that"
         )
+    found += about_contradicted(a.findings)
+    for name, of in ALONE.items():
+        if name in there and of not in there:
+            found.append(f"the column {name} has no column {of} beside it, and was not used")
+    return found
+
+
+def about_contradicted(findings: Iterable[Finding]) -> list[str]:
+    """What ``contradicted`` finds, and what would be right."""
+    kinds = {f.kind: f for f in findings}
+    found = [_about_gyro(kinds[k]) for k in ("gyro_unit", "gyro_axes") if k in kinds]
     if "speed_sign" in kinds:
         found.append(
             "the forces say that the speed has the wrong sign, or is not along the body's x axis: "
@@ -116,9 +128,6 @@ def _about_columns(a: Outcome) -> list[str]:
         kind = str(kinds["heading_reading"].detail["as"])
         what = "; ".join(text for name, text in READ_AS.items() if name in kind)
         found.append(f"the headings do not turn as the gyro does, and were not used: {what}")
-    for name, of in ALONE.items():
-        if name in there and of not in there:
-            found.append(f"the column {name} has no column {of} beside it, and was not used")
     return found
 
 

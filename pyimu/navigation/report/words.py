@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from pyimu.attitude.report.words import about_contradicted
 from pyimu.errors import Finding
 from pyimu.navigation.filter.variables import STATUS_NAMES
 from pyimu.navigation.measured import CONTRADICTED
@@ -50,6 +51,7 @@ def notes(a: Outcome) -> list[str]:
     """What should be known first: where there is nothing to update with, and what was refused."""
     out = [_rests(a)]
     kinds = {f.kind: f for f in a.findings}
+    out += [text[0].upper() + text[1:] for text in about_contradicted(a.findings)]
     if "no_rest" in kinds:
         out.append(
             "There is no rest at the start: tilt and biases were not known when the drive began, "
