@@ -199,7 +199,7 @@ class Rows:
                 f"{self.source.header.path}: a recording needs at least {LEAST_ROWS} rows of data, "
                 f"this one has {self.kept}"
             )
-        self._tally.add(self._raw.findings())
+        self._tally.add([*self._raw.findings(), *self.source.reader.at_end()])
 
     def _ordered(self, values: Values) -> tuple[np.ndarray, Values]:
         """Time and the other columns at the rows that are the first with their time."""

@@ -86,6 +86,9 @@ def test_damaged_file_is_refused_in_one_line(kind, damage, tmp_path, refused):
     path.write_bytes(
         whole[: len(whole) // 2] if damage == "cut" else np.random.default_rng(0).bytes(len(whole))
     )
+    if (kind, damage) == ("csv", "cut"):  # of text alone a part is whole
+        assert "end_left_out" in {f.kind for f in read_recording(path).findings}
+        return
     refused(path, ": ", columns)
 
 

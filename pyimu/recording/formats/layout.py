@@ -15,7 +15,7 @@ from itertools import islice
 from pathlib import Path
 
 from pyimu.errors import UserError
-from pyimu.recording.formats.lines import lines
+from pyimu.recording.formats.lines import is_comment, lines
 from pyimu.recording.spelling import unit_of
 
 MISSING = (
@@ -26,9 +26,6 @@ MISSING = (
 
 HEAD = 120
 """Lines from which the layout is told."""
-
-COMMENTS = ("#", "//", "%", '"#')
-"""What a line of comment begins with."""
 
 FORMS = ((",", "."), (";", "."), ("\t", "."), ("|", "."), (" ", "."))
 """Separators and decimal marks, the likelier first; a blank stands for any run of blanks."""
@@ -54,15 +51,16 @@ class Layout:
     """How a table stands in its file.
 
     ``names`` are of its columns, ``column 1`` and so on where the file has none; ``first`` is the
-    line of the first row of numbers, from 1. Lines that begin with ``comment`` are left out.
-    ``rate`` [Hz] is what a comment says. ``unusual`` says what a spreadsheet's file would not have.
+    line of the first row of numbers, from 1. ``commented`` says that lines of comment are among the
+    first ones; ``rate`` [Hz] is what one says. ``unusual`` says what a spreadsheet's file would not
+    have.
     """
 
     separator: str = ","
     decimal: str = "."
     names: tuple[str, ...] = ()
     first: int = 2
-    comment: str = ""
+    commented: bool = False
     rate: float | None = None
     named: bool = True
 
@@ -106,7 +104,7 @@ def layout_of(path: Path) -> Layout:
     found = told_from(head)
     for row, line in enumerate(head[: found.first - 1], 1):
         line = line.rstrip("\r\n")
-        if not line.startswith(COMMENTS) and len(found.cells(line)) > 1 and found.is_open(line):
+        if not is_comment(line) and len(found.cells(line)) > 1 and found.is_open(line):
             raise UserError(f"{path}: row {row}: {UNCLOSED}")
     return found
 
@@ -114,10 +112,9 @@ def layout_of(path: Path) -> Layout:
 def told_from(head: Sequence[str]) -> Layout:
     """The layout of a table with the first lines ``head``."""
     numbered = [(k, line.rstrip("\r\n")) for k, line in enumerate(head, 1) if line.strip()]
-    notes = [line for _, line in numbered if line.startswith(COMMENTS)]
-    rows = [(k, line) for k, line in numbered if not line.startswith(COMMENTS)]
+    notes = [line for _, line in numbered if is_comment(line)]
+    rows = [(k, line) for k, line in numbered if not is_comment(line)]
     form = _form([line for _, line in rows])
-    comment = next((c for c in COMMENTS if notes and notes[0].startswith(c)), "")
     if form is None:
         names = Layout().cells(rows[0][1]) if rows else []
         return Layout(names=tuple(map(str.strip, names)), first=rows[0][0] + 1 if rows else 1)
@@ -136,7 +133,7 @@ def told_from(head: Sequence[str]) -> Layout:
         form.decimal,
         names or tuple(f"column {k + 1}" for k in range(width)),
         first,
-        comment,
+        bool(notes),
         rate,
         bool(names),
     )

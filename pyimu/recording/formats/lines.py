@@ -19,6 +19,19 @@ is none."""
 BLOCK = 1 << 20
 """Bytes that are read at once."""
 
+COMMENTS = ("#", "//", "%", '"#')
+"""What a line of comment begins with."""
+
+NO_COMMENT = ("#N/A", '"#N/A')
+"""A row may begin so, where its first cell holds no value."""
+
+_MARKS = tuple(mark.encode() for mark in COMMENTS)
+_NO_MARKS = tuple(mark.encode() for mark in NO_COMMENT)
+
+
+def is_comment(line: str) -> bool:
+    return line.startswith(COMMENTS) and not line.startswith(NO_COMMENT)
+
 
 def is_gzip(path: Path) -> bool:
     return path.name.lower().endswith(".gz")
@@ -64,13 +77,13 @@ def lines(path: Path) -> Iterator[str]:
 class Body(io.RawIOBase):
     """The bytes of a table from its line ``first`` (from 1) on, lines of comment left out.
 
-    Lines that begin with ``comment`` are left out; where ``blanks`` separate the columns, a run of
-    them becomes one. Lines longer than ``LONGEST`` end it, for the reader behind to complain.
+    Where ``blanks`` separate the columns, a run of them becomes one. Lines longer than ``LONGEST``
+    end it, for the reader behind to complain.
     """
 
-    def __init__(self, stream: BinaryIO, first: int, comment: bytes, blanks: bool) -> None:
-        self._stream, self._comment, self._blanks = stream, comment, blanks
-        self._rest = b""
+    def __init__(self, stream: BinaryIO, first: int, blanks: bool) -> None:
+        self._stream, self._blanks = stream, blanks
+        self._rest = memoryview(b"")
         for _ in range(first - 1):
             stream.readline(LONGEST)
 
@@ -83,15 +96,20 @@ class Body(io.RawIOBase):
             if not block:
                 return 0
             block += self._stream.readline(LONGEST)
-            self._rest = self._cleaned(block)
+            self._rest = memoryview(self._cleaned(block))
         piece, self._rest = self._rest[: len(buffer)], self._rest[len(buffer) :]
         buffer[: len(piece)] = piece
         return len(piece)
 
     def _cleaned(self, block: bytes) -> bytes:
+        commented = block.startswith(_MARKS) or any(b"\n" + mark in block for mark in _MARKS)
+        if not commented and not self._blanks:
+            return block
         kept = block.split(b"\n")
-        if self._comment:
-            kept = [line for line in kept if not line.startswith(self._comment)]
+        if commented:
+            kept = [
+                line for line in kept if not line.startswith(_MARKS) or line.startswith(_NO_MARKS)
+            ]
         if self._blanks:
             kept = [b" ".join(line.split()) for line in kept]
         return b"\n".join(kept)

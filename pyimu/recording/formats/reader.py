@@ -50,6 +50,10 @@ class Reader(ABC):
         ``long`` is the position of the time.
         """
 
+    def at_end(self) -> tuple[Finding, ...]:
+        """What was seen where the file ends, once it was read to there."""
+        return ()
+
     def numeric(self) -> list[int]:
         """Positions of the columns that hold numbers."""
         return list(range(len(self.header)))

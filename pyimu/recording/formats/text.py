@@ -16,17 +16,38 @@ from pyarrow import csv as pacsv
 
 from pyimu.errors import Finding, UserError
 from pyimu.recording.formats.layout import HEAD, MISSING, UNCLOSED, Layout, is_number, layout_of
-from pyimu.recording.formats.lines import Body, is_gzip, lines, opened
+from pyimu.recording.formats.lines import Body, is_comment, is_gzip, lines, opened
 from pyimu.recording.formats.reader import Columns, Reader
+
+LAST = 20
+"""Lines behind the last whole row, at most, that are no rows: one cut off, and remarks. With more
+of them the table is not what it was taken for."""
+
+
+class OddRows:
+    """Takes the rows that have too many or too few cells from pyarrow, and remembers that."""
+
+    def __init__(self) -> None:
+        self.seen = False
+
+    def __call__(self, row: Any) -> str:
+        self.seen = self.seen or not (is_comment(row.text) or not row.text.strip())
+        return "skip"
 
 
 @dataclass(frozen=True)
 class CsvReader(Reader):
-    """A table in text, plain or gzipped, as ``layout`` says; ``header`` are its columns' names."""
+    """A table in text, plain or gzipped, as ``layout`` says; ``header`` are its columns' names.
+
+    Lines of comment are left out wherever they stand, and lines at the end that are no whole rows:
+    a logger that lost its power leaves one, others write a last remark.
+    """
 
     path: Path
     header: list[str]
     layout: Layout = field(default_factory=Layout)
+    _odd: OddRows = field(default_factory=OddRows, compare=False, repr=False)
+    _ended: list[Finding] = field(default_factory=list, compare=False, repr=False)
 
     @classmethod
     def open(cls, path: Path) -> CsvReader:
@@ -48,47 +69,64 @@ class CsvReader(Reader):
         """``long`` is int64 where its numbers need it.
 
         Raises UserError, with row and column, for a cell that is no number and for a row of another
-        length.
+        length that whole rows follow.
         """
+        if self._first_row() is None:
+            return
+        done, first = 0, self.layout.first
+        for cleaned in (self.layout.separator == " " or self.layout.commented, True):
+            try:
+                for batch, share in self._parsed(positions, long, first, cleaned):
+                    self._judge(positions, done)
+                    done += batch.num_rows
+                    yield [to_numpy(column) for column in batch.columns], share
+                self._judge(positions, done)
+                # What reading took beside the numbers would be held for the next file.
+                pa.default_memory_pool().release_unused()
+                return
+            except (pa.ArrowException, OSError) as error:
+                self._explain(positions, done)
+                if cleaned:
+                    reason = (str(error).splitlines() or [type(error).__name__])[0]
+                    raise UserError(f"{self.path}: cannot be read as CSV ({reason})") from None
+            # It was a comment with as many cells as a row, the first of this log.
+            first = next((row for row, _ in islice(self._lines(), done, None)), first)
+
+    def _parsed(
+        self, positions: Sequence[int], long: int, first: int, cleaned: bool
+    ) -> Iterator[tuple[Any, float]]:
+        """The table from its line ``first`` on in batches, and the share that was read so far."""
         names = [str(position) for position in range(len(self.header))]
         kept = [names[position] for position in positions]
         kinds = {name: pa.float64() for name in kept} | (
             {names[long]: pa.int64()} if self._is_long(long) else {}
         )
-        if self._first_row() is None:
-            return
-        done = 0
-        try:
-            with self._stream() as (stream, skip, share):
-                for batch in pacsv.open_csv(
-                    stream,
-                    read_options=pacsv.ReadOptions(column_names=names, skip_rows=skip),
-                    parse_options=pacsv.ParseOptions(delimiter=self.layout.separator),
-                    convert_options=pacsv.ConvertOptions(
-                        column_types=kinds,
-                        include_columns=kept,
-                        null_values=list(MISSING),
-                        decimal_point=self.layout.decimal,
-                    ),
-                ):
-                    done += batch.num_rows
-                    yield [to_numpy(column) for column in batch.columns], share()
-            # What reading took beside the numbers would be held for the next file.
-            pa.default_memory_pool().release_unused()
-        except (pa.ArrowException, OSError) as error:
-            self._explain(positions, done)
-            reason = (str(error).splitlines() or [type(error).__name__])[0]
-            raise UserError(f"{self.path}: cannot be read as CSV ({reason})") from None
+        with self._stream(first, cleaned) as (stream, skip, share):
+            for batch in pacsv.open_csv(
+                stream,
+                read_options=pacsv.ReadOptions(column_names=names, skip_rows=skip),
+                parse_options=pacsv.ParseOptions(
+                    delimiter=self.layout.separator, invalid_row_handler=self._odd
+                ),
+                convert_options=pacsv.ConvertOptions(
+                    column_types=kinds,
+                    include_columns=kept,
+                    null_values=list(MISSING),
+                    decimal_point=self.layout.decimal,
+                ),
+            ):
+                yield batch, share()
 
     @contextmanager
-    def _stream(self) -> Iterator[tuple[Any, int, Any]]:
-        """What to read, the lines to skip in it, and the share that was read so far."""
-        layout = self.layout
-        if layout.separator == " " or layout.comment:
+    def _stream(self, first: int, cleaned: bool) -> Iterator[tuple[Any, int, Any]]:
+        """What to read, the lines to skip in it, and the share that was read so far.
+
+        Where it is ``cleaned`` lines of comment are left out, which takes as long as reading.
+        """
+        if cleaned:
             with opened(self.path) as (stream, raw):
                 size = max(self.path.stat().st_size, 1)
-                blanks, comment = layout.separator == " ", layout.comment.encode()
-                body = Body(stream, layout.first, comment, blanks)
+                body = Body(stream, first, self.layout.separator == " ")
                 yield (
                     pa.PythonFile(body, mode="r"),
                     0,
@@ -99,9 +137,22 @@ class CsvReader(Reader):
             size = max(raw.size(), 1)
             yield (
                 pa.CompressedInputStream(raw, "gzip") if is_gzip(self.path) else raw,
-                layout.first - 1,
+                first - 1,
                 lambda: 1.0 if raw.closed else raw.tell() / size,
             )
+
+    def at_end(self) -> tuple[Finding, ...]:
+        """That the last lines were left out."""
+        return tuple(self._ended)
+
+    def _judge(self, positions: Sequence[int], done: int) -> None:
+        """Raise UserError for a row that was found odd, but where it ends the file.
+
+        Only what stands behind ``done`` rows is looked at.
+        """
+        if self._odd.seen:
+            self._odd.seen = False
+            self._explain(positions, done)
 
     def count(self, long: int) -> None:
         return None
@@ -129,9 +180,7 @@ class CsvReader(Reader):
         """(row, line) of each row of numbers that is not blank, as a spreadsheet counts them."""
         layout = self.layout
         for number, line in enumerate(lines(self.path), 1):
-            if number < layout.first or not line.strip():
-                continue
-            if not layout.comment or not line.startswith(layout.comment):
+            if number >= layout.first and line.strip() and not is_comment(line):
                 yield number, line.rstrip("\r\n")
 
     def _first_row(self) -> list[str] | None:
@@ -148,11 +197,17 @@ class CsvReader(Reader):
     def _explain(self, positions: Sequence[int], good: int) -> None:
         """Raise UserError for the first wrong cell or row after ``good`` rows.
 
-        A cell is wrong where it is not a number, a row where it is too long or too short.
+        A cell is wrong where it is not a number, a row where it is too long or too short and whole
+        rows follow.
         """
-        for row, line in islice(self._lines(), good, None):
+        rows = islice(self._lines(), good, None)
+        for number, (row, line) in enumerate(rows, good):
             cells = self.layout.cells(line)
             if len(cells) != len(self.header):
+                last = [line, *(text for _, text in islice(rows, LAST))]
+                if number and len(last) <= LAST and not any(map(self._is_whole, last)):
+                    self._ended[:] = [Finding("end_left_out", "", len(last), {"row": row})]
+                    return
                 if self.layout.is_open(line):
                     raise UserError(f"{self.path}: row {row}: {UNCLOSED}")
                 raise UserError(
@@ -163,6 +218,10 @@ class CsvReader(Reader):
                 if not is_number(cells[position], self.layout.decimal):
                     place = f"{self.path}: row {row}, column {self.header[position]}"
                     raise UserError(f"{place}: '{cells[position]}' is not a number")
+
+    def _is_whole(self, line: str) -> bool:
+        """Whether a line has a cell for each column, or more."""
+        return len(self.layout.cells(line)) >= len(self.header)
 
 
 def to_numpy(column: pa.Array) -> np.ndarray:

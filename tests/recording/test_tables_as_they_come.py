@@ -1,0 +1,81 @@
+"""Tables in text as loggers, phones and spreadsheets leave them: cut, remarked, in other codes."""
+
+import re
+
+import numpy as np
+import pytest
+
+from pyimu import read_recording
+from pyimu.errors import UserError
+from pyimu.recording.log import open_log
+
+HEAD = "time [s],gyro_x [rad/s],gyro_y [rad/s],gyro_z [rad/s]"
+ROWS = [f"{0.01 * k:.2f},0.1,{0.001 * (k % 7):.3f},0.3" for k in range(300)]
+
+
+def of_kind(recording, kind):
+    return [f for f in recording.findings if f.kind == kind]
+
+
+def read(folder, lines, name="log.csv", end="\n"):
+    (folder / name).write_text("\n".join(lines) + end)
+    return read_recording(folder / name)
+
+
+# Lines that are no rows
+
+
+@pytest.mark.parametrize(
+    "last, end",
+    [
+        (["3.00,0.1,0"], ""),
+        (["3.0"], ""),
+        (['3.00,"0.1,0'], ""),
+        (["End of log"], "\n"),
+        (["", "300 rows", "lost: 0", ""], "\n"),
+        (["\0" * 40], ""),
+    ],
+)
+def test_what_is_whole_of_a_cut_log_is_read(last, end, tmp_path):
+    found = read(tmp_path, [HEAD, *ROWS, *last], end=end)
+    np.testing.assert_array_equal(found.gyro, read(tmp_path, [HEAD, *ROWS]).gyro)
+    (said,) = of_kind(found, "end_left_out")
+    first = next(k for k, line in enumerate(last, 302) if line)
+    assert (said.count, said.detail) == (len([t for t in last if t]), {"row": first})
+    assert not of_kind(read(tmp_path, [HEAD, *ROWS], end=""), "end_left_out")
+
+
+def test_a_cut_log_is_read_in_pieces_and_with_a_rate(tmp_path):
+    path = tmp_path / "log.csv"
+    path.write_text("\n".join([HEAD, *ROWS, "3.00,0.1"]))
+    log = open_log(path)
+    assert sum(len(piece) for piece, _ in log.pieces(64)) == 300
+    assert [f.kind for f in log.findings] == ["end_left_out"]
+    (tmp_path / "m.toml").write_text(
+        'sample_rate = {value = 100, unit = "Hz"}\n[columns]\n"time [s]" = "clock"\n'
+    )
+    assert of_kind(read_recording(path, tmp_path / "m.toml"), "end_left_out")
+
+
+@pytest.mark.parametrize("mark", ["# lost sync", "% a,b,c", "#" + HEAD, "// 1,2,3"])
+@pytest.mark.parametrize("separator", [",", " "])
+def test_a_comment_between_rows_is_left_out(mark, separator, tmp_path):
+    head = HEAD if separator == "," else re.sub(r" \[", "[", HEAD)
+    lines = [head, *ROWS[:150], mark, *ROWS[150:], "# end"]
+    found = read(tmp_path, [line.replace(",", separator) for line in lines])
+    assert len(found) == 300 and not of_kind(found, "end_left_out")
+
+
+def test_a_row_may_begin_with_a_missing_value(tmp_path):
+    rows = [",".join([*row.split(",")[1:], row.split(",")[0]]) for row in ROWS]
+    rows[200] = "#N/A" + rows[200][3:]
+    found = read(tmp_path, [",".join([*HEAD.split(",")[1:], "time [s]"]), *rows])
+    assert len(found) == 300 and np.flatnonzero(np.isnan(found.gyro[:, 0])).tolist() == [200]
+
+
+@pytest.mark.parametrize("wrong", ["1.49,0.1", "lost sync", "1.49,0.1,0.2,0.3,0.4"])
+def test_other_lines_between_rows_are_refused(wrong, tmp_path):
+    with pytest.raises(UserError, match=r"row 152: \d cells, expected 4"):
+        read(tmp_path, [HEAD, *ROWS[:150], wrong, *ROWS[150:]])
+    with pytest.raises(UserError, match=r"row 302: \d cells, expected 4"):
+        read(tmp_path, [HEAD, *ROWS, *["a remark"] * 21])
