@@ -16,8 +16,14 @@ from pyimu.recording.column_map import ForeignMap
 from pyimu.recording.columns import UNITS, XYZ
 from pyimu.recording.counts import Scale
 from pyimu.recording.formats.reader import Reader
-from pyimu.recording.guess.names import DERIVED, TRUTHS, named, surest, triads
+from pyimu.recording.guess.names import DERIVED, TRUTHS, named, others, surest, triads
 from pyimu.units import parse
+
+STATED = "a table that states its units"
+"""What a log is called whose header says all of it."""
+
+WARM = ("degC", "K")
+"""Units of temperatures."""
 
 Known = tuple[str, ForeignMap]
 """What the log is, and its map."""
@@ -32,12 +38,23 @@ def recognised(reader: Reader) -> Known | None:
         if columns is not None:
             return name, columns
     found = stated(reader)
-    return None if found is None else ("a table that states its units", found)
+    return None if found is None else (STATED, found)
 
 
-def said(known: Known, columns: Sequence[str]) -> Finding:
-    """That the log was recognised, and what was read as what."""
-    return Finding("recognised", "", len(columns), {"as": known[0]})
+def said(known: Known, columns: Sequence[str]) -> list[Finding]:
+    """That the log was recognised.
+
+    Where its header alone says what it is, and not of both sensors, the vectors that are left out.
+    """
+    found = [Finding("recognised", "", len(columns), {"as": known[0]})]
+    groups = {target.partition("_")[0] for target in known[1].columns.values()}
+    if known[0] != STATED or {"gyro", "accel"} <= groups:
+        return found
+    taken = [k for k, cell in enumerate(columns) if cell in known[1].columns]
+    for at in others(columns, taken):
+        cells = ", ".join(columns[k] for k in at)
+        found.append(Finding("vector_left_out", "", 3, {"columns": cells}))
+    return found
 
 
 def _own(header: Sequence[str]) -> bool:
@@ -192,14 +209,14 @@ def stated(reader: Reader) -> ForeignMap | None:
         return None
     found = triads(reader.header)
     for group, needed in (("gyro", True), ("accel", True), ("mag", False)):
-        triad, others = surest(found, group)
+        triad, rivals = surest(found, group)
         if triad is None:
             continue
-        if needed and (triad.unit is None or others or triad.score < 4):
+        if needed and (triad.unit is None or rivals or triad.score < 4):
             return None
-        if triad.unit is not None and not others:
+        if triad.unit is not None and not rivals:
             columns |= _triad([name.cell for name in triad.names], group, triad.unit)
-    warm = [n for n in names if n.is_temperature and n.unit and not set(n.words) & DERIVED]
+    warm = [n for n in names if n.is_temperature and n.unit in WARM and not set(n.words) & DERIVED]
     if len(warm) == 1:
         columns[warm[0].cell] = f"temperature [{warm[0].unit}]"
     if not any(target.startswith(("gyro", "accel")) for target in columns.values()):

@@ -84,7 +84,7 @@ class Source:
             known = recognised(reader)
             if known is not None:
                 foreign = merged(known[1], foreign, foreign.files)
-                findings = (said(known, reader.header),)
+                findings = tuple(said(known, reader.header))
         if foreign.body is None and reader.body is not None:
             foreign = replace(foreign, body=BODY[reader.body])
         names = foreign.rename(reader.path, reader.header)

@@ -16,7 +16,7 @@ from pathlib import Path
 
 from pyimu.errors import UserError
 from pyimu.recording.formats.lines import is_comment, lines
-from pyimu.recording.spelling import unit_of
+from pyimu.recording.spelling import bare, unit_of
 
 MISSING = (
     *("", "NaN", "nan", "NAN", "-nan", "-NaN", "NA", "N/A", "n/a", "#N/A"),
@@ -228,7 +228,7 @@ def _names(rows: Sequence[Sequence[str]], width: int) -> tuple[str, ...]:
     names = [" ".join(filter(None, parts)) for parts in zip(*filled, strict=True)]
     if units is not None:
         names = [
-            f"{name} [{unit.strip('[]() ')}]" if unit and "[" not in name else name
+            f"{name} [{bare(unit)}]" if unit and "[" not in name else name
             for name, unit in zip(names, units, strict=True)
         ]
     return tuple(names)
@@ -243,7 +243,7 @@ def _fitted(row: Sequence[str], width: int) -> list[str]:
 
 
 def _are_units(row: Sequence[str]) -> bool:
-    filled = [cell.strip("[]() ") for cell in row if cell]
+    filled = [bare(cell) for cell in row if cell]
     return 2 * len(filled) >= len(row) and all(unit_of(cell) for cell in filled)
 
 

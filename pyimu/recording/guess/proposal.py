@@ -11,7 +11,17 @@ import numpy as np
 from pyimu.errors import UserError
 from pyimu.recording.columns import GROUP_OF, XYZ
 from pyimu.recording.formats.reader import Reader
-from pyimu.recording.guess.names import DERIVED, TRUTHS, Name, attitude, named, surest, triads
+from pyimu.recording.guess.endings import fits
+from pyimu.recording.guess.names import (
+    DERIVED,
+    TRUTHS,
+    Name,
+    attitude,
+    named,
+    others,
+    surest,
+    triads,
+)
 from pyimu.recording.guess.numbers import (
     SECONDS,
     UnitGuess,
@@ -95,6 +105,9 @@ def proposed(reader: Reader) -> Proposal:
     picked = {g: _surest(found, vectors, g) for g in ("accel", "gyro", "mag")}
     if picked["accel"] is None and picked["gyro"] is None:
         picked = _by_numbers(found, reader, numbers, period) | {"mag": picked["mag"]}
+    for group in ("accel", "gyro"):
+        if picked[group] is None:
+            picked[group] = _missing(found, group, reader, numbers, picked, period)
     force = None if picked["accel"] is None else numbers.of([p for p, _ in picked["accel"]])
     for group in ("gyro", "accel", "mag"):
         if picked[group] is not None:
@@ -222,6 +235,34 @@ def _by_numbers(
     return picked
 
 
+def _missing(
+    found: Proposal,
+    group: str,
+    reader: Reader,
+    numbers: Numbers,
+    picked: dict[str, Picked],
+    period: float | None,
+) -> Picked:
+    """The vector of ``group`` that no name tells, beside the others, where its numbers tell it.
+
+    A vector that may be it is noted else.
+    """
+    force = None if picked["accel"] is None else numbers.of([p for p, _ in picked["accel"]])
+    taken = [p for known in picked.values() if known is not None for p, _ in known]
+    names = [named(cell) for cell in reader.header]
+    for at in others(reader.header, taken):
+        if not set(at) <= set(numbers.positions):
+            continue
+        values = numbers.of(at)
+        guess = force_unit(values) if group == "accel" else rate_unit(values, force, period)
+        cells = ", ".join(reader.header[k] for k in at)
+        if guess.unit is not None and (group == "accel" or "gravity" in guess.why):
+            found.notes.append(f"{cells} were taken for the {group} by their numbers alone")
+            return [(k, names[k]) for k in at]
+        found.notes.append(f"{cells} are left out: they may be the {group} ({guess.why})")
+    return None
+
+
 def _scatter(force: np.ndarray) -> float:
     """Relative scatter of the size of a vector: of the specific force at rest it is small."""
     size = np.linalg.norm(force, axis=1)
@@ -258,7 +299,8 @@ def _unit(
 ) -> UnitGuess:
     """The unit that the header states, else the one that the numbers show."""
     units = {name.unit for _, name in picked}
-    if len(units) == 1 and (unit := units.pop()) is not None:
+    unit = units.pop() if len(units) == 1 else None
+    if unit is not None and fits(unit, group):
         return UnitGuess(unit, f"the header says {picked[0][1].said}")
     values = numbers.of([p for p, _ in picked])
     if group == "accel":

@@ -1,0 +1,98 @@
+"""Columns of foreign logs by their names: each vector is found or told of, in no wrong unit."""
+
+import numpy as np
+import pytest
+import raw_logs
+from test_raw_logs import turned
+
+from pyimu import inspect, read_recording
+from pyimu.recording.formats.suffix import open_reader
+from pyimu.recording.guess.names import named
+from pyimu.recording.guess.proposal import proposed
+
+G = 9.80665
+
+
+def written(folder, header, columns, name="log.csv"):
+    return raw_logs.text(folder / name, [header], columns)
+
+
+@pytest.mark.parametrize(
+    "gyro, accel, in_degrees, in_g",
+    [
+        ("gx_dps,gy_dps,gz_dps", "ax_g,ay_g,az_g", True, True),
+        ("xgyro,ygyro,zgyro", "xacc,yacc,zacc", False, True),
+        ("p,q,r", "ax,ay,az", False, False),
+        ("p_dps,q_dps,r_dps", "AccX,AccY,AccZ", True, False),
+        ("rate_x,rate_y,rate_z", "acc_x,acc_y,acc_z", False, False),
+        ("ang_vel_x,ang_vel_y,ang_vel_z", "lin_acc_x,lin_acc_y,lin_acc_z", False, False),
+        *[(",".join(f"angular_velocity_{a}" for a in "xyz"), "f_x,f_y,f_z", False, False)],
+        ("spin_x,spin_y,spin_z", "acc_x,acc_y,acc_z", True, False),
+        ("gyr_x,gyr_y,gyr_z", "push_x,push_y,push_z", True, True),
+    ],
+)
+def test_no_vector_is_left_out(gyro, accel, in_degrees, in_g, tmp_path):
+    time, rates, forces = turned()
+    columns = [*(np.degrees(rates) if in_degrees else rates).T, *(forces / (G if in_g else 1)).T]
+    path = written(tmp_path, f"time_us,{gyro},{accel}", [time // 1000, *columns])
+    found = inspect(path).recording
+    np.testing.assert_allclose(found.gyro, rates, rtol=1e-14)
+    np.testing.assert_allclose(found.accel, forces, rtol=1e-14)
+
+
+def test_a_vector_that_nothing_tells_is_told_of(tmp_path):
+    time, rates, forces = raw_logs.still(400)
+    head = "time_ms,acc_x_g,acc_y_g,acc_z_g,foo_x,foo_y,foo_z"
+    path = written(tmp_path, head, [time // 10**6, *(forces / G).T, *rates.T])
+    (said,) = (f for f in read_recording(path).findings if f.kind == "vector_left_out")
+    assert said.detail == {"columns": "foo_x, foo_y, foo_z"}
+    (note,) = proposed(open_reader(path)).notes
+    assert note.startswith("foo_x, foo_y, foo_z are left out: they may be the gyro")
+    path = written(tmp_path, head.replace("foo", "pos"), [time // 10**6, *forces.T, *rates.T])
+    assert "vector_left_out" not in {f.kind for f in read_recording(path).findings}
+
+
+@pytest.mark.parametrize(
+    "cell, unit",
+    [
+        ("gyro_x_rad_s", "rad/s"),
+        ("gyro_x_deg_s", "deg/s"),
+        ("gyro_x_rads", "rad/s"),
+        ("acc_x_m_s2", "m/s^2"),
+        ("acc_x_m_s_2", "m/s^2"),
+        ("acc_x_ms2", "m/s^2"),
+        ("acc_x_m_per_s2", "m/s^2"),
+        ("Accel_LN_X_CAL m/(s^2)", "m/(s^2)"),
+        ("Accel_LN_X_CAL [m/(s^2)]", "m/(s^2)"),
+        ("Accel X (m/(s^2))", "m/(s^2)"),
+        ("mag_x_uT", "uT"),
+        ("temp_degC", "degC"),
+        ("time_s", "s"),
+        ("w", None),
+        ("g_x", None),
+    ],
+)
+def test_unit_that_ends_a_name(cell, unit):
+    assert named(cell).unit == unit
+
+
+@pytest.mark.parametrize(
+    "gyro, accel",
+    [("gyro_{}_rad_s", "acc_{}_m_s2"), ("gyro_{}_mm", "acc_{}_s"), ("gyro {} (g)", "acc {} (deg)")],
+)
+def test_a_unit_that_cannot_be_is_not_proposed(gyro, accel, tmp_path):
+    time, rates, forces = turned()
+    cells = [form.format(a) for form in (gyro, accel) for a in "xyz"]
+    path = written(tmp_path, ",".join(["time_s", *cells]), [time * 1e-9, *rates.T, *forces.T])
+    assert proposed(open_reader(path)).units == {"time": "s", "gyro": "rad/s", "accel": "m/s^2"}
+
+
+def test_rows_of_names_and_of_units_in_brackets(tmp_path):
+    time, rates, forces = turned()
+    names = [f"Shimmer_Accel_LN_{a}_CAL" for a in "XYZ"] + [f"Shimmer_Gyro_{a}_CAL" for a in "XYZ"]
+    units = ["ms", *["m/(s^2)"] * 3, *["(deg/s)"] * 3]
+    lines = ["\t".join(["Timestamp", *names]), "\t".join(units)]
+    columns = [time * 1e-6, *forces.T, *np.degrees(rates).T]
+    found = read_recording(raw_logs.text(tmp_path / "log.csv", lines, columns, "\t"))
+    np.testing.assert_array_equal(found.accel, forces)
+    np.testing.assert_allclose(found.gyro, rates, rtol=1e-14)
