@@ -225,7 +225,34 @@ def test_unit_of_a_clock_is_told(unit, size, rate, first):
     if np.all(np.diff(ticks) == 1):
         assert first or time_unit(ticks).unit is None  # may be a counter of samples
         return
+    if rate == 5000 and not first:  # 5 Hz in the next larger unit
+        assert time_unit(ticks).unit is None
+        return
     assert time_unit(ticks).unit == unit
+
+
+@pytest.mark.parametrize(
+    "step, unit, why",
+    [
+        (0.1, "s", "10 Hz"),
+        (0.2, None, "5 Hz in s or 5000 Hz in ms"),
+        (125.0, None, "8 Hz in ms or 8000 Hz in us"),
+        (10.0, "ms", "100 Hz then (0.1 Hz in s)"),
+        (100.0, "ms", "10 Hz then (0.01 Hz in s)"),
+        (1e7, "ns", "100 Hz then (0.1 Hz in us)"),
+    ],
+)
+def test_what_else_a_clock_may_count_is_said(step, unit, why):
+    found = time_unit(step * np.arange(200))
+    assert (found.unit, why in found.why) == (unit, True)
+
+
+@pytest.mark.parametrize("name", ["time [s]", "time_s", "Time (s)"])
+def test_a_header_that_says_s_is_believed(name, tmp_path):
+    _, gyro, _ = raw_logs.still(200)
+    path = raw_logs.text(tmp_path / "l.csv", [f"{name},gx,gy,gz"], [10 * np.arange(200), *gyro.T])
+    (found,) = (g for g in proposed(open_reader(path)).guesses if g.target == "time")
+    assert (found.unit, "0.1 Hz" in found.why) == ("s", True)
 
 
 def test_counter_of_samples_is_no_clock():

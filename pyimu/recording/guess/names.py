@@ -28,6 +28,9 @@ WEAK = {"gyro": {"w", "g", "rate", "rates", "pqr"}, "accel": {"a", "f"}, "mag": 
 TIMES = {"time", "timestamp", "stamp", "t", "ts", "clock"}
 """Words for times; with ``sampletimefine``, ``seconds`` and ``epoch`` they are many."""
 
+TICKS = {"millis": "ms", "micros": "us", "nanos": "ns"}
+"""Words for times that say their unit, as Arduino's functions are called."""
+
 TEMPERATURES = {"temp", "temperature", "celsius", "imutemp"}
 
 TRUTHS = {"ref", "reference", "vicon", "opt", "optical", "omc", "mocap", "truth", "groundtruth"} | {
@@ -73,7 +76,9 @@ class Name:
     @property
     def is_time(self) -> bool:
         words = set(self.words)
-        return not self.axis and bool(words & (TIMES | {"seconds", "epoch", "sampletimefine"}))
+        return not self.axis and bool(
+            words & (TIMES | {"seconds", "epoch", "sampletimefine", *TICKS})
+        )
 
     @property
     def is_temperature(self) -> bool:
@@ -101,6 +106,8 @@ def named(cell: str) -> Name:
     words = [word.casefold() for word in _WORD.findall(text)]
     if unit is None and not said:
         words, unit = in_words(words, {*"xyz", *ROLLS, *TIMES, *TEMPERATURES})
+    if unit is None and not said and words and words[-1] in TICKS:
+        unit = TICKS[words[-1]]
     axis, words = _axis(words)
     return Name(cell, tuple(words), axis, unit, said or (unit or ""))
 
