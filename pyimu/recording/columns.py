@@ -110,6 +110,12 @@ UNITS = {name: GROUPS[group].unit for name, group in GROUP_OF.items() if group !
 UNITS["time"] = "s"
 
 
+def own_name(cell: str) -> str | None:
+    """The name of a recording's column in a header's ``cell`` that has one with a unit."""
+    name, bracket, _ = cell.partition("[")
+    return name.strip() if bracket and name.strip() in UNITS else None
+
+
 def check_unit(place: str, name: str, text: Any) -> units.Unit:
     """The unit ``text`` of the column ``name``.
 

@@ -13,7 +13,7 @@ from dataclasses import replace
 
 from pyimu.errors import Finding
 from pyimu.recording.column_map import ForeignMap
-from pyimu.recording.columns import UNITS, XYZ
+from pyimu.recording.columns import GROUP_OF, XYZ, own_name
 from pyimu.recording.counts import Scale
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.guess.names import DERIVED, TRUTHS, named, others, surest, triads
@@ -31,7 +31,7 @@ Known = tuple[str, ForeignMap]
 
 def recognised(reader: Reader) -> Known | None:
     """What is known of the log in ``reader``, None where nothing is."""
-    if _own(reader.header):
+    if is_own(reader.header):
         return None
     for name, test in FORMATS:
         columns = test(reader)
@@ -57,9 +57,20 @@ def said(known: Known, columns: Sequence[str]) -> list[Finding]:
     return found
 
 
-def _own(header: Sequence[str]) -> bool:
-    """Whether the header has a column as recordings of the package do."""
-    return any(cell.partition("[")[0].strip() in UNITS and "[" in cell for cell in header)
+def is_own(header: Sequence[str]) -> bool:
+    """Whether the header is one of a recording of the package, and no other names are beside it."""
+    own = own_groups(header)
+    if not own:
+        return False
+    if "time" not in own and any(named(cell).is_time for cell in header):
+        return False
+    found = triads(header)
+    return not any(surest(found, group)[0] for group in ("gyro", "accel") if group not in own)
+
+
+def own_groups(header: Sequence[str]) -> set[str]:
+    """The groups of which the header has a column as recordings of the package do."""
+    return {GROUP_OF[name] for cell in header if (name := own_name(cell)) is not None}
 
 
 def _triad(names: Sequence[str], group: str, unit: str) -> dict[str, str]:
@@ -195,20 +206,26 @@ FORMATS = (
 
 
 def stated(reader: Reader) -> ForeignMap | None:
-    """The map of a table that states every unit it needs, and leaves no choice; else None."""
+    """The map of a table that states every unit it needs, and leaves no choice; else None.
+
+    Columns named as those of a recording are what they say.
+    """
     names = [named(cell) for cell in reader.header]
     times = [name for name in names if name.is_time and not set(name.words) & TRUTHS]
     if len(times) > 1 or len(set(reader.header)) < len(reader.header):
         return None
-    columns = {}
-    if times:
+    own = own_groups(reader.header)
+    columns = {cell: cell for cell in reader.header if own_name(cell) is not None}
+    if "time" not in own and times:
         if times[0].unit not in ("s", "ms", "us", "ns", "min", "h"):
             return None
         columns[times[0].cell] = f"time [{times[0].unit}]"
-    elif reader.rate is None:
+    elif "time" not in own and reader.rate is None:
         return None
     found = triads(reader.header)
     for group, needed in (("gyro", True), ("accel", True), ("mag", False)):
+        if group in own:
+            continue
         triad, rivals = surest(found, group)
         if triad is None:
             continue
@@ -217,7 +234,7 @@ def stated(reader: Reader) -> ForeignMap | None:
         if triad.unit is not None and not rivals:
             columns |= _triad([name.cell for name in triad.names], group, triad.unit)
     warm = [n for n in names if n.is_temperature and n.unit in WARM and not set(n.words) & DERIVED]
-    if len(warm) == 1:
+    if len(warm) == 1 and "temperature" not in own:
         columns[warm[0].cell] = f"temperature [{warm[0].unit}]"
     if not any(target.startswith(("gyro", "accel")) for target in columns.values()):
         return None

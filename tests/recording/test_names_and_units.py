@@ -6,6 +6,7 @@ import raw_logs
 from test_raw_logs import turned
 
 from pyimu import inspect, read_recording
+from pyimu.errors import UserError
 from pyimu.recording.formats.suffix import open_reader
 from pyimu.recording.guess.names import named
 from pyimu.recording.guess.proposal import proposed
@@ -96,3 +97,44 @@ def test_rows_of_names_and_of_units_in_brackets(tmp_path):
     found = read_recording(raw_logs.text(tmp_path / "log.csv", lines, columns, "\t"))
     np.testing.assert_array_equal(found.accel, forces)
     np.testing.assert_allclose(found.gyro, rates, rtol=1e-14)
+
+
+# Own names beside others
+
+
+def mixed(folder, head, columns):
+    path = written(folder, head, columns, "mixed.csv")
+    found = inspect(path)
+    return path, found, read_recording(path, found.write_map(folder / "map.toml"))
+
+
+@pytest.mark.parametrize(
+    "head, at_once",
+    [
+        ("time [s],{g}_x [dps],{g}_y [dps],{g}_z [dps],acc_x [g],acc_y [g],acc_z [g]", True),
+        ("time_s,{g}_x [dps],{g}_y [dps],{g}_z [dps],accel_x [g],accel_y [g],accel_z [g]", True),
+        ("time,{g}_x [dps],{g}_y [dps],{g}_z [dps],acc_x [g],acc_y [g],acc_z [g]", False),
+        ("time [s],{g}_x [dps],{g}_y [dps],{g}_z [dps],acc_x,acc_y,acc_z", False),
+        ("time[s],gx[deg/s],gy[deg/s],gz[deg/s],ax[g],ay[g],az[g]", False),
+    ],
+)
+def test_own_names_beside_others_are_guessed(head, at_once, tmp_path):
+    time, rates, forces = turned()
+    columns = [time * 1e-9, *np.degrees(rates).T, *(forces / G).T, 21.5 + 0 * rates[:, 0]]
+    path, found, mapped = mixed(tmp_path, head.format(g="gyro") + ",supply [V]", columns)
+    assert not found.problem and found.proposals[0].open_questions == []
+    for recording in [found.recording, mapped, *([read_recording(path)] if at_once else [])]:
+        np.testing.assert_allclose(recording.gyro, rates, rtol=1e-14)
+        np.testing.assert_allclose(recording.accel, forces, rtol=1e-14)
+        assert set(recording.supply) == {21.5}
+
+
+def test_a_map_s_own_misspelling_is_told(tmp_path):
+    time, rates, _ = raw_logs.still(100)
+    path = written(tmp_path, "t,wx,wy,wz", [time, *rates.T])
+    (tmp_path / "m.toml").write_text(
+        '[columns]\n"t" = "time [ns]"\n"wx" = "gyr_x [rad/s]"\n'
+        '"wy" = "gyro_y [rad/s]"\n"wz" = "gyro_z [rad/s]"\n'
+    )
+    with pytest.raises(UserError, match="unknown column 'gyr_x', did you mean gyro_x"):
+        read_recording(path, tmp_path / "m.toml")

@@ -12,8 +12,8 @@ SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 """Units in which clocks count."""
 
 USUAL = (8.0, 8000.0)
-"""Hz; three decades, within which most inertial sensors are sampled: where a clock is off by far, of
-units a factor of 1000 apart one fits."""
+"""Hz; three decades, within which most inertial sensors are sampled: of units a factor of 1000
+apart one fits where a clock is off by far."""
 
 POSSIBLE = (4.0, 10000.0)
 """Hz; a clock that two units bring in here may be in either: 5 Hz in s are 5 kHz in ms."""

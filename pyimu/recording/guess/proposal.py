@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from pyimu.errors import UserError
-from pyimu.recording.columns import GROUP_OF, XYZ
+from pyimu.recording.columns import GROUP_OF, XYZ, own_name
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.guess.endings import fits
 from pyimu.recording.guess.names import (
@@ -114,6 +114,7 @@ def proposed(reader: Reader) -> Proposal:
             _vector(found, group, picked[group], numbers, force, period)
     _temperature(found, reader)
     _reference(found, reader)
+    _own(found, reader)
     return found
 
 
@@ -326,6 +327,16 @@ def _temperature(found: Proposal, reader: Reader) -> None:
         unit = warm[0].unit if warm[0].unit in ("degC", "K") else None
         said = f"the header says {warm[0].said}" if unit else "degC or K?"
         found.add([Guess(warm[0].cell, "temperature", unit, said)])
+
+
+def _own(found: Proposal, reader: Reader) -> None:
+    """Add what is named as a recording's own columns are, of groups that are not there yet."""
+    there = set(found.groups)
+    for cell in reader.header:
+        name = own_name(cell)
+        if name is not None and GROUP_OF[name] not in there:
+            unit = cell.partition("[")[2].rstrip("] ")
+            found.add([Guess(cell, name, unit, "the header says so")])
 
 
 def _reference(found: Proposal, reader: Reader) -> None:
