@@ -138,3 +138,22 @@ def test_a_map_s_own_misspelling_is_told(tmp_path):
     )
     with pytest.raises(UserError, match="unknown column 'gyr_x', did you mean gyro_x"):
         read_recording(path, tmp_path / "m.toml")
+
+
+def test_two_lines_of_comment_name_columns_and_units(tmp_path):
+    time, rates, forces = turned()
+    lines = ["% time gx gy gz ax ay az", "% s rad/s rad/s rad/s m/s2 m/s2 m/s2"]
+    path = raw_logs.text(tmp_path / "l.txt", lines, [time * 1e-9, *rates.T, *forces.T], " ")
+    found = inspect(path)
+    assert not found.problem
+    np.testing.assert_array_equal(found.recording.accel, forces)
+
+
+def test_columns_of_one_name_are_told_apart_in_a_map(tmp_path):
+    """By their numbers: a key stands once in a map."""
+    time, rates, forces = turned()
+    path = written(tmp_path, "t,x,y,z,x,y,z", [time // 1000, *rates.T, *forces.T])
+    found = inspect(path)
+    read = read_recording(path, found.write_map(tmp_path / "map.toml"))
+    np.testing.assert_array_equal(read.gyro, rates)
+    np.testing.assert_array_equal(read.accel, forces)

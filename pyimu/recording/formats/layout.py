@@ -15,6 +15,7 @@ from itertools import islice
 from pathlib import Path
 
 from pyimu.errors import UserError
+from pyimu.recording.columns import UNITS
 from pyimu.recording.formats.lines import is_comment, lines
 from pyimu.recording.spelling import bare, unit_of
 
@@ -208,13 +209,14 @@ def _names_first(rows: Sequence[Sequence[str]], width: int, decimal: str) -> boo
 def _names_above(lines_above: Sequence[str], form: Layout, width: int) -> list[list[str]]:
     """The last line above the numbers, where it has a name for every column.
 
-    It may be a comment, or have another separator than the numbers.
+    Of a row of units the one above it, too. They may be comments, or have another separator than
+    the numbers.
     """
-    for line in lines_above[-1:]:
-        for shape in (form, *(Layout(separator) for separator, _ in FORMS)):
-            cells = shape.cells(line)
-            if len(cells) == width and not any(is_number(c) for c in cells):
-                return [cells]
+    for shape in (form, *(Layout(separator) for separator, _ in FORMS)):
+        rows = [shape.cells(line) for line in lines_above[-2:]]
+        good = [len(row) == width and not any(map(is_number, row)) for row in rows]
+        if good and good[-1]:
+            return rows if all(good) and _are_units([c.strip() for c in rows[-1]]) else rows[-1:]
     return []
 
 
@@ -231,7 +233,17 @@ def _names(rows: Sequence[Sequence[str]], width: int) -> tuple[str, ...]:
             f"{name} [{bare(unit)}]" if unit and "[" not in name else name
             for name, unit in zip(names, units, strict=True)
         ]
-    return tuple(names)
+    return tuple(_apart(name, k, names) for k, name in enumerate(names))
+
+
+def _apart(name: str, at: int, names: Sequence[str]) -> str:
+    """A name that an earlier column has, with its number, so that a column map can call it.
+
+    A recording's own names stay, to be refused.
+    """
+    if name not in names[:at] or name.partition("[")[0].strip() in UNITS:
+        return name
+    return f"{name} column {at + 1}".strip()
 
 
 def _fitted(row: Sequence[str], width: int) -> list[str]:
