@@ -53,7 +53,7 @@ def said(known: Known, columns: Sequence[str]) -> list[Finding]:
     taken = [k for k, cell in enumerate(columns) if cell in known[1].columns]
     for at in others(columns, taken):
         cells = ", ".join(columns[k] for k in at)
-        found.append(Finding("vector_left_out", "", 3, {"columns": cells}))
+        found.append(Finding("vector_left_out", columns[at[0]], 3, {"columns": cells}))
     return found
 
 

@@ -15,6 +15,7 @@ from pyimu.errors import Finding, UserError
 from pyimu.files import exists
 from pyimu.recording.column_map import BODY, ForeignMap, read_map
 from pyimu.recording.columns import GROUPS, column_names
+from pyimu.recording.counter import BITS, NEARLY, Unwrapped
 from pyimu.recording.counts import RawCounts
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.formats.suffix import open_reader
@@ -30,9 +31,6 @@ NORM_TOLERANCE = 1e-2
 
 LEAST_ROWS = 3
 """A recording has at least so many samples."""
-
-COUNTER_BITS = (16, 24, 32)
-"""Widths of the counters of time that wrap."""
 
 COARSE_STAMPS = 0.01
 """Above this share of rows with the time of the row before, the stamps are coarser than the sample
@@ -179,7 +177,7 @@ class Rows:
         Raises UserError with the row for a time that is missing or runs backwards, and for a file
         of fewer than three rows.
         """
-        header, first = self.source.header, True
+        header, first, counter = self.source.header, True, Unwrapped()
         for columns, share in self.source.reader.batches(header.positions, header.time):
             if not len(columns[0]):
                 continue
@@ -188,8 +186,9 @@ class Rows:
                 self.origin = header.origin(columns[header.positions.index(header.time)][0], found)
                 self._tally.add(found)
                 first = False
-            long = columns[header.positions.index(header.time)]
-            self._single = self._single and _is_single(long)
+            at = header.positions.index(header.time)
+            columns = [*columns[:at], counter.add(columns[at]), *columns[at + 1 :]]
+            self._single = self._single and _is_single(columns[at])
             self._raw.add(dict(zip(header.names, columns)))
             time, values = self._ordered(header.convert(columns, self.origin))
             self.kept += len(time)
@@ -200,6 +199,9 @@ class Rows:
                 f"this one has {self.kept}"
             )
         self._tally.add([*self._raw.findings(), *self.source.reader.at_end()])
+        if counter.count:
+            detail = {"bits": counter.bits}
+            self._tally.add([Finding("counter_wrapped", "time", counter.count, detail)])
 
     def _ordered(self, values: Values) -> tuple[np.ndarray, Values]:
         """Time and the other columns at the rows that are the first with their time."""
@@ -236,10 +238,13 @@ class Rows:
 
     def _wrapped(self, step: float) -> str:
         """What to add where the time went back by nearly the whole range of a counter."""
-        for bits in COUNTER_BITS:
+        for bits in BITS:
             span = 2.0**bits * self.source.header.seconds
-            if 0.9 * span < step <= span:
-                return f"; a counter of {bits} bits wraps after {span:.9g} s, unwrap it"
+            if NEARLY * span < step <= span:
+                return (
+                    f"; a counter of {bits} bits wraps after {span:.9g} s, but here more is "
+                    "missing: cut the log there"
+                )
         return ""
 
     def _report_repeats(

@@ -8,6 +8,7 @@ MEANING = {
     "columns_left_out": "no column of a recording has such a name; --columns names those you need",
     "coning": "it turns far between two samples: a higher sample rate would show how",
     "constant_channel": "one value all the time: is the axis dead, or not connected?",
+    "counter_wrapped": "the counter of the times began anew: they run on where it did",
     "counts": "whole numbers alone: are these counts? A column map can give the unit of one",
     "damaged": "the file is damaged; what can be read of it was read",
     "dropouts": "the logger lost messages in these spans",

@@ -157,3 +157,14 @@ def test_columns_of_one_name_are_told_apart_in_a_map(tmp_path):
     read = read_recording(path, found.write_map(tmp_path / "map.toml"))
     np.testing.assert_array_equal(read.gyro, rates)
     np.testing.assert_array_equal(read.accel, forces)
+
+
+@pytest.mark.parametrize("name, unit", [("micros", "us"), ("time_us", "us"), ("t", "us")])
+def test_a_counter_that_wraps_is_a_time(name, unit, tmp_path):
+    time, rates, forces = turned()
+    ticks = (time // 1000 + 2**32 - 7_000_000) % 2**32
+    path = written(tmp_path, f"{name},gx,gy,gz,ax,ay,az", [ticks, *rates.T, *forces.T])
+    found = inspect(path)
+    assert found.proposals[0].units["time"] == unit
+    np.testing.assert_allclose(np.diff(found.recording.time), 0.01, rtol=1e-9)
+    assert "counter_wrapped" in {f.kind for f in found.findings}

@@ -10,6 +10,7 @@ import numpy as np
 
 from pyimu.errors import UserError
 from pyimu.recording.columns import GROUP_OF, XYZ, own_name
+from pyimu.recording.counter import Unwrapped
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.guess.endings import fits
 from pyimu.recording.guess.names import (
@@ -151,7 +152,7 @@ def _time(found: Proposal, reader: Reader, numbers: Numbers) -> float | None:
         at = [k for k in numbers.positions[:2] if _rises(numbers.of([k]))]
     candidates = []
     for k in at:
-        values = numbers.of([k])
+        values = Unwrapped().add(numbers.of([k]))
         if _rises(values):
             candidates.append((k, values, _time_guess(names[k], values)))
     if not candidates:
