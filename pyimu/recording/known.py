@@ -212,14 +212,16 @@ def stated(reader: Reader) -> ForeignMap | None:
     """
     names = [named(cell) for cell in reader.header]
     times = [name for name in names if name.is_time and not set(name.words) & TRUTHS]
+    times = times or [name for name in names if name.cell in reader.clocks]
     if len(times) > 1 or len(set(reader.header)) < len(reader.header):
         return None
     own = own_groups(reader.header)
     columns = {cell: cell for cell in reader.header if own_name(cell) is not None}
     if "time" not in own and times:
-        if times[0].unit not in ("s", "ms", "us", "ns", "min", "h"):
+        unit = "s" if times[0].cell in reader.clocks else times[0].unit
+        if unit not in ("s", "ms", "us", "ns", "min", "h"):
             return None
-        columns[times[0].cell] = f"time [{times[0].unit}]"
+        columns[times[0].cell] = f"time [{unit}]"
     elif "time" not in own and reader.rate is None:
         return None
     found = triads(reader.header)

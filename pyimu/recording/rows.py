@@ -14,12 +14,12 @@ import numpy as np
 from pyimu.errors import Finding, UserError
 from pyimu.files import exists
 from pyimu.recording.column_map import BODY, ForeignMap, read_map
-from pyimu.recording.columns import GROUPS, column_names
+from pyimu.recording.columns import GROUPS, column_names, own_name
 from pyimu.recording.counter import BITS, NEARLY, Unwrapped
 from pyimu.recording.counts import RawCounts
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.formats.suffix import open_reader
-from pyimu.recording.formats.timed import TimedReader
+from pyimu.recording.formats.timed import TIME, TimedReader
 from pyimu.recording.header import Header
 from pyimu.recording.known import merged, recognised, said
 from pyimu.recording.phone import is_phone, of_phone
@@ -78,20 +78,25 @@ class Source:
     def of(cls, reader: Reader, foreign: ForeignMap, wanted: str = "sensor") -> Source:
         """What ``reader`` has opened. Raises UserError as ``open`` does."""
         findings: tuple[Finding, ...] = ()
+        is_known = False
         if not foreign.columns:
             known = recognised(reader)
             if known is not None:
                 foreign = merged(known[1], foreign, foreign.files)
-                findings = tuple(said(known, reader.header))
+                findings, is_known = tuple(said(known, reader.header)), True
         if foreign.body is None and reader.body is not None:
             foreign = replace(foreign, body=BODY[reader.body])
         names = foreign.rename(reader.path, reader.header)
+        for k, (name, cell) in enumerate(zip(names, reader.header, strict=True)):
+            if own_name(name) == "time" and cell in reader.clocks:
+                names[k] = TIME
+                findings = (*findings, Finding("clock_times", "time", 1, {"from": cell}))
         reader = _timed(reader, foreign, names)
         header = Header(
             reader.path,
             [*names, *reader.header[len(names) :]],
             foreign.scale,
-            reader.crowded or bool(findings),
+            reader.crowded or is_known,
             reader.skipped,
             wanted,
             reader.header,

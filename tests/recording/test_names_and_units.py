@@ -168,3 +168,15 @@ def test_a_counter_that_wraps_is_a_time(name, unit, tmp_path):
     assert found.proposals[0].units["time"] == unit
     np.testing.assert_allclose(np.diff(found.recording.time), 0.01, rtol=1e-9)
     assert "counter_wrapped" in {f.kind for f in found.findings}
+
+
+@pytest.mark.parametrize("name", ["Timestamp", "when"])
+def test_a_date_is_proposed_as_the_time(name, tmp_path):
+    _, rates, forces = turned()
+    stamps = np.datetime64("2024-02-01T12:00:00.000") + np.arange(3000) * np.timedelta64(10, "ms")
+    rows = [",".join(map(str, [t, *w, *f])) for t, w, f in zip(stamps, rates, forces, strict=True)]
+    (tmp_path / "l.csv").write_text("\n".join([f"{name},gx,gy,gz,ax,ay,az", *rows]) + "\n")
+    found = inspect(tmp_path / "l.csv")
+    assert found.proposals[0].units == {"time": "s", "gyro": "rad/s", "accel": "m/s^2"}
+    assert found.recording.time[0] == 12 * 3600
+    assert found.recording.sample_rate == pytest.approx(100)

@@ -79,3 +79,43 @@ def test_other_lines_between_rows_are_refused(wrong, tmp_path):
         read(tmp_path, [HEAD, *ROWS[:150], wrong, *ROWS[150:]])
     with pytest.raises(UserError, match=r"row 302: \d cells, expected 4"):
         read(tmp_path, [HEAD, *ROWS, *["a remark"] * 21])
+
+
+# Dates and times of day
+
+START = np.datetime64("2024-02-28T23:59:58.500")
+STEPS = (np.arange(300) * 10).astype("timedelta64[ms]")
+
+
+@pytest.mark.parametrize(
+    "form, separator",
+    [
+        ("{d}T{t}", ","),
+        ("{d} {t}", ","),
+        ("{d}T{t}Z", ","),
+        ("{d}T{t}+02:00", ","),
+        ("{d} {t}-0330", ";"),
+        ("{t}", ","),
+        ("{d} {t}", "\t"),
+        ("{d}T{t}", " "),
+    ],
+)
+@pytest.mark.parametrize("name", ["Timestamp", "time [s]", "time [ms]", "Date (UTC)"])
+def test_dates_and_times_of_day_are_times(form, separator, name, tmp_path):
+    """Over midnight, and over the day that a leap year has more."""
+    stamps = [str(stamp).split("T") for stamp in START + STEPS]
+    cells = [form.format(d=d, t=t) for d, t in stamps]
+    name = name.replace(" ", "") if separator == " " else name
+    head = separator.join([name, *(f"gyro_{a}(deg/s)" for a in "xyz")])
+    rows = [separator.join([cell, "1.5", f"{k % 7}.25", "0"]) for k, cell in enumerate(cells)]
+    found = read(tmp_path, [head, *rows])
+    # 1e5 s in doubles are known to 1.5e-11 s
+    np.testing.assert_allclose(found.time - found.time[0], np.arange(300) * 0.01, atol=6e-11)
+    assert [f.detail for f in of_kind(found, "clock_times")] == [{"from": name}]
+
+
+def test_a_time_of_day_that_is_none_is_missing(tmp_path):
+    rows = [f"12:00:{k / 100:05.2f},0.1,{k % 7},0.3" for k in range(300)]
+    rows[200] = "12:00:xx" + rows[200][11:]
+    with pytest.raises(UserError, match="row 202: the time is missing"):
+        read(tmp_path, [HEAD, *rows])

@@ -16,6 +16,7 @@ from pathlib import Path
 
 from pyimu.errors import UserError
 from pyimu.recording.columns import UNITS
+from pyimu.recording.formats.clock_times import is_clock_time
 from pyimu.recording.formats.lines import is_comment, lines
 from pyimu.recording.spelling import bare, unit_of
 
@@ -52,7 +53,8 @@ class Layout:
     """How a table stands in its file.
 
     ``names`` are of its columns, ``column 1`` and so on where the file has none; ``first`` is the
-    line of the first row of numbers, from 1. ``commented`` says that lines of comment are among the
+    line of the first row of numbers, from 1; the columns at ``clocks`` hold dates or times of day.
+    ``commented`` says that lines of comment are among the
     first ones; ``rate`` [Hz] is what one says. ``unusual`` says what a spreadsheet's file would not
     have.
     """
@@ -64,6 +66,7 @@ class Layout:
     commented: bool = False
     rate: float | None = None
     named: bool = True
+    clocks: tuple[int, ...] = ()
 
     @property
     def unusual(self) -> str:
@@ -137,7 +140,15 @@ def told_from(head: Sequence[str]) -> Layout:
         bool(notes),
         rate,
         bool(names),
+        _clocks([c for _, c in cells[start:]], width),
     )
+
+
+def _clocks(rows: Sequence[Sequence[str]], width: int) -> tuple[int, ...]:
+    """Positions of the columns of dates or times of day."""
+    whole = [row for row in rows if len(row) == width]
+    columns = [[row[k] for row in whole if row[k].strip() not in MISSING] for k in range(width)]
+    return tuple(k for k, cells in enumerate(columns) if cells and all(map(is_clock_time, cells)))
 
 
 def is_number(cell: str, decimal: str = ".") -> bool:

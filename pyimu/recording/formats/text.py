@@ -15,6 +15,7 @@ import pyarrow as pa
 from pyarrow import csv as pacsv
 
 from pyimu.errors import Finding, UserError
+from pyimu.recording.formats.clock_times import ClockTimes
 from pyimu.recording.formats.layout import HEAD, MISSING, UNCLOSED, Layout, is_number, layout_of
 from pyimu.recording.formats.lines import Body, is_comment, is_gzip, lines, opened
 from pyimu.recording.formats.reader import Columns, Reader
@@ -65,6 +66,10 @@ class CsvReader(Reader):
         """Hz; what a comment says."""
         return self.layout.rate
 
+    @property
+    def clocks(self) -> tuple[str, ...]:  # type: ignore[override]
+        return tuple(self.header[k] for k in self.layout.clocks)
+
     def batches(self, positions: Sequence[int], long: int) -> Iterator[tuple[Columns, float]]:
         """``long`` is int64 where its numbers need it.
 
@@ -74,12 +79,19 @@ class CsvReader(Reader):
         if self._first_row() is None:
             return
         done, first = 0, self.layout.first
+        clocks = {k: ClockTimes() for k, p in enumerate(positions) if p in self.layout.clocks}
         for cleaned in (self.layout.separator == " " or self.layout.commented, True):
             try:
                 for batch, share in self._parsed(positions, long, first, cleaned):
                     self._judge(positions, done)
                     done += batch.num_rows
-                    yield [to_numpy(column) for column in batch.columns], share
+                    yield (
+                        [
+                            clocks[k].add(column) if k in clocks else to_numpy(column)
+                            for k, column in enumerate(batch.columns)
+                        ],
+                        share,
+                    )
                 self._judge(positions, done)
                 # What reading took beside the numbers would be held for the next file.
                 pa.default_memory_pool().release_unused()
@@ -101,6 +113,7 @@ class CsvReader(Reader):
         kinds = {name: pa.float64() for name in kept} | (
             {names[long]: pa.int64()} if self._is_long(long) else {}
         )
+        kinds |= {names[position]: pa.string() for position in self.layout.clocks}
         with self._stream(first, cleaned) as (stream, skip, share):
             for batch in pacsv.open_csv(
                 stream,
@@ -163,7 +176,8 @@ class CsvReader(Reader):
         return [
             k
             for k in range(len(self.header))
-            if all(is_number(row[k], self.layout.decimal) for row in rows)
+            if k in self.layout.clocks
+            or all(is_number(row[k], self.layout.decimal) for row in rows)
             and any(row[k].strip() not in MISSING for row in rows)
         ]
 
@@ -215,6 +229,8 @@ class CsvReader(Reader):
                     f"in {'the header' if self.layout.named else 'the others'}"
                 )
             for position in positions:
+                if position in self.layout.clocks:
+                    continue
                 if not is_number(cells[position], self.layout.decimal):
                     place = f"{self.path}: row {row}, column {self.header[position]}"
                     raise UserError(f"{place}: '{cells[position]}' is not a number")

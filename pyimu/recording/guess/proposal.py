@@ -35,6 +35,9 @@ from pyimu.recording.guess.numbers import (
 MOST = 200_000
 """Rows that are looked at."""
 
+CLOCK = UnitGuess("s", "dates or times of day, in seconds of the first day")
+"""Of a column of them."""
+
 CHOICES = {"time": ("s", "ms", "us", "ns"), "gyro": ("rad/s", "deg/s"), "mag": ("uT", "gauss")} | {
     "accel": ("m/s^2", "g"),
     "temperature": ("degC", "K"),
@@ -147,14 +150,17 @@ Picked = list[tuple[int, Name]] | None
 def _time(found: Proposal, reader: Reader, numbers: Numbers) -> float | None:
     """Add the time; gives the sample period [s] where it is known."""
     names = [named(cell) for cell in reader.header]
+    clocks = {k for k, cell in enumerate(reader.header) if cell in reader.clocks}
     at = [k for k in numbers.positions if names[k].is_time and not set(names[k].words) & TRUTHS]
+    at = at or sorted(clocks)
     if not at:
         at = [k for k in numbers.positions[:2] if _rises(numbers.of([k]))]
     candidates = []
     for k in at:
         values = Unwrapped().add(numbers.of([k]))
         if _rises(values):
-            candidates.append((k, values, _time_guess(names[k], values)))
+            guess = CLOCK if k in clocks else _time_guess(names[k], values)
+            candidates.append((k, values, guess))
     if not candidates:
         found.rate = reader.rate
         return None if reader.rate is None else 1 / reader.rate
