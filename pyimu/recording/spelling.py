@@ -72,7 +72,8 @@ def unit_of(text: str) -> str | None:
     for spelling in tried:
         if spelling:
             try:
-                return units.parse(spelling).text
+                unit = units.parse(spelling)
+                return unit.plain if unit.plain == "degC" else unit.text
             except units.UnitError:
                 continue
     return None

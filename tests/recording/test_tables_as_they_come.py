@@ -1,5 +1,6 @@
 """Tables in text as loggers, phones and spreadsheets leave them: cut, remarked, in other codes."""
 
+import gzip
 import re
 
 import numpy as np
@@ -119,3 +120,50 @@ def test_a_time_of_day_that_is_none_is_missing(tmp_path):
     rows[200] = "12:00:xx" + rows[200][11:]
     with pytest.raises(UserError, match="row 202: the time is missing"):
         read(tmp_path, [HEAD, *rows])
+
+
+# Codes of the letters, and commas in numbers
+
+
+@pytest.mark.parametrize("name", ["log.csv", "log.csv.gz"])
+@pytest.mark.parametrize(
+    "code, said",
+    [
+        ("utf-8", ""),
+        ("utf-8-sig", ""),
+        ("latin-1", ", text in Windows-1252"),
+        ("utf-16", ", text in UTF-16"),
+        ("utf-16-be", ", text in UTF-16"),
+    ],
+)
+def test_letters_in_other_codes(code, said, name, tmp_path):
+    head = "Time [s];Gyro X (°/s);Gyro Y (°/s);Gyro Z (°/s);Temp. (°C)"
+    rows = [";".join(c.replace(".", ",") for c in [*row.split(","), "21.5"]) for row in ROWS]
+    text = ("\ufeff" if code == "utf-16-be" else "") + "\r\n".join([head, *rows]) + "\r\n"
+    data = text.encode(code)
+    (tmp_path / name).write_bytes(gzip.compress(data) if name.endswith("gz") else data)
+    found = read_recording(tmp_path / name)
+    gyro = np.array([row.split(",")[1:] for row in ROWS], dtype=float)
+    np.testing.assert_allclose(np.degrees(found.gyro), gyro, rtol=1e-14)
+    assert set(found.temperature) == {21.5}
+    (layout,) = of_kind(found, "layout")
+    assert layout.detail["read_as"] == "columns separated by semicolons, decimal commas" + said
+
+
+def test_utf16_that_is_cut_within_a_letter(tmp_path):
+    text = "\n".join([HEAD, *ROWS, "3.00,0.1"]).encode("utf-16")[:-1]
+    (tmp_path / "log.csv").write_bytes(text)
+    assert len(read_recording(tmp_path / "log.csv")) == 300
+    (tmp_path / "log.csv").write_bytes(b"\xff\xfe" + b"\x00\xd8" * 300)
+    with pytest.raises(UserError, match="is not text in UTF-16"):
+        read_recording(tmp_path / "log.csv")
+
+
+@pytest.mark.parametrize("ints", [False, True])
+def test_decimal_commas_in_quotation_marks(ints, tmp_path):
+    """As spreadsheets and pandas write them between commas; whole numbers may stand without."""
+    cells = [[c.replace(".", ",") for c in row.split(",")] for row in ROWS]
+    rows = [",".join(f'"{c}"' for c in row) + (",7" if ints else "") for row in cells]
+    found = read(tmp_path, [HEAD + (",supply [V]" if ints else ""), *rows])
+    np.testing.assert_array_equal(found.gyro, read(tmp_path, [HEAD, *ROWS]).gyro)
+    assert found.sample_rate == pytest.approx(100)

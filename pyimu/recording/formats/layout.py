@@ -10,14 +10,14 @@ import csv
 import re
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice
 from pathlib import Path
 
 from pyimu.errors import UserError
 from pyimu.recording.columns import UNITS
 from pyimu.recording.formats.clock_times import is_clock_time
-from pyimu.recording.formats.lines import is_comment, lines
+from pyimu.recording.formats.lines import UTF_8, code_of, is_comment, lines
 from pyimu.recording.spelling import bare, unit_of
 
 MISSING = (
@@ -32,7 +32,8 @@ HEAD = 120
 FORMS = ((",", "."), (";", "."), ("\t", "."), ("|", "."), (" ", "."))
 """Separators and decimal marks, the likelier first; a blank stands for any run of blanks."""
 
-COMMAS = ((";", ","), ("\t", ","), ("|", ","), (" ", ","))
+COMMAS = ((";", ","), ("\t", ","), ("|", ","), (" ", ","), (",", ","))
+"""The same with decimal commas; between commas such numbers stand in quotation marks."""
 
 OPEN = "unexpected end of data"
 """What the standard library's reader says of a line that ends within quotation marks."""
@@ -67,6 +68,7 @@ class Layout:
     rate: float | None = None
     named: bool = True
     clocks: tuple[int, ...] = ()
+    code: str = UTF_8
 
     @property
     def unusual(self) -> str:
@@ -74,6 +76,7 @@ class Layout:
         said = [
             f"columns separated by {separators[self.separator]}" if self.separator != "," else "",
             "decimal commas" if self.decimal == "," else "",
+            f"text in {self.code}" if self.code != UTF_8 else "",
             "" if self.named else "no names of columns",
             f"the numbers begin in row {self.first}" if self.first > 2 else "",
         ]
@@ -105,7 +108,7 @@ def layout_of(path: Path) -> Layout:
     Raises UserError for what is no text, and for names of which a quotation mark is left open.
     """
     head = list(islice(lines(path), HEAD))
-    found = told_from(head)
+    found = replace(told_from(head), code=code_of(path))
     for row, line in enumerate(head[: found.first - 1], 1):
         line = line.rstrip("\r\n")
         if not is_comment(line) and len(found.cells(line)) > 1 and found.is_open(line):

@@ -17,7 +17,7 @@ from pyarrow import csv as pacsv
 from pyimu.errors import Finding, UserError
 from pyimu.recording.formats.clock_times import ClockTimes
 from pyimu.recording.formats.layout import HEAD, MISSING, UNCLOSED, Layout, is_number, layout_of
-from pyimu.recording.formats.lines import Body, is_comment, is_gzip, lines, opened
+from pyimu.recording.formats.lines import UTF_16, Body, is_comment, is_gzip, lines, opened
 from pyimu.recording.formats.reader import Columns, Reader
 
 LAST = 20
@@ -80,7 +80,8 @@ class CsvReader(Reader):
             return
         done, first = 0, self.layout.first
         clocks = {k: ClockTimes() for k, p in enumerate(positions) if p in self.layout.clocks}
-        for cleaned in (self.layout.separator == " " or self.layout.commented, True):
+        plain = self.layout.separator != " " and self.layout.code != UTF_16
+        for cleaned in (self.layout.commented or not plain, True):
             try:
                 for batch, share in self._parsed(positions, long, first, cleaned):
                     self._judge(positions, done)
