@@ -28,6 +28,8 @@ def written(folder, header, columns, name="log.csv"):
         ("rate_x,rate_y,rate_z", "acc_x,acc_y,acc_z", False, False),
         ("ang_vel_x,ang_vel_y,ang_vel_z", "lin_acc_x,lin_acc_y,lin_acc_z", False, False),
         *[(",".join(f"angular_velocity_{a}" for a in "xyz"), "f_x,f_y,f_z", False, False)],
+        ("wx,wy,wz", "gFx,gFy,gFz", False, True),
+        ("gyro_x,gyro_y,gyro_z", "gForce_x,gForce_y,gForce_z", False, True),
         ("spin_x,spin_y,spin_z", "acc_x,acc_y,acc_z", True, False),
         ("gyr_x,gyr_y,gyr_z", "push_x,push_y,push_z", True, True),
     ],
@@ -97,6 +99,43 @@ def test_rows_of_names_and_of_units_in_brackets(tmp_path):
     found = read_recording(raw_logs.text(tmp_path / "log.csv", lines, columns, "\t"))
     np.testing.assert_array_equal(found.accel, forces)
     np.testing.assert_allclose(found.gyro, rates, rtol=1e-14)
+
+
+@pytest.mark.parametrize("file", ["Gyroskop.csv", "1.csv"])
+def test_a_vector_without_a_name_is_told_by_its_unit(file, tmp_path):
+    time, rates, _ = turned()
+    path = written(
+        tmp_path, "Time (s),X (rad/s),Y (rad/s),Z (rad/s)", [time * 1e-9, *rates.T], file
+    )
+    np.testing.assert_array_equal(inspect(path).recording.gyro, rates)
+
+
+def test_xsens_with_its_magnetometer_and_angles(tmp_path):
+    time, rates, forces = raw_logs.still(300)
+    names = ["PacketCounter", "SampleTimeFine", *(f"Acc_{a}" for a in "XYZ")]
+    names += [*(f"Gyr_{a}" for a in "XYZ"), *(f"Mag_{a}" for a in "XYZ"), "Roll", "Pitch", "Yaw"]
+    more = np.tile([0.1, 0.2, 0.3, 1, 2, 3], (300, 1))
+    columns = [np.arange(300), time // 10**5, *forces.T, *rates.T, *more.T]
+    path = raw_logs.text(
+        tmp_path / "mt.txt", ["// Update Rate: 100.0Hz", "\t".join(names)], columns, "\t"
+    )
+    np.testing.assert_array_equal(read_recording(path).gyro, rates)
+    found = inspect(path)
+    assert (found.problem, found.kind) == ("", "known") and len(found.recording) == 300
+    read_recording(path, found.write_map(tmp_path / "map.toml"))
+
+
+def test_movella_dot_behind_its_lines_of_tags(tmp_path):
+    time, rates, forces = raw_logs.still(300)
+    head = ["DeviceTag:,foo", "FirmwareVersion:,1.0", "OutputRate:,100Hz", ""]
+    names = ["PacketCounter", "SampleTimeFine", *(f"Euler_{a}" for a in "XYZ")]
+    names += [*(f"Acc_{a}" for a in "XYZ"), *(f"Gyr_{a}" for a in "XYZ")]
+    columns = [np.arange(300), time // 1000, *np.zeros((3, 300)), *forces.T, *rates.T]
+    for lines in (head, ["sep=,"]):
+        path = raw_logs.text(tmp_path / "dot.csv", [*lines, ",".join(names)], columns)
+        found = read_recording(path)
+        np.testing.assert_allclose(np.degrees(found.gyro), rates, rtol=1e-14)
+        assert found.findings[1].detail == {"as": "Xsens, by its manuals"}
 
 
 # Own names beside others

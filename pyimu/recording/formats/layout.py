@@ -43,6 +43,9 @@ UNCLOSED = "a quotation mark is not closed, so that the cells behind it are one"
 MOST_NAMES = 3
 """Rows of names and units, at most."""
 
+_SEPARATOR = re.compile(r'"?sep=.?"?[,;\t]*', re.I)
+"""The first line of a table for a spreadsheet, which says what separates its cells."""
+
 _RATE = re.compile(
     r"\b(?:update|sampl\w*|output|data)\s*(?:data\s*)?(?:rate|freq\w*)\W{1,4}([\d.]+)\s*(k?)Hz",
     re.I,
@@ -119,6 +122,7 @@ def layout_of(path: Path) -> Layout:
 def told_from(head: Sequence[str]) -> Layout:
     """The layout of a table with the first lines ``head``."""
     numbered = [(k, line.rstrip("\r\n")) for k, line in enumerate(head, 1) if line.strip()]
+    numbered = numbered[bool(numbered and _SEPARATOR.fullmatch(numbered[0][1])) :]
     notes = [line for _, line in numbered if is_comment(line)]
     rows = [(k, line) for k, line in numbered if not is_comment(line)]
     form = _form([line for _, line in rows])
@@ -129,7 +133,7 @@ def told_from(head: Sequence[str]) -> Layout:
     width = _width([c for _, c in cells])
     start = _start([c for _, c in cells], width, form.decimal)
     first = cells[start][0] if start < len(cells) else rows[-1][0] + 1
-    named = [c for _, c in cells[:start] if len(c) > 1][-MOST_NAMES:]
+    named = [c for _, c in cells[:start] if len(c) > 1 and 2 * len(c) > width][-MOST_NAMES:]
     if not named:
         above = [re.sub(r'^("?#|//|%)+\s*', "", line) for k, line in numbered if k < first]
         named = _names_above(above, form, width)

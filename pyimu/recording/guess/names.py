@@ -11,7 +11,7 @@ from pyimu.recording.spelling import unit_of
 
 STRONG = {
     "gyro": {"gyr", "gyro", "gyros", "gyroscope", "omega", "angvel"},
-    "accel": {"acc", "accel", "accelerometer", "acceleration"},
+    "accel": {"acc", "accel", "accelerometer", "acceleration", "gforce"},
     "mag": {"mag", "magn", "magnetometer", "magnetic"},
 }
 """Words that say what a vector is."""
@@ -109,6 +109,7 @@ def named(cell: str) -> Name:
     if unit is None and not said and words and words[-1] in TICKS:
         unit = TICKS[words[-1]]
     axis, words = _axis(words)
+    words = ["gforce"] if words in (["g", "f"], ["g", "force"]) else words
     return Name(cell, tuple(words), axis, unit, said or (unit or ""))
 
 
@@ -160,7 +161,8 @@ class Triad:
 def triads(header: Sequence[str], file: str = "") -> list[Triad]:
     """The vectors in a header, those that are the surest first.
 
-    Of columns that are called by their axis alone the name of the ``file`` says what they are.
+    Of columns that are called by their axis alone the name of the ``file`` says what they are, or
+    else their unit.
     """
     stems: dict[tuple[str, ...], dict[str, int]] = {}
     names = [named(cell) for cell in header]
@@ -176,12 +178,18 @@ def triads(header: Sequence[str], file: str = "") -> list[Triad]:
             continue
         at = tuple(axes[axis] for axis in "xyz")
         three = tuple(names[k] for k in at)
+        unknown = stem in ((), hint) and not any(three[0].of(group) for group in STRONG)
         for group in STRONG:
-            score = 2 * three[0].of(group)
+            score = 2 * (_by_unit(three, group) if unknown else three[0].of(group))
             if score:
                 score += bool(set(stem) & RAW) - 3 * bool(set(stem) & (DERIVED | TRUTHS))
                 found.append(Triad(group, three, at, score))  # type: ignore[arg-type]
     return sorted(found, key=lambda triad: -triad.score)
+
+
+def _by_unit(three: Sequence[Name], group: str) -> int:
+    """How surely three columns are of ``group`` whose unit alone tells: 0 or 1."""
+    return int(all(name.unit is not None and fits(name.unit, group) for name in three))
 
 
 def _with_rolls(names: Sequence[Name]) -> list[Name]:

@@ -111,7 +111,8 @@ def proposed(reader: Reader) -> Proposal:
         picked = _by_numbers(found, reader, numbers, period) | {"mag": picked["mag"]}
     for group in ("accel", "gyro"):
         if picked[group] is None:
-            picked[group] = _missing(found, group, reader, numbers, picked, period)
+            named_ones = [p for vector in vectors for p in vector.positions]
+            picked[group] = _missing(found, group, reader, numbers, picked, period, named_ones)
     force = None if picked["accel"] is None else numbers.of([p for p, _ in picked["accel"]])
     for group in ("gyro", "accel", "mag"):
         if picked[group] is not None:
@@ -250,6 +251,7 @@ def _missing(
     numbers: Numbers,
     picked: dict[str, Picked],
     period: float | None,
+    named_ones: Sequence[int],
 ) -> Picked:
     """The vector of ``group`` that no name tells, beside the others, where its numbers tell it.
 
@@ -258,7 +260,7 @@ def _missing(
     force = None if picked["accel"] is None else numbers.of([p for p, _ in picked["accel"]])
     taken = [p for known in picked.values() if known is not None for p, _ in known]
     names = [named(cell) for cell in reader.header]
-    for at in others(reader.header, taken):
+    for at in others(reader.header, [*taken, *named_ones]):
         if not set(at) <= set(numbers.positions):
             continue
         values = numbers.of(at)
