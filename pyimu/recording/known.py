@@ -248,4 +248,4 @@ def merged(
 ) -> ForeignMap:
     """The ``given`` map with the columns that are ``known``, and the further ``files``."""
     scale = {**known.scale, **given.scale}
-    return replace(given, columns=known.columns, scale=scale, files=files)
+    return replace(given, columns=known.columns, scale=scale, files=files, notes=known.notes)

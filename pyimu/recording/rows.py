@@ -101,7 +101,7 @@ class Source:
             wanted,
             reader.header,
         )
-        header.findings = [*findings, *header.findings]
+        header.findings = [*findings, *foreign.notes, *header.findings]
         return cls(reader, header, foreign, _companions(reader.path, foreign, header))
 
 

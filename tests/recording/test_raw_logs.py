@@ -138,6 +138,20 @@ def test_inspect_of_several_files_writes_their_map(pyimu, tmp_path):
     np.testing.assert_array_equal(found.accel, read_recording(where).accel)
 
 
+def test_a_phone_s_forces_without_gravity_are_left_out(tmp_path):
+    where = raw_logs.phone(tmp_path, raw_logs.still(300))
+    (where / "TotalAcceleration.csv").rename(where / "Accelerometer.csv")
+    found = read_recording(where)
+    (said,) = (f for f in found.findings if f.kind == "no_gravity")
+    assert found.accel is None and said.detail == {"file": "Accelerometer.csv"}
+
+
+def test_a_folder_of_a_gyro_that_no_program_wrote(tmp_path):
+    (tmp_path / "Gyroscope.csv").write_text("a,b,c,d\n1,2,3,4\n2,3,4,5\n")
+    with pytest.raises(UserError, match="neither Sensor Logger's .* nor phyphox's"):
+        read_recording(tmp_path)
+
+
 # Further files
 
 

@@ -81,6 +81,19 @@ def iphone(folder, log):
     return where
 
 
+def phyphox(folder, log):
+    """phyphox: a table a sensor, the accelerometer 2 ms late; one without g beside it."""
+    time, gyro, accel = log
+    where = folder / "phyphox"
+    where.mkdir()
+    forces = (("Accelerometer", accel), ("Linear Accelerometer", 0 * accel))
+    sensors = (("Gyroscope", gyro, 0, "rad/s"), *((n, v, 2_000_000, "m/s^2") for n, v in forces))
+    for name, values, late, unit in sensors:
+        head = ",".join(f'"{cell}"' for cell in ["Time (s)", *(f"{a} ({unit})" for a in "XYZ")])
+        text(where / f"{name}.csv", [head], [(time + late) * 1e-9, *values.T])
+    return where
+
+
 def xsens(folder, log):
     time, gyro, accel = log
     head = ["// Start Time: Unknown", "// Update Rate: 100.0Hz", "// Firmware Version: 4.3"]
@@ -233,7 +246,7 @@ def apart(folder, log):
 
 
 ALONE = (
-    *(euroc, tum, phone, iphone, xsens, repoimu, broad, broad_hdf5, ulog, dataflash),
+    *(euroc, tum, phone, iphone, phyphox, xsens, repoimu, broad, broad_hdf5, ulog, dataflash),
     *(dataflash_text, german, xio),
 )
 """Layouts that are read as they are."""
