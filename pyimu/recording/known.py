@@ -8,7 +8,7 @@ second sort.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from pyimu.errors import Finding
@@ -51,10 +51,23 @@ def said(known: Known, columns: Sequence[str]) -> list[Finding]:
     if known[0] != STATED or {"gyro", "accel"} <= groups:
         return found
     taken = [k for k, cell in enumerate(columns) if cell in known[1].columns]
-    for at in others(columns, taken):
-        cells = ", ".join(columns[k] for k in at)
-        found.append(Finding("vector_left_out", columns[at[0]], 3, {"columns": cells}))
-    return found
+    return found + [_left_out(columns, at) for at in others(columns, taken)]
+
+
+def left_out(columns: Sequence[str], taken: Iterable[int], groups: Iterable[str]) -> list[Finding]:
+    """The gyro or accelerometer that the names of ``columns`` tell, and that was not ``taken``.
+
+    ``groups`` are those that the log holds. A map with a unit that nobody chose has no line for it.
+    """
+    away, there = set(taken), set(groups)
+    found = triads(columns)
+    sure = (surest(found, group)[0] for group in ("gyro", "accel") if group not in there)
+    return [_left_out(columns, t.positions) for t in sure if t and not set(t.positions) & away]
+
+
+def _left_out(columns: Sequence[str], at: Sequence[int]) -> Finding:
+    cells = ", ".join(columns[k] for k in at)
+    return Finding("vector_left_out", columns[at[0]], 3, {"columns": cells})
 
 
 def is_own(header: Sequence[str]) -> bool:

@@ -21,7 +21,7 @@ from pyimu.recording.formats.reader import Reader
 from pyimu.recording.formats.suffix import open_reader
 from pyimu.recording.formats.timed import TIME, TimedReader
 from pyimu.recording.header import Header
-from pyimu.recording.known import merged, recognised, said
+from pyimu.recording.known import left_out, merged, recognised, said
 from pyimu.recording.phone import is_phone, of_phone
 from pyimu.recording.quality.tally import Tally
 from pyimu.recording.waking import Waking
@@ -102,7 +102,11 @@ class Source:
             reader.header,
         )
         header.findings = [*findings, *foreign.notes, *header.findings]
-        return cls(reader, header, foreign, _companions(reader.path, foreign, header))
+        companions = _companions(reader.path, foreign, header)
+        if wanted == "sensor" and not is_known:
+            groups = [g for source in companions for g in source.header.groups]
+            header.findings += left_out(reader.header, header.positions, [*header.groups, *groups])
+        return cls(reader, header, foreign, companions)
 
 
 def _timed(reader: Reader, foreign: ForeignMap, names: list[str]) -> Reader:

@@ -69,7 +69,7 @@ MEANING = {
     "unknown_truth": "no sample was made here: the truth is not known",
     "unused_column": "no column of a recording has this name; --columns names it if you need it",
     "unused_topic": "a topic that was not read; a column map can name it",
-    "vector_left_out": "gyro or accelerometer? No word says so; --columns names it if you need it",
+    "vector_left_out": "these may be gyro or accelerometer; --columns names them if you need them",
     "velocity_fixes": "velocities that contradict gyro and accelerometer were weighed down",
     "vibration": "gyro and accelerometer shake together: a motor; it is motion, no error of theirs",
     "warm_up": "the output settles after the start; what it settles by was taken out",

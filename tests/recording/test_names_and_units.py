@@ -1,5 +1,7 @@
 """Columns of foreign logs by their names: each vector is found or told of, in no wrong unit."""
 
+import re
+
 import numpy as np
 import pytest
 import raw_logs
@@ -219,3 +221,19 @@ def test_a_date_is_proposed_as_the_time(name, tmp_path):
     assert found.proposals[0].units == {"time": "s", "gyro": "rad/s", "accel": "m/s^2"}
     assert found.recording.time[0] == 12 * 3600
     assert found.recording.sample_rate == pytest.approx(100)
+
+
+def test_a_map_whose_gyro_nobody_chose_a_unit_for_says_so(pyimu, tmp_path):
+    """At rest nothing tells rad/s from deg/s: the map has a # before both."""
+    time, rates, forces = raw_logs.still(400)
+    written(tmp_path, "t,gx,gy,gz,ax,ay,az", [time * 1e-9, *rates.T, *(forces / G).T], "bare.csv")
+    code, _, _ = pyimu("inspect", "bare.csv", "--write-map", "bare.toml")
+    found = read_recording(tmp_path / "bare.csv", tmp_path / "bare.toml")
+    (said,) = (f for f in found.findings if f.kind == "vector_left_out")
+    assert code == 0 and said.detail == {"columns": "gx, gy, gz"}
+    text = (tmp_path / "bare.toml").read_text()
+    text = re.sub(r'(?m)^# ("g." = "gyro_. \[rad)', r"\1", text)
+    (tmp_path / "bare.toml").write_text(text)
+    found = read_recording(tmp_path / "bare.csv", tmp_path / "bare.toml")
+    assert found.gyro is not None
+    assert "vector_left_out" not in {f.kind for f in found.findings}
