@@ -223,6 +223,18 @@ def xio(folder, log):
     return text(folder / "sensor_data.csv", [",".join(names)], columns)
 
 
+def dated(folder, log):
+    """Dates with times, cut off in its last line."""
+    time, gyro, accel = log
+    names = [f"{kind} {a} ({u})" for kind, u in (("Gyro", "rad/s"), ("Acc", "m/s^2")) for a in AXES]
+    stamps = np.datetime64("2024-02-29T00:00:00.000000000") + time
+    rows = zip(stamps, gyro, accel, strict=True)
+    lines = [",".join(map(str, [t, *w.tolist(), *f.tolist()])) for t, w, f in rows]
+    text = "\n".join([",".join(["Date", *names]), *lines, lines[-1][:60]])
+    (folder / "dated.csv").write_text(text)
+    return folder / "dated.csv"
+
+
 def headerless(folder, log):
     """Blanks, nothing but numbers; a map has to say the rest."""
     _, gyro, accel = log
@@ -247,7 +259,7 @@ def apart(folder, log):
 
 ALONE = (
     *(euroc, tum, phone, iphone, phyphox, xsens, repoimu, broad, broad_hdf5, ulog, dataflash),
-    *(dataflash_text, german, xio),
+    *(dataflash_text, german, xio, dated),
 )
 """Layouts that are read as they are."""
 
