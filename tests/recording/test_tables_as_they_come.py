@@ -46,6 +46,18 @@ def test_what_is_whole_of_a_cut_log_is_read(last, end, tmp_path):
     assert not of_kind(read(tmp_path, [HEAD, *ROWS], end=""), "end_left_out")
 
 
+def test_a_long_log_with_comments_and_a_cut_end(tmp_path):
+    """Of some blocks of 1 MiB; the remark is in another code."""
+    rows = [f"{0.01 * k:.2f},0.1,{0.001 * (k % 7):.3f},0.3" for k in range(200_000)]
+    lines = [HEAD, *rows[:150_000], "# " + HEAD, *rows[150_000:], "L\xe4nge 1", "\x83\xff"]
+    (tmp_path / "log.csv").write_bytes("\n".join(lines).encode("latin-1"))
+    found = read_recording(tmp_path / "log.csv")
+    np.testing.assert_allclose(found.time, 0.01 * np.arange(200_000), atol=1e-11)
+    (tmp_path / "log.csv").write_bytes("\n".join(lines[:-1]).encode("latin-1"))
+    (said,) = of_kind(read_recording(tmp_path / "log.csv"), "end_left_out")
+    assert said.detail == {"row": 200_003}
+
+
 def test_a_cut_log_is_read_in_pieces_and_with_a_rate(tmp_path):
     path = tmp_path / "log.csv"
     path.write_text("\n".join([HEAD, *ROWS, "3.00,0.1"]))

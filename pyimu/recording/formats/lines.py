@@ -145,14 +145,15 @@ class Recoded(io.RawIOBase):
 
 
 class Body(io.RawIOBase):
-    """The bytes of a table from its line ``first`` (from 1) on, lines of comment left out.
+    """The bytes of a table from its line ``first`` (from 1) to before ``stop``.
 
-    Where ``blanks`` separate the columns, a run of them becomes one. Lines longer than ``LONGEST``
-    end it, for the reader behind to complain.
+    Lines of comment are left out. Where ``blanks`` separate the columns, a run of them becomes one.
+    Lines longer than ``LONGEST`` end it, for the reader behind to complain.
     """
 
-    def __init__(self, stream: BinaryIO, first: int, blanks: bool) -> None:
+    def __init__(self, stream: BinaryIO, first: int, stop: int | None, blanks: bool) -> None:
         self._stream, self._blanks = stream, blanks
+        self._left = None if stop is None else stop - first
         self._rest = memoryview(b"")
         for _ in range(first - 1):
             stream.readline(LONGEST)
@@ -162,14 +163,24 @@ class Body(io.RawIOBase):
 
     def readinto(self, buffer) -> int:  # type: ignore[no-untyped-def]
         while not self._rest:
-            block = self._stream.read(BLOCK)
+            block = b"" if self._left == 0 else self._stream.read(BLOCK)
             if not block:
                 return 0
             block += self._stream.readline(LONGEST)
-            self._rest = memoryview(self._cleaned(block))
+            self._rest = memoryview(self._cleaned(self._before_stop(block)))
         piece, self._rest = self._rest[: len(buffer)], self._rest[len(buffer) :]
         buffer[: len(piece)] = piece
         return len(piece)
+
+    def _before_stop(self, block: bytes) -> bytes:
+        """The lines of a block that are before the last one."""
+        if self._left is None:
+            return block
+        count = block.count(b"\n")
+        if count >= self._left:
+            block = b"\n".join(block.split(b"\n", self._left)[: self._left]) + b"\n"
+        self._left = max(self._left - count, 0)
+        return block
 
     def _cleaned(self, block: bytes) -> bytes:
         commented = block.startswith(_MARKS) or any(b"\n" + mark in block for mark in _MARKS)

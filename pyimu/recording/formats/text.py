@@ -25,17 +25,6 @@ LAST = 20
 of them the table is not what it was taken for."""
 
 
-class OddRows:
-    """Takes the rows that have too many or too few cells from pyarrow, and remembers that."""
-
-    def __init__(self) -> None:
-        self.seen = False
-
-    def __call__(self, row: Any) -> str:
-        self.seen = self.seen or not (is_comment(row.text) or not row.text.strip())
-        return "skip"
-
-
 @dataclass(frozen=True)
 class CsvReader(Reader):
     """A table in text, plain or gzipped, as ``layout`` says; ``header`` are its columns' names.
@@ -47,7 +36,6 @@ class CsvReader(Reader):
     path: Path
     header: list[str]
     layout: Layout = field(default_factory=Layout)
-    _odd: OddRows = field(default_factory=OddRows, compare=False, repr=False)
     _ended: list[Finding] = field(default_factory=list, compare=False, repr=False)
 
     @classmethod
@@ -78,50 +66,51 @@ class CsvReader(Reader):
         """
         if self._first_row() is None:
             return
-        done, first = 0, self.layout.first
         clocks = {k: ClockTimes() for k, p in enumerate(positions) if p in self.layout.clocks}
-        plain = self.layout.separator != " " and self.layout.code != UTF_16
-        for cleaned in (self.layout.commented or not plain, True):
+        for batch, share in self._whole(positions, long):
+            columns = enumerate(batch.columns)
+            yield [clocks[k].add(c) if k in clocks else to_numpy(c) for k, c in columns], share
+        # What reading took beside the numbers would be held for the next file.
+        pa.default_memory_pool().release_unused()
+
+    def _whole(self, positions: Sequence[int], long: int) -> Iterator[tuple[Any, float]]:
+        """The batches of rows up to the last whole one, and the share that was read so far."""
+        done, first, stop = 0, self.layout.first, None
+        cleaned = (
+            self.layout.commented or self.layout.separator == " " or self.layout.code == UTF_16
+        )
+        while True:
             try:
-                for batch, share in self._parsed(positions, long, first, cleaned):
-                    self._judge(positions, done)
+                for batch, share in self._parsed(positions, long, first, stop, cleaned):
                     done += batch.num_rows
-                    yield (
-                        [
-                            clocks[k].add(column) if k in clocks else to_numpy(column)
-                            for k, column in enumerate(batch.columns)
-                        ],
-                        share,
-                    )
-                self._judge(positions, done)
-                # What reading took beside the numbers would be held for the next file.
-                pa.default_memory_pool().release_unused()
+                    yield batch, share
                 return
             except (pa.ArrowException, OSError) as error:
-                self._explain(positions, done)
-                if cleaned:
+                end = self._explain(positions, done)
+                if cleaned and end == stop:
                     reason = (str(error).splitlines() or [type(error).__name__])[0]
                     raise UserError(f"{self.path}: cannot be read as CSV ({reason})") from None
-            # It was a comment with as many cells as a row, the first of this log.
-            first = next((row for row, _ in islice(self._lines(), done, None)), first)
+            # A comment was between the rows, the first of this log, or its end is none.
+            cleaned, stop = True, end
+            first = next((row for row, _ in islice(self._lines(), done, None)), None)
+            if first is None or (stop is not None and first >= stop):
+                return
 
     def _parsed(
-        self, positions: Sequence[int], long: int, first: int, cleaned: bool
+        self, positions: Sequence[int], long: int, first: int, stop: int | None, cleaned: bool
     ) -> Iterator[tuple[Any, float]]:
-        """The table from its line ``first`` on in batches, and the share that was read so far."""
+        """The lines from ``first`` to before ``stop`` in batches, and the share read so far."""
         names = [str(position) for position in range(len(self.header))]
         kept = [names[position] for position in positions]
         kinds = {name: pa.float64() for name in kept} | (
             {names[long]: pa.int64()} if self._is_long(long) else {}
         )
         kinds |= {names[position]: pa.string() for position in self.layout.clocks}
-        with self._stream(first, cleaned) as (stream, skip, share):
+        with self._stream(first, stop, cleaned) as (stream, skip, share):
             for batch in pacsv.open_csv(
                 stream,
                 read_options=pacsv.ReadOptions(column_names=names, skip_rows=skip),
-                parse_options=pacsv.ParseOptions(
-                    delimiter=self.layout.separator, invalid_row_handler=self._odd
-                ),
+                parse_options=pacsv.ParseOptions(delimiter=self.layout.separator),
                 convert_options=pacsv.ConvertOptions(
                     column_types=kinds,
                     include_columns=kept,
@@ -132,15 +121,18 @@ class CsvReader(Reader):
                 yield batch, share()
 
     @contextmanager
-    def _stream(self, first: int, cleaned: bool) -> Iterator[tuple[Any, int, Any]]:
+    def _stream(
+        self, first: int, stop: int | None, cleaned: bool
+    ) -> Iterator[tuple[Any, int, Any]]:
         """What to read, the lines to skip in it, and the share that was read so far.
 
-        Where it is ``cleaned`` lines of comment are left out, which takes as long as reading.
+        Where it is ``cleaned`` lines of comment are left out, which takes as long as reading, and
+        those from ``stop`` on.
         """
         if cleaned:
             with opened(self.path) as (stream, raw):
                 size = max(self.path.stat().st_size, 1)
-                body = Body(stream, first, self.layout.separator == " ")
+                body = Body(stream, first, stop, self.layout.separator == " ")
                 yield (
                     pa.PythonFile(body, mode="r"),
                     0,
@@ -158,15 +150,6 @@ class CsvReader(Reader):
     def at_end(self) -> tuple[Finding, ...]:
         """That the last lines were left out."""
         return tuple(self._ended)
-
-    def _judge(self, positions: Sequence[int], done: int) -> None:
-        """Raise UserError for a row that was found odd, but where it ends the file.
-
-        Only what stands behind ``done`` rows is looked at.
-        """
-        if self._odd.seen:
-            self._odd.seen = False
-            self._explain(positions, done)
 
     def count(self, long: int) -> None:
         return None
@@ -209,11 +192,11 @@ class CsvReader(Reader):
             and re.fullmatch(r"\d{16,19}", cells[position].strip()) is not None
         )
 
-    def _explain(self, positions: Sequence[int], good: int) -> None:
+    def _explain(self, positions: Sequence[int], good: int) -> int | None:
         """Raise UserError for the first wrong cell or row after ``good`` rows.
 
         A cell is wrong where it is not a number, a row where it is too long or too short and whole
-        rows follow.
+        rows follow. Gives the row from which on none does, None where there is none.
         """
         rows = islice(self._lines(), good, None)
         for number, (row, line) in enumerate(rows, good):
@@ -222,7 +205,7 @@ class CsvReader(Reader):
                 last = [line, *(text for _, text in islice(rows, LAST))]
                 if number and len(last) <= LAST and not any(map(self._is_whole, last)):
                     self._ended[:] = [Finding("end_left_out", "", len(last), {"row": row})]
-                    return
+                    return row
                 if self.layout.is_open(line):
                     raise UserError(f"{self.path}: row {row}: {UNCLOSED}")
                 raise UserError(
@@ -235,6 +218,7 @@ class CsvReader(Reader):
                 if not is_number(cells[position], self.layout.decimal):
                     place = f"{self.path}: row {row}, column {self.header[position]}"
                     raise UserError(f"{place}: '{cells[position]}' is not a number")
+        return None
 
     def _is_whole(self, line: str) -> bool:
         """Whether a line has a cell for each column, or more."""
