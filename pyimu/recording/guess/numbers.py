@@ -151,7 +151,9 @@ def rate_unit(rate: np.ndarray, force: np.ndarray | None, period: float | None) 
         return UnitGuess("deg/s", f"{largest:.4g} rad/s would be faster than anything turns")
     lacks = "it does not turn enough"
     if force is None or period is None:
-        lacks = f"there is no {'accelerometer' if force is None else 'time'} beside it"
+        lacks = (
+            f"there is no {'accelerometer' if force is None else 'time of a known unit'} beside it"
+        )
     return UnitGuess(None, f"rad/s or deg/s? {lacks} to tell")
 
 
