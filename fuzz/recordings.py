@@ -58,6 +58,8 @@ WORDS = [
     "0x10",
     "1_0",
     "\r",
+    "23:59:59.999",
+    "2024-02-30T24:61:61+99:99",
 ]
 
 ROWS = 80
@@ -72,7 +74,7 @@ def seeds(folder: Path) -> None:
         path, _ = log_files.written(place, kind, log)
         path.rename(folder / f"{kind.replace('.', '_')}-{path.name}")
     for make in raw_logs.ALONE:
-        if make not in (raw_logs.phone, raw_logs.iphone):
+        if make not in (raw_logs.phone, raw_logs.iphone, raw_logs.phyphox):
             path = make(folder, still)
             path.rename(folder / f"{make.__name__}-{path.name}")
     for place in [p for p in folder.iterdir() if p.is_dir()]:

@@ -9,7 +9,7 @@ gravity, and a spelling that is not in the table is an error that names the near
 
 What data sheets and the package's own reports print is read as well: degree and micro signs, roots
 with their sign or as rtHz, raised powers, and the names in ``ALIASES``, so that ``°/s``,
-``mdps/√Hz``, ``µg/rtHz``, ``m/s2`` and ``ppm/°C`` are units.
+``mdps/√Hz``, ``µg/rtHz``, ``m/s2`` and ``ppm/°C`` are units, and ``LSB/°/s`` is LSB/(°/s).
 
 The radian and the count of a converter (LSB) are kept as dimensions of their own, so that a column
 in 1/s is not taken for a rate, nor one in counts for a pure number.
@@ -150,6 +150,9 @@ _HINTS = {
 }
 """What common spellings outside the table are called in it; only for error messages."""
 
+_PER_RATE = re.compile(r"^(\s*(?:LSB|LSb|lsb|digits?|mV|V)\s*/\s*)(m?deg\s*/\s*s(?:ec)?)\s*$")
+"""A sensitivity as data sheets print it, LSB/°/s, which is one to a rate: LSB/(°/s)."""
+
 _TOKEN = re.compile(
     r"\s*(?:(?P<operator>[*/^()])|(?P<integer>[-+]?\d+)|(?P<word>[^\s*/^()\d+-][^\s*/^()]*))"
 )
@@ -287,7 +290,7 @@ class _Reader:
         self.position = 0
 
     def _tokens(self) -> list[str]:
-        tokens, start, text = [], 0, _plain(self.text)
+        tokens, start, text = [], 0, _PER_RATE.sub(r"\1(\2)", _plain(self.text))
         while start < len(text):
             match = _TOKEN.match(text, start)
             if not match:

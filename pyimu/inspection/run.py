@@ -11,12 +11,12 @@ from pyimu.errors import UserError
 from pyimu.files import exists, parse_toml
 from pyimu.inspection.result import Inspection
 from pyimu.recording.column_map import ForeignMap, map_of, read_map
-from pyimu.recording.columns import UNITS
+from pyimu.recording.columns import own_name
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.formats.suffix import open_reader
 from pyimu.recording.guess.proposal import Guess, Proposal, proposed
 from pyimu.recording.guess.writing import text_of
-from pyimu.recording.known import recognised
+from pyimu.recording.known import is_own, recognised
 from pyimu.recording.log import Log
 from pyimu.recording.phone import is_phone, of_phone
 from pyimu.recording.quality.in_pieces import quality
@@ -81,13 +81,7 @@ def _kind(reader: Reader, known: bool, mapped: bool) -> str:
         return "map"
     if known:
         return "known"
-    return "own" if any(_target(cell) for cell in reader.header) else "guessed"
-
-
-def _target(cell: str) -> str | None:
-    """The recording's own name in a header's cell that has one with a unit."""
-    name, bracket, _ = cell.partition("[")
-    return name.strip() if bracket and name.strip() in UNITS else None
+    return "own" if is_own(reader.header) else "guessed"
 
 
 def _own_map(reader: Reader, foreign: ForeignMap | None, index: int) -> ForeignMap | None:
@@ -97,8 +91,8 @@ def _own_map(reader: Reader, foreign: ForeignMap | None, index: int) -> ForeignM
     known = recognised(reader)
     if known is not None:
         return known[1]
-    if any(_target(cell) for cell in reader.header):
-        return ForeignMap(columns={cell: cell for cell in reader.header if _target(cell)})
+    if is_own(reader.header):
+        return ForeignMap(columns={cell: cell for cell in reader.header if own_name(cell)})
     return None
 
 
@@ -106,7 +100,7 @@ def _declared(reader: Reader, foreign: ForeignMap) -> Proposal:
     """What a map, a format's definition or the header itself says of the columns."""
     found = Proposal(reader.path, tuple(reader.header))
     for cell, target in foreign.columns.items():
-        name = _target(target)
+        name = own_name(target)
         if name is not None and cell in reader.header:
             unit = target.partition("[")[2].rstrip("] ")
             size = foreign.scale.get(name) if unit == "count" else None
@@ -129,7 +123,7 @@ def _read(
         return Log(Source.of(readers[0], declared)).read()
     order = sorted(range(len(readers)), key=lambda k: "gyro" not in proposals[k].groups)
     reader = readers[order[0]]
-    if len(readers) == 1 and any(_target(cell) for cell in reader.header):
+    if len(readers) == 1 and is_own(reader.header):
         return Log(Source.of(reader, ForeignMap())).read()
     unknown = [group for p in proposals for group in p.open_questions]
     sensors = {group for p in proposals for group in p.groups} & {"gyro", "accel"}

@@ -70,9 +70,9 @@ class Parameter:
     that it can have. ``scan`` says where identification starts its search where it has no
     slope to follow. ``reads`` marks one that is read off the raw samples: the level at which they
     stop ("ceiling"), the one below which they are zero ("threshold"), or the step on whose
-    multiples they lie ("step"). ``density`` marks the root of a white noise's density, which a data
-    sheet may print one-sided, and ``corner`` a frequency that is said in Hz, though it is in rad/s.
-    ``columns`` names the columns of a matrix where these are no axes.
+    multiples they lie ("step"). ``density`` marks the root of a density, a white noise's or that of
+    a walk's steps, which a data sheet may print one-sided, and ``corner`` a frequency that is said
+    in Hz, though it is in rad/s. ``columns`` names the columns of a matrix where these are no axes.
     """
 
     unit: str

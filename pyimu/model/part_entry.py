@@ -44,7 +44,10 @@ class FigureScale:
 
     @property
     def says_otherwise(self) -> bool:
-        """Whether the unit says the same otherwise: a step in LSB/g or mg/LSB, a corner in Hz."""
+        """Whether the unit says the same otherwise.
+
+        A step may be in LSB/g or mg/LSB, a corner in Hz, an axis seen by another one in %.
+        """
         return self._as_said != (self.unit, self.si, False)
 
     @cached_property
@@ -55,6 +58,8 @@ class FigureScale:
             return self.unit, f"LSB/({self.si})", True
         if dimension == units.parse(f"({self.si})/LSB").dimension:
             return self.unit, f"({self.si})/LSB", False
+        if self.si == "rad" and units.parse(self.unit).plain == "%":
+            return self.unit, "1", False
         if self.si == "rad/s" and dimension == units.parse("Hz").dimension:
             return f"({self.unit})*rev", self.si, False
         return self.unit, self.si, False

@@ -203,7 +203,7 @@ class _Reader:
     def _in_si(self, key: Key, q: Parameter, entry: dict[str, Any]) -> np.ndarray:
         where = ".".join(key)
         figures = self._numbers(where, entry, q)
-        otherwise = q.corner or q.reads == "step"
+        otherwise = q.corner or q.reads == "step" or _is_cross_axis(q, entry)
         scale = self._scale(where, entry, self._si(key, q), q.density, otherwise)
         if q.density and is_density(scale.unit) and "density" not in entry:
             raise self.error(
@@ -259,7 +259,8 @@ class _Reader:
             raise self.error(f"{where}.distribution", f"{fault} ({meaning})")
         one = "value" in entry and _shape(entry["value"]) == ()
         figures = self._numbers(where, entry, replace(q, shape=()) if one else q)
-        scale = self._scale(where, entry, self._si(key, q), False)
+        otherwise = _is_cross_axis(q, entry)
+        scale = self._scale(where, entry, self._si(key, q), False, otherwise)
         sizes = np.broadcast_to(scale.to_si(figures), q.shape)
         if np.any(sizes < 0):
             raise self.error(where, f"must not be negative, not {format_array(figures)}")
@@ -286,7 +287,10 @@ class _Reader:
         with_density: bool,
         otherwise: bool = False,
     ) -> FigureScale:
-        """How the figures become SI; ``otherwise`` allows counts (a step) or Hz (a corner)."""
+        """How the figures become SI.
+
+        ``otherwise`` allows counts (a step), Hz (a corner) or % (a cross-axis sensitivity).
+        """
         if "density" in entry and not with_density:
             raise self.error(f"{where}.density", "goes only with the root of a noise's density")
         density = entry.get("density", "two-sided")
@@ -336,6 +340,11 @@ class _Reader:
             if not abs(item) <= sys.float_info.max:
                 raise self.error(where, "must be finite")
         return np.array(items, dtype=float)
+
+
+def _is_cross_axis(q: Parameter, entry: Mapping[str, Any]) -> bool:
+    """Whether an entry is a small angle between axes in %, as data sheets print it: 1 % is 0.01."""
+    return not q.diagonal and q.unit == "rad" and str(entry.get("unit")).strip() == "%"
 
 
 def _shape(value: Any) -> tuple[int, ...] | None:

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pyimu.errors import UserError
+from pyimu.errors import Finding, UserError
 from pyimu.files import read_toml
 from pyimu.recording.clock import RATES
 from pyimu.recording.columns import GROUPS, XYZ
@@ -43,6 +43,8 @@ class ForeignMap:
     q: str = "nb"
     rate: float | None = None
     files: tuple[tuple[str, ForeignMap], ...] = ()
+    notes: tuple[Finding, ...] = ()
+    """What was decided where no user wrote it."""
 
     def rename(self, path: Path, header: list[str]) -> list[str]:
         for name in self.columns:

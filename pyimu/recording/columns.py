@@ -113,6 +113,12 @@ UNITS = {name: GROUPS[group].unit for name, group in GROUP_OF.items() if group !
 UNITS["time"] = "s"
 
 
+def own_name(cell: str) -> str | None:
+    """The name of a recording's column in a header's ``cell`` that has one with a unit."""
+    name, bracket, _ = cell.partition("[")
+    return name.strip() if bracket and name.strip() in UNITS else None
+
+
 def check_unit(place: str, name: str, text: Any) -> units.Unit:
     """The unit ``text`` of the column ``name``.
 
@@ -123,7 +129,7 @@ def check_unit(place: str, name: str, text: Any) -> units.Unit:
     except units.UnitError as error:
         raise units.UnitError(f"{place}: {error}") from None
     right = UNITS[name]
-    fits = unit.text in ("K", "degC") if right == "degC" else units.same_dimension(unit, right)
+    fits = unit.plain in ("K", "degC") if right == "degC" else units.same_dimension(unit, right)
     if not fits:
         raise units.UnitError(f"{place} cannot be in '{unit}', expected a unit like '{right}'")
     return unit

@@ -64,7 +64,7 @@ class Header:
         self._cells = list(cells or header)
         self._scale = scale
         self._counted: set[str] = set()
-        self._ours = any(cell.partition("[")[0].strip() in UNITS for cell in header)
+        self._ours = any(cell.partition("[")[0].strip() in UNITS for cell in self._cells)
         for position, cell in enumerate(header):
             self._add(position, cell)
         self._check()
@@ -135,7 +135,7 @@ class Header:
         if self._crowded:
             return
         near = units.did_you_mean(name, UNITS, cutoff=0.8)
-        if near and self._ours:
+        if near and (self._ours or cell not in self._cells):
             raise UserError(f"{self.path}: unknown column '{name}'{near}")
         self.findings.append(Finding("unused_column", name, 1, {"header": cell}))
 

@@ -8,16 +8,22 @@ second sort.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from pyimu.errors import Finding
 from pyimu.recording.column_map import ForeignMap
-from pyimu.recording.columns import UNITS, XYZ
+from pyimu.recording.columns import GROUP_OF, XYZ, own_name
 from pyimu.recording.counts import Scale
 from pyimu.recording.formats.reader import Reader
-from pyimu.recording.guess.names import DERIVED, TRUTHS, named, surest, triads
+from pyimu.recording.guess.names import DERIVED, TRUTHS, named, others, surest, triads
 from pyimu.units import parse
+
+STATED = "a table that states its units"
+"""What a log is called whose header says all of it."""
+
+WARM = ("degC", "K")
+"""Units of temperatures."""
 
 Known = tuple[str, ForeignMap]
 """What the log is, and its map."""
@@ -25,24 +31,59 @@ Known = tuple[str, ForeignMap]
 
 def recognised(reader: Reader) -> Known | None:
     """What is known of the log in ``reader``, None where nothing is."""
-    if _own(reader.header):
+    if is_own(reader.header):
         return None
     for name, test in FORMATS:
         columns = test(reader)
         if columns is not None:
             return name, columns
     found = stated(reader)
-    return None if found is None else ("a table that states its units", found)
+    return None if found is None else (STATED, found)
 
 
-def said(known: Known, columns: Sequence[str]) -> Finding:
-    """That the log was recognised, and what was read as what."""
-    return Finding("recognised", "", len(columns), {"as": known[0]})
+def said(known: Known, columns: Sequence[str]) -> list[Finding]:
+    """That the log was recognised.
+
+    Where its header alone says what it is, and not of both sensors, the vectors that are left out.
+    """
+    found = [Finding("recognised", "", len(columns), {"as": known[0]})]
+    groups = {target.partition("_")[0] for target in known[1].columns.values()}
+    if known[0] != STATED or {"gyro", "accel"} <= groups:
+        return found
+    taken = [k for k, cell in enumerate(columns) if cell in known[1].columns]
+    return found + [_left_out(columns, at) for at in others(columns, taken)]
 
 
-def _own(header: Sequence[str]) -> bool:
-    """Whether the header has a column as recordings of the package do."""
-    return any(cell.partition("[")[0].strip() in UNITS and "[" in cell for cell in header)
+def left_out(columns: Sequence[str], taken: Iterable[int], groups: Iterable[str]) -> list[Finding]:
+    """The gyro or accelerometer that the names of ``columns`` tell, and that was not ``taken``.
+
+    ``groups`` are those that the log holds. A map with a unit that nobody chose has no line for it.
+    """
+    away, there = set(taken), set(groups)
+    found = triads(columns)
+    sure = (surest(found, group)[0] for group in ("gyro", "accel") if group not in there)
+    return [_left_out(columns, t.positions) for t in sure if t and not set(t.positions) & away]
+
+
+def _left_out(columns: Sequence[str], at: Sequence[int]) -> Finding:
+    cells = ", ".join(columns[k] for k in at)
+    return Finding("vector_left_out", columns[at[0]], 3, {"columns": cells})
+
+
+def is_own(header: Sequence[str]) -> bool:
+    """Whether the header is one of a recording of the package, and no other names are beside it."""
+    own = own_groups(header)
+    if not own:
+        return False
+    if "time" not in own and any(named(cell).is_time for cell in header):
+        return False
+    found = triads(header)
+    return not any(surest(found, group)[0] for group in ("gyro", "accel") if group not in own)
+
+
+def own_groups(header: Sequence[str]) -> set[str]:
+    """The groups of which the header has a column as recordings of the package do."""
+    return {GROUP_OF[name] for cell in header if (name := own_name(cell)) is not None}
 
 
 def _triad(names: Sequence[str], group: str, unit: str) -> dict[str, str]:
@@ -178,29 +219,37 @@ FORMATS = (
 
 
 def stated(reader: Reader) -> ForeignMap | None:
-    """The map of a table that states every unit it needs, and leaves no choice; else None."""
+    """The map of a table that states every unit it needs, and leaves no choice; else None.
+
+    Columns named as those of a recording are what they say.
+    """
     names = [named(cell) for cell in reader.header]
     times = [name for name in names if name.is_time and not set(name.words) & TRUTHS]
+    times = times or [name for name in names if name.cell in reader.clocks]
     if len(times) > 1 or len(set(reader.header)) < len(reader.header):
         return None
-    columns = {}
-    if times:
-        if times[0].unit not in ("s", "ms", "us", "ns", "min", "h"):
+    own = own_groups(reader.header)
+    columns = {cell: cell for cell in reader.header if own_name(cell) is not None}
+    if "time" not in own and times:
+        unit = "s" if times[0].cell in reader.clocks else times[0].unit
+        if unit not in ("s", "ms", "us", "ns", "min", "h"):
             return None
-        columns[times[0].cell] = f"time [{times[0].unit}]"
-    elif reader.rate is None:
+        columns[times[0].cell] = f"time [{unit}]"
+    elif "time" not in own and reader.rate is None:
         return None
     found = triads(reader.header)
     for group, needed in (("gyro", True), ("accel", True), ("mag", False)):
-        triad, others = surest(found, group)
+        if group in own:
+            continue
+        triad, rivals = surest(found, group)
         if triad is None:
             continue
-        if needed and (triad.unit is None or others or triad.score < 4):
+        if needed and (triad.unit is None or rivals or triad.score < 4):
             return None
-        if triad.unit is not None and not others:
+        if triad.unit is not None and not rivals:
             columns |= _triad([name.cell for name in triad.names], group, triad.unit)
-    warm = [n for n in names if n.is_temperature and n.unit and not set(n.words) & DERIVED]
-    if len(warm) == 1:
+    warm = [n for n in names if n.is_temperature and n.unit in WARM and not set(n.words) & DERIVED]
+    if len(warm) == 1 and "temperature" not in own:
         columns[warm[0].cell] = f"temperature [{warm[0].unit}]"
     if not any(target.startswith(("gyro", "accel")) for target in columns.values()):
         return None
@@ -212,4 +261,4 @@ def merged(
 ) -> ForeignMap:
     """The ``given`` map with the columns that are ``known``, and the further ``files``."""
     scale = {**known.scale, **given.scale}
-    return replace(given, columns=known.columns, scale=scale, files=files)
+    return replace(given, columns=known.columns, scale=scale, files=files, notes=known.notes)

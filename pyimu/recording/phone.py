@@ -1,10 +1,12 @@
-"""A folder of Sensor Logger's files, one for each of a phone's sensors, as one log.
+"""A folder of the files of a phone, one for each of its sensors, as one log.
 
-The app's UNITS.md and COORDINATES.md: time in ns since 1970, rad/s, m/s^2, uT.
+Sensor Logger (its UNITS.md and COORDINATES.md): time in ns since 1970, rad/s, m/s^2, uT.
 ``TotalAcceleration`` is the specific force; ``Accelerometer`` is without gravity. On iOS the signs
-of accelerations are
-the other way round, and ``AccelerometerUncalibrated`` is in g; ``Metadata.csv`` says which system
-it was.
+of accelerations are the other way round, and ``AccelerometerUncalibrated`` is in g;
+``Metadata.csv`` says which system it was.
+
+phyphox (its wiki, "Export"): a table a sensor whose header says ``Time (s)`` and the unit of each
+axis, with one clock and the same signs on both systems; ``Accelerometer`` is the specific force.
 """
 
 from __future__ import annotations
@@ -13,15 +15,25 @@ from dataclasses import replace
 from itertools import islice
 from pathlib import Path
 
-from pyimu.errors import UserError
+from pyimu.errors import Finding, UserError
 from pyimu.recording.column_map import ForeignMap
 from pyimu.recording.columns import XYZ
 from pyimu.recording.counts import Scale
 from pyimu.recording.formats.lines import lines
+from pyimu.recording.formats.text import CsvReader
+from pyimu.recording.guess.names import named, surest, triads
+from pyimu.recording.guess.numbers import SECONDS
 from pyimu.units import parse
 
 GYROS = ("Gyroscope.csv", "GyroscopeUncalibrated.csv")
+WITHOUT = "Accelerometer.csv"
+"""Sensor Logger's force without gravity."""
+
 FIELDS = ("MagnetometerUncalibrated.csv", "Magnetometer.csv")
+
+
+STATED = (("Accelerometer.csv", "accel"), ("Magnetometer.csv", "mag"))
+"""Further files of phyphox, and what they hold."""
 
 
 def is_phone(folder: Path) -> bool:
@@ -33,9 +45,12 @@ def of_phone(folder: Path) -> tuple[Path, ForeignMap]:
     """The gyro's file, and the map of the whole log.
 
     The magnetometer without the phone's own calibration goes first. Raises UserError where it is
-    not known which system wrote the files.
+    not known which program or which system wrote the files.
     """
-    gyro = next(name for name in GYROS if (folder / name).is_file())
+    gyro = folder / next(name for name in GYROS if (folder / name).is_file())
+    header = CsvReader.open(gyro).header
+    if not {"time", *XYZ} <= set(header):
+        return gyro, _of_phyphox(folder, gyro)
     files = []
     force = _force(folder)
     if force is not None:
@@ -43,7 +58,33 @@ def of_phone(folder: Path) -> tuple[Path, ForeignMap]:
     field = next((name for name in FIELDS if (folder / name).is_file()), None)
     if field is not None:
         files.append((field, _map("mag", "uT")))
-    return folder / gyro, replace(_map("gyro", "rad/s"), files=tuple(files))
+    notes = ()
+    if force is None and (folder / WITHOUT).is_file():
+        notes = (Finding("no_gravity", "accel", 1, {"file": WITHOUT}),)
+    return gyro, replace(_map("gyro", "rad/s"), files=tuple(files), notes=notes)
+
+
+def _of_phyphox(folder: Path, gyro: Path) -> ForeignMap:
+    first = _by_header(gyro, "gyro")
+    if first is None:
+        raise UserError(
+            f"{gyro}: its columns are neither Sensor Logger's (time, x, y, z) nor phyphox's "
+            "(Time (s), X (rad/s), ...): give the files in the folder, with a column map"
+        )
+    there = [(name, group) for name, group in STATED if (folder / name).is_file()]
+    found = [(name, _by_header(folder / name, group)) for name, group in there]
+    return replace(first, files=tuple((name, own) for name, own in found if own is not None))
+
+
+def _by_header(path: Path, group: str) -> ForeignMap | None:
+    """The map of a file that states its units, None where it holds no such vector."""
+    header = CsvReader.open(path).header
+    time = next((n for n in map(named, header) if n.is_time and n.unit in SECONDS), None)
+    triad, _ = surest(triads(header, path.name), group)
+    if time is None or triad is None or triad.unit is None:
+        return None
+    columns = {n.cell: f"{group}_{a} [{triad.unit}]" for a, n in zip(XYZ, triad.names, strict=True)}
+    return ForeignMap(columns={time.cell: f"time [{time.unit}]"} | columns)
 
 
 def _map(group: str, unit: str, scale: dict[str, Scale] | None = None) -> ForeignMap:

@@ -14,13 +14,14 @@ import numpy as np
 from pyimu.errors import Finding, UserError
 from pyimu.files import exists
 from pyimu.recording.column_map import BODY, ForeignMap, read_map
-from pyimu.recording.columns import GROUPS, column_names
+from pyimu.recording.columns import GROUPS, column_names, own_name
+from pyimu.recording.counter import BITS, NEARLY, Unwrapped
 from pyimu.recording.counts import RawCounts
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.formats.suffix import open_reader
-from pyimu.recording.formats.timed import TimedReader
+from pyimu.recording.formats.timed import TIME, TimedReader
 from pyimu.recording.header import Header
-from pyimu.recording.known import merged, recognised, said
+from pyimu.recording.known import left_out, merged, recognised, said
 from pyimu.recording.phone import is_phone, of_phone
 from pyimu.recording.quality.tally import Tally
 from pyimu.recording.waking import Waking
@@ -30,9 +31,6 @@ NORM_TOLERANCE = 1e-2
 
 LEAST_ROWS = 3
 """A recording has at least so many samples."""
-
-COUNTER_BITS = (16, 24, 32)
-"""Widths of the counters of time that wrap."""
 
 COARSE_STAMPS = 0.01
 """Above this share of rows with the time of the row before, the stamps are coarser than the sample
@@ -80,26 +78,35 @@ class Source:
     def of(cls, reader: Reader, foreign: ForeignMap, wanted: str = "sensor") -> Source:
         """What ``reader`` has opened. Raises UserError as ``open`` does."""
         findings: tuple[Finding, ...] = ()
+        is_known = False
         if not foreign.columns:
             known = recognised(reader)
             if known is not None:
                 foreign = merged(known[1], foreign, foreign.files)
-                findings = (said(known, reader.header),)
+                findings, is_known = tuple(said(known, reader.header)), True
         if foreign.body is None and reader.body is not None:
             foreign = replace(foreign, body=BODY[reader.body])
         names = foreign.rename(reader.path, reader.header)
+        for k, (name, cell) in enumerate(zip(names, reader.header, strict=True)):
+            if own_name(name) == "time" and cell in reader.clocks:
+                names[k] = TIME
+                findings = (*findings, Finding("clock_times", "time", 1, {"from": cell}))
         reader = _timed(reader, foreign, names)
         header = Header(
             reader.path,
             [*names, *reader.header[len(names) :]],
             foreign.scale,
-            reader.crowded or bool(findings),
+            reader.crowded or is_known,
             reader.skipped,
             wanted,
             reader.header,
         )
-        header.findings = [*findings, *header.findings]
-        return cls(reader, header, foreign, _companions(reader.path, foreign, header))
+        header.findings = [*findings, *foreign.notes, *header.findings]
+        companions = _companions(reader.path, foreign, header)
+        if wanted == "sensor" and not is_known:
+            groups = [g for source in companions for g in source.header.groups]
+            header.findings += left_out(reader.header, header.positions, [*header.groups, *groups])
+        return cls(reader, header, foreign, companions)
 
 
 def _timed(reader: Reader, foreign: ForeignMap, names: list[str]) -> Reader:
@@ -179,7 +186,7 @@ class Rows:
         Raises UserError with the row for a time that is missing or runs backwards, and for a file
         of fewer than three rows.
         """
-        header, first = self.source.header, True
+        header, first, counter = self.source.header, True, Unwrapped()
         for columns, share in self.source.reader.batches(header.positions, header.time):
             if not len(columns[0]):
                 continue
@@ -188,8 +195,9 @@ class Rows:
                 self.origin = header.origin(columns[header.positions.index(header.time)][0], found)
                 self._tally.add(found)
                 first = False
-            long = columns[header.positions.index(header.time)]
-            self._single = self._single and _is_single(long)
+            at = header.positions.index(header.time)
+            columns = [*columns[:at], counter.add(columns[at]), *columns[at + 1 :]]
+            self._single = self._single and _is_single(columns[at])
             self._raw.add(dict(zip(header.names, columns)))
             time, values = self._ordered(header.convert(columns, self.origin))
             self.kept += len(time)
@@ -199,7 +207,10 @@ class Rows:
                 f"{self.source.header.path}: a recording needs at least {LEAST_ROWS} rows of data, "
                 f"this one has {self.kept}"
             )
-        self._tally.add(self._raw.findings())
+        self._tally.add([*self._raw.findings(), *self.source.reader.at_end()])
+        if counter.count:
+            detail = {"bits": counter.bits}
+            self._tally.add([Finding("counter_wrapped", "time", counter.count, detail)])
 
     def _ordered(self, values: Values) -> tuple[np.ndarray, Values]:
         """Time and the other columns at the rows that are the first with their time."""
@@ -236,10 +247,13 @@ class Rows:
 
     def _wrapped(self, step: float) -> str:
         """What to add where the time went back by nearly the whole range of a counter."""
-        for bits in COUNTER_BITS:
+        for bits in BITS:
             span = 2.0**bits * self.source.header.seconds
-            if 0.9 * span < step <= span:
-                return f"; a counter of {bits} bits wraps after {span:.9g} s, unwrap it"
+            if NEARLY * span < step <= span:
+                return (
+                    f"; a counter of {bits} bits wraps after {span:.9g} s, but here more is "
+                    "missing: cut the log there"
+                )
         return ""
 
     def _report_repeats(

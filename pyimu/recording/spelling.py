@@ -53,6 +53,9 @@ WORDS = {
 }
 """Words for units, in lower case."""
 
+PAIRED = {"(": ")", "[": "]", "{": "}"}
+"""Brackets in which headers have units."""
+
 _POWERS = str.maketrans({"²": "^2", "³": "^3", "·": "*", "−": "-", "⁻": "-", "¹": "1"})
 
 
@@ -69,10 +72,22 @@ def unit_of(text: str) -> str | None:
     for spelling in tried:
         if spelling:
             try:
-                return units.parse(spelling).text
+                unit = units.parse(spelling)
+                return unit.plain if unit.plain == "degC" else unit.text
             except units.UnitError:
                 continue
     return None
+
+
+def bare(text: str) -> str:
+    """A unit without the brackets around all of it: ``m/(s^2)`` keeps its own."""
+    text = text.strip()
+    while text[:1] in PAIRED and text.endswith(PAIRED[text[0]]):
+        inner = text[1:-1]
+        if any(c in inner for c in (text[0], text[-1])):
+            break
+        text = inner.strip()
+    return text
 
 
 def _spelled(text: str) -> str:

@@ -374,8 +374,17 @@ def test_load_part_and_the_name_agree(tmp_path):
     assert load_part(path) == part(str(path)) == part("imt30")
 
 
+CROSS = [[0, 2, 1], [0.5, 0, 1], [1, 1, 0]]
+"""% of axis j seen by axis i."""
+
+
 def test_a_density_says_whether_it_is_one_sided():
     """Read in silence as two-sided, a data sheet's figure would be 1.41 times too large."""
+    walk = '[gyro.rate_random_walk]\nK = {{value = 5, unit = "rad/s^2/√Hz"{}}}'
+    with pytest.raises(UserError, match='add density = "one-sided".*or density = "two-sided"'):
+        read(walk.format(""))
+    two = read(walk.format(', density = "two-sided"'))
+    np.testing.assert_array_equal(two.gyro.values["rate_random_walk"]["K"], 5.0)
     entry = '[gyro.angle_random_walk]\nN = {{value = 5, unit = "{}"{}}}'
     for unit in ("mdps/√Hz", "deg/s/sqrt(Hz)", "mdps/rtHz"):
         with pytest.raises(UserError, match='add density = "one-sided".*or density = "two-sided"'):
@@ -393,11 +402,13 @@ def test_a_density_says_whether_it_is_one_sided():
     ("kind", "entry", "value"),
     [
         ("gyro", 'quantization.q = {value = 16.4, unit = "LSB/(°/s)"}', DEG / 16.4),
+        ("gyro", 'quantization.q = {value = 16.4, unit = "LSB/°/s"}', DEG / 16.4),
         ("gyro", 'quantization.q = {value = 8.75, unit = "mdps/LSB"}', 8.75e-3 * DEG),
         ("accel", 'quantization.q = {value = 16384, unit = "LSB/g"}', 9.80665 / 16384),
         ("accel", 'quantization.q = {value = 0, unit = "LSB/g"}', 0.0),
         ("gyro", 'lag.wn = {value = 47, unit = "Hz"}', 2 * np.pi * 47),
         ("accel", 'lag.wn = {value = 0.4, unit = "kHz"}', 2 * np.pi * 400),
+        ("accel", f'misalignment.m = {{value = {CROSS}, unit = "%"}}', np.array(CROSS) / 100),
     ],
 )
 def test_steps_in_counts_and_corners_in_hertz_are_read_as_printed(kind, entry, value):
@@ -413,6 +424,7 @@ def test_steps_in_counts_and_corners_in_hertz_are_read_as_printed(kind, entry, v
         'turn_on_bias.b0 = {value = 1, unit = "Hz"}',
         'quantization.q = {value = 1, unit = "LSB/g"}',
         'scale_factor.s = {value = 1, unit = "LSB"}',
+        'misalignment.m = {value = [[0, 1, 1], [1, 0, 1], [1, 1, 0]], unit = "LSB/rad"}',
     ],
 )
 def test_counts_and_hertz_are_taken_only_where_they_say_the_same(entry):

@@ -138,6 +138,20 @@ def test_inspect_of_several_files_writes_their_map(pyimu, tmp_path):
     np.testing.assert_array_equal(found.accel, read_recording(where).accel)
 
 
+def test_a_phone_s_forces_without_gravity_are_left_out(tmp_path):
+    where = raw_logs.phone(tmp_path, raw_logs.still(300))
+    (where / "TotalAcceleration.csv").rename(where / "Accelerometer.csv")
+    found = read_recording(where)
+    (said,) = (f for f in found.findings if f.kind == "no_gravity")
+    assert found.accel is None and said.detail == {"file": "Accelerometer.csv"}
+
+
+def test_a_folder_of_a_gyro_that_no_program_wrote(tmp_path):
+    (tmp_path / "Gyroscope.csv").write_text("a,b,c,d\n1,2,3,4\n2,3,4,5\n")
+    with pytest.raises(UserError, match="neither Sensor Logger's .* nor phyphox's"):
+        read_recording(tmp_path)
+
+
 # Further files
 
 
@@ -225,7 +239,34 @@ def test_unit_of_a_clock_is_told(unit, size, rate, first):
     if np.all(np.diff(ticks) == 1):
         assert first or time_unit(ticks).unit is None  # may be a counter of samples
         return
+    if rate == 5000 and not first:  # 5 Hz in the next larger unit
+        assert time_unit(ticks).unit is None
+        return
     assert time_unit(ticks).unit == unit
+
+
+@pytest.mark.parametrize(
+    "step, unit, why",
+    [
+        (0.1, "s", "10 Hz"),
+        (0.2, None, "5 Hz in s or 5000 Hz in ms"),
+        (125.0, None, "8 Hz in ms or 8000 Hz in us"),
+        (10.0, "ms", "100 Hz then (0.1 Hz in s)"),
+        (100.0, "ms", "10 Hz then (0.01 Hz in s)"),
+        (1e7, "ns", "100 Hz then (0.1 Hz in us)"),
+    ],
+)
+def test_what_else_a_clock_may_count_is_said(step, unit, why):
+    found = time_unit(step * np.arange(200))
+    assert (found.unit, why in found.why) == (unit, True)
+
+
+@pytest.mark.parametrize("name", ["time [s]", "time_s", "Time (s)"])
+def test_a_header_that_says_s_is_believed(name, tmp_path):
+    _, gyro, _ = raw_logs.still(200)
+    path = raw_logs.text(tmp_path / "l.csv", [f"{name},gx,gy,gz"], [10 * np.arange(200), *gyro.T])
+    (found,) = (g for g in proposed(open_reader(path)).guesses if g.target == "time")
+    assert (found.unit, "0.1 Hz" in found.why) == ("s", True)
 
 
 def test_counter_of_samples_is_no_clock():
@@ -315,6 +356,12 @@ def test_nothing_is_proposed_without_a_reason(tmp_path):
         ("# of Tuesday\n#a,b\n1,2\n3,4\n", ",", ".", ("a", "b"), 3),
         ("t,w,w\n,x,y\n1,2,3\n2,3,4\n", ",", ".", ("t", "w x", "w y"), 3),
         ("t,w\n[s],[deg/s]\n1,2\n2,3\n", ",", ".", ("t [s]", "w [deg/s]"), 3),
+        ("% t w\n% s deg/s\n1 2\n2 3\n", " ", ".", ("t [s]", "w [deg/s]"), 3),
+        ("% rad/s\n% s deg/s\n1 2\n2 3\n", " ", ".", ("s", "deg/s"), 3),
+        ("t,x,x,\n1,2,3,4\n2,3,4,5\n", ",", ".", ("t", "x", "x column 3", ""), 2),
+        ("sep=;\na;b\n1;2\n3;4\n", ";", ".", ("a", "b"), 3),
+        ("sep=\t\na\tb\t\n1\t2\t\n3\t4\t\n", "\t", ".", ("a", "b", ""), 3),
+        ("Tag:,x\nRate:,9\n\na,b,c,d\n1,2,3,4\n2,3,4,5\n", ",", ".", tuple("abcd"), 5),
         ("t,state,w\n1,idle,2\n2,idle,3\n", ",", ".", ("t", "state", "w"), 2),
         ("t;w\n1,2\n3,4\n", ",", ".", ("t", "w"), 2),
     ],

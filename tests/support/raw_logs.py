@@ -81,6 +81,19 @@ def iphone(folder, log):
     return where
 
 
+def phyphox(folder, log):
+    """phyphox: a table a sensor, the accelerometer 2 ms late; one without g beside it."""
+    time, gyro, accel = log
+    where = folder / "phyphox"
+    where.mkdir()
+    forces = (("Accelerometer", accel), ("Linear Accelerometer", 0 * accel))
+    sensors = (("Gyroscope", gyro, 0, "rad/s"), *((n, v, 2_000_000, "m/s^2") for n, v in forces))
+    for name, values, late, unit in sensors:
+        head = ",".join(f'"{cell}"' for cell in ["Time (s)", *(f"{a} ({unit})" for a in "XYZ")])
+        text(where / f"{name}.csv", [head], [(time + late) * 1e-9, *values.T])
+    return where
+
+
 def xsens(folder, log):
     time, gyro, accel = log
     head = ["// Start Time: Unknown", "// Update Rate: 100.0Hz", "// Firmware Version: 4.3"]
@@ -210,6 +223,18 @@ def xio(folder, log):
     return text(folder / "sensor_data.csv", [",".join(names)], columns)
 
 
+def dated(folder, log):
+    """Dates with times, cut off in its last line."""
+    time, gyro, accel = log
+    names = [f"{kind} {a} ({u})" for kind, u in (("Gyro", "rad/s"), ("Acc", "m/s^2")) for a in AXES]
+    stamps = np.datetime64("2024-02-29T00:00:00.000000000") + time
+    rows = zip(stamps, gyro, accel, strict=True)
+    lines = [",".join(map(str, [t, *w.tolist(), *f.tolist()])) for t, w, f in rows]
+    text = "\n".join([",".join(["Date", *names]), *lines, lines[-1][:60]])
+    (folder / "dated.csv").write_text(text)
+    return folder / "dated.csv"
+
+
 def headerless(folder, log):
     """Blanks, nothing but numbers; a map has to say the rest."""
     _, gyro, accel = log
@@ -233,8 +258,8 @@ def apart(folder, log):
 
 
 ALONE = (
-    *(euroc, tum, phone, iphone, xsens, repoimu, broad, broad_hdf5, ulog, dataflash),
-    *(dataflash_text, german, xio),
+    *(euroc, tum, phone, iphone, phyphox, xsens, repoimu, broad, broad_hdf5, ulog, dataflash),
+    *(dataflash_text, german, xio, dated),
 )
 """Layouts that are read as they are."""
 

@@ -75,6 +75,7 @@ def rate_random_walk(
     K: Parameter(
         "{y}/sqrt(s)",
         minimum=0.0,
+        density=True,
         description="root of the two-sided density of the bias's derivative",
     ),
     b: State("{y}"),

@@ -10,13 +10,15 @@ import csv
 import re
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice
 from pathlib import Path
 
 from pyimu.errors import UserError
-from pyimu.recording.formats.lines import lines
-from pyimu.recording.spelling import unit_of
+from pyimu.recording.columns import UNITS
+from pyimu.recording.formats.clock_times import is_clock_time
+from pyimu.recording.formats.lines import UTF_8, code_of, is_comment, lines
+from pyimu.recording.spelling import bare, unit_of
 
 MISSING = (
     *("", "NaN", "nan", "NAN", "-nan", "-NaN", "NA", "N/A", "n/a", "#N/A"),
@@ -27,13 +29,11 @@ MISSING = (
 HEAD = 120
 """Lines from which the layout is told."""
 
-COMMENTS = ("#", "//", "%", '"#')
-"""What a line of comment begins with."""
-
 FORMS = ((",", "."), (";", "."), ("\t", "."), ("|", "."), (" ", "."))
 """Separators and decimal marks, the likelier first; a blank stands for any run of blanks."""
 
-COMMAS = ((";", ","), ("\t", ","), ("|", ","), (" ", ","))
+COMMAS = ((";", ","), ("\t", ","), ("|", ","), (" ", ","), (",", ","))
+"""The same with decimal commas; between commas such numbers stand in quotation marks."""
 
 OPEN = "unexpected end of data"
 """What the standard library's reader says of a line that ends within quotation marks."""
@@ -42,6 +42,9 @@ UNCLOSED = "a quotation mark is not closed, so that the cells behind it are one"
 
 MOST_NAMES = 3
 """Rows of names and units, at most."""
+
+_SEPARATOR = re.compile(r'"?sep=.?"?[,;\t]*', re.I)
+"""The first line of a table for a spreadsheet, which says what separates its cells."""
 
 _RATE = re.compile(
     r"\b(?:update|sampl\w*|output|data)\s*(?:data\s*)?(?:rate|freq\w*)\W{1,4}([\d.]+)\s*(k?)Hz",
@@ -54,17 +57,21 @@ class Layout:
     """How a table stands in its file.
 
     ``names`` are of its columns, ``column 1`` and so on where the file has none; ``first`` is the
-    line of the first row of numbers, from 1. Lines that begin with ``comment`` are left out.
-    ``rate`` [Hz] is what a comment says. ``unusual`` says what a spreadsheet's file would not have.
+    line of the first row of numbers, from 1; the columns at ``clocks`` hold dates or times of day.
+    ``commented`` says that lines of comment are among the
+    first ones; ``rate`` [Hz] is what one says. ``unusual`` says what a spreadsheet's file would not
+    have.
     """
 
     separator: str = ","
     decimal: str = "."
     names: tuple[str, ...] = ()
     first: int = 2
-    comment: str = ""
+    commented: bool = False
     rate: float | None = None
     named: bool = True
+    clocks: tuple[int, ...] = ()
+    code: str = UTF_8
 
     @property
     def unusual(self) -> str:
@@ -72,6 +79,7 @@ class Layout:
         said = [
             f"columns separated by {separators[self.separator]}" if self.separator != "," else "",
             "decimal commas" if self.decimal == "," else "",
+            f"text in {self.code}" if self.code != UTF_8 else "",
             "" if self.named else "no names of columns",
             f"the numbers begin in row {self.first}" if self.first > 2 else "",
         ]
@@ -103,10 +111,10 @@ def layout_of(path: Path) -> Layout:
     Raises UserError for what is no text, and for names of which a quotation mark is left open.
     """
     head = list(islice(lines(path), HEAD))
-    found = told_from(head)
+    found = replace(told_from(head), code=code_of(path))
     for row, line in enumerate(head[: found.first - 1], 1):
         line = line.rstrip("\r\n")
-        if not line.startswith(COMMENTS) and len(found.cells(line)) > 1 and found.is_open(line):
+        if not is_comment(line) and len(found.cells(line)) > 1 and found.is_open(line):
             raise UserError(f"{path}: row {row}: {UNCLOSED}")
     return found
 
@@ -114,10 +122,10 @@ def layout_of(path: Path) -> Layout:
 def told_from(head: Sequence[str]) -> Layout:
     """The layout of a table with the first lines ``head``."""
     numbered = [(k, line.rstrip("\r\n")) for k, line in enumerate(head, 1) if line.strip()]
-    notes = [line for _, line in numbered if line.startswith(COMMENTS)]
-    rows = [(k, line) for k, line in numbered if not line.startswith(COMMENTS)]
+    numbered = numbered[bool(numbered and _SEPARATOR.fullmatch(numbered[0][1])) :]
+    notes = [line for _, line in numbered if is_comment(line)]
+    rows = [(k, line) for k, line in numbered if not is_comment(line)]
     form = _form([line for _, line in rows])
-    comment = next((c for c in COMMENTS if notes and notes[0].startswith(c)), "")
     if form is None:
         names = Layout().cells(rows[0][1]) if rows else []
         return Layout(names=tuple(map(str.strip, names)), first=rows[0][0] + 1 if rows else 1)
@@ -125,7 +133,7 @@ def told_from(head: Sequence[str]) -> Layout:
     width = _width([c for _, c in cells])
     start = _start([c for _, c in cells], width, form.decimal)
     first = cells[start][0] if start < len(cells) else rows[-1][0] + 1
-    named = [c for _, c in cells[:start] if len(c) > 1][-MOST_NAMES:]
+    named = [c for _, c in cells[:start] if len(c) > 1 and 2 * len(c) > width][-MOST_NAMES:]
     if not named:
         above = [re.sub(r'^("?#|//|%)+\s*', "", line) for k, line in numbered if k < first]
         named = _names_above(above, form, width)
@@ -136,10 +144,18 @@ def told_from(head: Sequence[str]) -> Layout:
         form.decimal,
         names or tuple(f"column {k + 1}" for k in range(width)),
         first,
-        comment,
+        bool(notes),
         rate,
         bool(names),
+        _clocks([c for _, c in cells[start:]], width),
     )
+
+
+def _clocks(rows: Sequence[Sequence[str]], width: int) -> tuple[int, ...]:
+    """Positions of the columns of dates or times of day."""
+    whole = [row for row in rows if len(row) == width]
+    columns = [[row[k] for row in whole if row[k].strip() not in MISSING] for k in range(width)]
+    return tuple(k for k, cells in enumerate(columns) if cells and all(map(is_clock_time, cells)))
 
 
 def is_number(cell: str, decimal: str = ".") -> bool:
@@ -211,13 +227,14 @@ def _names_first(rows: Sequence[Sequence[str]], width: int, decimal: str) -> boo
 def _names_above(lines_above: Sequence[str], form: Layout, width: int) -> list[list[str]]:
     """The last line above the numbers, where it has a name for every column.
 
-    It may be a comment, or have another separator than the numbers.
+    Of a row of units the one above it, too. They may be comments, or have another separator than
+    the numbers.
     """
-    for line in lines_above[-1:]:
-        for shape in (form, *(Layout(separator) for separator, _ in FORMS)):
-            cells = shape.cells(line)
-            if len(cells) == width and not any(is_number(c) for c in cells):
-                return [cells]
+    for shape in (form, *(Layout(separator) for separator, _ in FORMS)):
+        rows = [shape.cells(line) for line in lines_above[-2:]]
+        good = [len(row) == width and not any(map(is_number, row)) for row in rows]
+        if good and good[-1]:
+            return rows if all(good) and _are_units([c.strip() for c in rows[-1]]) else rows[-1:]
     return []
 
 
@@ -231,10 +248,20 @@ def _names(rows: Sequence[Sequence[str]], width: int) -> tuple[str, ...]:
     names = [" ".join(filter(None, parts)) for parts in zip(*filled, strict=True)]
     if units is not None:
         names = [
-            f"{name} [{unit.strip('[]() ')}]" if unit and "[" not in name else name
+            f"{name} [{bare(unit)}]" if unit and "[" not in name else name
             for name, unit in zip(names, units, strict=True)
         ]
-    return tuple(names)
+    return tuple(_apart(name, k, names) for k, name in enumerate(names))
+
+
+def _apart(name: str, at: int, names: Sequence[str]) -> str:
+    """A name that an earlier column has, with its number, so that a column map can call it.
+
+    A recording's own names stay, to be refused.
+    """
+    if name not in names[:at] or name.partition("[")[0].strip() in UNITS:
+        return name
+    return f"{name} column {at + 1}".strip()
 
 
 def _fitted(row: Sequence[str], width: int) -> list[str]:
@@ -246,7 +273,7 @@ def _fitted(row: Sequence[str], width: int) -> list[str]:
 
 
 def _are_units(row: Sequence[str]) -> bool:
-    filled = [cell.strip("[]() ") for cell in row if cell]
+    filled = [bare(cell) for cell in row if cell]
     return 2 * len(filled) >= len(row) and all(unit_of(cell) for cell in filled)
 
 

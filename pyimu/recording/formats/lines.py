@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import gzip
 import io
 import zlib
@@ -19,6 +20,28 @@ is none."""
 BLOCK = 1 << 20
 """Bytes that are read at once."""
 
+COMMENTS = ("#", "//", "%", '"#')
+"""What a line of comment begins with."""
+
+NO_COMMENT = ("#N/A", '"#N/A')
+"""A row may begin so, where its first cell holds no value."""
+
+_MARKS = tuple(mark.encode() for mark in COMMENTS)
+_NO_MARKS = tuple(mark.encode() for mark in NO_COMMENT)
+
+
+def is_comment(line: str) -> bool:
+    return line.startswith(COMMENTS) and not line.startswith(NO_COMMENT)
+
+
+UTF_16 = "UTF-16"
+UTF_8 = "UTF-8"
+WESTERN = "Windows-1252"
+"""Codes of a text: the second is the usual one, and in the third older spreadsheets write."""
+
+_BOMS = {b"\xff\xfe": "utf-16-le", b"\xfe\xff": "utf-16-be"}
+"""Marks at the start of texts in UTF-16."""
+
 
 def is_gzip(path: Path) -> bool:
     return path.name.lower().endswith(".gz")
@@ -28,24 +51,48 @@ def is_gzip(path: Path) -> bool:
 def opened(path: Path) -> Iterator[tuple[BinaryIO, BinaryIO]]:
     """The text's bytes, and the file itself, whose position tells how far reading is.
 
-    Raises UserError for what cannot be read.
+    A text in UTF-16 comes in UTF-8. Raises UserError for what cannot be read.
     """
     try:
         with path.open("rb") as raw:
             if is_gzip(path):
                 with gzip.GzipFile(fileobj=raw, mode="rb") as unpacked:
-                    yield io.BufferedReader(unpacked, BLOCK), raw
+                    yield _in_utf8(io.BufferedReader(unpacked, BLOCK)), raw
             else:
-                yield raw, raw
+                yield _in_utf8(raw), raw
     except (OSError, EOFError, zlib.error) as error:
         reason = getattr(error, "strerror", None) or error
         raise UserError(f"{path}: cannot be read ({reason})") from None
+    except UnicodeDecodeError:
+        raise UserError(f"{path}: is not text in UTF-16, as its first bytes say") from None
+
+
+def _in_utf8(stream: io.BufferedReader) -> BinaryIO:
+    """``stream``, and where it begins as UTF-16 does, its text in UTF-8."""
+    code = _BOMS.get(stream.peek(2)[:2])
+    if code is None:
+        return stream
+    stream.read(2)
+    return io.BufferedReader(Recoded(stream, code), BLOCK)
+
+
+def code_of(path: Path) -> str:
+    """The code of a text by its first 256 KiB: ``UTF_8``, ``UTF_16`` or ``WESTERN``."""
+    with opened(path) as (stream, raw):
+        if stream is not raw and isinstance(getattr(stream, "raw", None), Recoded):
+            return UTF_16
+        try:
+            codecs.getincrementaldecoder("utf-8")().decode(stream.read(LONGEST))
+        except UnicodeDecodeError:
+            return WESTERN
+    return UTF_8
 
 
 def lines(path: Path) -> Iterator[str]:
-    """The lines of a text in UTF-8, without a byte order mark.
+    """The lines of a text, without a byte order mark.
 
-    Raises UserError for other bytes, and for a line longer than ``LONGEST``.
+    A line that is not in UTF-8 is taken for one in Windows-1252. Raises UserError for bytes that
+    are no text there, and for a line longer than ``LONGEST``.
     """
     with opened(path) as (stream, _):
         number = 0
@@ -55,22 +102,59 @@ def lines(path: Path) -> Iterator[str]:
                 raise UserError(
                     f"{path}: row {number} is longer than {LONGEST >> 10} KiB, this is no table"
                 )
-            try:
-                yield line.decode("utf-8-sig" if number == 1 else "utf-8")
-            except UnicodeDecodeError:
-                raise UserError(f"{path}: is not text in UTF-8") from None
+            text = _decoded(line, number == 1)
+            if text is None:
+                raise UserError(f"{path}: is not text in {UTF_8}, {UTF_16} or {WESTERN}")
+            yield text
+
+
+def _decoded(line: bytes, first: bool) -> str | None:
+    """A line's text, None where it is none; letters of Windows-1252 are no control characters."""
+    try:
+        return line.decode("utf-8-sig" if first else "utf-8")
+    except UnicodeDecodeError:
+        pass
+    try:
+        text = line.decode("cp1252")
+    except UnicodeDecodeError:
+        return None
+    return text if all(c.isprintable() or c in "\t\r\n\xa0\xad" for c in text) else None
+
+
+class Recoded(io.RawIOBase):
+    """The bytes of ``stream``, a text in ``code``, in UTF-8."""
+
+    def __init__(self, stream: BinaryIO, code: str) -> None:
+        self._stream = stream
+        self._decoder = codecs.getincrementaldecoder(code)()
+        self._rest = b""
+
+    def readable(self) -> bool:
+        return True
+
+    def readinto(self, buffer) -> int:  # type: ignore[no-untyped-def]
+        while not self._rest:
+            block = self._stream.read(BLOCK)
+            # A code unit that was cut off at the end is no text any more.
+            self._rest = self._decoder.decode(block).encode("utf-8", "replace")
+            if not block:
+                break
+        piece, self._rest = self._rest[: len(buffer)], self._rest[len(buffer) :]
+        buffer[: len(piece)] = piece
+        return len(piece)
 
 
 class Body(io.RawIOBase):
-    """The bytes of a table from its line ``first`` (from 1) on, lines of comment left out.
+    """The bytes of a table from its line ``first`` (from 1) to before ``stop``.
 
-    Lines that begin with ``comment`` are left out; where ``blanks`` separate the columns, a run of
-    them becomes one. Lines longer than ``LONGEST`` end it, for the reader behind to complain.
+    Lines of comment are left out. Where ``blanks`` separate the columns, a run of them becomes one.
+    Lines longer than ``LONGEST`` end it, for the reader behind to complain.
     """
 
-    def __init__(self, stream: BinaryIO, first: int, comment: bytes, blanks: bool) -> None:
-        self._stream, self._comment, self._blanks = stream, comment, blanks
-        self._rest = b""
+    def __init__(self, stream: BinaryIO, first: int, stop: int | None, blanks: bool) -> None:
+        self._stream, self._blanks = stream, blanks
+        self._left = None if stop is None else stop - first
+        self._rest = memoryview(b"")
         for _ in range(first - 1):
             stream.readline(LONGEST)
 
@@ -79,19 +163,34 @@ class Body(io.RawIOBase):
 
     def readinto(self, buffer) -> int:  # type: ignore[no-untyped-def]
         while not self._rest:
-            block = self._stream.read(BLOCK)
+            block = b"" if self._left == 0 else self._stream.read(BLOCK)
             if not block:
                 return 0
             block += self._stream.readline(LONGEST)
-            self._rest = self._cleaned(block)
+            self._rest = memoryview(self._cleaned(self._before_stop(block)))
         piece, self._rest = self._rest[: len(buffer)], self._rest[len(buffer) :]
         buffer[: len(piece)] = piece
         return len(piece)
 
+    def _before_stop(self, block: bytes) -> bytes:
+        """The lines of a block that are before the last one."""
+        if self._left is None:
+            return block
+        count = block.count(b"\n")
+        if count >= self._left:
+            block = b"\n".join(block.split(b"\n", self._left)[: self._left]) + b"\n"
+        self._left = max(self._left - count, 0)
+        return block
+
     def _cleaned(self, block: bytes) -> bytes:
+        commented = block.startswith(_MARKS) or any(b"\n" + mark in block for mark in _MARKS)
+        if not commented and not self._blanks:
+            return block
         kept = block.split(b"\n")
-        if self._comment:
-            kept = [line for line in kept if not line.startswith(self._comment)]
+        if commented:
+            kept = [
+                line for line in kept if not line.startswith(_MARKS) or line.startswith(_NO_MARKS)
+            ]
         if self._blanks:
             kept = [b" ".join(line.split()) for line in kept]
         return b"\n".join(kept)

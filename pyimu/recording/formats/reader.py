@@ -23,6 +23,7 @@ class Reader(ABC):
     so that only the columns that a map names, or whose names are a recording's own, are looked at;
     ``skipped`` says what in it has no columns of numbers, and why. ``rate`` [Hz] is what the file
     says of itself, for where it has no times, ``body`` the axes that its format defines ("frd").
+    ``clocks`` are the columns of dates and times of day, which come in s whatever their names say.
     """
 
     path: Path
@@ -32,6 +33,7 @@ class Reader(ABC):
     skipped: tuple[str, ...] = ()
     rate: float | None = None
     body: str | None = None
+    clocks: tuple[str, ...] = ()
 
     @abstractmethod
     def batches(self, positions: Sequence[int], long: int) -> Iterator[tuple[Columns, float]]:
@@ -49,6 +51,10 @@ class Reader(ABC):
 
         ``long`` is the position of the time.
         """
+
+    def at_end(self) -> tuple[Finding, ...]:
+        """What was seen where the file ends, once it was read to there."""
+        return ()
 
     def numeric(self) -> list[int]:
         """Positions of the columns that hold numbers."""

@@ -15,18 +15,28 @@ import pyarrow as pa
 from pyarrow import csv as pacsv
 
 from pyimu.errors import Finding, UserError
+from pyimu.recording.formats.clock_times import ClockTimes
 from pyimu.recording.formats.layout import HEAD, MISSING, UNCLOSED, Layout, is_number, layout_of
-from pyimu.recording.formats.lines import Body, is_gzip, lines, opened
+from pyimu.recording.formats.lines import UTF_16, Body, is_comment, is_gzip, lines, opened
 from pyimu.recording.formats.reader import Columns, Reader
+
+LAST = 20
+"""Lines behind the last whole row, at most, that are no rows: one cut off, and remarks. With more
+of them the table is not what it was taken for."""
 
 
 @dataclass(frozen=True)
 class CsvReader(Reader):
-    """A table in text, plain or gzipped, as ``layout`` says; ``header`` are its columns' names."""
+    """A table in text, plain or gzipped, as ``layout`` says; ``header`` are its columns' names.
+
+    Lines of comment are left out wherever they stand, and lines at the end that are no whole rows:
+    a logger that lost its power leaves one, others write a last remark.
+    """
 
     path: Path
     header: list[str]
     layout: Layout = field(default_factory=Layout)
+    _ended: list[Finding] = field(default_factory=list, compare=False, repr=False)
 
     @classmethod
     def open(cls, path: Path) -> CsvReader:
@@ -44,51 +54,85 @@ class CsvReader(Reader):
         """Hz; what a comment says."""
         return self.layout.rate
 
+    @property
+    def clocks(self) -> tuple[str, ...]:  # type: ignore[override]
+        return tuple(self.header[k] for k in self.layout.clocks)
+
     def batches(self, positions: Sequence[int], long: int) -> Iterator[tuple[Columns, float]]:
         """``long`` is int64 where its numbers need it.
 
         Raises UserError, with row and column, for a cell that is no number and for a row of another
-        length.
+        length that whole rows follow.
         """
+        if self._first_row() is None:
+            return
+        clocks = {k: ClockTimes() for k, p in enumerate(positions) if p in self.layout.clocks}
+        for batch, share in self._whole(positions, long):
+            columns = enumerate(batch.columns)
+            yield [clocks[k].add(c) if k in clocks else to_numpy(c) for k, c in columns], share
+        # What reading took beside the numbers would be held for the next file.
+        pa.default_memory_pool().release_unused()
+
+    def _whole(self, positions: Sequence[int], long: int) -> Iterator[tuple[Any, float]]:
+        """The batches of rows up to the last whole one, and the share that was read so far."""
+        done, first, stop = 0, self.layout.first, None
+        cleaned = (
+            self.layout.commented or self.layout.separator == " " or self.layout.code == UTF_16
+        )
+        while True:
+            try:
+                for batch, share in self._parsed(positions, long, first, stop, cleaned):
+                    done += batch.num_rows
+                    yield batch, share
+                return
+            except (pa.ArrowException, OSError) as error:
+                end = self._explain(positions, done)
+                if cleaned and end == stop:
+                    reason = (str(error).splitlines() or [type(error).__name__])[0]
+                    raise UserError(f"{self.path}: cannot be read as CSV ({reason})") from None
+            # A comment was between the rows, the first of this log, or its end is none.
+            cleaned, stop = True, end
+            first = next((row for row, _ in islice(self._lines(), done, None)), None)
+            if first is None or (stop is not None and first >= stop):
+                return
+
+    def _parsed(
+        self, positions: Sequence[int], long: int, first: int, stop: int | None, cleaned: bool
+    ) -> Iterator[tuple[Any, float]]:
+        """The lines from ``first`` to before ``stop`` in batches, and the share read so far."""
         names = [str(position) for position in range(len(self.header))]
         kept = [names[position] for position in positions]
         kinds = {name: pa.float64() for name in kept} | (
             {names[long]: pa.int64()} if self._is_long(long) else {}
         )
-        if self._first_row() is None:
-            return
-        done = 0
-        try:
-            with self._stream() as (stream, skip, share):
-                for batch in pacsv.open_csv(
-                    stream,
-                    read_options=pacsv.ReadOptions(column_names=names, skip_rows=skip),
-                    parse_options=pacsv.ParseOptions(delimiter=self.layout.separator),
-                    convert_options=pacsv.ConvertOptions(
-                        column_types=kinds,
-                        include_columns=kept,
-                        null_values=list(MISSING),
-                        decimal_point=self.layout.decimal,
-                    ),
-                ):
-                    done += batch.num_rows
-                    yield [to_numpy(column) for column in batch.columns], share()
-            # What reading took beside the numbers would be held for the next file.
-            pa.default_memory_pool().release_unused()
-        except (pa.ArrowException, OSError) as error:
-            self._explain(positions, done)
-            reason = (str(error).splitlines() or [type(error).__name__])[0]
-            raise UserError(f"{self.path}: cannot be read as CSV ({reason})") from None
+        kinds |= {names[position]: pa.string() for position in self.layout.clocks}
+        with self._stream(first, stop, cleaned) as (stream, skip, share):
+            for batch in pacsv.open_csv(
+                stream,
+                read_options=pacsv.ReadOptions(column_names=names, skip_rows=skip),
+                parse_options=pacsv.ParseOptions(delimiter=self.layout.separator),
+                convert_options=pacsv.ConvertOptions(
+                    column_types=kinds,
+                    include_columns=kept,
+                    null_values=list(MISSING),
+                    decimal_point=self.layout.decimal,
+                ),
+            ):
+                yield batch, share()
 
     @contextmanager
-    def _stream(self) -> Iterator[tuple[Any, int, Any]]:
-        """What to read, the lines to skip in it, and the share that was read so far."""
-        layout = self.layout
-        if layout.separator == " " or layout.comment:
+    def _stream(
+        self, first: int, stop: int | None, cleaned: bool
+    ) -> Iterator[tuple[Any, int, Any]]:
+        """What to read, the lines to skip in it, and the share that was read so far.
+
+        Where it is ``cleaned`` lines of comment are left out, which takes as long as reading, and
+        those from ``stop`` on.
+        """
+        if cleaned:
             with opened(self.path) as (stream, raw):
                 size = max(self.path.stat().st_size, 1)
-                blanks, comment = layout.separator == " ", layout.comment.encode()
-                body = Body(stream, layout.first, comment, blanks)
+                body = Body(stream, first, stop, self.layout.separator == " ")
                 yield (
                     pa.PythonFile(body, mode="r"),
                     0,
@@ -99,9 +143,13 @@ class CsvReader(Reader):
             size = max(raw.size(), 1)
             yield (
                 pa.CompressedInputStream(raw, "gzip") if is_gzip(self.path) else raw,
-                layout.first - 1,
+                first - 1,
                 lambda: 1.0 if raw.closed else raw.tell() / size,
             )
+
+    def at_end(self) -> tuple[Finding, ...]:
+        """That the last lines were left out."""
+        return tuple(self._ended)
 
     def count(self, long: int) -> None:
         return None
@@ -112,7 +160,8 @@ class CsvReader(Reader):
         return [
             k
             for k in range(len(self.header))
-            if all(is_number(row[k], self.layout.decimal) for row in rows)
+            if k in self.layout.clocks
+            or all(is_number(row[k], self.layout.decimal) for row in rows)
             and any(row[k].strip() not in MISSING for row in rows)
         ]
 
@@ -129,9 +178,7 @@ class CsvReader(Reader):
         """(row, line) of each row of numbers that is not blank, as a spreadsheet counts them."""
         layout = self.layout
         for number, line in enumerate(lines(self.path), 1):
-            if number < layout.first or not line.strip():
-                continue
-            if not layout.comment or not line.startswith(layout.comment):
+            if number >= layout.first and line.strip() and not is_comment(line):
                 yield number, line.rstrip("\r\n")
 
     def _first_row(self) -> list[str] | None:
@@ -145,14 +192,20 @@ class CsvReader(Reader):
             and re.fullmatch(r"\d{16,19}", cells[position].strip()) is not None
         )
 
-    def _explain(self, positions: Sequence[int], good: int) -> None:
+    def _explain(self, positions: Sequence[int], good: int) -> int | None:
         """Raise UserError for the first wrong cell or row after ``good`` rows.
 
-        A cell is wrong where it is not a number, a row where it is too long or too short.
+        A cell is wrong where it is not a number, a row where it is too long or too short and whole
+        rows follow. Gives the row from which on none does, None where there is none.
         """
-        for row, line in islice(self._lines(), good, None):
+        rows = islice(self._lines(), good, None)
+        for number, (row, line) in enumerate(rows, good):
             cells = self.layout.cells(line)
             if len(cells) != len(self.header):
+                last = [line, *(text for _, text in islice(rows, LAST))]
+                if number and len(last) <= LAST and not any(map(self._is_whole, last)):
+                    self._ended[:] = [Finding("end_left_out", "", len(last), {"row": row})]
+                    return row
                 if self.layout.is_open(line):
                     raise UserError(f"{self.path}: row {row}: {UNCLOSED}")
                 raise UserError(
@@ -160,9 +213,16 @@ class CsvReader(Reader):
                     f"in {'the header' if self.layout.named else 'the others'}"
                 )
             for position in positions:
+                if position in self.layout.clocks:
+                    continue
                 if not is_number(cells[position], self.layout.decimal):
                     place = f"{self.path}: row {row}, column {self.header[position]}"
                     raise UserError(f"{place}: '{cells[position]}' is not a number")
+        return None
+
+    def _is_whole(self, line: str) -> bool:
+        """Whether a line has a cell for each column, or more."""
+        return len(self.layout.cells(line)) >= len(self.header)
 
 
 def to_numpy(column: pa.Array) -> np.ndarray:

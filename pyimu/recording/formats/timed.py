@@ -63,5 +63,8 @@ class TimedReader(Reader):
         names = [k for k, name in enumerate(self.reader.header) if "gyr" in name or "acc" in name]
         return self.reader.count(names[0] if names else 0)
 
+    def at_end(self) -> tuple[Finding, ...]:
+        return self.reader.at_end()
+
     def place(self, index: int) -> str:
         return self.reader.place(index)

@@ -6,23 +6,30 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
+from pyimu.recording.guess.endings import GLUED, fits, in_brackets, in_words
 from pyimu.recording.spelling import unit_of
 
 STRONG = {
     "gyro": {"gyr", "gyro", "gyros", "gyroscope", "omega", "angvel"},
-    "accel": {"acc", "accel", "accelerometer", "acceleration"},
+    "accel": {"acc", "accel", "accelerometer", "acceleration", "gforce"},
     "mag": {"mag", "magn", "magnetometer", "magnetic"},
 }
 """Words that say what a vector is."""
 
-PAIRS = {"gyro": ({"angular", "rotation"}, {"velocity", "rate", "vel"})}
+PAIRS = {"gyro": ({"angular", "ang", "rotation", "turn"}, {"velocity", "rate", "rates", "vel"})}
 """Words that say it together."""
 
-WEAK = {"gyro": {"w", "g"}, "accel": {"a", "f"}, "mag": {"m", "b"}}
-"""Letters that may stand for it, where they are the first word of the name."""
+ROLLS = {"p": "x", "q": "y", "r": "z"}
+"""The rates about the axes, as aeroplanes have them, where all three are there."""
+
+WEAK = {"gyro": {"w", "g", "rate", "rates", "pqr"}, "accel": {"a", "f"}, "mag": {"m", "b"}}
+"""Letters and words that may stand for it, where they are the first word of the name."""
 
 TIMES = {"time", "timestamp", "stamp", "t", "ts", "clock"}
 """Words for times; with ``sampletimefine``, ``seconds`` and ``epoch`` they are many."""
+
+TICKS = {"millis": "ms", "micros": "us", "nanos": "ns"}
+"""Words for times that say their unit, as Arduino's functions are called."""
 
 TEMPERATURES = {"temp", "temperature", "celsius", "imutemp"}
 
@@ -42,8 +49,14 @@ DERIVED = (
 
 RAW = {"raw"}
 
+BEHIND = {"cal", "calibrated", "raw"}
+"""Words that may stand behind the axis."""
+
+ELSE = {"pos", "position", "vel", "velocity", "speed", "angle", "euler"}
+"""Words for vectors that no inertial sensor measures."""
+
+_AXIS_FIRST = re.compile(r"([xyz])(gyro?s?|gyroscope|acce?l?|acceleration|mag)")
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
-_STATED = re.compile(r"\s*(?:\(([^()]*)\)|\[([^\[\]]*)\]|\{([^{}]*)\})\s*$")
 
 
 @dataclass(frozen=True)
@@ -63,7 +76,9 @@ class Name:
     @property
     def is_time(self) -> bool:
         words = set(self.words)
-        return not self.axis and bool(words & (TIMES | {"seconds", "epoch", "sampletimefine"}))
+        return not self.axis and bool(
+            words & (TIMES | {"seconds", "epoch", "sampletimefine", *TICKS})
+        )
 
     @property
     def is_temperature(self) -> bool:
@@ -82,16 +97,19 @@ class Name:
 def named(cell: str) -> Name:
     """What a header's ``cell`` says."""
     text, unit, said = cell.strip(), None, ""
-    match = _STATED.search(text)
-    if match and not re.fullmatch(r"\d*", (match[1] or match[2] or match[3] or "-").strip()):
-        said = (match[1] or match[2] or match[3] or "").strip()
-        unit, text = _unit(said, text), text[: match.start()]
-    elif match and not (match[1] or match[2] or match[3]):
-        unit, text = "1", text[: match.start()]
+    stated = in_brackets(text)
+    if stated is not None and not stated[1]:
+        text, unit = stated[0], "1"
+    elif stated is not None and not stated[1].isdigit():
+        text, said = stated
+        unit = _unit(said, text)
     words = [word.casefold() for word in _WORD.findall(text)]
     if unit is None and not said:
-        words, unit = _without_unit(words, text)
+        words, unit = in_words(words, {*"xyz", *ROLLS, *TIMES, *TEMPERATURES})
+    if unit is None and not said and words and words[-1] in TICKS:
+        unit = TICKS[words[-1]]
     axis, words = _axis(words)
+    words = ["gforce"] if words in (["g", "f"], ["g", "force"]) else words
     return Name(cell, tuple(words), axis, unit, said or (unit or ""))
 
 
@@ -102,24 +120,10 @@ def _unit(said: str, text: str) -> str | None:
     return "degC" if found is None and said == "C" else found
 
 
-def _without_unit(words: list[str], text: str) -> tuple[list[str], str | None]:
-    """The words in front of a unit that ends the name (``x_deg_per_s``), and the unit.
-
-    A single letter is a unit only behind an axis or a word for time: ``acc_x_g``, not ``w``.
-    """
-    for count in (3, 2, 1):
-        tail, head = words[-count:], words[:-count]
-        if not head or len(tail) < count:
-            continue
-        unit = unit_of(" ".join(tail)) or (unit_of("/".join(tail)) if count == 2 else None)
-        sure = head[-1] in set("xyz") or head[-1] in TIMES | TEMPERATURES or len(tail[-1]) > 2
-        if unit and sure and not (count == 1 and tail[0] in set("xyzwtgabm1") and not sure):
-            return head, unit
-    return words, None
-
-
 def _axis(words: list[str]) -> tuple[str, list[str]]:
     """The axis, and the words without it."""
+    if len(words) > 1 and words[-1] in BEHIND:
+        words = [words[-1], *words[:-1]]
     for at in (len(words) - 1, 0):
         if words and 0 <= at < len(words) and words[at] in ("w", "x", "y", "z"):
             if at or len(words) == 1:
@@ -127,9 +131,13 @@ def _axis(words: list[str]) -> tuple[str, list[str]]:
     if words and words[-1] in ("0", "1", "2", "3") and len(words) > 1:
         return "xyz?"[int(words[-1])] if words[-1] != "3" else "3", words[:-1]
     if words:
-        match = re.fullmatch(r"(gyro?|acce?l?|mag|[gwamqf])_?([wxyz])", words[-1])
+        match = GLUED.fullmatch(words[-1])
         if match:
             return match[2], [*words[:-1], match[1]]
+        for count in (1, 2):
+            match = _AXIS_FIRST.fullmatch("".join(words[-count:]))
+            if match:
+                return match[1], [*words[:-count], match[2]]
     return "", words
 
 
@@ -144,20 +152,23 @@ class Triad:
 
     @property
     def unit(self) -> str | None:
-        """The unit that all three state."""
+        """The unit that all three state, None where it is none of such a vector."""
         units = {name.unit for name in self.names}
-        return units.pop() if len(units) == 1 else None
+        unit = units.pop() if len(units) == 1 else None
+        return unit if unit is not None and fits(unit, self.group) else None
 
 
 def triads(header: Sequence[str], file: str = "") -> list[Triad]:
     """The vectors in a header, those that are the surest first.
 
-    Of columns that are called by their axis alone the name of the ``file`` says what they are.
+    Of columns that are called by their axis alone the name of the ``file`` says what they are, or
+    else their unit.
     """
     stems: dict[tuple[str, ...], dict[str, int]] = {}
     names = [named(cell) for cell in header]
     hint = tuple(word.casefold() for word in _WORD.findall(file.partition(".")[0]))
     names = [n if n.words or not n.axis else replace(n, words=hint) for n in names]
+    names = _with_rolls(names)
     for position, name in enumerate(names):
         if name.axis:
             stems.setdefault(name.words, {}).setdefault(name.axis, position)
@@ -167,12 +178,41 @@ def triads(header: Sequence[str], file: str = "") -> list[Triad]:
             continue
         at = tuple(axes[axis] for axis in "xyz")
         three = tuple(names[k] for k in at)
+        unknown = stem in ((), hint) and not any(three[0].of(group) for group in STRONG)
         for group in STRONG:
-            score = 2 * three[0].of(group)
+            score = 2 * (_by_unit(three, group) if unknown else three[0].of(group))
             if score:
                 score += bool(set(stem) & RAW) - 3 * bool(set(stem) & (DERIVED | TRUTHS))
                 found.append(Triad(group, three, at, score))  # type: ignore[arg-type]
     return sorted(found, key=lambda triad: -triad.score)
+
+
+def _by_unit(three: Sequence[Name], group: str) -> int:
+    """How surely three columns are of ``group`` whose unit alone tells: 0 or 1."""
+    return int(all(name.unit is not None and fits(name.unit, group) for name in three))
+
+
+def _with_rolls(names: Sequence[Name]) -> list[Name]:
+    """The names; ``p``, ``q`` and ``r`` are axes where all three are there."""
+    rolls = [(n.words[:-1], n.words[-1]) for n in names if not n.axis and n.words]
+    whole = {stem for stem, _ in rolls if all((stem, letter) in rolls for letter in ROLLS)}
+    return [
+        replace(n, words=(*n.words[:-1], "pqr"), axis=ROLLS[n.words[-1]])
+        if not n.axis and n.words and n.words[-1] in ROLLS and n.words[:-1] in whole
+        else n
+        for n in names
+    ]
+
+
+def others(header: Sequence[str], taken: Iterable[int]) -> list[tuple[int, int, int]]:
+    """Positions of the vectors in a header that no word tells of, those of ``taken`` left out."""
+    away = set(taken)
+    stems: dict[tuple[str, ...], dict[str, int]] = {}
+    for position, name in enumerate(_with_rolls([named(cell) for cell in header])):
+        if name.axis and position not in away and not set(name.words) & (DERIVED | TRUTHS | ELSE):
+            stems.setdefault(name.words, {}).setdefault(name.axis, position)
+    whole = [axes for axes in stems.values() if set(axes) == set("xyz")]
+    return [(axes["x"], axes["y"], axes["z"]) for axes in whole]
 
 
 def surest(found: Iterable[Triad], group: str) -> tuple[Triad | None, list[Triad]]:

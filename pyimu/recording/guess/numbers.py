@@ -12,8 +12,14 @@ SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 """Units in which clocks count."""
 
 USUAL = (8.0, 8000.0)
-"""Hz; three decades, within which most inertial sensors are sampled, so that of units a factor of
-1000 apart one fits."""
+"""Hz; three decades, within which most inertial sensors are sampled: of units a factor of 1000
+apart one fits where a clock is off by far."""
+
+POSSIBLE = (4.0, 10000.0)
+"""Hz; a clock that two units bring in here may be in either: 5 Hz in s are 5 kHz in ms."""
+
+SLOWEST = 0.01
+"""Hz; a unit in which a log would be slower is not worth a word."""
 
 EPOCH = (946684800.0, 4102444800.0)
 """s since 1970 of the years 2000 and 2100: so large a time is a date, and tells its unit."""
@@ -52,7 +58,8 @@ class UnitGuess:
 def time_unit(time: np.ndarray) -> UnitGuess:
     """The unit in which the times (n,) count.
 
-    A date tells it; else the one in which the rate is usual (``USUAL``).
+    A date tells it; else the one in which alone the rate is possible (``POSSIBLE``). What else it
+    may be is in the reason.
     """
     known = time[np.isfinite(time.astype(float))]
     step = np.diff(known)
@@ -67,10 +74,14 @@ def time_unit(time: np.ndarray) -> UnitGuess:
             return UnitGuess(unit, f"a date of {year}, at {rates[unit]:.4g} Hz")
     if np.all(step == 1):
         return UnitGuess(None, "whole numbers one apart: a counter of samples, or times")
-    usual = [unit for unit, rate in rates.items() if USUAL[0] <= rate < USUAL[1]]
-    if not usual:
-        return UnitGuess(None, f"steps of {median:.4g} are no usual rate in any unit")
-    return UnitGuess(usual[0], f"steps of {median:.4g} are {rates[usual[0]]:.4g} Hz then")
+    possible = [unit for unit, rate in rates.items() if POSSIBLE[0] <= rate < POSSIBLE[1]]
+    if len(possible) != 1:
+        either = " or ".join(f"{rates[unit]:.4g} Hz in {unit}" for unit in possible)
+        return UnitGuess(None, f"steps of {median:.4g} are {either or 'no usual rate in any unit'}")
+    unit = possible[0]
+    slower = [f"{r:.4g} Hz in {u}" for u, r in rates.items() if SLOWEST <= r < POSSIBLE[0]]
+    other = f" ({slower[0]})" if slower else ""
+    return UnitGuess(unit, f"steps of {median:.4g} are {rates[unit]:.4g} Hz then{other}")
 
 
 def counts(values: np.ndarray) -> bool:
@@ -140,7 +151,9 @@ def rate_unit(rate: np.ndarray, force: np.ndarray | None, period: float | None) 
         return UnitGuess("deg/s", f"{largest:.4g} rad/s would be faster than anything turns")
     lacks = "it does not turn enough"
     if force is None or period is None:
-        lacks = f"there is no {'accelerometer' if force is None else 'time'} beside it"
+        lacks = (
+            f"there is no {'accelerometer' if force is None else 'time of a known unit'} beside it"
+        )
     return UnitGuess(None, f"rad/s or deg/s? {lacks} to tell")
 
 

@@ -9,9 +9,20 @@ from pathlib import Path
 import numpy as np
 
 from pyimu.errors import UserError
-from pyimu.recording.columns import GROUP_OF, XYZ
+from pyimu.recording.columns import GROUP_OF, XYZ, own_name
+from pyimu.recording.counter import Unwrapped
 from pyimu.recording.formats.reader import Reader
-from pyimu.recording.guess.names import DERIVED, TRUTHS, Name, attitude, named, surest, triads
+from pyimu.recording.guess.endings import fits
+from pyimu.recording.guess.names import (
+    DERIVED,
+    TRUTHS,
+    Name,
+    attitude,
+    named,
+    others,
+    surest,
+    triads,
+)
 from pyimu.recording.guess.numbers import (
     SECONDS,
     UnitGuess,
@@ -23,6 +34,9 @@ from pyimu.recording.guess.numbers import (
 
 MOST = 200_000
 """Rows that are looked at."""
+
+CLOCK = UnitGuess("s", "dates or times of day, in seconds of the first day")
+"""Of a column of them."""
 
 CHOICES = {"time": ("s", "ms", "us", "ns"), "gyro": ("rad/s", "deg/s"), "mag": ("uT", "gauss")} | {
     "accel": ("m/s^2", "g"),
@@ -95,12 +109,17 @@ def proposed(reader: Reader) -> Proposal:
     picked = {g: _surest(found, vectors, g) for g in ("accel", "gyro", "mag")}
     if picked["accel"] is None and picked["gyro"] is None:
         picked = _by_numbers(found, reader, numbers, period) | {"mag": picked["mag"]}
+    for group in ("accel", "gyro"):
+        if picked[group] is None:
+            named_ones = [p for vector in vectors for p in vector.positions]
+            picked[group] = _missing(found, group, reader, numbers, picked, period, named_ones)
     force = None if picked["accel"] is None else numbers.of([p for p, _ in picked["accel"]])
     for group in ("gyro", "accel", "mag"):
         if picked[group] is not None:
             _vector(found, group, picked[group], numbers, force, period)
     _temperature(found, reader)
     _reference(found, reader)
+    _own(found, reader)
     return found
 
 
@@ -132,14 +151,17 @@ Picked = list[tuple[int, Name]] | None
 def _time(found: Proposal, reader: Reader, numbers: Numbers) -> float | None:
     """Add the time; gives the sample period [s] where it is known."""
     names = [named(cell) for cell in reader.header]
+    clocks = {k for k, cell in enumerate(reader.header) if cell in reader.clocks}
     at = [k for k in numbers.positions if names[k].is_time and not set(names[k].words) & TRUTHS]
+    at = at or sorted(clocks)
     if not at:
         at = [k for k in numbers.positions[:2] if _rises(numbers.of([k]))]
     candidates = []
     for k in at:
-        values = numbers.of([k])
+        values = Unwrapped().add(numbers.of([k]))
         if _rises(values):
-            candidates.append((k, values, _time_guess(names[k], values)))
+            guess = CLOCK if k in clocks else _time_guess(names[k], values)
+            candidates.append((k, values, guess))
     if not candidates:
         found.rate = reader.rate
         return None if reader.rate is None else 1 / reader.rate
@@ -222,6 +244,35 @@ def _by_numbers(
     return picked
 
 
+def _missing(
+    found: Proposal,
+    group: str,
+    reader: Reader,
+    numbers: Numbers,
+    picked: dict[str, Picked],
+    period: float | None,
+    named_ones: Sequence[int],
+) -> Picked:
+    """The vector of ``group`` that no name tells, beside the others, where its numbers tell it.
+
+    A vector that may be it is noted else.
+    """
+    force = None if picked["accel"] is None else numbers.of([p for p, _ in picked["accel"]])
+    taken = [p for known in picked.values() if known is not None for p, _ in known]
+    names = [named(cell) for cell in reader.header]
+    for at in others(reader.header, [*taken, *named_ones]):
+        if not set(at) <= set(numbers.positions):
+            continue
+        values = numbers.of(at)
+        guess = force_unit(values) if group == "accel" else rate_unit(values, force, period)
+        cells = ", ".join(reader.header[k] for k in at)
+        if guess.unit is not None and (group == "accel" or "gravity" in guess.why):
+            found.notes.append(f"{cells} were taken for the {group} by their numbers alone")
+            return [(k, names[k]) for k in at]
+        found.notes.append(f"{cells} are left out: they may be the {group} ({guess.why})")
+    return None
+
+
 def _scatter(force: np.ndarray) -> float:
     """Relative scatter of the size of a vector: of the specific force at rest it is small."""
     size = np.linalg.norm(force, axis=1)
@@ -258,7 +309,8 @@ def _unit(
 ) -> UnitGuess:
     """The unit that the header states, else the one that the numbers show."""
     units = {name.unit for _, name in picked}
-    if len(units) == 1 and (unit := units.pop()) is not None:
+    unit = units.pop() if len(units) == 1 else None
+    if unit is not None and fits(unit, group):
         return UnitGuess(unit, f"the header says {picked[0][1].said}")
     values = numbers.of([p for p, _ in picked])
     if group == "accel":
@@ -284,6 +336,16 @@ def _temperature(found: Proposal, reader: Reader) -> None:
         unit = warm[0].unit if warm[0].unit in ("degC", "K") else None
         said = f"the header says {warm[0].said}" if unit else "degC or K?"
         found.add([Guess(warm[0].cell, "temperature", unit, said)])
+
+
+def _own(found: Proposal, reader: Reader) -> None:
+    """Add what is named as a recording's own columns are, of groups that are not there yet."""
+    there = set(found.groups)
+    for cell in reader.header:
+        name = own_name(cell)
+        if name is not None and GROUP_OF[name] not in there:
+            unit = cell.partition("[")[2].rstrip("] ")
+            found.add([Guess(cell, name, unit, "the header says so")])
 
 
 def _reference(found: Proposal, reader: Reader) -> None:

@@ -1,0 +1,92 @@
+"""Dates and times of day in words of digits: ``2024-02-01T12:00:00.010Z``, ``12:00:00,010``."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.compute as pc
+
+_PATTERN = (
+    r"^\s*(?:(?P<year>\d{4})[-/](?P<month>\d{1,2})[-/](?P<day>\d{1,2})[T ]\s*)?"
+    r"(?P<hour>\d{1,2}):(?P<minute>\d{2}):(?P<second>\d{2})(?:[.,](?P<part>\d{1,9})\d*)?"
+    r"\s*(?:Z|UTC|(?P<zone>[-+]\d{2}:?\d{2}))?\s*$"
+)
+
+DAY = 86400
+"""s."""
+
+
+def is_clock_time(cell: str) -> bool:
+    """Whether a cell is a date and a time, the year first, or a time of day."""
+    return re.match(_PATTERN, cell) is not None
+
+
+class ClockTimes:
+    """Dates and times of day in s since the midnight before the first of them, piece by piece.
+
+    So two files of one day have one clock. A time of day that falls by more than half a day is one
+    of the day after.
+    """
+
+    def __init__(self) -> None:
+        self._first_day: int | None = None
+        self._days = 0
+        self._last: float | None = None
+
+    def add(self, cells: pa.Array) -> np.ndarray:
+        """Seconds (n,) of texts, NaN where one is missing or none."""
+        found = pc.extract_regex(cells, _PATTERN)
+        field = {name: found.field(k) for k, name in enumerate(_names(found))}
+        known = ~np.asarray(pc.is_null(found))
+        hour, minute, second = (_whole(field[n], known) for n in ("hour", "minute", "second"))
+        digits = pc.utf8_rpad(pc.fill_null(field["part"], ""), width=9, padding="0")
+        seconds = hour * 3600 + minute * 60 + second - _zone(field["zone"], known)
+        days = _days(field, known)
+        if known.any() and self._first_day is None:
+            at = int(np.flatnonzero(known)[0])
+            self._first_day = int(days[at])
+        # Whole seconds and their parts apart: a sum of both is rounded once.
+        times = (days - (self._first_day or 0)) * DAY + seconds + 1e-9 * _whole(digits, known)
+        if not np.any(_whole(field["year"], known)):
+            times = self._over_midnight(times, known)
+        return np.where(known, times, np.nan)
+
+    def _over_midnight(self, times: np.ndarray, known: np.ndarray) -> np.ndarray:
+        seen = times[known]
+        if not len(seen):
+            return times
+        falls = np.diff(seen, prepend=seen[0] if self._last is None else self._last) < -DAY / 2
+        days = self._days + np.cumsum(falls)
+        self._last, self._days = float(seen[-1]), int(days[-1])
+        times = times.copy()
+        times[known] = seen + DAY * days
+        return times
+
+
+def _names(found: pa.Array) -> list[str]:
+    return [found.type.field(k).name for k in range(found.type.num_fields)]
+
+
+def _whole(texts: pa.Array, known: np.ndarray) -> np.ndarray:
+    """Whole numbers (n,), 0 where there is none."""
+    filled = pc.fill_null(texts, "0")
+    filled = pc.if_else(pc.equal(filled, ""), "0", filled)
+    return np.where(known, filled.cast(pa.int64()).to_numpy(zero_copy_only=False), 0)
+
+
+def _zone(texts: pa.Array, known: np.ndarray) -> np.ndarray:
+    """s by which the zones are ahead of UTC."""
+    plain = pc.replace_substring(pc.fill_null(texts, ""), ":", "")
+    plain = pc.if_else(pc.equal(plain, ""), "+0000", plain)
+    hhmm = _whole(pc.replace_substring(plain, "+", ""), known)
+    return np.sign(hhmm) * (np.abs(hhmm) // 100 * 3600 + np.abs(hhmm) % 100 * 60)
+
+
+def _days(field: dict[str, pa.Array], known: np.ndarray) -> np.ndarray:
+    """Days since 1970-01-01 of the dates, 0 where there is none."""
+    year, month, day = (_whole(field[n], known) for n in ("year", "month", "day"))
+    months = (year - 1970) * 12 + np.maximum(month, 1) - 1
+    first = months.astype("datetime64[M]").astype("datetime64[D]").astype(np.int64)
+    return np.where(year > 0, first + day - 1, 0)

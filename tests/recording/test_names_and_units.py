@@ -1,0 +1,239 @@
+"""Columns of foreign logs by their names: each vector is found or told of, in no wrong unit."""
+
+import re
+
+import numpy as np
+import pytest
+import raw_logs
+from test_raw_logs import turned
+
+from pyimu import inspect, read_recording
+from pyimu.errors import UserError
+from pyimu.recording.formats.suffix import open_reader
+from pyimu.recording.guess.names import named
+from pyimu.recording.guess.proposal import proposed
+
+G = 9.80665
+
+
+def written(folder, header, columns, name="log.csv"):
+    return raw_logs.text(folder / name, [header], columns)
+
+
+@pytest.mark.parametrize(
+    "gyro, accel, in_degrees, in_g",
+    [
+        ("gx_dps,gy_dps,gz_dps", "ax_g,ay_g,az_g", True, True),
+        ("xgyro,ygyro,zgyro", "xacc,yacc,zacc", False, True),
+        ("p,q,r", "ax,ay,az", False, False),
+        ("p_dps,q_dps,r_dps", "AccX,AccY,AccZ", True, False),
+        ("rate_x,rate_y,rate_z", "acc_x,acc_y,acc_z", False, False),
+        ("ang_vel_x,ang_vel_y,ang_vel_z", "lin_acc_x,lin_acc_y,lin_acc_z", False, False),
+        *[(",".join(f"angular_velocity_{a}" for a in "xyz"), "f_x,f_y,f_z", False, False)],
+        ("wx,wy,wz", "gFx,gFy,gFz", False, True),
+        ("gyro_x,gyro_y,gyro_z", "gForce_x,gForce_y,gForce_z", False, True),
+        ("spin_x,spin_y,spin_z", "acc_x,acc_y,acc_z", True, False),
+        ("gyr_x,gyr_y,gyr_z", "push_x,push_y,push_z", True, True),
+    ],
+)
+def test_no_vector_is_left_out(gyro, accel, in_degrees, in_g, tmp_path):
+    time, rates, forces = turned()
+    columns = [*(np.degrees(rates) if in_degrees else rates).T, *(forces / (G if in_g else 1)).T]
+    path = written(tmp_path, f"time_us,{gyro},{accel}", [time // 1000, *columns])
+    found = inspect(path).recording
+    np.testing.assert_allclose(found.gyro, rates, rtol=1e-14)
+    np.testing.assert_allclose(found.accel, forces, rtol=1e-14)
+
+
+def test_a_vector_that_nothing_tells_is_told_of(tmp_path):
+    time, rates, forces = raw_logs.still(400)
+    head = "time_ms,acc_x_g,acc_y_g,acc_z_g,foo_x,foo_y,foo_z"
+    path = written(tmp_path, head, [time // 10**6, *(forces / G).T, *rates.T])
+    (said,) = (f for f in read_recording(path).findings if f.kind == "vector_left_out")
+    assert said.detail == {"columns": "foo_x, foo_y, foo_z"}
+    (note,) = proposed(open_reader(path)).notes
+    assert note.startswith("foo_x, foo_y, foo_z are left out: they may be the gyro")
+    path = written(tmp_path, head.replace("foo", "pos"), [time // 10**6, *forces.T, *rates.T])
+    assert "vector_left_out" not in {f.kind for f in read_recording(path).findings}
+
+
+@pytest.mark.parametrize(
+    "cell, unit",
+    [
+        ("gyro_x_rad_s", "rad/s"),
+        ("gyro_x_deg_s", "deg/s"),
+        ("gyro_x_rads", "rad/s"),
+        ("acc_x_m_s2", "m/s^2"),
+        ("acc_x_m_s_2", "m/s^2"),
+        ("acc_x_ms2", "m/s^2"),
+        ("acc_x_m_per_s2", "m/s^2"),
+        ("Accel_LN_X_CAL m/(s^2)", "m/(s^2)"),
+        ("Accel_LN_X_CAL [m/(s^2)]", "m/(s^2)"),
+        ("Accel X (m/(s^2))", "m/(s^2)"),
+        ("mag_x_uT", "uT"),
+        ("temp_degC", "degC"),
+        ("time_s", "s"),
+        ("w", None),
+        ("g_x", None),
+    ],
+)
+def test_unit_that_ends_a_name(cell, unit):
+    assert named(cell).unit == unit
+
+
+@pytest.mark.parametrize(
+    "gyro, accel",
+    [("gyro_{}_rad_s", "acc_{}_m_s2"), ("gyro_{}_mm", "acc_{}_s"), ("gyro {} (g)", "acc {} (deg)")],
+)
+def test_a_unit_that_cannot_be_is_not_proposed(gyro, accel, tmp_path):
+    time, rates, forces = turned()
+    cells = [form.format(a) for form in (gyro, accel) for a in "xyz"]
+    path = written(tmp_path, ",".join(["time_s", *cells]), [time * 1e-9, *rates.T, *forces.T])
+    assert proposed(open_reader(path)).units == {"time": "s", "gyro": "rad/s", "accel": "m/s^2"}
+
+
+def test_rows_of_names_and_of_units_in_brackets(tmp_path):
+    time, rates, forces = turned()
+    names = [f"Shimmer_Accel_LN_{a}_CAL" for a in "XYZ"] + [f"Shimmer_Gyro_{a}_CAL" for a in "XYZ"]
+    units = ["ms", *["m/(s^2)"] * 3, *["(deg/s)"] * 3]
+    lines = ["\t".join(["Timestamp", *names]), "\t".join(units)]
+    columns = [time * 1e-6, *forces.T, *np.degrees(rates).T]
+    found = read_recording(raw_logs.text(tmp_path / "log.csv", lines, columns, "\t"))
+    np.testing.assert_array_equal(found.accel, forces)
+    np.testing.assert_allclose(found.gyro, rates, rtol=1e-14)
+
+
+@pytest.mark.parametrize("file", ["Gyroskop.csv", "1.csv"])
+def test_a_vector_without_a_name_is_told_by_its_unit(file, tmp_path):
+    time, rates, _ = turned()
+    path = written(
+        tmp_path, "Time (s),X (rad/s),Y (rad/s),Z (rad/s)", [time * 1e-9, *rates.T], file
+    )
+    np.testing.assert_array_equal(inspect(path).recording.gyro, rates)
+
+
+def test_xsens_with_its_magnetometer_and_angles(tmp_path):
+    time, rates, forces = raw_logs.still(300)
+    names = ["PacketCounter", "SampleTimeFine", *(f"Acc_{a}" for a in "XYZ")]
+    names += [*(f"Gyr_{a}" for a in "XYZ"), *(f"Mag_{a}" for a in "XYZ"), "Roll", "Pitch", "Yaw"]
+    more = np.tile([0.1, 0.2, 0.3, 1, 2, 3], (300, 1))
+    columns = [np.arange(300), time // 10**5, *forces.T, *rates.T, *more.T]
+    path = raw_logs.text(
+        tmp_path / "mt.txt", ["// Update Rate: 100.0Hz", "\t".join(names)], columns, "\t"
+    )
+    np.testing.assert_array_equal(read_recording(path).gyro, rates)
+    found = inspect(path)
+    assert (found.problem, found.kind) == ("", "known") and len(found.recording) == 300
+    read_recording(path, found.write_map(tmp_path / "map.toml"))
+
+
+def test_movella_dot_behind_its_lines_of_tags(tmp_path):
+    time, rates, forces = raw_logs.still(300)
+    head = ["DeviceTag:,foo", "FirmwareVersion:,1.0", "OutputRate:,100Hz", ""]
+    names = ["PacketCounter", "SampleTimeFine", *(f"Euler_{a}" for a in "XYZ")]
+    names += [*(f"Acc_{a}" for a in "XYZ"), *(f"Gyr_{a}" for a in "XYZ")]
+    columns = [np.arange(300), time // 1000, *np.zeros((3, 300)), *forces.T, *rates.T]
+    for lines in (head, ["sep=,"]):
+        path = raw_logs.text(tmp_path / "dot.csv", [*lines, ",".join(names)], columns)
+        found = read_recording(path)
+        np.testing.assert_allclose(np.degrees(found.gyro), rates, rtol=1e-14)
+        assert found.findings[1].detail == {"as": "Xsens, by its manuals"}
+
+
+# Own names beside others
+
+
+def mixed(folder, head, columns):
+    path = written(folder, head, columns, "mixed.csv")
+    found = inspect(path)
+    return path, found, read_recording(path, found.write_map(folder / "map.toml"))
+
+
+@pytest.mark.parametrize(
+    "head, at_once",
+    [
+        ("time [s],{g}_x [dps],{g}_y [dps],{g}_z [dps],acc_x [g],acc_y [g],acc_z [g]", True),
+        ("time_s,{g}_x [dps],{g}_y [dps],{g}_z [dps],accel_x [g],accel_y [g],accel_z [g]", True),
+        ("time,{g}_x [dps],{g}_y [dps],{g}_z [dps],acc_x [g],acc_y [g],acc_z [g]", False),
+        ("time [s],{g}_x [dps],{g}_y [dps],{g}_z [dps],acc_x,acc_y,acc_z", False),
+        ("time[s],gx[deg/s],gy[deg/s],gz[deg/s],ax[g],ay[g],az[g]", False),
+    ],
+)
+def test_own_names_beside_others_are_guessed(head, at_once, tmp_path):
+    time, rates, forces = turned()
+    columns = [time * 1e-9, *np.degrees(rates).T, *(forces / G).T, 21.5 + 0 * rates[:, 0]]
+    path, found, mapped = mixed(tmp_path, head.format(g="gyro") + ",supply [V]", columns)
+    assert not found.problem and found.proposals[0].open_questions == []
+    for recording in [found.recording, mapped, *([read_recording(path)] if at_once else [])]:
+        np.testing.assert_allclose(recording.gyro, rates, rtol=1e-14)
+        np.testing.assert_allclose(recording.accel, forces, rtol=1e-14)
+        assert set(recording.supply) == {21.5}
+
+
+def test_a_map_s_own_misspelling_is_told(tmp_path):
+    time, rates, _ = raw_logs.still(100)
+    path = written(tmp_path, "t,wx,wy,wz", [time, *rates.T])
+    (tmp_path / "m.toml").write_text(
+        '[columns]\n"t" = "time [ns]"\n"wx" = "gyr_x [rad/s]"\n'
+        '"wy" = "gyro_y [rad/s]"\n"wz" = "gyro_z [rad/s]"\n'
+    )
+    with pytest.raises(UserError, match="unknown column 'gyr_x', did you mean gyro_x"):
+        read_recording(path, tmp_path / "m.toml")
+
+
+def test_two_lines_of_comment_name_columns_and_units(tmp_path):
+    time, rates, forces = turned()
+    lines = ["% time gx gy gz ax ay az", "% s rad/s rad/s rad/s m/s2 m/s2 m/s2"]
+    path = raw_logs.text(tmp_path / "l.txt", lines, [time * 1e-9, *rates.T, *forces.T], " ")
+    found = inspect(path)
+    assert not found.problem
+    np.testing.assert_array_equal(found.recording.accel, forces)
+
+
+def test_columns_of_one_name_are_told_apart_in_a_map(tmp_path):
+    """By their numbers: a key stands once in a map."""
+    time, rates, forces = turned()
+    path = written(tmp_path, "t,x,y,z,x,y,z", [time // 1000, *rates.T, *forces.T])
+    found = inspect(path)
+    read = read_recording(path, found.write_map(tmp_path / "map.toml"))
+    np.testing.assert_array_equal(read.gyro, rates)
+    np.testing.assert_array_equal(read.accel, forces)
+
+
+@pytest.mark.parametrize("name, unit", [("micros", "us"), ("time_us", "us"), ("t", "us")])
+def test_a_counter_that_wraps_is_a_time(name, unit, tmp_path):
+    time, rates, forces = turned()
+    ticks = (time // 1000 + 2**32 - 7_000_000) % 2**32
+    path = written(tmp_path, f"{name},gx,gy,gz,ax,ay,az", [ticks, *rates.T, *forces.T])
+    found = inspect(path)
+    assert found.proposals[0].units["time"] == unit
+    np.testing.assert_allclose(np.diff(found.recording.time), 0.01, rtol=1e-9)
+    assert "counter_wrapped" in {f.kind for f in found.findings}
+
+
+@pytest.mark.parametrize("name", ["Timestamp", "when"])
+def test_a_date_is_proposed_as_the_time(name, tmp_path):
+    _, rates, forces = turned()
+    stamps = np.datetime64("2024-02-01T12:00:00.000") + np.arange(3000) * np.timedelta64(10, "ms")
+    rows = [",".join(map(str, [t, *w, *f])) for t, w, f in zip(stamps, rates, forces, strict=True)]
+    (tmp_path / "l.csv").write_text("\n".join([f"{name},gx,gy,gz,ax,ay,az", *rows]) + "\n")
+    found = inspect(tmp_path / "l.csv")
+    assert found.proposals[0].units == {"time": "s", "gyro": "rad/s", "accel": "m/s^2"}
+    assert found.recording.time[0] == 12 * 3600
+    assert found.recording.sample_rate == pytest.approx(100)
+
+
+def test_a_map_whose_gyro_nobody_chose_a_unit_for_says_so(pyimu, tmp_path):
+    """At rest nothing tells rad/s from deg/s: the map has a # before both."""
+    time, rates, forces = raw_logs.still(400)
+    written(tmp_path, "t,gx,gy,gz,ax,ay,az", [time * 1e-9, *rates.T, *(forces / G).T], "bare.csv")
+    code, _, _ = pyimu("inspect", "bare.csv", "--write-map", "bare.toml")
+    found = read_recording(tmp_path / "bare.csv", tmp_path / "bare.toml")
+    (said,) = (f for f in found.findings if f.kind == "vector_left_out")
+    assert code == 0 and said.detail == {"columns": "gx, gy, gz"}
+    text = (tmp_path / "bare.toml").read_text()
+    text = re.sub(r'(?m)^# ("g." = "gyro_. \[rad)', r"\1", text)
+    (tmp_path / "bare.toml").write_text(text)
+    found = read_recording(tmp_path / "bare.csv", tmp_path / "bare.toml")
+    assert found.gyro is not None
+    assert "vector_left_out" not in {f.kind for f in found.findings}
