@@ -28,14 +28,7 @@ LEANS = 1.25
 """By which factor the forces may contradict the size of a speed: a body that leans in turns, and
 squats where it speeds up, feels a share of gravity that grows with them."""
 
-UNITS = {
-    "m/s": 1.0,
-    "km/h": 1 / 3.6,
-    "knots": 1852 / 3600,
-    "miles/h": 0.44704,
-    "cm/s": 1e-2,
-    "mm/s": 1e-3,
-}
+UNITS = {name: parse(name).factor for name in ("m/s", "km/h", "kn", "mph", "cm/s", "mm/s")}
 """m/s; one of the units in which speeds are logged."""
 
 

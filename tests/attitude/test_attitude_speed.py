@@ -173,7 +173,7 @@ def level(seed: int, n: int = 9000) -> tuple[np.ndarray, np.ndarray, np.ndarray]
     return speed, gyro, accel + [0.1, -0.1, GRAVITY] + rng.normal(0, 0.3, (n, 3))
 
 
-IN_UNITS = {"m/s": 1, "km/h": 3.6, "knots": 1.94384, "miles/h": 2.23694, "cm/s": 100, "mm/s": 1000}
+IN_UNITS = {"m/s": 1, "km/h": 3.6, "kn": 1.94384, "mph": 2.23694, "cm/s": 100, "mm/s": 1000}
 
 
 @pytest.mark.parametrize("noise", [0.0, 0.1, 1.0])
