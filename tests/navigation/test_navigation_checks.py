@@ -240,7 +240,11 @@ def test_a_force_at_rest_that_is_not_gravity_is_said_and_the_rest_is_one(log):
     """60 %: no gravity by any consumer part, yet the body stands; its gyro's bias is known so."""
     found = run(replace(log, accel=1.6 * log.accel), None, method="filter")
     text = found.report()
-    assert "The force at rest is 15." in text and "% of gravity off" in text
+    (off,) = [f.detail for f in found.findings if f.kind == "gravity_off"]
+    assert off["magnitude"] == pytest.approx(
+        1.6 * np.linalg.norm(log.accel[:200].mean(axis=0)), 0.01
+    )
+    assert "% of gravity off" in text
     assert "turned steadily" not in text and "no rest at the start" not in text
 
 

@@ -21,7 +21,9 @@ def table(tmp_path):
 def test_the_rate_is_asked_for_and_why_the_gyro_s_unit_is_not_known(table):
     said = inspect([table]).report()
     assert "no column is a time: say the sample rate in the map" in said
-    assert "there is no time beside it to tell" in said and "does not turn" not in said
+    assert (
+        "there is no time of a known unit beside it to tell" in said and "does not turn" not in said
+    )
 
 
 def test_with_the_rate_and_a_unit_in_the_map_it_is_read(table, tmp_path):
