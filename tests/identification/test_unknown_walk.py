@@ -9,6 +9,9 @@ from pyimu.identification.fit.fit import begin
 from pyimu.identification.fit.keys import coefficients_of
 from pyimu.identification.fit.maximum_likelihood import fit
 from pyimu.identification.fit.walk import widening, with_unknown_walk
+from pyimu.identification.search.by_chance import Chance
+from pyimu.identification.search.choice import Tried
+from pyimu.identification.search.screen import PENALTY
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS
 
@@ -53,3 +56,34 @@ def inside(models) -> int:
 
 def test_a_declared_walk_is_known():
     assert widening(fitted(1, 1e-6, declared=4e-6)) == {}
+
+
+LOGS = 30
+
+
+def without_ramp(seed: int, k2: float, declared: float = 0.0):
+    """The same rows without the ramp in the model."""
+    model = fitted(seed, k2, declared)
+    return fit(begin(model.sensor.without("rate_ramp"), frozenset(), list(model.trials)))
+
+
+def test_a_ramp_is_charged_for_what_it_gains_beside_a_walk_that_is_not_known():
+    """What it explains more than in one of a hundred logs without one, it explains in no more than
+    that; at worst the best of three axes gains 3.5 nat more there (draws of walks by hand), and by
+    what a residual says of its walk less. Beside a declared walk there is nothing to charge.
+    """
+    rng = np.random.default_rng(1)
+    known = np.maximum(0.5 * rng.standard_normal((100_000, 3)) ** 2 - PENALTY, 0.0).sum(axis=1)
+    least, gains, tolls = np.quantile(known, 0.99), [], []
+    for seed in range(LOGS):
+        tried = Tried(without_ramp(200 + seed, 2e-7), ())
+        tried.views = tried.views[-1:]  # the one for slow effects
+        seen = {c.effect: c for c in tried.looked()[0].candidates}
+        found = tried.refine(seen["rate_ramp"])
+        gains.append(found.gain)
+        tolls.append(found.screened.toll)
+    assert np.sum(np.array(gains) > least) <= binom.ppf(1 - 1e-4, LOGS, 0.01)
+    assert 0.5 < np.mean(tolls) < 4.0
+    declared = without_ramp(7, 2e-7, declared=1e-6)
+    columns = declared.linearise(["rate_ramp"])
+    assert Chance(declared, declared.linearise(), PENALTY).toll(columns, "rate_ramp") < 0.5

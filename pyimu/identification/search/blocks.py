@@ -12,6 +12,7 @@ import numpy as np
 from pyimu.identification.fit.columns import Linear
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.inputs import reference_input
+from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.response import predict, predict_each
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
@@ -100,6 +101,25 @@ class Blocks:
             walk = np.sqrt(steps[:, None] * k2) * rng.standard_normal((len(full), len(k2)))
             white = np.sqrt(r / count) * rng.standard_normal((len(full), len(k2)))
             out.append(np.cumsum(walk, axis=0) + white)
+        return out
+
+    def of_effect(self, linears: Sequence[Linear], effect: str) -> dict[int, list[np.ndarray]]:
+        """By axis, for each trial, the columns (blocks, c) of an effect's coefficients in all of
+        ``linears``; without the axes on which it has none.
+        """
+        shown, out = [one for one in linears if len(one.time)], {}
+        for i in self.fit.noise:
+            keys = dict.fromkeys(k for one in shown for k in one.keys.get(i, ()))
+            wanted = [k for k in keys if isinstance(k, Coefficient) and k.effect == effect]
+            if not wanted:
+                continue
+            out[i] = []
+            for one, (_, _, number, full, _) in zip(shown, self.trials, strict=True):
+                columns = np.zeros((len(one.time), len(wanted)))
+                for at, k in enumerate(wanted):
+                    if k in one.keys.get(i, ()):
+                        columns[:, at] = one.columns[i].arrays[one.keys[i].index(k)]
+                out[i].append(_means(columns, number, full))
         return out
 
     def columns(self, e: Effect, name: str, values: np.ndarray) -> list[np.ndarray]:

@@ -87,6 +87,20 @@ class Chance:
         between = (1.0 - float(np.median(near)) ** 2) * np.log(apart)
         return largest - self._single + between * np.arange(1, most + 1)
 
+    def toll(self, linears: Sequence[Linear], effect: str) -> float:
+        """How much more [nat] an effect that has no form gains by chance than beside a known noise:
+        what varies as slowly as a walk may stand for it. ``linears`` have its columns.
+        """
+        of_axis = self.blocks.of_effect(linears, effect)
+        axes = {
+            i: [Explained(w, beside(self.blocks.white(of_axis[i], w.noise)[0], w.base)) for w in ws]
+            for i, ws in self.axes.items()
+            if i in of_axis
+        }
+        if not axes:
+            return 0.0
+        return max(0.0, float(self._largest(Placed(axes, self.penalty), 1)[0]) - self._single)
+
     def _white(self, made: Sequence[np.ndarray], axis: int, walk: Walk) -> np.ndarray:
         return self.blocks.white([one[:, :, axis] for one in made], walk.noise)[0]
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from functools import reduce
+from functools import cached_property, reduce
 
 import numpy as np
 
@@ -20,7 +20,8 @@ from pyimu.identification.fit.maximum_likelihood import (
 from pyimu.identification.fit.normal import Normal
 from pyimu.identification.fit.reduction import STRUCTURE
 from pyimu.identification.fit.walk import widening
-from pyimu.identification.fit.whiten import Autoregressive
+from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
+from pyimu.identification.search.by_chance import Chance
 from pyimu.identification.search.candidates import Group, equivalent, with_start
 from pyimu.identification.search.ceiling import (
     at_samples,
@@ -125,8 +126,29 @@ class Tried:
 
     def refine(self, c: Screened) -> Refined:
         if c.effect not in self.refined:
-            self.refined[c.effect] = refine(self.current, c)
+            self.refined[c.effect] = refine(self.current, self._charged(c))
         return self.refined[c.effect]
+
+    def _charged(self, c: Screened) -> Screened:
+        """A slow effect without a form, charged for what it gains by chance beside a walk whose
+        size nobody knows.
+        """
+        if (
+            c.form is not None
+            or c.effect in self.current.sensor.values
+            or not is_slow(CATALOGUE[c.effect])
+            or self.chance is None
+        ):
+            return c
+        return replace(c, by_chance=self.chance.toll(self.current.linearise([c.effect]), c.effect))
+
+    @cached_property
+    def chance(self) -> Chance | None:
+        """Draws of what the model leaves; None where no walk is looked for."""
+        walks = any(isinstance(n, RandomWalk) for n in self.current.noise.values())
+        if not walks or any(t.reduction is not None for t in self.current.trials):
+            return None
+        return Chance(self.current, self.current.linearise(), PENALTY)
 
 
 def chosen_of(

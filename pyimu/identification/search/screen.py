@@ -63,11 +63,14 @@ class Screened:
     form: Form | None = None
     scatter: Scatter = ONE
     visible: Mapping[tuple[int, ...], float] = field(default_factory=dict)
+    by_chance: float = 0.0
 
     @property
     def toll(self) -> float:
-        """What the choice of its form is charged [nat]."""
-        return 0.0 if self.form is None else self.form.toll
+        """What it is charged [nat]: the choice of its form, or what it gains ``by_chance`` beside a
+        walk whose size nobody knows.
+        """
+        return self.by_chance if self.form is None else self.form.toll
 
     def only(self, kept: tuple[Group, ...]) -> Screened:
         """The same effect on the axes of some of its groups."""
