@@ -1,7 +1,7 @@
-"""Whether a reference's clock drifts, or an effect makes it look so.
+"""Whether a reference's clock drifts or wanders, or an effect makes it look so.
 
-A clock that drifts by less than a sample, and an effect that follows the motion, bend the lags of a
-log alike. What the search finds beside each is the evidence.
+A clock that does so by less than a sample, and an effect that follows the motion, bend the lags of
+a log alike. What the search finds beside each is the evidence.
 """
 
 from __future__ import annotations
@@ -12,18 +12,29 @@ from pyimu.identification.fit.maximum_likelihood import advantage
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.formula.effect import put
 from pyimu.identification.formula.search import Look
+from pyimu.identification.reference.track import WANDERS
 from pyimu.identification.search.screen import PENALTY
 from pyimu.model.catalogue import CATALOGUE
 
 
 def _is_doubtful(trial: Trial) -> bool:
-    """Whether the clock of a trial's reference may only look as if it drifted."""
+    """Whether the clock of a trial's reference may only look as if it did not keep its lag."""
     return trial.clock is not None and trial.clock.doubtful
 
 
+def _cost(trial: Trial) -> float:
+    """What a clock that does not keep its lag has to explain more [nat]: a line is one coefficient,
+    what wanders must be ``WANDERS`` better.
+    """
+    if not _is_doubtful(trial):
+        return 0.0
+    return PENALTY if trial.clock.is_steady else WANDERS
+
+
 def likelier_clock(one: Look, keeps: Callable[[], Look]) -> Look:
-    """``one``, what was found beside a clock that drifts; where that is doubtful and leaves
-    something to find, the likelier of it and of what is found beside one that ``keeps`` its lag.
+    """``one``, what was found beside a clock that drifts or wanders; where that is doubtful, and
+    leaves something to find, the likelier of it and of what is found beside one that ``keeps`` its
+    lag.
     """
     inv = one.investigation
     if _is_clean(one) or not any(map(_is_doubtful, (*inv.before.trials, *inv.held))):
@@ -50,10 +61,10 @@ def _forget(look: Look) -> None:
 
 
 def _ahead(one: Look, other: Look) -> float:
-    """Log-likelihood [nat], penalised, by which a clock that drifts explains more with what was
-    found beside it; its offset is one coefficient of each log that is fitted.
+    """Log-likelihood [nat], penalised, by which a clock that does not keep its lag explains more
+    with what was found beside it.
     """
     drifts, keeps = one.investigation, other.investigation
-    lines = sum(map(_is_doubtful, drifts.after.trials))
-    more = drifts.brought_in + lines - keeps.brought_in
-    return advantage(drifts.after, keeps.after) - PENALTY * more
+    clocks = sum(map(_cost, drifts.after.trials))
+    more = drifts.brought_in - keeps.brought_in
+    return advantage(drifts.after, keeps.after) - PENALTY * more - clocks

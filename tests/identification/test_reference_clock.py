@@ -573,3 +573,10 @@ def test_a_small_drift_is_taken_out_whatever_the_mean_lag():
     (clock,) = [f.detail for f in found.quality if f.kind == "reference_clock"]
     drift = (clock["most_late"] - clock["least_late"]) / made.logs[0]["time"][-1]
     assert drift == pytest.approx(float(made.truths[0].value), rel=0.5)
+
+
+def test_what_a_lever_does_is_no_clock_that_wanders():
+    """It bends the lags by some tenths of a millisecond, to and fro, as rates and their changes go."""
+    found = closed(make("size1/accel.size_effect", 121, (6.0, 9.0)))
+    assert [a.effect for a in found.added] == ["size_effect"], found.report()
+    assert not any(f.kind == "reference_clock" for f in found.quality)

@@ -51,8 +51,8 @@ def aligned(
 
     A lag may be the sensor's own where all fitted logs have it in common and the sensor is late. It
     is left in then, for the effects that make one. What differs from log to log, wanders, makes the
-    sensor early, or is longer than any sensor's is the clock's. A clock that seems to drift by less
-    than a sample is ``doubtful``, and has one lag where ``lines`` are not wanted.
+    sensor early, or is longer than any sensor's is the clock's. A clock that seems to drift or to
+    wander by less than a sample is ``doubtful``, and has one lag where ``lines`` are not wanted.
     """
     clocks = [_borne_out(t, _level(measure(t, sensor)), sensor, lines) for t in (*trials, *held)]
     own = in_common([c for c in clocks[: len(trials)] if c is not None and np.isfinite(c.std)])
@@ -88,7 +88,7 @@ def _borne_out(trial: Trial, clock: Clock | None, sensor: Sensor, lines: bool) -
     both = marked(changes.segments, len(trial.time)) & marked(keeps.segments, len(trial.time))
     fits = [_fitted(replace(t, segments=runs(both)), sensor) for t in (changes, keeps)]
     if advantage(*fits) > WANDERS:
-        return clock
+        return replace(clock if lines else steady, doubtful=True)
     line = _drifting(trial, steady, fits[1])
     return steady if line is None else replace(line if lines else steady, doubtful=True)
 
