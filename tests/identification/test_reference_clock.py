@@ -576,7 +576,7 @@ def test_a_small_drift_is_taken_out_whatever_the_mean_lag():
 
 
 def test_what_a_lever_does_is_no_clock_that_wanders():
-    """It bends the lags by some tenths of a millisecond, to and fro, as rates and their changes go."""
+    """It bends the lags by tenths of a millisecond, to and fro, as rates and their changes go."""
     found = closed(make("size1/accel.size_effect", 121, (6.0, 9.0)))
     assert [a.effect for a in found.added] == ["size_effect"], found.report()
     assert not any(f.kind == "reference_clock" for f in found.quality)
