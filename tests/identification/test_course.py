@@ -1,5 +1,7 @@
 """The loop on a car that knows its position: the clock, the heading, and no blame on the gyro."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import vehicle_drives
@@ -86,6 +88,13 @@ def test_a_gyro_with_a_wrong_scale_is_named_behind_the_clock():
     s = added["scale_factor"].parameters["s"]
     # The tilt is known to a degree or two of the four and three there are: cos to 0.002.
     assert abs(s[0][2] - 0.08) < 5 * s[1][2] + 0.002
+
+
+def test_positions_with_east_and_north_swapped_are_said_to_be_mirrored():
+    right = car(1, -0.3, True)
+    closed = pyimu.close(replace(right, ref_east=right.ref_north, ref_north=right.ref_east))
+    assert closed.verdict == "reference_unfit", closed.report()
+    assert "east and north are swapped" in closed.reason
 
 
 def test_a_car_that_never_drives_has_no_course():
