@@ -8,6 +8,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from pyimu.attitude import run
+from pyimu.attitude.error import AttitudeError, error_against
 from pyimu.identification.fit.clock import Clock
 from pyimu.model.part import Part
 from pyimu.recording.recording import Recording
@@ -16,6 +17,17 @@ from pyimu.recording.reference.attitude import attitude_at
 Compared = tuple[np.ndarray, np.ndarray, Rotation]
 """Time (m,) s of the rows that both cover, the filter's attitude (m, 4) and the reference's (m,),
 both of the sensor's axes."""
+
+
+def attitude_error(
+    recording: Recording,
+    part: Part,
+    mounting: np.ndarray,
+    start: int = 0,
+    clock: Clock | None = None,
+) -> AttitudeError:
+    """How far apart the two are that ``beside`` gives, for a reference whose world is level."""
+    return error_against(*beside(recording, part, mounting, start, clock))
 
 
 def beside(

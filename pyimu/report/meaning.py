@@ -71,6 +71,7 @@ MEANING = {
     "spikes": "single samples far off both neighbours",
     "steady_turn": "an even turn, which is rest to an accelerometer",
     "stuck_samples": "one value for longer than its noise lets it: the sensor or its line hung",
+    "temperature_unit": "no electronics is so hot or so cold: the numbers are in the other unit",
     "thermometer_late": "the thermometer follows the sensor's temperature late",
     "time_origin": "the times begin on a clock of their own (Unix time): they count from the first",
     "turns_between_rests": "turns from rest to rest, by which the gyro was judged",
