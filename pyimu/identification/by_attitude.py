@@ -10,7 +10,7 @@ import numpy as np
 
 from pyimu.attitude.error import AttitudeError
 from pyimu.identification.fates import TAKEN_BACK
-from pyimu.identification.held_out import attitudes
+from pyimu.identification.held_out import attitudes, worlds
 from pyimu.identification.model_of import Found, Model, model_of
 from pyimu.identification.search.ceiling import is_ceiling
 from pyimu.identification.search.forward import Investigation, without
@@ -28,15 +28,17 @@ def settled(
 ) -> tuple[Found, Model, tuple[float, float] | None, tuple[str, ...]]:
     """What was found less the effects that make the filter's attitude worse.
 
-    Gives the model that it makes, too, the attitude's error before and after, and of each log in
-    which both are lost, so that they are not compared, what is to be said.
+    Gives the model that it makes, too, the attitude's error before and after, and what is to be
+    said: of each log in which both are lost, so that they are not compared, and of each reference
+    whose world is not level.
     """
+    logs, leaning = _levelled(start, declared, found, logs)
     while True:
         model, inv = model_of(start, declared, found), found.get("gyro")
         old, new = (_as_filed(p, declared) for p in (model.before, model.after))
         before, after = (attitudes(p, inv, logs) for p in (old, new))
         lost = [n for n in before if before[n].is_lost and after[n].is_lost]
-        said = tuple(_lost(n, before[n], after[n]) for n in lost)
+        said = leaning + tuple(_lost(n, before[n], after[n]) for n in lost)
         kept = [n for n in before if n not in lost]
         if not kept:
             return found, model, None, said
@@ -49,6 +51,22 @@ def settled(
         degrees = [f"{np.degrees(v):.2f}" for v in (error, now)]
         reason = f"{TAKEN_BACK}, {degrees[0]} to {degrees[1]} deg"
         found = found | {"gyro": without(inv, name, reason)}
+
+
+def _levelled(
+    start: Part, declared: Part | None, found: Found, logs: list[Recording]
+) -> tuple[list[Recording], tuple[str, ...]]:
+    """The logs with references whose worlds are level, and what is to be said of those that were
+    not.
+    """
+    part = _as_filed(model_of(start, declared, found).before, declared)
+    of = worlds(part, found.get("gyro"), logs)
+    level = [of[r.name].levelled(r) if r.name in of else r for r in logs]
+    return level, tuple(
+        f"the world of ref_q in {name} is not level: {world.said}; it was turned to compare the "
+        "attitude, and no other number depends on it"
+        for name, world in of.items()
+    )
 
 
 def _less_calibration(

@@ -282,7 +282,8 @@ def _nothing_to_compare(logs: list[Recording]) -> str:
     if all(has_course(r) and reference_rate(r).kind == "none" for r in logs):
         return (
             f"{logs[0].name}: nothing to compare: its positions never move so fast that they have "
-            "a course; give a log that drives, or leave the positions out where it stands still"
+            "a course, or it shows no turn (one on the spot has no course); give a log that drives "
+            "curves, or leave the positions out where it stands still"
         )
     if any(has_reference(r) for r in logs):
         return (

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from pyimu.attitude.error import AttitudeError
-from pyimu.identification.attitude_error import attitude_error
+from pyimu.attitude.error import AttitudeError, error_against
+from pyimu.identification.attitude_error import Compared, beside
 from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.keys import LogClock
 from pyimu.identification.fit.left_out import as_measured, left_out
@@ -20,6 +20,7 @@ from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.identification.found import AtRest, Errors, LogEntry
 from pyimu.identification.reference.gravity import typical_wander
+from pyimu.identification.reference.level import Leaning, leaning
 from pyimu.identification.search.belief import FARTHEST, most
 from pyimu.identification.search.forward import Investigation
 from pyimu.model.catalogue import WALK
@@ -199,13 +200,30 @@ def attitudes(
     Without recorded headings that of each ``WINDOW`` s begins anew.
     """
     found = {}
-    for r in logs if inv is not None else ():
-        held = next((t for t in inv.held if t.name == r.name), None)
-        if held is None or r.ref_q is None or r.accel is None:
+    for r in logs:
+        compared = _beside(part, inv, r)
+        if compared is None:
             continue
-        mounting = np.array(log_state(inv, r.name)["rotation"])
-        first = int(np.searchsorted(r.time, held.time[0]))
-        error = attitude_error(r, part, mounting, first, clock_of(inv, r.name))
+        error = error_against(*compared)
         error = error if r.heading is not None else error.in_windows(WINDOW)
         found |= {r.name: error} if len(error.total) else {}
     return found
+
+
+def worlds(part: Part, inv: Investigation | None, logs: list[Recording]) -> dict[str, Leaning]:
+    """The worlds of the logs' reference attitudes that are not level, by log, as the attitude
+    filter with a part shows them.
+    """
+    compared = {r.name: _beside(part, inv, r) for r in logs}
+    found = {name: leaning(*c[1:]) for name, c in compared.items() if c is not None}
+    return {name: world for name, world in found.items() if world is not None}
+
+
+def _beside(part: Part, inv: Investigation | None, r: Recording) -> Compared | None:
+    """The filter's attitudes beside the reference's; None of a log that does not show them."""
+    held = None if inv is None else next((t for t in inv.held if t.name == r.name), None)
+    if held is None or r.ref_q is None or r.accel is None:
+        return None
+    mounting = np.array(log_state(inv, r.name)["rotation"])
+    first = int(np.searchsorted(r.time, held.time[0]))
+    return beside(r, part, mounting, first, clock_of(inv, r.name))

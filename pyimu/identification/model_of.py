@@ -8,7 +8,7 @@ import numpy as np
 
 from pyimu.identification.as_part import unexamined_left_out
 from pyimu.identification.fit.fit import Fit
-from pyimu.identification.fit.sample_noise import rest_noise
+from pyimu.identification.fit.sample_noise import rest_density
 from pyimu.identification.noise.named import Noise
 from pyimu.identification.rounding import Rounding, rounding
 from pyimu.identification.search.forward import Investigation
@@ -62,8 +62,8 @@ def _finished(start: Part, fit: Fit) -> Sensor:
     else:
         # A differentiated reference hides the sensor's own noise; its quiet rows show the white
         # part only.
-        rest = np.mean([rest_noise(t) for t in fit.trials], axis=0)
-        white, walk = np.nan_to_num(rest) * np.sqrt(fit.trials[0].h), np.zeros(3)
+        rest = np.mean([rest_density(t) for t in fit.trials], axis=0)
+        white, walk = np.nan_to_num(rest), np.zeros(3)
     bias = np.mean([fit.states[t.name].bias for t in fit.trials], axis=0)
     sensor = fit.sensor
     for (effect, parameter), value in ((POWER_ON, bias), (WHITE, white), (WALK, walk)):

@@ -13,6 +13,7 @@ import numpy as np
 
 from pyimu.errors import Finding, UserError
 from pyimu.files import exists
+from pyimu.recording.coarse import COARSE_STAMPS, EvenTimes, even_times
 from pyimu.recording.column_map import BODY, ForeignMap, read_map
 from pyimu.recording.columns import GROUPS, column_names, own_name
 from pyimu.recording.counter import BITS, NEARLY, Unwrapped
@@ -32,14 +33,14 @@ NORM_TOLERANCE = 1e-2
 LEAST_ROWS = 3
 """A recording has at least so many samples."""
 
-COARSE_STAMPS = 0.01
-"""Above this share of rows with the time of the row before, the stamps are coarser than the sample
-period."""
+HEAD = 1 << 16
+"""Rows at the start of a log by which it is known whether its stamps are coarse."""
 
 KINDS = (
     "time_origin",
     "repeated_rows",
     "repeated_time",
+    "coarse_stamps",
     "reference_norm",
     "missing_cells",
     "counts",
@@ -154,6 +155,8 @@ class Rows:
         self._seen = 0
         self._single = True
         self._before: Values | None = None
+        self._even: EvenTimes | None = None
+        self._last = np.zeros(0)
         self.origin: float | np.integer = 0
 
     @property
@@ -178,6 +181,14 @@ class Rows:
         )
         return replace(finding, detail={**finding.detail, "share": share, "stamps": stamps})
 
+    def _spread(self) -> Iterator[Finding]:
+        """The finding ``coarse_stamps`` of a log whose rows were spread over their stamps."""
+        if self._even is not None:
+            detail = {"unit": self._even.unit, "period": self._even.period}
+            if self._single:
+                detail["stamps"] = "numbers of 32 bits"
+            yield Finding("coarse_stamps", "time", self._even.count, detail)
+
     def batches(self) -> Iterator[tuple[np.ndarray, Values, float]]:
         """Strictly increasing time (n,), the groups by name, and the share of the file read so far.
 
@@ -186,7 +197,24 @@ class Rows:
         Raises UserError with the row for a time that is missing or runs backwards, and for a file
         of fewer than three rows.
         """
-        header, first, counter = self.source.header, True, Unwrapped()
+        counter = Unwrapped()
+        for values, share in self._headed(self._converted(counter)):
+            time, values = self._ordered(values)
+            self.kept += len(time)
+            yield time, self._grouped(values), share
+        if self.kept < LEAST_ROWS:
+            raise UserError(
+                f"{self.source.header.path}: a recording needs at least {LEAST_ROWS} rows of data, "
+                f"this one has {self.kept}"
+            )
+        self._tally.add([*self._raw.findings(), *self.source.reader.at_end(), *self._spread()])
+        if counter.count:
+            detail = {"bits": counter.bits}
+            self._tally.add([Finding("counter_wrapped", "time", counter.count, detail)])
+
+    def _converted(self, counter: Unwrapped) -> Iterator[tuple[Values, float]]:
+        """The columns of each batch in units of the package, and the share of the file read."""
+        header, first = self.source.header, True
         for columns, share in self.source.reader.batches(header.positions, header.time):
             if not len(columns[0]):
                 continue
@@ -199,18 +227,25 @@ class Rows:
             columns = [*columns[:at], counter.add(columns[at]), *columns[at + 1 :]]
             self._single = self._single and _is_single(columns[at])
             self._raw.add(dict(zip(header.names, columns)))
-            time, values = self._ordered(header.convert(columns, self.origin))
-            self.kept += len(time)
-            yield time, self._grouped(values), share
-        if self.kept < LEAST_ROWS:
-            raise UserError(
-                f"{self.source.header.path}: a recording needs at least {LEAST_ROWS} rows of data, "
-                f"this one has {self.kept}"
-            )
-        self._tally.add([*self._raw.findings(), *self.source.reader.at_end()])
-        if counter.count:
-            detail = {"bits": counter.bits}
-            self._tally.add([Finding("counter_wrapped", "time", counter.count, detail)])
+            yield header.convert(columns, self.origin), share
+
+    def _headed(self, batches: Iterator[tuple[Values, float]]) -> Iterator[tuple[Values, float]]:
+        """``batches``, the first of them once ``HEAD`` rows have told whether stamps are coarse."""
+        head: list[tuple[Values, float]] = []
+        stamps, held, last = [], [], None
+        for values, share in batches:
+            head.append((values, share))
+            stamps.append(values["time"])
+            held.append(_held(values, last))
+            last = {name: column[-1:] for name, column in values.items()}
+            if sum(map(len, stamps)) >= HEAD:
+                break
+        if head:
+            self._even = even_times(np.concatenate(stamps)[:HEAD], np.concatenate(held)[:HEAD])
+        del stamps, held
+        while head:
+            yield head.pop(0)
+        yield from batches
 
     def _ordered(self, values: Values) -> tuple[np.ndarray, Values]:
         """Time and the other columns at the rows that are the first with their time."""
@@ -220,13 +255,25 @@ class Rows:
                 name: np.concatenate((self._before[name], column))
                 for name, column in values.items()
             }
-        time = values.pop("time")
-        self._check_times(time, self._seen - lead)
+        stamps = values.pop("time")
+        self._check_times(stamps, self._seen - lead)
+        time = self._on_even_times(stamps, lead)
         keep = np.concatenate((np.full(1, not lead), np.diff(time) > 0))
         self._report_repeats(time, values, np.flatnonzero(~keep[lead:]) + lead)
-        self._before = {"time": time[-1:]} | {name: column[-1:] for name, column in values.items()}
+        self._before = {"time": stamps[-1:]} | {
+            name: column[-1:] for name, column in values.items()
+        }
         self._seen += len(time) - lead
         return time[keep], {name: column[keep] for name, column in values.items()}
+
+    def _on_even_times(self, stamps: np.ndarray, lead: int) -> np.ndarray:
+        """The times of rows, the first ``lead`` of which had theirs before."""
+        if self._even is None:
+            return stamps
+        last = self._last[:lead]
+        time = np.concatenate((last, self._even.add(stamps[lead:])))
+        self._last = time[-1:]
+        return time
 
     def _check_times(self, time: np.ndarray, first: int) -> None:
         """``first`` is the number of the first row in ``time``."""
@@ -299,6 +346,23 @@ def _is_single(time: np.ndarray) -> bool:
     """Whether all of ``time`` (n,) are numbers of 32 bits."""
     with np.errstate(over="ignore"):
         return time.dtype.kind == "f" and bool(np.all(time == time.astype(np.float32)))
+
+
+def _held(columns: Values, before: Values | None) -> np.ndarray:
+    """Rows (n,) in which a sensor has the values of the row before, or none; without gyro and
+    accelerometer those in which all columns have. ``before`` is the row before the first, if any.
+    """
+    sensors = [g for g in ("gyro", "accel") if all(n in columns for n in column_names(g))]
+    groups = [column_names(g) for g in sensors] or [[n for n in columns if n != "time"]]
+    held = np.zeros(len(columns["time"]), dtype=bool)
+    for names in groups:
+        same, missing = np.ones_like(held), np.zeros_like(held)
+        for column in (columns[n] for n in names):
+            same[1:] &= _equal(column[1:], column[:-1])
+            missing |= np.isnan(column)
+        same[0] = before is not None and all(_equal(columns[n][:1], before[n])[0] for n in names)
+        held |= same | missing
+    return held
 
 
 def _equal(a: np.ndarray, b: np.ndarray) -> np.ndarray:

@@ -30,7 +30,7 @@ SAMPLE = (
 
 SECONDS, SECONDS_OF_TIME = (
     ("time_constant", "period", "late", "least_late", "most_late", "late_std"),
-    ("longest", "total", "rms", "first", "origin", "until"),
+    ("longest", "total", "rms", "first", "origin", "until", "unit"),
 )
 """Details of findings that are times; the latter those of the column ``time`` only."""
 

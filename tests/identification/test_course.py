@@ -1,5 +1,7 @@
 """The loop on a car that knows its position: the clock, the heading, and no blame on the gyro."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import vehicle_drives
@@ -88,6 +90,13 @@ def test_a_gyro_with_a_wrong_scale_is_named_behind_the_clock():
     assert abs(s[0][2] - 0.08) < 5 * s[1][2] + 0.002
 
 
+def test_positions_with_east_and_north_swapped_are_said_to_be_mirrored():
+    right = car(1, -0.3, True)
+    closed = pyimu.close(replace(right, ref_east=right.ref_north, ref_north=right.ref_east))
+    assert closed.verdict == "reference_unfit", closed.report()
+    assert "east and north are swapped" in closed.reason
+
+
 def test_a_car_that_never_drives_has_no_course():
     rng = np.random.default_rng(3)
     time = np.arange(0, 60, 0.01)
@@ -99,6 +108,26 @@ def test_a_car_that_never_drives_has_no_course():
         ref_east=0.02 * rng.standard_normal(len(time)),
     )
     with pytest.raises(pyimu.UserError, match="parked: .*course"):
+        pyimu.close(log)
+
+
+def test_a_robot_that_turns_on_the_spot_has_a_course_that_does_not_turn():
+    """A square of 6 m at up to 1 m/s, known to a centimetre: it stands while it turns, and what its
+    course shows beside is noise, which was another body's motion.
+    """
+    rng, time = np.random.default_rng(5), np.arange(0.0, 80.0, 0.01)
+    phase = np.mod(time, 20.0)
+    speed = np.where(phase < 12.0, np.sin(np.pi * phase / 12.0) ** 2, 0.0)
+    rate = np.where(phase > 14.0, np.pi / 6 * np.sin(np.pi * (phase - 14.0) / 6.0) ** 2, 0.0)
+    heading = 0.01 * np.cumsum(rate)
+    way = 0.01 * np.cumsum(speed[:, None] * np.column_stack([np.cos(heading), np.sin(heading)]), 0)
+    place = np.where(np.arange(len(time))[:, None] % 10, np.nan, way)
+    place = place + 0.01 * rng.standard_normal(place.shape)
+    gyro = np.column_stack([0 * rate, 0 * rate, rate]) + 1e-3 * rng.standard_normal((len(time), 3))
+    log = Recording.from_arrays(
+        name="robot", time=time, gyro=gyro, ref_east=place[:, 0], ref_north=place[:, 1]
+    )
+    with pytest.raises(pyimu.UserError, match="robot: nothing to compare: .*turn.*on the spot"):
         pyimu.close(log)
 
 

@@ -482,6 +482,8 @@ def test_coefficients_of_an_axis_that_does_not_move_stay_where_they_are_typical(
         (np.diag([1.0, 1.0, -1.0]), "mirrored axes"),
         (np.degrees(1.0) * np.eye(3), "too large by 57.3"),
         (np.radians(1.0) * np.eye(3), "too small by 57.3"),
+        (2.0 * np.eye(3), "too large by 2.00: it, or the gyro, has another unit"),
+        (0.1 * np.eye(3), "too small by 10.0"),
     ],
 )
 def test_a_reference_of_other_axes_or_units_is_said(change, said):

@@ -242,6 +242,16 @@ def test_a_gravity_of_one_is_a_log_in_g():
         assert not found(recording(accel=other), "force_in_g")
 
 
+@pytest.mark.parametrize("degrees, right", [(298.0, "K"), (-248.0, "degC"), (85.0, None)])
+def test_a_temperature_of_no_electronics_is_in_the_other_unit(degrees, right):
+    warm = Recording.from_arrays(
+        time=np.arange(2000) * 0.01, gyro=noise(2000), temperature=np.full(2000, degrees)
+    )
+    assert [f.detail["as"] for f in inspect(warm) if f.kind == "temperature_unit"] == (
+        [right] if right else []
+    )
+
+
 def test_jitter_of_the_times():
     rng = np.random.default_rng(0)
     time = np.arange(20_000) * 0.01 + 5e-4 * rng.uniform(-1, 1, 20_000)

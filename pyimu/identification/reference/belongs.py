@@ -15,13 +15,23 @@ from pyimu.identification.reference.clock import (
     moving_rows,
     turned_onto,
 )
+from pyimu.identification.search.belief import most
 from pyimu.model.kinds import KINDS, OWN
 from pyimu.recording.reference.band import COHERENCE, LEAST_BAND
+from pyimu.recording.reference.rate import VERTICAL
 from pyimu.recording.rest import ONE_SHOCK, RARE, seconds_of
-from pyimu.report.numbers import quantity
+from pyimu.report.numbers import number, quantity
+from pyimu.units import STANDARD_GRAVITY
 
-DEGREE, ALIKE = float(np.degrees(1.0)), 0.1
-"""Degrees in a radian, and how near a factor must be to one that is a mistake of units."""
+UNITS = {
+    "gyro": (float(np.degrees(1.0)), ("rad", "deg")),
+    "accel": (STANDARD_GRAVITY, ("g", "m/s^2")),
+}
+"""By sensor: the factor between two units that are taken for each other, of which the first has the
+smaller numbers."""
+
+ALIKE = 0.1
+"""How near a factor must be to one that is a mistake of units."""
 
 UNFIT = 0.5
 """Share of the sensor's moving power below which a reference does not belong to the sensor."""
@@ -93,8 +103,8 @@ def _coheres_nowhere(trial: Trial) -> bool:
 def mistaken(trial: Trial) -> str:
     """What is wrong with the reference of a trial that would fit once that is put right.
 
-    Mirrored axes, an axis that counts the other way, or degrees taken for radians; nothing where
-    none is.
+    Mirrored axes, an axis that counts the other way, or numbers of another size than any scale
+    factor makes; nothing where none is.
     """
     trial, axes = in_own_band(trial), list(trial.axes)
     rows = moving_rows(trial)
@@ -110,18 +120,33 @@ def mistaken(trial: Trial) -> str:
     if triad and turned[1] < COHERENCE <= flipped[1] and abs(flipped[0] - 1) < ALIKE:
         return "has mirrored axes: its frame is turned into the sensor's by a determinant of -1"
     if not triad and flipped[1] >= COHERENCE and abs(flipped[0] - 1) < ALIKE:
+        if trial.reference == "course":
+            return "is mirrored: its east and north are swapped, or one has the other sign"
         return (
             "counts the other way: a heading grows counterclockwise seen from above, and the "
             "sensor's z points up"
         )
-    for factor, off, units, others in (
-        (DEGREE, "small", "in rad", "in deg"),
-        (1 / DEGREE, "large", "in deg", "in rad"),
-    ):
-        if turned[1] >= COHERENCE and abs(turned[0] / factor - 1) < ALIKE:
-            whose = f"its numbers are {units}, or the {trial.kind}'s {others}"
-            return f"is too {off} by 57.3: {whose}"
+    if triad or turned[0] > 0:
+        return _sized(trial, *turned)
     return ""
+
+
+def _sized(trial: Trial, factor: float, share: float) -> str:
+    """Why numbers are of another size where the reference, ``factor`` times as large, explains the
+    ``share`` of the sensor's power; nothing where a sensor may have that scale.
+    """
+    times = max(factor, 1 / max(factor, 1e-300))
+    if share < COHERENCE or times < 1 + most("scale_factor", trial.kind, "s"):
+        return ""
+    off, kind = "small" if factor > 1 else "large", trial.kind
+    unit, (small, large) = UNITS[kind]
+    if abs(times / unit - 1) < ALIKE:
+        units, others = (small, large) if factor > 1 else (large, small)
+        why = f"its numbers are in {units}, or the {kind}'s in {others}"
+    else:
+        leans = ", or its z is not vertical" if trial.reference in VERTICAL else ""
+        why = f"it, or the {kind}, has another unit or range than its header says{leans}"
+    return f"is too {off} by {number(times, 3)}: {why}"
 
 
 def _scaled(x: np.ndarray, y: np.ndarray) -> tuple[float, float]:

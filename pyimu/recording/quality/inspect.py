@@ -18,7 +18,11 @@ from pyimu.recording.quality.spikes import spikes, widened
 from pyimu.recording.quality.stuck import LEAST_RUN, held_findings, stuck_findings
 from pyimu.recording.quality.wraps import wrap_findings
 from pyimu.recording.recording import Recording
-from pyimu.units import STANDARD_GRAVITY
+from pyimu.units import STANDARD_GRAVITY, ZERO_CELSIUS
+
+WORKS = (-65.0, 175.0)
+"""degC between which electronics is stored and works (the military range, and the hottest grade of
+automotive parts, AEC-Q100)."""
 
 JITTER = 0.01
 """RMS deviation of the sample steps from their median, in periods, above which it is reported."""
@@ -28,8 +32,8 @@ def inspect(recording: Recording) -> tuple[Finding, ...]:
     """The findings from raw gyro and accelerometer samples and their times.
 
     ``constant_channel``, ``wrapped``, ``clipping``, ``stuck_samples``, ``held_samples``,
-    ``spikes``, ``quantization_step`` for each column; ``jitter``, ``gravity_down`` and
-    ``force_in_g`` for the recording.
+    ``spikes``, ``quantization_step`` for each column; ``jitter``, ``gravity_down``,
+    ``force_in_g`` and ``temperature_unit`` for the recording.
     """
     names, values = _channels(recording)
     columns = [
@@ -38,7 +42,8 @@ def inspect(recording: Recording) -> tuple[Finding, ...]:
         for finding in _column(name, np.ascontiguousarray(column))
     ]
     of_gravity = (*_gravity_down(recording), *_force_in_g(recording))
-    return (*columns, *_spikes(recording), *_jitter(recording), *of_gravity)
+    warmth = _other_temperature(recording)
+    return (*columns, *_spikes(recording), *_jitter(recording), *of_gravity, *warmth)
 
 
 def of_reading(recording: Recording) -> tuple[Finding, ...]:
@@ -126,6 +131,18 @@ def _gravity_down(recording: Recording) -> Iterator[Finding]:
             1,
             {f"accel_{suffix}": float(f) for suffix, f in zip("xyz", rest)},
         )
+
+
+def _other_temperature(recording: Recording) -> Iterator[Finding]:
+    """A temperature at which no electronics works, and which would be one in the other unit."""
+    if recording.temperature is None or not np.isfinite(recording.temperature).any():
+        return
+    middle = float(np.nanmedian(recording.temperature))
+    for offset, right in ((-ZERO_CELSIUS, "K"), (ZERO_CELSIUS, "degC")):
+        least, most = WORKS
+        if not least <= middle <= most and least <= middle + offset <= most:
+            detail = {"median": middle, "as": right}
+            yield Finding("temperature_unit", "temperature", 1, detail)
 
 
 def _force_in_g(recording: Recording) -> Iterator[Finding]:

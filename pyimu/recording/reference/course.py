@@ -52,6 +52,15 @@ class Course:
     noise: float
     track: Track
 
+    @property
+    def turns(self) -> bool:
+        """Whether its rate is more than its own error would make it: a body that turns on the spot
+        has no course there, and none that turns anywhere else.
+        """
+        known = np.isfinite(self.rate)
+        size = np.square(self.rate[known] / np.maximum(self.std[known], 1e-300))
+        return bool(known.any() and np.mean(size) > 1.0)
+
 
 def course_of(source: Recording, time: np.ndarray | None = None) -> Course | None:
     """The course of a vehicle whose positions or velocities ``source`` holds, at times (n,) or its

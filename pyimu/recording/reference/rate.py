@@ -229,7 +229,8 @@ def _of_another_clock(recording: Recording, source: Recording) -> Reference:
 def _from_course(
     recording: Recording, source: Recording, latitude: np.ndarray | float | None
 ) -> Reference | None:
-    """About the sensor's axis nearest to the vertical; None where no course is known."""
+    """About the sensor's axis nearest to the vertical; None where no course is known, or its turns
+    are not seen."""
     if looks_like_degrees(source) and motion_in(recording):
         east, north = np.nanmedian(source.ref_east), np.nanmedian(source.ref_north)
         raise UserError(
@@ -239,7 +240,7 @@ def _from_course(
             "a degree of latitude being 111 km"
         )
     found = course_of(source, recording.time)
-    if found is None or not np.isfinite(found.rate).any():
+    if found is None or not found.turns:
         return None
     up = upward(recording, found.rate)
     axis = int(np.argmax(np.abs(up)))

@@ -1,0 +1,52 @@
+"""The density of a sensor's white noise beside a reference attitude, as its rests show it."""
+
+import numpy as np
+import pytest
+from scipy.signal import butter, lfilter
+from scipy.spatial.transform import Rotation, RotationSpline
+
+import pyimu
+from pyimu.identification.fit.sample_noise import rest_density, rest_noise
+from pyimu.identification.fit.trial import gyro_trial
+from pyimu.recording.recording import Recording
+
+H, N = 0.002, 1e-4
+TIME = np.arange(0.0, 40.0, H)
+
+
+def log(seed, bandwidth=None, rest=10.0):
+    """A gyro that rests for ``rest`` s, then turns, behind a low-pass filter of ``bandwidth``
+    Hz.
+    """
+    rng = np.random.default_rng(seed)
+    fade = np.clip((TIME - rest) / 2.0, 0.0, 1.0)[:, None]
+    angle = np.sin(2 * np.pi * TIME[:, None] * rng.uniform(0.2, 1.0, 3) + rng.uniform(0, 6, 3))
+    attitude = RotationSpline(TIME, Rotation.from_rotvec(0.5 * fade**2 * angle))
+    gyro = attitude(TIME, 1) + N / H**0.5 * rng.standard_normal((len(TIME), 3))
+    if bandwidth:
+        gyro = lfilter(*butter(2, 2 * H * bandwidth), gyro, axis=0)
+    optical = attitude(TIME) * Rotation.from_rotvec(1e-4 * rng.standard_normal((len(TIME), 3)))
+    return Recording.from_arrays(
+        name="log", time=TIME, gyro=gyro, ref_q=optical.as_quat(scalar_first=True)
+    )
+
+
+@pytest.mark.parametrize("bandwidth, least", [(None, 0.9), (42.0, 0.75), (20.0, 0.7)])
+def test_white_noise_behind_a_low_pass_filter_keeps_its_density(bandwidth, least):
+    """A filter hides it from differences of neighbouring samples. Where the means of the longest
+    are few, less than three standard errors of theirs, a fifth, are not told.
+    """
+    found = np.mean([rest_density(gyro_trial(log(k, bandwidth))) for k in range(4)], axis=0)
+    assert np.all((least * N < found) & (found < 1.15 * N))
+    if bandwidth:
+        assert np.all(rest_noise(gyro_trial(log(0, bandwidth))) * H**0.5 < 0.1 * N)
+
+
+def test_motion_is_not_taken_for_noise():
+    trial = gyro_trial(log(1, rest=0.0))
+    np.testing.assert_array_equal(rest_density(trial), rest_noise(trial) * H**0.5)
+
+
+def test_the_part_has_the_density_that_its_filter_leaves():
+    closed = pyimu.close(log(5, 42.0))
+    assert closed.after.gyro.values["angle_random_walk"]["N"] == pytest.approx(N, rel=0.3)
