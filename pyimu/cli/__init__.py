@@ -40,7 +40,8 @@ app = typer.Typer(
     help=(
         "Example: pyimu demo\n\nMEMS inertial sensors, from a measured log to FMI co-simulation "
         "units and back. Exit status: 0, 2 for bad input, 130 if broken off; pyimu close "
-        "--exit-code has one for each verdict."
+        "--exit-code has one for each verdict, pyimu characterize --exit-code one for a log that "
+        "moves."
     ),
 )
 

@@ -125,6 +125,15 @@ def write_exports(part: Part | str, to: str, out: Path, inflate: float | None = 
     return [f"{out / e.file}: {e.said()}" for e in made]
 
 
+def withdraw_exports(to: str, out: Path, reason: str) -> str:
+    """Remove earlier files of the projects ``to``, which would pass for new; gives a line."""
+    from pyimu.export import TARGETS, known
+
+    for name in known(to):
+        (out / TARGETS[name].file).unlink(missing_ok=True)
+    return f"nothing exported ({', '.join(known(to))}): {reason}"
+
+
 Json = Annotated[
     bool, typer.Option("--json", help="Print the result as JSON, that of report.json, alone.")
 ]
