@@ -100,6 +100,7 @@ class Source:
             reader.skipped,
             wanted,
             reader.header,
+            reader.in_memory,
         )
         header.findings = [*findings, *foreign.notes, *header.findings]
         companions = _companions(reader.path, foreign, header)
