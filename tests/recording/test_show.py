@@ -148,6 +148,27 @@ def test_a_part_is_a_line_and_a_table(log):
     assert sum(c.startswith("+-") for c in cells) >= 8
 
 
+def test_an_inspection_is_a_line_a_table_and_a_picture(log, tmp_path):
+    found = pyimu.inspect(log.write(tmp_path / "log.csv"))
+    assert len(repr(found)) < 300 and "20000 samples" in repr(found) and "gyro" in repr(found)
+    assert "gyro" in Cells(found._repr_html_()).cells
+    assert found.plot().axes[0].get_ylabel() == "gyro [deg/s]"
+    (tmp_path / "bare.csv").write_text("t,a,b\n" + "0,1,2\n" * 50)
+    unread = pyimu.inspect(tmp_path / "bare.csv")
+    assert unread.problem and len(repr(unread)) < 300
+    assert "<table>" in unread._repr_html_()
+    with pytest.raises(UserError, match="nothing to draw"):
+        unread.plot()
+
+
+def test_a_part_is_a_frame_of_its_coefficients():
+    frame = pyimu.part("mpu6050").to_frame().set_index("coefficient")
+    N = frame.loc["gyro.angle_random_walk.N"]
+    want = np.radians(0.005) / np.sqrt(2)
+    np.testing.assert_allclose(N["value"], np.full(3, want), rtol=1e-9)
+    assert N["unit"] == "rad/sqrt(s)" and "0.005" in N["quoted"] and not N["estimate"]
+
+
 def test_results_are_lines_too(log):
     found = pyimu.characterize(log.slice(200, 4200))
     assert re.fullmatch(r"Characterization\(lab <1>: gyro, accel, \d+ findings\)", repr(found))
@@ -158,3 +179,11 @@ def test_results_are_lines_too(log):
     attitude = pyimu.attitude.run(rest)
     assert repr(attitude) == "AttitudeResult('rest': 400 samples, 3.99 s)"
     assert "<svg" in attitude._repr_html_()
+    frame = attitude.to_frame()
+    assert len(frame) == 400 and "q_w [1]" in frame.columns
+    frame = found.to_frame().set_index(["channel", "term"])
+    N = found.coefficients["gyro_x", "N"].mean
+    assert frame.loc[("gyro_x", "N"), "value"] == N.value
+    assert frame.loc[("gyro_x", "N"), "unit"] == "rad/sqrt(s)"
+    panels = found.plot().axes
+    assert [p.get_ylabel().split()[0] for p in panels[::3]] == ["gyro_x", "accel_x"]
