@@ -41,7 +41,7 @@ app = typer.Typer(
         "Example: pyimu demo\n\nMEMS inertial sensors, from a measured log to FMI co-simulation "
         "units and back. Exit status: 0, 2 for bad input, 130 if broken off; pyimu close "
         "--exit-code has one for each verdict, pyimu characterize --exit-code one for a log that "
-        "moves."
+        "moves; pyimu inspect ends with 1 where a log cannot be read as it is."
     ),
 )
 
