@@ -196,8 +196,7 @@ def close_command(
     """
     from pyimu.identification.close import close
     from pyimu.identification.report.deliver import check_delivery, without_units
-    from pyimu.recording.log import read_recording
-    from pyimu.recording.reference.file import read_reference
+    from pyimu.recording.log import read_recording, read_reference
 
     check_told(as_json, quiet)
     at = radians("--latitude", latitude, 90)

@@ -22,6 +22,7 @@ from pyimu.recording.formats.suffix import stem
 from pyimu.recording.gaps import GapFinder
 from pyimu.recording.guess.numbers import SECONDS, USUAL
 from pyimu.recording.recording import Recording, check_marks, copied, join
+from pyimu.recording.reference.file import with_reference
 from pyimu.recording.rows import LEAST_ROWS, Rows, Source
 from pyimu.recording.waking import Batch
 
@@ -35,7 +36,7 @@ class Log:
     def __init__(self, source: Source) -> None:
         self._source = source
         self.path: Path = source.header.path
-        self.name = printable(stem(self.path))
+        self.name = printable(source.name or stem(self.path))
         self.findings: tuple[Finding, ...] = ()
         """What was seen in reading; complete once all of it was read."""
 
@@ -126,14 +127,18 @@ class Log:
                 yield segment, piece.slice(start, stop), share
 
     def read(self) -> Recording:
-        """The whole log; its sample period is that of all its samples."""
+        """The whole log; its sample period is that of all its samples.
+
+        A sequence of a data set has the ground truth beside it.
+        """
         passing = Rows(self._source)
         whole = join([piece for piece, _ in self._batches(passing)])
         self._check_rate(whole.cadence)
         clock = Clock(whole.cadence)
         clock.add(whole.time)
         self.findings = self._found(passing, clock)
-        return replace(whole, findings=self.findings)
+        log, truth = replace(whole, findings=self.findings), self._source.truth
+        return log if truth is None else with_reference(log, read_reference(truth))
 
     def _check_rate(self, cadence: Cadence) -> None:
         """Raise UserError for a rate that no sensor has: the times are in another unit."""
@@ -278,6 +283,17 @@ def read_recording(path: str | os.PathLike, columns: str | os.PathLike | None = 
     for what cannot be used; what can is listed in ``Recording.findings``.
     """
     return Log(Source.open(Path(path), None if columns is None else Path(columns))).read()
+
+
+def read_reference(path: str | os.PathLike, columns: str | os.PathLike | None = None) -> Recording:
+    """Read a reference in a file of its own: ``time`` and columns ``ref_*``, in any format that
+    ``read_recording`` reads; it needs neither gyro nor accelerometer.
+
+    ``columns`` is that of ``read_recording``. Raises UserError as that does, and for a file without
+    a reference.
+    """
+    source = Source.open(Path(path), None if columns is None else Path(columns), "reference")
+    return Log(source).read()
 
 
 Given = Recording | str | os.PathLike | Any
