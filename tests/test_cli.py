@@ -681,3 +681,12 @@ def test_inspect_s_status_says_whether_the_log_can_be_read(pyimu, tmp_path):
     code, out, _ = pyimu("inspect", "bare.csv", "--json")
     assert code == 1 and json.loads(out)["problem"]
     assert pyimu("inspect", "bare.csv")[0] == 1 and pyimu("inspect", "none.csv")[0] == 2
+
+
+def test_several_files_for_one_log_are_told_the_map(pyimu, tmp_path):
+    for name in ("Gyroscope.csv", "Accelerometer.csv"):
+        (tmp_path / name).write_text("time,x,y,z\n")
+    code, out, err = pyimu("attitude", "Gyroscope.csv", "Accelerometer.csv")
+    assert (code, out) == (2, "") and err.count("\n") == 1
+    assert "pyimu inspect FILE FILE --write-map map.toml" in err and "--columns" in err
+    assert "inspect" not in pyimu("attitude", "Gyroscope.csv", "nothing")[2]
