@@ -654,3 +654,39 @@ def test_what_an_import_does_not_load(module, without):
 def test_version():
     done = in_a_process("--version")
     assert (done.returncode, done.stdout, done.stderr) == (0, f"{__version__}\n", "")
+
+
+def test_export_and_build_are_data_or_silent(pyimu, tmp_path):
+    code, out, _ = pyimu("export", "adis16500", "--to", "kalibr,px4", "--json")
+    files = json.loads(out)["files"]
+    assert code == 0 and [f["target"] for f in files] == ["kalibr", "px4"]
+    assert all((tmp_path / f["file"]).is_file() and "accelerometer" in f["missing"] for f in files)
+    assert pyimu("export", "mpu6050", "--to", "ros2", "--quiet") == (0, "", "")
+    built = ("build", "imt30", "--fmu", "sensor", "--fmi", "2", "--out", "fmus")
+    code, out, _ = pyimu(*built, "--json")
+    assert code == 0 and all((tmp_path / f).is_file() for f in json.loads(out)["files"])
+    assert pyimu(*built, "--quiet") == (0, "", "")
+    for command in (built, ("export", "mpu6050", "--to", "px4"), ("inspect", "log.csv")):
+        assert pyimu(*command, "--quiet", "--json")[0] == 2
+
+
+def test_inspect_s_status_says_whether_the_log_can_be_read(pyimu, tmp_path):
+    rows = "".join(f"{0.01 * k:.2f},0.1,0.2,0.{k % 7}\n" for k in range(200))
+    names = [f"gyro_{a} [rad/s]" for a in "xyz"]
+    (tmp_path / "good.csv").write_text(f"time [s],{','.join(names)}\n{rows}")
+    (tmp_path / "bare.csv").write_text(f"a,b,c,d\n{rows}")
+    assert pyimu("inspect", "good.csv", "--quiet") == (0, "", "")
+    assert pyimu("inspect", "bare.csv", "--quiet", "--write-map", "map.toml") == (1, "", "")
+    assert (tmp_path / "map.toml").is_file()
+    code, out, _ = pyimu("inspect", "bare.csv", "--json")
+    assert code == 1 and json.loads(out)["problem"]
+    assert pyimu("inspect", "bare.csv")[0] == 1 and pyimu("inspect", "none.csv")[0] == 2
+
+
+def test_several_files_for_one_log_are_told_the_map(pyimu, tmp_path):
+    for name in ("Gyroscope.csv", "Accelerometer.csv"):
+        (tmp_path / name).write_text("time,x,y,z\n")
+    code, out, err = pyimu("attitude", "Gyroscope.csv", "Accelerometer.csv")
+    assert (code, out) == (2, "") and err.count("\n") == 1
+    assert "pyimu inspect FILE FILE --write-map map.toml" in err and "--columns" in err
+    assert "inspect" not in pyimu("attitude", "Gyroscope.csv", "nothing")[2]

@@ -20,6 +20,7 @@ from pyimu.recording.formats.suffix import write_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+    from pandas import DataFrame
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,6 +36,12 @@ class AttitudeResult(Outcome):
     def plot(self) -> Figure:
         """Roll, pitch, yaw and gyro bias with their standard deviations, and the NIS, over time."""
         return notebook.shown(whole_figure(self))
+
+    def to_frame(self) -> DataFrame:
+        """The samples as a pandas data frame, its columns those of ``attitude.parquet``."""
+        from pandas import DataFrame
+
+        return DataFrame(self._table())
 
     def __repr__(self) -> str:
         span = self.time[-1] - self.time[0]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Self
 
@@ -63,9 +63,7 @@ def analyse_noise(
         column = compensated
     say("Allan deviation")
     deviation = pool.deviation(column, m, overlapping_deviation, 2)
-    octaves = np.isin(m, octave_clusters(pool.longest))
-    sines = [(v.frequency, max(v.frequency_std, v.width), v.amplitude) for v in lines]
-    fit = fit_noise(m[octaves], deviation[octaves], pool.lengths, samples.h, level, sines)
+    fit = _fit(pool, m, deviation, lines, level)
     say("Hadamard deviation")
     hadamard = pool.third_order(column, m, hadamard_deviation)
     say("modified deviation")
@@ -81,6 +79,41 @@ def analyse_noise(
         terms={t: terms[:, i] for i, t in enumerate(fit.letters) if t in fit.estimates},
         floor=floor(tau, deviation),
     )
+
+
+def fit_again(
+    noise: NoiseAnalysis, samples: Samples, lines: Sequence[Line], level: float, memory: float
+) -> NoiseAnalysis:
+    """The analysis with a fit for noise that a low-pass gives a ``memory`` [s].
+
+    Other arguments are those of ``analyse_noise``.
+    """
+    pool = _Pool(used_segments(samples.segments), samples.h, np.empty(0))
+    tau, deviation = noise.allan.tau, noise.allan.deviation
+    m = np.rint(tau / samples.h).astype(int)
+    fit = _fit(pool, m, deviation, lines, level, memory)
+    terms = np.sqrt(fit.term_variances(tau))
+    return replace(
+        noise,
+        allan=_with_limits(m, deviation, fit, pool, level),
+        fit=fit,
+        fitted=fit.deviation(tau),
+        terms={t: terms[:, i] for i, t in enumerate(fit.letters) if t in fit.estimates},
+    )
+
+
+def _fit(
+    pool: _Pool,
+    m: np.ndarray,
+    deviation: np.ndarray,
+    lines: Sequence[Line],
+    level: float,
+    memory: float = 0.0,
+) -> ChannelFit:
+    """The fit to the deviations (t,) at clusters ``m`` (t,) that are octaves apart."""
+    octaves = np.isin(m, octave_clusters(pool.longest))
+    sines = [(v.frequency, max(v.frequency_std, v.width), v.amplitude) for v in lines]
+    return fit_noise(m[octaves], deviation[octaves], pool.lengths, pool.h, level, sines, memory)
 
 
 @dataclass(frozen=True)

@@ -5,16 +5,22 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from pyimu.characterization.outcome import Outcome
+from pyimu import notebook
+from pyimu.characterization.outcome import SI, Outcome
 from pyimu.characterization.report.as_json import contents
 from pyimu.characterization.report.as_part import part_of
 from pyimu.characterization.report.page import MAGNETOMETER, PART, in_notebook, page
+from pyimu.characterization.report.pictures.allan import whole_figure
 from pyimu.characterization.report.terminal import in_lines
 from pyimu.files import staged, write_json, write_text
 from pyimu.model.part import Part
 from pyimu.model.part_file import save_part
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from pandas import DataFrame
 
 
 @dataclass(frozen=True)
@@ -35,6 +41,31 @@ class Characterization(Outcome):
 
     def _repr_html_(self) -> str:
         return in_notebook(self)
+
+    def plot(self) -> Figure:
+        """Allan deviations with intervals, the fitted noise and its terms, a panel a channel."""
+        return notebook.shown(whole_figure(self))
+
+    def to_frame(self) -> DataFrame:
+        """The coefficients as a pandas data frame, a row each, in SI.
+
+        Columns: ``channel``, ``term`` (its letter), ``value`` (0 where there is only a bound),
+        ``std``, ``low``, ``high``, ``unit``, ``spread`` of the logs, ``logs``.
+        """
+        from pandas import DataFrame
+
+        rows = [
+            {
+                "channel": channel,
+                "term": term,
+                **{k: getattr(s.mean, k) for k in ("value", "std", "low", "high")},
+                "unit": SI[channel.partition("_")[0]][term],
+                "spread": s.spread,
+                "logs": s.logs,
+            }
+            for (channel, term), s in self.coefficients.items()
+        ]
+        return DataFrame(rows)
 
     def part(self, name: str = "characterised") -> Part:
         """The part that these logs are of, as ``pyimu.build`` and ``pyimu.close`` take it.

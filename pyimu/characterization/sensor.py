@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyimu.characterization.allan.pooled import used_segments
-from pyimu.characterization.channel import LEAST, analyse_noise, compensate
+from pyimu.characterization.channel import LEAST, analyse_noise, compensate, fit_again
 from pyimu.characterization.log_samples import Say
 from pyimu.characterization.outcome import Channel, NoiseAnalysis, Overview, SensorResult
 from pyimu.characterization.samples import PIECE, Samples
@@ -22,6 +22,13 @@ from pyimu.characterization.temperature.warm_up import WarmUp
 from pyimu.errors import UserError
 from pyimu.model.part import AXES
 from pyimu.report.figures import BINS
+
+MEMORY = 0.8
+"""Memory of white noise through a low-pass, times the corner: at 0.8 / f_c the covariance of one of
+first order, exp(-2 pi f_c t), has fallen to 0.7 %, and a moving average's is over."""
+
+SHORT = 32
+"""Samples of the correlation time below which Gauss-Markov noise may be that of a low-pass."""
 
 
 @dataclass(frozen=True)
@@ -69,10 +76,12 @@ class SensorAnalysis:
     def _channel(self, axis: int, lines: tuple[Line, ...], psd: Psd) -> Channel:
         samples, reason = self.samples, self._reason(axis)
         noise, thermal, thermal_reason, warm_up = None, None, reason, None
+        bandwidth = None
         if not reason:
             thermal, thermal_reason = self._thermal(axis)
             try:
                 noise, warm_up = self._noise(axis, thermal, lines)
+                noise, bandwidth = self._through_low_pass(axis, noise, lines, psd)
             except UserError as error:
                 reason = str(error)
         return Channel(
@@ -85,8 +94,18 @@ class SensorAnalysis:
             thermal,
             thermal_reason,
             warm_up,
-            None if noise is None else self._bandwidth(axis, noise, lines, psd),
+            bandwidth,
         )
+
+    def _through_low_pass(
+        self, axis: int, noise: NoiseAnalysis, lines: tuple[Line, ...], psd: Psd
+    ) -> tuple[NoiseAnalysis, Bandwidth | None]:
+        """The noise of a channel with what its low-pass does to it, and where that rolls off."""
+        found = self._bandwidth(axis, noise, lines, psd)
+        if found is None:
+            return noise, None
+        memory = MEMORY / found.frequency.value
+        return fit_again(noise, self.samples, lines, self.level, memory), found
 
     def _bandwidth(
         self, axis: int, noise: NoiseAnalysis, lines: tuple[Line, ...], psd: Psd
@@ -94,10 +113,13 @@ class SensorAnalysis:
         """Where the noise of a channel rolls off, if it does."""
         if not len(psd.frequency):
             return None
-        white = 2 * noise.fit.estimates.get("N", 0.0) ** 2
-        share = white / _fitted_density(noise, psd.frequency)
+        fit, h = noise.fit, self.samples.h
+        # White noise through a low-pass of first order is Gauss-Markov noise of a short time.
+        short = (g.drive * g.time for g in fit.markov if g.time < SHORT * h)
+        white = 2 * (fit.estimates.get("N", 0.0) ** 2 + sum(q**2 for q in short))
+        share = np.minimum(white / _fitted_density(noise, psd.frequency), 1.0)
         density = psd.density[:, axis]
-        h, f = self.samples.h, psd.frequency
+        f = psd.frequency
         return find_bandwidth(f, density, psd.averages, share, lines, h, self.level)
 
     def _reason(self, axis: int) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import os
+import re
 import sys
 from collections.abc import Callable
 from io import TextIOWrapper
@@ -40,7 +41,8 @@ app = typer.Typer(
     help=(
         "Example: pyimu demo\n\nMEMS inertial sensors, from a measured log to FMI co-simulation "
         "units and back. Exit status: 0, 2 for bad input, 130 if broken off; pyimu close "
-        "--exit-code has one for each verdict."
+        "--exit-code has one for each verdict, pyimu characterize --exit-code one for a log that "
+        "moves; pyimu inspect ends with 1 where a log cannot be read as it is."
     ),
 )
 
@@ -76,12 +78,24 @@ def main() -> None:
             code = _interrupted()
         elif hasattr(error, "format_message"):
             command = getattr(getattr(error, "ctx", None), "command_path", None) or "pyimu"
-            code = _refuse(f"{error.format_message()} ({command} --help shows what is possible)")
+            said = error.format_message()
+            code = _refuse(f"{said} ({command} --help shows what is possible){_as_one_log(said)}")
         else:
             code = _refuse(*said_of(error))
     ignore_at_exit()
     gc.freeze()  # else the interpreter, as it ends, looks through everything three times more
     sys.exit(code if isinstance(code, int) else 0)
+
+
+def _as_one_log(said: str) -> str:
+    """How files that were given to a command for one log are one, else nothing."""
+    extra = said.partition("unexpected extra argument")[2]
+    if not any(os.path.isfile(word) for word in re.findall(r"[^()\s]+", extra)):
+        return ""
+    return (
+        "; files of one log are one by a map: pyimu inspect FILE FILE --write-map map.toml, then "
+        "the first of them with --columns map.toml"
+    )
 
 
 def _interrupted() -> int:

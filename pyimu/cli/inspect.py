@@ -7,7 +7,10 @@ from typing import Annotated
 
 import typer
 
-from pyimu.cli.options import FORMATS, Columns, progress
+from pyimu.cli.options import FORMATS, Columns, Json, Quiet, check_told, progress, tell
+
+UNREADABLE = 1
+"""Exit status where a log was looked into and cannot be read as it is; 2 is bad input."""
 
 
 def inspect_command(
@@ -27,19 +30,21 @@ def inspect_command(
         Path | None, typer.Option("--out", help="Folder for report.html with pictures.")
     ] = None,
     columns: Columns = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print it as JSON.")] = False,
+    as_json: Json = False,
+    quiet: Quiet = False,
 ) -> None:
     """Example: pyimu inspect log.csv --write-map map.toml
 
     What is in a log, of any layout: its columns and their units as the header or the numbers say,
     rates, gaps, rests and the quality of the samples; and the column map by which the other
     commands read it (--columns map.toml). What nobody can know stands in the map to be chosen.
-    """
-    import json
 
-    from pyimu.files import check_folder, plain
+    Exit status: 0, 1 for a log that cannot be read without more said, or 2 for bad input.
+    """
+    from pyimu.files import check_folder, json_text
     from pyimu.inspection.run import inspect
 
+    check_told(as_json, quiet)
     if out is not None:
         check_folder(out)
     with progress("opening") as say:
@@ -47,11 +52,13 @@ def inspect_command(
         if out is not None:
             say("drawing the report")
             found.write(out)
-    print(json.dumps(plain(found.as_dict()), indent=2) if as_json else found.report())
+    lines = []
     if write_map is not None:
         found.write_map(write_map)
-    if not as_json:
-        if write_map is not None:
-            print(f"map: {write_map}")
-        if out is not None:
-            print(f"report: {out / 'report.html'}")
+        lines.append(f"map: {write_map}")
+    if out is not None:
+        lines.append(f"report: {out / 'report.html'}")
+    data = found.as_dict()
+    tell(found.report, lambda: json_text(data), lines, as_json=as_json, quiet=quiet)
+    if found.problem:
+        raise typer.Exit(UNREADABLE)

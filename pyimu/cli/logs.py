@@ -23,6 +23,7 @@ from pyimu.cli.options import (
     progress,
     radians,
     tell,
+    withdraw_exports,
     write_exports,
 )
 from pyimu.cli.stages import Stages
@@ -38,6 +39,14 @@ EXIT_CODES = {
     "undecidable": 16,
 }
 """Exit status of ``pyimu close --exit-code`` by verdict; 2 is bad input, 130 a run broken off."""
+
+MOVES = 17
+"""Exit status of ``pyimu characterize --exit-code`` where a log moves; not one of close's."""
+
+ExitCode = Annotated[
+    bool,
+    typer.Option("--exit-code", help="Exit status by verdict, for scripts: see below."),
+]
 
 
 def demo(out: Out = Path("out/demo")) -> None:
@@ -81,6 +90,7 @@ def characterize_command(
     export: Export = None,
     as_json: Json = False,
     quiet: Quiet = False,
+    exit_code: ExitCode = False,
 ) -> None:
     """Example: pyimu characterize static.csv --out out/static
 
@@ -90,6 +100,9 @@ def characterize_command(
     (magnetometer.toml). With --part each figure stands beside the data sheet's. Several logs of one
     part give means and their spread. The samples wait in temporary files (TMPDIR says where), so
     that a log may be larger than memory.
+
+    Exit status: 0, or 2 for bad input. With --exit-code it is 17 where a log moves, of which no
+    part is made and nothing exported.
     """
     from pyimu.characterization.run import characterize
     from pyimu.files import check_folder
@@ -104,9 +117,17 @@ def characterize_command(
         page = found.write(out)
     made = page.with_name("part.toml")
     lines = [f"report: {page}, " + ("no part: the log moves" if found.moving else f"part: {made}")]
-    if export is not None and not found.moving:
+    if export is not None and found.moving:
+        withdrawn = withdraw_exports(export, out, "the log moves")
+        # A file that was asked for and is not there is an error to a script.
+        print(f"pyimu: {withdrawn}", file=sys.stderr) if as_json or quiet else lines.append(
+            withdrawn
+        )
+    elif export is not None:
         lines += write_exports(str(made), export, out)
     tell(found.report, (out / "report.json").read_text, lines, as_json=as_json, quiet=quiet)
+    if exit_code and found.moving:
+        raise typer.Exit(MOVES)
 
 
 Logs = Annotated[
@@ -147,10 +168,6 @@ EarthRate = Annotated[
     float | None,
     typer.Option("--latitude", help="Degrees; adds the Earth's rate to a derived reference."),
 ]
-ExitCode = Annotated[
-    bool,
-    typer.Option("--exit-code", help="Exit status by verdict, for scripts: see below."),
-]
 
 
 def close_command(
@@ -179,8 +196,7 @@ def close_command(
     """
     from pyimu.identification.close import close
     from pyimu.identification.report.deliver import check_delivery, without_units
-    from pyimu.recording.log import read_recording
-    from pyimu.recording.reference.file import read_reference
+    from pyimu.recording.log import read_recording, read_reference
 
     check_told(as_json, quiet)
     at = radians("--latitude", latitude, 90)

@@ -16,9 +16,9 @@ from pyimu.cli.options import (
     add_effects,
     check_told,
     complete_part,
+    exported,
     progress,
     tell,
-    write_exports,
 )
 from pyimu.errors import UserError
 
@@ -158,6 +158,8 @@ def build(
         ),
     ] = None,
     effects: Effects = None,
+    as_json: Json = False,
+    quiet: Quiet = False,
     ssp: Annotated[
         str | None,
         typer.Option(
@@ -176,9 +178,11 @@ def build(
     With --specimen the sensor is one of the production, as its data sheet's tolerances allow
     (pyimu parts NAME shows them), and the filter still knows the data sheet alone.
     """
+    from pyimu.files import json_text
     from pyimu.fmu.package import build as build_part
     from pyimu.rover.system import check_drive, write_rover
 
+    check_told(as_json, quiet)
     chosen = _forms(fmi)
     add_effects(effects)
     wired: Form = next((form for form in FORMS.values() if form in chosen), "block")
@@ -190,8 +194,9 @@ def build(
         if ssp is not None:
             rover = write_rover(part, out, ssp, form=wired, platform=platform, specimen=specimen)
             paths.append(rover)
-    for path in paths:
-        print(path)
+    names = [str(path) for path in paths]
+    data = {"part": part, "specimen": specimen, "files": names}
+    tell(lambda: "\n".join(names), lambda: json_text(data), as_json=as_json, quiet=quiet)
 
 
 def _forms(fmi: str) -> list[Form]:
@@ -241,6 +246,8 @@ def export_command(
         ),
     ] = None,
     effects: Effects = None,
+    as_json: Json = False,
+    quiet: Quiet = False,
 ) -> None:
     """Example: pyimu export mpu6050 --to kalibr,px4 --out out/export
 
@@ -248,9 +255,19 @@ def export_command(
     convention of a density, with the inflation that its docs recommend. A part that pyimu
     characterize or pyimu close wrote is a part as well.
     """
+    from pyimu.files import json_text
+
+    check_told(as_json, quiet)
     add_effects(effects)
-    for line in write_exports(part, to, out, inflate):
-        print(line)
+    made = exported(part, to, out, inflate)
+    files = [
+        {"target": e.target, "file": str(out / e.file), "inflate": e.inflate}
+        | {"reason": e.reason, "missing": e.missing or None}
+        for e in made
+    ]
+    lines = [f"{out / e.file}: {e.said()}" for e in made]
+    data = {"part": part, "files": files}
+    tell(lambda: "\n".join(lines), lambda: json_text(data), as_json=as_json, quiet=quiet)
 
 
 def parts(

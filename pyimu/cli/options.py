@@ -14,6 +14,7 @@ import typer
 from pyimu.errors import UserError
 
 if TYPE_CHECKING:
+    from pyimu.export import Exported
     from pyimu.model.part import Part
 
 Out = Annotated[
@@ -115,6 +116,11 @@ def check_exports(to: str | None) -> None:
 
 def write_exports(part: Part | str, to: str, out: Path, inflate: float | None = None) -> list[str]:
     """Write the files of the projects ``to``, all or none; gives a line on each."""
+    return [f"{out / e.file}: {e.said()}" for e in exported(part, to, out, inflate)]
+
+
+def exported(part: Part | str, to: str, out: Path, inflate: float | None = None) -> list[Exported]:
+    """Write the files of the projects ``to``, all or none."""
     from pyimu.export import export, known
     from pyimu.files import staged, write_text
 
@@ -122,11 +128,23 @@ def write_exports(part: Part | str, to: str, out: Path, inflate: float | None = 
     with staged(out) as stage:
         for e in made:
             write_text(stage / e.file, e.text)
-    return [f"{out / e.file}: {e.said()}" for e in made]
+    return made
+
+
+def withdraw_exports(to: str, out: Path, reason: str) -> str:
+    """Remove earlier files of the projects ``to``, which would pass for new; gives a line."""
+    from pyimu.export import TARGETS, known
+
+    for name in known(to):
+        (out / TARGETS[name].file).unlink(missing_ok=True)
+    return f"nothing exported ({', '.join(known(to))}): {reason}"
 
 
 Json = Annotated[
-    bool, typer.Option("--json", help="Print the result as JSON, that of report.json, alone.")
+    bool,
+    typer.Option(
+        "--json", help="Print the result as JSON alone, that of report.json where there is one."
+    ),
 ]
 Quiet = Annotated[bool, typer.Option("--quiet", help="Print nothing but errors.")]
 

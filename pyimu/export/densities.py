@@ -37,6 +37,20 @@ class Densities:
         return float(np.max(self.N)), float(np.max(self.K))
 
 
+def present(part: Part) -> dict[str, Densities]:
+    """White noise and random walk of each sensor, by kind, that has white noise in ``part``.
+
+    Raises UserError, as ``densities`` does, where none has.
+    """
+    kinds = [kind for kind in NAMES if _has_white_noise(part, kind)]
+    return {kind: densities(part, kind) for kind in kinds or NAMES}
+
+
+def _has_white_noise(part: Part, kind: str) -> bool:
+    N = part.sensor(kind).values.get("angle_random_walk", {}).get("N", np.zeros(3))
+    return bool(np.all(N > 0)) and (kind, "angle_random_walk", "N") not in part.estimate
+
+
 def densities(part: Part, kind: str) -> Densities:
     """White noise and random walk of a sensor of ``part``.
 
@@ -47,13 +61,13 @@ def densities(part: Part, kind: str) -> Densities:
     without white noise.
     """
     values = part.sensor(kind).values
-    N = values.get("angle_random_walk", {}).get("N", np.zeros(3))
-    if not np.all(N > 0) or (kind, "angle_random_walk", "N") in part.estimate:
+    if not _has_white_noise(part, kind):
         raise UserError(
             f"part {part.name} has no white noise of the {NAMES[kind]} "
             f"({kind}.angle_random_walk.N), which every estimator needs; "
             "pyimu characterize finds it in a log at rest"
         )
+    N = values["angle_random_walk"]["N"]
     found = [values[effect][name] for effect, name in WALKS if effect in values]
     K = np.sqrt(np.sum(np.square(found), axis=0)) if found else np.zeros(3)
     if np.all(K > 0):

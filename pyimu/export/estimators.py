@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from pyimu.export.densities import densities
+from pyimu.export.densities import present
 from pyimu.export.header import header
 from pyimu.model.part import Part
 
@@ -27,12 +27,12 @@ EKF2_BOUNDS = {
 """What PX4's parameter reference allows, in rad/s, m/s^2, rad/s^2 and m/s^3."""
 
 
-def _figures(part: Part, inflate: float) -> tuple[float, float, float, float, tuple[str, ...]]:
-    """N and K of gyro and accelerometer, inflated, of the worst axis each, and where K is from."""
-    gyro, accel = densities(part, "gyro"), densities(part, "accel")
-    said = tuple(f"{d.kind} random walk: {d.said}" for d in (gyro, accel))
-    figures = [inflate * v for v in (*gyro.worst, *accel.worst)]
-    return figures[0], figures[1], figures[2], figures[3], said
+def _figures(part: Part, inflate: float) -> tuple[dict[str, tuple[float, float]], tuple[str, ...]]:
+    """N and K, inflated, of the worst axis of each sensor that has any, and where K is from."""
+    found = present(part)
+    said = tuple(f"{kind} random walk: {d.said}" for kind, d in found.items())
+    worst = {kind: (inflate * d.worst[0], inflate * d.worst[1]) for kind, d in found.items()}
+    return worst, said
 
 
 def _lines(entries: Mapping[str, tuple[float | str, str]], indent: str = "") -> str:
@@ -51,13 +51,17 @@ def _number(value: float) -> str:
 
 
 def _kalibr_entries(part: Part, inflate: float) -> tuple[dict, tuple[str, ...]]:
-    n_g, k_g, n_a, k_a, said = _figures(part, inflate)
-    return {
-        "accelerometer_noise_density": (n_a, "m/s^2/sqrt(Hz)"),
-        "accelerometer_random_walk": (k_a, "m/s^3/sqrt(Hz)"),
-        "gyroscope_noise_density": (n_g, "rad/s/sqrt(Hz)"),
-        "gyroscope_random_walk": (k_g, "rad/s^2/sqrt(Hz)"),
-    }, said
+    figures, said = _figures(part, inflate)
+    names = {"accel": ("accelerometer", "m/s"), "gyro": ("gyroscope", "rad/s")}
+    entries = {}
+    for kind, (name, unit) in names.items():
+        if kind in figures:
+            per = {"accel": ("^2", "^3"), "gyro": ("", "^2")}[kind]
+            for what, value, power in zip(
+                ("noise_density", "random_walk"), figures[kind], per, strict=True
+            ):
+                entries[f"{name}_{what}"] = (value, f"{unit}{power}/sqrt(Hz)")
+    return entries, said
 
 
 def kalibr(part: Part, inflate: float) -> str:
@@ -108,7 +112,8 @@ def vins(part: Part, inflate: float) -> str:
     midPointIntegration): acc_n is the standard deviation of a sample, N / sqrt(dt), and acc_w so
     that the bias takes steps of acc_w dt, K / sqrt(dt).
     """
-    n_g, k_g, n_a, k_a, said = _figures(part, inflate)
+    figures, said = _figures(part, inflate)
+    (n_g, k_g), (n_a, k_a) = figures["gyro"], figures["accel"]
     root = math.sqrt(part.sample_rate)
     entries = {
         "imu": ("1", ""),
@@ -125,15 +130,14 @@ def vins(part: Part, inflate: float) -> str:
 
 def isaac(part: Part, inflate: float) -> str:
     """Parameters of Isaac ROS' visual SLAM node, continuous densities as Kalibr's."""
-    n_g, k_g, n_a, k_a, said = _figures(part, inflate)
-    entries = {
-        "enable_imu_fusion": ("true", ""),
-        "gyro_noise_density": (n_g, "rad/s/sqrt(Hz)"),
-        "gyro_random_walk": (k_g, "rad/s^2/sqrt(Hz)"),
-        "accel_noise_density": (n_a, "m/s^2/sqrt(Hz)"),
-        "accel_random_walk": (k_a, "m/s^3/sqrt(Hz)"),
-        "calibration_frequency": (part.sample_rate, "Hz"),
-    }
+    figures, said = _figures(part, inflate)
+    entries: dict[str, tuple[float | str, str]] = {"enable_imu_fusion": ("true", "")}
+    for kind, units in (("gyro", ("rad/s", "rad/s^2")), ("accel", ("m/s^2", "m/s^3"))):
+        if kind in figures:
+            n, k = figures[kind]
+            entries[f"{kind}_noise_density"] = (n, f"{units[0]}/sqrt(Hz)")
+            entries[f"{kind}_random_walk"] = (k, f"{units[1]}/sqrt(Hz)")
+    entries["calibration_frequency"] = (part.sample_rate, "Hz")
     head = header(part, WALKING, said)
     return f"{head}visual_slam_node:\n  ros__parameters:\n{_lines(entries, '    ')}"
 
@@ -141,13 +145,16 @@ def isaac(part: Part, inflate: float) -> str:
 def ros2(part: Part, inflate: float) -> str:
     """The covariances of ``sensor_msgs/Imu`` (REP 145): those of a sample, row by row.
 
-    The variance of a sample is N^2 times the sample rate.
+    The variance of a sample is N^2 times the sample rate; that of a sensor whose noise the part
+    does not have is zeros, which the message calls unknown.
     """
-    entries = {}
+    entries, found = {}, present(part)
     for kind, name in (("gyro", "angular_velocity"), ("accel", "linear_acceleration")):
-        variance = np.square(inflate * densities(part, kind).N) * part.sample_rate
+        N = found[kind].N if kind in found else np.zeros(3)
+        variance = np.square(inflate * N) * part.sample_rate
         cells = [_number(v) for v in np.diag(variance).ravel()]
         unit = {"gyro": "(rad/s)^2", "accel": "(m/s^2)^2"}[kind]
+        unit = unit if kind in found else "unknown"
         entries[f"{name}_covariance"] = (f"[{', '.join(cells)}]", unit)
     entries["orientation_covariance"] = ("[-1.0" + ", 0.0" * 8 + "]", "no orientation")
     head = header(part, {"angle_random_walk"})
@@ -160,9 +167,11 @@ def px4(part: Part, inflate: float) -> str:
     EKF2 takes the noise of a prediction's rate and the steps dt * b_noise of the bias, at
     ``EKF2_PERIOD``: N / sqrt(dt) and K / sqrt(dt). What lies beyond PX4's bounds is set to them.
     """
-    n_g, k_g, n_a, k_a, said = _figures(part, inflate)
+    figures, said = _figures(part, inflate)
     root = 1 / math.sqrt(EKF2_PERIOD)
-    wanted = dict(zip(EKF2_BOUNDS, (n_g * root, n_a * root, k_g * root, k_a * root), strict=True))
+    short = {kind: name for kind, name in (("gyro", "GYR"), ("accel", "ACC")) if kind in figures}
+    wanted = {f"EKF2_{name}_NOISE": figures[kind][0] * root for kind, name in short.items()}
+    wanted |= {f"EKF2_{name}_B_NOISE": figures[kind][1] * root for kind, name in short.items()}
     clipped = {n: float(np.clip(v, *EKF2_BOUNDS[n])) for n, v in wanted.items()}
     moved = tuple(
         f"{n}: {wanted[n]:.3g} lies beyond PX4's bounds" for n in wanted if clipped[n] != wanted[n]

@@ -7,7 +7,7 @@ from xml.sax.saxutils import escape
 
 import numpy as np
 
-from pyimu.export.densities import densities
+from pyimu.export.densities import Densities, present
 from pyimu.export.header import header
 from pyimu.model.part import AXES, Part
 from pyimu.shaping import flicker_floor
@@ -27,9 +27,12 @@ def gazebo(part: Part, inflate: float) -> str:
     sigma^2 dt, so that sigma is K. ``bias_mean`` has a random sign there, so that a bias that was
     measured stands in ``mean``; ``bias_stddev`` is the part's tolerance.
     """
+    found = present(part)
     blocks = "".join(
-        f"      <{tag}>\n{''.join(_axis(part, kind, i, inflate) for i in range(3))}      </{tag}>\n"
+        f"      <{tag}>\n{''.join(_axis(part, found[kind], i, inflate) for i in range(3))}"
+        f"      </{tag}>\n"
         for kind, tag in TRIADS.items()
+        if kind in found
     )
     kept = {"angle_random_walk", "rate_random_walk", "bias_instability", "turn_on_bias"}
     words = header(part, kept | {"gauss_markov", "quantization"}, mark="   ").rstrip("\n")
@@ -42,8 +45,8 @@ def gazebo(part: Part, inflate: float) -> str:
     )
 
 
-def _axis(part: Part, kind: str, i: int, inflate: float) -> str:
-    d, values = densities(part, kind), part.sensor(kind).values
+def _axis(part: Part, d: Densities, i: int, inflate: float) -> str:
+    kind, values = d.kind, part.sensor(d.kind).values
     q = float(values.get("quantization", {}).get("q", np.zeros(3))[i])
     bias = float(values.get("turn_on_bias", {}).get("b0", np.zeros(3))[i])
     markov = values.get("gauss_markov")
@@ -96,14 +99,16 @@ def matlab(part: Part, inflate: float) -> str:
     lines = [
         "% for imuSensor of the Navigation Toolbox, and of the Sensor Fusion and Tracking Toolbox",
         f"imu = imuSensor('accel-gyro', 'SampleRate', {part.sample_rate:.10g});",
-        f"imu.Gyroscope = gyroparams({_parameters(part, 'gyro', inflate)});",
-        f"imu.Accelerometer = accelparams({_parameters(part, 'accel', inflate)});",
+    ]
+    names = {"gyro": "Gyroscope = gyroparams", "accel": "Accelerometer = accelparams"}
+    lines += [
+        f"imu.{names[d.kind]}({_parameters(part, d, inflate)});" for d in present(part).values()
     ]
     return header(part, kept, mark="%") + "\n".join(lines) + "\n"
 
 
-def _parameters(part: Part, kind: str, inflate: float) -> str:
-    values, d = part.sensor(kind).values, densities(part, kind)
+def _parameters(part: Part, d: Densities, inflate: float) -> str:
+    kind, values = d.kind, part.sensor(d.kind).values
     si = {"gyro": "rad/s", "accel": "m/s^2"}[kind]
     found = {"NoiseDensity": math.sqrt(2) * inflate * d.N}
 

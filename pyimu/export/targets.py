@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from pyimu.errors import UserError
 from pyimu.export import estimators, simulators
-from pyimu.export.densities import densities
+from pyimu.export.densities import NAMES, densities, present
 from pyimu.files import write_text
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as find_part
@@ -21,14 +21,24 @@ class Target:
     """A project: the file that it reads, and by what its docs say that noise is to be inflated.
 
     ``text`` makes the file of a part and a factor; ``reason`` says where the factor is from.
+    ``words`` are what the file calls the noise of each sensor, and ``without`` is what the project
+    does where that is missing; empty where the file then has no meaning.
     """
 
     file: str
     text: Callable[[Part, float], str]
     inflate: float
     reason: str
+    words: Mapping[str, str]
+    without: str
 
 
+def _words(pattern: str, gyro: str, accel: str) -> dict[str, str]:
+    """What a file calls the noise of each sensor."""
+    return {"gyro": pattern.replace("?", gyro), "accel": pattern.replace("?", accel)}
+
+
+_CONTINUOUS = "?_noise_density and ?_random_walk"
 _NONE = "its docs name no factor"
 _SIMULATED = "a simulated sensor is to err as the real one does"
 
@@ -38,38 +48,82 @@ TARGETS = {
         estimators.kalibr,
         10.0,
         "Kalibr's wiki, IMU noise model: 10 times or more for low-cost sensors",
+        _words(_CONTINUOUS, "gyroscope", "accelerometer"),
+        "Kalibr asks for them: put them in",
     ),
     "openvins": Target(
         "kalibr_imu_chain.yaml",
         estimators.openvins,
         10.0,
         "OpenVINS' docs, sensor calibration: 10 to 20 times",
+        _words(_CONTINUOUS, "gyroscope", "accelerometer"),
+        "OpenVINS asks for them: put them in",
     ),
-    "vins": Target("vins_imu.yaml", estimators.vins, 1.0, _NONE),
-    "gazebo": Target("imu.sdf", simulators.gazebo, 1.0, _SIMULATED),
-    "isaac": Target("isaac_ros_visual_slam.yaml", estimators.isaac, 1.0, _NONE),
-    "ros2": Target("ros2_imu.yaml", estimators.ros2, 1.0, "a covariance is that of the samples"),
-    "matlab": Target("imu_sensor.m", simulators.matlab, 1.0, _SIMULATED),
-    "px4": Target("ekf2.params", estimators.px4, 1.0, _NONE),
+    "vins": Target(
+        "vins_imu.yaml", estimators.vins, 1.0, _NONE, _words("?_n and ?_w", "gyr", "acc"), ""
+    ),
+    "gazebo": Target(
+        "imu.sdf",
+        simulators.gazebo,
+        1.0,
+        _SIMULATED,
+        _words("<?>", *simulators.TRIADS.values()),
+        "Gazebo simulates it without noise",
+    ),
+    "isaac": Target(
+        "isaac_ros_visual_slam.yaml",
+        estimators.isaac,
+        1.0,
+        _NONE,
+        _words(_CONTINUOUS, "gyro", "accel"),
+        "the node's own defaults stand",
+    ),
+    "ros2": Target(
+        "ros2_imu.yaml",
+        estimators.ros2,
+        1.0,
+        "a covariance is that of the samples",
+        _words("?_covariance", "angular_velocity", "linear_acceleration"),
+        "zeros, which sensor_msgs/Imu calls unknown",
+    ),
+    "matlab": Target(
+        "imu_sensor.m",
+        simulators.matlab,
+        1.0,
+        _SIMULATED,
+        _words("?", "imu.Gyroscope", "imu.Accelerometer"),
+        "imuSensor's ideal one stands",
+    ),
+    "px4": Target(
+        "ekf2.params",
+        estimators.px4,
+        1.0,
+        _NONE,
+        _words("EKF2_?_NOISE and EKF2_?_B_NOISE", "GYR", "ACC"),
+        "EKF2's defaults stand",
+    ),
 }
 """Projects by the name that ``--to`` takes."""
 
 
 @dataclass(frozen=True)
 class Exported:
-    """The file of a project: its name and text, the factor on the noise, and where that is from."""
+    """The file of a project: its name and text, the factor on the noise, and where that is from.
+
+    ``missing`` says what of the file the part has no noise for, empty where it has all.
+    """
 
     target: str
     file: str
     text: str
     inflate: float
     reason: str
+    missing: str = ""
 
     def said(self) -> str:
-        """What was done to the noise, for people."""
-        if self.inflate == 1.0:
-            return f"noise as in the part ({self.reason})"
-        return f"noise {self.inflate:g} times the part's ({self.reason})"
+        """What was done to the noise, and what is missing, for people."""
+        times = "as in the part" if self.inflate == 1.0 else f"{self.inflate:g} times the part's"
+        return f"noise {times} ({self.reason}){self.missing and f'; {self.missing}'}"
 
 
 def known(to: str) -> tuple[str, ...]:
@@ -88,8 +142,9 @@ def export(part: str | os.PathLike | Part, to: str, inflate: float | None = None
     """The file of project ``to`` (a key of ``TARGETS``) for a part.
 
     ``inflate`` multiplies the roots of the noise's densities; None is what the project's docs
-    recommend. Raises UserError for an unknown project, a factor that is not positive, and a part
-    that lacks white noise.
+    recommend. A part with the white noise of one sensor gives a file with that alone, and
+    ``missing`` says so. Raises UserError for an unknown project, a factor that is not positive, a
+    part without white noise, and one with that of one sensor where the file needs both.
     """
     (name,) = known(to)
     target, found = TARGETS[name], find_part(part)
@@ -97,11 +152,23 @@ def export(part: str | os.PathLike | Part, to: str, inflate: float | None = None
         raise UserError(f"--inflate {inflate:g}: must be above 0 and below a million")
     factor = target.inflate if inflate is None else float(inflate)
     reason = target.reason if inflate is None else "as asked for"
-    for kind in ("gyro", "accel"):
-        densities(found, kind)
-    exported = Exported(to, target.file, "", factor, reason)
+    exported = Exported(to, target.file, "", factor, reason, _missing(target, found))
     text = target.text(found, factor).replace("{inflation}", exported.said())
-    return Exported(to, target.file, text, factor, reason)
+    return replace(exported, text=text)
+
+
+def _missing(target: Target, part: Part) -> str:
+    """What of a project's file the part has no noise for. Raises UserError where it needs that."""
+    there, said = present(part), []
+    for kind in NAMES:
+        if kind not in there:
+            if not target.without:
+                densities(part, kind)
+            said.append(
+                f"the part has no white noise of the {NAMES[kind]}, {target.words[kind]}: "
+                f"{target.without}"
+            )
+    return "; ".join(said)
 
 
 def write(

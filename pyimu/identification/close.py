@@ -37,6 +37,7 @@ from pyimu.model.part_file import part_names
 from pyimu.model.part_reader import parse_part
 from pyimu.model.sensor import Sensor
 from pyimu.model.typical import CLASSES, magnitudes
+from pyimu.recording.folders import truth_beside
 from pyimu.recording.log import Given, is_one, recording_of
 from pyimu.recording.names import distinct_names
 from pyimu.recording.quality.inspect import inspect, of_reading, rate_of_part
@@ -293,8 +294,16 @@ def _nothing_to_compare(logs: list[Recording]) -> str:
     return (
         f"{logs[0].name}: nothing to compare: the log has no reference (ref_rate, ref_q, "
         "ref_heading, ref_force, positions or velocities) and moves; a log without reference must "
-        f"stand still, or rest in several positions (here {few(logs)})"
+        f"stand still, or rest in several positions (here {few(logs)}){_beside(logs[0])}"
     )
+
+
+def _beside(log: Recording) -> str:
+    """Where its reference may be."""
+    truth = truth_beside(log.path)
+    if truth is None:
+        return "; a reference in a file of its own is given by --reference FILE"
+    return f"; the ground truth is beside it: --reference {truth}"
 
 
 # Trials, and what is free in them

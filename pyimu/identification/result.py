@@ -6,12 +6,20 @@ import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from pyimu import notebook
+from pyimu.errors import UserError
 from pyimu.identification.outcome import Outcome
 from pyimu.identification.report.deliver import deliver
+from pyimu.identification.report.errors import whole_figure
 from pyimu.identification.report.terminal import in_lines
 from pyimu.identification.report.words import headline
+from pyimu.report.numbers import joined
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from pandas import DataFrame
 
 
 @dataclass(frozen=True)
@@ -34,6 +42,35 @@ class Closed(Outcome):
         return notebook.block(
             f"Closed: {self.verdict}", headline(self), notebook.lines(self.report())
         )
+
+    def plot(self, sensor: str | None = None) -> Figure:
+        """The residual of a sensor over time, before and after, on data that was not fitted.
+
+        ``sensor`` is "gyro" or "accel", None for the first that was examined. Raises UserError for
+        one that was not.
+        """
+        kind = sensor or next(iter(self.exhibits), "gyro")
+        if kind not in self.exhibits:
+            raise UserError(
+                f"{kind}: was not examined; examined are {joined(list(self.exhibits)) or 'none'}"
+            )
+        return notebook.shown(whole_figure(self, kind))
+
+    def to_frame(self) -> DataFrame:
+        """The model's coefficients as a pandas data frame, a row each, arrays in SI.
+
+        Columns: ``coefficient`` (``gyro.scale_factor.s``), ``value``, ``std``, ``low``, ``high``,
+        ``shown`` (whether these logs show an element), ``unit``, ``origin``, ``source``.
+        """
+        from pandas import DataFrame
+
+        names = ("value", "std", "low", "high", "shown", "unit", "origin", "source")
+        rows = [
+            {"coefficient": f"{e.sensor}.{e.effect}.{e.parameter}"}
+            | {name: getattr(e, name) for name in names}
+            for e in self.estimated
+        ]
+        return DataFrame(rows)
 
     def write(
         self,

@@ -5,10 +5,16 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from pyimu.files import check_folder, staged, write_json, write_text
+from pyimu import notebook
+from pyimu.errors import UserError
+from pyimu.files import check_folder, shortened, staged, write_json, write_text
 from pyimu.inspection.outcome import Outcome
 from pyimu.inspection.page import page
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,6 +32,32 @@ class Inspection(Outcome):
         if questions:
             said.append(f"choose the unit of {', '.join(questions)} in the map")
         return "\n".join(said)
+
+    def __repr__(self) -> str:
+        known = self.format or self.kind
+        if self.recording is None:
+            return f"Inspection({self.path.name!r}: {known}, {shortened(self.problem, 160)!r})"
+        log = self.recording
+        return (
+            f"Inspection({self.path.name!r}: {known}, {len(log)} samples, {log.sample_rate:.6g} "
+            f"Hz, {', '.join(log.groups)}; {len(self.findings)} findings)"
+        )
+
+    def _repr_html_(self) -> str:
+        head = ("column", "meaning", "unit", "numbers", "how it is known")
+        said = [line for line in self.report().splitlines() if not line.startswith("  ")]
+        return notebook.block(
+            f"Log {self.path.name}",
+            "",
+            notebook.table(head, self.columns),
+            notebook.lines("\n".join(said)),
+        )
+
+    def plot(self) -> Figure:
+        """The log over time, a panel a group. Raises UserError where it could not be read."""
+        if self.recording is None:
+            raise UserError(f"{self.path}: nothing to draw, it could not be read: {self.problem}")
+        return self.recording.plot()
 
     def write_map(self, path: str | os.PathLike) -> Path:
         """Write the column map. Raises UserError where it cannot be written."""

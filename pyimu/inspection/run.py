@@ -8,17 +8,17 @@ from dataclasses import replace
 from pathlib import Path
 
 from pyimu.errors import UserError
-from pyimu.files import exists, parse_toml
+from pyimu.files import parse_toml
 from pyimu.inspection.result import Inspection
 from pyimu.recording.column_map import ForeignMap, map_of, read_map
 from pyimu.recording.columns import own_name
+from pyimu.recording.folders import log_in
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.formats.suffix import open_reader
 from pyimu.recording.guess.proposal import Guess, Proposal, proposed
 from pyimu.recording.guess.writing import text_of
 from pyimu.recording.known import is_own, recognised
 from pyimu.recording.log import Log
-from pyimu.recording.phone import is_phone, of_phone
 from pyimu.recording.quality.in_pieces import quality
 from pyimu.recording.recording import Recording
 from pyimu.recording.rest import is_at_rest, rests
@@ -39,10 +39,11 @@ def inspect(
     """
     given = [Path(paths)] if isinstance(paths, (str, os.PathLike)) else [Path(p) for p in paths]
     foreign = None if columns is None else read_map(Path(columns))
-    if len(given) == 1 and exists(given[0]) and given[0].is_dir() and is_phone(given[0]):
-        first, phone = of_phone(given[0])
-        given = [first, *(first.parent / name for name, _ in phone.files)]
-        foreign = phone if foreign is None else foreign
+    whole = log_in(given[0]) if len(given) == 1 else None
+    if whole is not None:
+        given = [whole.path, *(whole.path.parent / name for name, _ in whole.foreign.files)]
+        if foreign is None and whole.foreign.columns:
+            foreign = whole.foreign
     say("looking at the columns")
     readers = [open_reader(path, foreign.topics if foreign else {}) for path in given]
     known = None if foreign is not None else recognised(readers[0])

@@ -69,6 +69,7 @@ class Part:
 
     __repr__ = show.as_text
     _repr_html_ = show.as_html
+    to_frame = show.as_frame
 
     @property
     def sample_period(self) -> float:

@@ -27,6 +27,7 @@ element, of a matrix too. ``Part.specimen`` draws from them.
 
 from __future__ import annotations
 
+import itertools
 import os
 import re
 from importlib.resources import files
@@ -63,14 +64,32 @@ def part(name_or_path: str | os.PathLike | Part) -> Part:
         )
     name, path = str(name_or_path), Path(name_or_path)
     if name in part_names():
-        text = files("pyimu.model").joinpath("parts", f"{name}.toml").read_text(encoding="utf-8")
-        return parse_part(text, f"{name}.toml")
+        return parse_part(_built_in(name), f"{name}.toml")
     if path.suffix == ".toml" or exists(path):
         return load_part(path)
     raise UserError(
         f"{shortened(name)}: no built-in part ({', '.join(part_names())}) and no TOML file; "
         f"{meant(name, part_names())}"
     )
+
+
+def _built_in(name: str) -> str:
+    """The text of a built-in part's file."""
+    return files("pyimu.model").joinpath("parts", f"{name}.toml").read_text(encoding="utf-8")
+
+
+def remarks(name_or_path: str | os.PathLike | Part) -> str:
+    """The comment at the head of a part's file: its setting, and which figures were not found.
+
+    Empty for a ``Part``, which has no file, and for a file without. Raises as ``part``.
+    """
+    part(name_or_path)
+    if isinstance(name_or_path, Part):
+        return ""
+    name = str(name_or_path)
+    text = _built_in(name) if name in part_names() else Path(name).read_text(encoding="utf-8")
+    head = itertools.takewhile(lambda line: line.startswith("#"), text.splitlines())
+    return " ".join(" ".join(line.lstrip("# ") for line in head).split())
 
 
 def new_part(name: str, folder: str | os.PathLike = ".") -> Path:

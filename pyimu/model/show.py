@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from pyimu import notebook
 from pyimu.model.part_entry import FigureScale
 from pyimu.model.sensor import Sensor
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
 
 
 def as_text(part: Any) -> str:
@@ -30,6 +33,33 @@ def as_html(part: Any) -> str:
         parts.append(notebook.table(("tolerance", "specimens lie", *head), tolerances))
     note = f"{part.description or 'no description'}; {part.sample_rate:.6g} Hz"
     return notebook.block(f"Part {part.name}", note, *parts)
+
+
+def as_frame(part: Any) -> DataFrame:
+    """The coefficients as a pandas data frame, a row each, values in SI.
+
+    Columns: ``coefficient`` (``gyro.angle_random_walk.N``), ``value`` (an array of the parameter's
+    shape), ``unit``, ``estimate`` (whether it is left to the data), ``quoted``, ``source``.
+    """
+    from pandas import DataFrame
+
+    rows = []
+    for sensor in (part.gyro, part.accel, part.mag):
+        for e in sensor.effects:
+            for name, q in e.parameters.items():
+                key = (sensor.kind, e.name, name)
+                note = part.notes.get(key, {})
+                rows.append(
+                    {
+                        "coefficient": ".".join(key),
+                        "value": sensor.values[e.name][name],
+                        "unit": sensor.unit(q.unit),
+                        "estimate": key in part.estimate,
+                        "quoted": note.get("quoted", ""),
+                        "source": note.get("source", ""),
+                    }
+                )
+    return DataFrame(rows)
 
 
 def _rows(part: Any) -> Iterator[tuple[str, str, str, str]]:

@@ -41,6 +41,7 @@ class Header:
     name close to a known one; for an incomplete group, no time, and a log that does not hold what
     is ``wanted``: a "sensor" (gyro or accelerometer), a "reference", or "any" column. A column
     with another name is left out, and listed in ``findings``; ``cells`` are the file's own names.
+    Of what is ``in_memory`` no hint names a command.
     """
 
     def __init__(
@@ -52,6 +53,7 @@ class Header:
         skipped: Sequence[str] = (),
         wanted: str = "sensor",
         cells: Sequence[str] = (),
+        in_memory: bool = False,
     ) -> None:
         self.path = path
         self.names: list[str] = []
@@ -62,6 +64,7 @@ class Header:
         self._skipped = skipped
         self._wanted = wanted
         self._cells = list(cells or header)
+        self._in_memory = in_memory
         self._scale = scale
         self._counted: set[str] = set()
         self._ours = any(cell.partition("[")[0].strip() in UNITS for cell in self._cells)
@@ -99,10 +102,10 @@ class Header:
         if name in self.names:
             raise UserError(f"{self.path}: column {name} stands twice in the header")
         if not unit.endswith("]"):
+            look = f"; pyimu inspect {self.path} looks which one the numbers fit"
             raise UserError(
                 f"{self.path}: column {name} has no unit, write '{name} [...]' with its own "
-                f"({OFTEN.get(UNITS[name], UNITS[name])}); pyimu inspect {self.path} looks which "
-                "one the numbers fit"
+                f"({OFTEN.get(UNITS[name], UNITS[name])}){'' if self._in_memory else look}"
             )
         self.names.append(name)
         self.positions.append(position)
@@ -170,6 +173,11 @@ class Header:
         )
         if not any(cell.strip("/[] ") for cell in self._cells):
             return skipped
+        if self._in_memory:
+            return (
+                f"; it has {_some(self._cells)}; name them by Recording.from_frame(frame, "
+                "columns={'t': 'time [s]', 'gx': 'gyro_x [deg/s]', ...})"
+            )
         return (
             f"; it has {_some(self._cells)}{skipped}; name its columns in a column map (TOML) and "
             f"give that as --columns: pyimu inspect {self.path} --write-map map.toml writes one to "

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import cached_property
 from itertools import chain
@@ -14,7 +14,7 @@ import numpy as np
 
 from pyimu.errors import Finding, UserError, printable
 from pyimu.recording.clock import RATES, Cadence, Clock, cadence_of
-from pyimu.recording.column_map import ForeignMap
+from pyimu.recording.column_map import ForeignMap, map_of, read_map
 from pyimu.recording.columns import GROUPS
 from pyimu.recording.companions import Companion
 from pyimu.recording.formats.frame import FrameReader, is_frame
@@ -22,6 +22,7 @@ from pyimu.recording.formats.suffix import stem
 from pyimu.recording.gaps import GapFinder
 from pyimu.recording.guess.numbers import SECONDS, USUAL
 from pyimu.recording.recording import Recording, check_marks, copied, join
+from pyimu.recording.reference.file import with_reference
 from pyimu.recording.rows import LEAST_ROWS, Rows, Source
 from pyimu.recording.waking import Batch
 
@@ -35,7 +36,7 @@ class Log:
     def __init__(self, source: Source) -> None:
         self._source = source
         self.path: Path = source.header.path
-        self.name = printable(stem(self.path))
+        self.name = printable(source.name or stem(self.path))
         self.findings: tuple[Finding, ...] = ()
         """What was seen in reading; complete once all of it was read."""
 
@@ -126,14 +127,18 @@ class Log:
                 yield segment, piece.slice(start, stop), share
 
     def read(self) -> Recording:
-        """The whole log; its sample period is that of all its samples."""
+        """The whole log; its sample period is that of all its samples.
+
+        A sequence of a data set has the ground truth beside it.
+        """
         passing = Rows(self._source)
         whole = join([piece for piece, _ in self._batches(passing)])
         self._check_rate(whole.cadence)
         clock = Clock(whole.cadence)
         clock.add(whole.time)
         self.findings = self._found(passing, clock)
-        return replace(whole, findings=self.findings)
+        log, truth = replace(whole, findings=self.findings), self._source.truth
+        return log if truth is None else with_reference(log, read_reference(truth))
 
     def _check_rate(self, cadence: Cadence) -> None:
         """Raise UserError for a rate that no sensor has: the times are in another unit."""
@@ -280,6 +285,17 @@ def read_recording(path: str | os.PathLike, columns: str | os.PathLike | None = 
     return Log(Source.open(Path(path), None if columns is None else Path(columns))).read()
 
 
+def read_reference(path: str | os.PathLike, columns: str | os.PathLike | None = None) -> Recording:
+    """Read a reference in a file of its own: ``time`` and columns ``ref_*``, in any format that
+    ``read_recording`` reads; it needs neither gyro nor accelerometer.
+
+    ``columns`` is that of ``read_recording``. Raises UserError as that does, and for a file without
+    a reference.
+    """
+    source = Source.open(Path(path), None if columns is None else Path(columns), "reference")
+    return Log(source).read()
+
+
 Given = Recording | str | os.PathLike | Any
 """What is taken for a recording: one, the path of its file, or a data frame."""
 
@@ -309,17 +325,40 @@ def recording_of(given: Given, wanted: str = "sensor") -> Recording:
     return replace(Log(source).read(), path=None)
 
 
-def _from_frame(cls: type[Recording], frame: Any, name: str = "frame") -> Recording:
+def _from_frame(
+    cls: type[Recording],
+    frame: Any,
+    name: str = "frame",
+    columns: Mapping[str, Any] | str | os.PathLike | None = None,
+) -> Recording:
     """A recording of a data frame, its columns named with their units as those of a file.
 
-    ``gyro_x [deg/s]``, ``accel_x [g]``, ``time [ms]`` are such. Raises UserError as
-    ``read_recording`` does.
+    ``gyro_x [deg/s]``, ``accel_x [g]``, ``time [ms]`` are such. Other names are given theirs by
+    ``columns``, ``{"gx": "gyro_x [deg/s]"}``, or all that a column map declares, as its tables or
+    as the file. An index of dates or spans of time, or one that is named as a time, is the time of
+    a frame without such a column. Raises UserError as ``read_recording`` does.
     """
     if not is_frame(frame):
         raise UserError(
             f"a {type(frame).__name__} is no data frame; recordings of arrays: from_arrays"
         )
-    return replace(recording_of(frame), name=name)
+    source = Source.of(FrameReader.of(frame), _map_of(columns))
+    return replace(Log(source).read(), path=None, name=name)
+
+
+def _map_of(columns: Mapping[str, Any] | str | os.PathLike | None) -> ForeignMap:
+    """The column map in a file, of its tables, or of new names alone."""
+    if columns is None:
+        return ForeignMap()
+    if isinstance(columns, (str, os.PathLike)):
+        return read_map(Path(columns))
+    if not isinstance(columns, Mapping):
+        raise UserError(
+            f"columns is a {type(columns).__name__}, expected a table of names such as "
+            "{'gx': 'gyro_x [deg/s]'}, or the path of a column map"
+        )
+    renames = columns and all(isinstance(value, str) for value in columns.values())
+    return map_of({"columns": dict(columns)} if renames else columns, Path("columns"))
 
 
 # Reading lies above what is read; so it gives the class its constructor from a frame.

@@ -115,7 +115,12 @@ class Recording(_Columns):
     if TYPE_CHECKING:  # ``pyimu.recording.log``, which reads files, gives it
 
         @classmethod
-        def from_frame(cls, frame: Any, name: str = "frame") -> Recording: ...
+        def from_frame(
+            cls,
+            frame: Any,
+            name: str = "frame",
+            columns: Mapping[str, Any] | str | os.PathLike | None = None,
+        ) -> Recording: ...
 
     def to_frame(self) -> DataFrame:
         """The columns as a pandas data frame, named with their units in SI: ``gyro_x [rad/s]``.

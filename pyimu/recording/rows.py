@@ -12,18 +12,17 @@ from pathlib import Path
 import numpy as np
 
 from pyimu.errors import Finding, UserError
-from pyimu.files import exists
 from pyimu.recording.coarse import COARSE_STAMPS, EvenTimes, even_times
 from pyimu.recording.column_map import BODY, ForeignMap, read_map
 from pyimu.recording.columns import GROUPS, column_names, own_name
 from pyimu.recording.counter import BITS, NEARLY, Unwrapped
 from pyimu.recording.counts import RawCounts
+from pyimu.recording.folders import log_in
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.formats.suffix import open_reader
 from pyimu.recording.formats.timed import TIME, TimedReader
 from pyimu.recording.header import Header
 from pyimu.recording.known import left_out, merged, recognised, said
-from pyimu.recording.phone import is_phone, of_phone
 from pyimu.recording.quality.tally import Tally
 from pyimu.recording.waking import Waking
 
@@ -54,26 +53,33 @@ Values = dict[str, np.ndarray]
 class Source:
     """A file, opened: its reader, what its columns mean, and the user's column map.
 
-    ``companions`` are further files with columns of the same log, each with times of its own.
+    ``companions`` are further files with columns of the same log, each with times of its own. Of a
+    folder that is a log, ``name`` is what the log is called, and ``truth`` the file of its ground
+    truth.
     """
 
     reader: Reader
     header: Header
     foreign: ForeignMap
     companions: tuple[Source, ...] = ()
+    name: str = ""
+    truth: Path | None = None
 
     @classmethod
     def open(cls, path: Path, columns: Path | None, wanted: str = "sensor") -> Source:
         """Open a log; ``wanted`` is what it must hold, see ``Header``.
 
-        A folder of a phone's files is a log, too. Raises UserError for a file or a map that cannot
-        be used.
+        A folder of a phone's files is a log, too, and so is one of a data set. Raises
+        UserError for a file or a map that cannot be used.
         """
         foreign = read_map(columns) if columns is not None else ForeignMap()
-        if exists(path) and path.is_dir() and is_phone(path):
-            path, phone = of_phone(path)
-            foreign = foreign if foreign.columns else merged(phone, foreign, phone.files)
-        return cls.of(open_reader(path, foreign.topics), foreign, wanted)
+        whole = log_in(path)
+        if whole is None:
+            return cls.of(open_reader(path, foreign.topics), foreign, wanted)
+        own = whole.foreign
+        foreign = foreign if foreign.columns else merged(own, foreign, own.files)
+        source = cls.of(open_reader(whole.path, foreign.topics), foreign, wanted)
+        return replace(source, name=whole.name, truth=whole.truth)
 
     @classmethod
     def of(cls, reader: Reader, foreign: ForeignMap, wanted: str = "sensor") -> Source:
@@ -101,6 +107,7 @@ class Source:
             reader.skipped,
             wanted,
             reader.header,
+            reader.in_memory,
         )
         header.findings = [*findings, *foreign.notes, *header.findings]
         companions = _companions(reader.path, foreign, header)

@@ -66,6 +66,10 @@ BINS = 420
 that spikes survive."""
 
 
+ON_WHITE = {"figure.facecolor": "white", "axes.facecolor": "white"}
+"""What ``style`` sets for a figure that stands by itself, not in a page."""
+
+
 def style(more: dict[str, Any] | None = None) -> AbstractContextManager[None]:
     """The context in which a figure has the package's style, and what ``more`` sets."""
     import matplotlib

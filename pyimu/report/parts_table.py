@@ -10,6 +10,7 @@ from __future__ import annotations
 import io
 import shutil
 import sys
+import textwrap
 from collections.abc import Iterable
 from typing import Any
 
@@ -18,7 +19,7 @@ import numpy as np
 from pyimu.files import plain
 from pyimu.model.part import Part
 from pyimu.model.part_entry import RATE_KEY
-from pyimu.model.part_file import part, part_names
+from pyimu.model.part_file import part, part_names, remarks
 from pyimu.report.numbers import CORNER, in_unit, number, unit_for
 
 ABSENT = "-"
@@ -36,6 +37,9 @@ COLUMNS = (
 
 SAID = ("quoted", "source")
 """What the notes of a coefficient say beside its value."""
+
+WRAPPED = 100
+"""Characters of a line of remarks, at most."""
 
 LEAST = 18
 """Characters of a column with text; the words in it are not longer."""
@@ -69,7 +73,8 @@ def listing(parts: Iterable[Part] | None = None, width: int | None = None) -> st
 def detail(name: str | Part, width: int | None = None) -> str:
     """Every coefficient of one part in a unit of its size, with quoted figure and source.
 
-    Its tolerances follow: how far specimens lie from it.
+    The remarks at the head of its file stand above, with the figures that were not found, and below
+    its tolerances: how far specimens lie from it.
 
     Raises UserError where there is no such part.
     """
@@ -78,13 +83,15 @@ def detail(name: str | Part, width: int | None = None) -> str:
     tables = [_sourced("coefficient", "value", _rows(p), width)]
     if p.tolerances:
         tables.append(_sourced("tolerance", "specimens lie", _tolerances(p), width))
-    return "\n\n".join([title, *tables])
+    head = textwrap.fill(remarks(name), min(width or WRAPPED, WRAPPED))
+    return "\n\n".join([title, *([head] if head else []), *tables])
 
 
-def as_data(name: str | None = None) -> dict[str, Any]:
+def as_data(name: str | Part | None = None) -> dict[str, Any]:
     """A part as data, or without a name each by its own: what its file says, values in SI.
 
-    {``name``, ``description``, ``sample_rate`` [Hz], ``coefficients``: {``gyro.effect.parameter``:
+    {``name``, ``description``, ``remarks`` at the head of its file, with the figures that were not
+    found, ``sample_rate`` [Hz], ``coefficients``: {``gyro.effect.parameter``:
     {``value``, ``unit``, ``quoted``, ``source``}}, ``tolerances``: {the same: {``size``,
     ``unit``, ``distribution``, ``quoted``, ``source``}}}.
     """
@@ -115,6 +122,7 @@ def as_data(name: str | None = None) -> dict[str, Any]:
         {
             "name": p.name,
             "description": p.description,
+            "remarks": remarks(name),
             "sample_rate": p.sample_rate,
             "coefficients": coefficients,
             "tolerances": tolerances,

@@ -96,13 +96,29 @@ def test_a_log_that_moves_is_called_one_first_and_gives_no_part(pyimu, undrawn, 
     """Nor does it leave an earlier part to be taken for its own, nor an export of it."""
     turning = gyro() + np.outer(np.sin(0.5 * H * np.arange(ROWS)), [0, 1.0, 0])
     (tmp_path / "out").mkdir()
-    (tmp_path / "out" / "part.toml").write_text("earlier")
+    for earlier in ("part.toml", "ekf2.params"):
+        (tmp_path / "out" / earlier).write_text("earlier")
     log = write(tmp_path, "drive", gyro=turning)
     code, out, err = pyimu("characterize", log, "--export", "px4", "--out", "out")
     assert (code, err) == (0, "") and out.startswith("drive moves: ")
-    assert "no part: the log moves" in out.splitlines()[-1]
+    assert "no part: the log moves" in out.splitlines()[-2]
+    assert out.splitlines()[-1] == "nothing exported (px4): the log moves"
     assert sorted(p.name for p in (tmp_path / "out").iterdir()) == ["report.html", "report.json"]
     assert json.loads((tmp_path / "out" / "report.json").read_text())["moving"] == ["drive"]
+
+
+def test_a_script_can_tell_a_log_that_moves(pyimu, undrawn, tmp_path):
+    """By the exit status where it is asked for; what it asked for and does not get is said."""
+    turning = gyro() + np.outer(np.sin(0.5 * H * np.arange(ROWS)), [0, 1.0, 0])
+    moves, rests = write(tmp_path, "drive", gyro=turning), write(tmp_path)
+    for log, options, status, said in (
+        (rests, ("--exit-code",), 0, ""),
+        (moves, (), 0, ""),
+        (moves, ("--exit-code",), 17, ""),
+        (moves, ("--exit-code", "--export", "kalibr"), 17, "nothing exported (kalibr): the log"),
+    ):
+        code, out, err = pyimu("characterize", log, "--quiet", *options, "--out", "out")
+        assert (code, out) == (status, "") and said in err and bool(said) == bool(err)
 
 
 def test_the_part_is_exported_too(pyimu, undrawn, tmp_path):

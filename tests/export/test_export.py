@@ -243,13 +243,48 @@ def test_the_noise_is_inflated_as_the_project_recommends_and_that_is_said(to):
     assert "scale_factor" in recommended.text  # has no place there, and is said to have none
 
 
+ONE = {
+    "gyro": Part("gyro", RATE, gyro=MADE.gyro),
+    "accel": Part("accel", RATE, accel=MADE.accel),
+}
+
+
+@pytest.mark.parametrize("kind", ONE)
+@pytest.mark.parametrize("to", [t for t in exports.TARGETS if t != "vins"])
+def test_a_part_with_one_sensor_s_noise_is_exported_with_that_alone(to, kind):
+    """Nothing but what it lacks differs from the whole part's file; that is said in its words."""
+    other = {"gyro": "accel", "accel": "gyro"}[kind]
+    made, whole = exports.export(ONE[kind], to, 1.0), exports.export(MADE, to, 1.0)
+    words = exports.TARGETS[to].words
+    assert words[other] in made.said() and words[kind] not in made.said()
+    for lines in (made.text, made.said()):
+        assert f"no white noise of the {'accelerometer' if kind == 'gyro' else 'gyro'}" in lines
+    assert "no white noise" not in whole.text
+    own = words[kind].split(" and ")[0].strip("<>")
+    value = next(line for line in whole.text.splitlines() if own in line)
+    assert value in made.text.splitlines()
+
+
+def test_what_is_missing_is_left_out_of_the_file():
+    read = {to: read_yaml(to, of=ONE["gyro"]) for to in ("kalibr", "openvins", "isaac", "ros2")}
+    assert not any("accel" in name for name in read["kalibr"])
+    assert not any("accel" in name for name in read["openvins"]["imu0"])
+    node = read["isaac"]["visual_slam_node"]["ros__parameters"]
+    assert "gyro_noise_density" in node and "accel_noise_density" not in node
+    unknown = read["ros2"]["/**"]["ros__parameters"]["linear_acceleration_covariance"]
+    assert unknown == [0.0] * 9
+    assert ET.fromstring(text("gazebo", of=ONE["gyro"])).find(".//linear_acceleration") is None
+    assert "1\t1\tEKF2_ACC" not in text("px4", of=ONE["gyro"])
+    assert "imu.Accelerometer =" not in text("matlab", of=ONE["gyro"])
+
+
 @pytest.mark.parametrize(
     ("call", "says"),
     [
         (lambda: exports.export(MADE, "kalib"), "kalib: no project.*did you mean kalibr"),
         (lambda: exports.export(MADE, "px4", 0.0), "must be above 0"),
-        (lambda: exports.export("adis16495", "px4"), "no white noise of the accelerometer"),
-        (lambda: exports.export("imt30", "kalibr"), "no white noise of the accelerometer"),
+        (lambda: exports.export("imt30", "vins"), "no white noise of the accelerometer"),
+        (lambda: exports.export(Part("none", RATE), "px4"), "no white noise of the gyro"),
     ],
 )
 def test_what_cannot_be_exported_is_refused(call, says):

@@ -101,6 +101,17 @@ def test_page_says_what_the_json_says(closed, folder):
     assert named[0] in page_of(closed, named)
 
 
+def test_a_result_is_a_frame_and_a_picture(closed):
+    frame = closed.to_frame().set_index("coefficient")
+    for e in closed.estimated:
+        row = frame.loc[f"{e.sensor}.{e.effect}.{e.parameter}"]
+        np.testing.assert_array_equal(row["value"], e.value)
+        assert row["origin"] == e.origin and row["unit"] == e.unit
+    assert [p.get_ylabel()[0] for p in closed.plot("gyro").axes] == list("xyz")
+    with pytest.raises(UserError, match="mag: was not examined"):
+        closed.plot("mag")
+
+
 def test_model_file_is_the_model_found(closed, folder):
     assert_allclose(
         part(folder / "model.toml").sensor("gyro").p, closed.after.sensor("gyro").p, rtol=1e-9

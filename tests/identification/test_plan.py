@@ -24,7 +24,7 @@ from pyimu.identification.plan.noise import declared_noise
 from pyimu.identification.plan.plan import CHOSEN
 from pyimu.identification.plan.scene import recorded, trial_of
 from pyimu.identification.plan.words import place
-from pyimu.recording.reference.file import read_reference
+from pyimu.recording.log import read_reference
 
 N, K = {"gyro": 6e-5, "accel": 2e-3}, {"gyro": 6e-7, "accel": 2e-5}
 WANDERING = {"gyro": 1.2e-5, "accel": 4e-4}

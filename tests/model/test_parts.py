@@ -18,7 +18,7 @@ from pyimu.cli import main
 from pyimu.model.kinds import KINDS
 from pyimu.model.part_entry import RATE_KEY
 from pyimu.model.part_file import part, part_names
-from pyimu.report.parts_table import ABSENT, COLUMNS, detail, listing
+from pyimu.report.parts_table import ABSENT, COLUMNS, as_data, detail, listing
 
 DATA_SHEETS = [name for name in part_names() if name != "imt30"]
 PAGE = re.compile(r"table|page|section|register|FAQ|clock|rate|specifications", re.IGNORECASE)
@@ -265,3 +265,14 @@ def test_an_unknown_name_is_one_line_and_exit_status_2(monkeypatch, capsys):
 def test_the_help_opens_with_an_example(monkeypatch, capsys):
     _, out, _ = run(monkeypatch, capsys, "parts", "--help")
     assert "Example: pyimu parts mpu6050" in out
+
+
+@pytest.mark.parametrize("name", ["adis16500", "vn100"])
+def test_what_was_not_found_is_printed(name):
+    """The remarks at the head of the file, word by word, and as data."""
+    head = files("pyimu.model").joinpath("parts", f"{name}.toml").read_text().split("\n\n")[0]
+    words = head.replace("#", "").split()
+    assert "Not found:" in " ".join(words)
+    assert " ".join(words) in " ".join(detail(name, width=80).split())
+    assert as_data(name)["remarks"] == " ".join(words)
+    assert as_data(part(name))["remarks"] == ""

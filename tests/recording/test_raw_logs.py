@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 import raw_logs
 
-from pyimu import Recording, read_recording
+from pyimu import Recording, inspect, read_recording
 from pyimu.errors import UserError
 from pyimu.recording.formats.layout import told_from
 from pyimu.recording.formats.suffix import open_reader
 from pyimu.recording.guess.names import named, triads
-from pyimu.recording.guess.numbers import force_unit, rate_unit, time_unit
+from pyimu.recording.guess.numbers import force_unit, rate_unit, sensitivities, time_unit
 from pyimu.recording.guess.proposal import proposed
 from pyimu.recording.quality.inspect import rate_of_part
 
@@ -294,6 +294,37 @@ def test_counts_are_sized_by_gravity_and_its_turning():
     assert (force.unit, force.value) == ("g", 1 / 16384)
     rate = rate_unit(np.round(np.degrees(gyro) * 131), accel, 0.01)
     assert (rate.unit, rate.value) == ("deg/s", 1 / 131)
+
+
+@pytest.mark.parametrize("mdps", [4.375, 8.75, 17.5, 35.0, 70.0])
+def test_counts_of_st_s_gyros_are_not_taken_for_others(mdps):
+    """Data sheet of LSM6DSO, table 2; the other that fits is said."""
+    _, gyro, accel = turned()
+    guess = rate_unit(np.round(np.degrees(gyro) * 1000 / mdps), accel, 0.01)
+    assert guess.unit == "deg/s" and guess.value == pytest.approx(mdps / 1000)
+    assert f"{mdps:g} mdps/LSB" in guess.why and "not" in guess.why
+
+
+def test_of_two_sizes_of_a_count_that_fit_the_user_chooses(tmp_path):
+    """122 counts a deg/s may be 131 or 114.3: both stand in the map, and with one it is read."""
+    guess = sensitivities(122.0)
+    assert guess.unit is None and sorted(1 / s for s in guess.sizes) == pytest.approx(
+        [114.286, 131.0], abs=1e-3
+    )
+    assert "114.3 (ST, 8.75 mdps/LSB)" in guess.why and "131 (InvenSense" in guess.why
+    assert sensitivities(1000.0) is None
+    time, gyro, accel = turned()
+    log = raw_logs.text(
+        tmp_path / "raw.csv",
+        ["time,gx,gy,gz,ax,ay,az"],
+        [np.round(1e-6 * time).astype(int), *np.round(np.degrees(gyro) * 122).T, *accel.T],
+    )
+    found = inspect([log])
+    assert "choose the unit of gyro" in found.report() and "114.3" in found.report()
+    text = found.column_map.replace("# gyro = {value = 0.00875", "gyro = {value = 0.00875", 1)
+    (tmp_path / "map.toml").write_text(text)
+    read = read_recording(log, tmp_path / "map.toml")
+    np.testing.assert_allclose(read.gyro, gyro * 122 * 0.00875, atol=2e-4)
 
 
 # What the names say

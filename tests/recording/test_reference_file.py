@@ -6,10 +6,10 @@ import vehicle_drives
 from scipy.spatial.transform import Rotation
 
 from pyimu.errors import UserError
-from pyimu.recording.log import read_recording
+from pyimu.recording.log import read_recording, read_reference
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.course import looks_like_degrees
-from pyimu.recording.reference.file import read_reference, with_reference, with_references
+from pyimu.recording.reference.file import with_reference, with_references
 from pyimu.recording.reference.rate import reference_rate
 
 TIME = np.arange(0.0, 40.0, 0.005)

@@ -17,6 +17,7 @@ from pyimu.report.figures import (
     FLOOR,
     GREY,
     INK,
+    ON_WHITE,
     WIDTH,
     envelope,
     legend,
@@ -80,7 +81,7 @@ def status_picture(a: Outcome) -> str:
 
 def whole_figure(a: Outcome) -> Figure:
     """Angles, bias and innovations above each other, on white."""
-    with style({"figure.facecolor": "white", "axes.facecolor": "white"}):
+    with style(ON_WHITE):
         figure, panels = new_figure(9.0, 11.0, 7)
         draw_angles(a, panels[:3])
         draw_bias(a, panels[3:6])

@@ -70,16 +70,22 @@ class Candidate:
         return len(self.problem.measured) - len(self.terms) - self.problem.nuisance.shape[1]
 
 
-def choose(m: np.ndarray, measured: np.ndarray, lengths: Sequence[int], lines: Groups) -> Candidate:
+def choose(
+    m: np.ndarray,
+    measured: np.ndarray,
+    lengths: Sequence[int],
+    lines: Groups,
+    memory: float = 0.0,
+) -> Candidate:
     """The first of the candidates that describes its clusters.
 
     If none does, it is the first that needs about the least relative error, and has been granted
-    it.
+    it. Of noise with a ``memory``, in samples, all have the free term and no shorter clusters.
     """
     p = pooled_moments(tuple(int(k) for k in m), tuple(int(n) for n in lengths))
     base = LooseMoments(p.m, p.design, p.products, p.sums, ends=_ends(m, lines, max(lengths)))
     candidates = []
-    for candidate in _candidates(base, measured, lines):
+    for candidate in _candidates(base, measured, lines, memory):
         if candidate.misfit < chi2.isf(CHANCE, max(candidate.freedom, 1)):
             return candidate
         candidates.append(candidate)
@@ -102,14 +108,18 @@ def _ends(m: np.ndarray, lines: Groups, n: int) -> np.ndarray:
     return error
 
 
-def _candidates(base: LooseMoments, measured: np.ndarray, lines: Groups) -> Iterator[Candidate]:
+def _candidates(
+    base: LooseMoments, measured: np.ndarray, lines: Groups, memory: float
+) -> Iterator[Candidate]:
     """The fits to try, one after the other.
 
     First the five terms and the lines, then with the free term, then without the shortest clusters,
     one less each time.
     """
-    yield _candidate(base, measured, lines, False, 0)
-    for first in range(max(len(measured) - LEAST, 0) + 1):
+    last = max(len(measured) - LEAST, 0)
+    if not memory:
+        yield _candidate(base, measured, lines, False, 0)
+    for first in range(min(int(np.searchsorted(base.m, memory)), last), last + 1):
         yield _candidate(base, measured, lines, True, first)
 
 

@@ -7,7 +7,9 @@ coefficient. So the fit allows for it:
   of the rates then has, for all lags beyond that memory, the covariance of white noise plus a
   constant, which in the Allan variance is a term like quantization's, -3 c / tau^2, with the other
   sign. Where the data require it, a term of 1 / tau^2 of any sign is left free. Quantization cannot
-  be told from it, and is then not looked for.
+  be told from it, and is then not looked for. Where the spectrum shows the low-pass, clusters
+  within its memory are left out from the start: what the Allan variances cannot contradict there
+  would still move N.
 
 * **Lines**. A sine of amplitude A and frequency f adds A^2 sin^4(pi f tau) / (m sin(pi f h))^2.
   The amplitudes of the lines found in the spectrum are left free, too; the fourth power of the sine
@@ -133,13 +135,15 @@ def fit_noise(
     h: float,
     level: float = 0.95,
     lines: Sequence[tuple[float, float, float]] = (),
+    memory: float = 0.0,
 ) -> ChannelFit:
     """Coefficients from the pooled overlapping Allan deviations (t,) of a channel.
 
     ``clusters`` (t,) are sizes an octave apart, the segments have ``lengths`` samples every ``h``
     s, ``level`` is the probability of the intervals. ``lines`` are sines in the record: frequency
-    and its spread [Hz], amplitude. Raises UserError where a deviation is zero, ValueError for fewer
-    than six clusters.
+    and its spread [Hz], amplitude. ``memory`` [s] is that of the low-pass which the spectrum shows:
+    the fit then has the free term, and no shorter clusters. Raises UserError where a deviation is
+    zero, ValueError for fewer than six clusters.
     """
     m, measured = np.asarray(clusters), np.asarray(deviation, dtype=float) ** 2
     if not np.all(measured > 0):
@@ -152,7 +156,7 @@ def fit_noise(
     unit = np.exp(np.mean(np.log(measured)))
     sines = [Sine(f * h, spread * h, a**2 / unit) for f, spread, a in lines]
     groups = relevant(m, measured / unit, sines)
-    found = choose(m, measured / unit, lengths, groups)
+    found = choose(m, measured / unit, lengths, groups, memory / h)
     best = rank(found.problem, found.problem.needed(found.terms), lengths)
     times = tuple(float(time) * h for time in best.times)
     si = unit * si_factors(h, len(times))

@@ -19,6 +19,7 @@ from pyimu.characterization.outcome import (
 )
 from pyimu.characterization.report.beside import beside_entry
 from pyimu.characterization.report.magnetometer import magnetometer_entry
+from pyimu.characterization.spectrum.bandwidth import Bandwidth
 from pyimu.characterization.spectrum.lines import Line
 from pyimu.characterization.temperature.fit import NAMES
 from pyimu.characterization.temperature.hysteresis import Hysteresis
@@ -54,8 +55,9 @@ def contents(c: Outcome) -> dict[str, Any]:
     {``deviation``, ``tau``}, ``lines``: [{``frequency``, ``frequency_std`` and ``width`` [Hz],
     ``amplitude``, ``amplitude_std``, ``unit``, ``ratio`` to the background, ``p_value``,
     ``relation``}], ``thermal`` and its ``hysteresis`` with ``kh`` and ``width`` [K] of the
-    catalogue's effect, ``warm_up``, ``bandwidth`` (where the noise is down by 3 dB, and the
-    ``order`` of the low-pass), ``reason``}}.
+    catalogue's effect, ``warm_up``, ``bandwidth`` (where the noise is down by 3 dB, the kind
+    of ``low_pass`` and its ``order``, null where it was read off, and others ``alike``),
+    ``reason``}}.
 
     A coefficient is {``value``, ``std``, ``low``, ``high``, ``unit``, ``needed``}; one that is
     not needed has the value null and the interval from 0 to its upper bound. What is not a
@@ -133,9 +135,18 @@ def _channel(c: Channel) -> dict[str, Any]:
             "thermal": _thermal(c),
             "warm_up": c.warm_up and _warm_up(c.warm_up, unit),
             "bandwidth": c.bandwidth
-            and _estimate(c.bandwidth.frequency, "Hz") | {"order": c.bandwidth.order},
+            and _estimate(c.bandwidth.frequency, "Hz") | _low_pass(c.bandwidth),
         }
     )
+
+
+def _low_pass(b: Bandwidth) -> dict[str, Any]:
+    found = b.low_pass
+    return {
+        "low_pass": found and found.kind,
+        "order": found and found.order,
+        "alike": [{"low_pass": v.kind, "order": v.order} for v in b.alike],
+    }
 
 
 def _noise(n: NoiseAnalysis, kind: str) -> dict[str, Any]:

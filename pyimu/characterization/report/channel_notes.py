@@ -19,6 +19,9 @@ BAND = 0.1
 UNLIKE = 0.1
 """Relative difference of the roots of the densities from which on it is mentioned."""
 
+OTHERS = 2
+"""Low-passes that the data do not tell from the one that is named, at most so many named too."""
+
 
 def headline(c: Outcome) -> str:
     """White noise and bias instability of each sensor in a sentence."""
@@ -104,11 +107,12 @@ def bandwidth_sentence(ch: Channel) -> str:
         return ""
     f = ch.bandwidth.frequency
     value, low, high = (number(v, 3) for v in (f.value, f.low, f.high))
-    order = ("first", "second", "third", "fourth")[ch.bandwidth.order - 1]
-    return (
-        f"bandwidth {value} ({low} to {high}) Hz, where the noise is down by 3 dB, as through a "
-        f"low-pass of {order} order"
-    )
+    found = ch.bandwidth.low_pass
+    where = f"bandwidth {value} ({low} to {high}) Hz, where the noise is down by 3 dB"
+    if found is None:
+        return f"{where}, read off the spectrum: it is that of no low-pass known here"
+    others = " or ".join(v.words for v in ch.bandwidth.alike[:OTHERS])
+    return f"{where}, as through {found.words}{f' (or {others})' if others else ''}"
 
 
 # Lines

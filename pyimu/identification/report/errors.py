@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from markupsafe import Markup
+from matplotlib.figure import Figure
 
 from pyimu.identification.as_part import SENSORS
 from pyimu.identification.exhibits import Exhibits, Spectrum
@@ -13,6 +14,7 @@ from pyimu.identification.outcome import Outcome
 from pyimu.identification.report import pictures
 from pyimu.identification.report.words import AS_SET_RIGHT, QUANTITIES, gravity_at_rest
 from pyimu.model.kinds import MAGNETOMETER
+from pyimu.report.figures import ON_WHITE
 from pyimu.report.numbers import MISSING, number, quantity, unit_for
 from pyimu.report.page import Picture, Table, both, file_name, prose
 
@@ -27,6 +29,14 @@ def over_time(closed: Outcome) -> list[Picture]:
         for kind, e in closed.exhibits.items()
         for k in range(0, max(len(e.traces), 1), BESIDE)
     ]
+
+
+def whole_figure(closed: Outcome, kind: str) -> Figure:
+    """The residual of a sensor over the time of its first logs, on white."""
+    errors, si = closed.errors.get(kind), closed.after.sensor(kind).output.unit
+    floor = errors.floor.per_axis if errors and errors.floor else None
+    traces = closed.exhibits[kind].traces[:BESIDE]
+    return pictures.time_figure(traces, floor, si, ON_WHITE)
 
 
 def _over_time(closed: Outcome, kind: str, e: Exhibits, first: int) -> Picture:

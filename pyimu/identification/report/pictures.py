@@ -29,6 +29,7 @@ from pyimu.report.figures import (
     legend,
     new_figure,
     plain_logarithm,
+    style,
     svg_of,
 )
 from pyimu.report.numbers import in_unit, number, pretty, unit_for
@@ -45,11 +46,19 @@ LEAST_IN_BIN = 5
 
 
 def over_time(found: Sequence[Trace], floor: np.ndarray | None, si: str) -> str:
-    """Residual before and after on the held-out rows, both on one scale.
+    """Residual before and after on the held-out rows, both on one scale, as an SVG."""
+    with style():
+        return svg_of(time_figure(found, floor, si), curves=True)
 
-    One row of panels an axis, one column a log.
+
+def time_figure(
+    found: Sequence[Trace], floor: np.ndarray | None, si: str, more: dict[str, Any] | None = None
+) -> Figure:
+    """Residual before and after: one row of panels an axis, one column a log.
+
+    ``more`` is what the figure's style sets beside the package's.
     """
-    with matplotlib.rc_context(STYLE):
+    with style(more):
         axes_shown = sorted({i for t in found for i in t.axes})
         unit = unit_for(_scale([t.before for t in found]), si)
         spans = [float(t.time[-1] - t.time[0]) if len(t.time) else 0.0 for t in found]
@@ -65,7 +74,7 @@ def over_time(found: Sequence[Trace], floor: np.ndarray | None, si: str) -> str:
         for t, panel in zip(found, panels[-1], strict=True):
             own_time(panel, t.name, len(found))
         legend(figure, panels[0, 0], 3)
-        return svg_of(figure, curves=True)
+    return figure
 
 
 def _scale(residuals: Sequence[np.ndarray]) -> float:

@@ -1,4 +1,7 @@
-"""Dates and times of day in words of digits: ``2024-02-01T12:00:00.010Z``, ``12:00:00,010``."""
+"""Dates and times of day in words of digits: ``2024-02-01T12:00:00.010Z``, ``12:00:00,010``.
+
+And those that Parquet files and data frames hold as such, with spans of time.
+"""
 
 from __future__ import annotations
 
@@ -63,6 +66,38 @@ class ClockTimes:
         times = times.copy()
         times[known] = seen + DAY * days
         return times
+
+
+def is_clock(kind: pa.DataType) -> bool:
+    """Whether a column of this ``kind`` holds dates with times, times of day or spans of time."""
+    tests = (pa.types.is_timestamp, pa.types.is_time, pa.types.is_duration)
+    return any(test(kind) for test in tests)
+
+
+class Stamps:
+    """Columns of a ``kind`` that ``is_clock`` in s, piece by piece.
+
+    A date counts from the midnight before the first, as in ``ClockTimes``.
+    """
+
+    def __init__(self) -> None:
+        self._origin: int | None = None
+
+    def add(self, cells: pa.Array) -> np.ndarray:
+        """Seconds (n,), NaN where one is missing."""
+        ticks = _TICKS[cells.type.unit]
+        known = ~np.asarray(pc.is_null(cells))
+        wide = cells.cast(pa.int32()) if pa.types.is_time32(cells.type) else cells
+        whole = pc.fill_null(wide.cast(pa.int64()), 0).to_numpy(zero_copy_only=False)
+        if self._origin is None and known.any():
+            dated = pa.types.is_timestamp(cells.type)
+            first = int(whole[np.flatnonzero(known)[0]])
+            self._origin = first - first % (DAY * ticks) if dated else 0
+        return np.where(known, (whole - (self._origin or 0)) / ticks, np.nan)
+
+
+_TICKS = {"s": 1, "ms": 10**3, "us": 10**6, "ns": 10**9}
+"""Ticks of a second."""
 
 
 def _names(found: pa.Array) -> list[str]:

@@ -11,6 +11,7 @@ import pyarrow as pa
 from pyarrow import parquet
 
 from pyimu.errors import UserError
+from pyimu.recording.formats.clock_times import Stamps, is_clock
 from pyimu.recording.formats.reader import Columns, Reader, as_number
 from pyimu.recording.formats.streams import reading
 from pyimu.recording.formats.text import to_numpy
@@ -33,14 +34,16 @@ class ParquetReader(Reader):
     path: Path
     header: list[str]
     rows: int
+    clocks: tuple[str, ...] = ()
 
     @classmethod
     def open(cls, path: Path) -> ParquetReader:
         """Raises UserError for a file that cannot be read."""
         with _reading(path), parquet.ParquetFile(path) as file:
-            return cls(
-                path, [name.strip() for name in file.schema_arrow.names], file.metadata.num_rows
-            )
+            schema = file.schema_arrow
+            clocks = tuple(field.name.strip() for field in schema if is_clock(field.type))
+            header = [name.strip() for name in schema.names]
+            return cls(path, header, file.metadata.num_rows, clocks)
 
     def batches(self, positions: Sequence[int], long: int) -> Iterator[tuple[Columns, float]]:
         """Raises UserError for a column that holds no numbers."""
@@ -51,11 +54,17 @@ class ParquetReader(Reader):
             fields = [file.schema_arrow.field(position) for position in positions]
             for position, field in zip(positions, fields):
                 must_be_numbers(self.path, self.header[position], field.type)
+            stamps = {f.name: Stamps() for f in fields if is_clock(f.type)}
             done = 0
             for batch in file.iter_batches(
                 BATCH, columns=[field.name for field in fields], use_threads=True
             ):
-                columns = [to_numpy(batch.column(field.name)) for field in fields]
+                columns = [
+                    stamps[f.name].add(batch.column(f.name))
+                    if f.name in stamps
+                    else to_numpy(batch.column(f.name))
+                    for f in fields
+                ]
                 done += batch.num_rows
                 yield (
                     [as_number(c, p == long) for p, c in zip(positions, columns)],
@@ -67,8 +76,8 @@ class ParquetReader(Reader):
 
 
 def must_be_numbers(path: Path, name: str, kind: pa.DataType) -> None:
-    """Raises UserError for a column ``name`` of another ``kind``."""
-    numbers = (pa.types.is_floating, pa.types.is_integer, pa.types.is_boolean)
+    """Raises UserError for a column ``name`` of another ``kind``; a clock's is one of seconds."""
+    numbers = (pa.types.is_floating, pa.types.is_integer, pa.types.is_boolean, is_clock)
     if not any(test(kind) for test in numbers):
         raise UserError(f"{path}: column {name} holds {kind}, expected numbers")
 

@@ -34,6 +34,8 @@ class Reader(ABC):
     rate: float | None = None
     body: str | None = None
     clocks: tuple[str, ...] = ()
+    in_memory = False
+    """Whether it is no file, so that no command can look into it."""
 
     @abstractmethod
     def batches(self, positions: Sequence[int], long: int) -> Iterator[tuple[Columns, float]]:

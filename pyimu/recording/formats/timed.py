@@ -32,6 +32,10 @@ class TimedReader(Reader):
         return self.reader.crowded
 
     @property
+    def in_memory(self) -> bool:  # type: ignore[override]
+        return self.reader.in_memory
+
+    @property
     def skipped(self) -> tuple[str, ...]:  # type: ignore[override]
         return self.reader.skipped
 

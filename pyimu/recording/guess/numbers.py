@@ -38,6 +38,18 @@ right unit, and none of a wand that is swung, of fast shifts by hand and of a lo
 FASTEST = 100.0
 """rad/s; hands, vehicles and robots do not turn as fast: larger numbers are degrees a second."""
 
+SENSITIVITIES = {
+    **dict.fromkeys((262.4, 131.0, 65.5, 32.8, 16.4), "InvenSense and Bosch"),
+    **{1000 / mdps: f"ST, {mdps:g} mdps/LSB" for mdps in (4.375, 8.75, 17.5, 35.0, 70.0, 140.0)},
+}
+"""Counts a deg/s of gyros, and whose (data sheets of MPU-6050, BMI160, LSM6DSO, L3GD20)."""
+
+FITS = 0.25
+"""By how much a sensitivity may differ from what gravity's turning shows."""
+
+CLEARLY = 2.0
+"""How many times as far off, in logarithms, the next sensitivity must be for one to be taken."""
+
 BLOCKS = (0.04, 0.1, 0.2, 0.5, 1.0)
 """s; over so long means the turning of gravity is compared with the rate: fast turns need short
 ones, slow turns long ones, and of all that counts in which the two agree best."""
@@ -47,12 +59,14 @@ ones, slow turns long ones, and of all that counts in which the two agree best."
 class UnitGuess:
     """A unit and the reason for it; ``unit`` is None where the numbers do not tell.
 
-    ``value`` is the size of one count in ``unit`` where the numbers are counts.
+    ``value`` is the size of one count in ``unit`` where the numbers are counts. ``sizes`` are those
+    that it may have in deg/s where ``unit`` is None for there are several.
     """
 
     unit: str | None
     why: str
     value: float | None = None
+    sizes: tuple[float, ...] = ()
 
 
 def time_unit(time: np.ndarray) -> UnitGuess:
@@ -140,10 +154,9 @@ def rate_unit(rate: np.ndarray, force: np.ndarray | None, period: float | None) 
                     return UnitGuess(unit, why)
             if counts(rate.ravel()):
                 lsb = np.pi / 180 / slope
-                near = min((131.0, 65.5, 32.8, 16.4), key=lambda k: abs(np.log(lsb / k)))
-                if abs(lsb / near - 1) < 0.25:
-                    why = f"gravity's turning shows {lsb:.3g} counts a deg/s"
-                    return UnitGuess("deg/s", why, 1 / near)
+                fitting = sensitivities(lsb)
+                if fitting is not None:
+                    return fitting
             return UnitGuess(None, f"gravity turns {slope:.3g} rad for 1 of these")
     if counts(rate.ravel()) and largest > 100:
         return UnitGuess(None, "whole numbers: counts? see the data sheet for LSB/(deg/s)")
@@ -155,6 +168,23 @@ def rate_unit(rate: np.ndarray, force: np.ndarray | None, period: float | None) 
             f"there is no {'accelerometer' if force is None else 'time of a known unit'} beside it"
         )
     return UnitGuess(None, f"rad/s or deg/s? {lacks} to tell")
+
+
+def sensitivities(lsb: float) -> UnitGuess | None:
+    """The size of a count of which ``lsb`` seem to be a deg/s, None where no gyro's is near.
+
+    Of two that fit the nearer is taken where that is clear, and the other is said; else both are.
+    """
+    off = {k: abs(float(np.log(lsb / k))) for k in SENSITIVITIES}
+    near = sorted((k for k in off if abs(lsb / k - 1) < FITS), key=off.__getitem__)[:2]
+    if not near:
+        return None
+    names = [f"{k:.4g} ({SENSITIVITIES[k]})" for k in near]
+    why = f"gravity's turning shows {lsb:.3g} counts a deg/s: {' or '.join(names)}"
+    if len(near) > 1 and off[near[1]] < CLEARLY * off[near[0]]:
+        return UnitGuess(None, why, sizes=tuple(1 / k for k in near))
+    why = why.replace(" or ", ", not ", 1)
+    return UnitGuess("deg/s", why, 1 / near[0])
 
 
 def _turning(

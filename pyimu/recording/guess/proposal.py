@@ -49,7 +49,8 @@ CHOICES = {"time": ("s", "ms", "us", "ns"), "gyro": ("rad/s", "deg/s"), "mag": (
 class Guess:
     """A column of the file and what it may be: ``target`` such as ``gyro_x``, its unit, and why.
 
-    ``unit`` is None where nobody knows; ``value`` the size of a count in it.
+    ``unit`` is None where nobody knows; ``value`` the size of a count in it, ``sizes`` those in
+    deg/s that it may have.
     """
 
     cell: str
@@ -57,6 +58,7 @@ class Guess:
     unit: str | None
     why: str
     value: float | None = None
+    sizes: tuple[float, ...] = ()
 
     @property
     def group(self) -> str:
@@ -294,7 +296,7 @@ def _vector(
         return
     found.add(
         [
-            Guess(name.cell, f"{group}_{axis}", guess.unit, guess.why, guess.value)
+            Guess(name.cell, f"{group}_{axis}", guess.unit, guess.why, guess.value, guess.sizes)
             for axis, (_, name) in zip(XYZ, picked, strict=True)
         ]
     )

@@ -55,10 +55,10 @@ def _columns(guesses: Sequence[Guess]) -> list[str]:
     """A line for each column; of a unit that nobody knows, one for each that it may be."""
     lines = []
     for guess in guesses:
-        if guess.unit is None:
+        if guess.unit is None and not guess.sizes:
             lines += [_remarked(f"# {_line(guess, u)}", guess.why) for u in CHOICES[guess.group]]
             continue
-        unit = guess.unit if guess.value is None else "count"
+        unit = guess.unit if guess.unit is not None and guess.value is None else "count"
         lines.append(_remarked(_line(guess, unit), guess.why))
     return lines
 
@@ -77,5 +77,11 @@ def _scales(guesses: Sequence[Guess], table: str) -> list[str]:
     lines = [
         _remarked(f'{group} = {{value = {g.value!r}, unit = "{g.unit}"}}', "of one count")
         for group, g in sizes.items()
+    ]
+    open_sizes = {g.group: g for g in guesses if g.sizes}
+    lines += [
+        _remarked(f'# {group} = {{value = {size:.10g}, unit = "deg/s"}}', f"{1 / size:.4g} a deg/s")
+        for group, g in open_sizes.items()
+        for size in g.sizes
     ]
     return ["", f"[{table}]", *lines] if lines else []

@@ -2,38 +2,23 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
 from pyimu.errors import UserError
 from pyimu.recording.columns import GROUPS
-from pyimu.recording.log import Log
 from pyimu.recording.recording import Recording, filled
 from pyimu.recording.reference.attitude import attitude_at, within
 from pyimu.recording.reference.track import Track, fresh
-from pyimu.recording.rows import Source
 
 TRUTHS = tuple(name for name in GROUPS if name.startswith("ref_"))
 """The groups that a reference may hold."""
 
 DAY = 86400.0
 """s; clocks whose starts differ by more count from different epochs."""
-
-
-def read_reference(path: str | os.PathLike, columns: str | os.PathLike | None = None) -> Recording:
-    """Read a reference in a file of its own: ``time`` and columns ``ref_*``, in any format that
-    ``read_recording`` reads; it needs neither gyro nor accelerometer.
-
-    ``columns`` is that of ``read_recording``. Raises UserError as that does, and for a file without
-    a reference.
-    """
-    source = Source.open(Path(path), None if columns is None else Path(columns), "reference")
-    return Log(source).read()
 
 
 def with_reference(log: Recording, reference: Recording) -> Recording:

@@ -7,12 +7,24 @@ from collections.abc import Sequence
 import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from pyimu.characterization.outcome import SAMPLE, Curve, NoiseAnalysis, Outcome
 from pyimu.characterization.report.coefficients import UNITS
-from pyimu.characterization.report.pictures.panels import FITTED, axis_panels, logarithmic
+from pyimu.characterization.report.pictures.panels import FITTED, PANEL, axis_panels, logarithmic
 from pyimu.model.part import AXES
-from pyimu.report.figures import AFTER, BEFORE, FLOOR, GREY, STYLE, legend, svg_of
+from pyimu.report.figures import (
+    AFTER,
+    BEFORE,
+    FLOOR,
+    GREY,
+    ON_WHITE,
+    STYLE,
+    legend,
+    new_figure,
+    style,
+    svg_of,
+)
 from pyimu.report.numbers import in_unit, pretty
 
 LOGS = (AFTER, FLOOR, "#cc79a7", "#d55e00", "#56b4e9", "#9467bd")
@@ -33,6 +45,20 @@ def allan_picture(c: Outcome, kind: str) -> str:
         logarithmic(panels)
         legend(figure, max(panels, key=lambda p: len(p.lines)), 3)
         return svg_of(figure, curves=True)
+
+
+def whole_figure(c: Outcome) -> Figure:
+    """The same of every sensor, one below the other, on white."""
+    with style(ON_WHITE):
+        figure, panels = new_figure(9.0, 0.7 + PANEL * len(AXES) * len(c.kinds), 3 * len(c.kinds))
+        channels = [(kind, axis) for kind in c.kinds for axis in AXES]
+        for (kind, axis), panel in zip(channels, panels, strict=True):
+            _panel(panel, c, kind, axis)
+            panel.set(ylabel=f"{kind}_{axis} [{pretty(UNITS[kind]['B'])}]")
+        panels[-1].set_xlabel("cluster time τ [s]")
+        logarithmic(panels)
+        legend(figure, max(panels, key=lambda p: len(p.lines)), 3)
+    return figure
 
 
 def deviations_picture(c: Outcome, kind: str) -> str:
