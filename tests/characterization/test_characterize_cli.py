@@ -150,16 +150,23 @@ def test_a_file_is_given_once_and_equal_names_are_told_apart(pyimu, undrawn, tmp
     assert code == 0 and "a/rest: 4,000 rows" in out and "b/rest: 4,000 rows" in out
 
 
-def test_coarse_time_stamps(pyimu, tmp_path):
+@pytest.mark.parametrize("even", (True, False))
+def test_coarse_time_stamps(pyimu, tmp_path, even):
+    """Of rows that come evenly each gets a time of its own; of others too few are left."""
     import pandas as pd
 
-    columns = {"time [s]": (1e5 + H * np.arange(ROWS)).astype(np.float32)} | {
+    rng = np.random.default_rng(6)
+    steps = np.full(ROWS, H) if even else rng.exponential(H, ROWS)
+    columns = {"time [s]": (1e5 + np.cumsum(steps)).astype(np.float32)} | {
         f"gyro_{a} [rad/s]": v for a, v in zip("xyz", gyro().T, strict=True)
     }
     pd.DataFrame(columns | {"time [s]": np.floor(columns["time [s]"] * 50) / 50}).to_csv(
         tmp_path / "coarse.csv", index=False
     )
-    code, _, err = pyimu("characterize", "coarse.csv", "--out", "out")
+    code, out, err = pyimu("characterize", "coarse.csv", "--out", "out")
+    if even:
+        assert code == 0 and "coarse stamps" in out
+        return
     assert code == 2 and not (tmp_path / "out").exists()
     one_line(err, "coarse:", "time of the row before", "float32")
 

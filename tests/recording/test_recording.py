@@ -599,11 +599,15 @@ def test_without_any_reference_it_is_static_if_it_does_not_move():
 
 
 def test_a_position_alone_is_not_static():
-    reference = reference_rate(
-        Recording.from_arrays(time=TIME, gyro=RATE, ref_north=TIME, ref_east=0 * TIME)
-    )
+    """A drive of curves has a course; of a straight one, or a turn on the spot, nothing tells a
+    turn.
+    """
+    round_trip = {"ref_north": 20 * np.sin(0.2 * TIME), "ref_east": 20 * np.cos(0.2 * TIME)}
+    reference = reference_rate(Recording.from_arrays(time=TIME, gyro=RATE, **round_trip))
     known = np.isfinite(reference.rate).any(axis=0)
     assert reference.kind == "course" and np.count_nonzero(known) == 1
+    straight = {"ref_north": TIME, "ref_east": 0 * TIME}
+    assert reference_rate(Recording.from_arrays(time=TIME, gyro=RATE, **straight)).kind == "none"
 
 
 def test_band_ends_where_the_noise_of_the_reference_begins():

@@ -232,7 +232,7 @@ def ahead(one: Refined, other: Refined) -> float:
         apart = advantage(one.fit, other.fit)
     else:
         apart = -advantage(other.fit, one.fit)
-    toll = one.screened.toll - other.screened.toll
+    toll = one.screened.toll_of_form - other.screened.toll_of_form
     return apart / max(one.dispersion, other.dispersion) - PENALTY * more - toll
 
 

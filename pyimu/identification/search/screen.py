@@ -72,6 +72,11 @@ class Screened:
         """
         return self.by_chance if self.form is None else self.form.toll
 
+    @property
+    def toll_of_form(self) -> float:
+        """The part of that which tells it from another effect."""
+        return self.toll - self.by_chance
+
     def only(self, kept: tuple[Group, ...]) -> Screened:
         """The same effect on the axes of some of its groups."""
         indices = {g.keys[0].index for g in kept}
