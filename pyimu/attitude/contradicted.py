@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 from pyimu.attitude.driven import speed_findings
@@ -18,10 +19,14 @@ def contradicted(recording: Recording) -> tuple[Finding, ...]:
 
 def believed(recording: Recording) -> Recording:
     """The recording without a speed and without headings that a gyro to be trusted contradicts."""
-    found = {f.column for f in _by_gyro(recording)}
-    if not found or gyro_findings(recording):
-        return recording
-    return replace(recording, **dict.fromkeys(found))
+    found = _by_gyro(recording)
+    return recording if not found or gyro_findings(recording) else without(recording, found)
+
+
+def without(recording: Recording, found: Iterable[Finding]) -> Recording:
+    """The recording without the speed and the headings that ``contradicted`` ``found`` wrong."""
+    wrong = {f.column for f in found} - {"gyro"}
+    return replace(recording, **dict.fromkeys(wrong)) if wrong else recording
 
 
 def _by_gyro(recording: Recording) -> tuple[Finding, ...]:

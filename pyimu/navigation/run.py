@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 from pyimu.attitude.columns import latitude_of
-from pyimu.attitude.contradicted import believed, contradicted
+from pyimu.attitude.contradicted import contradicted, without
 from pyimu.block.parameters import number
 from pyimu.errors import Finding, UserError
 from pyimu.model.part import Part
@@ -81,8 +81,9 @@ def run(
     checks.check_columns(recording, limits["gravity"])
     most = limits["top_acceleration"], limits["top_turn_rate"]
     recording, findings = checks.without_outliers(recording, *most)
-    findings += contradicted(recording)
-    as_given, recording = recording, believed(recording)
+    wrong = contradicted(recording)
+    findings += wrong
+    as_given, recording = recording, without(recording, wrong)
     told = Told(position_std, velocity_std, position_age, velocity_age)
     measured = fixes_of(recording, told, limits["top_speed"]) if fixes else None
     job = _job(recording, None if part is None else part_of(part), zupt, given, findings)
