@@ -37,7 +37,7 @@ from pyimu.identification.fit.noise_floor import (
     windows,
 )
 from pyimu.identification.fit.normal import DEAD, Normal, normal_equations
-from pyimu.identification.fit.sample_noise import rest_noise
+from pyimu.identification.fit.sample_noise import CORRELATED, THIRD, rest_noise
 from pyimu.identification.fit.trial import Doubt, Trial
 from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.model.kinds import KINDS, OWN
@@ -58,12 +58,9 @@ LEAST_SEEN = 0.01
 """Share of a column's power that must not be noise of the reference; of the rest there is nothing
 to be seen."""
 
-THIRD = 20.0
-"""Power of third differences of white noise over its own: 1 + 9 + 9 + 1."""
-
-WEIGHT = 4 * 924 / 400
-"""Rows that say as much of that power as one by itself would: a quarter of them is used, and the
-squares of the correlations of third differences add up to 924 / 400."""
+WEIGHT = 4 * CORRELATED
+"""Rows that say as much of the power of third differences as one by itself would: a quarter of them
+is used."""
 
 
 # Drawing it

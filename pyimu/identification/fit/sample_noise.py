@@ -8,9 +8,14 @@ from pyimu.identification.fit.trial import Trial
 from pyimu.recording.quality.clipping import clipped
 from pyimu.recording.rest import VIBRATION, seconds_of
 
-QUIET, DRAWN = 0.25, 512
-"""Share of the seconds at rest that is taken, the quietest: a hand is never quite still. What it
-shows of white noise of one level is known from so many seconds that are drawn."""
+QUIET = 4
+"""Of so many seconds one is taken, the quietest: a hand is never quite still."""
+
+DRAWN = 512
+"""Seconds of white noise of one level that are drawn to know what the quietest show of it."""
+
+THIRD = 20.0
+"""Power of third differences of white noise over its own: 1 + 9 + 9 + 1."""
 
 LEAST_STILL = 3
 """Seconds at rest from which on they are taken for the sensor's noise."""
@@ -18,7 +23,7 @@ LEAST_STILL = 3
 LEAST_MEANS = 8
 """Means in a second, fewer than which show the motion that is left."""
 
-CORRELATED = 2.31
+CORRELATED = 924 / 400
 """Sum of the squared autocorrelations of third differences of white noise, of 20, -15, 6 and -1
 parts: by so much their mean square scatters more than one of independent values."""
 
@@ -63,8 +68,9 @@ def _level(pieces: np.ndarray) -> float:
     while n // m >= LEAST_MEANS:
         third = _third_differences(pieces[:, : n // m * m].reshape(len(pieces), -1, m).mean(axis=2))
         drawn = np.random.default_rng(1).standard_normal((DRAWN, n // m))
-        power.append(m * _quietest(third) / _quietest(_third_differences(drawn)))
-        error.append(np.sqrt(2 * CORRELATED / max(1.0, QUIET * third.size)))
+        shown, own = (_quietest(v[:, :, None])[0] for v in (third, _third_differences(drawn)))
+        power.append(m * shown / own)
+        error.append(np.sqrt(2 * CORRELATED / max(1.0, third.size / QUIET)))
         m *= 2
     power, error = np.array(power), np.array(error)
     for k in range(len(power) - 1):
@@ -78,10 +84,11 @@ def _third_differences(values: np.ndarray) -> np.ndarray:
     return np.diff(values, n=3, axis=1)
 
 
-def _quietest(pieces: np.ndarray) -> float:
-    """Mean square of the quietest quarter of the rows of ``pieces`` (k, m)."""
-    power = np.sort(np.mean(pieces**2, axis=1))
-    return float(np.mean(power[: max(1, round(QUIET * len(power)))]))
+def _quietest(pieces: np.ndarray) -> np.ndarray:
+    """Mean square (k,) of the quietest of ``pieces`` (p, n, k), by all k columns together."""
+    power = np.mean(pieces**2, axis=1)
+    quiet = np.argsort(np.sqrt(power).sum(axis=1))[: max(1, len(power) // QUIET)]
+    return np.mean(power[quiet], axis=0)
 
 
 def white_noise(trial: Trial, values: np.ndarray) -> np.ndarray:
@@ -101,9 +108,7 @@ def quiet_noise(values: np.ndarray, segments: list[tuple[int, int]], h: float) -
     pieces = [values[k : k + length] for a, b in segments for k in range(a, b - length + 1, length)]
     if not pieces:
         return np.full(values.shape[1], np.nan)
-    spreads = np.sqrt(np.mean(np.diff(np.array(pieces), n=3, axis=1) ** 2, axis=1) / 20)
-    quiet = np.argsort(spreads.sum(axis=1))[: max(1, len(pieces) // 4)]
-    return np.sqrt(np.mean(spreads[quiet] ** 2, axis=0))
+    return np.sqrt(_quietest(_third_differences(np.array(pieces))) / THIRD)
 
 
 def without_information(trial: Trial) -> np.ndarray:
