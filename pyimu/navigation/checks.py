@@ -181,13 +181,15 @@ def rests_that_move(reference: Reference, still: np.ndarray, time: np.ndarray) -
 def constraint(found: Filtered, still: np.ndarray, free: Filtered) -> Iterator[Finding]:
     """Whether the run ``free`` of a vehicle's constraint moves along another axis than x, and
     whether most of the drive contradicts the constraint; ``along`` rad in the body's axes is NaN
-    where that is not clear.
+    where that is x, or not clear.
     """
     used = found.scalar("nhc_nis") > 0
     wrong = used & (found.scalar("status").astype(int) & CONSTRAINT > 0)
     share = float(np.sum(wrong) / max(np.sum(used), 1))
     along = _along(free, still)
-    if ASKEW < abs(along) < np.pi - ASKEW or share > MOST_WRONG:
+    askew = ASKEW < abs(along) < np.pi - ASKEW
+    if askew or share > MOST_WRONG:
+        along = along if askew else np.nan
         yield Finding("constraint", "", int(np.sum(wrong)), {"share": share, "along": along})
 
 

@@ -9,7 +9,8 @@ from navigation_cases import SHORT, assumed
 import pyimu
 from pyimu.errors import UserError
 from pyimu.navigation import run
-from pyimu.navigation.checks import JUMP
+from pyimu.navigation.checks import CONSTRAINT, JUMP, constraint
+from pyimu.navigation.filtered import COLUMN
 from pyimu.rover.square import motion
 
 
@@ -151,6 +152,15 @@ def test_a_vehicle_that_does_not_drive_along_x_is_said(backwards):
     if said:
         assert abs(np.degrees(said[0]["along"]) + 90) < 20
         assert "[frame]" in found.report() and "deg to the right of x" in found.report()
+
+
+def test_a_drive_along_x_that_contradicts_its_constraint_is_not_said_to_be_askew(log):
+    """As where the attitude was lost: the share is said, and no other axis."""
+    found = run(log, assumed(), method="filter")
+    y = found.filter.y.copy()
+    y[:, COLUMN["nhc_nis"]], y[:, COLUMN["status"]] = 100.0, CONSTRAINT
+    (said,) = constraint(replace(found.filter, y=y), found.still, found.filter)
+    assert said.detail["share"] == 1.0 and np.isnan(said.detail["along"])
 
 
 @pytest.mark.parametrize("value", (2.0, -1.0))

@@ -109,12 +109,12 @@ def _constraint(f: Finding, lost: bool) -> str:
         return (
             f"Without the vehicle's constraint the body moves {angle:.0f} deg to the {side} of x: "
             "its axes are not forward-left-up, which a column map's [frame] says, and what comes "
-            "out is of no use; --nhc is for a vehicle that drives along x"
+            "out is not to be relied on; --nhc is for a vehicle that drives along x"
         )
     why = "is it a vehicle, and are the axes forward-left-up?"
     return (
         f"{f.detail['share']:.0%} of the drive contradicts the vehicle's constraint, and what "
-        "comes out is of no use: "
+        "comes out is not to be relied on: "
         + ("the attitude was lost where samples are missing" if lost else why)
     )
 
