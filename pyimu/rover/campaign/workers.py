@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import CancelledError
 from contextlib import contextmanager, suppress
 from queue import Empty, SimpleQueue
@@ -24,7 +24,7 @@ AHEAD = 3
 """Batches that are given out for each thread of the workers: none then waits for the next, and few
 are lost when all ends."""
 
-LOOK, AWAY = 1.0, 20.0
+LOOK, AWAY = 5.0, 20.0
 """s between two looks at whether the scheduler is still there, and s that it may be away."""
 
 ATTEMPTS = 10
@@ -84,22 +84,22 @@ def _computed(client: Any, settings: Settings, batches: list[range]) -> Iterator
     for _ in range(AHEAD * max(1, sum(client.nthreads().values()))):
         submit()
     while runs:
-        future = _next_of(client, done)
+        future = _answer(client, done.get)
         batch, _ = runs.pop(future.key)
-        yield batch, future.result()
+        yield batch, _answer(client, future.result)
         submit()
 
 
-def _next_of(client: Any, done: SimpleQueue) -> Any:
-    """The next future that is done.
+def _answer(client: Any, ask: Callable[..., Any]) -> Any:
+    """What ``ask(timeout=...)`` gives: the next future that is done, or a future's result.
 
     Raises ConnectionError where the scheduler has been away for ``AWAY`` s: a client waits for it
-    forever.
+    forever, for a result too that lies on a worker.
     """
     away = 0.0
     while True:
-        with suppress(Empty):
-            return done.get(timeout=LOOK)
+        with suppress(Empty, TimeoutError):
+            return ask(timeout=LOOK)
         away = 0.0 if client.status == "running" else away + LOOK
         if away >= AWAY:
             raise ConnectionError("the scheduler does not answer any more")
