@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{5dc757b7-fe2b-005e-d9c7-1d9d5df7bdff}"
-#define MODEL_TOKEN_FMI3 "{bac347f3-4b80-77d4-755d-ab8f9806ae07}"
+#define MODEL_TOKEN_FMI2 "{b61f0ba4-aea1-ac82-b4bd-551ad9a0f0b3}"
+#define MODEL_TOKEN_FMI3 "{71a73cee-0b49-5b6e-51c7-4fd9b03ccc82}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -16,13 +16,13 @@ enum {
     N_INPUTS = 21,
     N_PARAMETERS = 41,
     N_OUTPUTS = 43,
-    N_STATES = 269,
+    N_STATES = 271,
     N_NOISE = 0,
     N_VARIABLES = 65
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 29, WORK_RES = 8, WORK_IW = 0, WORK_W = 1898 };
+enum { WORK_ARG = 29, WORK_RES = 8, WORK_IW = 0, WORK_W = 1902 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{ba93088d-6464-95dc-818e-3eabb69f233f}"
-#define MODEL_TOKEN_FMI3 "{7395a454-6e50-38e0-6f5f-89a5d45d0d95}"
+#define MODEL_TOKEN_FMI2 "{0d8ff828-fe03-2cf2-137c-1480b0ce18f7}"
+#define MODEL_TOKEN_FMI3 "{1c144392-1dc6-729d-b7d2-14ebcf27ff47}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -16,13 +16,13 @@ enum {
     N_INPUTS = 21,
     N_PARAMETERS = 41,
     N_OUTPUTS = 43,
-    N_STATES = 269,
+    N_STATES = 271,
     N_NOISE = 0,
     N_VARIABLES = 107
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 29, WORK_RES = 8, WORK_IW = 0, WORK_W = 1898 };
+enum { WORK_ARG = 29, WORK_RES = 8, WORK_IW = 0, WORK_W = 1902 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };

@@ -160,16 +160,15 @@ def _predict(layout: Layout) -> ca.Function:
     settings = prediction.settings_of(layout, p)
     x = layout.unpack(s)
     memory = Memory.unpack(s[layout.packed :], layout)
-    sample = prediction.read(layout, memory, x.q, u, settings, h)
+    sample = prediction.read(layout, x, memory, u, settings, h)
     sample = prediction.with_rest(layout, x, memory, sample, settings, h)
     after, transition, means = prediction.predicted(layout, x, memory, sample, settings, h)
     packed = ca.if_else(memory.begun > 0, layout.pack(after), s[: layout.packed])
-    status = ca.fmax(sample.gyro_lost, sample.accel_lost)
     kept = prediction.remembered(memory, sample, means, h).pack()
     return ca.Function(
         "predict",
         [s, u, p, h],
-        [packed, kept, sample.rate, status, sample.still, ca.densify(transition[:])],
+        [packed, kept, sample.rate, sample.lost, sample.still, ca.densify(transition[:])],
         OPTIONS,
     )
 

@@ -21,8 +21,8 @@ TURN, VELOCITY, POSITION, GYRO_BIAS, RESTING = (slice(i, i + 3) for i in range(0
 """Where the error state has attitude, velocity, position, gyro bias and the force of a rest, all in
 world axes."""
 
-UP = RESTING.stop - 1
-"""Where it has the resting force upwards."""
+HEADING, UP = TURN.stop - 1, RESTING.stop - 1
+"""Where it has the attitude about the vertical, and the resting force upwards."""
 
 BASE = 15
 """Errors that every filter has."""
@@ -155,7 +155,7 @@ class Layout:
     def memory_sizes(self) -> tuple[int, ...]:
         """Of the ``Memory``, in the order of its fields."""
         window = rest_window.SIZE * self.detects
-        return (self.held, 3, 3, 3, 3, 1, 1, 1, 1, len(self.compensation.start), window)
+        return (self.held, 3, 3, 3, 3, 1, 3, 1, 1, len(self.compensation.start), window)
 
     @property
     def begun(self) -> int:
@@ -198,9 +198,10 @@ class Memory:
 
     ``held`` is the last good row; ``rate`` and ``force`` (3,) are its compensated ones;
     ``mean_rate`` (3,) in body and ``mean_force`` (3,) in world axes those of the last tenths of a
-    second; ``still`` whether it was at rest; ``gyro_lost`` and ``accel_lost`` s, for how long there
-    was none; ``begun`` whether there was any row; ``sensors`` is the compensation's own; ``window``
-    that of ``rest_window``, empty where the filter does not look for rests.
+    second; ``still`` whether it was at rest; ``gyro_lost`` (3,) and ``accel_lost`` s, for how long
+    an axis and the triad were lost; ``begun`` whether there was any row; ``sensors`` is the
+    compensation's own; ``window`` that of ``rest_window``, empty where the filter does not look for
+    rests.
     """
 
     held: ca.SX

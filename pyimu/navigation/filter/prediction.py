@@ -13,6 +13,8 @@ a = (1 + M)^-1 (f - s),
     o' = e + (phi - z) x v + p x z',    d' = (R w) x d,
     r' = (R w) x r - A ((R w) x (c x phi) - c x phi') - R d_M (w x R^T c).
 
+At rest, where the estimate stands still in the world whatever its heading is, phi' = 0.
+
 It is the error of the invariant filter (Barrau and Bonnabel 2017), with the sensors' errors turned
 along. In body axes and with the plain difference of velocities (Groves 2013, section 14.2.4), what
 cannot be told apart has a direction in the state that follows the estimate: a tilt from a bias of
@@ -58,7 +60,7 @@ from pyimu.navigation.filter.variables import (
     STATIONARY,
     TEMPERATURE,
 )
-from pyimu.navigation.filter.weight import Wander, counted, in_world, upright_of
+from pyimu.navigation.filter.weight import Wander, counted, earth_by_turn, in_world, upright_of
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import symmetric
 from pyimu.symbolic.missing import is_finite
@@ -74,6 +76,10 @@ themselves there, whose noise it would take for motion, the filter would learn f
 motion shows: the tilt apart from the accelerometer's bias, and the gains."""
 
 
+TURN_TIME = 1.0
+"""s; so long a turn is taken to last on during which the gyro was lost: of an axis without numbers
+the last rate fades out in that time."""
+
 LASTS = (10 / 3, 10.0)
 """s; a rest and a leg. Over them white noise and random walk stand for the part's correlated noise,
 of which a rest takes off what came before."""
@@ -82,8 +88,9 @@ of which a rest takes off what came before."""
 @dataclass(frozen=True)
 class Sample:
     """A row: what was measured, in place of a missing number its last good one (``held``); ``rate``
-    and ``force`` (3,) without the part's errors; whether gyro and accelerometer are ``lost``, 0 or
-    1; whether the body is at rest (``still``); the compensation's memory, and the window's.
+    and ``force`` (3,) without the part's errors; which axes of the gyro (3,) and whether the
+    accelerometer are ``lost``, 0 or 1; whether the body is at rest (``still``); the compensation's
+    memory, and the window's.
     """
 
     held: ca.SX
@@ -95,13 +102,18 @@ class Sample:
     sensors: ca.SX
     window: ca.SX
 
+    @property
+    def lost(self):
+        """Whether anything of it is lost, 0 or 1."""
+        return ca.fmax(ca.mmax(self.gyro_lost), self.accel_lost)
+
 
 def settings_of(layout: Layout, p) -> Settings:
     return Settings.of(layout.compensation, p, OWN_PARAMETERS, LASTS)
 
 
-def read(layout: Layout, memory: Memory, q, u, settings: Settings, h) -> Sample:
-    """The sample of the inputs ``u``; ``q`` is the attitude as it was."""
+def read(layout: Layout, x: State, memory: Memory, u, settings: Settings, h) -> Sample:
+    """The sample of the inputs ``u``; ``x`` is the estimate before it."""
     extra, at = [], len(INPUTS)
     for name in layout.compensation.extra:
         extra.append(u[at : at + SIGNALS[name].size])
@@ -113,7 +125,7 @@ def read(layout: Layout, memory: Memory, q, u, settings: Settings, h) -> Sample:
         "rate": held[GYRO],
         "specific_force": held[ACCEL],
         "temperature": held[6],
-        "attitude": q,
+        "attitude": x.q,
         "latitude": settings.latitude,
         "latitude_known": settings.known,
     }
@@ -124,12 +136,12 @@ def read(layout: Layout, memory: Memory, q, u, settings: Settings, h) -> Sample:
     sensors, rate, force, gyro_lost, accel_lost = layout.compensation.apply(
         memory.sensors, known, settings.gyro_p, settings.accel_p, h
     )
-    lost = [
-        1 - ca.mmin(good[rows]) * (ca.mmax(ca.densify(mark)) <= 0.5)
-        for rows, mark in ((GYRO, gyro_lost), (ACCEL, accel_lost))
-    ]
+    fades = ca.if_else(good[GYRO], 1, ca.exp(-memory.gyro_lost / TURN_TIME))
+    gyro_lost = 1 - good[GYRO] * (ca.densify(gyro_lost) <= 0.5)
+    accel_lost = 1 - ca.mmin(good[ACCEL]) * (ca.mmax(ca.densify(accel_lost)) <= 0.5)
     still = is_finite(u[STATIONARY]) * (u[STATIONARY] > 0.5)
-    return Sample(held, rate, force, *lost, still, sensors, memory.window)
+    rate = x.gyro_bias + fades * (rate - x.gyro_bias)
+    return Sample(held, rate, force, gyro_lost, accel_lost, still, sensors, memory.window)
 
 
 def with_rest(
@@ -138,8 +150,7 @@ def with_rest(
     """The sample with what the window says of rest, where the filter looks for it."""
     if not layout.detects:
         return sample
-    lost = ca.fmax(sample.gyro_lost, sample.accel_lost)
-    found = rest_window.followed(memory.window, sample.rate, sample.force, lost, settings, h)
+    found = rest_window.followed(memory.window, sample.rate, sample.force, sample.lost, settings, h)
     back = quaternion.to_matrix(quaternion.conjugate(x.q))
     of_bias = back @ x.covariance[GYRO_BIAS, GYRO_BIAS] @ back.T
     even = rest_window.is_no_turn(found, back @ settings.earth + x.gyro_bias, of_bias, settings, h)
@@ -163,8 +174,8 @@ def predicted(
     A body at rest at both samples has not turned: what the gyro shows is then of its bias alone.
     """
     rest = memory.still * sample.still * (settings.scalar["zaru"] > 0)
-    blind = [ca.if_else(lost, 1, 0) for lost in (sample.gyro_lost, sample.accel_lost)]
-    turning = (1 - rest) * (1 - blind[0])
+    blind = ca.if_else(sample.accel_lost, 1, 0)
+    turning = 1 - rest
     earth = settings.earth
     still_rate = quaternion.rotate(quaternion.conjugate(x.q), earth)
     rates = tuple(
@@ -177,7 +188,7 @@ def predicted(
     shift = weights[1] - weights[0]
     resting = x.resting + shift + layout.matrix(x.gains, "accel") @ shift
     forces = tuple(
-        weight + ca.if_else(blind[1], 0, without_gains(layout, x, "accel", f - s))
+        weight + ca.if_else(blind, 0, without_gains(layout, x, "accel", f - s))
         for weight, f, s in zip(
             weights, (memory.force, sample.force), (x.resting, resting), strict=True
         )
@@ -188,8 +199,8 @@ def predicted(
     means = _means(memory, (rates[0] + rates[1]) / 2, force, (still_rate, upright), rest, h)
     axes = quaternion.to_matrix(q)
     wander = Wander.of(layout, x, means[0] - still_rate, axes, MEAN_TIME, settings)
-    felt = turning, 1 - blind[1]
-    step = Step.of(layout, x, q, (x.velocity + velocity) / 2, upright, felt, wander)
+    felt = turning, 1 - blind
+    step = Step.of(layout, x, q, (x.velocity + velocity) / 2, settings, felt, wander)
     by_gains = wander.by_gains(layout, (rates[0] + rates[1]) / 2, axes)
     transition = _transition(layout, step, (by_gains, means[1] - upright, shift), settings, h)
     both = transition @ x.covariance @ transition.T + _noise(layout, step, settings, h)
@@ -234,7 +245,7 @@ class Step:
     samples, as far as it counts; ``felt`` says whether gyro and accelerometer count; ``by_turn``
     (n, 3) is what an attitude error that comes up in the step makes of the error state, ``by_tilt``
     (3, 3) what one before it makes of the error of the resting force, by how the weight
-    ``wander``s.
+    ``wander``s, ``by_earth`` (3, 3) what it makes of the Earth's rate.
     """
 
     axes: ca.SX
@@ -243,12 +254,14 @@ class Step:
     felt: tuple
     by_turn: ca.SX
     by_tilt: ca.SX
+    by_earth: ca.SX
     wander: Wander
 
     @classmethod
     def of(
-        cls, layout: Layout, x: State, q, velocity, upright, felt: tuple, wander: Wander
+        cls, layout: Layout, x: State, q, velocity, settings: Settings, felt: tuple, wander: Wander
     ) -> Step:
+        upright = upright_of(settings)
         before, after = quaternion.to_matrix(x.q), quaternion.to_matrix(q)
         spin, triad = after @ before.T, in_world(layout, x, after)
         by_turn = ca.SX(layout.errors, 3)
@@ -259,7 +272,8 @@ class Step:
         by_turn[POSITION, :] = -about_the_start(x.position)
         by_turn[RESTING, :] = triad @ ca.skew(upright)
         by_tilt = triad @ wander.by_tilt(spin, upright)
-        return cls((before + after) / 2, spin, speed, felt, by_turn, by_tilt, wander)
+        by_earth = earth_by_turn(x, settings.earth)
+        return cls((before + after) / 2, spin, speed, felt, by_turn, by_tilt, by_earth, wander)
 
 
 def _transition(layout: Layout, step: Step, mean: tuple, settings: Settings, h) -> ca.SX:
@@ -271,7 +285,7 @@ def _transition(layout: Layout, step: Step, mean: tuple, settings: Settings, h) 
     halfway = (ca.SX.eye(3) + step.spin) / 2
     gains = slice(BASE, BASE + len(layout.gains))
     turn = ca.SX(3, layout.errors)
-    turn[:, TURN] = -h * ca.skew(earth)
+    turn[:, TURN] = -h * step.felt[0] * step.by_earth
     turn[:, GYRO_BIAS] = -h * step.felt[0] * halfway
     turn[:, gains] = -h * step.felt[0] * by_gains
     f = ca.SX.eye(layout.errors) + step.by_turn @ turn
@@ -312,41 +326,49 @@ def _noise(layout: Layout, step: Step, settings: Settings, h) -> ca.SX:
 def _unseen(x: State, step: Step, memory: Memory, sample: Sample, settings: Settings, h) -> State:
     """The estimate, less sure by what the body may have done while sensors were lost.
 
-    After T s without a rate the attitude may be off by the top turn rate times T, half a turn at
-    most; without a force the velocity by the top acceleration times T, and once that is the top
-    speed, nothing is known of the velocity but that: the position is then off by T times it.
+    After T s without the rate of an axis the attitude may be off about it by the top turn rate
+    times T, half a turn at most; without a force the velocity by the top acceleration times T, and
+    once that is the top speed, nothing is known of the velocity but that: the position is then off
+    by T times it.
     """
     at, p = settings.scalar, x.covariance
-    gone = [(before + h) * lost for before, lost in _lost(memory, sample)]
-    grown = [ca.if_else(t > 0, h * (2 * t - h), 0) for t in gone]
-    angle = at["top_turn_rate"] * gone[0]
-    wider = ca.if_else(angle < ca.pi, at["top_turn_rate"] ** 2 * grown[0], 0)
-    p = p + wider * step.by_turn @ step.by_turn.T
-    most = at["top_speed"]
-    anew = at["top_acceleration"] * gone[1] >= most
-    wider = ca.if_else(anew, 0, at["top_acceleration"] ** 2 * grown[1])
+    turned, gone = gone_for(memory, sample, h)
+    angle = at["top_turn_rate"] * turned
+    wider = ca.if_else(angle < ca.pi, at["top_turn_rate"] ** 2 * _growth(turned, h), 0)
+    # An axis that lies askew by a degree or two makes a tilt of a large turn. As one error the
+    # two would let a tilt that is seen at the next rest tell the turn, fifty times as large.
+    wider = (step.axes**2) @ wider
+    p = p + step.by_turn @ ca.diag(wider) @ step.by_turn.T
+    most, grown = at["top_speed"], _growth(gone, h)
+    anew = at["top_acceleration"] * gone >= most
+    wider = ca.if_else(anew, 0, at["top_acceleration"] ** 2 * grown)
     p[VELOCITY, VELOCITY] = p[VELOCITY, VELOCITY] + wider * ca.SX.eye(3)
     keep = 1 - anew
     for i in range(3, 6):
         for j in range(p.shape[0]):
             p[i, j] = p[j, i] = keep * p[i, j] + (most**2 * anew if i == j else 0)
-    far = ca.if_else(anew, most**2 * grown[1], 0)
+    far = ca.if_else(anew, most**2 * grown, 0)
     p[POSITION, POSITION] = p[POSITION, POSITION] + far * ca.SX.eye(3)
     return replace(x, velocity=keep * x.velocity, covariance=p)
 
 
-def _lost(memory: Memory, sample: Sample) -> tuple:
-    return (memory.gyro_lost, sample.gyro_lost), (memory.accel_lost, sample.accel_lost)
+def _growth(gone, h):
+    """By how much the square of the ``gone`` s has grown in the sample; 0 where nothing is lost."""
+    return ca.if_else(gone > 0, h * (2 * gone - h), 0)
+
+
+def gone_for(memory: Memory, sample: Sample, h) -> tuple:
+    """For how many s each axis of the gyro (3,) and the accelerometer have been lost."""
+    lost = (memory.gyro_lost, sample.gyro_lost), (memory.accel_lost, sample.accel_lost)
+    return tuple((before + h) * now for before, now in lost)
 
 
 def remembered(memory: Memory, sample: Sample, means: tuple, h) -> Memory:
     """The memory after a sample, with the ``means`` of rate and force."""
-    gone = [(before + h) * lost for before, lost in _lost(memory, sample)]
-    rate = ca.if_else(sample.gyro_lost, memory.rate, sample.rate)
     force = ca.if_else(sample.accel_lost, memory.force, sample.force)
     begun = ca.fmax(memory.begun, 1 - sample.accel_lost)
-    kept = sample.sensors, sample.window
-    return Memory(sample.held, rate, force, *means, sample.still, *gone, begun, *kept)
+    gone, kept = gone_for(memory, sample, h), (sample.sensors, sample.window)
+    return Memory(sample.held, sample.rate, force, *means, sample.still, *gone, begun, *kept)
 
 
 def empty(layout: Layout, settings: Settings) -> Memory:
@@ -359,7 +381,9 @@ def empty(layout: Layout, settings: Settings) -> Memory:
         ca.vertcat(0, 0, gravity),
         ca.SX.zeros(3),
         ca.vertcat(0, 0, gravity),
-        *[ca.SX(0)] * 4,
+        ca.SX(0),
+        ca.SX.zeros(3),
+        *[ca.SX(0)] * 2,
         ca.SX(ca.DM(layout.compensation.start)),
         ca.SX.zeros(rest_window.SIZE * layout.detects),
     )

@@ -25,6 +25,7 @@ from pyimu.navigation.filter.layout import (
     State,
 )
 from pyimu.navigation.filter.prediction import about_the_start
+from pyimu.navigation.filter.weight import earth_by_turn
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import cholesky, forward, reciprocal, symmetric
 from pyimu.symbolic.missing import is_finite
@@ -115,7 +116,7 @@ def by_zero_rate(layout: Layout, x: State, rate, settings: Settings, h) -> tuple
     """A body that does not turn against the Earth: its gyro shows (1 + M) R^T w_e + bias + n."""
     back = quaternion.to_matrix(quaternion.conjugate(x.q))
     earth = back @ settings.earth
-    slope = _slope(layout, 3, turn=back @ ca.skew(settings.earth), gyro_bias=back)
+    slope = _slope(layout, 3, turn=back @ earth_by_turn(x, settings.earth), gyro_bias=back)
     expected = earth + layout.matrix(x.gains, "gyro") @ earth + x.gyro_bias
     noise = settings.gyro.white**2 * reciprocal(h) + 1e-16
     return corrected_by(layout, x, rate - expected, slope, noise, settings)

@@ -12,6 +12,10 @@ So of a turn counts what its own errors do not explain, apart for its vertical p
 horizontal of the error depends, and its horizontal part, on which the vertical does. What of that
 does not count acts as noise. A velocity counts likewise beside an error of the attitude. And of a
 scale factor's turn about the axis of a motion only the part that counts tilts the body.
+
+A heading of which nothing is known makes of the Earth's rate one in any direction. Linear in its
+error, a half-turn wide, the least tilt at a stop and the noise of a gyro at rest turned it by tens
+of degrees. The bias has that share of the Earth's rate then.
 """
 
 from __future__ import annotations
@@ -22,7 +26,7 @@ import casadi as ca
 from scipy.stats import chi2
 
 from pyimu.attitude.filter.settings import Settings
-from pyimu.navigation.filter.layout import BASE, TURN, Layout, State
+from pyimu.navigation.filter.layout import BASE, HEADING, TURN, Layout, State
 
 BY_CHANCE = 1e-3
 """Probability with which errors alone exceed what they may be."""
@@ -30,6 +34,10 @@ BY_CHANCE = 1e-3
 UPRIGHT, FLAT, ALL = (float(chi2.isf(BY_CHANCE, n)) for n in (1, 2, 3))
 """Squares over the variance of an axis, from which on a vector counts: of its vertical part, of its
 horizontal part, of all of it."""
+
+KNOWN = 0.5
+"""rad; standard deviation up to which a heading is known well enough that the Earth's rate, which
+turns with it, is linear in its error."""
 
 TINY = 1e-30
 
@@ -42,6 +50,12 @@ def upright_of(settings: Settings) -> ca.SX:
 def in_world(layout: Layout, x: State, axes):
     """A = R (1 + M) R^T of the accelerometer (3, 3), with R the ``axes`` (3, 3)."""
     return ca.SX.eye(3) + axes @ layout.matrix(x.gains, "accel") @ axes.T
+
+
+def earth_by_turn(x: State, earth):
+    """What an attitude error makes of the Earth's rate in the body (3, 3), in world axes."""
+    known = ca.fmin(1, ca.fmax(0, 2 - x.covariance[HEADING, HEADING] / KNOWN**2))
+    return ca.skew(earth) @ ca.diag(ca.vertcat(1, 1, known))
 
 
 @dataclass(frozen=True)
