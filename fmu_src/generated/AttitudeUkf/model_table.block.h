@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{d31594be-ae41-028d-4a62-19ccd2603af4}"
-#define MODEL_TOKEN_FMI3 "{04e754c0-0b1a-369a-d186-8bd4554fbfce}"
+#define MODEL_TOKEN_FMI2 "{b0d4e9a3-9d7f-79af-ba03-546ce7be03d9}"
+#define MODEL_TOKEN_FMI3 "{cf08515d-a129-3d44-9749-3e27ca5e60ed}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

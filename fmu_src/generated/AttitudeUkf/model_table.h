@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{bc8a191f-e5f4-be4f-9c33-72ffff0c6a65}"
-#define MODEL_TOKEN_FMI3 "{fc968225-aac4-da90-4ac7-99806924065e}"
+#define MODEL_TOKEN_FMI2 "{acad0e01-ea06-9eab-4d97-6506ced43fdf}"
+#define MODEL_TOKEN_FMI3 "{1463f5d5-81dc-f47e-c43e-a48ce84f9f85}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

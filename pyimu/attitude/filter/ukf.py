@@ -32,7 +32,14 @@ from pyimu.attitude.filter.gravity_update import INNOVATION_GATE, by_velocity, c
 from pyimu.attitude.filter.layout import GRAVITY, Flags, GravityMeasurement, Layout
 from pyimu.attitude.filter.memory import ESTIMATE, WORKING, Memory
 from pyimu.attitude.filter.passed import PASSED, Transition, passed
-from pyimu.attitude.filter.prediction import ARGUMENTS, Instant, added_noise, predicted, rest_of
+from pyimu.attitude.filter.prediction import (
+    ARGUMENTS,
+    Instant,
+    added_noise,
+    is_awake,
+    predicted,
+    rest_of,
+)
 from pyimu.attitude.filter.sample import Sample, look_closely, read
 from pyimu.attitude.filter.updates import (
     after_gravity,
@@ -109,18 +116,23 @@ def _predict(layout: Layout, recorded: bool = False) -> ca.Function:
 
     Where it is ``recorded``, the transition of the error follows.
 
-    An ordinary sample is taken as it was read; any other is looked at number by number.
+    An ordinary sample is taken as it was read; any other is looked at number by number. Of an
+    ordinary one of a body that is awake most questions of rest need not be asked.
     """
     symbols = layout.symbols(ca.SX, ARGUMENTS)
     at = Instant.of(layout, symbols)
     given = (layout.compensation, at.memory, at.u, at.settings, at.h)
     sample, is_ordinary = read(*given)
     # What this reads is read again by the row: handed over, a processor would wait for it.
-    whether = ca.Function("is_ordinary", symbols, [is_ordinary], OPTIONS)
-    rows = {"ordinary_row": sample, "other_row": look_closely(*given)}
-    row = ca.Function.if_else("row", *(_row(n, at, s, symbols, recorded) for n, s in rows.items()))
+    which = ca.Function("which_row", symbols, [is_ordinary * (1 + is_awake(at))], OPTIONS)
+    rows = (
+        _row("other_row", at, look_closely(*given), symbols, recorded),
+        _row("ordinary_row", at, sample, symbols, recorded),
+        _row("awake_row", at.awake(), sample, symbols, recorded),
+    )
+    row = ca.Function.conditional("row", list(rows[:2]), rows[2])
     given = layout.symbols(ca.MX, ARGUMENTS)
-    outputs = row(whether(*given), *given)
+    outputs = row(which(*given), *given)
     return ca.Function("predict", given, list(outputs), {"always_inline": True})
 
 
