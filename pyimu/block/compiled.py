@@ -1,9 +1,9 @@
 """A block's step compiled for this machine, with the loop over the samples and the noise around it.
 
 It is the C of the block's FMU, step and noise alike, so the bits are those of the FMU and of
-casadi's virtual machine. Compiling takes 0.05 to 2 s. A library is therefore kept between
-processes in the user's cache folder, and a step is compiled only once that pays; without a compiler
-it never is, and the virtual machine does the work.
+casadi's virtual machine, although it may use all that this processor has. Compiling takes 0.05 to
+2 s. A library is therefore kept between processes in the user's cache folder, and a step is
+compiled only once that pays; without a compiler it never is, and the virtual machine does the work.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Callable
-from functools import lru_cache
+from functools import cache, lru_cache
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -42,6 +42,10 @@ FLAGS = (
 )
 """Those of the FMUs, without contracted multiply-adds. The step is static, because a libc has a
 function ``step`` of its own that would answer in place of ours."""
+
+OWN = "-march=native"
+"""Compiles for this very processor. What it has beside the least of its kind does the same
+arithmetic in fewer instructions, and the bits are the same."""
 
 HAND_WRITTEN = ("loop.h", "noise.c", "noise.h", "prefix.h")
 """What of the hand-written C a library is made of."""
@@ -76,6 +80,19 @@ def compiler_command() -> list[str]:
     if shutil.which(command[0]):
         return command
     return list(ZIG) if not given and find_spec("ziglang") else []
+
+
+def flags(compiler: list[str]) -> list[str]:
+    """The flags for a library that only this machine will use."""
+    return [*FLAGS, OWN] if _processor(tuple(compiler)) else [*FLAGS]
+
+
+@cache
+def _processor(compiler: tuple[str, ...]) -> str:
+    """What a compiler knows of this processor, as a text; empty where it cannot compile for it."""
+    asked = [*compiler, OWN, "-dM", "-E", "-x", "c", os.devnull]
+    found = subprocess.run(asked, capture_output=True, text=True, errors="replace", check=False)
+    return "" if found.returncode else found.stdout
 
 
 def source_folder() -> Path:
@@ -186,7 +203,8 @@ def _library(source: str, compile_it: bool) -> ctypes.CDLL | None:
 def _key(source: str, compiler: tuple[str, ...]) -> str:
     """Whatever the library's bytes follow from, as a name."""
     hand_written = [(source_folder() / name).read_bytes() for name in HAND_WRITTEN]
-    texts = [source, *FLAGS, sys.platform, platform.machine()]
+    # A home may be shared with machines of other processors.
+    texts = [source, *FLAGS, sys.platform, platform.machine(), _processor(compiler)]
     return key_of(compiler, *(t.encode() for t in texts), *hand_written)
 
 
@@ -200,7 +218,9 @@ def _compile(source: str, compiler: list[str], key: str) -> ctypes.CDLL | None:
         path.write_text(source, encoding="utf-8")
         files = [str(path), str(hand_written / "noise.c"), "-I", str(hand_written)]
         if subprocess.run(
-            [*compiler, *FLAGS, *files, "-o", str(library), "-lm"], capture_output=True, check=False
+            [*compiler, *flags(compiler), *files, "-o", str(library), "-lm"],
+            capture_output=True,
+            check=False,
         ).returncode:
             return None
         keep(key, library.read_bytes())
