@@ -33,6 +33,7 @@ FLAGS = (
     "-std=c11",
     "-O3",
     "-ffp-contract=off",
+    "-fno-math-errno",
     "-fPIC",
     "-shared",
     "-fvisibility=hidden",
