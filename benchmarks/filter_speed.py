@@ -202,8 +202,8 @@ def gravity_seen(x):
 
 
 def instructions(step: ca.Function) -> str:
-    """Instructions of the functions that the step calls: always the first, one of the rows, and one
-    of the updates.
+    """Instructions of the functions that the step calls: that of the constants once for many
+    samples, always that which chooses the row, one of the rows, and one of the updates.
     """
     counted = {f.name(): f.n_instructions() for f in step.find_functions() if f.is_a("SXFunction")}
     return ", ".join(f"{name} {n}" for name, n in counted.items())

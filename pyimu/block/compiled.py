@@ -26,6 +26,7 @@ import numpy as np
 
 from pyimu.block.c_code import c_code
 from pyimu.block.cache import keep, kept, key_of
+from pyimu.block.prepared import Prepared
 from pyimu.errors import UserError
 from pyimu.held import work_folder
 
@@ -108,55 +109,67 @@ def source_folder() -> Path:
     raise FileNotFoundError(f"the C sources fmu_src are neither in {package} nor beside it")
 
 
-def compiled(step: ca.Function, rows: int) -> Callable | None:
+def compiled(step: ca.Function, rows: int, prepared: Prepared | None = None) -> Callable | None:
     """The compiled loop over a step for ``rows`` more samples, None where there is none.
 
-    It is ``run(s, u, p, h, y, w, channels, seed, first)``, which fills ``y``. There is none where
-    no library is at hand and compiling would not pay or cannot be done.
+    It is ``run(s, u, p, h, y, w, channels, seed, first)``, which fills ``y``; what is compiled of
+    the step is the form in which it is ``prepared``, if it has one. There is none where no library
+    is at hand and compiling would not pay or cannot be done.
     """
-    return _machine_code(step).after(rows)
+    return _machine_code(step, prepared).after(rows)
 
 
 @lru_cache(maxsize=64)
-def _machine_code(step: ca.Function) -> _MachineCode:
-    return _MachineCode(step)
+def _machine_code(step: ca.Function, prepared: Prepared | None) -> _MachineCode:
+    return _MachineCode(step, prepared)
 
 
 class _MachineCode:
     """The machine code of one step, once there is a library, and the samples asked for so far."""
 
-    def __init__(self, step: ca.Function) -> None:
-        self.step, self.rows, self.call, self.tried = step, 0, None, 0
+    def __init__(self, step: ca.Function, prepared: Prepared | None) -> None:
+        self.step, self.prepared = step, prepared
+        self.rows, self.call, self.tried = 0, None, 0
 
     def after(self, rows: int) -> Callable | None:
         """Look for the library, and later compile it, at most once each."""
         self.rows += int(rows)  # two bools of numpy add up to one
         reached = (self.rows >= LOOKED_FOR) + (self.rows >= WORTHWHILE)
         if self.call is None and reached > self.tried:
-            library = _library(_source(self.step), reached == 2)
-            self.tried, self.call = reached, library and _bind(library, self.step)
+            library = _library(_source(self.step, self.prepared), reached == 2)
+            functions = _functions(self.step, self.prepared)
+            self.tried, self.call = reached, library and _bind(library, functions)
         return self.call
 
 
-def _source(step: ca.Function) -> str:
+def _functions(step: ca.Function, prepared: Prepared | None) -> list[ca.Function]:
+    """What the loop calls: the step, and what it takes of it before the first sample."""
+    return [step] if prepared is None else [prepared.step, prepared.constants]
+
+
+def _source(step: ca.Function, prepared: Prepared | None = None) -> str:
     """The step in C and the loop around it."""
+    functions = _functions(step, prepared)
     sizes = {
         "NS": step.numel_in(0),
         "NU": step.numel_in(1),
         "NW": step.numel_in(3),
         "NY": step.numel_out(1),
-        "SZ_ARG": step.sz_arg(),
-        "SZ_RES": step.sz_res(),
-        "STEP": step.name(),
+        "NC": prepared.constants.numel_out(0) if prepared else 0,
+        "SZ_ARG": max(f.sz_arg() for f in functions),
+        "SZ_RES": max(f.sz_res() for f in functions),
+        "STEP": functions[0].name(),
     }
+    if prepared:
+        sizes["CONSTANTS"] = prepared.constants.name()
     return (
-        c_code("step.c", [step])
+        c_code("step.c", functions)
         + "".join(f"#define {name} {value}\n" for name, value in sizes.items())
         + '#include "loop.h"\n'
     )
 
 
-def _bind(library: ctypes.CDLL, step: ca.Function) -> Callable:
+def _bind(library: ctypes.CDLL, functions: list[ca.Function]) -> Callable:
     address = [ctypes.c_void_p] * 7
     call = library.run
     call.argtypes = [
@@ -168,14 +181,14 @@ def _bind(library: ctypes.CDLL, step: ca.Function) -> Callable:
         ctypes.c_void_p,
     ]
     call.restype = ctypes.c_int64
-    iw_size, work_size = step.sz_iw() + 1, step.sz_w() + 1
+    iw_size, work_size = (max(s) + 1 for s in zip(*((f.sz_iw(), f.sz_w()) for f in functions)))
 
     def run(s, u, p, h, y, w, channels, seed, first) -> None:
         iw, work = np.zeros(iw_size, dtype=np.int64), np.zeros(work_size)
         given = [None if a is None else a.ctypes.data for a in (s, u, p, h, y, w, channels)]
         done = call(len(u), *given, seed, first, iw.ctypes.data, work.ctypes.data)
         if done < len(u):
-            raise RuntimeError(f"{step.name()}: row {done} cannot be evaluated")
+            raise RuntimeError(f"{functions[0].name()}: row {done} cannot be evaluated")
 
     return run
 

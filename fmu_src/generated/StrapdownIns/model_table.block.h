@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{5dc757b7-fe2b-005e-d9c7-1d9d5df7bdff}"
-#define MODEL_TOKEN_FMI3 "{bac347f3-4b80-77d4-755d-ab8f9806ae07}"
+#define MODEL_TOKEN_FMI2 "{5a946f23-9105-928f-812d-0c3e7b873f59}"
+#define MODEL_TOKEN_FMI3 "{3f29e9f2-8191-da57-32a7-4ef4de6d508e}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -17,6 +17,7 @@ enum {
     N_PARAMETERS = 41,
     N_OUTPUTS = 43,
     N_STATES = 269,
+    N_CONSTANTS = 0,
     N_NOISE = 0,
     N_VARIABLES = 65
 };

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{ba93088d-6464-95dc-818e-3eabb69f233f}"
-#define MODEL_TOKEN_FMI3 "{7395a454-6e50-38e0-6f5f-89a5d45d0d95}"
+#define MODEL_TOKEN_FMI2 "{f744d0b4-2a54-0940-a34d-2c714b188c75}"
+#define MODEL_TOKEN_FMI3 "{8772e8bc-b5a2-2b9c-93b7-e0ea7f46a1e5}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -17,6 +17,7 @@ enum {
     N_PARAMETERS = 41,
     N_OUTPUTS = 43,
     N_STATES = 269,
+    N_CONSTANTS = 0,
     N_NOISE = 0,
     N_VARIABLES = 107
 };

@@ -49,6 +49,7 @@ from pyimu.attitude.filter.updates import (
     where,
 )
 from pyimu.block.block import Block
+from pyimu.block.prepared import Prepared, taken_apart
 from pyimu.model.effect import Effect
 from pyimu.model.part import Part
 from pyimu.symbolic import quaternion
@@ -95,24 +96,27 @@ def _recorded(part: Part, *effects: tuple[Effect, ...]) -> Block:
     return filter_block("AttitudeRecorded", title, layout, step, PASSED)
 
 
-def _step(layout: Layout, recorded: bool = False) -> ca.Function:
+def _step(layout: Layout, recorded: bool = False) -> Prepared:
     """The step of the filter; its outputs are those of the unit, or all that a smoother needs."""
     s, _, p, h = symbols = layout.symbols(ca.MX, "s u p h")
-    u = inputs_of_the_sample(layout, symbols)
-    x, memory, rate, gravity, flags, *transition = _predict(layout, recorded)(
-        s[:ESTIMATE], s[ESTIMATE : layout.rings], u, p, h
+    constants, predict = _predict(layout, recorded)
+    u, c = inputs_of_the_sample(layout, symbols), ca.MX.sym("c", constants.numel_out(0))
+    x, memory, rate, gravity, flags, *transition = predict(
+        s[:ESTIMATE], s[ESTIMATE : layout.rings], u, c
     )
     estimate, yaw, y, field = _updates(layout)(flags[0], x, s, u, p, h, rate, gravity, flags)
     if recorded:
         y = passed(y, estimate, x, transition[0], Flags.unpack(flags))
-    return step_function(layout, symbols, estimate, memory, yaw, field, y)
+    step = step_function(layout, symbols, estimate, memory, yaw, field, y, c)
+    return Prepared(constants, step)
 
 
 # Prediction
 
 
-def _predict(layout: Layout, recorded: bool = False) -> ca.Function:
-    """``estimate, memory, u, p, h -> x, memory, rate, gravity, flags``, as ``predicted`` has them.
+def _predict(layout: Layout, recorded: bool = False) -> tuple[ca.Function, ca.Function]:
+    """``p, h -> c`` and ``estimate, memory, u, c -> x, memory, rate, gravity, flags``, as
+    ``predicted`` has them.
 
     Where it is ``recorded``, the transition of the error follows.
 
@@ -125,15 +129,16 @@ def _predict(layout: Layout, recorded: bool = False) -> ca.Function:
     sample, is_ordinary = read(*given)
     # What this reads is read again by the row: handed over, a processor would wait for it.
     which = ca.Function("which_row", symbols, [is_ordinary * (1 + is_awake(at))], OPTIONS)
-    rows = (
+    rows = [
         _row("other_row", at, look_closely(*given), symbols, recorded),
         _row("ordinary_row", at, sample, symbols, recorded),
         _row("awake_row", at.awake(), sample, symbols, recorded),
-    )
-    row = ca.Function.conditional("row", list(rows[:2]), rows[2])
-    given = layout.symbols(ca.MX, ARGUMENTS)
+    ]
+    constants, (which, *rows) = taken_apart([which, *rows], [3, 4])
+    row = ca.Function.conditional("row", rows[:2], rows[2])
+    given = [*layout.symbols(ca.MX, "estimate memory u"), ca.MX.sym("c", constants.numel_out(0))]
     outputs = row(which(*given), *given)
-    return ca.Function("predict", given, list(outputs), {"always_inline": True})
+    return constants, ca.Function("predict", given, list(outputs), {"always_inline": True})
 
 
 def _row(
