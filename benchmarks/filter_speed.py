@@ -2,9 +2,10 @@
 from Python.
 
 ``python benchmarks/filter_speed.py [samples]``; needs vqf and filterpy, which the package itself
-does not. The filter is the FMU's C (gcc -O3, no fast-math, no contracted multiply-adds), run by
-``Block.run``; vqf its C++ through its Python package, in one batch. They run by turns, and of each
-the fastest round counts, which is the one that others on the machine disturbed least.
+does not. The filter is the FMU's C (gcc -O3 for this processor, no fast-math, no contracted
+multiply-adds), run by ``Block.run``; vqf its C++ through its Python package, in one batch. They run
+by turns, and of each the fastest round counts, which is the one that others on the machine
+disturbed least.
 """
 
 import sys
@@ -17,7 +18,7 @@ import numpy as np
 import pyimu
 from pyimu.attitude import attitude_ukf
 from pyimu.attitude.filter.variables import MAG
-from pyimu.block.compiled import FLAGS, compiler_command
+from pyimu.block.compiled import compiler_command, flags
 
 SAMPLES = 400_000
 ROUNDS = 15
@@ -42,9 +43,8 @@ def main(samples: int = SAMPLES, hours: int = FOUR_HOURS) -> None:
         "at rest": (at_rest(rows), block.start, None),
         "with magnetometer": (with_magnetometer(rows), settings(block, update=True), None),
     }
-    print(
-        f"{samples} samples, fastest of {ROUNDS} rounds; {' '.join([*compiler_command(), *FLAGS])}"
-    )
+    command = [*compiler_command(), *flags(compiler_command())]
+    print(f"{samples} samples, fastest of {ROUNDS} rounds; {' '.join(command)}")
     best = {}
     for name, (u, p, goal) in ways.items():
         rounds = [measure(block, u, p, VQF) for _ in range(ROUNDS + 1)][1:]
@@ -202,8 +202,8 @@ def gravity_seen(x):
 
 
 def instructions(step: ca.Function) -> str:
-    """Instructions of the functions that the step calls: always the first, one of the rows, and one
-    of the updates.
+    """Instructions of the functions that the step calls: that of the constants once for many
+    samples, always that which chooses the row, one of the rows, and one of the updates.
     """
     counted = {f.name(): f.n_instructions() for f in step.find_functions() if f.is_a("SXFunction")}
     return ", ".join(f"{name} {n}" for name, n in counted.items())

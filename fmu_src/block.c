@@ -139,6 +139,7 @@ static void forget_noise(Block *block) {
 void block_take(Block *block, struct BlockState *state) {
     free(block->now);
     block->now = state;
+    block->constants_stale = true;
     block->outputs_stale = state->phase < STEPPING;
     forget_noise(block); /* it may have been another seed's */
 }
@@ -296,13 +297,30 @@ static void tell_changes(const Block *block, const double *before, const double 
     }
 }
 
+/* Once for many samples. */
+static bool evaluate_constants(Block *block) {
+#ifdef MODEL_CONSTANTS
+    if (block->constants_stale) {
+        block->arg[0] = block->now->parameters;
+        block->arg[1] = &block->now->sample_period;
+        block->res[0] = block->constants;
+        if (model_constants(block->arg, block->res, block->iw, block->w) != 0) {
+            return false;
+        }
+    }
+#endif
+    block->constants_stale = false;
+    return true;
+}
+
 static bool evaluate_step(Block *block, int64_t sample, uint64_t row, const double *normals) {
     struct BlockState *now = block->now;
     double before[ROOM(N_OUTPUTS)];
     if (block->log_events) {
         memcpy(before, block_outputs(now, row > 0 ? row - 1 : now->rows - 1), N_OUTPUTS * sizeof *before);
     }
-    const double *arguments[] = {now->state, block_inputs(now, row), now->parameters, normals, &now->sample_period};
+    const double *arguments[] = {now->state, block_inputs(now, row), now->parameters, normals, &now->sample_period,
+                                 block->constants};
     memcpy(block->arg, arguments, sizeof arguments);
     block->res[0] = block->next_state;
     block->res[1] = block_outputs(now, row);
@@ -335,7 +353,7 @@ static size_t draw(Block *block, int64_t first, int64_t last) {
 /* In the block form sample i of a step belongs to row i; else there is one row, which all of them share. */
 static bool make_samples(Block *block, int64_t last) {
     const int64_t before = block->now->sample;
-    bool done = true;
+    bool done = evaluate_constants(block) || block_refuse(block, "%s: its constants cannot be evaluated", MODEL_NAME);
     while (done && block->now->sample < last) {
         const int64_t first = block->now->sample + 1;
         const size_t n = draw(block, first, last);

@@ -39,11 +39,13 @@ struct Block {
     NoiseCache noise[ROOM(N_NOISE)];
     double normals[DRAWN * ROOM(N_NOISE)];
     double next_state[ROOM(N_STATES)];
+    double constants[ROOM(N_CONSTANTS)]; /* what a step takes that follows from parameters and sample period alone */
     const double *arg[ROOM(WORK_ARG)];
     double *res[ROOM(WORK_RES)];
     long long iw[ROOM(WORK_IW)];
     double w[ROOM(WORK_W)];
     uint64_t name;      /* that of the states that it makes */
+    bool constants_stale; /* a parameter or the sample period has changed since they were computed */
     bool outputs_stale; /* a start value has changed since the outputs before the first sample were computed */
     bool log_events;
     BlockLog log;

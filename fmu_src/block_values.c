@@ -149,6 +149,12 @@ static bool in_bounds(Block *block, const BlockVariable *v, double value) {
            || block_refuse(block, "%s: variable %s must lie in %g to %g, not %g", MODEL_NAME, v->name, v->minimum, v->maximum, value);
 }
 
+/* A variable has another value now. */
+static void note_change(Block *block, uint32_t reference) {
+    block->constants_stale |= variables[reference].role != ROLE_INPUT;
+    block->outputs_stale = block->now->phase < STEPPING;
+}
+
 bool block_set_reals(Block *block, uint32_t reference, const double values[]) {
     if (!may_set(block, reference, KIND_REAL)) {
         return false;
@@ -164,7 +170,7 @@ bool block_set_reals(Block *block, uint32_t reference, const double values[]) {
         }
     }
     EACH_VALUE(v, value) { *value = *values++; }
-    block->outputs_stale = block->now->phase < STEPPING;
+    note_change(block, reference);
     return true;
 }
 
@@ -180,7 +186,7 @@ bool block_set_integers(Block *block, uint32_t reference, const int32_t values[]
         }
     }
     EACH_VALUE(v, value) { *value = *values++; }
-    block->outputs_stale = block->now->phase < STEPPING;
+    note_change(block, reference);
     return true;
 }
 
@@ -190,7 +196,7 @@ bool block_set_booleans(Block *block, uint32_t reference, const bool values[]) {
     }
     View v = view(block, reference);
     EACH_VALUE(v, value) { *value = *values++; }
-    block->outputs_stale = block->now->phase < STEPPING;
+    note_change(block, reference);
     return true;
 }
 

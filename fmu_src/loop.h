@@ -1,7 +1,8 @@
 /* The loop of a compiled run over the rows of a log, behind a block's step in the same file.
 
    That file defines STEP, its function; NS, NU, NW and NY, the sizes of its state, input, normals and
-   output; and SZ_ARG and SZ_RES, the numbers of its arguments and results. */
+   output; and SZ_ARG and SZ_RES, the numbers of its arguments and results. Where it defines CONSTANTS,
+   that gives the NC numbers that STEP takes last, of the parameters and the sample period. */
 
 #include <stdint.h>
 #include "noise.h"
@@ -21,7 +22,14 @@ EXPORT int64_t run(int64_t n, double *s, const double *u, const double *p, const
                    int64_t first, casadi_int *iw, double *work) {
   const double *arg[SZ_ARG];
   double *res[SZ_RES], next[NS + 1], normals[ROWS * NW + 1], *now = s, *following = next;
+  double once[NC + 1];
   int64_t k = 0;
+#ifdef CONSTANTS
+  arg[0] = p;
+  arg[1] = h;
+  res[0] = once;
+  if (CONSTANTS(arg, res, iw, work, 0)) return 0;
+#endif
   for (int64_t i = 0; i < ROWS * NW; ++i) normals[i] = 0.0;
   for (; k < n; ++k) {
     if (NW && !w && channels && k % ROWS == 0) {
@@ -32,6 +40,9 @@ EXPORT int64_t run(int64_t n, double *s, const double *u, const double *p, const
     arg[2] = p;
     arg[3] = w ? w + k * NW : normals + k % ROWS * NW;
     arg[4] = h;
+#ifdef CONSTANTS
+    arg[5] = once;
+#endif
     res[0] = following;
     res[1] = y + k * NY;
     if (STEP(arg, res, iw, work, 0)) break;

@@ -6,8 +6,11 @@
 
 PRIVATE_FROM_HERE
 
-/* State, input, parameters, normals and sample period to the next state and the output. */
+/* State, input, parameters, normals, sample period and constants to the next state and the output. */
 int model_step(const double **arg, double **res, long long *iw, double *w);
+
+/* Parameters and sample period to the constants; only where model_table.h defines MODEL_CONSTANTS. */
+int model_constants(const double **arg, double **res, long long *iw, double *w);
 
 /* Parameters to the state before the first sample and the outputs shown before it. */
 int model_initial(const double **arg, double **res, long long *iw, double *w);

@@ -52,6 +52,7 @@
 #define model_step PREFIXED(model_step)
 #define model_initial PREFIXED(model_initial)
 #define model_limits PREFIXED(model_limits)
+#define model_constants PREFIXED(model_constants)
 #define philox4x64 PREFIXED(philox4x64)
 #define noise_normal PREFIXED(noise_normal)
 #define noise_forget PREFIXED(noise_forget)

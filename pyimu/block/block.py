@@ -14,6 +14,7 @@ import casadi as ca
 import numpy as np
 
 from pyimu.block.compiled import compiled
+from pyimu.block.prepared import Prepared
 from pyimu.block.stepping import step_through
 from pyimu.block.variables import Limits, NoiseChannel, Variable, sample_period_of, seed_of
 from pyimu.errors import UserError
@@ -30,6 +31,8 @@ class Block:
     period (1,) to the next state and the output (ny,). ``initial`` maps the inputs at the start
     and the parameters to the state before the first sample and to the outputs shown before it; the
     state depends on the parameters alone. Where the parameters break ``limits`` no run begins.
+    ``prepared`` is the same step in two parts, of which compiled runs and units take the first once
+    for many samples.
     """
 
     name: str
@@ -42,6 +45,7 @@ class Block:
     noise: tuple[NoiseChannel, ...]
     sample_period: float
     limits: Limits | None = None
+    prepared: Prepared | None = None
     stop_time: float = 10.0
     """s; how long it runs where nobody says."""
 
@@ -143,7 +147,7 @@ class Run:
             block.limits.check(self.p, h, f"block {block.name}")
         self.h = np.array([h])
         self.channels = np.array([c.number for c in block.noise], dtype=np.uint64)
-        self._native = compiled(block.step, rows)
+        self._native = compiled(block.step, rows, block.prepared)
 
     def advance(
         self,

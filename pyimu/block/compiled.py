@@ -1,9 +1,9 @@
 """A block's step compiled for this machine, with the loop over the samples and the noise around it.
 
 It is the C of the block's FMU, step and noise alike, so the bits are those of the FMU and of
-casadi's virtual machine. Compiling takes 0.05 to 2 s. A library is therefore kept between
-processes in the user's cache folder, and a step is compiled only once that pays; without a compiler
-it never is, and the virtual machine does the work.
+casadi's virtual machine, although it may use all that this processor has. Compiling takes 0.05 to
+2 s. A library is therefore kept between processes in the user's cache folder, and a step is
+compiled only once that pays; without a compiler it never is, and the virtual machine does the work.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Callable
-from functools import lru_cache
+from functools import cache, lru_cache
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -26,6 +26,7 @@ import numpy as np
 
 from pyimu.block.c_code import c_code
 from pyimu.block.cache import keep, kept, key_of
+from pyimu.block.prepared import Prepared
 from pyimu.errors import UserError
 from pyimu.held import work_folder
 
@@ -33,6 +34,7 @@ FLAGS = (
     "-std=c11",
     "-O3",
     "-ffp-contract=off",
+    "-fno-math-errno",
     "-fPIC",
     "-shared",
     "-fvisibility=hidden",
@@ -42,6 +44,10 @@ FLAGS = (
 )
 """Those of the FMUs, without contracted multiply-adds. The step is static, because a libc has a
 function ``step`` of its own that would answer in place of ours."""
+
+OWN = "-march=native"
+"""Compiles for this very processor. What it has beside the least of its kind does the same
+arithmetic in fewer instructions, and the bits are the same."""
 
 HAND_WRITTEN = ("loop.h", "noise.c", "noise.h", "prefix.h")
 """What of the hand-written C a library is made of."""
@@ -78,6 +84,19 @@ def compiler_command() -> list[str]:
     return list(ZIG) if not given and find_spec("ziglang") else []
 
 
+def flags(compiler: list[str]) -> list[str]:
+    """The flags for a library that only this machine will use."""
+    return [*FLAGS, OWN] if _processor(tuple(compiler)) else [*FLAGS]
+
+
+@cache
+def _processor(compiler: tuple[str, ...]) -> str:
+    """What a compiler knows of this processor, as a text; empty where it cannot compile for it."""
+    asked = [*compiler, OWN, "-dM", "-E", "-x", "c", os.devnull]
+    found = subprocess.run(asked, capture_output=True, text=True, errors="replace", check=False)
+    return "" if found.returncode else found.stdout
+
+
 def source_folder() -> Path:
     """The folder of the hand-written C.
 
@@ -90,55 +109,67 @@ def source_folder() -> Path:
     raise FileNotFoundError(f"the C sources fmu_src are neither in {package} nor beside it")
 
 
-def compiled(step: ca.Function, rows: int) -> Callable | None:
+def compiled(step: ca.Function, rows: int, prepared: Prepared | None = None) -> Callable | None:
     """The compiled loop over a step for ``rows`` more samples, None where there is none.
 
-    It is ``run(s, u, p, h, y, w, channels, seed, first)``, which fills ``y``. There is none where
-    no library is at hand and compiling would not pay or cannot be done.
+    It is ``run(s, u, p, h, y, w, channels, seed, first)``, which fills ``y``; what is compiled of
+    the step is the form in which it is ``prepared``, if it has one. There is none where no library
+    is at hand and compiling would not pay or cannot be done.
     """
-    return _machine_code(step).after(rows)
+    return _machine_code(step, prepared).after(rows)
 
 
 @lru_cache(maxsize=64)
-def _machine_code(step: ca.Function) -> _MachineCode:
-    return _MachineCode(step)
+def _machine_code(step: ca.Function, prepared: Prepared | None) -> _MachineCode:
+    return _MachineCode(step, prepared)
 
 
 class _MachineCode:
     """The machine code of one step, once there is a library, and the samples asked for so far."""
 
-    def __init__(self, step: ca.Function) -> None:
-        self.step, self.rows, self.call, self.tried = step, 0, None, 0
+    def __init__(self, step: ca.Function, prepared: Prepared | None) -> None:
+        self.step, self.prepared = step, prepared
+        self.rows, self.call, self.tried = 0, None, 0
 
     def after(self, rows: int) -> Callable | None:
         """Look for the library, and later compile it, at most once each."""
         self.rows += int(rows)  # two bools of numpy add up to one
         reached = (self.rows >= LOOKED_FOR) + (self.rows >= WORTHWHILE)
         if self.call is None and reached > self.tried:
-            library = _library(_source(self.step), reached == 2)
-            self.tried, self.call = reached, library and _bind(library, self.step)
+            library = _library(_source(self.step, self.prepared), reached == 2)
+            functions = _functions(self.step, self.prepared)
+            self.tried, self.call = reached, library and _bind(library, functions)
         return self.call
 
 
-def _source(step: ca.Function) -> str:
+def _functions(step: ca.Function, prepared: Prepared | None) -> list[ca.Function]:
+    """What the loop calls: the step, and what it takes of it before the first sample."""
+    return [step] if prepared is None else [prepared.step, prepared.constants]
+
+
+def _source(step: ca.Function, prepared: Prepared | None = None) -> str:
     """The step in C and the loop around it."""
+    functions = _functions(step, prepared)
     sizes = {
         "NS": step.numel_in(0),
         "NU": step.numel_in(1),
         "NW": step.numel_in(3),
         "NY": step.numel_out(1),
-        "SZ_ARG": step.sz_arg(),
-        "SZ_RES": step.sz_res(),
-        "STEP": step.name(),
+        "NC": prepared.constants.numel_out(0) if prepared else 0,
+        "SZ_ARG": max(f.sz_arg() for f in functions),
+        "SZ_RES": max(f.sz_res() for f in functions),
+        "STEP": functions[0].name(),
     }
+    if prepared:
+        sizes["CONSTANTS"] = prepared.constants.name()
     return (
-        c_code("step.c", [step])
+        c_code("step.c", functions)
         + "".join(f"#define {name} {value}\n" for name, value in sizes.items())
         + '#include "loop.h"\n'
     )
 
 
-def _bind(library: ctypes.CDLL, step: ca.Function) -> Callable:
+def _bind(library: ctypes.CDLL, functions: list[ca.Function]) -> Callable:
     address = [ctypes.c_void_p] * 7
     call = library.run
     call.argtypes = [
@@ -150,14 +181,14 @@ def _bind(library: ctypes.CDLL, step: ca.Function) -> Callable:
         ctypes.c_void_p,
     ]
     call.restype = ctypes.c_int64
-    iw_size, work_size = step.sz_iw() + 1, step.sz_w() + 1
+    iw_size, work_size = (max(s) + 1 for s in zip(*((f.sz_iw(), f.sz_w()) for f in functions)))
 
     def run(s, u, p, h, y, w, channels, seed, first) -> None:
         iw, work = np.zeros(iw_size, dtype=np.int64), np.zeros(work_size)
         given = [None if a is None else a.ctypes.data for a in (s, u, p, h, y, w, channels)]
         done = call(len(u), *given, seed, first, iw.ctypes.data, work.ctypes.data)
         if done < len(u):
-            raise RuntimeError(f"{step.name()}: row {done} cannot be evaluated")
+            raise RuntimeError(f"{functions[0].name()}: row {done} cannot be evaluated")
 
     return run
 
@@ -186,7 +217,8 @@ def _library(source: str, compile_it: bool) -> ctypes.CDLL | None:
 def _key(source: str, compiler: tuple[str, ...]) -> str:
     """Whatever the library's bytes follow from, as a name."""
     hand_written = [(source_folder() / name).read_bytes() for name in HAND_WRITTEN]
-    texts = [source, *FLAGS, sys.platform, platform.machine()]
+    # A home may be shared with machines of other processors.
+    texts = [source, *FLAGS, sys.platform, platform.machine(), _processor(compiler)]
     return key_of(compiler, *(t.encode() for t in texts), *hand_written)
 
 
@@ -200,7 +232,9 @@ def _compile(source: str, compiler: list[str], key: str) -> ctypes.CDLL | None:
         path.write_text(source, encoding="utf-8")
         files = [str(path), str(hand_written / "noise.c"), "-I", str(hand_written)]
         if subprocess.run(
-            [*compiler, *FLAGS, *files, "-o", str(library), "-lm"], capture_output=True, check=False
+            [*compiler, *flags(compiler), *files, "-o", str(library), "-lm"],
+            capture_output=True,
+            check=False,
         ).returncode:
             return None
         keep(key, library.read_bytes())

@@ -11,6 +11,15 @@ from functools import lru_cache
 
 import casadi as ca
 
+UNARY = frozenset(
+    getattr(ca, f"OP_{name}")
+    for name in (
+        "ASSIGN NEG EXP EXPM1 LOG LOG1P SQRT SQ TWICE SIN COS TAN ASIN ACOS ATAN SINH COSH TANH "
+        "ASINH ACOSH ATANH NOT FLOOR CEIL FABS SIGN INV ERF ERFINV"
+    ).split()
+)
+"""Operations on one number; of others casadi knows those on two alone."""
+
 
 @dataclass(frozen=True)
 class Instruction:
@@ -23,6 +32,11 @@ class Instruction:
     op: int
     of: tuple[int, ...]
     value: float = 0.0
+
+    @property
+    def operands(self) -> tuple[int, ...]:
+        """The values that an operation takes; casadi names that of one number twice."""
+        return self.of[:1] if self.op in UNARY else self.of
 
 
 @dataclass(frozen=True)

@@ -39,13 +39,15 @@ FLAGS = (
     "-std=c11",
     "-O3",
     "-ffp-contract=off",
+    "-fno-math-errno",
     "-fPIC",
     "-fvisibility=hidden",
     "-DFMI2_OVERRIDE_FUNCTION_PREFIX",
     "-DFMI3_OVERRIDE_FUNCTION_PREFIX",
 )
 """In a library FMI's functions have their own names, without the model's prefix. Without contracted
-multiply-adds and without -ffast-math, C gives the bits that casadi's virtual machine gives."""
+multiply-adds and without -ffast-math, C gives the bits that casadi's virtual machine gives. Nobody
+asks for ``errno`` after a root, which is an instruction less a call without it."""
 
 OLD_GLIBC = "-DOLD_GLIBC"
 """On Linux the library loads from glibc 2.17 on, as zig's do, whose names of platforms say so."""

@@ -52,6 +52,9 @@ CORE = (
 )
 """Hand-written sources that every FMU shares."""
 
+ARGUMENTS = 6
+"""What the core gives to every step, whether it takes all of it or not."""
+
 Form = Literal[2, 3, "block"]
 """A form of an FMU: its version of FMI where it has scalars, or "block", which is FMI 3, too."""
 
@@ -133,7 +136,7 @@ def _check(block: Block) -> None:
     called = [f.name() for f in _functions(block)]
     if len(set(called)) < len(called):
         raise ValueError(
-            f"block {block.name}: step, initial and limits need names of their own, not "
+            f"block {block.name}: step, constants, initial and limits need names of their own, not "
             f"{', '.join(called)}"
         )
     for function in _functions(block):
@@ -168,7 +171,8 @@ def _names(block: Block) -> dict:
     """What the texts call the block and its functions."""
     return {
         "name": block.name,
-        "step": block.step.name(),
+        "step": _step(block).name(),
+        "constants": block.prepared and block.prepared.constants,
         "initial": block.initial.name(),
         "limits": block.limits,
     }
@@ -202,11 +206,12 @@ def _context(block: Block, in_blocks: bool) -> dict:
             "parameters": len(block.parameters),
             "outputs": len(block.outputs),
             "states": block.n_state,
+            "constants": block.prepared.constants.numel_out(0) if block.prepared else 0,
             "noise": len(block.noise),
         },
         "work": {
-            what: max(getattr(f, f"sz_{what}")() for f in functions)
-            for what in ("arg", "res", "iw", "w")
+            what: max(least, *(getattr(f, f"sz_{what}")() for f in functions))
+            for what, least in (("arg", ARGUMENTS), ("res", 0), ("iw", 0), ("w", 0))
         },
     }
 
@@ -236,7 +241,14 @@ def _functions_in_c(block: Block) -> str:
 
 
 def _functions(block: Block) -> tuple[ca.Function, ...]:
-    return (block.step, block.initial, *((block.limits.broken,) if block.limits else ()))
+    constants = (block.prepared.constants,) if block.prepared else ()
+    limits = (block.limits.broken,) if block.limits else ()
+    return (_step(block), block.initial, *constants, *limits)
+
+
+def _step(block: Block) -> ca.Function:
+    """The step as a unit has it, which computes its constants once for many samples."""
+    return block.prepared.step if block.prepared else block.step
 
 
 def _token(contents: Iterable[str]) -> str:

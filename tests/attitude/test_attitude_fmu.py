@@ -90,6 +90,26 @@ def test_start_values_are_fixed_and_there_is_no_seed(path):
         assert "bias0[1] cannot be set while stepping" in unit.messages[-1][1]
 
 
+def test_a_parameter_counts_from_the_sample_after_which_it_changes(path):
+    """That of a restored state, too: what a unit computes of parameters once is computed anew."""
+    u, half, block = rows(eventful_recording(600)), 300, attitude_ukf(part())
+    changed, p = {"latitude": 0.8, "motion_time": 0.5}, block.start.copy()
+    names = [v.name for v in block.parameters]
+    p[[names.index(name) for name in changed]] = list(changed.values())
+    _, state = block.run(u[:half])
+    as_before, after = (block.run(u[half:], state=state, p=q)[0] for q in (block.start, p))
+    assert not np.array_equal(as_before, after)
+    with Unit(path).start() as unit:
+        unit.run(u[:half], period=H)
+        saved = unit.save()
+        for name, value in changed.items():
+            unit.set(name, value)
+        np.testing.assert_array_equal(unit.run(u[half:], first=half, period=H), after)
+        unit.restore(saved)
+        np.testing.assert_array_equal(unit.run(u[half:], first=half, period=H), as_before)
+        unit.release(saved)
+
+
 @pytest.mark.parametrize("value", (np.nan, np.inf, -np.inf))
 def test_a_parameter_that_is_not_finite_is_refused_by_fmu_and_python(path, value):
     for name in ("latitude", "gravity", "gyro_error.rate_random_walk.K[2]"):

@@ -254,7 +254,7 @@ def test_library_is_found_by_another_process(cache):
     assert done.stdout.strip() == f"{want!r} True"
 
 
-def test_another_step_other_flags_or_other_noise_are_another_library(monkeypatch, tmp_path):
+def test_another_step_flags_noise_or_processor_are_another_library(monkeypatch, tmp_path):
     source, compiler = native._source(toy().step), ("cc",)
     keys = [native._key(source, compiler), native._key(source + " ", compiler)]
     monkeypatch.setattr(native, "FLAGS", (*native.FLAGS, "-g"))
@@ -263,7 +263,20 @@ def test_another_step_other_flags_or_other_noise_are_another_library(monkeypatch
         (tmp_path / name).write_text("int other;")
     monkeypatch.setattr(native, "source_folder", lambda: tmp_path)
     keys.append(native._key(source, compiler))
-    assert len(set(keys)) == 4
+    monkeypatch.setattr(native, "_processor", lambda compiler: "another")
+    keys.append(native._key(source, compiler))
+    assert len(set(keys)) == 5
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a compiler in two lines of shell")
+def test_a_compiler_that_knows_no_processor_compiles_without(monkeypatch, tmp_path):
+    """One that refuses ``-march=native`` is asked for what all machines of the kind have."""
+    compiler = tmp_path / "picky"
+    compiler.write_text('#!/bin/sh\ncase "$*" in *native*) exit 1;; esac\nexec cc "$@"\n')
+    compiler.chmod(0o755)
+    assert native.flags([str(compiler)]) == [*native.FLAGS]
+    monkeypatch.setenv("CC", str(compiler))
+    assert native.compiled(toy().step, 10) is not None
 
 
 @pytest.mark.parametrize(

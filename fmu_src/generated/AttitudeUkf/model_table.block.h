@@ -7,8 +7,9 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{d31594be-ae41-028d-4a62-19ccd2603af4}"
-#define MODEL_TOKEN_FMI3 "{04e754c0-0b1a-369a-d186-8bd4554fbfce}"
+#define MODEL_TOKEN_FMI2 "{fa27c878-d92e-49d9-4c00-b71656425be2}"
+#define MODEL_TOKEN_FMI3 "{3b933f1f-fea5-3642-9875-5c6b024fd442}"
+#define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -17,12 +18,13 @@ enum {
     N_PARAMETERS = 59,
     N_OUTPUTS = 21,
     N_STATES = 302,
+    N_CONSTANTS = 95,
     N_NOISE = 0,
     N_VARIABLES = 74
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 44, WORK_RES = 28, WORK_IW = 0, WORK_W = 2463 };
+enum { WORK_ARG = 45, WORK_RES = 28, WORK_IW = 0, WORK_W = 2558 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };

@@ -7,8 +7,9 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{bc8a191f-e5f4-be4f-9c33-72ffff0c6a65}"
-#define MODEL_TOKEN_FMI3 "{fc968225-aac4-da90-4ac7-99806924065e}"
+#define MODEL_TOKEN_FMI2 "{84ee374c-ec63-0a20-0087-b946930f445e}"
+#define MODEL_TOKEN_FMI3 "{313b18a7-5da5-50e3-7837-b22254342c01}"
+#define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -17,12 +18,13 @@ enum {
     N_PARAMETERS = 59,
     N_OUTPUTS = 21,
     N_STATES = 302,
+    N_CONSTANTS = 95,
     N_NOISE = 0,
     N_VARIABLES = 100
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 44, WORK_RES = 28, WORK_IW = 0, WORK_W = 2463 };
+enum { WORK_ARG = 45, WORK_RES = 28, WORK_IW = 0, WORK_W = 2558 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "HeadingEstimator"
-#define MODEL_TOKEN_FMI2 "{ce1baffb-90f3-b40d-1ff4-992f77cd6ae8}"
-#define MODEL_TOKEN_FMI3 "{40c967b2-6e13-849f-887d-c0c0273f551a}"
+#define MODEL_TOKEN_FMI2 "{9b45b80f-01ec-998f-f880-ce7ee81af092}"
+#define MODEL_TOKEN_FMI3 "{bd54f79e-90c3-db24-8f2f-982dc52552c2}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -17,12 +17,13 @@ enum {
     N_PARAMETERS = 18,
     N_OUTPUTS = 10,
     N_STATES = 51,
+    N_CONSTANTS = 0,
     N_NOISE = 0,
     N_VARIABLES = 38
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 5, WORK_RES = 2, WORK_IW = 0, WORK_W = 92 };
+enum { WORK_ARG = 6, WORK_RES = 2, WORK_IW = 0, WORK_W = 92 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };

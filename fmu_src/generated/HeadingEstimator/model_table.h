@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "HeadingEstimator"
-#define MODEL_TOKEN_FMI2 "{a655432c-b55b-d3fe-8466-0b9c59c329f3}"
-#define MODEL_TOKEN_FMI3 "{06cae619-9842-347b-bc13-0ec43370dcb3}"
+#define MODEL_TOKEN_FMI2 "{772e4476-364a-331c-3fc9-1bc7720d9b62}"
+#define MODEL_TOKEN_FMI3 "{d40d83bd-d559-9185-7158-b97cc8e2d1a6}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -17,12 +17,13 @@ enum {
     N_PARAMETERS = 18,
     N_OUTPUTS = 10,
     N_STATES = 51,
+    N_CONSTANTS = 0,
     N_NOISE = 0,
     N_VARIABLES = 39
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 5, WORK_RES = 2, WORK_IW = 0, WORK_W = 92 };
+enum { WORK_ARG = 6, WORK_RES = 2, WORK_IW = 0, WORK_W = 92 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };

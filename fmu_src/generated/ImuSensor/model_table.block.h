@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "ImuSensor"
-#define MODEL_TOKEN_FMI2 "{25e5070b-f232-4265-dd0c-33496f474350}"
-#define MODEL_TOKEN_FMI3 "{bfaf84b1-c787-1c2f-2647-c64630555d39}"
+#define MODEL_TOKEN_FMI2 "{ba1ff745-8c0c-3662-c77a-5d4bb935bba0}"
+#define MODEL_TOKEN_FMI3 "{4df72697-14e7-c56d-eb20-7d5bfc0cb498}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -17,12 +17,13 @@ enum {
     N_PARAMETERS = 10,
     N_OUTPUTS = 7,
     N_STATES = 3,
+    N_CONSTANTS = 0,
     N_NOISE = 6,
     N_VARIABLES = 14
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 5, WORK_RES = 2, WORK_IW = 0, WORK_W = 9 };
+enum { WORK_ARG = 6, WORK_RES = 2, WORK_IW = 0, WORK_W = 9 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "ImuSensor"
-#define MODEL_TOKEN_FMI2 "{6b521918-ba73-155a-878c-d6868b802ea9}"
-#define MODEL_TOKEN_FMI3 "{02914ee6-4afb-d188-4da5-f20f7fc0be83}"
+#define MODEL_TOKEN_FMI2 "{0f3448c1-700d-2a9d-34b6-e74bbb0f168a}"
+#define MODEL_TOKEN_FMI3 "{843c1646-e465-e6e4-7255-cdb767c1149a}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -17,12 +17,13 @@ enum {
     N_PARAMETERS = 10,
     N_OUTPUTS = 7,
     N_STATES = 3,
+    N_CONSTANTS = 0,
     N_NOISE = 6,
     N_VARIABLES = 27
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 5, WORK_RES = 2, WORK_IW = 0, WORK_W = 9 };
+enum { WORK_ARG = 6, WORK_RES = 2, WORK_IW = 0, WORK_W = 9 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };

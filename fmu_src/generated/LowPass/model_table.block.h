@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "LowPass"
-#define MODEL_TOKEN_FMI2 "{ed241b20-b782-5403-0ddf-0d350f44f901}"
-#define MODEL_TOKEN_FMI3 "{63e58dbd-100b-0d4b-30c6-1ecdd67b7c6a}"
+#define MODEL_TOKEN_FMI2 "{55a9f041-a375-6114-f104-afbe87d6fba1}"
+#define MODEL_TOKEN_FMI3 "{5b67b97a-97da-683c-1920-f3723afade54}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -18,12 +18,13 @@ enum {
     N_PARAMETERS = 1,
     N_OUTPUTS = 6,
     N_STATES = 30,
+    N_CONSTANTS = 0,
     N_NOISE = 0,
     N_VARIABLES = 8
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 5, WORK_RES = 2, WORK_IW = 0, WORK_W = 41 };
+enum { WORK_ARG = 6, WORK_RES = 2, WORK_IW = 0, WORK_W = 41 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "LowPass"
-#define MODEL_TOKEN_FMI2 "{8f8c923d-9694-745d-cefa-fe27a0d52cd6}"
-#define MODEL_TOKEN_FMI3 "{d4e6abf4-d35e-9aaf-7a54-0ef81abf5fb4}"
+#define MODEL_TOKEN_FMI2 "{f0403640-4944-222d-acf7-46b3bec1c745}"
+#define MODEL_TOKEN_FMI3 "{afba44c9-d94c-e92a-d6b8-0f2f70627b23}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -18,12 +18,13 @@ enum {
     N_PARAMETERS = 1,
     N_OUTPUTS = 6,
     N_STATES = 30,
+    N_CONSTANTS = 0,
     N_NOISE = 0,
     N_VARIABLES = 15
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 5, WORK_RES = 2, WORK_IW = 0, WORK_W = 41 };
+enum { WORK_ARG = 6, WORK_RES = 2, WORK_IW = 0, WORK_W = 41 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };

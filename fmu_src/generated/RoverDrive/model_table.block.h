@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "RoverDrive"
-#define MODEL_TOKEN_FMI2 "{da24be98-8adc-baaf-2041-fb54b026684b}"
-#define MODEL_TOKEN_FMI3 "{561f0c06-a264-912d-436f-6c2841de138d}"
+#define MODEL_TOKEN_FMI2 "{7063e0eb-9bd3-41be-45ae-8f05d1c07562}"
+#define MODEL_TOKEN_FMI3 "{efb6bb1d-e76b-8e3f-d55b-bfbd5de18ec6}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -18,12 +18,13 @@ enum {
     N_PARAMETERS = 56,
     N_OUTPUTS = 27,
     N_STATES = 45,
+    N_CONSTANTS = 0,
     N_NOISE = 0,
     N_VARIABLES = 57
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 5, WORK_RES = 2, WORK_IW = 0, WORK_W = 629 };
+enum { WORK_ARG = 6, WORK_RES = 2, WORK_IW = 0, WORK_W = 629 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };

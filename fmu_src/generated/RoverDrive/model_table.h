@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "RoverDrive"
-#define MODEL_TOKEN_FMI2 "{61a38d7a-2b84-3eab-51ba-b954d2c5ce29}"
-#define MODEL_TOKEN_FMI3 "{4f185ea0-95ab-7f16-0ec0-3cac448c54d4}"
+#define MODEL_TOKEN_FMI2 "{544a8747-5020-49ba-ddf8-cf60a87204e2}"
+#define MODEL_TOKEN_FMI3 "{3e0c6bf0-cd5a-0838-abde-1e29e36f6ebb}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -18,12 +18,13 @@ enum {
     N_PARAMETERS = 56,
     N_OUTPUTS = 27,
     N_STATES = 45,
+    N_CONSTANTS = 0,
     N_NOISE = 0,
     N_VARIABLES = 87
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 5, WORK_RES = 2, WORK_IW = 0, WORK_W = 629 };
+enum { WORK_ARG = 6, WORK_RES = 2, WORK_IW = 0, WORK_W = 629 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{b61f0ba4-aea1-ac82-b4bd-551ad9a0f0b3}"
-#define MODEL_TOKEN_FMI3 "{71a73cee-0b49-5b6e-51c7-4fd9b03ccc82}"
+#define MODEL_TOKEN_FMI2 "{0253e4d2-ed38-93c5-fc11-4b408ec5ac43}"
+#define MODEL_TOKEN_FMI3 "{53ec0e36-3c4c-d375-5155-7eac8d83cf99}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -17,6 +17,7 @@ enum {
     N_PARAMETERS = 41,
     N_OUTPUTS = 43,
     N_STATES = 271,
+    N_CONSTANTS = 0,
     N_NOISE = 0,
     N_VARIABLES = 65
 };

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{0d8ff828-fe03-2cf2-137c-1480b0ce18f7}"
-#define MODEL_TOKEN_FMI3 "{1c144392-1dc6-729d-b7d2-14ebcf27ff47}"
+#define MODEL_TOKEN_FMI2 "{4da6fd17-2ecd-6f5f-0263-ae4bbefa0123}"
+#define MODEL_TOKEN_FMI3 "{5df82946-e556-dfad-6839-2273424a5f7d}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -17,6 +17,7 @@ enum {
     N_PARAMETERS = 41,
     N_OUTPUTS = 43,
     N_STATES = 271,
+    N_CONSTANTS = 0,
     N_NOISE = 0,
     N_VARIABLES = 107
 };

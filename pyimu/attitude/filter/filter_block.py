@@ -12,6 +12,7 @@ from pyimu.attitude.filter.memory import ESTIMATE, start
 from pyimu.attitude.filter.updates import outputs
 from pyimu.attitude.filter.variables import OUTPUTS
 from pyimu.block.block import Block
+from pyimu.block.prepared import Prepared
 from pyimu.block.variables import Variable
 from pyimu.model.part import Part
 
@@ -20,7 +21,7 @@ def filter_block(
     name: str,
     title: str,
     layout: Layout,
-    step: ca.Function,
+    step: ca.Function | Prepared,
     names: tuple[Variable, ...] = OUTPUTS,
 ) -> Block:
     """The block ``name`` of a filter with this ``step``; ``title`` begins its description.
@@ -37,7 +38,8 @@ def filter_block(
     return Block(
         name=name,
         description=f"{title} of the part {part.name}{left_in_words(part)}",
-        step=step,
+        step=step.whole if isinstance(step, Prepared) else step,
+        prepared=step if isinstance(step, Prepared) else None,
         initial=initial,
         inputs=layout.inputs,
         parameters=layout.parameters,
@@ -65,12 +67,13 @@ def inputs_of_the_sample(layout: Layout, symbols: list[ca.MX]) -> ca.MX:
 
 
 def step_function(
-    layout: Layout, symbols: list[ca.MX], estimate, memory, yaw, field, y
+    layout: Layout, symbols: list[ca.MX], estimate, memory, yaw, field, y, c: ca.MX | None = None
 ) -> ca.Function:
     """The step ``(s, u, p, w, h) -> (s_next, y)`` of the block, without noise.
 
     ``symbols`` are s, u, p and h. ``estimate``, ``memory`` and ``field`` are the columns after the
-    sample; its ``yaw`` and its variance about the vertical take their slot in the rings.
+    sample; its ``yaw`` and its variance about the vertical take their slot in the rings. Where they
+    depend on constants ``c``, these are a last argument.
     """
     s, u, p, h = symbols
     if layout.compensation.shows_now:
@@ -80,8 +83,8 @@ def step_function(
     rings.nz[slot + ca.DM([0, late_heading.SLOTS])] = ca.vertcat(yaw, vertical_noise)
     return ca.Function(
         "step",
-        [s, u, p, ca.MX(0, 1), h],
+        [s, u, p, ca.MX.sym("w", 0, 1), h, *([] if c is None else [c])],
         [ca.vertcat(estimate, memory, rings, field), y],
-        ["s", "u", "p", "w", "h"],
+        ["s", "u", "p", "w", "h", *([] if c is None else ["c"])],
         ["s_next", "y"],
     )

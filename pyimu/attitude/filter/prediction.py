@@ -33,6 +33,7 @@ from pyimu.attitude.filter.stillness import (
     calmer,
     is_rest,
     is_still,
+    passes,
     share_of_noise,
     sway,
     turns,
@@ -53,6 +54,9 @@ STATIONARY, HEADING_VALID, SPEED, SPEED_VARIANCE, SPEED_VALID = (
     for name in ("stationary", "heading_valid", "speed", "speed_variance", "speed_valid")
 )
 
+ASKED = [STATIONARY, HEADING_VALID, SPEED_VALID]
+"""Inputs beyond 0.5 of which there is more to do than with samples of the sensors."""
+
 DRIVES = 0.2
 """m/s; a body of which speeds say more is not at rest, however even its drive. One whose velocity
 is not known to that may drive."""
@@ -72,7 +76,8 @@ class Instant:
     """What there is when a sample comes.
 
     The ``estimate`` as a column, the memory, the settings, the inputs ``u``, and the period ``h``
-    in s by the gyro's clock as the part knows it.
+    in s by the gyro's clock as the part knows it. ``sleeps`` says whether the body may be at rest;
+    where it cannot, that is known beforehand and costs nothing in the generated code.
     """
 
     estimate: ca.SX
@@ -80,6 +85,7 @@ class Instant:
     settings: Settings
     u: ca.SX
     h: ca.SX
+    sleeps: bool = True
 
     @classmethod
     def of(cls, layout: Layout, symbols: list[ca.SX]) -> Instant:
@@ -91,6 +97,13 @@ class Instant:
         clock = clock_error(compensation.part.gyro, settings.gyro_p)
         return cls(estimate, kept, settings, u, h * (1 + clock))
 
+    def awake(self) -> Instant:
+        """The same where ``is_awake`` holds, with the numbers that are then known."""
+        u = ca.SX(self.u)
+        u[ASKED] = 0
+        still = replace(self.memory.stillness, rests=ca.SX(0))
+        return replace(self, u=u, memory=replace(self.memory, stillness=still), sleeps=False)
+
     @property
     def stationary(self):
         """Whether the body is called stationary, 0 or 1."""
@@ -101,6 +114,19 @@ class Instant:
         """The Earth's rate (3,) in body axes, rad/s."""
         world_to_body = quaternion.conjugate(self.memory.estimate.q)
         return quaternion.rotate(world_to_body, self.settings.earth)
+
+
+def is_awake(at: Instant):
+    """Whether the body is in no rest, and cannot be found in one with this sample; whether there
+    is nothing beside samples of the sensors.
+
+    That is so of nearly every sample of a body in motion.
+    """
+    before = at.memory.stillness
+    soon = before.span + 2 * at.h >= at.settings.scalar["rest_time"]
+    # What is asked for may be NaN, which asks for nothing.
+    asked = sum(at.u[i] > 0.5 for i in ASKED)
+    return (soon + passes(before.span, before.span + at.h) + ca.fabs(before.rests) + asked) <= 0
 
 
 @dataclass(frozen=True)
@@ -152,7 +178,9 @@ def rest_of(at: Instant, sample: Sample) -> Rest:
     variance = ca.diag(x.covariance)[3:6]
     still = still_followed(before, sample.rate, sample.force, alike, at.h)
     known = ca.vertcat(x.bias, variance)
-    safe, later = still_kept(before, still, at.memory.safe, at.memory.later, known)
+    safe, later = at.memory.safe, at.memory.later
+    if at.sleeps:
+        safe, later = still_kept(before, still, safe, later, known)
     wanted = scalar["rest_time"] > 0
     rests = wanted * (before.rests > 0) * (1 - at.stationary)
     resting = alike * rests
@@ -193,6 +221,8 @@ def _decided(at: Instant, x: Estimate, rest: Rest) -> Stillness:
 
     A turn that has begun so slowly that each sample is like those before shows in their mean.
     """
+    if not at.sleeps:
+        return rest.still
     still, span = rest.still, ca.fmin(rest.still.span, 2 * SLOW)
     rate, noise = still.slow - x.bias - at.earth, ca.fmax(still.density, _density(at.settings))
     up, known, scalar = vertical(x), x.covariance[3:6, 3:6], at.settings.scalar
@@ -319,8 +349,8 @@ def _flags(
         heading=heading,
         stationary=stationary,
         resting=rest.resting,
-        doubt=rest.doubt,
-        sway=sway(rest.still, _density(at.settings)) * reciprocal(at.h),
+        doubt=rest.resting * rest.doubt,
+        sway=rest.resting * sway(rest.still, _density(at.settings)) * reciprocal(at.h),
         missing=sample.missing,
         faults=2 * sample.at_limit + 4 * sample.stuck + 512 * uncalibrated,
         speed=ca.SX(0),

@@ -152,8 +152,15 @@ def kept(before: Stillness, after: Stillness, safe, later, now) -> tuple:
     The last samples before one that shows a motion may be of that motion: ``safe`` was known before
     them. ``later`` takes its place in time, and ``now`` that one's.
     """
-    passes = ca.floor(after.span * (1 / FAST)) > ca.floor(before.span * (1 / FAST))
-    return ca.if_else(passes, later, safe), ca.if_else(passes, now, later)
+    due = passes(before.span, after.span)
+    return ca.if_else(due, later, safe), ca.if_else(due, now, later)
+
+
+def passes(before, after):
+    """Whether a span of ``before`` s that has become ``after`` s has passed a multiple of ``FAST``,
+    0 or 1.
+    """
+    return ca.floor(after * (1 / FAST)) > ca.floor(before * (1 / FAST))
 
 
 def is_rest(rate, covariance, up, noise, span):

@@ -32,7 +32,14 @@ from pyimu.attitude.filter.gravity_update import INNOVATION_GATE, by_velocity, c
 from pyimu.attitude.filter.layout import GRAVITY, Flags, GravityMeasurement, Layout
 from pyimu.attitude.filter.memory import ESTIMATE, WORKING, Memory
 from pyimu.attitude.filter.passed import PASSED, Transition, passed
-from pyimu.attitude.filter.prediction import ARGUMENTS, Instant, added_noise, predicted, rest_of
+from pyimu.attitude.filter.prediction import (
+    ARGUMENTS,
+    Instant,
+    added_noise,
+    is_awake,
+    predicted,
+    rest_of,
+)
 from pyimu.attitude.filter.sample import Sample, look_closely, read
 from pyimu.attitude.filter.updates import (
     after_gravity,
@@ -42,6 +49,7 @@ from pyimu.attitude.filter.updates import (
     where,
 )
 from pyimu.block.block import Block
+from pyimu.block.prepared import Prepared, taken_apart
 from pyimu.model.effect import Effect
 from pyimu.model.part import Part
 from pyimu.symbolic import quaternion
@@ -88,40 +96,49 @@ def _recorded(part: Part, *effects: tuple[Effect, ...]) -> Block:
     return filter_block("AttitudeRecorded", title, layout, step, PASSED)
 
 
-def _step(layout: Layout, recorded: bool = False) -> ca.Function:
+def _step(layout: Layout, recorded: bool = False) -> Prepared:
     """The step of the filter; its outputs are those of the unit, or all that a smoother needs."""
     s, _, p, h = symbols = layout.symbols(ca.MX, "s u p h")
-    u = inputs_of_the_sample(layout, symbols)
-    x, memory, rate, gravity, flags, *transition = _predict(layout, recorded)(
-        s[:ESTIMATE], s[ESTIMATE : layout.rings], u, p, h
+    constants, predict = _predict(layout, recorded)
+    u, c = inputs_of_the_sample(layout, symbols), ca.MX.sym("c", constants.numel_out(0))
+    x, memory, rate, gravity, flags, *transition = predict(
+        s[:ESTIMATE], s[ESTIMATE : layout.rings], u, c
     )
     estimate, yaw, y, field = _updates(layout)(flags[0], x, s, u, p, h, rate, gravity, flags)
     if recorded:
         y = passed(y, estimate, x, transition[0], Flags.unpack(flags))
-    return step_function(layout, symbols, estimate, memory, yaw, field, y)
+    step = step_function(layout, symbols, estimate, memory, yaw, field, y, c)
+    return Prepared(constants, step)
 
 
 # Prediction
 
 
-def _predict(layout: Layout, recorded: bool = False) -> ca.Function:
-    """``estimate, memory, u, p, h -> x, memory, rate, gravity, flags``, as ``predicted`` has them.
+def _predict(layout: Layout, recorded: bool = False) -> tuple[ca.Function, ca.Function]:
+    """``p, h -> c`` and ``estimate, memory, u, c -> x, memory, rate, gravity, flags``, as
+    ``predicted`` has them.
 
     Where it is ``recorded``, the transition of the error follows.
 
-    An ordinary sample is taken as it was read; any other is looked at number by number.
+    An ordinary sample is taken as it was read; any other is looked at number by number. Of an
+    ordinary one of a body that is awake most questions of rest need not be asked.
     """
     symbols = layout.symbols(ca.SX, ARGUMENTS)
     at = Instant.of(layout, symbols)
     given = (layout.compensation, at.memory, at.u, at.settings, at.h)
     sample, is_ordinary = read(*given)
     # What this reads is read again by the row: handed over, a processor would wait for it.
-    whether = ca.Function("is_ordinary", symbols, [is_ordinary], OPTIONS)
-    rows = {"ordinary_row": sample, "other_row": look_closely(*given)}
-    row = ca.Function.if_else("row", *(_row(n, at, s, symbols, recorded) for n, s in rows.items()))
-    given = layout.symbols(ca.MX, ARGUMENTS)
-    outputs = row(whether(*given), *given)
-    return ca.Function("predict", given, list(outputs), {"always_inline": True})
+    which = ca.Function("which_row", symbols, [is_ordinary * (1 + is_awake(at))], OPTIONS)
+    rows = [
+        _row("other_row", at, look_closely(*given), symbols, recorded),
+        _row("ordinary_row", at, sample, symbols, recorded),
+        _row("awake_row", at.awake(), sample, symbols, recorded),
+    ]
+    constants, (which, *rows) = taken_apart([which, *rows], [3, 4])
+    row = ca.Function.conditional("row", rows[:2], rows[2])
+    given = [*layout.symbols(ca.MX, "estimate memory u"), ca.MX.sym("c", constants.numel_out(0))]
+    outputs = row(which(*given), *given)
+    return constants, ca.Function("predict", given, list(outputs), {"always_inline": True})
 
 
 def _row(

@@ -10,6 +10,9 @@
 {% for version, token in tokens.items() %}
 #define MODEL_TOKEN_FMI{{ version }} "{{ token }}"
 {% endfor %}
+{% if constants %}
+#define MODEL_CONSTANTS
+{% endif %}
 {% if limits %}
 #define MODEL_LIMITS
 {% endif %}
@@ -21,6 +24,7 @@ enum {
     N_PARAMETERS = {{ sizes.parameters }},
     N_OUTPUTS = {{ sizes.outputs }},
     N_STATES = {{ sizes.states }},
+    N_CONSTANTS = {{ sizes.constants }},
     N_NOISE = {{ sizes.noise }},
     N_VARIABLES = {{ variables | length }}
 };

@@ -20,6 +20,12 @@ int model_step(const double **arg, double **res, long long *iw, double *w) {
 int model_initial(const double **arg, double **res, long long *iw, double *w) {
     return {{ initial }}(arg, res, iw, w, 0);
 }
+{% if constants %}
+
+int model_constants(const double **arg, double **res, long long *iw, double *w) {
+    return {{ constants.name() }}(arg, res, iw, w, 0);
+}
+{% endif %}
 {% if limits %}
 
 int model_limits(const double **arg, double **res, long long *iw, double *w) {
