@@ -151,7 +151,7 @@ def test_two_logs_together_and_a_third_to_judge_by(world):
 
 
 def test_clean_logs_are_blamed_no_more_often_than_the_gate_allows():
-    count, blamed = 30, []
+    count, blamed = 12, []
     for seed in range(count):
         closed = pyimu.close(
             recording(drive(minutes=2, rate_hz=25, seed=1000 + seed), seed=2000 + seed)
