@@ -72,12 +72,12 @@ class Stack:
         return self.after(np.zeros((self.count, 0)), 0, self.count)
 
     def after(self, first: np.ndarray, start: int, stop: int) -> np.ndarray:
-        """Rows ``start`` to ``stop``, behind columns ``first`` of these rows."""
-        out = np.empty((stop - start, first.shape[1] + len(self.arrays)))
-        out[:, : first.shape[1]] = first
+        """Rows ``start`` to ``stop``, behind columns ``first`` of these rows, column by column."""
+        out = np.empty((first.shape[1] + len(self.arrays), stop - start))
+        out[: first.shape[1]] = first.T
         for at, values in enumerate(self.arrays, first.shape[1]):
-            out[:, at] = values[start:stop]
-        return out
+            out[at] = values[start:stop]
+        return out.T
 
 
 @dataclass(frozen=True)
