@@ -359,10 +359,13 @@ def _lower(
     ``left``; None where that is none of eight.
     """
     last, changes = start.last, start.last.changes
-    for share in (change / 2**k for k in range(8)):
+    for share in (change, *(change / 2**k for k in range(1, 8))):
         moved = stepped(start, normal.keys, share)
         if last.near:
             last.changes = [_carried(one, normal.keys, share) for one in changes]
+        if share is change:
+            # Mostly it is taken, and linearised next: that has the residual, too.
+            moved.linearise()
         if left(moved) + prior_power(moved) < normal.power:
             return moved
     last.changes = changes
