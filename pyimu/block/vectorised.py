@@ -72,42 +72,76 @@ it.
 
 
 def over_rows(
-    function: ca.Function,
-    columns: Sequence[np.ndarray],
-    fixed: np.ndarray,
-    wanted: np.ndarray | None = None,
+    function: ca.Function, columns: Sequence[np.ndarray], fixed: np.ndarray
 ) -> np.ndarray:
     """Values (n, m) of an SX function ``(row, fixed) -> dense (m,)`` for n rows, whose entries are
-    the k ``columns`` (n,); each column of the answer is contiguous. Those that are not ``wanted``
-    (m,) are zero.
+    the k ``columns`` (n,); each column of the answer is contiguous.
 
     Inputs are finite, so that what is multiplied by zero is zero. Raises NotImplementedError for an
     operation that has no numpy twin in the tables above.
     """
+    return split_over_rows(function, columns, fixed, function.numel_out(0))[0]
+
+
+def split_over_rows(
+    function: ca.Function,
+    columns: Sequence[np.ndarray],
+    fixed: np.ndarray,
+    first: int,
+    wanted: np.ndarray | None = None,
+    precision: type[np.floating] = np.float64,
+) -> tuple[np.ndarray, list[np.ndarray]]:
+    """The ``first`` of the values that ``over_rows`` gives, (n, first), and the others, m - first
+    columns (n,) in a ``precision``; those that are not ``wanted`` (m,) are zero.
+
+    Of the others those that are one, or the same in all rows, share their memory, and are not to be
+    written to.
+    """
     rows, m = len(columns[0]), function.numel_out(0)
-    out = np.zeros((m, rows))
     few = range(m) if wanted is None else np.flatnonzero(wanted).tolist()
+    whole, others = np.zeros((first, rows)), [_same(0.0, rows, precision)] * m
     with np.errstate(all="ignore"):
         known = _known(columns, program(function).entries(0)) if rows > BLOCK else {}
         of_row = np.asarray(fixed, dtype=float).tobytes()
         steps, given = _plan(function, tuple(few), of_row, tuple(known), tuple(known.values()))
+        varies = [(to, v) for to, v in given if isinstance(v, int)]
+        own = {v: np.empty(rows, precision) for to, v in varies if to >= first}
         for to, value in given:
-            if isinstance(value, float):
-                out[to] = value
-        for a in range(0, rows, BLOCK):
-            b = min(a + BLOCK, rows)
-            work: dict[int, np.ndarray] = {}
-            for number, twin, of, dead in steps:
-                if twin is None:
-                    work[number] = columns[of[0]][a:b]
-                else:
-                    work[number] = twin(*[work[i] if isinstance(i, int) else i for i in of])
-                for i in dead:
-                    del work[i]
-            for to, value in given:
-                if isinstance(value, int):
-                    out[to, a:b] = work[value]
-    return out.T
+            if isinstance(value, int):
+                others[to] = own.get(value, others[to])
+            elif to < first:
+                whole[to] = value
+            else:
+                others[to] = _same(value, rows, precision)
+        into = [(whole[to], v) for to, v in varies if to < first]
+        _run(steps, columns, [*into, *((array, v) for v, array in own.items())])
+    return whole.T, others[first:]
+
+
+def _same(value: float, rows: int, precision: type[np.floating]) -> np.ndarray:
+    """A column (rows,) of one value."""
+    return np.broadcast_to(precision(value), rows)
+
+
+def _run(
+    steps: Sequence[tuple], columns: Sequence[np.ndarray], into: Sequence[tuple[np.ndarray, int]]
+) -> None:
+    """Take the steps over all rows, block after block, and put what they give into arrays (n,),
+    each with the number of its value.
+    """
+    rows = len(columns[0])
+    for a in range(0, rows, BLOCK):
+        b = min(a + BLOCK, rows)
+        work: dict[int, np.ndarray] = {}
+        for number, twin, of, dead in steps:
+            if twin is None:
+                work[number] = columns[of[0]][a:b]
+            else:
+                work[number] = twin(*[work[i] if isinstance(i, int) else i for i in of])
+            for i in dead:
+                del work[i]
+        for array, number in into:
+            array[a:b] = work[number]
 
 
 def _known(columns: Sequence[np.ndarray], read: Sequence[int]) -> dict[int, float]:

@@ -136,7 +136,7 @@ class Regressors:
         self.items: list[tuple[Key, int, np.ndarray]] = []
 
     def add(self, key: Key, axis: int, values: np.ndarray) -> None:
-        if axis in self.trial.axes and np.any(values):
+        if axis in self.trial.axes and _is_any(values):
             self.items.append((key, axis, values.astype(self.precision, copy=False)))
 
     def filtered(self) -> tuple[dict[int, list[Key]], dict[int, Stack]]:
@@ -151,6 +151,11 @@ class Regressors:
             return Stack(count, tuple(trial.band.apply(v, trial.row_segments) for v in arrays))
         stacked = np.array(arrays).reshape(len(arrays), len(trial.time))
         return Stack(count, tuple(in_band(trial, stacked.T).T))
+
+
+def _is_any(values: np.ndarray) -> bool:
+    """Whether any of values (n,) is not zero: one in the middle mostly says so."""
+    return bool(values[len(values) // 2 :][:1].any() or values.any())
 
 
 def linearise(
@@ -173,13 +178,13 @@ def linearise(
     response = memoryless(rest.chain)
     keys = [_keys_of(s, trial, sensor.kind, wanted) for s in rest.slots]
     some = np.array([bool(k) for k in keys], dtype=bool)
-    y, slope, entries = response(moved, rest.p, trial.h, some[response.slot])
+    out = Regressors(trial, bool(extra))
+    y, slope, entries = response(moved, rest.p, trial.h, some[response.slot], out.precision)
     if remembers(sensor):
         y = predict(sensor, u, trial.segments, trial.h)
-    out = Regressors(trial, bool(extra))
-    for e, (axis, slot) in enumerate(zip(response.axis, response.slot, strict=True)):
+    for axis, slot, values in zip(response.axis, response.slot, entries, strict=True):
         for key in keys[slot]:
-            out.add(key, int(axis), entries[:, e])
+            out.add(key, int(axis), values)
     _turn_columns(out, trial, np.array(moved[own]).T, slope)
     _clock_columns(out, sensor, trial, state, u, slope)
     _thermometer_columns(out, rest, trial, moved)
@@ -318,7 +323,8 @@ def _motion_columns(
         if coefficient_of(s) not in wanted or not len(of_slot):
             continue
         change = np.zeros((len(u), 3))
-        change[:, response.axis[of_slot]] = entries[:, of_slot]
+        for e in of_slot:
+            change[:, response.axis[e]] = entries[e]
         change = np.einsum(
             "nij,nj->ni", slope, through_dynamics(sensor, change, trial.segments, trial.h)
         )
