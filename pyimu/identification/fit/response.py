@@ -249,7 +249,7 @@ def predict(
 def predict_each(
     sensor: Sensor, u: np.ndarray, h: float, slot: int, values: np.ndarray
 ) -> np.ndarray:
-    """Answers (n, k, 3) of a sensor that remembers nothing and has no dynamics to inputs (n,
+    """Answers (3, n, k) of a sensor that remembers nothing and has no dynamics to inputs (n,
     N_INPUT), for each of ``values`` (k,) of its coefficient number ``slot``.
     """
     n, k = len(u), len(values)
@@ -257,7 +257,7 @@ def predict_each(
     read = set(program(function).entries(0))
     inputs = [np.repeat(c, k) if i in read else unread for i, c in enumerate(np.asarray(u).T)]
     fixed = np.append(sensor.p, h)
-    return over_rows(function, [*inputs, np.tile(values, n)], fixed).reshape(n, k, 3)
+    return over_rows(function, [*inputs, np.tile(values, n)], fixed).T.reshape(3, n, k)
 
 
 @lru_cache(maxsize=32)
