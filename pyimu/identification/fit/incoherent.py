@@ -12,6 +12,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.fft import rfft
 from scipy.signal import freqz
 from scipy.signal.windows import hann
 from scipy.stats import chi2
@@ -155,7 +156,7 @@ def unseen_spectra(trial: Trial, one: Linear, own: Mapping[int, RandomWalk]) -> 
         return {}
     interval = trial.h * trial.band.stride
     z, frequency = _transforms(every, starts, length, interval), np.fft.rfftfreq(length, interval)
-    cross = z.conj() @ z.transpose(0, 2, 1) / len(starts)
+    cross = np.array([v.conj() @ v.T for v in z]) / len(starts)
     known = slice(len(axes), len(axes) + count)
     inverse, averaged = _inverse(cross[:, known, known]), len(starts) / OVERLAP - count
     found = {}
@@ -201,10 +202,15 @@ def _transforms(every: np.ndarray, starts: list[int], length: int, interval: flo
     densities.
     """
     window = hann(length, sym=False)
-    pieces = np.array([every[s : s + length] for s in starts])
-    pieces -= pieces.mean(axis=1, keepdims=True)
-    z = np.fft.rfft(pieces * window[:, None], axis=1).transpose(1, 2, 0)
-    return z * np.sqrt(2 * interval / (window @ window))
+    window *= np.sqrt(2 * interval / (window @ window))
+    z = np.empty((length // 2 + 1, every.shape[1], len(starts)), dtype=complex)
+    # One signal after another: together their frames would be most of what a run has in memory.
+    for k, signal in enumerate(every.T):
+        pieces = np.array([signal[s : s + length] for s in starts])
+        pieces -= pieces.mean(axis=1, keepdims=True)
+        pieces *= window
+        z[:, k] = rfft(pieces, axis=1, overwrite_x=True).T
+    return z
 
 
 def _inverse(matrices: np.ndarray) -> np.ndarray:
