@@ -129,7 +129,9 @@ def simulated(
     out = np.zeros((len(time), 3))
     steps = np.sqrt(np.maximum(np.diff(time, prepend=time[:1]), 0.0))
     for i, n in noise.items():
-        out[:, i] = np.sqrt(n.r) * rng.standard_normal(len(time)) + np.cumsum(
-            np.sqrt(n.k2) * steps * rng.standard_normal(len(time))
-        )
+        # Both are drawn though one may be none: each has its place in the generator's sequence.
+        white, walk = rng.standard_normal(len(time)), rng.standard_normal(len(time))
+        out[:, i] = np.sqrt(n.r) * white
+        if n.k2:
+            out[:, i] += np.cumsum(np.sqrt(n.k2) * steps * walk)
     return out

@@ -10,7 +10,7 @@ most, and estimating the walk again.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from scipy.special import logsumexp
@@ -118,12 +118,18 @@ class Chance:
                 placed.take(best)
         return np.array(out)
 
-    @cached_property
+    @property
     def _single(self) -> float:
         """The same of one value that was named beforehand, beside a noise that is known."""
-        z = np.random.default_rng(self.seed).standard_normal((SINGLE_DRAWS, len(self.axes)))
-        gains = np.maximum(0.5 * z**2 - self.penalty, 0.0)
-        return float(np.quantile(gains.sum(axis=1), 1.0 - CHANCE))
+        return _of_single(len(self.axes), self.penalty, self.seed)
+
+
+@lru_cache(maxsize=8)
+def _of_single(axes: int, penalty: float, seed: int) -> float:
+    """``Chance._single`` on so many axes."""
+    z = np.random.default_rng(seed).standard_normal((SINGLE_DRAWS, axes))
+    gains = np.maximum(0.5 * z**2 - penalty, 0.0)
+    return float(np.quantile(gains.sum(axis=1), 1.0 - CHANCE))
 
 
 def _neighbours(columns: np.ndarray) -> float:

@@ -25,13 +25,9 @@ LEAST_BLOCKS = 20
 class Slow:
     """What a fit leaves, and the forms of effects that are tried on it."""
 
-    def __init__(self, fit: Fit, linears: list[Linear], penalty: float) -> None:
-        self.fit, self.linears, self.penalty = fit, linears, penalty
+    def __init__(self, fit: Fit, linears: list[Linear], chance: Chance) -> None:
+        self.fit, self.chance = fit, chance
         self.blocks = Blocks(fit, linears, MOST_BLOCKS)
-
-    @cached_property
-    def chance(self) -> Chance:
-        return Chance(self.fit, self.linears, self.penalty)
 
     @cached_property
     def axes(self) -> dict[int, list[Walk]]:
@@ -72,7 +68,7 @@ class Slow:
                 Explained(w, beside(self.blocks.white(of_axis, w.noise)[0], w.base), more)
                 for w in walks
             ]
-        return Placed(axes, self.penalty)
+        return Placed(axes, self.chance.penalty)
 
 
 def _one_by_one(placed: Placed, tolls: np.ndarray) -> list[int]:
