@@ -13,14 +13,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.fft import rfft
-from scipy.signal import freqz
-from scipy.signal.windows import hann
-from scipy.stats import chi2
 
+from pyimu.filters import gain, hann
 from pyimu.identification.fit.columns import Linear, in_band
 from pyimu.identification.fit.sample_noise import without_information
 from pyimu.identification.fit.trial import Doubt, Trial
 from pyimu.identification.fit.whiten import RandomWalk
+from pyimu.laws import chi2
 from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.signals import COLUMNS
 
@@ -162,12 +161,12 @@ def unseen_spectra(trial: Trial, one: Linear, own: Mapping[int, RandomWalk]) -> 
     found = {}
     for k, axis in enumerate(axes):
         by, at = cross[:, known, k], trial.axes.index(axis)
-        gain = np.einsum("fij,fj->fi", inverse, by)
-        shown = np.einsum("fi,fi->f", by.conj(), gain).real
+        slope = np.einsum("fij,fj->fi", inverse, by)
+        shown = np.einsum("fi,fi->f", by.conj(), slope).real
         left = np.maximum(cross[:, k, k].real - shown, 0.0) * (1.0 + count / averaged)
         mine = _own(trial, own[axis], frequency)
         # The sensor's own noise is in its signal as well: that share of it is not left.
-        share = np.clip(gain[:, at].real, 0.0, 1.0)
+        share = np.clip(slope[:, at].real, 0.0, 1.0)
         of_share = mine * np.sqrt(left * np.maximum(inverse[:, at, at].real, 0.0))
         psd, std = left - mine * (1.0 - share), np.hypot(left, of_share) / np.sqrt(averaged)
         psd[0] = std[0] = 0.0
@@ -201,7 +200,7 @@ def _transforms(every: np.ndarray, starts: list[int], length: int, interval: flo
     """Transforms (f, k, n) of signals (m, k) in their n frames, whose squares are one-sided
     densities.
     """
-    window = hann(length, sym=False)
+    window = hann(length)
     window *= np.sqrt(2 * interval / (window @ window))
     z = np.empty((length // 2 + 1, every.shape[1], len(starts)), dtype=complex)
     # One signal after another: together their frames would be most of what a run has in memory.
@@ -326,7 +325,7 @@ def in_rows(
 
 def response(trial: Trial, frequency: np.ndarray) -> np.ndarray:
     """Gain (f,) of the trial's band at ``frequency`` in Hz."""
-    return np.abs(freqz(trial.band.weights, worN=frequency, fs=1.0 / trial.h)[1])
+    return gain(np.array(trial.band.weights), frequency * trial.h)
 
 
 def drawn(
