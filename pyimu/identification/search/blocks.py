@@ -58,7 +58,7 @@ class Blocks:
         for trial, _, _, full, _ in self.trials:
             u = reference_input(trial, self.fit.states[trial.name])
             at = np.floor(since_power_on(trial, trial.time) / self.block).astype(int)
-            out.append(_means(u, at, full))
+            out.append(_means(u[:], at, full))
         return out
 
     @cached_property
@@ -203,8 +203,7 @@ def _placed(e: Effect, name: str, value: float) -> np.ndarray:
 
 def _means(values: np.ndarray, number: np.ndarray, wanted: np.ndarray) -> np.ndarray:
     """Means (blocks, c) of rows (n, c) whose block has a ``number`` (n,), of those ``wanted``."""
-    inside = np.isin(number, wanted)
-    values, number = values[inside], number[inside]
     starts = np.flatnonzero(np.diff(number, prepend=-1))
     count = np.diff(np.append(starts, len(number)))
-    return np.add.reduceat(values, starts, axis=0) / count[:, None]
+    inside = np.isin(number[starts], wanted)
+    return np.add.reduceat(values, starts, axis=0)[inside] / count[inside, None]
