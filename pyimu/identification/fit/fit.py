@@ -268,8 +268,10 @@ def begin(
 
 
 def with_prior(normal: Normal, fit: Fit) -> Normal:
-    """The normal equations with the prior's rows, which share out over the batches."""
-    gram, score = np.array(normal.batch_gram), np.array(normal.batch_score)
+    """The normal equations with the prior's rows, which share out over the batches: their matrices
+    are those of ``normal``, too large to hold twice.
+    """
+    gram, score = normal.batch_gram, normal.batch_score
     seen = None if normal.seen is None else np.array(normal.seen)
     for key, (departure, std) in departures(fit).items():
         if key in normal.position:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise, product
 
 import numpy as np
 
@@ -85,14 +86,28 @@ def normal_equations(linears: list[Linear], noise: Noise) -> Normal:
             at = np.array([position[k] for k in one.keys[i]], dtype=int)
             white = noise[i].filter(one.time, one.segments)
             products = _products(white, one.residual[:, i], columns, edges)
-            batch = np.arange(first, first + count)
             power += float(products[:, 0, 0].sum())
             log_det += white.log_det
             rows += len(one.time)
-            score[np.ix_(batch, at)] += products[:, 0, 1:]
-            gram[np.ix_(batch, at, at)] += products[:, 1:, 1:]
+            batch, runs = slice(first, first + count), _runs(at)
+            for to, a in runs:
+                score[batch, to] += products[:, 0, a]
+            for (to, a), (across, b) in product(runs, runs):
+                gram[batch, to, across] += products[:, a, b]
         first += count
     return Normal(keys, gram, score, power, rows, log_det)
+
+
+def _runs(at: np.ndarray) -> list[tuple[slice, slice]]:
+    """Places ``at`` (c,) as few slices, each with that of the columns behind the residual's which
+    belong there.
+    """
+    edges = [0, *(np.flatnonzero(np.diff(at) != 1) + 1).tolist(), len(at)]
+    return [
+        (slice(int(at[a]), int(at[a]) + b - a), slice(1 + a, 1 + b))
+        for a, b in pairwise(edges)
+        if b > a
+    ]
 
 
 def _products(white: Filter, residual: np.ndarray, columns: Stack, edges: np.ndarray) -> np.ndarray:

@@ -156,7 +156,10 @@ def _gains(score: np.ndarray, choice: Choice, variance: np.ndarray) -> np.ndarra
     s = score[:, at]
     if not np.any(np.diag(variance)[at]):
         return np.zeros(len(score))
-    gain = 0.5 * np.einsum("di,id->d", s, solve(variance[np.ix_(at, at)], s.T))
+    if len(at) == 1:
+        gain = 0.5 * s[:, 0] ** 2 / variance[at[0], at[0]]
+    else:
+        gain = 0.5 * np.einsum("di,id->d", s, solve(variance[np.ix_(at, at)], s.T))
     if choice.value is not None:
         gain = np.where(s[:, 0] > 0, gain, 0.0)
     return gain - PENALTY * len(at)
