@@ -50,8 +50,12 @@ class Band:
         """Indices of the samples that outputs stand for, so that none draws on a sample outside its
         segment.
         """
-        parts = [np.arange(a + self.half, b - self.half, self.stride) for a, b in segments]
+        parts = [np.arange(r.start, r.stop, r.step) for r in (self.rows(*s) for s in segments)]
         return np.concatenate(parts) if parts else np.arange(0)
+
+    def rows(self, a: int, b: int) -> range:
+        """Those of one segment."""
+        return range(a + self.half, b - self.half, self.stride)
 
     def apply(self, values: np.ndarray, segments: list[tuple[int, int]]) -> np.ndarray:
         """Filter (n, c) within each segment; gives (m, c), one row for each of ``centres``.

@@ -115,13 +115,13 @@ def in_band(trial: Trial, values: np.ndarray) -> np.ndarray:
 
 def band_segments(trial: Trial) -> list[tuple[int, int]]:
     """Segments of the rows that ``in_band`` gives."""
-    lengths = [len(trial.band.centres([s])) for s in trial.row_segments]
+    lengths = [len(trial.band.rows(*s)) for s in trial.row_segments]
     ends = np.cumsum([n for n in lengths if n])
     return list(zip([0, *ends[:-1].tolist()], ends.tolist(), strict=True)) if len(ends) else []
 
 
 def band_time(trial: Trial) -> np.ndarray:
-    return trial.time[trial.band.centres(trial.row_segments)]
+    return trial.row_time
 
 
 class Regressors:
@@ -146,7 +146,7 @@ class Regressors:
 
     def _filtered(self, arrays: list[np.ndarray]) -> Stack:
         trial = self.trial
-        count = len(trial.band.centres(trial.row_segments))
+        count = len(trial.row_time)
         if trial.band == Band():
             return Stack(count, tuple(trial.band.apply(v, trial.row_segments) for v in arrays))
         stacked = np.array(arrays).reshape(len(arrays), len(trial.time))
