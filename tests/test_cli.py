@@ -2,6 +2,7 @@
 costs no earlier result.
 """
 
+import ctypes
 import json
 import os
 import subprocess
@@ -15,6 +16,7 @@ from places import same_path
 
 from pyimu import Recording, __version__, part
 from pyimu.cli.logs import EXIT_CODES
+from pyimu.cli.memory import keep_freed
 from pyimu.cli.options import complete_part
 from pyimu.fmu import simulate
 from pyimu.identification.verdict import VERDICTS
@@ -640,6 +642,7 @@ def test_help_is_quick():
         ("pyimu", {"numpy", "scipy", "casadi", "matplotlib", "numba", "pyarrow", "fmpy"}),
         ("pyimu.attitude", {"matplotlib", "fmpy", "control"}),
         ("pyimu.recording.log", {"casadi", "numba", "matplotlib", "fmpy", "control"}),
+        ("pyimu.identification.close", {"scipy.signal", "scipy.stats", "control"}),
     ],
 )
 def test_what_an_import_does_not_load(module, without):
@@ -649,6 +652,13 @@ def test_what_an_import_does_not_load(module, without):
         [sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False
     )
     assert (done.stdout, done.stderr) == ("\n", "")
+
+
+@pytest.mark.parametrize("library", [lambda name: object(), lambda name: ctypes.c_int("no path")])
+def test_a_c_library_that_keeps_memory_in_its_own_way_is_left_alone(library, monkeypatch):
+    """Of musl and macOS there is no such function, on Windows no such library."""
+    monkeypatch.setattr(ctypes, "CDLL", library)
+    keep_freed()
 
 
 def test_version():

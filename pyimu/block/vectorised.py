@@ -6,7 +6,8 @@ coefficient that is zero, or a signal that never changes, takes all with it that
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 
 import casadi as ca
@@ -70,44 +71,95 @@ Value = float | int
 it.
 """
 
+Step = tuple[int, Callable | None, int, int | None, tuple[int, ...]]
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What is left to do for each block of rows, and by number of an output what it is, ``given``.
+
+    A step is the number of its value, its numpy twin (None for a column, whose number is the only
+    operand), the places of its operands in ``work``, the second None where there is one, and those
+    that nobody needs after it. Before the first step all places there are empty but those of
+    numbers that are known.
+    """
+
+    steps: list[Step]
+    work: list
+    given: list[tuple[int, Value]]
+
 
 def over_rows(
-    function: ca.Function,
-    columns: Sequence[np.ndarray],
-    fixed: np.ndarray,
-    wanted: np.ndarray | None = None,
+    function: ca.Function, columns: Sequence[np.ndarray], fixed: np.ndarray
 ) -> np.ndarray:
     """Values (n, m) of an SX function ``(row, fixed) -> dense (m,)`` for n rows, whose entries are
-    the k ``columns`` (n,); each column of the answer is contiguous. Those that are not ``wanted``
-    (m,) are zero.
+    the k ``columns`` (n,); each column of the answer is contiguous.
 
     Inputs are finite, so that what is multiplied by zero is zero. Raises NotImplementedError for an
     operation that has no numpy twin in the tables above.
     """
+    return split_over_rows(function, columns, fixed, function.numel_out(0))[0]
+
+
+def split_over_rows(
+    function: ca.Function,
+    columns: Sequence[np.ndarray],
+    fixed: np.ndarray,
+    first: int,
+    wanted: np.ndarray | None = None,
+    precision: type[np.floating] = np.float64,
+) -> tuple[np.ndarray, list[np.ndarray]]:
+    """The ``first`` of the values that ``over_rows`` gives, (n, first), and the others, m - first
+    columns (n,) in a ``precision``; those that are not ``wanted`` (m,) are zero.
+
+    Of the others those that are one, or the same in all rows, share their memory, and are not to be
+    written to.
+    """
     rows, m = len(columns[0]), function.numel_out(0)
-    out = np.zeros((m, rows))
     few = range(m) if wanted is None else np.flatnonzero(wanted).tolist()
+    whole, others = np.zeros((first, rows)), [_same(0.0, rows, precision)] * m
     with np.errstate(all="ignore"):
         known = _known(columns, program(function).entries(0)) if rows > BLOCK else {}
         of_row = np.asarray(fixed, dtype=float).tobytes()
-        steps, given = _plan(function, tuple(few), of_row, tuple(known), tuple(known.values()))
-        for to, value in given:
-            if isinstance(value, float):
-                out[to] = value
-        for a in range(0, rows, BLOCK):
-            b = min(a + BLOCK, rows)
-            work: dict[int, np.ndarray] = {}
-            for number, twin, of, dead in steps:
-                if twin is None:
-                    work[number] = columns[of[0]][a:b]
-                else:
-                    work[number] = twin(*[work[i] if isinstance(i, int) else i for i in of])
-                for i in dead:
-                    del work[i]
-            for to, value in given:
-                if isinstance(value, int):
-                    out[to, a:b] = work[value]
-    return out.T
+        plan = _plan(function, tuple(few), of_row, tuple(known), tuple(known.values()))
+        varies = [(to, v) for to, v in plan.given if isinstance(v, int)]
+        own = {v: np.empty(rows, precision) for to, v in varies if to >= first}
+        for to, value in plan.given:
+            if isinstance(value, int):
+                others[to] = own.get(value, others[to])
+            elif to < first:
+                whole[to] = value
+            else:
+                others[to] = _same(value, rows, precision)
+        into = [(whole[to], v) for to, v in varies if to < first]
+        _run(plan, columns, [*into, *((array, v) for v, array in own.items())])
+    return whole.T, others[first:]
+
+
+def _same(value: float, rows: int, precision: type[np.floating]) -> np.ndarray:
+    """A column (rows,) of one value."""
+    return np.broadcast_to(precision(value), rows)
+
+
+def _run(plan: Plan, columns: Sequence[np.ndarray], into: Sequence[tuple[np.ndarray, int]]) -> None:
+    """Take the steps of a plan over all rows, block after block, and put what they give into arrays
+    (n,), each with the number of its value.
+    """
+    rows = len(columns[0])
+    for a in range(0, rows, BLOCK):
+        b = min(a + BLOCK, rows)
+        work = list(plan.work)
+        for number, twin, first, second, dead in plan.steps:
+            if twin is None:
+                work[number] = columns[first][a:b]
+            elif second is None:
+                work[number] = twin(work[first])
+            else:
+                work[number] = twin(work[first], work[second])
+            for i in dead:
+                work[i] = None
+        for array, number in into:
+            array[a:b] = work[number]
 
 
 def _known(columns: Sequence[np.ndarray], read: Sequence[int]) -> dict[int, float]:
@@ -123,11 +175,9 @@ def _plan(
     fixed: bytes,
     at: tuple[int, ...],
     known: tuple[float, ...],
-) -> tuple[list[tuple], list[tuple[int, Value]]]:
-    """What is left to do for each block of rows, and by number of an output what it is.
-
-    A step is the number of its value, its numpy twin (None for a column, whose number is the only
-    operand), its operands, and the numbers of the values that nobody needs after it.
+) -> Plan:
+    """The plan for a function, of whose outputs some are ``wanted``, at ``fixed`` coefficients and
+    columns ``at`` places that are ``known``.
     """
     one, of_row, alike = program(function), np.frombuffer(fixed), dict(zip(at, known, strict=True))
     values: list[Value] = []
@@ -140,7 +190,8 @@ def _plan(
         else:
             values.append(_value(i.op, [values[k] for k in i.of], number, function))
     given = [(to, values[one.outputs[0, to]]) for to in wanted if (0, to) in one.outputs]
-    return _in_order(one, values, [v for _, v in given if isinstance(v, int)]), given
+    steps, work = _in_order(one, values, [v for _, v in given if isinstance(v, int)])
+    return Plan(steps, work, given)
 
 
 def _value(op: int, of: list[Value], number: int, function: ca.Function) -> Value:
@@ -165,19 +216,23 @@ def _value(op: int, of: list[Value], number: int, function: ca.Function) -> Valu
     return number
 
 
-def _in_order(one: Program, values: list[Value], wanted: list[int]) -> list[tuple]:
-    """The steps that ``wanted`` instructions need."""
-    needed, operands, steps = set(wanted), {}, []
+def _in_order(one: Program, values: list[Value], wanted: list[int]) -> tuple[list[Step], list]:
+    """The steps that ``wanted`` instructions need, and what they begin with."""
+    needed, steps, numbers = set(wanted), [], []
     for number in range(len(values) - 1, -1, -1):
-        if number in needed:
-            i = one.instructions[number]
-            arity = 1 if i.op in _UNARY else 2
-            inputs = i.op == ca.OP_INPUT
-            operands[number] = (i.of[1],) if inputs else tuple(values[k] for k in i.of[:arity])
-            later = set() if inputs else {v for v in operands[number] if isinstance(v, int)}
-            steps.append((number, i.op, later - needed))
-            needed |= later
-    return [
-        (n, _UNARY.get(op) or _BINARY.get(op), operands[n], tuple(dead))
-        for n, op, dead in reversed(steps)
-    ]
+        if number not in needed:
+            continue
+        i = one.instructions[number]
+        if i.op == ca.OP_INPUT:
+            steps.append((number, None, i.of[1], None, ()))
+            continue
+        operands = [values[k] for k in i.of[: 1 if i.op in _UNARY else 2]]
+        later = {v for v in operands if isinstance(v, int)}
+        places = []
+        for v in operands:
+            places.append(v if isinstance(v, int) else len(values) + len(numbers))
+            numbers += [] if isinstance(v, int) else [v]
+        twin, second = _UNARY.get(i.op) or _BINARY.get(i.op), places[1] if places[1:] else None
+        steps.append((number, twin, places[0], second, tuple(later - needed)))
+        needed |= later
+    return steps[::-1], [None] * len(values) + numbers

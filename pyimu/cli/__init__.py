@@ -18,6 +18,7 @@ from pyimu.cli.campaigns import campaign_command
 from pyimu.cli.heading import heading_command
 from pyimu.cli.inspect import inspect_command
 from pyimu.cli.logs import characterize_command, close_command, demo
+from pyimu.cli.memory import keep_freed
 from pyimu.cli.models import (
     build,
     derive_command,
@@ -62,6 +63,7 @@ def main() -> None:
     if isinstance(sys.stdout, TextIOWrapper):  # it may not know every letter, as on Windows
         sys.stdout.reconfigure(errors="backslashreplace")  # as stderr does by itself
     gc.set_threshold(*COLLECTED)
+    keep_freed()
     interrupts = Interrupts()
     try:
         with interrupts, held.holding():

@@ -32,9 +32,9 @@ def settled(
     said: of each log in which both are lost, so that they are not compared, and of each reference
     whose world is not level.
     """
-    logs, leaning = _levelled(start, declared, found, logs)
+    model, inv = model_of(start, declared, found), found.get("gyro")
+    logs, leaning = _levelled(_as_filed(model.before, declared), inv, logs)
     while True:
-        model, inv = model_of(start, declared, found), found.get("gyro")
         old, new = (_as_filed(p, declared) for p in (model.before, model.after))
         before, after = (attitudes(p, inv, logs) for p in (old, new))
         lost = [n for n in before if before[n].is_lost and after[n].is_lost]
@@ -51,16 +51,16 @@ def settled(
         degrees = [f"{np.degrees(v):.2f}" for v in (error, now)]
         reason = f"{TAKEN_BACK}, {degrees[0]} to {degrees[1]} deg"
         found = found | {"gyro": without(inv, name, reason)}
+        model, inv = model_of(start, declared, found), found["gyro"]
 
 
 def _levelled(
-    start: Part, declared: Part | None, found: Found, logs: list[Recording]
+    part: Part, inv: Investigation | None, logs: list[Recording]
 ) -> tuple[list[Recording], tuple[str, ...]]:
-    """The logs with references whose worlds are level, and what is to be said of those that were
-    not.
+    """The logs with references whose worlds are level by the filter with a part, and what is to be
+    said of those that were not.
     """
-    part = _as_filed(model_of(start, declared, found).before, declared)
-    of = worlds(part, found.get("gyro"), logs)
+    of = worlds(part, inv, logs)
     level = [of[r.name].levelled(r) if r.name in of else r for r in logs]
     return level, tuple(
         f"the world of ref_q in {name} is not level: {world.said}; it was turned to compare the "

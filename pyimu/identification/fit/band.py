@@ -9,7 +9,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.signal import upfirdn
+
+from pyimu.filters import decimated
 
 OVERSAMPLING = 2.5
 
@@ -49,8 +50,12 @@ class Band:
         """Indices of the samples that outputs stand for, so that none draws on a sample outside its
         segment.
         """
-        parts = [np.arange(a + self.half, b - self.half, self.stride) for a, b in segments]
+        parts = [np.arange(r.start, r.stop, r.step) for r in (self.rows(*s) for s in segments)]
         return np.concatenate(parts) if parts else np.arange(0)
+
+    def rows(self, a: int, b: int) -> range:
+        """Those of one segment."""
+        return range(a + self.half, b - self.half, self.stride)
 
     def apply(self, values: np.ndarray, segments: list[tuple[int, int]]) -> np.ndarray:
         """Filter (n, c) within each segment; gives (m, c), one row for each of ``centres``.
@@ -61,15 +66,10 @@ class Band:
             return values[slice(*segments[0])]
         if len(self.weights) == 1:
             return np.concatenate([values[a:b] for a, b in segments]) if segments else values[:0]
-        parts = [self._one(values[a:b]) for a, b in segments if b - a > 2 * self.half]
+        weights = np.array(self.weights)
+        parts = [
+            decimated(values[a:b], weights, self.stride)
+            for a, b in segments
+            if b - a > 2 * self.half
+        ]
         return np.concatenate(parts) if parts else values[:0]
-
-    def _one(self, values: np.ndarray) -> np.ndarray:
-        rows = len(range(self.half, len(values) - self.half, self.stride))
-        shifted = values[: (rows - 1) * self.stride + len(self.weights)]
-        # upfirdn keeps outputs 0, stride, 2 stride ...; dropping whole strides first puts them on
-        # the centres.
-        lead = (-2 * self.half) % self.stride
-        padded = np.concatenate([np.zeros((values.shape[1], lead)), shifted.T], axis=1)
-        first = (2 * self.half + lead) // self.stride
-        return upfirdn(np.array(self.weights), padded, 1, self.stride)[:, first : first + rows].T

@@ -72,12 +72,12 @@ class Stack:
         return self.after(np.zeros((self.count, 0)), 0, self.count)
 
     def after(self, first: np.ndarray, start: int, stop: int) -> np.ndarray:
-        """Rows ``start`` to ``stop``, behind columns ``first`` of these rows."""
-        out = np.empty((stop - start, first.shape[1] + len(self.arrays)))
-        out[:, : first.shape[1]] = first
+        """Rows ``start`` to ``stop``, behind columns ``first`` of these rows, column by column."""
+        out = np.empty((first.shape[1] + len(self.arrays), stop - start))
+        out[: first.shape[1]] = first.T
         for at, values in enumerate(self.arrays, first.shape[1]):
-            out[:, at] = values[start:stop]
-        return out
+            out[at] = values[start:stop]
+        return out.T
 
 
 @dataclass(frozen=True)
@@ -115,13 +115,13 @@ def in_band(trial: Trial, values: np.ndarray) -> np.ndarray:
 
 def band_segments(trial: Trial) -> list[tuple[int, int]]:
     """Segments of the rows that ``in_band`` gives."""
-    lengths = [len(trial.band.centres([s])) for s in trial.row_segments]
+    lengths = [len(trial.band.rows(*s)) for s in trial.row_segments]
     ends = np.cumsum([n for n in lengths if n])
     return list(zip([0, *ends[:-1].tolist()], ends.tolist(), strict=True)) if len(ends) else []
 
 
 def band_time(trial: Trial) -> np.ndarray:
-    return trial.time[trial.band.centres(trial.row_segments)]
+    return trial.row_time
 
 
 class Regressors:
@@ -136,7 +136,7 @@ class Regressors:
         self.items: list[tuple[Key, int, np.ndarray]] = []
 
     def add(self, key: Key, axis: int, values: np.ndarray) -> None:
-        if axis in self.trial.axes and np.any(values):
+        if axis in self.trial.axes and _is_any(values):
             self.items.append((key, axis, values.astype(self.precision, copy=False)))
 
     def filtered(self) -> tuple[dict[int, list[Key]], dict[int, Stack]]:
@@ -146,11 +146,16 @@ class Regressors:
 
     def _filtered(self, arrays: list[np.ndarray]) -> Stack:
         trial = self.trial
-        count = len(trial.band.centres(trial.row_segments))
+        count = len(trial.row_time)
         if trial.band == Band():
             return Stack(count, tuple(trial.band.apply(v, trial.row_segments) for v in arrays))
         stacked = np.array(arrays).reshape(len(arrays), len(trial.time))
         return Stack(count, tuple(in_band(trial, stacked.T).T))
+
+
+def _is_any(values: np.ndarray) -> bool:
+    """Whether any of values (n,) is not zero: one in the middle mostly says so."""
+    return bool(values[len(values) // 2 :][:1].any() or values.any())
 
 
 def linearise(
@@ -173,13 +178,13 @@ def linearise(
     response = memoryless(rest.chain)
     keys = [_keys_of(s, trial, sensor.kind, wanted) for s in rest.slots]
     some = np.array([bool(k) for k in keys], dtype=bool)
-    y, slope, entries = response(moved, rest.p, trial.h, some[response.slot])
+    out = Regressors(trial, bool(extra))
+    y, slope, entries = response(moved, rest.p, trial.h, some[response.slot], out.precision)
     if remembers(sensor):
         y = predict(sensor, u, trial.segments, trial.h)
-    out = Regressors(trial, bool(extra))
-    for e, (axis, slot) in enumerate(zip(response.axis, response.slot, strict=True)):
+    for axis, slot, values in zip(response.axis, response.slot, entries, strict=True):
         for key in keys[slot]:
-            out.add(key, int(axis), entries[:, e])
+            out.add(key, int(axis), values)
     _turn_columns(out, trial, np.array(moved[own]).T, slope)
     _clock_columns(out, sensor, trial, state, u, slope)
     _thermometer_columns(out, rest, trial, moved)
@@ -318,7 +323,8 @@ def _motion_columns(
         if coefficient_of(s) not in wanted or not len(of_slot):
             continue
         change = np.zeros((len(u), 3))
-        change[:, response.axis[of_slot]] = entries[:, of_slot]
+        for e in of_slot:
+            change[:, response.axis[e]] = entries[e]
         change = np.einsum(
             "nij,nj->ni", slope, through_dynamics(sensor, change, trial.segments, trial.h)
         )

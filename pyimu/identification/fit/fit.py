@@ -268,8 +268,10 @@ def begin(
 
 
 def with_prior(normal: Normal, fit: Fit) -> Normal:
-    """The normal equations with the prior's rows, which share out over the batches."""
-    gram, score = np.array(normal.batch_gram), np.array(normal.batch_score)
+    """The normal equations with the prior's rows, which share out over the batches: their matrices
+    are those of ``normal``, too large to hold twice.
+    """
+    gram, score = normal.batch_gram, normal.batch_score
     seen = None if normal.seen is None else np.array(normal.seen)
     for key, (departure, std) in departures(fit).items():
         if key in normal.position:
@@ -359,10 +361,13 @@ def _lower(
     ``left``; None where that is none of eight.
     """
     last, changes = start.last, start.last.changes
-    for share in (change / 2**k for k in range(8)):
+    for share in (change, *(change / 2**k for k in range(1, 8))):
         moved = stepped(start, normal.keys, share)
         if last.near:
             last.changes = [_carried(one, normal.keys, share) for one in changes]
+        if share is change:
+            # Mostly it is taken, and linearised next: that has the residual, too.
+            moved.linearise()
         if left(moved) + prior_power(moved) < normal.power:
             return moved
     last.changes = changes

@@ -10,16 +10,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from itertools import combinations_with_replacement
 
 import numpy as np
-from scipy.signal import freqz
-from scipy.signal.windows import hann
-from scipy.stats import chi2
+from scipy.fft import rfft
 
+from pyimu.filters import gain, hann
 from pyimu.identification.fit.columns import Linear, in_band
 from pyimu.identification.fit.sample_noise import without_information
 from pyimu.identification.fit.trial import Doubt, Trial
 from pyimu.identification.fit.whiten import RandomWalk
+from pyimu.laws import chi2
 from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.signals import COLUMNS
 
@@ -147,26 +148,26 @@ def unseen_spectra(trial: Trial, one: Linear, own: Mapping[int, RandomWalk]) -> 
     """
     axes = list(one.keys)
     inputs, bad = _known(trial)
-    count = inputs.shape[1]
+    count = len(inputs)
     signal = in_band(trial, trial.u[:, OWN[trial.kind]][:, axes])
-    every = np.column_stack([one.residual[:, axes], inputs, signal])
+    every = [*one.residual[:, axes].T, *inputs, *signal.T]
     length, starts = _frames(one, bad, max(WINDOWS, FOR_EACH * (count - len(trial.axes))))
     if length < FEWEST_ROWS or len(starts) < 2 * count:
         return {}
     interval = trial.h * trial.band.stride
     z, frequency = _transforms(every, starts, length, interval), np.fft.rfftfreq(length, interval)
-    cross = z.conj() @ z.transpose(0, 2, 1) / len(starts)
+    cross = np.array([v.conj() @ v.T for v in z]) / len(starts)
     known = slice(len(axes), len(axes) + count)
     inverse, averaged = _inverse(cross[:, known, known]), len(starts) / OVERLAP - count
     found = {}
     for k, axis in enumerate(axes):
         by, at = cross[:, known, k], trial.axes.index(axis)
-        gain = np.einsum("fij,fj->fi", inverse, by)
-        shown = np.einsum("fi,fi->f", by.conj(), gain).real
+        slope = np.einsum("fij,fj->fi", inverse, by)
+        shown = np.einsum("fi,fi->f", by.conj(), slope).real
         left = np.maximum(cross[:, k, k].real - shown, 0.0) * (1.0 + count / averaged)
         mine = _own(trial, own[axis], frequency)
         # The sensor's own noise is in its signal as well: that share of it is not left.
-        share = np.clip(gain[:, at].real, 0.0, 1.0)
+        share = np.clip(slope[:, at].real, 0.0, 1.0)
         of_share = mine * np.sqrt(left * np.maximum(inverse[:, at, at].real, 0.0))
         psd, std = left - mine * (1.0 - share), np.hypot(left, of_share) / np.sqrt(averaged)
         psd[0] = std[0] = 0.0
@@ -176,15 +177,16 @@ def unseen_spectra(trial: Trial, one: Linear, own: Mapping[int, RandomWalk]) -> 
     return found
 
 
-def _known(trial: Trial) -> tuple[np.ndarray, np.ndarray]:
-    """The signals (m, k), in rows, that a residual is compared with, and the rows (m,) in which
-    they say nothing.
+def _known(trial: Trial) -> tuple[list[np.ndarray], np.ndarray]:
+    """The signals (m,), in rows, that a residual is compared with, and the rows (m,) in which they
+    say nothing.
     """
-    columns, bad = trial.y[:, list(trial.axes)], np.zeros(len(trial.y))
+    signals, bad = [trial.y[:, i] for i in trial.axes], np.zeros(len(trial.y))
     if trial.band_hz is None:
-        columns = np.column_stack([columns, _bending(trial)])
+        signals += _bending(trial)
         bad = without_information(trial).astype(float)
-    return in_band(trial, columns), in_band(trial, bad[:, None])[:, 0] > 0.0
+    *rows, unknown = (in_band(trial, v[:, None])[:, 0] for v in (*signals, bad))
+    return rows, unknown > 0.0
 
 
 def _frames(one: Linear, bad: np.ndarray, count: int) -> tuple[int, list[int]]:
@@ -196,15 +198,22 @@ def _frames(one: Linear, bad: np.ndarray, count: int) -> tuple[int, list[int]]:
     return length, [s for s in every if not bad[s : s + length].any()]
 
 
-def _transforms(every: np.ndarray, starts: list[int], length: int, interval: float) -> np.ndarray:
-    """Transforms (f, k, n) of signals (m, k) in their n frames, whose squares are one-sided
+def _transforms(
+    every: list[np.ndarray], starts: list[int], length: int, interval: float
+) -> np.ndarray:
+    """Transforms (f, k, n) of k signals (m,) in their n frames, whose squares are one-sided
     densities.
     """
-    window = hann(length, sym=False)
-    pieces = np.array([every[s : s + length] for s in starts])
-    pieces -= pieces.mean(axis=1, keepdims=True)
-    z = np.fft.rfft(pieces * window[:, None], axis=1).transpose(1, 2, 0)
-    return z * np.sqrt(2 * interval / (window @ window))
+    window = hann(length)
+    window *= np.sqrt(2 * interval / (window @ window))
+    z = np.empty((length // 2 + 1, len(every), len(starts)), dtype=complex)
+    # One signal after another: together their frames would be most of what a run has in memory.
+    for k, signal in enumerate(every):
+        pieces = np.array([signal[s : s + length] for s in starts])
+        pieces -= pieces.mean(axis=1, keepdims=True)
+        pieces *= window
+        z[:, k] = rfft(pieces, axis=1, overwrite_x=True).T
+    return z
 
 
 def _inverse(matrices: np.ndarray) -> np.ndarray:
@@ -214,16 +223,16 @@ def _inverse(matrices: np.ndarray) -> np.ndarray:
     return np.linalg.pinv(matrices / scale, rcond=ROUNDING, hermitian=True) / scale
 
 
-def _bending(trial: Trial) -> np.ndarray:
-    """Signals (n, k) as effects make them of what a sensor shows: the other triad's, absolute
-    values, and products of two.
+def _bending(trial: Trial) -> list[np.ndarray]:
+    """Signals (n,) as effects make them of what a sensor shows: the other triad's, absolute values,
+    and products of two.
     """
     other = {"gyro": KINDS["accel"].own, "accel": KINDS["gyro"].own}[trial.kind]
-    beside = trial.u[:, COLUMNS[other]] if other in trial.known else np.zeros((len(trial.y), 0))
-    own = trial.y[:, list(trial.axes)]
-    every = np.column_stack([own - np.median(own, axis=0), beside])
-    first, second = np.triu_indices(every.shape[1])
-    return np.column_stack([beside, np.abs(own), every[:, first] * every[:, second]])
+    beside = [*trial.u[:, COLUMNS[other]].T] if other in trial.known else []
+    own = [trial.y[:, i] for i in trial.axes]
+    every = [*(v - np.median(v) for v in own), *beside]
+    products = (a * b for a, b in combinations_with_replacement(every, 2))
+    return [*beside, *map(np.abs, own), *products]
 
 
 def of_reference(seen: Spectrum, high: float, error: float) -> Spectrum:
@@ -320,7 +329,7 @@ def in_rows(
 
 def response(trial: Trial, frequency: np.ndarray) -> np.ndarray:
     """Gain (f,) of the trial's band at ``frequency`` in Hz."""
-    return np.abs(freqz(trial.band.weights, worN=frequency, fs=1.0 / trial.h)[1])
+    return gain(np.array(trial.band.weights), frequency * trial.h)
 
 
 def drawn(

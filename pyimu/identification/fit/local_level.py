@@ -155,10 +155,23 @@ def _means(
     """Means of ``many`` rows, as large as makes their white variance that of a row, the steps to
     each, and the sum of squares within them.
     """
-    if many == 1:
-        return values, steps, 0.0
-    full = len(values) // many * many
-    rows, times = (a[:full].reshape(-1, many) for a in (values, np.cumsum(steps)))
-    means, middles = rows.mean(axis=1), times.mean(axis=1)
-    within = float(np.sum((rows - means[:, None]) ** 2))
-    return np.sqrt(many) * means, np.diff(middles, prepend=middles[:1]), within
+    return (values, steps, 0.0) if many == 1 else _put_together(values, steps, many)
+
+
+@njit(cache=True)
+def _put_together(values, steps, many):
+    """What ``_means`` gives, in one pass over the rows."""
+    count = len(values) // many
+    means, apart = np.empty(count), np.empty(count)
+    time, before, within = 0.0, 0.0, 0.0
+    for k in range(count):
+        total, middle = 0.0, 0.0
+        for j in range(k * many, (k + 1) * many):
+            time += steps[j]
+            total, middle = total + values[j], middle + time
+        total, middle = total / many, middle / many
+        for j in range(k * many, (k + 1) * many):
+            within += (values[j] - total) ** 2
+        means[k], apart[k] = np.sqrt(many) * total, middle - before if k else 0.0
+        before = middle
+    return means, apart, within

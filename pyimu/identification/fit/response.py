@@ -13,11 +13,11 @@ from functools import cache, lru_cache
 
 import casadi as ca
 import numpy as np
-from scipy.signal import oaconvolve
 
 from pyimu.block.program import program
 from pyimu.block.stepping import step_through
-from pyimu.block.vectorised import over_rows
+from pyimu.block.vectorised import over_rows, split_over_rows
+from pyimu.filters import convolved
 from pyimu.model.chain import Chain, chain_of
 from pyimu.model.effect import Effect
 from pyimu.model.kinds import OWN
@@ -152,7 +152,7 @@ def through_dynamics(
     out = np.array(x)
     for a, b in segments:
         origin = x[a]
-        moved = oaconvolve(x[a:b] - origin, response[: b - a], axes=0)[: b - a]
+        moved = convolved(x[a:b] - origin, response[: b - a])
         # Dynamics pass a constant as it is; a response that was cut off before it had died away
         # must not change the level.
         out[a:b] = moved + origin
@@ -194,18 +194,24 @@ class Memoryless:
         self._output = ca.Function("output", [u, fixed], [ca.densify(y)])
 
     def __call__(
-        self, inputs: Columns, p: np.ndarray, h: float, wanted: np.ndarray | None = None
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        self,
+        inputs: Columns,
+        p: np.ndarray,
+        h: float,
+        wanted: np.ndarray | None = None,
+        precision: type[np.floating] = np.float64,
+    ) -> tuple[np.ndarray, np.ndarray, Columns]:
         """Output (n, 3) for inputs, N_INPUT + k columns (n,), and its slopes.
 
-        Against the own input (n, 3, 3), and dy/dp (n, entries).
+        Against the own input (n, 3, 3), and dy/dp, a column (n,) in a ``precision`` for each entry.
 
         Entry e of dy/dp belongs to output axis ``self.axis[e]`` and to coefficient
         ``self.slot[e]``; those that are not ``wanted`` (entries,) are zero.
         """
         few = None if wanted is None else np.append(np.ones(12, dtype=bool), wanted)
-        flat = over_rows(self._all, inputs, np.append(p, h), few)
-        return flat[:, :3], flat[:, 3:12].reshape(-1, 3, 3), flat[:, 12:]
+        fixed = np.append(p, h)
+        whole, entries = split_over_rows(self._all, inputs, fixed, 12, few, precision)
+        return whole[:, :3], whole[:, 3:].reshape(-1, 3, 3), entries
 
     def output(self, inputs: Columns, p: np.ndarray, h: float) -> np.ndarray:
         """Output (n, 3) alone."""
@@ -243,7 +249,7 @@ def predict(
 def predict_each(
     sensor: Sensor, u: np.ndarray, h: float, slot: int, values: np.ndarray
 ) -> np.ndarray:
-    """Answers (n, k, 3) of a sensor that remembers nothing and has no dynamics to inputs (n,
+    """Answers (3, n, k) of a sensor that remembers nothing and has no dynamics to inputs (n,
     N_INPUT), for each of ``values`` (k,) of its coefficient number ``slot``.
     """
     n, k = len(u), len(values)
@@ -251,7 +257,7 @@ def predict_each(
     read = set(program(function).entries(0))
     inputs = [np.repeat(c, k) if i in read else unread for i, c in enumerate(np.asarray(u).T)]
     fixed = np.append(sensor.p, h)
-    return over_rows(function, [*inputs, np.tile(values, n)], fixed).reshape(n, k, 3)
+    return over_rows(function, [*inputs, np.tile(values, n)], fixed).T.reshape(3, n, k)
 
 
 @lru_cache(maxsize=32)

@@ -115,6 +115,11 @@ class Trial:
             return settled
         return [(a + i, a + j) for a, b in settled for i, j in runs(~self.left_out[a:b])]
 
+    @cached_property
+    def row_time(self) -> np.ndarray:
+        """Times (m,) s of the rows that its band gives."""
+        return self.time[self.band.centres(self.row_segments)]
+
     @property
     def any_turn(self) -> bool:
         """Whether a turn of the whole triad is not the sensor's to answer for."""

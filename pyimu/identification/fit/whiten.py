@@ -14,8 +14,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numba import njit
-from scipy.signal import lfilter
 
+from pyimu.filters import recursive
 from pyimu.identification.fit.local_level import LOGGED, ROUNDING, SAME, likeliest
 
 Segments = list[tuple[int, int]]
@@ -31,23 +31,26 @@ CHUNK = 65536
 
 
 @njit(cache=True)
-def _gains(steps, r, k2, gain, variance):
-    """Fill the Kalman gain (m,) of each step and the variance (m,) of its innovation.
+def _gains(time, before, r, k2, gain, scale):
+    """Fill the Kalman gain (m,) of each row and what its innovation is to be multiplied by (m,),
+    of rows at a ``time`` (m,) of which the first comes ``before`` seconds after nothing is known.
 
-    Returns the sum of the logarithms of these variances.
+    Returns the sum of the logarithms of the variances of the innovations.
     """
     known, total, product = 0.0, 0.0, 1.0
-    step, settled, f, share = -1.0, False, 1.0, 0.0
-    for k in range(len(steps)):
-        if abs(steps[k] - step) > SAME * step:
-            step, settled = steps[k], False
+    step, settled, f, share, root = -1.0, False, 1.0, 0.0, 1.0
+    for k in range(len(time)):
+        passed = time[k] - time[k - 1] if k else before
+        if abs(passed - step) > SAME * step:
+            step, settled = passed, False
         if not settled:
             grown = known + k2 * step
             f = grown + r
             share = grown / f
+            root = 1.0 / np.sqrt(f)
             settled = abs(share * r - known) <= ROUNDING * known
             known = share * r
-        gain[k], variance[k] = share, f
+        gain[k], scale[k] = share, root
         product *= f
         if k % LOGGED == LOGGED - 1:
             total += np.log(product)
@@ -103,11 +106,10 @@ class Filter(ABC):
 class _Innovations(Filter):
     """Of white noise of variance ``r`` and a random walk of ``k2`` a second."""
 
-    def __init__(self, steps: np.ndarray, r: float, k2: float) -> None:
-        self.gain, self.row = np.empty_like(steps), 0
-        variance, self.level = np.empty_like(steps), np.zeros(0)
-        self.log_det = _gains(steps, r, k2, self.gain, variance)
-        self.scale = 1.0 / np.sqrt(variance)
+    def __init__(self, time: np.ndarray, before: float, r: float, k2: float) -> None:
+        self.gain, self.scale = np.empty(len(time)), np.empty(len(time))
+        self.row, self.level = 0, np.zeros(0)
+        self.log_det = _gains(time, before, r, k2, self.gain, self.scale)
 
     def next(self, values: np.ndarray) -> np.ndarray:
         if not self.row:
@@ -115,7 +117,8 @@ class _Innovations(Filter):
         at = slice(self.row, self.row + len(values))
         self.row += len(values)
         out = np.empty(values.shape)
-        _filtered(np.ascontiguousarray(values), self.gain[at], self.scale[at], self.level, out)
+        values = values if values.flags.f_contiguous else np.ascontiguousarray(values)
+        _filtered(values, self.gain[at], self.scale[at], self.level, out)
         return out
 
 
@@ -170,7 +173,7 @@ class RandomWalk:
 
     def filter(self, time: np.ndarray, segments: Segments) -> Filter:
         """What makes columns sampled at ``time`` (m,) white."""
-        return _Innovations(self._steps(time), self.r, self.k2)
+        return _Innovations(time, self.before, self.r, self.k2)
 
     def log_det(self, time: np.ndarray, segments: Segments) -> float:
         """Sum of the logarithms of the innovation variances."""
@@ -231,8 +234,8 @@ class Autoregressive:
         """Variance of the sum of products of ``values`` (m,) with this noise: the noise is a filter
         of white noise, and its adjoint acts on the values.
         """
-        taps = np.concatenate([[1.0], -np.array(self.coefficients)])
-        seen = (lfilter([1.0], taps, values[a:b][::-1]) for a, b in segments)
+        coefficients = np.array(self.coefficients)
+        seen = (recursive(values[a:b][::-1], coefficients) for a, b in segments)
         return float(self.r * sum(np.sum(v**2) for v in seen))
 
     @classmethod

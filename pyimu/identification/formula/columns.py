@@ -8,7 +8,7 @@ from functools import lru_cache
 import casadi as ca
 import numpy as np
 
-from pyimu.block.vectorised import over_rows
+from pyimu.block.vectorised import over_rows, split_over_rows
 from pyimu.identification.fit.keys import Shape
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.formula.terms import HELPERS, SYMBOLS, Term
@@ -35,10 +35,10 @@ def columns_of(kind: str, terms: list[Term]) -> Callable:
     keys = [(t.text, k) for t in terms for k in range(len(t.code))]
 
     def add_all(trial: Trial, u: np.ndarray, add: Callable) -> None:
-        values = over_rows(function, u.T, np.zeros(0))
+        values = split_over_rows(function, u.T, np.zeros(0), 0)[1]
         for column, (text, number) in enumerate(keys):
             for i in range(3):
-                add(Shape(text, number, i), i, values[:, 3 * column + i])
+                add(Shape(text, number, i), i, values[3 * column + i])
 
     return add_all
 

@@ -65,7 +65,7 @@ def _likelihood(r, steps, sure, gain, low, gap, up, down):
     """
     n, m = r.shape
     both, share, total = up + down, up / (up + down), 0.0
-    mean, step, kept = np.zeros((2, m)), -1.0, 1.0
+    mean, step, kept, product = np.zeros((2, m)), -1.0, 1.0, 1.0
     for a in range(m):
         mean[:, a] = low[a]
     weight, moved, logs = np.zeros((2, 2)), np.zeros((2, m)), np.zeros((2, 2))
@@ -86,18 +86,24 @@ def _likelihood(r, steps, sure, gain, low, gap, up, down):
                 best = max(best, logs[i, j])
         for i in range(2):
             for j in range(2):
-                weight[i, j] *= np.exp(logs[i, j] - best)
-        mixed = max(weight.sum(), 1e-300)
-        total += best + np.log(mixed)
+                if logs[i, j] < best:
+                    weight[i, j] *= np.exp(logs[i, j] - best)
+        mixed = max(weight[0, 0] + weight[0, 1] + weight[1, 0] + weight[1, 1], 1e-300)
+        total, product = total + best, product * mixed
+        # A logarithm of many numbers at once, while their product is one still.
+        if product < 1e-8:
+            total, product = total + np.log(product), 1.0
         for j in range(2):
             into = max(weight[0, j] + weight[1, j], 1e-300)
+            one, other = weight[0, j] / into, weight[1, j] / into
             for a in range(m):
-                moved[j, a] = 0.0
-                for i in range(2):
-                    v = r[k, a] - mean[i, a] - j * gap[a]
-                    moved[j, a] += weight[i, j] / into * (mean[i, a] + gain[k, a] * v)
+                v = r[k, a] - j * gap[a]
+                first, second = mean[0, a], mean[1, a]
+                moved[j, a] = one * (first + gain[k, a] * (v - first))
+                moved[j, a] += other * (second + gain[k, a] * (v - second))
         mean[:] = moved
         share = (weight[0, 1] + weight[1, 1]) / mixed
+    total += np.log(product)
     return total
 
 

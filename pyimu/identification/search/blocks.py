@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from functools import cached_property
 
 import numpy as np
+from numba import njit
 
 from pyimu.identification.fit.columns import Linear
 from pyimu.identification.fit.fit import Fit
@@ -57,7 +58,7 @@ class Blocks:
         for trial, _, _, full, _ in self.trials:
             u = reference_input(trial, self.fit.states[trial.name])
             at = np.floor(since_power_on(trial, trial.time) / self.block).astype(int)
-            out.append(_means(u, at, full))
+            out.append(_means(u[:], at, full))
         return out
 
     @cached_property
@@ -91,7 +92,7 @@ class Blocks:
             of_means, time = RandomWalk(noise.r / count, noise.k2), full * self.block
             made.append(of_means.whiten(values, time, [(0, len(time))]))
             total += of_means.log_det(time, [(0, len(time))])
-        return np.concatenate(made), total
+        return made[0] if len(made) == 1 else np.concatenate(made), total
 
     def drawn(self, r: float, k2: np.ndarray, rng: np.random.Generator) -> list[np.ndarray]:
         """Draws (blocks, k) of each trial's noise, one for each of the walks ``k2`` (k,)."""
@@ -123,13 +124,13 @@ class Blocks:
         return out
 
     def columns(self, e: Effect, name: str, values: np.ndarray) -> list[np.ndarray]:
-        """What a unit of an effect's size adds to each axis (blocks, values, 3) of each trial, for
+        """What a unit of an effect's size adds to each axis (3, blocks, values) of each trial, for
         each of the ``values`` of the coefficient ``name``.
         """
         return [self._columns(e, name, values, u) for u in self.inputs]
 
     def _columns(self, e: Effect, name: str, values: np.ndarray, u: np.ndarray) -> np.ndarray:
-        kind, out = self.fit.sensor.kind, np.empty((len(u), len(values), 3))
+        kind, out = self.fit.sensor.kind, np.empty((3, len(u), len(values)))
         sizes = {n: _unit(p.shape) for n, p in e.parameters.items() if not (p.form or p.reference)}
 
         def at(value: float) -> Sensor:
@@ -137,12 +138,13 @@ class Blocks:
 
         if e.remembers:
             for k, value in enumerate(values):
-                out[:, k] = predict(at(value), u, [(0, len(u))], self.block)
+                out[:, :, k] = predict(at(value), u, [(0, len(u))], self.block).T
         else:
             one = at(values[0])
             slot = next(k for k, s in enumerate(one.slots) if s.parameter == name)
             out = predict_each(one, u, self.block, slot, values)
-        return out - u[:, None, OWN[kind]]
+        out -= u[:, OWN[kind]].T[:, :, None]
+        return out
 
     def swing(self, e: Effect) -> float:
         """Range of the signals that drive an effect, of the one that has the largest."""
@@ -163,10 +165,26 @@ def beside(columns: np.ndarray, base: np.ndarray) -> np.ndarray:
     """Columns of unit length without what an orthonormal ``base`` explains; zero where that is
     all.
     """
-    raw = np.linalg.norm(columns, axis=0)
-    left = columns - base @ (base.T @ columns)
-    size = np.linalg.norm(left, axis=0)
-    return np.where(size > NOTHING * raw, left / np.where(size > 0.0, size, 1.0), 0.0)
+    return _beside(columns, base, base.T @ columns)
+
+
+@njit(cache=True)
+def _beside(columns, base, shares):
+    """The same with the ``shares`` (b, c) of the base in the columns, row by row."""
+    left, raw, size = columns.copy(), np.zeros(columns.shape[1]), np.zeros(columns.shape[1])
+    for k in range(len(columns)):
+        for b in range(len(shares)):
+            for j in range(len(raw)):
+                left[k, j] -= base[k, b] * shares[b, j]
+        for j in range(len(raw)):
+            raw[j] += columns[k, j] ** 2
+            size[j] += left[k, j] ** 2
+    shown = size > NOTHING**2 * raw
+    scale = np.where(shown, 1.0 / np.sqrt(np.where(shown, size, 1.0)), 0.0)
+    for k in range(len(columns)):
+        for j in range(len(raw)):
+            left[k, j] *= scale[j]
+    return left
 
 
 def _unit(shape: tuple[int, ...]) -> np.ndarray:
@@ -185,8 +203,7 @@ def _placed(e: Effect, name: str, value: float) -> np.ndarray:
 
 def _means(values: np.ndarray, number: np.ndarray, wanted: np.ndarray) -> np.ndarray:
     """Means (blocks, c) of rows (n, c) whose block has a ``number`` (n,), of those ``wanted``."""
-    inside = np.isin(number, wanted)
-    values, number = values[inside], number[inside]
     starts = np.flatnonzero(np.diff(number, prepend=-1))
     count = np.diff(np.append(starts, len(number)))
-    return np.add.reduceat(values, starts, axis=0) / count[:, None]
+    inside = np.isin(number[starts], wanted)
+    return np.add.reduceat(values, starts, axis=0)[inside] / count[inside, None]

@@ -10,7 +10,7 @@ most, and estimating the walk again.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from scipy.special import logsumexp
@@ -81,7 +81,7 @@ class Chance:
         axes, near = {}, []
         for i, walks in self.axes.items():
             columns = [beside(self._white(made, i, w), w.base) for w in walks]
-            axes[i] = [Explained(w, c) for w, c in zip(walks, columns, strict=True)]
+            axes[i] = [Explained(w, c, most > 1) for w, c in zip(walks, columns, strict=True)]
             near.append(_neighbours(columns[0]))
         largest = self._largest(Placed(axes, self.penalty), most)
         between = (1.0 - float(np.median(near)) ** 2) * np.log(apart)
@@ -93,7 +93,10 @@ class Chance:
         """
         of_axis = self.blocks.of_effect(linears, effect)
         axes = {
-            i: [Explained(w, beside(self.blocks.white(of_axis[i], w.noise)[0], w.base)) for w in ws]
+            i: [
+                Explained(w, beside(self.blocks.white(of_axis[i], w.noise)[0], w.base), False)
+                for w in ws
+            ]
             for i, ws in self.axes.items()
             if i in of_axis
         }
@@ -102,24 +105,31 @@ class Chance:
         return max(0.0, float(self._largest(Placed(axes, self.penalty), 1)[0]) - self._single)
 
     def _white(self, made: Sequence[np.ndarray], axis: int, walk: Walk) -> np.ndarray:
-        return self.blocks.white([one[:, :, axis] for one in made], walk.noise)[0]
+        return self.blocks.white([one[axis] for one in made], walk.noise)[0]
 
     def _largest(self, placed: Placed, most: int) -> np.ndarray:
         """What the best values gain [nat] in all but ``CHANCE`` of the draws, one, two, ..."""
         total, out = np.zeros(DRAWS), []
-        for _ in range(most):
+        for number in range(most):
             best = placed.best()
             total = total + best.gain
             out.append(float(np.quantile(total, 1.0 - CHANCE)))
-            placed.take(best)
+            if number + 1 < most:
+                placed.take(best)
         return np.array(out)
 
-    @cached_property
+    @property
     def _single(self) -> float:
         """The same of one value that was named beforehand, beside a noise that is known."""
-        z = np.random.default_rng(self.seed).standard_normal((SINGLE_DRAWS, len(self.axes)))
-        gains = np.maximum(0.5 * z**2 - self.penalty, 0.0)
-        return float(np.quantile(gains.sum(axis=1), 1.0 - CHANCE))
+        return _of_single(len(self.axes), self.penalty, self.seed)
+
+
+@lru_cache(maxsize=8)
+def _of_single(axes: int, penalty: float, seed: int) -> float:
+    """``Chance._single`` on so many axes."""
+    z = np.random.default_rng(seed).standard_normal((SINGLE_DRAWS, axes))
+    gains = np.maximum(0.5 * z**2 - penalty, 0.0)
+    return float(np.quantile(gains.sum(axis=1), 1.0 - CHANCE))
 
 
 def _neighbours(columns: np.ndarray) -> float:

@@ -117,6 +117,8 @@ def piled(trials: Sequence[Trial], axis: int) -> tuple[float, float]:
         return 0.0, -np.inf
     top = float(y.max())
     at = y >= top * (1.0 - EQUAL)
+    if at.sum() < 2:
+        return top, -np.inf
     step = max(resolution(y), 2.0 * EQUAL * top)
     count = _independent(at, np.diff(y, prepend=np.nan) == 0.0, step / noise)
     if count < 2 or step > FINE * noise:

@@ -111,7 +111,8 @@ class Tried:
         orders the candidates, and the gate and the scatter are those of the view before.
         """
         view, slow = self.views.pop(0)
-        seen = screen(view, self.declared, slow=slow)
+        chance = self.chance if view is self.current else None
+        seen = screen(view, self.declared, slow=slow, chance=chance)
         if slow and self.usual is not None:
             scatter = next((c.scatter for c in self.usual.candidates), Scatter())
             few = tuple(replace(c, scatter=scatter) for c in seen.candidates)

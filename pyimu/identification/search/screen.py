@@ -17,6 +17,7 @@ from pyimu.identification.fit.fit import Fit, with_prior
 from pyimu.identification.fit.keys import Coefficient, Key
 from pyimu.identification.fit.normal import Normal, solve
 from pyimu.identification.fit.reference_noise import equations
+from pyimu.identification.search.by_chance import Chance
 from pyimu.identification.search.candidates import (
     Choice,
     Group,
@@ -101,14 +102,22 @@ def is_slow(e: Effect) -> bool:
     return e.stage == "bias" and not e.is_line
 
 
-def screen(fit: Fit, declared: Iterable[str], seed: int = 1, *, slow: bool = False) -> Screening:
+def screen(
+    fit: Fit,
+    declared: Iterable[str],
+    seed: int = 1,
+    *,
+    slow: bool = False,
+    chance: Chance | None = None,
+) -> Screening:
     """Rank every absent effect, and those of ``declared`` whose values could be wrong, by the gain
-    over the fitted model; with ``slow`` those alone that may be slow.
+    over the fitted model; with ``slow`` those alone that may be slow. ``chance`` are draws of what
+    the fit leaves, where there are some.
     """
     new, held = absent(fit), contestable(fit, declared)
     if slow:
         new, held = [e for e in new if is_slow(e)], []
-    found_forms = forms(fit, new, PENALTY)
+    found_forms = forms(fit, new, PENALTY, chance)
     new = [e for e in new if not form_of(e) or e.name in found_forms]
     scans = scan_columns(fit, new)
     for name, form in found_forms.items():
@@ -147,7 +156,10 @@ def _gains(score: np.ndarray, choice: Choice, variance: np.ndarray) -> np.ndarra
     s = score[:, at]
     if not np.any(np.diag(variance)[at]):
         return np.zeros(len(score))
-    gain = 0.5 * np.einsum("di,id->d", s, solve(variance[np.ix_(at, at)], s.T))
+    if len(at) == 1:
+        gain = 0.5 * s[:, 0] ** 2 / variance[at[0], at[0]]
+    else:
+        gain = 0.5 * np.einsum("di,id->d", s, solve(variance[np.ix_(at, at)], s.T))
     if choice.value is not None:
         gain = np.where(s[:, 0] > 0, gain, 0.0)
     return gain - PENALTY * len(at)

@@ -25,13 +25,9 @@ LEAST_BLOCKS = 20
 class Slow:
     """What a fit leaves, and the forms of effects that are tried on it."""
 
-    def __init__(self, fit: Fit, linears: list[Linear], penalty: float) -> None:
-        self.fit, self.linears, self.penalty = fit, linears, penalty
+    def __init__(self, fit: Fit, linears: list[Linear], chance: Chance) -> None:
+        self.fit, self.chance = fit, chance
         self.blocks = Blocks(fit, linears, MOST_BLOCKS)
-
-    @cached_property
-    def chance(self) -> Chance:
-        return Chance(self.fit, self.linears, self.penalty)
 
     @cached_property
     def axes(self) -> dict[int, list[Walk]]:
@@ -51,7 +47,8 @@ class Slow:
         values = values[:: max(1, -(-len(values) // MOST_BLOCKS))]
         if blocks.count < LEAST_BLOCKS or not len(values):
             return None
-        placed, events = self._placed(e, name, values), e.parameters[name].shape
+        events = e.parameters[name].shape
+        placed = self._placed(e, name, values, bool(events))
         first = placed.best()
         # What explains nothing explains no more than by chance.
         most = events[0] if events else 1
@@ -63,14 +60,15 @@ class Slow:
         padded = np.concatenate([instants, np.full(events[0] - len(instants), UNUSED)])
         return Form({name: padded}, (), float(tolls[len(instants) - 1]))
 
-    def _placed(self, e: Effect, name: str, values: np.ndarray) -> Placed:
+    def _placed(self, e: Effect, name: str, values: np.ndarray, more: bool) -> Placed:
         made, axes = self.blocks.columns(e, name, values), {}
         for i, walks in self.axes.items():
-            of_axis = [one[:, :, i] for one in made]
+            of_axis = [one[i] for one in made]
             axes[i] = [
-                Explained(w, beside(self.blocks.white(of_axis, w.noise)[0], w.base)) for w in walks
+                Explained(w, beside(self.blocks.white(of_axis, w.noise)[0], w.base), more)
+                for w in walks
             ]
-        return Placed(axes, self.penalty)
+        return Placed(axes, self.chance.penalty)
 
 
 def _one_by_one(placed: Placed, tolls: np.ndarray) -> list[int]:

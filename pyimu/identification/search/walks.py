@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numba import njit
 from scipy.special import logsumexp
 
 from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
@@ -95,40 +96,68 @@ class Explained:
     """What values explain of the draws of an axis beside one walk, those before being in.
 
     ``score`` and ``power`` (T, d) are those of each value's column without the columns before,
-    ``likelihood`` (d,) that of what is in.
+    ``likelihood`` (d,) that of what is in; ``more`` says that values are to be put in.
     """
 
-    def __init__(self, walk: Walk, columns: np.ndarray) -> None:
+    def __init__(self, walk: Walk, columns: np.ndarray, more: bool) -> None:
         self.score, count = columns.T @ walk.draws, walk.draws.shape[1]
+        power = np.einsum("nt,nt->t", columns, columns)
+        self.power = np.repeat(power[:, None], count, axis=1)
+        self.likelihood = walk.likelihood.copy()
         # What is kept of many walks at once is kept in single precision.
-        self.columns = columns.astype(np.float32)
-        self.gram = self.columns.T @ self.columns if count > columns.shape[1] else None
-        self.power = np.repeat(np.sum(columns**2, axis=0)[:, None], count, axis=1)
-        self.likelihood, self.before = walk.likelihood.copy(), []
+        self.columns = columns.astype(np.float32) if more else np.zeros((0, 0), np.float32)
+        self.gram = self.columns.T @ self.columns if more and count > columns.shape[1] else None
+        self.before = np.zeros((0, *self.score.shape), np.float32)
 
-    def gain(self) -> np.ndarray:
-        """Log-likelihood (T, d) [nat] beside each value."""
-        shown = self.power > SHOWN
-        found = 0.5 * self.score**2 / np.where(shown, self.power, 1.0)
-        return self.likelihood + np.where(shown, found, 0.0)
+    def gain(self, best: np.ndarray) -> None:
+        """Raise ``best`` (T, d) to the log-likelihood [nat] beside each value."""
+        _gain(self.score, self.power, self.likelihood, best)
 
     def take(self, best: np.ndarray, wanted: np.ndarray) -> None:
         """Put the values ``best`` (d,) in, in the draws that are ``wanted`` (d,)."""
-        every = np.arange(len(best))
         if self.gram is None:
-            column = self.columns.T @ self.columns[:, best]
+            column = self.columns.T @ np.take(self.columns, best, axis=1)
         else:
-            column = self.gram[:, best]
-        for other in self.before:
-            column = column - other * other[best, every]
-        power = self.power[best, every]
-        use = wanted & (power > SHOWN)
-        column = np.where(use, column / np.sqrt(np.where(use, power, 1.0)), 0.0)
-        along = np.where(use, self.score[best, every] / np.sqrt(np.where(use, power, 1.0)), 0.0)
-        self.likelihood += 0.5 * along**2
-        self.score -= column * along
-        self.power -= column**2
-        self.before.append(column.astype(np.float32))
+            column = np.take(self.gram, best, axis=1)
+        _take(best, wanted, column, self.before, self.score, self.power, self.likelihood)
+        self.before = np.concatenate([self.before, column[None]])
+
+
+@njit(cache=True)
+def _gain(score, power, likelihood, best):
+    """What ``Explained.gain`` does."""
+    for t in range(score.shape[0]):
+        for d in range(score.shape[1]):
+            found = likelihood[d]
+            if power[t, d] > SHOWN:
+                found += 0.5 * score[t, d] ** 2 / power[t, d]
+            best[t, d] = max(best[t, d], found)
+
+
+@njit(cache=True)
+def _take(best, wanted, column, before, score, power, likelihood):
+    """What ``Explained.take`` does with the products ``column`` (T, d) of all columns with those
+    that are put in, which become what is left of these beside those ``before`` (k, T, d).
+    """
+    along, share = np.zeros(len(best)), np.zeros(len(best))
+    own = np.empty((len(before), len(best)), before.dtype)
+    for d in range(len(best)):
+        for other in range(len(before)):
+            own[other, d] = before[other, best[d], d]
+        size = power[best[d], d]
+        if wanted[d] and size > SHOWN:
+            share[d] = 1.0 / np.sqrt(size)
+            along[d] = share[d] * score[best[d], d]
+            likelihood[d] += 0.5 * along[d] ** 2
+    for t in range(score.shape[0]):
+        for other in range(len(before)):
+            for d in range(len(best)):
+                column[t, d] -= before[other, t, d] * own[other, d]
+        for d in range(len(best)):
+            left = share[d] * column[t, d]
+            score[t, d] -= left * along[d]
+            power[t, d] -= left**2
+            column[t, d] = left
 
 
 @dataclass(frozen=True)
@@ -163,7 +192,9 @@ class Placed:
         """Gain (T, d) [nat], penalised, of each value on an axis, beside the walk that suits it
         best, over the likeliest walk without it.
         """
-        with_it = np.max([one.gain() for one in walks], axis=0)
+        with_it = np.full(walks[0].score.shape, -np.inf)
+        for one in walks:
+            one.gain(with_it)
         return with_it - np.max([one.likelihood for one in walks], axis=0) - self.penalty
 
     def take(self, best: Best) -> None:

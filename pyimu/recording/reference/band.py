@@ -73,9 +73,11 @@ def _explained(frames: np.ndarray, p: int) -> np.ndarray:
 
     ``frames`` is (k, length, p + q).
     """
-    window = np.hanning(frames.shape[1])[:, None]
-    spectrum = np.fft.rfft((frames - frames.mean(axis=1, keepdims=True)) * window, axis=1)
-    s = np.einsum("kfi,kfj->fij", spectrum.conj(), spectrum)
+    pieces = np.ascontiguousarray(frames.transpose(2, 0, 1))
+    pieces -= pieces.mean(axis=-1, keepdims=True)
+    pieces *= np.hanning(pieces.shape[-1])
+    spectrum = np.ascontiguousarray(np.fft.rfft(pieces).transpose(2, 0, 1))
+    s = spectrum.conj() @ spectrum.transpose(0, 2, 1)
     explained = s[:, :p, p:] @ np.linalg.pinv(s[:, p:, p:], hermitian=True) @ s[:, p:, :p]
     total = np.trace(s[:, :p, :p], axis1=1, axis2=2).real
     return np.trace(explained, axis1=1, axis2=2).real / np.where(total > 0, total, np.inf)
