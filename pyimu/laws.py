@@ -1,4 +1,4 @@
-"""Tails and quantiles of the few laws that intervals and gates are made of.
+"""Tails and quantiles of the two laws that intervals and gates are made of.
 
 ``scipy.stats`` has them under the same names, by the same functions of ``scipy.special``. Importing
 it makes an object of each of a hundred laws, which takes a third of a second, and its calls look at
@@ -47,20 +47,6 @@ class chi2:
         """The logarithm of the density at ``x``, above zero."""
         half, x = np.divide(df, 2), np.asarray(x)
         return special.xlogy(half - 1, x) - x / 2 - special.gammaln(half) - math.log(2) * half
-
-
-class f:
-    """The ratio of two variances (Fisher) of ``dfn`` and ``dfd`` degrees of freedom."""
-
-    @staticmethod
-    def sf(x: ArrayLike, dfn: ArrayLike, dfd: ArrayLike) -> np.ndarray:
-        """The probability above ``x``."""
-        return special.fdtrc(dfn, dfd, x)
-
-    @staticmethod
-    def ppf(p: ArrayLike, dfn: ArrayLike, dfd: ArrayLike) -> np.ndarray:
-        """What is not exceeded with the probability ``p``."""
-        return special.fdtri(dfn, dfd, p)
 
 
 class norm:

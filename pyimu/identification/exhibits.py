@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from scipy.signal import welch
 
-from pyimu import filters
 from pyimu.identification.fit.columns import band_segments, band_time, in_band, residual
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.inputs import LogState, reference_input
@@ -323,7 +323,8 @@ def density(traces: Sequence[Trace], name: str) -> tuple[np.ndarray, np.ndarray]
     total, weight = 0.0, 0
     for t, piece in pieces:
         if len(piece) >= length:
-            f, p = filters.density(piece, 1.0 / t.period, length)
+            rate = 1.0 / t.period
+            f, p = welch(piece, rate, nperseg=length, axis=0, detrend="constant")
             total, weight = total + len(piece) * p.mean(axis=1), weight + len(piece)
     return f[1:-1], (total / weight)[1:-1]
 

@@ -6,12 +6,12 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from scipy.stats import chi2
 
 from pyimu.identification.fates import NOT_LOOKED_FOR, Fate
 from pyimu.identification.found import Added, Changed, Errors
 from pyimu.identification.search.forward import AS_NOISE, Refused
 from pyimu.identification.search.leftover import Unexplained
-from pyimu.laws import chi2
 from pyimu.model.catalogue import WALK, WHITE
 from pyimu.report.numbers import joined, number
 

@@ -14,13 +14,14 @@ from itertools import combinations_with_replacement
 
 import numpy as np
 from scipy.fft import rfft
+from scipy.signal import freqz
+from scipy.signal.windows import hann
+from scipy.stats import chi2
 
-from pyimu.filters import gain, hann
 from pyimu.identification.fit.columns import Linear, in_band
 from pyimu.identification.fit.sample_noise import without_information
 from pyimu.identification.fit.trial import Doubt, Trial
 from pyimu.identification.fit.whiten import RandomWalk
-from pyimu.laws import chi2
 from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.signals import COLUMNS
 
@@ -162,12 +163,12 @@ def unseen_spectra(trial: Trial, one: Linear, own: Mapping[int, RandomWalk]) -> 
     found = {}
     for k, axis in enumerate(axes):
         by, at = cross[:, known, k], trial.axes.index(axis)
-        slope = np.einsum("fij,fj->fi", inverse, by)
-        shown = np.einsum("fi,fi->f", by.conj(), slope).real
+        gain = np.einsum("fij,fj->fi", inverse, by)
+        shown = np.einsum("fi,fi->f", by.conj(), gain).real
         left = np.maximum(cross[:, k, k].real - shown, 0.0) * (1.0 + count / averaged)
         mine = _own(trial, own[axis], frequency)
         # The sensor's own noise is in its signal as well: that share of it is not left.
-        share = np.clip(slope[:, at].real, 0.0, 1.0)
+        share = np.clip(gain[:, at].real, 0.0, 1.0)
         of_share = mine * np.sqrt(left * np.maximum(inverse[:, at, at].real, 0.0))
         psd, std = left - mine * (1.0 - share), np.hypot(left, of_share) / np.sqrt(averaged)
         psd[0] = std[0] = 0.0
@@ -204,7 +205,7 @@ def _transforms(
     """Transforms (f, k, n) of k signals (m,) in their n frames, whose squares are one-sided
     densities.
     """
-    window = hann(length)
+    window = hann(length, sym=False)
     window *= np.sqrt(2 * interval / (window @ window))
     z = np.empty((length // 2 + 1, len(every), len(starts)), dtype=complex)
     # One signal after another: together their frames would be most of what a run has in memory.
@@ -329,7 +330,7 @@ def in_rows(
 
 def response(trial: Trial, frequency: np.ndarray) -> np.ndarray:
     """Gain (f,) of the trial's band at ``frequency`` in Hz."""
-    return gain(np.array(trial.band.weights), frequency * trial.h)
+    return np.abs(freqz(trial.band.weights, worN=frequency, fs=1.0 / trial.h)[1])
 
 
 def drawn(

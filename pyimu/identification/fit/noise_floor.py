@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 from scipy.linalg import solve_toeplitz
+from scipy.signal import lfilter
+from scipy.stats import chi2
 
-from pyimu.filters import recursive
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.noise_fit import declared_variances
 from pyimu.identification.fit.sample_noise import rest_noise
 from pyimu.identification.fit.whiten import RandomWalk
-from pyimu.laws import chi2
 
 WINDOW = 64
 """Rows of the windows in which the quiet is looked for."""
@@ -77,7 +77,7 @@ def beyond_own(fit: Fit, errors: float = 0.0) -> np.ndarray:
             # No stretch is as long as a window: the level that half of the rows stay below.
             squares = np.concatenate([r for r, _ in seen]) ** 2
             rows = len(squares)
-            level = float(np.median(squares) / chi2.ppf(0.5, 1)) if rows else 0.0
+            level = float(np.median(squares) / chi2.median(1)) if rows else 0.0
         most = level * (1.0 + errors * np.sqrt(2.0 / max(rows, 1.0)))
         noise[i] = max(0.0, most - own[i].r * share)
     return noise
@@ -110,9 +110,9 @@ def lowness(pieces: np.ndarray, share: float = QUIET, seed: int = 1) -> float:
     """What the quietest ``share`` of windows shows of the variance, if noise of the colour that
     windows (k, m) have in their quiet has one level.
     """
-    coefficients = np.array(colour(quietest(pieces, QUIET)))
+    taps = [1.0, *(-c for c in colour(quietest(pieces, QUIET)))]
     drawn = np.random.default_rng(seed).standard_normal(DRAWN * WINDOW)
-    settled = recursive(drawn, coefficients)[WINDOW:].reshape(-1, WINDOW)
+    settled = lfilter([1.0], taps, drawn)[WINDOW:].reshape(-1, WINDOW)
     return quiet(settled, share) / float(np.mean(settled.var(axis=1)))
 
 

@@ -13,11 +13,11 @@ from functools import cache, lru_cache
 
 import casadi as ca
 import numpy as np
+from scipy.signal import oaconvolve
 
 from pyimu.block.program import program
 from pyimu.block.stepping import step_through
 from pyimu.block.vectorised import over_rows, split_over_rows
-from pyimu.filters import convolved
 from pyimu.model.chain import Chain, chain_of
 from pyimu.model.effect import Effect
 from pyimu.model.kinds import OWN
@@ -152,7 +152,7 @@ def through_dynamics(
     out = np.array(x)
     for a, b in segments:
         origin = x[a]
-        moved = convolved(x[a:b] - origin, response[: b - a])
+        moved = oaconvolve(x[a:b] - origin, response[: b - a], axes=0)[: b - a]
         # Dynamics pass a constant as it is; a response that was cut off before it had died away
         # must not change the level.
         out[a:b] = moved + origin

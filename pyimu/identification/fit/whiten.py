@@ -14,8 +14,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numba import njit
+from scipy.signal import lfilter
 
-from pyimu.filters import recursive
 from pyimu.identification.fit.local_level import LOGGED, ROUNDING, SAME, likeliest
 
 Segments = list[tuple[int, int]]
@@ -234,8 +234,8 @@ class Autoregressive:
         """Variance of the sum of products of ``values`` (m,) with this noise: the noise is a filter
         of white noise, and its adjoint acts on the values.
         """
-        coefficients = np.array(self.coefficients)
-        seen = (recursive(values[a:b][::-1], coefficients) for a, b in segments)
+        taps = np.concatenate([[1.0], -np.array(self.coefficients)])
+        seen = (lfilter([1.0], taps, values[a:b][::-1]) for a, b in segments)
         return float(self.r * sum(np.sum(v**2) for v in seen))
 
     @classmethod

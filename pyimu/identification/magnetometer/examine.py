@@ -12,6 +12,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from scipy.stats import f as fisher
 
 from pyimu.attitude.calibration import MagnetometerCalibration, of_sensor
 from pyimu.attitude.magnetometer import magnetometer_of
@@ -36,7 +37,6 @@ from pyimu.identification.magnetometer.fit import (
 from pyimu.identification.magnetometer.rows import FieldRows, field_rows
 from pyimu.identification.model_of import Found
 from pyimu.identification.verdict import FAR
-from pyimu.laws import f
 from pyimu.model.part import Part
 from pyimu.recording.recording import Recording
 
@@ -256,7 +256,7 @@ def _gain(before: MagnetometerCalibration, found: FieldFit) -> tuple[float, floa
     off[MATRIX] = (found.calibration.matrix - before.matrix / size).ravel()
     gain = float(np.mean((shown(found.covariance) @ off) ** 2))
     freedom = DEGREES * (found.blocks - 1)
-    return gain, float(f.ppf(1 - GATE, DEGREES, freedom))
+    return gain, float(fisher.ppf(1 - GATE, DEGREES, freedom))
 
 
 def _errors(before: MagnetometerCalibration, after: MagnetometerCalibration, h: Held) -> Errors:

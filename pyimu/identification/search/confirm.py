@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.stats import chi2
 
 from pyimu.identification.fit.columns import Linear, band_time, in_band, linearise, residual
 from pyimu.identification.fit.fit import Fit, bare, whitened
@@ -20,7 +21,6 @@ from pyimu.identification.fit.score import held_state
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.identification.search.leftover import axis_likelihood
-from pyimu.laws import chi2
 
 SPEAKS = 0.5
 """Log-likelihood [nat] by which two models must differ on held-out rows for these to decide."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.signal import correlate
 
 from pyimu.errors import Finding
 from pyimu.recording.clock import runs
@@ -123,8 +124,6 @@ def _axis_that_turns(recording: Recording, rate: np.ndarray) -> np.ndarray:
     """A unit vector (3,): the axis whose gyro has the largest covariance with the course's rate at
     any lag of some seconds.
     """
-    from scipy.signal import correlate  # it takes half a second, and few logs have a course
-
     up = np.array([0.0, 0.0, 1.0])
     if recording.gyro is None:
         return up

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from scipy.signal import savgol_filter
 
 from pyimu.errors import Finding
 from pyimu.recording.recording import Recording
@@ -27,8 +28,6 @@ def even_times(recording: Recording) -> np.ndarray | None:
     """The times (n,) s at which the samples of a recording were taken if they were so evenly, by
     the lines through their stamps; None where the stamps hardly scatter about these.
     """
-    from scipy.signal import savgol_filter  # it takes half a second
-
     time, h = recording.time, recording.sample_period
     even = np.array(time)
     for a, b in recording.segments:
