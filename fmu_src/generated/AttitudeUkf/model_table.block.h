@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{fa27c878-d92e-49d9-4c00-b71656425be2}"
-#define MODEL_TOKEN_FMI3 "{3b933f1f-fea5-3642-9875-5c6b024fd442}"
+#define MODEL_TOKEN_FMI2 "{461fa374-a1ee-9c77-6c13-36c508f4f9c8}"
+#define MODEL_TOKEN_FMI3 "{d0b32d80-6e00-cd27-aed2-7c824e63b082}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263

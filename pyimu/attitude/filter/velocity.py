@@ -63,6 +63,11 @@ is seen. The walk lets the filter follow the drift, and so take it away: what is
 end is a third of a hundredth."""
 
 
+FLAT = 1e-13
+"""Least share of the larger of the two variances of a velocity, across the vertical and along it,
+that the smaller has: some hundred units in the last place."""
+
+
 @dataclass(frozen=True)
 class Push:
     """What a sample of the force changes of the velocity.
@@ -193,7 +198,12 @@ def at_rest(x: Estimate, motion) -> Estimate:
 
 
 def covariance_of_motion(across, along, up):
-    """The covariance (3, 3) in body axes of a velocity with variances ``across`` and ``along``."""
+    """The covariance (3, 3) in body axes of a velocity with variances ``across`` and ``along``.
+
+    Of a velocity that seems to grow without end along the one, and not to be along the other, the
+    smaller would be lost in the rounding of the larger, and the matrix indefinite.
+    """
+    across, along = ca.fmax(across, FLAT * along), ca.fmax(along, FLAT * across)
     return symmetric(3, lambda i, j: across * (i == j) + (along - across) * up[i] * up[j])
 
 
