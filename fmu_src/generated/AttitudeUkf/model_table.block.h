@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{461fa374-a1ee-9c77-6c13-36c508f4f9c8}"
-#define MODEL_TOKEN_FMI3 "{d0b32d80-6e00-cd27-aed2-7c824e63b082}"
+#define MODEL_TOKEN_FMI2 "{07f1af2b-7fde-ac8f-3835-ff076606b3e9}"
+#define MODEL_TOKEN_FMI3 "{597de2fa-263f-b047-82ed-167bce9901c9}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -24,7 +24,7 @@ enum {
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 45, WORK_RES = 28, WORK_IW = 0, WORK_W = 2558 };
+enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 2560 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{2cf4a049-0ba9-923f-6a42-af6b91435a2a}"
-#define MODEL_TOKEN_FMI3 "{9f67e94d-3de4-6a2f-2e0b-1e2a4e2f721e}"
+#define MODEL_TOKEN_FMI2 "{8ffc2c72-e2f5-3286-3c61-1b020d38f38e}"
+#define MODEL_TOKEN_FMI3 "{475eaf54-f7e6-0838-e067-5dcce8a035e3}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -24,7 +24,7 @@ enum {
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 45, WORK_RES = 28, WORK_IW = 0, WORK_W = 2558 };
+enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 2560 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };

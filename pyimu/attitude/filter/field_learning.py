@@ -9,7 +9,6 @@ import casadi as ca
 from pyimu.attitude.filter.field import ATTITUDES, PARTS, TINY, Field
 from pyimu.attitude.filter.gravity_update import tilt_variance, vertical
 from pyimu.attitude.filter.layout import Layout
-from pyimu.attitude.filter.prediction import STATIONARY
 from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.timing import clock_error
 from pyimu.attitude.filter.unscented import LARGEST_STD, WHOLE, Estimate
@@ -48,26 +47,28 @@ differ."""
 @dataclass(frozen=True)
 class Step:
     """What there is of a sample: its settings, its period ``h`` in s by the gyro's clock, and the
-    body's ``turn`` (3,) rad in the period, against the world.
+    body's ``turn`` (3,) rad in the period, against the world, of what was measured the share
+    ``moving``.
 
     ``attitudes`` is how much of ``TURN`` that is, beside the gyro's noise.
     """
 
     settings: Settings
     h: ca.SX
+    moving: ca.SX
     turn: ca.SX
     attitudes: ca.SX
 
     @classmethod
-    def of(cls, layout: Layout, x: Estimate, u, p, h, rate) -> Step:
-        """Of the inputs, with the compensated ``rate`` (3,) rad/s and the estimate ``x``."""
+    def of(cls, layout: Layout, x: Estimate, p, h, rate, moving) -> Step:
+        """Of the parameters, the compensated ``rate`` (3,) rad/s and the estimate ``x``."""
         settings = Settings.of(layout.compensation, p)
         h = h * (1 + clock_error(layout.compensation.part.gyro, settings.gyro_p))
         earth = quaternion.rotate(quaternion.conjugate(x.q), settings.earth)
-        turned = (rate - x.bias - earth) * h * (u[STATIONARY] <= 0.5)
+        turned = (rate - x.bias - earth) * h * moving
         noise = 4 * ca.sumsqr(settings.gyro.white) * h
         size = ca.sqrt(ca.fmax(ca.sumsqr(turned) - noise, 0))
-        return cls(settings, h, turned, size / TURN)
+        return cls(settings, h, moving, turned, size / TURN)
 
     def __getitem__(self, name: str):
         return self.settings.scalar[name]

@@ -36,7 +36,7 @@ from pyimu.attitude.filter.late_heading import wrapped
 from pyimu.attitude.filter.layout import Flags, Layout
 from pyimu.attitude.filter.marginal import turn
 from pyimu.attitude.filter.memory import ESTIMATE, WORKING, Memory
-from pyimu.attitude.filter.unscented import WHOLE, Estimate, N
+from pyimu.attitude.filter.unscented import WHOLE, Estimate, N, turned_axes
 from pyimu.attitude.filter.variables import MAG
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import backward, cholesky, forward, symmetric
@@ -51,6 +51,13 @@ LONGEST_HOLD = 0.1
 
 LONGEST = 1.0
 """s; a sample stands for the time since the last one, and for no more than this."""
+
+ALIKE = 0.999
+"""Largest share of the variance of what the field's direction has beside the north that the error
+of the estimate may explain."""
+
+NONE = 1e-20
+"""rad^2; variance of a part of the field's direction that is none."""
 
 LEAST_HORIZONTAL = 0.05
 """Least share of the horizontal part of the field with which it has a direction: a dip of 87
@@ -79,8 +86,9 @@ def by_field(layout: Layout) -> ca.Function:
     u, p, h, rate, flags = symbols = layout.symbols(ca.SX, "u p h rate flags")
     working, kept = both[:WORKING], Field.unpack(both[WORKING:])
     x, predicted = Memory.estimate_of(working), Memory.estimate_of(before)
-    step = Step.of(layout, predicted, u, p, h, rate)
-    kept = replace(kept, shared=kept.shared * (1 - Flags.unpack(flags).lost))
+    told = Flags.unpack(flags)
+    step = Step.of(layout, predicted, p, h, rate, told.moving)
+    kept = replace(kept, shared=kept.shared * (1 - told.lost))
     kept = _carried(kept, predicted, x, step)
     tilt_known = tilt_variance(x.covariance, vertical(x)) <= KNOWN_TILT**2
     after, x, turned = _measured(kept, x, u[MAG], (working[ESTIMATE + 1] < 0.5) * tilt_known, step)
@@ -106,20 +114,32 @@ def _carried(kept: Field, before: Estimate, x: Estimate, step: Step) -> Field:
     covariance = unknown + ca.diag(stays) @ (kept.covariance - unknown) @ ca.diag(stays)
     root = cholesky(before.covariance)
     whitened = forward(root, shared)
-    # Rounding and what is not linear must not make a part more like the estimate than it can be.
-    told = ca.sum1(whitened**2).T
-    share = ca.fmin(1, ca.sqrt(0.999 * ca.diag(covariance) / ca.fmax(told, TINY)))
-    whitened = whitened @ ca.diag(share)
-    slope = backward(root, whitened)
-    told, left = whitened.T @ whitened, slope.T @ x.covariance @ slope
+    # Rounding and what is not linear must not make the parts more like the estimate than they are.
+    whitened = whitened * ca.sqrt(ca.fmin(1, ALIKE * _room(covariance, whitened.T @ whitened)))
+    slope, change = backward(root, whitened), _difference(before, x)
+    # The covariance after an update is in axes that were turned with the vertical.
+    turned = turned_axes(change, vertical(before)) @ slope[:3, :]
+    told, slope_after = whitened.T @ whitened, ca.vertcat(turned, slope[3:, :])
+    left = slope_after.T @ x.covariance @ slope_after
     grown = ca.fmin(1, ca.sqrt(ca.diag(told) / ca.fmax(ca.diag(left), TINY)))
     less = told - ca.diag(grown) @ left @ ca.diag(grown)
     return replace(
         kept,
-        turned=stays * kept.turned + slope.T @ _difference(before, x),
+        turned=stays * kept.turned + slope.T @ change,
         covariance=symmetric(PARTS, lambda i, j: covariance[i, j] - less[i, j]),
-        shared=x.covariance @ slope @ ca.diag(grown),
+        shared=x.covariance @ slope_after @ ca.diag(grown),
     )
+
+
+def _room(whole, told):
+    """By which factor ``told`` (2, 2) may grow and be no more than the ``whole`` (2, 2) in any
+    direction: the smallest m with det(whole - m told) = 0. Of a part that is none nothing is told.
+    """
+    whole = whole + NONE * ca.SX.eye(PARTS)
+    both = [v[0, 0] * v[1, 1] - v[0, 1] ** 2 for v in (whole, told)]
+    mixed = whole[0, 0] * told[1, 1] + whole[1, 1] * told[0, 0] - 2 * whole[0, 1] * told[0, 1]
+    root = ca.sqrt(ca.fmax(mixed**2 - 4 * both[0] * both[1], 0))
+    return 2 * ca.fmax(both[0], 0) / ca.fmax(mixed + root, TINY**2)
 
 
 def _propagated(shared, x: Estimate, step: Step):
@@ -130,7 +150,7 @@ def _propagated(shared, x: Estimate, step: Step):
     """
     p, b, v = shared[:3, :], shared[3:6, :], shared[6:, :]
     own = quaternion.to_matrix(turn(step.turn)[0]).T
-    p = own @ p - step.h * b
+    p = own @ p - step.h * step.moving * b
     tilting = step["gravity"] * step.h * ca.skew(vertical(x))
     return ca.vertcat(p, b, own @ v - tilting @ p)
 
@@ -206,9 +226,8 @@ def _by_direction(kept: Field, x: Estimate, seen, lateral, good, dt, step: Step)
 
     cross, parts, own = _innovation_variance(kept, x, slope)
     variance = own + white / dt
-    q, bias, covariance, corrected = _about_the_vertical(
-        x, up, cross, variance, weight / variance, innovation
-    )
+    own_gain = _about_the_vertical(up, cross, weight / variance)
+    x, corrected = _corrected(x, up, cross, variance, own_gain, innovation)
     gain = weight * parts / variance
     after = symmetric(PARTS, lambda i, j: kept.covariance[i, j] - gain[i] * parts[j])
     kept = replace(
@@ -216,10 +235,11 @@ def _by_direction(kept: Field, x: Estimate, seen, lateral, good, dt, step: Step)
         beside=beside,
         turned=kept.turned + gain * innovation,
         covariance=after,
-        shared=kept.shared - cross @ gain.T,
+        # Joseph's form: with less than their full weight what the two gains share stays.
+        shared=kept.shared - cross @ gain.T - (1 - weight) * own_gain @ parts.T,
         off=1 - (1 - kept.off) * (1 - beyond),
     )
-    return kept, Estimate(q, bias, x.velocity, covariance), corrected
+    return kept, x, corrected
 
 
 def _innovation_variance(kept: Field, x: Estimate, slope):
@@ -229,15 +249,19 @@ def _innovation_variance(kept: Field, x: Estimate, slope):
     return cross, parts, ca.dot(slope, cross[:3]) + ca.sum1(parts)
 
 
-def _about_the_vertical(x: Estimate, up, cross, variance, scale, innovation):
-    """Attitude, bias and covariance (9, 9) after the innovation, and the turn about ``up`` in rad.
+def _about_the_vertical(up, cross, scale):
+    """The gain (9,) of an innovation for the estimate, ``scale`` times the covariance ``cross``.
 
-    The gain for the tilt, for the velocity, and for the bias across the vertical, which would tilt,
-    is zero: these stay as they are, and their variance is accounted for (Schmidt's consider filter;
+    That for the tilt, for the velocity, and for the bias across the vertical, which would tilt, is
+    zero: these stay as they are, and their variance is accounted for (Schmidt's consider filter;
     Joseph's form, Bierman 1977, section II.4).
     """
     about, along = scale * ca.dot(up, cross[:3]), scale * ca.dot(up, cross[3:N])
-    gain = ca.vertcat(about * up, along * up, ca.SX.zeros(3))
+    return ca.vertcat(about * up, along * up, ca.SX.zeros(3))
+
+
+def _corrected(x: Estimate, up, cross, variance, gain, innovation) -> tuple[Estimate, ca.SX]:
+    """The estimate after the innovation, and the turn about ``up`` in rad."""
     covariance = symmetric(
         WHOLE,
         lambda i, j: (
@@ -247,10 +271,10 @@ def _about_the_vertical(x: Estimate, up, cross, variance, scale, innovation):
             + variance * gain[i] * gain[j]
         ),
     )
-    corrected = about * innovation
+    corrected = ca.dot(up, gain[:3]) * innovation
     correction = ca.vertcat(ca.cos(corrected / 2), ca.sin(corrected / 2) * up)
     q = quaternion.product(x.q, correction)
-    return q, x.bias + along * innovation * up, covariance, corrected
+    return Estimate(q, x.bias + gain[3:N] * innovation, x.velocity, covariance), corrected
 
 
 def _less_known(x: Estimate, up, share, variance) -> Estimate:

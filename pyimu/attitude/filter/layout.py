@@ -55,7 +55,7 @@ class GravityMeasurement:
 EVERY = 5
 """Of ``Flags.which``: any of the updates."""
 
-FLAGS = 18
+FLAGS = 19
 """Numbers of ``Flags``."""
 
 
@@ -69,10 +69,10 @@ class Flags:
     whether a ``heading`` and a zero rate (``stationary`` by its input, ``resting`` as found)
     correct, whether there is ``doubt`` of the rest that was found, the variance (rad/s)^2 that
     ``sway`` then adds to that of a sample, whether an input was ``missing``, whether a magnetometer
-    has been seen (``field``). Whether a ``speed`` corrects, whether the body is ``driven``, and
-    whether its velocity begins ``anew``. ``faults`` are the other bits of the status; ``constant``
-    rad^2 is the variance of the tilt by a constant error of the accelerometer; ``vertical_noise``
-    is that of ``Memory``.
+    has been seen (``field``), which share of the measured turn is one (``moving``). Whether a
+    ``speed`` corrects, whether the body is ``driven``, and whether its velocity begins ``anew``.
+    ``faults`` are the other bits of the status; ``constant`` rad^2 is the variance of the tilt by a
+    constant error of the accelerometer; ``vertical_noise`` is that of ``Memory``.
     """
 
     which: ca.SX
@@ -91,6 +91,7 @@ class Flags:
     driven: ca.SX
     anew: ca.SX
     field: ca.SX
+    moving: ca.SX
     constant: ca.SX
     vertical_noise: ca.SX
 

@@ -357,6 +357,7 @@ def _flags(
         driven=ca.SX(0),
         anew=ca.SX(0),
         field=field,
+        moving=rest.moving,
         constant=constant_variance(force.size, at.settings),
         vertical_noise=vertical_noise,
     )
