@@ -33,12 +33,12 @@ def compensated(recording: Recording, part: Part) -> Recording:
         for i, values in enumerate(column.T):
             u[:, at[f"{signal}[{i + 1}]" if column.shape[1] > 1 else signal]] = values
     y = Run(block, n, sample_period=recording.sample_period).advance(u)
-    lost = [np.where(y[:, i : i + 1] > 0.5, np.nan, 0.0) for i in (6, 7)]
+    lost = np.where(y[:, 6:] > 0.5, np.nan, 0.0)
     cadence = recording.cadence
     return replace(
         recording,
-        gyro=y[:, :3] + lost[0],
-        accel=y[:, 3:6] + lost[1],
+        gyro=y[:, :3] + lost[:, :3],
+        accel=y[:, 3:6] + lost[:, 3:],
         period=cadence.period,
         longest=cadence.longest,
     )
@@ -51,18 +51,18 @@ def _block(layout: Layout) -> Block:
     settings = prediction.settings_of(layout, p)
     memory = Memory.unpack(s, layout)
     level = quaternion.from_euler(ca.SX(0), ca.SX(0), ca.SX(0))
-    sample = prediction.read(layout, memory, level, u, settings, h)
+    sample = prediction.read(layout, memory, level, ca.SX.zeros(3), u, settings, h)
     means = memory.mean_rate, memory.mean_force
     after = prediction.remembered(memory, sample, means, h).pack()
     y = ca.vertcat(sample.rate, sample.force, sample.gyro_lost, sample.accel_lost)
-    names = tuple(Variable(f"y[{i + 1}]") for i in range(8))
-    start = prediction.empty(layout, settings).pack()
+    names = tuple(Variable(f"y[{i + 1}]") for i in range(y.numel()))
+    start = prediction.empty(layout, settings).pack(), ca.SX.zeros(len(names))
     ends = (["s", "u", "p", "w", "h"], ["s_next", "y"])
     return Block(
         name="Compensated",
         description=f"the inverse of {layout.part.name}",
         step=ca.Function("step", [s, u, p, ca.SX(0, 1), h], [after, y], *ends, {"cse": True}),
-        initial=ca.Function("initial", [u, p], [start, ca.SX.zeros(8)], ["u", "p"], ["s", "y"]),
+        initial=ca.Function("initial", [u, p], [*start], ["u", "p"], ["s", "y"]),
         inputs=layout.inputs,
         parameters=layout.parameters,
         outputs=names,

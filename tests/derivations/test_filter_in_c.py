@@ -43,9 +43,8 @@ class FilterInC:
             [*compiler_command(), *FLAGS, *include, str(source / "step.c"), "-o", library, "-lm"],
             check=True,
         )
-        self.step, self.initial = (
-            ca.external("step", str(library)),
-            ca.external("initial", str(library)),
+        self.step, self.constants, self.initial = (
+            ca.external(name, str(library)) for name in ("step", "constants", "initial")
         )
         variables = ElementTree.parse(source / "modelDescription.fmi3.xml").find("ModelVariables")
         self.names = {
@@ -61,6 +60,7 @@ class FilterInC:
         """
         parameters = list({**self.p, **p}.values())
         state, out = self.initial(np.zeros(len(self.names["input"])), parameters)[0], []
+        constants = self.constants(parameters, H)
         for row in u:
             inputs = {
                 "accel[1]": 50.0,
@@ -68,7 +68,12 @@ class FilterInC:
                 **row,
             }
             state, y = self.step(
-                state, [inputs.get(n, 0.0) for n in self.names["input"]], parameters, [], H
+                state,
+                [inputs.get(n, 0.0) for n in self.names["input"]],
+                parameters,
+                [],
+                H,
+                constants,
             )
             out.append(dict(zip(self.names["output"], np.array(y).ravel(), strict=True)))
         return out

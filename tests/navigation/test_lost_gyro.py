@@ -9,6 +9,7 @@ from navigation_cases import SHORT, calibrated, declared, noisy, perfect, white
 from scipy.spatial.transform import Rotation
 
 from pyimu.navigation import run
+from pyimu.navigation.compensated import compensated
 from pyimu.recording.recording import Recording
 from pyimu.units import STANDARD_GRAVITY
 
@@ -86,6 +87,24 @@ def test_a_rate_at_its_limit_counts_as_far_as_it_goes(log):
     found = run(clipped, part, method="filter").filter
     turned = np.degrees(np.abs(np.diff(yaw_of(log.ref_q))).sum())
     assert yaw_off(log, found) < turned / 9 + 6.0
+
+
+def test_a_part_is_undone_axis_by_axis(log):
+    """Scale factors of 2 % and of -3 %, of a gyro that has no numbers about x for a while."""
+    gains = {"gyro": np.array([0.02, 0.0, -0.03]), "accel": np.array([0.0, 0.01, 0.0])}
+    part = calibrated()
+    for kind, s in gains.items():
+        sensor = part.sensor(kind)
+        part = part.with_sensor(replace(sensor, values=sensor.values | {"scale_factor": {"s": s}}))
+    off = replace(log, gyro=log.gyro * (1 + gains["gyro"]), accel=log.accel * (1 + gains["accel"]))
+    rows = (log.time > 7.0) & (log.time < 8.0)
+    lost = with_gyro(off, rows, [0], np.nan)
+    found = compensated(lost, part)
+    np.testing.assert_allclose(found.gyro, with_gyro(log, rows, [0], np.nan).gyro, atol=1e-12)
+    np.testing.assert_allclose(found.accel, log.accel, atol=1e-12)
+    ends = [run(r, p, method="filter") for r, p in ((off, part), (log, calibrated()))]
+    places = [e.filter.vector("position")[-1] for e in ends]
+    np.testing.assert_allclose(places[0], places[1], atol=1e-6)
 
 
 def at_rest(noise, seconds=120.0, h=0.02):

@@ -160,7 +160,7 @@ def _predict(layout: Layout) -> ca.Function:
     settings = prediction.settings_of(layout, p)
     x = layout.unpack(s)
     memory = Memory.unpack(s[layout.packed :], layout)
-    sample = prediction.read(layout, x, memory, u, settings, h)
+    sample = prediction.read(layout, memory, x.q, x.gyro_bias, u, settings, h)
     sample = prediction.with_rest(layout, x, memory, sample, settings, h)
     after, transition, means = prediction.predicted(layout, x, memory, sample, settings, h)
     packed = ca.if_else(memory.begun > 0, layout.pack(after), s[: layout.packed])

@@ -112,8 +112,8 @@ def settings_of(layout: Layout, p) -> Settings:
     return Settings.of(layout.compensation, p, OWN_PARAMETERS, LASTS)
 
 
-def read(layout: Layout, x: State, memory: Memory, u, settings: Settings, h) -> Sample:
-    """The sample of the inputs ``u``; ``x`` is the estimate before it."""
+def read(layout: Layout, memory: Memory, q, bias, u, settings: Settings, h) -> Sample:
+    """The sample of the inputs ``u``; ``q`` and the gyro's ``bias`` (3,) are as they were."""
     extra, at = [], len(INPUTS)
     for name in layout.compensation.extra:
         extra.append(u[at : at + SIGNALS[name].size])
@@ -125,7 +125,7 @@ def read(layout: Layout, x: State, memory: Memory, u, settings: Settings, h) -> 
         "rate": held[GYRO],
         "specific_force": held[ACCEL],
         "temperature": held[6],
-        "attitude": x.q,
+        "attitude": q,
         "latitude": settings.latitude,
         "latitude_known": settings.known,
     }
@@ -140,7 +140,7 @@ def read(layout: Layout, x: State, memory: Memory, u, settings: Settings, h) -> 
     gyro_lost = 1 - good[GYRO] * (ca.densify(gyro_lost) <= 0.5)
     accel_lost = 1 - ca.mmin(good[ACCEL]) * (ca.mmax(ca.densify(accel_lost)) <= 0.5)
     still = is_finite(u[STATIONARY]) * (u[STATIONARY] > 0.5)
-    rate = x.gyro_bias + fades * (rate - x.gyro_bias)
+    rate = bias + fades * (rate - bias)
     return Sample(held, rate, force, gyro_lost, accel_lost, still, sensors, memory.window)
 
 
