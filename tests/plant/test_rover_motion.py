@@ -4,11 +4,12 @@ are those of one motion.
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from pyimu.block.parameters import with_values
+from pyimu.errors import UserError
 from pyimu.rover.drives import block, drive, free_drive
 
 ROUGH = {"roughness": 0.01, "terrain": 11, "lever_arm": (0.2, -0.1, 0.4), "heading0": 0.7}
@@ -302,7 +303,12 @@ ANY = st.fixed_dictionaries(
 @given(st.sampled_from(NAMES), ANY, st.sampled_from(["Earth", "Mars", "Moon"]))
 def test_on_any_ground_attitude_rate_place_and_force_are_of_one_motion(name, parameters, body):
     more = {"start_time": 1.0, "length": 0.5, "angle": 0.2, "body": body}
-    m = drive(name, sample_rate=50.0, rest=1.0, **parameters, **more)
+    try:
+        m = drive(name, sample_rate=50.0, rest=1.0, **parameters, **more)
+    except UserError as refused:
+        # A fast drive along a narrow curve may be over before its ramp is.
+        assume("shorter than its ramp_time" not in str(refused))
+        raise
     found, bound = force_by_differences(m)
     assert np.abs(found - m.specific_force[2:-2]).max() <= np.sqrt(3) * bound
     left, bound, _ = turn_left_over(m)
