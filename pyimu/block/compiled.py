@@ -30,20 +30,27 @@ from pyimu.block.prepared import Prepared
 from pyimu.errors import UserError
 from pyimu.held import work_folder
 
-FLAGS = (
+SAME_BITS = (
     "-std=c11",
     "-O3",
     "-ffp-contract=off",
     "-fno-math-errno",
     "-fPIC",
-    "-shared",
     "-fvisibility=hidden",
+)
+"""Flags of every library, those of the FMUs, too. Without contracted multiply-adds and without
+-ffast-math, C gives the bits that casadi's virtual machine gives. Nobody asks for ``errno`` after a
+root, which is an instruction less a call without it."""
+
+FLAGS = (
+    *SAME_BITS,
+    "-shared",
     "-w",
     "-DCASADI_SYMBOL_EXPORT=static",
     "-DMODEL_PREFIX=run_",
 )
-"""Those of the FMUs, without contracted multiply-adds. The step is static, because a libc has a
-function ``step`` of its own that would answer in place of ours."""
+"""The step is static, because a libc has a function ``step`` of its own that would answer in place
+of ours."""
 
 OWN = "-march=native"
 """Compiles for this very processor. What it has beside the least of its kind does the same

@@ -6,6 +6,7 @@ what can be read off.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -21,6 +22,13 @@ UNARY = frozenset(
 """Operations on one number; of others casadi knows those on two alone."""
 
 
+def operands_of(op: int, named: Sequence[int]) -> Sequence[int]:
+    """What an operation takes of the values that casadi has ``named``: that of one number it names
+    twice.
+    """
+    return named[:1] if op in UNARY else named
+
+
 @dataclass(frozen=True)
 class Instruction:
     """One operation ``op`` of casadi's on the values ``of`` earlier instructions.
@@ -34,9 +42,9 @@ class Instruction:
     value: float = 0.0
 
     @property
-    def operands(self) -> tuple[int, ...]:
-        """The values that an operation takes; casadi names that of one number twice."""
-        return self.of[:1] if self.op in UNARY else self.of
+    def operands(self) -> Sequence[int]:
+        """The values that an operation takes."""
+        return operands_of(self.op, self.of)
 
 
 @dataclass(frozen=True)

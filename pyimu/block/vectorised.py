@@ -188,7 +188,7 @@ def _plan(
             row = alike.get(i.of[1], number)
             values.append(row if i.of[0] == 0 else float(of_row[i.of[1]]))
         else:
-            values.append(_value(i.op, [values[k] for k in i.of], number, function))
+            values.append(_value(i.op, [values[k] for k in i.operands], number, function))
     given = [(to, values[one.outputs[0, to]]) for to in wanted if (0, to) in one.outputs]
     steps, work = _in_order(one, values, [v for _, v in given if isinstance(v, int)])
     return Plan(steps, work, given)
@@ -199,7 +199,6 @@ def _value(op: int, of: list[Value], number: int, function: ca.Function) -> Valu
     twin = _UNARY.get(op) or _BINARY.get(op)
     if twin is None:
         raise NotImplementedError(f"casadi operation {op} of {function.name()} has no numpy twin")
-    of = of[: 1 if op in _UNARY else 2]
     if all(isinstance(v, float) for v in of):
         return float(twin(*of))
     if op == ca.OP_ASSIGN:
@@ -226,7 +225,7 @@ def _in_order(one: Program, values: list[Value], wanted: list[int]) -> tuple[lis
         if i.op == ca.OP_INPUT:
             steps.append((number, None, i.of[1], None, ()))
             continue
-        operands = [values[k] for k in i.of[: 1 if i.op in _UNARY else 2]]
+        operands = [values[k] for k in i.operands]
         later = {v for v in operands if isinstance(v, int)}
         places = []
         for v in operands:

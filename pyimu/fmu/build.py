@@ -19,7 +19,7 @@ from typing import BinaryIO
 
 from pyimu.block.block import Block
 from pyimu.block.cache import keep, kept_bytes, key_of
-from pyimu.block.compiled import ZIG, compiler_command, source_folder
+from pyimu.block.compiled import SAME_BITS, ZIG, compiler_command, source_folder
 from pyimu.errors import UserError
 from pyimu.files import whole
 from pyimu.fmu.sources import (
@@ -36,18 +36,11 @@ from pyimu.fmu.sources import (
 from pyimu.held import work_folder
 
 FLAGS = (
-    "-std=c11",
-    "-O3",
-    "-ffp-contract=off",
-    "-fno-math-errno",
-    "-fPIC",
-    "-fvisibility=hidden",
+    *SAME_BITS,
     "-DFMI2_OVERRIDE_FUNCTION_PREFIX",
     "-DFMI3_OVERRIDE_FUNCTION_PREFIX",
 )
-"""In a library FMI's functions have their own names, without the model's prefix. Without contracted
-multiply-adds and without -ffast-math, C gives the bits that casadi's virtual machine gives. Nobody
-asks for ``errno`` after a root, which is an instruction less a call without it."""
+"""In a library FMI's functions have their own names, without the model's prefix."""
 
 OLD_GLIBC = "-DOLD_GLIBC"
 """On Linux the library loads from glibc 2.17 on, as zig's do, whose names of platforms say so."""

@@ -12,6 +12,8 @@ from dataclasses import dataclass, replace
 
 import casadi as ca
 
+from pyimu.block.program import operands_of
+
 OPERATIONS = {getattr(ca, name): name[3:] for name in dir(ca) if name.startswith("OP_")}
 """Number to name of every operation of casadi."""
 
@@ -69,21 +71,12 @@ def nodes_of(
         elif op == "CONST":
             node = number(function.instruction_constant(i))
         else:
-            node = _simplified(op, [work[j] for j in inputs[: _arity(op, inputs)]])
+            taken = operands_of(function.instruction_id(i), inputs)
+            node = _simplified(op, [work[j] for j in taken])
         node = seen.setdefault((node.op, node.args, node.text, repr(node.value)), node)
         work[results[0]] = node
         made.append(node)
     return made, [outputs.get(k, number(0.0)) for k in range(function.nnz_out(0))]
-
-
-def _arity(op: str, inputs: list[int]) -> int:
-    return 1 if op in _UNARY else len(inputs)
-
-
-_UNARY = frozenset(
-    "ASSIGN NEG EXP LOG SQRT SQ TWICE SIN COS TAN ASIN ACOS ATAN NOT FLOOR CEIL FABS SIGN INV SINH "
-    "COSH TANH EXPM1 LOG1P ERF".split()
-)
 
 
 def _simplified(op: str, args: list[Node]) -> Node:

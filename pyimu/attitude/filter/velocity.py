@@ -62,7 +62,6 @@ DRIFT_GAIN = 300.0
 is seen. The walk lets the filter follow the drift, and so take it away: what is left of it in the
 end is a third of a hundredth."""
 
-
 FLAT = 1e-13
 """Least share of the larger of the two variances of a velocity, across the vertical and along it,
 that the smaller has: some hundred units in the last place."""

@@ -332,7 +332,7 @@ def _unseen(x: State, step: Step, memory: Memory, sample: Sample, settings: Sett
     by T times it.
     """
     at, p = settings.scalar, x.covariance
-    turned, gone = gone_for(memory, sample, h)
+    turned, gone = _gone_for(memory, sample, h)
     angle = at["top_turn_rate"] * turned
     wider = ca.if_else(angle < ca.pi, at["top_turn_rate"] ** 2 * _growth(turned, h), 0)
     # An axis that lies askew by a degree or two makes a tilt of a large turn. As one error the
@@ -357,7 +357,7 @@ def _growth(gone, h):
     return ca.if_else(gone > 0, h * (2 * gone - h), 0)
 
 
-def gone_for(memory: Memory, sample: Sample, h) -> tuple:
+def _gone_for(memory: Memory, sample: Sample, h) -> tuple:
     """For how many s each axis of the gyro (3,) and the accelerometer have been lost."""
     lost = (memory.gyro_lost, sample.gyro_lost), (memory.accel_lost, sample.accel_lost)
     return tuple((before + h) * now for before, now in lost)
@@ -367,7 +367,7 @@ def remembered(memory: Memory, sample: Sample, means: tuple, h) -> Memory:
     """The memory after a sample, with the ``means`` of rate and force."""
     force = ca.if_else(sample.accel_lost, memory.force, sample.force)
     begun = ca.fmax(memory.begun, 1 - sample.accel_lost)
-    gone, kept = gone_for(memory, sample, h), (sample.sensors, sample.window)
+    gone, kept = _gone_for(memory, sample, h), (sample.sensors, sample.window)
     return Memory(sample.held, sample.rate, force, *means, sample.still, *gone, begun, *kept)
 
 
