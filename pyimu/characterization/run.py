@@ -27,10 +27,12 @@ from pyimu.recording.log import Given, Log, is_one, open_log, recording_of
 from pyimu.recording.names import distinct_names
 from pyimu.recording.recording import Recording
 from pyimu.report.numbers import joined
+from pyimu.threads import on_one_thread
 
 Source = Log | Given
 
 
+@on_one_thread
 def characterize(
     recording: Source | Sequence[Source],
     level: float = 0.95,

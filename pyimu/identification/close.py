@@ -47,6 +47,7 @@ from pyimu.recording.reference.file import with_references
 from pyimu.recording.reference.rate import reference_rate
 from pyimu.recording.rest import is_at_rest
 from pyimu.report.numbers import joined
+from pyimu.threads import on_one_thread
 
 BAND_SHARE = 0.75
 """Share of the band in which gyro and derived reference agree that is used: at its edge a tenth of
@@ -61,6 +62,7 @@ SLOWEST = 1.0
 Say = Callable[[str], None]
 
 
+@on_one_thread
 def close(
     recordings: Sequence[Given] | Given,
     part: Part | str | Path | None = None,

@@ -41,6 +41,7 @@ from pyimu.model.sensor import Sensor
 from pyimu.model.typical import magnitudes
 from pyimu.recording.recording import Recording
 from pyimu.report.numbers import quantity
+from pyimu.threads import on_one_thread
 
 SIGMAS = 8.0
 """Standard errors that an effect's size is to be, unless somebody says otherwise."""
@@ -58,6 +59,7 @@ the page and the files. They differ with the plan's length: so it is for one of 
 Say = Callable[..., None]
 
 
+@on_one_thread
 def plan(
     part: Part | str | os.PathLike,
     effects: str | Sequence[str],
