@@ -15,6 +15,7 @@ from pyimu.identification.fit.trial import Doubt
 from pyimu.identification.formula.columns import columns_of
 from pyimu.identification.formula.effect import made
 from pyimu.identification.formula.terms import library
+from pyimu.identification.search import forward
 from pyimu.identification.search.own_signal import is_of_reference
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.sensor import Sensor
@@ -74,6 +75,14 @@ def _is_of_reference(old) -> bool:
     free = old.free | coefficients_of(sensor, "dead_zone")
     new = fit(replace(old, sensor=sensor, free=free))
     return is_of_reference(old, new)
+
+
+def test_a_search_that_doubts_its_reference_whatever_it_finds_ends(monkeypatch):
+    """It begins anew once, with the doubt believed; a log in which it still doubted never ended."""
+    searches = []
+    monkeypatch.setattr(forward, "_is_of_reference", lambda search: searches.append(search) or True)
+    found = forward.investigate(SENSOR, frozenset(), [log(1, 6.0, "reference")], [])
+    assert found.believed and len(searches) == 1
 
 
 @pytest.mark.parametrize(

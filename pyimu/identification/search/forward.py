@@ -142,7 +142,7 @@ def investigate(
         say(f"{sensor.kind}: {known} added, trying {count} candidates")
         if not search.advance():
             break
-    if _is_of_reference(search):
+    if not believed and _is_of_reference(search):
         return investigate(sensor, free, trials, held, say, prior, believed=True)
     after, steps = _backward(search.after, search.steps)
     after = _with_intervals(after, steps)
