@@ -109,7 +109,15 @@ class Sensor:
         return replace(self, values=values)
 
     def without(self, *names: str) -> Sensor:
-        return replace(self, values={e: p for e, p in self.values.items() if e not in names})
+        left = tuple(e for e in self.effects if e.name not in names)
+        if len(left) == len(self.effects):
+            return self
+        # What is left of a sensor is as sound as that was.
+        out = object.__new__(Sensor)
+        values = MappingProxyType({e.name: self.values[e.name] for e in left})
+        for name, value in (("kind", self.kind), ("values", values), ("effects", left)):
+            object.__setattr__(out, name, value)
+        return out
 
     def is_off(self, name: str) -> bool:
         """True for an effect that must be scanned for and stands at its identity.

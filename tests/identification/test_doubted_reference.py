@@ -7,10 +7,15 @@ import pytest
 import traps
 from loop_cases import inputs, low_pass, smooth, trial
 
+from pyimu.identification.fit import maximum_likelihood
 from pyimu.identification.fit.fit import begin
 from pyimu.identification.fit.keys import Coefficient, coefficients_of
 from pyimu.identification.fit.maximum_likelihood import fit
-from pyimu.identification.fit.reference_noise import sensor_white, with_reference_noise
+from pyimu.identification.fit.reference_noise import (
+    has_noise,
+    sensor_white,
+    with_reference_noise,
+)
 from pyimu.identification.fit.trial import Doubt
 from pyimu.identification.formula.columns import columns_of
 from pyimu.identification.formula.effect import made
@@ -75,6 +80,24 @@ def _is_of_reference(old) -> bool:
     free = old.free | coefficients_of(sensor, "dead_zone")
     new = fit(replace(old, sensor=sensor, free=free))
     return is_of_reference(old, new)
+
+
+def test_rounds_that_go_in_a_circle_beside_noise_of_the_reference_end_at_its_likeliest(monkeypatch):
+    """Steps to and fro between the truth and a scale factor of 5 %, whatever is fitted."""
+    sensor = SENSOR.with_values("scale_factor")
+    found = fit(begin(sensor, (), [log(1, 6.0, "reference")]))
+    true, _ = with_reference_noise(found, [], believed=True)
+    assert has_noise(true)
+    wrong = replace(true, sensor=sensor.with_values("scale_factor", s=np.full(3, 0.05)))
+    taken = []
+
+    def to_and_fro(start, steps):
+        taken.append(true if start.sensor == wrong.sensor else wrong)
+        return taken[-1]
+
+    monkeypatch.setattr(maximum_likelihood, "_least_squares", to_and_fro)
+    assert fit(true).sensor == true.sensor
+    assert len(taken) < maximum_likelihood.ROUNDS / 2
 
 
 def test_a_search_that_doubts_its_reference_whatever_it_finds_ends(monkeypatch):

@@ -21,6 +21,10 @@ ROUNDS = 25
 """Fits of noise and coefficients in turn at most; an effect that was taken for a walk comes out of
 it by a factor of about three a round."""
 
+CIRCLE = 3
+"""Rounds that change the noise by no less than the round before does, from which on the rounds are
+not thought to stand still some day; so many places a circle has at most."""
+
 
 def fit(start: Fit) -> Fit:
     """The model at its maximum likelihood."""
@@ -33,14 +37,23 @@ def fit_and_normal(start: Fit, steps: int = 6) -> tuple[Fit, Normal]:
     The whitening is fitted anew in each round, until it or they stay. Where the residual of an axis
     has shown more than motion it is taken whole from then on: by the noise beside the motion the
     coefficients go where less than motion is left, by that of the whole they come back, for ever.
+    Beside a reference whose noise is taken out the rounds may go in a circle, too: the likeliest of
+    its places is taken then.
     """
     whole: frozenset[int] = frozenset()
+    places, wider, last = [start], 0, np.inf
     for _ in range(ROUNDS):
         before = start
         start = _least_squares(start, steps).with_noise(whole)
         whole |= _beside_motion(before.seen) - _beside_motion(start.seen)
         stay = np.allclose(_values(before), _values(start), rtol=1e-4, atol=1e-9)
         if stay or _alike(before.noise, start.noise):
+            break
+        change = _change(before.noise, start.noise)
+        wider, last = wider + (change >= last), change
+        places = [*places[1 - CIRCLE :], start]
+        if has_noise(start) and wider >= CIRCLE:
+            start = max(places, key=_settled_likelihood)
             break
     start.last.settle()
     normal = with_prior(equations(start), start)
@@ -70,6 +83,12 @@ def _alike(one: Noise, other: Noise) -> bool:
     is predicted by to 1e-3.
     """
     return all(_is_same(n, other[i]) for i, n in one.items())
+
+
+def _change(one: Noise, other: Noise) -> float:
+    """By how much the white part of the noise of an axis changes at most, as a logarithm."""
+    pairs = [(getattr(n, "r", 1.0), getattr(other[i], "r", 1.0)) for i, n in one.items()]
+    return max((abs(np.log(b / a)) for a, b in pairs), default=0.0)
 
 
 def _is_same(a, b) -> bool:
@@ -105,6 +124,11 @@ def advantage(larger: Fit, smaller: Fit) -> float:
         return larger.log_likelihood - smaller.log_likelihood
     other = _least_squares(replace(smaller, noise=larger.noise), 2)
     return larger.log_likelihood - _likelihood(other)
+
+
+def _settled_likelihood(fitted: Fit) -> float:
+    fitted.last.settle()
+    return _likelihood(fitted)
 
 
 def _likelihood(fitted: Fit) -> float:

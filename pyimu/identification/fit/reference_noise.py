@@ -307,8 +307,9 @@ def equations(fit: Fit, linearised: Callable[[Fit], list[Linear]] = Fit.linearis
         unknown[at] += error * np.diag(noise.gram)[own]
         # Gram matrices by batch are large: they are taken off where they stand.
         score[:, at] -= noise.batch_score[:, own]
+        here, there = np.ix_(at, at), np.ix_(own, own)
         for one, part in zip(gram, noise.batch_gram, strict=True):
-            one[np.ix_(at, at)] -= part[np.ix_(own, own)]
+            one[here] -= part[there]
         power -= noise.power
     whole = gram.sum(axis=0)
     hidden = np.diag(whole) <= np.maximum(LEAST_SEEN * np.diag(seen), CHANCE * unknown)

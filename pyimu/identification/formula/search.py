@@ -170,6 +170,8 @@ def _tried(
     try:
         for first in firsts(scores, needed):
             chosen, fitted = composed(start, name, first, scores, terms, needed)
+            if start is inv.after and is_of_reference(start, fitted, DOUBTFUL):
+                continue  # a whole investigation, which is long, comes to the same
             # Held-out rows refuse most formulas.
             kept, found = _left(chosen, evidence(start, fitted, inv.held)), None
             if kept == chosen:
