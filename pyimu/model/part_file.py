@@ -68,8 +68,7 @@ def part(name_or_path: str | os.PathLike | Part) -> Part:
     if path.suffix == ".toml" or exists(path):
         return load_part(path)
     raise UserError(
-        f"{shortened(name)}: no built-in part ({', '.join(part_names())}) and no TOML file; "
-        f"{meant(name, part_names())}"
+        f"{shortened(name)}: no built-in part and no TOML file; {meant(name, part_names())}"
     )
 
 

@@ -294,11 +294,10 @@ def test_errors_in_the_head(head, message):
 
 
 def test_a_part_that_is_nowhere(tmp_path):
-    with pytest.raises(
-        UserError,
-        match=r"imt31: no built-in part \(.*imt30.*\) and no TOML file; did you mean imt30\?",
-    ):
+    with pytest.raises(UserError, match=r"imt31: .* no TOML file; did you mean imt30\?$"):
         part("imt31")
+    with pytest.raises(UserError, match=r"qqqq: .*; known are [a-z0-9_, ]*, imt30, [a-z0-9_, ]*$"):
+        part("qqqq")
     with pytest.raises(UserError, match="no.toml: no such file"):
         part(tmp_path / "no.toml")
     with pytest.raises(UserError, match="cannot be read"):
