@@ -25,6 +25,9 @@ CIRCLE = 3
 """Rounds that change the noise by no less than the round before does, from which on the rounds are
 not thought to stand still some day; so many places a circle has at most."""
 
+TINY = float(np.finfo(float).tiny)
+"""Stands for a noise of zero where a share of it is asked for."""
+
 
 def fit(start: Fit) -> Fit:
     """The model at its maximum likelihood."""
@@ -86,9 +89,9 @@ def _alike(one: Noise, other: Noise) -> bool:
 
 
 def _change(one: Noise, other: Noise) -> float:
-    """By how much the white part of the noise of an axis changes at most, as a logarithm."""
+    """By how much the white part of the noise of an axis changes at most, as a share of it."""
     pairs = [(getattr(n, "r", 1.0), getattr(other[i], "r", 1.0)) for i, n in one.items()]
-    return max((abs(np.log(b / a)) for a, b in pairs), default=0.0)
+    return max((abs(a - b) / max(a, b, TINY) for a, b in pairs), default=0.0)
 
 
 def _is_same(a, b) -> bool:
