@@ -294,9 +294,10 @@ def test_errors_in_the_head(head, message):
 
 
 def test_a_part_that_is_nowhere(tmp_path):
-    with pytest.raises(UserError, match=r"imt31: .* no TOML file; did you mean imt30\?$"):
+    nowhere = "no built-in part and no TOML file"
+    with pytest.raises(UserError, match=rf"^imt31: {nowhere}; did you mean imt30\?$"):
         part("imt31")
-    with pytest.raises(UserError, match=r"qqqq: .*; known are [a-z0-9_, ]*, imt30, [a-z0-9_, ]*$"):
+    with pytest.raises(UserError, match=rf"^qqqq: {nowhere}; known are .*, imt30, .*$"):
         part("qqqq")
     with pytest.raises(UserError, match="no.toml: no such file"):
         part(tmp_path / "no.toml")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -25,9 +26,6 @@ CIRCLE = 3
 """Rounds that change the noise by no less than the round before does, from which on the rounds are
 not thought to stand still some day; so many places a circle has at most."""
 
-TINY = float(np.finfo(float).tiny)
-"""Stands for a noise of zero where a share of it is asked for."""
-
 
 def fit(start: Fit) -> Fit:
     """The model at its maximum likelihood."""
@@ -44,7 +42,7 @@ def fit_and_normal(start: Fit, steps: int = 6) -> tuple[Fit, Normal]:
     its places is taken then.
     """
     whole: frozenset[int] = frozenset()
-    places, wider, last = [start], 0, np.inf
+    rounds = [start]
     for _ in range(ROUNDS):
         before = start
         start = _least_squares(start, steps).with_noise(whole)
@@ -52,11 +50,9 @@ def fit_and_normal(start: Fit, steps: int = 6) -> tuple[Fit, Normal]:
         stay = np.allclose(_values(before), _values(start), rtol=1e-4, atol=1e-9)
         if stay or _alike(before.noise, start.noise):
             break
-        change = _change(before.noise, start.noise)
-        wider, last = wider + (change >= last), change
-        places = [*places[1 - CIRCLE :], start]
-        if has_noise(start) and wider >= CIRCLE:
-            start = max(places, key=_settled_likelihood)
+        rounds.append(start)
+        if has_noise(start) and _is_circle(rounds):
+            start = max(rounds[-CIRCLE:], key=_settled_likelihood)
             break
     start.last.settle()
     normal = with_prior(equations(start), start)
@@ -88,10 +84,16 @@ def _alike(one: Noise, other: Noise) -> bool:
     return all(_is_same(n, other[i]) for i, n in one.items())
 
 
+def _is_circle(rounds: list[Fit]) -> bool:
+    """Whether ``CIRCLE`` of the rounds changed the noise by no less than the round before did."""
+    changes = [_change(a.noise, b.noise) for a, b in pairwise(rounds)]
+    return sum(b >= a for a, b in pairwise(changes)) >= CIRCLE
+
+
 def _change(one: Noise, other: Noise) -> float:
     """By how much the white part of the noise of an axis changes at most, as a share of it."""
     pairs = [(getattr(n, "r", 1.0), getattr(other[i], "r", 1.0)) for i, n in one.items()]
-    return max((abs(a - b) / max(a, b, TINY) for a, b in pairs), default=0.0)
+    return max((abs(a - b) / max(a, b, 1e-300) for a, b in pairs), default=0.0)
 
 
 def _is_same(a, b) -> bool:
