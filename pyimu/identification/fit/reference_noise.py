@@ -255,12 +255,24 @@ def has_noise(fit: Fit) -> bool:
     return any(t.noise is not None for t in fit.trials)
 
 
-def changes(fit: Fit, linearised: Callable[[Fit], list[Linear]]) -> list[Linear]:
-    """What the noise of the reference makes of each trial's residual and columns."""
+Pair = tuple[Fit, Fit]
+"""A model beside references moved by their noise, up and down."""
+
+
+def beside_moved(fit: Fit) -> Pair:
+    """A model beside its references moved by their noise, each linearised once however many
+    columns are asked for.
+    """
     up, down = (
-        linearised(replace(fit, trials=tuple(moved(t, sign) for t in fit.trials), last=Last()))
+        replace(fit, trials=tuple(moved(t, sign) for t in fit.trials), last=Last())
         for sign in (1, -1)
     )
+    return up, down
+
+
+def changes(pair: Pair, linearised: Callable[[Fit], list[Linear]]) -> list[Linear]:
+    """What the noise of the reference makes of each trial's residual and columns."""
+    up, down = map(linearised, pair)
     return [_difference(a, b) for a, b in zip(up, down, strict=True)]
 
 
@@ -275,12 +287,14 @@ def _difference(up: Linear, down: Linear) -> Linear:
     return replace(up, residual=change, columns=columns)
 
 
-def _changes(fit: Fit, linearised: Callable[[Fit], list[Linear]]) -> list[Linear]:
+def _changes(
+    fit: Fit, linearised: Callable[[Fit], list[Linear]], pair: Pair | None
+) -> list[Linear]:
     """The same, once for all fits that differ in their noise alone."""
     if linearised is not Fit.linearise:
-        return changes(fit, linearised)
+        return changes(pair or beside_moved(fit), linearised)
     if not fit.last.changes:
-        fit.last.changes = changes(fit, linearised)
+        fit.last.changes = changes(beside_moved(fit), linearised)
     return fit.last.changes
 
 
@@ -288,15 +302,21 @@ def residual_changes(fit: Fit) -> list[Linear]:
     """What the noise of the reference makes of each trial's residual."""
     if fit.last.changes and (fit.is_last or fit.last.near):
         return fit.last.changes
-    return changes(fit, Fit.residuals)
+    return changes(beside_moved(fit), Fit.residuals)
 
 
-def equations(fit: Fit, linearised: Callable[[Fit], list[Linear]] = Fit.linearise) -> Normal:
-    """Normal equations of a fit's columns as a reference without noise would have them."""
+def equations(
+    fit: Fit,
+    linearised: Callable[[Fit], list[Linear]] = Fit.linearise,
+    pair: Pair | None = None,
+) -> Normal:
+    """Normal equations of a fit's columns as a reference without noise would have them; ``pair``
+    is the fit ``beside_moved`` references, for many calls.
+    """
     found = normal_equations(linearised(fit), fit.noise)
     if not has_noise(fit):
         return found
-    changed, seen = _changes(fit, linearised), found.gram
+    changed, seen = _changes(fit, linearised, pair), found.gram
     gram, score, power = found.batch_gram, found.batch_score, found.power
     doubt, unknown = np.zeros((len(fit.noise), len(seen))), np.zeros(len(seen))
     for row, axis in zip(doubt, fit.noise, strict=True):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+from collections.abc import Callable, Hashable
 from dataclasses import replace
 
 import numpy as np
@@ -55,15 +55,18 @@ def composed(
     scores: Scores,
     terms: list[Term],
     needed: float,
+    bears: Callable[[Chosen, Fit], bool],
 ) -> tuple[Chosen, Fit]:
-    """The terms that explain what a fit leaves, each with its axes, and the fit with them."""
+    """The terms that explain what a fit leaves, each with its axes, and the fit with them; no more
+    are looked for beside those that held-out rows do not bear out.
+    """
     chosen: Chosen = []
     fitted, best = start, first
     while True:
         best = _sharpened(fitted.as_declared(), best)
         chosen.append((best.term, best.axes))
         fitted = with_terms(start, name, chosen)
-        if len(chosen) == MOST_TERMS:
+        if len(chosen) == MOST_TERMS or not bears(chosen, fitted):
             break
         following = firsts(scored(fitted.as_declared(), terms), needed)
         if not following:

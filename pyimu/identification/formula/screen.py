@@ -17,7 +17,7 @@ from pyimu.identification.fit.columns import Linear
 from pyimu.identification.fit.fit import Fit, with_prior
 from pyimu.identification.fit.keys import Shape
 from pyimu.identification.fit.normal import solve
-from pyimu.identification.fit.reference_noise import equations
+from pyimu.identification.fit.reference_noise import beside_moved, equations
 from pyimu.identification.formula.columns import columns_of
 from pyimu.identification.formula.terms import Term
 from pyimu.identification.search.projected import Projected, dispersion
@@ -78,14 +78,13 @@ class Scores:
 def scored(fit: Fit, terms: Sequence[Term]) -> Scores:
     """The terms with what each would explain beside a model."""
     out: list[Scored] = []
-    base = fit.linearise()
+    pair = beside_moved(fit)
     for few in _chunks(terms):
 
         def linearised(f: Fit, few=few) -> list[Linear]:
-            linears = base if f is fit else f.linearise()
-            return f.beside(linears, [columns_of(f.sensor.kind, few)])
+            return f.beside(f.linearise(), [columns_of(f.sensor.kind, few)])
 
-        normal = with_prior(equations(fit, linearised), fit)
+        normal = with_prior(equations(fit, linearised, pair), fit)
         place = {k: i for i, k in enumerate(normal.keys) if isinstance(k, Shape)}
         model = [i for i, k in enumerate(normal.keys) if not isinstance(k, Shape)]
         if not place:

@@ -167,11 +167,18 @@ def _tried(
     again: a whole investigation is long.
     """
     name, needed = free_name(), max(gate(scores), form_error(inv.steps))
+
+    def left(chosen: Chosen, fitted: Fit) -> Chosen:
+        return _left(chosen, evidence(start, fitted, inv.held))
+
+    def bears(chosen: Chosen, fitted: Fit) -> bool:
+        return any(axes for _, axes in left(chosen, fitted))
+
     try:
         for first in firsts(scores, needed):
-            chosen, fitted = composed(start, name, first, scores, terms, needed)
+            chosen, fitted = composed(start, name, first, scores, terms, needed, bears)
             # Held-out rows refuse most formulas.
-            kept, found = _left(chosen, evidence(start, fitted, inv.held)), None
+            kept, found = left(chosen, fitted), None
             if kept == chosen:
                 found, kept = _once(done, inv, start, name, chosen, fitted, needed, again)
             fewer = [(t, a) for t, a in kept if a]
@@ -196,15 +203,18 @@ def _once(
     needed: float,
     again: Again,
 ) -> tuple[Found | None, Chosen]:
-    """``_beside``, or what it gave of the same formula before; nothing where, beside all that was
-    found, the sensor's own signal does not show the formula: an investigation is long, and asks so
-    at its end.
+    """``_beside``, or what it gave of the same formula before; nothing where the formula beside all
+    that was found, which has whatever it may explain, is not borne out: an investigation is long,
+    and asks the same of what it leaves.
     """
     known = frozenset((t.text, axes) for t, axes in chosen)
     if known not in done:
-        if start is inv.after and is_of_reference(start, fitted, DOUBTFUL):
-            return None, chosen
-        done[known] = _beside(inv, name, chosen, fitted, needed, again)
+        beyond = fitted if start is inv.after else with_terms(inv.after, name, chosen)
+        seen = evidence(inv.after, beyond, inv.held)
+        if _is_borne_out(inv, beyond, seen):
+            done[known] = _beside(inv, name, chosen, fitted, needed, again)
+        else:
+            done[known] = None, _left(chosen, seen)
     return done[known]
 
 
@@ -228,7 +238,7 @@ def _beside(
     kept = _left(chosen, seen)
     if gain <= needed or ahead <= needed + DISPLACES * _displaced(inv, beside):
         return None, kept
-    if not _confirmed(seen) or is_of_reference(inv.after, beside.after, DOUBTFUL):
+    if not _is_borne_out(inv, beside.after, seen):
         return None, kept
     step = Step(name, keys, gain, needed, (), spread)
     whole = replace(beside, before=inv.before, steps=(step, *beside.steps), first=inv.first)
@@ -270,6 +280,13 @@ def _displaced(inv: Investigation, beside: Investigation) -> float:
 
 def _parted(chosen) -> tuple[tuple[Term, ...], tuple[tuple[int, ...], ...]]:
     return tuple(t for t, _ in chosen), tuple(a for _, a in chosen)
+
+
+def _is_borne_out(inv: Investigation, after: Fit, seen: Evidence) -> bool:
+    """Whether held-out rows, whose evidence was ``seen``, and the sensor's own signal bear out what
+    a model explains beyond what an investigation left.
+    """
+    return _confirmed(seen) and not is_of_reference(inv.after, after, DOUBTFUL)
 
 
 def _confirmed(seen: Evidence) -> bool:
