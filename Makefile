@@ -7,11 +7,12 @@ CODE := pyimu tests benchmarks examples fuzz docs/build
 PART ?= imt30
 OUT ?= out
 
-.PHONY: help demo test lint generate docs fmus bench fuzz
+.PHONY: help demo test test-long lint generate docs fmus bench fuzz
 
 help:
 	@echo "make demo      the whole loop on a simulated recording; report under $(OUT)/demo"
-	@echo "make test      all tests, on all cores"
+	@echo "make test      the tests, on all cores"
+	@echo "make test-long those that take minutes: cases of the benchmarks, long statistics"
 	@echo "make lint      style, format and types"
 	@echo "make generate  what is written from the definitions: docs, pictures, fmu_src/generated, modelica"
 	@echo "make docs      the documentation as a site under $(OUT)/site/site"
@@ -31,6 +32,9 @@ demo: $(READY)
 
 test: $(READY)
 	$(BIN)/python -m pytest -n auto --dist loadfile  # what a file builds, it builds once
+
+test-long: $(READY)
+	$(BIN)/python -m pytest -n auto --dist loadfile -m long
 
 lint: $(READY)
 	$(BIN)/python -m ruff check $(CODE)

@@ -61,6 +61,7 @@ def without_skew():
     return {a: off(run(log, part(0.0), q0=LEVEL), truth).max() for a, (log, truth) in logs.items()}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("axis, skew", CASES)
 def test_a_clock_that_is_off_is_undone_for_hours(axis, skew, without_skew):
     """To what the filter errs by without it, the turn between two samples, and for a heading, which

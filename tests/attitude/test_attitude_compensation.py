@@ -155,6 +155,7 @@ def test_a_gauss_markov_process_that_is_a_walk_has_no_white_noise():
         assert 0 <= white < 1e-6 and walk == pytest.approx(1.0, rel=1e-9)
 
 
+@pytest.mark.long
 def test_filter_of_a_part_with_every_effect_at_once_stays_finite(world):
     part = Part("test", 1 / H, everything("gyro", 0.002), everything("accel", 0.002))
     measured, _ = part.block.run(columns(part.block, world[1]), seed=1)

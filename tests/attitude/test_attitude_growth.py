@@ -137,6 +137,7 @@ def test_by_the_plain_inverse_it_would_grow():
     assert max(p.max() for p in poles) > 1.5
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("sign", [1, -1])
 def test_the_whole_chain_is_undone_without_growth(sign, world):
     """All effects that are called invertible at once, the size of a consumer part's each: to a

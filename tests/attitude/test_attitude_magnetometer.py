@@ -317,6 +317,7 @@ def test_a_field_that_is_disturbed_in_most_of_the_log_is_said_first():
     assert "the magnetic field is disturbed in" in run(recording(world, field), part()).report()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", (1, 3, 5))
 def test_speeds_and_forces_that_contradict_the_field_leave_a_number(seed):
     """A body that does not turn, forces of seconds, wrong speeds: the field's parts were more like

@@ -243,6 +243,7 @@ def test_a_velocity_along_one_axis_alone_has_a_definite_covariance(which, lastin
         np.linalg.cholesky(matrix)
 
 
+@pytest.mark.long
 def test_pushes_that_contradict_gravity_for_half_an_hour_leave_a_number():
     """Each of up to a minute and some 2 m/s^2, of a body that does not turn and is in no rest: the
     filter ended in NaN."""

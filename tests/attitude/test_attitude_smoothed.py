@@ -139,6 +139,7 @@ def test_gap_is_one_more_step_of_the_walk():
 # Consistency
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("scenario", MATCHED, ids=lambda s: s.name)
 def test_normalised_errors_are_chi_square(scenario):
     """Of 24 drives with a simulator of its own, all instants by all samples."""

@@ -76,6 +76,7 @@ def squared_error(found) -> float:
 RUNS = 20
 
 
+@pytest.mark.long
 def test_bias_and_matrix_lie_within_their_covariance():
     """A covariance from so many blocks makes the squares those of Hotelling (1931)."""
     founds = [found_in(log(seed)[0]) for seed in range(RUNS)]

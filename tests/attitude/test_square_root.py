@@ -139,6 +139,7 @@ def same(plain, root, u, p):
     return y, factor_of(r)
 
 
+@pytest.mark.long
 def test_square_root_form_is_the_other_over_ten_minutes():
     """60,000 samples with pushes, rests, missing rows, headings late and on time, and zero rates:
     each sample adds its rounding at most.
@@ -193,6 +194,7 @@ def far_start(n: int, known) -> tuple:
     return inputs(n, gyro=gyro, accel=accel), {"q0": start, "std0": [0.3, 0.3, 1.5, 0.3, 0.3, 0.3]}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("motion, power", [(REAL, 1), ({}, 2)], ids=["real", "ideal"])
 @pytest.mark.parametrize("noise", [(1e-3, 2e-4, 1e-2), (6e-5, 3e-6, 5e-4)])
 def test_covariance_stays_definite_where_attitude_and_bias_are_hardly_known(noise, motion, power):

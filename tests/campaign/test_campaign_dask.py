@@ -80,6 +80,7 @@ def _one_of_my_workers():
     return found[-1]
 
 
+@pytest.mark.long
 def test_a_scheduler_reached_by_its_address_gives_the_same(alone, scheduler, tmp_path, monkeypatch):
     """Then the scheduler is lost, which is one line, and what was computed is kept."""
     address, process = scheduler

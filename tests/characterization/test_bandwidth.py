@@ -86,6 +86,7 @@ def bandwidth_of(x):
     return find_bandwidth(s.frequency, s.density[:, 0], s.averages, every, (), H, 0.95)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", AT_THE_RATE)
 def test_the_interval_holds_where_a_digital_filter_is_down(kind):
     """Of ``SEEDS`` intervals of 95 % one in 400 sets has fewer than 16 that do.

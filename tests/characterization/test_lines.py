@@ -49,6 +49,7 @@ def lines(x: np.ndarray, level: float = 1e-3):
     return find_lines(accumulate(x, H), level)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", NOISES)
 def test_false_alarms_come_at_the_stated_rate(kind):
     """5 %, within the binomial law.

@@ -148,6 +148,7 @@ def test_errors_name_what_is_wrong():
 # Coverage
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ("white and flicker", "white, flicker and walk"))
 def test_intervals_and_bounds_hold_at_least_as_often_as_they_say(coverage, name):
     """In a hundred logs.

@@ -141,6 +141,7 @@ def test_the_likeliest_share_taken_for_true_finds_too_much():
 # The polynomial
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", ["warm-up", "cycles", "weather"])
 def test_intervals_cover_and_those_of_ordinary_regression_do_not(kind):
     """95 % of 240 records, within the binomial law.
@@ -158,6 +159,7 @@ def test_intervals_cover_and_those_of_ordinary_regression_do_not(kind):
     assert ordinary < 0.5 * runs
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", ["warm-up", "cycles", "weather"])
 def test_chance_makes_no_effect_of_temperature(kind):
     """Its probability is at most what it says.

@@ -101,6 +101,7 @@ def test_undeclared_effect_is_named_without_a_part(world, present):
     check(world, present, None)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("present", in_one_log((*STRUCTURE, *GYRO), STRUCTURE), ids=named)
 def test_undeclared_effect_is_named_against_a_declared_part(world, present):
     check(world, present, noise_only())

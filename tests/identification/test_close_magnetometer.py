@@ -110,6 +110,7 @@ def test_the_field_of_a_log_and_the_delay_are_its_own():
         assert abs(fields[name].delay - late) < 4 * fields[name].delay_std < 2e-3
 
 
+@pytest.mark.long
 def test_a_calibrated_magnetometer_lacks_nothing_but_by_chance():
     """A gate of 1 %, in 60 logs."""
     seen = [look(log(s, rows=2000, bias=0, matrix=np.eye(3))) for s in range(40, 100)]

@@ -25,6 +25,7 @@ def wand():
     )
 
 
+@pytest.mark.long
 def test_repoimu_gyro_clips_where_its_samples_stop(wand):
     found = next(a for a in wand.added if a.effect == "saturation")
     limit = found.parameters["limit"][0]
@@ -33,12 +34,14 @@ def test_repoimu_gyro_clips_where_its_samples_stop(wand):
     assert limit[2] == 0, "z never clips"
 
 
+@pytest.mark.long
 def test_repoimu_held_out_residual_of_test05_falls_to_a_fifth(wand):
     entry = next(r for r in wand.recordings if "test05" in r.file)
     rate = entry.errors["gyro"]
     assert rate.after.total <= rate.before.total / 5
 
 
+@pytest.mark.long
 def test_repoimu_reference_spikes_are_reported_and_left_out(wand):
     (spikes,) = [f for f in wand.quality if f.kind == "reference_spikes"]
     assert "test06" in spikes.detail["recording"]
@@ -57,6 +60,7 @@ def test_broad_lag_fitted_on_02_holds_on_07():
     assert moving_average_ratio(judge, closed.before, closed.after) <= 1 / 5
 
 
+@pytest.mark.long
 def test_broad_a_delay_gains_no_more_than_the_squares_allow():
     """White noise of the residual's size is the least likely of all that have it: over n rows no
     likelihood rises by more than n log(before / after). The noise of the model that lacks the delay

@@ -39,6 +39,7 @@ def clock_of(closed):
     return closed.recordings[0].log_state["gyro"]["reference"]["clock"]
 
 
+@pytest.mark.long
 def test_the_clock_is_as_far_off_as_its_standard_error_says():
     """The sum of squares over ``DRAWS`` is chi-square if the standard error is right; one that is
     estimated from some fifty windows scatters by a tenth, and so may be 1.25 times too small, or

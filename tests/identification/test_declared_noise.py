@@ -26,6 +26,7 @@ def world():
     return drive(minutes=3, seed=8)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["thermal_bias", "temperature_rate"])
 def test_a_slow_effect_is_no_drift_where_the_walk_is_declared(world, name):
     """Over the declared noise 12 sigmas gain 72 nat, half of them on the fitted rows; a walk that
@@ -37,6 +38,7 @@ def test_a_slow_effect_is_no_drift_where_the_walk_is_declared(world, name):
     assert name in {a.effect for a in closed.added}, closed.report()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["thermal_bias", "temperature_rate"])
 def test_a_slow_effect_is_seen_beside_a_walk_that_nobody_declared(name):
     """Ten sigmas gain 50 nat over the walk that there is, a third of them on the held-out rows; by
@@ -48,6 +50,7 @@ def test_a_slow_effect_is_seen_beside_a_walk_that_nobody_declared(name):
     assert {a.effect for a in closed.added} == {name}, closed.report()
 
 
+@pytest.mark.long
 def test_a_walk_that_is_larger_than_declared_is_drift_and_no_slow_effect(world):
     rng = np.random.default_rng(24)
     steps = 20 * K_GYRO * np.sqrt(world.h) * rng.standard_normal(world.rate.shape)

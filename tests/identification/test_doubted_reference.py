@@ -108,6 +108,7 @@ def test_a_search_that_doubts_its_reference_whatever_it_finds_ends(monkeypatch):
     assert found.believed and len(searches) == 1
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "number, seed, form", [(0, 5, "undeclared"), (0, 21, "declared"), (1, 7, "declared")]
 )

@@ -5,6 +5,8 @@ import pytest
 from effect_logs.cases import make
 from effect_results.record import closed
 
+pytestmark = pytest.mark.long
+
 MINUTES = 6.0, 9.0
 
 

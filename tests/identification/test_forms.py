@@ -38,6 +38,7 @@ def closed_with(world, change, kind="gyro", seed=5):
     return pyimu.close(log)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("tau", [0.001, 0.003, 0.01])
 def test_a_first_order_lag_is_named_with_its_time_constant_and_nothing_beside_it(world, tau):
     """Its time constant is off by what the sampled form misses, (2 pi 2.5 Hz h)^3 / 4 of it, and by
@@ -142,6 +143,7 @@ def size_of(world, make, wanted):
     return wanted / lambda_of(world, "accel", make(1.0), structure=True)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "name", ["K0'", "K_pp", "K_po", "spin", "anisoinertia", "angular acceleration"]
 )

@@ -89,6 +89,7 @@ def test_an_instant_lies_within_its_interval(size):
     assert inside >= binom.ppf(1e-3, runs, LEVEL)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", CASES)
 def test_a_form_costs_more_than_chance_makes_of_it(name):
     """With nothing to find, one log in a hundred at the most gains so much."""

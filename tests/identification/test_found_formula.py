@@ -79,6 +79,7 @@ def test_the_file_of_a_formula_goes_with_the_model(bilinear, tmp_path):
     assert "unknown effect" in subprocess.run(without, capture_output=True, text=True).stderr
 
 
+@pytest.mark.long
 def test_a_switch_is_not_taken_for_bends_of_the_scale_factor(world):
     """Mimics of it, which are named without the formula, are not found again beside it."""
     left = 1.5e-3 * (world.rate[:, 2:] > 0.15) * np.array([1.0, 0.0, 1.0])
@@ -101,6 +102,7 @@ def test_a_periodic_error_gets_its_harmonic(world):
     assert closed.formulas[0].said == "sin and cos of 2 * angle turned about y"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", [1, 2])
 def test_a_random_telegraph_has_no_formula(world, seed):
     rng = np.random.default_rng(seed)

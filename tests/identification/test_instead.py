@@ -36,6 +36,7 @@ def test_a_step_that_was_let_in_is_taken_back_for_a_walk(monkeypatch):
     assert [c.effect for c in found.changed] == ["rate_random_walk"]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name, number", [("gyro", 3), ("accel", 1)])
 def test_jumps_are_said_where_a_walk_is_left_to_the_data(name, number):
     found = closed(make(f"unknown/30/{name}.popcorn", number, MINUTES))
@@ -58,6 +59,7 @@ def test_white_noise_that_is_larger_by_its_third_digit_is_said():
     assert [c.effect for c in found.changed] == ["angle_random_walk"], found.report()
 
 
+@pytest.mark.long
 def test_what_explains_as_much_as_a_larger_walk_is_said():
     """A Gauss-Markov process of 19 s beside the declared walk: 64 nat by a walk three times as
     large, 67 by itself.
@@ -90,6 +92,7 @@ def test_effects_of_one_law_share_their_names_as_far_as_a_part_lacks_them():
         assert names_of(kind, sensor) == known
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("effect", ["hard_dead_zone", "saturation"])
 def test_what_samples_show_is_no_noise(effect):
     """So few lie at the level or at zero that a walk explains their squares as well."""

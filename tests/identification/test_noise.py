@@ -111,6 +111,7 @@ def test_cells_have_the_variance_of_white_noise_and_random_walk():
     assert np.abs(z).max() < norm.isf(1e-3 / (2 * len(z)))
 
 
+@pytest.mark.long
 def test_known_noise_is_blamed_at_the_stated_rate():
     """Of 60 residuals of three axes half a percent each: at most 4 but once in ten thousand."""
     blamed = 0

@@ -36,6 +36,7 @@ def pair(seed, late, seconds=100.0):
     return log, mocap
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("late", [1.37, -0.8])
 def test_the_clock_of_another_file_is_found_and_nothing_is_blamed(late):
     """Joined to the sensor's 200 Hz by straight lines, the 60 Hz would look like coning."""

@@ -77,6 +77,7 @@ CLOSED = [
 ]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("kind", "effect", "motion", "h"), CLOSED)
 def test_close_reports_the_predicted_standard_error(kind, effect, motion, h):
     """An effect of 60 standard errors, which the part lacks, is found, and each of its errors is as

@@ -82,6 +82,7 @@ def test_a_clock_that_slips_is_followed():
     assert np.sqrt(np.mean(error**2)) < 0.1 * np.sqrt(np.mean(SAWTOOTH**2))
 
 
+@pytest.mark.long
 def test_a_level_that_stands_still_is_rarely_said_to_wander():
     """Twice the gain of the walk is half chance zero and half chi-square on one degree (Self and
     Liang 1987): above 2 ``WANDERS`` with p = 0.00027, in 400 draws more than twice once in 5000.
@@ -256,6 +257,7 @@ def on_a_table(seed, wander):
     return Recording.from_arrays(name="table", time=time, accel=accel, ref_force=force(time))
 
 
+@pytest.mark.long
 def test_a_lag_wanders_only_where_that_explains_the_samples():
     """A tenth of a sample is twenty times its standard error in a window here. The cases of the
     table are three of 24 in which windows alone had taken a bias that walks for such a lag.
@@ -357,6 +359,7 @@ def test_a_lag_that_all_logs_share_is_the_sensors_with_the_clock_beside_it():
     assert all(c["left_to_sensor"] == pytest.approx(0.0085, abs=1e-4) for c in clocks)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["gyro.time_delay", "gyro.lag", "accel.time_delay"])
 def test_a_delay_that_one_of_two_logs_shows_is_named(name):
     """Beside a rover's log one of a table whose turns show little of it; and the drift of the
@@ -406,6 +409,7 @@ def attitude_log(name, seed, mounting, rest):
     )
 
 
+@pytest.mark.long
 def test_a_held_out_log_that_begins_at_rest_confirms_the_delay():
     """Its mounting and bias come from rows that move; a rest shows neither."""
     mounting = Rotation.from_euler("xyz", [20, -35, 100], degrees=True)
@@ -559,6 +563,7 @@ def test_what_an_effect_does_is_no_clock_that_wanders(number):
     assert kept.clock.keeps_step and not kept.clock.taken_out
 
 
+@pytest.mark.long
 def test_a_walk_larger_than_declared_is_no_noise_of_the_reference():
     """80 times on one axis: it follows many a slow input by chance, and is said as what it is."""
     found = closed(make("size1/gyro.rate_random_walk", 120, (6.0, 9.0)))
@@ -577,6 +582,7 @@ def test_a_small_drift_is_taken_out_whatever_the_mean_lag():
     assert drift == pytest.approx(float(made.truths[0].value), rel=0.5)
 
 
+@pytest.mark.long
 def test_what_a_lever_does_is_no_clock_that_wanders():
     """It bends the lags by tenths of a millisecond, to and fro, as rates and their changes go."""
     found = closed(make("size1/accel.size_effect", 121, (6.0, 9.0)))

@@ -39,6 +39,7 @@ def turned(recording, world, body=None):
     return replace(recording, ref_q=attitude.as_quat(scalar_first=True))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "world, body, said",
     [

@@ -31,6 +31,7 @@ def log(seed, bandwidth=None, rest=10.0):
     )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("bandwidth, least", [(None, 0.9), (42.0, 0.75), (20.0, 0.7)])
 def test_white_noise_behind_a_low_pass_filter_keeps_its_density(bandwidth, least):
     """A filter hides it from differences of neighbouring samples. Where the means of the longest
@@ -47,6 +48,7 @@ def test_motion_is_not_taken_for_noise():
     np.testing.assert_array_equal(rest_density(trial), rest_noise(trial) * H**0.5)
 
 
+@pytest.mark.long
 def test_the_part_has_the_density_that_its_filter_leaves():
     closed = pyimu.close(log(5, 42.0))
     assert closed.after.gyro.values["angle_random_walk"]["N"] == pytest.approx(N, rel=0.3)

@@ -295,6 +295,7 @@ def test_gravity_in_the_middle_of_a_rest_that_sways():
     assert np.linalg.norm(found - true) < 0.1 * 0.015
 
 
+@pytest.mark.long
 def test_intervals_of_the_gyro_hold_the_truth():
     """As those of the accelerometer, of all nine gains and the bias, over 20 logs; the axes are
     those in which the accelerometer's own gain is triangular.

@@ -57,6 +57,7 @@ def test_what_is_switched_stays_a_jump():
     assert np.abs(found - true).max() < 6 * 1e-3 / np.sqrt(50)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", READINGS)
 def test_a_thermal_bias_is_named_by_any_thermometer(kind):
     closed = pyimu.close(log(READINGS[kind], kT=3e-4))

@@ -67,6 +67,7 @@ def without_ramp(seed: int, k2: float, declared: float = 0.0):
     return fit(begin(model.sensor.without("rate_ramp"), frozenset(), list(model.trials)))
 
 
+@pytest.mark.long
 def test_a_ramp_is_charged_for_what_it_gains_beside_a_walk_that_is_not_known():
     """What it explains more than in one of a hundred logs without one, it explains in no more than
     that; at worst the best of three axes gains 3.5 nat more there (draws of walks by hand), and by

@@ -61,6 +61,7 @@ def test_names_of_the_guide():
     assert imported_name("gyro_error.misalignment.m[1,2]") == "gyro_error_misalignment_m_1_2_"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", part_names())
 def test_no_two_variables_of_a_unit_become_one(name):
     """Nor by OpenModelica, which replaces sign by sign."""

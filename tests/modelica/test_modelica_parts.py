@@ -16,8 +16,11 @@ SAMPLES, FEWER = 1000, 250
 """Of a part of each set of effects, and of the others, which differ in their figures alone."""
 SEEDS = (0, 1, 2**31 - 1)
 PARTS = parts()
-CASES = [(name, SEEDS[i % len(SEEDS)]) for i, name in enumerate(PARTS)]
 COMPILED = {*map(pascal, one_of_each_kind())}
+CASES = [
+    pytest.param(name, SEEDS[i % len(SEEDS)], marks=() if name in COMPILED else pytest.mark.long)
+    for i, name in enumerate(PARTS)
+]
 
 INPUTS = {
     "rate": (0, [0.1, 0.0, 0.0], [0.5, 0.6, 0.7]),

@@ -48,6 +48,7 @@ def nees(track, truth, row):
     return e @ np.linalg.solve(p, e)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("method", ("filter", "smoother"))
 @pytest.mark.parametrize("at", (0.45, 0.7, 1.0))
 def test_the_position_is_as_far_off_as_is_claimed(runs_of_noise, method, at):
