@@ -17,6 +17,7 @@ from scipy.io import savemat
 from pyimu.errors import UserError
 from pyimu.model.part_file import load_part
 from pyimu.model.part_reader import parse_part
+from pyimu.recording.formats import mat_tags
 from pyimu.recording.formats.mat import MatReader
 from pyimu.recording.log import open_log, read_recording
 
@@ -159,6 +160,32 @@ def damaged_mat(path, find, put, packed):
 def test_damaged_tags_of_mat_files(find, put, packed, tmp_path):
     path = damaged_mat(tmp_path / "log.mat", find, put, packed)
     refused(read_recording, path, says="cannot be read as MAT")
+
+
+@pytest.mark.parametrize("most, read", [(9 * 8, True), (9 * 8 - 1, False)])
+def test_numbers_that_take_too_much_memory(most, read, tmp_path, monkeypatch):
+    """A double array that is stored in bytes takes eight times as much."""
+    monkeypatch.setattr(mat_tags, "MOST", most)
+    path = tmp_path / "log.mat"
+    doubles = struct.pack("<II", 9, 72) + np.arange(9.0).tobytes()
+    savemat(path, {"gyro": np.arange(9.0)})
+    small = struct.pack("<II", 2, 9) + bytes(range(9)) + bytes(7)
+    data = path.read_bytes().replace(doubles, small)
+    data = bytearray(data)
+    data[132:136] = struct.pack("<I", len(data) - 136)
+    path.write_bytes(data)
+    if read:
+        assert MatReader.open(path).arrays["gyro"].nbytes == 72
+    else:
+        refused(read_recording, path, says="save it with -v7.3")
+
+
+def test_rows_that_were_never_written_are_not_waited_for(tmp_path):
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(tmp_path / "log.h5", "w") as file:
+        for name in ("t", "w"):
+            file.create_dataset(name, shape=(10**11,), chunks=(2**20,), dtype="f8")
+    refused(read_recording, tmp_path / "log.h5", says="were they never written")
 
 
 # Part files

@@ -9,7 +9,7 @@ from typing import Any
 
 from pyimu.recording.formats.datasets import Column, DatasetReader, columns_of, skipped, stated_rate
 from pyimu.recording.formats.reader import need
-from pyimu.recording.formats.streams import reading
+from pyimu.recording.formats.streams import must_be_held, reading
 
 CACHE = 1 << 25
 """Bytes of decompressed chunks kept for each array: a slice may end inside of a chunk, which the
@@ -46,6 +46,8 @@ class Hdf5Reader(DatasetReader):
             single = dict(file.attrs)
             file.visititems(lambda name, item: arrays.extend(_array(name, item)))
             file.visititems(lambda name, item: single.update(_single(name, item)))
+            for name, shape, _ in arrays:
+                must_be_held(path, name, max(shape))
             return cls(
                 path,
                 [c for array in arrays for c in columns_of(*array)],

@@ -12,10 +12,8 @@ import numpy as np
 from pyimu.errors import UserError
 from pyimu.recording.formats.datasets import DatasetReader, columns_of, skipped, stated_rate
 from pyimu.recording.formats.hdf5 import Hdf5Reader
-from pyimu.recording.formats.mat_tags import check_tags
-
-WHOLE = 2 << 30
-"""Bytes of the largest MAT file before version 7.3 that is read."""
+from pyimu.recording.formats.mat_tags import MOST, check_tags
+from pyimu.recording.formats.streams import reading
 
 _HDF5 = b"\x89HDF\r\n\x1a\n"
 
@@ -50,11 +48,10 @@ class MatReader(DatasetReader):
         """
         if _is_hdf5(path):
             return Hdf5Reader.open(path, "mat")
-        if path.stat().st_size > WHOLE:
+        if path.stat().st_size > MOST:
             raise UserError(
-                f"{path}: MAT files before version 7.3 are read whole and may have {WHOLE >> 30} "
-                "GiB, "
-                f"this has {path.stat().st_size / 2**30:.1f}; save it with -v7.3"
+                f"{path}: MAT files before version 7.3 are read whole and may have {MOST >> 20} "
+                f"MiB, this has {path.stat().st_size >> 20}; save it with -v7.3"
             )
         items = dict(_items("", _load(path)))
         return cls(
@@ -79,13 +76,8 @@ def _load(path: Path) -> dict[str, Any]:
     from scipy.io import loadmat
 
     check_tags(path)
-    try:  # in MATLAB's own types: a double array of whole numbers is stored in bytes
+    with reading(path, "MAT"):  # in MATLAB's own types
         return loadmat(path, simplify_cells=True, mat_dtype=True)
-    except Exception as error:  # noqa: BLE001
-        # scipy's reader of damaged files raises whatever comes its way.
-        raise UserError(
-            f"{path}: cannot be read as MAT ({str(error).partition(chr(10))[0]})"
-        ) from None
 
 
 def _items(folder: str, items: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:

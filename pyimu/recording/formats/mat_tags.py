@@ -27,10 +27,14 @@ FUNCTION, OPAQUE, OBJECT_2 = 16, 17, 18
 DEEPEST = 32
 """Structures in structures."""
 
-MOST = 1 << 30
-"""Bytes that the compressed elements of a file may have unpacked."""
+MOST = 1 << 29
+"""Bytes that the compressed elements of a file may have unpacked, and its numbers in memory: a
+double array of whole numbers is stored in bytes, and takes eight times as much there."""
 
 MOST_AXES = 32
+
+
+TOO_LARGE = f"more than {MOST >> 20} MiB unpacked; save it with -v7.3"
 
 
 class Damaged(Exception):
@@ -88,7 +92,7 @@ class _Checker:
 
     def __init__(self, order: str) -> None:
         self.order = order
-        self.unpacked = 0
+        self.unpacked = self.in_memory = 0
 
     def top(self, data: memoryview) -> None:
         at = HEADER
@@ -106,7 +110,7 @@ class _Checker:
         unpacker = zlib.decompressobj()
         data = unpacker.decompress(packed, MOST - self.unpacked)
         if unpacker.unconsumed_tail:
-            raise Damaged(f"more than {MOST >> 30} GiB unpacked")
+            raise Damaged(TOO_LARGE)
         if not unpacker.eof:
             raise Damaged("a compressed array is cut off")
         self.unpacked += len(data)
@@ -213,6 +217,9 @@ class _Checker:
             raise Damaged(f"numbers of type {numbers.kind}")
         if numbers.kind not in (16, 17, 18) and numbers.stop - numbers.start != count * size:
             raise Damaged("an array has more or fewer numbers than its dimensions say")
+        self.in_memory += 8 * count
+        if self.in_memory > MOST:
+            raise Damaged(TOO_LARGE)
         if numbers.stop - numbers.start > 4 * max(count, 1) * size:
             raise Damaged("a text has more bytes than its dimensions say")
         return numbers.after

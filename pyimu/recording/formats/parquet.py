@@ -13,7 +13,7 @@ from pyarrow import parquet
 from pyimu.errors import UserError
 from pyimu.recording.formats.clock_times import Stamps, is_clock
 from pyimu.recording.formats.reader import Columns, Reader, as_number
-from pyimu.recording.formats.streams import reading
+from pyimu.recording.formats.streams import must_be_held, reading
 from pyimu.recording.formats.text import to_numpy
 
 BATCH = 1 << 16
@@ -43,6 +43,7 @@ class ParquetReader(Reader):
             schema = file.schema_arrow
             clocks = tuple(field.name.strip() for field in schema if is_clock(field.type))
             header = [name.strip() for name in schema.names]
+            must_be_held(path, "its table", file.metadata.num_rows)
             return cls(path, header, file.metadata.num_rows, clocks)
 
     def batches(self, positions: Sequence[int], long: int) -> Iterator[tuple[Columns, float]]:

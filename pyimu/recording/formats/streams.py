@@ -15,6 +15,10 @@ import numpy as np
 from pyimu.errors import Finding, UserError
 from pyimu.recording.formats.reader import Columns, Reader, as_number
 
+MOST_PACKED = 1000
+"""Rows to a byte of a file: eight bytes are packed into one of 8000 at best where nearly all are
+the same."""
+
 
 @dataclass(frozen=True)
 class StreamReader(Reader):
@@ -58,6 +62,19 @@ def reading(path: Path, name: str) -> Iterator[None]:
     except Exception as error:  # noqa: BLE001
         reason = (str(error).splitlines() or [""])[0] or type(error).__name__
         raise UserError(f"{path}: cannot be read as {name} ({reason})") from None
+
+
+def must_be_held(path: Path, name: str, rows: int) -> None:
+    """Raises UserError for a file ``name`` of so many rows that no file of its size holds them: of
+    those that were never written there may be any number, and each is read.
+    """
+    most = max(path.stat().st_size, 1 << 10) * MOST_PACKED
+    if rows > most:
+        raise UserError(
+            f"{path}: {name} says that it has {rows:,} rows, of which a file of "
+            f"{path.stat().st_size:,} bytes holds {most:,} at most; is it cut off, or were they "
+            "never written?"
+        )
 
 
 def onto(clock: np.ndarray, time: np.ndarray, values: np.ndarray) -> np.ndarray:
