@@ -39,6 +39,9 @@ _ENTRY_KEYS = ("value", "start", *NOTE_KEYS)
 
 _TOLERANCE_KEYS = ("value", "unit", "distribution", "source", "quoted")
 
+_TEXTS = ("unit", "source", "quoted")
+"""What of a tolerance is text and no choice."""
+
 _LONGEST_NAME = 200
 """Characters of a part's name: it becomes the name of files and classes, and stands in tables."""
 
@@ -100,15 +103,24 @@ class _Reader:
             raise self.error("name", 'is missing, write name = "imt30"')
         if len(text) > _LONGEST_NAME:
             raise self.error("name", f"has {len(text)} characters, may have {_LONGEST_NAME}")
-        if printable(text) != text:
-            raise self.error("name", f"{text!r:.60} has a character that no terminal shows")
         return text
 
     def _optional_text(self, where: str, table: Mapping[str, Any], key: str) -> str:
         text = table.get(key, "")
         if not isinstance(text, str):
             raise self.error(f"{where}{key}", f"must be text, not {text!r}")
+        self._shown(f"{where}{key}", text)
         return text
+
+    def _shown(self, where: str, text: str) -> None:
+        """Raise UserError where a terminal would obey a character of ``text``, or hide it.
+
+        Texts stand in tables, in comments of one line and in XML, which has no such characters.
+        """
+        for c in text:
+            if printable(c) != c:
+                reason = f"{text!r:.60} has a character that no terminal shows (U+{ord(c):04X})"
+                raise self.error(where, reason + "; write one line of plain text")
 
     def _sample_rate(self, data: Mapping[str, Any]) -> float:
         entry = data.get("sample_rate")
@@ -257,6 +269,7 @@ class _Reader:
                 fault = f"unknown distribution {distribution!r}; {near}"
             meaning = "; ".join(f'"{name}": {text}' for name, text in DISTRIBUTIONS.items())
             raise self.error(f"{where}.distribution", f"{fault} ({meaning})")
+        texts = {k: self._optional_text(f"{where}.", entry, k) for k in _TEXTS if k in entry}
         one = "value" in entry and _shape(entry["value"]) == ()
         figures = self._numbers(where, entry, replace(q, shape=()) if one else q)
         otherwise = _is_cross_axis(q, entry)
@@ -271,8 +284,8 @@ class _Reader:
             tuple(float(sizes[i]) for i in q.indices),
             distribution,
             scale.unit,
-            self._optional_text(f"{where}.", entry, "source"),
-            self._optional_text(f"{where}.", entry, "quoted"),
+            texts.get("source", ""),
+            texts.get("quoted", ""),
         )
 
     @staticmethod

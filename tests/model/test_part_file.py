@@ -293,6 +293,33 @@ def test_errors_in_the_head(head, message):
         parse_part(head, "a.toml")
 
 
+BIAS = '[gyro.turn_on_bias]\nb0 = {value = 1, unit = "deg/h", WHAT}\n'
+SPREAD = '[tolerance.gyro.turn_on_bias]\nb0 = {value = 1, unit = "deg/h", WHAT}\n'
+
+
+@pytest.mark.parametrize(
+    "text, where",
+    [
+        ('description = "ESC"\n' + HEAD, "description"),
+        (HEAD.replace('"a"', '"ESC"'), "name"),
+        (HEAD.replace("}", ', source = "ESC"}'), "sample_rate.source"),
+        (HEAD.replace('"Hz"', '"Hz\\n"'), "sample_rate.unit"),
+        (HEAD + BIAS.replace("WHAT", 'source = "ESC"'), "gyro.turn_on_bias.b0.source"),
+        (HEAD + BIAS.replace("WHAT", 'quoted = "ESC"'), "gyro.turn_on_bias.b0.quoted"),
+        (
+            HEAD + SPREAD.replace("WHAT", 'distribution = "normal", source = "ESC"'),
+            "tolerance.gyro.turn_on_bias.b0.source",
+        ),
+    ],
+)
+def test_no_text_has_what_a_terminal_obeys(text, where):
+    """It would be printed, and stand in comments and in XML, which then is none."""
+    message = f"^a.toml: {where}: .* has a character that no terminal shows"
+    with pytest.raises(UserError, match=message) as caught:
+        parse_part(text.replace("ESC", r"a\u001b[2Jb"), "a.toml")
+    assert str(caught.value).isprintable()
+
+
 def test_a_part_that_is_nowhere(tmp_path):
     nowhere = "no built-in part and no TOML file"
     with pytest.raises(UserError, match=rf"^imt31: {nowhere}; did you mean imt30\?$"):
@@ -346,6 +373,7 @@ FIGURES = st.floats(0, 1e6, allow_subnormal=False) | st.floats(1e-12, 1e-3)
 )
 def test_any_part_reads_back_equal(v, choice, one_sided, text, estimate):
     """Whatever the value and the unit in which it is shown: the same SI value to the last bit."""
+    text = printable(text)
     keys = list(UNITS)
     notes = {
         ("gyro", *k): {"unit": UNITS[k][c % len(UNITS[k])], "source": text}
@@ -362,9 +390,7 @@ def test_any_part_reads_back_equal(v, choice, one_sided, text, estimate):
         },
     )
     leave = frozenset({("gyro", "thermal_bias", "kT")}) if estimate else frozenset()
-    made = Part(
-        "x" + printable(text), 1 / 0.3, gyro=gyro, notes=notes, estimate=leave, description=text
-    )
+    made = Part("x" + text, 1 / 0.3, gyro=gyro, notes=notes, estimate=leave, description=text)
     assert parse_part(format_part(made)) == made
 
 
