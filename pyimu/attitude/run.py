@@ -47,6 +47,7 @@ from pyimu.model.catalogue import WHITE
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as part_of
 from pyimu.recording.log import Given, recording_of
+from pyimu.recording.quality.inspect import rate_of_part
 from pyimu.recording.recording import Recording
 from pyimu.units import STANDARD_GRAVITY
 
@@ -169,6 +170,7 @@ def run(
         left_in=left_in(known, retimed=True),
         method=method,
         smoothed=smooth,
+        of_part=() if declared is None else tuple(rate_of_part(as_given, declared.sample_rate)),
         magnetometer=replace(field, calibration=calibration).in_world(world),
     )
 

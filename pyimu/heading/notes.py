@@ -8,7 +8,10 @@ import numpy as np
 
 from pyimu.heading.calibration import Calibration
 from pyimu.heading.motion import Z
+from pyimu.model.part import Part
+from pyimu.recording.quality.inspect import rate_of_part
 from pyimu.recording.recording import Recording
+from pyimu.report.findings import detail
 
 CLEARLY = 4.0
 """Standard errors from which on a reference is said to be late."""
@@ -38,6 +41,12 @@ def of_log(log: Recording, true: np.ndarray | None) -> Iterator[str]:
             f"{log.name}: the reference ends at {log.time[known[-1]]:.6g} s, "
             f"{log.time[-1] - log.time[known[-1]]:.4g} s before the log: the errors are those there"
         )
+
+
+def of_part(log: Recording, part: Part) -> Iterator[str]:
+    """Whether the part has another sample rate than the log."""
+    for finding in rate_of_part(log, part.sample_rate):
+        yield f"{log.name}: {detail(finding)}"
 
 
 def of_clock(found: Calibration, period: float) -> Iterator[str]:

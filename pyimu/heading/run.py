@@ -14,7 +14,7 @@ from pyimu.heading.calibration import Calibration, self_calibrate
 from pyimu.heading.filter import HeadingFilter, HeadingTrack, compensated
 from pyimu.heading.fit import fit
 from pyimu.heading.motion import KnownMotion, Reference, Z, known_motion
-from pyimu.heading.notes import of_clock, of_log
+from pyimu.heading.notes import of_clock, of_log, of_part
 from pyimu.heading.outcome import Method, Track
 from pyimu.heading.result import HeadingResult
 from pyimu.heading.threshold import TYPICAL, check_not_negative, threshold_filter
@@ -161,6 +161,7 @@ class _OneLog:
         self.true = _true_heading(log, reference)
         self.first = first
         self.notes += of_log(log, self.true)
+        self.notes += [] if part is None else of_part(log, part)
 
     def tracks(self, names: list[str], explicit: bool) -> dict[str, Track]:
         """The track of each method; one that lacks a reference is left out and said to be, unless

@@ -24,6 +24,7 @@ from pyimu.navigation.result import NavigationResult
 from pyimu.navigation.stops import ZUPT, clean_of, noise_at_rest, rest_at_start, stops_of
 from pyimu.navigation.track import Reference, Track, reference_of
 from pyimu.recording.log import Given, recording_of
+from pyimu.recording.quality.inspect import rate_of_part
 from pyimu.recording.recording import Recording
 from pyimu.units import STANDARD_GRAVITY, did_you_mean
 
@@ -83,10 +84,12 @@ def run(
     recording, findings = checks.without_outliers(recording, *most)
     wrong = contradicted(recording)
     findings += wrong
+    declared = None if part is None else part_of(part)
+    findings += [] if declared is None else rate_of_part(recording, declared.sample_rate)
     as_given, recording = recording, without(recording, wrong)
     told = Told(position_std, velocity_std, position_age, velocity_age)
     measured = fixes_of(recording, told, limits["top_speed"]) if fixes else None
-    job = _job(recording, None if part is None else part_of(part), zupt, given, findings)
+    job = _job(recording, declared, zupt, given, findings)
     job = replace(job, latitude=latitude_of(recording, latitude), nhc=nhc, fixes=measured)
     reference = reference_of(recording)
     found, start = job.started(heading0, reference)

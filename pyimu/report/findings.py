@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from typing import NamedTuple
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -35,11 +35,25 @@ SECONDS, SECONDS_OF_TIME = (
 """Details of findings that are times; the latter those of the column ``time`` only."""
 
 
+SENTENCES = {
+    "rate_of_part": "the part's rate is {other_rate:.6g} Hz, the log's {rate:.6g} Hz",
+}
+"""What findings say whose names of numbers alone say too little; a count would say nothing."""
+
+
 def detail(f: Finding) -> str:
-    """The finding's numbers with their units."""
-    sample = {"gyro": "rad/s", "accel": "m/s^2"}.get(f.column.partition("_")[0])
+    """The finding's numbers with their units, or its sentence behind what that leaves."""
+    sentence = SENTENCES.get(f.kind, "")
+    rest = {n: value for n, value in f.detail.items() if f"{{{n}:" not in sentence}
+    said = _numbers(f.column, rest)
+    return ", ".join([*said, sentence.format(**f.detail)] if sentence else said)
+
+
+def _numbers(column: str, details: Mapping[str, Any]) -> list[str]:
+    """Details of a finding about a column with their units."""
+    sample = {"gyro": "rad/s", "accel": "m/s^2"}.get(column.partition("_")[0])
     parts = []
-    for name, value in f.detail.items():
+    for name, value in details.items():
         text = (
             f"{value:,}"
             if isinstance(value, int)
@@ -60,10 +74,10 @@ def detail(f: Finding) -> str:
             "largest_frequency",
         ):
             text = f"{value:.6g} Hz"
-        elif name in SECONDS or (f.column == "time" and name in SECONDS_OF_TIME):
+        elif name in SECONDS or (column == "time" and name in SECONDS_OF_TIME):
             text = f"{text} s"
         parts.append(f"{name.replace('_', ' ')} {text}")
-    return ", ".join(parts)
+    return parts
 
 
 class Said(NamedTuple):
@@ -78,6 +92,8 @@ class Said(NamedTuple):
     @property
     def line(self) -> str:
         """All but what it means in a line for a terminal."""
+        if self.kind.replace(" ", "_") in SENTENCES:
+            return f"{self.kind}: {self.detail}"
         where = f" of {self.columns}" if self.columns not in ("time", "") else ""
         return f"{self.kind}{where}: {self.count:,}{f' ({self.detail})' if self.detail else ''}"
 

@@ -74,6 +74,18 @@ def test_what_the_filter_leaves_in_is_said_before_it_runs(pyimu, log, tmp_path):
     assert quiet == (0, "", "")
 
 
+def test_a_part_of_another_rate_than_the_log_is_said(pyimu, log, tmp_path):
+    (tmp_path / "slow.toml").write_text(
+        'name = "slow"\nsample_rate = {value = 1.0, unit = "Hz"}\n'
+        '[gyro.angle_random_walk]\nN = {value = 0.2, unit = "deg/sqrt(h)"}\n'
+    )
+    code, out, _ = pyimu("attitude", log, "--part", "slow.toml", "--out", "out")
+    assert code == 0 and "rate of part: the part's rate is 1 Hz, the log's 100 Hz" in out
+    data = json.loads((tmp_path / "out" / "report.json").read_text())
+    assert "rate_of_part" in [f["kind"] for f in data["quality"]]
+    assert "rate of part" not in pyimu("attitude", log, "--out", "out")[1]
+
+
 def test_a_foreign_log_goes_through_a_column_map(pyimu, log, tmp_path):
     text = log.read_text().replace("gyro_x [rad/s]", "wx", 1)
     (tmp_path / "foreign.csv").write_text(text)

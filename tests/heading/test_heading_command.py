@@ -57,6 +57,17 @@ def test_a_known_motion_may_be_a_log_of_its_own(pyimu, whole, tmp_path):
     assert last["scale_factor_std"] == pytest.approx(0.003, rel=0.02)
 
 
+def test_a_part_of_another_rate_than_the_log_is_said(pyimu, whole, tmp_path):
+    (tmp_path / "slow.toml").write_text(
+        'name = "slow"\nsample_rate = {value = 1.0, unit = "Hz"}\n'
+        '[gyro.angle_random_walk]\nN = {value = 0.2, unit = "deg/sqrt(h)"}\n'
+    )
+    words = ("heading", whole / "run0.csv", "--method", "filter", "--out", "out")
+    code, out, _ = pyimu(*words, "--part", "slow.toml")
+    assert code == 0 and "run0: the part's rate is 1 Hz, the log's " in out
+    assert "the part's rate" not in pyimu(*words)[1]
+
+
 def test_without_a_reference_the_methods_that_need_none_go_on(pyimu, whole, tmp_path):
     text = read_recording(whole / "run0.csv")
     replace(text, ref_heading=None).write(tmp_path / "bare.csv")

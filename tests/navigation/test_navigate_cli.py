@@ -60,6 +60,20 @@ def test_the_report_as_json_alone_or_not_at_all(pyimu, log, tmp_path):
     assert pyimu(*words, "--json", "--quiet")[0] == 2
 
 
+def test_a_part_of_another_rate_than_the_log_is_said(pyimu, log, tmp_path):
+    (tmp_path / "slow.toml").write_text(
+        'name = "slow"\nsample_rate = {value = 1.0, unit = "Hz"}\n'
+        '[gyro.angle_random_walk]\nN = {value = 0.2, unit = "deg/sqrt(h)"}\n'
+    )
+    words = ("navigate", log, "--method", "filter", "--out", "out")
+    said = "rate of part: the part's rate is 1 Hz, the log's 50 Hz"
+    code, out, _ = pyimu(*words, "--part", "slow.toml")
+    assert code == 0 and said in out
+    data = json.loads((tmp_path / "out" / "report.json").read_text())
+    assert "rate_of_part" in [f["kind"] for f in data["findings"]]
+    assert "rate of part" not in pyimu(*words)[1]
+
+
 def test_an_antenna_is_three_numbers(pyimu, log, tmp_path):
     words = ("navigate", log, "--part", PART, "--method", "filter", "--out", "out")
     assert pyimu(*words, "--antenna", "0.2,0,0.5", "--quiet") == (0, "", "")

@@ -274,6 +274,12 @@ def consistency(a: Outcome) -> str | None:
     )
 
 
+def _of_log(a: Outcome) -> Iterator[Finding]:
+    """What the terminal says of the log below the notes."""
+    yield from a.recording.findings
+    yield from (f for f in a.findings if f.kind == "rate_of_part")
+
+
 def in_lines(a: Outcome) -> str:
     """The report for a terminal."""
     lines = [f"{a.name}: {about(a)}"]
@@ -284,5 +290,5 @@ def in_lines(a: Outcome) -> str:
     lines += [f"  error       {name:10s} {text}" for name, text in error_words(a)]
     if (text := consistency(a)) is not None:
         lines.append(f"  consistency {text}")
-    lines += [f"  log         {text}" for text in in_line(a.recording.findings)]
+    lines += [f"  log         {text}" for text in in_line(_of_log(a))]
     return "\n".join(lines)
