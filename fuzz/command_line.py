@@ -24,6 +24,7 @@ LOADED = (
     "pyimu.attitude.run",
     "pyimu.characterization.run",
     "pyimu.derivations.model",
+    "pyimu.export.targets",
     "pyimu.fmu.package",
     "pyimu.heading.run",
     "pyimu.identification.close",
@@ -59,6 +60,7 @@ COMMANDS = {
     "build": ["--out", "--fmu", "--fmi", "--platform", "--specimen", "--ssp"],
     "parts": [],
     "modelica": ["--out"],
+    "export": ["--to", "--out", "--inflate", "--effects", "--json", "--quiet"],
     "derive": ["--out", "--help"],
     "demo": ["--nothing"],
     "rover": ["--nothing"],
@@ -103,6 +105,7 @@ VALUES = [
     "imt30",
     "sensor,ukf",
     "2,3,block",
+    "kalibr,gazebo",
 ]
 
 

@@ -113,18 +113,19 @@ class Child:
         if os.WIFSIGNALED(status):
             name = signal.Signals(os.WTERMSIG(status)).name
             wrong = f"ended by {name}" + (" (too slow)" if name in ("SIGPROF", "SIGALRM") else "")
+        elif status and not wrong:  # as a library that calls exit() ends it
+            wrong = f"ended with exit status {os.WEXITSTATUS(status)} and no word"
         return counts, wrong
 
     def _work(self, write: int) -> None:
-        own = int(Path("/proc/self/statm").read_text().split()[0]) * os.sysconf("SC_PAGE_SIZE")
-        resource.setrlimit(resource.RLIMIT_AS, (own + MEMORY, own + MEMORY))
+        _bound_memory()
         rng = random.Random(self.seed)
         quiet = os.open(os.devnull, os.O_WRONLY)
         os.dup2(quiet, 1)
         os.dup2(quiet, 2)
         with os.fdopen(write, "w") as stream:
-            for _ in range(BATCH):
-                if time.monotonic() > self.until:
+            for count in range(BATCH):
+                if count and time.monotonic() > self.until:
                     break
                 path = self.fuzzer.mutate(rng.choice(self.names), self.folder, rng)
                 signal.setitimer(signal.ITIMER_PROF, LONGEST)
@@ -142,11 +143,18 @@ class Child:
         os._exit(0)
 
 
+def _bound_memory() -> None:
+    """Give this process ``MEMORY`` beside what it has, on systems that say how much that is."""
+    said = Path("/proc/self/statm")
+    if said.exists():  # macOS has none, and keeps to no such limit either
+        own = int(said.read_text().split()[0]) * os.sysconf("SC_PAGE_SIZE")
+        resource.setrlimit(resource.RLIMIT_AS, (own + MEMORY, own + MEMORY))
+
+
 def run(fuzzer, seconds: float, seed: int, keep: Path) -> int:
     """Fuzz for ``seconds``; gives how many files broke something."""
     counts: Counter = Counter()
     broken: list[str] = []
-    until = time.monotonic() + seconds
     with tempfile.TemporaryDirectory(prefix="pyimu-fuzz-") as name:
         folder, seeds = Path(name, "tried"), Path(name, "seeds")
         folder.mkdir()
@@ -159,6 +167,7 @@ def run(fuzzer, seconds: float, seed: int, keep: Path) -> int:
         names = sorted(seeds.iterdir())
         for module in fuzzer.LOADED:  # once, not in every child
             importlib.import_module(module)
+        until = time.monotonic() + seconds  # loading takes longer than a short run
         while time.monotonic() < until:
             for old in folder.iterdir():
                 old.unlink()

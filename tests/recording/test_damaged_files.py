@@ -235,6 +235,8 @@ def test_fuzzers_find_nothing(name, tmp_path):
         env=os.environ | {"PYTHONPATH": str(CHECKOUT)},
     )
     assert done.returncode == 0, f"seed {seed}: {done.stdout[-3000:]}{done.stderr[-2000:]}"
+    tried = re.search(rf"^{name}: ([\d,]+) tried: ", done.stdout, re.MULTILINE)
+    assert tried and int(tried[1].replace(",", "")) > 0, done.stdout
 
 
 def test_the_name_of_a_log_has_nothing_that_a_terminal_obeys(tmp_path):
