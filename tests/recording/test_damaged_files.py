@@ -3,7 +3,6 @@
 import gzip
 import os
 import re
-import resource
 import struct
 import subprocess
 import sys
@@ -36,6 +35,8 @@ def refused(read, *given, says=""):
 
 def test_a_line_without_an_end_takes_no_memory(tmp_path):
     """64 MiB in one line are 64 KiB packed. The reader holds a quarter of a MiB of it."""
+    resource = pytest.importorskip("resource", reason="the system says no peak of memory so")
+    unit = 1 if sys.platform == "darwin" else 1 << 10  # B of ru_maxrss, by getrusage(2) of each
     path = tmp_path / "log.csv.gz"
     with gzip.open(path, "wb", compresslevel=1) as stream:
         for _ in range(64):
@@ -45,9 +46,10 @@ def test_a_line_without_an_end_takes_no_memory(tmp_path):
     path.write_bytes(gzip.compress(HEAD.encode()) + path.read_bytes())
     refused(read_recording, path, says="row 2 is longer than 256 KiB")
     grown = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before
-    assert grown < 16 << 10  # KiB; the line as text alone would be 64 << 10
+    assert grown * unit < 16 << 20  # the line as text alone would be 64 << 20
 
 
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="the system has no such pipes")
 @pytest.mark.parametrize("suffix", ["csv", "mat", "parquet", "toml"])
 def test_pipes_and_devices_are_no_files(suffix, tmp_path):
     os.mkfifo(tmp_path / f"pipe.{suffix}")

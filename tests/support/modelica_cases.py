@@ -26,7 +26,7 @@ def compiler():
     root = Path(tempfile.mkdtemp(prefix="pyimu-modelica-"))
     atexit.register(shutil.rmtree, root, ignore_errors=True)
     for folder in (NAMES / "Modelica", LIBRARY / "PyImu"):
-        (root / folder.name).symlink_to(folder, target_is_directory=True)
+        shutil.copytree(folder, root / folder.name)
     return rumoca, rumoca.Session(roots=[str(root)])
 
 

@@ -24,6 +24,15 @@ def measured(name: str) -> Path:
     return path
 
 
+def linked(link: Path, to: Path) -> Path:
+    """The symbolic link ``link``; the test is skipped, and says so, where none may be made."""
+    try:
+        link.symlink_to(to)
+    except OSError as error:  # on Windows a right that few accounts have
+        pytest.skip(f"no symbolic links here ({error.strerror})")
+    return link
+
+
 def program(path: str) -> ModuleType:
     """An example or a benchmark of the checkout, by its path there, as a module."""
     file = CHECKOUT / path
