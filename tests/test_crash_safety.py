@@ -60,6 +60,16 @@ def holder(tmp_path):
     process.communicate()
 
 
+@pytest.mark.parametrize("words", [("export", "mpu6050", "--to", "vins"), ("modelica", "imt30")])
+def test_commands_that_write_at_once_hold_their_folder_too(words, holder, pyimu, tmp_path):
+    code, said, err = pyimu(*words, "--out", "out")
+    assert (code, said) == (2, "") and "out: another run is writing there" in err
+    assert not (tmp_path / "out").exists()
+    holder.kill()
+    holder.wait()
+    assert pyimu(*words, "--out", "out")[0] == 0
+
+
 def test_of_two_runs_into_one_folder_the_second_says_so(holder, pyimu):
     """The first one's end, or a kill, gives it back."""
     code, said, err = pyimu("characterize", "log.csv", "--out", "out")

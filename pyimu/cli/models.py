@@ -255,9 +255,10 @@ def export_command(
     convention of a density, with the inflation that its docs recommend. A part that pyimu
     characterize or pyimu close wrote is a part as well.
     """
-    from pyimu.files import json_text
+    from pyimu.files import check_folder, json_text
 
     check_told(as_json, quiet)
+    check_folder(out)
     add_effects(effects)
     made = exported(part, to, out, inflate)
     files = [
