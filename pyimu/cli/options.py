@@ -121,10 +121,10 @@ def write_exports(part: Part | str, to: str, out: Path, inflate: float | None = 
 
 def exported(part: Part | str, to: str, out: Path, inflate: float | None = None) -> list[Exported]:
     """Write the files of the projects ``to``, all or none."""
-    from pyimu.export import export, known
+    from pyimu.export.targets import export_all
     from pyimu.files import staged, write_text
 
-    made = [export(part, name, inflate) for name in known(to)]
+    made = export_all(part, to, inflate)
     with staged(out) as stage:
         for e in made:
             write_text(stage / e.file, e.text)

@@ -46,6 +46,15 @@ def present(part: Part) -> dict[str, Densities]:
     return {kind: densities(part, kind) for kind in kinds or NAMES}
 
 
+def lacking(part: Part, kind: str, needed_by: str) -> UserError:
+    """That ``part`` has no white noise of a sensor, by whom it is needed, and how to get it."""
+    return UserError(
+        f"part {part.name} has no white noise of the {NAMES[kind]} "
+        f"({kind}.angle_random_walk.N), which {needed_by} needs; "
+        "pyimu characterize finds it in a log at rest"
+    )
+
+
 def _has_white_noise(part: Part, kind: str) -> bool:
     N = part.sensor(kind).values.get("angle_random_walk", {}).get("N", np.zeros(3))
     return bool(np.all(N > 0)) and (kind, "angle_random_walk", "N") not in part.estimate
@@ -62,11 +71,7 @@ def densities(part: Part, kind: str) -> Densities:
     """
     values = part.sensor(kind).values
     if not _has_white_noise(part, kind):
-        raise UserError(
-            f"part {part.name} has no white noise of the {NAMES[kind]} "
-            f"({kind}.angle_random_walk.N), which every estimator needs; "
-            "pyimu characterize finds it in a log at rest"
-        )
+        raise lacking(part, kind, "every estimator")
     N = values["angle_random_walk"]["N"]
     found = [values[effect][name] for effect, name in WALKS if effect in values]
     K = np.sqrt(np.sum(np.square(found), axis=0)) if found else np.zeros(3)

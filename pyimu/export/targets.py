@@ -9,7 +9,7 @@ from pathlib import Path
 
 from pyimu.errors import UserError
 from pyimu.export import estimators, simulators
-from pyimu.export.densities import NAMES, densities, present
+from pyimu.export.densities import NAMES, lacking, present
 from pyimu.files import write_text
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as find_part
@@ -152,18 +152,37 @@ def export(part: str | os.PathLike | Part, to: str, inflate: float | None = None
         raise UserError(f"--inflate {inflate:g}: must be above 0 and below a million")
     factor = target.inflate if inflate is None else float(inflate)
     reason = target.reason if inflate is None else "as asked for"
-    exported = Exported(to, target.file, "", factor, reason, _missing(target, found))
+    exported = Exported(to, target.file, "", factor, reason, _missing(to, found))
     text = target.text(found, factor).replace("{inflation}", exported.said())
     return replace(exported, text=text)
 
 
-def _missing(target: Target, part: Part) -> str:
+def export_all(
+    part: str | os.PathLike | Part, to: str, inflate: float | None = None
+) -> list[Exported]:
+    """The files of the projects of a list by commas. Raises as ``export``, and says then which of
+    them there could be.
+    """
+    made, refused = [], []
+    for name in known(to):
+        try:
+            made.append(export(part, name, inflate))
+        except UserError as error:
+            refused.append(error)
+    if refused and made:
+        raise UserError(f"{refused[0]}; --to {','.join(e.target for e in made)} can be written")
+    if refused:
+        raise refused[0]
+    return made
+
+
+def _missing(to: str, part: Part) -> str:
     """What of a project's file the part has no noise for. Raises UserError where it needs that."""
-    there, said = present(part), []
+    there, said, target = present(part), [], TARGETS[to]
     for kind in NAMES:
         if kind not in there:
             if not target.without:
-                densities(part, kind)
+                raise lacking(part, kind, f"the file of {to}")
             said.append(
                 f"the part has no white noise of the {NAMES[kind]}, {target.words[kind]}: "
                 f"{target.without}"

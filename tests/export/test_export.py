@@ -292,6 +292,16 @@ def test_what_cannot_be_exported_is_refused(call, says):
         call()
 
 
+def test_of_several_projects_the_one_that_needs_more_is_named(pyimu, tmp_path):
+    code, out, err = pyimu("export", "adxrs300", "--to", "kalibr,vins", "--out", "out")
+    assert (code, out) == (2, "") and not (tmp_path / "out").exists()
+    for words in ("of the accelerometer (accel.", "the file of vins needs", "--to kalibr can be"):
+        assert words in err
+    assert pyimu("export", "adxrs300", "--to", "kalibr", "--out", "out")[0] == 0
+    said = pyimu("export", "adxrs300", "--to", "vins", "--out", "out")[2]
+    assert "the file of vins" in said and "can be written" not in said
+
+
 def test_the_command_writes_all_or_nothing(tmp_path, monkeypatch, capsys):
     save_part(MADE, tmp_path / "made.toml")
     monkeypatch.chdir(tmp_path)
