@@ -9,7 +9,8 @@ gravity, and a spelling that is not in the table is an error that names the near
 
 What data sheets and the package's own reports print is read as well: degree and micro signs, roots
 with their sign or as rtHz, raised powers, and the names in ``ALIASES``, so that ``°/s``,
-``mdps/√Hz``, ``µg/rtHz``, ``m/s2`` and ``ppm/°C`` are units, and ``LSB/°/s`` is LSB/(°/s).
+``mdps/√Hz``, ``µg/rtHz``, ``m/s2`` and ``ppm/°C`` are units, and ``LSB/°/s`` is LSB/(°/s). A
+trailing ``rms``, as in ``mg rms``, says how a figure was measured and is no part of its unit.
 
 The radian and the count of a converter (LSB) are kept as dimensions of their own, so that a column
 in 1/s is not taken for a rate, nor one in counts for a pure number.
@@ -104,6 +105,7 @@ ALIASES = {
     "dps": "deg/s",
     "mdps": "mdeg/s",
     "rpm": "rev/min",
+    "RPM": "rev/min",
     "kph": "km/h",
     "mph": "mi/h",
     "knot": "kn",
@@ -122,6 +124,8 @@ ALIASES = {
     "mGauss": "mgauss",
     "lsb": "LSB",
     "LSb": "LSB",
+    "count": "LSB",
+    "counts": "LSB",
     "digit": "LSB",
     "digits": "LSB",
 }
@@ -145,7 +149,11 @@ _RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺", "0123456789-+")
 _ROOT = re.compile(r"(?:√ ?|\b(?:rt|sqrt|root)[ -]?)([A-Za-z]+)|(?:√|\brt)(?= ?\()")
 """The root of one name, √Hz or rtHz, or of what stands in brackets."""
 
+_MEASURED = re.compile(r"(?<=\S)[ -](?:rms|RMS|\(rms\)|\(RMS\))$")
+"""How data sheets say behind a unit that the figure is a root mean square."""
+
 _HINTS = {
+    "mG": "mgauss (field) or mg (gravity)",
     "G": "gauss (field) or g (gravity)",
     "meter": "m",
     "metre": "m",
@@ -157,7 +165,9 @@ _HINTS = {
 }
 """What common spellings outside the table are called in it; only for error messages."""
 
-_PER_RATE = re.compile(r"^(\s*(?:LSB|LSb|lsb|digits?|mV|V)\s*/\s*)(m?deg\s*/\s*s(?:ec)?)\s*$")
+_PER_RATE = re.compile(
+    r"^(\s*(?:LSB|LSb|lsb|digits?|counts?|mV|V)\s*/\s*)(m?deg\s*/\s*s(?:ec)?)\s*$"
+)
 """A sensitivity as data sheets print it, LSB/°/s, which is one to a rate: LSB/(°/s)."""
 
 _TOKEN = re.compile(
@@ -196,17 +206,26 @@ LONGEST = 400
 """Characters of a unit, brackets in brackets among them."""
 
 
-def parse(text: str) -> Unit:
+WORD = 5
+"""Letters of an unknown name from which on its likeness to another says something by itself."""
+
+
+def parse(text: str, like: str | Unit | None = None) -> Unit:
     """The unit that ``text`` spells, as ``"deg/h/sqrt(h)"``, ``"rad/s/(m/s^2)"`` or ``"µg/√Hz"``.
 
-    Raises UnitError for an atom outside the table, naming the nearest one, and for text that is no
-    unit.
+    Raises UnitError for text that is no unit, and for an atom outside the table, naming the nearest
+    one: with it the unit is one ``like`` that which is expected, where that is said.
     """
     if not isinstance(text, str):
         raise UnitError(f"a unit must be text such as 'deg/s', not {str(text)[:LONGEST]!r}")
     if len(text) > LONGEST:
         raise UnitError(f"'{text[:LONGEST]}...' is not a unit: {len(text)} characters are too many")
-    return _parsed(text)
+    try:
+        return _parsed(text)
+    except UnitError:
+        if like is not None:
+            _Reader(text, _unit(like).dimension).product()  # raises, by what is expected
+        raise
 
 
 @lru_cache(maxsize=1024)
@@ -230,7 +249,8 @@ def convert(values, source: str | Unit, target: str | Unit):
     Temperatures convert as differences; for readings of a thermometer see ``to_degc``. Raises
     UnitError where the dimensions differ.
     """
-    source, target = _unit(source), _unit(target)
+    target = _unit(target)
+    source = _unit(source, target)
     if source.dimension != target.dimension:
         raise UnitError(
             f"'{source}' cannot be converted to '{target}': {_describe(source)} is not "
@@ -245,7 +265,7 @@ def to_degc(values, unit: str | Unit):
 
     Raises UnitError for another unit.
     """
-    unit = _unit(unit)
+    unit = _unit(unit, "K")
     if unit.plain not in ("K", "degC"):
         raise UnitError(f"a temperature must be in degC or K, not '{unit}'")
     shifted = np.asarray(values, dtype=float) - (ZERO_CELSIUS if unit.plain == "K" else 0.0)
@@ -272,11 +292,12 @@ def _plain(text: str) -> str:
     for sign, letters in _SIGNS.items():
         text = text.replace(sign, letters)
     text = re.sub(r"[⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺]+", lambda m: f"^{m[0].translate(_RAISED)}", text)
-    return _ROOT.sub(lambda m: f"sqrt({m[1]})" if m[1] else "sqrt", text).strip()
+    text = _ROOT.sub(lambda m: f"sqrt({m[1]})" if m[1] else "sqrt", text).strip()
+    return _MEASURED.sub("", text)
 
 
-def _unit(unit: str | Unit) -> Unit:
-    return unit if isinstance(unit, Unit) else parse(unit)
+def _unit(unit: str | Unit, like: Unit | str | None = None) -> Unit:
+    return unit if isinstance(unit, Unit) else parse(unit, like)
 
 
 def _describe(unit: Unit) -> str:
@@ -288,11 +309,13 @@ def _describe(unit: Unit) -> str:
 class _Reader:
     """Recursive descent parser of the grammar in the module's docstring.
 
-    The method of each rule returns (factor, dimension).
+    The method of each rule returns (factor, dimension). ``like`` is the dimension that is expected,
+    None where none is; only errors ask for it.
     """
 
-    def __init__(self, text: str) -> None:
+    def __init__(self, text: str, like: tuple[Fraction, ...] | None = None) -> None:
         self.text = text
+        self.like = like
         self.tokens = self._tokens()
         self.position = 0
 
@@ -375,15 +398,28 @@ class _Reader:
         factor, exponents = _ATOMS[token]
         return factor, tuple(Fraction(exponents.get(base, 0)) for base in BASES)
 
-    @staticmethod
-    def _unknown(token: str) -> str:
+    def _unknown(self, token: str) -> str:
         if not token or token in "*/^()":
             return "a unit is missing" + (f" before '{token}'" if token else " at its end")
-        meant = (
-            _HINTS.get(token)
-            or _HINTS.get(token.casefold())
-            or nearest(token, [*ATOMS, *ALIASES], cutoff=0.5)
-        )
+        meant = _HINTS.get(token) or _HINTS.get(token.casefold()) or self._nearest(token)
         return f"unknown '{token}'" + (
             f", did you mean {meant}?" if meant else f"; known are {', '.join(ATOMS)}"
         )
+
+    def _nearest(self, token: str) -> str | None:
+        """The name that may be meant by the unknown ``token``, which was taken last."""
+        names = [*ATOMS, *ALIASES]
+        if self.like is not None:
+            names = [name for name in names if self._with(name) == self.like]
+        elif len(token) < WORD:  # a short word is like many: it may be in other letters, no more
+            names = [name for name in names if name.casefold() == token.casefold()]
+        return nearest(token, names, cutoff=0.5)
+
+    def _with(self, name: str) -> tuple[Fraction, ...] | None:
+        """The dimension with ``name`` in place of the token that was taken last, None if none."""
+        other = _Reader(self.text)
+        other.tokens[self.position - 1] = name
+        try:
+            return other.product()[1]
+        except UnitError:
+            return None

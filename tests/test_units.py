@@ -253,14 +253,17 @@ def test_any_text_is_a_unit_or_a_unit_error(text):
         ("rad^0.5", "not a unit"),
         ("rad^s", "a power must be an integer"),
         ("2*s", "unknown '2'"),
-        ("dpss", "did you mean dps"),
-        ("deg/secs", "did you mean sec"),
+        ("dpss", "known are"),  # of short words that are like another by chance, too
+        ("deg/secs", "known are"),
+        ("deg/secondes", "did you mean second"),
+        ("mG", "did you mean mgauss (field) or mg (gravity)?"),
+        ("rms", "unknown 'rms'"),
         ("gram", "unknown 'gram'"),
         ("µ°x/s", "unknown 'udegx'"),
         ("G", "gauss"),
         ("RAD", "did you mean rad"),
         ("hz", "did you mean Hz"),
-        ("degg/s", "did you mean deg"),
+        ("degg/s", "known are"),
         ("foo", "known are"),
     ],
 )
@@ -306,6 +309,46 @@ def test_thermometer_has_an_offset_and_a_difference_has_none():
 def test_thermometer_refuses_millivolts():
     with pytest.raises(UnitError, match="must be in degC or K"):
         to_degc(1.0, "mV")
+
+
+@pytest.mark.parametrize(
+    "text, like, said",
+    [
+        ("dpss", "rad/s", "did you mean dps?"),
+        ("degg/s", "rad/s", "did you mean deg?"),
+        ("deg/secs", "rad/s", "did you mean sec?"),
+        ("hz", "Hz", "did you mean Hz?"),
+        ("utt", "T", "did you mean uT?"),
+        ("utt", "rad/s", "known are"),
+        ("secunds", "m/s^2", "known are"),
+        ("degg/secs", "rad/s", "known are"),  # with one of them alone it is no unit yet
+    ],
+)
+def test_a_unit_that_may_be_meant_is_of_the_dimension_that_is_expected(text, like, said):
+    for call in (lambda: parse(text, like), lambda: convert(1.0, text, like)):
+        with pytest.raises(UnitError, match=re.escape(said)):
+            call()
+
+
+@pytest.mark.parametrize(
+    "printed, plain",
+    [
+        ("°/s rms", "deg/s"),
+        ("mg rms", "mg"),
+        ("mg-rms", "mg"),
+        ("mg RMS", "mg"),
+        ("mg (rms)", "mg"),
+        ("°/sec/√Hz rms", "deg/s/sqrt(Hz)"),
+        ("µg/√Hz rms", "ug/sqrt(Hz)"),
+        ("RPM", "rev/min"),
+        ("counts", "LSB"),
+        ("counts/g", "LSB/g"),
+        ("count/°/s", "LSB/(deg/s)"),
+    ],
+)
+def test_what_data_sheets_print_beside_a_unit(printed, plain):
+    read, want = parse(printed), parse(plain)
+    assert (read.factor, read.dimension) == (want.factor, want.dimension)
 
 
 def test_nearest_name():

@@ -124,11 +124,11 @@ def check_unit(place: str, name: str, text: Any) -> units.Unit:
 
     Raises UnitError that begins with ``place`` where it is none, or does not fit.
     """
+    right = UNITS[name]
     try:
-        unit = units.parse(text)
+        unit = units.parse(text, right)
     except units.UnitError as error:
         raise units.UnitError(f"{place}: {error}") from None
-    right = UNITS[name]
     fits = unit.plain in ("K", "degC") if right == "degC" else units.same_dimension(unit, right)
     if not fits:
         raise units.UnitError(f"{place} cannot be in '{unit}', expected a unit like '{right}'")

@@ -66,7 +66,7 @@ def unit_of(text: str) -> str | None:
     (``deg per s``) and letters outside of ASCII are understood.
     """
     text = text.strip().translate(_POWERS)
-    if not text or len(text) > 40:
+    if not text or len(text) > 40 or text in ("count", "counts"):  # names of counters end so
         return None
     tried = [text, _spelled(text)]
     for spelling in tried:

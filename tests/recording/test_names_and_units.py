@@ -81,6 +81,12 @@ def test_unit_that_ends_a_name(cell, unit):
     assert named(cell).unit == unit
 
 
+def test_a_counter_is_in_no_unit():
+    """A part file's ``counts`` are LSB; names of counters end so, and stay whole."""
+    assert named("sample_count").words == ("sample", "count")
+    assert named("sample_counts").unit is None
+
+
 @pytest.mark.parametrize(
     "gyro, accel",
     [("gyro_{}_rad_s", "acc_{}_m_s2"), ("gyro_{}_mm", "acc_{}_s"), ("gyro {} (g)", "acc {} (deg)")],
