@@ -207,7 +207,7 @@ def expressions():
     )
 
 
-@given(expressions(), st.floats(-1e3, 1e3))
+@given(expressions(), st.floats(-1e3, 1e3).filter(lambda v: v == 0 or abs(v) > 1e-100))
 def test_round_trip_through_si(text, value):
     unit = parse(text)
     si = units.Unit(1.0, unit.dimension, "SI")
