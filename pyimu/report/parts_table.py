@@ -44,6 +44,9 @@ WRAPPED = 100
 LEAST = 18
 """Characters of a column with text; the words in it are not longer."""
 
+SIDES = "N is the root of the two-sided density; a data sheet's one-sided figure is sqrt(2) larger."
+"""Below what is printed of parts."""
+
 UNLIMITED = 10_000
 """Characters; wider than any line here."""
 
@@ -67,7 +70,7 @@ def listing(parts: Iterable[Part] | None = None, width: int | None = None) -> st
     for p in map(part, part_names()) if parts is None else parts:
         figures = [_figure(p, *column[1:]) for column in COLUMNS]
         table.add_row(p.name, f"{p.sample_rate:.10g}", *figures, p.description)
-    return _text(table, width)
+    return f"{_text(table, width)}\n\n{SIDES}"
 
 
 def detail(name: str | Part, width: int | None = None) -> str:
@@ -84,7 +87,8 @@ def detail(name: str | Part, width: int | None = None) -> str:
     if p.tolerances:
         tables.append(_sourced("tolerance", "specimens lie", _tolerances(p), width))
     head = textwrap.fill(remarks(name), min(width or WRAPPED, WRAPPED))
-    return "\n\n".join([title, *([head] if head else []), *tables])
+    below = [SIDES] if any("angle_random_walk" in s.values for s in (p.gyro, p.accel)) else []
+    return "\n\n".join([title, *([head] if head else []), *tables, *below])
 
 
 def as_data(name: str | Part | None = None) -> dict[str, Any]:

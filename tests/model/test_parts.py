@@ -18,7 +18,7 @@ from pyimu.cli import main
 from pyimu.model.kinds import KINDS
 from pyimu.model.part_entry import RATE_KEY
 from pyimu.model.part_file import part, part_names
-from pyimu.report.parts_table import ABSENT, COLUMNS, as_data, detail, listing
+from pyimu.report.parts_table import ABSENT, COLUMNS, SIDES, as_data, detail, listing
 
 DATA_SHEETS = [name for name in part_names() if name != "imt30"]
 PAGE = re.compile(r"table|page|section|register|FAQ|clock|rate|specifications", re.IGNORECASE)
@@ -202,7 +202,8 @@ def run(monkeypatch, capsys, *words):
 def test_pyimu_parts_lists_every_part_on_a_line_of_its_own(monkeypatch, capsys):
     code, out, err = run(monkeypatch, capsys, "parts")
     assert (code, err) == (0, "")
-    lines = out.splitlines()
+    *lines, blank, last = out.splitlines()
+    assert (blank, last) == ("", SIDES)
     assert [line.split()[0] for line in lines[3:]] == sorted(part_names())
     by_name = {line.split()[0]: line for line in lines[3:]}
     assert all(part(name).description in line for name, line in by_name.items())
@@ -211,7 +212,7 @@ def test_pyimu_parts_lists_every_part_on_a_line_of_its_own(monkeypatch, capsys):
 
 @pytest.mark.parametrize("width", [20, 60, 80, 120, 200])
 def test_a_narrow_terminal_folds_descriptions_and_cuts_no_figure(width):
-    whole, folded = listing().splitlines()[3:], listing(width=width)
+    whole, folded = listing().splitlines()[3:-2], listing(width=width)
     for line in whole:
         head = " ".join(line.split()[: 2 + len(COLUMNS)])
         assert any(" ".join(row.split()).startswith(head) for row in folded.splitlines())
@@ -254,6 +255,8 @@ def test_a_part_of_one_s_own_is_printed_too(tmp_path):
     assert "gyro.scale_factor.s" in text and re.search(
         r"misalignment\.m +\[0 \S+ \S+; \S+ 0 \S+; \S+ \S+ 0\] deg", text
     )
+    assert SIDES not in text  # it has no N
+    assert SIDES == detail("bmi270").splitlines()[-1]
     assert re.search(r"T0 +20\.00 degC", text) and text.startswith("own\n")
 
 
