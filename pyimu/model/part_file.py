@@ -33,7 +33,7 @@ import re
 from importlib.resources import files
 from pathlib import Path
 
-from pyimu.errors import UserError
+from pyimu.errors import UserError, printable
 from pyimu.files import exists, read_toml, shortened, write_text
 from pyimu.model.part import Part
 from pyimu.model.part_reader import meant, parse_part, part_of
@@ -88,7 +88,7 @@ def remarks(name_or_path: str | os.PathLike | Part) -> str:
     name = str(name_or_path)
     text = _built_in(name) if name in part_names() else Path(name).read_text(encoding="utf-8")
     head = itertools.takewhile(lambda line: line.startswith("#"), text.splitlines())
-    return " ".join(" ".join(line.lstrip("# ") for line in head).split())
+    return printable(" ".join(" ".join(line.lstrip("# ") for line in head).split()))
 
 
 def new_part(name: str, folder: str | os.PathLike = ".") -> Path:

@@ -260,6 +260,14 @@ def test_a_part_of_one_s_own_is_printed_too(tmp_path):
     assert re.search(r"T0 +20\.00 degC", text) and text.startswith("own\n")
 
 
+def test_remarks_have_nothing_that_a_terminal_obeys(tmp_path):
+    """TOML allows the second set of control characters in a comment: U+009B begins a command."""
+    file = tmp_path / "own.toml"
+    head = 'name = "own"\nsample_rate = {value = 50.0, unit = "Hz"}\n'
+    file.write_text("# a\u009b2Jb\n\n" + head, encoding="utf-8")
+    assert as_data(str(file))["remarks"] == "a?2Jb"
+
+
 def test_an_unknown_name_is_one_line_and_exit_status_2(monkeypatch, capsys):
     code, out, err = run(monkeypatch, capsys, "parts", "mpu6051")
     assert (code, out) == (2, "") and err.count("\n") == 1 and "did you mean mpu6050" in err
