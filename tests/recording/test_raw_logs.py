@@ -296,9 +296,13 @@ def test_counts_are_sized_by_gravity_and_its_turning():
     assert (rate.unit, rate.value) == ("deg/s", 1 / 131)
 
 
-@pytest.mark.parametrize("mdps", [4.375, 8.75, 17.5, 35.0, 70.0])
+ST = (4.375, 8.75, 17.5, 35.0, 70.0)
+"""mdps/LSB, data sheet of LSM6DSO, table 2."""
+
+
+@pytest.mark.parametrize("mdps", ST)
 def test_counts_of_st_s_gyros_are_not_taken_for_others(mdps):
-    """Data sheet of LSM6DSO, table 2; the other that fits is said."""
+    """The other that fits is said."""
     _, gyro, accel = turned()
     guess = rate_unit(np.round(np.degrees(gyro) * 1000 / mdps), accel, 0.01)
     assert guess.unit == "deg/s" and guess.value == pytest.approx(mdps / 1000)
@@ -322,9 +326,34 @@ def test_of_two_sizes_of_a_count_that_fit_the_user_chooses(tmp_path):
     found = inspect([log])
     assert "choose the unit of gyro" in found.report() and "114.3" in found.report()
     text = found.column_map.replace("# gyro = {value = 0.00875", "gyro = {value = 0.00875", 1)
-    (tmp_path / "map.toml").write_text(text)
+    (tmp_path / "map.toml").write_text(text.replace('# "g', '"g'))
     read = read_recording(log, tmp_path / "map.toml")
     np.testing.assert_allclose(read.gyro, gyro * 122 * 0.00875, atol=2e-4)
+
+
+def test_of_counts_of_a_gyro_at_rest_the_map_offers_the_common_sizes(tmp_path):
+    """Neither rad/s nor deg/s, in which no gyro is as coarse."""
+    time, gyro, accel = raw_logs.still(400)
+    log = raw_logs.text(
+        tmp_path / "raw.csv",
+        ["millis,gx,gy,gz,ax,ay,az"],
+        [
+            time // 1_000_000,
+            *np.rint(np.degrees(gyro) * 131).astype(int).T,
+            *np.rint(accel / 9.80665 * 16384).astype(int).T,
+        ],
+    )
+    text = inspect(log).column_map
+    assert '# "gx" = "gyro_x [count]"' in text and "gyro_x [rad/s]" not in text
+    assert "gyro_x [deg/s]" not in text
+    for size in ("131 LSB", "65.5 LSB", "32.8 LSB", "16.4 LSB", *(f" {m:g} mdps" for m in ST)):
+        assert size in text
+    text = text.replace('# "g', '"g').replace(
+        "# gyro = {value = 0.007633", "gyro = {value = 0.007633"
+    )
+    (tmp_path / "map.toml").write_text(text)
+    read = read_recording(log, tmp_path / "map.toml")
+    np.testing.assert_allclose(read.gyro, gyro, atol=0.5001 * np.radians(1 / 131))
 
 
 # What the names say
