@@ -47,11 +47,14 @@ def inspect(
     say("looking at the columns")
     readers = [open_reader(path, foreign.topics if foreign else {}) for path in given]
     known = None if foreign is not None else recognised(readers[0])
+    maps = [_own_map(reader, foreign, index) for index, reader in enumerate(readers)]
     kind = _kind(readers[0], known is not None, foreign is not None)
-    proposals = []
-    for index, reader in enumerate(readers):
-        own = _own_map(reader, foreign, index)
-        proposals.append(proposed(reader) if own is None else _declared(reader, own))
+    if foreign is None and None in maps:
+        kind = "guessed"
+    proposals = [
+        proposed(reader) if own is None else _declared(reader, own)
+        for reader, own in zip(readers, maps, strict=True)
+    ]
     text = text_of(_ordered(proposals))
     found = Inspection(given[0], kind, known[0] if known else "", proposals, text)
     say("reading")

@@ -230,7 +230,7 @@ def test_a_map_whose_gyro_nobody_chose_a_unit_for_says_so(pyimu, tmp_path):
     code, _, _ = pyimu("inspect", "bare.csv", "--write-map", "bare.toml")
     found = read_recording(tmp_path / "bare.csv", tmp_path / "bare.toml")
     (said,) = (f for f in found.findings if f.kind == "vector_left_out")
-    assert code == 0 and said.detail == {"columns": "gx, gy, gz"}
+    assert code == 1 and said.detail == {"columns": "gx, gy, gz"}
     text = (tmp_path / "bare.toml").read_text()
     text = re.sub(r'(?m)^# ("g." = "gyro_. \[rad)', r"\1", text)
     (tmp_path / "bare.toml").write_text(text)

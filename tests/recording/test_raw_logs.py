@@ -81,7 +81,8 @@ def test_raw_to_result_by_two_commands(head, pyimu, tmp_path, undrawn):
     code, _, err = pyimu("characterize", "log.csv", "--out", "out")
     assert code == 2 and "pyimu inspect log.csv --write-map map.toml" in err
     code, out, err = pyimu("inspect", "log.csv", "--write-map", "map.toml")
-    assert (code, err) == (0, "") and "map: map.toml" in out
+    assert (code, err) == (1, "") and "map: map.toml" in out and "--columns" in out
+    assert pyimu("inspect", "log.csv", "--columns", "map.toml")[0] == 0
     found = read_recording("log.csv", "map.toml")
     np.testing.assert_allclose(found.gyro, gyro, rtol=1e-14)
     np.testing.assert_allclose(found.accel, accel, rtol=1e-14)
