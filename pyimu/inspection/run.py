@@ -19,6 +19,7 @@ from pyimu.recording.guess.proposal import Guess, Proposal, proposed
 from pyimu.recording.guess.writing import text_of
 from pyimu.recording.known import is_own, recognised
 from pyimu.recording.log import Log
+from pyimu.recording.quality.gyro_axes import gyro_findings
 from pyimu.recording.quality.in_pieces import quality
 from pyimu.recording.recording import Recording
 from pyimu.recording.rest import is_at_rest, rests
@@ -68,7 +69,7 @@ def inspect(
     return replace(
         found,
         recording=recording,
-        findings=quality(recording),
+        findings=(*gyro_findings(recording), *quality(recording)),
         rests=rests(recording),
         still=is_at_rest(recording),
     )

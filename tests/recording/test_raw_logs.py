@@ -130,6 +130,18 @@ def test_inspect_says_what_is_in_a_log(pyimu, tmp_path):
     np.testing.assert_array_equal(again.gyro, plain.gyro)
 
 
+@pytest.mark.parametrize(
+    "factor, flip, kind", [(1, 1, None), (180 / np.pi, 1, "gyro_unit"), (1, -1, "gyro_axes")]
+)
+def test_inspect_says_where_gravity_contradicts_the_gyro(factor, flip, kind, tmp_path):
+    time, gyro, accel = turned()
+    names = [f"gyro_{a} [rad/s]" for a in "xyz"] + [f"accel_{a} [m/s^2]" for a in "xyz"]
+    columns = [time, *(factor * flip * gyro).T, *accel.T]
+    found = inspect(raw_logs.text(tmp_path / "l.csv", [",".join(["time [ns]", *names])], columns))
+    said = {f.kind for f in found.findings} & {"gyro_unit", "gyro_axes"}
+    assert said == ({kind} if kind else set())
+
+
 def test_inspect_of_several_files_writes_their_map(pyimu, tmp_path):
     where = raw_logs.phone(tmp_path, raw_logs.still(300))
     files = [where / f"{name}.csv" for name in ("TotalAcceleration", "Gyroscope")]
