@@ -151,6 +151,28 @@ def test_inspect_of_several_files_writes_their_map(pyimu, tmp_path):
     np.testing.assert_array_equal(found.accel, read_recording(where).accel)
 
 
+@pytest.mark.parametrize("unit, size", [("rad/s", 1.0), ("deg/s", np.pi / 180)])
+def test_the_forces_of_a_second_file_tell_the_gyro_s_unit(unit, size, tmp_path):
+    """The two sample at other times, as sensors of their own do."""
+    time, gyro, accel = turned()
+    raw_logs.text(tmp_path / "gyro.csv", ["time,x,y,z"], [time, *(gyro / size).T])
+    raw_logs.text(tmp_path / "accel.csv", ["time,x,y,z"], [time + 3_000_000, *accel.T])
+    found = inspect([tmp_path / "gyro.csv", tmp_path / "accel.csv"])
+    assert found.proposals[0].units["gyro"] == unit and not found.problem
+    read = read_recording(tmp_path / "gyro.csv", found.write_map(tmp_path / "map.toml"))
+    np.testing.assert_allclose(read.gyro, gyro, rtol=1e-14)
+
+
+def test_of_two_files_at_rest_the_unit_is_asked_for(tmp_path):
+    time, gyro, accel = raw_logs.still(400)
+    for name, values in (("gyro", gyro), ("accel", accel)):
+        raw_logs.text(tmp_path / f"{name}.csv", ["time,x,y,z"], [time, *values.T])
+    said = inspect([tmp_path / "gyro.csv", tmp_path / "accel.csv"]).report()
+    assert "it does not turn enough to tell" in said and "no accelerometer" not in said
+    assert "nothing tells the unit of gyro: choose it in the map" in said
+    assert "pyimu inspect" not in said
+
+
 def test_a_phone_s_forces_without_gravity_are_left_out(tmp_path):
     where = raw_logs.phone(tmp_path, raw_logs.still(300))
     (where / "TotalAcceleration.csv").rename(where / "Accelerometer.csv")

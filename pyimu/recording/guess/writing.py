@@ -27,7 +27,7 @@ def text_of(proposals: Sequence[Proposal]) -> str:
             + (", and in [scale] from the size of one count." if sized else "."),
         ]
     if first.rate is not None:
-        lines += ["", _remarked(_rate(first.rate), "what the file says; it has no times")]
+        lines += ["", _remarked(_rate(first.rate), "of a log without times")]
     elif first.timeless:
         lines += ["", "# No column rises as a time does; say the rate if there is none:"]
         lines += ["# " + _rate(100.0)]
