@@ -237,3 +237,25 @@ def test_a_map_whose_gyro_nobody_chose_a_unit_for_says_so(pyimu, tmp_path):
     found = read_recording(tmp_path / "bare.csv", tmp_path / "bare.toml")
     assert found.gyro is not None
     assert "vector_left_out" not in {f.kind for f in found.findings}
+
+
+@pytest.mark.parametrize("name", ["Time (µs)", "time [us]", "t (usec)"])
+def test_a_clock_s_unit_is_overruled_where_no_sensor_is_so_fast(name, tmp_path):
+    """Steps of 0.01 us are 100 MHz; g's with 9.81 at rest are m/s^2. The header is quoted."""
+    time, rates, forces = turned()
+    head = f"{name},wx (rad/s),wy (rad/s),wz (rad/s),AccelX (g's),AccelY (g's),AccelZ (g's)"
+    path = written(tmp_path, head, [time * 1e-9, *rates.T, *forces.T])
+    why = {g.group: (g.unit, g.why) for g in proposed(open_reader(path)).guesses}
+    assert why["time"][0] == "s" and re.search(r"\(the header says .*: 1e\+08 Hz\)", why["time"][1])
+    assert why["accel"][0] == "m/s^2" and why["accel"][1].endswith("(the header says g's)")
+
+
+@pytest.mark.parametrize(
+    "name, size", [("Timestamp (µs)", 1000), ("Time (sec)", 1e9), ("t [milliseconds]", 1e6)]
+)
+def test_a_clock_s_unit_is_one_in_any_spelling(name, size, tmp_path):
+    time, rates, forces = turned()
+    head = f"{name}," + ",".join(f"gyro_{a} (rad/s)" for a in "xyz")
+    head += "," + ",".join(f"acc_{a} (m/s^2)" for a in "xyz")
+    read = read_recording(written(tmp_path, head, [time / size, *rates.T, *forces.T]))
+    assert read.sample_rate == pytest.approx(100)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -242,13 +242,12 @@ def _unevenness(values: np.ndarray) -> float:
 def _time_guess(name: Name, values: np.ndarray) -> UnitGuess:
     """The stated unit, but where its rate is none that a sensor has."""
     seen = time_unit(values)
-    if name.unit not in SECONDS:
+    if name.clock not in SECONDS:
         return seen
-    rate = 1 / (_period(values) * SECONDS[name.unit])
+    rate = 1 / (_period(values) * SECONDS[name.clock])
     if 1e-3 <= rate <= 1e6:
-        return UnitGuess(name.unit, f"the header says {name.said}; {rate:.5g} Hz")
-    why = f"the header says {name.said}, at {rate:.3g} Hz; {seen.why}"
-    return UnitGuess(seen.unit, why)
+        return UnitGuess(name.clock, f"the header says {name.said}; {rate:.5g} Hz")
+    return replace(seen, why=f"{seen.why} (the header says {name.said}: {rate:.3g} Hz)")
 
 
 def _surest(found: Proposal, vectors: list, group: str) -> Picked:
@@ -359,10 +358,13 @@ def _unit(
         return UnitGuess(unit, f"the header says {picked[0][1].said}")
     values = numbers.of([p for p, _ in picked])
     if group == "accel":
-        return force_unit(values)
-    if group == "gyro":
-        return rate_unit(values, force, period)
-    return _field_unit(values)
+        guess = force_unit(values)
+    elif group == "gyro":
+        guess = rate_unit(values, force, period)
+    else:
+        guess = _field_unit(values)
+    said = picked[0][1].said
+    return replace(guess, why=f"{guess.why} (the header says {said})") if said else guess
 
 
 def _field_unit(values: np.ndarray) -> UnitGuess:
