@@ -17,7 +17,7 @@ from pyimu.recording.formats.reader import Reader
 from pyimu.recording.formats.suffix import open_reader
 from pyimu.recording.guess.proposal import Guess, Proposal, forces, proposed
 from pyimu.recording.guess.writing import text_of
-from pyimu.recording.known import is_own, recognised
+from pyimu.recording.known import STATED, is_own, recognised
 from pyimu.recording.log import Log
 from pyimu.recording.quality.gyro_axes import gyro_findings
 from pyimu.recording.quality.in_pieces import quality
@@ -36,7 +36,8 @@ def inspect(
     """What is in a log, or in the files of one log, the first of which holds its gyro.
 
     ``columns`` is a column map that is there already. Raises UserError for files that are no table
-    of numbers at all; what else keeps a log from being read is in the result.
+    of numbers at all; what else keeps a log from being read is in the result, with a map by the
+    numbers where it is the header's units.
     """
     given = [Path(paths)] if isinstance(paths, (str, os.PathLike)) else [Path(p) for p in paths]
     foreign = None if columns is None else read_map(Path(columns))
@@ -66,6 +67,9 @@ def inspect(
             else Log(Source.of(readers[0], foreign or ForeignMap())).read()
         )
     except UserError as error:
+        if known is not None and known[0] == STATED:
+            guesses = [proposed(reader) for reader in readers]
+            found = replace(found, proposals=guesses, column_map=text_of(_ordered(guesses)))
         return replace(found, problem=error.bare)
     say("looking for rests")
     return replace(

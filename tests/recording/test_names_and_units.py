@@ -259,3 +259,15 @@ def test_a_clock_s_unit_is_one_in_any_spelling(name, size, tmp_path):
     head += "," + ",".join(f"acc_{a} (m/s^2)" for a in "xyz")
     read = read_recording(written(tmp_path, head, [time / size, *rates.T, *forces.T]))
     assert read.sample_rate == pytest.approx(100)
+
+
+def test_of_a_header_whose_time_cannot_be_the_map_is_by_the_numbers(tmp_path):
+    time, rates, forces = turned()
+    head = "Time (µs),gyro_x (rad/s),gyro_y (rad/s),gyro_z (rad/s),"
+    head += ",".join(f"acc_{a} (m/s^2)" for a in "xyz")
+    path = written(tmp_path, head, [time * 1e-9, *rates.T, *forces.T])
+    found = inspect(path)
+    assert "are they in s, at 100 Hz?" in found.problem
+    read = read_recording(path, found.write_map(tmp_path / "map.toml"))
+    np.testing.assert_array_equal(read.gyro, rates)
+    assert read.sample_rate == pytest.approx(100)
