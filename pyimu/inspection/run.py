@@ -68,8 +68,7 @@ def inspect(
         )
     except UserError as error:
         if known is not None and known[0] == STATED:
-            guesses = [proposed(reader) for reader in readers]
-            found = replace(found, proposals=guesses, column_map=text_of(_ordered(guesses)))
+            found = _by_numbers(found, readers)
         return replace(found, problem=error.bare)
     say("looking for rests")
     return replace(
@@ -141,6 +140,17 @@ def _proposals(
             if "gyro" in found[k].open_questions:
                 found[k] = proposed(reader, rate, beside)
     return found
+
+
+def _by_numbers(found: Inspection, readers: Sequence[Reader]) -> Inspection:
+    """The same with what the numbers say of the columns, where they say something of all."""
+    try:
+        guesses = [proposed(reader) for reader in readers]
+    except UserError:
+        return found
+    if any(set(p.groups) - set(g.groups) for p, g in zip(found.proposals, guesses, strict=True)):
+        return found
+    return replace(found, proposals=guesses, column_map=text_of(_ordered(guesses)))
 
 
 def _by_guess(

@@ -271,3 +271,11 @@ def test_of_a_header_whose_time_cannot_be_the_map_is_by_the_numbers(tmp_path):
     read = read_recording(path, found.write_map(tmp_path / "map.toml"))
     np.testing.assert_array_equal(read.gyro, rates)
     assert read.sample_rate == pytest.approx(100)
+
+
+def test_of_too_few_rows_the_numbers_are_not_asked(tmp_path):
+    head = "Time (ms),gyro_x (rad/s),gyro_y (rad/s),gyro_z (rad/s)"
+    (tmp_path / "log.csv").write_text(f"{head}\n0,1,2,3\n10,1,2,3\n")
+    found = inspect(tmp_path / "log.csv")
+    assert "at least 3 rows of data" in found.problem
+    assert found.proposals[0].units["time"] == "ms"
