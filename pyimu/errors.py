@@ -14,13 +14,19 @@ class UserError(ValueError):
     """What a user gave cannot be used.
 
     The message is one line that says what is wrong, where (file, row, column or key) and what would
-    be right; the command line prints it and ends with exit status 2.
+    be right; the command line prints it and ends with exit status 2. ``advice`` ends it with the
+    command that would help; what that command itself says is the message alone, ``bare``.
     """
 
-    def __init__(self, message: str) -> None:
-        line = printable(" ".join(str(message).split()))
-        half = LONGEST // 2
-        super().__init__(line if len(line) <= LONGEST else f"{line[:half]}...{line[-half:]}")
+    def __init__(self, message: str, advice: str = "") -> None:
+        super().__init__(_in_one_line(f"{message}{advice}"))
+        self.bare = _in_one_line(message)
+
+
+def _in_one_line(message: str) -> str:
+    line = printable(" ".join(str(message).split()))
+    half = LONGEST // 2
+    return line if len(line) <= LONGEST else f"{line[:half]}...{line[-half:]}"
 
 
 def printable(text: str) -> str:

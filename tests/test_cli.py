@@ -693,6 +693,16 @@ def test_inspect_s_status_says_whether_the_log_can_be_read(pyimu, tmp_path):
     assert pyimu("inspect", "bare.csv")[0] == 1 and pyimu("inspect", "none.csv")[0] == 2
 
 
+def test_inspect_of_a_log_whose_columns_are_guessed_ends_with_1(pyimu, tmp_path):
+    """Its samples were read by the guess; no other command reads it before a map says so."""
+    rows = "".join(f"{0.01 * k:.2f},0.1,0.2,0.{k % 7},0.1,0.{k % 3},9.81\n" for k in range(200))
+    (tmp_path / "guess.csv").write_text(f"t,gx,gy,gz,ax,ay,az\n{rows}")
+    code, out, _ = pyimu("inspect", "guess.csv", "--json")
+    said = json.loads(out)
+    assert (code, said["columns_known_by"], said["problem"]) == (1, "guessed", None)
+    assert said["open_questions"] == ["gyro"] and pyimu("attitude", "guess.csv")[0] == 2
+
+
 def test_several_files_for_one_log_are_told_the_map(pyimu, tmp_path):
     for name in ("Gyroscope.csv", "Accelerometer.csv"):
         (tmp_path / name).write_text("time,x,y,z\n")

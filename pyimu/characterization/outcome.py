@@ -227,6 +227,18 @@ class Outcome:
             if {"motion"} == {f.kind for f in log.findings} & {"motion", "counts"}
         )
 
+    @property
+    def in_counts(self) -> tuple[str, ...]:
+        """Names of the logs that hold raw counts in a false unit, in which their part would be."""
+        return tuple(v.name for v in self.logs if any(f.kind == "counts" for f in v.findings))
+
+    @property
+    def no_part(self) -> str:
+        """Why no part can be made of the logs; empty where one can."""
+        if self.moving:
+            return "the log moves"
+        return "the log holds raw counts" if self.in_counts else ""
+
     def markov(self, name: str) -> tuple[tuple[float, float], ...]:
         """Gauss-Markov noise of a channel over the logs, slowest first.
 

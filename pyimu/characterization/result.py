@@ -85,19 +85,19 @@ class Characterization(Outcome):
         """Write ``report.html``, ``report.json`` and ``part.toml`` into the folder ``out``.
 
         ``magnetometer.toml`` is beside them where a log calibrates its magnetometer, and no part
-        where one moves: its noise would be that of the motion. All take the place of earlier ones
-        together, once all are made. Gives the page's path. Raises UserError where the folder cannot
-        be written.
+        where one moves or holds raw counts: its noise would be that of the motion, or in a false
+        unit. All take the place of earlier ones together, once all are made. Gives the page's path.
+        Raises UserError where the folder cannot be written.
         """
         out = Path(out)
         with staged(out) as stage:
             write_text(stage / "report.html", page(self))
             write_json(stage / "report.json", self.as_dict())
-            if not self.moving:
+            if not self.no_part:
                 save_part(self.part(self._part_name), stage / PART)
             if self.magnetometer is not None:
                 self.magnetometer.calibration.write(stage / MAGNETOMETER)
-        if self.moving:
+        if self.no_part:
             (out / PART).unlink(missing_ok=True)  # an earlier one is not this log's
         return out / "report.html"
 

@@ -39,7 +39,8 @@ def inspect_command(
     rates, gaps, rests and the quality of the samples; and the column map by which the other
     commands read it (--columns map.toml). What nobody can know stands in the map to be chosen.
 
-    Exit status: 0, 1 for a log that cannot be read without more said, or 2 for bad input.
+    Exit status: 0, 1 for a log that cannot be read without more said, in a column map, or 2 for bad
+    input.
     """
     from pyimu.files import check_folder, json_text
     from pyimu.inspection.run import inspect
@@ -60,5 +61,5 @@ def inspect_command(
         lines.append(f"report: {out / 'report.html'}")
     data = found.as_dict()
     tell(found.report, lambda: json_text(data), lines, as_json=as_json, quiet=quiet)
-    if found.problem:
+    if not found.readable:
         raise typer.Exit(UNREADABLE)

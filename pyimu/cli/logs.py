@@ -40,8 +40,8 @@ EXIT_CODES = {
 }
 """Exit status of ``pyimu close --exit-code`` by verdict; 2 is bad input, 130 a run broken off."""
 
-MOVES = 17
-"""Exit status of ``pyimu characterize --exit-code`` where a log moves; not one of close's."""
+NO_PART = 17
+"""Exit status of ``pyimu characterize --exit-code`` where no part is made; not one of close's."""
 
 ExitCode = Annotated[
     bool,
@@ -101,8 +101,8 @@ def characterize_command(
     part give means and their spread. The samples wait in temporary files (TMPDIR says where), so
     that a log may be larger than memory.
 
-    Exit status: 0, or 2 for bad input. With --exit-code it is 17 where a log moves, of which no
-    part is made and nothing exported.
+    Exit status: 0, or 2 for bad input. With --exit-code it is 17 where a log moves or holds raw
+    counts, of which no part is made and nothing exported.
     """
     from pyimu.characterization.run import characterize
     from pyimu.files import check_folder
@@ -115,10 +115,10 @@ def characterize_command(
         found = characterize([open_log(path, columns) for path in logs], level, say, part)
         say("drawing the report")
         page = found.write(out)
-    made = page.with_name("part.toml")
-    lines = [f"report: {page}, " + ("no part: the log moves" if found.moving else f"part: {made}")]
-    if export is not None and found.moving:
-        withdrawn = withdraw_exports(export, out, "the log moves")
+    made, why = page.with_name("part.toml"), found.no_part
+    lines = [f"report: {page}, " + (f"no part: {why}" if why else f"part: {made}")]
+    if export is not None and why:
+        withdrawn = withdraw_exports(export, out, why)
         # A file that was asked for and is not there is an error to a script.
         print(f"pyimu: {withdrawn}", file=sys.stderr) if as_json or quiet else lines.append(
             withdrawn
@@ -126,8 +126,8 @@ def characterize_command(
     elif export is not None:
         lines += write_exports(str(made), export, out)
     tell(found.report, (out / "report.json").read_text, lines, as_json=as_json, quiet=quiet)
-    if exit_code and found.moving:
-        raise typer.Exit(MOVES)
+    if exit_code and why:
+        raise typer.Exit(NO_PART)
 
 
 Logs = Annotated[

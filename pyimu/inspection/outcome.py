@@ -47,6 +47,11 @@ class Outcome:
     rests: Sequence[tuple[int, int]] = ()
     still: bool = False
 
+    @property
+    def readable(self) -> bool:
+        """Whether the other commands read the log so, without a column map that is yet to come."""
+        return not self.problem and self.kind != "guessed"
+
     @cached_property
     def columns(self) -> list[tuple[str, str, str, str, str]]:
         """A row for each column of the file that has a meaning, by group.

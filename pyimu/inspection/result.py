@@ -31,6 +31,8 @@ class Inspection(Outcome):
             said.append("no column is a time: say the sample rate in the map, sample_rate")
         if questions:
             said.append(f"choose the unit of {', '.join(questions)} in the map")
+        if self.kind == "guessed" and not self.problem:
+            said.append("the other commands read it by the map alone: give it as --columns")
         return "\n".join(said)
 
     def __repr__(self) -> str:

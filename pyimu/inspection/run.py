@@ -15,10 +15,11 @@ from pyimu.recording.columns import own_name
 from pyimu.recording.folders import log_in
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.formats.suffix import open_reader
-from pyimu.recording.guess.proposal import Guess, Proposal, proposed
+from pyimu.recording.guess.proposal import Guess, Proposal, forces, proposed
 from pyimu.recording.guess.writing import text_of
-from pyimu.recording.known import is_own, recognised
+from pyimu.recording.known import STATED, is_own, recognised
 from pyimu.recording.log import Log
+from pyimu.recording.quality.gyro_axes import gyro_findings
 from pyimu.recording.quality.in_pieces import quality
 from pyimu.recording.recording import Recording
 from pyimu.recording.rest import is_at_rest, rests
@@ -35,7 +36,8 @@ def inspect(
     """What is in a log, or in the files of one log, the first of which holds its gyro.
 
     ``columns`` is a column map that is there already. Raises UserError for files that are no table
-    of numbers at all; what else keeps a log from being read is in the result.
+    of numbers at all; what else keeps a log from being read is in the result, with a map by the
+    numbers where it is the header's units.
     """
     given = [Path(paths)] if isinstance(paths, (str, os.PathLike)) else [Path(p) for p in paths]
     foreign = None if columns is None else read_map(Path(columns))
@@ -47,25 +49,32 @@ def inspect(
     say("looking at the columns")
     readers = [open_reader(path, foreign.topics if foreign else {}) for path in given]
     known = None if foreign is not None else recognised(readers[0])
+    maps = [_own_map(reader, foreign, index) for index, reader in enumerate(readers)]
     kind = _kind(readers[0], known is not None, foreign is not None)
-    proposals = []
-    for index, reader in enumerate(readers):
-        own = _own_map(reader, foreign, index)
-        proposals.append(proposed(reader) if own is None else _declared(reader, own))
+    guessed = None in maps and (foreign is None or not foreign.columns)
+    if guessed:
+        kind = "guessed"
+    proposals = _proposals(readers, maps, foreign)
     text = text_of(_ordered(proposals))
     found = Inspection(given[0], kind, known[0] if known else "", proposals, text)
     say("reading")
     if foreign is None and known is not None and len(given) == 1:
         foreign = known[1]
     try:
-        recording = _read(readers, proposals, foreign, text)
+        recording = (
+            _by_guess(readers, proposals, foreign, text)
+            if guessed or (foreign is None and len(readers) > 1)
+            else Log(Source.of(readers[0], foreign or ForeignMap())).read()
+        )
     except UserError as error:
-        return replace(found, problem=str(error))
+        if known is not None and known[0] == STATED:
+            found = _by_numbers(found, readers)
+        return replace(found, problem=error.bare)
     say("looking for rests")
     return replace(
         found,
         recording=recording,
-        findings=quality(recording),
+        findings=(*gyro_findings(recording), *quality(recording)),
         rests=rests(recording),
         still=is_at_rest(recording),
     )
@@ -113,23 +122,53 @@ def _declared(reader: Reader, foreign: ForeignMap) -> Proposal:
     return found
 
 
-def _read(
+def _proposals(
+    readers: Sequence[Reader], maps: Sequence[ForeignMap | None], foreign: ForeignMap | None
+) -> list[Proposal]:
+    """What is declared, or else guessed, of each file's columns.
+
+    Of a gyro whose unit its own file does not tell the accelerometer of another one may.
+    """
+    rate = None if foreign is None else foreign.rate
+    found = [
+        proposed(reader, rate) if own is None else _declared(reader, own)
+        for reader, own in zip(readers, maps, strict=True)
+    ]
+    beside = next((f for r, p in zip(readers, found) if (f := forces(r, p)) is not None), None)
+    for k, (reader, own) in enumerate(zip(readers, maps, strict=True)):
+        if own is None and beside is not None and "accel" not in found[k].groups:
+            if "gyro" in found[k].open_questions:
+                found[k] = proposed(reader, rate, beside)
+    return found
+
+
+def _by_numbers(found: Inspection, readers: Sequence[Reader]) -> Inspection:
+    """The same with what the numbers say of the columns, where they say something of all."""
+    try:
+        guesses = [proposed(reader) for reader in readers]
+    except UserError:
+        return found
+    if any(set(p.groups) - set(g.groups) for p, g in zip(found.proposals, guesses, strict=True)):
+        return found
+    return replace(found, proposals=guesses, column_map=text_of(_ordered(guesses)))
+
+
+def _by_guess(
     readers: Sequence[Reader],
     proposals: Sequence[Proposal],
-    declared: ForeignMap | None,
+    given: ForeignMap | None,
     text: str,
 ) -> Recording:
-    """The log, by what is declared, or else by the map that was written."""
-    if declared is not None:
-        return Log(Source.of(readers[0], declared)).read()
+    """The log by the map that was written, with the axes and the rate of the one ``given``."""
     order = sorted(range(len(readers)), key=lambda k: "gyro" not in proposals[k].groups)
-    reader = readers[order[0]]
-    if len(readers) == 1 and is_own(reader.header):
-        return Log(Source.of(reader, ForeignMap())).read()
+    reader, first = readers[order[0]], proposals[order[0]]
     unknown = [group for p in proposals for group in p.open_questions]
-    sensors = {group for p in proposals for group in p.groups} & {"gyro", "accel"}
-    if "time" in unknown or sensors <= set(unknown):
+    if "time" in unknown or {"gyro", "accel"} & set(first.groups) <= set(unknown):
         asked = " and ".join(dict.fromkeys(unknown)) or "gyro and accelerometer"
         raise UserError(f"{reader.path}: nothing tells the unit of {asked}: choose it in the map")
+    if first.timeless:
+        raise UserError(f"{reader.path}: nothing tells when its samples were taken")
     foreign = map_of(parse_toml(text, "map"), Path("the map that was written"))
+    if given is not None:
+        foreign = replace(foreign, body=given.body, world=given.world, q=given.q)
     return Log(Source.of(reader, foreign)).read()

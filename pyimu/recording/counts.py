@@ -13,7 +13,7 @@ import numpy as np
 
 from pyimu import units
 from pyimu.errors import Finding, UserError
-from pyimu.recording.columns import GROUP_OF, GROUPS, check_unit, column_names
+from pyimu.recording.columns import GROUP_OF, GROUPS, UNITS, check_unit, column_names
 
 LEAST_ROWS = 100
 """Fewer whole numbers in a column are no sign of counts."""
@@ -25,6 +25,10 @@ whole multiples holds counts."""
 LARGEST = {"gyro": 400.0, "accel": 2e5}
 """rad/s and m/s^2, above the range of any such sensor on the market (spin of shells, shock of
 impacts)."""
+
+
+LSB = units.BASES.index("LSB")
+"""The count's place in a unit's dimension."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +43,8 @@ class Scale:
 def read_scales(path: Path, table: Any) -> Mapping[str, Scale]:
     """The scales in the table ``scale`` of a column map, by column name.
 
-    An entry is ``gyro = {value = 0.07, unit = "deg/s"}``, or for ``gyro_x`` alone.
+    An entry is ``gyro = {value = 0.07, unit = "deg/s"}``, or for ``gyro_x`` alone; as data sheets
+    have it ``{value = 8.75, unit = "mdps/LSB"}`` or ``{value = 131, unit = "LSB/(deg/s)"}``, too.
 
     Raises UserError, with the key, for an unknown name, a missing or wrong unit and what is no
     number.
@@ -69,8 +74,8 @@ def _scale(path: Path, key: str, name: str, entry: Any) -> Scale:
         "offset",
     }:
         raise UserError(
-            f'{path}: key {key} must be such as {{value = 0.07, unit = "deg/s"}}, with an offset '
-            "if there is one"
+            f'{path}: key {key} must be such as {{value = 0.07, unit = "deg/s"}} or {{value = 131, '
+            'unit = "LSB/(deg/s)"}, with an offset if there is one'
         )
     value, offset = (
         finite_number(path, f"{key}.value", entry["value"]),
@@ -85,7 +90,34 @@ def _scale(path: Path, key: str, name: str, entry: Any) -> Scale:
                 else "a time needs no offset, its origin is free"
             )
         )
-    return Scale(value, check_unit(f"{path}: key {key}.unit", name, entry["unit"]), offset)
+    return _of_unit(f"{path}: key {key}.unit", name, value, offset, entry["unit"])
+
+
+def _of_unit(place: str, name: str, value: float, offset: float, text: Any) -> Scale:
+    """The scale in the unit ``text``: of a count, a unit per LSB, or LSB per unit.
+
+    One that has LSB in it is brought to SI. Raises UnitError that begins with ``place``.
+    """
+    try:
+        unit = units.parse(text)
+    except units.UnitError as error:
+        raise units.UnitError(f"{place}: {error}") from None
+    power = unit.dimension[LSB]
+    if abs(power) != 1:
+        return Scale(value, check_unit(place, name, text), offset)
+    per_count = tuple(0 if k == LSB else -power * e for k, e in enumerate(unit.dimension))
+    right = units.parse(UNITS[name])
+    if per_count != right.dimension:
+        raise units.UnitError(
+            f"{place} cannot be in '{unit}', expected a unit like '{right}' or 'LSB/({right})'"
+        )
+    if power < 0:
+        return Scale(value * unit.factor, right, offset * unit.factor)
+    if offset:
+        raise units.UnitError(
+            f"{place}: an offset cannot be in '{unit}': say the size of a count in '{right}' too"
+        )
+    return Scale(1 / (value * unit.factor), right)
 
 
 def finite_number(path: Path, key: str, value: Any) -> float:

@@ -105,7 +105,8 @@ class Header:
             look = f"; pyimu inspect {self.path} looks which one the numbers fit"
             raise UserError(
                 f"{self.path}: column {name} has no unit, write '{name} [...]' with its own "
-                f"({OFTEN.get(UNITS[name], UNITS[name])}){'' if self._in_memory else look}"
+                f"({OFTEN.get(UNITS[name], UNITS[name])})",
+                "" if self._in_memory else look,
             )
         self.names.append(name)
         self.positions.append(position)
@@ -145,7 +146,8 @@ class Header:
     def _check(self) -> None:
         if "time" not in self.names:
             raise UserError(
-                f"{self.path}: not a recording, the header has no 'time [s]' column{self._way()}"
+                f"{self.path}: not a recording, the header has no 'time [s]' column{self._way()}",
+                self._inspected(),
             )
         for group in GROUPS:
             missing = [name for name in column_names(group) if name not in self.names]
@@ -163,7 +165,8 @@ class Header:
         if self._wanted == "sensor" and "gyro_x" not in self.names and "accel_x" not in self.names:
             raise UserError(
                 f"{self.path}: neither gyro_x, gyro_y, gyro_z nor accel_x, accel_y, accel_z is "
-                f"there{self._way()}"
+                f"there{self._way()}",
+                self._inspected(),
             )
 
     def _way(self) -> str:
@@ -178,10 +181,15 @@ class Header:
                 f"; it has {_some(self._cells)}; name them by Recording.from_frame(frame, "
                 "columns={'t': 'time [s]', 'gx': 'gyro_x [deg/s]', ...})"
             )
+        return f"; it has {_some(self._cells)}{skipped}; name its columns in a column map (TOML)"
+
+    def _inspected(self) -> str:
+        """The command that writes the map."""
+        if self._in_memory or not any(cell.strip("/[] ") for cell in self._cells):
+            return ""
         return (
-            f"; it has {_some(self._cells)}{skipped}; name its columns in a column map (TOML) and "
-            f"give that as --columns: pyimu inspect {self.path} --write-map map.toml writes one to "
-            "look over"
+            f" and give that as --columns: pyimu inspect {self.path} --write-map map.toml writes "
+            "one to look over"
         )
 
     def origin(self, first: float | np.integer, findings: list[Finding]) -> float | np.integer:

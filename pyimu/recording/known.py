@@ -231,8 +231,8 @@ def stated(reader: Reader) -> ForeignMap | None:
     own = own_groups(reader.header)
     columns = {cell: cell for cell in reader.header if own_name(cell) is not None}
     if "time" not in own and times:
-        unit = "s" if times[0].cell in reader.clocks else times[0].unit
-        if unit not in ("s", "ms", "us", "ns", "min", "h"):
+        unit = "s" if times[0].cell in reader.clocks else times[0].clock
+        if unit is None:
             return None
         columns[times[0].cell] = f"time [{unit}]"
     elif "time" not in own and reader.rate is None:

@@ -237,16 +237,16 @@ def test_counts_without_a_scale(pyimu, tmp_path):
     one_line(pyimu("characterize", "nothing.csv")[2], "nothing.csv", "gyro_x", "unit")
 
 
-def test_counts_that_claim_another_unit(pyimu, tmp_path):
-    code, out, _ = pyimu(
-        "characterize", write(tmp_path, gyro=np.rint(gyro() / 1e-5)), "--out", "out"
-    )
-    assert (
-        code == 0
-        and "hold whole numbers" in out
-        and "[scale]" in out
-        and ("counts", "gyro_x") in findings(tmp_path / "out")
-    )
+def test_counts_that_claim_another_unit(pyimu, undrawn, tmp_path):
+    """It is said first, and no part in a false unit is written."""
+    log = write(tmp_path, gyro=np.rint(gyro() / 1e-5))
+    code, out, _ = pyimu("characterize", log, "--exit-code", "--out", "out")
+    assert code == 17 and out.startswith("rest holds raw counts: what follows is in a false unit")
+    assert "hold whole numbers" in out and "[scale]" in out
+    assert "no part: the log holds raw counts" in out.splitlines()[-1]
+    assert ("counts", "gyro_x") in findings(tmp_path / "out")
+    assert json.loads((tmp_path / "out" / "report.json").read_text())["in_counts"] == ["rest"]
+    assert not (tmp_path / "out" / "part.toml").exists()
 
 
 @pytest.mark.parametrize("rows", (3, 50))

@@ -13,6 +13,7 @@ import pytest
 from scipy.io import savemat
 
 from pyimu.errors import UserError
+from pyimu.recording.counts import read_scales
 from pyimu.recording.log import open_log, read_recording
 
 LIBRARY = {
@@ -483,6 +484,8 @@ def test_counts_of_unknown_size_are_refused(tmp_path, refused):
         ('gyro_x = {value = 0, unit = "deg/s"}', "a count cannot be of size 0"),
         ('gyro_x = {value = "1", unit = "deg/s"}', "key scale.gyro_x.value must be a number"),
         ('time = {value = 1, unit = "s", offset = 1}', "a time needs no offset"),
+        ('gyro_x = {value = 1, unit = "LSB/g"}', "expected a unit like 'rad/s' or 'LSB/(rad/s)'"),
+        ('gyro_x = {value = 1, unit = "LSB/dps", offset = 1}', "an offset cannot be in 'LSB/dps'"),
     ],
 )
 def test_scale_that_is_wrong(text, says, tmp_path):
@@ -494,6 +497,29 @@ def test_scale_that_is_wrong(text, says, tmp_path):
                 f"{SCALE if 'gyro_z' in text else '[scale]'}{chr(10)}{text}\n{CELSIUS}",
             ),
         )
+
+
+@pytest.mark.parametrize(
+    "value, unit, size",
+    [
+        (131, "LSB/(deg/s)", np.radians(1 / 131)),
+        (131, "LSB/dps", np.radians(1 / 131)),
+        (131, "LSB/°/s", np.radians(1 / 131)),
+        (8.75, "mdps/LSB", np.radians(8.75e-3)),
+        (8.75, "mdps", np.radians(8.75e-3)),
+    ],
+)
+def test_the_size_of_a_count_as_data_sheets_have_it(value, unit, size, tmp_path):
+    gyro = {"gyro": {"value": value, "unit": unit}}
+    scale = read_scales(tmp_path / "m.toml", gyro)["gyro_y"]
+    assert scale.value * scale.unit.factor == pytest.approx(size, rel=1e-15)
+
+
+@pytest.mark.parametrize("value, unit", [(16384, "LSB/g"), (1000 / 16384, "mg/LSB")])
+def test_the_size_of_a_count_of_an_accelerometer(value, unit, tmp_path):
+    accel = {"accel": {"value": value, "unit": unit}}
+    scale = read_scales(tmp_path / "m.toml", accel)["accel_z"]
+    assert scale.value * scale.unit.factor == pytest.approx(9.80665 / 16384, rel=1e-15)
 
 
 def readings(tmp_path, unit, values):

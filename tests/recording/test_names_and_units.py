@@ -236,10 +236,52 @@ def test_a_map_whose_gyro_nobody_chose_a_unit_for_says_so(pyimu, tmp_path):
     code, _, _ = pyimu("inspect", "bare.csv", "--write-map", "bare.toml")
     found = read_recording(tmp_path / "bare.csv", tmp_path / "bare.toml")
     (said,) = (f for f in found.findings if f.kind == "vector_left_out")
-    assert code == 0 and said.detail == {"columns": "gx, gy, gz"}
+    assert code == 1 and said.detail == {"columns": "gx, gy, gz"}
     text = (tmp_path / "bare.toml").read_text()
     text = re.sub(r'(?m)^# ("g." = "gyro_. \[rad)', r"\1", text)
     (tmp_path / "bare.toml").write_text(text)
     found = read_recording(tmp_path / "bare.csv", tmp_path / "bare.toml")
     assert found.gyro is not None
     assert "vector_left_out" not in {f.kind for f in found.findings}
+
+
+@pytest.mark.parametrize("name", ["Time (µs)", "time [us]", "t (usec)"])
+def test_a_clock_s_unit_is_overruled_where_no_sensor_is_so_fast(name, tmp_path):
+    """Steps of 0.01 us are 100 MHz; g's with 9.81 at rest are m/s^2. The header is quoted."""
+    time, rates, forces = turned()
+    head = f"{name},wx (rad/s),wy (rad/s),wz (rad/s),AccelX (g's),AccelY (g's),AccelZ (g's)"
+    path = written(tmp_path, head, [time * 1e-9, *rates.T, *forces.T])
+    why = {g.group: (g.unit, g.why) for g in proposed(open_reader(path)).guesses}
+    assert why["time"][0] == "s" and re.search(r"\(the header says .*: 1e\+08 Hz\)", why["time"][1])
+    assert why["accel"][0] == "m/s^2" and why["accel"][1].endswith("(the header says g's)")
+
+
+@pytest.mark.parametrize(
+    "name, size", [("Timestamp (µs)", 1000), ("Time (sec)", 1e9), ("t [milliseconds]", 1e6)]
+)
+def test_a_clock_s_unit_is_one_in_any_spelling(name, size, tmp_path):
+    time, rates, forces = turned()
+    head = f"{name}," + ",".join(f"gyro_{a} (rad/s)" for a in "xyz")
+    head += "," + ",".join(f"acc_{a} (m/s^2)" for a in "xyz")
+    read = read_recording(written(tmp_path, head, [time / size, *rates.T, *forces.T]))
+    assert read.sample_rate == pytest.approx(100)
+
+
+def test_of_a_header_whose_time_cannot_be_the_map_is_by_the_numbers(tmp_path):
+    time, rates, forces = turned()
+    head = "Time (µs),gyro_x (rad/s),gyro_y (rad/s),gyro_z (rad/s),"
+    head += ",".join(f"acc_{a} (m/s^2)" for a in "xyz")
+    path = written(tmp_path, head, [time * 1e-9, *rates.T, *forces.T])
+    found = inspect(path)
+    assert "are they in s, at 100 Hz?" in found.problem
+    read = read_recording(path, found.write_map(tmp_path / "map.toml"))
+    np.testing.assert_array_equal(read.gyro, rates)
+    assert read.sample_rate == pytest.approx(100)
+
+
+def test_of_too_few_rows_the_numbers_are_not_asked(tmp_path):
+    head = "Time (ms),gyro_x (rad/s),gyro_y (rad/s),gyro_z (rad/s)"
+    (tmp_path / "log.csv").write_text(f"{head}\n0,1,2,3\n10,1,2,3\n")
+    found = inspect(tmp_path / "log.csv")
+    assert "at least 3 rows of data" in found.problem
+    assert found.proposals[0].units["time"] == "ms"

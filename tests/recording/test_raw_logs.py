@@ -81,7 +81,8 @@ def test_raw_to_result_by_two_commands(head, pyimu, tmp_path, undrawn):
     code, _, err = pyimu("characterize", "log.csv", "--out", "out")
     assert code == 2 and "pyimu inspect log.csv --write-map map.toml" in err
     code, out, err = pyimu("inspect", "log.csv", "--write-map", "map.toml")
-    assert (code, err) == (0, "") and "map: map.toml" in out
+    assert (code, err) == (1, "") and "map: map.toml" in out and "--columns" in out
+    assert pyimu("inspect", "log.csv", "--columns", "map.toml")[0] == 0
     found = read_recording("log.csv", "map.toml")
     np.testing.assert_allclose(found.gyro, gyro, rtol=1e-14)
     np.testing.assert_allclose(found.accel, accel, rtol=1e-14)
@@ -129,6 +130,18 @@ def test_inspect_says_what_is_in_a_log(pyimu, tmp_path):
     np.testing.assert_array_equal(again.gyro, plain.gyro)
 
 
+@pytest.mark.parametrize(
+    "factor, flip, kind", [(1, 1, None), (180 / np.pi, 1, "gyro_unit"), (1, -1, "gyro_axes")]
+)
+def test_inspect_says_where_gravity_contradicts_the_gyro(factor, flip, kind, tmp_path):
+    time, gyro, accel = turned()
+    names = [f"gyro_{a} [rad/s]" for a in "xyz"] + [f"accel_{a} [m/s^2]" for a in "xyz"]
+    columns = [time, *(factor * flip * gyro).T, *accel.T]
+    found = inspect(raw_logs.text(tmp_path / "l.csv", [",".join(["time [ns]", *names])], columns))
+    said = {f.kind for f in found.findings} & {"gyro_unit", "gyro_axes"}
+    assert said == ({kind} if kind else set())
+
+
 def test_inspect_of_several_files_writes_their_map(pyimu, tmp_path):
     where = raw_logs.phone(tmp_path, raw_logs.still(300))
     files = [where / f"{name}.csv" for name in ("TotalAcceleration", "Gyroscope")]
@@ -136,6 +149,28 @@ def test_inspect_of_several_files_writes_their_map(pyimu, tmp_path):
     assert code == 0 and "gyro" in out
     found = read_recording(files[1], where / "map.toml")
     np.testing.assert_array_equal(found.accel, read_recording(where).accel)
+
+
+@pytest.mark.parametrize("unit, size", [("rad/s", 1.0), ("deg/s", np.pi / 180)])
+def test_the_forces_of_a_second_file_tell_the_gyro_s_unit(unit, size, tmp_path):
+    """The two sample at other times, as sensors of their own do."""
+    time, gyro, accel = turned()
+    raw_logs.text(tmp_path / "gyro.csv", ["time,x,y,z"], [time, *(gyro / size).T])
+    raw_logs.text(tmp_path / "accel.csv", ["time,x,y,z"], [time + 3_000_000, *accel.T])
+    found = inspect([tmp_path / "gyro.csv", tmp_path / "accel.csv"])
+    assert found.proposals[0].units["gyro"] == unit and not found.problem
+    read = read_recording(tmp_path / "gyro.csv", found.write_map(tmp_path / "map.toml"))
+    np.testing.assert_allclose(read.gyro, gyro, rtol=1e-14)
+
+
+def test_of_two_files_at_rest_the_unit_is_asked_for(tmp_path):
+    time, gyro, accel = raw_logs.still(400)
+    for name, values in (("gyro", gyro), ("accel", accel)):
+        raw_logs.text(tmp_path / f"{name}.csv", ["time,x,y,z"], [time, *values.T])
+    said = inspect([tmp_path / "gyro.csv", tmp_path / "accel.csv"]).report()
+    assert "it does not turn enough to tell" in said and "no accelerometer" not in said
+    assert "nothing tells the unit of gyro: choose it in the map" in said
+    assert "pyimu inspect" not in said
 
 
 def test_a_phone_s_forces_without_gravity_are_left_out(tmp_path):
@@ -296,9 +331,13 @@ def test_counts_are_sized_by_gravity_and_its_turning():
     assert (rate.unit, rate.value) == ("deg/s", 1 / 131)
 
 
-@pytest.mark.parametrize("mdps", [4.375, 8.75, 17.5, 35.0, 70.0])
+ST = (4.375, 8.75, 17.5, 35.0, 70.0)
+"""mdps/LSB, data sheet of LSM6DSO, table 2."""
+
+
+@pytest.mark.parametrize("mdps", ST)
 def test_counts_of_st_s_gyros_are_not_taken_for_others(mdps):
-    """Data sheet of LSM6DSO, table 2; the other that fits is said."""
+    """The other that fits is said."""
     _, gyro, accel = turned()
     guess = rate_unit(np.round(np.degrees(gyro) * 1000 / mdps), accel, 0.01)
     assert guess.unit == "deg/s" and guess.value == pytest.approx(mdps / 1000)
@@ -322,9 +361,34 @@ def test_of_two_sizes_of_a_count_that_fit_the_user_chooses(tmp_path):
     found = inspect([log])
     assert "choose the unit of gyro" in found.report() and "114.3" in found.report()
     text = found.column_map.replace("# gyro = {value = 0.00875", "gyro = {value = 0.00875", 1)
-    (tmp_path / "map.toml").write_text(text)
+    (tmp_path / "map.toml").write_text(text.replace('# "g', '"g'))
     read = read_recording(log, tmp_path / "map.toml")
     np.testing.assert_allclose(read.gyro, gyro * 122 * 0.00875, atol=2e-4)
+
+
+def test_of_counts_of_a_gyro_at_rest_the_map_offers_the_common_sizes(tmp_path):
+    """Neither rad/s nor deg/s, in which no gyro is as coarse."""
+    time, gyro, accel = raw_logs.still(400)
+    log = raw_logs.text(
+        tmp_path / "raw.csv",
+        ["millis,gx,gy,gz,ax,ay,az"],
+        [
+            time // 1_000_000,
+            *np.rint(np.degrees(gyro) * 131).astype(int).T,
+            *np.rint(accel / 9.80665 * 16384).astype(int).T,
+        ],
+    )
+    text = inspect(log).column_map
+    assert '# "gx" = "gyro_x [count]"' in text and "gyro_x [rad/s]" not in text
+    assert "gyro_x [deg/s]" not in text
+    for size in ("131 LSB", "65.5 LSB", "32.8 LSB", "16.4 LSB", *(f" {m:g} mdps" for m in ST)):
+        assert size in text
+    text = text.replace('# "g', '"g').replace(
+        "# gyro = {value = 0.007633", "gyro = {value = 0.007633"
+    )
+    (tmp_path / "map.toml").write_text(text)
+    read = read_recording(log, tmp_path / "map.toml")
+    np.testing.assert_allclose(read.gyro, gyro, atol=0.5001 * np.radians(1 / 131))
 
 
 # What the names say

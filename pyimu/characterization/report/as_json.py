@@ -30,9 +30,9 @@ from pyimu.files import plain
 def contents(c: Outcome) -> dict[str, Any]:
     """The contents of report.json.
 
-    ``level``, the probability of the intervals; ``moving``, the names of logs that do not rest;
-    ``logs``, a list of {``name``, ``rows``,
-    ``duration`` [s], ``quality`` (as in the report of ``pyimu close``), ``sensors``,
+    ``level``, the probability of the intervals; ``moving``, the names of logs that do not rest,
+    and ``in_counts``, of those that hold raw counts in a false unit; ``logs``, a list of {``name``,
+    ``rows``, ``duration`` [s], ``quality`` (as in the report of ``pyimu close``), ``sensors``,
     ``magnetometer``, null where ``magnetometer_reason`` says why, or where there is none};
     ``part``: {channel: {letter: coefficient + ``spread`` over the logs, null for one}};
     ``data_sheet``, null without: {``part``, by sensor [{``name``, ``unit``, ``data_sheet``,
@@ -72,6 +72,7 @@ def contents(c: Outcome) -> dict[str, Any]:
         {
             "level": c.level,
             "moving": c.moving,
+            "in_counts": c.in_counts,
             "logs": logs,
             "part": part,
             "data_sheet": beside_entry(c),

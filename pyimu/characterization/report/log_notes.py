@@ -100,14 +100,22 @@ def doubts(log: LogResult) -> Iterator[str]:
         )
 
 
-def moves(c: Outcome) -> list[str]:
-    """First of all, that a log moves; nothing of one at rest."""
-    if not c.moving:
-        return []
-    verb = "moves" if len(c.moving) == 1 else "move"
-    said = f"{joined(c.moving)} {verb}: what follows is noise and motion together"
-    advice = "pyimu close takes a log that moves, pyimu characterize wants one at rest."
-    return [f"{said}, and no part is written. {advice}"]
+def why_no_part(c: Outcome) -> list[str]:
+    """First of all, that a log moves or holds raw counts; nothing of one at rest in a unit."""
+    said = []
+    if c.moving:
+        verb = "moves" if len(c.moving) == 1 else "move"
+        said.append(
+            f"{joined(c.moving)} {verb}: what follows is noise and motion together, and no part is "
+            "written. pyimu close takes a log that moves, pyimu characterize wants one at rest."
+        )
+    if c.in_counts:
+        verb = "holds" if len(c.in_counts) == 1 else "hold"
+        said.append(
+            f"{joined(c.in_counts)} {verb} raw counts: what follows is in a false unit, and no "
+            "part is written."
+        )
+    return said
 
 
 def _not_at_rest(log: LogResult) -> Iterator[str]:

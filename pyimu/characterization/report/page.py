@@ -20,7 +20,7 @@ from pyimu.characterization.report.channel_notes import (
     spectrum_note,
     thermal_sentence,
 )
-from pyimu.characterization.report.log_notes import about, moves, notes
+from pyimu.characterization.report.log_notes import about, notes, why_no_part
 from pyimu.characterization.report.magnetometer import magnetometer_lines
 from pyimu.characterization.report.pictures.allan import allan_picture, deviations_picture
 from pyimu.characterization.report.pictures.evidence import evidence_picture
@@ -65,7 +65,7 @@ def in_notebook(c: Outcome) -> str:
 def _contents(c: Outcome) -> dict[str, Any]:
     return {
         "title": ", ".join(log.name for log in c.logs),
-        "headline": " ".join([*moves(c), headline(c)]),
+        "headline": " ".join([*why_no_part(c), headline(c)]),
         "logs": [f"{log.name}: {about(log)}" for log in c.logs],
         "notes": notes(c),
         "level": f"{100 * c.level:g}",
@@ -84,7 +84,7 @@ def _contents(c: Outcome) -> dict[str, Any]:
             [
                 ("report.json", prose("everything of this page as data, and all curves")),
                 *[(PART, prose("the part, for pyimu build, pyimu close and pyimu parts"))][
-                    : not c.moving
+                    : not c.no_part
                 ],
                 *[(MAGNETOMETER, prose("the calibration, for pyimu attitude --magnetometer"))][
                     : c.magnetometer is not None

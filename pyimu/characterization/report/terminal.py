@@ -22,7 +22,7 @@ from pyimu.characterization.report.coefficients import (
     UNITS,
     with_interval,
 )
-from pyimu.characterization.report.log_notes import about, duration, moves, notes
+from pyimu.characterization.report.log_notes import about, duration, notes, why_no_part
 from pyimu.characterization.report.magnetometer import magnetometer_lines
 from pyimu.model.part import AXES
 from pyimu.report.findings import SENSORS, in_line
@@ -32,7 +32,7 @@ from pyimu.report.numbers import MISSING, in_unit, number, quantity
 
 def in_lines(c: Outcome) -> str:
     """The report for a terminal."""
-    lines = [*moves(c), *(f"{log.name}: {about(log)}" for log in c.logs), *notes(c)]
+    lines = [*why_no_part(c), *(f"{log.name}: {about(log)}" for log in c.logs), *notes(c)]
     for kind in c.kinds:
         lines += ["", *in_columns(_rows(c, kind))]
     lines += [

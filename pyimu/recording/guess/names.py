@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 from pyimu.recording.guess.endings import GLUED, fits, in_brackets, in_words
 from pyimu.recording.spelling import unit_of
+from pyimu.units import Unit, parse
 
 STRONG = {
     "gyro": {"gyr", "gyro", "gyros", "gyroscope", "omega", "angvel"},
@@ -30,6 +31,9 @@ TIMES = {"time", "timestamp", "stamp", "t", "ts", "clock"}
 
 TICKS = {"millis": "ms", "micros": "us", "nanos": "ns"}
 """Words for times that say their unit, as Arduino's functions are called."""
+
+CLOCKS = ("s", "ms", "us", "ns", "min", "h")
+"""Units of times."""
 
 TEMPERATURES = {"temp", "temperature", "celsius", "imutemp"}
 
@@ -81,6 +85,12 @@ class Name:
         )
 
     @property
+    def clock(self) -> str | None:
+        """The stated unit as one of ``CLOCKS``: us of µs, s of sec; None where it is none."""
+        stated = None if self.unit is None else parse(self.unit)
+        return next((c for c in CLOCKS if stated and _same(stated, parse(c))), None)
+
+    @property
     def is_temperature(self) -> bool:
         return not self.axis and bool(set(self.words) & TEMPERATURES)
 
@@ -92,6 +102,10 @@ class Name:
         if group in PAIRS and all(words & some for some in PAIRS[group]):
             return 2
         return int(bool(self.words) and self.words[0] in WEAK[group] and len(self.words) < 4)
+
+
+def _same(one: Unit, other: Unit) -> bool:
+    return (one.factor, one.dimension) == (other.factor, other.dimension)
 
 
 def named(cell: str) -> Name:

@@ -152,14 +152,14 @@ def rate_unit(rate: np.ndarray, force: np.ndarray | None, period: float | None) 
                 if 1 / LIKE < slope / one < LIKE:
                     why = f"gravity turns {slope / one:.2f} times as fast as these say"
                     return UnitGuess(unit, why)
-            if counts(rate.ravel()):
-                lsb = np.pi / 180 / slope
-                fitting = sensitivities(lsb)
-                if fitting is not None:
-                    return fitting
-            return UnitGuess(None, f"gravity turns {slope:.3g} rad for 1 of these")
-    if counts(rate.ravel()) and largest > 100:
-        return UnitGuess(None, "whole numbers: counts? see the data sheet for LSB/(deg/s)")
+            why = f"gravity turns {slope:.3g} rad for 1 of these"
+            if not counts(rate.ravel()):
+                return UnitGuess(None, why)
+            size = float(np.degrees(slope))
+            return sensitivities(1 / size) or UnitGuess(None, why, sizes=(size,))
+    if counts(rate.ravel()):  # no gyro is as coarse as 1 deg/s
+        why = "whole numbers, as counts are: see the data sheet for LSB/(deg/s)"
+        return UnitGuess(None, why, sizes=tuple(1 / k for k in SENSITIVITIES))
     if largest > FASTEST:
         return UnitGuess("deg/s", f"{largest:.4g} rad/s would be faster than anything turns")
     lacks = "it does not turn enough"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -69,8 +69,8 @@ class Guess:
 class Proposal:
     """What the columns of a file may be.
 
-    ``notes`` say what else could be meant; ``rate`` [Hz] is what the file says of itself, where it
-    has no times.
+    ``notes`` say what else could be meant; ``rate`` [Hz] is what the file says of itself, or
+    a map of it, where it has no times.
     """
 
     path: Path
@@ -102,11 +102,51 @@ class Proposal:
         self.guesses += guesses
 
 
-def proposed(reader: Reader) -> Proposal:
-    """A map for the log in ``reader``. Raises UserError where its numbers cannot be read."""
+@dataclass(frozen=True)
+class Beside:
+    """Specific forces (n, 3), in any unit, in another file of a log; ``time`` (n,) s."""
+
+    time: np.ndarray
+    force: np.ndarray
+
+    def at(self, time: np.ndarray) -> np.ndarray | None:
+        """The forces at other times, NaN outside theirs; None where most of them are."""
+        within = (time >= self.time[0]) & (time <= self.time[-1])
+        if np.mean(within) < 0.5:
+            return None
+        each = [np.interp(time, self.time, f, np.nan, np.nan) for f in self.force.T]
+        return np.column_stack(each)
+
+
+def forces(reader: Reader, found: Proposal) -> Beside | None:
+    """The specific forces in ``reader`` by what was ``found`` of it, None where it has none."""
+    numbers = Numbers(reader)
+    time = _seconds(found, numbers)
+    cells = [g.cell for g in found.guesses if g.group == "accel"]
+    if time is None or len(cells) != 3:
+        return None
+    force = numbers.of([found.header.index(cell) for cell in cells])
+    return Beside(time, force) if len(time) == len(force) else None
+
+
+def _seconds(found: Proposal, numbers: Numbers) -> np.ndarray | None:
+    """The times (n,) s of a file by what was ``found`` of it, None where they are not known."""
+    own = next((g for g in found.guesses if g.target == "time"), None)
+    if own is None or own.unit not in SECONDS:
+        return None
+    values = Unwrapped().add(numbers.of([found.header.index(own.cell)]))
+    return values.astype(float) * SECONDS[own.unit]
+
+
+def proposed(reader: Reader, rate: float | None = None, beside: Beside | None = None) -> Proposal:
+    """A map for the log in ``reader``, of which ``rate`` [Hz] is known if it has no times.
+
+    The forces of another file, ``beside``, tell the gyro's unit where it has none of its own.
+    Raises UserError where its numbers cannot be read.
+    """
     found = Proposal(reader.path, tuple(reader.header))
     numbers = Numbers(reader)
-    period = _time(found, reader, numbers)
+    period = _time(found, reader, numbers, rate)
     vectors = triads(reader.header, reader.path.name)
     picked = {g: _surest(found, vectors, g) for g in ("accel", "gyro", "mag")}
     if picked["accel"] is None and picked["gyro"] is None:
@@ -116,6 +156,9 @@ def proposed(reader: Reader) -> Proposal:
             named_ones = [p for vector in vectors for p in vector.positions]
             picked[group] = _missing(found, group, reader, numbers, picked, period, named_ones)
     force = None if picked["accel"] is None else numbers.of([p for p, _ in picked["accel"]])
+    time = None if beside is None or force is not None else _seconds(found, numbers)
+    if beside is not None and time is not None:
+        force = beside.at(time)
     for group in ("gyro", "accel", "mag"):
         if picked[group] is not None:
             _vector(found, group, picked[group], numbers, force, period)
@@ -150,8 +193,8 @@ Picked = list[tuple[int, Name]] | None
 """Positions and names of the three columns of a vector."""
 
 
-def _time(found: Proposal, reader: Reader, numbers: Numbers) -> float | None:
-    """Add the time; gives the sample period [s] where it is known."""
+def _time(found: Proposal, reader: Reader, numbers: Numbers, rate: float | None) -> float | None:
+    """Add the time, or else the ``rate``; gives the sample period [s] where it is known."""
     names = [named(cell) for cell in reader.header]
     clocks = {k for k, cell in enumerate(reader.header) if cell in reader.clocks}
     at = [k for k in numbers.positions if names[k].is_time and not set(names[k].words) & TRUTHS]
@@ -165,8 +208,8 @@ def _time(found: Proposal, reader: Reader, numbers: Numbers) -> float | None:
             guess = CLOCK if k in clocks else _time_guess(names[k], values)
             candidates.append((k, values, guess))
     if not candidates:
-        found.rate = reader.rate
-        return None if reader.rate is None else 1 / reader.rate
+        found.rate = rate or reader.rate
+        return None if found.rate is None else 1 / found.rate
     k, values, guess = min(
         candidates, key=lambda c: (c[2].unit is None, _unevenness(c[1]), "date" not in c[2].why)
     )
@@ -199,13 +242,12 @@ def _unevenness(values: np.ndarray) -> float:
 def _time_guess(name: Name, values: np.ndarray) -> UnitGuess:
     """The stated unit, but where its rate is none that a sensor has."""
     seen = time_unit(values)
-    if name.unit not in SECONDS:
+    if name.clock not in SECONDS:
         return seen
-    rate = 1 / (_period(values) * SECONDS[name.unit])
+    rate = 1 / (_period(values) * SECONDS[name.clock])
     if 1e-3 <= rate <= 1e6:
-        return UnitGuess(name.unit, f"the header says {name.said}; {rate:.5g} Hz")
-    why = f"the header says {name.said}, at {rate:.3g} Hz; {seen.why}"
-    return UnitGuess(seen.unit, why)
+        return UnitGuess(name.clock, f"the header says {name.said}; {rate:.5g} Hz")
+    return replace(seen, why=f"{seen.why} (the header says {name.said}: {rate:.3g} Hz)")
 
 
 def _surest(found: Proposal, vectors: list, group: str) -> Picked:
@@ -316,10 +358,13 @@ def _unit(
         return UnitGuess(unit, f"the header says {picked[0][1].said}")
     values = numbers.of([p for p, _ in picked])
     if group == "accel":
-        return force_unit(values)
-    if group == "gyro":
-        return rate_unit(values, force, period)
-    return _field_unit(values)
+        guess = force_unit(values)
+    elif group == "gyro":
+        guess = rate_unit(values, force, period)
+    else:
+        guess = _field_unit(values)
+    said = picked[0][1].said
+    return replace(guess, why=f"{guess.why} (the header says {said})") if said else guess
 
 
 def _field_unit(values: np.ndarray) -> UnitGuess:

@@ -19,13 +19,15 @@ def text_of(proposals: Sequence[Proposal]) -> str:
         "# to the other commands as --columns. Behind each # stands how it was found.",
     ]
     if first.open_questions:
+        sized = any(g.sizes for g in first.guesses)
         lines += [
             "#",
             f"# The unit of {' and '.join(first.open_questions)} is not known: take the # away",
-            "# from the lines with the right one.",
+            "# from the lines with the right one"
+            + (", and in [scale] from the size of one count." if sized else "."),
         ]
     if first.rate is not None:
-        lines += ["", _remarked(_rate(first.rate), "what the file says; it has no times")]
+        lines += ["", _remarked(_rate(first.rate), "of a log without times")]
     elif first.timeless:
         lines += ["", "# No column rises as a time does; say the rate if there is none:"]
         lines += ["# " + _rate(100.0)]
@@ -55,10 +57,11 @@ def _columns(guesses: Sequence[Guess]) -> list[str]:
     """A line for each column; of a unit that nobody knows, one for each that it may be."""
     lines = []
     for guess in guesses:
-        if guess.unit is None and not guess.sizes:
-            lines += [_remarked(f"# {_line(guess, u)}", guess.why) for u in CHOICES[guess.group]]
+        if guess.unit is None:
+            choices = ("count",) if guess.sizes else CHOICES[guess.group]
+            lines += [_remarked(f"# {_line(guess, u)}", guess.why) for u in choices]
             continue
-        unit = guess.unit if guess.unit is not None and guess.value is None else "count"
+        unit = guess.unit if guess.value is None else "count"
         lines.append(_remarked(_line(guess, unit), guess.why))
     return lines
 
@@ -80,7 +83,10 @@ def _scales(guesses: Sequence[Guess], table: str) -> list[str]:
     ]
     open_sizes = {g.group: g for g in guesses if g.sizes}
     lines += [
-        _remarked(f'# {group} = {{value = {size:.10g}, unit = "deg/s"}}', f"{1 / size:.4g} a deg/s")
+        _remarked(
+            f'# {group} = {{value = {size:.10g}, unit = "deg/s"}}',
+            f"{1 / size:.4g} LSB/(deg/s), {1000 * size:.4g} mdps/LSB",
+        )
         for group, g in open_sizes.items()
         for size in g.sizes
     ]
