@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -41,6 +42,9 @@ _TOLERANCE_KEYS = ("value", "unit", "distribution", "source", "quoted")
 
 _TEXTS = ("unit", "source", "quoted")
 """What of a tolerance is text and no choice."""
+
+_BREAKS = re.compile(r"[\r\n\t\xa0]+")
+"""Where a text of several lines is joined."""
 
 _LONGEST_NAME = 200
 """Characters of a part's name: it becomes the name of files and classes, and stands in tables."""
@@ -98,17 +102,23 @@ class _Reader:
                 raise self.error(f"{where}{key}", f"unknown key; {meant(key, known)}")
 
     def _name(self, data: Mapping[str, Any]) -> str:
-        text = self._optional_text("", data, "name")
+        text = self._text("", data, "name")
+        self._shown("name", text)
         if not text:
             raise self.error("name", 'is missing, write name = "imt30"')
         if len(text) > _LONGEST_NAME:
             raise self.error("name", f"has {len(text)} characters, may have {_LONGEST_NAME}")
         return text
 
-    def _optional_text(self, where: str, table: Mapping[str, Any], key: str) -> str:
+    def _text(self, where: str, table: Mapping[str, Any], key: str) -> str:
         text = table.get(key, "")
         if not isinstance(text, str):
             raise self.error(f"{where}{key}", f"must be text, not {text!r}")
+        return text
+
+    def _optional_text(self, where: str, table: Mapping[str, Any], key: str) -> str:
+        """A text, its lines joined to one."""
+        text = _BREAKS.sub(" ", self._text(where, table, key))
         self._shown(f"{where}{key}", text)
         return text
 

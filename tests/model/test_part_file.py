@@ -303,7 +303,7 @@ SPREAD = '[tolerance.gyro.turn_on_bias]\nb0 = {value = 1, unit = "deg/h", WHAT}\
         ('description = "ESC"\n' + HEAD, "description"),
         (HEAD.replace('"a"', '"ESC"'), "name"),
         (HEAD.replace("}", ', source = "ESC"}'), "sample_rate.source"),
-        (HEAD.replace('"Hz"', '"Hz\\n"'), "sample_rate.unit"),
+        (HEAD.replace('"Hz"', '"Hz\\u001f"'), "sample_rate.unit"),
         (HEAD + BIAS.replace("WHAT", 'source = "ESC"'), "gyro.turn_on_bias.b0.source"),
         (HEAD + BIAS.replace("WHAT", 'quoted = "ESC"'), "gyro.turn_on_bias.b0.quoted"),
         (
@@ -318,6 +318,13 @@ def test_no_text_has_what_a_terminal_obeys(text, where):
     with pytest.raises(UserError, match=message) as caught:
         parse_part(text.replace("ESC", r"a\u001b[2Jb"), "a.toml")
     assert str(caught.value).isprintable()
+
+
+def test_a_text_of_several_lines_is_joined():
+    read = parse_part('description = """two\nlines,\tone"""\n' + HEAD, "a.toml")
+    assert read.description == "two lines, one"
+    with pytest.raises(UserError, match="a.toml: name: .*U.000A"):
+        parse_part(HEAD.replace('"a"', '"a\\nb"'), "a.toml")
 
 
 def test_a_part_that_is_nowhere(tmp_path):
