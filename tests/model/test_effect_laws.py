@@ -378,7 +378,7 @@ def defined(**arguments):
             "effect made_up: unknown signal 'temprature', did you mean temperature",
         ),
         (Parameter("furlong"), "effect made_up: a: 'furlong' is not a unit"),
-        (Parameter("{y}*secx"), "did you mean sec"),
+        (Parameter("{y}*mgaus"), "did you mean mgauss"),
         (State("deg/dy"), "effect made_up: a: 'deg/dy' is not a unit"),
     ],
 )
