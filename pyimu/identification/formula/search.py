@@ -39,7 +39,7 @@ from pyimu.identification.formula.terms import (
 )
 from pyimu.identification.search.choice import SET_WIDTH
 from pyimu.identification.search.confirm import SPEAKS, Evidence, evidence
-from pyimu.identification.search.forward import Investigation, Step, form_error
+from pyimu.identification.search.forward import Investigation, Refused, Step, form_error
 from pyimu.identification.search.leftover import Unexplained
 from pyimu.identification.search.own_signal import is_of_reference
 from pyimu.identification.search.screen import PENALTY, fitted_dispersion, fitted_gain
@@ -50,9 +50,10 @@ CONFIRMED, CHANCE = 0.3, 2.0
 where the formula is true, the contrary of it where it is not. Where they differ by little a true
 one may gain less, by so many standard errors."""
 
-DISPLACES = 0.2
-"""Share of what effects with a name explain by which a formula must explain more to take their
-place: near level a product with the vertical force is a multiple of gravity."""
+DISPLACES = 0.05
+"""Share of what effects with a name explain of the fitted rows, by which a formula must explain
+more, of these and of the held-out ones, to take their place: near level a product with the vertical
+force is a multiple of gravity."""
 
 DOUBTFUL = 0.0
 """Log-likelihood [nat] by which the sensor's own signal may speak against a formula: what is chosen
@@ -60,7 +61,18 @@ from thousands of terms must be seen there, where a named effect must only not b
 
 Again = Callable[..., Investigation]
 
-Found = tuple[float, Investigation, Formula]
+
+@dataclass(frozen=True)
+class Found:
+    """A formula with what is found beside it: by how much [nat] both are ``ahead`` of what the loop
+    had named; ``shown`` is whether held-out rows tell it from nothing.
+    """
+
+    ahead: float
+    investigation: Investigation
+    formula: Formula
+    shown: bool
+
 
 Done = dict[frozenset[tuple[str, tuple[int, ...]]], tuple[Found | None, Chosen]]
 """What became of each formula, by its terms' texts and axes, that was investigated in full."""
@@ -113,14 +125,18 @@ def look(
     done: Done = {}
     found = [_tried(inv, start, scores, terms, again, done) for start, scores in starts]
     found = [f for f in found if f is not None]
-    best = max(found, key=lambda f: f[0], default=None)
+    best = max(found, key=lambda f: (f.shown, f.ahead), default=None)
     if best is not None:
-        _, after, formula = best
+        after, formula = best.investigation, best.formula
         put(formula.effect)
         formula = replace(formula, resembles=resembled(after, formula))
-        if formula.is_new(after.steps[0]):
+        new = formula.is_new(after.steps[0])
+        if new and best.shown:
             return Look(after, formula, _unexplained(kind, scored(after.after, terms)))
         CATALOGUE.remove(formula.name)
+        if new:
+            left_open = _left_open(best, _displaced(inv, after))
+            return Look(left_open, None, _unexplained(kind, scored(left_open.after, terms)))
     if not fires:
         return Look(inv)
     return Look(inv, None, _unexplained(kind, seen))
@@ -163,10 +179,12 @@ def _tried(
     done: Done,
 ) -> Found | None:
     """The formula that the residual of a fit speaks for and that held-out rows confirm, less the
-    axes on which these speak against it; None where there is none. What is ``done`` is not done
-    again: a whole investigation is long.
+    axes on which these speak against it; else one of which they show nothing, where that explains
+    more than what has a name; None where there is neither. What is ``done`` is not done again: a
+    whole investigation is long.
     """
     name, needed = free_name(), max(gate(scores), form_error(inv.steps))
+    rival: Found | None = None
 
     def left(chosen: Chosen, fitted: Fit) -> Chosen:
         return _left(chosen, evidence(start, fitted, inv.held))
@@ -185,9 +203,10 @@ def _tried(
             if found is None and fewer and kept != chosen:
                 fitted = with_terms(start, name, fewer)
                 found, _ = _once(done, inv, start, name, fewer, fitted, needed, again)
-            if found is not None:
+            if found is not None and found.shown:
                 return found
-        return None
+            rival = rival or found
+        return rival
     finally:
         if name in CATALOGUE:
             CATALOGUE.remove(name)
@@ -204,14 +223,17 @@ def _once(
     again: Again,
 ) -> tuple[Found | None, Chosen]:
     """``_beside``, or what it gave of the same formula before; nothing where the formula beside all
-    that was found, which has whatever it may explain, is not borne out: an investigation is long,
-    and asks the same of what it leaves.
+    that was found, which has whatever it may explain, is not borne out and explains too little to
+    take the place of any of it: an investigation is long, and asks the same of what it leaves.
     """
     known = frozenset((t.text, axes) for t, axes in chosen)
     if known not in done:
         beyond = fitted if start is inv.after else with_terms(inv.after, name, chosen)
         seen = evidence(inv.after, beyond, inv.held)
-        if _is_borne_out(inv, beyond, seen):
+        keys = keys_of_terms(name, chosen)
+        most = advantage(beyond, inv.after) - PENALTY * (len(keys) - inv.brought_in)
+        may_displace = bool(inv.steps) and most > needed and not _denied(inv, beyond, seen)
+        if may_displace or _is_borne_out(inv, beyond, seen):
             done[known] = _beside(inv, name, chosen, fitted, needed, again)
         else:
             done[known] = None, _left(chosen, seen)
@@ -221,9 +243,8 @@ def _once(
 def _beside(
     inv: Investigation, name: str, chosen: Chosen, fitted: Fit, needed: float, again: Again
 ) -> tuple[Found | None, Chosen]:
-    """A formula with what is found beside it, and the log-likelihood [nat] that both gain over an
-    investigation; None where they gain too little. Gives the terms with the axes, too, that
-    held-out rows leave them.
+    """A formula with what is found beside it, where both gain enough over an investigation and
+    nothing denies it. Gives the terms with the axes, too, that held-out rows leave them.
     """
     bare = inv.before.sensor.with_values(name, **fitted.sensor.values[name])
     beside = again(bare, inv.before.free | keys_of_terms(name, chosen))
@@ -235,16 +256,39 @@ def _beside(
     apart = advantage(beside.after, inv.after)
     ahead = apart / spread - PENALTY * (len(keys) + beside.brought_in - inv.brought_in)
     seen = evidence(inv.after, beside.after, inv.held)
-    kept = _left(chosen, seen)
-    if gain <= needed or ahead <= needed + DISPLACES * _displaced(inv, beside):
+    kept, displaced = _left(chosen, seen), _displaced(inv, beside)
+    if gain <= needed or not _outweighs(displaced, ahead, seen, needed):
         return None, kept
-    if not _is_borne_out(inv, beside.after, seen):
-        return None, kept
+    shown = _is_borne_out(inv, beside.after, seen)
+    if not shown:
+        if not displaced or _denied(inv, beside.after, seen):
+            return None, kept
+        # What it explains of held-out rows, what it displaces may explain nearly as well.
+        alone = evidence(_less(beside.after, name, keys), beside.after, inv.held)
+        shown = _confirmed(alone)
     step = Step(name, keys, gain, needed, (), spread)
     whole = replace(beside, before=inv.before, steps=(step, *beside.steps), first=inv.first)
     kind, parts = inv.after.sensor.kind, _parted(chosen)
     text = function_text(name, kind, parts[0])
-    return (ahead, whole, Formula(kind, name, *parts, CATALOGUE[name], text)), kept
+    return Found(ahead, whole, Formula(kind, name, *parts, CATALOGUE[name], text), shown), kept
+
+
+def _less(after: Fit, name: str, keys: frozenset[Coefficient]) -> Fit:
+    """A fit without a formula."""
+    sensor, free = after.sensor.without(name), after.free - keys
+    return fit_and_normal(replace(after, sensor=sensor, free=free).with_noise())[0]
+
+
+def _left_open(rival: Found, displaced: list[Step]) -> Investigation:
+    """What is found beside a formula that held-out rows show nothing of, without the formula, and
+    what it displaced as refused: nothing tells that the loop had the right one.
+    """
+    whole, formula = rival.investigation, rival.formula
+    step, *beside = whole.steps
+    reason = f"{formula.said} explains {rival.ahead:.0f} nat more, and held-out rows do not test it"
+    refused = tuple(Refused(s.effect, s.gain, reason) for s in displaced)
+    after = _less(whole.after, formula.name, step.keys)
+    return replace(whole, after=after, steps=tuple(beside), refused=(*whole.refused, *refused))
 
 
 def _grown(chosen: Chosen, keys: frozenset[Coefficient]) -> Chosen:
@@ -272,10 +316,18 @@ def _left(chosen: Chosen, seen: Evidence) -> Chosen:
     return [(t, tuple(i for i in a if not denied[i])) for t, a in chosen]
 
 
-def _displaced(inv: Investigation, beside: Investigation) -> float:
-    """Gain [nat] of the effects with a name that a formula would take the place of."""
+def _outweighs(displaced: list[Step], ahead: float, seen: Evidence, needed: float) -> bool:
+    """Whether a formula explains so much more than the effects whose place it takes, of the fitted
+    rows and of the held-out ones, which have no part in its choice.
+    """
+    held = max(float(seen.gained.sum()), 0.0)
+    return ahead > needed and ahead + held > needed + DISPLACES * sum(s.gain for s in displaced)
+
+
+def _displaced(inv: Investigation, beside: Investigation) -> list[Step]:
+    """The effects with a name that a formula takes the place of."""
     names = {s.effect for s in beside.steps}
-    return sum(s.gain for s in inv.steps if s.effect not in names)
+    return [s for s in inv.steps if s.effect not in names]
 
 
 def _parted(chosen) -> tuple[tuple[Term, ...], tuple[tuple[int, ...], ...]]:
@@ -287,6 +339,14 @@ def _is_borne_out(inv: Investigation, after: Fit, seen: Evidence) -> bool:
     a model explains beyond what an investigation left.
     """
     return _confirmed(seen) and not is_of_reference(inv.after, after, DOUBTFUL)
+
+
+def _denied(inv: Investigation, after: Fit, seen: Evidence) -> bool:
+    """Whether held-out rows, of whatever little difference, or the sensor's own signal speak
+    against a model.
+    """
+    lost = seen.gained.sum() < float(_least(seen.difference.sum()))
+    return lost or seen.raises or seen.is_little or is_of_reference(inv.after, after, DOUBTFUL)
 
 
 def _confirmed(seen: Evidence) -> bool:
