@@ -7,6 +7,7 @@ from navigation_cases import SHORT, calibrated, declared, noisy, perfect, white
 
 from pyimu.fmu import FORMS, simulate, simulate_blocks
 from pyimu.navigation import run, strapdown_ins
+from pyimu.navigation.filter.layout import Layout
 from pyimu.navigation.filter.variables import INPUTS
 
 
@@ -78,3 +79,20 @@ def test_a_measured_position_and_speed_pull_the_estimate(unit, log):
     row = int(np.searchsorted(log.time, 11.0))
     std = names.index("position_std[1]")
     assert unit.run(u)[0][row, std] < 0.3 * unit.run(rows(log))[0][row, std]
+
+
+def test_a_variance_below_zero_is_said(unit, log):
+    """The state holds the upper triangle of the covariance, row by row, behind the nominal one."""
+    layout = Layout(white(calibrated()), nhc=False, detects=True)
+    n, names = layout.errors, [v.name for v in unit.outputs]
+    east = layout.nominal + sum(n - i for i in range(6))
+    status, std = names.index("status"), names.index("position_std[1]")
+    p = [v.start for v in unit.parameters]
+    u = rows(log)
+    s, _ = unit.initial(u[0], p)
+    for row in u[:3]:
+        s, y = unit.step(s, row, p, 0, log.sample_period)
+    assert not int(y[status]) & 128 and y[std] > 0.0
+    s[east] = -1.0
+    _, y = unit.step(s, u[3], p, 0, log.sample_period)
+    assert int(y[status]) & 128 and y[std] == 0.0

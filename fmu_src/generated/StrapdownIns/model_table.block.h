@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{0253e4d2-ed38-93c5-fc11-4b408ec5ac43}"
-#define MODEL_TOKEN_FMI3 "{53ec0e36-3c4c-d375-5155-7eac8d83cf99}"
+#define MODEL_TOKEN_FMI2 "{fef187b7-8629-ba08-2098-ac174fe51788}"
+#define MODEL_TOKEN_FMI3 "{b9332d99-bc50-1494-d712-667cac85ed9b}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{4da6fd17-2ecd-6f5f-0263-ae4bbefa0123}"
-#define MODEL_TOKEN_FMI3 "{5df82946-e556-dfad-6839-2273424a5f7d}"
+#define MODEL_TOKEN_FMI2 "{a28d9837-7179-eee5-eddb-403d55ef3acd}"
+#define MODEL_TOKEN_FMI3 "{2211be0e-d60c-6875-2e34-b6d2ea554f27}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

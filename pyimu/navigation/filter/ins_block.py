@@ -49,6 +49,9 @@ KINDS = ("zupt", "zaru", "nhc", "position", "velocity", "speed")
 BITS = (2, 4, 8, 16, 32, 64)
 """Those of the status that say that one of them was weighed down."""
 
+NO_VARIANCE = 128
+"""That which says that a variance is none."""
+
 FREEDOM = (3, 3, 2, 3, 3, 1)
 
 REPORT = len(KINDS)
@@ -274,14 +277,15 @@ def _outputs(layout: Layout, x: State, settings: Settings, report, lost, still) 
         plain = ca.SX(3, layout.errors)
         plain[:, TURN], plain[:, place] = of_turn, ca.SX.eye(3)
         p[place, place] = plain @ x.covariance @ plain.T
-    std = ca.vertcat(*[ca.sqrt(ca.fmax(p[i, i], 0)) for i in range(BASE)])
+    variances = ca.diag(p)[:BASE]
+    std = ca.sqrt(ca.fmax(variances, 0))
     correlation = p[6, 7] / ca.fmax(std[6] * std[7], 1e-30)
     beyond = sum(
         (
             bit * (report[i] > updates.gate(freedom))
             for i, (bit, freedom) in enumerate(zip(BITS, FREEDOM, strict=True))
         ),
-        lost,
+        lost + NO_VARIANCE * (ca.mmin(variances) < 0),
     )
     return ca.densify(
         ca.vertcat(

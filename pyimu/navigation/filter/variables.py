@@ -175,5 +175,6 @@ STATUS_NAMES = {
     16: "a measured position contradicted the estimate and was weighed down",
     32: "a measured velocity contradicted the estimate and was weighed down",
     64: "a measured speed contradicted the estimate and was weighed down",
+    128: "a variance was below zero, and its standard deviation is shown as 0",
 }
 """What the bits of the status say."""
