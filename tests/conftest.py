@@ -35,3 +35,11 @@ def pyimu(monkeypatch, capsys, tmp_path):
         return (end.value.code, *capsys.readouterr())
 
     return run
+
+
+@pytest.fixture
+def uncompiled(monkeypatch):
+    """FMUs with empty libraries, as compiling takes seconds, for tests of what else is written."""
+    monkeypatch.setattr(
+        "pyimu.fmu.build._compile", lambda name, texts, forms, *_: {form: b"" for form in forms}
+    )

@@ -91,14 +91,6 @@ def here(logs, tmp_path, monkeypatch):
     return tmp_path
 
 
-@pytest.fixture
-def uncompiled(monkeypatch):
-    """FMUs with empty libraries, as compiling takes seconds, for tests of what else is written."""
-    monkeypatch.setattr(
-        "pyimu.fmu.build._compile", lambda name, texts, forms, *_: {form: b"" for form in forms}
-    )
-
-
 def in_a_process(*words):
     command = [sys.executable, "-m", "pyimu", *map(str, words)]
     return subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
