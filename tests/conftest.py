@@ -43,3 +43,12 @@ def uncompiled(monkeypatch):
     monkeypatch.setattr(
         "pyimu.fmu.build._compile", lambda name, texts, forms, *_: {form: b"" for form in forms}
     )
+
+
+@pytest.fixture
+def undrawn(monkeypatch):
+    """Pictures are made and not drawn, which is two thirds of what a page takes; tests of each page
+    draw them.
+    """
+    empty = '<svg viewBox="0 0 1 1" width="1pt" height="1pt"></svg>'
+    monkeypatch.setattr("pyimu.report.figures._drawn", lambda figure: empty)

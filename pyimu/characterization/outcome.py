@@ -19,7 +19,7 @@ from pyimu.characterization.spectrum.psd import Psd
 from pyimu.characterization.temperature.fit import ThermalFit
 from pyimu.characterization.temperature.warm_up import WarmUp
 from pyimu.errors import Finding
-from pyimu.model.part import Part
+from pyimu.model.part import AXES, Part
 
 SI = {
     "gyro": {"Q": "rad", "N": "rad/sqrt(s)", "B": "rad/s", "K": "rad/s/sqrt(s)", "R": "rad/s^2"},
@@ -175,6 +175,11 @@ class LogResult:
         """The channels of all sensors."""
         return (c for s in self.sensors.values() for c in s.channels)
 
+    @property
+    def moves(self) -> bool:
+        """Whether the log is not at rest; of raw counts, which look like motion, nobody knows."""
+        return {"motion"} == {f.kind for f in self.findings} & {"motion", "counts"}
+
 
 @dataclass(frozen=True)
 class Summary:
@@ -221,11 +226,7 @@ class Outcome:
     @property
     def moving(self) -> tuple[str, ...]:
         """Names of the logs that do not rest, of which no part can be made; raw counts apart."""
-        return tuple(
-            log.name
-            for log in self.logs
-            if {"motion"} == {f.kind for f in log.findings} & {"motion", "counts"}
-        )
+        return tuple(log.name for log in self.logs if log.moves)
 
     @property
     def in_counts(self) -> tuple[str, ...]:
@@ -253,6 +254,11 @@ class Outcome:
                 sigma = math.sqrt(sum(g.sigma.value**2 for g in own) / len(own))
                 found.append((sigma, math.exp(sum(math.log(g.time) for g in own) / len(own))))
         return tuple(found)
+
+    def floors(self, kind: str) -> list[list[Floor]]:
+        """The lowest Allan deviations of each axis of a sensor, one for each log that has it."""
+        names = (f"{kind}_{axis}" for axis in AXES)
+        return [[ch.noise.floor for ch in self.channel(n) if ch.noise] for n in names]
 
     def channel(self, name: str) -> Iterator[Channel]:
         """The channel of a name in each log that has it."""

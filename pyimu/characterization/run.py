@@ -84,8 +84,10 @@ def _log(source: Recording | Log, name: str, level: float, T0: float | None, say
         read = read_samples(source, name, store, say)
         wrapped = {f.column for f in read.findings if f.kind == "wrapped"}
         moving = [f for s in read.sensors.values() for f in s.motion(wrapped)]
+        # Raw counts in a false unit look like motion.
+        moves = bool(moving) and not any(f.kind == "counts" for f in read.findings)
         results = {
-            kind: SensorAnalysis(name, samples, wrapped, level, T0, store, say).result()
+            kind: SensorAnalysis(name, samples, wrapped, moves, level, T0, store, say).result()
             for kind, samples in read.sensors.items()
         }
         if not any(c.noise for r in results.values() for c in r.channels):

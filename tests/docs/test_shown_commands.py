@@ -56,15 +56,6 @@ def catalogue():
     CATALOGUE.remove(*(set(CATALOGUE) - known))
 
 
-@pytest.fixture
-def undrawn(monkeypatch):
-    """Pictures are made and not drawn, which would take two thirds of the time; tests of each page
-    draw them.
-    """
-    empty = '<svg viewBox="0 0 1 1" width="1pt" height="1pt"></svg>'
-    monkeypatch.setattr("pyimu.report.figures._drawn", lambda figure: empty)
-
-
 def words_of(page: str, line: str) -> list[str]:
     """The words of a command as a shell gives them, their files made in the current folder."""
     for long, short in SHORTER.items():

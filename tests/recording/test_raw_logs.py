@@ -28,12 +28,6 @@ def log():
     return raw_logs.still()
 
 
-@pytest.fixture
-def undrawn(monkeypatch):
-    """Pages without pictures, which take seconds to draw."""
-    monkeypatch.setattr("pyimu.characterization.result.page", lambda result: "a page")
-
-
 def written(make, folder, log):
     """The file, and the options that it needs."""
     pytest.importorskip(raw_logs.NEEDS.get(make.__name__, "numpy"))

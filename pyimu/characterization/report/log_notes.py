@@ -53,7 +53,7 @@ def about(log: LogResult) -> str:
 
 def notes(c: Outcome) -> list[str]:
     """What must be known of the logs: doubts, gaps, and channels that are left out."""
-    return [line for log in c.logs for line in (*doubts(log), *_gaps(log))] + [
+    return [line for log in c.logs for line in (*doubts(log), *_gaps(log), *_floors(log))] + [
         f"{log.name}: {ch.name} is left out: {ch.reason}."
         for log in c.logs
         for ch in log.channels
@@ -76,6 +76,18 @@ def _gaps(log: LogResult) -> Iterator[str]:
                 f"{used} segments, up to {duration(s.longest * s.h)} each, and the spectrum of "
                 "all."
             )
+
+
+def _floors(log: LogResult) -> Iterator[str]:
+    """Of which channels the lowest Allan deviation is an upper bound."""
+    falling = [ch for ch in log.channels if ch.noise is not None and ch.noise.floor.bound]
+    if falling and not log.moves:
+        last = max(ch.noise.floor.tau for ch in falling if ch.noise is not None)
+        yield (
+            f"{log.name}: {', '.join(ch.name for ch in falling)}: the Allan deviation falls as far "
+            f"as it is read ({number(last)} s): the lowest one is an upper bound ('<') of the bias "
+            "stability, and a longer log may show a lower one."
+        )
 
 
 def doubts(log: LogResult) -> Iterator[str]:
@@ -116,6 +128,13 @@ def why_no_part(c: Outcome) -> list[str]:
             "part is written."
         )
     return said
+
+
+def what_it_is(c: Outcome) -> str:
+    """What the coefficients are, where they are not the sensor's own; else nothing."""
+    if c.moving:
+        return "noise and motion together"
+    return "in a false unit" if c.in_counts else ""
 
 
 def _not_at_rest(log: LogResult) -> Iterator[str]:
