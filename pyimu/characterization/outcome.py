@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pyimu.brief import Brief
 from pyimu.characterization.allan.readings import Floor
 from pyimu.characterization.evidence import Evidence
 from pyimu.characterization.magnetometer.estimate import MagnetometerFit
@@ -51,8 +52,8 @@ class AllanCurve(Curve):
     high: np.ndarray
 
 
-@dataclass(frozen=True)
-class NoiseAnalysis:
+@dataclass(frozen=True, repr=False)
+class NoiseAnalysis(Brief):
     """The noise of a channel: its deviations, and the coefficients fitted to them.
 
     The effect of temperature and warm-up has been removed from the samples; ``as_measured`` is
@@ -85,8 +86,8 @@ class Overview:
     high: np.ndarray
 
 
-@dataclass(frozen=True)
-class Channel:
+@dataclass(frozen=True, repr=False)
+class Channel(Brief):
     """One axis of a sensor in one log.
 
     ``noise`` is None, and ``reason`` says why, where it could not be characterised; ``thermal`` is
@@ -130,8 +131,8 @@ class Channel:
         return None if self.noise is None else self.noise.fit[term]
 
 
-@dataclass(frozen=True)
-class SensorResult:
+@dataclass(frozen=True, repr=False)
+class SensorResult(Brief):
     """One sensor in one log.
 
     It has so many ``samples`` every ``h`` s, in ``segments`` without gap, the longest of
@@ -152,8 +153,8 @@ class SensorResult:
     searched: tuple[float, float] = (math.nan, math.nan)
 
 
-@dataclass(frozen=True)
-class LogResult:
+@dataclass(frozen=True, repr=False)
+class LogResult(Brief):
     """One log: its rows, its ``duration`` [s], its sensors by kind, and its quality.
 
     ``evidence`` has what illustrates a finding, by its kind and column. ``magnetometer`` is what

@@ -27,6 +27,7 @@ from pyimu.recording.log import Given, Log, is_one, open_log, recording_of
 from pyimu.recording.names import distinct_names
 from pyimu.recording.recording import Recording
 from pyimu.report.numbers import joined
+from pyimu.silent import silent
 from pyimu.threads import on_one_thread
 
 Source = Log | Given
@@ -36,7 +37,7 @@ Source = Log | Given
 def characterize(
     recording: Source | Sequence[Source],
     level: float = 0.95,
-    say: Say = lambda text, share=None: None,
+    say: Say = silent,
     part: str | os.PathLike | Part | None = None,
 ) -> Characterization:
     """Characterise a sensor at rest: its noise, its temperature effect, the quality of its samples.

@@ -24,6 +24,7 @@ from pyimu.recording.quality.in_pieces import quality
 from pyimu.recording.recording import Recording
 from pyimu.recording.rest import is_at_rest, rests
 from pyimu.recording.rows import Source
+from pyimu.silent import silent
 
 Given = str | os.PathLike
 
@@ -31,7 +32,7 @@ Given = str | os.PathLike
 def inspect(
     paths: Given | Sequence[Given],
     columns: Given | None = None,
-    say: Callable[..., None] = lambda *_: None,
+    say: Callable[..., None] = silent,
 ) -> Inspection:
     """What is in a log, or in the files of one log, the first of which holds its gyro.
 
