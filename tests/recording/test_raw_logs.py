@@ -121,6 +121,7 @@ def test_inspect_says_what_is_in_a_log(pyimu, tmp_path):
     assert {f["kind"] for f in said["findings"]} >= {"gaps"}
     page = (tmp_path / "page" / "report.html").read_text()
     assert page.count("<svg") == 2 and "in 2 pieces without gap" in page
+    assert page.count("Curves as CSV") == 1 and "uPlot" in page and "<h2>Words</h2>" in page
     again, plain = read_recording("log.csv", "m.toml"), read_recording("log.csv")
     np.testing.assert_array_equal(again.gyro, plain.gyro)
 
