@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from pyimu.brief import Brief
 from pyimu.characterization.allan.readings import Floor
 from pyimu.characterization.evidence import Evidence
-from pyimu.characterization.magnetometer.estimate import MagnetometerFit
 from pyimu.characterization.noise.coefficients import Coefficient
 from pyimu.characterization.noise.fit import ChannelFit
 from pyimu.characterization.spectrum.bandwidth import Bandwidth
@@ -21,6 +21,9 @@ from pyimu.characterization.temperature.fit import ThermalFit
 from pyimu.characterization.temperature.warm_up import WarmUp
 from pyimu.errors import Finding
 from pyimu.model.part import AXES, Part
+
+if TYPE_CHECKING:
+    from pyimu.characterization.magnetometer.estimate import MagnetometerFit
 
 SI = {
     "gyro": {"Q": "rad", "N": "rad/sqrt(s)", "B": "rad/s", "K": "rad/s/sqrt(s)", "R": "rad/s^2"},

@@ -10,11 +10,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from pyimu.characterization.allan.moments import TERMS
 from pyimu.characterization.evidence import evidence
 from pyimu.characterization.log_samples import Say, read_samples
-from pyimu.characterization.magnetometer.estimate import MagnetometerFit, magnetometer_fit
 from pyimu.characterization.noise.coefficients import Coefficient, mean_coefficient
 from pyimu.characterization.outcome import LogResult, SensorResult, Summary
 from pyimu.characterization.result import Characterization
@@ -29,6 +29,9 @@ from pyimu.recording.recording import Recording
 from pyimu.report.numbers import joined
 from pyimu.silent import silent
 from pyimu.threads import on_one_thread
+
+if TYPE_CHECKING:
+    from pyimu.characterization.magnetometer.estimate import MagnetometerFit
 
 Source = Log | Given
 
@@ -108,6 +111,7 @@ def _magnetometer(
     if not turns or not {"mag", "gyro", "accel"} <= set(source.groups):
         return None, ""
     from pyimu.attitude.run import run as attitude
+    from pyimu.characterization.magnetometer.estimate import magnetometer_fit
 
     say(f"magnetometer of {source.name}", None)
     whole = source.read() if isinstance(source, Log) else source
