@@ -202,7 +202,7 @@ def _within(name: str, unit: str, si: str, t: Tolerance, values: list[float]) ->
     return Compared(
         name,
         unit,
-        t.size(3),
+        t.size(3).replace("+-", "±"),
         tuple(number(float(v)) for v in in_unit(values, si, unit)),
         tuple(abs(v) / s if s else None for v, s in zip(values, sizes, strict=True)),
     )

@@ -143,15 +143,17 @@ def _not_at_rest(log: LogResult) -> Iterator[str]:
         [f.column for f in log.findings if f.kind == kind] for kind in ("counts", "motion")
     )
     if counts:
+        verb = "holds" if len(counts) == 1 else "hold"
         yield (
-            f"{log.name}: {', '.join(counts)} hold whole numbers, as counts of a converter do, in "
+            f"{log.name}: {', '.join(counts)} {verb} whole numbers, as counts of a converter do, in "
             "a unit that no sensor is that coarse in: "
             "the coefficients are in a false unit. Say the size of a count in a column map, "
             "[scale]."
         )
     elif moving:
+        verb = "changes" if len(moving) == 1 else "change"
         yield (
-            f"{log.name}: not at rest: {', '.join(moving)} change more from one second to the next "
+            f"{log.name}: not at rest: {', '.join(moving)} {verb} more from one second to the next "
             "than noise does, "
             "so that the coefficients are also those of the motion. Give a log at rest, or the "
             "part of it that is."
