@@ -145,8 +145,8 @@ def _not_at_rest(log: LogResult) -> Iterator[str]:
     if counts:
         verb = "holds" if len(counts) == 1 else "hold"
         yield (
-            f"{log.name}: {', '.join(counts)} {verb} whole numbers, as counts of a converter do, in "
-            "a unit that no sensor is that coarse in: "
+            f"{log.name}: {', '.join(counts)} {verb} whole numbers, as counts of a converter do, "
+            "in a unit that no sensor is that coarse in: "
             "the coefficients are in a false unit. Say the size of a count in a column map, "
             "[scale]."
         )
