@@ -35,3 +35,20 @@ def pyimu(monkeypatch, capsys, tmp_path):
         return (end.value.code, *capsys.readouterr())
 
     return run
+
+
+@pytest.fixture
+def uncompiled(monkeypatch):
+    """FMUs with empty libraries, as compiling takes seconds, for tests of what else is written."""
+    monkeypatch.setattr(
+        "pyimu.fmu.build._compile", lambda name, texts, forms, *_: {form: b"" for form in forms}
+    )
+
+
+@pytest.fixture
+def undrawn(monkeypatch):
+    """Pictures are made and not drawn, which is two thirds of what a page takes; tests of each page
+    draw them.
+    """
+    empty = '<svg viewBox="0 0 1 1" width="1pt" height="1pt"></svg>'
+    monkeypatch.setattr("pyimu.report.figures._drawn", lambda figure: empty)

@@ -8,13 +8,16 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import typer
 from fmu_toy import Unit
 from places import same_path
 
 from pyimu import Recording, __version__, part
+from pyimu.cli import app
 from pyimu.cli.logs import EXIT_CODES
 from pyimu.cli.memory import keep_freed
 from pyimu.cli.options import complete_part
@@ -86,14 +89,6 @@ def here(logs, tmp_path, monkeypatch):
         (results / name).write_bytes(b"earlier " + name.encode())
     monkeypatch.chdir(tmp_path)
     return tmp_path
-
-
-@pytest.fixture
-def uncompiled(monkeypatch):
-    """FMUs with empty libraries, as compiling takes seconds, for tests of what else is written."""
-    monkeypatch.setattr(
-        "pyimu.fmu.build._compile", lambda name, texts, forms, *_: {form: b"" for form in forms}
-    )
 
 
 def in_a_process(*words):
@@ -570,6 +565,48 @@ def test_json_beside_quiet_is_refused_and_parts_are_data(pyimu):
     assert code == 0 and N["unit"] == "rad/sqrt(s)" and "page 12" in N["source"]
     code, out, err = pyimu("characterize", "x.csv", "--json", "--quiet")
     assert (code, out) == (2, "") and "--json beside --quiet" in err
+
+
+def commands():
+    """Every command by its name."""
+    return sorted(typer.main.get_command(app).commands.items())
+
+
+@pytest.mark.parametrize(("name", "command"), commands(), ids=lambda v: str(v)[:20])
+def test_every_command_is_data_or_silent_but_not_both(pyimu, name, command):
+    options = {o for p in command.params for o in p.opts}
+    assert {"--json", "--quiet"} <= options
+    needed = {"plan": ["mpu6050", "--for", "lag"], "export": ["mpu6050", "--to", "px4"]}
+    taken = ["x"] * any(p.required for p in command.params)
+    code, out, err = pyimu(name, *needed.get(name, taken), "--json", "--quiet")
+    assert (code, out) == (2, "") and "--json beside --quiet" in err
+
+
+def test_a_template_of_a_part_and_a_modelica_class_are_data_or_silent(here, pyimu):
+    for words, file in (
+        (("parts", "--new", "mine"), "mine.toml"),
+        (("modelica", "imt30", "--out", "mo"), str(Path("mo", "Imt30.mo"))),
+    ):
+        code, out, err = pyimu(*words, "--json")
+        assert (code, err, json.loads(out)["files"]) == (0, "", [file]) and Path(file).is_file()
+        Path(file).unlink()
+        assert pyimu(*words, "--quiet") == (0, "", "") and Path(file).is_file()
+    assert pyimu("parts", "--quiet") == (0, "", "")
+    assert pyimu("parts", "none", "--quiet")[0] == 2
+
+
+@pytest.mark.parametrize("option", ["--json", "--quiet"])
+def test_the_demo_is_data_or_silent(here, pyimu, monkeypatch, option):
+    """What is printed of it, not the loop itself, which takes half a minute."""
+
+    def done(out, say):
+        (Path(out) / "report.json").write_text('{"verdict": "named"}\n')
+        return SimpleNamespace(report=lambda: pytest.fail("printed as text"))
+
+    monkeypatch.setattr("pyimu.rover.demo.run_demo", done)
+    code, out, err = pyimu("demo", "--out", "out", option)
+    assert (code, err) == (0, "")
+    assert out == "" if option == "--quiet" else json.loads(out) == {"verdict": "named"}
 
 
 def test_the_shell_completes_names_of_parts():

@@ -22,6 +22,7 @@ LATE = {
     "pyimu.cli.options",
     "pyimu.block.block",
     "pyimu.block.stepping",
+    "pyimu.characterization.report.magnetometer",
     "pyimu.characterization.run",
     "pyimu.model.truth",
 }

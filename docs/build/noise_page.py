@@ -21,7 +21,6 @@ from pyimu.model.law import Law
 from pyimu.model.sensor import Sensor
 from pyimu.model.typical import magnitudes
 from pyimu.shaping import NoiseModel, describe
-from pyimu.shaping.model import coefficients
 
 SAMPLE_PERIOD, SAMPLES, AXIS = 0.01, 2**17, 0
 """Of the FMU's run, s, and the axis that is shown."""
@@ -93,7 +92,7 @@ class Entry:
     @property
     def coefficients(self) -> dict[str, float]:
         """Of the axis that is shown, in SI."""
-        return coefficients(self.sensor, self.name, AXIS)
+        return self.sensor.of_axis(self.name, AXIS)
 
     @property
     def at(self) -> float:

@@ -18,6 +18,7 @@ from pyimu.attitude.filter.variables import EXTRA_INPUTS
 from pyimu.attitude.retiming import Retiming
 from pyimu.model.part import Part
 from pyimu.recording.recording import Recording
+from pyimu.silent import silent
 
 LONGEST_GAP = 60.0
 """s; of a gap so much becomes missing samples, by which the attitude is lost; over the rest of it
@@ -76,7 +77,7 @@ class InputGrid:
         names: list[str],
         retiming: Retiming | None = None,
         more: Mapping[str, np.ndarray] | None = None,
-        heard: Callable[[float], None] = lambda share: None,
+        heard: Callable[[float], None] = silent,
     ) -> None:
         self.heard, self._asked = heard, 0
         self.rows, gaps, self.left_out = _grid(recording)

@@ -9,6 +9,7 @@ import numpy as np
 
 from pyimu.attitude.calibration import MagnetometerCalibration
 from pyimu.attitude.world_field import WorldField
+from pyimu.brief import Brief
 from pyimu.errors import Finding
 from pyimu.recording.quality.field_axes import field_findings
 from pyimu.recording.quality.gyro_axes import gyro_findings
@@ -32,8 +33,8 @@ MISTAKEN = sorted(permutations(UNITS, 2), key=lambda pair: UNITS[-1] in pair)
 """Pairs of the unit in a header and that of its numbers, the likely ones first."""
 
 
-@dataclass(frozen=True)
-class Magnetometer:
+@dataclass(frozen=True, repr=False)
+class Magnetometer(Brief):
     """A recording's magnetometer: whether it is ``used``, and the ``findings`` about it.
 
     ``strength`` is the median of its samples' length in T, NaN without any; ``calibration`` the one

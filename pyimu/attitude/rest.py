@@ -8,6 +8,7 @@ import numpy as np
 from scipy.special import fdtri
 
 from pyimu.attitude.filter.prediction import DRIVES
+from pyimu.brief import Brief
 from pyimu.errors import Finding
 from pyimu.recording.recording import Recording
 from pyimu.recording.rest import still_rows
@@ -50,8 +51,8 @@ GRAVITY_OFF = 0.02
 or a unit."""
 
 
-@dataclass(frozen=True)
-class Rest:
+@dataclass(frozen=True, repr=False)
+class Rest(Brief):
     """The rows of a rest, its ``duration`` in s, and statistics of its samples.
 
     The means and standard deviations are (3,) in rad/s and m/s^2.

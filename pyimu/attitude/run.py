@@ -49,6 +49,7 @@ from pyimu.model.part_file import part as part_of
 from pyimu.recording.log import Given, recording_of
 from pyimu.recording.quality.inspect import rate_of_part
 from pyimu.recording.recording import Recording
+from pyimu.silent import silent
 from pyimu.units import STANDARD_GRAVITY
 
 FIELD_NOISE = next(v.start for v in FIELD_SETTINGS if v.name == "field_noise")
@@ -69,7 +70,7 @@ def run(
     std0: np.ndarray | None = None,
     settings: Settings = None,
     smooth: bool = False,
-    heard: Callable[[float], None] = lambda share: None,
+    heard: Callable[[float], None] = silent,
 ) -> AttitudeResult:
     """The attitude of a recording, by the filter of ``part``.
 

@@ -32,6 +32,7 @@ from pyimu.characterization.store import Store
 from pyimu.characterization.temperature.fit import ThermalFit
 from pyimu.characterization.temperature.warm_up import WarmUp, find_warm_up
 from pyimu.laws import chi2
+from pyimu.silent import silent
 
 POINTS = 100
 """Cluster times of a curve, evenly spaced in the logarithm; those an octave apart are added."""
@@ -48,7 +49,7 @@ def analyse_noise(
     lines: Sequence[Line],
     level: float,
     store: Store,
-    say: Callable[[str], None] = lambda text: None,
+    say: Callable[[str], None] = silent,
 ) -> NoiseAnalysis:
     """Deviations and fit of one axis, or of its samples ``compensated`` (n,) if these are given.
 

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from pyimu.brief import Brief
 from pyimu.characterization.allan.readings import Floor
 from pyimu.characterization.evidence import Evidence
-from pyimu.characterization.magnetometer.estimate import MagnetometerFit
 from pyimu.characterization.noise.coefficients import Coefficient
 from pyimu.characterization.noise.fit import ChannelFit
 from pyimu.characterization.spectrum.bandwidth import Bandwidth
@@ -19,7 +20,10 @@ from pyimu.characterization.spectrum.psd import Psd
 from pyimu.characterization.temperature.fit import ThermalFit
 from pyimu.characterization.temperature.warm_up import WarmUp
 from pyimu.errors import Finding
-from pyimu.model.part import Part
+from pyimu.model.part import AXES, Part
+
+if TYPE_CHECKING:
+    from pyimu.characterization.magnetometer.estimate import MagnetometerFit
 
 SI = {
     "gyro": {"Q": "rad", "N": "rad/sqrt(s)", "B": "rad/s", "K": "rad/s/sqrt(s)", "R": "rad/s^2"},
@@ -51,8 +55,8 @@ class AllanCurve(Curve):
     high: np.ndarray
 
 
-@dataclass(frozen=True)
-class NoiseAnalysis:
+@dataclass(frozen=True, repr=False)
+class NoiseAnalysis(Brief):
     """The noise of a channel: its deviations, and the coefficients fitted to them.
 
     The effect of temperature and warm-up has been removed from the samples; ``as_measured`` is
@@ -85,8 +89,8 @@ class Overview:
     high: np.ndarray
 
 
-@dataclass(frozen=True)
-class Channel:
+@dataclass(frozen=True, repr=False)
+class Channel(Brief):
     """One axis of a sensor in one log.
 
     ``noise`` is None, and ``reason`` says why, where it could not be characterised; ``thermal`` is
@@ -130,8 +134,8 @@ class Channel:
         return None if self.noise is None else self.noise.fit[term]
 
 
-@dataclass(frozen=True)
-class SensorResult:
+@dataclass(frozen=True, repr=False)
+class SensorResult(Brief):
     """One sensor in one log.
 
     It has so many ``samples`` every ``h`` s, in ``segments`` without gap, the longest of
@@ -152,8 +156,8 @@ class SensorResult:
     searched: tuple[float, float] = (math.nan, math.nan)
 
 
-@dataclass(frozen=True)
-class LogResult:
+@dataclass(frozen=True, repr=False)
+class LogResult(Brief):
     """One log: its rows, its ``duration`` [s], its sensors by kind, and its quality.
 
     ``evidence`` has what illustrates a finding, by its kind and column. ``magnetometer`` is what
@@ -174,6 +178,11 @@ class LogResult:
     def channels(self) -> Iterator[Channel]:
         """The channels of all sensors."""
         return (c for s in self.sensors.values() for c in s.channels)
+
+    @property
+    def moves(self) -> bool:
+        """Whether the log is not at rest; of raw counts, which look like motion, nobody knows."""
+        return {"motion"} == {f.kind for f in self.findings} & {"motion", "counts"}
 
 
 @dataclass(frozen=True)
@@ -221,11 +230,7 @@ class Outcome:
     @property
     def moving(self) -> tuple[str, ...]:
         """Names of the logs that do not rest, of which no part can be made; raw counts apart."""
-        return tuple(
-            log.name
-            for log in self.logs
-            if {"motion"} == {f.kind for f in log.findings} & {"motion", "counts"}
-        )
+        return tuple(log.name for log in self.logs if log.moves)
 
     @property
     def in_counts(self) -> tuple[str, ...]:
@@ -253,6 +258,11 @@ class Outcome:
                 sigma = math.sqrt(sum(g.sigma.value**2 for g in own) / len(own))
                 found.append((sigma, math.exp(sum(math.log(g.time) for g in own) / len(own))))
         return tuple(found)
+
+    def floors(self, kind: str) -> list[list[Floor]]:
+        """The lowest Allan deviations of each axis of a sensor, one for each log that has it."""
+        names = (f"{kind}_{axis}" for axis in AXES)
+        return [[ch.noise.floor for ch in self.channel(n) if ch.noise] for n in names]
 
     def channel(self, name: str) -> Iterator[Channel]:
         """The channel of a name in each log that has it."""

@@ -10,11 +10,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from pyimu.characterization.allan.moments import TERMS
 from pyimu.characterization.evidence import evidence
 from pyimu.characterization.log_samples import Say, read_samples
-from pyimu.characterization.magnetometer.estimate import MagnetometerFit, magnetometer_fit
 from pyimu.characterization.noise.coefficients import Coefficient, mean_coefficient
 from pyimu.characterization.outcome import LogResult, SensorResult, Summary
 from pyimu.characterization.result import Characterization
@@ -27,7 +27,11 @@ from pyimu.recording.log import Given, Log, is_one, open_log, recording_of
 from pyimu.recording.names import distinct_names
 from pyimu.recording.recording import Recording
 from pyimu.report.numbers import joined
+from pyimu.silent import silent
 from pyimu.threads import on_one_thread
+
+if TYPE_CHECKING:
+    from pyimu.characterization.magnetometer.estimate import MagnetometerFit
 
 Source = Log | Given
 
@@ -36,7 +40,7 @@ Source = Log | Given
 def characterize(
     recording: Source | Sequence[Source],
     level: float = 0.95,
-    say: Say = lambda text, share=None: None,
+    say: Say = silent,
     part: str | os.PathLike | Part | None = None,
 ) -> Characterization:
     """Characterise a sensor at rest: its noise, its temperature effect, the quality of its samples.
@@ -84,8 +88,10 @@ def _log(source: Recording | Log, name: str, level: float, T0: float | None, say
         read = read_samples(source, name, store, say)
         wrapped = {f.column for f in read.findings if f.kind == "wrapped"}
         moving = [f for s in read.sensors.values() for f in s.motion(wrapped)]
+        # Raw counts in a false unit look like motion.
+        moves = bool(moving) and not any(f.kind == "counts" for f in read.findings)
         results = {
-            kind: SensorAnalysis(name, samples, wrapped, level, T0, store, say).result()
+            kind: SensorAnalysis(name, samples, wrapped, moves, level, T0, store, say).result()
             for kind, samples in read.sensors.items()
         }
         if not any(c.noise for r in results.values() for c in r.channels):
@@ -105,6 +111,7 @@ def _magnetometer(
     if not turns or not {"mag", "gyro", "accel"} <= set(source.groups):
         return None, ""
     from pyimu.attitude.run import run as attitude
+    from pyimu.characterization.magnetometer.estimate import magnetometer_fit
 
     say(f"magnetometer of {source.name}", None)
     whole = source.read() if isinstance(source, Log) else source

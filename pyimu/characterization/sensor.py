@@ -35,13 +35,15 @@ SHORT = 32
 class SensorAnalysis:
     """A sensor of the log ``log``, and what its channels have in common.
 
-    ``wrapped`` are the columns whose integers wrapped around, ``level`` is the probability of the
+    ``wrapped`` are the columns whose integers wrapped around; a log that ``moves`` has no roll-off
+    that is the sensor's. ``level`` is the probability of the
     intervals, ``T0`` the temperature [degC] at which the bias is given, None for its mean.
     """
 
     log: str
     samples: Samples
     wrapped: Container[str]
+    moves: bool
     level: float
     T0: float | None
     store: Store
@@ -101,7 +103,7 @@ class SensorAnalysis:
         self, axis: int, noise: NoiseAnalysis, lines: tuple[Line, ...], psd: Psd
     ) -> tuple[NoiseAnalysis, Bandwidth | None]:
         """The noise of a channel with what its low-pass does to it, and where that rolls off."""
-        found = self._bandwidth(axis, noise, lines, psd)
+        found = None if self.moves else self._bandwidth(axis, noise, lines, psd)
         if found is None:
             return noise, None
         memory = MEMORY / found.frequency.value

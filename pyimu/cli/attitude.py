@@ -22,6 +22,7 @@ from pyimu.cli.options import (
     progress,
     radians,
     tell,
+    text_of,
 )
 from pyimu.errors import UserError
 
@@ -151,7 +152,7 @@ def attitude_command(
         say("drawing the report")
         page = found.write(out)
     lines = [f"report: {page}, estimates: {page.with_name('attitude.parquet')}"]
-    tell(found.report, (out / "report.json").read_text, lines, as_json=as_json, quiet=quiet)
+    tell(found.report, text_of(out / "report.json"), lines, as_json=as_json, quiet=quiet)
 
 
 def _declared(name: str | None, quiet: bool) -> Part | None:

@@ -16,6 +16,7 @@ from pyimu.cli.options import (
     progress,
     radians,
     tell,
+    text_of,
 )
 from pyimu.errors import UserError
 
@@ -127,10 +128,10 @@ def campaign_command(
         with progress(f"run {number}"):
             folder = repeat(settings, number, out)
         made = f"log: {folder / 'log.parquet'}, picture: {folder / 'errors.png'}"
-        data = (folder / "run.json").read_text
+        data = text_of(folder / "run.json")
         tell(lambda: made, data, as_json=as_json, quiet=quiet)
         return
     with progress("preparing") as say:
         go = sols if sol else run
         done = go(settings, runs, out, scheduler=scheduler, workers=workers, say=say)
-    tell(done.report, done.data.read_text, [done.where], as_json=as_json, quiet=quiet)
+    tell(done.report, text_of(done.data), [done.where], as_json=as_json, quiet=quiet)

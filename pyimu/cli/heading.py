@@ -20,6 +20,7 @@ from pyimu.cli.options import (
     option,
     progress,
     tell,
+    text_of,
 )
 
 if TYPE_CHECKING:
@@ -114,7 +115,7 @@ def heading_command(
         say("drawing the report")
         page = found.write(out)
     lines = [f"report: {page}"]
-    tell(found.report, (out / "report.json").read_text, lines, as_json=as_json, quiet=quiet)
+    tell(found.report, text_of(out / "report.json"), lines, as_json=as_json, quiet=quiet)
 
 
 def _reference(text: str | None) -> Reference | None:

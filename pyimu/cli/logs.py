@@ -23,6 +23,7 @@ from pyimu.cli.options import (
     progress,
     radians,
     tell,
+    text_of,
     withdraw_exports,
     write_exports,
 )
@@ -49,7 +50,7 @@ ExitCode = Annotated[
 ]
 
 
-def demo(out: Out = Path("out/demo")) -> None:
+def demo(out: Out = Path("out/demo"), as_json: Json = False, quiet: Quiet = False) -> None:
     """Example: pyimu demo
 
     The whole loop on a simulated recording: a rover with an IMT30 whose gyros have a scale factor
@@ -59,12 +60,12 @@ def demo(out: Out = Path("out/demo")) -> None:
     from pyimu.identification.report.deliver import without_units
     from pyimu.rover.demo import run_demo
 
+    check_told(as_json, quiet)
     with progress("simulating the rover") as say:
         shown = run_demo(out, Stages(say, ("gyro", "accel")))
-    print(shown.report())
-    if left_out := without_units():
-        print(left_out)
-    print(f"report: {out / 'report.html'}, picture: {out / 'heading.png'}")
+    lines = [said] if (said := without_units()) else []
+    lines.append(f"report: {out / 'report.html'}, picture: {out / 'heading.png'}")
+    tell(shown.report, text_of(out / "report.json"), lines, as_json=as_json, quiet=quiet)
 
 
 def characterize_command(
@@ -125,7 +126,7 @@ def characterize_command(
         )
     elif export is not None:
         lines += write_exports(str(made), export, out)
-    tell(found.report, (out / "report.json").read_text, lines, as_json=as_json, quiet=quiet)
+    tell(found.report, text_of(out / "report.json"), lines, as_json=as_json, quiet=quiet)
     if exit_code and why:
         raise typer.Exit(NO_PART)
 
@@ -223,6 +224,6 @@ def close_command(
     lines.append(f"report: {out / 'report.html'}")
     if export is not None:
         lines += write_exports(str(out / "model.toml"), export, out)
-    tell(closed.report, (out / "report.json").read_text, lines, as_json=as_json, quiet=quiet)
+    tell(closed.report, text_of(out / "report.json"), lines, as_json=as_json, quiet=quiet)
     if exit_code:
         raise typer.Exit(EXIT_CODES[closed.verdict])

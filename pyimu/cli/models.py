@@ -19,6 +19,7 @@ from pyimu.cli.options import (
     exported,
     progress,
     tell,
+    text_of,
 )
 from pyimu.errors import UserError
 
@@ -57,7 +58,7 @@ def rover_command(
         found = rover_tests(find_part(part), range(1, seeds + 1), say=say)
         say("drawing the report")
         page = found.write(out)
-    data = (out / "report.json").read_text
+    data = text_of(out / "report.json")
     tell(found.report, data, [f"report: {page}"], as_json=as_json, quiet=quiet)
 
 
@@ -124,7 +125,7 @@ def plan_command(
         page = planned.write(out, lambda text, share: say(text, CHOSEN + (1 - CHOSEN) * share))
     files = ", ".join(str(out / name) for name in planned.files()[: len(planned.logs)])
     lines = [f"page: {page}{f', motion: {files}' if files else ''}"]
-    tell(planned.report, (out / "plan.json").read_text, lines, as_json=as_json, quiet=quiet)
+    tell(planned.report, text_of(out / "plan.json"), lines, as_json=as_json, quiet=quiet)
 
 
 def build(
@@ -213,6 +214,8 @@ def modelica_command(
         "out/modelica"
     ),
     effects: Effects = None,
+    as_json: Json = False,
+    quiet: Quiet = False,
 ) -> None:
     """Example: pyimu modelica mypart.toml --out out/modelica
 
@@ -220,10 +223,14 @@ def modelica_command(
     which need the library PyImu (the folder modelica/PyImu of the source) and give the samples of
     the part's co-simulation unit. Effects of your own are printed into it.
     """
+    from pyimu.files import json_text
     from pyimu.modelica.export import export
 
+    check_told(as_json, quiet)
     add_effects(effects)
-    print(export(part, out))
+    path = str(export(part, out))
+    data = {"part": part, "files": [path]}
+    tell(lambda: path, lambda: json_text(data), as_json=as_json, quiet=quiet)
 
 
 def export_command(
@@ -292,6 +299,7 @@ def parts(
     ] = None,
     effects: Effects = None,
     as_json: Json = False,
+    quiet: Quiet = False,
 ) -> None:
     """Example: pyimu parts mpu6050
 
@@ -302,20 +310,27 @@ def parts(
     """
     from pyimu.files import json_text
     from pyimu.model.part_file import new_part
+    from pyimu.model.part_file import part as find_part
     from pyimu.report.parts_table import as_data, detail, listing, terminal_width
 
+    check_told(as_json, quiet)
     if new is not None:
         if name is not None:
             raise UserError(f"--new {new} beside {name}: give one of the two")
         path = new_part(new)
-        print(f"{path}: take the '#' from what your data sheet has; pyimu parts {path} prints it")
+        said = f"{path}: take the '#' from what your data sheet has; pyimu parts {path} prints it"
+        data = {"files": [str(path)]}
+        tell(lambda: said, lambda: json_text(data), as_json=as_json, quiet=quiet)
         return
     add_effects(effects)
+    if name is not None:
+        find_part(name)  # with --quiet it is still checked
     width = terminal_width()
     tell(
         lambda: listing(width=width) if name is None else detail(name, width),
         lambda: json_text(as_data(name)),
         as_json=as_json,
+        quiet=quiet,
     )
 
 
@@ -326,22 +341,33 @@ def derive_command(
             "--out", help="Folder for derivations.txt, .tex and .md; else they are only printed."
         ),
     ] = None,
+    as_json: Json = False,
+    quiet: Quiet = False,
 ) -> None:
     """Example: pyimu derive --out out/derivations
 
     Print the symbolic results that the package computes with: kinematics, attitude error, Earth
     rate, transition matrix and process noise. Each comes as text and LaTeX, with what it was
     checked against and the difference that was found just now.
+
+    Exit status: 0, 1 where a check failed, or 2 for bad input.
     """
     from pyimu.derivations import derive
-    from pyimu.files import check_folder
+    from pyimu.files import check_folder, json_text
 
+    check_told(as_json, quiet)
     if out is not None:
         check_folder(out)
     with progress("deriving") as say:
         derived = derive(say)
-    print(derived.report(), end="")
-    for path in derived.write(out) if out is not None else []:
-        print(path)
+    files = [str(path) for path in derived.write(out)] if out is not None else []
+    data = derived.as_dict() | {"files": files}
+    tell(
+        lambda: derived.report().rstrip("\n"),
+        lambda: json_text(data),
+        files,
+        as_json=as_json,
+        quiet=quiet,
+    )
     if not derived.passed:
         raise typer.Exit(1)

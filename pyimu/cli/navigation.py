@@ -20,6 +20,7 @@ from pyimu.cli.options import (
     progress,
     radians,
     tell,
+    text_of,
 )
 
 Out = Annotated[
@@ -143,7 +144,7 @@ def navigate_command(
         say("drawing the report")
         page = found.write(out)
     lines = [f"report: {page}, estimates: {page.with_name('navigation.parquet')}"]
-    tell(found.report, (out / "report.json").read_text, lines, as_json=as_json, quiet=quiet)
+    tell(found.report, text_of(out / "report.json"), lines, as_json=as_json, quiet=quiet)
 
 
 def _three(name: str, text: str) -> tuple[float, ...]:

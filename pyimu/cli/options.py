@@ -155,6 +155,11 @@ def check_told(as_json: bool, quiet: bool) -> None:
         raise UserError("--json beside --quiet: give one of the two")
 
 
+def text_of(file: Path) -> Callable[[], str]:
+    """What reads a file that a command wrote, whatever the machine's own letters are."""
+    return lambda: file.read_text(encoding="utf-8")
+
+
 def tell(
     report: Callable[[], str],
     data: Callable[[], str],

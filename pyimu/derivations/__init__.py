@@ -24,6 +24,7 @@ from pyimu.derivations.process_noise.random_walk import STILL, TURNING
 from pyimu.derivations.process_noise.random_walk_axes import AXES
 from pyimu.derivations.process_noise.transition import TRANSITION
 from pyimu.derivations.result import Derived
+from pyimu.silent import silent
 
 __all__ = ["DERIVATIONS", "Derived", "Result", "derive"]
 
@@ -48,7 +49,7 @@ DERIVATIONS: tuple[Derivation, ...] = (
 """Every result, in the order in which they are printed."""
 
 
-def derive(say: Callable[[str, float], None] = lambda text, share: None) -> Derived:
+def derive(say: Callable[[str, float], None] = silent) -> Derived:
     """Every result with its checks, which are computed now.
 
     ``say(text, share)`` is told what is being checked, and which share of all has been.

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+from typing import Any
 
 from pyimu.derivations.model import Results
-from pyimu.derivations.report import markdown, tex, text
+from pyimu.derivations.report import data, markdown, tex, text
 from pyimu.files import write_text
 
 FILES = {
@@ -25,6 +26,10 @@ class Derived(Results):
         return text.document(self)
 
     __str__ = report
+
+    def as_dict(self) -> dict[str, Any]:
+        """All of it as data, for scripts: ``pyimu.derivations.report.data.document``."""
+        return data.document(self)
 
     def write(self, out: str | os.PathLike) -> list[Path]:
         """Write ``derivations.txt``, ``.tex`` and ``.md`` into the folder ``out``.

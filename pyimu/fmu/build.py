@@ -34,6 +34,7 @@ from pyimu.fmu.sources import (
     texts,
 )
 from pyimu.held import work_folder
+from pyimu.silent import silent
 
 FLAGS = (
     *SAME_BITS,
@@ -88,7 +89,7 @@ def build_fmus(
     out_dir: Path | str,
     forms: Sequence[Form] = SCALAR_FORMS,
     platform: str = "host",
-    heard: Callable[[float], None] = lambda share: None,
+    heard: Callable[[float], None] = silent,
 ) -> list[Path]:
     """Write the block as co-simulation units; gives their paths, in the order of ``forms``.
 

@@ -18,6 +18,7 @@ from pyimu.model.part_file import part as find_part
 from pyimu.navigation.filter.ins_block import strapdown_ins
 from pyimu.plant.low_pass import low_pass
 from pyimu.plant.rover_drive import rover_drive
+from pyimu.silent import silent
 
 SENSOR = "sensor"
 
@@ -39,7 +40,7 @@ def build(
     fmi: Sequence[Form] = FORMS,
     platform: str = "host",
     specimen: int | None = None,
-    say: Callable[[str, float], None] = lambda text, share: None,
+    say: Callable[[str, float], None] = silent,
 ) -> list[Path]:
     """Build the FMUs of a part into ``out``; gives their paths.
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from pyimu.brief import Brief
 from pyimu.heading.calibration import Calibration
 from pyimu.heading.filter import HeadingTrack
 from pyimu.heading.statistics import Statistics, paired
@@ -15,8 +16,8 @@ from pyimu.heading.transfer import RateTransfer
 from pyimu.recording.recording import Recording
 
 
-@dataclass(frozen=True, eq=False)
-class Track:
+@dataclass(frozen=True, eq=False, repr=False)
+class Track(Brief):
     """A method's ``heading`` rad at the rows (n,) of a log after its known motion, and its
     ``error`` rad against the reference (NaN where that is missing), None without one.
     """
@@ -37,8 +38,8 @@ class Track:
         return float(known[-1]) if len(known) else float("nan")
 
 
-@dataclass(frozen=True, eq=False)
-class Method:
+@dataclass(frozen=True, eq=False, repr=False)
+class Method(Brief):
     """A method by ``name`` and in ``words``, and its track over each log."""
 
     name: str

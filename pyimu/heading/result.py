@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from pyimu.brief import FEW
 from pyimu.files import plain, staged, write_json, write_text
 from pyimu.heading.outcome import Outcome, Track
 from pyimu.heading.report.page import TABLE, page
@@ -19,6 +20,11 @@ from pyimu.recording.formats.suffix import write_table
 @dataclass(frozen=True, eq=False)
 class HeadingResult(Outcome):
     """The result of ``pyimu.heading.run``: what ``Outcome`` holds, to be read, drawn and kept."""
+
+    def __repr__(self) -> str:
+        names = ", ".join(repr(r.name) for r in self.recordings[:FEW])
+        more = f" and {len(self.recordings) - FEW} more" if len(self.recordings) > FEW else ""
+        return f"HeadingResult({names}{more}: {', '.join(m.name for m in self.methods)})"
 
     def report(self) -> str:
         """A table for a terminal or a notebook."""

@@ -27,6 +27,7 @@ from pyimu.recording.clock import runs
 from pyimu.recording.log import Given, recording_of
 from pyimu.recording.recording import Recording, filled
 from pyimu.recording.rest import SECOND
+from pyimu.silent import silent
 from pyimu.units import did_you_mean
 
 START_UP = 20.0
@@ -68,7 +69,7 @@ def run(
     release: float | None = None,
     hold: float = 0.0,
     slip_std: float = 0.0,
-    say: Callable[..., None] = lambda text, share=None: None,
+    say: Callable[..., None] = silent,
 ) -> HeadingResult:
     """The heading of logs of one robot by each ``method``, and its error where they have a
     reference.

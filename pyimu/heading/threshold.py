@@ -10,7 +10,7 @@ import numpy as np
 
 from pyimu.errors import UserError
 
-TYPICAL = np.radians(0.3)
+TYPICAL = float(np.radians(0.3))
 """rad/s; the threshold that is quoted with the paper elsewhere."""
 
 

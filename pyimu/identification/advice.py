@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from pyimu.brief import Brief
 from pyimu.errors import UserError
 from pyimu.files import plain
 from pyimu.identification.estimated import Estimated
@@ -76,8 +77,8 @@ class Gain:
         return self.then / REACH
 
 
-@dataclass(frozen=True)
-class Advice:
+@dataclass(frozen=True, repr=False)
+class Advice(Brief):
     """A measurement that is worth making, and what it would show of a sensor.
 
     ``why`` says what its gain follows from where that is no noise. ``motion`` names one of the

@@ -47,6 +47,7 @@ from pyimu.recording.reference.file import with_references
 from pyimu.recording.reference.rate import reference_rate
 from pyimu.recording.rest import is_at_rest
 from pyimu.report.numbers import joined
+from pyimu.silent import silent
 from pyimu.threads import on_one_thread
 
 BAND_SHARE = 0.75
@@ -70,7 +71,7 @@ def close(
     *,
     reference: Sequence[Given] | Given | None = None,
     latitude: float | None = None,
-    say: Say = lambda text: None,
+    say: Say = silent,
 ) -> Closed:
     """Find what a sensor's model lacks to explain measured logs, and what it is worth.
 

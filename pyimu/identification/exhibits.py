@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.signal import welch
 
+from pyimu.brief import Brief
 from pyimu.identification.fit.columns import band_segments, band_time, in_band, residual
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.inputs import LogState, reference_input
@@ -40,8 +41,8 @@ LONGEST_SPECTRUM = 1024
 """Rows of the segments of a spectral estimate, at most."""
 
 
-@dataclass(frozen=True)
-class Trace:
+@dataclass(frozen=True, repr=False)
+class Trace(Brief):
     """One log's residual (m, 3) before and after, in its band.
 
     At ``time`` (m,) s, of which ``segments`` of rows are without gap; ``axes`` are those that its
@@ -100,8 +101,8 @@ class Comb:
     weight: float
 
 
-@dataclass(frozen=True)
-class Spectrum:
+@dataclass(frozen=True, repr=False)
+class Spectrum(Brief):
     """One-sided densities (f,) of the residual, the mean of the axes, and of the noise alone."""
 
     frequency: np.ndarray
@@ -111,8 +112,8 @@ class Spectrum:
     band_hz: float | None
 
 
-@dataclass(frozen=True)
-class Exhibits:
+@dataclass(frozen=True, repr=False)
+class Exhibits(Brief):
     """All of one sensor; ``held_out`` says whether the traces are of rows that were not fitted.
 
     The magnetometer has no candidates that were screened.

@@ -8,14 +8,15 @@ from typing import Any
 
 import numpy as np
 
+from pyimu.brief import Brief
 from pyimu.files import plain
 from pyimu.identification.fit.score import ErrorSums
 from pyimu.identification.overview import Overview
 from pyimu.model.kinds import MAGNETOMETER
 
 
-@dataclass(frozen=True)
-class Added:
+@dataclass(frozen=True, repr=False)
+class Added(Brief):
     """An effect that was added.
 
     Coefficients by name as ``(value, std, unit)``, arrays of the parameter's shape.
@@ -99,8 +100,8 @@ class Visibility:
         return out | ({"reason": self.reason} if self.reason else {})
 
 
-@dataclass(frozen=True)
-class Errors:
+@dataclass(frozen=True, repr=False)
+class Errors(Brief):
     """Held-out error of one sensor before, after, and as the noise alone would leave it.
 
     ``floor`` is what the white noise of sensor and reference leaves, ``drift`` what the random walk
@@ -200,8 +201,8 @@ class AtRest:
         return {k: plain(v) for k, v in asdict(self).items() if k != "sensor"}
 
 
-@dataclass(frozen=True)
-class LogEntry:
+@dataclass(frozen=True, repr=False)
+class LogEntry(Brief):
     """One recording: its rows, its error by sensor, and what was estimated of the log itself."""
 
     file: str

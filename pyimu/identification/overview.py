@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from pyimu.brief import Brief
 from pyimu.errors import Finding
 from pyimu.files import plain
 from pyimu.identification.fit.trial import Trial
@@ -17,8 +18,8 @@ from pyimu.recording.rest import DRIFT, SECOND, still_rows
 from pyimu.report.figures import envelope
 
 
-@dataclass(frozen=True)
-class Strip:
+@dataclass(frozen=True, repr=False)
+class Strip(Brief):
     """A signal of a log for a picture: least and largest value (m,) at ``time`` (m,) s."""
 
     time: np.ndarray
@@ -26,8 +27,8 @@ class Strip:
     high: np.ndarray
 
 
-@dataclass(frozen=True)
-class Overview:
+@dataclass(frozen=True, repr=False)
+class Overview(Brief):
     """One log: ``duration`` [s], ``rate`` of the samples [Hz], share of its rows at ``rest``.
 
     Of each axis (3,), as measured: root mean square and largest ``turning`` [rad/s], and rms

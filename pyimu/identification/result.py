@@ -16,6 +16,7 @@ from pyimu.identification.report.errors import whole_figure
 from pyimu.identification.report.terminal import in_lines
 from pyimu.identification.report.words import headline
 from pyimu.report.numbers import joined
+from pyimu.silent import silent
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -36,7 +37,8 @@ class Closed(Outcome):
         return in_lines(self)
 
     def __repr__(self) -> str:
-        return f"Closed({self.verdict}: {self.before.name}, {len(self.recordings)} recordings)"
+        logs = f"{len(self.recordings)} recording{'s' * (len(self.recordings) != 1)}"
+        return f"Closed({self.verdict}: {self.before.name}, {logs})"
 
     def _repr_html_(self) -> str:
         return notebook.block(
@@ -77,7 +79,7 @@ class Closed(Outcome):
         out: str | os.PathLike,
         *,
         units: bool = True,
-        say: Callable[[str], None] = lambda text: None,
+        say: Callable[[str], None] = silent,
     ) -> Path:
         """Write ``report.html``, ``report.json`` and ``model.toml`` into the folder ``out``.
 

@@ -61,7 +61,7 @@ def _pictures(found: Outcome) -> list[Picture]:
     recording = found.recording
     assert recording is not None
     groups = [g for g in SHOWN if g in recording.groups]
-    caption = "Least and largest sample over time; the grey bars below are rests."
+    caption = "Least and largest sample over time; the grey bars below are stretches at rest."
     drawn = [
         Picture(Markup(_over_time(recording, groups, found.rests)), caption, "samples over time")
     ]
@@ -82,7 +82,7 @@ def _over_time(recording: Recording, groups: list[str], rests: Iterable[tuple[in
             shown = unit_for(np.nanmax(np.abs(values)) if np.isfinite(values).any() else 1.0, si)
             for k, column in enumerate(values.T):
                 at, low, high = envelope(recording.time, in_unit(column, si, shown))
-                axis = (GROUPS[group].suffixes or ("",))[k]
+                axis = (GROUPS[group].suffixes or (group,))[k]
                 at = (at - start) / size
                 panel.fill_between(at, low, high, color=COLOURS[k], lw=0.6, alpha=0.75, label=axis)
             for a, b in rests:

@@ -8,15 +8,15 @@ from dataclasses import replace
 from pathlib import Path
 
 from pyimu.errors import UserError
-from pyimu.files import parse_toml
+from pyimu.files import parse_toml, read_toml
 from pyimu.inspection.result import Inspection
-from pyimu.recording.column_map import ForeignMap, map_of, read_map
+from pyimu.recording.column_map import ForeignMap, map_of
 from pyimu.recording.columns import own_name
 from pyimu.recording.folders import log_in
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.formats.suffix import open_reader
 from pyimu.recording.guess.proposal import Guess, Proposal, forces, proposed
-from pyimu.recording.guess.writing import text_of
+from pyimu.recording.guess.writing import MapGiven, text_of
 from pyimu.recording.known import STATED, is_own, recognised
 from pyimu.recording.log import Log
 from pyimu.recording.quality.gyro_axes import gyro_findings
@@ -24,6 +24,7 @@ from pyimu.recording.quality.in_pieces import quality
 from pyimu.recording.recording import Recording
 from pyimu.recording.rest import is_at_rest, rests
 from pyimu.recording.rows import Source
+from pyimu.silent import silent
 
 Given = str | os.PathLike
 
@@ -31,7 +32,7 @@ Given = str | os.PathLike
 def inspect(
     paths: Given | Sequence[Given],
     columns: Given | None = None,
-    say: Callable[..., None] = lambda *_: None,
+    say: Callable[..., None] = silent,
 ) -> Inspection:
     """What is in a log, or in the files of one log, the first of which holds its gyro.
 
@@ -40,7 +41,8 @@ def inspect(
     numbers where it is the header's units.
     """
     given = [Path(paths)] if isinstance(paths, (str, os.PathLike)) else [Path(p) for p in paths]
-    foreign = None if columns is None else read_map(Path(columns))
+    data = {} if columns is None else read_toml(Path(columns))
+    foreign = None if columns is None else map_of(data, Path(columns))
     whole = log_in(given[0]) if len(given) == 1 else None
     if whole is not None:
         given = [whole.path, *(whole.path.parent / name for name, _ in whole.foreign.files)]
@@ -55,14 +57,14 @@ def inspect(
     if guessed:
         kind = "guessed"
     proposals = _proposals(readers, maps, foreign)
-    text = text_of(_ordered(proposals))
+    text = text_of(_ordered(proposals), MapGiven(data, given[0].name))
     found = Inspection(given[0], kind, known[0] if known else "", proposals, text)
     say("reading")
     if foreign is None and known is not None and len(given) == 1:
         foreign = known[1]
     try:
         recording = (
-            _by_guess(readers, proposals, foreign, text)
+            _by_guess(readers, proposals, text)
             if guessed or (foreign is None and len(readers) > 1)
             else Log(Source.of(readers[0], foreign or ForeignMap())).read()
         )
@@ -131,7 +133,9 @@ def _proposals(
     """
     rate = None if foreign is None else foreign.rate
     found = [
-        proposed(reader, rate) if own is None else _declared(reader, own)
+        proposed(reader, rate)
+        if own is None
+        else _declared(reader, replace(own, rate=own.rate or rate))
         for reader, own in zip(readers, maps, strict=True)
     ]
     beside = next((f for r, p in zip(readers, found) if (f := forces(r, p)) is not None), None)
@@ -139,7 +143,19 @@ def _proposals(
         if own is None and beside is not None and "accel" not in found[k].groups:
             if "gyro" in found[k].open_questions:
                 found[k] = proposed(reader, rate, beside)
+    if foreign is not None:
+        for proposal in found:
+            proposal.guesses = [_sized(guess, foreign) for guess in proposal.guesses]
     return found
+
+
+def _sized(guess: Guess, foreign: ForeignMap) -> Guess:
+    """The guess with the size of a count that a map gives, where its unit is not known else."""
+    size = foreign.scale.get(guess.target)
+    if size is None or (guess.unit is not None and guess.value is None):
+        return guess
+    why = "the column map gives the size of a count"
+    return replace(guess, unit=size.unit.text, value=size.value, sizes=(), why=why)
 
 
 def _by_numbers(found: Inspection, readers: Sequence[Reader]) -> Inspection:
@@ -153,13 +169,8 @@ def _by_numbers(found: Inspection, readers: Sequence[Reader]) -> Inspection:
     return replace(found, proposals=guesses, column_map=text_of(_ordered(guesses)))
 
 
-def _by_guess(
-    readers: Sequence[Reader],
-    proposals: Sequence[Proposal],
-    given: ForeignMap | None,
-    text: str,
-) -> Recording:
-    """The log by the map that was written, with the axes and the rate of the one ``given``."""
+def _by_guess(readers: Sequence[Reader], proposals: Sequence[Proposal], text: str) -> Recording:
+    """The log by the map that was written."""
     order = sorted(range(len(readers)), key=lambda k: "gyro" not in proposals[k].groups)
     reader, first = readers[order[0]], proposals[order[0]]
     unknown = [group for p in proposals for group in p.open_questions]
@@ -169,6 +180,4 @@ def _by_guess(
     if first.timeless:
         raise UserError(f"{reader.path}: nothing tells when its samples were taken")
     foreign = map_of(parse_toml(text, "map"), Path("the map that was written"))
-    if given is not None:
-        foreign = replace(foreign, body=given.body, world=given.world, q=given.q)
     return Log(Source.of(reader, foreign)).read()

@@ -123,6 +123,11 @@ class Effect:
     file: str = ""
     """The file of the user's own that defines it; empty for one of the catalogue."""
 
+    def __repr__(self) -> str:
+        """``Effect('g_sensitivity', bias: G [{y}/(m/s^2)]; y = x + G f)``."""
+        own = ", ".join(f"{name} [{q.unit}]" for name, q in self.parameters.items())
+        return f"Effect({self.name!r}, {self.stage}: {own or 'no coefficient'}; {self.equation})"
+
     @property
     def is_line(self) -> bool:
         """Whether it is a line of the spectrum, whose frequency is looked for."""

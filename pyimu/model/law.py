@@ -49,6 +49,10 @@ class Law:
     note: str = ""
     shown: Mapping[str, float] = field(default_factory=dict)
 
+    def __repr__(self) -> str:
+        """``Law(white: N^2)``: what it is made of, and its density."""
+        return f"Law({', '.join(self.parts) or 'nothing'}: {self.psd or 'no density'})"
+
     def value(self, part: str, coefficients: Mapping[str, Any], **conditions: Any) -> Any:
         """A part of the law for these coefficients and conditions; None where there is none."""
         function = getattr(self, part)

@@ -14,7 +14,7 @@ from pyimu.block.block import Block
 from pyimu.block.variables import IMU, MOTION, Limits, Variable, seed_of
 from pyimu.errors import UserError
 from pyimu.files import shortened
-from pyimu.model import show
+from pyimu.model import part_plot, show
 from pyimu.model.arguments import AXES
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import EVERY_SAMPLE, SIGNALS, Derived, inputs_for, vector
@@ -70,6 +70,7 @@ class Part:
     __repr__ = show.as_text
     _repr_html_ = show.as_html
     to_frame = show.as_frame
+    plot = part_plot.plot
 
     @property
     def sample_period(self) -> float:

@@ -55,6 +55,17 @@ class Sensor:
         object.__setattr__(self, "values", MappingProxyType(complete))
         object.__setattr__(self, "effects", effects)
 
+    def __repr__(self) -> str:
+        """``Sensor('gyro': lag, angle_random_walk)``; its ``values`` hold the coefficients."""
+        return f"Sensor({self.kind!r}: {', '.join(self.values) or 'ideal'})"
+
+    def of_axis(self, effect: str, axis: int) -> dict[str, float]:
+        """An effect's coefficients for one axis (0 to 2); those without axes are everybody's."""
+        return {
+            name: float(value[axis] if value.ndim else value)
+            for name, value in self.values[effect].items()
+        }
+
     def __eq__(self, other: object) -> bool:
         """Equal kind, effects and coefficients.
 

@@ -15,6 +15,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from pyimu.block.normals import normals
+from pyimu.brief import Brief
 from pyimu.errors import UserError
 from pyimu.model.arguments import Parameter
 from pyimu.model.catalogue import CATALOGUE
@@ -34,8 +35,8 @@ STREAMS = 2**32
 """The first stream of random numbers that is a tolerance's; those of the noise lie below it."""
 
 
-@dataclass(frozen=True)
-class Tolerance:
+@dataclass(frozen=True, repr=False)
+class Tolerance(Brief):
     """How far specimens lie from the part in one coefficient.
 
     ``key`` names it (sensor, effect, parameter); ``sizes`` holds the value in SI of every free

@@ -9,6 +9,7 @@ import numpy as np
 
 from pyimu.attitude.input_grid import InputGrid, Piece
 from pyimu.block.block import Block, Run
+from pyimu.brief import Brief
 from pyimu.navigation.filter.layout import POSITION, Layout
 from pyimu.navigation.filter.variables import OUTPUTS
 from pyimu.navigation.track import Track
@@ -24,8 +25,8 @@ def columns(name: str, size: int) -> slice:
     return slice(first, first + size)
 
 
-@dataclass(frozen=True, eq=False)
-class Filtered:
+@dataclass(frozen=True, eq=False, repr=False)
+class Filtered(Brief):
     """The outputs of the filter at the recording's rows, (n, outputs)."""
 
     time: np.ndarray

@@ -23,6 +23,13 @@ from pyimu.recording.recording import Recording
 class NavigationResult(Outcome):
     """The result of ``pyimu.navigation.run``: what ``Outcome`` holds, to be read and kept."""
 
+    def __repr__(self) -> str:
+        log = self.recording
+        return (
+            f"NavigationResult({self.name!r}: {', '.join(self.tracks)}; {len(log)} samples, "
+            f"{np.ptp(log.time):.4g} s)"
+        )
+
     def report(self) -> str:
         """A few lines for a terminal or a notebook."""
         return in_lines(self)

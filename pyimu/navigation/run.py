@@ -26,6 +26,7 @@ from pyimu.navigation.track import Reference, Track, reference_of
 from pyimu.recording.log import Given, recording_of
 from pyimu.recording.quality.inspect import rate_of_part
 from pyimu.recording.recording import Recording
+from pyimu.silent import silent
 from pyimu.units import STANDARD_GRAVITY, did_you_mean
 
 METHODS = ("paper", "strapdown", "filter", "smoother")
@@ -57,7 +58,7 @@ def run(
     latitude: float | None = None,
     heading0: float | None = None,
     settings: Mapping[str, Any] | None = None,
-    say: Say = lambda *_: None,
+    say: Say = silent,
 ) -> NavigationResult:
     """The path of a recording, by the errors and the noise of ``part``.
 

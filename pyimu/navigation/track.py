@@ -8,11 +8,12 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from pyimu.brief import Brief
 from pyimu.recording.recording import Recording
 
 
-@dataclass(frozen=True, eq=False)
-class Track:
+@dataclass(frozen=True, eq=False, repr=False)
+class Track(Brief):
     """The motion by one method, a row for each of the recording's.
 
     ``time`` (n,) s; ``q`` (n, 4) body to east-north-up, scalar first; ``velocity`` m/s and
@@ -38,8 +39,8 @@ class Track:
         return np.unwrap(np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)))
 
 
-@dataclass(frozen=True, eq=False)
-class Reference:
+@dataclass(frozen=True, eq=False, repr=False)
+class Reference(Brief):
     """True positions (m, 3) m at ``rows`` of a recording, from the first of them on.
 
     The third column is NaN without a height. ``q`` are true attitudes (n, 4), None without.

@@ -325,7 +325,7 @@ def recording_of(given: Given, wanted: str = "sensor") -> Recording:
     return replace(Log(source).read(), path=None)
 
 
-def _from_frame(
+def from_frame(
     cls: type[Recording],
     frame: Any,
     name: str = "frame",
@@ -362,4 +362,5 @@ def _map_of(columns: Mapping[str, Any] | str | os.PathLike | None) -> ForeignMap
 
 
 # Reading lies above what is read; so it gives the class its constructor from a frame.
-Recording.from_frame = classmethod(_from_frame)
+from_frame.__qualname__ = "Recording.from_frame"
+Recording.from_frame = classmethod(from_frame)

@@ -7,9 +7,9 @@ import csv
 import io
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import zip_longest
+from itertools import pairwise, zip_longest
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -95,14 +95,29 @@ def _series(axes: Axes) -> Iterator[tuple[str, np.ndarray, np.ndarray, str, bool
             x, y = (np.asarray(v, dtype=float) for v in line.get_data())
             yield label, x, y, to_hex(line.get_color()), line.get_linestyle() == "--"
     for band in axes.collections:
-        paths, label = band.get_paths(), str(band.get_label())
-        if isinstance(band, PolyCollection) and len(paths) == 1 and not label.startswith("_"):
-            # As ``fill_between`` makes it: start, lower edge, end, and the upper one back.
-            points, n = paths[0].vertices, (len(paths[0].vertices) - 3) // 2
-            if 2 < n <= MOST:
+        label = str(band.get_label())
+        if isinstance(band, PolyCollection) and not label.startswith("_"):
+            edges = [_edges(path.vertices) for path in band.get_paths()]
+            if 2 < sum(len(low) for low, _ in edges) <= MOST:
                 colour = to_hex(band.get_facecolor()[0])
-                for name, edge in (
-                    ("low", points[1 : n + 1]),
-                    ("high", points[n + 2 : -1][::-1]),
-                ):
-                    yield f"{label}, {name}", edge[:, 0], edge[:, 1], colour, True
+                for name, parts in zip(("low", "high"), zip(*edges, strict=True), strict=True):
+                    x, y = _joined(parts)
+                    yield f"{label}, {name}", x, y, colour, True
+
+
+def _edges(vertices: Any) -> tuple[np.ndarray, np.ndarray]:
+    """Lower and upper edge (n, 2) of a band as ``fill_between`` makes one: start, lower edge, end,
+    and the upper one back.
+    """
+    points = np.asarray(vertices, dtype=float)
+    n = (len(points) - 3) // 2
+    return points[1 : n + 1], points[n + 2 : -1][::-1]
+
+
+def _joined(parts: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+    """The pieces (n, 2) of an edge as one, with an empty point in each gap between them."""
+    rows = [parts[0]]
+    for before, after in pairwise(parts):
+        rows += [[[0.5 * (before[-1, 0] + after[0, 0]), np.nan]], after]
+    x, y = np.concatenate(rows).T
+    return x, y

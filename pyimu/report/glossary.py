@@ -190,6 +190,18 @@ WORDS = (
         r"\bfirst-order (index|indices)\b",
     ),
     Word(
+        "at rest",
+        "The mean of no second lies off that of the next by more than noise and drift make it, and "
+        "none far off them all.",
+        r"\bat rest\b|\brests\b",
+    ),
+    Word(
+        "column map",
+        "A file that says what the columns of a log are, in which units and axes. The other "
+        "commands take it as --columns.",
+        r"\b[Cc]olumn map\b",
+    ),
+    Word(
         "clipping, stuck, spikes",
         "Samples that stop at a level because the sensor reads no further; that repeat one value; "
         "that stand alone, far from their neighbours.",

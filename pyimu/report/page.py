@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined
-from latex2mathml.converter import convert as latex_to_mathml
 from markupsafe import Markup, escape
 
 from pyimu.errors import Finding
@@ -94,6 +93,8 @@ def _breakable(text: str) -> Markup:
 
 def equation(latex: str) -> Markup:
     """An equation in LaTeX as MathML, which browsers draw by themselves."""
+    from latex2mathml.converter import convert as latex_to_mathml
+
     return Markup(latex_to_mathml(latex).replace(' xmlns="http://www.w3.org/1998/Math/MathML"', ""))
 
 

@@ -35,6 +35,7 @@ from pyimu.report.figures import AFTER, BEFORE, FLOOR, STYLE, legend, svg_of
 from pyimu.report.page import Picture
 from pyimu.rover.drives import Motion, free_drive
 from pyimu.rover.optical import optical_reference
+from pyimu.silent import silent
 
 SAMPLE_RATE = 50.0
 """Hz; the paper samples at 976 Hz and filters at 10 Hz."""
@@ -177,7 +178,7 @@ class Demo:
         return self.closed.report()
 
 
-def run_demo(out: Path | str, say: Callable[[str], None] = lambda text: None) -> Demo:
+def run_demo(out: Path | str, say: Callable[[str], None] = silent) -> Demo:
     """Run the demo and write everything to ``out``.
 
     It makes the recording and closes the loop on it with the paper's tables alone.

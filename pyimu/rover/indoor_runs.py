@@ -20,6 +20,7 @@ from pyimu.model.sensor import Sensor
 from pyimu.model.simulate import simulate
 from pyimu.recording.recording import Recording
 from pyimu.rover.indoor import Indoor, indoor
+from pyimu.silent import silent
 
 DEG = np.radians(1.0)
 
@@ -140,7 +141,7 @@ def errors(
     runs: int,
     given: Assumptions = Assumptions(),
     declared: bool = True,
-    say: Callable[..., None] = lambda text, share=None: None,
+    say: Callable[..., None] = silent,
 ) -> Errors:
     """The errors of so many runs by every method."""
     found: dict[str, list[float]] = {name: [] for name in METHODS}

@@ -36,6 +36,7 @@ from pyimu.rover.optical import optical_reference
 from pyimu.rover.outcome import DriveRuns, Traces
 from pyimu.rover.paper import PAPER_DRIVES, PaperDrive
 from pyimu.rover.result import RoverTests
+from pyimu.silent import silent
 
 METHODS = ("gyros alone", "filter as published", "our filter, loop closed")
 
@@ -109,7 +110,7 @@ def rover_tests(
     part: Part,
     seeds: Sequence[int] = SEEDS,
     drives: Sequence[PaperDrive] = PAPER_DRIVES,
-    say: Callable[..., None] = lambda text, share=None: None,
+    say: Callable[..., None] = silent,
 ) -> RoverTests:
     """The test drives with a part, each with every seed of the noise, by each method.
 
@@ -139,7 +140,7 @@ def rover_tests(
     return RoverTests(rover.known, rover.true, found, METHODS, tuple(seeds), tuple(runs), closed)
 
 
-def loop_closed(rover: Rover, say: Callable[[str], None] = lambda text: None) -> Closed:
+def loop_closed(rover: Rover, say: Callable[[str], None] = silent) -> Closed:
     """The loop closed on turns on the spot: a log of each of ``FIT_SEEDS``, the last held out."""
     rate = rover.known.sample_rate / max(1, round(rover.known.sample_rate / LOG_RATE))
     motion = drive("turn_on_spot", sample_rate=rate, start_time=REST)

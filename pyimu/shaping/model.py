@@ -176,7 +176,7 @@ def describe(
             if not stochastic
             else f"{sensor.kind}.{effect} has no law: give its definition one"
         )
-    c = coefficients(alone, effect, axis)
+    c = alone.of_axis(effect, axis)
     x, h = operating_point(sensor, axis, at, slope)[OWN[sensor.kind].start + axis], sample_period
     sampled = (
         shaping_filter(sensor, effect, axis, h, at=at, slope=slope)
@@ -197,14 +197,6 @@ def describe(
         _closed(law, c, h, sampled),
         None if ramp is None else lambda f: ramp**2 / (2 * np.pi * f) ** 3,
     )
-
-
-def coefficients(sensor: Sensor, effect: str, axis: int) -> dict[str, float]:
-    """An effect's coefficients for one axis; those without axes are everybody's."""
-    return {
-        name: float(value[axis] if value.ndim else value)
-        for name, value in sensor.values[effect].items()
-    }
 
 
 def _noise_like(law: Law, c: Mapping[str, float], h: float) -> control.StateSpace | None:

@@ -20,6 +20,7 @@ from pyimu.characterization.allan import (
     overlapping_deviation,
 )
 from pyimu.characterization.allan.law import allan_band, allan_laws
+from pyimu.characterization.allan.readings import floor
 from pyimu.errors import UserError
 
 DEVIATIONS = {
@@ -279,3 +280,13 @@ def test_a_band_is_refused_where_it_makes_no_sense():
     for tau in (0.015, 0.51, 0.0):
         with pytest.raises(ValueError, match="multiples of the sample period 0.01 s up to 0.5 s"):
             allan_band(KINDS["white"], tau, 100, H, 0.9)
+
+
+def test_a_floor_is_one_where_the_curve_is_read_to_twice_its_cluster_time():
+    """Of a record of 1000 s deviations are read up to 100 s: from 50 s on the lowest may fall."""
+    tau = np.geomspace(1.0, 500.0, 400)
+    for lowest, bound in ((20.0, False), (49.0, False), (52.0, True), (99.0, True), (400.0, True)):
+        deviation = lowest / tau + tau / lowest  # a V in the logarithm, 2 at its lowest point
+        found = floor(tau, deviation)
+        assert found.bound == bound
+        assert found.tau == pytest.approx(min(lowest, 100.0), rel=0.02)

@@ -3,6 +3,7 @@
 A run that is broken off leaves no half result; the other commands take the part.
 """
 
+import html
 import json
 import os
 import signal
@@ -17,12 +18,6 @@ from pyimu import Recording
 from pyimu.held import PREFIX
 
 ROWS, H = 4000, 0.01
-
-
-@pytest.fixture
-def undrawn(monkeypatch):
-    """Pages without pictures, which take seconds to draw, for tests of what else is written."""
-    monkeypatch.setattr("pyimu.characterization.result.page", lambda result: "a page")
 
 
 def gyro(seed=1):
@@ -88,8 +83,28 @@ def test_what_was_measured_stands_beside_the_data_sheet(pyimu, undrawn, tmp_path
     assert row.split()[3:5] == ["deg/sqrt(h)", "0.212"] and "1.6" in row.rpartition("  ")[2]
     data = json.loads((tmp_path / "out" / "report.json").read_text())["data_sheet"]
     assert data["part"] == "mpu6050" and len(data["gyro"][0]["times"]) == 3
+    assert data["gyro"][0]["upper_bound"] == [False] * 3
     assert pyimu("characterize", log, "--part", "mpu605", "--out", "no")[0] == 2
     assert not (tmp_path / "no").exists()
+
+
+def test_a_deviation_that_falls_to_the_end_is_an_upper_bound(pyimu, undrawn, tmp_path):
+    """White noise alone falls for ever: on the terminal, on the page and as data."""
+    code, out, err = pyimu("characterize", write(tmp_path), "--part", "mpu6050", "--out", "out")
+    table, _, beside = out.partition("beside mpu6050")
+    for text in (table, beside):
+        row = next(line for line in text.splitlines() if "lowest Allan deviation" in line)
+        assert row.count(" < ") == 3
+    assert row.endswith("–") and "the lowest one is an upper bound ('<')" in table
+    text = html.unescape((tmp_path / "out" / "report.html").read_text())
+    assert "the lowest one is an upper bound ('<')" in text
+    for name in ("lowest Allan deviation", "B as read off it"):
+        assert text.partition(f">{name}<")[2].partition("</tr>")[0].count("< ") == 3
+    data = json.loads((tmp_path / "out" / "report.json").read_text())
+    channels = data["logs"][0]["sensors"]["gyro"]["channels"].values()
+    assert [ch["floor"]["upper_bound"] for ch in channels] == [True] * 3
+    (beside,) = (v for v in data["data_sheet"]["gyro"] if v["name"].startswith("lowest"))
+    assert beside["upper_bound"] == [True] * 3 and beside["times"] == [None] * 3
 
 
 def test_a_log_that_moves_is_called_one_first_and_gives_no_part(pyimu, undrawn, tmp_path):
@@ -99,12 +114,22 @@ def test_a_log_that_moves_is_called_one_first_and_gives_no_part(pyimu, undrawn, 
     for earlier in ("part.toml", "ekf2.params"):
         (tmp_path / "out" / earlier).write_text("earlier")
     log = write(tmp_path, "drive", gyro=turning)
-    code, out, err = pyimu("characterize", log, "--export", "px4", "--out", "out")
+    words = ("characterize", log, "--part", "mpu6050", "--out", "out")
+    code, out, err = pyimu(*words, "--export", "px4")
     assert (code, err) == (0, "") and out.startswith("drive moves: ")
+    assert "gyro (noise and motion together) " in out and "bandwidth" not in out
+    assert "not set beside mpu6050: the log moves" in out and "measured over it" not in out
+    text = html.unescape((tmp_path / "out" / "report.html").read_text())
+    assert "Coefficients: noise and motion together" in text and "bandwidth" not in text
+    assert "Gyro, noise and motion together: overlapping Allan deviation" in text
+    assert "Gyro x, y, z: white noise N" not in text and "Beside the data sheet" not in text
     assert "no part: the log moves" in out.splitlines()[-2]
     assert out.splitlines()[-1] == "nothing exported (px4): the log moves"
     assert sorted(p.name for p in (tmp_path / "out").iterdir()) == ["report.html", "report.json"]
-    assert json.loads((tmp_path / "out" / "report.json").read_text())["moving"] == ["drive"]
+    data = json.loads((tmp_path / "out" / "report.json").read_text())
+    assert data["moving"] == ["drive"] and data["data_sheet"] is None
+    channels = data["logs"][0]["sensors"]["gyro"]["channels"].values()
+    assert [ch["bandwidth"] for ch in channels] == [None] * 3
 
 
 def test_a_script_can_tell_a_log_that_moves(pyimu, undrawn, tmp_path):

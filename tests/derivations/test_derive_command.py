@@ -1,5 +1,6 @@
 """The command ``pyimu derive``."""
 
+import json
 import sys
 from dataclasses import replace
 
@@ -32,6 +33,22 @@ def test_command_ends_with_one_where_a_check_fails(quick, monkeypatch, capsys):
     monkeypatch.setattr(derivations, "derive", lambda say: failed)
     code, out, _ = run(monkeypatch, capsys, "derive")
     assert code == 1 and "FAILED" in out
+
+
+def test_its_json_is_the_results_and_quiet_is_silent(quick, monkeypatch, capsys, tmp_path):
+    monkeypatch.setattr(derivations, "derive", lambda say: quick)
+    code, out, err = run(monkeypatch, capsys, "derive", "--json", "--out", tmp_path)
+    data = json.loads(out)
+    assert (code, err, data["passed"]) == (0, "", True)
+    assert [r["key"] for r in data["results"]] == [r.derivation.key for r in quick.results]
+    for told, r in zip(data["results"], quick.results, strict=True):
+        assert [e["right"] for e in told["equations"]] == [e.right for e in r.derivation.equations]
+        assert [(c["largest"], c["bound"]) for c in told["checks"]] == [
+            (c.largest, c.bound) for c in r.checks
+        ]
+    assert sorted(data["files"]) == sorted(str(p) for p in tmp_path.iterdir())
+    assert run(monkeypatch, capsys, "derive", "--quiet") == (0, "", "")
+    assert run(monkeypatch, capsys, "derive", "--quiet", "--json")[0] == 2
 
 
 def test_out_that_is_a_file_is_refused_before_the_work(monkeypatch, capsys, tmp_path):

@@ -3,19 +3,16 @@ what it says is said stands in the package.
 """
 
 import re
-import shlex
 
 import attitude_page
 import numpy as np
 import pyarrow.parquet as parquet
 import pytest
 from places import CHECKOUT, measured
-from typer.testing import CliRunner
 
 from pyimu import Recording, attitude
 from pyimu.attitude.filter.variables import SETTINGS
 from pyimu.attitude.report import words
-from pyimu.cli import app
 
 PAGE = CHECKOUT / "docs" / "attitude.md"
 TEXT = PAGE.read_text(encoding="utf-8")
@@ -57,21 +54,6 @@ def folder(tmp_path, monkeypatch):
         'bias = {value = [0.0, 0.0, 0.0], unit = "uT"}\nmatrix = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]'
     )
     return tmp_path
-
-
-COMMANDS = [
-    line.removeprefix("$ pyimu ")
-    for _, block in BLOCK.findall(TEXT)
-    for line in block.splitlines()
-    if line.startswith("$ pyimu attitude drive.csv")
-]
-
-
-@pytest.mark.parametrize("line", COMMANDS)
-def test_its_commands_run(line, folder):
-    ended = CliRunner().invoke(app, shlex.split(line))
-    assert ended.exit_code == 0, (ended.output, ended.exception)
-    assert (folder / "out" / "attitude" / "report.html").is_file()
 
 
 def test_its_python_runs(folder, capsys):

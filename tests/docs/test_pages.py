@@ -22,7 +22,6 @@ PAGES = sorted(
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```", re.MULTILINE | re.DOTALL)
 SPAN = re.compile(r"`(pyimu [a-z][^`]*)`")
-QUICK = ("parts", "export", "inspect", "modelica")
 COMMANDS = typer.main.get_command(app).commands
 
 
@@ -127,19 +126,6 @@ RUN = {
 }
 """Pages with Python, and the test that runs it."""
 
-TESTED = {
-    "attitude": "attitude/test_attitude_cli.py",
-    "build": "test_cli.py",
-    "campaign": "campaign/test_campaign_dask.py",
-    "characterize": "characterization/test_characterize_cli.py",
-    "close": "test_cli.py",
-    "heading": "heading/test_heading_command.py",
-    "navigate": "navigation/test_navigate_cli.py",
-    "plan": "identification/test_plan.py",
-}
-"""Commands that take longer than a reader of pages waits, and logs that only their owner has: the
-tests that run them. All others are run as they are shown, by ``test_shown_commands.py``."""
-
 NOT_RUN = {
     "make": "installs and runs all of this",
     "$ dask": "starts servers on other machines; test_campaign_dask.py runs them on this one",
@@ -160,15 +146,5 @@ def test_every_block_of_code_is_run_or_it_is_said_why_not(page):
         elif language != "toml":
             prompts = [line for line in block.splitlines() if line.startswith("$ ")]
             for line in prompts or block.splitlines()[:1]:
-                command = line.split()[1] if line.startswith("$ pyimu ") else ""
-                assert (
-                    line.split()[2] in (*QUICK, *TESTED)
-                    if command
-                    else line.startswith(tuple(NOT_RUN))
-                ), line
-
-
-@pytest.mark.parametrize(("command", "path"), TESTED.items())
-def test_a_command_that_takes_long_has_its_own_test(command, path):
-    written = (CHECKOUT / "tests" / path).read_text(encoding="utf-8")
-    assert re.search(rf"[\"'\s]{command}[\"'\s,]", written)
+                # test_shown_commands.py runs every command of pyimu.
+                assert line.startswith(("$ pyimu ", *NOT_RUN)), line

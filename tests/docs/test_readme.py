@@ -1,11 +1,15 @@
 """What the README shows of ``close``, and counts, is what it is today."""
 
 import re
+import shlex
+import shutil
 from pathlib import Path
 
 import pytest
+from typer.testing import CliRunner
 
 import pyimu
+from pyimu.cli import app
 from pyimu.model.effects import EFFECTS
 from pyimu.rover.demo import recording
 
@@ -22,29 +26,50 @@ def words(line: str) -> str:
 
 
 def shown() -> list[str]:
-    """The lines of the README's sample, less the command and what names the files."""
+    """The lines of the README's sample, less the command."""
     text = README.read_text(encoding="utf-8")
     sample = text[text.index(COMMAND) :].split("```")[0].splitlines()[1:]
-    return [line for line in sample if line.strip() != "..." and not line.startswith("report:")]
+    return [line for line in sample if line.strip() != "..."]
+
+
+def run(command: str) -> str:
+    """Run a command of the README, as it is shown; gives what it prints."""
+    text = README.read_text(encoding="utf-8")
+    (line,) = re.findall(rf"^\$ pyimu ({re.escape(command)}.*)$", text, re.MULTILINE)
+    ended = CliRunner().invoke(app, shlex.split(line))
+    assert ended.exit_code == 0, (ended.output, ended.exception)
+    return ended.output
 
 
 @pytest.fixture(scope="module")
-def closed() -> pyimu.Closed:
-    return pyimu.close(recording(), part="imt30")
+def folder(tmp_path_factory):
+    """Where the commands run: behind ``make demo``, of which there is the log."""
+    made = tmp_path_factory.mktemp("readme")
+    recording().write(made / "out" / "demo" / "rover.csv")
+    return made
 
 
 @pytest.fixture(scope="module")
-def printed(closed) -> dict[str, str]:
-    return {words(line): line for line in closed.report().splitlines()}
+def printed(folder) -> dict[str, str]:
+    """What ``close`` prints."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        said = run("close out/demo/rover.csv")
+    # The demo closes the same loop on the same log.
+    shutil.copy(folder / "out" / "rover" / "model.toml", folder / "out" / "demo" / "model.toml")
+    return {words(line): line for line in said.splitlines()}
 
 
 @pytest.fixture
-def as_after_the_commands(closed, tmp_path, monkeypatch):
+def as_after_the_commands(printed, folder, monkeypatch):
     """A folder with what the commands that stand above the blocks leave there."""
-    recording().write(tmp_path / "out" / "demo" / "rover.csv")
-    pyimu.save_part(closed.after, tmp_path / "out" / "demo" / "model.toml")
-    pyimu.build("mpu6050", tmp_path / "out" / "fmus", ["sensor"], [3])
-    monkeypatch.chdir(tmp_path)
+    monkeypatch.chdir(folder)
+    pyimu.build("mpu6050", folder / "out" / "fmus", ["sensor"], [3])
+
+
+def test_attitude_runs_as_it_is_shown(as_after_the_commands):
+    assert "report: out/attitude/report.html" in run("attitude out/demo/rover.csv")
+    assert Path("out/attitude/attitude.parquet").stat().st_size > 100_000
 
 
 def test_every_block_of_python_runs(as_after_the_commands, capsys):

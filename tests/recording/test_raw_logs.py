@@ -4,6 +4,7 @@
 
 import json
 import re
+import tomllib
 
 import numpy as np
 import pytest
@@ -25,12 +26,6 @@ ROUNDED = {"german", "xio", "iphone"}
 @pytest.fixture(scope="module")
 def log():
     return raw_logs.still()
-
-
-@pytest.fixture
-def undrawn(monkeypatch):
-    """Pages without pictures, which take seconds to draw."""
-    monkeypatch.setattr("pyimu.characterization.result.page", lambda result: "a page")
 
 
 def written(make, folder, log):
@@ -126,6 +121,7 @@ def test_inspect_says_what_is_in_a_log(pyimu, tmp_path):
     assert {f["kind"] for f in said["findings"]} >= {"gaps"}
     page = (tmp_path / "page" / "report.html").read_text()
     assert page.count("<svg") == 2 and "in 2 pieces without gap" in page
+    assert page.count("Curves as CSV") == 1 and "uPlot" in page and "<h2>Words</h2>" in page
     again, plain = read_recording("log.csv", "m.toml"), read_recording("log.csv")
     np.testing.assert_array_equal(again.gyro, plain.gyro)
 
@@ -364,6 +360,65 @@ def test_of_two_sizes_of_a_count_that_fit_the_user_chooses(tmp_path):
     (tmp_path / "map.toml").write_text(text.replace('# "g', '"g'))
     read = read_recording(log, tmp_path / "map.toml")
     np.testing.assert_allclose(read.gyro, gyro * 122 * 0.00875, atol=2e-4)
+
+
+FIXED = 'unit = "deg/s", value = 0.1, offset = 0.5'
+KEPT = {
+    "frame": """[frame]\nR = [[0, 1, 0], [-1, 0, 0], [0, 0, 1.0]]\nworld = "ned"\nq = "bn"\n""",
+    "scale": f"[scale]\ngyro_x = {{{FIXED}}}\ngyro = {{value = 131, unit = 'LSB/dps'}}\n",
+}
+
+
+@pytest.mark.parametrize("columns", ["", '[columns]\n"t" = "time [ms]"\n'])
+def test_what_a_given_map_says_stands_in_the_one_that_is_written(columns, tmp_path):
+    """Frame and sizes of counts, whether the map names the columns or they are guessed."""
+    time, gyro, accel = turned()
+    names = [f"gyro_{a}" for a in "xyz"] + [f"acc_{a}" for a in "xyz"]
+    counts = [*np.rint(np.degrees(gyro) * 131).astype(int).T, *accel.T]
+    log = raw_logs.text(tmp_path / "a.csv", [",".join(["t", *names])], [time // 1_000_000, *counts])
+    if columns:
+        columns += "".join(f'"gyro_{a}" = "gyro_{a} [count]"\n' for a in "xyz")
+        columns += "".join(f'"acc_{a}" = "accel_{a} [m/s^2]"\n' for a in "xyz")
+    (tmp_path / "given.toml").write_text(columns + KEPT["frame"] + KEPT["scale"])
+    found = inspect(log, tmp_path / "given.toml")
+    written = found.write_map(tmp_path / "map.toml")
+    given, kept = (tomllib.loads(p.read_text()) for p in (tmp_path / "given.toml", written))
+    assert kept["frame"] == given["frame"] and kept["scale"] == given["scale"]
+    read = read_recording(log, written)
+    east, north, up = np.rint(np.degrees(gyro) * 131).T
+    want = [north / 131, -(east * 0.1 + 0.5), up / 131]
+    np.testing.assert_allclose(np.degrees(read.gyro), np.transpose(want), rtol=1e-12)
+    np.testing.assert_array_equal(found.recording.gyro, read.gyro)
+    assert inspect(log, written).column_map.count("[frame]") == 1
+
+
+def test_rate_and_further_files_of_a_given_map_are_kept(tmp_path):
+    _, gyro, accel = turned()
+    log = raw_logs.text(tmp_path / "a.csv", ["gx [rad/s],gy [rad/s],gz [rad/s]"], [*gyro.T])
+    raw_logs.text(tmp_path / "b.csv", ["x,y,z"], [*accel.T])
+    cells = "".join(f'"g{a} [rad/s]" = "gyro_{a} [rad/s]"\n' for a in "xyz")
+    forces = "".join(f'"{a}" = "accel_{a} [count]"\n' for a in "xyz")
+    rate = 'sample_rate = {value = 100, unit = "Hz"}\n'
+    (tmp_path / "given.toml").write_text(
+        f"{rate}[columns]\n{cells}[[file]]\nname = 'b.csv'\n"
+        f'{rate}[file.columns]\n{forces}[file.scale]\naccel = {{value = 1.0, unit = "m/s^2"}}\n'
+    )
+    given = tomllib.loads((tmp_path / "given.toml").read_text())
+    for files in ([log], [log, tmp_path / "b.csv"]):
+        written = inspect(files, tmp_path / "given.toml").write_map(tmp_path / "map.toml")
+        assert tomllib.loads(written.read_text()) == given
+        np.testing.assert_array_equal(read_recording(log, written).accel, accel)
+
+
+def test_the_topics_of_a_given_map_are_kept(tmp_path):
+    pytest.importorskip("pymavlink")
+    log = raw_logs.dataflash_text(tmp_path, turned())
+    (tmp_path / "given.toml").write_text('[topics]\nimu = "IMU[0]"\n')
+    written = inspect(log, tmp_path / "given.toml").write_map(tmp_path / "map.toml")
+    assert tomllib.loads(written.read_text())["topics"] == {"imu": "IMU[0]"}
+    np.testing.assert_array_equal(
+        read_recording(log, written).gyro, read_recording(log, tmp_path / "given.toml").gyro
+    )
 
 
 def test_of_counts_of_a_gyro_at_rest_the_map_offers_the_common_sizes(tmp_path):

@@ -63,6 +63,21 @@ def test_the_table_has_the_points_of_the_lines_and_of_the_edges_of_a_band(figure
     assert head[above["x"]] == "time [s] (y [mg])" and above["xlabel"] == "time [s]"
 
 
+def test_a_band_with_gaps_is_one_curve_with_empty_cells():
+    """As where a log has no samples: two edges, and in each gap a point that has no ordinate."""
+    figure = Figure()
+    low = np.array([1.0, 2.0, np.nan, 4.0, np.nan, 6.0, 7.0])
+    at = np.arange(7.0)
+    figure.subplots().fill_between(at, low, low + 1, color=AFTER, label="x")
+    shown = picture(figure)
+    (_, *rows), (panel,) = table(shown), json.loads(shown.curves.panels)
+    below, above = (s["column"] for s in panel["series"])
+    assert [s["label"] for s in panel["series"]] == ["x, low", "x, high"]
+    assert [float(r[panel["x"]]) for r in rows] == list(at)
+    assert [r[below] for r in rows] == ["1", "2", "", "4", "", "6", "7"]
+    assert [r[above] for r in rows] == ["2", "3", "", "5", "", "7", "8"]
+
+
 def test_a_page_carries_the_script_and_its_licence_once_where_there_are_curves(figure):
     page = templates("pyimu.report").from_string(
         '{% extends "page.html" %}{% from "parts.html" import picture %}'

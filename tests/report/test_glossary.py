@@ -17,6 +17,8 @@ USED = {
     "quasi-static": "100 % quasi-static",
     "smoothed": "by the smoother",
     "specimen": "a specimen each",
+    "at rest": "moves; 2 rests of 6.18 s together",
+    "column map": "<h2>Column map</h2>",
     "zero-velocity update": "zero velocities hold it",
 }
 

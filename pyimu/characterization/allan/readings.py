@@ -17,6 +17,10 @@ CLEAR = 4.0
 FEW = 10.0
 """Clusters that must fit into the record for their deviation to be read."""
 
+AFTER = 2.0
+"""Times the cluster time of the floor up to which the curve must be read for it to be one: where a
+curve falls to its end it scatters by a quarter, so that its lowest point is not always the last."""
+
 
 @dataclass(frozen=True)
 class Reading:
@@ -32,10 +36,15 @@ class Reading:
 
 @dataclass(frozen=True)
 class Floor:
-    """The lowest Allan deviation, in the unit of the samples, and its cluster time ``tau`` [s]."""
+    """The lowest Allan deviation, in the unit of the samples, and its cluster time ``tau`` [s].
+
+    ``bound`` says that it is an upper bound alone: it lies so near the last cluster time that is
+    read that the curve may go on falling.
+    """
 
     deviation: float
     tau: float
+    bound: bool = False
 
     @property
     def instability(self) -> float:
@@ -76,8 +85,10 @@ def floor(tau: np.ndarray, deviation: np.ndarray) -> Floor:
 
     The cluster times ``tau`` (t,) s rise and reach half the record.
     """
-    lowest = int(np.argmin(np.where(_legible(tau), deviation, np.inf)))
-    return Floor(float(deviation[lowest]), float(tau[lowest]))
+    legible = _legible(tau)
+    lowest = int(np.argmin(np.where(legible, deviation, np.inf)))
+    bound = tau[lowest] > tau[legible][-1] / AFTER
+    return Floor(float(deviation[lowest]), float(tau[lowest]), bool(bound))
 
 
 def _legible(tau: np.ndarray) -> np.ndarray:

@@ -35,8 +35,9 @@ def contents(c: Outcome) -> dict[str, Any]:
     ``rows``, ``duration`` [s], ``quality`` (as in the report of ``pyimu close``), ``sensors``,
     ``magnetometer``, null where ``magnetometer_reason`` says why, or where there is none};
     ``part``: {channel: {letter: coefficient + ``spread`` over the logs, null for one}};
-    ``data_sheet``, null without: {``part``, by sensor [{``name``, ``unit``, ``data_sheet``,
-    ``measured`` (x, y, z) as printed, ``times`` the data sheet's}]}.
+    ``data_sheet``, null without one or without a part: {``part``, by sensor [{``name``, ``unit``,
+    ``data_sheet``, ``measured`` (x, y, z) as printed, ``times`` the data sheet's,
+    ``upper_bound``}]}.
 
     ``magnetometer``: {``bias``, ``matrix``, ``misalignment``, ``strength``, ``dip`` and ``delay``,
     each {``value``, ``std``, ``unit``}; ``noise``, ``along`` and ``across``: {``value``, ``unit``};
@@ -52,12 +53,13 @@ def contents(c: Outcome) -> dict[str, Any]:
     [coefficient of the standard deviation + {``correlation_time`` [s], ``correlation_time_spread``
     of its logarithm}], ``models``: those compared, the one taken first [{``terms``,
     ``correlation_times`` [s], ``log_likelihood`` and ``cost`` [nat], ``model_error``}], ``floor``:
-    {``deviation``, ``tau``}, ``lines``: [{``frequency``, ``frequency_std`` and ``width`` [Hz],
+    {``deviation``, ``tau``, ``upper_bound``: whether a longer log may show a lower one},
+    ``lines``: [{``frequency``, ``frequency_std`` and ``width`` [Hz],
     ``amplitude``, ``amplitude_std``, ``unit``, ``ratio`` to the background, ``p_value``,
     ``relation``}], ``thermal`` and its ``hysteresis`` with ``kh`` and ``width`` [K] of the
     catalogue's effect, ``warm_up``, ``bandwidth`` (where the noise is down by 3 dB, the kind
-    of ``low_pass`` and its ``order``, null where it was read off, and others ``alike``),
-    ``reason``}}.
+    of ``low_pass`` and its ``order``, null where it was read off, and others ``alike``;
+    null in a log that moves), ``reason``}}.
 
     A coefficient is {``value``, ``std``, ``low``, ``high``, ``unit``, ``needed``}; one that is
     not needed has the value null and the interval from 0 to its upper bound. What is not a
@@ -182,7 +184,7 @@ def _noise(n: NoiseAnalysis, kind: str) -> dict[str, Any]:
             }
             for m in n.fit.models
         ],
-        "floor": {"deviation": n.floor.deviation, "tau": n.floor.tau},
+        "floor": {"deviation": n.floor.deviation, "tau": n.floor.tau, "upper_bound": n.floor.bound},
     }
 
 

@@ -14,6 +14,7 @@ from pyimu.characterization.report.coefficients import (
     SAMPLE_UNIT,
     TERM_NAMES,
     UNITS,
+    floor_cell,
     value_or_bound,
 )
 from pyimu.model.part import AXES, Part
@@ -28,11 +29,15 @@ NOISES = {"N": ("angle_random_walk", "N"), "K": ("rate_random_walk", "K")}
 """The coefficients that data sheets print as such, and where a part has them."""
 
 
+NO_BOUNDS = (False, False, False)
+
+
 @dataclass(frozen=True)
 class Compared:
     """One figure: what it is called, its unit, the data sheet's and the measured ones (x, y, z).
 
-    ``times`` are the measured over the data sheet's, None where one of them is missing or none.
+    ``times`` are the measured over the data sheet's, None where one of them is missing or none;
+    ``bounds`` say which of the measured ones are upper bounds.
     """
 
     name: str
@@ -40,6 +45,7 @@ class Compared:
     sheet: str
     measured: tuple[str, ...]
     times: tuple[float | None, ...]
+    bounds: tuple[bool, ...] = NO_BOUNDS
 
     @property
     def verdict(self) -> str:
@@ -60,6 +66,8 @@ def beside_lines(c: Outcome) -> list[str]:
     """The comparison for a terminal; empty without a data sheet."""
     if c.part_given is None:
         return []
+    if c.no_part:
+        return ["", f"not set beside {c.part_given.name}: {c.no_part}"]
     lines = ["", f"beside {c.part_given.name} ({c.part_given.description or 'no description'}):"]
     for kind, found in compared(c, c.part_given).items():
         head = (SENSORS[kind], "", "data sheet", *AXES, "measured over it")
@@ -69,8 +77,8 @@ def beside_lines(c: Outcome) -> list[str]:
 
 
 def beside_tables(c: Outcome) -> list[tuple[str, Table]]:
-    """The comparison for the page, a table a sensor; empty without a data sheet."""
-    if c.part_given is None:
+    """The comparison for the page, a table a sensor; empty without a data sheet or a part."""
+    if c.part_given is None or c.no_part:
         return []
     tables = []
     for kind, found in compared(c, c.part_given).items():
@@ -83,8 +91,8 @@ def beside_tables(c: Outcome) -> list[tuple[str, Table]]:
 
 
 def beside_entry(c: Outcome) -> dict[str, Any] | None:
-    """The comparison for report.json; None without a data sheet."""
-    if c.part_given is None:
+    """The comparison for report.json; None without a data sheet or a part."""
+    if c.part_given is None or c.no_part:
         return None
     sensors = {
         kind: [
@@ -94,6 +102,7 @@ def beside_entry(c: Outcome) -> dict[str, Any] | None:
                 "data_sheet": v.sheet,
                 "measured": v.measured,
                 "times": v.times,
+                "upper_bound": v.bounds,
             }
             for v in found
         ]
@@ -116,18 +125,24 @@ def _noise(c: Outcome, part: Part, kind: str) -> Iterator[Compared]:
                 MISSING if s is None else value_or_bound(s.mean, si, unit, factor) for s in found
             ]
             times = [_ratio(s.mean, v) if s else None for s, v in zip(found, sheet, strict=True)]
-            yield _row(name, unit, factor * in_unit(sheet, si, unit), cells, times)
+            bounds = tuple(s is not None and not s.mean.needed for s in found)
+            yield _row(name, unit, factor * in_unit(sheet, si, unit), cells, times, bounds)
     B = values.get("bias_instability", {}).get("B")
-    floors = [[ch.noise.floor for ch in c.channel(f"{kind}_{axis}") if ch.noise] for axis in AXES]
+    floors = c.floors(kind)
     if B is not None and np.any(B) and any(floors):
         unit, printed = UNITS[kind]["B"], flicker_floor(1.0) * B
-        lowest = [np.mean([f.deviation for f in own]) if own else np.nan for own in floors]
+        bounds = tuple(any(f.bound for f in own) for own in floors)
+        lowest = [
+            np.mean([f.deviation for f in own]) if own and not bound else np.nan
+            for own, bound in zip(floors, bounds, strict=True)
+        ]
         yield _row(
             "lowest Allan deviation (bias stability)",
             unit,
             in_unit(printed, SAMPLE[kind], unit),
-            [number(float(v)) for v in in_unit(lowest, SAMPLE[kind], unit)],
+            [floor_cell(own, kind) for own in floors],
             [float(a / b) if b else None for a, b in zip(lowest, printed, strict=True)],
+            bounds,
         )
 
 
@@ -187,7 +202,7 @@ def _within(name: str, unit: str, si: str, t: Tolerance, values: list[float]) ->
     return Compared(
         name,
         unit,
-        t.size(3),
+        t.size(3).replace("+-", "±"),
         tuple(number(float(v)) for v in in_unit(values, si, unit)),
         tuple(abs(v) / s if s else None for v, s in zip(values, sizes, strict=True)),
     )
@@ -199,10 +214,11 @@ def _row(
     sheet: np.ndarray,
     cells: Sequence[str],
     times: Sequence[float | None],
+    bounds: tuple[bool, ...] = NO_BOUNDS,
 ) -> Compared:
     texts = list(dict.fromkeys(number(float(v)) for v in sheet))
     said = texts[0] if len(texts) == 1 else ", ".join(number(float(v)) for v in sheet)
-    return Compared(name, unit, said, tuple(cells), tuple(times))
+    return Compared(name, unit, said, tuple(cells), tuple(times), bounds)
 
 
 def _in(value: float, kind: str, unit: str) -> str:

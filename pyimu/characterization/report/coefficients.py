@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
+from pyimu.characterization.allan.readings import Floor
 from pyimu.characterization.noise.coefficients import Coefficient
+from pyimu.characterization.outcome import SAMPLE
 from pyimu.report.numbers import MISSING, SCRIPTS, in_unit, number
 
 READING_ORDER = "NBKQR"
@@ -75,6 +79,18 @@ def value_or_bound(c: Coefficient, si: str, unit: str, factor: float = 1.0) -> s
     if c.needed:
         return number(factor * float(in_unit(c.value, si, unit)))
     return f"< {number(factor * float(in_unit(c.high, si, unit)))}"
+
+
+def floor_cell(floors: Sequence[Floor], kind: str, factor: float = 1.0) -> str:
+    """``factor`` times the mean of the lowest Allan deviations of logs, in the unit of B.
+
+    It is ``< 3.5`` where one of them is an upper bound, a dash where there is none.
+    """
+    if not floors:
+        return MISSING
+    mean = factor * np.mean([f.deviation for f in floors])
+    text = number(float(in_unit(mean, SAMPLE[kind], UNITS[kind]["B"])))
+    return f"< {text}" if any(f.bound for f in floors) else text
 
 
 def digits(c: Coefficient) -> int:

@@ -53,7 +53,7 @@ def about(log: LogResult) -> str:
 
 def notes(c: Outcome) -> list[str]:
     """What must be known of the logs: doubts, gaps, and channels that are left out."""
-    return [line for log in c.logs for line in (*doubts(log), *_gaps(log))] + [
+    return [line for log in c.logs for line in (*doubts(log), *_gaps(log), *_floors(log))] + [
         f"{log.name}: {ch.name} is left out: {ch.reason}."
         for log in c.logs
         for ch in log.channels
@@ -76,6 +76,18 @@ def _gaps(log: LogResult) -> Iterator[str]:
                 f"{used} segments, up to {duration(s.longest * s.h)} each, and the spectrum of "
                 "all."
             )
+
+
+def _floors(log: LogResult) -> Iterator[str]:
+    """Of which channels the lowest Allan deviation is an upper bound."""
+    falling = [ch for ch in log.channels if ch.noise is not None and ch.noise.floor.bound]
+    if falling and not log.moves:
+        last = max(ch.noise.floor.tau for ch in falling if ch.noise is not None)
+        yield (
+            f"{log.name}: {', '.join(ch.name for ch in falling)}: the Allan deviation falls as far "
+            f"as it is read ({number(last)} s): the lowest one is an upper bound ('<') of the bias "
+            "stability, and a longer log may show a lower one."
+        )
 
 
 def doubts(log: LogResult) -> Iterator[str]:
@@ -118,21 +130,30 @@ def why_no_part(c: Outcome) -> list[str]:
     return said
 
 
+def what_it_is(c: Outcome) -> str:
+    """What the coefficients are, where they are not the sensor's own; else nothing."""
+    if c.moving:
+        return "noise and motion together"
+    return "in a false unit" if c.in_counts else ""
+
+
 def _not_at_rest(log: LogResult) -> Iterator[str]:
     """That a log holds raw counts, which look like motion, or else moves."""
     counts, moving = (
         [f.column for f in log.findings if f.kind == kind] for kind in ("counts", "motion")
     )
     if counts:
+        verb = "holds" if len(counts) == 1 else "hold"
         yield (
-            f"{log.name}: {', '.join(counts)} hold whole numbers, as counts of a converter do, in "
-            "a unit that no sensor is that coarse in: "
+            f"{log.name}: {', '.join(counts)} {verb} whole numbers, as counts of a converter do, "
+            "in a unit that no sensor is that coarse in: "
             "the coefficients are in a false unit. Say the size of a count in a column map, "
             "[scale]."
         )
     elif moving:
+        verb = "changes" if len(moving) == 1 else "change"
         yield (
-            f"{log.name}: not at rest: {', '.join(moving)} change more from one second to the next "
+            f"{log.name}: not at rest: {', '.join(moving)} {verb} more from one second to the next "
             "than noise does, "
             "so that the coefficients are also those of the motion. Give a log at rest, or the "
             "part of it that is."

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pyimu.attitude.magnetometer import EARTH, ROOM
-from pyimu.characterization.magnetometer.estimate import MagnetometerFit
 from pyimu.characterization.outcome import Outcome
 from pyimu.report.numbers import number
+
+if TYPE_CHECKING:
+    from pyimu.characterization.magnetometer.estimate import MagnetometerFit
 
 
 def magnetometer_lines(c: Outcome) -> list[str]:
@@ -25,6 +26,8 @@ def magnetometer_lines(c: Outcome) -> list[str]:
 
 
 def _sentences(f: MagnetometerFit) -> Iterator[str]:
+    from pyimu.attitude.magnetometer import EARTH, ROOM
+
     matrix, std = f.calibration.matrix, f.matrix_std
     diagonal = np.diag_indices(3)
     rows = "; ".join(" ".join(f"{v:.4f}" for v in row) for row in matrix)

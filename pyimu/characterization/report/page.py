@@ -20,7 +20,7 @@ from pyimu.characterization.report.channel_notes import (
     spectrum_note,
     thermal_sentence,
 )
-from pyimu.characterization.report.log_notes import about, notes, why_no_part
+from pyimu.characterization.report.log_notes import about, notes, what_it_is, why_no_part
 from pyimu.characterization.report.magnetometer import magnetometer_lines
 from pyimu.characterization.report.pictures.allan import allan_picture, deviations_picture
 from pyimu.characterization.report.pictures.evidence import evidence_picture
@@ -59,13 +59,18 @@ def in_notebook(c: Outcome) -> str:
     pictures = [
         notebook.picture(_allan(c, kind).svg) for kind in c.kinds if _characterised(c, kind)
     ]
-    return notebook.block("Characterization", headline(c), *pictures, notebook.lines(in_lines(c)))
+    return notebook.block("Characterization", _opening(c), *pictures, notebook.lines(in_lines(c)))
+
+
+def _opening(c: Outcome) -> str:
+    """Noise of each sensor, or why there is none to be told."""
+    return " ".join(why_no_part(c)) or headline(c)
 
 
 def _contents(c: Outcome) -> dict[str, Any]:
     return {
         "title": ", ".join(log.name for log in c.logs),
-        "headline": " ".join([*why_no_part(c), headline(c)]),
+        "headline": _opening(c),
         "logs": [f"{log.name}: {about(log)}" for log in c.logs],
         "notes": notes(c),
         "level": f"{100 * c.level:g}",
@@ -112,9 +117,10 @@ def _sensor(c: Outcome, kind: str) -> dict[str, Any]:
             "searched": [],
         }
     logs = [log for log in c.logs if kind in log.sensors]
-    spectra = [_spectrum(log, kind, len(c.logs) > 1) for log in logs]
+    spectra = [_spectrum(log, kind, _named(c, kind), len(c.logs) > 1) for log in logs]
     return {
         "name": SENSORS[kind],
+        "what": what_it_is(c),
         "allan": _allan(c, kind),
         "coefficients": coefficient_table(c, kind),
         "models": model_table(c, kind),
@@ -143,6 +149,12 @@ def _characterised(c: Outcome, kind: str) -> bool:
     return any(ch.noise for axis in AXES for ch in c.channel(f"{kind}_{axis}"))
 
 
+def _named(c: Outcome, kind: str) -> str:
+    """The sensor, and what is seen of it where that is not its own noise."""
+    what = what_it_is(c)
+    return SENSORS[kind].capitalize() + (f", {what}" if what else "")
+
+
 def _allan(c: Outcome, kind: str) -> Picture:
     name = SENSORS[kind]
     interval = (
@@ -151,7 +163,7 @@ def _allan(c: Outcome, kind: str) -> Picture:
         else " The interval is that of the degrees of freedom which the fitted noise leaves."
     )
     caption = (
-        f"{name.capitalize()}: overlapping Allan deviation, measured and fitted; dotted, each term "
+        f"{_named(c, kind)}: overlapping Allan deviation, measured and fitted; dotted, each term "
         f"of the fit by itself.{interval}"
     )
     return Picture(Markup(allan_picture(c, kind)), caption, f"Allan deviation of the {name}")
@@ -161,7 +173,7 @@ def _deviations(c: Outcome, kind: str) -> Picture:
     name = SENSORS[kind]
     where = f" Log {c.logs[0].name}." if len(c.logs) > 1 else ""
     caption = (
-        f"{name.capitalize()}: the modified deviation tells quantization from white noise, the "
+        f"{_named(c, kind)}: the modified deviation tells quantization from white noise, the "
         f"Hadamard deviation does not see a ramp.{where}"
     )
     svg = Markup(deviations_picture(c, kind))
@@ -187,7 +199,7 @@ def _notes(c: Outcome, kind: str) -> list[str]:
     ]
 
 
-def _spectrum(log: LogResult, kind: str, several: bool) -> Picture | None:
+def _spectrum(log: LogResult, kind: str, named: str, several: bool) -> Picture | None:
     svg = spectrum_picture(log.sensors[kind])
     if svg is None:
         return None
@@ -201,7 +213,7 @@ def _spectrum(log: LogResult, kind: str, several: bool) -> Picture | None:
     )
     where = f" Log {log.name}." if several else ""
     caption = (
-        f"{SENSORS[kind].capitalize()}: root of the one-sided power spectral density (Welch, Hann "
+        f"{named}: root of the one-sided power spectral density (Welch, Hann "
         "window, averaged in logarithm) and "
         "the noise fitted to the Allan deviation, also one-sided: white noise N lies at √2 "
         f"N.{compensated}{where}"

@@ -19,6 +19,7 @@ from pyimu.characterization.report.coefficients import (
     SECOND_N_UNIT,
     TERM_NAMES,
     UNITS,
+    floor_cell,
     value_or_bound,
     with_interval,
     with_interval_si,
@@ -28,6 +29,7 @@ from pyimu.characterization.spectrum.lines import Line
 from pyimu.model.part import AXES
 from pyimu.report.numbers import MISSING, in_unit, joined, number, pretty, unit_for
 from pyimu.report.page import Table, prose
+from pyimu.shaping import flicker_floor
 
 COMPARED = 4
 """Models of a channel that are shown."""
@@ -126,15 +128,14 @@ def _other_n(kind: str, found: Sequence[Summary | None]) -> Iterator[tuple]:
 def _floors(c: Outcome, kind: str) -> Iterator[tuple]:
     """The lowest Allan deviations, and B as it is read off them."""
     unit = UNITS[kind]["B"]
-    floors = [[ch.noise.floor for ch in c.channel(f"{kind}_{axis}") if ch.noise] for axis in AXES]
-    for title, note, values in (
-        ("lowest Allan deviation", "", [[v.deviation for v in f] for f in floors]),
-        ("B as read off it", ", over 0.664", [[v.instability for v in f] for f in floors]),
+    for title, note, factor in (
+        ("lowest Allan deviation", "", 1.0),
+        ("B as read off it", ", over 0.664", 1 / flicker_floor(1.0)),
     ):
         name = Markup('<span class="words">{}<small>{}</small></span>').format(
             title, f"{pretty(unit)}{note}"
         )
-        yield (name, *(_in(np.mean(v), SAMPLE[kind], unit) if v else MISSING for v in values))
+        yield (name, *(floor_cell(f, kind, factor) for f in c.floors(kind)))
 
 
 def _in(value: float, si: str, unit: str) -> str:

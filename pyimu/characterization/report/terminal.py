@@ -20,9 +20,10 @@ from pyimu.characterization.report.coefficients import (
     READING_ORDER,
     TERM_NAMES,
     UNITS,
+    floor_cell,
     with_interval,
 )
-from pyimu.characterization.report.log_notes import about, duration, notes, why_no_part
+from pyimu.characterization.report.log_notes import about, duration, notes, what_it_is, why_no_part
 from pyimu.characterization.report.magnetometer import magnetometer_lines
 from pyimu.model.part import AXES
 from pyimu.report.findings import SENSORS, in_line
@@ -39,7 +40,8 @@ def in_lines(c: Outcome) -> str:
         "",
         (
             f"Intervals: {100 * c.level:g} %. '<' is an upper bound: the data do not need the "
-            "term. N is the root of the two-sided density."
+            "term, or the log is too short to show how low the deviation comes. N is the root of "
+            "the two-sided density."
         ),
     ]
     if len(c.logs) > 1:
@@ -53,23 +55,18 @@ def in_lines(c: Outcome) -> str:
 
 def _rows(c: Outcome, kind: str) -> list[tuple[str, ...]]:
     """The coefficients of a sensor, one a row, and its lowest Allan deviations."""
-    rows = [(SENSORS[kind], "", *AXES)]
+    what = what_it_is(c)
+    rows = [(f"{SENSORS[kind]} ({what})" if what else SENSORS[kind], "", *AXES)]
     for term in READING_ORDER:
         summaries = [c.coefficients.get((f"{kind}_{axis}", term)) for axis in AXES]
         if any(summaries):
             name = f"  {term} {TERM_NAMES[kind][term]}"
             rows.append((name, UNITS[kind][term], *(_cell(s, kind, term) for s in summaries)))
     rows.extend(_markov(c, kind))
-    floors = [[ch.noise.floor for ch in c.channel(f"{kind}_{axis}") if ch.noise] for axis in AXES]
-    unit = UNITS[kind]["B"]
     cells = [
-        f"{number(float(in_unit(np.mean([v.deviation for v in f]), SAMPLE[kind], unit)))} at "
-        f"{number(f[0].tau)} s"
-        if f
-        else MISSING
-        for f in floors
+        f"{floor_cell(f, kind)} at {number(f[0].tau)} s" if f else MISSING for f in c.floors(kind)
     ]
-    return [*rows, ("  lowest Allan deviation", unit, *cells)]
+    return [*rows, ("  lowest Allan deviation", UNITS[kind]["B"], *cells)]
 
 
 def _markov(c: Outcome, kind: str) -> Iterator[tuple[str, ...]]:

@@ -29,6 +29,7 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
+from pyimu.brief import Brief
 from pyimu.characterization.spectrum.cascade import DECIMATION, Stage, hann
 from pyimu.laws import chi2
 
@@ -46,8 +47,8 @@ SHORTEST, LONGEST = 256, 16384
 """Limits of the window length, which is otherwise the longest that a record holds sixteen times."""
 
 
-@dataclass(frozen=True)
-class Psd:
+@dataclass(frozen=True, repr=False)
+class Psd(Brief):
     """One-sided densities (m, c), in the square of the samples' unit per Hz.
 
     They are at ``frequency`` (m,) Hz. ``averages`` (m,) are the equivalent independent averages; an

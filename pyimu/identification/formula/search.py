@@ -44,6 +44,7 @@ from pyimu.identification.search.leftover import Unexplained
 from pyimu.identification.search.own_signal import is_of_reference
 from pyimu.identification.search.screen import PENALTY, fitted_dispersion, fitted_gain
 from pyimu.model.catalogue import CATALOGUE
+from pyimu.silent import silent
 
 CONFIRMED, CHANCE = 0.3, 2.0
 """Share of what the models differ by on held-out rows that these must gain: all of it in the mean
@@ -90,7 +91,7 @@ class Look:
 def look(
     inv: Investigation,
     again: Again,
-    say: Callable[[str], None] = lambda text: None,
+    say: Callable[[str], None] = silent,
 ) -> Look:
     """Look for a formula for what an investigation left.
 

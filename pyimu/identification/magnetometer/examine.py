@@ -39,6 +39,7 @@ from pyimu.identification.model_of import Found
 from pyimu.identification.verdict import FAR
 from pyimu.model.part import Part
 from pyimu.recording.recording import Recording
+from pyimu.silent import silent
 
 GATE = 0.01
 """Probability with which a magnetometer that lacks nothing passes for one that does."""
@@ -105,7 +106,7 @@ def examined(
     others: list[Recording],
     found: Found,
     unfit: str,
-    say: Callable[[str], None] = lambda text: None,
+    say: Callable[[str], None] = silent,
 ) -> Examined | str:
     """What the magnetometer of the logs shows, or why it was not examined; empty without one.
 

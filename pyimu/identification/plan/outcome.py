@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from pyimu.brief import Brief
 from pyimu.files import plain
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.plan.goals import Goal
@@ -62,8 +63,8 @@ class Pair:
     distance: float
 
 
-@dataclass(frozen=True)
-class Log:
+@dataclass(frozen=True, repr=False)
+class Log(Brief):
     """Motions to be recorded in one go, and the truth of them as a recording."""
 
     steps: tuple[Step, ...]

@@ -22,9 +22,10 @@ from pyimu.identification.plan.words import (
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.report.numbers import MISSING, number, quantity
 from pyimu.report.page import Picture, Table, both, prose, templates
+from pyimu.silent import silent
 
 
-def page(p: Outcome, heard: Callable[[float], None] = lambda share: None) -> str:
+def page(p: Outcome, heard: Callable[[float], None] = silent) -> str:
     """The plan as one HTML page that needs nothing beside it.
 
     ``heard`` hears which share of its pictures is drawn.

@@ -41,6 +41,7 @@ from pyimu.model.sensor import Sensor
 from pyimu.model.typical import magnitudes
 from pyimu.recording.recording import Recording
 from pyimu.report.numbers import quantity
+from pyimu.silent import silent
 from pyimu.threads import on_one_thread
 
 SIGMAS = 8.0
@@ -66,7 +67,7 @@ def plan(
     sensor: str | None = None,
     within: Sequence[str] | str = (),
     sigmas: float = SIGMAS,
-    say: Say = lambda text, share=None: None,
+    say: Say = silent,
 ) -> Plan:
     """The shortest set of motions that would show effects of a part, and how well.
 
@@ -160,7 +161,7 @@ class _Planner:
         return recorded([motion], self.limits, step_of([motion]), self.signals)
 
     def _of(
-        self, motions: Sequence[Motion], heard: Callable[[float], None] = lambda share: None
+        self, motions: Sequence[Motion], heard: Callable[[float], None] = silent
     ) -> Information:
         """What motions one after the other show; ``heard`` hears which share of that is done."""
         h = step_of(motions, self.part.sample_period)

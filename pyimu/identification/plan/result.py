@@ -11,11 +11,18 @@ from pyimu.files import staged, write_json, write_text
 from pyimu.identification.plan.outcome import Outcome
 from pyimu.identification.plan.page import page
 from pyimu.identification.plan.words import in_lines
+from pyimu.silent import silent
 
 
 @dataclass(frozen=True)
 class Plan(Outcome):
     """Result of ``pyimu.plan``: motions to make, and what they would show."""
+
+    def __repr__(self) -> str:
+        return (
+            f"Plan({self.part!r}: {self.kind} {', '.join(self.effects)}; {len(self.logs)} "
+            f"log{'s' * (len(self.logs) != 1)})"
+        )
 
     def report(self) -> str:
         """A few lines for a terminal or a notebook."""
@@ -24,7 +31,7 @@ class Plan(Outcome):
     def write(
         self,
         out: str | os.PathLike,
-        say: Callable[[str, float], None] = lambda text, share: None,
+        say: Callable[[str, float], None] = silent,
     ) -> Path:
         """Write ``plan.html``, ``plan.json`` and the motions as recordings into the folder ``out``.
 

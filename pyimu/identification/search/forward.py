@@ -42,6 +42,7 @@ from pyimu.identification.search.screen import (
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.effects import EFFECTS
 from pyimu.model.sensor import Sensor
+from pyimu.silent import silent
 
 FORM = 0.01
 """Share of what a lag or a delay explains that its form may leave: a tenth of its amplitude, as the
@@ -116,7 +117,7 @@ def investigate(
     free: frozenset,
     trials: list[Trial],
     held: list[Trial],
-    say: Callable[[str], None] = lambda text: None,
+    say: Callable[[str], None] = silent,
     prior: Mapping[Coefficient, float] = MappingProxyType({}),
     unfit: str = "",
     believed: bool = False,

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from pyimu.brief import Brief
 from pyimu.identification.fit.fit import Fit, with_prior
 from pyimu.identification.fit.keys import Coefficient, Key
 from pyimu.identification.fit.normal import Normal, solve
@@ -46,8 +47,8 @@ VISIBLE = 6.0
 """How many standard errors a coefficient must exceed to count as visible in a log."""
 
 
-@dataclass(frozen=True)
-class Screened:
+@dataclass(frozen=True, repr=False)
+class Screened(Brief):
     """Gain of one effect before any correction, the groups that take part, the scanned values and
     the form to start from.
 
@@ -85,8 +86,8 @@ class Screened:
         return replace(self, groups=kept, values=values)
 
 
-@dataclass(frozen=True)
-class Screening:
+@dataclass(frozen=True, repr=False)
+class Screening(Brief):
     candidates: tuple[Screened, ...]
     gate: float
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from pyimu.brief import Brief
 from pyimu.errors import UserError
 from pyimu.recording.columns import GROUP_OF, XYZ, own_name
 from pyimu.recording.counter import Unwrapped
@@ -65,8 +66,8 @@ class Guess:
         return GROUP_OF[self.target]
 
 
-@dataclass
-class Proposal:
+@dataclass(repr=False)
+class Proposal(Brief):
     """What the columns of a file may be.
 
     ``notes`` say what else could be meant; ``rate`` [Hz] is what the file says of itself, or

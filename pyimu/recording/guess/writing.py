@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+import re
+from collections.abc import Container, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
 
 from pyimu.recording.guess.proposal import CHOICES, Guess, Proposal
 
@@ -11,8 +15,38 @@ WIDTH = 46
 """Characters in front of a remark."""
 
 
-def text_of(proposals: Sequence[Proposal]) -> str:
-    """The column map of a log that lies in the files of the ``proposals``, the first its own."""
+@dataclass(frozen=True)
+class MapGiven:
+    """A map that is there already: its ``data``, and the name of the ``file`` that it is for."""
+
+    data: Mapping[str, Any] = field(default_factory=dict)
+    file: str = ""
+
+    def scale(self, path: Path) -> Mapping[str, Any]:
+        """The sizes of counts of one of the log's files."""
+        if path.name == self.file:
+            return self.data.get("scale", {})
+        entries = (e for e in self.data.get("file", []) if e["name"] == path.name)
+        return next(entries, {}).get("scale", {})
+
+    def files(self, known: Container[str]) -> list[Mapping[str, Any]]:
+        """The further files that are none of those that are ``known``."""
+        return [e for e in self.data.get("file", []) if Path(e["name"]).name not in known]
+
+
+FRAME = (
+    "# Axes, where they are not forward-left-up and east-north-up:",
+    "# [frame]",
+    '# body = "frd"     # forward-right-down, or a 3 x 3 rotation',
+    '# world = "ned"    # north-east-down',
+)
+
+
+def text_of(proposals: Sequence[Proposal], given: MapGiven = MapGiven()) -> str:
+    """The column map of a log that lies in the files of the ``proposals``, the first its own.
+
+    What the map that was ``given`` says besides columns stands in it as it was.
+    """
     first, *others = proposals
     lines = [
         f"# Column map for {first.path.name}, written by pyimu inspect: look it over, then give it",
@@ -32,20 +66,21 @@ def text_of(proposals: Sequence[Proposal]) -> str:
         lines += ["", "# No column rises as a time does; say the rate if there is none:"]
         lines += ["# " + _rate(100.0)]
     lines += ["", "[columns]", *_columns(first.guesses)]
-    lines += _scales(first.guesses, "scale")
+    lines += _scales(first.guesses, "scale", given.scale(first.path))
     for other in others:
-        lines += ["", "[[file]]", f"name = {json.dumps(other.path.name)}", "", "[file.columns]"]
-        lines += [*_columns(other.guesses), *_scales(other.guesses, "file.scale")]
+        lines += ["", "[[file]]", f"name = {_value(other.path.name)}"]
+        lines += [] if other.rate is None else [_rate(other.rate)]
+        lines += ["", "[file.columns]", *_columns(other.guesses)]
+        lines += _scales(other.guesses, "file.scale", given.scale(other.path))
+    for entry in given.files({p.path.name for p in proposals}):
+        lines += ["", "[[file]]", *_entries(entry)]
+    if "topics" in given.data:
+        lines += ["", "[topics]", *_entries(given.data["topics"])]
     notes = [note for p in proposals for note in p.notes]
     if notes:
         lines += ["", "# What else could be meant:", *(f"# {note}" for note in notes)]
-    lines += [
-        "",
-        "# Axes, where they are not forward-left-up and east-north-up:",
-        "# [frame]",
-        '# body = "frd"     # forward-right-down, or a 3 x 3 rotation',
-        '# world = "ned"    # north-east-down',
-    ]
+    frame = given.data.get("frame")
+    lines += ["", *(["[frame]", *_entries(frame)] if frame else FRAME)]
     return "\n".join(lines) + "\n"
 
 
@@ -67,17 +102,19 @@ def _columns(guesses: Sequence[Guess]) -> list[str]:
 
 
 def _line(guess: Guess, unit: str) -> str:
-    cell = json.dumps(guess.cell, ensure_ascii=False)
-    return f"{cell} = {json.dumps(f'{guess.target} [{unit}]')}"
+    return f"{_value(guess.cell)} = {_value(f'{guess.target} [{unit}]')}"
 
 
 def _remarked(line: str, why: str) -> str:
     return f"{line:{WIDTH}}  # {' '.join(why.split())}"
 
 
-def _scales(guesses: Sequence[Guess], table: str) -> list[str]:
+def _scales(guesses: Sequence[Guess], table: str, given: Mapping[str, Any]) -> list[str]:
+    """The table of sizes of a count: those that were ``given`` as they were, and the others."""
+    guesses = [g for g in guesses if not {g.group, g.target} & given.keys()]
     sizes = {g.group: g for g in guesses if g.value is not None}
-    lines = [
+    lines = _entries(given)
+    lines += [
         _remarked(f'{group} = {{value = {g.value!r}, unit = "{g.unit}"}}', "of one count")
         for group, g in sizes.items()
     ]
@@ -91,3 +128,23 @@ def _scales(guesses: Sequence[Guess], table: str) -> list[str]:
         for size in g.sizes
     ]
     return ["", f"[{table}]", *lines] if lines else []
+
+
+def _entries(table: Mapping[str, Any]) -> list[str]:
+    """A line for each key of a table, what is a table in turn within its line."""
+    return [f"{_key(key)} = {_value(value)}" for key, value in table.items()]
+
+
+def _key(key: str) -> str:
+    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else _value(key)
+
+
+def _value(value: Any) -> str:
+    """A text, a number, a list or a table as TOML has it."""
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(_entries(value)) + "}"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(_value, value)) + "]"
+    # TOML has JSON's texts, but for one character.
+    written = json.dumps(value, ensure_ascii=False)
+    return written.replace("\x7f", "\\u007f") if isinstance(value, str) else written

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from pyimu.recording.clock import runs
 
@@ -29,6 +28,8 @@ def healed(time: np.ndarray, values: np.ndarray, bad: np.ndarray, most: int) -> 
     It follows what is well below 1/(2 (m + 1) h) Hz across m samples, with an error of the fourth
     order, and is as noisy as a sample.
     """
+    from scipy.interpolate import CubicSpline  # a tenth of a second, and few logs need it
+
     out, short = np.array(values), short_runs(bad, most)
     for column in np.flatnonzero(short.any(axis=0)):
         good, rows = ~bad[:, column], short[:, column]

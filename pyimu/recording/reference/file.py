@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from pyimu.errors import UserError
 from pyimu.recording.columns import GROUPS
@@ -90,6 +89,8 @@ def _span(recording: Recording, origin: float) -> str:
 
 def _interpolated(nodes: np.ndarray, values: np.ndarray, time: np.ndarray) -> np.ndarray:
     """Values (m, 3) at times (n,) by cubic splines through what is known without gap, else NaN."""
+    from scipy.interpolate import CubicSpline  # a tenth of a second, and few logs need it
+
     out = np.full((len(time), values.shape[1]), np.nan)
     track = Track(nodes, fresh(values), lambda n: np.diff(values[n], axis=0), np.inf)
     for part in track.segments:

@@ -14,7 +14,6 @@ from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 from scipy.spatial.transform import Rotation
 
 from pyimu.errors import Finding, UserError
@@ -189,6 +188,8 @@ def _from_attitude(
 def _from_heading(
     recording: Recording, source: Recording, latitude: np.ndarray | float | None
 ) -> Reference:
+    from scipy.interpolate import CubicSpline  # a tenth of a second, and few logs need it
+
     check_radians(source)
     heading, time = source.ref_heading, recording.time
     known = fresh(heading[:, None])
@@ -207,6 +208,7 @@ def _from_heading(
 
 def check_radians(source: Recording) -> None:
     """Refuse a heading that goes back by 360 where it should by 2 pi: it counts degrees."""
+
     heading = source.ref_heading[np.isfinite(source.ref_heading)]
     steps = np.abs(np.diff(heading))
     back = steps[steps > HALF]

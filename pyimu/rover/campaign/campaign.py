@@ -16,6 +16,7 @@ from pyimu.rover.campaign.settings import Settings
 from pyimu.rover.campaign.summary import Summary
 from pyimu.rover.campaign.table import Folder, batches
 from pyimu.rover.campaign.workers import Batch, here, on_dask
+from pyimu.silent import silent
 
 Say = Callable[..., None]
 
@@ -54,7 +55,7 @@ def run(
     *,
     scheduler: str | None = None,
     workers: int | None = None,
-    say: Say = lambda text, share=None: None,
+    say: Say = silent,
 ) -> Done:
     """Compute the runs 0 to ``runs`` - 1 that the folder ``out`` does not have yet.
 

@@ -11,6 +11,7 @@ from pyimu.rover.campaign.motion import SOL
 from pyimu.rover.campaign.report.as_json import share_of
 from pyimu.rover.campaign.report.words import claim
 from pyimu.rover.campaign.settings import Settings
+from pyimu.silent import silent
 
 HOURLY = 3600.0
 """s between the headings of a sensor that is asked once an hour."""
@@ -51,7 +52,7 @@ def sols(
     *,
     scheduler: str | None = None,
     workers: int | None = None,
-    say: Say = lambda text, share=None: None,
+    say: Say = silent,
 ) -> Sols:
     """Run the sols of ``settings`` with and without headings, each as ``run`` does.
 
