@@ -10,6 +10,8 @@ import time
 from pathlib import Path
 
 import pytest
+import typer
+from killed import COMMANDS, QUICK
 from places import CHECKOUT, linked
 
 from pyimu.errors import UserError
@@ -19,23 +21,52 @@ from pyimu.held import Held, work_folder
 KILLED = Path(__file__).parent / "support" / "killed.py"
 
 
-@pytest.mark.skipif(not hasattr(os, "fork"), reason="kills by signals")
-def test_killed_at_random_moments(tmp_path):
-    """Twenty-seven kills over nine commands; a run takes longer than the moment is drawn from only
-    by chance, so that nearly all come before its end.
-    """
+def kill(folder, times, names):
+    """Lines of ``killed.py``, one a command."""
     environment = os.environ | {"PYTHONPATH": f"{CHECKOUT}{os.pathsep}{KILLED.parent}"}
     done = subprocess.run(
-        [sys.executable, KILLED, tmp_path, "3"],
+        [sys.executable, KILLED, folder, str(times), *names],
         capture_output=True,
         text=True,
-        timeout=600,
+        timeout=1800,
         check=False,
         env=environment,
     )
-    lines = done.stdout.splitlines()
-    assert done.returncode == 0 and len(lines) == 9, done.stderr
-    assert all(re.fullmatch(r"\w+: killed \d+; ", line) for line in lines), done.stdout
+    assert done.returncode == 0, done.stderr
+    return done.stdout.splitlines()
+
+
+def check_killed(lines, names):
+    assert len(lines) == len(names)
+    for line, name in zip(lines, names, strict=True):
+        assert re.fullmatch(rf"{name}: killed \d+; ", line), line
+
+
+forks = pytest.mark.skipif(not hasattr(os, "fork"), reason="kills by signals")
+
+
+@forks
+def test_killed_at_random_moments(tmp_path):
+    """Three times each of what takes a second or two; nearly all kills come before the end."""
+    check_killed(kill(tmp_path, 3, QUICK), QUICK)
+
+
+@forks
+@pytest.mark.long
+def test_every_command_that_writes_killed_twenty_times(tmp_path):
+    check_killed(kill(tmp_path, 20, COMMANDS), COMMANDS)
+
+
+def test_every_command_that_has_a_folder_for_results_is_killed_and_held():
+    """Of the commands' own options: one that is new is in both lists, or in none."""
+    from pyimu.cli import app
+
+    writes = {
+        command.name
+        for command in typer.main.get_command(app).commands.values()
+        if any({"--out", "--new"} & set(option.opts) for option in command.params)
+    }
+    assert writes == {words[0] for words in COMMANDS.values()} == {*WITH_FOLDER, "parts"}
 
 
 HOLDER = """
@@ -60,11 +91,35 @@ def holder(tmp_path):
     process.communicate()
 
 
-@pytest.mark.parametrize("words", [("export", "mpu6050", "--to", "vins"), ("modelica", "imt30")])
-def test_commands_that_write_at_once_hold_their_folder_too(words, holder, pyimu, tmp_path):
-    code, said, err = pyimu(*words, "--out", "out")
+WITH_FOLDER = {
+    "attitude": ("log.csv",),
+    "build": ("imt30",),
+    "campaign": ("imt30", "--workers", "0"),
+    "characterize": ("log.csv",),
+    "close": ("log.csv", "--part", "imt30"),
+    "demo": (),
+    "derive": (),
+    "export": ("mpu6050", "--to", "vins"),
+    "heading": ("log.csv",),
+    "inspect": ("log.csv",),
+    "modelica": ("imt30",),
+    "navigate": ("log.csv", "--part", "imt30"),
+    "plan": ("mpu6050", "--for", "scale_factor"),
+    "rover": (),
+}
+"""The commands that write to a folder, with what they need besides."""
+
+
+@pytest.mark.parametrize("name", WITH_FOLDER)
+def test_a_folder_that_another_run_holds_is_refused_before_any_work(name, holder, pyimu, tmp_path):
+    """Before the log is read, which is not there."""
+    code, said, err = pyimu(name, *WITH_FOLDER[name], "--out", "out")
     assert (code, said) == (2, "") and "out: another run is writing there" in err
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("words", [("export", "mpu6050", "--to", "vins"), ("modelica", "imt30")])
+def test_a_folder_whose_holder_was_killed_is_free(words, holder, pyimu):
     holder.kill()
     holder.wait()
     assert pyimu(*words, "--out", "out")[0] == 0
