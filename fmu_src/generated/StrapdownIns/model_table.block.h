@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{0253e4d2-ed38-93c5-fc11-4b408ec5ac43}"
-#define MODEL_TOKEN_FMI3 "{53ec0e36-3c4c-d375-5155-7eac8d83cf99}"
+#define MODEL_TOKEN_FMI2 "{7f59eb0d-d9cc-7ecf-87fd-95cf3fa96911}"
+#define MODEL_TOKEN_FMI3 "{244912b2-fd97-93bf-fe41-422c7e750add}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -26,11 +26,14 @@ enum {
 enum { WORK_ARG = 29, WORK_RES = 8, WORK_IW = 0, WORK_W = 1902 };
 
 /* Rows of inputs and outputs. */
-enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };
+enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 685181 };
+
+/* In a step: what a sample takes says how many, as nothing breaks a step off. */
+enum { MODEL_MOST_SAMPLES = 685181 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
-    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 16777216.0},
+    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 685181.0},
     {"gyro", KIND_REAL, ROLE_INPUT, 0, 3, -INFINITY, INFINITY},
     {"accel", KIND_REAL, ROLE_INPUT, 3, 3, -INFINITY, INFINITY},
     {"temperature", KIND_REAL, ROLE_INPUT, 6, 1, -INFINITY, INFINITY},

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{4da6fd17-2ecd-6f5f-0263-ae4bbefa0123}"
-#define MODEL_TOKEN_FMI3 "{5df82946-e556-dfad-6839-2273424a5f7d}"
+#define MODEL_TOKEN_FMI2 "{6615a809-9190-9ab7-72a7-ce88f877c287}"
+#define MODEL_TOKEN_FMI3 "{eebe29e3-7d58-5cc1-28ff-681554e04c40}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -27,6 +27,9 @@ enum { WORK_ARG = 29, WORK_RES = 8, WORK_IW = 0, WORK_W = 1902 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
+
+/* In a step: what a sample takes says how many, as nothing breaks a step off. */
+enum { MODEL_MOST_SAMPLES = 685181 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
