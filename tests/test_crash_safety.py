@@ -2,6 +2,7 @@
 runs do not write to one folder; what a kill leaves is cleaned after a day.
 """
 
+import errno
 import os
 import re
 import subprocess
@@ -115,7 +116,7 @@ def test_a_folder_that_another_run_holds_is_refused_before_any_work(name, holder
     """Before the log is read, which is not there."""
     code, said, err = pyimu(name, *WITH_FOLDER[name], "--out", "out")
     assert (code, said) == (2, "") and "out: another run is writing there" in err
-    assert not (tmp_path / "out").exists()
+    assert not any((tmp_path / "out").iterdir())
 
 
 @pytest.mark.parametrize("words", [("export", "mpu6050", "--to", "vins"), ("modelica", "imt30")])
@@ -139,6 +140,63 @@ def test_a_folder_is_held_by_another_path_to_it_as_well(holder, pyimu, tmp_path)
     out = linked(tmp_path / "link", tmp_path) / "out"
     code, said, err = pyimu("characterize", "log.csv", "--out", out)
     assert (code, said) == (2, "") and "another run is writing there" in err
+
+
+def hold(folder, **environment):
+    """A process with another environment that is to hold the folder; gives what it says."""
+    command = [sys.executable, "-c", HOLDER, folder]
+    done = subprocess.run(
+        command,
+        input="",
+        capture_output=True,
+        text=True,
+        env=os.environ | environment,
+        check=False,
+    )
+    return done.stdout + done.stderr
+
+
+@pytest.mark.skipif(os.name == "nt", reason="folders are not locked there")
+@pytest.mark.parametrize("there", [True, False])
+def test_a_folder_is_held_whatever_the_folder_for_temporary_files_is(there, tmp_path):
+    """As for jobs of a cluster, which have one each, and for two users."""
+    (tmp_path / "out").mkdir() if there else None
+    (tmp_path / "other").mkdir()
+    first = Held()
+    with first.holding():
+        first.hold(tmp_path / "out")
+        said = hold(tmp_path / "out", TMPDIR=str(tmp_path / "other"))
+        assert "another run is writing there" in said
+    assert hold(tmp_path / "out", TMPDIR=str(tmp_path / "other")) == "held\n"
+
+
+@pytest.mark.skipif(os.name == "nt", reason="folders are not locked there")
+def test_a_folder_that_cannot_be_locked_is_held_by_the_file(tmp_path, monkeypatch):
+    """As over NFS, where the system refuses to lock what is not open for writing."""
+    import fcntl
+
+    def flock(file, how, real=fcntl.flock):
+        if os.path.isdir(f"/dev/fd/{file}"):
+            raise OSError(errno.EBADF, "Bad file descriptor")
+        return real(file, how)
+
+    monkeypatch.setattr("fcntl.flock", flock)
+    first, second = Held(), Held()
+    with first.holding():
+        first.hold(tmp_path / "out")
+        with second.holding(), pytest.raises(UserError, match="another run"):
+            second.hold(tmp_path / "out")
+
+
+def test_folders_that_were_made_and_stayed_empty_go(pyimu, tmp_path):
+    """A folder that was there stays, and one with a result."""
+    (tmp_path / "old").mkdir()
+    for out in ("a/b/out", "old", "old/new"):
+        code, _, err = pyimu("characterize", "log.csv", "--out", out)
+        assert code == 2 and "log.csv: no such file" in err
+    assert [path.name for path in tmp_path.rglob("*")] == ["old"]
+    assert pyimu("export", "mpu6050", "--to", "vins", "--out", "a/b/out")[0] == 0
+    assert any((tmp_path / "a" / "b" / "out").iterdir())
 
 
 def test_a_folder_is_free_again_at_the_end_of_a_command(tmp_path):
