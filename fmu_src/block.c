@@ -433,7 +433,7 @@ static bool step_fits(Block *block, double time, double step) {
         return block_refuse(block, "%s: %g s is too far from zero to count samples", MODEL_NAME, time + step);
     }
     double samples = last_sample(now, time + step) - (double) now->sample;
-    uint64_t most = IN_BLOCKS ? now->rows : MOST_SAMPLES;
+    uint64_t most = IN_BLOCKS ? now->rows : MODEL_MOST_SAMPLES;
     if (samples > (double) most) {
         return block_refuse(block, "%s: a step of %.17g s has %.0f samples, at most %llu are made", MODEL_NAME, step, samples,
                             (unsigned long long) most);

@@ -66,7 +66,7 @@ bool block_exit_initialization(Block *block);
 bool block_terminate(Block *block);
 bool block_reset(Block *block);
 
-/* Make every sample k with time < k * sample_period <= time + step; at most MOST_SAMPLES of them, in the block form at most
+/* Make every sample k with time < k * sample_period <= time + step; at most MODEL_MOST_SAMPLES of them, in the block form at most
    block_size, and none past the stop time. */
 bool block_do_step(Block *block, double time, double step);
 double block_time(const Block *block);

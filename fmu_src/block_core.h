@@ -10,7 +10,6 @@
 PRIVATE_FROM_HERE
 
 #define ROOM(n) ((n) > 0 ? (n) : 1) /* C has no arrays of length zero */
-#define MOST_SAMPLES 16777216 /* in a step: 4 h at 976 Hz; 1.2 s (ImuSensor) to 33 s (AttitudeUkf), and nothing breaks it off */
 #define DRAWN 64 /* samples whose noise is drawn at a time, a multiple of the four that come together */
 
 typedef enum { INSTANTIATED, CONFIGURATION, INITIALIZATION, STEPPING, TERMINATED, N_PHASES } Phase;

@@ -12,6 +12,7 @@ import importlib
 import os
 import random
 import resource
+import shutil
 import signal
 import sys
 import tempfile
@@ -170,7 +171,7 @@ def run(fuzzer, seconds: float, seed: int, keep: Path) -> int:
         until = time.monotonic() + seconds  # loading takes longer than a short run
         while time.monotonic() < until:
             for old in folder.iterdir():
-                old.unlink()
+                shutil.rmtree(old) if old.is_dir() else old.unlink()
             found, wrong = Child(fuzzer, names, folder, seed, until).run()
             counts += found
             if wrong:

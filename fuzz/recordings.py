@@ -1,4 +1,5 @@
-"""Damaged recordings of every format, and damaged column maps: a UserError, or a recording.
+"""Damaged recordings of every format and layout, folders among them, and damaged column maps: a
+UserError, or a recording.
 
 python fuzz/recordings.py --seconds 60
 """
@@ -7,16 +8,21 @@ from __future__ import annotations
 
 import gzip
 import random
+import shutil
 import sys
+import tempfile
 import zlib
+from collections.abc import Callable
 from pathlib import Path
 
 import harness
 import log_files
+import log_folders
 import raw_logs
 
 from pyimu.errors import UserError
 from pyimu.inspection.run import inspect
+from pyimu.recording.formats.suffix import READERS
 from pyimu.recording.log import read_recording
 
 NAME = "recordings"
@@ -64,40 +70,83 @@ WORDS = [
 
 ROWS = 80
 
+TEXTS = (".csv", ".txt", ".log", ".toml", ".dat", ".yaml")
+
+MAPPED = "mapped-"
+"""How the names of folders begin that hold a log and its column map."""
+
+FIRST_FILES = ("imu.dat", "gyr.csv", "log.mat", "log.h5")
+"""The file in them that is read by it."""
+
+ENDINGS = sorted(READERS)
+
 
 def seeds(folder: Path) -> None:
-    """A valid file of each layout and format."""
+    """A valid log of each layout and format: a file, or a folder."""
     log, still = log_files.arrays(ROWS), raw_logs.still(ROWS)
-    for kind in ("csv", "csv.gz", "parquet", "mat", "mat73", "hdf5", "mcap", "db3", "bag"):
-        place = folder / kind
-        place.mkdir()
-        path, _ = log_files.written(place, kind, log)
-        path.rename(folder / f"{kind.replace('.', '_')}-{path.name}")
-    for make in raw_logs.ALONE:
-        if make not in (raw_logs.phone, raw_logs.iphone, raw_logs.phyphox):
-            path = make(folder, still)
-            path.rename(folder / f"{make.__name__}-{path.name}")
-    for place in [p for p in folder.iterdir() if p.is_dir()]:
-        (place / "map.toml").replace(folder / "map.toml")
-    for place in [p for p in folder.iterdir() if p.is_dir()]:
-        for path in sorted(place.rglob("*"), reverse=True):
-            path.rmdir() if path.is_dir() else path.unlink()
-        place.rmdir()
+    for kind in ("csv", "csv.gz", "parquet", "mcap", "db3", "bag", "mat", "mat73", "hdf5"):
+        _take(folder, kind.replace(".", "_"), lambda place, k=kind: _of_kind(place, k, log))
+    _take(folder, "bag_of_ros2", lambda place: _of_kind(place, "folder", log))
+    for make in (*raw_logs.ALONE, *log_folders.FILES, *log_folders.FOLDERS):
+        _take(folder, make.__name__, lambda place, make=make: make(place, still))
+    for make in raw_logs.MAPPED:
+        make(_mapped(folder, make.__name__), still)
+    for kind in ("mat", "mat73", "hdf5"):
+        log_files.written(_mapped(folder, kind), kind, log)
+    (folder / "map.toml").write_text(log_files.MAP)
+
+
+def _mapped(folder: Path, name: str) -> Path:
+    place = folder / f"{MAPPED}{name}"
+    place.mkdir()
+    return place
+
+
+def _of_kind(place: Path, kind: str, log: tuple) -> Path:
+    return log_files.written(place, kind, log)[0]
+
+
+def _take(folder: Path, name: str, make: Callable[[Path], Path]) -> None:
+    """Put what ``make`` writes, by a name of its own, into ``folder``."""
+    with tempfile.TemporaryDirectory() as place:
+        made = make(Path(place))
+        shutil.move(made, folder / f"{name}-{made.name}")
 
 
 def mutate(seed: Path, folder: Path, rng: random.Random) -> Path:
-    """A damaged copy; of a compressed text its text, of a MAT file's arrays what is inside."""
-    data = seed.read_bytes()
+    """A damaged copy: a file, under another ending now and then, or a folder with a damaged file,
+    or without it.
+    """
     path = folder / seed.name
-    if seed.name.endswith(".gz") and rng.random() < 0.7:
-        path.write_bytes(gzip.compress(_text(gzip.decompress(data), rng), 1))
-    elif seed.suffix in (".csv", ".txt", ".log", ".toml", ".dat") and rng.random() < 0.8:
-        path.write_bytes(_text(data, rng))
-    elif seed.suffix == ".mat" and data[124:128] == b"\x00\x01IM" and rng.random() < 0.6:
-        path.write_bytes(_repacked(data, rng))
-    else:
-        path.write_bytes(harness.mutated(data, rng))
+    if not seed.is_dir():
+        if rng.random() < 0.02:
+            path = path.with_name(path.name.partition(".")[0] + rng.choice(ENDINGS))
+        path.write_bytes(_damaged(seed, rng))
+        return path
+    shutil.rmtree(path, ignore_errors=True)
+    files = sorted(p for p in seed.rglob("*") if p.is_file())
+    hit, lost = rng.choice(files), rng.random() < 0.03
+    path.mkdir()
+    for file in files:
+        to = path / file.relative_to(seed)
+        to.parent.mkdir(parents=True, exist_ok=True)
+        if file != hit:
+            to.write_bytes(file.read_bytes())
+        elif not lost:
+            to.write_bytes(_damaged(file, rng))
     return path
+
+
+def _damaged(file: Path, rng: random.Random) -> bytes:
+    """Its bytes, of a compressed text its text, of a MAT file's arrays what is inside."""
+    data = file.read_bytes()
+    if file.suffix == ".gz" and rng.random() < 0.7:
+        return gzip.compress(_text(gzip.decompress(data), rng), 1)
+    if file.suffix in TEXTS and rng.random() < 0.8:
+        return _text(data, rng)
+    if file.suffix == ".mat" and data[124:128] == b"\x00\x01IM" and rng.random() < 0.6:
+        return _repacked(data, rng)
+    return harness.mutated(data, rng)
 
 
 def _text(data: bytes, rng: random.Random) -> bytes:
@@ -118,11 +167,11 @@ def _repacked(data: bytes, rng: random.Random) -> bytes:
 
 
 def try_one(path: Path) -> str:
-    """What became of the file: read, or refused."""
+    """What became of the log: read, or refused."""
     said = "read"
-    for use in (_read, inspect):
+    for use in (read_recording, inspect):
         try:
-            use(path)
+            use(*_given(path))
         except UserError as error:
             said = "refused"
             if "\n" in str(error) or not str(error).isprintable():
@@ -130,13 +179,16 @@ def try_one(path: Path) -> str:
     return said
 
 
-def _read(path: Path) -> None:
+def _given(path: Path) -> tuple[Path, Path | None]:
+    """What is read, and its column map."""
     if path.suffix == ".toml":
         log = path.with_name("log.csv")
         log.write_text("t,a\n0,1\n1,1\n2,1\n3,1\n")
-        read_recording(log, path)
-        return
-    read_recording(path)
+        return log, path
+    if path.name.startswith(MAPPED):
+        first = next((path / name for name in FIRST_FILES if (path / name).exists()), path)
+        return first, path / raw_logs.MAP
+    return path, None
 
 
 if __name__ == "__main__":

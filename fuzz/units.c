@@ -100,7 +100,7 @@ static void configuration(void) {
 
 static void bad_step(void) {
     const Twin *t = &now->twin;
-    const double most = IN_BLOCKS ? (double) t->rows : MOST_SAMPLES;
+    const double most = IN_BLOCKS ? (double) t->rows : MODEL_MOST_SAMPLES;
     const double sizes[] = {0.0, -1.0, NAN, INFINITY, 1e300, (most * 1.001 + 2.0) * t->period};
     if (once_in(3)) {
         check("a step from elsewhen", make_step(now->unit, once_in(2) ? NAN : t->time + 10.0 * t->period, t->period, false),

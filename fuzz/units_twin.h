@@ -2,7 +2,7 @@
 #ifndef UNITS_TWIN_H
 #define UNITS_TWIN_H
 
-enum { UNITS = 3, STATES = 6, MOST_SAMPLES = 16777216 };
+enum { UNITS = 3, STATES = 6 };
 
 typedef enum { INSTANTIATED, CONFIGURATION, INITIALIZATION, STEPPING, TERMINATED } Phase;
 static const char *const phase_names[] = {"instantiated", "configuration", "initialization", "stepping", "terminated"};

@@ -9,10 +9,9 @@ import os
 import shutil
 import tempfile
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
-from typing import IO
 
 from pyimu.errors import UserError
 
@@ -26,13 +25,15 @@ FORGOTTEN = 24 * 3600.0
 class Held:
     """The folders that this process holds until the context ends; without one nothing is held.
 
-    A lock is a file in the folder for temporary files, named by the folder's path, so that nothing
-    is made in the folder itself. The system gives it back however the process ends. It is one for
-    the processes of a machine, and of a user.
+    A lock is one on the folder itself, which every process of the machine meets, whoever's it is
+    and wherever its temporary files go. Where a folder cannot be locked, as on Windows and often
+    over NFS, there is the second one: a file in the folder for temporary files, named by the
+    folder's path, which is met by processes of the same user with the same such folder. The system
+    gives both back however the process ends, and nothing is left in the folder.
     """
 
     def __init__(self) -> None:
-        self._locks: dict[Path, IO[bytes]] = {}
+        self._locks: dict[Path, ExitStack] = {}
         self._holding = False
 
     @contextmanager
@@ -44,32 +45,67 @@ class Held:
         finally:
             self._holding = False
             while self._locks:
-                path, lock = self._locks.popitem()
-                with suppress(OSError):
-                    path.unlink()
-                lock.close()
+                self._locks.popitem()[1].close()
 
     def hold(self, folder: Path) -> None:
-        """Hold a folder. Raises UserError where another process does."""
+        """Hold a folder, which is made; at the end it goes if it is empty still.
+
+        Raises UserError where another process holds it.
+        """
         path = _lock_of(folder)
         if not self._holding or path in self._locks:
             return
-        with suppress(OSError):  # where nothing can be written there is no lock
-            path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
-            _sweep_locks(path.parent)
-            while True:
-                lock = path.open("ab")
-                if not _locked(lock):
-                    lock.close()
-                    raise UserError(
-                        f"{folder}: another run is writing there; wait for its end, or give "
-                        "another folder with --out"
-                    )
-                # Between opening and locking its holder may have removed it.
-                if path.exists() and os.path.samestat(os.fstat(lock.fileno()), path.stat()):
-                    self._locks[path] = lock
-                    return
-                lock.close()
+        with ExitStack() as taken:
+            for lock, place in ((_file_locked, path), (_folder_locked, folder)):
+                with suppress(OSError):  # where nothing can be written there is no lock
+                    if not lock(place, taken):
+                        raise UserError(
+                            f"{folder}: another run is writing there; wait for its end, or give "
+                            "another folder with --out"
+                        )
+            self._locks[path] = taken.pop_all()
+
+
+def _file_locked(path: Path, taken: ExitStack) -> bool:
+    """Whether the file ``path`` could be had; ``taken`` gives it back."""
+    path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
+    _sweep_locks(path.parent)
+    while True:
+        lock = path.open("ab")
+        if not _locked(lock.fileno()):
+            lock.close()
+            return False
+        # Between opening and locking its holder may have removed it.
+        if path.exists() and os.path.samestat(os.fstat(lock.fileno()), path.stat()):
+            taken.callback(lock.close)
+            taken.callback(_without_fail, path.unlink)
+            return True
+        lock.close()
+
+
+def _folder_locked(folder: Path, taken: ExitStack) -> bool:
+    """Whether the folder could be had; ``taken`` gives it back, and removes what was made here."""
+    if os.name == "nt":
+        return True
+    while True:
+        made = [path for path in (folder, *folder.parents) if not path.exists()]
+        folder.mkdir(parents=True, exist_ok=True)
+        with ExitStack() as own:
+            handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+            own.callback(os.close, handle)
+            if not _locked(handle):
+                return False
+            # Between opening and locking its holder may have removed it.
+            if folder.exists() and os.path.samestat(os.fstat(handle), folder.stat()):
+                for path in reversed(made):  # what comes last is done first
+                    own.callback(_without_fail, path.rmdir)
+                taken.push(own.pop_all())
+                return True
+
+
+def _without_fail(do: Callable[[], object]) -> None:
+    with suppress(OSError):
+        do()
 
 
 held = Held()
@@ -101,13 +137,13 @@ def _lock_of(folder: Path) -> Path:
     return Path(tempfile.gettempdir(), f"{PREFIX}locks-{user}", name)
 
 
-def _locked(lock: IO[bytes]) -> bool:
-    """Whether the lock could be had, without waiting for it."""
+def _locked(lock: int) -> bool:
+    """Whether the lock on an open file could be had, without waiting for it."""
     try:
         if os.name == "nt":
             import msvcrt
 
-            msvcrt.locking(lock.fileno(), msvcrt.LK_NBLCK, 1)  # type: ignore[attr-defined]
+            msvcrt.locking(lock, msvcrt.LK_NBLCK, 1)  # type: ignore[attr-defined]
         else:
             import fcntl
 
@@ -137,5 +173,5 @@ def _sweep_locks(folder: Path) -> None:
         with suppress(OSError):
             if time.time() - path.stat().st_mtime > FORGOTTEN:
                 with path.open("ab") as lock:
-                    if _locked(lock):
+                    if _locked(lock.fileno()):
                         path.unlink()

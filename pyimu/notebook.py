@@ -5,10 +5,13 @@ from __future__ import annotations
 import io
 from collections.abc import Iterable, Sequence
 from html import escape
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+
+from pyimu.errors import UserError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+    from pandas import DataFrame
 
 COLOURS = {
     "ink": "currentColor",
@@ -41,6 +44,18 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 def lines(text: str) -> str:
     """Text of a terminal, its columns kept, which scrolls where it is wide."""
     return f'<pre style="overflow-x: auto; white-space: pre">{escape(text)}</pre>'
+
+
+def data_frame(columns: Any) -> DataFrame:
+    """A pandas data frame of columns or rows. Raises UserError where pandas is not installed."""
+    try:
+        from pandas import DataFrame
+    except ImportError:
+        raise UserError(
+            "a data frame needs pandas, which is not installed; install the extra: pip install "
+            "'pyimu[frames]'"
+        ) from None
+    return DataFrame(columns)
 
 
 def shown(figure: Figure) -> Figure:

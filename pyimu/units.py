@@ -256,7 +256,8 @@ def convert(values, source: str | Unit, target: str | Unit):
             f"'{source}' cannot be converted to '{target}': {_describe(source)} is not "
             f"{_describe(target)}"
         )
-    scaled = np.asarray(values, dtype=float) * (source.factor / target.factor)
+    with np.errstate(over="ignore", invalid="ignore"):  # infinite and missing ones stay it
+        scaled = np.asarray(values, dtype=float) * (source.factor / target.factor)
     return float(scaled) if scaled.ndim == 0 else scaled
 
 

@@ -1,15 +1,20 @@
 """The package works from an installed wheel, away from its checkout: sources, templates and parts
-travel inside.
+travel inside; and by its own dependencies alone, whatever else the tests have.
 """
 
+import email
 import os
 import subprocess
 import sys
 import zipfile
+from importlib.metadata import packages_distributions, requires
 from pathlib import Path
 
 import pytest
+import raw_logs
 from built import built
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
 from places import CHECKOUT
 
 from pyimu.attitude import attitude_ukf
@@ -77,9 +82,59 @@ def test_wheel_holds_what_the_package_reads(wheel):
     assert not [n for n in names if n.startswith(("tests/", "benchmarks/", "fmu_src/"))]
 
 
-def isolated(installed, cwd, *words):
+def needed(wheel):
+    """The distributions that ``pip install`` of the wheel brings, without its extras."""
+    with zipfile.ZipFile(wheel) as archive:
+        (name,) = [n for n in archive.namelist() if n.endswith(".dist-info/METADATA")]
+        lines = email.message_from_bytes(archive.read(name)).get_all("Requires-Dist")
+    found, waiting = set(), [Requirement(line) for line in lines]
+    while waiting:
+        one = waiting.pop()
+        wanted = one.marker is None or one.marker.evaluate({"extra": ""})
+        if wanted and (canonicalize_name(one.name), *sorted(one.extras)) not in found:
+            found.add((canonicalize_name(one.name), *sorted(one.extras)))
+            waiting += _of_installed(one)
+    return {name for name, *_ in found}
+
+
+def _of_installed(one):
+    """What an installed distribution needs in turn, with the extras that it is asked for."""
+    for line in requires(one.name) or ():
+        inner = Requirement(line)
+        extras = ("", *one.extras)
+        if inner.marker is None or any(inner.marker.evaluate({"extra": e}) for e in extras):
+            inner.marker = None
+            yield inner
+
+
+BLOCKER = """
+import sys
+class Blocker:
+    def find_spec(self, name, path=None, target=None):
+        if name.partition(".")[0] in BLOCKED:
+            raise ModuleNotFoundError(f"No module named {name!r}, which is not declared", name=name)
+sys.meta_path.insert(0, Blocker())
+"""
+
+
+@pytest.fixture(scope="module")
+def alone(wheel, tmp_path_factory):
+    """A folder whose ``sitecustomize`` hides modules of distributions that nobody declared."""
+    folder, there = tmp_path_factory.mktemp("alone"), needed(wheel)
+    blocked = {
+        module
+        for module, names in packages_distributions().items()
+        if not {canonicalize_name(name) for name in names} & there and module != "pyimu"
+    }
+    assert {"pytest", "pandas", "h5py"} & blocked and not {"numpy", "jinja2"} & blocked
+    text = f"BLOCKED = {sorted(blocked)!r}\n{BLOCKER}"
+    (folder / "sitecustomize.py").write_text(text, encoding="utf-8")
+    return folder
+
+
+def isolated(installed, cwd, *words, before=()):
     environment = {k: v for k, v in os.environ.items() if k != "PYTHONPATH"} | {
-        "PYTHONPATH": str(installed)
+        "PYTHONPATH": os.pathsep.join(map(str, (*before, installed)))
     }
     command = [sys.executable, *map(str, words)]
     return subprocess.run(
@@ -107,3 +162,30 @@ def test_installed_package_builds_fmus(installed, tmp_path, tmp_path_factory):
             assert (tmp_path / "x" / made.name).read_bytes() == made.read_bytes(), (
                 f"{made.name} differs from the checkout's"
             )
+
+
+def test_installed_package_runs_on_its_dependencies_alone(installed, alone, tmp_path):
+    """From a raw log to a page, a part and an export, with all other libraries hidden."""
+    hidden = isolated(installed, tmp_path, "-c", "import pandas", before=[alone])
+    assert hidden.returncode == 1 and "which is not declared" in hidden.stderr
+    log = raw_logs.euroc(tmp_path, raw_logs.still(2000))
+    for words in (
+        ["inspect", log, "--out", "look"],
+        ["characterize", log, "--out", "out"],
+        ["attitude", log, "--part", "mpu6050", "--out", "angles"],
+        ["export", "mpu6050", "--to", "kalibr,vins,gazebo,ros2,matlab,px4", "--out", "others"],
+        ["build", "imt30", "--fmu", "sensor", "--fmi", "3", "--out", "x"],
+    ):
+        done = isolated(installed, tmp_path, "-m", "pyimu", *words, before=[alone])
+        assert done.returncode == 0 and "not declared" not in done.stderr, done.stderr
+    assert (tmp_path / "out" / "report.html").is_file()
+
+
+def test_what_an_extra_brings_is_asked_for_in_a_line(installed, alone, tmp_path):
+    (tmp_path / "log.h5").write_bytes(b"\x89HDF\r\n\x1a\n")
+    done = isolated(installed, tmp_path, "-m", "pyimu", "inspect", "log.h5", before=[alone])
+    assert done.returncode == 2 and done.stderr.count("\n") == 1
+    assert "pip install 'pyimu[hdf5]'" in done.stderr
+    ask = "import pyimu; pyimu.part('imt30').to_frame()"
+    done = isolated(installed, tmp_path, "-c", ask, before=[alone])
+    assert "UserError: a data frame needs pandas" in done.stderr

@@ -39,9 +39,7 @@ class AttitudeResult(Outcome):
 
     def to_frame(self) -> DataFrame:
         """The samples as a pandas data frame, its columns those of ``attitude.parquet``."""
-        from pandas import DataFrame
-
-        return DataFrame(self._table())
+        return notebook.data_frame(self._table())
 
     def __repr__(self) -> str:
         span = self.time[-1] - self.time[0]

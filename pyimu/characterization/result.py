@@ -52,8 +52,6 @@ class Characterization(Outcome):
         Columns: ``channel``, ``term`` (its letter), ``value`` (0 where there is only a bound),
         ``std``, ``low``, ``high``, ``unit``, ``spread`` of the logs, ``logs``.
         """
-        from pandas import DataFrame
-
         rows = [
             {
                 "channel": channel,
@@ -65,7 +63,7 @@ class Characterization(Outcome):
             }
             for (channel, term), s in self.coefficients.items()
         ]
-        return DataFrame(rows)
+        return notebook.data_frame(rows)
 
     def part(self, name: str = "characterised") -> Part:
         """The part that these logs are of, as ``pyimu.build`` and ``pyimu.close`` take it.

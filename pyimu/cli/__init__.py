@@ -6,6 +6,7 @@ import gc
 import os
 import re
 import sys
+import warnings
 from collections.abc import Callable
 from io import TextIOWrapper
 from typing import Annotated
@@ -62,6 +63,7 @@ def main() -> None:
     """
     if isinstance(sys.stdout, TextIOWrapper):  # it may not know every letter, as on Windows
         sys.stdout.reconfigure(errors="backslashreplace")  # as stderr does by itself
+    warnings.filterwarnings("ignore", append=True)  # lines of libraries; -W and others go first
     gc.set_threshold(*COLLECTED)
     keep_freed()
     interrupts = Interrupts()

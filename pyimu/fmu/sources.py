@@ -31,10 +31,10 @@ from pyimu.fmu.unit_definitions import unit_definitions
 from pyimu.fmu.variables import (
     BLOCK_SIZE,
     DEFAULT_SEED,
-    MAX_BLOCK_SIZE,
     Entry,
     default_block_size,
     entries,
+    most_samples,
     xml_number,
 )
 from pyimu.model.signals import EVERY_SAMPLE
@@ -197,7 +197,7 @@ def _context(block: Block, in_blocks: bool) -> dict:
         "sources": _c_files(),
         "log_categories": _LOG_CATEGORIES,
         "block_size": size,
-        "max_block_size": MAX_BLOCK_SIZE,
+        "most_samples": most_samples(block),
         "step_size": block.sample_period * (size or 1),
         "input_starts": [v.start for v in block.inputs],
         "parameter_starts": [v.start for v in block.parameters],

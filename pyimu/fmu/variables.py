@@ -11,6 +11,7 @@ from itertools import accumulate
 import casadi as ca
 
 from pyimu.block.block import Block
+from pyimu.block.cost import operations
 from pyimu.block.variables import Variable
 from pyimu.fmu.arrays import Array, description, grouped, scalars, split_name
 from pyimu.fmu.unit_definitions import display_units
@@ -32,8 +33,15 @@ SEED = Variable(
 BLOCK_SIZE = "block_size"
 """The name of the parameter that the block form alone has."""
 
-MAX_BLOCK_SIZE = 2**24
-"""Samples in a block at most: 4 h at 976 Hz are 14 million."""
+MOST_SAMPLES = 2**24
+"""In a step at most, whatever the block: 4 h at 976 Hz are 14 million."""
+
+MOST_OPERATIONS = 15 * 10**9
+"""In a step at most, which nothing can break off: about ten seconds of the block that takes longest
+for each of its operations (``RoverDrive``, 0.6 ns)."""
+
+OF_A_NORMAL = 20
+"""Operations that a number of the noise stands for."""
 
 MOST_BY_DEFAULT = 2**15
 """Samples in a block at most unless another size is set. The start values of each stand in the
@@ -302,6 +310,12 @@ def _period(block: Block) -> Variable:
     )
 
 
+def most_samples(block: Block) -> int:
+    """Samples that a step, or a block of the block form, has at most."""
+    each = operations(block.step) + OF_A_NORMAL * len(block.noise)
+    return max(MOST_BY_DEFAULT, min(MOST_SAMPLES, MOST_OPERATIONS // max(1, each)))
+
+
 def _size(block: Block) -> Variable:
     return Variable(
         BLOCK_SIZE,
@@ -309,7 +323,7 @@ def _size(block: Block) -> Variable:
         "rows of inputs and outputs: most samples in a step, row i for sample i of the step",
         start=default_block_size(block),
         minimum=1,
-        maximum=MAX_BLOCK_SIZE,
+        maximum=most_samples(block),
     )
 
 

@@ -64,15 +64,13 @@ class Closed(Outcome):
         Columns: ``coefficient`` (``gyro.scale_factor.s``), ``value``, ``std``, ``low``, ``high``,
         ``shown`` (whether these logs show an element), ``unit``, ``origin``, ``source``.
         """
-        from pandas import DataFrame
-
         names = ("value", "std", "low", "high", "shown", "unit", "origin", "source")
         rows = [
             {"coefficient": f"{e.sensor}.{e.effect}.{e.parameter}"}
             | {name: getattr(e, name) for name in names}
             for e in self.estimated
         ]
-        return DataFrame(rows)
+        return notebook.data_frame(rows)
 
     def write(
         self,

@@ -41,8 +41,6 @@ def as_frame(part: Any) -> DataFrame:
     Columns: ``coefficient`` (``gyro.angle_random_walk.N``), ``value`` (an array of the parameter's
     shape), ``unit``, ``estimate`` (whether it is left to the data), ``quoted``, ``source``.
     """
-    from pandas import DataFrame
-
     rows = []
     for sensor in (part.gyro, part.accel, part.mag):
         for e in sensor.effects:
@@ -59,7 +57,7 @@ def as_frame(part: Any) -> DataFrame:
                         "source": note.get("source", ""),
                     }
                 )
-    return DataFrame(rows)
+    return notebook.data_frame(rows)
 
 
 def _rows(part: Any) -> Iterator[tuple[str, str, str, str]]:

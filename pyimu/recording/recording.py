@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from pyimu import notebook
 from pyimu.errors import Finding, UserError
 from pyimu.recording import show
 from pyimu.recording.clock import Cadence, cadence_of, segments
@@ -127,9 +128,7 @@ class Recording(_Columns):
 
         ``Recording.from_frame`` of it is the same recording.
         """
-        from pandas import DataFrame
-
-        return DataFrame(self._table())
+        return notebook.data_frame(self._table())
 
     @property
     def groups(self) -> dict[str, np.ndarray]:

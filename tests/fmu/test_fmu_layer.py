@@ -19,10 +19,12 @@ from hypothesis import strategies as st
 from numba import njit
 from places import same_path
 
+from pyimu.block.cost import operations
 from pyimu.block.normals import normals
 from pyimu.errors import UserError
 from pyimu.fmu import FORMS, simulate_blocks
 from pyimu.fmu import simulate as simulate_scalars
+from pyimu.fmu.variables import OF_A_NORMAL, most_samples
 
 BLOCK = toy()
 PERIOD = BLOCK.sample_period
@@ -668,6 +670,23 @@ def test_a_step_of_hours_is_refused_that_nothing_could_break_off(toys):
         with ticking(toys[version], period=1e-3) as unit:
             refused(unit, lambda: unit.step(0.0, 1e6), "1000000000 samples, at most 16777216")
             assert unit.get("ticks") == 0
+
+
+def test_a_unit_that_takes_long_for_a_sample_makes_fewer_in_a_step(tmp_path_factory, monkeypatch):
+    """The bound stands for a time; here for that of forty thousand samples."""
+    each = operations(toy().step) + OF_A_NORMAL * len(toy().noise)
+    monkeypatch.setattr("pyimu.fmu.variables.MOST_OPERATIONS", 40_000 * each)
+    assert most_samples(toy()) == 40_000
+    for version, path in built(toy(), tmp_path_factory).items():
+        if version == "block":
+            with Unit(path, rows=4) as unit:
+                unit.fmu.enterConfigurationMode()
+                refused(unit, lambda u=unit: u.set("block_size", 40_001), "1 to 40000")
+        else:
+            with ticking(path, period=1e-3) as unit:
+                refused(unit, lambda u=unit: u.step(0.0, 40.001), "40001 samples, at most 40000")
+                unit.step(0.0, 40.0)
+                assert unit.get("ticks") == 40_000
 
 
 # States of others

@@ -15,9 +15,11 @@ from fmpy.validation import validate_fmu
 from fmu_toy import Unit
 
 from pyimu.attitude import attitude_ukf
+from pyimu.block.cost import operations
 from pyimu.fmu import simulate, simulate_blocks
 from pyimu.fmu.arrays import split_name
 from pyimu.fmu.generate import checked_in, digest, generate, generated_folder, reference_blocks
+from pyimu.fmu.variables import most_samples
 from pyimu.model.part_file import part
 
 SHOWN = 40
@@ -131,6 +133,13 @@ def test_what_can_be_tuned_during_a_run_acts_on_a_sample():
 
 BLOCK = attitude_ukf(part("imt30"))
 PERIOD = BLOCK.sample_period
+
+
+def test_the_longest_step_of_every_unit_has_bounded_work():
+    """Ten seconds of operations at most, whichever unit; and what any needs for its own drives."""
+    for block in reference_blocks():
+        most = most_samples(block)
+        assert 2**15 <= most <= 2**24 and most * operations(block.step) <= 15e9, block.name
 
 
 @pytest.fixture(scope="module")

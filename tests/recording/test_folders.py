@@ -3,40 +3,51 @@
 import numpy as np
 import pytest
 import raw_logs
-from scipy.spatial.transform import Rotation
+from log_folders import (
+    FILES,
+    FOLDERS,
+    TRUTH,
+    android_uncalibrated,
+    ios_total,
+    phone_gyro,
+    phyphox_field,
+    sequence,
+    xsens_dot,
+)
 
 from pyimu import UserError, close, inspect, open_log, read_recording
 from pyimu.recording.reference.rate import reference_rate
 
-TRUTHS = ("state_groundtruth_estimate0", "mocap0")
+TRUTHS = (TRUTH, "mocap0")
 
 
-def sequence(folder, truth=TRUTHS[0], rows=3000):
+def turning(folder, truth=TRUTH, rows=3000):
     """A body that turns about z at 0.5 sin(t) rad/s, and its attitude 20 times a second."""
     time = np.arange(rows, dtype=np.int64) * 10_000_000
     t = 1e-9 * time
     rng = np.random.default_rng(5)
     gyro = np.column_stack([0 * t, 0 * t, 0.5 * np.sin(t)]) + 1e-3 * rng.standard_normal((rows, 3))
     accel = np.tile([0, 0, 9.81], (rows, 1)) + 0.01 * rng.standard_normal((rows, 3))
-    for name in ("imu0", truth):
-        (folder / "mav0" / name).mkdir(parents=True)
-    raw_logs.euroc(folder / "mav0" / "imu0", (time, gyro, accel))
-    q = Rotation.from_rotvec(np.outer(0.5 * (1 - np.cos(t[::5])), [0, 0, 1])).as_quat(
-        scalar_first=True
-    )
-    names = [f"p_RS_R_{a} [m]" for a in "xyz"] + [f"q_RS_{a} []" for a in "wxyz"]
-    raw_logs.text(
-        folder / "mav0" / truth / "data.csv",
-        [",".join(["#timestamp [ns]", *names])],
-        [time[::5] + raw_logs.FIRST, *np.zeros((3, len(q))), *q.T],
-    )
-    return folder
+    return sequence(folder, (time, gyro, accel), truth, 0.5 * (1 - np.cos(t)))
+
+
+@pytest.mark.parametrize("make", [*FOLDERS, *FILES], ids=lambda make: make.__name__)
+def test_samples_come_back_from_each_layout(make, tmp_path):
+    """Rates in deg/s come back to some roundings, all else to the bit."""
+    time, gyro, accel = log = raw_logs.still(300)
+    found = read_recording(make(tmp_path, log))
+    bits = 4e-16 if make is xsens_dot else 0.0
+    np.testing.assert_allclose(found.gyro, gyro, rtol=bits, atol=0)
+    if make is not phone_gyro:
+        np.testing.assert_allclose(found.accel, accel, rtol=0, atol=0)
+    has_field = make in (android_uncalibrated, ios_total, phyphox_field)
+    assert (found.mag is not None) == has_field
 
 
 @pytest.mark.parametrize("truth", TRUTHS)
 @pytest.mark.parametrize("inside", ["", "mav0", "mav0/imu0"])
 def test_a_sequence_is_a_log_with_its_ground_truth(tmp_path, truth, inside):
-    folder = sequence(tmp_path / "V1_01", truth)
+    folder = turning(tmp_path / "V1_01", truth)
     log = read_recording(folder / inside)
     assert log.name == "V1_01" and log.path == folder / "mav0" / "imu0" / "data.csv"
     assert log.reference is not None and log.reference.path.parent.name == truth
@@ -48,8 +59,8 @@ def test_a_sequence_is_a_log_with_its_ground_truth(tmp_path, truth, inside):
 
 
 def test_what_lies_beside_a_log_without_reference_is_named(tmp_path):
-    folder = sequence(tmp_path / "V1_01")
-    truth = folder / "mav0" / TRUTHS[0] / "data.csv"
+    folder = turning(tmp_path / "V1_01")
+    truth = folder / "mav0" / TRUTH / "data.csv"
     with pytest.raises(UserError, match="--reference") as said:
         close(folder / "mav0" / "imu0" / "data.csv")
     assert str(truth) in str(said.value)

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{07f1af2b-7fde-ac8f-3835-ff076606b3e9}"
-#define MODEL_TOKEN_FMI3 "{597de2fa-263f-b047-82ed-167bce9901c9}"
+#define MODEL_TOKEN_FMI2 "{a290bdb9-8972-6f2a-ac26-0d849e2bf3d9}"
+#define MODEL_TOKEN_FMI3 "{9a2db243-8e15-a857-6d74-23b0e7905aa2}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -27,11 +27,14 @@ enum {
 enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 2560 };
 
 /* Rows of inputs and outputs. */
-enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };
+enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 1015572 };
+
+/* In a step: what a sample takes says how many, as nothing breaks a step off. */
+enum { MODEL_MOST_SAMPLES = 1015572 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
-    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 16777216.0},
+    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 1015572.0},
     {"gyro", KIND_REAL, ROLE_INPUT, 0, 3, -INFINITY, INFINITY},
     {"accel", KIND_REAL, ROLE_INPUT, 3, 3, -INFINITY, INFINITY},
     {"temperature", KIND_REAL, ROLE_INPUT, 6, 1, -INFINITY, INFINITY},

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{8ffc2c72-e2f5-3286-3c61-1b020d38f38e}"
-#define MODEL_TOKEN_FMI3 "{475eaf54-f7e6-0838-e067-5dcce8a035e3}"
+#define MODEL_TOKEN_FMI2 "{19d4075c-924e-c0ef-9d7b-1cefda1b77c7}"
+#define MODEL_TOKEN_FMI3 "{58665d36-8fe0-6a49-8f01-1309a7b6b9b8}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -28,6 +28,9 @@ enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 2560 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
+
+/* In a step: what a sample takes says how many, as nothing breaks a step off. */
+enum { MODEL_MOST_SAMPLES = 1015572 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "HeadingEstimator"
-#define MODEL_TOKEN_FMI2 "{9b45b80f-01ec-998f-f880-ce7ee81af092}"
-#define MODEL_TOKEN_FMI3 "{bd54f79e-90c3-db24-8f2f-982dc52552c2}"
+#define MODEL_TOKEN_FMI2 "{c19311ee-81ab-8b4e-3ee4-c93af9a0beb1}"
+#define MODEL_TOKEN_FMI3 "{75b720c5-7af7-9aac-adfa-a46ec137cdb3}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -27,6 +27,9 @@ enum { WORK_ARG = 6, WORK_RES = 2, WORK_IW = 0, WORK_W = 92 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };
+
+/* In a step: what a sample takes says how many, as nothing breaks a step off. */
+enum { MODEL_MOST_SAMPLES = 16777216 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},

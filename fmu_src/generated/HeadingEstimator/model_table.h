@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "HeadingEstimator"
-#define MODEL_TOKEN_FMI2 "{772e4476-364a-331c-3fc9-1bc7720d9b62}"
-#define MODEL_TOKEN_FMI3 "{d40d83bd-d559-9185-7158-b97cc8e2d1a6}"
+#define MODEL_TOKEN_FMI2 "{e0fb9499-70a9-4ea3-751c-a64516ad0ad6}"
+#define MODEL_TOKEN_FMI3 "{399bda39-ee52-aee4-5fcb-c7a8e7aaccf1}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -27,6 +27,9 @@ enum { WORK_ARG = 6, WORK_RES = 2, WORK_IW = 0, WORK_W = 92 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
+
+/* In a step: what a sample takes says how many, as nothing breaks a step off. */
+enum { MODEL_MOST_SAMPLES = 16777216 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},

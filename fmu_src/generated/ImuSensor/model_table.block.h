@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "ImuSensor"
-#define MODEL_TOKEN_FMI2 "{ba1ff745-8c0c-3662-c77a-5d4bb935bba0}"
-#define MODEL_TOKEN_FMI3 "{4df72697-14e7-c56d-eb20-7d5bfc0cb498}"
+#define MODEL_TOKEN_FMI2 "{21065f6c-e141-984f-7979-d34757b45a70}"
+#define MODEL_TOKEN_FMI3 "{2d540344-b3e6-d1ee-088f-a8c05e5492a9}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -27,6 +27,9 @@ enum { WORK_ARG = 6, WORK_RES = 2, WORK_IW = 0, WORK_W = 9 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };
+
+/* In a step: what a sample takes says how many, as nothing breaks a step off. */
+enum { MODEL_MOST_SAMPLES = 16777216 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "ImuSensor"
-#define MODEL_TOKEN_FMI2 "{0f3448c1-700d-2a9d-34b6-e74bbb0f168a}"
-#define MODEL_TOKEN_FMI3 "{843c1646-e465-e6e4-7255-cdb767c1149a}"
+#define MODEL_TOKEN_FMI2 "{f4a83da2-a1df-1145-3096-1e8a4797e5f5}"
+#define MODEL_TOKEN_FMI3 "{97ea992c-50a2-a8ec-f1cc-0a92550ae8d1}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -27,6 +27,9 @@ enum { WORK_ARG = 6, WORK_RES = 2, WORK_IW = 0, WORK_W = 9 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
+
+/* In a step: what a sample takes says how many, as nothing breaks a step off. */
+enum { MODEL_MOST_SAMPLES = 16777216 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},

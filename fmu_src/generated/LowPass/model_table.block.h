@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "LowPass"
-#define MODEL_TOKEN_FMI2 "{55a9f041-a375-6114-f104-afbe87d6fba1}"
-#define MODEL_TOKEN_FMI3 "{5b67b97a-97da-683c-1920-f3723afade54}"
+#define MODEL_TOKEN_FMI2 "{27ecaf4a-d4b7-3910-9be9-4a56ff537e1c}"
+#define MODEL_TOKEN_FMI3 "{16a2a984-edf5-32dd-e435-ef374d1c3a19}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -28,6 +28,9 @@ enum { WORK_ARG = 6, WORK_RES = 2, WORK_IW = 0, WORK_W = 41 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };
+
+/* In a step: what a sample takes says how many, as nothing breaks a step off. */
+enum { MODEL_MOST_SAMPLES = 16777216 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "LowPass"
-#define MODEL_TOKEN_FMI2 "{f0403640-4944-222d-acf7-46b3bec1c745}"
-#define MODEL_TOKEN_FMI3 "{afba44c9-d94c-e92a-d6b8-0f2f70627b23}"
+#define MODEL_TOKEN_FMI2 "{4555d5e6-3a81-c286-e3c6-da5e7eb18dfc}"
+#define MODEL_TOKEN_FMI3 "{5b8e9db8-095a-8b2c-147f-bdea1240709d}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -28,6 +28,9 @@ enum { WORK_ARG = 6, WORK_RES = 2, WORK_IW = 0, WORK_W = 41 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
+
+/* In a step: what a sample takes says how many, as nothing breaks a step off. */
+enum { MODEL_MOST_SAMPLES = 16777216 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "RoverDrive"
-#define MODEL_TOKEN_FMI2 "{7063e0eb-9bd3-41be-45ae-8f05d1c07562}"
-#define MODEL_TOKEN_FMI3 "{efb6bb1d-e76b-8e3f-d55b-bfbd5de18ec6}"
+#define MODEL_TOKEN_FMI2 "{1297669c-4293-3f94-f544-e4feec55f9b1}"
+#define MODEL_TOKEN_FMI3 "{ebeb58c9-4ab3-b76a-a466-2ab9262cd176}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -27,11 +27,14 @@ enum {
 enum { WORK_ARG = 6, WORK_RES = 2, WORK_IW = 0, WORK_W = 629 };
 
 /* Rows of inputs and outputs. */
-enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };
+enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 3248159 };
+
+/* In a step: what a sample takes says how many, as nothing breaks a step off. */
+enum { MODEL_MOST_SAMPLES = 3248159 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
-    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 16777216.0},
+    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 3248159.0},
     {"speed_command", KIND_REAL, ROLE_INPUT, 0, 1, -INFINITY, INFINITY},
     {"turn_rate_command", KIND_REAL, ROLE_INPUT, 1, 1, -INFINITY, INFINITY},
     {"drive", KIND_INTEGER, ROLE_FIXED, 0, 1, 0.0, 4.0},

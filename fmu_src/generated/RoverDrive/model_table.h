@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "RoverDrive"
-#define MODEL_TOKEN_FMI2 "{544a8747-5020-49ba-ddf8-cf60a87204e2}"
-#define MODEL_TOKEN_FMI3 "{3e0c6bf0-cd5a-0838-abde-1e29e36f6ebb}"
+#define MODEL_TOKEN_FMI2 "{4a3a02a2-151e-a664-1e98-10510b21289d}"
+#define MODEL_TOKEN_FMI3 "{522451a9-a2c6-f421-be7a-479258f42ada}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -28,6 +28,9 @@ enum { WORK_ARG = 6, WORK_RES = 2, WORK_IW = 0, WORK_W = 629 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
+
+/* In a step: what a sample takes says how many, as nothing breaks a step off. */
+enum { MODEL_MOST_SAMPLES = 3248159 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},

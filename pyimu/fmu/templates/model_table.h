@@ -33,7 +33,10 @@ enum {
 enum { WORK_ARG = {{ work.arg }}, WORK_RES = {{ work.res }}, WORK_IW = {{ work.iw }}, WORK_W = {{ work.w }} };
 
 /* Rows of inputs and outputs. */
-enum { IN_BLOCKS = {{ 1 if block_size else 0 }}, START_ROWS = {{ block_size or 1 }}, MAX_ROWS = {{ max_block_size if block_size else 1 }} };
+enum { IN_BLOCKS = {{ 1 if block_size else 0 }}, START_ROWS = {{ block_size or 1 }}, MAX_ROWS = {{ most_samples if block_size else 1 }} };
+
+/* In a step: what a sample takes says how many, as nothing breaks a step off. */
+enum { MODEL_MOST_SAMPLES = {{ most_samples }} };
 
 static const BlockVariable variables[] = {
 {% for v in variables %}

@@ -9,13 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import numpy as np
 
 from pyimu.errors import Finding, UserError
 from pyimu.recording.formats.reader import need
-from pyimu.recording.formats.streams import StreamReader, reading
+from pyimu.recording.formats.streams import StreamReader, reading, unheard
 
 NAMES = ("IMU", "IMU2", "IMU3")
 
@@ -27,6 +28,10 @@ FIELDS = {"GyrX": "gyro_x [rad/s]", "GyrY": "gyro_y [rad/s]", "GyrZ": "gyro_z [r
 
 TEMPERATURES = ("T", "Temp")
 """What the thermometer's field is called, in newer and older logs."""
+
+
+DAMAGE = ("bad header", "unknown msg type", "Skipped", "bad msg", "Failed to parse")
+"""What pymavlink's lines say where it passes over bytes."""
 
 
 class DataflashReader:
@@ -43,16 +48,32 @@ class DataflashReader:
         with reading(path, "a dataflash log"):
             if "temperature" in topics:
                 raise UserError(f"{path}: key topics.temperature is for ROS bags; leave it out")
-            head = path.open("rb").read(2)
-            if head == b"\xa3\x95":
-                log = module.DFReader_binary(str(path))
-            elif path.suffix.lower() == ".log":
-                log = module.DFReader_text(str(path))
-            else:
-                raise UserError(f"{path}: no dataflash log, it begins with {head.hex()}, not a395")
-            streams = _streams(log)
-            wanted = _instance(path, topics.get("imu"), streams)
-            return StreamReader(path, *_columns(streams, wanted))
+            with unheard(DAMAGE) as damaged:
+                streams = _streams(_opened(module, path))
+            columns, findings = _columns(streams, _instance(path, topics.get("imu"), streams))
+            if damaged():
+                findings += (Finding("damaged", "", 1, {"part": "some messages"}),)
+            return StreamReader(path, columns, findings)
+
+
+def _opened(module: ModuleType, path: Path) -> Any:
+    """Raises UserError for a file that begins as no dataflash log does."""
+    with path.open("rb") as file:
+        head = file.read(2)
+    if head == b"\xa3\x95":
+        return _in_python(module.DFReader_binary)(str(path))
+    if path.suffix.lower() == ".log":
+        return module.DFReader_text(str(path))
+    raise UserError(f"{path}: no dataflash log, it begins with {head.hex()}, not a395")
+
+
+def _in_python(reader: type) -> type:
+    """The reader without its index in C.
+
+    That passes over damaged messages in silence, or with lines that only the system could keep
+    from the screen, and saves little: nearly all the time goes into the messages themselves.
+    """
+    return type("Reader", (reader,), {"init_arrays_fast": reader.init_arrays})
 
 
 def _streams(log: Any) -> dict[int, list[Any]]:

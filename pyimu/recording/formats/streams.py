@@ -5,10 +5,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+import io
+import sys
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TextIO
 
 import numpy as np
 
@@ -45,6 +49,43 @@ class StreamReader(Reader):
 
     def place(self, index: int) -> str:
         return f"sample {index}"
+
+
+class Said(io.TextIOBase):
+    """What a library prints of a file while it reads, kept from the screen.
+
+    Its lines are no words of ours, and would stand in the middle of a result that is to be JSON.
+    ``of_damage`` is whether one of them says that bytes were passed over. What other threads print
+    goes where it was to go.
+    """
+
+    def __init__(self, behind: TextIO, damage: Sequence[str]) -> None:
+        self._behind, self._damage = behind, tuple(damage)
+        self._thread = threading.get_ident()
+        self.of_damage = False
+
+    def write(self, text: str) -> int:
+        if threading.get_ident() != self._thread:
+            return self._behind.write(text)
+        self.of_damage = self.of_damage or any(word in text for word in self._damage)
+        return len(text)
+
+    def flush(self) -> None:
+        self._behind.flush()
+
+    def isatty(self) -> bool:
+        return self._behind.isatty()
+
+
+@contextmanager
+def unheard(damage: Sequence[str] = ()) -> Iterator[Callable[[], bool]]:
+    """Within this context what this thread prints is not shown.
+
+    Gives the question whether a word of ``damage`` was in it.
+    """
+    out, err = Said(sys.stdout, damage), Said(sys.stderr, damage)
+    with redirect_stdout(out), redirect_stderr(err):
+        yield lambda: out.of_damage or err.of_damage
 
 
 @contextmanager

@@ -16,7 +16,7 @@ import numpy as np
 
 from pyimu.errors import Finding, UserError
 from pyimu.recording.formats.reader import need
-from pyimu.recording.formats.streams import StreamReader, onto, reading
+from pyimu.recording.formats.streams import StreamReader, onto, reading, unheard
 
 TOPICS = ("sensor_combined", "sensor_gyro", "sensor_accel", "vehicle_imu")
 """What is read of a file."""
@@ -37,7 +37,8 @@ class UlogReader:
         """
         core = need("pyulog.core", "ulog", path)
         with reading(path, "ULog"):
-            log = core.ULog(str(path), list(TOPICS), True)
+            with unheard():
+                log = core.ULog(str(path), list(TOPICS), True)
             found = {
                 (d.name, d.multi_id): d.data for d in log.data_list if len(d.data["timestamp"])
             }

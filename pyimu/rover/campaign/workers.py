@@ -174,6 +174,4 @@ def _dask() -> tuple[Any, Any]:
 
 
 def _failures() -> tuple[type[BaseException], ...]:
-    from distributed.scheduler import KilledWorker
-
-    return (KilledWorker,)
+    return (_dask()[1].scheduler.KilledWorker,)

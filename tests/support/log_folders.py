@@ -1,0 +1,101 @@
+"""Logs that are folders, and layouts of single files beside those of ``raw_logs``: what phones,
+data sets and other settings of the same programs write.
+"""
+
+import numpy as np
+import raw_logs
+from raw_logs import AXES, FIRST, text
+from scipy.spatial.transform import Rotation
+
+TRUTH = "state_groundtruth_estimate0"
+
+
+def _sensor_logger(folder, name, system, files):
+    """Sensor Logger's folder: a table of the axes backwards for each of ``files``."""
+    where = folder / name
+    where.mkdir()
+    for file, (stamps, values) in files.items():
+        columns = [stamps + FIRST, stamps * 1e-9, *values.T[::-1]]
+        text(where / f"{file}.csv", ["time,seconds_elapsed,z,y,x"], columns)
+    (where / "Metadata.csv").write_text(f"version,device name,platform\n3,a phone,{system}\n")
+    return where
+
+
+def android_uncalibrated(folder, log):
+    """Sensor Logger on Android: without the phone's own calibrations, at a magnetometer's 50 Hz,
+    and the force without gravity beside the whole one.
+    """
+    time, gyro, accel = log
+    field = np.tile([20.0, 0.0, -40.0], (len(time[::2]), 1))
+    files = {"GyroscopeUncalibrated": (time, gyro), "TotalAcceleration": (time, accel)}
+    files |= {"MagnetometerUncalibrated": (time[::2], field), "Accelerometer": (time, 0 * accel)}
+    return _sensor_logger(folder, "android", "android", files)
+
+
+def ios_total(folder, log):
+    """Sensor Logger on iOS: in m/s^2 with the other sign, and a magnetometer."""
+    time, gyro, accel = log
+    field = np.tile([20.0, 0.0, -40.0], (len(time), 1))
+    files = {"Gyroscope": (time, gyro), "TotalAcceleration": (time, -accel)}
+    return _sensor_logger(folder, "ios", "ios", files | {"Magnetometer": (time, field)})
+
+
+def phyphox_field(folder, log):
+    """phyphox with its magnetometer."""
+    where = raw_logs.phyphox(folder, log)
+    field = np.tile([20.0, 0.0, -40.0], (len(log[0]), 1))
+    head = ",".join(['"Time (s)"', *(f'"{a} (µT)"' for a in "XYZ")])
+    text(where / "Magnetometer.csv", [head], [log[0] * 1e-9, *field.T])
+    return where
+
+
+def sequence(folder, log, truth=TRUTH, angle=None):
+    """EuRoC's layout: ``mav0`` with the inertial unit, and every fifth sample's ``angle`` (n,) rad
+    about z as the instrument ``truth`` saw it.
+    """
+    for name in ("imu0", truth):
+        (folder / "mav0" / name).mkdir(parents=True)
+    raw_logs.euroc(folder / "mav0" / "imu0", log)
+    stamps = log[0][::5] + FIRST
+    turned = np.zeros(len(stamps)) if angle is None else angle[::5]
+    q = Rotation.from_rotvec(np.outer(turned, [0, 0, 1])).as_quat(scalar_first=True)
+    names = [f"p_RS_R_{a} [m]" for a in AXES] + [f"q_RS_{a} []" for a in "wxyz"]
+    head = ",".join(["#timestamp [ns]", *names])
+    columns = [stamps, *np.zeros((3, len(stamps))), *q.T]
+    text(folder / "mav0" / truth / "data.csv", [head], columns)
+    return folder
+
+
+def euroc_sequence(folder, log):
+    return sequence(folder / "V1_01", log)
+
+
+def xsens_fine(folder, log):
+    """MT Manager's text with its counter of 0.1 ms."""
+    time, gyro, accel = log
+    names = ["PacketCounter", "SampleTimeFine", *(f"Acc_{a}" for a in "XYZ")]
+    names += [f"Gyr_{a}" for a in "XYZ"]
+    columns = [np.arange(len(time)), time // 10**5, *accel.T, *gyro.T]
+    return text(folder / "mt.txt", ["// Update Rate: 100.0Hz", "\t".join(names)], columns, "\t")
+
+
+def xsens_dot(folder, log):
+    """Movella DOT, behind its lines of tags; its rates are in deg/s."""
+    time, gyro, accel = log
+    head = ["DeviceTag:,foo", "FirmwareVersion:,1.0", "OutputRate:,100Hz", ""]
+    names = ["PacketCounter", "SampleTimeFine", *(f"Euler_{a}" for a in "XYZ")]
+    names += [*(f"Acc_{a}" for a in "XYZ"), *(f"Gyr_{a}" for a in "XYZ")]
+    rest = np.zeros((3, len(time)))
+    columns = [np.arange(len(time)), time // 1000, *rest, *accel.T, *np.degrees(gyro).T]
+    return text(folder / "dot.csv", [*head, ",".join(names)], columns)
+
+
+def phone_gyro(folder, log):
+    """One file of Sensor Logger by itself."""
+    time, gyro, _ = log
+    columns = [time + FIRST, time * 1e-9, *gyro.T[::-1]]
+    return text(folder / "Gyroscope.csv", ["time,seconds_elapsed,z,y,x"], columns)
+
+
+FOLDERS = (android_uncalibrated, ios_total, phyphox_field, euroc_sequence)
+FILES = (xsens_fine, xsens_dot, phone_gyro)
