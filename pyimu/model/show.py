@@ -20,7 +20,8 @@ def as_text(part: Any) -> str:
     sensors = "; ".join(
         f"{s.kind} {', '.join(s.values)}" for s in (part.gyro, part.accel, part.mag) if s.values
     )
-    tolerances = f"; {len(part.tolerances)} tolerances" if part.tolerances else ""
+    count = len(part.tolerances)
+    tolerances = f"; {count} tolerance{'s' * (count > 1)}" if count else ""
     return f"Part({part.name!r}, {part.sample_rate:.6g} Hz: {sensors or 'ideal'}{tolerances})"
 
 
