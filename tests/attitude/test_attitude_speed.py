@@ -83,6 +83,7 @@ def filtered(block, world: Drive, speed, seed: int, told=True, until=ROWS, **set
     return y, state, bias
 
 
+@pytest.mark.long
 def test_pushes_and_turns_do_not_tilt_a_vehicle_whose_speed_is_known(block):
     """The squared error of the tilt over the claimed variance is chi-square: what accelerates a
     body of known speed is in its force, and nothing is allowed for beside that.

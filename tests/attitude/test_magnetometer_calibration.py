@@ -121,6 +121,7 @@ def test_the_noise_is_that_of_a_sample_at_rest():
     np.testing.assert_allclose(noise, NOISE * np.sqrt(PERIOD), rtol=norm.isf(0.0005 / 3) * std)
 
 
+@pytest.mark.long
 def test_samples_by_a_magnet_do_not_count():
     """A twentieth of the log beside a magnet moves no coefficient by more than is claimed."""
     clean, _ = log(3)

@@ -1,6 +1,7 @@
 """The fast filter makes the estimates of the filter of 13 sigma points."""
 
 import numpy as np
+import pytest
 from attitude_cases import (
     H,
     attitude_after,
@@ -24,6 +25,7 @@ ALIGNED = np.array([0.01, 0.01, 0.001, 1e-3, 1e-3, 1e-3])
 """Standard deviations after some seconds at rest."""
 
 
+@pytest.mark.long
 def test_fast_filter_is_the_filter_of_thirteen_points_over_an_hour():
     """360,000 samples with updates by gravity at rest and in motion, by headings on time and late,
     and by zero rates: to 1e-6 rad and rad/s.

@@ -165,6 +165,7 @@ def test_square_root_form_is_the_other_over_ten_minutes():
     assert (np.diag(factor) > 0).all()
 
 
+@pytest.mark.long
 def test_square_root_form_is_the_other_on_a_measured_recording():
     """A minute of a body moved by hand, with the noise that it shows at rest."""
     log = pyimu.read_recording(measured("broad_11_undisturbed_slow_translation_B"))

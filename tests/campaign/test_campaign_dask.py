@@ -51,6 +51,7 @@ def scheduler():
         process.wait()
 
 
+@pytest.mark.long
 def test_a_killed_worker_loses_nothing(alone, tmp_path):
     """Killed as soon as it has begun to compute, so that it dies with a batch in hand."""
     killed, told = [], []

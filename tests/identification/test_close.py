@@ -92,11 +92,16 @@ def in_one_log(gyro, accel):
     return alone + [{k: n for k, n in zip(("gyro", "accel"), pair) if n} for pair in pairs]
 
 
+def some_long(cases):
+    """Every other one is for the long tests alone."""
+    return [pytest.param(c, marks=[pytest.mark.long] * (k % 2)) for k, c in enumerate(cases)]
+
+
 def named(present):
     return "-".join(f"{kind}-{name}" for kind, name in present.items() if name)
 
 
-@pytest.mark.parametrize("present", in_one_log(GYRO, ACCEL), ids=named)
+@pytest.mark.parametrize("present", some_long(in_one_log(GYRO, ACCEL)), ids=named)
 def test_undeclared_effect_is_named_without_a_part(world, present):
     check(world, present, None)
 
@@ -151,6 +156,7 @@ def test_two_logs_together_and_a_third_to_judge_by(world):
     assert closed.errors["gyro"].after.total < closed.errors["gyro"].before.total
 
 
+@pytest.mark.long
 def test_clean_logs_are_blamed_no_more_often_than_the_gate_allows():
     count, blamed = 12, []
     for seed in range(count):

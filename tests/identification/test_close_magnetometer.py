@@ -256,6 +256,7 @@ def test_the_filter_takes_the_model_of_close(closed):
     assert off[1] < 0.3 * off[0]
 
 
+@pytest.mark.long
 def test_a_log_without_one_says_nothing_of_it():
     plain = log(202, rows=3000)
     bare = Recording.from_arrays(

@@ -25,6 +25,7 @@ def test_a_walk_that_a_step_explains_on_the_fitted_rows_is_a_walk():
     assert [c.effect for c in found.changed] == ["rate_random_walk"]
 
 
+@pytest.mark.long
 def test_a_step_that_was_let_in_is_taken_back_for_a_walk(monkeypatch):
     """Events that are placed beside the walk as it was declared, and are charged for nothing."""
     monkeypatch.setattr(Chance, "walks", {})
@@ -45,6 +46,7 @@ def test_jumps_are_said_where_a_walk_is_left_to_the_data(name, number):
     assert {u.shape for u in found.unexplained} == {POPCORN}
 
 
+@pytest.mark.long
 def test_a_process_too_large_for_one_effect_is_called_by_another_of_its_law():
     """q is 5.6e-4: a consumer part's is 3.9e-5, that of a second, faster process 3.9e-4."""
     found = closed(make("one/8/gyro.second_gauss_markov", 0, MINUTES))
@@ -72,6 +74,7 @@ def test_what_explains_as_much_as_a_larger_walk_is_said():
     assert "data allow as well: gauss_markov" in found.report()
 
 
+@pytest.mark.long
 def test_what_explains_as_much_as_another_declared_value_is_said():
     """A scale factor that follows a temperature far from 25 degC all through the log: what speaks
     against another scale factor is expected to be 0.4 nat.

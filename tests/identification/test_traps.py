@@ -49,7 +49,13 @@ def test_a_trap_depends_on_its_generator_alone(name):
 
 
 @pytest.mark.parametrize(
-    "name", ["gyro_early_12_5_ms", "slerp_60_to_200_hz", "thermometer_rounded", "jitter_5_percent"]
+    "name",
+    [
+        "gyro_early_12_5_ms",
+        pytest.param("slerp_60_to_200_hz", marks=pytest.mark.long),
+        "thermometer_rounded",
+        pytest.param("jitter_5_percent", marks=pytest.mark.long),
+    ],
 )
 def test_a_blameless_sensor_is_not_blamed(name):
     """One case of each room: by chance one in a hundred may be blamed, which the fixed seed keeps
@@ -68,11 +74,11 @@ def test_an_early_gyro_is_the_clocks():
     "name",
     [
         "jitter_20_percent",
-        "slerp_60_to_200_hz",
+        pytest.param("slerp_60_to_200_hz", marks=pytest.mark.long),
         "held_at_20_hz",
-        "outliers",
+        pytest.param("outliers", marks=pytest.mark.long),
         "dropped_rows",
-        "occlusions_and_jumps",
+        pytest.param("occlusions_and_jumps", marks=pytest.mark.long),
     ],
 )
 def test_what_is_wrong_with_samples_or_reference_is_named_and_the_sensor_is_examined(name):

@@ -235,6 +235,7 @@ def test_the_steady_turns_of_a_coarse_gyro_are_no_limit_of_it():
     assert not np.any(found.filter.scalar("status").astype(int) & 1)
 
 
+@pytest.mark.long
 def test_a_gyro_with_a_wide_null_is_at_rest_where_its_part_allows_it():
     """The ADXRS300 may show 40 deg/s at rest; the same samples of a finer part are a turn."""
     part = pyimu.part("sparkfun6dof_v2")

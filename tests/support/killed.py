@@ -27,20 +27,20 @@ QUICK = {
     "characterize": ["characterize", "log.csv", "--out", "OUT"],
     "inspect": ["inspect", "log.csv", "--out", "OUT", "--write-map", "OUT/map.toml"],
     "modelica": ["modelica", "imt30", "--out", "OUT"],
-    "plan": ["plan", "mpu6050", "--for", "scale_factor", "--out", "OUT"],
-    "attitude": ["attitude", "log.csv", "--part", "imt30", "--out", "OUT"],
     "navigate": ["navigate", "log.csv", "--part", "imt30", "--out", "OUT"],
     "close": ["close", "log.csv", "--part", "imt30", "--out", "OUT"],
     "build": ["build", "imt30", "--fmu", "sensor", "--fmi", "3", "--out", "OUT"],
     "export": ["export", "mpu6050", "--to", "kalibr,vins,gazebo,ros2,matlab,px4", "--out", "OUT"],
     "heading": ["heading", "turns.csv", "--start-up", "3", "--out", "OUT"],
-    "rover": ["rover", "--part", "slow.toml", "--seeds", "1", "--out", "OUT"],
     "derive": ["derive", "--out", "OUT"],
     "parts": ["parts", "--new", "OUT"],
 }
 """OUT is a folder for the results, and the name of a new part."""
 
 SLOW = {
+    "rover": ["rover", "--part", "slow.toml", "--seeds", "1", "--out", "OUT"],
+    "attitude": ["attitude", "log.csv", "--part", "imt30", "--out", "OUT"],
+    "plan": ["plan", "mpu6050", "--for", "scale_factor", "--out", "OUT"],
     "demo": ["demo", "--out", "OUT"],
     "campaign": ["campaign", "slow.toml", "--runs", "2", "--workers", "0", "--out", "OUT"],
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
@@ -234,7 +235,10 @@ def initial_state(sensor: Sensor, trial: Trial) -> LogState:
             < 0.2 * np.linalg.norm(x, axis=1)
         )
         if fast.sum() > 10:
-            rotation = Rotation.align_vectors(y[fast], x[fast])[0].as_matrix()
+            with warnings.catch_warnings():
+                # Turns about one axis alone leave that about it to the fit.
+                warnings.filterwarnings("ignore", "Optimal rotation", UserWarning)
+                rotation = Rotation.align_vectors(y[fast], x[fast])[0].as_matrix()
     rest = in_band(trial, residual(sensor, trial, LogState(np.zeros(3), rotation)))
     bias = np.median(rest, axis=0) if len(rest) else np.zeros(3)
     return LogState(bias, rotation, clock=_clock_to_find(trial))
