@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from pyimu.identification.formula.levels import SHARES, Levels
-from pyimu.identification.formula.search import _least
 
 
 def swept(rest: float) -> np.ndarray:
@@ -36,11 +35,3 @@ def test_a_level_has_the_share_that_it_is_at():
 def test_a_number_that_does_not_change_has_one_level():
     values = 9.8 + 1e-12 * np.random.default_rng(2).standard_normal(1000)
     np.testing.assert_allclose(Levels.of(values).at(SHARES), 9.8, rtol=1e-9)
-
-
-def test_an_axis_without_a_difference_is_asked_for_no_gain():
-    """Rows of the fitted part are taken off those of the whole: what is left may lie below zero."""
-    asked = _least(np.array([-4.8e-3, 0.0, 15.0, 1000.0]))
-    np.testing.assert_allclose(asked[:2], 0.0)
-    np.testing.assert_allclose(asked[3], 300.0)
-    assert asked[2] == pytest.approx(15.0 - 2.0 * np.sqrt(30.0))

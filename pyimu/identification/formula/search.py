@@ -12,8 +12,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 
-import numpy as np
-
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient, coefficients_of
 from pyimu.identification.fit.maximum_likelihood import advantage, fit_and_normal
@@ -31,34 +29,27 @@ from pyimu.identification.formula.effect import (
     put,
 )
 from pyimu.identification.formula.formula import Formula
+from pyimu.identification.formula.judge import (
+    DOUBTFUL,
+    is_borne_out,
+    is_confirmed,
+    is_denied,
+    left_of,
+    outweighs,
+)
 from pyimu.identification.formula.resembles import resembled
 from pyimu.identification.formula.screen import UNEXPLAINED, Scores, gate, scored
 from pyimu.identification.formula.terms import (
     Term,
     library,
 )
-from pyimu.identification.search.choice import SET_WIDTH
-from pyimu.identification.search.confirm import SPEAKS, Evidence, evidence
+from pyimu.identification.search.confirm import evidence
 from pyimu.identification.search.forward import Investigation, Refused, Step, form_error
 from pyimu.identification.search.leftover import Unexplained
 from pyimu.identification.search.own_signal import is_of_reference
 from pyimu.identification.search.screen import PENALTY, fitted_dispersion, fitted_gain
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.silent import silent
-
-CONFIRMED, CHANCE = 0.3, 2.0
-"""Share of what the models differ by on held-out rows that these must gain: all of it in the mean
-where the formula is true, the contrary of it where it is not. Where they differ by little a true
-one may gain less, by so many standard errors."""
-
-DISPLACES = 0.05
-"""Share of what effects with a name explain of the fitted rows, by which a formula must explain
-more, of these and of the held-out ones, to take their place: near level a product with the vertical
-force is a multiple of gravity."""
-
-DOUBTFUL = 0.0
-"""Log-likelihood [nat] by which the sensor's own signal may speak against a formula: what is chosen
-from thousands of terms must be seen there, where a named effect must only not be missing."""
 
 Again = Callable[..., Investigation]
 
@@ -188,7 +179,7 @@ def _tried(
     rival: Found | None = None
 
     def left(chosen: Chosen, fitted: Fit) -> Chosen:
-        return _left(chosen, evidence(start, fitted, inv.held))
+        return left_of(chosen, evidence(start, fitted, inv.held))
 
     def bears(chosen: Chosen, fitted: Fit) -> bool:
         return any(axes for _, axes in left(chosen, fitted))
@@ -233,11 +224,11 @@ def _once(
         seen = evidence(inv.after, beyond, inv.held)
         keys = keys_of_terms(name, chosen)
         most = advantage(beyond, inv.after) - PENALTY * (len(keys) - inv.brought_in)
-        may_displace = bool(inv.steps) and most > needed and not _denied(inv, beyond, seen)
-        if may_displace or _is_borne_out(inv, beyond, seen):
+        may_displace = bool(inv.steps) and most > needed and not is_denied(inv, beyond, seen)
+        if may_displace or is_borne_out(inv, beyond, seen):
             done[known] = _beside(inv, name, chosen, fitted, needed, again)
         else:
-            done[known] = None, _left(chosen, seen)
+            done[known] = None, left_of(chosen, seen)
     return done[known]
 
 
@@ -257,16 +248,16 @@ def _beside(
     apart = advantage(beside.after, inv.after)
     ahead = apart / spread - PENALTY * (len(keys) + beside.brought_in - inv.brought_in)
     seen = evidence(inv.after, beside.after, inv.held)
-    kept, displaced = _left(chosen, seen), _displaced(inv, beside)
-    if gain <= needed or not _outweighs(displaced, ahead, seen, needed):
+    kept, displaced = left_of(chosen, seen), _displaced(inv, beside)
+    if gain <= needed or not outweighs(displaced, ahead, seen, needed):
         return None, kept
-    shown = _is_borne_out(inv, beside.after, seen)
+    shown = is_borne_out(inv, beside.after, seen)
     if not shown:
-        if not displaced or _denied(inv, beside.after, seen):
+        if not displaced or is_denied(inv, beside.after, seen):
             return None, kept
         # What it explains of held-out rows, what it displaces may explain nearly as well.
         alone = evidence(_less(beside.after, name, keys), beside.after, inv.held)
-        shown = _confirmed(alone)
+        shown = is_confirmed(alone)
     step = Step(name, keys, gain, needed, (), spread)
     whole = replace(beside, before=inv.before, steps=(step, *beside.steps), first=inv.first)
     kind, parts = inv.after.sensor.kind, _parted(chosen)
@@ -302,29 +293,6 @@ def _grown(chosen: Chosen, keys: frozenset[Coefficient]) -> Chosen:
     return [(t, tuple(sorted(axes[t.text]))) for t, _ in chosen]
 
 
-def _least(difference: np.ndarray) -> np.ndarray:
-    """Gain [nat] that held-out rows have at least by what is true, where models differ by so much
-    there: its mean is that ``difference``, its variance twice that. Held-out rows are all rows less
-    the fitted ones, so that an axis where the models agree may have a little less than none.
-    """
-    there = np.maximum(difference, 0.0)
-    return np.minimum(CONFIRMED * there, there - CHANCE * np.sqrt(2.0 * there))
-
-
-def _left(chosen: Chosen, seen: Evidence) -> Chosen:
-    """The terms with the axes that held-out rows do not speak against."""
-    denied = (seen.difference > SPEAKS) & (seen.gained < _least(seen.difference))
-    return [(t, tuple(i for i in a if not denied[i])) for t, a in chosen]
-
-
-def _outweighs(displaced: list[Step], ahead: float, seen: Evidence, needed: float) -> bool:
-    """Whether a formula explains so much more than the effects whose place it takes, of the fitted
-    rows and of the held-out ones, which have no part in its choice.
-    """
-    held = max(float(seen.gained.sum()), 0.0)
-    return ahead > needed and ahead + held > needed + DISPLACES * sum(s.gain for s in displaced)
-
-
 def _displaced(inv: Investigation, beside: Investigation) -> list[Step]:
     """The effects with a name that a formula takes the place of."""
     names = {s.effect for s in beside.steps}
@@ -333,28 +301,3 @@ def _displaced(inv: Investigation, beside: Investigation) -> list[Step]:
 
 def _parted(chosen) -> tuple[tuple[Term, ...], tuple[tuple[int, ...], ...]]:
     return tuple(t for t, _ in chosen), tuple(a for _, a in chosen)
-
-
-def _is_borne_out(inv: Investigation, after: Fit, seen: Evidence) -> bool:
-    """Whether held-out rows, whose evidence was ``seen``, and the sensor's own signal bear out what
-    a model explains beyond what an investigation left.
-    """
-    return _confirmed(seen) and not is_of_reference(inv.after, after, DOUBTFUL)
-
-
-def _denied(inv: Investigation, after: Fit, seen: Evidence) -> bool:
-    """Whether held-out rows, of whatever little difference, or the sensor's own signal speak
-    against a model.
-    """
-    lost = seen.gained.sum() < float(_least(seen.difference.sum()))
-    return lost or seen.raises or seen.is_little or is_of_reference(inv.after, after, DOUBTFUL)
-
-
-def _confirmed(seen: Evidence) -> bool:
-    """Whether held-out rows gain by a formula as they must where it is true, and do not lose, and
-    all rows gain as much as by an effect with a name.
-    """
-    if seen.raises or seen.is_little:
-        return False
-    gained, difference = float(seen.gained.sum()), seen.difference.sum()
-    return difference > SET_WIDTH / 2 and gained > max(0.0, float(_least(difference)))
