@@ -43,13 +43,6 @@ def left_of(chosen: Chosen, seen: Evidence) -> Chosen:
     return [(t, tuple(i for i in a if not denied[i])) for t, a in chosen]
 
 
-def is_borne_out(inv: Investigation, after: Fit, seen: Evidence) -> bool:
-    """Whether held-out rows, whose evidence was ``seen``, and the sensor's own signal bear out what
-    a model explains beyond what an investigation left.
-    """
-    return is_confirmed(seen) and not is_of_reference(inv.after, after, DOUBTFUL)
-
-
 def is_denied(inv: Investigation, after: Fit, seen: Evidence) -> bool:
     """Whether held-out rows, of whatever little difference, or the sensor's own signal speak
     against a model.

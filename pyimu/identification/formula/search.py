@@ -31,7 +31,6 @@ from pyimu.identification.formula.effect import (
 from pyimu.identification.formula.formula import Formula
 from pyimu.identification.formula.judge import (
     DOUBTFUL,
-    is_borne_out,
     is_confirmed,
     is_denied,
     left_of,
@@ -215,8 +214,9 @@ def _once(
     again: Again,
 ) -> tuple[Found | None, Chosen]:
     """``_beside``, or what it gave of the same formula before; nothing where the formula beside all
-    that was found, which has whatever it may explain, is not borne out and explains too little to
-    take the place of any of it: an investigation is long, and asks the same of what it leaves.
+    that was found, which has whatever it may explain, is denied, or is not confirmed and explains
+    too little to take the place of any of it: an investigation is long, and asks the same of what
+    it leaves.
     """
     known = frozenset((t.text, axes) for t, axes in chosen)
     if known not in done:
@@ -224,8 +224,8 @@ def _once(
         seen = evidence(inv.after, beyond, inv.held)
         keys = keys_of_terms(name, chosen)
         most = advantage(beyond, inv.after) - PENALTY * (len(keys) - inv.brought_in)
-        may_displace = bool(inv.steps) and most > needed and not is_denied(inv, beyond, seen)
-        if may_displace or is_borne_out(inv, beyond, seen):
+        may_displace = bool(inv.steps) and most > needed
+        if (may_displace or is_confirmed(seen)) and not is_denied(inv, beyond, seen):
             done[known] = _beside(inv, name, chosen, fitted, needed, again)
         else:
             done[known] = None, left_of(chosen, seen)
@@ -251,10 +251,10 @@ def _beside(
     kept, displaced = left_of(chosen, seen), _displaced(inv, beside)
     if gain <= needed or not outweighs(displaced, ahead, seen, needed):
         return None, kept
-    shown = is_borne_out(inv, beside.after, seen)
+    shown = is_confirmed(seen)
+    if not (shown or displaced) or is_denied(inv, beside.after, seen):
+        return None, kept
     if not shown:
-        if not displaced or is_denied(inv, beside.after, seen):
-            return None, kept
         # What it explains of held-out rows, what it displaces may explain nearly as well.
         alone = evidence(_less(beside.after, name, keys), beside.after, inv.held)
         shown = is_confirmed(alone)
