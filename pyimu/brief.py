@@ -19,7 +19,8 @@ class Brief:
     """A dataclass (``repr=False``) that shows its fields in short, those that are not empty."""
 
     def __repr__(self) -> str:
-        told = ((f.name, getattr(self, f.name)) for f in fields(self) if f.repr)  # type: ignore[arg-type]
+        own = fields(self)  # type: ignore[arg-type]
+        told = ((f.name, getattr(self, f.name)) for f in own if f.repr)
         shown = (f"{name}={in_short(value)}" for name, value in told if not _empty(value))
         return f"{type(self).__name__}({', '.join(shown)})"
 
