@@ -22,8 +22,13 @@ from drives.attitude import H, Noise, Scenario
 DRIVES, SHORT = 24, INSTANTS[:7]
 """Drives of 40 s."""
 
+LONG = {"gyro with Gauss-Markov noise", "relative rate noise, each axis by itself"}
+SOME_LONG = [
+    pytest.param(s, marks=[pytest.mark.long] * (s.name in LONG), id=s.name) for s in SCENARIOS
+]
 
-@pytest.mark.parametrize("scenario", SCENARIOS, ids=lambda s: s.name)
+
+@pytest.mark.parametrize("scenario", SOME_LONG)
 def test_normalised_errors_and_innovations_are_chi_square(scenario):
     sums = simulate(scenario, DRIVES, SHORT)
     assert outside(sums, Bands(len(SCENARIOS) * len(SHORT) * len(KINDS)), scenario.bounded) == []

@@ -109,7 +109,10 @@ class Published:
         return (force - mean) @ np.linalg.solve(s, force - mean)
 
 
-@pytest.mark.parametrize("lam", [0.0, 1.0, 3.0])
+@pytest.mark.parametrize(
+    "lam",
+    [0.0, pytest.param(1.0, marks=pytest.mark.long), pytest.param(3.0, marks=pytest.mark.long)],
+)
 def test_filter_is_sections_4_and_5_of_the_paper_with_f_and_a_one(lam):
     """Rows at rest and in a drive with pushes and Earth rate, by numpy and scipy.
 

@@ -174,6 +174,7 @@ def test_chance_makes_no_effect_of_temperature(kind):
     assert set(none.coefficients) == {"b0"} and none.bound > 0 and none.parameters() == {}
 
 
+@pytest.mark.long
 def test_a_bound_where_no_effect_is_warranted_holds():
     """An effect too small to be found is below it in 95 % of the records or more.
 
@@ -185,7 +186,9 @@ def test_a_bound_where_no_effect_is_warranted_holds():
     assert all(np.isnan(f.bound) == (f.order > 0) for f in fits)
 
 
-@pytest.mark.parametrize("order", [1, 2, 3])
+@pytest.mark.parametrize(
+    "order", [pytest.param(1, marks=pytest.mark.long), 2, pytest.param(3, marks=pytest.mark.long)]
+)
 def test_the_order_is_that_of_the_data(order):
     """A clear polynomial is fitted with its own order, but for one record in a thousand.
 
@@ -358,7 +361,7 @@ def test_a_loop_is_found_with_its_opening():
     assert np.mean([loop.kh for loop in exact]) == pytest.approx(kh, rel=0.05)
 
 
-@pytest.mark.parametrize("kind", ["cycles", "weather"])
+@pytest.mark.parametrize("kind", ["cycles", pytest.param("weather", marks=pytest.mark.long)])
 def test_chance_makes_no_loops(kind):
     rng, runs = np.random.default_rng(15), 250
     fits = [fit_thermal(record(rng, kind, kT=0.2), order=1) for _ in range(runs)]

@@ -93,8 +93,8 @@ def in_one_log(gyro, accel):
 
 
 def some_long(cases):
-    """Every other one is for the long tests alone."""
-    return [pytest.param(c, marks=[pytest.mark.long] * (k % 2)) for k, c in enumerate(cases)]
+    """Three of four are for the long tests alone."""
+    return [pytest.param(c, marks=[pytest.mark.long] * (k % 4 > 0)) for k, c in enumerate(cases)]
 
 
 def named(present):
@@ -125,6 +125,7 @@ def test_coefficient_comes_out_with_an_honest_standard_error(world):
     assert np.abs((value - truth) / np.where(inside, std, np.inf)).max() < 4.4
 
 
+@pytest.mark.long
 def test_two_effects_at_once_are_both_named(world):
     first, second = (
         changes(world, "gyro")[n](size_for(world, "gyro", n, 60.0, True))
@@ -280,6 +281,7 @@ def test_moving_log_without_reference_is_refused():
         pyimu.close(Recording.from_arrays(name="waved", time=t, gyro=gyro))
 
 
+@pytest.mark.long
 def test_result_does_not_depend_on_the_order_of_calls(world):
     log = recording(world, gyro_change=changes(world, "gyro")["g_sensitivity"](4e-5), seed=5)
     assert pyimu.close(log).as_dict() == pyimu.close(log).as_dict()

@@ -75,6 +75,7 @@ def look(*logs, holdout=(), part=None) -> Examined | str:
     return examined(part or undeclared(RATE), list(logs), list(holdout), {}, "")
 
 
+@pytest.mark.long
 def test_hard_and_soft_iron_are_found_within_their_errors():
     """Twelve coefficients less the scale of all axes: chi-squared of 11, over 20 draws."""
     total = 0.0

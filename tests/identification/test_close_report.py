@@ -218,6 +218,7 @@ def test_named_sentence(closed):
     )
 
 
+@pytest.mark.long
 def test_a_product_of_forces_that_is_the_largest_is_named(tmp_path):
     """Six columns, which are no axes: the largest coefficient is in the last."""
     motion, size = world.drive(minutes=2.5, rate_hz=25), 1e-5

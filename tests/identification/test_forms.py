@@ -65,7 +65,10 @@ def test_where_the_forms_look_alike_the_others_are_alternatives(world):
     assert {added.effect, *added.alternatives} == {"first_order_lag", "lag", "time_delay"}
 
 
-@pytest.mark.parametrize("d", [0.003, 0.01, 0.05])
+@pytest.mark.parametrize(
+    "d",
+    [pytest.param(0.003, marks=pytest.mark.long), 0.01, pytest.param(0.05, marks=pytest.mark.long)],
+)
 def test_a_hard_dead_zone_is_named_with_its_width(world, d):
     """The least of the outputs that are not zero lies above it by an exponential distance."""
     closed = closed_with(world, hard(d))

@@ -67,7 +67,7 @@ def test_an_effect_is_found_with_its_form(name):
     assert abs(found - true) < ERRORS * refined.fit.std[Coefficient(name, parameter, index)]
 
 
-@pytest.mark.parametrize("size", [0.002, 0.006])
+@pytest.mark.parametrize("size", [pytest.param(0.002, marks=pytest.mark.long), 0.006])
 def test_an_instant_lies_within_its_interval(size):
     """Of a step of 0.2 and of 0.6 standard deviations of a sample, whose instant is known to some
     seconds and to a few tenths; it is looked for from a second beside it.

@@ -124,6 +124,7 @@ def about_z(world, turns, seconds):
     return World(**columns)
 
 
+@pytest.mark.long
 def test_a_periodic_error_gets_its_harmonic(world):
     """Turned round and round: an angle that only swings tells no harmonic from its neighbour."""
     round_ = replace(world, rate=world.rate + [0.0, 0.5, 0.0])

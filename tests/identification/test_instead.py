@@ -15,6 +15,7 @@ from pyimu.model.sensor import Sensor
 MINUTES = (5.0, 8.0)
 
 
+@pytest.mark.long
 def test_a_walk_that_a_step_explains_on_the_fitted_rows_is_a_walk():
     """A step explained 35 nat of the fitted ones beside the walk as it was declared; beside one
     that is estimated anew it explains no more than the best of as many steps does of a walk.

@@ -369,7 +369,10 @@ def test_a_delay_that_one_of_two_logs_shows_is_named(name):
     assert [a.effect for a in found.added] == ["time_delay"], found.report()
 
 
-@pytest.mark.parametrize("share", [0.05, 0.1, 0.2])
+@pytest.mark.parametrize(
+    "share",
+    [pytest.param(0.05, marks=pytest.mark.long), 0.1, pytest.param(0.2, marks=pytest.mark.long)],
+)
 def test_a_little_noise_of_the_reference_is_no_dead_zone(share):
     """A zone as wide as that noise would smooth it where nothing turns: half a nat in a row for
     each share of the variance.
@@ -441,6 +444,7 @@ def test_times_in_milliseconds_are_said():
         pyimu.close(late)
 
 
+@pytest.mark.long
 def test_a_sensor_that_warms_up_beside_a_reference_at_rest_has_no_unfit_reference():
     """Its bias follows the temperature; the reference says truly that nothing turned."""
     rng, temperature = np.random.default_rng(7), 25 + 8 * np.sin(2 * np.pi * TIME / 60)

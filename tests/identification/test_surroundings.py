@@ -83,7 +83,10 @@ N = {value = [1.41421356e-4, 1.41421356e-4, 1.41421356e-4], unit = "rad/sqrt(s)"
 """
 
 
-@pytest.mark.parametrize("tau", [0.0, 20.0, 40.0])
+@pytest.mark.parametrize(
+    "tau",
+    [0.0, pytest.param(20.0, marks=pytest.mark.long), pytest.param(40.0, marks=pytest.mark.long)],
+)
 def test_a_late_thermometer_is_found_and_is_no_rate_of_temperature(tau):
     """A thermometer that is a first-order lag of T shows T - tau dT/dt."""
     late = TRUE if tau == 0.0 else _behind(tau)

@@ -73,7 +73,7 @@ def test_an_early_gyro_is_the_clocks():
 @pytest.mark.parametrize(
     "name",
     [
-        "jitter_20_percent",
+        pytest.param("jitter_20_percent", marks=pytest.mark.long),
         pytest.param("slerp_60_to_200_hz", marks=pytest.mark.long),
         "held_at_20_hz",
         pytest.param("outliers", marks=pytest.mark.long),
@@ -104,7 +104,12 @@ def test_a_reference_as_noisy_as_the_motion_stops_nothing():
 
 
 @pytest.mark.parametrize(
-    "name, number", [("drift_0_1_deg_per_min", 0), ("drift_0_1_deg_per_min", 2), ("occlusions", 1)]
+    "name, number",
+    [
+        ("drift_0_1_deg_per_min", 0),
+        pytest.param("drift_0_1_deg_per_min", 2, marks=pytest.mark.long),
+        pytest.param("occlusions", 1, marks=pytest.mark.long),
+    ],
 )
 def test_the_noise_of_a_derived_reference_is_no_dependence(name, number):
     """Of a term that the model explains but for the reference's noise next to nothing is left: its

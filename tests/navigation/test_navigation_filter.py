@@ -60,6 +60,7 @@ def test_the_position_is_as_far_off_as_is_claimed(runs_of_noise, method, at):
     assert low < np.mean([nees(t, truth, row) for t in tracks]) < high
 
 
+@pytest.mark.long
 def test_the_first_zero_velocity_of_a_stop_has_the_right_nis(runs_of_noise):
     _, found = runs_of_noise
     first = np.concatenate([r.first_zupts for r in found])

@@ -45,6 +45,8 @@ SAMPLES = 2**16
 RATES = (100.0, 976.0)
 SEEDS = (11, 12, 13)
 RUNS = [(rate, seed) for rate in RATES for seed in SEEDS]
+SHORT = ((100.0, 11), (976.0, 12))
+SOME_LONG = [pytest.param(*r, marks=[pytest.mark.long] * (r not in SHORT)) for r in RUNS]
 FALSE_ALARM = 1e-2
 ONE = FALSE_ALARM / (2 * len(CASES) * len(RUNS) + 5)
 """Of that, for all octaves of one statistic of one noise in one run, and for each of the five tests
@@ -167,7 +169,7 @@ def assert_white(z: np.ndarray, alpha: float) -> float:
     return narrowest
 
 
-@pytest.mark.parametrize("rate, seed", RUNS)
+@pytest.mark.parametrize("rate, seed", SOME_LONG)
 @pytest.mark.parametrize("case", CASES, ids=lambda c: c.name)
 def test_psd_is_inside_the_band_of_theory(noise, case, rate, seed):
     z = case.law.whiten(noise(case, rate, seed), 1 / rate)
@@ -188,7 +190,7 @@ def assert_deviations(x: np.ndarray, m: np.ndarray, low, high, rate: float) -> N
         assert a <= value <= b, f"tau = {size / rate:g} s: {value:.4g} is not in {a:.4g} to {b:.4g}"
 
 
-@pytest.mark.parametrize("rate, seed", RUNS)
+@pytest.mark.parametrize("rate, seed", SOME_LONG)
 @pytest.mark.parametrize("case", CASES, ids=lambda c: c.name)
 def test_allan_deviation_is_inside_the_band_of_theory(noise, case, rate, seed):
     m, low, high = limits(case, rate)
@@ -202,7 +204,7 @@ def test_every_noise_of_the_catalogue_has_a_case():
     assert not missing, "\n".join(missing)
 
 
-@pytest.mark.parametrize("rate, seed", RUNS)
+@pytest.mark.parametrize("rate, seed", SOME_LONG)
 def test_noises_axes_sensors_and_runs_are_independent(noise, rate, seed):
     """Correlations of independent white series are normal with variance 1 / n.
 
