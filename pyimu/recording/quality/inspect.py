@@ -99,7 +99,7 @@ def _spikes(recording: Recording) -> Iterator[Finding]:
     names, values = _channels(recording)
     if not names:
         return
-    found = spikes(values)
+    found = spikes(values, recording.segments)
     for column, name in enumerate(names):
         v, rows = values[:, column], np.flatnonzero(found[:, column])
         at_limit = widened(widened(clipped(v))) if len(rows) else found[:, column]
