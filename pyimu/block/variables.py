@@ -27,8 +27,8 @@ class Variable:
     parameter that acts on the start alone is ``fixed``, and cannot be set during a run.
 
     Inputs or outputs of one ``terminal`` are the members of a bus that a tool can wire at once;
-    ``member`` is the name there, if it is not the variable's own. A ``corner`` is a natural
-    frequency in rad/s, which people say in Hz.
+    ``member`` is the name there, if it is not the variable's own. ``said`` tells what
+    people say otherwise than others in its unit, as ``Parameter`` has it.
     """
 
     name: str
@@ -41,7 +41,7 @@ class Variable:
     fixed: bool = False
     terminal: str = ""
     member: str = ""
-    corner: bool = False
+    said: str = ""
 
 
 def array(

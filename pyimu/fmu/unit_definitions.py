@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 
 from pyimu.block.variables import Variable
 from pyimu.fmu.arrays import split_name
-from pyimu.report.numbers import CORNER, in_unit, unit_for
+from pyimu.report.numbers import in_unit, told_apart, unit_for
 from pyimu.units import BASES, IN_SI, ZERO_CELSIUS, parse
 
 
@@ -39,13 +39,12 @@ def display_units(variables: Sequence[Variable]) -> dict[str, str]:
 
 
 def _group(v: Variable) -> tuple[str, str]:
-    return split_name(v.name)[0], CORNER if v.corner else v.unit
+    return split_name(v.name)[0], told_apart(v.unit, v.said)
 
 
 def _shown(unit: str, shown: str) -> dict[str, str]:
     """A value in ``shown`` is ``factor`` times the value in ``unit`` (FMI 2.0.4, section 2.2.2)."""
-    si = CORNER if shown == "Hz" else unit
-    return {"name": shown, "factor": repr(float(in_unit(1.0, si, shown)))}
+    return {"name": shown, "factor": repr(float(in_unit(1.0, unit, shown)))}
 
 
 def _base_unit(name: str) -> dict[str, str] | None:

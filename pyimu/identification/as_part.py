@@ -13,7 +13,7 @@ from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.part import Part
 from pyimu.model.part_value import EXACT, PartValue, with_values
 from pyimu.model.sensor import Sensor
-from pyimu.report.numbers import CORNER, in_unit, joined, unit_for, with_limits
+from pyimu.report.numbers import in_unit, joined, told_apart, unit_for, with_limits
 
 SMALL = 0.1
 """Share of its standard error within which a coefficient that the logs do not show has not moved.
@@ -85,8 +85,13 @@ def _start(v: Estimated) -> float:
     return CATALOGUE[v.effect].parameters[v.parameter].start
 
 
+def si_of(effect: str, parameter: str, si: str) -> str:
+    """The SI unit of a coefficient, told apart where it is said otherwise than others in it."""
+    return told_apart(si, CATALOGUE[effect].parameters[parameter].said)
+
+
 def _part_value(v: Estimated) -> PartValue:
-    unit = unit_for(v.value, v.unit) if v.unit != "degC" else v.unit
+    unit = unit_for(v.value, si_of(v.effect, v.parameter, v.unit)) if v.unit != "degC" else v.unit
     with np.errstate(divide="ignore", invalid="ignore"):
         figures = np.ceil(np.log10(np.abs(v.value) / v.std)) + 3
     digits = np.where(np.isfinite(figures), np.clip(figures, 1, 15), EXACT).astype(int)
@@ -111,11 +116,6 @@ def element(v: Estimated, index: tuple[int, ...], unit: str) -> str:
     if not v.shown[index]:
         return NOT_SHOWN
     return with_limits(*(float(in_unit(a[index], v.unit, unit)) for a in (v.value, v.low, v.high)))
-
-
-def _si(v: Estimated, unit: str) -> str:
-    """The SI unit of a coefficient, told apart where ``unit`` is that of a corner frequency."""
-    return CORNER if unit == "Hz" and v.unit == "rad/s" else v.unit
 
 
 def _description(part: Part, entries: Iterable[Estimated], unexamined: Mapping[str, str]) -> str:

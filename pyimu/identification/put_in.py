@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from pyimu.identification.as_part import SENSORS
+from pyimu.identification.as_part import SENSORS, si_of
 from pyimu.identification.outcome import Outcome
 from pyimu.identification.simulated import PutIn
 from pyimu.model.catalogue import CATALOGUE, POWER_ON
@@ -70,7 +70,8 @@ def _why_not(closed: Outcome, kind: str, effect: str, index: tuple[int, ...], tr
     smallest = seen.each.get(index)
     if smallest is None:
         return "not found: this log does not show it at all"
-    least = quantity(smallest, seen.unit)
+    first = next(iter(CATALOGUE[effect].parameters))
+    least = quantity(smallest, si_of(effect, first, seen.unit))
     if abs(true) < smallest:
         return f"not found: below the smallest that this log shows, {least}"
     return f"not found, though this log shows {least}"

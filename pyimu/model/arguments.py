@@ -71,8 +71,9 @@ class Parameter:
     slope to follow. ``reads`` marks one that is read off the raw samples: the level at which they
     stop ("ceiling"), the one below which they are zero ("threshold"), or the step on whose
     multiples they lie ("step"). ``density`` marks the root of a density, a white noise's or that of
-    a walk's steps, which a data sheet may print one-sided, and ``corner`` a frequency that is said
-    in Hz, though it is in rad/s. ``columns`` names the columns of a matrix where these are no axes.
+    a walk's steps, which a data sheet may print one-sided. ``said`` tells what is said otherwise
+    than others in its unit: a "frequency" in Hz, a "ratio" as a plain number. ``columns`` names the
+    columns of a matrix where these are no axes.
     """
 
     unit: str
@@ -88,7 +89,7 @@ class Parameter:
     scan: Scan | None = None
     reads: Literal["", "ceiling", "threshold", "step"] = ""
     density: bool = False
-    corner: bool = False
+    said: Literal["", "frequency", "ratio"] = ""
     columns: tuple[str, ...] = ()
 
     @property

@@ -46,7 +46,7 @@ class FigureScale:
     def says_otherwise(self) -> bool:
         """Whether the unit says the same otherwise.
 
-        A step may be in LSB/g or mg/LSB, a corner in Hz, an axis seen by another one in %.
+        A step may be in LSB/g or mg/LSB, a frequency in Hz, an axis seen by another one in %.
         """
         return self._as_said != (self.unit, self.si, False)
 

@@ -225,7 +225,7 @@ class _Reader:
     def _in_si(self, key: Key, q: Parameter, entry: dict[str, Any]) -> np.ndarray:
         where = ".".join(key)
         figures = self._numbers(where, entry, q)
-        otherwise = q.corner or q.reads == "step" or _is_cross_axis(q, entry)
+        otherwise = q.said == "frequency" or q.reads == "step" or _is_cross_axis(q, entry)
         scale = self._scale(where, entry, self._si(key, q), q.density, otherwise)
         if q.density and is_density(scale.unit) and "density" not in entry:
             raise self.error(
@@ -312,7 +312,7 @@ class _Reader:
     ) -> FigureScale:
         """How the figures become SI.
 
-        ``otherwise`` allows counts (a step), Hz (a corner) or % (a cross-axis sensitivity).
+        ``otherwise`` allows counts (a step), Hz (a frequency) or % (a cross-axis sensitivity).
         """
         if "density" in entry and not with_density:
             raise self.error(f"{where}.density", "goes only with the root of a noise's density")

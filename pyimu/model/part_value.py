@@ -8,9 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyimu.model.catalogue import CATALOGUE
-from pyimu.model.part_entry import Key
+from pyimu.model.part_entry import FigureScale, Key
 from pyimu.model.sensor import Sensor
-from pyimu.units import convert
 
 DIGITS, EXACT = 5, 10
 """Figures in the file of a coefficient, none of which is known better, and of one that is known
@@ -36,8 +35,8 @@ class PartValue:
         si = Sensor(kind).unit(CATALOGUE[self.effect].parameters[self.parameter].unit)
         if si == "degC":
             return np.round(self.value, 3)
-        in_file = np.vectorize(_figures)(convert(self.value, si, self.unit), self.digits)
-        return np.asarray(convert(in_file, self.unit, si))
+        scale = FigureScale(self.unit, si)
+        return scale.to_si(np.vectorize(_figures)(scale.guess(self.value), self.digits))
 
 
 def _figures(value: float, digits: int) -> float:

@@ -192,7 +192,7 @@ class Sensor:
                 float(v),
                 minimum=s.definition.minimum,
                 maximum=s.definition.maximum,
-                corner=s.definition.corner,
+                said=s.definition.said,
             )
             for s, v in zip(self.slots, self.p, strict=True)
         )

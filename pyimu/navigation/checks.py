@@ -108,7 +108,9 @@ def without_outliers(
     for name, most in (("gyro", turn_rate), ("accel", acceleration)):
         values = np.where(np.isfinite(getattr(recording, name)), getattr(recording, name), np.nan)
         off = np.abs(values - np.nanmedian(values, axis=0)) > IMPOSSIBLE * most
-        wrong = (off & spikes(values)).any(axis=1) if off.any() else off.any(axis=1)
+        wrong = off.any(axis=1)
+        if wrong.any():
+            wrong = (off & spikes(values, recording.segments)).any(axis=1)
         if wrong.any():
             first = float(recording.time[np.argmax(wrong)])
             found.append(Finding("outliers", name, int(wrong.sum()), {"first": first}))

@@ -38,6 +38,7 @@ STYLE = {
     "svg.hashsalt": "pyimu",
     "font.family": "sans-serif",
     "font.size": 9.5,
+    "axes.unicode_minus": False,  # as in the text, where a number can be looked for and copied
     "axes.linewidth": 0.7,
     "text.color": INK,
     "axes.edgecolor": INK,

@@ -82,7 +82,7 @@ WORDS = (
     ),
     Word(
         "N, angle or velocity random walk",
-        "White noise, the slope −1/2 of an Allan deviation: an angle made of it is off by N √t "
+        "White noise, the slope -1/2 of an Allan deviation: an angle made of it is off by N √t "
         "after the time t. It is the root of the two-sided density; data sheets print a noise "
         "density one-sided, √2 N.",
         r"\bangle.random.walk\b|\bvelocity random walk\b",
@@ -101,7 +101,7 @@ WORDS = (
     ),
     Word(
         "Q, quantization",
-        "Rounding of the angle or the velocity: the slope −1 of an Allan deviation.",
+        "Rounding of the angle or the velocity: the slope -1 of an Allan deviation.",
         r"\b(angle|velocity).quantization\b",
     ),
     Word(

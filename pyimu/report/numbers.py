@@ -60,10 +60,23 @@ SHOWN: dict[str, tuple[tuple[str, float], ...]] = {
 """SI unit -> the units people use, largest first, each with the smallest number that is still said
 in it."""
 
-CORNER = "rad/s (corner)"
-"""A natural frequency: in rad/s like a rate, yet nobody calls it degrees a second."""
+SAID = {"frequency": "Hz", "ratio": "1"}
+"""The unit of what is said otherwise than others in its SI unit are: nobody calls a natural
+frequency degrees a second, nor a damping ratio percent."""
 
 SCRIPTS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+
+
+def told_apart(si: str, said: str) -> str:
+    """An SI unit that ``unit_for`` and all else here take, of what is ``said`` otherwise than
+    others in it: ``said`` is a key of ``SAID``, or empty.
+    """
+    return f"{si} ({said})" if said else si
+
+
+def _apart(si: str) -> tuple[str, str]:
+    plain, _, said = si.partition(" (")
+    return plain, said.removesuffix(")")
 
 
 def unit_for(values: object, si: str) -> str:
@@ -71,22 +84,24 @@ def unit_for(values: object, si: str) -> str:
 
     It is the SI unit itself where the table has none.
     """
-    if si == CORNER:
-        return "Hz"
+    plain, said = _apart(si)
+    if said:
+        return SAID[said]
     largest = np.max(np.nan_to_num(np.abs(_finite_or_nan(values))), initial=0.0)
-    for unit, least in SHOWN.get(si, ()):
-        if largest == 0.0 or convert(largest, si, unit) >= least:
+    for unit, least in SHOWN.get(plain, ()):
+        if largest == 0.0 or convert(largest, plain, unit) >= least:
             return unit
-    return si
+    return plain
 
 
 def in_unit(values: object, si: str, unit: str) -> np.ndarray:
     """``values`` (SI) as numbers of ``unit``."""
     array = _finite_or_nan(values)
-    if si == CORNER:
+    plain, _ = _apart(si)
+    if (plain, unit) == ("rad/s", "Hz"):
         return array / (2 * math.pi)
     try:
-        return np.asarray(convert(array, si, unit))
+        return np.asarray(convert(array, plain, unit))
     except UnitError:
         return array
 
@@ -98,6 +113,7 @@ def _finite_or_nan(values: object) -> np.ndarray:
 
 def pretty(unit: str) -> str:
     """A unit in print: powers raised, roots with their sign, nothing for the pure number."""
+    unit, _ = _apart(unit)
     if unit in ("1", ""):
         return ""
     text = f"µ{unit[1:]}" if unit.startswith(("ug", "us", "uT")) else unit
@@ -135,8 +151,7 @@ def quantity(value: object, si: str, digits: int = 3) -> str:
 
 def si_quantity(value: object, si: str, digits: int = 3) -> str:
     """The same in SI."""
-    plain = "rad/s" if si == CORNER else si
-    return f"{number(None if value is None else float(value), digits)} {pretty(plain)}".rstrip()
+    return f"{number(None if value is None else float(value), digits)} {pretty(si)}".rstrip()
 
 
 def with_error(value: float, std: float) -> str:

@@ -20,7 +20,7 @@ from pyimu.files import plain
 from pyimu.model.part import Part
 from pyimu.model.part_entry import RATE_KEY
 from pyimu.model.part_file import part, part_names, remarks
-from pyimu.report.numbers import CORNER, in_unit, number, unit_for
+from pyimu.report.numbers import in_unit, number, told_apart, unit_for
 
 ABSENT = "-"
 """Printed where a part says nothing."""
@@ -174,7 +174,7 @@ def _rows(p: Part) -> list[tuple[str, str, str, str]]:
                 note = p.notes.get(key)
                 if note is None and np.all(sensor.values[e.name][name] == q.start):
                     continue
-                si = CORNER if q.corner else sensor.unit(q.unit)
+                si = told_apart(sensor.unit(q.unit), q.said)
                 value = (
                     "estimated from data"
                     if key in p.estimate

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from dataclasses import replace
+from types import SimpleNamespace
 from xml.etree import ElementTree
 
 import numpy as np
@@ -16,7 +17,9 @@ from report_pages import alone
 from pyimu.errors import Finding, UserError
 from pyimu.files import staged
 from pyimu.identification import conclude
+from pyimu.identification.as_part import as_part
 from pyimu.identification.close import close
+from pyimu.identification.estimated import Estimated
 from pyimu.identification.exhibits import Trace, exhibits_of, noise_density
 from pyimu.identification.exhibits import density as density_of
 from pyimu.identification.fit.band import Band
@@ -25,15 +28,27 @@ from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.identification.found import Added
 from pyimu.identification.report import deliver, pictures
+from pyimu.identification.report.coefficients import rows as coefficient_rows
 from pyimu.identification.report.page import page as page_of
 from pyimu.identification.report.words import headline
 from pyimu.identification.search.leftover import Unexplained
 from pyimu.identification.verdict import VERDICTS as ALL_VERDICTS
 from pyimu.model.catalogue import CATALOGUE
-from pyimu.model.part_file import part
+from pyimu.model.part import Part
+from pyimu.model.part_file import load_part, part, save_part
+from pyimu.model.sensor import Sensor
 from pyimu.recording.recording import Recording
 from pyimu.report.findings import detail
-from pyimu.report.numbers import CORNER, SHOWN, number, pretty, quantity, with_error
+from pyimu.report.numbers import (
+    SAID,
+    SHOWN,
+    number,
+    pretty,
+    quantity,
+    si_quantity,
+    told_apart,
+    with_error,
+)
 from pyimu.report.page import equation
 from pyimu.units import same_dimension
 
@@ -381,7 +396,8 @@ def test_people_s_units_measure_the_same(si):
         (0.0148, "m/s^2", "1.51 mg"),
         (3.87e-3, "s", "3.87 ms"),
         (42e-6, "1", "42.0 ppm"),
-        (2 * np.pi * 30, CORNER, "30.0 Hz"),
+        (2 * np.pi * 30, told_apart("rad/s", "frequency"), "30.0 Hz"),
+        (np.sqrt(0.5), told_apart("1", "ratio"), "0.707"),
         (1.0, "V", "1.00 V"),
         (5.06e-3, "m/s^2/K", "0.516 mg/K"),
         (np.deg2rad(0.2) / 60, "rad/sqrt(s)", "0.200 deg/√h"),
@@ -390,6 +406,29 @@ def test_people_s_units_measure_the_same(si):
 )
 def test_quantities_as_people_say_them(value, si, said):
     assert quantity(value, si) == said
+
+
+def test_what_is_said_otherwise_is_plain_in_si():
+    assert si_quantity(3.0, told_apart("rad/s", "frequency")) == "3.00 rad/s"
+    used = {q.said for e in CATALOGUE.values() for q in e.parameters.values()}
+    assert used == {"", *SAID}
+
+
+@pytest.mark.parametrize(
+    "name, si, value, unit, said",
+    [("wn", "rad/s", 2 * np.pi * 30, "Hz", "30.0 (29.4 to 30.6)"), ("zeta", "1", 1.4, "1", "1.4")],
+)
+def test_a_frequency_and_a_ratio_are_no_rate_and_no_share(name, si, value, unit, said, tmp_path):
+    """In the page's table and in the model's file, which is read as it was written."""
+    std = np.array(0.01 * value if name == "wn" else np.nan)
+    v = Estimated("gyro", "lag", name, si, np.array(value), std, np.array(True), "estimated")
+    (row,) = coefficient_rows(SimpleNamespace(estimated=[v]), "gyro")
+    assert row.unit == unit and row.cells[0].startswith(said)
+    gyro = {"lag": {"wn": 200.0, "zeta": 0.7}}
+    written = as_part(Part("p", 100.0, Sensor("gyro", gyro), Sensor("accel")), [v], None, {})
+    assert written.notes["gyro", "lag", name]["unit"] == unit
+    again = load_part(save_part(written, tmp_path / "model.toml"))
+    assert again.gyro.values["lag"][name] == pytest.approx(value, rel=1e-4)
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from places import measured
 
+from pyimu.identification.fit.trial import bad_samples
 from pyimu.recording.log import read_recording
 from pyimu.recording.quality.clipping import clipped, clipping_level
 from pyimu.recording.quality.inspect import inspect
@@ -153,6 +154,38 @@ def test_one_sample_in_200_may_be_a_spike(seed):
     values += hit * rng.uniform(3, 30, hit.shape) * rng.choice([-1, 1], hit.shape)
     found = spikes(values)
     assert not np.any(found & ~hit) and np.sum(found) > 0.95 * np.sum(hit)
+
+
+def with_gaps(every, lost=30):
+    """A motion of which ``lost`` of ``every`` rows are missing, and the numbers of the others."""
+    rows = np.setdiff1d(np.arange(20_000), np.add.outer(np.arange(100, 19_900, every), range(lost)))
+    return driven()[rows], rows
+
+
+@pytest.mark.parametrize("every", [5000, 2000, 500])
+def test_the_edges_of_a_gap_are_no_spikes(every):
+    """Beside a gap a sample has no neighbours to be judged by."""
+    values, rows = with_gaps(every)
+    r = Recording.from_arrays("log", time=rows * 0.01, gyro=values)
+    assert len(r.segments) == 1 + 20_000 // every and not found(r, "spikes")
+
+
+@pytest.mark.parametrize("near", [2, 3, 10])
+def test_a_spike_near_a_gap_is_found(near):
+    values, rows = with_gaps(5000)
+    values[100 + near, 1] += 5
+    r = Recording.from_arrays("log", time=rows * 0.01, gyro=values)
+    assert np.argwhere(spikes(values, r.segments)).tolist() == [[100 + near, 1]]
+    assert found(r, "spikes")["gyro_y"].detail["first_row"] == 100 + near
+
+
+@pytest.mark.parametrize("mark", [spikes, lambda v: bad_samples(v, []) & np.isfinite(v)])
+def test_what_is_beside_missing_samples_of_a_fast_motion_is_no_spike(mark):
+    """Beside a line across them every sample would be one, those that are left again, and so on."""
+    values = 10 * driven() - 9 * noise()
+    values[12_000, 0] += 5
+    values[3000:3040] = np.nan
+    assert np.argwhere(mark(values)).tolist() == [[12_000, 0]]
 
 
 def test_shock_is_no_spike():

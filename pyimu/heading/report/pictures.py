@@ -94,7 +94,7 @@ def _filtered(found: Outcome) -> Track | None:
 def _band(panel: Axes, time: np.ndarray, middle: np.ndarray, std: np.ndarray, size: float) -> None:
     for sign in (-1, 1):
         at, low, high = envelope(time, middle + sign * WIDER * std)
-        panel.plot(at / size, 0.5 * (low + high), color=AFTER, lw=0.7, ls=":")
+        panel.plot(at / size, 0.5 * (low + high), color=AFTER, lw=1.0, ls=":")
 
 
 def _draw_errors(found: Outcome, panel: Axes, size: float) -> None:

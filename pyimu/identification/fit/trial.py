@@ -5,7 +5,7 @@ What was measured, what the reference says went in, which rows count.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from enum import IntEnum
 from functools import cached_property
@@ -191,7 +191,7 @@ def gyro_trial(recording: Recording, latitude: float | None = None) -> Trial | N
     if recording.gyro is None:
         return None
     recording = completed(recording)
-    bad = bad_samples(recording.gyro)
+    bad = bad_samples(recording.gyro, recording.segments)
     sound = healed(recording.time, recording.gyro, bad, most=1)
     reference = reference_rate(replace(recording, gyro=sound), latitude=latitude)
     if reference.kind == "none":
@@ -334,7 +334,7 @@ def _trial(
     if not axes:
         return None
     own = y[:, list(axes)]
-    repeats, bad = repeated(own), bad_samples(own)
+    repeats, bad = repeated(own), bad_samples(own, recording.segments)
     if band_hz is not None:
         most = max(1, int(0.25 / (band_hz * recording.sample_period)) - 1)
         y = np.array(y)
@@ -363,11 +363,14 @@ def _trial(
     )
 
 
-def bad_samples(values: np.ndarray) -> np.ndarray:
-    """Flags (n, k) of samples that are missing, spikes, or repeat the row before."""
+def bad_samples(values: np.ndarray, segments: Sequence[tuple[int, int]]) -> np.ndarray:
+    """Flags (n, k) of samples that are missing, spikes, or repeat the row before.
+
+    ``segments`` are the row ranges (start, stop) without gap.
+    """
     missing = ~np.isfinite(values)
-    joined = np.nan_to_num(filled(np.arange(len(values)), values))
-    return missing | spikes(joined) | repeated(values)[:, None]
+    known = np.where(missing, np.nan, values)
+    return missing | spikes(known, segments) | repeated(values)[:, None]
 
 
 def repeated(values: np.ndarray) -> np.ndarray:

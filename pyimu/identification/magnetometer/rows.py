@@ -87,7 +87,9 @@ def field_rows(recording: Recording, mounting: np.ndarray, clock: Clock | None) 
         recording = on_own_clock(recording, clock)
     rows = fresh_rows(recording.mag)
     rows = rows[np.isfinite(recording.ref_q[rows]).all(axis=1)]
-    rows = rows[~spikes(recording.mag[rows]).any(axis=1)] if len(rows) else rows
+    if len(rows):
+        field = recording.mag[rows]
+        rows = rows[~spikes(field, _segments(recording.time[rows])).any(axis=1)]
     if len(rows) < 2 * LEAST:
         return None
     time, mag = recording.time[rows], recording.mag[rows]

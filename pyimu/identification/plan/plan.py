@@ -196,7 +196,7 @@ class _Planner:
             elif not np.isfinite(std):
                 why[g.key] = hidden(g, total, joint, self.looked)
             elif g.wanted is not None and std > g.wanted:
-                why[g.key] = too_small(g.size, std, g.unit)
+                why[g.key] = too_small(g, std)
             elif g.wanted is not None:
                 wanted[g.key] = g.wanted
         if not wanted:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from pyimu.identification.as_part import si_of
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.plan.choice import LONGEST
@@ -52,8 +53,9 @@ def hidden(goal: Goal, alone: Information, joint: Information, asked: Sequence[s
     return "no motion of the library tells it from the bias or the mounting of the log"
 
 
-def too_small(size: float | None, std: float, unit: str) -> str:
-    of = "" if size is None else f" with its size of {quantity(size, unit, 2)}"
+def too_small(g: Goal, std: float) -> str:
+    unit = si_of(g.key.effect, g.key.parameter, g.unit)
+    of = "" if g.size is None else f" with its size of {quantity(g.size, unit, 2)}"
     return (
         f"too small{of}: {LONGEST / 3600:g} h of each motion would still leave a standard error of "
         f"{quantity(std, unit, 2)}"

@@ -6,11 +6,11 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from pyimu.identification.as_part import SENSORS
+from pyimu.identification.as_part import SENSORS, si_of
 from pyimu.identification.plan.goals import told
 from pyimu.identification.plan.outcome import Outcome, Predicted
 from pyimu.model.catalogue import CATALOGUE
-from pyimu.report.numbers import CORNER, joined, number, quantity
+from pyimu.report.numbers import joined, number, quantity
 
 
 def lasting(seconds: float) -> str:
@@ -64,8 +64,7 @@ def error(q: Predicted) -> str:
 
 
 def si_unit(q: Predicted) -> str:
-    key = q.goal.key
-    return CORNER if CATALOGUE[key.effect].parameters[key.parameter].corner else q.goal.unit
+    return si_of(q.goal.key.effect, q.goal.key.parameter, q.goal.unit)
 
 
 def _sized(q: Predicted) -> str:

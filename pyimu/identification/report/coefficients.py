@@ -7,10 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pyimu.identification.as_part import element
+from pyimu.identification.as_part import element, si_of
 from pyimu.identification.estimated import Estimated
 from pyimu.identification.outcome import Outcome
-from pyimu.identification.report.words import si_of
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.part import AXES
 from pyimu.report.numbers import MISSING, in_unit, number, unit_for

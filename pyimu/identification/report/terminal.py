@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from pyimu.identification.as_part import SENSORS
+from pyimu.identification.as_part import SENSORS, si_of
 from pyimu.identification.outcome import Outcome
 from pyimu.identification.report.coefficients import LEGEND, rows
 from pyimu.identification.report.next import gains
@@ -16,7 +16,6 @@ from pyimu.identification.report.words import (
     gravity_at_rest,
     missing,
     named,
-    si_of,
 )
 from pyimu.report.findings import in_line
 from pyimu.report.lines import in_columns

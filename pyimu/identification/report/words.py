@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from pyimu.identification.as_part import SENSORS
+from pyimu.identification.as_part import SENSORS, si_of
 from pyimu.identification.fit.score import WINDOW
 from pyimu.identification.formula.effect import TERM, coefficients
 from pyimu.identification.formula.formula import Formula
@@ -14,7 +14,6 @@ from pyimu.identification.search.leftover import Unexplained
 from pyimu.model.arguments import Parameter
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.report.numbers import (
-    CORNER,
     in_unit,
     joined,
     number,
@@ -209,11 +208,6 @@ def named(effect: str) -> str:
     known = CATALOGUE.get(effect)
     words = known.term.partition(",")[0].partition(" (")[0] if known else ""
     return effect if words in ("", effect.replace("_", " ")) else f"{effect} ({words})"
-
-
-def si_of(effect: str, parameter: str, si: str) -> str:
-    """The SI unit, told apart where rad/s means a frequency and not a rate."""
-    return CORNER if CATALOGUE[effect].parameters[parameter].corner else si
 
 
 def coefficient(value: np.ndarray, si: str, definition: Parameter) -> str:

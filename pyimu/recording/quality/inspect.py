@@ -41,7 +41,8 @@ def inspect(recording: Recording) -> tuple[Finding, ...]:
         for name, column in zip(names, values.T)
         for finding in _column(name, np.ascontiguousarray(column))
     ]
-    of_gravity = (*_gravity_down(recording), *_force_in_g(recording))
+    force = None if recording.accel is None else _quietest(recording)
+    of_gravity = (*_gravity_down(recording, force), *_force_in_g(force))
     warmth = _other_temperature(recording)
     return (*columns, *_spikes(recording), *_jitter(recording), *of_gravity, *warmth)
 
@@ -99,7 +100,7 @@ def _spikes(recording: Recording) -> Iterator[Finding]:
     names, values = _channels(recording)
     if not names:
         return
-    found = spikes(values)
+    found = spikes(values, recording.segments)
     for column, name in enumerate(names):
         v, rows = values[:, column], np.flatnonzero(found[:, column])
         at_limit = widened(widened(clipped(v))) if len(rows) else found[:, column]
@@ -119,12 +120,11 @@ def _jitter(recording: Recording) -> Iterator[Finding]:
         yield Finding("jitter", "time", len(step), {"rms": rms, "period": period})
 
 
-def _gravity_down(recording: Recording) -> Iterator[Finding]:
+def _gravity_down(recording: Recording, rest: np.ndarray | None) -> Iterator[Finding]:
     """Gravity on -z at rest: probably a log in forward-right-down axes that nobody declared."""
-    if recording.accel is None or recording.frame_declared:
+    if recording.frame_declared or not _is_gravity(rest, STANDARD_GRAVITY):
         return
-    rest = quietest_force(recording)
-    if rest is not None and rest[2] < -0.8 * STANDARD_GRAVITY:
+    if rest[2] < -0.8 * STANDARD_GRAVITY:
         yield Finding(
             "gravity_down",
             "accel_z",
@@ -145,21 +145,28 @@ def _other_temperature(recording: Recording) -> Iterator[Finding]:
             yield Finding("temperature_unit", "temperature", 1, detail)
 
 
-def _force_in_g(recording: Recording) -> Iterator[Finding]:
+def _force_in_g(rest: np.ndarray | None) -> Iterator[Finding]:
     """A gravity of 1 m/s^2: probably a log in g whose header says m/s^2."""
-    if recording.accel is None:
-        return
-    rest = quietest_force(recording, gravity=1.0)
-    if rest is not None:
+    if _is_gravity(rest, 1.0):
         detail = {"magnitude": float(np.linalg.norm(rest)), "stated": "m/s^2", "as": "g"}
         yield Finding("force_in_g", "accel", 1, detail)
 
 
-def quietest_force(recording: Recording, gravity: float = STANDARD_GRAVITY) -> np.ndarray | None:
+def quietest_force(recording: Recording) -> np.ndarray | None:
     """The median specific force (3,) over the quietest tenth of the seconds.
 
-    None where it is not ``gravity`` [m/s^2], to a tenth. A log need not be at rest for that.
+    None where it is not gravity, to a tenth. A log need not be at rest for that.
     """
+    force = _quietest(recording)
+    return force if _is_gravity(force, STANDARD_GRAVITY) else None
+
+
+def _is_gravity(force: np.ndarray | None, gravity: float) -> bool:
+    return force is not None and abs(np.linalg.norm(force) - gravity) < 0.1 * gravity
+
+
+def _quietest(recording: Recording) -> np.ndarray | None:
+    """The same, whatever it is; None where no second has all its samples."""
     length = max(4, min(round(recording.sample_rate), len(recording) // 10))
     count = len(recording) // length
     seconds = recording.accel[: count * length].reshape(count, length, 3)
@@ -168,5 +175,4 @@ def quietest_force(recording: Recording, gravity: float = STANDARD_GRAVITY) -> n
         return None
     spread = seconds.std(axis=1).sum(axis=1)
     quietest = seconds[spread <= np.quantile(spread, 0.1)].mean(axis=1)
-    force = np.median(quietest, axis=0)
-    return force if abs(np.linalg.norm(force) - gravity) < 0.1 * gravity else None
+    return np.median(quietest, axis=0)

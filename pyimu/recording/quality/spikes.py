@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from scipy.ndimage import maximum_filter1d
@@ -35,14 +37,27 @@ CORRUPT_ISOLATION = 12.0
 """The same where other columns are off at the same time: a corrupt row is alone, a shock rings."""
 
 
-def spikes(values: np.ndarray) -> np.ndarray:
+def spikes(values: np.ndarray, segments: Sequence[tuple[int, int]] = ()) -> np.ndarray:
     """Mask of the isolated samples of ``values`` (n, columns) that are off.
+
+    ``segments`` are the row ranges (start, stop) without gap, where there are gaps: two samples on
+    each side of one have no neighbours to be judged by, nor have those beside a missing value.
 
     The residual of a sample against the cubic through its four neighbours vanishes for motion that
     the sampling resolves. A spike's exceeds ``SPIKE_SIGMA`` robust standard deviations of the
     residuals near it, those that are near but not caused by itself by ``SPIKE_ISOLATION``, and the
     column's 99 % quantile by ``SPIKE_TAIL``. A shock moves several axes and rings: where another
     column is off at the same time, the isolation must be ``CORRUPT_ISOLATION``.
+    """
+    starts = [start for start, _ in segments[1:]]
+    if not starts:
+        return _rounds(values)
+    apart = np.insert(values, starts, np.nan, axis=0)
+    return np.delete(_rounds(apart), np.add(starts, np.arange(len(starts))), axis=0)
+
+
+def _rounds(values: np.ndarray) -> np.ndarray:
+    """Mask of the spikes of ``values`` (n, columns), of which some may be missing.
 
     Spikes hide each other: where some are found, they are replaced by the line between their
     neighbours, and it is looked for more, ``ROUNDS`` times at most.
@@ -50,13 +65,14 @@ def spikes(values: np.ndarray) -> np.ndarray:
     mask = np.zeros(values.shape, bool)
     if len(values) < 4 * WINDOW:
         return mask
-    healed = values
+    healed, missing = values, np.isnan(values)
     for _ in range(ROUNDS):
         new = _alone(healed) & ~mask
         if not new.any():
             break
         mask |= new
         healed = filled(np.arange(len(values)), np.where(mask, np.nan, values))
+        healed[missing] = np.nan
     return mask
 
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
-from scipy.integrate import cumulative_trapezoid
 from scipy.ndimage import maximum_filter1d, median_filter
 
 from pyimu.recording.clock import runs
@@ -52,6 +51,8 @@ def jumps(
     usable = _usable(time, known, gyro)
     if len(steps) < 4 * SIDE or np.count_nonzero(usable) < 4 * SIDE:
         return none
+    from scipy.integrate import cumulative_trapezoid  # a tenth of a second, and few logs need it
+
     turned = np.column_stack(
         [
             np.interp(known, time, v)

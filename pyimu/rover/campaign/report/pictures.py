@@ -52,6 +52,7 @@ def _errors(s: Summary, name: str, panel: Axes) -> None:
     said = "\n".join(f"{q.p:.0%} below {np.rad2deg(q.value):.3g} deg" for q, _ in shown)
     panel.set_title(said, fontsize=8.5)
     panel.set(xlabel=f"largest {name} error [deg]", xlim=(0, None))
+    panel.locator_params(axis="x", nbins=3)  # small errors have long numbers
     if name == "heading":
         panel.set_ylabel("runs")
 

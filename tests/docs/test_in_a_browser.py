@@ -1,0 +1,72 @@
+"""Pages in a real browser, where there is one: no wider than a phone, and without an error."""
+
+import browser
+import docs_site
+import numpy as np
+import pytest
+import raw_logs
+from screenshots import OVERHANG, shots
+
+pytestmark = [
+    pytest.mark.long,
+    pytest.mark.skipif(browser.program() is None, reason="needs chromium or google-chrome on PATH"),
+]
+
+
+@pytest.fixture(scope="module")
+def opened():
+    with browser.Browser(browser.program()) as found:
+        yield found
+
+
+@pytest.fixture
+def log(tmp_path, monkeypatch):
+    """A still log with the name of a column that no page can break."""
+    monkeypatch.chdir(tmp_path)
+    time, gyro, accel = raw_logs.still(3000)
+    names = [f"gyro_{a} [rad/s]" for a in "xyz"] + [f"accel_{a} [m/s^2]" for a in "xyz"]
+    columns = [time, *gyro.T, *accel.T, np.zeros(3000)]
+    head = ",".join(["time [ns]", *names, f"{'board_' * 12}supply [V]"])
+    raw_logs.text(tmp_path / "log.csv", [head], columns)
+    return "log.csv"
+
+
+def on_a_phone(opened, page):
+    """Pixels by which a page is too wide, and what its console was told."""
+    opened.open(browser.address(page), browser.PHONE)
+    return max(0, opened.value(OVERHANG)), opened.errors
+
+
+@pytest.mark.parametrize("command", ["inspect", "characterize"])
+def test_a_report_is_no_wider_than_a_phone(pyimu, opened, log, tmp_path, command):
+    """Also with its pictures opened to zoom into."""
+    assert pyimu(command, log, "--out", "out")[0] == 0
+    assert on_a_phone(opened, tmp_path / "out" / "report.html") == (0, [])
+    open_all = "const all = document.querySelectorAll('.tools button');"
+    count = opened.value(f"{open_all} all.forEach(b => b.click()); all.length")
+    assert count >= 1 and opened.value("document.querySelectorAll('.uplot').length") >= count
+    assert (opened.value(OVERHANG), opened.errors) == (0, [])
+
+
+def test_a_page_of_the_site_is_no_wider_than_a_phone(opened, tmp_path):
+    """That with the widest table, and that with the longest equations."""
+    pytest.importorskip("material", reason="the site needs pip install -e '.[docs]'")
+    docs_site.build(tmp_path)
+    for name in ("effects", "noise"):
+        assert on_a_phone(opened, tmp_path / "site" / f"{name}.html") == (0, [])
+
+
+def test_what_is_wrong_with_a_page_is_said(opened, tmp_path):
+    page = tmp_path / "wrong.html"
+    page.write_text(
+        "<meta name=viewport content='width=device-width'><body style='margin: 0'>"
+        "<div style='width: 500px'>wide</div>"
+        "<script>console.error('said'); nothing()</script>"
+    )
+    wrong = shots(opened, page, tmp_path / "shot")
+    assert "phone: 110 pixels too wide" in wrong and "said" in wrong
+    assert any("nothing is not defined" in text for text in wrong)
+    made = {p.name: p.read_bytes()[:4] for p in tmp_path.glob("shot.*")}
+    assert made.pop("shot.print.pdf") == b"%PDF"
+    assert set(made) == {f"shot.{n}.png" for n in ("desktop", "dark", "phone")}
+    assert set(made.values()) == {b"\x89PNG"}
