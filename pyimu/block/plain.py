@@ -85,7 +85,7 @@ def _stands_for(one: Program, i: Instruction) -> Callable[..., ca.SX] | None:
     if i.op not in POWERS:
         return PLAIN.get(i.op)
     base, to = (one.instructions[k] for k in i.of)
-    if to.op == ca.OP_CONST and to.value == int(to.value) and abs(to.value) <= LARGEST_POWER:
+    if to.op == ca.OP_CONST and abs(to.value) <= LARGEST_POWER and to.value == int(to.value):
         return lambda x, n: _power(x, int(to.value))
     if base.op == ca.OP_CONST and base.value > 0:
         return lambda x, y: elementary.exponential(math.log(base.value) * y)
