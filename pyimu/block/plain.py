@@ -14,7 +14,6 @@ import casadi as ca
 
 from pyimu.block.program import Instruction, Program, program
 from pyimu.symbolic import elementary
-from pyimu.symbolic.arc_tangent import arc_tangent
 
 PLAIN: dict[int, Callable[..., ca.SX]] = {
     ca.OP_SIN: elementary.sine,
@@ -22,8 +21,8 @@ PLAIN: dict[int, Callable[..., ca.SX]] = {
     ca.OP_TAN: elementary.tangent,
     ca.OP_ASIN: elementary.arc_sine,
     ca.OP_ACOS: elementary.arc_cosine,
-    ca.OP_ATAN: lambda x: arc_tangent(x, ca.SX(1)),
-    ca.OP_ATAN2: arc_tangent,
+    ca.OP_ATAN: lambda x: elementary.arc_tangent(x, ca.SX(1)),
+    ca.OP_ATAN2: elementary.arc_tangent,
     ca.OP_EXP: elementary.exponential,
     ca.OP_EXPM1: elementary.exponential_less_one,
     ca.OP_LOG: elementary.logarithm,

@@ -1,21 +1,19 @@
 """Elementary functions as plain arithmetic: no call, no branch, and so the same bits everywhere.
 
-A function of the C library ends in other bits in another library. These are right to two units of
-the last place, ``tangent``, ``exponential_less_one`` and the hyperbolic ones to five. Angles that
-are not finite give no number.
+A function of the C library ends in other bits in another library, and takes about as long. These
+are right to two units of the last place, ``tangent``, ``exponential_less_one`` and the hyperbolic
+ones to five. Angles that are not finite give no number.
 
 Polynomials: Moshier 1989, Methods and Programs for Mathematical Functions (Cephes 2.8: sin.c,
-exp.c, log.c).
+atan.c, exp.c, log.c).
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import inf, log2, nan, pi
+from math import inf, nan, pi
 
 import casadi as ca
-
-from pyimu.symbolic.arc_tangent import arc_tangent
 
 SINE = (
     1.58962301576546568060e-10,
@@ -37,7 +35,7 @@ COSINE = (
 falling."""
 
 QUARTER = (1.57079625129699707031, 7.54978941586159635336e-8, 5.39030285815811905290e-15)
-"""pi/2 in three parts, of which a whole number's multiple is exact."""
+"""pi/2 in three parts; of the first two the multiples up to 2^29 are exact."""
 
 EXP_UPPER = (1.26177193074810590878e-4, 3.02994407707441961300e-2, 9.99999999999999999910e-1)
 EXP_LOWER = (
@@ -48,7 +46,7 @@ EXP_LOWER = (
 )
 """exp r - 1 = 2 r U(z) / (L(z) - r U(z)) with z = r^2 up to r = log(2)/2."""
 
-LOG_2 = (6.93145751953125e-1, 1.42860682030941723212e-6)
+LOG_2, ONE_OVER_LOG_2 = (6.93145751953125e-1, 1.42860682030941723212e-6), 1.4426950408889634
 
 LOG_UPPER = (
     1.01875663804580931796e-4,
@@ -69,6 +67,29 @@ LOG_LOWER = (
 """log(1 + x) = x - x^2/2 + x^3 U(x) / L(x) from the root of 1/2 to that of 2."""
 
 LOG_2_COARSE = (0.693359375, -2.121944400546905827679e-4)
+
+TANGENT_UPPER = (
+    -8.750608600031904122785e-1,
+    -1.615753718733365076637e1,
+    -7.500855792314704667340e1,
+    -1.228866684490136173410e2,
+    -6.485021904942025371773e1,
+)
+TANGENT_LOWER = (
+    1.0,
+    2.485846490142306297962e1,
+    1.650270098316988542046e2,
+    4.328810604912902668951e2,
+    4.853903996359136964868e2,
+    1.945506571482613964425e2,
+)
+"""atan t = t + t z U(z) / L(z) with z = t^2 up to t = ``FLAT``."""
+
+FLAT = 0.66
+"""t beyond which pi/4 + atan((t - 1)/(t + 1)) is taken."""
+
+TINY = 1e-300
+"""Added to the larger of two numbers, which it changes only where both are zero."""
 
 BITS = range(9, -1, -1)
 """Of the exponent of a double, the largest first."""
@@ -91,6 +112,24 @@ def cosine(x):
 def tangent(x):
     """The tangent of ``x`` rad."""
     return sine(x) / cosine(x)
+
+
+def arc_tangent(y, x):
+    """The angle of (x, y) in rad, -pi to pi, to two units of the last place; 0 for zeros."""
+    across, along = ca.fabs(y), ca.fabs(x)
+    steep = across > along
+    less, more = steep * along + (1 - steep) * across, steep * across + (1 - steep) * along + TINY
+    large = less > FLAT * more
+    t = (less - large * more) / (more + large * less)
+    square = t * t
+    angle = (
+        t
+        + t * (square * _horner(square, TANGENT_UPPER) / _horner(square, TANGENT_LOWER))
+        + large * (pi / 4)
+    )
+    # The magnitude of a difference is the one or the other, without a choice.
+    angle = ca.fabs(steep * (pi / 2) - angle)
+    return ca.copysign(ca.fabs((x < 0) * pi - angle), y)
 
 
 def arc_sine(x):
@@ -169,7 +208,7 @@ def _of_quarter(k, r):
 
 def _scaled(x, of):
     """``of(exp r - 1, 2^k)`` with x = k log 2 + r, k whole."""
-    k = ca.floor(x * log2(2.718281828459045) + 0.5)
+    k = ca.floor(x * ONE_OVER_LOG_2 + 0.5)
     r = x
     for part in LOG_2:
         r = r - k * part

@@ -14,7 +14,7 @@ from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
 from pyimu.symbolic import elementary
-from pyimu.symbolic.arc_tangent import arc_tangent
+from pyimu.symbolic.elementary import arc_tangent
 
 CALL = re.compile(r"\b(a?(?:sin|cos|tan)h?|atan2|exp|expm1|log|log1p|pow|hypot|erf|cbrt)\(")
 

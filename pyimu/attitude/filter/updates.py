@@ -17,7 +17,7 @@ from pyimu.attitude.filter.speed_update import by_speed, velocity_anew
 from pyimu.attitude.filter.unscented import Estimate, N, bounded, bounded_tilt
 from pyimu.block.plain import plain_function
 from pyimu.symbolic import quaternion
-from pyimu.symbolic.arc_tangent import arc_tangent
+from pyimu.symbolic.elementary import arc_tangent
 from pyimu.symbolic.linear import reciprocal, symmetric
 
 OPTIONS = {"cse": True}
