@@ -11,6 +11,7 @@ import casadi as ca
 import numpy as np
 
 from pyimu.block.block import Block
+from pyimu.block.plain import plain_function
 from pyimu.block.variables import IMU, MOTION, Limits, Variable, seed_of
 from pyimu.errors import UserError
 from pyimu.files import shortened
@@ -209,7 +210,7 @@ def _imu_sensor(part: Part) -> Block:
         )
     )
     results = [sensor.step(s[i], u, p[i], w[i], h) for i, sensor in enumerate(sensors)]
-    step = ca.Function(
+    step = plain_function(
         "step",
         [ca.vertcat(memory, *s), ca.vertcat(*given.values()), ca.vertcat(*p), ca.vertcat(*w), h],
         [
@@ -222,7 +223,7 @@ def _imu_sensor(part: Part) -> Block:
     start = np.concatenate([np.zeros(derived.size), *[sensor.chain.start for sensor in sensors]])
     # Before the first sample: the ideal measurement of the inputs, without the part's errors.
     ideal = ca.vertcat(*[given[sensor.output.own] for sensor in sensors], given["temperature"])
-    initial = ca.Function(
+    initial = plain_function(
         "initial",
         [ca.vertcat(*given.values()), ca.vertcat(*p)],
         [ca.SX(ca.DM(start)), ideal],
@@ -274,7 +275,7 @@ def _limits(part: Part) -> Limits | None:
     ]
     if not found:
         return None
-    broken = ca.Function(
+    broken = plain_function(
         "limits",
         [ca.vertcat(*p), h],
         [ca.densify(ca.vertcat(*[limits.broken(values, h) for limits, values in found]))],

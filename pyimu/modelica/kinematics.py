@@ -12,7 +12,7 @@ import casadi as ca
 from pyimu.modelica.functions import Function, array, function
 from pyimu.modelica.names import camel
 from pyimu.modelica.text import GENERATED, capital, rendered
-from pyimu.plant.rover_drive import rover_drive
+from pyimu.plant.rover_drive import by_name, on_level_ground, rover_drive
 from pyimu.plant.rover_variables import DRIVES
 from pyimu.symbolic import earth, mrp, quaternion
 
@@ -132,8 +132,7 @@ def _drive(name: str) -> Function:
     free = {n: ca.SX.sym(n) for n in (*EVERY, *CHOSEN[name])}
     fixed = {"drive": DRIVES[name], "roughness": 0.0}
     p = [free.get(v.name, ca.SX(fixed.get(v.name, v.start))) for v in block.parameters]
-    at = ca.vertcat(time - 1, ca.SX.zeros(block.n_state - 1))
-    _, shown = block.step(at, ca.SX.zeros(2), ca.vertcat(*p), ca.SX(0, 1), 1.0)
+    shown = on_level_ground(time, by_name(block.parameters, ca.vertcat(*p)))
     columns = [v.name.partition("[")[0] for v in block.outputs]
     rows = [i for i, column in enumerate(columns) if column in SHOWN]
     arguments = [array("t", (), time), *(array(camel(n), (), x) for n, x in free.items())]

@@ -9,6 +9,7 @@ import numpy as np
 
 from pyimu.attitude.columns import extra_column, temperature_of
 from pyimu.block.block import Block, Run
+from pyimu.block.plain import plain_function
 from pyimu.block.variables import Variable
 from pyimu.model.part import Part
 from pyimu.navigation.filter import prediction
@@ -61,8 +62,8 @@ def _block(layout: Layout) -> Block:
     return Block(
         name="Compensated",
         description=f"the inverse of {layout.part.name}",
-        step=ca.Function("step", [s, u, p, ca.SX(0, 1), h], [after, y], *ends, {"cse": True}),
-        initial=ca.Function("initial", [u, p], [*start], ["u", "p"], ["s", "y"]),
+        step=plain_function("step", [s, u, p, ca.SX(0, 1), h], [after, y], *ends, {"cse": True}),
+        initial=plain_function("initial", [u, p], [*start], ["u", "p"], ["s", "y"]),
         inputs=layout.inputs,
         parameters=layout.parameters,
         outputs=names,

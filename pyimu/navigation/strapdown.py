@@ -11,6 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from pyimu.block.block import Block, Run
 from pyimu.block.parameters import number
+from pyimu.block.plain import plain_function
 from pyimu.block.variables import Variable, array
 from pyimu.errors import UserError
 from pyimu.navigation.filter.mechanisation import moved, turned
@@ -198,7 +199,7 @@ def _block(name: str, advance) -> Block:
     kept = [ca.if_else(s[21] > 0, a, b) for a, b in zip(after, start, strict=True)]
     state = ca.vertcat(ca.vec(kept[0]), kept[1], kept[2], u, 1)
     y = ca.vertcat(ca.vec(kept[0].T), kept[1], kept[2])
-    step = ca.Function(
+    step = plain_function(
         "step",
         [s, u, p, ca.SX(0, 1), h],
         [state, y],
@@ -206,7 +207,7 @@ def _block(name: str, advance) -> Block:
         ["s_next", "y"],
         {"cse": True},
     )
-    initial = ca.Function(
+    initial = plain_function(
         "initial", [u, p], [ca.SX(22, 1) + 0, ca.SX(15, 1) + 0], ["u", "p"], ["s", "y"]
     )
     return Block(name, name, step, initial, INPUTS, PARAMETERS, OUTPUTS, (), 0.01)

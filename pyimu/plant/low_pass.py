@@ -7,6 +7,7 @@ import math
 import casadi as ca
 
 from pyimu.block.block import Block
+from pyimu.block.plain import plain_function
 from pyimu.block.variables import IMU, Limits, Variable, array, in_terminal
 from pyimu.symbolic.missing import is_finite
 from pyimu.units import STANDARD_GRAVITY
@@ -42,14 +43,14 @@ def low_pass(sample_period: float, cutoff: float = CUTOFF) -> Block:
         ca.SX.sym("memory", REMEMBERED),
     )
     y, kept = _filtered(u, begun, ca.reshape(memory, CHANNELS, 4), cutoff_, h)
-    step = ca.Function(
+    step = plain_function(
         "step",
         [ca.vertcat(begun, memory), u, cutoff_, ca.SX(0, 1), h],
         [kept, y],
         ["s", "u", "p", "w", "h"],
         ["s_next", "y"],
     )
-    initial = ca.Function(
+    initial = plain_function(
         "initial",
         [u, cutoff_],
         [ca.SX(ca.DM.zeros(CHANNELS + REMEMBERED)), u],
@@ -109,5 +110,5 @@ def _filtered(u, begun, memory, cutoff, h) -> tuple:
 
 def _limits() -> Limits:
     p, h = ca.SX.sym("p"), ca.SX.sym("h")
-    broken = ca.Function("limits", [p, h], [ca.densify(2 * p * h >= 1)], ["p", "h"], ["broken"])
+    broken = plain_function("limits", [p, h], [ca.densify(2 * p * h >= 1)], ["p", "h"], ["broken"])
     return Limits(("cutoff must be below half the sample rate",), broken)

@@ -8,6 +8,7 @@ import casadi as ca
 import numpy as np
 
 from pyimu.block.block import Block
+from pyimu.block.plain import plain_function
 from pyimu.block.variables import Limits, Variable
 from pyimu.errors import UserError
 from pyimu.plant import ground, sky, vibration
@@ -92,6 +93,15 @@ def by_name(variables: tuple[Variable, ...], p) -> dict:
     return found
 
 
+def on_level_ground(time, p: dict):
+    """The outputs of a drive that is not free, on ground without waves, at the ``time`` in s.
+
+    ``p`` are the parameters by their names (``by_name``).
+    """
+    level = ca.SX.zeros(4 * ground.WAVES)
+    return _shown(time, _plane(time, ca.SX.zeros(FREE), p), level, p, Rocker())
+
+
 def _step(named: dict, p, u, rocker: Rocker) -> ca.Function:
     count, found = ca.SX.sym("count"), ca.SX.sym("ground", 4 * ground.WAVES)
     free, h = ca.SX.sym("free", FREE), ca.SX.sym("h")
@@ -100,7 +110,7 @@ def _step(named: dict, p, u, rocker: Rocker) -> ca.Function:
     planes = _plane(time, following, named)
     shown = _shown(time, planes, found, named, rocker)
     following, shown = ca.cse([following, shown])
-    return ca.Function(
+    return plain_function(
         "step",
         [ca.vertcat(count, found, free), u, p, ca.SX(0, 1), h],
         [ca.vertcat(count + 1, found, following), shown],
@@ -114,7 +124,7 @@ def _initial(named: dict, p, u, rocker: Rocker) -> ca.Function:
     free = ca.vertcat(ca.SX.zeros(7), named["heading0"], ca.SX.zeros(FREE - 8))
     shown = _shown(ca.SX(0), _plane(ca.SX(0), free, named), found, named, rocker)
     state = ca.vertcat(0, found, free)
-    return ca.Function("initial", [u, p], ca.cse([state, shown]), ["u", "p"], ["s", "y"])
+    return plain_function("initial", [u, p], ca.cse([state, shown]), ["u", "p"], ["s", "y"])
 
 
 def _free(free, u, p: dict, h):
@@ -234,7 +244,7 @@ def _limits(p: dict, symbols, rocker: Rocker) -> Limits:
             p["drive"] != DRIVES["free"], _pace(p)[2] < p["ramp_time"]
         ),
     }
-    function = ca.Function(
+    function = plain_function(
         "limits", [symbols, h], [ca.densify(ca.vertcat(*broken.values()))], ["p", "h"], ["broken"]
     )
     return Limits(tuple(broken), function)

@@ -4,7 +4,7 @@ import casadi as ca
 import numpy as np
 import pytest
 
-from pyimu.symbolic.arc_tangent import arc_tangent
+from pyimu.symbolic.elementary import arc_tangent
 
 y, x = ca.SX.sym("y"), ca.SX.sym("x")
 OURS = ca.Function("arc_tangent", [y, x], [arc_tangent(y, x)])

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{a290bdb9-8972-6f2a-ac26-0d849e2bf3d9}"
-#define MODEL_TOKEN_FMI3 "{9a2db243-8e15-a857-6d74-23b0e7905aa2}"
+#define MODEL_TOKEN_FMI2 "{ec0d7755-3365-18a0-d9cb-0fd2fee284ce}"
+#define MODEL_TOKEN_FMI3 "{79da8a68-aadf-5e48-2ed8-707d3953f970}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -24,17 +24,17 @@ enum {
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 2560 };
+enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 2575 };
 
 /* Rows of inputs and outputs. */
-enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 1015572 };
+enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 987686 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 1015572 };
+enum { MODEL_MOST_SAMPLES = 987686 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
-    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 1015572.0},
+    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 987686.0},
     {"gyro", KIND_REAL, ROLE_INPUT, 0, 3, -INFINITY, INFINITY},
     {"accel", KIND_REAL, ROLE_INPUT, 3, 3, -INFINITY, INFINITY},
     {"temperature", KIND_REAL, ROLE_INPUT, 6, 1, -INFINITY, INFINITY},

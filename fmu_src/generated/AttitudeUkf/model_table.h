@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{19d4075c-924e-c0ef-9d7b-1cefda1b77c7}"
-#define MODEL_TOKEN_FMI3 "{58665d36-8fe0-6a49-8f01-1309a7b6b9b8}"
+#define MODEL_TOKEN_FMI2 "{239abba6-cd90-a4e5-5c6a-2332bd9fa749}"
+#define MODEL_TOKEN_FMI3 "{7712433d-abab-5b00-f6a1-a8b6d7b5f0d9}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -24,13 +24,13 @@ enum {
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 2560 };
+enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 2575 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 1015572 };
+enum { MODEL_MOST_SAMPLES = 987686 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "LowPass"
-#define MODEL_TOKEN_FMI2 "{27ecaf4a-d4b7-3910-9be9-4a56ff537e1c}"
-#define MODEL_TOKEN_FMI3 "{16a2a984-edf5-32dd-e435-ef374d1c3a19}"
+#define MODEL_TOKEN_FMI2 "{ec2b2043-7cad-6e08-6db6-671fd644adb2}"
+#define MODEL_TOKEN_FMI3 "{2e6dec8d-f9f5-a8ab-f05f-2401e2f822b8}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -24,7 +24,7 @@ enum {
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 6, WORK_RES = 2, WORK_IW = 0, WORK_W = 41 };
+enum { WORK_ARG = 6, WORK_RES = 2, WORK_IW = 0, WORK_W = 58 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "LowPass"
-#define MODEL_TOKEN_FMI2 "{4555d5e6-3a81-c286-e3c6-da5e7eb18dfc}"
-#define MODEL_TOKEN_FMI3 "{5b8e9db8-095a-8b2c-147f-bdea1240709d}"
+#define MODEL_TOKEN_FMI2 "{93ae4bb5-970d-8a80-3039-0cf3eefa911a}"
+#define MODEL_TOKEN_FMI3 "{4f0b4e6e-251d-0647-e494-0332f3a3699a}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -24,7 +24,7 @@ enum {
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 6, WORK_RES = 2, WORK_IW = 0, WORK_W = 41 };
+enum { WORK_ARG = 6, WORK_RES = 2, WORK_IW = 0, WORK_W = 58 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "RoverDrive"
-#define MODEL_TOKEN_FMI2 "{1297669c-4293-3f94-f544-e4feec55f9b1}"
-#define MODEL_TOKEN_FMI3 "{ebeb58c9-4ab3-b76a-a466-2ab9262cd176}"
+#define MODEL_TOKEN_FMI2 "{42b562e3-1345-108a-38c5-85a397da73f4}"
+#define MODEL_TOKEN_FMI3 "{02599c3c-b27e-f2a4-043e-8842b059ef9f}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -24,17 +24,17 @@ enum {
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 6, WORK_RES = 2, WORK_IW = 0, WORK_W = 629 };
+enum { WORK_ARG = 6, WORK_RES = 2, WORK_IW = 0, WORK_W = 673 };
 
 /* Rows of inputs and outputs. */
-enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 3248159 };
+enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 1493577 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 3248159 };
+enum { MODEL_MOST_SAMPLES = 1493577 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
-    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 3248159.0},
+    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 1493577.0},
     {"speed_command", KIND_REAL, ROLE_INPUT, 0, 1, -INFINITY, INFINITY},
     {"turn_rate_command", KIND_REAL, ROLE_INPUT, 1, 1, -INFINITY, INFINITY},
     {"drive", KIND_INTEGER, ROLE_FIXED, 0, 1, 0.0, 4.0},

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "RoverDrive"
-#define MODEL_TOKEN_FMI2 "{4a3a02a2-151e-a664-1e98-10510b21289d}"
-#define MODEL_TOKEN_FMI3 "{522451a9-a2c6-f421-be7a-479258f42ada}"
+#define MODEL_TOKEN_FMI2 "{de599095-11ae-0738-9a5b-877548ef8829}"
+#define MODEL_TOKEN_FMI3 "{70eb85f3-774f-bd70-7daf-0b427064cf9b}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -24,13 +24,13 @@ enum {
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 6, WORK_RES = 2, WORK_IW = 0, WORK_W = 629 };
+enum { WORK_ARG = 6, WORK_RES = 2, WORK_IW = 0, WORK_W = 673 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 3248159 };
+enum { MODEL_MOST_SAMPLES = 1493577 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},

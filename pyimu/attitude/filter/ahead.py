@@ -18,6 +18,7 @@ from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.timing import estimate_latency
 from pyimu.attitude.filter.updates import outputs
 from pyimu.attitude.filter.variables import FOUND, INPUTS, OUTPUTS
+from pyimu.block.plain import plain_function
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import symmetric
 
@@ -53,7 +54,7 @@ def shown_now(layout: Layout) -> ca.Function:
     now = replace(x, q=quaternion.product(x.q, turn), covariance=covariance)
     found = [y[i] for i in FOUND]
     shown = outputs(now, *found, constant_variance(kept.size, settings))
-    return ca.Function("shown_now", [*symbols[:2], y, p, h], [shown], OPTIONS)
+    return plain_function("shown_now", [*symbols[:2], y, p, h], [shown], OPTIONS)
 
 
 def headings_of_the_sample(layout: Layout) -> ca.Function:
@@ -71,7 +72,7 @@ def headings_of_the_sample(layout: Layout) -> ca.Function:
     out = ca.vertcat(u[:HEADING], u[HEADING] - turned, u[HEADING + 1 :])
     # An age below zero is no age, and stays what it is.
     out[AGE] = ca.if_else(u[AGE] >= 0, ca.fmax(-ahead, 0), u[AGE])
-    return ca.Function("headings_of_the_sample", symbols, [out], OPTIONS)
+    return plain_function("headings_of_the_sample", symbols, [out], OPTIONS)
 
 
 def _delay(layout: Layout, p, h):

@@ -38,6 +38,7 @@ from pyimu.attitude.filter.marginal import turn
 from pyimu.attitude.filter.memory import ESTIMATE, WORKING, Memory
 from pyimu.attitude.filter.unscented import WHOLE, Estimate, N, turned_axes
 from pyimu.attitude.filter.variables import MAG
+from pyimu.block.plain import plain_function
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import backward, cholesky, forward, symmetric
 
@@ -73,7 +74,7 @@ def after_others(
     """
     given = [ca.vertcat(x, s[layout.field :]), before, u, p, h, rate, flags]
     symbols = [ca.MX.sym(f"i{i}", v.numel()) for i, v in enumerate(given)]
-    same = ca.Function("without_field", symbols, [symbols[0]])
+    same = plain_function("without_field", symbols, [symbols[0]])
     seen = Flags.unpack(flags).field
     out = ca.Function.if_else("perhaps_field", field, same)(seen, *given)
     return out[:WORKING], out[WORKING:]
@@ -95,7 +96,7 @@ def by_field(layout: Layout) -> ca.Function:
     total = wrapped(working[ESTIMATE - 1] + turned)
     others = working[ESTIMATE : WORKING - 1]
     out = ca.vertcat(Memory.pack_estimate(x), total, others, after.off, after.pack())
-    return ca.Function("by_field", [both, before, *symbols], [out], {"cse": True})
+    return plain_function("by_field", [both, before, *symbols], [out], {"cse": True})
 
 
 # What the direction has beside the magnetic north

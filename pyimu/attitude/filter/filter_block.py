@@ -12,6 +12,7 @@ from pyimu.attitude.filter.memory import ESTIMATE, start
 from pyimu.attitude.filter.updates import outputs
 from pyimu.attitude.filter.variables import OUTPUTS
 from pyimu.block.block import Block
+from pyimu.block.plain import plain_function
 from pyimu.block.prepared import Prepared
 from pyimu.block.variables import Variable
 from pyimu.model.part import Part
@@ -34,7 +35,7 @@ def filter_block(
     estimate, state = start(layout.compensation, p)
     u = ca.SX.sym("u", len(layout.inputs))
     shown = outputs(estimate, 0, 0, 0, 0) if names is OUTPUTS else ca.SX.zeros(len(names))
-    initial = ca.Function("initial", [u, p], [state, shown], ["u", "p"], ["s", "y"])
+    initial = plain_function("initial", [u, p], [state, shown], ["u", "p"], ["s", "y"])
     return Block(
         name=name,
         description=f"{title} of the part {part.name}{left_in_words(part)}",
@@ -81,7 +82,7 @@ def step_function(
     vertical_noise, slot = memory[-4], memory[-3]
     rings = s[layout.rings : layout.field]
     rings.nz[slot + ca.DM([0, late_heading.SLOTS])] = ca.vertcat(yaw, vertical_noise)
-    return ca.Function(
+    return plain_function(
         "step",
         [s, u, p, ca.MX.sym("w", 0, 1), h, *([] if c is None else [c])],
         [ca.vertcat(estimate, memory, rings, field), y],

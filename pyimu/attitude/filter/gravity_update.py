@@ -41,6 +41,7 @@ from pyimu.attitude.filter.velocity import (
     at_rest,
     covariance_of_motion,
 )
+from pyimu.block.plain import plain_function
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import reciprocal, symmetric
 
@@ -348,7 +349,7 @@ def by_velocity(correct: Callable) -> ca.Function:
     contradicted = 1 - (1 - (weight < 1) * given.plausible) * (1 - given.contradicts)
     after = less_sure(after, up, contradicted * given.period)
     out = reported(working, after, nis, contradicted)
-    return ca.Function("by_velocity", symbols, [out], {"cse": True})
+    return plain_function("by_velocity", symbols, [out], {"cse": True})
 
 
 def less_sure(x: Estimate, up, time) -> Estimate:

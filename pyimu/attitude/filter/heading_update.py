@@ -13,6 +13,7 @@ from pyimu.attitude.filter.memory import ESTIMATE, WORKING, Memory
 from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.unscented import WHOLE, Estimate, N
 from pyimu.attitude.filter.variables import ABSURD, INPUTS, LEAST_HEADING_STD
+from pyimu.block.plain import plain_function
 from pyimu.symbolic import mrp, quaternion
 from pyimu.symbolic.linear import cholesky, forward, symmetric
 
@@ -77,7 +78,7 @@ def by_heading(layout: Layout) -> ca.Function:
         each,
     )
     after = _past_heading()(x, neighbours, heading, samples, each, rate, vertical_noise)
-    return ca.Function("by_heading", symbols, [after])
+    return plain_function("by_heading", symbols, [after])
 
 
 def _read(layout: Layout) -> ca.Function:
@@ -96,7 +97,7 @@ def _read(layout: Layout) -> ca.Function:
     heading = Heading(given[0], variance, good, h, rate_variance, settings.gyro.walk**2)
     samples = ca.floor(given[2] / h + 0.5)
     each = late_heading.samples_per_slot(settings.scalar["heading_memory"], h)
-    return ca.Function("heading", [u, p, h], [heading.pack(), samples, each], OPTIONS)
+    return plain_function("heading", [u, p, h], [heading.pack(), samples, each], OPTIONS)
 
 
 def _past_heading() -> ca.Function:
@@ -136,7 +137,7 @@ def _past_heading() -> ca.Function:
         *report,
         working[ESTIMATE + 6 :],
     )
-    return ca.Function("past_heading", symbols, [out], OPTIONS)
+    return plain_function("past_heading", symbols, [out], OPTIONS)
 
 
 @dataclass(frozen=True)

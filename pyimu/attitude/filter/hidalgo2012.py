@@ -68,6 +68,7 @@ from pyimu.attitude.filter.unscented import Estimate, N, bounded, measure
 from pyimu.attitude.filter.updates import outputs, where
 from pyimu.attitude.filter.variables import LEAST_ACCEL_STD, LEAST_K, LEAST_N, OUTPUTS
 from pyimu.block.block import Block
+from pyimu.block.plain import plain_function
 from pyimu.model.effects.dynamics import lag
 from pyimu.model.part import Part
 from pyimu.symbolic import mrp, quaternion
@@ -100,7 +101,7 @@ def attitude_hidalgo2012(part: Part) -> Block:
             f"{left_in_words(part, delayed=True)}"
         ),
         step=_step(layout),
-        initial=ca.Function("initial", [u, p], [first.pack(), shown], ["u", "p"], ["s", "y"]),
+        initial=plain_function("initial", [u, p], [first.pack(), shown], ["u", "p"], ["s", "y"]),
         inputs=layout.inputs,
         parameters=layout.parameters,
         outputs=OUTPUTS,
@@ -120,7 +121,7 @@ def _step(layout: Layout) -> ca.Function:
     state, force, flags = _predict(layout)(s, u, p, h)
     working = ca.vertcat(state[:ESTIMATE], 0)
     x = where(flags[0], _by_gravity(), working, force)
-    return ca.Function(
+    return plain_function(
         "step",
         [s, u, p, w, h],
         [ca.vertcat(x[:ESTIMATE], state[ESTIMATE:]), _shown()(x, flags)],
@@ -169,7 +170,7 @@ def _predict(layout: Layout) -> ca.Function:
     status = sample.missing + 2 * sample.at_limit + 4 * sample.stuck
     measured = ca.densify(ca.vertcat(force, noise, gravity, at["lambda"]))
     flags = ca.densify(ca.vertcat(static, status))
-    return ca.Function("predict", [s, u, p, period], [after.pack(), measured, flags], OPTIONS)
+    return plain_function("predict", [s, u, p, period], [after.pack(), measured, flags], OPTIONS)
 
 
 def _low_passed(before: State, sample: Sample, corner, h):
@@ -232,7 +233,7 @@ def _by_gravity() -> ca.Function:
     q = quaternion.normalized(quaternion.product(x.q, mrp.to_quaternion(change[:3])))
     after = Estimate(q, x.bias + change[3:], x.velocity, covariance)
     out = ca.vertcat(packed(after), ca.dot(whitened, whitened))
-    return ca.Function("by_gravity", [working, given], [out], OPTIONS)
+    return plain_function("by_gravity", [working, given], [out], OPTIONS)
 
 
 def _shown() -> ca.Function:
@@ -241,4 +242,4 @@ def _shown() -> ca.Function:
     x = estimate_of(working)
     no_variance = 1 - ca.mmin(ca.diag(x.covariance) > 0)
     y = outputs(x, flags[0], working[ESTIMATE], flags[1] + 128 * no_variance, 0)
-    return ca.Function("shown", [working, flags], [y], OPTIONS)
+    return plain_function("shown", [working, flags], [y], OPTIONS)

@@ -50,6 +50,7 @@ from pyimu.attitude.filter.updates import (
     where,
 )
 from pyimu.block.block import Block
+from pyimu.block.plain import plain_function
 from pyimu.model.part import Part
 from pyimu.symbolic import mrp, quaternion
 from pyimu.symbolic.linear import cholesky, symmetric
@@ -102,7 +103,7 @@ def _predict(layout: Layout) -> ca.Function:
     whole = symmetric(WHOLE, lambda i, j: ca.dot(w[i, :], w[j, :]))
     x, noise = Estimate(q, rest.before.bias, velocity, whole), added_noise(at, sample, rest)
     outputs = predicted(at, sample, rest, x, turned, noise)
-    return ca.Function("predict", symbols, outputs, {"cse": True})
+    return plain_function("predict", symbols, outputs, {"cse": True})
 
 
 def deviations_after(
@@ -210,7 +211,7 @@ def _by_gravity() -> ca.Function:
         variance + ca.diag(given.sample_variance),
     )
     out = corrected(working, given, after, nis, weight)
-    return ca.Function("by_gravity", symbols, [out], {"cse": True})
+    return plain_function("by_gravity", symbols, [out], {"cse": True})
 
 
 def gravity_seen(up, magnitude) -> Callable:

@@ -44,6 +44,7 @@ from pyimu.attitude.filter.unscented import WHOLE, Estimate, N, bounded, moved, 
 from pyimu.attitude.filter.updates import outputs, where
 from pyimu.attitude.filter.variables import FOUND, OUTPUTS
 from pyimu.block.block import Block
+from pyimu.block.plain import plain_function
 from pyimu.symbolic import mrp, quaternion
 from pyimu.symbolic.linear import pack, symmetric, unpack
 
@@ -77,7 +78,7 @@ def smoother() -> Block:
     return Block(
         name="AttitudeSmoother",
         description="Fixed-interval smoother of the unscented attitude filter",
-        step=ca.Function(
+        step=plain_function(
             "step", [s, u, none, none, h], [before, y], ["s", "u", "p", "w", "h"], ["s_next", "y"]
         ),
         initial=_initial(),
@@ -92,7 +93,7 @@ def smoother() -> Block:
 def _initial() -> ca.Function:
     u, none = ca.SX.sym("u", len(PASSED)), ca.SX(0, 1)
     start, shown = ca.SX.zeros(BELIEF), ca.SX.zeros(len(OUTPUTS))
-    return ca.Function("initial", [u, none], [start, shown], ["u", "p"], ["s", "y"])
+    return plain_function("initial", [u, none], [start, shown], ["u", "p"], ["s", "y"])
 
 
 @lru_cache(maxsize=1)
@@ -100,7 +101,7 @@ def last_belief() -> ca.Function:
     """``estimate -> belief``: the smoother's state at the last sample, from the packed estimate."""
     x = ca.SX.sym("x", PACKED)
     belief = _packed(ca.SX.zeros(WHOLE), Memory.estimate_of(x).covariance)
-    return ca.Function("last_belief", [x], [belief], OPTIONS)
+    return plain_function("last_belief", [x], [belief], OPTIONS)
 
 
 @lru_cache(maxsize=1)
@@ -113,7 +114,7 @@ def before_a_gap() -> ca.Function:
     whole = Memory.estimate_of(x).covariance
     noise = ca.diagcat(ca.SX(3, 3), ca.diag(walk), ca.SX(3, 3))
     out = _packed(*less_noise(s[:WHOLE], unpack(s[WHOLE:], WHOLE), whole, noise))
-    return ca.Function("before_gap", [s, x, walk], [out], OPTIONS)
+    return plain_function("before_gap", [s, x, walk], [out], OPTIONS)
 
 
 # The functions of a step
@@ -146,7 +147,7 @@ def _shown() -> ca.Function:
     y = outputs(x, *(row.outputs[i] for i in FOUND), row.constant)
     least = ROUNDING * ca.trace(row.predicted.covariance[:3, :3])
     unseen = ca.mmax(row.transition.attitude) > KNOWN_TILT**2
-    return ca.Function("shown", symbols, [y, sum(_widened(row)) > least, unseen], OPTIONS)
+    return plain_function("shown", symbols, [y, sum(_widened(row)) > least, unseen], OPTIONS)
 
 
 ROUNDING = 1e-9
@@ -180,7 +181,7 @@ def _before_a_change() -> ca.Function:
     noise = symmetric(3, lambda i, j: tilt * (i == j) + (yaw - tilt) * up[i] * up[j])
     noise = ca.diagcat(noise, ca.SX(N, N))
     out = _packed(*less_noise(mean, covariance, row.after.covariance, noise))
-    return ca.Function("before_a_change", symbols, [out], OPTIONS)
+    return plain_function("before_a_change", symbols, [out], OPTIONS)
 
 
 def _before_the_updates() -> ca.Function:
@@ -196,7 +197,7 @@ def _before_the_updates() -> ca.Function:
     q = quaternion.product(after.q, mrp.to_quaternion(mean[:3]))
     bias, velocity = after.bias + mean[3:N], after.velocity + mean[N:]
     mean = ca.vertcat(_rotation(before.q, q), bias - before.bias, velocity - before.velocity)
-    return ca.Function("before_updates", symbols, [_packed(mean, covariance)], OPTIONS)
+    return plain_function("before_updates", symbols, [_packed(mean, covariance)], OPTIONS)
 
 
 def _rotation(a, b):
@@ -220,7 +221,7 @@ def _before_a_beginning(kept: list[int]) -> ca.Function:
     covariance = ca.blockcat([[own, cross.T], [cross, rest]])[order, order]
     mean = ca.vertcat(mean[kept], gain @ mean[kept])[order]
     name = f"before_beginning_beside_{len(kept)}"
-    return ca.Function(name, symbols, [_packed(mean, covariance)], OPTIONS)
+    return plain_function(name, symbols, [_packed(mean, covariance)], OPTIONS)
 
 
 def _before_a_bound() -> ca.Function:
@@ -234,7 +235,7 @@ def _before_a_bound() -> ca.Function:
     gain = whole @ ca.diag(shrunk(whole)) @ inverse(after)
     half = gain @ (covariance - after)
     covariance = symmetric(WHOLE, lambda i, j: whole[i, j] + ca.dot(half[i, :], gain[j, :]))
-    return ca.Function("before_bound", symbols, [_packed(gain @ mean, covariance)], OPTIONS)
+    return plain_function("before_bound", symbols, [_packed(gain @ mean, covariance)], OPTIONS)
 
 
 def _before_the_prediction() -> ca.Function:
@@ -249,7 +250,7 @@ def _before_the_prediction() -> ca.Function:
     mean, covariance = less_noise(mean, covariance, whole, to.noise)
     mean = to.undone(mean) + ca.vertcat(ca.SX(3, 1), to.set_back, ca.SX(3, 1))
     out = _packed(mean, _of_both(to.undone, covariance))
-    return ca.Function("before_prediction", symbols, [out], OPTIONS)
+    return plain_function("before_prediction", symbols, [out], OPTIONS)
 
 
 def _of_both(function: Callable, covariance):

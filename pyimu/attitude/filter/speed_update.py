@@ -22,6 +22,7 @@ from pyimu.attitude.filter.memory import ESTIMATE, Memory
 from pyimu.attitude.filter.unscented import Estimate
 from pyimu.attitude.filter.variables import INPUTS, LEAST_SPEED_STD, OWN_PARAMETERS
 from pyimu.attitude.filter.velocity import at_rest, covariance_of_motion
+from pyimu.block.plain import plain_function
 
 SPEED, SPEED_VARIANCE = ([v.name for v in INPUTS].index(n) for n in ("speed", "speed_variance"))
 
@@ -41,7 +42,7 @@ def by_speed(layout: Layout) -> ca.Function:
     )
     beyond = weight < 1
     after = less_sure(after, up, beyond * given.period)
-    return ca.Function("by_speed", symbols, [reported(working, after, 0, beyond)], OPTIONS)
+    return plain_function("by_speed", symbols, [reported(working, after, 0, beyond)], OPTIONS)
 
 
 def velocity_anew(layout: Layout) -> ca.Function:
@@ -55,7 +56,7 @@ def velocity_anew(layout: Layout) -> ca.Function:
     after: Estimate = at_rest(x, ca.if_else(driven, _noise(u, p), moving))
     after = replace(after, velocity=ca.vertcat(driven * u[SPEED], 0, 0))
     out = ca.vertcat(Memory.pack_estimate(after), working[ESTIMATE - 1 :])
-    return ca.Function("velocity_anew", [*symbols, driven], [out], OPTIONS)
+    return plain_function("velocity_anew", [*symbols, driven], [out], OPTIONS)
 
 
 def _noise(u, p):

@@ -69,6 +69,7 @@ from pyimu.attitude.filter.updates import (
 )
 from pyimu.attitude.filter.velocity import covariance_of_motion
 from pyimu.block.block import Block
+from pyimu.block.plain import plain_function
 from pyimu.model.part import Part
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import cholesky, forward, symmetric, triangular
@@ -90,7 +91,7 @@ def square_root_filter(part: Part) -> Block:
     u, p = (block.initial.sx_in(i) for i in range(2))
     state, shown = block.initial(u, p)
     state = ca.vertcat(_factored(state[: ESTIMATE - 1]), state[ESTIMATE - 1 :])
-    initial = ca.Function("initial", [u, p], [state, shown], ["u", "p"], ["s", "y"])
+    initial = plain_function("initial", [u, p], [state, shown], ["u", "p"], ["s", "y"])
     return replace(block, initial=initial)
 
 
@@ -160,20 +161,20 @@ def _to_covariance() -> ca.Function:
     """``x -> x``: the working estimate with the covariance in place of its factor."""
     x = ca.SX.sym("x", WORKING)
     whole = Memory.pack_estimate(Rooted.unpack(x).estimate)
-    return ca.Function("to_covariance", [x], [ca.vertcat(whole, x[ESTIMATE - 1 :])], OPTIONS)
+    return plain_function("to_covariance", [x], [ca.vertcat(whole, x[ESTIMATE - 1 :])], OPTIONS)
 
 
 def _to_factor() -> ca.Function:
     """``x -> x``: the inverse of ``_to_covariance``."""
     x = ca.SX.sym("x", WORKING)
-    return ca.Function("to_factor", [x], [ca.vertcat(_factored(x), x[ESTIMATE - 1 :])], OPTIONS)
+    return plain_function("to_factor", [x], [ca.vertcat(_factored(x), x[ESTIMATE - 1 :])], OPTIONS)
 
 
 def _factor_of() -> ca.Function:
     """``x, whole -> x``: the working estimate with the factor of that with a covariance."""
     x, whole = ca.SX.sym("x", WORKING), ca.SX.sym("whole", WORKING)
     factor = ca.vertcat(_factored(whole), whole[ESTIMATE - 1 :])
-    return ca.Function("factor_of", [x, whole], [factor], OPTIONS)
+    return plain_function("factor_of", [x, whole], [factor], OPTIONS)
 
 
 # Prediction
@@ -195,7 +196,7 @@ def _predict(layout: Layout) -> ca.Function:
     noise = added_noise(at, sample, rest)
     working, *others = predicted(at, sample, rest, x.estimate, turned, noise)
     working = ca.vertcat(x.pack(), working[ESTIMATE - 1 :])
-    return ca.Function("predict", symbols, [working, *others], OPTIONS)
+    return plain_function("predict", symbols, [working, *others], OPTIONS)
 
 
 # Gravity
@@ -221,7 +222,7 @@ def _by_gravity() -> ca.Function:
     factor = ca.diagcat(after.factor[:N, :N], moving)
     after = Rooted(after.q, after.bias, ca.SX.zeros(3), factor)
     out = _reported(working, after, nis, beyond)
-    return ca.Function("by_gravity", symbols, [out], OPTIONS)
+    return plain_function("by_gravity", symbols, [out], OPTIONS)
 
 
 def _by_velocity() -> ca.Function:
@@ -239,7 +240,7 @@ def _by_velocity() -> ca.Function:
     contradicted = 1 - (1 - (weight < 1) * given.plausible) * (1 - given.contradicts)
     after = _less_sure(after, up, contradicted * given.period)
     out = _reported(working, after, nis, contradicted)
-    return ca.Function("by_velocity", symbols, [out], OPTIONS)
+    return plain_function("by_velocity", symbols, [out], OPTIONS)
 
 
 def _corrected(
@@ -290,7 +291,7 @@ def _bounded_where_lost() -> ca.Function:
     """``x, flags -> x``, as ``updates.bounded_where_lost`` has it."""
     x, packed = ca.MX.sym("x", WORKING), ca.MX.sym("flags", FLAGS)
     after = bounded_where_lost(_to_covariance()(x), Flags.unpack(packed))
-    return ca.Function("bounded_where_lost", [x, packed], [_to_factor()(after)])
+    return plain_function("bounded_where_lost", [x, packed], [_to_factor()(after)])
 
 
 def _after_gravity(layout: Layout) -> ca.Function:
@@ -302,4 +303,4 @@ def _after_gravity(layout: Layout) -> ca.Function:
     after = after_gravity(
         layout, by_zero_rate(layout), whole, s, u, p, h, rate, gravity, Flags.unpack(packed)
     )
-    return ca.Function("after_gravity", symbols, [_to_factor()(after)])
+    return plain_function("after_gravity", symbols, [_to_factor()(after)])

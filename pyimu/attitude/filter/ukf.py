@@ -49,6 +49,7 @@ from pyimu.attitude.filter.updates import (
     where,
 )
 from pyimu.block.block import Block
+from pyimu.block.plain import plain_function
 from pyimu.block.prepared import Prepared, taken_apart
 from pyimu.model.effect import Effect
 from pyimu.model.part import Part
@@ -128,7 +129,7 @@ def _predict(layout: Layout, recorded: bool = False) -> tuple[ca.Function, ca.Fu
     given = (layout.compensation, at.memory, at.u, at.settings, at.h)
     sample, is_ordinary = read(*given)
     # What this reads is read again by the row: handed over, a processor would wait for it.
-    which = ca.Function("which_row", symbols, [is_ordinary * (1 + is_awake(at))], OPTIONS)
+    which = plain_function("which_row", symbols, [is_ordinary * (1 + is_awake(at))], OPTIONS)
     rows = [
         _row("other_row", at, look_closely(*given), symbols, recorded),
         _row("ordinary_row", at, sample, symbols, recorded),
@@ -138,7 +139,7 @@ def _predict(layout: Layout, recorded: bool = False) -> tuple[ca.Function, ca.Fu
     row = ca.Function.conditional("row", rows[:2], rows[2])
     given = [*layout.symbols(ca.MX, "estimate memory u"), ca.MX.sym("c", constants.numel_out(0))]
     outputs = row(which(*given), *given)
-    return constants, ca.Function("predict", given, list(outputs), {"always_inline": True})
+    return constants, plain_function("predict", given, list(outputs), {"always_inline": True})
 
 
 def _row(
@@ -155,7 +156,7 @@ def _row(
         _, own, leak = marginal.turned(rest.before, *turn, at.h)
         set_back = rest.before.bias - at.memory.estimate.bias
         out.append(Transition.of(own, leak, rest.before, x, pushed, noise, set_back).pack())
-    return ca.Function(name, symbols, out, OPTIONS)
+    return plain_function(name, symbols, out, OPTIONS)
 
 
 # Updates
@@ -182,7 +183,7 @@ def _updates(layout: Layout) -> ca.Function:
         x = where(asked.velocity, velocity, x, gravity)
         x = after_gravity(layout, zero_rate, x, s, u, p, h, rate, gravity, asked)
         x, kept = after_others(layout, field, x, before, s, u, p, h, rate, flags)
-        return ca.Function("every_update", symbols, [*finished(x, flags), kept])
+        return plain_function("every_update", symbols, [*finished(x, flags), kept])
 
     def usual_and(name: str, at_rest: bool, in_field: bool) -> ca.Function:
         before, s, u, p, h, rate, gravity, flags = symbols = layout.symbols(ca.MX, names)
@@ -192,12 +193,12 @@ def _updates(layout: Layout) -> ca.Function:
         if in_field:
             both = field(ca.vertcat(x, kept), before, u, p, h, rate, flags)
             x, kept = both[:WORKING], both[WORKING:]
-        return ca.Function(name, symbols, [*finished(x, flags), kept])
+        return plain_function(name, symbols, [*finished(x, flags), kept])
 
     x, s, _, _, _, _, gravity, flags = plain = layout.symbols(ca.SX, names)
     after = velocity.call([x, gravity], True, False)[0]
     none, usual = (
-        ca.Function(
+        plain_function(
             name,
             plain,
             [*finished.call([value, flags], True, False), s[layout.field :]],
@@ -229,4 +230,4 @@ def _by_gravity() -> ca.Function:
         variance + ca.diag(given.sample_variance),
     )
     out = corrected(working, given, after, nis, weight)
-    return ca.Function("by_gravity", symbols, [out], OPTIONS)
+    return plain_function("by_gravity", symbols, [out], OPTIONS)

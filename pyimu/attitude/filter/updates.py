@@ -15,8 +15,9 @@ from pyimu.attitude.filter.memory import ESTIMATE, WORKING, Memory
 from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.speed_update import by_speed, velocity_anew
 from pyimu.attitude.filter.unscented import Estimate, N, bounded, bounded_tilt
+from pyimu.block.plain import plain_function
 from pyimu.symbolic import quaternion
-from pyimu.symbolic.arc_tangent import arc_tangent
+from pyimu.symbolic.elementary import arc_tangent
 from pyimu.symbolic.linear import reciprocal, symmetric
 
 OPTIONS = {"cse": True}
@@ -31,7 +32,7 @@ def where(condition, function: ca.Function, values, *more):
     The function runs only then.
     """
     symbols = [ca.MX.sym(f"i{i}", function.numel_in(i)) for i in range(function.n_in())]
-    same = ca.Function(f"without_{function.name()}", symbols, [symbols[0]])
+    same = plain_function(f"without_{function.name()}", symbols, [symbols[0]])
     return ca.Function.if_else(f"perhaps_{function.name()}", function, same)(
         condition, values, *more
     )
@@ -54,14 +55,14 @@ def _bounding() -> ca.Function:
     s = ca.SX.sym("x", WORKING)
     x = Memory.estimate_of(s)
     after = replace(x, covariance=bounded(x.covariance))
-    return ca.Function("bounding", [s], [_with_estimate(s, after)], OPTIONS)
+    return plain_function("bounding", [s], [_with_estimate(s, after)], OPTIONS)
 
 
 def _bounding_tilt() -> ca.Function:
     """``x -> x`` with the standard deviation of the tilt bounded."""
     s = ca.SX.sym("x", WORKING)
     after = bounded_tilt(Memory.estimate_of(s))
-    return ca.Function("bounding_tilt", [s], [_with_estimate(s, after)], OPTIONS)
+    return plain_function("bounding_tilt", [s], [_with_estimate(s, after)], OPTIONS)
 
 
 def _with_estimate(working, x: Estimate):
@@ -106,7 +107,9 @@ def by_zero_rate(layout: Layout, correct: Callable = unscented.correct) -> ca.Fu
     turning = rest[0] * rest[1] * DRIVEN_RATE**2
     variance = symmetric(3, lambda i, j: (noise[i] if i == j else 0) + turning * up[i] * up[j])
     after, _, _ = correct(x, rate - x.bias - earth, slope @ cross + variance, cross, up)
-    return ca.Function("by_zero_rate", [s, rate, p, h, rest], [_with_estimate(s, after)], OPTIONS)
+    return plain_function(
+        "by_zero_rate", [s, rate, p, h, rest], [_with_estimate(s, after)], OPTIONS
+    )
 
 
 # Outputs
@@ -130,7 +133,7 @@ def finish() -> ca.Function:
     ) ** 2 > LEVEL**2
     yaw = ca.if_else(level, y[6] - given[ESTIMATE - 1], late_heading.NEVER)
     estimate = ca.vertcat(q, given[4:ESTIMATE])
-    return ca.Function("finish", [given, packed], [estimate, yaw, y], OPTIONS)
+    return plain_function("finish", [given, packed], [estimate, yaw, y], OPTIONS)
 
 
 def _status(flags: Flags, report: list, variances):

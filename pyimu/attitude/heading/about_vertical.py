@@ -6,6 +6,7 @@ import casadi as ca
 
 from pyimu.attitude.filter.compensation import NOT_UNDONE, left_in
 from pyimu.attitude.filter.timing import timed
+from pyimu.block.plain import plain_function
 from pyimu.model.effect import Effect
 from pyimu.model.kinds import OWN
 from pyimu.model.part import Part
@@ -65,5 +66,5 @@ def without_idle(step: ca.Function, initial: ca.Function, every: tuple) -> tuple
     for f, at in places:
         given = [p if i == at else ca.SX.sym(f.name_in(i), f.size_in(i)) for i in range(f.n_in())]
         y = f(*[full if i == at else a for i, a in enumerate(given)])
-        found.append(ca.Function(f.name(), given, y, f.name_in(), f.name_out()))
+        found.append(plain_function(f.name(), given, y, f.name_in(), f.name_out()))
     return *found, tuple(every[i] for i in used)

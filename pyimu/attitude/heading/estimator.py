@@ -41,6 +41,7 @@ from pyimu.attitude.filter.variables import (
 from pyimu.attitude.heading.about_vertical import about_the_vertical, left, without_idle
 from pyimu.attitude.heading.variables import INPUTS, OUTPUTS, OWN_PARAMETERS
 from pyimu.block.block import Block
+from pyimu.block.plain import plain_function
 from pyimu.model.effect import Effect
 from pyimu.model.part import Part
 from pyimu.symbolic.process_noise import process_noise
@@ -71,7 +72,7 @@ def _of(part: Part, *effects: tuple[Effect, ...]) -> Block:
     u, p = ca.SX.sym("u", len(INPUTS)), ca.SX.sym("p", _parameters(known)[1])
     s, h = ca.SX.sym("s", sum(_sizes(compensation))), ca.SX.sym("h")
     after, y = _step(compensation, s, u, p, h)
-    step = ca.Function(
+    step = plain_function(
         "step",
         [s, u, p, ca.SX(0, 1), h],
         [*map(ca.densify, (after, y))],
@@ -81,7 +82,7 @@ def _of(part: Part, *effects: tuple[Effect, ...]) -> Block:
     start = _start(compensation, p)
     shown = _shown(Estimate.unpack(start), 0, 0, 0)
     shown = [*map(ca.densify, (start, shown))]
-    initial = ca.Function("initial", [u, p], shown, ["u", "p"], ["s", "y"])
+    initial = plain_function("initial", [u, p], shown, ["u", "p"], ["s", "y"])
     step, initial, parameters = without_idle(step, initial, _parameters(known)[0])
     return Block(
         name="HeadingEstimator",

@@ -12,6 +12,7 @@ from pyimu.attitude.filter.filter_block import left_in_words
 from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.updates import where
 from pyimu.block.block import Block
+from pyimu.block.plain import plain_function
 from pyimu.block.variables import Variable
 from pyimu.model.part import Part
 from pyimu.navigation.filter import prediction, updates
@@ -97,7 +98,7 @@ def _block(layout: Layout, recorded: bool, constrained: bool) -> Block:
             f"zero-angular-rate updates, for the part {part.name}{left_in_words(part)}"
         ),
         step=_step(layout, recorded),
-        initial=ca.Function("initial", [u, p], [state, shown], ["u", "p"], ["s", "y"]),
+        initial=plain_function("initial", [u, p], [state, shown], ["u", "p"], ["s", "y"]),
         inputs=layout.inputs,
         parameters=parameters,
         outputs=names,
@@ -144,7 +145,7 @@ def _step(layout: Layout, recorded: bool) -> ca.Function:
     if recorded:
         before = x[layout.nominal : layout.packed]
         y = ca.vertcat(y, before, after, work[layout.packed + REPORT :], transition)
-    return ca.Function(
+    return plain_function(
         "step",
         [s, u, p, ca.MX(0, 1), h],
         [ca.vertcat(after, memory), y],
@@ -168,7 +169,7 @@ def _predict(layout: Layout) -> ca.Function:
     after, transition, means = prediction.predicted(layout, x, memory, sample, settings, h)
     packed = ca.if_else(memory.begun > 0, layout.pack(after), s[: layout.packed])
     kept = prediction.remembered(memory, sample, means, h).pack()
-    return ca.Function(
+    return plain_function(
         "predict",
         [s, u, p, h],
         [packed, kept, sample.rate, sample.lost, sample.still, ca.densify(transition[:])],
@@ -183,7 +184,7 @@ def _first(layout: Layout) -> ca.Function:
     p = ca.SX.sym("p", len(layout.parameters))
     force = Memory.unpack(packed, layout).force
     first = beginning.first(layout, force, prediction.settings_of(layout, p))
-    return ca.Function("first", [x, packed, p], [layout.pack(first)], OPTIONS)
+    return plain_function("first", [x, packed, p], [layout.pack(first)], OPTIONS)
 
 
 def _update(layout: Layout, name: str, kind: str, correct: Callable, *sizes: int) -> ca.Function:
@@ -196,7 +197,7 @@ def _update(layout: Layout, name: str, kind: str, correct: Callable, *sizes: int
     report[at] = nis
     moved = w[layout.packed + REPORT :] + change
     out = ca.vertcat(layout.pack(x), report, moved)
-    return ca.Function(name, [w, *more], [ca.densify(out)], OPTIONS)
+    return plain_function(name, [w, *more], [ca.densify(out)], OPTIONS)
 
 
 def _zupt(layout: Layout) -> ca.Function:
@@ -254,7 +255,7 @@ def _measured(layout: Layout) -> ca.Function:
         (POSITION_VALID, _position, POSITION, POSITION_VARIANCE, (p,)),
     ):
         work = where(u[valid] > 0.5, function(layout), work, u[value], u[variance], *more)
-    return ca.Function("measured", [begun, u, rate, p, h], [work])
+    return plain_function("measured", [begun, u, rate, p, h], [work])
 
 
 def _finish(layout: Layout) -> ca.Function:
@@ -264,7 +265,7 @@ def _finish(layout: Layout) -> ca.Function:
     report = w[layout.packed : layout.packed + REPORT]
     settings = prediction.settings_of(layout, p)
     y = _outputs(layout, layout.unpack(w), settings, report, lost, still)
-    return ca.Function("finish", [w, p, lost, still], [y], OPTIONS)
+    return plain_function("finish", [w, p, lost, still], [y], OPTIONS)
 
 
 def _outputs(layout: Layout, x: State, settings: Settings, report, lost, still) -> ca.SX:
