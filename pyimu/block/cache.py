@@ -54,8 +54,16 @@ def key_of(compiler: Iterable[str], *parts: bytes) -> str:
 
 @cache
 def _version(compiler: tuple[str, ...]) -> str:
+    """What a compiler says of itself. It is not told for which machine: zig, asked for macOS,
+    leaves an empty ``a.o`` in the current folder.
+    """
+    end = compiler.index("-target") if "-target" in compiler else len(compiler)
     return subprocess.run(
-        [*compiler, "--version"], capture_output=True, text=True, errors="replace", check=False
+        [*compiler[:end], "--version"],
+        capture_output=True,
+        text=True,
+        errors="replace",
+        check=False,
     ).stdout
 
 

@@ -132,7 +132,12 @@ def test_a_compiler_that_was_named_is_not_replaced(zig_alone, monkeypatch):
 
 
 def test_each_platform_is_compiled_by_its_name_into_its_folder(monkeypatch, tmp_path):
-    """What zig is told, and where its libraries lie, with no compiler at all."""
+    """What zig is told, and where its libraries lie, with no compiler at all; nothing is left where
+    one happens to be.
+    """
+    here = tmp_path / "here"
+    here.mkdir()
+    monkeypatch.chdir(here)
     monkeypatch.setenv("PYIMU_CACHE", "")
     monkeypatch.setattr(build, "find_spec", lambda name: object())
     monkeypatch.setattr(build, "header_folder", lambda: tmp_path)
@@ -154,6 +159,7 @@ def test_each_platform_is_compiled_by_its_name_into_its_folder(monkeypatch, tmp_
         "aarch64-darwin": ("aarch64-darwin", "dylib", "aarch64-macos.11.0"),
     }
     assert set(targets) == {target for *_, target in want.values()}
+    assert not list(here.iterdir())
     for fmu, folder in ((two, 0), (three, None)):
         with zipfile.ZipFile(fmu) as archive:
             found = {n: archive.read(n) for n in archive.namelist() if n.startswith("binaries/")}
