@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{a7e25ac3-bff9-7e93-c837-070e36e185e2}"
-#define MODEL_TOKEN_FMI3 "{acebde4c-a484-cb1e-069a-d7df348edbfd}"
+#define MODEL_TOKEN_FMI2 "{89f533f7-72ea-a4a5-724d-1f77f0ff3a19}"
+#define MODEL_TOKEN_FMI3 "{d5592aba-4d35-9627-814d-9013c0132cc6}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -26,14 +26,14 @@ enum {
 enum { WORK_ARG = 29, WORK_RES = 8, WORK_IW = 0, WORK_W = 1902 };
 
 /* Rows of inputs and outputs. */
-enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 684618 };
+enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 683464 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 684618 };
+enum { MODEL_MOST_SAMPLES = 683464 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
-    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 684618.0},
+    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 683464.0},
     {"gyro", KIND_REAL, ROLE_INPUT, 0, 3, -INFINITY, INFINITY},
     {"accel", KIND_REAL, ROLE_INPUT, 3, 3, -INFINITY, INFINITY},
     {"temperature", KIND_REAL, ROLE_INPUT, 6, 1, -INFINITY, INFINITY},

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{013106d4-4129-623b-eb64-e7a7ab53cc83}"
-#define MODEL_TOKEN_FMI3 "{b8e7faca-118c-deab-f4c6-3e610201429f}"
+#define MODEL_TOKEN_FMI2 "{098b19e7-b548-f437-ef8c-f01b0383d271}"
+#define MODEL_TOKEN_FMI3 "{2d058f3e-0eef-514e-3702-c9d4097da67a}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -29,7 +29,7 @@ enum { WORK_ARG = 29, WORK_RES = 8, WORK_IW = 0, WORK_W = 1902 };
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 684618 };
+enum { MODEL_MOST_SAMPLES = 683464 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
