@@ -1,5 +1,5 @@
 """Whether the position filter is honest about itself: ``python benchmarks/navigation_consistency.py
-[runs] [FILE]``.
+[runs] [FILE] [first seed]``.
 
 The drive of ``benchmarks/navigation.py`` by another specimen and other noise in each of 300 runs.
 Printed are, case by case, the error at the end and along the path, the yaw at the end, the mean
@@ -90,12 +90,12 @@ def rows_of(file):
     return rows
 
 
-def main(runs, file):
-    truth, rows = square(**MORE), rows_of(file)
+def main(runs, file, first):
+    truth, kept = square(**MORE), rows_of(file)
+    rows = {seed: kept.get(seed, {"seed": seed}) for seed in range(first, first + runs)}
     for name in CASES:
         # case by case, as each has filters of its own to build
-        for seed in range(runs):
-            row = rows.setdefault(seed, {"seed": seed})
+        for seed, row in rows.items():
             if name not in row:
                 row[name] = made(seed, truth, name)
                 with file.open("a") as out:
@@ -130,4 +130,5 @@ def shown(rows):
 
 if __name__ == "__main__":
     count = int(sys.argv[1]) if len(sys.argv) > 1 else RUNS
-    main(count, Path(sys.argv[2] if len(sys.argv) > 2 else "navigation_consistency.jsonl"))
+    where = Path(sys.argv[2] if len(sys.argv) > 2 else "navigation_consistency.jsonl")
+    main(count, where, int(sys.argv[3]) if len(sys.argv) > 3 else 0)

@@ -220,7 +220,7 @@ def _exact() -> Block:
         q = _quaternion(matrix)
         after = quaternion.normalized(turned(q, (last[:3], u[:3]), earth, h))
         forces = (last[3:], u[3:])
-        v, x, _ = moved((q, after), forces, velocity, position, earth, gravity, h)
+        v, x = moved((q, after), forces, velocity, position, earth, gravity, h)
         return quaternion.to_matrix(after), v, x
 
     return _block("Strapdown", advance)

@@ -168,7 +168,7 @@ def test_the_transition_is_what_the_mechanisation_makes_of_small_errors():
     state[layout.nominal : layout.packed] = 0.0
     memory = layout.packed + 7
     rate, force = np.array([0.1, -0.2, 0.6]), np.array([0.4, 0.3, 9.7])
-    state[memory : memory + 9] = np.concatenate([rate, force, rate])
+    state[memory : memory + 12] = np.concatenate([rate, force, rate, state[4:7]])
     state[layout.begun] = 1.0
     p = block.start.copy()
     p[0] = 0.8

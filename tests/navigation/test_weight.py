@@ -2,13 +2,19 @@
 
 from dataclasses import replace
 
+import casadi as ca
 import numpy as np
 import pytest
 from navigation_cases import SHORT, assumed, calibrated, declared, noisy, perfect, white
 from scipy.stats import chi2
 
+from pyimu.block.block import Run
+from pyimu.block.parameters import with_values
 from pyimu.model.sensor import Sensor
 from pyimu.navigation import run
+from pyimu.navigation.filter.ins_block import ins_of_log
+from pyimu.navigation.filter.layout import BASE, Layout
+from pyimu.navigation.filter.weight import bowed
 from pyimu.units import STANDARD_GRAVITY
 
 DRIVE = replace(SHORT, legs=1, vibration=0.0)
@@ -89,3 +95,46 @@ def test_a_tilt_that_comes_up_on_the_way_bends_the_weight(drift):
     bias, std = (found.filter.vector(n)[stop - 2, 2] for n in ("accel_bias", "accel_bias_std"))
     assert abs(bias) < std
     assert found.first_zupts[1] < chi2.isf(1e-3, 3)
+
+
+def stds_after(log, part):
+    """Standard deviations (n,) of the error state at the end of a log, by the filter of a part."""
+    layout = Layout(part)
+    block = ins_of_log(layout)
+    at = {v.name: i for i, v in enumerate(block.inputs)}
+    u = np.tile(block.start_inputs, (len(log.time), 1))
+    u[:, :3], u[:, 3:6], u[:, at["stationary"]] = log.gyro, log.accel, log.stationary
+    state = Run(block, len(u), p=with_values(block, SETTINGS), sample_period=log.sample_period)
+    state.advance(u)
+    return np.sqrt(
+        np.array(ca.evalf(ca.diag(layout.unpack(ca.DM(state.state)).covariance))).ravel()
+    )
+
+
+@pytest.mark.parametrize("bias", (0.0, BIAS))
+def test_legs_and_turns_on_a_level_floor_tell_nothing_of_the_accelerometers_gains(bias):
+    """From rest to rest the velocity has come to nothing, and its gains' errors with it; on a level
+    floor no turn changes the weight in the body, whatever the estimate of a tilted one makes of it.
+    """
+    wide = next(t for t in assumed().tolerances if t.key[:2] == ("accel", "scale_factor"))
+    part = replace(white(calibrated()), tolerances=(wide,))
+    log = noisy(declared(perfect(DRIVE), DRIVE), part, 1)
+    log = replace(log, accel=log.accel + [bias, -bias, 0.0])
+    level = stds_after(log, part)[BASE : BASE + 2]
+    np.testing.assert_allclose(level, wide.std[:2], rtol=0.01)
+
+
+def test_a_tilt_makes_a_climb_of_a_leg():
+    """Of all of it, although the speed is less than its own error before the leg ends: a bias as
+    large as its standard deviation is a climb as large as the position's."""
+    found = navigated(bias=(-BIAS, 0.0, 0.0))
+    row = found.stops[1][1] - 2
+    track = found.filter.track("filter")
+    assert abs(track.position[row, 2]) == pytest.approx(track.position_std[row, 2], rel=0.1)
+
+
+@pytest.mark.parametrize("std", (0.01, 0.3, 1.0, 3.0))
+def test_a_heading_that_is_off_makes_a_way_shorter(std):
+    nodes, weights = np.polynomial.hermite_e.hermegauss(60)
+    want = weights @ (1 - np.cos(std * nodes)) ** 2 / np.sqrt(2 * np.pi)
+    assert float(bowed(std**2)) == pytest.approx(want, rel=1e-6)

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{9d93d3fc-bde2-569a-376c-b7d2b86b450c}"
-#define MODEL_TOKEN_FMI3 "{4f9d465e-6cc0-176b-0b36-d90f4fd6a7e6}"
+#define MODEL_TOKEN_FMI2 "{33ad25da-89df-dcec-6b6d-c6dca9b359c1}"
+#define MODEL_TOKEN_FMI3 "{dd54b1cb-0451-bf0b-e6cd-57e278359bfd}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -26,14 +26,14 @@ enum {
 enum { WORK_ARG = 29, WORK_RES = 8, WORK_IW = 0, WORK_W = 1902 };
 
 /* Rows of inputs and outputs. */
-enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 627142 };
+enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 623493 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 627142 };
+enum { MODEL_MOST_SAMPLES = 623493 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
-    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 627142.0},
+    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 623493.0},
     {"gyro", KIND_REAL, ROLE_INPUT, 0, 3, -INFINITY, INFINITY},
     {"accel", KIND_REAL, ROLE_INPUT, 3, 3, -INFINITY, INFINITY},
     {"temperature", KIND_REAL, ROLE_INPUT, 6, 1, -INFINITY, INFINITY},

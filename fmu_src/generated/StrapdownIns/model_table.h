@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{e4a58622-84bc-33fc-b911-33ec0df04c50}"
-#define MODEL_TOKEN_FMI3 "{70fac460-21ce-71af-fcc9-bb58b207494d}"
+#define MODEL_TOKEN_FMI2 "{87124b4c-89fe-9c84-b945-96c434d8c70e}"
+#define MODEL_TOKEN_FMI3 "{4af0c47e-ac21-ac63-577b-0addaf5f3485}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -29,7 +29,7 @@ enum { WORK_ARG = 29, WORK_RES = 8, WORK_IW = 0, WORK_W = 1902 };
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 627142 };
+enum { MODEL_MOST_SAMPLES = 623493 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},

@@ -166,9 +166,9 @@ def _predict(layout: Layout) -> ca.Function:
     memory = Memory.unpack(s[layout.packed :], layout)
     sample = prediction.read(layout, memory, x.q, x.gyro_bias, u, settings, h)
     sample = prediction.with_rest(layout, x, memory, sample, settings, h)
-    after, transition, means = prediction.predicted(layout, x, memory, sample, settings, h)
+    after, transition, motion = prediction.predicted(layout, x, memory, sample, settings, h)
     packed = ca.if_else(memory.begun > 0, layout.pack(after), s[: layout.packed])
-    kept = prediction.remembered(memory, sample, means, h).pack()
+    kept = prediction.remembered(memory, sample, motion, h).pack()
     return plain_function(
         "predict",
         [s, u, p, h],

@@ -24,6 +24,9 @@ world axes."""
 HEADING, UP = TURN.stop - 1, RESTING.stop - 1
 """Where it has the attitude about the vertical, and the resting force upwards."""
 
+PLANE = slice(POSITION.start, POSITION.stop - 1)
+"""Where it has the position to the east and to the north."""
+
 BASE = 15
 """Errors that every filter has."""
 
@@ -197,18 +200,18 @@ class Memory:
     """What is kept from sample to sample beside the estimate.
 
     ``held`` is the last good row; ``rate`` and ``force`` (3,) are its compensated ones;
-    ``mean_rate`` (3,) in body and ``mean_force`` (3,) in world axes those of the last tenths of a
-    second; ``still`` whether it was at rest; ``gyro_lost`` (3,) and ``accel_lost`` s, for how long
-    an axis and the triad were lost; ``begun`` whether there was any row; ``sensors`` is the
-    compensation's own; ``window`` that of ``rest_window``, empty where the filter does not look for
-    rests.
+    ``mean_rate`` (3,) in body axes that of the last tenths of a second; ``counted`` (3,) in world
+    axes the velocity that counts (``weight``); ``still`` whether it was at rest; ``gyro_lost`` (3,)
+    and ``accel_lost`` s, for how long an axis and the triad were lost; ``begun`` whether there was
+    any row; ``sensors`` is the compensation's own; ``window`` that of ``rest_window``, empty where
+    the filter does not look for rests.
     """
 
     held: ca.SX
     rate: ca.SX
     force: ca.SX
     mean_rate: ca.SX
-    mean_force: ca.SX
+    counted: ca.SX
     still: ca.SX
     gyro_lost: ca.SX
     accel_lost: ca.SX

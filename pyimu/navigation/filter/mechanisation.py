@@ -25,7 +25,7 @@ def turned(q, rates: tuple, earth, h):
 
 
 def moved(attitudes: tuple, forces: tuple, velocity, position, earth, gravity, h) -> tuple:
-    """Velocity and position (3,) after ``h`` s, and the mean force (3,) in world axes.
+    """Velocity and position (3,) after ``h`` s.
 
     ``attitudes`` (4,) and ``forces`` (3,), in body axes, are those before and after. v' = R f + g
     - 2 w x v (Groves 2013, eq. 5.53), by the trapezoid of R f in world axes: each force is turned
@@ -38,4 +38,4 @@ def moved(attitudes: tuple, forces: tuple, velocity, position, earth, gravity, h
     force = force / 2
     change = h * (force - ca.vertcat(0, 0, gravity) - 2 * ca.cross(earth, velocity))
     after = velocity + change
-    return after, position + h / 2 * (velocity + after), force
+    return after, position + h / 2 * (velocity + after)

@@ -42,6 +42,8 @@ from pyimu.navigation.filter import rest_window
 from pyimu.navigation.filter.layout import (
     BASE,
     GYRO_BIAS,
+    HEADING,
+    PLANE,
     POSITION,
     RESTING,
     TURN,
@@ -60,7 +62,14 @@ from pyimu.navigation.filter.variables import (
     STATIONARY,
     TEMPERATURE,
 )
-from pyimu.navigation.filter.weight import Wander, counted, earth_by_turn, in_world, upright_of
+from pyimu.navigation.filter.weight import (
+    Wander,
+    bowed,
+    earth_by_turn,
+    followed,
+    in_world,
+    upright_of,
+)
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import symmetric
 from pyimu.symbolic.missing import is_finite
@@ -71,9 +80,9 @@ ABSURD = 1e6
 OPTIONS = {"cse": True}
 
 MEAN_TIME = 0.3
-"""s; of the means of rate and force by which the transition knows a motion. With the samples
-themselves there, whose noise it would take for motion, the filter would learn from noise what only
-motion shows: the tilt apart from the accelerometer's bias, and the gains."""
+"""s; of the mean rate by which the transition knows a turn. With the samples themselves there, the
+filter would learn from their noise what only a turn shows: the tilt apart from the accelerometer's
+bias."""
 
 
 TURN_TIME = 1.0
@@ -169,7 +178,7 @@ def predicted(
     layout: Layout, x: State, memory: Memory, sample: Sample, settings: Settings, h
 ) -> tuple[State, ca.SX, tuple]:
     """The estimate a sample later, the transition matrix (n, n) of its error, and the mean rate and
-    force with which that was made.
+    the velocity that counts with which that was made.
 
     A body at rest at both samples has not turned: what the gyro shows is then of its bias alone.
     """
@@ -193,23 +202,27 @@ def predicted(
             weights, (memory.force, sample.force), (x.resting, resting), strict=True
         )
     )
-    velocity, position, force = moved(
+    velocity, position = moved(
         (x.q, q), forces, x.velocity, x.position, earth, settings.scalar["gravity"], h
     )
-    means = _means(memory, (rates[0] + rates[1]) / 2, force, (still_rate, upright), rest, h)
+    rate = (rates[0] + rates[1]) / 2
+    mean_rate = _mean_rate(memory, rate, still_rate, rest, h)
+    known = _counted(x, memory, velocity, sample)
     axes = quaternion.to_matrix(q)
-    wander = Wander.of(layout, x, means[0] - still_rate, axes, MEAN_TIME, settings)
+    wander = Wander.of(layout, x, mean_rate - still_rate, axes, MEAN_TIME, settings)
     felt = turning, 1 - blind
-    step = Step.of(layout, x, q, (x.velocity + velocity) / 2, settings, felt, wander)
-    by_gains = wander.by_gains(layout, (rates[0] + rates[1]) / 2, axes)
-    transition = _transition(layout, step, (by_gains, means[1] - upright, shift), settings, h)
+    step = Step.of(layout, x, q, (memory.counted + known) / 2, settings, felt, wander)
+    by_gains = wander.by_gains(layout, rate, axes)
+    changes = by_gains, known - memory.counted, wander.by_turn(shift)
+    transition = _transition(layout, step, changes, settings, h)
     both = transition @ x.covariance @ transition.T + _noise(layout, step, settings, h)
     both[UP, UP] = both[UP, UP] + _bending(x.covariance, both, settings)
+    both[PLANE, PLANE] = both[PLANE, PLANE] + h * _bow(x, step)
     covariance = symmetric(layout.errors, lambda i, j: both[i, j])
     x = replace(
         x, q=q, velocity=velocity, position=position, resting=resting, covariance=covariance
     )
-    return _unseen(x, step, memory, sample, settings, h), transition, means
+    return _unseen(x, step, memory, sample, settings, h), transition, (mean_rate, known)
 
 
 def _bending(before, after, settings: Settings):
@@ -221,14 +234,29 @@ def _bending(before, after, settings: Settings):
     return settings.scalar["gravity"] ** 2 * sum(grown)
 
 
-def _means(memory: Memory, rate, force, at_rest: tuple, rest, h) -> tuple:
-    """The mean rate and force (3,) a sample later; of a body at rest they are known."""
+def _bow(x: State, step: Step):
+    """Density of the noise (2, 2) m^2/s that a heading of which little is known makes of a way: one
+    that is off by z leaves the way shorter by 1 - cos z. It does so all along a leg, as white noise
+    of that density does over one of the usual length.
+    """
+    plane = step.velocity[:2]
+    return LASTS[1] * bowed(x.covariance[HEADING, HEADING]) * plane @ plane.T
+
+
+def _mean_rate(memory: Memory, rate, at_rest, rest, h):
+    """The mean rate (3,) a sample later; that of a body at rest is known."""
     share = 1 - ca.exp(-h / MEAN_TIME)
-    found = (memory.mean_rate, rate), (memory.mean_force, force)
-    return tuple(
-        ca.if_else(rest, known, before + share * (now - before))
-        for known, (before, now) in zip(at_rest, found, strict=True)
-    )
+    return ca.if_else(rest, at_rest, memory.mean_rate + share * (rate - memory.mean_rate))
+
+
+def _counted(x: State, memory: Memory, velocity, sample: Sample):
+    """The velocity (3,) that counts a sample later, none at rest, whatever the estimate is."""
+    return ca.if_else(sample.still, 0, followed(memory.counted, velocity, _of_velocity(x)))
+
+
+def _of_velocity(x: State):
+    """Variance of the velocity per axis."""
+    return ca.trace(x.covariance[VELOCITY, VELOCITY]) / 3
 
 
 def about_the_start(position):
@@ -266,21 +294,21 @@ class Step:
         spin, triad = after @ before.T, in_world(layout, x, after)
         by_turn = ca.SX(layout.errors, 3)
         by_turn[TURN, :] = ca.SX.eye(3)
-        of_speed = ca.trace(x.covariance[VELOCITY, VELOCITY]) / 3
-        speed = counted(velocity, of_speed)
-        by_turn[VELOCITY, :] = ca.skew(speed)
+        # as far as it still counts: of a gyro that is lost a half turn would be told by the stop
+        by_turn[VELOCITY, :] = ca.skew(followed(0, velocity, _of_velocity(x)))
         by_turn[POSITION, :] = -about_the_start(x.position)
         by_turn[RESTING, :] = triad @ ca.skew(upright)
         by_tilt = triad @ wander.by_tilt(spin, upright)
         by_earth = earth_by_turn(x, settings.earth)
-        return cls((before + after) / 2, spin, speed, felt, by_turn, by_tilt, by_earth, wander)
+        return cls((before + after) / 2, spin, velocity, felt, by_turn, by_tilt, by_earth, wander)
 
 
-def _transition(layout: Layout, step: Step, mean: tuple, settings: Settings, h) -> ca.SX:
-    """F (n, n); ``mean`` is what the gyro's gains make of the rate (3, g), the mean acceleration
-    (3,), both in world axes, and by how much the weight (3,) in body axes changes.
+def _transition(layout: Layout, step: Step, changes: tuple, settings: Settings, h) -> ca.SX:
+    """F (n, n); ``changes`` is what the gyro's gains make of the rate (3, g), by how much the
+    velocity (3,) changes, both in world axes, and by how much the weight (3,) in body axes, as far
+    as they count.
     """
-    by_gains, acceleration, shift = mean
+    by_gains, faster, shift = changes
     axes, earth = step.axes, settings.earth
     halfway = (ca.SX.eye(3) + step.spin) / 2
     gains = slice(BASE, BASE + len(layout.gains))
@@ -297,8 +325,8 @@ def _transition(layout: Layout, step: Step, mean: tuple, settings: Settings, h) 
     f[VELOCITY, RESTING] = -push * halfway
     for errors in (TURN, GYRO_BIAS, gains):
         f[VELOCITY, errors] = f[VELOCITY, errors] - push / 2 * f[RESTING, errors]
-    body = axes.T @ acceleration
-    f[VELOCITY, gains] = f[VELOCITY, gains] - push * axes @ layout.slopes("accel", body)
+    by_change = axes @ layout.slopes("accel", axes.T @ faster)
+    f[VELOCITY, gains] = f[VELOCITY, gains] - step.felt[1] * by_change
     f[POSITION, TURN.start : 2] = f[POSITION, TURN.start : 2] - h * ca.skew(step.velocity)[:, :2]
     f[POSITION, VELOCITY] = h * ca.SX.eye(3)
     f[POSITION, RESTING] = h / 2 * f[VELOCITY, RESTING]
@@ -363,12 +391,12 @@ def _gone_for(memory: Memory, sample: Sample, h) -> tuple:
     return tuple((before + h) * now for before, now in lost)
 
 
-def remembered(memory: Memory, sample: Sample, means: tuple, h) -> Memory:
-    """The memory after a sample, with the ``means`` of rate and force."""
+def remembered(memory: Memory, sample: Sample, motion: tuple, h) -> Memory:
+    """The memory after a sample, with the ``motion``: mean rate, and velocity that counts."""
     force = ca.if_else(sample.accel_lost, memory.force, sample.force)
     begun = ca.fmax(memory.begun, 1 - sample.accel_lost)
     gone, kept = _gone_for(memory, sample, h), (sample.sensors, sample.window)
-    return Memory(sample.held, sample.rate, force, *means, sample.still, *gone, begun, *kept)
+    return Memory(sample.held, sample.rate, force, *motion, sample.still, *gone, begun, *kept)
 
 
 def empty(layout: Layout, settings: Settings) -> Memory:
@@ -380,7 +408,7 @@ def empty(layout: Layout, settings: Settings) -> Memory:
         ca.SX.zeros(3),
         ca.vertcat(0, 0, gravity),
         ca.SX.zeros(3),
-        ca.vertcat(0, 0, gravity),
+        ca.SX.zeros(3),
         ca.SX(0),
         ca.SX.zeros(3),
         *[ca.SX(0)] * 2,

@@ -10,8 +10,13 @@ filter, and would undo what they seem to tell. By the noise of a straight leg of
 
 So of a turn counts what its own errors do not explain, apart for its vertical part, on which the
 horizontal of the error depends, and its horizontal part, on which the vertical does. What of that
-does not count acts as noise. A velocity counts likewise beside an error of the attitude. And of a
-scale factor's turn about the axis of a motion only the part that counts tilts the body.
+does not count acts as noise. And of a scale factor's turn about the axis of a motion only the part
+that counts tilts the body.
+
+A velocity counts likewise beside an error of the attitude or of the accelerometer's gains. When a
+body whose tilt nobody knows turns on the spot, 2 m/s are estimated and none are there. And what
+once counted does until a rest, however much the errors grow on the way: the gains have undone at
+the end of a leg what they did at its start, and a tilt makes a climb of all of it.
 
 A heading of which nothing is known makes of the Earth's rate one in any direction. Linear in its
 error, a half-turn wide, the least tilt at a stop and the noise of a gyro at rest turned it by tens
@@ -96,6 +101,10 @@ class Wander:
         counted = ca.skew(self.shares * turn / 2)
         return -(counted + counted @ counted / 2) @ ca.skew(upright)
 
+    def by_turn(self, shift):
+        """Of a ``shift`` (3,) of the weight in body axes, which a level turn makes, what counts."""
+        return self.shares[0] * shift
+
     def by_gains(self, layout: Layout, rate, axes):
         """What the gyro's gains make of a ``rate`` (3,) in body axes, in the world's (3, g)."""
         turn = axes @ rate
@@ -107,9 +116,18 @@ class Wander:
         return share * (slopes - turn @ along) + kept @ along
 
 
-def counted(velocity, variance):
-    """The ``velocity`` (3,) where its error, of this ``variance`` per axis, does not explain it."""
-    return velocity * _share(ca.sumsqr(velocity), ALL * variance)
+def followed(before, velocity, variance):
+    """The velocity (3,) that counts, after one that did ``before``: of the change what the error of
+    the ``velocity``, of this ``variance`` per axis, does not explain.
+    """
+    change = velocity - before
+    return before + change * _share(ca.sumsqr(change), ALL * variance)
+
+
+def bowed(variance):
+    """Mean square of 1 - cos z of a normal z of this ``variance``: 3/4 of its square if small."""
+    once = ca.exp(-variance / 2)
+    return ca.fmax(0, 1.5 - 2 * once + (once**2) ** 2 / 2)
 
 
 def _share(size, least):
