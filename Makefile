@@ -6,6 +6,8 @@ READY := .venv/.ready
 CODE := pyimu tests benchmarks examples fuzz docs/build
 PART ?= imt30
 OUT ?= out
+# What a file builds, it builds once. In their order, as files of few tests that take long would come last.
+SPREAD := -n auto --dist loadfile --no-loadscope-reorder
 
 .PHONY: help demo test test-long lint generate docs fmus bench fuzz
 
@@ -31,10 +33,10 @@ demo: $(READY)
 	$(BIN)/pyimu demo
 
 test: $(READY)
-	$(BIN)/python -m pytest -n auto --dist loadfile  # what a file builds, it builds once
+	$(BIN)/python -m pytest $(SPREAD)
 
 test-long: $(READY)
-	$(BIN)/python -m pytest -n auto --dist loadfile -m long
+	$(BIN)/python -m pytest $(SPREAD) -m long
 
 lint: $(READY)
 	$(BIN)/python -m ruff check $(CODE)

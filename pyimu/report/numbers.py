@@ -75,8 +75,8 @@ def told_apart(si: str, said: str) -> str:
 
 
 def _apart(si: str) -> tuple[str, str]:
-    plain, _, said = si.partition(" (")
-    return plain, said.removesuffix(")")
+    said = next((word for word in SAID if si.endswith(f" ({word})")), "")
+    return si.removesuffix(f" ({said})"), said
 
 
 def unit_for(values: object, si: str) -> str:

@@ -35,7 +35,7 @@ def test_normalised_errors_and_innovations_are_chi_square(scenario):
     assert sums.norm < 1e-12 and sums.least_eigenvalue > 0
 
 
-@pytest.mark.parametrize("walk", [1e-6, 1e-3])
+@pytest.mark.parametrize("walk", [1e-6, pytest.param(1e-3, marks=pytest.mark.long)])
 @pytest.mark.parametrize("declared", [False, True])
 def test_run_from_its_own_alignment_claims_no_more_than_it_knows(declared, walk):
     """Not less either would be too much to ask: the rest's rows are used twice, and a turn about

@@ -58,7 +58,15 @@ def test_the_order_that_fits_is_named(found, order):
     assert f"read as {order}, ref_q is" in lines[at + 1] and finding.detail["rms"] < 0.05
 
 
-@pytest.mark.parametrize("off", [0.0, 0.05, 0.5, 1.5])
+@pytest.mark.parametrize(
+    "off",
+    [
+        0.0,
+        pytest.param(0.05, marks=pytest.mark.long),
+        0.5,
+        pytest.param(1.5, marks=pytest.mark.long),
+    ],
+)
 def test_one_that_is_as_stated_is_left_alone(found, off):
     """However far the estimate is off."""
     result, reference = found

@@ -24,6 +24,10 @@ from pyimu.shaping import NOISE_LIKE
 DOCS = CHECKOUT / "docs"
 ENTRIES = entries()
 NAMES = [e.name for e in ENTRIES]
+SOME_LONG = [
+    pytest.param(e, marks=[pytest.mark.long] * (k % 3 > 0), id=e.name)
+    for k, e in enumerate(ENTRIES)
+]
 
 
 def test_every_noise_of_the_catalogue_is_on_the_page():
@@ -63,7 +67,7 @@ def test_a_picture_is_linked_and_there(name):
     assert picture.read_bytes().startswith(b"\x89PNG") and picture.stat().st_size < 100_000
 
 
-@pytest.mark.parametrize("entry", ENTRIES, ids=NAMES)
+@pytest.mark.parametrize("entry", SOME_LONG)
 def test_a_picture_shows_what_the_definitions_give(entry):
     picture = DOCS / "noise" / f"{entry.name}.png"
     assert noise_pictures.is_fresh(entry, picture), f"{picture.name} is old: make generate"

@@ -137,6 +137,7 @@ def test_two_effects_at_once_are_both_named(world):
     )
 
 
+@pytest.mark.long
 def test_two_logs_together_and_a_third_to_judge_by(world):
     others = [drive(seed=s) for s in (11, 12)]
     logs = [

@@ -47,6 +47,7 @@ def test_repoimu_reference_spikes_are_reported_and_left_out(wand):
     assert "test06" in spikes.detail["recording"]
 
 
+@pytest.mark.long
 def test_broad_lag_fitted_on_02_holds_on_07():
     """By a minute of each; the whole logs take longer (benchmarks/measured.py)."""
     minute = 60 * 286

@@ -398,6 +398,7 @@ def test_people_s_units_measure_the_same(si):
         (42e-6, "1", "42.0 ppm"),
         (2 * np.pi * 30, told_apart("rad/s", "frequency"), "30.0 Hz"),
         (np.sqrt(0.5), told_apart("1", "ratio"), "0.707"),
+        (2.0, "(K) * (m/s^2)", "2.00 (K) * (m/s²)"),
         (1.0, "V", "1.00 V"),
         (5.06e-3, "m/s^2/K", "0.516 mg/K"),
         (np.deg2rad(0.2) / 60, "rad/sqrt(s)", "0.200 deg/√h"),

@@ -295,6 +295,7 @@ def test_the_command_writes_what_the_function_plans(tmp_path):
     assert said["duration"]["value"] == pytest.approx(alone.as_dict()["duration"]["value"])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "words",
     [

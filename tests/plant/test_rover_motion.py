@@ -92,7 +92,9 @@ def test_it_stands_before_and_after_and_nowhere_else(name):
     assert np.ptp(before[:, :16], axis=0).max() == 0 and np.ptp(after[:, :16], axis=0).max() == 0
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(n, marks=[pytest.mark.long] * (n == "obstacle")) for n in NAMES]
+)
 def test_the_sample_rate_does_not_change_the_motion(name):
     """976 and 50 Hz have every half second in common. There the times differ by their rounding,
     2^-52 of some 60 s, and the motion by that times its derivatives, which stay below 30 SI units.
