@@ -66,16 +66,9 @@ def _values(one: Program, symbols: Sequence[ca.SX]) -> list[ca.SX]:
     """What each instruction gives."""
     values: list[ca.SX] = []
     for i in one.instructions:
-        if i.op == ca.OP_CONST:
-            value = ca.SX(i.value)
-        elif i.op == ca.OP_INPUT:
-            value = symbols[i.of[0]].nz[i.of[1]]
-        else:
-            operands = [values[k] for k in i.operands]
-            plain = _stands_for(one, i)
-            ordinary = ca.SX.unary if len(operands) == 1 else ca.SX.binary
-            value = plain(*operands) if plain else ordinary(i.op, *operands)
-        values.append(value)
+        plain = _stands_for(one, i)
+        operands = [values[k] for k in i.operands]
+        values.append(plain(*operands) if plain else i.value_of(symbols, operands))
     return values
 
 

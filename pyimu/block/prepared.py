@@ -70,14 +70,9 @@ def _with_constants(
         return found.setdefault(k, ca.SX.sym(f"c{len(found)}"))
 
     for i in one.instructions:
-        if i.op == ca.OP_CONST:
-            value, fixes = ca.SX(i.value), True
-        elif i.op == ca.OP_INPUT:
-            value, fixes = symbols[i.of[0]][i.of[1]], i.of[0] in fixed
-        else:
-            fixes = all(follows[k] for k in i.operands)
-            operands = [values[k] if fixes else varying(k) for k in i.operands]
-            value = (ca.SX.unary if len(operands) == 1 else ca.SX.binary)(i.op, *operands)
+        fixes = i.of[0] in fixed if i.op == ca.OP_INPUT else all(follows[k] for k in i.operands)
+        operands = [values[k] if fixes else varying(k) for k in i.operands]
+        value = i.value_of(symbols, operands)
         values.append(value)
         follows.append(fixes)
     column = ca.vertcat(*(varying(one.outputs[0, k]) for k in range(len(one.outputs))))

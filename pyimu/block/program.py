@@ -21,6 +21,9 @@ UNARY = frozenset(
 )
 """Operations on one number; of others casadi knows those on two alone."""
 
+LEAVES = (ca.OP_CONST, ca.OP_INPUT)
+"""Instructions that take no value of an earlier one."""
+
 
 def operands_of(op: int, named: Sequence[int]) -> Sequence[int]:
     """What an operation takes of the values that casadi has ``named``: that of one number it names
@@ -43,8 +46,16 @@ class Instruction:
 
     @property
     def operands(self) -> Sequence[int]:
-        """The values that an operation takes."""
-        return operands_of(self.op, self.of)
+        """The values that an operation takes; none for an input or a constant."""
+        return () if self.op in LEAVES else operands_of(self.op, self.of)
+
+    def value_of(self, inputs: Sequence[ca.SX], operands: Sequence[ca.SX]) -> ca.SX:
+        """What it gives of the ``inputs`` of its function and the values of its ``operands``."""
+        if self.op == ca.OP_CONST:
+            return ca.SX(self.value)
+        if self.op == ca.OP_INPUT:
+            return inputs[self.of[0]].nz[self.of[1]]
+        return (ca.SX.unary if len(operands) == 1 else ca.SX.binary)(self.op, *operands)
 
 
 @dataclass(frozen=True)

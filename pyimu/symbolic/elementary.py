@@ -2,7 +2,7 @@
 
 A function of the C library ends in other bits in another library, and takes about as long. These
 are right to two units of the last place, ``tangent``, ``exponential_less_one`` and the hyperbolic
-ones to five. Angles that are not finite give no number.
+ones to five. Angles that are not finite, nor the sides of one, give no number.
 
 Polynomials: Moshier 1989, Methods and Programs for Mathematical Functions (Cephes 2.8: sin.c,
 atan.c, exp.c, log.c).
@@ -158,8 +158,8 @@ def hyperbolic_tangent(x):
 
 
 def hyperbolic_sine(x):
-    more = exponential_less_one(ca.fabs(x))
-    return ca.copysign((more + more / (more + 1)) / 2, x)
+    more, less = (exponential_less_one(sign * ca.fabs(x)) for sign in (1, -1))
+    return ca.copysign((more - less) / 2, x)
 
 
 def hyperbolic_cosine(x):

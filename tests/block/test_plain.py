@@ -66,6 +66,7 @@ def test_functions_end_where_numbers_do():
     with np.errstate(all="ignore"):
         np.testing.assert_array_equal(evaluated(elementary.exponential, x), np.exp(x))
         np.testing.assert_array_equal(evaluated(elementary.exponential_less_one, x), np.expm1(x))
+        np.testing.assert_array_equal(evaluated(elementary.hyperbolic_sine, x), np.sinh(x))
         np.testing.assert_array_equal(evaluated(elementary.logarithm, y), np.log(y))
     assert np.isnan(evaluated(elementary.sine, np.array([np.inf, np.nan]))).all()
 
