@@ -58,6 +58,10 @@ CONFOUNDS: dict[frozenset[str], str] = {
     frozenset({"g_sensitivity", "magnetic_sensitivity"}): (
         "without acceleration, turned about the vertical alone, gravity and field keep their angle"
     ),
+    frozenset({"heading_locked", "magnetic_sensitivity"}): (
+        "an error that the heading takes once round has no name of its own: the field turns so in "
+        "the axes of a level body, and whatever else keeps its direction in the world"
+    ),
     frozenset({"g_sensitivity", "g2_sensitivity"}): (
         "near level the vertical force is g, and its products with the others are linear in those"
     ),

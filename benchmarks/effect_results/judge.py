@@ -117,13 +117,24 @@ def _of_nothing(record: Record) -> str:
 
 
 def _of_the_nameless(record: Record) -> str:
-    """An error without a name is rightly called unexplained, or given a formula."""
+    """An error without a name is rightly called unexplained, or given a formula, or the name of an
+    effect that no log tells it from, of which the result says so.
+    """
     found = {e for _, e in named(record)}
-    if found - {OWN}:
+    if named_with_confidence(record):
         return "wrong"
-    if OWN in found or record["unexplained"] or record["verdict"] == "unexplained":
+    if found or record["unexplained"] or record["verdict"] == "unexplained":
         return "right"
     return "drift" if record["verdict"] == "drift" else "missed"
+
+
+def named_with_confidence(record: Record) -> set[str]:
+    """The effects that were named for an error without a name, less its formula and what is listed
+    as one that no log tells it from.
+    """
+    truths = {t["term"] for t in record["truths"]}
+    found = {e for _, e in named(record)} - {OWN}
+    return {e for e in found if not any(confounded(e, t) for t in truths)}
 
 
 def said(record: Record) -> list[str]:

@@ -12,7 +12,16 @@ from effect_logs.cases import MOTIONS
 from runs.intervals import shown, wilson
 
 from effect_results.coverage import covered, ratios
-from effect_results.judge import OUTCOMES, OWN, Record, named, outcome, said, why
+from effect_results.judge import (
+    OUTCOMES,
+    OWN,
+    Record,
+    named,
+    named_with_confidence,
+    outcome,
+    said,
+    why,
+)
 
 FORMULAS = {t.name for t in (*nameless.BILINEAR, *nameless.PERIODIC, *nameless.SWITCHING)}
 
@@ -87,7 +96,7 @@ def _right(record: Record) -> bool:
 
 
 def _named(record: Record) -> bool:
-    return bool({e for _, e in named(record)} - {OWN})
+    return bool(named_with_confidence(record))
 
 
 def _formula(record: Record) -> bool:

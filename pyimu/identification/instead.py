@@ -14,6 +14,7 @@ from pyimu.identification.noise.explained import likelihood_of
 from pyimu.identification.rounding import rounding
 from pyimu.identification.search.forward import AS_NOISE, Investigation, Step, without
 from pyimu.identification.search.screen import PENALTY
+from pyimu.model.catalogue import CATALOGUE
 
 WANDERS = 0.5
 """Share of what an effect explains that is left once the residual may walk as it likes, below which
@@ -43,9 +44,13 @@ def formula_less_than_noise(inv: Investigation, found: Look, free: frozenset[str
 
 
 def _may_be_noise(inv: Investigation, step: Step) -> bool:
-    """Whether a residual that walks as it likes explains most of what an effect does."""
+    """Whether a residual that walks as it likes explains most of what an effect does, or it happens
+    at instants: noise may jump, which no walk does.
+    """
     if any(not isinstance(n, RandomWalk) for n in inv.after.seen.values()):
         return False
+    if CATALOGUE[step.effect].has_events:
+        return True
     apart = inv.after.log_likelihood - _refitted(inv, [step]).log_likelihood
     cost = PENALTY * len(step.keys)
     return apart / step.dispersion - cost < WANDERS * (step.gain + cost)

@@ -131,8 +131,16 @@ class Effect:
     @property
     def is_line(self) -> bool:
         """Whether it is a line of the spectrum, whose frequency is looked for."""
+        return self._scans("line")
+
+    @property
+    def has_events(self) -> bool:
+        """Whether it happens at instants, which are looked for."""
+        return self._scans("instant")
+
+    def _scans(self, measure: str) -> bool:
         scans = (p.scan for p in self.parameters.values())
-        return any(s is not None and s.measure == "line" for s in scans)
+        return any(s is not None and s.measure == measure for s in scans)
 
     @property
     def stochastic(self) -> bool:

@@ -120,6 +120,10 @@ def test_the_nameless_are_rightly_unexplained():
     assert outcome(nameless(added("found_effect"))) == "right"
     assert outcome(nameless(added("lag"), unexplained=seen)) == "wrong"
     assert outcome(nameless()) == "missed"
+    like_a_field = nameless(added("magnetic_sensitivity"))
+    assert outcome(like_a_field) == "wrong"
+    like_a_field["truths"][0]["term"] = "heading_locked"
+    assert outcome(like_a_field) == "right"
 
 
 def test_two_effects_count_when_both_are_named():

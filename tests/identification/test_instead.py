@@ -48,6 +48,15 @@ def test_jumps_are_said_where_a_walk_is_left_to_the_data(name, number):
 
 
 @pytest.mark.long
+def test_steps_that_are_some_of_many_jumps_are_popcorn():
+    """Four of some twenty jumps were bias steps, which keep what they explain beside any walk."""
+    found = closed(make("unknown/30/accel.popcorn", 140, (6.0, 9.0)))
+    assert not found.added, found.report()
+    assert ("bias_step", AS_NOISE) in [(r.effect, r.reason) for _, r in found.refused]
+    assert {u.shape for u in found.unexplained} == {POPCORN}
+
+
+@pytest.mark.long
 def test_a_process_too_large_for_one_effect_is_called_by_another_of_its_law():
     """q is 5.6e-4: a consumer part's is 3.9e-5, that of a second, faster process 3.9e-4."""
     found = closed(make("one/8/gyro.second_gauss_markov", 0, MINUTES))

@@ -9,6 +9,7 @@ import numpy as np
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.formula.compose import Chosen
 from pyimu.identification.search.choice import SET_WIDTH
+from pyimu.identification.search.confirm import CHANCE as REFUTED
 from pyimu.identification.search.confirm import SPEAKS, Evidence
 from pyimu.identification.search.forward import Investigation, Step
 from pyimu.identification.search.own_signal import is_of_reference
@@ -28,13 +29,14 @@ DOUBTFUL = 0.0
 from thousands of terms must be seen there, where a named effect must only not be missing."""
 
 
-def least_gain(difference: np.ndarray) -> np.ndarray:
+def least_gain(difference: np.ndarray, chance: float = CHANCE) -> np.ndarray:
     """Gain [nat] that held-out rows have at least by what is true, where models differ by so much
-    there: its mean is that ``difference``, its variance twice that. Held-out rows are all rows less
-    the fitted ones, so that an axis where the models agree may have a little less than none.
+    there, to within ``chance`` standard errors: its mean is that ``difference``, its variance twice
+    that. Held-out rows are all rows less the fitted ones, so that an axis where the models agree
+    may have a little less than none.
     """
     there = np.maximum(difference, 0.0)
-    return np.minimum(CONFIRMED * there, there - CHANCE * np.sqrt(2.0 * there))
+    return np.minimum(CONFIRMED * there, there - chance * np.sqrt(2.0 * there))
 
 
 def left_of(chosen: Chosen, seen: Evidence) -> Chosen:
@@ -47,7 +49,7 @@ def is_denied(inv: Investigation, after: Fit, seen: Evidence) -> bool:
     """Whether held-out rows, of whatever little difference, or the sensor's own signal speak
     against a model.
     """
-    lost = seen.gained.sum() < float(least_gain(seen.difference.sum()))
+    lost = seen.gained.sum() < float(least_gain(seen.difference.sum(), REFUTED))
     return lost or seen.raises or seen.is_little or is_of_reference(inv.after, after, DOUBTFUL)
 
 

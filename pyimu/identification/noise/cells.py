@@ -12,6 +12,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numba import njit
 
+from pyimu.positive import cholesky, solve
+
 ROUNDS = 40
 """Of Fisher's scoring, at most; six are usual."""
 
@@ -31,6 +33,15 @@ def _variance(base, columns, sizes):
         if sizes[p] != 0.0:
             for j in range(len(out)):
                 out[j] += sizes[p] * columns[p, j]
+    return out
+
+
+@njit(cache=True)
+def _moved(sizes, change, step, least):
+    """Sizes a step on, none below its least."""
+    out = sizes.copy()
+    for a in range(len(sizes)):
+        out[a] = max(sizes[a] + step * change[a], least[a])
     return out
 
 
@@ -66,14 +77,15 @@ def scored(count, squares, base, columns, least, sizes):
                 gram[:, a] = 0.0
                 gram[a, a] = 1.0
             gram[a, a] *= 1.0 + 1e-10
-        change = np.linalg.solve(gram, score)
-        if change @ score < 1e-6:
+        change = score.copy()
+        solve(cholesky(gram), change)
+        if np.sum(change * score) < 1e-6:
             break
         step, moved = 1.0, False
         for _ in range(12):
-            tried = np.maximum(sizes + step * change, least)
+            tried = _moved(sizes, change, step, least)
             variance = _variance(base, columns, tried)
-            found = _likelihood(count, squares, variance) if variance.min() > 0.0 else -np.inf
+            found = _likelihood(count, squares, variance) if np.all(variance > 0.0) else -np.inf
             if found > best:
                 sizes, best, moved = tried, found, True
                 break
@@ -88,20 +100,24 @@ def gains(count, squares, base, known, known_least, tried, tried_least):
     """Log-likelihoods (b, k) that each of k columns ``tried`` gains beside columns ``known`` (p, c)
     in each of b draws of ``squares`` (b, c).
     """
-    p, k = len(known), len(tried)
+    p, k, cells = len(known), len(tried), len(count)
     out = np.zeros((len(squares), k))
-    columns = np.zeros((p + 1, len(count)))
-    columns[:p] = known
-    least = np.zeros(p + 1)
-    least[:p] = known_least
+    columns, least = np.zeros((p + 1, cells)), np.zeros(p + 1)
+    for a in range(p):  # In loops, as in ``pyimu.positive``.
+        least[a] = known_least[a]
+        for j in range(cells):
+            columns[a, j] = known[a, j]
     for d in range(len(squares)):
-        start, null = scored(count, squares[d], base, known, known_least, np.zeros(p))
-        both = np.zeros(p + 1)
-        both[:p] = start
-        for c in range(k):
-            columns[p] = tried[c]
-            least[p] = tried_least[c]
-            out[d, c] = max(0.0, scored(count, squares[d], base, columns, least, both)[1] - null)
+        start, null = np.zeros(p + 1), 0.0
+        for c in range(-1, k):
+            for j in range(cells):
+                columns[p, j] = tried[c, j] if c >= 0 else 0.0
+            least[p] = tried_least[c] if c >= 0 else 0.0
+            sizes, found = scored(count, squares[d], base, columns, least, start)
+            if c < 0:
+                start, null = sizes, found
+            else:
+                out[d, c] = max(0.0, found - null)
     return out
 
 

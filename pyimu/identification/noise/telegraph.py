@@ -101,7 +101,9 @@ def _likelihood(r, steps, sure, gain, low, gap, up, down):
                 first, second = mean[0, a], mean[1, a]
                 moved[j, a] = one * (first + gain[k, a] * (v - first))
                 moved[j, a] += other * (second + gain[k, a] * (v - second))
-        mean[:] = moved
+        for j in range(2):  # In loops, as in ``pyimu.positive``.
+            for a in range(m):
+                mean[j, a] = moved[j, a]
         share = (weight[0, 1] + weight[1, 1]) / mixed
     total += np.log(product)
     return total

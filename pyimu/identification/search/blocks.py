@@ -179,11 +179,11 @@ def _beside(columns, base, shares):
         for j in range(len(raw)):
             raw[j] += columns[k, j] ** 2
             size[j] += left[k, j] ** 2
-    shown = size > NOTHING**2 * raw
-    scale = np.where(shown, 1.0 / np.sqrt(np.where(shown, size, 1.0)), 0.0)
+    for j in range(len(raw)):
+        size[j] = 1.0 / np.sqrt(size[j]) if size[j] > NOTHING**2 * raw[j] else 0.0
     for k in range(len(columns)):
         for j in range(len(raw)):
-            left[k, j] *= scale[j]
+            left[k, j] *= size[j]
     return left
 
 

@@ -31,7 +31,7 @@ def at_instants(fitted: Fit, effect: str) -> Fit:
     that never happens stands at its start value.
     """
     e, name = CATALOGUE[effect], form_of(CATALOGUE[effect])
-    if not name or e.parameters[name].scan.measure != "instant":
+    if not e.has_events:
         return fitted
     times, std = np.array(fitted.sensor.values[effect][name]), {}
     events = np.flatnonzero(times < UNUSED)

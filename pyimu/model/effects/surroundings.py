@@ -1,6 +1,6 @@
 """Bias that supply and magnetic field cause."""
 
-from pyimu.model.effect import Environment, Parameter, effect
+from pyimu.model.effect import Confound, Environment, Parameter, effect
 
 
 @effect(
@@ -28,6 +28,10 @@ def supply_sensitivity(
     source=(
         "IEEE Std 528-2019, acceleration-insensitive drift rate, note on magnetic influences; no "
         "source for the linear form"
+    ),
+    confound=Confound(
+        "another influence that keeps its direction in the world, as the field does",
+        "a field that changes while the body rests, by a coil or a magnet,",
     ),
 )
 def magnetic_sensitivity(

@@ -9,6 +9,8 @@ import numpy as np
 from numba import njit
 from scipy.optimize import minimize_scalar
 
+from pyimu.positive import cholesky, solve
+
 STATES = 3
 """Value, slope and curvature: the least that gives a course its rate."""
 
@@ -117,28 +119,47 @@ def _sums(pieces, log_ratio: float) -> tuple[float, float, int]:
 
 
 @njit(cache=True)
-def _transition(h, ratio):
-    """Transition matrix and covariance over ``h`` s of a white third derivative."""
-    f = np.array([[1.0, h, h**2 / 2], [0.0, 1.0, h], [0.0, 0.0, 1.0]])
-    q = np.array(
-        [
-            [h**5 / 20, h**4 / 8, h**3 / 6],
-            [h**4 / 8, h**3 / 3, h**2 / 2],
-            [h**3 / 6, h**2 / 2, h],
-        ]
-    )
-    return f, ratio * q
+def _ahead(x, h):
+    """Bring states (3, d) ``h`` s on, in their place."""
+    for j in range(x.shape[1]):
+        x[0, j] += h * (x[1, j] + 0.5 * h * x[2, j])
+        x[1, j] += h * x[2, j]
 
 
 @njit(cache=True)
-def _updated(x, p, value):
-    """State and covariance with a value seen, its innovation (d,) and that one's variance."""
-    s = p[0, 0] + 1.0
+def _predict(x, p, h, ratio):
+    """Bring states (3, d) and their covariance (3, 3) ``h`` s on, under a white third derivative of
+    density ``ratio``.
+    """
+    _ahead(x, h)
+    _ahead(p, h)
+    _ahead(p.T, h)
+    p[0, 0] += ratio * h**5 / 20
+    p[1, 1] += ratio * h**3 / 3
+    p[2, 2] += ratio * h
+    for i, j, q in ((0, 1, h**4 / 8), (0, 2, h**3 / 6), (1, 2, h**2 / 2)):
+        p[i, j] += ratio * q
+        p[j, i] = p[i, j]
+
+
+@njit(cache=True)
+def _update(x, p, value):
+    """States (3, d) and covariance with a value (d,) seen, in their place.
+
+    Gives the sum of squares of the innovation and its variance.
+    """
+    s, squares = p[0, 0] + 1.0, 0.0
     gain = p[:, 0] / s
-    miss = value - x[0]
-    x = x + gain.reshape(-1, 1) * miss.reshape(1, -1)
-    p = p - np.outer(gain, gain) * s
-    return x, 0.5 * (p + p.T), miss, s
+    for j in range(len(value)):
+        miss = value[j] - x[0, j]
+        squares += miss**2
+        for i in range(STATES):
+            x[i, j] += gain[i] * miss
+    for i in range(STATES):
+        for j in range(i, STATES):
+            p[i, j] -= gain[i] * gain[j] * s
+            p[j, i] = p[i, j]
+    return squares, s
 
 
 @njit(cache=True)
@@ -147,31 +168,58 @@ def _likelihood(time, values, ratio):
     squares, logs = 0.0, 0.0
     for k in range(len(time)):
         if k:
-            f, q = _transition(time[k] - time[k - 1], ratio)
-            x, p = f @ x, f @ p @ f.T + q
-        x, p, miss, s = _updated(x, p, values[k])
+            _predict(x, p, time[k] - time[k - 1], ratio)
+        square, s = _update(x, p, values[k])
         if k >= STATES:
-            squares += np.sum(miss**2) / s
-            logs += len(miss) * np.log(s)
+            squares += square / s
+            logs += values.shape[1] * np.log(s)
     return squares, logs
 
 
 @njit(cache=True)
 def _smooth(time, values, ratio):
     n, d = values.shape
-    states, variance = np.empty((n, STATES, d)), np.empty((n, STATES, STATES))
-    before, spread = np.empty((n, STATES, d)), np.empty((n, STATES, STATES))
+    states, variance = np.zeros((n, STATES, d)), np.zeros((n, STATES, STATES))
+    before, spread = np.zeros((n, STATES, d)), np.zeros((n, STATES, STATES))
     x, p = np.zeros((STATES, d)), DIFFUSE * np.eye(STATES)
     for k in range(n):
         if k:
-            f, q = _transition(time[k] - time[k - 1], ratio)
-            x, p = f @ x, f @ p @ f.T + q
-        before[k], spread[k] = x, p
-        x, p, _, _ = _updated(x, p, values[k])
-        states[k], variance[k] = x, p
+            _predict(x, p, time[k] - time[k - 1], ratio)
+        _add(before[k], x, 1.0)
+        _add(spread[k], p, 1.0)
+        _update(x, p, values[k])
+        _add(states[k], x, 1.0)
+        _add(variance[k], p, 1.0)
     for k in range(n - 2, -1, -1):
-        f, _ = _transition(time[k + 1] - time[k], ratio)
-        back = np.linalg.solve(spread[k + 1], f @ variance[k]).T
-        states[k] += back @ (states[k + 1] - before[k + 1])
-        variance[k] += back @ (variance[k + 1] - spread[k + 1]) @ back.T
+        gain = _gain(variance[k], spread[k + 1], time[k + 1] - time[k])
+        _add(before[k + 1], states[k + 1], -1.0)
+        _add(spread[k + 1], variance[k + 1], -1.0)
+        for i in range(STATES):
+            for j in range(STATES):
+                for c in range(d):
+                    states[k, i, c] -= gain[i, j] * before[k + 1, j, c]
+                for a in range(STATES):
+                    for b in range(STATES):
+                        variance[k, i, j] -= gain[i, a] * spread[k + 1, a, b] * gain[j, b]
     return states, variance
+
+
+@njit(cache=True)
+def _gain(variance, spread, h):
+    """What a state takes of the error of its prediction over ``h`` s, whose covariance (3, 3) is
+    ``spread``.
+    """
+    ahead, root = variance.copy(), cholesky(spread)
+    _ahead(ahead, h)
+    out = ahead.T.copy()
+    for i in range(STATES):
+        solve(root, out[i])
+    return out
+
+
+@njit(cache=True)
+def _add(to, what, share):
+    """Add a share of an array (m, d) to another."""
+    for i in range(to.shape[0]):
+        for j in range(to.shape[1]):
+            to[i, j] += share * what[i, j]
