@@ -16,7 +16,7 @@ from pyimu.identification.fit.fit import Fit, begin
 from pyimu.identification.fit.keys import Coefficient, coefficients_of
 from pyimu.identification.fit.maximum_likelihood import advantage, fit
 from pyimu.identification.fit.reduction import STRUCTURE
-from pyimu.identification.fit.reference_noise import with_reference_noise
+from pyimu.identification.fit.reference_noise import drawn_again, with_reference_noise
 from pyimu.identification.fit.trial import Doubt, Trial
 from pyimu.identification.fit.walk import with_unknown_walk
 from pyimu.identification.search.as_sampled import GATE, ceiling_of, threshold_of
@@ -137,7 +137,7 @@ def investigate(
         return Investigation(before, before, (), (), none, none, tuple(apart), unfit)
     if has_ceiling(sensor):
         before = without_lost(before)
-    search = _Search(before, sensor, apart)
+    search = _Search(before, sensor, apart, believed)
     while len(search.steps) < MOST_EFFECTS:
         known, count = len(search.steps), len(search.seen.candidates)
         say(f"{sensor.kind}: {known} added, trying {count} candidates")
@@ -149,7 +149,7 @@ def investigate(
     after = _with_intervals(after, steps)
     refused = tuple(search.refused.values())
     looks = search.first, search.last
-    left = unbent(before, after), after, tuple(steps), refused, *looks, tuple(apart)
+    left = unbent(before, after), after, tuple(steps), refused, *looks, tuple(search.held)
     return Investigation(*left, believed=believed)
 
 
@@ -166,8 +166,11 @@ class _Search:
     candidates beside it as they were ``first`` and ``last`` seen.
     """
 
-    def __init__(self, before: Fit, sensor: Sensor, held: list[Trial]) -> None:
+    def __init__(
+        self, before: Fit, sensor: Sensor, held: list[Trial], believed: bool = False
+    ) -> None:
         self.before, self.sensor, self.held = before, sensor, held
+        self.believed = believed
         self.after, self.steps = _as_sampled(before, held)
         self.refused: dict[str, Refused] = {}
         self.kept_out: set[Coefficient] = set()
@@ -265,7 +268,9 @@ class _Search:
 
     def _goes_on(self, after: Fit) -> None:
         """Look for more beside a model."""
-        self.after, self.tried = after, Tried(after, self.sensor.values)
+        known, self.held = drawn_again(after, self.held, self.believed)
+        self.after = after if known is after else fit(known)
+        self.tried = Tried(self.after, self.sensor.values)
         self.left_out = self._left_out()
         self.last = self.seen = self.tried.looked()[0]
 
