@@ -122,7 +122,7 @@ def _verdict(e: Evidence) -> Verdict:
         does = f"depends on {' x '.join(u.depends_on)}"
         return Verdict("unexplained", f"{u.sensor} {u.axis} {does}")
     if any(e.drift.values()):
-        why = "more random walk than declared: an input that nobody logged"
+        why = "more random walk than declared, and nothing logged that it is seen to follow"
         return Verdict("drift", why, instead(e.changed))
     return _nothing_found(e, left)
 

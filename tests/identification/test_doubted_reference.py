@@ -12,6 +12,7 @@ from pyimu.identification.fit.fit import begin
 from pyimu.identification.fit.keys import Coefficient, coefficients_of
 from pyimu.identification.fit.maximum_likelihood import fit
 from pyimu.identification.fit.reference_noise import (
+    drawn_again,
     has_noise,
     sensor_white,
     with_reference_noise,
@@ -21,6 +22,7 @@ from pyimu.identification.formula.columns import columns_of
 from pyimu.identification.formula.effect import made
 from pyimu.identification.formula.terms import library
 from pyimu.identification.search import forward
+from pyimu.identification.search.confirm import Evidence
 from pyimu.identification.search.own_signal import is_of_reference
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.sensor import Sensor
@@ -80,6 +82,48 @@ def _is_of_reference(old) -> bool:
     free = old.free | coefficients_of(sensor, "dead_zone")
     new = fit(replace(old, sensor=sensor, free=free))
     return is_of_reference(old, new)
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_a_draw_of_more_than_all_that_is_left_is_drawn_again(seed):
+    """With an effect that left three times the noise of the reference, and has come in since: the
+    new draw is what a draw beside the whole model has been from the start, to the rounding of the
+    fit. One that is no more than what is left stays.
+    """
+    true, apart = with_reference_noise(
+        fit(begin(SENSOR, (), [log(seed, 6.0, "reference")])), [log(9, 6.0, "reference")], True
+    )
+    larger, more = (
+        [replace(t, noise=3.0 * t.noise) for t in trials] for trials in (true.trials, apart)
+    )
+    anew, held = drawn_again(replace(true, trials=tuple(larger)), more, True)
+    for one, other in zip((*anew.trials, *held), (*true.trials, *apart), strict=True):
+        np.testing.assert_allclose(one.noise.std(axis=0), other.noise.std(axis=0), rtol=1e-6)
+    smaller = replace(true, trials=tuple(replace(t, noise=0.5 * t.noise) for t in true.trials))
+    assert drawn_again(smaller, apart, True) == (smaller, apart)
+
+
+def sums(before, after, noise):
+    none = np.zeros(3)
+    return Evidence(none, none, none, none, none, np.array([before, after]), np.array(noise))
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "little"),
+    [
+        ([-2.0, 5.0, 0.0], [-3.0, 5.0, 0.0], False),  # all of x is noise of the reference
+        ([0.5, 5.0, 0.0], [0.3, 5.0, 0.0], False),
+        ([-2.0, 5.0, 0.0], [-2.0, 4.9, 0.0], True),
+        ([3.0, 5.0, 0.0], [2.9, 5.0, 0.0], True),
+    ],
+)
+def test_where_nothing_is_left_above_the_noise_nothing_unknown_looks_like_an_effect(
+    before, after, little
+):
+    """Squares less those of a draw as large as they are lie about zero: a g-sensitivity of 70 nat
+    was refused as 1 % of what is left, which is what it explained on the other axes.
+    """
+    assert sums(before, after, [1.0, 1.0, 0.0]).is_little is little
 
 
 def test_rounds_that_go_in_a_circle_beside_noise_of_the_reference_end_at_its_likeliest(monkeypatch):

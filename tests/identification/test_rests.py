@@ -22,7 +22,8 @@ from pyimu.identification.fit.maximum_likelihood import fit
 from pyimu.identification.fit.turns import at_middle
 from pyimu.identification.reference.gravity import rest_trial, rest_trials
 from pyimu.identification.reference.turns import turn_trials
-from pyimu.identification.search.forward import Investigation
+from pyimu.identification.search.forward import Investigation, Step, _scattering_at_last
+from pyimu.identification.search.screen import Screening
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
 from pyimu.recording.recording import Recording
@@ -176,6 +177,28 @@ def test_a_perfect_part_that_is_not_is_named():
     assert error["gravity"]["folds"] == error["gravity"]["judged"] == 20
     assert error["gravity"]["after"] == pytest.approx(error["specific_force"]["after"])
     assert error["gravity"]["after"] < 0.1 * error["gravity"]["before"]
+
+
+def test_what_a_misalignment_scattered_no_longer_does_once_it_is_known():
+    """A scale factor that was taken in first kept the scatter that it had then: known to 0.3 %, it
+    was said to be known to 6 %. Of a right model scores scatter as its noise says, but for chance.
+    """
+    rng = np.random.default_rng(6)
+    found, _ = fitted(resting(rng, everywhere(rng, 14), triad(rng)))
+    first, second = (
+        frozenset(c for c in COEFFICIENTS if c.effect == e)
+        for e in ("scale_factor", "misalignment")
+    )
+    steps = [
+        Step("scale_factor", first, 216.0, 4.1, (), 365.0),
+        Step("misalignment", second, 2770.0, 5.1, (), 7.0),
+    ]
+    before, last = _scattering_at_last(found, steps, Screening((), 4.0))
+    # Three coefficients by fourteen rests: hardly a half more.
+    assert 1.0 <= before.dispersion < 1.5
+    assert last is steps[1]
+    sure = [replace(steps[0], dispersion=1.0), steps[1]]
+    assert _scattering_at_last(found, sure, Screening((), 4.0)) == sure
 
 
 def test_a_perfect_part_that_is_one_is_left_alone():

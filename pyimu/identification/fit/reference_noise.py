@@ -95,6 +95,33 @@ def with_reference_noise(
     return replace(known, echo=_echo(known)), apart
 
 
+def drawn_again(fit: Fit, held: list[Trial], believed: bool) -> tuple[Fit, list[Trial]]:
+    """The fit and the held-out trials with a new draw of their reference's noise, as what this
+    model leaves has it, where the draw that they have is more than all of that on some axis: part
+    of it was what an effect left that has come into the model since. Else as they are.
+    """
+    if not _is_outdrawn(fit):
+        return fit, held
+    trials = tuple(map(_without_draw, fit.trials))
+    plain = replace(fit, trials=trials, echo={}, coloured=False, last=Last()).with_noise()
+    return with_reference_noise(plain, list(map(_without_draw, held)), believed)
+
+
+def _is_outdrawn(fit: Fit) -> bool:
+    """Whether the drawn noise of the references is more than all that a model leaves."""
+    if not has_noise(fit):
+        return False
+    drawn, left = (
+        np.sum([np.sum(one.residual**2, axis=0) for one in linears], axis=0)
+        for linears in (residual_changes(fit), fit.residuals())
+    )
+    return any(drawn[i] > left[i] for i in fit.noise)
+
+
+def _without_draw(trial: Trial) -> Trial:
+    return replace(trial, noise=None, noise_error=(0.0, 0.0, 0.0))
+
+
 def _variance(fit: Fit) -> np.ndarray:
     """Variance (3,) in a row of the band that the high noise of derived references has, which is
     that of a white attitude: the least of what must be at least as much. Zero for others.

@@ -107,12 +107,16 @@ class Evidence:
 
     @property
     def share(self) -> float:
-        """The largest share on any axis of what was left above the noise that is explained."""
+        """The largest share on any axis of what was left above the noise that is explained.
+
+        Without end where nothing was left above it. Such a sum may be negative, too: of what is
+        left the draw of a reference's noise is taken off, which is as large as that on the average.
+        """
         if self.noise is None:
             return np.inf
         above = np.maximum(self.whole[0] - self.noise, 1e-300)
         shares = (self.whole[0] - self.whole[1]) / above
-        return float(np.max(shares[self.whole[0] > 0.0], initial=0.0))
+        return float(np.max(shares[self.whole[0] != 0.0], initial=0.0))
 
 
 def evidence(old: Fit, new: Fit, held: Sequence[Trial]) -> Evidence:

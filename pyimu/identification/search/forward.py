@@ -12,11 +12,15 @@ from typing import Any
 
 import numpy as np
 
-from pyimu.identification.fit.fit import Fit, begin
+from pyimu.identification.fit.fit import Fit, begin, with_prior
 from pyimu.identification.fit.keys import Coefficient, coefficients_of
 from pyimu.identification.fit.maximum_likelihood import advantage, fit
 from pyimu.identification.fit.reduction import STRUCTURE
-from pyimu.identification.fit.reference_noise import with_reference_noise
+from pyimu.identification.fit.reference_noise import (
+    drawn_again,
+    equations,
+    with_reference_noise,
+)
 from pyimu.identification.fit.trial import Doubt, Trial
 from pyimu.identification.fit.walk import with_unknown_walk
 from pyimu.identification.search.as_sampled import GATE, ceiling_of, threshold_of
@@ -32,10 +36,12 @@ from pyimu.identification.search.choice import Refined, Tried, chosen_of
 from pyimu.identification.search.confirm import evidence
 from pyimu.identification.search.judge import OF_REFERENCE, judged
 from pyimu.identification.search.left_out import LeftOut, with_left_out
+from pyimu.identification.search.projected import Scatter
 from pyimu.identification.search.screen import (
     PENALTY,
     Screened,
     Screening,
+    fitted_dispersion,
     keys_of,
     screen,
 )
@@ -137,7 +143,7 @@ def investigate(
         return Investigation(before, before, (), (), none, none, tuple(apart), unfit)
     if has_ceiling(sensor):
         before = without_lost(before)
-    search = _Search(before, sensor, apart)
+    search = _Search(before, sensor, apart, believed)
     while len(search.steps) < MOST_EFFECTS:
         known, count = len(search.steps), len(search.seen.candidates)
         say(f"{sensor.kind}: {known} added, trying {count} candidates")
@@ -146,10 +152,10 @@ def investigate(
     if not believed and _is_of_reference(search):
         return investigate(sensor, free, trials, held, say, prior, believed=True)
     after, steps = _backward(search.after, search.steps)
-    after = _with_intervals(after, steps)
+    after, steps = _with_intervals(after, steps), _scattering_at_last(after, steps, search.last)
     refused = tuple(search.refused.values())
     looks = search.first, search.last
-    left = unbent(before, after), after, tuple(steps), refused, *looks, tuple(apart)
+    left = unbent(before, after), after, tuple(steps), refused, *looks, tuple(search.held)
     return Investigation(*left, believed=believed)
 
 
@@ -166,8 +172,11 @@ class _Search:
     candidates beside it as they were ``first`` and ``last`` seen.
     """
 
-    def __init__(self, before: Fit, sensor: Sensor, held: list[Trial]) -> None:
+    def __init__(
+        self, before: Fit, sensor: Sensor, held: list[Trial], believed: bool = False
+    ) -> None:
         self.before, self.sensor, self.held = before, sensor, held
+        self.believed = believed
         self.after, self.steps = _as_sampled(before, held)
         self.refused: dict[str, Refused] = {}
         self.kept_out: set[Coefficient] = set()
@@ -265,7 +274,9 @@ class _Search:
 
     def _goes_on(self, after: Fit) -> None:
         """Look for more beside a model."""
-        self.after, self.tried = after, Tried(after, self.sensor.values)
+        known, self.held = drawn_again(after, self.held, self.believed)
+        self.after = after if known is after else fit(known)
+        self.tried = Tried(self.after, self.sensor.values)
         self.left_out = self._left_out()
         self.last = self.seen = self.tried.looked()[0]
 
@@ -338,6 +349,19 @@ def _with_intervals(after: Fit, steps: Iterable[Step]) -> Fit:
     rows.
     """
     return with_unknown_walk(with_left_out(after, [s.effect for s in steps if not s.declared]))
+
+
+def _scattering_at_last(after: Fit, steps: list[Step], last: Screening) -> list[Step]:
+    """Steps with no more scatter than scores have beside all that was found: what was missing when
+    an effect was taken in, and has come in since, no longer makes its standard errors large.
+    """
+    if len(steps) < 2:
+        return steps
+    normal = with_prior(equations(after), after)
+    usual = next((c.scatter for c in last.candidates), Scatter())
+    now = [fitted_dispersion(normal, s.keys, usual) for s in steps[:-1]]
+    fewer = [replace(s, dispersion=min(s.dispersion, d)) for s, d in zip(steps, now, strict=False)]
+    return [*fewer, steps[-1]]
 
 
 def _backward(after: Fit, steps: list[Step]) -> tuple[Fit, list[Step]]:
