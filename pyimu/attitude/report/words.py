@@ -69,7 +69,8 @@ def notes(a: Outcome) -> list[str]:
         of_field.append(
             f"the magnetic field is disturbed in {a.disturbed:.1%} of the samples: iron near by or "
             "on board, no calibration, or axes of the magnetometer that are not the body's; the "
-            "heading is by what is left"
+            "heading is by what is left, and may be off by more than its standard deviation, as "
+            "that field need not be the place's"
         )
     return found + _about_columns(a) + of_field
 
