@@ -1,4 +1,4 @@
-"""The measured speed of a recording: its standard deviation, and whether the forces agree."""
+"""The measured speed of a recording: how well it is known, and whether the forces agree."""
 
 from __future__ import annotations
 
@@ -28,6 +28,10 @@ LEANS = 1.25
 """By which factor the forces may contradict the size of a speed: a body that leans in turns, and
 squats where it speeds up, feels a share of gravity that grows with them."""
 
+ASKEW = 0.1
+"""rad; a larger angle between the body's x axis and where it drives is said: the velocity across is
+then a tenth of the speed."""
+
 UNITS = {name: parse(name).factor for name in ("m/s", "km/h", "kn", "mph", "cm/s", "mm/s")}
 """m/s; one of the units in which speeds are logged."""
 
@@ -39,22 +43,27 @@ def recorded_speed(recording: Recording) -> tuple[np.ndarray, np.ndarray]:
 
 
 def speed_findings(recording: Recording) -> tuple[Finding, ...]:
-    """A finding ``speed_sign`` or ``speed_unit`` where the forces contradict a vehicle's speed.
+    """A finding ``speed_sign``, ``speed_axis`` or ``speed_unit`` where the forces contradict a
+    vehicle's speed.
 
     A vehicle that turns at the rate w about its z axis has the force w v along y, and one that
     speeds up has v' along x: the regression of a force on that is 1, -1 for a speed of the wrong
     sign, and one over the ``factor`` by which a speed is too large. It is read ``as`` the units
     that the slope allows: errors of the speed make the slope too flat, others of the force that of
-    the inverse regression, so that the right one is between the two.
+    the inverse regression, so that the right one is between the two. A body that drives along
+    another axis has both forces turned, by the ``angle`` in rad to the left of x.
     """
-    if getattr(recording, "speed", None) is None or recording.accel is None:
+    expected = _expected(recording)
+    slope = None if expected is None else expected.slope()
+    if expected is None or slope is None:
         return ()
-    slope = _along_the_forces(recording)
-    if slope is None:
-        return ()
-    if slope.share + SIGMAS * slope.std <= 0 and slope.share <= -0.5:
+    angle, std = expected.turned_by()
+    aside = ASKEW < abs(angle) - SIGMAS * std and abs(angle) + SIGMAS * std < np.pi - ASKEW
+    if not aside and slope.share + SIGMAS * slope.std <= 0 and slope.share <= -0.5:
         detail = {"share": slope.share, "std": slope.std}
         return (Finding("speed_sign", "speed", len(recording), detail),)
+    if aside:
+        return (Finding("speed_axis", "speed", len(recording), {"angle": angle, "std": std}),)
     low, high = slope.bounds
     if low <= LEANS and high >= 1 / LEANS:
         return ()
@@ -87,11 +96,63 @@ class Slope:
         return (low, 1 / steepest) if low > 0 and steepest > 0 else (-np.inf, np.inf)
 
 
-def _along_the_forces(r: Recording) -> Slope | None:
-    """The regression of a force on what the speed lets expect of it.
+def speed_share(recording: Recording) -> float:
+    """The share by which the forces show that the accelerations are others than the speed says.
 
-    That across or that along the drive, whichever is known better: a ramp is in the second, too.
+    By its size, and by an angle between x axis and drive; 0 where they allow that both are right.
     """
+    expected = _expected(recording)
+    slope = None if expected is None else expected.slope()
+    if expected is None or slope is None:
+        return 0.0
+    allowed = slope.bounds[0] <= 1 <= slope.bounds[1]
+    size = 0.0 if allowed else np.sqrt(slope.share * slope.inverse) - 1
+    angle, std = expected.turned_by()
+    return float(np.hypot(size, angle if abs(angle) > SIGMAS * std else 0.0))
+
+
+@dataclass(frozen=True)
+class Expected:
+    """Means over ``SPAN``: the ``force`` (n, 2) along and across in m/s^2, and the accelerations
+    ``pushed`` and ``turned`` (n,) that the speed lets expect there.
+    """
+
+    force: np.ndarray
+    pushed: np.ndarray
+    turned: np.ndarray
+
+    def slope(self) -> Slope | None:
+        """The regression of a force on what is expected of it.
+
+        That across or that along the drive, whichever is known better: a ramp is in the second,
+        too.
+        """
+        along, across = self.force.T
+        both = (_regression(across, self.turned), _regression(along, self.pushed))
+        there = [slope for slope in both if slope is not None]
+        return min(there, key=lambda slope: slope.std / abs(slope.share), default=None)
+
+    def turned_by(self) -> tuple[float, float]:
+        """The angle in rad from what is expected to the forces, and its standard error.
+
+        It is that of the slope of two complex numbers, along and across their parts. Of a slope
+        that is noise the angle may be any, and its error is then infinite.
+        """
+        seen = self.force[:, 0] + 1j * self.force[:, 1]
+        told = self.pushed + 1j * self.turned
+        good = np.isfinite(seen) & np.isfinite(told)
+        seen, told = seen[good] - seen[good].mean(), told[good] - told[good].mean()
+        size = float(np.sum(np.abs(told) ** 2))
+        slope = np.sum(seen * told.conj()) / size
+        left = np.mean(np.abs(seen - slope * told) ** 2) / 2
+        std = float(np.sqrt(left / size) / np.abs(slope))
+        return float(np.angle(slope)), std if SIGMAS * std < 1 else np.inf
+
+
+def _expected(r: Recording) -> Expected | None:
+    """What the speed lets expect of the forces, None where it does not say."""
+    if getattr(r, "speed", None) is None or r.accel is None or r.gyro is None:
+        return None
     known = np.isfinite(r.speed)
     if np.count_nonzero(known) < 3:
         return None
@@ -106,9 +167,7 @@ def _along_the_forces(r: Recording) -> Slope | None:
     )
     turned = (rate[:, 2] - np.nanmedian(rate[:, 2])) * speed
     pushed = np.diff(v[bounds]) / np.diff(r.time[bounds])
-    both = (_regression(force[:, 1], turned), _regression(force[:, 0], pushed))
-    there = [slope for slope in both if slope is not None]
-    return min(there, key=lambda slope: slope.std / abs(slope.share), default=None)
+    return Expected(force[:, :2], pushed, turned)
 
 
 def _regression(y: np.ndarray, x: np.ndarray) -> Slope | None:

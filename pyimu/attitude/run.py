@@ -25,11 +25,12 @@ from pyimu.attitude.columns import (
     warmer,
 )
 from pyimu.attitude.contradicted import believed
+from pyimu.attitude.driven import speed_share
 from pyimu.attitude.filter.compensation import left_in, noise_of
 from pyimu.attitude.filter.timing import clock_error, estimate_latency
 from pyimu.attitude.filter.tolerances import of_motion, start_values
 from pyimu.attitude.filter.ukf import recorded_ukf
-from pyimu.attitude.filter.variables import FIELD_SETTINGS, LEAST_K
+from pyimu.attitude.filter.variables import LEAST_K, OWN_PARAMETERS
 from pyimu.attitude.filters import OF_LOGS, OWN, Settings, chosen
 from pyimu.attitude.input_grid import InputGrid
 from pyimu.attitude.magnetometer import Magnetometer, magnetometer_of
@@ -52,8 +53,12 @@ from pyimu.recording.recording import Recording
 from pyimu.silent import silent
 from pyimu.units import STANDARD_GRAVITY
 
-FIELD_NOISE = next(v.start for v in FIELD_SETTINGS if v.name == "field_noise")
-"""T*sqrt(s); the filter's where no part says of more."""
+FIELD_NOISE, SPEED_TOLERANCE = (
+    next(v.start for v in OWN_PARAMETERS if v.name == name)
+    for name in ("field_noise", "speed_tolerance")
+)
+"""T*sqrt(s), the filter's where no part says of more; and the share by which a speed may be off
+where the forces say no more."""
 
 
 def run(
@@ -281,6 +286,8 @@ def _of_the_log(
         values["field_noise"] = max(white, FIELD_NOISE)
     if getattr(recording, "stationary", None) is not None:
         values["rest_time"] = 0.0
+    if off := speed_share(recording):
+        values["speed_tolerance"] = float(np.hypot(off, SPEED_TOLERANCE))
     if oldest := float(recorded_age(recording).max()):
         values["heading_memory"] = oldest
     return values

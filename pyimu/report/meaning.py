@@ -66,6 +66,7 @@ MEANING = {
     "repeated_rows": "rows that are the same as the row before: they were left out",
     "repeated_samples": "values that are the same as in the row before, to the last bit",
     "repeated_time": "rows with the time of the row before: the first of them counts",
+    "speed_axis": "the forces say that the body does not drive along x: the speed was not used",
     "speed_sign": "the forces contradict the speed's sign: it was not used",
     "speed_unit": "the forces say that the speed is of another unit: it was not used",
     "spikes": "single samples far off both neighbours",

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from navigation_cases import SHORT, assumed
+from navigation_cases import SHORT, assumed, declared, noisy, perfect, white
 
 import pyimu
 from pyimu.errors import UserError
@@ -103,6 +103,33 @@ def test_rests_that_a_log_declares_and_that_are_none_are_said(log):
     still[(log.time > 8.0) & (log.time < 8.3)] = 1.0
     text = said(replace(log, stationary=still))
     assert "weighed down (" in text and "the first at 8.02 s). The column stationary may" in text
+
+
+def test_where_what_is_declared_a_rest_is_none_nothing_is_to_be_relied_on(log):
+    drives = 1.0 - declared(log, SHORT).stationary
+    text = said(replace(log, stationary=drives))
+    assert "Most of what was taken for rest contradicts the estimate: it is none" in text
+    assert "contradicts the estimate: it is none" not in said(log)
+
+
+def test_standard_deviations_that_the_ends_of_the_drives_refute_are_said():
+    """A sensor that is noisier than its part says."""
+    part, drive = white(assumed()), replace(SHORT, legs=4)
+    told = declared(perfect(drive), drive)
+    quiet, loud = (noisy(told, scaled(part, share), seed=3) for share in (1.0, 4.0))
+    found = run(loud, part, method="filter")
+    said_so = "The standard deviations are too small: at the end of the drives the velocity was off"
+    assert said_so in found.report()
+    assert said_so not in run(quiet, part, method="filter").report()
+
+
+def scaled(part, share):
+    """The part with ``share`` times the white noise."""
+    white_of = {}
+    for kind in ("gyro", "accel"):
+        density = part.sensor(kind).values["angle_random_walk"]["N"]
+        white_of[kind] = part.sensor(kind).with_values("angle_random_walk", N=share * density)
+    return replace(part, **white_of)
 
 
 def test_a_constant_speed_that_is_taken_for_a_rest_is_said():

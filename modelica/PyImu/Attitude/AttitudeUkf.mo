@@ -70,6 +70,9 @@ block AttitudeUkf "Unscented attitude filter of the part imt30, in C"
   parameter Real slipStd(unit="m/s", min=0) = 0.1
     "Standard deviation of the velocity across and upwards of a body whose speed is given"
     annotation(Dialog(group="Filter"));
+  parameter Real speedTolerance(unit="1", min=0) = 0.01
+    "Standard deviation of the share by which the accelerations of a body whose speed is given are others than the speed says"
+    annotation(Dialog(group="Filter"));
   parameter Real lostRateStd(unit="rad/s", min=0) = 1
     "Standard deviation of the rate along an axis whose gyro is lost"
     annotation(Dialog(group="Filter"));
@@ -204,15 +207,15 @@ protected
   Modelica.Blocks.Interfaces.RealInput speedVarianceUsed;
   Modelica.Blocks.Interfaces.BooleanInput speedValidUsed;
   Modelica.Blocks.Interfaces.RealInput magUsed[3];
-  final parameter Real p[59] = {latitude, q0[1], q0[2], q0[3], q0[4], bias0[1], bias0[2],
+  final parameter Real p[60] = {latitude, q0[1], q0[2], q0[3], q0[4], bias0[1], bias0[2],
     bias0[3], std0[1], std0[2], std0[3], std0[4], std0[5], std0[6], gravity, accelStd,
     accelBiasStd, accelCorrelationTime, gravityWalk, gravityTolerance, motionTolerance,
     steadyTolerance, motionTime, motionShare, rateNoise, biasNoise, stationaryStd, restTime,
-    restRateTolerance, restForceTolerance, slipStd, lostRateStd, stuckTime, axisStuckTime[1],
-    axisStuckTime[2], axisStuckTime[3], axisStuckTime[4], axisStuckTime[5], axisStuckTime[6],
-    headingMemory, declination, fieldStrength, fieldDip, fieldStrengthStd, fieldStd, fieldTime,
-    fieldTurningStd, fieldNoise, fieldTolerance, gyroThermalBias_kT[1], gyroThermalBias_kT[2],
-    gyroThermalBias_kT[3], gyroThermalBias_T0, gyroAngleRandomWalk_N[1],
+    restRateTolerance, restForceTolerance, slipStd, speedTolerance, lostRateStd, stuckTime,
+    axisStuckTime[1], axisStuckTime[2], axisStuckTime[3], axisStuckTime[4], axisStuckTime[5],
+    axisStuckTime[6], headingMemory, declination, fieldStrength, fieldDip, fieldStrengthStd,
+    fieldStd, fieldTime, fieldTurningStd, fieldNoise, fieldTolerance, gyroThermalBias_kT[1],
+    gyroThermalBias_kT[2], gyroThermalBias_kT[3], gyroThermalBias_T0, gyroAngleRandomWalk_N[1],
     gyroAngleRandomWalk_N[2], gyroAngleRandomWalk_N[3], gyroRateRandomWalk_K[1],
     gyroRateRandomWalk_K[2], gyroRateRandomWalk_K[3]} "In the order of the co-simulation unit";
   AttitudeUkfMemory memory = AttitudeUkfMemory(samplePeriod, p);
@@ -246,6 +249,7 @@ equation
   assert(restRateTolerance >= 0, "AttitudeUkf: restRateTolerance must not be below 0");
   assert(restForceTolerance >= 0, "AttitudeUkf: restForceTolerance must not be below 0");
   assert(slipStd >= 0, "AttitudeUkf: slipStd must not be below 0");
+  assert(speedTolerance >= 0, "AttitudeUkf: speedTolerance must not be below 0");
   assert(lostRateStd >= 0, "AttitudeUkf: lostRateStd must not be below 0");
   assert(stuckTime >= 0, "AttitudeUkf: stuckTime must not be below 0");
   assert(min(axisStuckTime) >= 0, "AttitudeUkf: axisStuckTime must not be below 0");
@@ -359,6 +363,8 @@ rateNoise is not 0.</td></tr>
 forces has another bias when it has turned over.</td></tr>
 <tr><td>restTime</td><td>A body of which no sample differs from the others for so long is at rest,
 or for 2.5 s where its bias about the vertical is not known to 2e-3 rad/s; 0: never.</td></tr>
+<tr><td>speedTolerance</td><td>Standard deviation of the share by which the accelerations of a body
+whose speed is given are others than the speed says: size of the wheels, scale factors.</td></tr>
 <tr><td>axisStuckTime</td><td>Equal samples of an axis (gyro, then accelerometer) for so long, while
 the others of its triad change, mean that it is stuck; 0: never.</td></tr>
 <tr><td>fieldStrengthStd</td><td>Standard deviation of the horizontal and of the vertical part of

@@ -54,6 +54,10 @@ PUSHED = 25.0
 but a push: what is a rest and is taken for none leaves the tilt wrong for as long as it lasts. With
 9, one of a hundred rests was lost, and more after a stop that had tilted the estimate."""
 
+PUSH_TIME = 5.0
+"""s; how long a vehicle turns or speeds up one way. A force that is off by its share is so for that
+long: it is no noise from sample to sample, and does not average out as one."""
+
 RECOVERY = 0.2
 """s; while gravity is beyond its innovation gate, the variance of the tilt grows by a factor of e
 in this time."""
@@ -243,9 +247,9 @@ def constant_variance(size: GravitySize, settings: Settings):
 def push(memory: Memory, sample: Sample, settings: Settings, h, resting) -> Push:
     """What the sample changes of the velocity.
 
-    Pushes that last are none where the body is ``resting``, 0 or 1, and no acceleration is unknown
-    where the velocity is that of a speed: it is in the force. A force that is lost is taken
-    for gravity, with the scatter that it had: for as long as the body may keep an acceleration the
+    Pushes that last are none where the body is ``resting``, 0 or 1. Where the velocity is that of a
+    speed the acceleration is in the force, but for a share of it. A force that is lost is taken for
+    gravity, with the scatter that it had: for as long as the body may keep an acceleration the
     unknown change of the velocity grows as its time.
     """
     at, valid = settings.scalar, sample.force_valid
@@ -256,13 +260,19 @@ def push(memory: Memory, sample: Sample, settings: Settings, h, resting) -> Push
     drift = (1 - resting) * DRIFT_GAIN * memory.motion.drift * h / (at["motion_time"] + h)
     unknown = h**2 * declared + drift
     if sample.driven is not False:
-        unknown *= 1 - sample.driven
+        off = 2 * PUSH_TIME * h * (at["speed_tolerance"] * _acceleration(memory)) ** 2
+        unknown = (1 - sample.driven) * unknown + sample.driven * off
     return Push(
         where(valid, h * sample.force),
         where(valid, h * memory.size.size),
         h**2 * where(valid, white, lost) + unknown,
         sample.driven,
     )
+
+
+def _acceleration(memory: Memory):
+    """The acceleration (3,) in m/s^2 in body axes, by the mean force of the last second."""
+    return memory.mean.force - memory.size.size * vertical(memory.estimate)
 
 
 def _acceleration_variance(std, settings: Settings, h):

@@ -305,6 +305,13 @@ SETTINGS = (
         0.1,
     ),
     _setting(
+        "speed_tolerance",
+        "1",
+        "standard deviation of the share by which the accelerations of a body whose speed is given "
+        "are others than the speed says: size of the wheels, scale factors",
+        0.01,
+    ),
+    _setting(
         "lost_rate_std",
         "rad/s",
         "standard deviation of the rate along an axis whose gyro is lost",

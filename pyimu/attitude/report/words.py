@@ -69,7 +69,8 @@ def notes(a: Outcome) -> list[str]:
         of_field.append(
             f"the magnetic field is disturbed in {a.disturbed:.1%} of the samples: iron near by or "
             "on board, no calibration, or axes of the magnetometer that are not the body's; the "
-            "heading is by what is left"
+            "heading is by what is left, and may be off by more than its standard deviation, as "
+            "that field need not be the place's"
         )
     return found + _about_columns(a) + of_field
 
@@ -121,6 +122,14 @@ def about_contradicted(findings: Iterable[Finding]) -> list[str]:
         found.append(
             "the forces say that the speed has the wrong sign, or is not along the body's x axis: "
             "it was not used; turn its sign, or the axes"
+        )
+    if "speed_axis" in kinds:
+        angle = np.degrees(float(kinds["speed_axis"].detail["angle"]))
+        found.append(
+            f"the forces say that the body drives {abs(angle):.0f} deg to the "
+            f"{'left' if angle > 0 else 'right'} of its x axis: the speed was not used; write gyro "
+            "and accelerometer in axes whose x is forward, in the log or with --columns ([frame] "
+            "body)"
         )
     if "speed_unit" in kinds:
         found.append(_about_speed(kinds["speed_unit"]))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+from scipy.special import chdtrc
 
 from pyimu.attitude.report.words import about_contradicted
 from pyimu.errors import Finding
@@ -20,6 +21,21 @@ TITLES = {
     "filter": "filter",
     "smoother": "smoothed by the whole log",
 }
+
+MOSTLY = 0.5
+"""Share of the samples of rests beyond which these are none, if they contradict the estimate."""
+
+LASTS = 0.1
+"""Share of the samples of a stop from which on it may be none: of one the first few contradict the
+estimate at most, and the others follow them."""
+
+BY_CHANCE = 1e-4
+"""Probability that velocities are called too far off where the standard deviations are right."""
+
+UNTOLD = (
+    "without a part the sensor's scale factors and axes are taken for exact; --part with its "
+    "tolerances, or the model.toml of pyimu close, says how exact they are"
+)
 
 UNSEEN = 1
 """Bit of the status of samples that are missing."""
@@ -98,7 +114,7 @@ def notes(a: Outcome) -> list[str]:
             "No latitude: the Earth's rate was not taken off, which a rest hides in the gyro bias "
             "until the body turns"
         )
-    out += _status(a)
+    out += [*_status(a), *_too_sure(a)]
     return [*out, OBSERVABLE] if a.later_stops else out
 
 
@@ -231,6 +247,26 @@ def _wrong_rest(a: Outcome) -> str:
     return (
         ". A drive at constant speed looks like a rest; a column stationary would tell the two "
         "apart"
+    )
+
+
+def _too_sure(a: Outcome) -> Iterator[str]:
+    """Where the log itself shows that the standard deviations are too small."""
+    wrong = a.filter.scalar("status").astype(int) & WRONG_REST > 0
+    if np.count_nonzero(wrong & a.still) > MOSTLY * np.count_nonzero(a.still):
+        yield (
+            "Most of what was taken for rest contradicts the estimate: it is none, and neither the "
+            "path nor its standard deviations are to be relied on"
+        )
+        return
+    nis, stops = a.filter.scalar("zupt_nis"), a.later_stops
+    first = np.array([nis[k] for k, end in stops if nis[k] > 0 and wrong[k:end].mean() < LASTS])
+    if not len(first) or chdtrc(3 * len(first), first.sum()) > BY_CHANCE:
+        return
+    lacking = "" if a.part else f": {UNTOLD}"
+    yield (
+        "The standard deviations are too small: at the end of the drives the velocity was off by "
+        f"{number(float(np.sqrt(first.mean() / 3)), 2)} times what they say{lacking}"
     )
 
 
