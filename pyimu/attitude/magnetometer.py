@@ -8,12 +8,14 @@ from itertools import permutations
 import numpy as np
 
 from pyimu.attitude.calibration import MagnetometerCalibration
+from pyimu.attitude.filter.variables import FIELD_SETTINGS
 from pyimu.attitude.world_field import WorldField
 from pyimu.brief import Brief
 from pyimu.errors import Finding
 from pyimu.recording.quality.field_axes import field_findings
 from pyimu.recording.quality.gyro_axes import gyro_findings
 from pyimu.recording.recording import Recording
+from pyimu.recording.reference.smoother import white_noise
 from pyimu.units import parse
 
 EARTH = (22e-6, 67e-6)
@@ -22,9 +24,16 @@ EARTH = (22e-6, 67e-6)
 ROOM = 2.0
 """Factor by which a field indoors, or of a magnetometer that is not calibrated, may be outside."""
 
+WITHIN = (16, 84)
+"""Percentiles that are a standard deviation from the mean, of a normal quantity."""
+
+TURNING = next(v.start for v in FIELD_SETTINGS if v.name == "field_turning_std")
+"""T; what turns with the body where the samples show no more of it."""
+
 OTHER = 0.05
-"""Share by which the median strength may differ from the place's before that is said: beyond it the
-field is another one by many times what the model leaves open."""
+"""Share by which the median strength may differ from the place's, or the strength from sample to
+sample, before that is said: beyond it the field is another one by many times what the model leaves
+open."""
 
 UNITS = ("T", "gauss", "uT", "nT", "mT")
 """Units in which magnetometers are logged, the one that hardly anybody takes last."""
@@ -37,15 +46,27 @@ MISTAKEN = sorted(permutations(UNITS, 2), key=lambda pair: UNITS[-1] in pair)
 class Magnetometer(Brief):
     """A recording's magnetometer: whether it is ``used``, and the ``findings`` about it.
 
-    ``strength`` is the median of its samples' length in T, NaN without any; ``calibration`` the one
-    that was undone before, or None; ``world`` the field of the place by the World Magnetic Model.
+    ``strength`` is the median of its samples' length in T, NaN without any, and ``turning`` the
+    standard deviation in T of a component of what turns with the body, as their length shows it;
+    ``calibration`` the one that was undone before, or None; ``world`` the field of the place by the
+    World Magnetic Model.
     """
 
     used: bool = False
     strength: float = float("nan")
+    turning: float = 0.0
     findings: tuple[Finding, ...] = ()
     calibration: MagnetometerCalibration | None = None
     world: WorldField | None = None
+
+    @property
+    def is_uneven(self) -> bool:
+        """Whether the strength differs by more than surroundings without iron make it."""
+        return self.turning > OTHER * self.strength
+
+    def settings(self) -> dict[str, float]:
+        """What the log tells the filter of its magnetometer before it begins."""
+        return {"field_turning_std": max(self.turning, TURNING)} if self.used else {}
 
     def in_world(self, world: WorldField | None) -> Magnetometer:
         """The same in the field of a place, with a finding where the samples show another one."""
@@ -72,13 +93,25 @@ def magnetometer_of(recording: Recording, wanted: bool) -> Magnetometer:
     dead = [n for n, v in zip("xyz", there.T, strict=True) if not v.any()]
     if dead:
         detail = {"axes": ", ".join(dead)}
-        return Magnetometer(
-            False, strength, (Finding("mag_axis_missing", "mag", len(mag), detail),)
-        )
+        axis_missing = Finding("mag_axis_missing", "mag", len(mag), detail)
+        return Magnetometer(False, strength, findings=(axis_missing,))
     if EARTH[0] / ROOM <= strength <= EARTH[1] * ROOM:
         found = _axes(recording)
-        return Magnetometer(not found, strength, found)
-    return Magnetometer(False, strength, (_other_size(strength, recording.stated.get("mag")),))
+        return Magnetometer(not found, strength, _turning(there), found)
+    other = _other_size(strength, recording.stated.get("mag"))
+    return Magnetometer(False, strength, findings=(other,))
+
+
+def _turning(rows: np.ndarray) -> float:
+    """Standard deviation in T of a component of what turns with the body of samples (n, 3).
+
+    A bias adds to their length its part along the field: over all attitudes a component of it, in
+    the mean square. Two thirds of the samples tell of it, as iron near by may bend the others.
+    """
+    size = np.linalg.norm(rows, axis=1)
+    low, high = np.percentile(size, WITHIN)
+    white = white_noise(size[:, None]) if len(size) >= 8 else 0.0
+    return float(np.sqrt(max((0.5 * (high - low)) ** 2 - white**2, 0.0)))
 
 
 def _axes(recording: Recording) -> tuple[Finding, ...]:

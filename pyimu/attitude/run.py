@@ -150,8 +150,8 @@ def run(
     def turned(row: int) -> float:
         return _turned(recording, row, known, latitude, bias0, settings)
 
-    told = {} if world is None else world.settings()
-    north = _north(block, given | told) if field.used else None
+    told = field.settings() | ({} if world is None else world.settings())
+    north = _north(block, told | given) if field.used else None
     yaw = initial_yaw(recording, rest, heading0, turned, north) if q0 is None else Yaw()
     values = told | _of_the_log(recording, known, rest, field)
     values |= _of_the_part(recording, known, None if declared is None else known)

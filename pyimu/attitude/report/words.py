@@ -9,6 +9,7 @@ import numpy as np
 from pyimu.attitude.error import AttitudeError, root_mean_square
 from pyimu.attitude.filter.compensation import NOT_UNDONE
 from pyimu.attitude.filters import OWN, UNUSED
+from pyimu.attitude.magnetometer import Magnetometer
 from pyimu.attitude.outcome import NIS_BOUNDS, Outcome
 from pyimu.attitude.world_field import WorldField
 from pyimu.errors import Finding
@@ -65,6 +66,8 @@ def notes(a: Outcome) -> list[str]:
             "map it there with --columns"
         )
     of_field = [_about_field(f) for f in a.magnetometer.findings]
+    if a.magnetometer.used and a.magnetometer.is_uneven:
+        of_field.append(_about_strength(a.magnetometer))
     if a.magnetometer.used and a.disturbed > MOSTLY:
         of_field.append(
             f"the magnetic field is disturbed in {a.disturbed:.1%} of the samples: iron near by or "
@@ -73,6 +76,15 @@ def notes(a: Outcome) -> list[str]:
             "that field need not be the place's"
         )
     return found + _about_columns(a) + of_field
+
+
+def _about_strength(m: Magnetometer) -> str:
+    return (
+        f"the strength of the magnetic field differs by {quantity(m.turning, 'T')} from sample to "
+        f"sample, {m.turning / m.strength:.0%} of it: no calibration, or iron near by or on board; "
+        "the heading is believed accordingly less. pyimu characterize calibrates a magnetometer by "
+        "a log that turns all round"
+    )
 
 
 READ_AS = {
