@@ -3,7 +3,7 @@
 ``python benchmarks/measured.py [ROW ...]`` closes the loop on public recordings, which lie in the
 folder that ``PYIMU_DATA`` names, and prints for each row the verdict, what was added, the error on
 the held-out rows before, after and floor, and of the attitude. Rows whose recordings are missing
-are named as such.
+are named as such. With ``--pairs`` the rows are each trial of BROAD, judged by each other one.
 """
 
 from __future__ import annotations
@@ -13,8 +13,9 @@ import os
 import sys
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from itertools import permutations
 from pathlib import Path
 
 import numpy as np
@@ -30,7 +31,9 @@ BROAD = {
     "02": "broad_02_undisturbed_slow_rotation_B",
     "07": "broad_07_undisturbed_fast_rotation_B",
     "09": "broad_09_undisturbed_fast_rotation_with_breaks_B",
+    "11": "broad_11_undisturbed_slow_translation_B",
     "16": "broad_16_undisturbed_fast_translation_B",
+    "25": "broad_25_disturbed_tapping_B",
     "26": "broad_26_disturbed_phone_vibration_A",
 }
 WAND = [f"repoimu_tstick_test0{i}_trial1" for i in (5, 6, 7)]
@@ -164,8 +167,13 @@ ROWS = (
     Row("thermal", ["astropi_lsm9ds1_static"], [], "accelerometer follows temperature"),
 )
 
+PAIRS = tuple(
+    Row(f"{a} by {b}", [BROAD[a]], [BROAD[b]], "delay 4.2 ms", only_a_delay(1.0))
+    for a, b in permutations(BROAD, 2)
+)
 
-def table(rows: list[Row]) -> bool:
+
+def table(rows: Iterable[Row]) -> bool:
     """Print the rows; whether all that could be run hold."""
     good = True
     for row in rows:
@@ -222,11 +230,13 @@ def _figures(closed: Closed):
 
 
 if __name__ == "__main__":
-    names = [r.name for r in ROWS]
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("row", nargs="*", help=f"of {', '.join(names)}; all without")
-    wanted = parser.parse_args().row
-    unknown = set(wanted) - set(names)
+    named = [r.name for r in ROWS]
+    parser.add_argument("row", nargs="*", help=f"of {', '.join(named)}; all without")
+    parser.add_argument("--pairs", action="store_true", help="each trial of BROAD by each other")
+    given = parser.parse_args()
+    rows = {r.name: r for r in (PAIRS if given.pairs else ROWS)}
+    unknown = set(given.row) - set(rows)
     if unknown:
-        parser.error(f"no such row: {', '.join(sorted(unknown))}; there are {', '.join(names)}")
-    sys.exit(not table([r for r in ROWS if not wanted or r.name in wanted]))
+        parser.error(f"no such row: {', '.join(sorted(unknown))}; there are {', '.join(rows)}")
+    sys.exit(not table([rows[n] for n in given.row or rows]))
