@@ -14,7 +14,8 @@ one below 0.8. Of a case whose samples have errors that nobody declared only ``t
 What the filter has for constants of a drive's pushes and of the least motion of a hand was chosen
 on runs 100 to 109 (``--first 100 --runs 10``) of the cases of hands and vehicles, when a body that
 looks still may drive on runs 100 to 129 of the vehicles, and over which times the size of a motion
-and its density are estimated with ``--seed`` 11, 5, 902, 903 and 904.
+and its density are estimated with ``--seed`` 11, 5, 902, 903 and 904, by how much and for how long
+a speed may be off with ``--seed 85``.
 
 With ``--smooth`` it is the smoothed attitude, each sample by the whole log, and vqf's
 ``offlineVQF`` is the peer; the extended Kalman filter stays one.
