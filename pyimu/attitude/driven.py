@@ -53,17 +53,15 @@ def speed_findings(recording: Recording) -> tuple[Finding, ...]:
     the inverse regression, so that the right one is between the two. A body that drives along
     another axis has both forces turned, by the ``angle`` in rad to the left of x.
     """
-    expected = _expected(recording)
-    slope = None if expected is None else expected.slope()
-    if expected is None or slope is None:
+    seen = _by_the_forces(recording)
+    if seen is None:
         return ()
-    angle, std = expected.turned_by()
-    aside = ASKEW < abs(angle) - SIGMAS * std and abs(angle) + SIGMAS * std < np.pi - ASKEW
-    if not aside and slope.share + SIGMAS * slope.std <= 0 and slope.share <= -0.5:
+    slope, angle, std = seen
+    if ASKEW < abs(angle) - SIGMAS * std and abs(angle) + SIGMAS * std < np.pi - ASKEW:
+        return (Finding("speed_axis", "speed", len(recording), {"angle": angle, "std": std}),)
+    if slope.share + SIGMAS * slope.std <= 0 and slope.share <= -0.5:
         detail = {"share": slope.share, "std": slope.std}
         return (Finding("speed_sign", "speed", len(recording), detail),)
-    if aside:
-        return (Finding("speed_axis", "speed", len(recording), {"angle": angle, "std": std}),)
     low, high = slope.bounds
     if low <= LEANS and high >= 1 / LEANS:
         return ()
@@ -101,13 +99,12 @@ def speed_share(recording: Recording) -> float:
 
     By its size, and by an angle between x axis and drive; 0 where they allow that both are right.
     """
-    expected = _expected(recording)
-    slope = None if expected is None else expected.slope()
-    if expected is None or slope is None:
+    seen = _by_the_forces(recording)
+    if seen is None:
         return 0.0
+    slope, angle, std = seen
     allowed = slope.bounds[0] <= 1 <= slope.bounds[1]
     size = 0.0 if allowed else np.sqrt(slope.share * slope.inverse) - 1
-    angle, std = expected.turned_by()
     return float(np.hypot(size, angle if abs(angle) > SIGMAS * std else 0.0))
 
 
@@ -147,6 +144,15 @@ class Expected:
         left = np.mean(np.abs(seen - slope * told) ** 2) / 2
         std = float(np.sqrt(left / size) / np.abs(slope))
         return float(np.angle(slope)), std if SIGMAS * std < 1 else np.inf
+
+
+def _by_the_forces(r: Recording) -> tuple[Slope, float, float] | None:
+    """The slope of the forces on what the speed lets expect, and the angle between the two in rad
+    with its standard error; None where the speed does not say.
+    """
+    expected = _expected(r)
+    slope = None if expected is None else expected.slope()
+    return None if expected is None or slope is None else (slope, *expected.turned_by())
 
 
 def _expected(r: Recording) -> Expected | None:

@@ -8,7 +8,7 @@ from itertools import permutations
 import numpy as np
 
 from pyimu.attitude.calibration import MagnetometerCalibration
-from pyimu.attitude.filter.variables import FIELD_SETTINGS
+from pyimu.attitude.filter.variables import USUAL
 from pyimu.attitude.world_field import WorldField
 from pyimu.brief import Brief
 from pyimu.errors import Finding
@@ -26,9 +26,6 @@ ROOM = 2.0
 
 WITHIN = (16, 84)
 """Percentiles that are a standard deviation from the mean, of a normal quantity."""
-
-TURNING = next(v.start for v in FIELD_SETTINGS if v.name == "field_turning_std")
-"""T; what turns with the body where the samples show no more of it."""
 
 OTHER = 0.05
 """Share by which the median strength may differ from the place's, or the strength from sample to
@@ -66,7 +63,8 @@ class Magnetometer(Brief):
 
     def settings(self) -> dict[str, float]:
         """What the log tells the filter of its magnetometer before it begins."""
-        return {"field_turning_std": max(self.turning, TURNING)} if self.used else {}
+        name = "field_turning_std"
+        return {name: max(self.turning, USUAL[name])} if self.used else {}
 
     def in_world(self, world: WorldField | None) -> Magnetometer:
         """The same in the field of a place, with a finding where the samples show another one."""

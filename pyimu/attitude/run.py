@@ -30,7 +30,7 @@ from pyimu.attitude.filter.compensation import left_in, noise_of
 from pyimu.attitude.filter.timing import clock_error, estimate_latency
 from pyimu.attitude.filter.tolerances import of_motion, start_values
 from pyimu.attitude.filter.ukf import recorded_ukf
-from pyimu.attitude.filter.variables import LEAST_K, OWN_PARAMETERS
+from pyimu.attitude.filter.variables import LEAST_K, USUAL
 from pyimu.attitude.filters import OF_LOGS, OWN, Settings, chosen
 from pyimu.attitude.input_grid import InputGrid
 from pyimu.attitude.magnetometer import Magnetometer, magnetometer_of
@@ -52,13 +52,6 @@ from pyimu.recording.quality.inspect import rate_of_part
 from pyimu.recording.recording import Recording
 from pyimu.silent import silent
 from pyimu.units import STANDARD_GRAVITY
-
-FIELD_NOISE, SPEED_TOLERANCE = (
-    next(v.start for v in OWN_PARAMETERS if v.name == name)
-    for name in ("field_noise", "speed_tolerance")
-)
-"""T*sqrt(s), the filter's where no part says of more; and the share by which a speed may be off
-where the forces say no more."""
 
 
 def run(
@@ -283,11 +276,11 @@ def _of_the_log(
         values["field_tolerance"] = 0.0
     if WHITE[0] in known.mag.values:
         white = float(np.sqrt(np.mean(known.mag.values[WHITE[0]][WHITE[1]] ** 2)))
-        values["field_noise"] = max(white, FIELD_NOISE)
+        values["field_noise"] = max(white, USUAL["field_noise"])
     if getattr(recording, "stationary", None) is not None:
         values["rest_time"] = 0.0
     if off := speed_share(recording):
-        values["speed_tolerance"] = float(np.hypot(off, SPEED_TOLERANCE))
+        values["speed_tolerance"] = float(np.hypot(off, USUAL["speed_tolerance"]))
     if oldest := float(recorded_age(recording).max()):
         values["heading_memory"] = oldest
     return values

@@ -12,7 +12,14 @@ from pyimu.attitude.filter.quasi_static import GravitySize, MeanForce, QuasiStat
 from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.stillness import Stillness
 from pyimu.attitude.filter.unscented import SPREAD, Estimate, N
-from pyimu.attitude.filter.variables import INPUTS, LEAST_ACCEL_STD, MAG, SETTINGS, START_VALUES
+from pyimu.attitude.filter.variables import (
+    INPUTS,
+    LEAST_ACCEL_STD,
+    MAG,
+    SETTINGS,
+    START_VALUES,
+    USUAL,
+)
 from pyimu.attitude.filter.variables import OWN_PARAMETERS as OURS
 from pyimu.attitude.filter.velocity import Motion
 from pyimu.block.variables import Variable
@@ -24,7 +31,7 @@ from pyimu.units import STANDARD_GRAVITY
 LOW_PASS = 10.0
 """Hz; Hidalgo 2012, section 6.1."""
 
-TOLERANCE = next(v.start for v in SETTINGS if v.name == "gravity_tolerance")
+TOLERANCE = USUAL["gravity_tolerance"]
 """m/s^2; of the magnitude of gravity."""
 
 ACROSS = (STANDARD_GRAVITY * TOLERANCE / 2) ** 0.5

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from pyimu.attitude.filter.variables import OWN_PARAMETERS
+from pyimu.attitude.filter.variables import USUAL
 from pyimu.model.part import Part
 from pyimu.units import STANDARD_GRAVITY
 
@@ -20,8 +20,6 @@ a bias that differs by s g from axis to axis, and turns on to another by the ang
 
 BELIEVED = 3.0
 """Standard deviations of the size of gravity among specimens that ``gravity_tolerance`` allows."""
-
-USUAL = {v.name: v.start for v in OWN_PARAMETERS}
 
 
 def start_values(part: Part, warmer: float = 0.0) -> dict[str, float]:

@@ -394,3 +394,6 @@ OWN_PARAMETERS = (
     *SETTINGS,
 )
 """The filter's own parameters; the coefficients of the part's sensors follow."""
+
+USUAL = {v.name: v.start for v in OWN_PARAMETERS}
+"""What they are where neither the part nor the log says more, by name."""

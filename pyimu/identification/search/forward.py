@@ -359,9 +359,12 @@ def _scattering_at_last(after: Fit, steps: list[Step], last: Screening) -> list[
         return steps
     normal = with_prior(equations(after), after)
     usual = next((c.scatter for c in last.candidates), Scatter())
-    now = [fitted_dispersion(normal, s.keys, usual) for s in steps[:-1]]
-    fewer = [replace(s, dispersion=min(s.dispersion, d)) for s, d in zip(steps, now, strict=False)]
-    return [*fewer, steps[-1]]
+    *earlier, latest = steps
+    fewer = [
+        replace(s, dispersion=min(s.dispersion, fitted_dispersion(normal, s.keys, usual)))
+        for s in earlier
+    ]
+    return [*fewer, latest]
 
 
 def _backward(after: Fit, steps: list[Step]) -> tuple[Fit, list[Step]]:
