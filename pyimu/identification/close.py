@@ -24,7 +24,15 @@ from pyimu.identification.instead import formula_less_than_noise, less_than_nois
 from pyimu.identification.made_with import called
 from pyimu.identification.reference.align import aligned
 from pyimu.identification.reference.belongs import misfit
+from pyimu.identification.reference.clock import rebanded
 from pyimu.identification.reference.gravity import few, rest_trials
+from pyimu.identification.reference.place import (
+    at_the_sensor,
+    headed,
+    is_borne_out,
+    is_differentiated,
+    quietened,
+)
 from pyimu.identification.reference.positions import positions_wanted, unshown
 from pyimu.identification.reference.turns import turn_trials
 from pyimu.identification.result import Closed
@@ -327,21 +335,33 @@ def _trials(
     def trial(r: Recording) -> Trial | None:
         static = is_at_rest(r)
         if sensor.kind == "accel":
-            return make(r, static)
+            return make(r, static, latitude)
         return make(r, latitude) if static or has_reference(r) else None
 
     fitted = [t for t in map(trial, logs) if t is not None and t.count >= SHORTEST]
     apart = [t for t in map(trial, others) if t is not None and t.count >= SHORTEST]
-    together = aligned(fitted, apart, sensor, lines)
+    together = [_of_place(t) for t in aligned(fitted, apart, sensor, lines)]
     fitted, apart = together[: len(fitted)], together[len(fitted) :]
     bands = [t.band_hz for t in fitted if t.band_hz is not None]
     if bands:
         band = BAND_SHARE * float(np.median(bands))
         fitted, apart = ([replace(t, band_hz=band) for t in ts] for ts in (fitted, apart))
+    differentiated = filter(is_differentiated, (*fitted, *apart))
+    if not all(is_borne_out(t) and not misfit([t]) for t in differentiated):
+        return [], []
     if others:
         return fitted, apart
     halves = [(a, b) for a, b in (t.split(HELD_OUT) for t in fitted) if a.count >= SHORTEST // 2]
     return [a for a, _ in halves], [b for _, b in halves if b.count]
+
+
+def _of_place(trial: Trial) -> Trial:
+    """The trial with its force as it acts in the world of its attitudes; one that was given is
+    taken as the sensor's where it may be.
+    """
+    if is_differentiated(trial):
+        return quietened(rebanded(headed(trial)))
+    return at_the_sensor(trial)
 
 
 def _free(start: Part, declared: bool, sensor: Sensor, trials: list[Trial]) -> frozenset[Key]:

@@ -47,6 +47,7 @@ from pyimu.model.effect import Effect
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
 from pyimu.recording.recording import Recording
+from pyimu.recording.reference.force import has_places
 
 MORE_THAN_NOISE = "kinds of noise are told apart only where nothing else is left"
 AS_FORM = "what noise was found is no more than the form of an effect may leave"
@@ -285,12 +286,20 @@ def _unexamined(found: Found, logs: list[Recording]) -> dict[str, str]:
     """Why a sensor of the logs was not looked at, by its kind."""
     reasons = {
         "gyro": lambda: "the gyro was not examined: no reference of its rate, and it moves",
-        "accel": lambda: (
-            f"the accelerometer was not examined: no reference of its force, and {few(logs)}"
-        ),
+        "accel": lambda: f"the accelerometer was not examined: {_no_force(logs)}, and {few(logs)}",
     }
     there = {k for k in reasons if any(getattr(r, k) is not None for r in logs)}
     return {k: reason() for k, reason in reasons.items() if k in there - set(found)}
+
+
+def _no_force(logs: list[Recording]) -> str:
+    """Why no reference of a log gives the force."""
+    if any(has_places(r) for r in logs):
+        return (
+            "it does not show the force that the reference's positions and attitude make together "
+            "(both must be in one east-north-up)"
+        )
+    return "no reference of its force (positions on three axes beside an attitude make one)"
 
 
 def _exhibits(

@@ -163,7 +163,9 @@ def log_state(inv: Investigation, name: str) -> dict[str, Any] | None:
         return None
     state = inv.after.states.get(name) or held_state(inv.after, trial)[0]
     bias = [float(b) if i in trial.axes else None for i, b in enumerate(state.bias)]
-    found = {"bias": bias, "rotation": state.rotation.tolist()}
+    found: dict[str, Any] = {"bias": bias, "rotation": state.rotation.tolist()}
+    if trial.place is not None:
+        found["place"] = state.place.tolist()
     return found | {"reference": _reference(replace(trial, clock=clock_of(inv, name)))}
 
 

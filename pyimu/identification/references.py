@@ -10,6 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from pyimu.files import plain
 from pyimu.identification.fit.clock import Clock
+from pyimu.identification.fit.keys import LogPlace
 from pyimu.identification.fit.noise_floor import reference_variance
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.held_out import clock_of, log_state
@@ -21,6 +22,7 @@ NATURE = {
     "attitude": "ref_q",
     "heading": "ref_heading",
     "force": "ref_force",
+    "velocity": "ref_velocity",
 }
 """The group of a recording that a kind of reference is read from."""
 
@@ -28,7 +30,8 @@ NATURE = {
 def references(
     found: Mapping[str, Investigation], logs: list[Recording]
 ) -> tuple[dict[str, Any], ...]:
-    """The reference of each log, as report.json has it: the gyro's, else the accelerometer's.
+    """The reference of each log, as report.json has it: the gyro's, else the accelerometer's; and
+    that of the force where it acts at another point than the sensor.
 
     ``clock_offset`` is by how much later than the reference says the sensor shows the motion, less
     what is left to the sensor; it is positive where the sensor is late. ``clock_skew`` is by how
@@ -39,7 +42,9 @@ def references(
     for r in logs:
         of_log = [(k, inv, t) for k, inv in found.items() if (t := _trial(inv, r.name)) is not None]
         moving = [one for one in of_log if one[2].reference != "static"]
-        entries += [_entry(r, *one, noise[one[0]]) for one in (moving or of_log)[:1]]
+        first = (moving or of_log)[:1]
+        forces = [one for one in moving if one[2].place is not None and one not in first]
+        entries += [_entry(r, *one, noise[one[0]]) for one in (*first, *forces)]
     return tuple(entries)
 
 
@@ -69,6 +74,7 @@ def _entry(
                 "angle": {"value": turn, "unit": "rad"},
                 "estimated": t.free_rotation,
             },
+            "arm": _arm(inv, t, state),
             "noise": _noise(t, noise, inv.after.sensor.output.unit),
             "sample_rate": {"value": _own_rate(r, t), "unit": "Hz"},
             "band_hz": t.band_hz,
@@ -92,6 +98,16 @@ def _clock(clock: Clock | None) -> tuple[dict[str, Any] | None, dict[str, Any] |
 def _lag(clock: Clock) -> dict[str, Any]:
     """The lag [s] over the log's time [s], where it is not constant."""
     return {"time": clock.time, "late": clock.late, "unit": "s"}
+
+
+def _arm(inv: Investigation, t: Trial, state: dict[str, Any]) -> dict[str, Any] | None:
+    """Where the sensor is (3,) in the body that the reference tracks, from the point whose
+    positions it gives; None where its force is the sensor's.
+    """
+    if t.place is None:
+        return None
+    std = [inv.after.std.get(LogPlace(t.name, k), np.nan) for k in range(3)]
+    return {"value": state["place"][:3], "std": std, "unit": "m"}
 
 
 def _noise(t: Trial, in_band: np.ndarray, unit: str) -> dict[str, Any] | None:

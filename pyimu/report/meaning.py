@@ -56,6 +56,7 @@ MEANING = {
     "recognised": "the layout is known: columns and units follow from it",
     "reference_clock": "the reference's clock is off the sensor's by so much; it was taken out",
     "reference_frame": "the reference fits once it is turned: is it in another frame?",
+    "reference_heading": "attitudes and positions count their headings from other directions",
     "reference_jump": "a step in the reference's path that no body makes",
     "constraint": "a drive that is not along the body's x axis, as a vehicle's is",
     "rest_moves": "rests during which the reference goes a way: a drive at constant speed",

@@ -15,6 +15,7 @@ from pyimu.identification.fit.keys import (
     LogBias,
     LogClock,
     LogLag,
+    LogPlace,
     LogTurn,
     coefficient_of,
 )
@@ -186,6 +187,7 @@ def linearise(
         for key in keys[slot]:
             out.add(key, int(axis), values)
     _turn_columns(out, trial, np.array(moved[own]).T, slope)
+    _place_columns(out, sensor, trial, state, slope)
     _clock_columns(out, sensor, trial, state, u, slope)
     _thermometer_columns(out, rest, trial, moved)
     _motion_columns(out, sensor, trial, u, slope, wanted)
@@ -257,6 +259,20 @@ def _turn_columns(out: Regressors, trial: Trial, x: np.ndarray, slope: np.ndarra
             turned = np.einsum("nij,nj->ni", slope, np.cross(np.eye(3)[k], x))
             for i in range(3):
                 out.add(LogTurn(trial.name, k), i, turned[:, i])
+
+
+def _place_columns(
+    out: Regressors, sensor: Sensor, trial: Trial, state: LogState, slope: np.ndarray
+) -> None:
+    """Where the reference force acts at a point that is not known, what it would be elsewhere."""
+    if trial.place is None:
+        return
+    for number in trial.place.unknown:
+        there = trial.place.forces[number].T @ state.rotation.T
+        moved = through_dynamics(sensor, there, trial.segments, trial.h)
+        change = np.einsum("nij,nj->ni", slope, moved)
+        for i in range(3):
+            out.add(LogPlace(trial.name, number), i, change[:, i])
 
 
 def _clock_columns(

@@ -30,6 +30,7 @@ from pyimu.identification.fit.keys import (
     LogClock,
     LogKey,
     LogLag,
+    LogPlace,
     coefficients_of,
 )
 from pyimu.identification.fit.noise_fit import declared_variances, fit_noise
@@ -303,6 +304,9 @@ def departures(fit: Fit) -> dict[Key, tuple[float, float]]:
             room = t.clock.room(t.time[-1] - t.time[0])
             away |= {LogClock(t.name, k): (values[k], std) for k, std in room.items()}
         away[LogLag(t.name)] = fit.states[t.name].lag, THERMOMETER
+        if t.place is not None:
+            found, std = fit.states[t.name].place, t.place.std
+            away |= {LogPlace(t.name, k): (found[k], std[k]) for k in t.place.unknown}
     return away
 
 

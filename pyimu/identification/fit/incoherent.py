@@ -303,13 +303,15 @@ def _own(trial: Trial, own: RandomWalk, frequency: np.ndarray) -> np.ndarray:
 
 
 def of_white_attitude(trial: Trial, frequency: np.ndarray, variance: float) -> np.ndarray:
-    """Density (f,) in the band of white noise that was differenced over two samples, and had that
-    ``variance`` then.
+    """Density (f,) in the band of white noise that was differenced over two samples, as often as
+    the trial's reference was, and had that ``variance`` then.
     """
+    power = 2 * trial.derivatives
+    mean = {2: 1 / 2, 4: 3 / 8}[power]  # of the sine's power over its half turn
     return in_rows(
         trial,
         frequency,
-        lambda f: 4 * trial.h * variance * np.sin(2 * np.pi * f * trial.h) ** 2,
+        lambda f: 2 * trial.h * variance / mean * np.sin(2 * np.pi * f * trial.h) ** power,
     )
 
 

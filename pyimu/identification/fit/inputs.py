@@ -8,7 +8,8 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from pyimu.identification.fit.clock import ClockChange
-from pyimu.identification.fit.keys import LogBias, LogClock, LogKey, LogLag
+from pyimu.identification.fit.keys import LogBias, LogClock, LogKey, LogLag, LogPlace
+from pyimu.identification.fit.place import NOWHERE, UNKNOWN
 from pyimu.identification.fit.trial import Trial
 from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.signals import COLUMNS
@@ -19,14 +20,15 @@ TEMPERATURE, ITS_RATE = COLUMNS["temperature"], COLUMNS["temperature_rate"]
 @dataclass(frozen=True)
 class LogState:
     """What belongs to a log and not to the part: bias (3,) at power-on, mounting rotation (3, 3)
-    of the reference, ``lag`` s of its thermometer behind the sensor's temperature, and what its
-    clock still lacks, None where that is not to be found.
+    of the reference, ``lag`` s of its thermometer behind the sensor's temperature, what its clock
+    still lacks, None where that is not to be found, and the ``place`` (5,) of its reference force.
     """
 
     bias: np.ndarray = field(default_factory=lambda: np.zeros(3))
     rotation: np.ndarray = field(default_factory=lambda: np.eye(3))
     lag: float = 0.0
     clock: ClockChange | None = None
+    place: np.ndarray = field(default_factory=lambda: NOWHERE)
 
     def moved(self, key: LogKey, change: float) -> LogState:
         """The state with the coefficient of one of its columns changed."""
@@ -34,6 +36,8 @@ class LogState:
             return replace(self, clock=self.clock.moved(key.order, change))
         if isinstance(key, LogLag):
             return replace(self, lag=self.lag + change)
+        if isinstance(key, LogPlace):
+            return replace(self, place=self.place + change * np.eye(UNKNOWN)[key.number])
         unit = np.eye(3)[key.axis]
         if isinstance(key, LogBias):
             return replace(self, bias=self.bias + change * unit)
@@ -74,6 +78,8 @@ def reference_input(trial: Trial, state: LogState) -> Inputs:
     that is a first-order lag shows T - lag dT/dt.
     """
     u, own, rate = Inputs(trial.u), OWN[trial.kind], own_rate(trial.kind)
+    if np.any(state.place):
+        _put_in_place(u, trial, state.place)
     if state.clock is not None:
         late = state.clock.at(trial.time)[:, None]
         u[:, own] = u[:, own] - late * u[:, rate]
@@ -84,6 +90,13 @@ def reference_input(trial: Trial, state: LogState) -> Inputs:
     if state.lag:
         u[:, TEMPERATURE] = u[:, TEMPERATURE] + state.lag * u[:, ITS_RATE]
     return u
+
+
+def _put_in_place(u: Inputs, trial: Trial, place: np.ndarray) -> None:
+    """Move the reference force and its rate to where they act."""
+    here = trial.place
+    for at, more in ((OWN[trial.kind], here.forces), (own_rate(trial.kind), here.slopes)):
+        u[:, at] = u[:, at] + np.tensordot(place, more, 1).T
 
 
 def before(trial: Trial, state: LogState) -> np.ndarray | None:

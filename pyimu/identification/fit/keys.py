@@ -72,7 +72,18 @@ class LogLag:
     log: str
 
 
-LogKey = LogBias | LogTurn | LogClock | LogLag
+@dataclass(frozen=True)
+class LogPlace:
+    """What a log's reference force is of: how far along one axis of the body the sensor is from the
+    point that is tracked [m]; as the fourth gravity there [m/s^2], as the fifth the heading of the
+    positions' world in that of the attitudes [rad].
+    """
+
+    log: str
+    number: int
+
+
+LogKey = LogBias | LogTurn | LogClock | LogLag | LogPlace
 
 Key = Coefficient | LogKey | Scanned | Shape
 

@@ -109,7 +109,7 @@ def _values(fit: Fit) -> np.ndarray:
     """The coefficients of a fit and of its logs."""
     states = fit.states.values()
     clocks = [(s.clock.offset, s.clock.drift) for s in states if s.clock is not None]
-    own = [np.concatenate([s.bias, s.rotation.ravel(), [s.lag]]) for s in states]
+    own = [np.concatenate([s.bias, s.rotation.ravel(), [s.lag], s.place]) for s in states]
     return np.concatenate([fit.sensor.p, *own, np.ravel(clocks)])
 
 

@@ -141,15 +141,18 @@ def _in_quiet(fit: Fit, axis: int) -> float:
 
 
 def _drawn(trial: Trial, variance: np.ndarray, rng: np.random.Generator) -> Trial:
-    """The trial with a draw (n, 3) of what white noise of an attitude becomes once it is
-    differentiated, of a ``variance`` (3,) in its band.
+    """The trial with a draw (n, 3) of what white noise of an attitude, or of a position, becomes
+    once it is differentiated, of a ``variance`` (3,) in its band.
 
     It is no more than the high differences of the reference show: its band hides from the sensor
     what is left beyond.
     """
     if trial.band_hz is None:
         return replace(trial, noise=np.zeros(trial.y.shape))
-    draw = np.gradient(rng.standard_normal(trial.y.shape), axis=0)
+    draw = rng.standard_normal(trial.y.shape)
+    for _ in range(trial.derivatives):
+        draw = np.gradient(draw, axis=0)
+    draw = draw if trial.place is None else trial.place.below(draw, trial.segments)
     seen = in_band(trial, draw).var(axis=0) if trial.count else np.ones(3)
     wanted = np.isin(np.arange(3), trial.axes) & (seen > 0.0)
     scale = np.sqrt(np.where(wanted, variance / np.where(seen > 0.0, seen, 1.0), 0.0))

@@ -16,7 +16,7 @@ from scipy.spatial.transform import Rotation
 from pyimu.identification.fit.columns import band_segments, in_band, in_log, linearise, residual
 from pyimu.identification.fit.fit import Fit, bare, initial_state
 from pyimu.identification.fit.inputs import LogState, before, reference_input
-from pyimu.identification.fit.keys import LogLag, LogTurn
+from pyimu.identification.fit.keys import LogLag, LogPlace, LogTurn
 from pyimu.identification.fit.noise_floor import simulated
 from pyimu.identification.fit.normal import normal_equations, solve
 from pyimu.identification.fit.response import predict
@@ -33,6 +33,10 @@ least that is taken where several agree."""
 
 KNOWN = 1e-6
 """s; standard deviation of a thermometer's lag that other logs have shown."""
+
+PLACED = 0.01
+"""m, m/s^2 and rad; standard deviation of where a log's reference force acts about that of the
+fitted logs: a sensor is put back to a centimetre."""
 
 FLOOR_DRAWS = 8
 
@@ -113,7 +117,8 @@ def _head_state(fit: Fit, head: Trial) -> LogState:
         return LogState()
     # The thermometer goes with the part.
     lag = float(np.mean([s.lag for s in fit.states.values()]))
-    mountings = [LogState(np.zeros(3), r, lag) for r in _mountings(fit, head)]
+    place = np.mean([s.place for s in fit.states.values()], axis=0)
+    mountings = [LogState(np.zeros(3), r, lag, place=place) for r in _mountings(fit, head)]
     state = min(mountings, key=lambda s: float(np.sum(_centred(fit, head, s) ** 2)))
     spread = _spread(fit)
     white = {i: RandomWalk(n.r, 0.0) for i, n in fit.noise.items()}
@@ -121,7 +126,7 @@ def _head_state(fit: Fit, head: Trial) -> LogState:
         normal = normal_equations([linearise(fit.sensor, head, state, ())], white)
         if not normal.keys:
             return state
-        known = {LogTurn: spread**-2, LogLag: KNOWN**-2}
+        known = {LogTurn: spread**-2, LogLag: KNOWN**-2, LogPlace: PLACED**-2}
         prior = np.diag([known.get(type(k), 0.0) for k in normal.keys])
         for key, change in zip(normal.keys, solve(normal.gram + prior, normal.score), strict=True):
             state = state.moved(key, change)

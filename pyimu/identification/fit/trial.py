@@ -15,6 +15,7 @@ import numpy as np
 from pyimu.errors import Finding
 from pyimu.identification.fit.band import Band
 from pyimu.identification.fit.clock import Clock
+from pyimu.identification.fit.place import Place
 from pyimu.identification.fit.reduction import Reduction, Rows
 from pyimu.identification.fit.surroundings import fill_place, vibration_of, without_noise
 from pyimu.model.kinds import OWN
@@ -25,6 +26,7 @@ from pyimu.recording.complete import completed
 from pyimu.recording.quality.healing import healed, short_runs
 from pyimu.recording.quality.spikes import spikes
 from pyimu.recording.recording import Recording, filled
+from pyimu.recording.reference.force import ORDER, reference_force
 from pyimu.recording.reference.rate import reference_rate
 from pyimu.recording.reference.stamps import at_times
 
@@ -60,8 +62,9 @@ class Trial:
     ``y`` (n, 3) measured, ``u`` (n, N_INPUT) reference inputs (at their start values where nobody
     knows them), ``known`` the signals that are really known, ``axes`` those that the reference
     covers, ``segments`` the ranges without gap. ``reference`` is "rate", "attitude", "heading",
-    "course", "force", "gravity" or "static"; ``free_rotation`` says that the reference's mounting
-    is not known. ``parent`` names the fitted trial that has the same power-on, if any, and
+    "course", "force", "position", "velocity", "gravity" or "static"; ``free_rotation`` says that
+    the reference's mounting is not known, ``place`` what is not known of where its force acts.
+    ``parent`` names the fitted trial that has the same power-on, if any, and
     ``earlier`` (m, N_INPUT) are the inputs of the log before the first row, if any; ``left_out``
     (n,) marks samples that are missing or carry no information (spikes, repeats, at a limit),
     heeded where no band mixes them with their neighbours. ``band_hz`` is the band of a derived
@@ -96,6 +99,7 @@ class Trial:
     doubt: Doubt = Doubt.NONE
     up: np.ndarray | None = None
     reduction: Reduction | None = None
+    place: Place | None = None
 
     @cached_property
     def band(self) -> Band:
@@ -119,6 +123,11 @@ class Trial:
     def row_time(self) -> np.ndarray:
         """Times (m,) s of the rows that its band gives."""
         return self.time[self.band.centres(self.row_segments)]
+
+    @property
+    def derivatives(self) -> int:
+        """How often what the reference is from was differentiated, at least once."""
+        return ORDER.get(self.reference, 1)
 
     @property
     def any_turn(self) -> bool:
@@ -155,6 +164,7 @@ class Trial:
             left_out=flags,
             earlier=earlier if len(earlier) else None,
             noise=None if self.noise is None else self.noise[start:stop],
+            place=None if self.place is None else self.place.part(start, stop),
             **changes,
         )
 
@@ -182,7 +192,8 @@ class Trial:
         inside = marked(self.segments, len(x))
         if not self.free_rotation or not inside.any():
             return np.ones(len(x), dtype=bool)
-        speed = np.linalg.norm(x, axis=1)
+        # A force is gravity mostly, also at rest: what is differentiated has an attitude beside it.
+        speed = np.linalg.norm(x if self.place is None else self.u[:, OWN["gyro"]], axis=1)
         return inside & (speed >= MOVING * np.sqrt(np.mean(speed[inside] ** 2)))
 
 
@@ -227,10 +238,14 @@ def gyro_trial(recording: Recording, latitude: float | None = None) -> Trial | N
     )
 
 
-def accel_trial(recording: Recording, static: bool) -> Trial | None:
-    """The accelerometer against a reference force, or its own mean where ``static``; else None."""
-    if recording.accel is None or (recording.ref_force is None and not static):
+def accel_trial(recording: Recording, static: bool, latitude: float | None = None) -> Trial | None:
+    """The accelerometer against a reference force, that of positions or velocities, or its own mean
+    where ``static``; else None.
+    """
+    if recording.accel is None:
         return None
+    if recording.ref_force is None and not static:
+        return _place_trial(recording, latitude)
     u, known = environment(recording)
     force = recording.ref_force
     if force is None:
@@ -245,6 +260,7 @@ def accel_trial(recording: Recording, static: bool) -> Trial | None:
     else:
         known = known | _slope(u, recording, "specific_force", "jerk")
     axes = _live(recording.accel)
+    given = recording.ref_force is not None
     return _trial(
         recording,
         "accel",
@@ -252,8 +268,44 @@ def accel_trial(recording: Recording, static: bool) -> Trial | None:
         u,
         np.isfinite(force[:, list(axes)]).all(axis=1),
         known | {"specific_force"},
-        "static" if recording.ref_force is None else "force",
+        "force" if given else "static",
         axes=axes,
+        place=Place.of(u, recording.time) if given and "rate" in known else None,
+    )
+
+
+def _place_trial(recording: Recording, latitude: float | None) -> Trial | None:
+    """The accelerometer against the force of a body whose attitude and places a reference saw; None
+    where it did not.
+    """
+    force = reference_force(recording, latitude)
+    axes = _live(recording.accel)
+    if force is None or len(axes) < 3:
+        return None
+    if force.time is not None:
+        recording = at_times(recording, force.time)
+    u, known = environment(recording)
+    u[:, OWN["accel"]] = np.nan_to_num(force.value)
+    u[:, OWN["gyro"]] = np.nan_to_num(force.rate)
+    u[:, COLUMNS["attitude"]] = np.nan_to_num(force.attitude)
+    # Nothing is asked of the angular acceleration: the noise of the attitude is in it as its second
+    # derivative, and as a tilt of gravity in the force, and the two go together.
+    _slope(u, recording, "rate", "angular_acceleration")
+    known = known | _slope(u, recording, "specific_force", "jerk") | _turned(u, recording)
+    return _trial(
+        recording,
+        "accel",
+        recording.accel,
+        u,
+        np.isfinite(force.value).all(axis=1),
+        known | {"rate", "attitude"},
+        force.kind,
+        axes=axes,
+        band_hz=force.band_hz,
+        band_limit=force.band_limit,
+        free_rotation=True,
+        findings=force.findings,
+        place=Place.of(u, recording.time, force.gravity, force.gravity_std),
     )
 
 

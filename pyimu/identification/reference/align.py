@@ -55,8 +55,9 @@ def aligned(
     wander by less than a sample is ``doubtful``, and has one lag where ``lines`` are not wanted.
     """
     clocks = [_borne_out(t, _level(measure(t, sensor)), sensor, lines) for t in (*trials, *held)]
-    own = in_common([c for c in clocks[: len(trials)] if c is not None and np.isfinite(c.std)])
-    return [_aligned(t, c, own) for t, c in zip((*trials, *held), clocks, strict=True)]
+    seen = [c for c in clocks[: len(trials)] if c is not None and np.isfinite(c.std)]
+    own, std = in_common(seen), _std_of_mean(seen)
+    return [_aligned(t, c, own, std) for t, c in zip((*trials, *held), clocks, strict=True)]
 
 
 def _level(clock: Clock | None) -> Clock | None:
@@ -127,7 +128,11 @@ def in_common(clocks: Sequence[Clock]) -> float:
     return mean if certain and alike else 0.0
 
 
-def _aligned(trial: Trial, clock: Clock | None, own: float) -> Trial:
+def _std_of_mean(clocks: Sequence[Clock]) -> float:
+    return float(sum(c.std**-2.0 for c in clocks) ** -0.5) if clocks else 0.0
+
+
+def _aligned(trial: Trial, clock: Clock | None, own: float, own_std: float) -> Trial:
     if clock is None:
         return trial
     if not np.isfinite(clock.std):
@@ -137,7 +142,9 @@ def _aligned(trial: Trial, clock: Clock | None, own: float) -> Trial:
         # same rows are fitted.
         trial = replace(trial, segments=[(a + 1, b - 1) for a, b in trial.segments if b - a > 2])
     rest = clock.less(own)
-    chance = max(SIGNIFICANT * clock.std, ALIKE * own)
+    # What a log lacks of the lag in common is known no better than that.
+    std = float(np.hypot(clock.std, own_std)) if own else clock.std
+    chance = max(SIGNIFICANT * std, ALIKE * own)
     if rest.keeps_step and abs(rest.mean) < chance:
         return replace(trial, clock=rest)
     found = Finding(

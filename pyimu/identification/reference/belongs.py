@@ -8,10 +8,10 @@ import numpy as np
 
 from pyimu.identification.fit.columns import in_band
 from pyimu.identification.fit.trial import Trial
-from pyimu.identification.reference.clock import (
+from pyimu.identification.reference.clock import is_still
+from pyimu.identification.reference.moving import (
     LEAST_ROWS,
     in_own_band,
-    is_still,
     moving_rows,
     turned_onto,
 )

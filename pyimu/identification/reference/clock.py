@@ -21,13 +21,19 @@ from scipy.special import i0
 from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.columns import band_time, in_band
 from pyimu.identification.fit.response import through_dynamics
-from pyimu.identification.fit.sample_noise import rest_noise, without_information
+from pyimu.identification.fit.sample_noise import rest_noise
 from pyimu.identification.fit.trial import MOVING, Trial, marked
+from pyimu.identification.reference.moving import (
+    LEAST_ROWS,
+    in_own_band,
+    moving_rows,
+    turned_onto,
+)
+from pyimu.identification.reference.place import placed
 from pyimu.identification.reference.track import Level, level_of
 from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS
-from pyimu.recording.reference.band import trusted_band
 
 WINDOW, ROWS = 2.5, 32
 """s; windows of the fine lag, and the least rows of the band that one covers."""
@@ -37,9 +43,6 @@ FARTHEST = 10.0
 
 FITTING = 0.3
 """Share of the rate by which a row may miss the fit: clipped samples and faults miss by more."""
-
-LEAST_ROWS = 16
-"""Moving rows below which a window says nothing."""
 
 SEEN = 3.0
 """Standard errors of a correlation from which on two slopes show one motion, and not noise."""
@@ -88,15 +91,16 @@ def measure(trial: Trial, sensor: Sensor) -> Clock | None:
         return None
     clock = Clock(trial.time[:1], np.array([_coarse(trial)]), 0.0, 0.0)
     for _ in range(ROUNDS):
-        seen = _windows(shifted(trial, clock), sensor)
+        seen = _windows(placed(shifted(trial, clock)), sensor)
         if seen is None:
-            return replace(clock, std=np.inf, explained=_explained(shifted(trial, clock)))
+            explained = _explained(placed(shifted(trial, clock)))
+            return replace(clock, std=np.inf, explained=explained)
         time, late, std = seen
         level = level_of(time, late + clock.at(time), std, LEAST_SLIP * trial.h)
         before, clock = clock, _clock(level)
         if np.abs(clock.at(time) - before.at(time)).max() < 0.1 * clock.std:
             break
-    return replace(clock, explained=_explained(shifted(trial, clock)))
+    return replace(clock, explained=_explained(placed(shifted(trial, clock))))
 
 
 def _clock(level: Level) -> Clock:
@@ -151,6 +155,8 @@ def shifted(trial: Trial, clock: Clock) -> Trial:
         return trial
     u, segments = np.array(trial.u), []
     columns = [OWN[trial.kind], COLUMNS[KINDS[trial.kind].own_rate]]
+    if trial.place is not None:
+        columns += [COLUMNS[name] for name in ("rate", "angular_acceleration", "attitude")]
     for a, b in trial.segments:
         row = np.interp(trial.time[a:b] - late[a:b], trial.time[a:b], np.arange(b - a), -1, b - a)
         inside = np.flatnonzero((row >= 0) & (row <= b - a - 1))
@@ -158,10 +164,13 @@ def shifted(trial: Trial, clock: Clock) -> Trial:
             continue
         for at in columns:
             u[a:b, at] = _interpolated(trial.u[a:b, at], np.clip(row, 0, b - a - 1))
-            if trial.band_hz is not None and b - a > 1:
+            if trial.band_hz is not None and trial.place is None and b - a > 1:
                 u[a:b, at] *= 1.0 - _drift(trial.time[a:b], late[a:b])[:, None]
         segments.append((a + int(inside[0]), a + int(inside[-1]) + 1))
-    return replace(trial, u=u, segments=segments)
+    place = trial.place
+    if place is not None:
+        place = place.of(u, trial.time, place.gravity, place.gravity_std)
+    return replace(trial, u=u, segments=segments, place=place)
 
 
 def _drift(time: np.ndarray, late: np.ndarray) -> np.ndarray:
@@ -254,12 +263,6 @@ def _correlation(x, y, counted, lags: np.ndarray) -> np.ndarray:
     power = cross(x * x, m) * cross(m, y * y) / pairs**2
     enough = pairs > 0.5 * n * m.mean() ** 2
     return np.where(enough, covariance / np.sqrt(np.maximum(power, 1e-300)), -1.0)
-
-
-def turned_onto(x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """The rotation (3, 3) with x @ rotation nearest to y, (m, 3) each (Kabsch's algorithm)."""
-    left, _, right = np.linalg.svd(x.T @ y)
-    return left @ np.diag([1.0, 1.0, np.linalg.det(left @ right)]) @ right
 
 
 def _windows(trial: Trial, sensor: Sensor):
@@ -369,19 +372,3 @@ def _mean_share(left: np.ndarray, places: list[tuple[int, int]]) -> np.ndarray:
     white = np.mean([left[a:b].var(axis=0) for a, b in places], axis=0)
     bias = np.maximum(np.median(means**2, axis=0) / CHI2_MEDIAN - white / np.median(count), 0.0)
     return 1.0 - np.sqrt(white / np.maximum(white + count * bias, 1e-300))
-
-
-def moving_rows(trial: Trial) -> np.ndarray:
-    """Rows of the band (m,) on which no clipped or left-out sample has any weight."""
-    bad = without_information(trial).astype(float)
-    return in_band(trial, bad[:, None])[:, 0] < 1e-6
-
-
-def in_own_band(trial: Trial) -> Trial:
-    """The trial in the band in which its reference, as it stands now, explains the sensor."""
-    rate = trial.u[:, OWN[trial.kind]]
-    limit = 0.25 / trial.h if trial.band_limit is None else trial.band_limit
-    seen = np.where(marked(trial.segments, len(rate))[:, None], rate, np.nan)
-    axes = list(trial.axes)
-    band = trusted_band(trial.time, trial.y[:, axes], seen[:, axes], limit)
-    return replace(trial, band_hz=band)

@@ -15,9 +15,10 @@ from pyimu.model.kinds import OWN
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS
 from pyimu.model.typical import CLASSES, magnitudes
+from pyimu.recording.gravity import gravity_of
 from pyimu.recording.recording import Recording
 from pyimu.recording.rest import is_at_rest, rests
-from pyimu.symbolic.earth import EARTH_RATE, normal_gravity
+from pyimu.symbolic.earth import EARTH_RATE
 
 SAME = math.radians(5.0)
 """Rests whose gravity lies within this angle are in one position: what is left out with one of them
@@ -25,13 +26,6 @@ is left out with all."""
 
 LEAST_POSITIONS = 4
 """Positions from which on gravity's size shows anything: a bias has three coefficients."""
-
-MIDDLE, SOMEWHERE = 9.8063, 0.015
-"""m/s^2; gravity at an unknown place, and the standard deviation of one that is as likely anywhere
-from the equator's 9.780 to the poles' 9.832."""
-
-HEIGHT = 0.003
-"""m/s^2; standard deviation of gravity at a known latitude and an unknown height, of 1 km."""
 
 WANDER = "bias_instability"
 """The effect whose typical size a sensor's output wanders by from rest to rest."""
@@ -175,15 +169,6 @@ def typical_wander(kind: str) -> float:
     """
     own = magnitudes(WANDER, kind)[CLASSES[-1]].si
     return float(np.hypot(own, EARTH_RATE)) if kind == "gyro" else own
-
-
-def gravity_of(recording: Recording, latitude: float | None) -> tuple[float, float]:
-    """Gravity where a log was made and its standard deviation, m/s^2."""
-    if latitude is None and recording.latitude is not None:
-        latitude = float(np.nanmean(recording.latitude))
-    if latitude is None or not np.isfinite(latitude):
-        return MIDDLE, SOMEWHERE
-    return float(normal_gravity(latitude)), HEIGHT
 
 
 def _findings(

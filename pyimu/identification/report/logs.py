@@ -122,7 +122,8 @@ def log_states(closed: Outcome) -> Table:
 def reference_table(closed: Outcome) -> Table:
     """Of each log the instrument that it is compared with."""
     head = ("recording", "reference", "rate and band", "late by [ms]", "the lag is")
-    table = Table((*head, "noise", "explains"))
+    away = any(entry["arm"] for entry in closed.references)
+    table = Table((*head, *(["the sensor's place"] if away else []), "noise", "explains"))
     for entry in closed.references:
         table.rows.append(
             (
@@ -130,6 +131,7 @@ def reference_table(closed: Outcome) -> Table:
                 _under(*KINDS_OF_REFERENCE[entry["kind"]], f"of the {SENSORS[entry['sensor']]}"),
                 _rates(entry["sample_rate"]["value"], entry["band_hz"]),
                 *map(prose, _lag(entry)),
+                *([_arm(entry["arm"])] if away else []),
                 _noise(entry["noise"]),
                 MISSING if entry["explains"] is None else f"{100 * entry['explains']:.4g} %",
             )
@@ -159,6 +161,8 @@ KINDS_OF_REFERENCE = {
     "heading": ("heading", "differentiated"),
     "course": ("course", "differentiated"),
     "force": ("force",),
+    "position": ("position and attitude", "differentiated"),
+    "velocity": ("velocity and attitude", "differentiated"),
     "gravity": ("gravity", "in rests"),
     "static": ("rest",),
 }
@@ -169,6 +173,22 @@ def _rates(own: float | None, band: float | None) -> Any:
     if own is None:
         return MISSING
     return _under(f"{number(own, 4)} Hz", *([] if band is None else [f"below {number(band)} Hz"]))
+
+
+def _arm(arm: dict[str, Any] | None) -> Any:
+    """Where the sensor is from the point that the reference tracks, by the body's axes."""
+    if arm is None:
+        return MISSING
+    value, std = (np.array(arm[k], dtype=float) for k in ("value", "std"))
+    unit = unit_for(value, "m")
+    each = [
+        with_error(float(in_unit(v, "m", unit)), float(in_unit(s, "m", unit)))
+        if np.isfinite(s)
+        else number(float(in_unit(v, "m", unit)))
+        for v, s in zip(value, std, strict=True)
+    ]
+    lines = [f"{a} {shown}" for a, shown in zip(AXES, each, strict=True)]
+    return Markup("<br>").join([*lines[:2], f"{lines[2]} {pretty(unit)}"])
 
 
 def _noise(noise: dict[str, Any] | None) -> Any:

@@ -28,7 +28,7 @@ def trusted_band(
 ) -> float:
     """The highest frequency [Hz], at most ``limit``, up to which ``rate`` (n, 3) explains ``gyro``.
 
-    ``gyro`` is (n, 3).
+    ``gyro`` is (n, 3); ``rate`` may have columns behind these, of what may explain it, too.
 
     The share of the gyro's power that a linear filter of the reference's axes explains, the
     multiple coherence tr(S_gr S_rr^-1 S_rg) / tr(S_gg) (Bendat and Piersol 2010, chapter 7), must
@@ -41,7 +41,7 @@ def trusted_band(
         return least
     axes = np.isfinite(rate).any(axis=0)
     unclipped = np.column_stack([np.where(clipped(column), np.nan, column) for column in gyro.T])
-    frequency, share = coherence(time, unclipped[:, axes], rate[:, axes])
+    frequency, share = coherence(time, unclipped[:, axes[: gyro.shape[1]]], rate[:, axes])
     if share is None:
         return least
     low = np.flatnonzero((share < COHERENCE) & (frequency >= least))

@@ -1,4 +1,5 @@
-"""The samples that an attitude was interpolated from along shortest arcs.
+"""The samples that an attitude was interpolated from along shortest arcs, or a position along
+lines.
 
 Between two of them its rate is constant, and jumps at each: the interpolation, not the motion. The
 samples lie between the rows: by how much of either arc's rate the step that holds one has.
@@ -48,24 +49,46 @@ def own_samples(source: Recording) -> Recording:
     known = np.flatnonzero(np.isfinite(source.ref_q).all(axis=1))
     if len(known) < 4 * LEAST:
         return source
-    time, q = source.time[known], source.ref_q[known]
-    attitude = Rotation.from_quat(q, scalar_first=True)
-    step = np.diff(time)
-    rate = (attitude[:-1].inv() * attitude[1:]).as_rotvec() / step[:, None]
-    rate[step > 1.5 * np.median(step)] = np.nan
-    grid = _grid(time, rate)
-    if grid is None:
+    time = source.time[known]
+    attitude = Rotation.from_quat(source.ref_q[known], scalar_first=True)
+    found = _met(time, (attitude[:-1].inv() * attitude[1:]).as_rotvec())
+    if found is None:
         return source
-    at, row = _placed(time, grid)
-    # The step before that which holds a sample belongs to the arc that ends at it.
-    good = np.isfinite(rate[row - 1]).all(axis=1) & np.isfinite(rate[row]).all(axis=1)
-    at, row = at[good], row[good]
-    turn = Rotation.from_rotvec(rate[row - 1] * (at - time[row])[:, None])
-    nodes = (attitude[row] * turn).as_quat(scalar_first=True)
+    at, row, further = found
+    nodes = (attitude[row] * Rotation.from_rotvec(further)).as_quat(scalar_first=True)
     empty = {g: None for g in GROUPS}
     return replace(
         source, time=at, period=None, gaps=None, longest=None, **empty | {"ref_q": nodes}
     )
+
+
+def own_places(time: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Times (k,) and values (k, d) that ``values`` (n, d) at ``time`` (n,), all known, were
+    interpolated from along lines, where they were; else as they are.
+    """
+    found = _met(time, np.diff(values, axis=0)) if len(time) >= 4 * LEAST else None
+    if found is None:
+        return time, values
+    at, row, further = found
+    return at, values[row] + further
+
+
+def _met(time: np.ndarray, steps: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
+    """The samples behind rows at ``time`` (n,) with ``steps`` (n - 1, d) between them: their times
+    (k,), the rows (k,) before them, and how much further (k, d) they are; None where there are
+    none.
+    """
+    step = np.diff(time)
+    rate = steps / step[:, None]
+    rate[step > 1.5 * np.median(step)] = np.nan
+    grid = _grid(time, rate)
+    if grid is None:
+        return None
+    at, row = _placed(time, grid)
+    # The step before that which holds a sample belongs to the arc that ends at it.
+    good = np.isfinite(rate[row - 1]).all(axis=1) & np.isfinite(rate[row]).all(axis=1)
+    at, row = at[good], row[good]
+    return at, row, rate[row - 1] * (at - time[row])[:, None]
 
 
 def _grid(time: np.ndarray, rate: np.ndarray) -> tuple[float, float] | None:

@@ -1,0 +1,112 @@
+"""Where the force of a reference acts: the point that it tracks is not the sensor's, gravity there
+is known to some thousandths, and attitude and positions may count from another heading.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from scipy.signal import butter, sosfiltfilt
+from scipy.spatial.transform import Rotation
+
+from pyimu.model.kinds import OWN
+from pyimu.model.signals import COLUMNS
+from pyimu.recording.reference.force import arm_forces
+
+FAR = 10.0
+"""m; standard deviation of how far along an axis a sensor may be from the point that a reference
+tracks: within a vehicle, anywhere."""
+
+ORDER, PERIODS = 8, 12
+"""Of the low-pass, and how many half periods of its cutoff it is led in over; run both ways it
+takes 3e-5 of what is an octave below its cutoff."""
+
+HEADED = 0.05
+"""rad; standard deviation of the heading of attitudes against positions, once it is about found."""
+
+GRAVITY, HEADING, UNKNOWN = 3, 4, 5
+"""The numbers of gravity and heading among the unknowns, behind the arm's three axes, and how many
+they are."""
+
+NOWHERE = np.zeros(UNKNOWN)
+"""The point that is tracked, the gravity that was added, the heading as it is."""
+
+
+@dataclass(frozen=True, eq=False)
+class Place:
+    """What is not known of where a reference force acts: the arm (3,) m from its point to the
+    sensor, and, unless ``gravity_std`` is zero, ``gravity`` to so many m/s^2 and the heading of the
+    positions' world in that of the attitudes.
+
+    ``forces`` (5, 3, n) is what a metre along each axis of the arm, a m/s^2 of gravity, and a
+    radian of heading add to the reference force in its own body axes, ``time`` (n,) s when;
+    ``across`` (n, 3) is the horizontal force that moves the body, less its gravity. The force has
+    nothing above ``cutoff`` Hz.
+    """
+
+    gravity: float
+    gravity_std: float
+    forces: np.ndarray
+    across: np.ndarray
+    time: np.ndarray
+    cutoff: float = np.inf
+
+    @classmethod
+    def of(
+        cls, u: np.ndarray, time: np.ndarray, gravity: float = 0.0, gravity_std: float = 0.0
+    ) -> Place:
+        """By inputs (n, N_INPUT) that have the reference force, the body's rate and attitude."""
+        arms, up = arm_forces(u[:, COLUMNS["rate"]], time), np.zeros((len(u), 3))
+        q, across = u[:, COLUMNS["attitude"]], np.zeros((len(u), 3))
+        known = np.any(q != 0.0, axis=1)
+        if gravity_std and known.any():
+            body = Rotation.from_quat(q[known], scalar_first=True)
+            up[known] = body.apply([0.0, 0.0, 1.0], inverse=True)
+            force = u[known, OWN["accel"]]
+            across[known] = force - np.sum(force * up[known], axis=1)[:, None] * up[known]
+        forces = np.concatenate([arms, up[:, :, None], np.cross(up, across)[:, :, None]], axis=2)
+        return cls(
+            gravity, gravity_std, np.ascontiguousarray(forces.transpose(2, 1, 0)), across, time
+        )
+
+    def part(self, start: int, stop: int) -> Place:
+        rows = slice(start, stop)
+        return replace(
+            self, forces=self.forces[..., rows], across=self.across[rows], time=self.time[rows]
+        )
+
+    def headed(self, angle: float) -> np.ndarray:
+        """What a turn of the positions' world by an ``angle`` rad about the vertical adds to the
+        reference force (n, 3).
+        """
+        return (np.cos(angle) - 1.0) * self.across + np.sin(angle) * self.forces[HEADING].T
+
+    def below(self, values: np.ndarray, segments: Sequence[tuple[int, int]]) -> np.ndarray:
+        """What values (n, k) have below the cutoff, in each of the ``segments``."""
+        out, nyquist = np.array(values), 0.5 / float(np.median(np.diff(self.time)))
+        if self.cutoff >= nyquist:
+            return out
+        low = butter(ORDER, self.cutoff / nyquist, output="sos")
+        for a, b in segments:
+            room = min(b - a - 1, round(PERIODS * nyquist / self.cutoff))
+            if room > 0:
+                out[a:b] = sosfiltfilt(low, values[a:b], axis=0, padlen=room)
+        return out
+
+    @property
+    def std(self) -> np.ndarray:
+        """Standard deviations (5,) of the unknowns before anything is seen."""
+        return np.array([FAR, FAR, FAR, self.gravity_std, HEADED if self.gravity_std else 0.0])
+
+    @cached_property
+    def unknown(self) -> tuple[int, ...]:
+        """Which of them are to be found."""
+        return tuple(int(k) for k in np.flatnonzero(self.std))
+
+    @cached_property
+    def slopes(self) -> np.ndarray:
+        """The rates of change (5, 3, n) of the forces."""
+        return np.gradient(self.forces, self.time, axis=2)

@@ -1,0 +1,171 @@
+"""The specific force of a body whose attitude and positions, or velocities, a reference saw.
+
+They are differentiated by a spline of fifth degree through their own samples. Like that of an
+attitude it adds no bandwidth of its own and stays inside each segment that was seen.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from pyimu.errors import Finding
+from pyimu.recording.gravity import gravity_of
+from pyimu.recording.quality.spikes import spikes
+from pyimu.recording.recording import Recording
+from pyimu.recording.reference.attitude import attitude_at, within
+from pyimu.recording.reference.band import trusted_band
+from pyimu.recording.reference.nodes import own_places
+from pyimu.recording.reference.rate import reference_rate
+from pyimu.recording.reference.smoother import white_noise
+from pyimu.recording.reference.track import Track, fresh
+
+DEGREE = 5
+"""Of the spline: the acceleration of its positions is one of the third."""
+
+ORDER = {"position": 2, "velocity": 1}
+"""How often each is differentiated."""
+
+SPIKE = 20.0
+"""Times the noise of a position from which on a step there and back is a fault."""
+
+EVEN = 1.25
+"""Times the usual four periods that four may last without a gap in them."""
+
+
+@dataclass(frozen=True, eq=False)
+class Force:
+    """The specific force ``value`` (n, 3) m/s^2 in body axes at n instants, NaN where unknown, of
+    the point that the reference tracks.
+
+    ``kind`` says what was differentiated, ``attitude`` (n, 4) is the body's, without jumps of sign,
+    ``rate`` (n, 3) rad/s its rate; ``gravity`` m/s^2 was added, and is known to ``gravity_std``.
+    ``band_hz`` is the highest frequency at which it is to be used, at most ``band_limit``; ``time``
+    (n,) s are the instants where the sensor's stamps scatter about these.
+    """
+
+    value: np.ndarray
+    kind: Literal["position", "velocity"]
+    attitude: np.ndarray
+    rate: np.ndarray
+    gravity: float
+    gravity_std: float
+    band_hz: float
+    band_limit: float
+    findings: tuple[Finding, ...]
+    time: np.ndarray | None
+
+
+def reference_force(recording: Recording, latitude: float | None = None) -> Force | None:
+    """The force that the reference of a recording says was there, f = R_nb^T (a + g); None where
+    it has no attitude, or neither positions nor velocities on three axes, beside the
+    accelerometer.
+
+    It is that of the positions or of the velocities, whichever explains the accelerometer up to the
+    higher frequency. ``latitude`` [rad] gives the size of gravity.
+    """
+    source = recording if recording.reference is None else recording.reference
+    if recording.accel is None or not has_places(recording):
+        return None
+    seen = reference_rate(recording)
+    time = recording.time if seen.time is None else seen.time
+    q = _continuous(attitude_at(source, time))
+    given = _given(source)
+    made = [_of(kind, v, recording, source, time, q, seen, latitude) for kind, v in given]
+    return max((f for f in made if f is not None), key=lambda f: f.band_hz, default=None)
+
+
+def has_places(recording: Recording) -> bool:
+    """Whether a recording has what a force follows from: an attitude, beside positions or
+    velocities on three axes.
+    """
+    source = recording if recording.reference is None else recording.reference
+    return source.ref_q is not None and any(True for _ in _given(source))
+
+
+def _given(source: Recording) -> Iterator[tuple[str, np.ndarray]]:
+    places = source.ref_east, source.ref_north, source.ref_up
+    if all(p is not None for p in places):
+        yield "position", np.column_stack(places)
+    if source.ref_velocity is not None:
+        yield "velocity", source.ref_velocity
+
+
+def _of(kind, values, recording, source, time, q, seen, latitude) -> Force | None:
+    """The force from ``values`` (m, 3) of one kind; None where none of it is known."""
+    acceleration, track = _acceleration(kind, values, source, time)
+    gravity, unsure = gravity_of(recording, latitude)
+    force = np.full((len(time), 3), np.nan)
+    known = np.isfinite(acceleration).all(axis=1) & np.isfinite(q).all(axis=1)
+    known &= np.isfinite(seen.rate).all(axis=1)
+    if not known.any():
+        return None
+    attitude = Rotation.from_quat(q[known], scalar_first=True)
+    force[known] = attitude.inv().apply(acceleration[known] + [0.0, 0.0, gravity])
+    limit = 0.25 / track.period
+    arms = arm_forces(seen.rate, time)
+    moved = np.column_stack([force, arms.reshape(len(time), -1)])
+    band = trusted_band(time, _without_spikes(recording), moved, limit)
+    return Force(
+        force, kind, q, seen.rate, gravity, unsure, band, limit, tuple(track.findings), seen.time
+    )
+
+
+def _without_spikes(recording: Recording) -> np.ndarray:
+    accel = recording.accel
+    return np.where(spikes(accel, recording.segments), np.nan, accel)
+
+
+def arm_forces(rate: np.ndarray, time: np.ndarray) -> np.ndarray:
+    """What a metre along each axis of a body adds to the specific force (n, 3, 3), [:, :, k] along
+    axis k: alpha x e_k + omega x (omega x e_k) at rates (n, 3) rad/s.
+    """
+    acceleration = _slope(rate, time)
+    made = [np.cross(acceleration, e) + np.cross(rate, np.cross(rate, e)) for e in np.eye(3)]
+    return np.stack(made, axis=2)
+
+
+def _acceleration(
+    kind: str, values: np.ndarray, source: Recording, time: np.ndarray
+) -> tuple[np.ndarray, Track]:
+    """Acceleration (n, 3) m/s^2 in the world at times (n,), and the samples that it is from."""
+    from scipy.interpolate import make_interp_spline  # a tenth of a second, and few logs need it
+
+    known = fresh(values)
+    at, nodes = own_places(source.time[known], values[known])
+    spread = SPIKE * white_noise(nodes)
+    rows = np.arange(len(at))
+    track = Track(at, rows, lambda n: np.diff(nodes[n], axis=0), spread)
+    out = np.full((len(time), 3), np.nan)
+    for part in track.segments:
+        here = within(time, at[part])
+        if len(here):
+            spline = make_interp_spline(at[part], nodes[part], k=DEGREE)
+            out[here] = spline(time[here], nu=ORDER[kind])
+    return out, track
+
+
+def _continuous(q: np.ndarray) -> np.ndarray:
+    """Attitudes (n, 4) without jumps of sign from one known one to the next."""
+    out, known = np.array(q), np.flatnonzero(np.isfinite(q).all(axis=1))
+    turned = np.sum(out[known[1:]] * out[known[:-1]], axis=1) < 0.0
+    out[known] *= np.where(np.cumsum(np.append(False, turned)) % 2, -1.0, 1.0)[:, None]
+    return out
+
+
+def _slope(values: np.ndarray, time: np.ndarray) -> np.ndarray:
+    """Rate of change (n, 3) of values by four neighbours, right to the fourth order of the period;
+    by two beside a gap.
+    """
+    near = np.gradient(values, time, axis=0)
+    if len(time) < 5:
+        return near
+    wide = time[4:] - time[:-4]
+    far = (values[4:] - values[:-4]) / wide[:, None]
+    whole = (wide < EVEN * np.median(wide)) & np.isfinite(far).all(axis=1)
+    near[2:-2][whole] = ((4.0 * near[2:-2] - far) / 3.0)[whole]
+    return near

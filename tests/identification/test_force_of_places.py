@@ -1,0 +1,156 @@
+"""The accelerometer beside the force that a reference's attitude and positions make."""
+
+import numpy as np
+import pytest
+from scipy.interpolate import CubicSpline
+from scipy.spatial.transform import Rotation, RotationSpline, Slerp
+
+import pyimu
+from pyimu.recording.recording import Recording
+
+RATE, FINE, GRAVITY = 100.0, 5, 9.8
+GYRO_NOISE, ACCEL_NOISE, BODY_NOISE, PLACE_NOISE = 2e-3, 0.02, 1e-4, 1e-4
+NED = Rotation.from_matrix([[0.0, 1, 0], [1, 0, 0], [0, 0, -1]])
+
+
+def waves(rng, time, size, low, high):
+    """Twelve waves on each of three axes, and their first and second derivatives (n, 3)."""
+    frequency, phase = rng.uniform(low, high, (3, 12)), rng.uniform(0, 2 * np.pi, (3, 12))
+    size, turn = size * rng.standard_normal((3, 12)) / np.sqrt(6), 2 * np.pi * frequency
+    angle = turn[:, :, None] * time + phase[:, :, None]
+    made = (size * turn**k for k in range(3))
+    shapes = np.sin(angle), np.cos(angle), -np.sin(angle)
+    return [np.einsum("ij,ijn->ni", a, s) for a, s in zip(made, shapes, strict=True)]
+
+
+def hand(
+    seed=1,
+    minutes=2.0,
+    arm=(0.0, 0.0, 0.0),
+    errs=lambda force, rate: force,
+    late=0.0,
+    heading=0.0,
+    world=None,
+    reference="position",
+):
+    """A log of a hand that carries a sensor ``arm`` m from the point that cameras track."""
+    rng = np.random.default_rng(seed)
+    fine = np.arange(round(minutes * 60 * RATE * FINE)) / (RATE * FINE)
+    attitude = RotationSpline(fine, Rotation.from_rotvec(waves(rng, fine, 0.5, 0.1, 1.2)[0]))
+    place, velocity, push = waves(rng, fine, 0.15, 0.2, 2.0)
+    rows = np.arange(200, len(fine) - FINE, FINE)
+    time, felt = fine[rows], fine[rows] - late
+    arm = np.array(arm)
+    rate, slope, turn = attitude(felt, 1), attitude(felt, 2), attitude(felt)
+    there = np.column_stack([np.interp(felt, fine, p) for p in push.T])
+    force = turn.inv().apply(there + [0.0, 0.0, GRAVITY])
+    force += np.cross(slope, arm) + np.cross(rate, np.cross(rate, arm))
+
+    def noisy(values, std):
+        return values + std * rng.standard_normal(values.shape)
+
+    body = attitude(time) * Rotation.from_rotvec(noisy(np.zeros((len(time), 3)), BODY_NOISE))
+    body = body if world is None else world * body
+    about = Rotation.from_rotvec([0.0, 0.0, heading])
+    groups = {"ref_q": body.as_quat(scalar_first=True)}
+    if reference == "position":
+        seen = about.apply(noisy(place[rows], PLACE_NOISE))
+        groups |= dict(zip(("ref_east", "ref_north", "ref_up"), seen.T, strict=True))
+    elif reference == "velocity":
+        groups["ref_velocity"] = about.apply(noisy(velocity[rows], 20 * PLACE_NOISE))
+    else:
+        point = attitude(time).inv().apply(push[rows] + [0.0, 0.0, GRAVITY])
+        groups = {"ref_rate": attitude(time, 1), "ref_force": point}
+    return Recording.from_arrays(
+        name="hand",
+        time=time,
+        gyro=noisy(rate, GYRO_NOISE),
+        accel=noisy(errs(force, rate), ACCEL_NOISE),
+        **groups,
+    )
+
+
+def place_of(closed):
+    """The arm [m] that was found, and what the accelerometer is compared with."""
+    (entry,) = [e for e in closed.references if e["sensor"] == "accel"]
+    return np.array(entry["arm"]["value"]), entry
+
+
+@pytest.mark.parametrize("reference", ["position", "velocity"])
+def test_a_blameless_accelerometer_is_examined_by_places_and_its_arm_found(reference):
+    """With gravity 6 mm/s^2 off what it is taken for, as at another place."""
+    arm = (0.05, -0.03, 0.1)
+    closed = pyimu.close(hand(arm=arm, reference=reference))
+    assert closed.verdict == "clean" and not closed.not_examined, closed.report()
+    found, entry = place_of(closed)
+    assert entry["kind"] == reference
+    # A thousandth is what the noise of the attitude, differentiated twice, makes of it.
+    std = np.array(entry["arm"]["std"])
+    assert np.all(np.abs(found - arm) < 5 * std + 1e-3 * np.linalg.norm(arm)), (found, std)
+    for name in ("scale_factor", "turn_on_bias"):
+        (one,) = [e for e in closed.estimated if (e.sensor, e.effect) == ("accel", name)]
+        assert np.all(np.abs(one.value) < 5 * one.std), (name, one.value, one.std)
+
+
+def test_what_the_accelerometer_lacks_is_named_by_places():
+    """A cubic of 2e-4 (m/s^2)^-2 on y, beside a part that nobody declared."""
+    cubic = np.array([0.0, 2e-4, 0.0])
+    closed = pyimu.close(hand(arm=(0.05, -0.03, 0.1), errs=lambda f, w: f + cubic * f**3))
+    assert [(a.sensor, a.effect) for a in closed.added] == [("accel", "scale_factor_cubic")], (
+        closed.report()
+    )
+    found = {e.effect: e for e in closed.estimated if e.sensor == "accel"}
+    for name, value in (("scale_factor_cubic", 2e-4), ("scale_factor", 0.0)):
+        assert found[name].value[1] == pytest.approx(value, abs=5 * found[name].std[1])
+
+
+@pytest.mark.parametrize("heading", [1.0, -2.8])
+def test_positions_in_axes_of_another_heading_are_turned_and_said(heading):
+    closed = pyimu.close(hand(arm=(0.05, -0.03, 0.1), heading=heading))
+    assert closed.verdict == "clean" and not closed.not_examined, closed.report()
+    (found,) = [f for f in closed.quality if f.kind == "reference_heading"]
+    assert found.detail["degrees"] == pytest.approx(-np.degrees(heading), abs=0.1)
+    assert "counter-clockwise about the vertical" in closed.report()
+
+
+def test_attitudes_of_another_world_leave_the_accelerometer_out():
+    closed = pyimu.close(hand(world=NED))
+    assert not closed.added and closed.verdict == "undecidable"
+    assert "positions and attitude" in closed.not_examined["accel"]
+
+
+def test_a_force_that_is_given_for_another_point_is_no_error_of_the_accelerometer():
+    closed = pyimu.close(hand(arm=(0.3, 0.0, -0.1), reference="force"))
+    assert closed.verdict == "clean" and not closed.not_examined, closed.report()
+    found, entry = place_of(closed)
+    np.testing.assert_allclose(found, (0.3, 0.0, -0.1), atol=5 * max(entry["arm"]["std"]) + 1e-4)
+
+
+def test_a_short_arm_of_a_force_that_is_given_is_the_size_effect():
+    """5 mm: no body is tracked so near its sensor, and a tactical unit is as large."""
+    closed = pyimu.close(hand(arm=(0.005, 0.0, 0.0), reference="force"))
+    assert [(a.sensor, a.effect) for a in closed.added] == [("accel", "size_effect")]
+
+
+def test_a_force_at_the_sensor_has_no_arm():
+    closed = pyimu.close(hand(reference="force"))
+    assert closed.verdict == "clean"
+    assert all(e["arm"] is None for e in closed.references)
+
+
+def test_positions_between_frames_are_those_of_the_frames():
+    """Brought from 40 Hz to the sensor's rate by lines and shortest arcs, as resampling does it."""
+    log = hand(arm=(0.05, -0.03, 0.1))
+    frames = np.arange(log.time[0] + 0.0013, log.time[-1], 0.025)
+    inside = (log.time >= frames[0]) & (log.time <= frames[-1])
+    curve = RotationSpline(log.time, Rotation.from_quat(log.ref_q, scalar_first=True))
+    groups = {"time": log.time[inside], "gyro": log.gyro[inside], "accel": log.accel[inside]}
+    arcs = Slerp(frames, curve(frames))
+    groups["ref_q"] = arcs(groups["time"]).as_quat(scalar_first=True)
+    for name in ("ref_east", "ref_north", "ref_up"):
+        nodes = CubicSpline(log.time, getattr(log, name))(frames)
+        groups[name] = np.interp(groups["time"], frames, nodes)
+    closed = pyimu.close(Recording.from_arrays(name="hand", **groups))
+    _, entry = place_of(closed)
+    assert closed.verdict == "clean", closed.report()
+    assert entry["sample_rate"]["value"] == pytest.approx(40.0, rel=1e-3)
