@@ -299,7 +299,7 @@ def _no_force(logs: list[Recording]) -> str:
             "it does not show the force that the reference's positions and attitude make together "
             "(both must be in one east-north-up)"
         )
-    return "no reference of its force (positions on three axes beside an attitude make one)"
+    return "no reference of its force"
 
 
 def _exhibits(

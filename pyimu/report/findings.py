@@ -37,8 +37,8 @@ SECONDS, SECONDS_OF_TIME = (
 
 SENTENCES = {
     "reference_heading": (
-        "the positions were turned by {degrees:.3g} deg counter-clockwise about the vertical, into "
-        "the world of the attitudes"
+        "the positions were turned by {degrees:.3g} deg {way} about the vertical, into the world "
+        "of the attitudes"
     ),
     "rate_of_part": "the part's rate is {other_rate:.6g} Hz, the log's {rate:.6g} Hz",
 }

@@ -109,8 +109,9 @@ def test_positions_in_axes_of_another_heading_are_turned_and_said(heading):
     closed = pyimu.close(hand(arm=(0.05, -0.03, 0.1), heading=heading))
     assert closed.verdict == "clean" and not closed.not_examined, closed.report()
     (found,) = [f for f in closed.quality if f.kind == "reference_heading"]
-    assert found.detail["degrees"] == pytest.approx(-np.degrees(heading), abs=0.1)
-    assert "counter-clockwise about the vertical" in closed.report()
+    assert found.detail["degrees"] == pytest.approx(np.degrees(abs(heading)), abs=0.1)
+    way = "clockwise" if heading > 0.0 else "counter-clockwise"
+    assert f" deg {way} about the vertical" in closed.report()
 
 
 def test_attitudes_of_another_world_leave_the_accelerometer_out():

@@ -142,7 +142,8 @@ def headed(trial: Trial) -> Trial:
     u[:, OWN[trial.kind]] += place.headed(angle)
     findings = trial.findings
     if abs(angle) > SAID:
-        turned = {"degrees": float(np.degrees(angle))}
+        way = "counter-clockwise" if angle > 0.0 else "clockwise"
+        turned = {"degrees": float(np.degrees(abs(angle))), "way": way}
         findings += (Finding("reference_heading", trial.kind, 1, turned),)
     return replace(_with_force(trial, u), findings=findings)
 

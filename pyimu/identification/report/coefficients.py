@@ -59,6 +59,8 @@ def _rows(v: Estimated) -> Iterator[Row]:
     for label, indices in _lines(v.value.shape, columns):
         cells = tuple(_cell(v, i, unit) if i in allowed else "" for i in indices)
         told = {*cells} - {"", NOT_SHOWN}
+        if told == {MISSING}:
+            continue  # elements of a matrix that were not taken up
         origin = ORIGINS[v.origin] if told else "not shown by these logs"
         yield Row(f"{v.effect} {v.parameter}{label}", unit, cells, origin, v.source)
 

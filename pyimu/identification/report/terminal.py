@@ -86,7 +86,7 @@ def _errors(closed: Outcome) -> Iterator[str]:
         if not np.isfinite(e.before.total):
             continue
         values = (e.before.total, e.after.total)
-        left = f", {number(values[1] / values[0], 2)} of it" if values[0] > 0 else ""
+        left = f", {_share(values[1] / values[0])} of it" if values[0] > 0 else ""
         floor = ""
         if e.floor is not None and e.floor.total > 0:
             times = number(values[1] / e.floor.total, 2)
@@ -102,8 +102,12 @@ def _errors(closed: Outcome) -> Iterator[str]:
     for name, note in (("attitude", f" ({AS_SET_RIGHT})"), ("heading", "")):
         pair = getattr(closed, name)
         if pair is not None:
-            ratio = number(pair[1] / pair[0], 2)
-            yield f"{name} error{note}: {_fall(pair, 'rad')}, {ratio} of it"
+            yield f"{name} error{note}: {_fall(pair, 'rad')}, {_share(pair[1] / pair[0])} of it"
+
+
+def _share(ratio: float) -> str:
+    """What is left, with a figure more where that is nearly all."""
+    return number(ratio, 3 if 0.9 < ratio < 1.1 else 2)
 
 
 def _fall(values: tuple[float, float], si: str) -> str:
