@@ -172,9 +172,10 @@ def _refused(found: Found, noises: Mapping[str, Noise]) -> tuple[tuple[str, Refu
 
 def _unshown(found: Found) -> tuple[str, ...]:
     """Which coefficients of each sensor the positions at rest leave open, and what would not."""
+    # The accelerometer first: its rests are those that the gyro's turns lie between.
     of_rests = [
         (kind, f.detail)
-        for kind, inv in found.items()
+        for kind, inv in sorted(found.items())
         for t in inv.after.trials
         for f in t.findings
         if f.kind == "not_shown_at_rest"

@@ -158,7 +158,8 @@ def _nothing_found(e: Evidence, left: str) -> Verdict:
     if e.beside is not None and e.beside.word != "undecidable":
         return e.beside
     if still_open := open_of(e):
-        return Verdict("undecidable", f"{still_open}: let it rest in more of them")
+        wanted = "; ".join(e.unshown) or "let it rest in more of them"
+        return Verdict("undecidable", f"{still_open}: {wanted}")
     if e.unshown:
         return Verdict("undecidable", "; ".join(e.unshown))
     unjudged = [k for k in e.examined if not _is_judged(e.errors.get(k))]

@@ -216,6 +216,7 @@ def test_six_faces_show_scale_factors_and_say_what_they_do_not():
     (found,) = [f for f in closed.quality if f.kind == "not_shown_at_rest"]
     assert "misalignment.m[0, 1]" in found.detail["coefficients"]
     assert found.detail["positions"].startswith("3 more at rest would: between ")
+    assert closed.verdict == "undecidable" and found.detail["positions"] in closed.reason
 
 
 def test_the_bias_of_every_axis_is_shown_and_written():
