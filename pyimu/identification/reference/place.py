@@ -19,6 +19,7 @@ from pyimu.identification.reference.moving import (
 )
 from pyimu.identification.search.belief import CHANCE, most
 from pyimu.model.kinds import OWN
+from pyimu.model.signals import COLUMNS
 
 ROUNDS = 5
 """Steps in turn towards the mounting and the place."""
@@ -149,12 +150,14 @@ def headed(trial: Trial) -> Trial:
 
 
 def quietened(trial: Trial) -> Trial:
-    """The trial with its force low-passed an octave above its band: the noise of positions grows
-    with the square of the frequency, and what is not linear would bring it down into the band.
+    """The trial with its force and the body's rate low-passed an octave above its band: the noise
+    of what is differentiated grows with the frequency, and what is not linear, as an arm's
+    centripetal force, would bring it down into the band.
     """
     place = replace(trial.place, cutoff=OCTAVE * trial.band_hz)
-    u, own = np.array(trial.u), OWN[trial.kind]
-    u[:, own] = place.below(u[:, own], trial.segments)
+    u = np.array(trial.u)
+    for at in (OWN[trial.kind], COLUMNS["rate"]):
+        u[:, at] = place.below(u[:, at], trial.segments)
     return _with_force(replace(trial, place=place), u)
 
 
