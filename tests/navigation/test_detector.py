@@ -67,6 +67,41 @@ def test_it_finds_the_stops_of_a_drive_and_no_row_of_a_move():
     assert len(runs(still)) == len(stop_times(SHORT))
 
 
+def test_a_steady_push_is_no_rest():
+    """A body that speeds up by 0.5 m/s^2 for seconds, as evenly as if it stood: 17 times what an
+    accelerometer's error changes by. One that stands askew after it has tilted by 3 degrees shows
+    as much, and rests.
+    """
+    time, gyro, accel = resting(4000)
+    accel[1000:1500, 0] += 0.5
+    accel[1500:2000, 0] -= 0.5
+    tilt = np.radians(3.0)
+    gyro[2500:2510, 1] += tilt / 0.1
+    accel[2510:, 0] -= 9.7 * np.sin(tilt)
+    found = detect(time, gyro, accel, NOISE, H)
+    assert not found.still[1000:2000].any()
+    assert found.still[100:900].all() and found.still[2100:2400].all()
+    assert found.still[2600:3900].all() and not found.steady
+
+
+def test_a_body_that_turned_far_rests_in_any_attitude():
+    """An accelerometer of 80 mg, turned over between two rests: its error keeps its axis while
+    gravity does not.
+    """
+    time, gyro, accel = resting(3000)
+    half = np.linspace(0.0, np.pi, 200)
+    gyro[1000:1200, 0] += np.pi / 2.0 * 1.02  # over in two seconds, by a gyro 2 % off
+    bias = np.array([0.3, -0.2, 0.8])
+    gravity = np.array([0.0, 0.0, 9.8])
+    noise = accel - accel.mean(axis=0)
+    turned = np.stack([0 * half, 9.8 * np.sin(half), 9.8 * np.cos(half)], axis=1)
+    accel[:] = gravity + bias
+    accel[1000:1200] = turned + bias
+    accel[1200:] = turned[-1] + bias
+    found = detect(time, gyro, accel + noise, NOISE, H)
+    assert found.still[100:900].all() and found.still[1300:2900].all()
+
+
 def test_missing_samples_are_no_rest():
     time, gyro, accel = resting(1000)
     accel[500] = np.nan
