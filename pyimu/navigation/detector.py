@@ -34,6 +34,14 @@ STEADY_GATE = 25.0
 a steady turn, and of mean force and that of the rest before, beyond which it is one of a steady
 push."""
 
+FORCE_STAYS, FOLLOWED = 0.01, 30.0
+"""m/s^2, s; by how much the mean force of a body that rests may change, and the time over which it
+is the mean before: over minutes a temperature may change it more."""
+
+MOMENT, SETTLED = 1.5, 10.0
+"""s; for less the force of a body that drives may be that at rest, between speeding up and slowing
+down, and for longer it has no other one."""
+
 FORCE_KEPT = 0.03
 """m/s^2; standard deviation by which the error of an accelerometer changes from rest to rest in one
 attitude: temperature, hysteresis."""
@@ -136,6 +144,8 @@ def detect(
     variance_of_bias = noise.rate**2 / rows
     steady, before = [], None
     for start, stop in runs(still):
+        still[start:stop] = _unpushed(accel[start:stop], noise, rows, period)
+    for start, stop in runs(still):
         mean = np.nanmean(gyro[start:stop], axis=0)
         own = noise.rate**2 / (stop - start)
         away = max(float(time[start]) - at, 0.0)
@@ -146,7 +156,10 @@ def detect(
             steady.append((start, stop))
         elif before is not None and _is_pushed(
             force - before.as_turned(gyro[before.stop : start] - bias, period),
-            tilt=noise.rate**2 * period * away + spread * away**2,
+            # White noise, the bias, and its walk, each integrated.
+            tilt=noise.rate**2 * period * away
+            + variance_of_bias * away**2
+            + noise.walk**2 * away**3 / 3,
             white=noise.force**2 * (1 / (stop - start) + 1 / before.rows),
             turned=_way(gyro[before.stop : start] - bias, rows, period),
         ):
@@ -155,6 +168,36 @@ def detect(
             bias, at, variance_of_bias = mean, float(time[stop - 1]), own
             before = _Rest(force, stop - start, stop)
     return Detected(still, float(np.mean(passed)), tuple(steady))
+
+
+def _unpushed(force: np.ndarray, noise: Noise, rows: int, period: float) -> np.ndarray:
+    """Marks (n,) of a still stretch, less where its ``force`` (n, 3) has another mean than before.
+
+    A body that speeds up gently does so for a second or more, and the change within a window is
+    lost in noise: the means of blocks of ``rows`` show it. Where they are as before for a moment
+    alone, between speeding up and slowing down, it drives on; where they stay at another value for
+    ``SETTLED``, it stands askew.
+    """
+    n, block = len(force) // rows, rows * period
+    if n < 3:
+        return np.ones(len(force), dtype=bool)
+    means = force[: n * rows].reshape(n, rows, 3).mean(axis=1)
+    limit = (STEADY_GATE + 3) * (FORCE_STAYS**2 + 2 * float(np.mean(noise.force**2)) / rows)
+    long, short = max(2, round(SETTLED / block)), max(2, round(MOMENT / block))
+    rest, still = means[0], np.ones(n, dtype=bool)
+    for k, mean in enumerate(means):
+        last = means[max(0, k - long + 1) : k + 1]
+        still[k] = np.sum((mean - rest) ** 2) <= limit
+        if still[k]:
+            rest = rest + (mean - rest) * block / FOLLOWED
+        elif len(last) == long and np.all(np.sum((last - last.mean(axis=0)) ** 2, 1) <= limit):
+            still[k - long + 1 : k + 1], rest = True, last.mean(axis=0)
+    for start, stop in runs(still):
+        if start > 0 and stop < n and stop - start < short:
+            still[start:stop] = False
+    # A push begins and ends within the blocks beside it.
+    still = ~maximum_filter1d(~still, 3, mode="nearest")
+    return np.append(np.repeat(still, rows), np.full(len(force) - n * rows, still[-1]))
 
 
 @dataclass(frozen=True)

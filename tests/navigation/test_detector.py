@@ -84,6 +84,28 @@ def test_a_steady_push_is_no_rest():
     assert found.still[2600:3900].all() and not found.steady
 
 
+def test_a_gentle_drive_between_two_rests_is_none():
+    """A raised cosine of 0.3 m/s^2 over 6 s changes the force within a window by less than its
+    noise; it stands out of the means. Where the drive begins and ends, and in its middle, the force
+    is that at rest to the gate, the root of 28 (0.01^2 + 2 0.05^2 / 30): 0.09 m/s^2.
+    """
+    time, gyro, accel = resting(3600)
+    drive = slice(1500, 2100)
+    push = 0.3 * np.sin(2 * np.pi * np.arange(600) / 600)
+    accel[drive, 0] += push
+    found = detect(time, gyro, accel, NOISE, H)
+    assert not found.still[drive][np.abs(push) > 0.1].any()
+    assert not found.still[1650:1950].any()  # nor at full speed
+    assert found.still[100:1400].all() and found.still[2200:3500].all()
+
+
+def test_a_force_that_wanders_over_minutes_stays_a_rest():
+    """An accelerometer that warms up, by 0.1 m/s^2 in ten minutes."""
+    time, gyro, accel = resting(60_000)
+    accel[:, 2] += 0.1 * (1 - np.exp(-time / 200.0))
+    assert detect(time, gyro, accel, NOISE, H).still[100:-100].mean() > 0.99
+
+
 def test_a_body_that_turned_far_rests_in_any_attitude():
     """An accelerometer of 80 mg, turned over between two rests: its error keeps its axis while
     gravity does not.
