@@ -299,13 +299,16 @@ static void tell_changes(const Block *block, const double *before, const double 
 
 /* Once for many samples. */
 static bool evaluate_constants(Block *block) {
+    if (block->constants_stale && !within_limits(block)) {
+        return false; /* parameters that were set while stepping need go together only once a step is made */
+    }
 #ifdef MODEL_CONSTANTS
     if (block->constants_stale) {
         block->arg[0] = block->now->parameters;
         block->arg[1] = &block->now->sample_period;
         block->res[0] = block->constants;
         if (model_constants(block->arg, block->res, block->iw, block->w) != 0) {
-            return false;
+            return block_refuse(block, "%s: its constants cannot be evaluated", MODEL_NAME);
         }
     }
 #endif
@@ -353,7 +356,7 @@ static size_t draw(Block *block, int64_t first, int64_t last) {
 /* In the block form sample i of a step belongs to row i; else there is one row, which all of them share. */
 static bool make_samples(Block *block, int64_t last) {
     const int64_t before = block->now->sample;
-    bool done = evaluate_constants(block) || block_refuse(block, "%s: its constants cannot be evaluated", MODEL_NAME);
+    bool done = evaluate_constants(block);
     while (done && block->now->sample < last) {
         const int64_t first = block->now->sample + 1;
         const size_t n = draw(block, first, last);

@@ -66,6 +66,7 @@ static void finish(void) {
     check("leaving initialization", status, want);
     if (status == OK) {
         now->twin.phase = STEPPING;
+        now->twin.unsure = false;
         double samples = now->twin.time / now->twin.period;
         now->twin.off_grid = fabs(samples - rint(samples)) > 1e-9;
     }
@@ -121,7 +122,7 @@ static int step_answer(double size, double samples) {
     double past = t->time + size - t->stop;
     bool tight = IN_BLOCKS && (t->off_grid ? samples + 1.0 > (double) t->rows : samples > (double) t->rows);
     bool over = IN_BLOCKS && samples > (double) t->rows + 1.0;
-    return past > 0.5 * t->period || over ? ERROR : past > 0.0 || tight ? ANY : OK;
+    return past > 0.5 * t->period || over ? ERROR : past > 0.0 || tight || t->unsure ? ANY : OK;
 }
 
 static void step(void) {
@@ -138,6 +139,7 @@ static void step(void) {
     if (status == OK) {
         t->time += size;
         t->off_grid = t->off_grid || samples != rint(samples);
+        t->unsure = t->unsure && samples < 1.0; /* a step without a sample asks no limit */
     }
 }
 
@@ -159,7 +161,7 @@ static size_t look(Value *values) {
 /* A restored state replays: the same steps from it give the same bits. */
 static void replay(void) {
     Twin *t = &now->twin;
-    if (t->phase != STEPPING || t->wild || t->off_grid || t->time + 4.0 * t->period > t->stop || fabs(t->time / t->period) > 1e9) {
+    if (t->phase != STEPPING || t->wild || t->unsure || t->off_grid || t->time + 4.0 * t->period > t->stop || fabs(t->time / t->period) > 1e9) {
         return;
     }
     State state = NULL;

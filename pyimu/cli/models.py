@@ -108,9 +108,9 @@ def plan_command(
 
     Of rest, six positions, a rate table, a turn by hand, a drive, a shaker and a climatic chamber,
     the shortest set of motions that shows the effects of a part that are asked for, with the
-    standard error that pyimu close would report of each coefficient. The size of an effect is what
-    the part declares, or else a typical one. Writes a page, the same as data, and the motion as a
-    recording.
+    standard error that pyimu close would report of each coefficient against a reference without
+    noise. The size of an effect is what the part declares, or else a typical one. Writes a page,
+    the same as data, and the motion as a recording.
     """
     from pyimu.files import check_folder
     from pyimu.identification.plan.plan import CHOSEN, plan

@@ -11,6 +11,8 @@ from pyimu.model.effect import Effect
 from pyimu.model.signals import inputs_of
 from pyimu.report.numbers import joined
 
+UNEXCITED = "no motion excites it"
+
 
 def why_unasked(kind: str, inv: Investigation, e: Effect, noise: str = "") -> str:
     """Why an effect was not looked for by regression; empty where nothing speaks against it.
@@ -27,7 +29,7 @@ def why_unasked(kind: str, inv: Investigation, e: Effect, noise: str = "") -> st
     if not has_columns(e, kind):
         return "no way to look for it in these logs"
     if e in absent(inv.before):
-        return "no motion excites it"
+        return UNEXCITED
     return "the clock of the reference shows the same, and is estimated anyway"
 
 

@@ -4,13 +4,19 @@ from __future__ import annotations
 
 import numpy as np
 
+from pyimu.errors import UserError
 from pyimu.identification.found import Visibility
 from pyimu.identification.rounding import is_read
 from pyimu.identification.search.candidates import has_columns
 from pyimu.identification.search.forward import Investigation
-from pyimu.identification.unasked import why_unasked
+from pyimu.identification.unasked import UNEXCITED, why_unasked
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.effect import Effect
+from pyimu.model.typical import CLASSES, magnitudes
+
+ROUNDING = 1e8
+"""Times what is typical of a consumer part that an effect would have to be to stand out: then what
+excites it is the rounding of a motion, or of a course of temperature, that is not there."""
 
 
 def visibility(kind: str, inv: Investigation) -> list[Visibility]:
@@ -30,7 +36,18 @@ def _of(e: Effect, kind: str, inv: Investigation) -> Visibility:
     parameter = next(p for p in e.parameters.values() if not p.reference)
     unit = inv.before.sensor.unit(parameter.unit)
     seen = next((c for c in inv.first.candidates if c.effect == e.name), None)
+    excited = "time" in e.signals(kind)  # which passes in every log
+    if seen is not None and not excited and seen.smallest_visible > ROUNDING * _typical(e, kind):
+        return Visibility(kind, e.name, None, unit, (), UNEXCITED)
     if seen is not None and np.isfinite(seen.smallest_visible):
         alike, each = seen.inseparable_from, seen.visible
         return Visibility(kind, e.name, seen.smallest_visible, unit, alike, each=each)
     return Visibility(kind, e.name, None, unit, (), why_unasked(kind, inv, e))
+
+
+def _typical(e: Effect, kind: str) -> float:
+    """What an effect has in a consumer part, in SI; infinite where nobody knows."""
+    try:
+        return magnitudes(e.name, kind)[CLASSES[-1]].si
+    except UserError:
+        return np.inf

@@ -155,6 +155,8 @@ def _of_recording(
     )
     groups = (f"{g} ({', '.join(column_names(g))})" for g in recording.groups)
     yield f"groups: {'; '.join(groups)}"
+    if recording.gyro is None and recording.accel is None:
+        return
     if still:
         yield "at rest throughout: pyimu characterize is for such a log"
         return

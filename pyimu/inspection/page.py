@@ -60,7 +60,7 @@ def page(found: Outcome) -> str:
 def _pictures(found: Outcome) -> list[Picture]:
     recording = found.recording
     assert recording is not None
-    groups = [g for g in SHOWN if g in recording.groups]
+    groups = [g for g in SHOWN if g in recording.groups] or [*recording.groups]
     caption = "Least and largest sample over time; the grey bars below are stretches at rest."
     drawn = [
         Picture(Markup(_over_time(recording, groups, found.rests)), caption, "samples over time")

@@ -32,7 +32,7 @@ class Inspection(Outcome):
         if questions:
             said.append(f"choose the unit of {', '.join(questions)} in the map")
         if self.kind == "guessed" and not self.problem:
-            said.append("the other commands read it by the map alone: give it as --columns")
+            said.append(f"it is read by the map alone: give that to {self.proposals[0].given_to}")
         return "\n".join(said)
 
     def __repr__(self) -> str:

@@ -66,7 +66,7 @@ def inspect(
         recording = (
             _by_guess(readers, proposals, text)
             if guessed or (foreign is None and len(readers) > 1)
-            else Log(Source.of(readers[0], foreign or ForeignMap())).read()
+            else Log(Source.of(readers[0], foreign or ForeignMap(), proposals[0].holds)).read()
         )
     except UserError as error:
         if known is not None and known[0] == STATED:
@@ -174,10 +174,11 @@ def _by_guess(readers: Sequence[Reader], proposals: Sequence[Proposal], text: st
     order = sorted(range(len(readers)), key=lambda k: "gyro" not in proposals[k].groups)
     reader, first = readers[order[0]], proposals[order[0]]
     unknown = [group for p in proposals for group in p.open_questions]
-    if "time" in unknown or {"gyro", "accel"} & set(first.groups) <= set(unknown):
+    seen = {"ref_q"} if first.holds == "reference" else {"gyro", "accel"} & set(first.groups)
+    if "time" in unknown or seen <= set(unknown):
         asked = " and ".join(dict.fromkeys(unknown)) or "gyro and accelerometer"
         raise UserError(f"{reader.path}: nothing tells the unit of {asked}: choose it in the map")
     if first.timeless:
         raise UserError(f"{reader.path}: nothing tells when its samples were taken")
     foreign = map_of(parse_toml(text, "map"), Path("the map that was written"))
-    return Log(Source.of(reader, foreign)).read()
+    return Log(Source.of(reader, foreign, first.holds)).read()

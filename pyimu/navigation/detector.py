@@ -14,9 +14,11 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.ndimage import maximum_filter1d, uniform_filter1d
+from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
 from pyimu.recording.clock import runs
+from pyimu.units import STANDARD_GRAVITY
 
 WINDOW = 0.3
 """s; of a test. Shorter than a stop, longer than the period of what shakes a small robot."""
@@ -29,7 +31,28 @@ FALSE_ALARM = 1e-6
 
 STEADY_GATE = 25.0
 """Squared difference of mean rate and bias over its variance, beyond which a still window is one of
-a steady turn."""
+a steady turn, and of mean force and that of the rest before, beyond which it is one of a steady
+push."""
+
+FORCE_STAYS, FOLLOWED = 0.01, 30.0
+"""m/s^2, s; by how much the mean force of a body that rests may change, and the time over which it
+is the mean before: over minutes a temperature may change it more."""
+
+MOMENT, SETTLED = 1.5, 10.0
+"""s; for less the force of a body that drives may be that at rest, between speeding up and slowing
+down, and for longer it has no other one."""
+
+FORCE_KEPT = 0.03
+"""m/s^2; standard deviation by which the error of an accelerometer changes from rest to rest in one
+attitude: temperature, hysteresis."""
+
+FORCE_TURNED = 0.8
+"""m/s^2 per rad of turn in between: the bias of an accelerometer that nobody calibrated (50 mg)
+turns with the body and gravity does not, and gyros have scale factors and misalignments of some
+percent."""
+
+MOST_TURN = 2.0
+"""rad; a body that has turned further since it rested may show any force."""
 
 
 @dataclass(frozen=True)
@@ -88,7 +111,10 @@ def threshold(rows: int, false_alarm: float = FALSE_ALARM) -> float:
 
 @dataclass(frozen=True)
 class Detected:
-    """Marks (n,) of rest, how many windows passed, and the turns (start, stop) that were steady."""
+    """Marks (n,) of rest, how many windows passed, and the turns (start, stop) that were steady.
+
+    Steady pushes are no rests either.
+    """
 
     still: np.ndarray
     windows: float
@@ -108,22 +134,107 @@ def detect(
     left out, in which a motion begins while it is still lost in noise.
 
     The mean rate of a rest must be the bias, as known from the rests before it and the walk since:
-    a steady turn is none. The bias of the first is ``noise.bias``.
+    a steady turn is none. The bias of the first is ``noise.bias``. The mean force must be that of
+    the rest before, turned as the gyro says: a body that speeds up evenly does not rest.
     """
     rows = max(LEAST_ROWS, round(window / period))
     passed = ratio(gyro, accel, noise, rows) <= threshold(rows, false_alarm)
     still = ~maximum_filter1d(~passed, rows, mode="nearest")
     bias, at = noise.bias, float(time[0])
     variance_of_bias = noise.rate**2 / rows
-    steady = []
+    steady, before = [], None
+    for start, stop in runs(still):
+        still[start:stop] = _unpushed(accel[start:stop], noise, rows, period)
     for start, stop in runs(still):
         mean = np.nanmean(gyro[start:stop], axis=0)
         own = noise.rate**2 / (stop - start)
         away = max(float(time[start]) - at, 0.0)
         spread = own + variance_of_bias + noise.walk**2 * away
+        force = np.mean(accel[start:stop], axis=0)
         if np.sum((mean - bias) ** 2 / spread) > STEADY_GATE + 3:
             still[start:stop] = False
             steady.append((start, stop))
+        elif before is not None and _is_pushed(
+            force - before.as_turned(gyro[before.stop : start] - bias, period),
+            # White noise, the bias, and its walk, each integrated.
+            tilt=noise.rate**2 * period * away
+            + variance_of_bias * away**2
+            + noise.walk**2 * away**3 / 3,
+            white=noise.force**2 * (1 / (stop - start) + 1 / before.rows),
+            turned=_way(gyro[before.stop : start] - bias, rows, period),
+        ):
+            still[start:stop] = False
         else:
             bias, at, variance_of_bias = mean, float(time[stop - 1]), own
+            before = _Rest(force, stop - start, stop)
     return Detected(still, float(np.mean(passed)), tuple(steady))
+
+
+def _unpushed(force: np.ndarray, noise: Noise, rows: int, period: float) -> np.ndarray:
+    """Marks (n,) of a still stretch, less where its ``force`` (n, 3) has another mean than before.
+
+    A body that speeds up gently does so for a second or more, and the change within a window is
+    lost in noise: the means of blocks of ``rows`` show it. Where they are as before for a moment
+    alone, between speeding up and slowing down, it drives on; where they stay at another value for
+    ``SETTLED``, it stands askew.
+    """
+    n, block = len(force) // rows, rows * period
+    if n < 3:
+        return np.ones(len(force), dtype=bool)
+    means = force[: n * rows].reshape(n, rows, 3).mean(axis=1)
+    limit = (STEADY_GATE + 3) * (FORCE_STAYS**2 + 2 * float(np.mean(noise.force**2)) / rows)
+    long, short = max(2, round(SETTLED / block)), max(2, round(MOMENT / block))
+    rest, still = means[0], np.ones(n, dtype=bool)
+    for k, mean in enumerate(means):
+        last = means[max(0, k - long + 1) : k + 1]
+        still[k] = np.sum((mean - rest) ** 2) <= limit
+        if still[k]:
+            rest = rest + (mean - rest) * block / FOLLOWED
+        elif len(last) == long and np.all(np.sum((last - last.mean(axis=0)) ** 2, 1) <= limit):
+            still[k - long + 1 : k + 1], rest = True, last.mean(axis=0)
+    for start, stop in runs(still):
+        if start > 0 and stop < n and stop - start < short:
+            still[start:stop] = False
+    # A push begins and ends within the blocks beside it.
+    still = ~maximum_filter1d(~still, 3, mode="nearest")
+    return np.append(np.repeat(still, rows), np.full(len(force) - n * rows, still[-1]))
+
+
+@dataclass(frozen=True)
+class _Rest:
+    """The mean ``force`` (3,) of a rest of so many ``rows``, which ends before row ``stop``."""
+
+    force: np.ndarray
+    rows: int
+    stop: int
+
+    def as_turned(self, rates: np.ndarray, period: float) -> np.ndarray:
+        """The force (3,) once the body has turned with ``rates`` (n, 3) rad/s."""
+        turns = Rotation.from_rotvec(np.vstack([np.nan_to_num(rates) * period, np.zeros(3)]))
+        while len(turns) > 1:  # the product of all, two by two
+            if len(turns) % 2:
+                turns = Rotation.concatenate([turns, Rotation.identity(1)])
+            turns = turns[0::2] * turns[1::2]
+        return turns[0].inv().apply(self.force)
+
+
+def _way(rates: np.ndarray, rows: int, period: float) -> float:
+    """The way [rad] that rates (n, 3) turn, by their means over ``rows``, as noise turns nothing;
+    infinite where one is missing.
+    """
+    if not len(rates):
+        return 0.0
+    parts = np.add.reduceat(rates, np.arange(0, len(rates), rows), axis=0) * period
+    way = float(np.linalg.norm(parts, axis=1).sum())
+    return way if np.isfinite(way) else np.inf
+
+
+def _is_pushed(off: np.ndarray, tilt: np.ndarray, white: np.ndarray, turned: float) -> bool:
+    """Whether a mean force is ``off`` (3,) m/s^2 by more than explains the ``tilt`` (3,) rad^2 that
+    the gyro's errors leave, the ``white`` noise (3,) of both means and what turns.
+    """
+    if turned > MOST_TURN:
+        return False
+    unknown = FORCE_KEPT**2 + (FORCE_TURNED * turned) ** 2
+    spread = STANDARD_GRAVITY**2 * float(np.mean(tilt)) + float(np.mean(white)) + unknown
+    return float(np.sum(off**2)) > (STEADY_GATE + 3) * spread

@@ -187,8 +187,9 @@ class Header:
         """The command that writes the map."""
         if self._in_memory or not any(cell.strip("/[] ") for cell in self._cells):
             return ""
+        option = "--reference-columns" if self._wanted == "reference" else "--columns"
         return (
-            f" and give that as --columns: pyimu inspect {self.path} --write-map map.toml writes "
+            f" and give that as {option}: pyimu inspect {self.path} --write-map map.toml writes "
             "one to look over"
         )
 

@@ -193,6 +193,29 @@ def test_parameters_that_do_not_go_together_end_the_initialization(fmus, form, v
 
 
 @pytest.mark.parametrize("version", VERSIONS)
+def test_parameters_set_in_a_run_that_do_not_go_together_end_the_step(full, fmus, version):
+    """A delay beyond what is remembered is not cut short in silence; set right again, the unit goes
+    on as if nothing had been.
+    """
+    name, right = "gyro_error.time_delay.td", 20.5 * H
+    u = inputs(motion(40), full)
+    with Unit(fmus[version]) as unit, Unit(fmus[version]) as undisturbed:
+        for each in (unit, undisturbed):
+            each.start(sample_period=H, seed=3)
+            each.run(u[:20], period=H)
+        unit.set(name, 30.5 * H)
+        with pytest.raises(FMICallException, match="DoStep"):
+            unit.run(u[20:], first=20, period=H)
+        # The logger of an FMI 2 unit in fmpy is that of the unit that was made last.
+        told = [text for _, text in (*unit.messages, *undisturbed.messages)]
+        assert any("td must not be above 30 sample periods" in text for text in told), told
+        unit.set(name, right), undisturbed.set(name, right)
+        np.testing.assert_array_equal(
+            unit.run(u[20:], first=20, period=H), undisturbed.run(u[20:], first=20, period=H)
+        )
+
+
+@pytest.mark.parametrize("version", VERSIONS)
 def test_fmpy_finds_nothing_wrong_with_the_full_sensor(fmus, version):
     assert validate_fmu(str(fmus[version])) == []
 

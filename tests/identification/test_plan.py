@@ -6,6 +6,7 @@ from itertools import product
 
 import numpy as np
 import pytest
+from scipy.signal import cont2discrete, lfilter
 from scipy.stats import chi2
 from typer.testing import CliRunner
 
@@ -21,8 +22,9 @@ from pyimu.identification.plan.goals import class_of, wanted_errors
 from pyimu.identification.plan.information import Information, information
 from pyimu.identification.plan.motions import SHARE, Limits, library
 from pyimu.identification.plan.noise import declared_noise
+from pyimu.identification.plan.page import page
 from pyimu.identification.plan.plan import CHOSEN
-from pyimu.identification.plan.scene import recorded, trial_of
+from pyimu.identification.plan.scene import FINE_STEP, recorded, trial_of
 from pyimu.identification.plan.words import place
 from pyimu.recording.log import read_reference
 
@@ -50,7 +52,8 @@ def truth(motion, h):
 def told(kind, effects, motion, h, k=K):
     """What a motion tells of effects that a part of this sample period lacks."""
     sensor = part(1 / h, k).sensor(kind)
-    return information(sensor, trial_of(truth(motion, h), kind), declared_noise(sensor, h), effects)
+    noise = declared_noise(sensor, h, h)
+    return information(sensor, trial_of(truth(motion, h), kind), noise, effects)
 
 
 def with_effect(lacking, kind, effect, std, sigmas, seed=1):
@@ -138,7 +141,7 @@ def test_repeated_estimates_scatter_as_predicted(kind, effect, motion, h):
         measured = true.simulate(log, seed=seed)
         sensor = lacking.sensor(kind).with_values(effect)
         fit = begin(sensor, j.keys, [made(measured)])
-        fit = gauss_newton(replace(fit, noise=declared_noise(sensor, h)), 4)
+        fit = gauss_newton(replace(fit, noise=declared_noise(sensor, h, h)), 4)
         off = [_value(fit.sensor, k) - _value(true.sensor(kind), k) for k in j.keys]
         total += float(np.array(off) @ j.gram @ np.array(off))
     low, high = chi2.ppf([5e-5, 1 - 5e-5], repeats * len(j.keys))
@@ -155,10 +158,55 @@ def test_sine_shows_a_scale_factor_as_white_noise_lets_it():
     """
     sensor = Sensor("gyro", {"angle_random_walk": {"N": 1e-4}})
     one = trial_of(truth("table_sines", 0.02), "gyro")
-    std = information(sensor, one, declared_noise(sensor, 0.02), ["scale_factor"]).errors()
+    std = information(sensor, one, declared_noise(sensor, 0.02, 0.02), ["scale_factor"]).errors()
     want = 1e-4 / (np.radians(90.0) / np.sqrt(2) * np.sqrt(60.0))
     for error in std.values():
         assert error == pytest.approx(want, rel=0.02)
+
+
+def test_rounding_has_the_density_that_the_samples_give_it():
+    """N^2 + q^2 T / 12 of samples T apart (Widrow), whether rows are 20 ms or a second apart."""
+    n, q, period = 1e-4, 1e-2, 1e-3
+    sensor = Sensor("gyro", {"angle_random_walk": {"N": n}, "quantization": {"q": q}})
+    for h in (0.02, 1.0):
+        row = declared_noise(sensor, h, period)[0]
+        assert row.r * h == pytest.approx(n**2 + q**2 * period / 12, rel=1e-12)
+
+
+def test_lag_and_delay_together_are_known_as_a_continuous_filter_says():
+    """The bound for delay, natural frequency and damping beside the bias of each axis, where the
+    filter is the continuous one behind straight lines between samples (scipy).
+
+    Frequency and delay differ in the third order of the lag's time, which the sampled filter of
+    steps of a ms, a natural frequency of 628 rad/s, misses by (wn h)^2 / 4, a tenth; at 20 ms it
+    has nothing to do with it, six times less for this part. The damping is not compared.
+    """
+    part = pyimu.part("mpu6050")
+    planned = pyimu.plan(part, ["time_delay", "lag"], within=["time_delay=1 s", "lag=1 kHz"])
+    told = {k.parameter: v for k, v in planned.by_motion["table_sines"].items()}
+    values = part.gyro.values["lag"]
+    wn, zeta = float(values["wn"]), float(values["zeta"])
+    log = truth("table_sines", FINE_STEP)
+    noise = float(part.gyro.values["angle_random_walk"]["N"][0]) / np.sqrt(FINE_STEP)
+    slopes = [
+        (_late(log.ref_rate, wn + 1e-3 * wn, zeta) - _late(log.ref_rate, wn - 1e-3 * wn, zeta))
+        / (2e-3 * wn),
+        (_late(log.ref_rate, wn, zeta + 1e-3) - _late(log.ref_rate, wn, zeta - 1e-3)) / 2e-3,
+        -np.gradient(_late(log.ref_rate, wn, zeta), FINE_STEP, axis=0, edge_order=2),
+    ]
+    bias = [np.tile(e, (len(log), 1)) for e in np.eye(3)]
+    columns = np.column_stack([c.ravel() for c in (*slopes, *bias)])
+    size = np.linalg.norm(columns, axis=0)
+    inverse = np.linalg.inv((columns / size).T @ (columns / size))
+    frequency, _, delay = (noise * np.sqrt(np.diag(inverse)) / size)[:3]
+    assert told["wn"] == pytest.approx(frequency, rel=0.1)
+    assert told["td"] == pytest.approx(delay, rel=0.1)
+
+
+def _late(x, wn, zeta):
+    """x (n, 3) every ``FINE_STEP`` behind a second-order low-pass that starts at rest."""
+    b, a, _ = cont2discrete(([wn * wn], [1, 2 * zeta * wn, wn * wn]), FINE_STEP, "foh")
+    return lfilter(b.ravel(), a, x, axis=0)
 
 
 def test_a_motion_twice_halves_the_variance():
@@ -285,6 +333,16 @@ def test_plan_writes_a_motion_that_can_be_read(planned, tmp_path):
     assert "bias step" in text and "NaN" not in text and "nan" not in text.replace("nanom", "")
 
 
+def test_a_recording_is_a_reference_only_where_a_machine_follows_it():
+    by_hand, table = pyimu.plan("mpu6050", "g_sensitivity"), pyimu.plan("mpu6050", "misalignment")
+    assert [s.motion.name for s in by_hand.steps] == ["by_hand"]
+    assert [s.motion.name for s in table.steps] == ["table_sines"]
+    assert "what tracked the motion" in page(by_hand) and "--reference" not in page(by_hand)
+    assert "--reference of the sensor" in page(table)
+    for p in (by_hand, table):
+        assert "the reference has none" in page(p) and "the reference has none" in p.report()
+
+
 def test_the_command_writes_what_the_function_plans(tmp_path):
     words = ["plan", "mpu6050", "--for", "g_sensitivity", "--out", str(tmp_path / "plan")]
     ended = CliRunner().invoke(app, words)
@@ -353,6 +411,11 @@ def test_bad_input_is_one_line_that_helps(arguments, words):
     with pytest.raises(UserError) as error:
         pyimu.plan(*arguments)
     assert all(w in str(error.value) for w in words), str(error.value)
+
+
+def test_wanted_frequency_is_said_in_the_unit_in_which_it_is_shown():
+    (wanted,) = wanted_errors(["12 Hz"], "gyro", ["lag"]).values()
+    assert wanted == pytest.approx(2 * np.pi * 12.0)
 
 
 def test_wanted_error_is_read_in_its_unit():

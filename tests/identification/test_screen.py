@@ -3,6 +3,7 @@ least squares too.
 """
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -20,6 +21,7 @@ from pyimu.identification.search.screen import (
     FALSE_ALARM,
     PENALTY,
     SHARE,
+    Screened,
     Screening,
     _gains,
     _gate,
@@ -28,7 +30,10 @@ from pyimu.identification.search.screen import (
     fitted_gain,
     screen,
 )
+from pyimu.identification.visibility import _of
+from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.sensor import Sensor
+from pyimu.model.typical import magnitudes
 
 ALARM = 1e-4
 ROWS, BATCHES = 4000, 80
@@ -275,3 +280,19 @@ def test_smallest_visible_coefficient_is_six_standard_errors(screening):
 def test_delay_and_lag_are_told_to_be_inseparable(screening):
     by_name = {c.effect: c.inseparable_from for c in screening.candidates}
     assert "lag" in by_name["time_delay"] and "time_delay" in by_name["lag"]
+
+
+def test_what_rounding_excites_is_not_called_visible():
+    """A slope of a temperature that stands still, by differences of equal numbers, has some 1e-15
+    of the power of one that moves; a coefficient of 1e13 deg/s/(K/min) is no answer.
+    """
+    sensor = Sensor("gyro", {})
+    size = magnitudes("temperature_rate", "gyro")["consumer"].si
+    for factor, shown in ((1e4, True), (1e13, False)):
+        seen = Screened("temperature_rate", 0.0, (), {}, factor * size)
+        told = SimpleNamespace(
+            before=SimpleNamespace(sensor=sensor), first=SimpleNamespace(candidates=[seen])
+        )
+        found = _of(CATALOGUE["temperature_rate"], "gyro", told)
+        assert (found.smallest_visible is not None) == shown
+        assert found.reason == ("" if shown else "no motion excites it")

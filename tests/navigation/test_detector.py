@@ -67,6 +67,63 @@ def test_it_finds_the_stops_of_a_drive_and_no_row_of_a_move():
     assert len(runs(still)) == len(stop_times(SHORT))
 
 
+def test_a_steady_push_is_no_rest():
+    """A body that speeds up by 0.5 m/s^2 for seconds, as evenly as if it stood: 17 times what an
+    accelerometer's error changes by. One that stands askew after it has tilted by 3 degrees shows
+    as much, and rests.
+    """
+    time, gyro, accel = resting(4000)
+    accel[1000:1500, 0] += 0.5
+    accel[1500:2000, 0] -= 0.5
+    tilt = np.radians(3.0)
+    gyro[2500:2510, 1] += tilt / 0.1
+    accel[2510:, 0] -= 9.7 * np.sin(tilt)
+    found = detect(time, gyro, accel, NOISE, H)
+    assert not found.still[1000:2000].any()
+    assert found.still[100:900].all() and found.still[2100:2400].all()
+    assert found.still[2600:3900].all() and not found.steady
+
+
+def test_a_gentle_drive_between_two_rests_is_none():
+    """A raised cosine of 0.3 m/s^2 over 6 s changes the force within a window by less than its
+    noise; it stands out of the means. Where the drive begins and ends, and in its middle, the force
+    is that at rest to the gate, the root of 28 (0.01^2 + 2 0.05^2 / 30): 0.09 m/s^2.
+    """
+    time, gyro, accel = resting(3600)
+    drive = slice(1500, 2100)
+    push = 0.3 * np.sin(2 * np.pi * np.arange(600) / 600)
+    accel[drive, 0] += push
+    found = detect(time, gyro, accel, NOISE, H)
+    assert not found.still[drive][np.abs(push) > 0.1].any()
+    assert not found.still[1650:1950].any()  # nor at full speed
+    assert found.still[100:1400].all() and found.still[2200:3500].all()
+
+
+def test_a_force_that_wanders_over_minutes_stays_a_rest():
+    """An accelerometer that warms up, by 0.1 m/s^2 in ten minutes."""
+    time, gyro, accel = resting(60_000)
+    accel[:, 2] += 0.1 * (1 - np.exp(-time / 200.0))
+    assert detect(time, gyro, accel, NOISE, H).still[100:-100].mean() > 0.99
+
+
+def test_a_body_that_turned_far_rests_in_any_attitude():
+    """An accelerometer of 80 mg, turned over between two rests: its error keeps its axis while
+    gravity does not.
+    """
+    time, gyro, accel = resting(3000)
+    half = np.linspace(0.0, np.pi, 200)
+    gyro[1000:1200, 0] += np.pi / 2.0 * 1.02  # over in two seconds, by a gyro 2 % off
+    bias = np.array([0.3, -0.2, 0.8])
+    gravity = np.array([0.0, 0.0, 9.8])
+    noise = accel - accel.mean(axis=0)
+    turned = np.stack([0 * half, 9.8 * np.sin(half), 9.8 * np.cos(half)], axis=1)
+    accel[:] = gravity + bias
+    accel[1000:1200] = turned + bias
+    accel[1200:] = turned[-1] + bias
+    found = detect(time, gyro, accel + noise, NOISE, H)
+    assert found.still[100:900].all() and found.still[1300:2900].all()
+
+
 def test_missing_samples_are_no_rest():
     time, gyro, accel = resting(1000)
     accel[500] = np.nan

@@ -17,6 +17,7 @@ from pyimu.recording.formats.suffix import open_reader
 from pyimu.recording.guess.names import named, triads
 from pyimu.recording.guess.numbers import force_unit, rate_unit, sensitivities, time_unit
 from pyimu.recording.guess.proposal import proposed
+from pyimu.recording.log import read_reference
 from pyimu.recording.quality.inspect import rate_of_part
 
 ROUNDED = {"german", "xio", "iphone"}
@@ -474,6 +475,35 @@ def test_raw_samples_go_before_estimates():
         "raw_acceleration_x_gs",
         "est_acceleration_x_gs",
     ]
+
+
+@pytest.mark.parametrize(
+    "header",
+    [
+        "stamp_ns,qx,qy,qz,qw,quality",
+        "stamp_ns,x,y,z,w,quality",
+        "stamp_ns,pose.orientation.x,pose.orientation.y,pose.orientation.z,pose.orientation.w,n",
+        "stamp_ns,q1,q2,q3,q0,n",
+    ],
+)
+def test_a_reference_in_a_file_of_its_own_is_no_accelerometer(header, tmp_path):
+    """Four columns of length one are an attitude; three of them look like gravity of 1 g."""
+    q = np.random.default_rng(3).standard_normal((200, 4))
+    q = np.cumsum(q, axis=0)
+    q /= np.linalg.norm(q, axis=1)[:, None]
+    stamps = 1_700_000_000_000_000_000 + np.arange(200) * 16_666_667
+    rows = [f"{t},{x:.9f},{y:.9f},{z:.9f},{w:.9f},1" for t, (w, x, y, z) in zip(stamps, q)]
+    path, column_map = tmp_path / "cameras.csv", tmp_path / "map.toml"
+    path.write_text("\n".join([header, *rows]) + "\n")
+    found = inspect(path)
+    assert set(found.recording.groups) == {"ref_q"} and not found.problem, found.report()
+    assert "pyimu close as --reference-columns" in found.column_map
+    assert "rests" not in found.report()
+    found.write(tmp_path / "out")
+    column_map.write_text(found.column_map)
+    np.testing.assert_allclose(read_reference(path, column_map).ref_q, q, atol=1e-8)
+    with pytest.raises(UserError, match="give that as --reference-columns"):
+        read_reference(path)
 
 
 def test_nothing_is_proposed_without_a_reason(tmp_path):

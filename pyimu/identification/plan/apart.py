@@ -59,13 +59,14 @@ def _looked_at(name: str, kind: str) -> bool:
 
 def _of(fit: Fit, effect: str, others: Sequence[str], motion: Motion) -> Separation | None:
     signals = frozenset().union(*(CATALOGUE[n].signals(fit.sensor.kind) for n in (effect, *others)))
-    h = step_of([motion])
+    free = [k for k in fit.free if isinstance(k, Coefficient)]
+    beside = {effect, *others, *(k.effect for k in free)}
+    h = step_of([motion], effects=beside)
     noise = noise_at(fit, motion.frequency, h)
     one = trial([motion], fit.sensor, Limits.of(fit.sensor), h, signals)
     if not signals <= one.known:
         return None
     one = replace(one, axes=tuple(sorted(noise)))
-    free = [k for k in fit.free if isinstance(k, Coefficient)]
     told = information(fit.sensor, one, noise, [effect, *others], free)
     distance = min(apart(told, fit, effect, other) for other in others)
     if not distance > 0.0:

@@ -15,6 +15,7 @@ from pyimu.model.catalogue import CATALOGUE, POWER_ON
 from pyimu.model.effect import Effect
 from pyimu.model.kinds import KINDS
 from pyimu.model.part import Part
+from pyimu.model.part_entry import FigureScale
 from pyimu.model.sensor import Sensor
 from pyimu.model.typical import CLASSES, magnitudes
 from pyimu.report.numbers import joined
@@ -191,11 +192,11 @@ def _si(text: str, quantity: str, kind: str, e: Effect) -> float:
     if match is None:
         raise UserError(f"{said} wanted of {e.name}.{main}")
     try:
-        unit = units.parse(match[2] or "1")
-        value = float(match[1]) * unit.factor
+        # As in a part: a frequency, which is shown in Hz, may be said in Hz.
+        value = float(FigureScale(match[2] or "1", right).to_si(float(match[1])))
     except (units.UnitError, ValueError) as error:
-        raise UserError(f"{said}; {error}") from None
-    if not units.same_dimension(unit, right) or not value > 0.0:
+        raise UserError(f"{said} wanted of {e.name}.{main}; {error}") from None
+    if not value > 0.0:
         raise UserError(f"{said} wanted of {e.name}.{main}")
     return value
 

@@ -77,7 +77,8 @@ class Motion:
     ``still`` says that it is at rest throughout, so that rows of a second say all there is;
     ``warm`` that the temperature goes up and down meanwhile, ``supply`` that the supply does.
     ``fixed`` says that the reference's axes are known to be the sensor's, as on a table;
-    ``frequency`` [Hz] is where it shows most.
+    ``driven`` says that a machine makes it as it is written down; ``frequency`` [Hz] is where it
+    shows most.
     """
 
     name: str
@@ -89,6 +90,7 @@ class Motion:
     warm: bool = False
     supply: bool = False
     fixed: bool = True
+    driven: bool = False
 
 
 def _named(kind: str) -> tuple[str, ...]:
@@ -249,6 +251,7 @@ def _turned(limits: Limits, rates: str) -> tuple[Motion, ...]:
             3 * TURNING + 4 * TURN_OVER,
             1 / TURN,
             _axes_up(_sine),
+            driven=True,
         ),
         Motion(
             "table_steps",
@@ -257,6 +260,7 @@ def _turned(limits: Limits, rates: str) -> tuple[Motion, ...]:
             3 * 60.0 + 4 * TURN_OVER,
             0.05,
             _axes_up(_steps(10.0)),
+            driven=True,
         ),
         Motion(
             "table_level",
@@ -265,6 +269,7 @@ def _turned(limits: Limits, rates: str) -> tuple[Motion, ...]:
             3 * 60.0 + 4 * TURN_OVER,
             0.25,
             _axes_up(_steps(10.0), 1),
+            driven=True,
         ),
     )
 
@@ -297,6 +302,7 @@ def _moved(limits: Limits) -> tuple[Motion, ...]:
             3 * (SHAKING + 5.0),
             0.5 * sum(SWEEP),
             _shake,
+            driven=True,
         ),
     )
 
@@ -332,6 +338,7 @@ def _warmed(rates: str) -> tuple[Motion, ...]:
             1 / CYCLE,
             _in_a_cycle(_axes_up(_steps(10.0), 0, rounds)),
             warm=True,
+            driven=True,
         ),
     )
 

@@ -10,9 +10,12 @@ from pyimu.model.effect import Effect
 from pyimu.model.sensor import Sensor
 
 
-def declared_noise(sensor: Sensor, h: float) -> dict[int, RandomWalk]:
-    """The noise of each axis that a part declares, for rows ``h`` s apart.
+def declared_noise(sensor: Sensor, h: float, sample_period: float) -> dict[int, RandomWalk]:
+    """The noise of each axis that a part of this ``sample_period`` in s declares, for rows ``h`` s
+    apart.
 
+    What is white from sample to sample, as rounding is, has the density that the sensor's own
+    samples give it, however far apart the rows are by which a motion is planned.
     Flicker of coefficient B counts as the random walk that has its density where it meets the white
     noise, K = B^2 / N, and a Gauss-Markov process as the walk that drives it: both are more than
     they are at lower frequencies.
@@ -20,7 +23,7 @@ def declared_noise(sensor: Sensor, h: float) -> dict[int, RandomWalk]:
     white, walk = np.zeros(3), np.zeros(3)
     for e in sensor.effects:
         if e.law is not None and e.law.ramp is None and e.law.white and not _conditional(e):
-            white = white + e.law.value("white", sensor.values[e.name], h=h)
+            white = white + e.law.value("white", sensor.values[e.name], h=sample_period)
     for e in sensor.effects:
         if e.law is None or e.law.ramp is not None:
             continue

@@ -69,8 +69,22 @@ def _file_text(log: Log) -> str:
     return (
         f"the motion as a recording, {lasting(sum(s.duration for s in log.steps))}: rate, specific "
         "force and temperature, a row every "
-        f"{number(log.recording.sample_period, 3)} s, for the rate table; for pyimu close it is "
-        "the --reference of the sensor's own log"
+        f"{number(log.recording.sample_period, 3)} s; {_use([s.motion for s in log.steps])}"
+    )
+
+
+def _use(motions: Sequence[Motion]) -> str:
+    """What the recording of motions is good for."""
+    if all(m.still for m in motions):
+        return "at rest pyimu close needs no reference"
+    if all(m.driven for m in motions):
+        return (
+            "a rate table or a shaker makes it as it stands here, and for pyimu close it is then "
+            "the --reference of the sensor's own log"
+        )
+    return (
+        "to look at: no hand and no vehicle moves twice the same way, so the reference for pyimu "
+        "close is what tracked the motion, or gravity where the part lies still"
     )
 
 

@@ -33,7 +33,7 @@ from pyimu.identification.plan.reasons import (
     too_small,
 )
 from pyimu.identification.plan.result import Plan
-from pyimu.identification.plan.scene import recorded, step_of, trial_of
+from pyimu.identification.plan.scene import STEP, recorded, step_of, trial_of
 from pyimu.model.catalogue import CATALOGUE, WHITE, read_off
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as find_part
@@ -78,9 +78,10 @@ def plan(
     effects "EFFECT=0.5 deg/h/K".
 
     What is predicted is the Cramer-Rao bound of the columns by which ``close`` fits, with the noise
-    that the part declares, the bias of each log and what the part leaves to the data estimated
-    beside it (Kay 1993, eq. 3.31). ``say(text, share)`` hears what is being done. Raises UserError
-    for an unknown part, effect or sensor, and for a ``within`` that is no standard error.
+    that the part declares and none of the reference, the bias of each log and what the part leaves
+    to the data estimated beside it (Kay 1993, eq. 3.31). ``say(text, share)`` hears what is being
+    done. Raises UserError for an unknown part, effect or sensor, and for a ``within`` that is no
+    standard error.
     """
     part = find_part(part)
     names = tuple(dict.fromkeys([effects] if isinstance(effects, str) else effects))
@@ -110,6 +111,7 @@ class _Planner:
         self.motions = [m for m in library(self.limits) if self._matters(m)]
         self.values = {n: at_typical(self.sensor, self.part, n) for n in self.names}
         self.free = left_to_data(self.part, self.sensor)
+        self.beside = {*self.names, *(k.effect for k in self.free)}
         self.noisy, self.noise = noise_model(self.part, self.kind)
         self.reasons = {n: self._why_not(n) for n in self.names}
         self.looked = [n for n in self.names if not self.reasons[n]]
@@ -138,7 +140,7 @@ class _Planner:
         counts, why = self._chosen(found)
         self.say("the plan itself", TRIED)
         logs = self._logs(counts)
-        total = self._total(logs) if logs else Information((), np.zeros((0, 0)))
+        total = self._total(logs, found, counts) if logs else Information((), np.zeros((0, 0)))
         keys = self._keys(total)
         errors = self._errors(total)
         return Plan(
@@ -164,12 +166,12 @@ class _Planner:
         self, motions: Sequence[Motion], heard: Callable[[float], None] = silent
     ) -> Information:
         """What motions one after the other show; ``heard`` hears which share of that is done."""
-        h = step_of(motions, self.part.sample_period)
+        h = step_of(motions, self.part.sample_period, self.beside)
         log = recorded(motions, self.limits, h, self.signals)
         heard(1 / 4)
         one = trial_of(log, self.kind, all(m.fixed for m in motions))
         heard(3 / 4)
-        noise = declared_noise(self.noisy, h)
+        noise = declared_noise(self.noisy, h, self.part.sample_period)
         return information(self.sensor, one, noise, self.looked, self.free, self.values)
 
     # What is asked, of what can be shown
@@ -225,7 +227,13 @@ class _Planner:
             logs.append(Log(some, recorded(motions, self.limits, h, self.signals)))
         return tuple(logs)
 
-    def _total(self, logs: Sequence[Log]) -> Information:
+    def _total(
+        self, logs: Sequence[Log], found: Sequence[Information], counts: Sequence[int]
+    ) -> Information:
+        """What all logs show; where their rows are many, as if each motion were a log."""
+        if step_of(self.motions, effects=self.beside) < STEP:
+            done = [i.times(n) for i, n in zip(found, counts, strict=True) if n]
+            return sum(done[1:], done[0])
         made, size = [], sum(len(log.recording) for log in logs)
         for log in logs:
             behind = sum(len(before.recording) for before in logs[: len(made)])
@@ -283,7 +291,7 @@ class _Planner:
         return tuple(dict.fromkeys(n for n in notes if n))
 
     def _walks(self) -> bool:
-        return any(n.k2 > 0.0 for n in declared_noise(self.noisy, 1.0).values())
+        return any(n.k2 > 0.0 for n in declared_noise(self.noisy, 1.0, 1.0).values())
 
 
 def noise_model(part: Part, kind: str) -> tuple[Sensor, str]:

@@ -10,12 +10,17 @@ import numpy as np
 from pyimu.identification.fit.trial import Trial, accel_trial, gyro_trial
 from pyimu.identification.plan.kinematics import attitude, force, joined_pieces
 from pyimu.identification.plan.motions import CYCLE, SUPPLY, WARMING, Limits, Motion
+from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS, SIGNALS, inputs_of
 from pyimu.recording.recording import Recording
 
 STEP, STILL_STEP = 0.02, 1.0
 """s; rows of what is planned, and of a rest: a density counts, not how many rows share it."""
+
+FINE_STEP = 0.001
+"""s; rows where effects that both make the signal late are told apart. They differ in the third
+order of their time against that of the motion, which a step as long as that time would not have."""
 
 FIELD = np.array([0.0, 2.0e-5, -4.4e-5])
 """T, east, north and up; the Earth's field in middle latitudes."""
@@ -27,10 +32,16 @@ ALWAYS = ("ref_rate", "ref_force", "temperature")
 """What a recorded motion holds, whoever asks for it."""
 
 
-def step_of(motions: Iterable[Motion], sample_period: float = STEP) -> float:
-    """The step in s in which motions are planned for a sensor of this sample period."""
-    motions = tuple(motions)
-    return STILL_STEP if all(m.still for m in motions) else max(STEP, sample_period)
+def step_of(
+    motions: Iterable[Motion], sample_period: float = 0.0, effects: Iterable[str] = ()
+) -> float:
+    """The step in s in which motions are planned for a sensor of this sample period, of which
+    ``effects`` are estimated together.
+    """
+    if all(m.still for m in motions):
+        return STILL_STEP
+    late = sum(CATALOGUE[name].family == "delay" for name in set(effects))
+    return max(FINE_STEP if late > 1 else STEP, sample_period)
 
 
 def recorded(

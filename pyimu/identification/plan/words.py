@@ -34,7 +34,7 @@ def headline(p: Outcome) -> str:
 
 def _but(p: Outcome) -> str:
     left = sum(not q.reached or bool(q.reason and q.goal.wanted) for q in p.predicted)
-    return f"; {left} of {len(p.predicted)} coefficients are not" if left else ""
+    return f"; {left} of {len(p.predicted)} coefficients less well than is wanted" if left else ""
 
 
 def in_lines(p: Outcome) -> str:
@@ -45,7 +45,8 @@ def in_lines(p: Outcome) -> str:
         lines.append(f"  {lasting(s.duration)}: {times}{s.motion.text}")
     lines += [f"  {line}" for line in _of_effects(p.predicted)]
     lines += [f"  {note}" for note in p.notes]
-    return "\n".join([*lines, f"noise {p.noise}; sizes of a {p.of_class} part where none declared"])
+    noise = f"noise {p.noise}, the reference has none"
+    return "\n".join([*lines, f"{noise}; sizes of a {p.of_class} part where none declared"])
 
 
 def _of_effects(predicted: Sequence[Predicted]) -> Iterable[str]:
@@ -54,7 +55,8 @@ def _of_effects(predicted: Sequence[Predicted]) -> Iterable[str]:
         known = [q for q in own if np.isfinite(q.std) and not q.reason]
         for name in dict.fromkeys(q.goal.key.parameter for q in known):
             worst = max((q for q in known if q.goal.key.parameter == name), key=lambda q: q.std)
-            yield f"{effect} {name}: ±{error(worst)} (standard error){_sized(worst)}"
+            said = f"±{error(worst)} (standard error){_sized(worst)}{_missed(worst)}"
+            yield f"{effect} {name}: {said}"
         for reason, ones in by_reason(own).items():
             yield f"{effect}{_which(ones, own)}: {reason}"
 
@@ -72,6 +74,10 @@ def _sized(q: Predicted) -> str:
         return ""
     size = quantity(q.goal.size, si_unit(q), 2)
     return f", {number(q.sigmas, 2)} of them in its {q.goal.source} size of {size}"
+
+
+def _missed(q: Predicted) -> str:
+    return "" if q.reached else f"; wanted were ±{quantity(q.goal.wanted, si_unit(q), 2)}"
 
 
 def by_reason(predicted: Iterable[Predicted]) -> dict[str, list[Predicted]]:

@@ -60,6 +60,7 @@ ELSE = {"pos", "position", "vel", "velocity", "speed", "angle", "euler"}
 """Words for vectors that no inertial sensor measures."""
 
 _AXIS_FIRST = re.compile(r"([xyz])(gyro?s?|gyroscope|acce?l?|acceleration|mag)")
+_COUNTED = re.compile(r"(.*[A-Za-z])[_. ]?([0-3])(?: *\[1?\])?")
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
 
 
@@ -237,10 +238,31 @@ def surest(found: Iterable[Triad], group: str) -> tuple[Triad | None, list[Triad
 
 def attitude(header: Sequence[str]) -> dict[str, int] | None:
     """Positions of w, x, y, z of a reference's quaternion, None where there is none or several."""
+    whole = [at for words, at in _fours(header) if set(words) & TRUTHS]
+    return whole[0] if len(whole) == 1 else None
+
+
+def quaternions(header: Sequence[str]) -> list[dict[str, int]]:
+    """Positions of w, x, y, z of what may be quaternions: four columns of one name.
+
+    It is also q0 to q3. What is called an estimate is none.
+    """
+    return [at for words, at in _fours(header) if not set(words) & DERIVED]
+
+
+def _fours(header: Sequence[str]) -> list[tuple[tuple[str, ...], dict[str, int]]]:
+    """The words of four columns of one name, and the positions of w, x, y, z."""
     stems: dict[tuple[str, ...], dict[str, int]] = {}
     for position, cell in enumerate(header):
-        name = named(cell)
-        if name.axis and set(name.words) & TRUTHS:
-            stems.setdefault(name.words, {})[name.axis] = position
-    whole = [axes for axes in stems.values() if all(a in axes for a in "wxyz")]
-    return whole[0] if len(whole) == 1 else None
+        words, axis = _counted(cell) or (named(cell).words, named(cell).axis)
+        if axis:
+            stems.setdefault(words, {})[axis] = position
+    return [(words, axes) for words, axes in stems.items() if set(axes) == set("wxyz")]
+
+
+def _counted(cell: str) -> tuple[tuple[str, ...], str] | None:
+    """The words and the axis of a column of a quaternion that counts: ``q0`` to ``q3``."""
+    match = _COUNTED.fullmatch(cell.strip())
+    if match is None:
+        return None
+    return tuple(word.casefold() for word in _WORD.findall(match[1])), "wxyz"[int(match[2])]

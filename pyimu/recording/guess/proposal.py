@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -21,6 +21,7 @@ from pyimu.recording.guess.names import (
     attitude,
     named,
     others,
+    quaternions,
     surest,
     triads,
 )
@@ -35,6 +36,9 @@ from pyimu.recording.guess.numbers import (
 
 MOST = 200_000
 """Rows that are looked at."""
+
+UNIT_LENGTH = 0.02
+"""By how much the length of a quaternion of few digits may be off one."""
 
 CLOCK = UnitGuess("s", "dates or times of day, in seconds of the first day")
 """Of a column of them."""
@@ -96,6 +100,20 @@ class Proposal(Brief):
         return {g.group: g.unit for g in self.guesses if g.unit is not None}
 
     @property
+    def given_to(self) -> str:
+        """Which commands take the map, and by which option."""
+        if self.holds == "reference":
+            return "pyimu close as --reference-columns"
+        return "the other commands as --columns"
+
+    @property
+    def holds(self) -> str:
+        """What the file holds, as ``Source`` has it: a "sensor", or a "reference" alone."""
+        sensor = {"gyro", "accel"} & set(self.groups)
+        alone = not sensor and any(group.startswith("ref_") for group in self.groups)
+        return "reference" if alone else "sensor"
+
+    @property
     def groups(self) -> list[str]:
         return list(dict.fromkeys(g.group for g in self.guesses))
 
@@ -150,8 +168,10 @@ def proposed(reader: Reader, rate: float | None = None, beside: Beside | None = 
     period = _time(found, reader, numbers, rate)
     vectors = triads(reader.header, reader.path.name)
     picked = {g: _surest(found, vectors, g) for g in ("accel", "gyro", "mag")}
+    attitudes = _attitudes(reader, numbers)
     if picked["accel"] is None and picked["gyro"] is None:
-        picked = _by_numbers(found, reader, numbers, period) | {"mag": picked["mag"]}
+        away = {k for at in attitudes for k in at.values()}
+        picked = _by_numbers(found, reader, numbers, period, away) | {"mag": picked["mag"]}
     for group in ("accel", "gyro"):
         if picked[group] is None:
             named_ones = [p for vector in vectors for p in vector.positions]
@@ -164,8 +184,20 @@ def proposed(reader: Reader, rate: float | None = None, beside: Beside | None = 
         if picked[group] is not None:
             _vector(found, group, picked[group], numbers, force, period)
     _temperature(found, reader)
-    _reference(found, reader)
+    _reference(found, reader, attitudes)
     _own(found, reader)
+    return found
+
+
+def _attitudes(reader: Reader, numbers: Numbers) -> list[dict[str, int]]:
+    """Positions of w, x, y, z of the quaternions in a file: of length one in nearly every row."""
+    found = []
+    for at in quaternions(reader.header):
+        if set(at.values()) <= set(numbers.positions):
+            size = np.linalg.norm(numbers.of([at[a] for a in "wxyz"]), axis=1)
+            size = size[np.isfinite(size)]
+            if len(size) and np.mean(np.abs(size - 1.0) < UNIT_LENGTH) > 0.99:
+                found.append(at)
     return found
 
 
@@ -263,11 +295,17 @@ def _surest(found: Proposal, vectors: list, group: str) -> Picked:
 
 
 def _by_numbers(
-    found: Proposal, reader: Reader, numbers: Numbers, period: float | None
+    found: Proposal,
+    reader: Reader,
+    numbers: Numbers,
+    period: float | None,
+    away: Container[int],
 ) -> dict[str, Picked]:
-    """The accelerometer's three columns by the size of gravity, the gyro's by how it turns."""
+    """The accelerometer's three columns by the size of gravity, the gyro's by how it turns; none of
+    those ``away``.
+    """
     time = {g.cell for g in found.guesses}
-    at = [k for k in numbers.positions if reader.header[k] not in time]
+    at = [k for k in numbers.positions if reader.header[k] not in time and k not in away]
     runs = [at[i : i + 3] for i in range(len(at) - 2) if at[i + 2] - at[i] == 2]
     if not runs or len(at) > 40:
         return {"accel": None, "gyro": None}
@@ -396,9 +434,12 @@ def _own(found: Proposal, reader: Reader) -> None:
             found.add([Guess(cell, name, unit, "the header says so")])
 
 
-def _reference(found: Proposal, reader: Reader) -> None:
-    at = attitude(reader.header)
+def _reference(found: Proposal, reader: Reader, attitudes: Sequence[dict[str, int]]) -> None:
+    """Add a reference's quaternion: by its name, or the only one of a file that has no sensor."""
+    at, why = attitude(reader.header), "a reference by its name; body to world, scalar first?"
+    if at is None and len(attitudes) == 1 and not {"gyro", "accel"} & set(found.groups):
+        at, why = attitudes[0], "four numbers of length one, and no sensor; body to world?"
     if at is None:
         return
-    why = "a reference by its name; body to world, scalar first? see [frame]"
+    why = f"{why} see [frame]"
     found.add([Guess(reader.header[at[a]], f"ref_q_{a}", "1", why) for a in "wxyz"])

@@ -39,6 +39,7 @@ FRAME = (
     "# [frame]",
     '# body = "frd"     # forward-right-down, or a 3 x 3 rotation',
     '# world = "ned"    # north-east-down',
+    '# q = "bn"         # a reference attitude that is world to body',
 )
 
 
@@ -50,7 +51,7 @@ def text_of(proposals: Sequence[Proposal], given: MapGiven = MapGiven()) -> str:
     first, *others = proposals
     lines = [
         f"# Column map for {first.path.name}, written by pyimu inspect: look it over, then give it",
-        "# to the other commands as --columns. Behind each # stands how it was found.",
+        f"# to {first.given_to}. Behind each # stands how it was found.",
     ]
     if first.open_questions:
         sized = any(g.sizes for g in first.guesses)
