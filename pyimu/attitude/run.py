@@ -32,6 +32,7 @@ from pyimu.attitude.filter.tolerances import of_motion, start_values
 from pyimu.attitude.filter.ukf import recorded_ukf
 from pyimu.attitude.filter.variables import LEAST_K, USUAL
 from pyimu.attitude.filters import OF_LOGS, OWN, Settings, chosen
+from pyimu.attitude.heading_lag import late_finding, timed
 from pyimu.attitude.input_grid import InputGrid
 from pyimu.attitude.magnetometer import Magnetometer, magnetometer_of
 from pyimu.attitude.outputs import filtered
@@ -43,7 +44,7 @@ from pyimu.attitude.stuck import stuck_times
 from pyimu.attitude.world_field import Date, WorldField, checked_place, world_field
 from pyimu.block.block import Block, Run
 from pyimu.block.parameters import number, with_settings
-from pyimu.errors import UserError
+from pyimu.errors import Finding, UserError
 from pyimu.model.catalogue import WHITE
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as part_of
@@ -102,8 +103,9 @@ def run(
     ``settings`` are values of other parameters of the block by name, or a filter's name:
     ``"hidalgo2012"`` is the one as published; as the value ``filter`` a name goes with others. A
     gap widens the estimate, and the row after it has bit 1 of the status. Headings with an age in
-    the recording's column ``heading_age`` correct what the attitude was then. A clock of the gyro
-    that the part knows to be off, and a delay or a lag, are undone by its samples' times; an
+    the recording's column ``heading_age`` correct what the attitude was then; without that column
+    they are taken to be as late as the gyro's turns show clearly (``heading_lag``). A clock of the
+    gyro that the part knows to be off, and a delay or a lag, are undone by its samples' times; an
     accelerometer of which the part says no delay is taken to be as late.
 
     With ``smooth`` each row is estimated from the whole recording, also from the rows that follow
@@ -140,8 +142,15 @@ def run(
     known = _known(declared, recording, rest)
     block = OF_LOGS[method](known)
 
+    def unaided(stop: int) -> AttitudeResult:
+        return _unaided(recording, stop, known, latitude, bias0, settings)
+
+    of_heading = _of_heading(recording, unaided) if method == OWN else ()
+    for found in of_heading:
+        recording = timed(recording, found)
+
     def turned(row: int) -> float:
-        return _turned(recording, row, known, latitude, bias0, settings)
+        return float(unaided(row + 1).euler[-1, 2])
 
     told = field.settings() | ({} if world is None else world.settings())
     north = _north(block, told | given) if field.used else None
@@ -170,6 +179,7 @@ def run(
         method=method,
         smoothed=smooth,
         of_part=() if declared is None else tuple(rate_of_part(as_given, declared.sample_rate)),
+        of_heading=of_heading,
         magnetometer=replace(field, calibration=calibration).in_world(world),
     )
 
@@ -190,19 +200,35 @@ def _known(part: Part | None, recording: Recording, rest: Rest) -> Part:
     return informed(part, recording, rest)
 
 
-def _turned(recording: Recording, row: int, part: Part, latitude: float, bias0, settings) -> float:
-    """Yaw in rad by which the body has turned until ``row``, by the filter without headings."""
+def _unaided(
+    recording: Recording, stop: int, part: Part, latitude: float, bias0, settings
+) -> AttitudeResult:
+    """The rows before ``stop`` by the filter without headings and without magnetometer."""
     cadence = recording.cadence
     before = replace(
-        recording.slice(None, row + 1),
+        recording.slice(None, stop),
         heading=None,
         heading_std=None,
+        heading_age=None,
         period=cadence.period,
         longest=cadence.longest,
     )
     known = latitude if abs(latitude) <= np.pi / 2 else None
-    result = run(before, part, latitude=known, magnetometer=False, bias0=bias0, settings=settings)
-    return float(result.euler[-1, 2])
+    return run(before, part, latitude=known, magnetometer=False, bias0=bias0, settings=settings)
+
+
+def _of_heading(
+    recording: Recording, unaided: Callable[[int], AttitudeResult]
+) -> tuple[Finding, ...]:
+    """The finding that the headings are late, where they come and no column says when they were
+    true.
+    """
+    if getattr(recording, "heading", None) is None or recording.accel is None:
+        return ()
+    if getattr(recording, "heading_age", None) is not None:
+        return ()
+    found = late_finding(recording, unaided(len(recording)).q)
+    return () if found is None else (found,)
 
 
 def _north(block: Block, settings: Mapping[str, float | str]) -> MagneticNorth:

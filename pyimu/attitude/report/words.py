@@ -120,6 +120,8 @@ def _about_columns(a: Outcome) -> list[str]:
             "that"
         )
     found += about_contradicted(a.findings)
+    if "heading_late" in kinds:
+        found.append(_about_late(kinds["heading_late"]))
     for name, of in ALONE.items():
         if name in there and of not in there:
             found.append(f"the column {name} has no column {of} beside it, and was not used")
@@ -150,6 +152,15 @@ def about_contradicted(findings: Iterable[Finding]) -> list[str]:
         what = "; ".join(text for name, text in READ_AS.items() if name in kind)
         found.append(f"the headings do not turn as the gyro does, and were not used: {what}")
     return found
+
+
+def _about_late(finding: Finding) -> str:
+    """By how much the headings are late, which no column says."""
+    lag, std = (float(finding.detail[n]) for n in ("lag", "std"))
+    return (
+        f"the headings are {lag:.3f} ± {std:.3f} s late by the gyro's turns, and were taken so; "
+        "a column heading_age [s] says how late they are where that is known"
+    )
 
 
 def _about_gyro(finding: Finding) -> str:
