@@ -16,6 +16,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from attitude_honesty import errors, estimated
 from drives.cases import Log, matched, record, vehicle, with_headings
+from generators import rotation
+from generators.motion import eased
 
 from pyimu.attitude import run
 from pyimu.recording.recording import Recording
@@ -83,6 +85,30 @@ def car(rng) -> Log:
     return record(rng, vehicle(rng, 180.0, 0.5, (3.0, 8.0)), 180.0)
 
 
+FIELD = np.array([0.0, 19e-6, -45e-6])
+"""T; east, north and up, of a dip of 67 deg."""
+
+MAG_STD = 3e-7
+"""T; white noise of a sample of a magnetometer."""
+
+IRON = 25e-6
+"""T; of the field of the iron that bends another."""
+
+
+def in_field(make: Callable[..., Log], *near: tuple[float, float]) -> Callable[..., Log]:
+    """A magnetometer, which is ``near`` iron of a place between so many and so many s."""
+
+    def seen(rng) -> Log:
+        log = make(rng)
+        direction = rng.standard_normal(3)
+        bent = IRON * direction / np.linalg.norm(direction)
+        field = FIELD + eased(log.time, list(near), 2.0)[:, None] * bent
+        mag = rotation.in_body(log.q, field) + MAG_STD * rng.standard_normal(field.shape)
+        return replace(log, heading=log.heading | {"mag": mag})
+
+    return seen
+
+
 CASES = (
     Untold("headings in time", late(matched, 0.0), part=True),
     Untold("headings 0.1 s late", late(matched, 0.1), part=True),
@@ -91,6 +117,12 @@ CASES = (
     Untold("headings 0.5 s late, no part", late(matched, 0.5)),
     Untold("car, headings 0.5 s late", late(car, 0.5), part=True),
     Untold("car, headings 1 s late", late(car, 1.0), part=True),
+    Untold("field: the same all the time", in_field(matched), since=60.0),
+    Untold("field: iron in the first 20 s", in_field(matched, (-9.0, 20.0)), since=60.0),
+    Untold("field: iron in the first 20 s, a car", in_field(car, (-9.0, 20.0)), since=60.0),
+    Untold("field: iron from 50 s on", in_field(matched, (50.0, 200.0)), since=80.0),
+    Untold("field: iron from 50 s on, a car", in_field(car, (50.0, 300.0)), since=80.0),
+    Untold("field: iron from 50 to 60 s", in_field(matched, (50.0, 60.0)), since=80.0),
 )
 
 if __name__ == "__main__":
