@@ -109,6 +109,18 @@ def in_field(make: Callable[..., Log], *near: tuple[float, float]) -> Callable[.
     return seen
 
 
+def holes(make: Callable[..., Log], share: float) -> Callable[..., Log]:
+    """A log of which a ``share`` of the rows has no gyro and no accelerometer."""
+
+    def torn(rng) -> Log:
+        log = make(rng)
+        rows = rng.random(len(log.time)) < share
+        log.gyro[rows], log.accel[rows] = np.nan, np.nan
+        return log
+
+    return torn
+
+
 CASES = (
     Untold("headings in time", late(matched, 0.0), part=True),
     Untold("headings 0.1 s late", late(matched, 0.1), part=True),
@@ -123,6 +135,8 @@ CASES = (
     Untold("field: iron from 50 s on", in_field(matched, (50.0, 200.0)), since=80.0),
     Untold("field: iron from 50 s on, a car", in_field(car, (50.0, 300.0)), since=80.0),
     Untold("field: iron from 50 to 60 s", in_field(matched, (50.0, 60.0)), since=80.0),
+    Untold("one row in twenty missing", holes(late(matched, 0.0), 0.05), part=True),
+    Untold("one row in twenty missing, a car", holes(late(car, 0.0), 0.05), part=True),
 )
 
 if __name__ == "__main__":

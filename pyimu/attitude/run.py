@@ -10,6 +10,7 @@ import casadi as ca
 import numpy as np
 
 from pyimu.attitude.alignment import BIAS_STD, MagneticNorth, Yaw, initial_values, initial_yaw
+from pyimu.attitude.bridged import bridged
 from pyimu.attitude.calibration import (
     MagnetometerCalibration,
     calibrated,
@@ -102,11 +103,12 @@ def run(
 
     ``settings`` are values of other parameters of the block by name, or a filter's name:
     ``"hidalgo2012"`` is the one as published; as the value ``filter`` a name goes with others. A
-    gap widens the estimate, and the row after it has bit 1 of the status. Headings with an age in
-    the recording's column ``heading_age`` correct what the attitude was then; without that column
-    they are taken to be as late as the gyro's turns show clearly (``heading_lag``). A clock of the
-    gyro that the part knows to be off, and a delay or a lag, are undone by its samples' times; an
-    accelerometer of which the part says no delay is taken to be as late.
+    gap widens the estimate, and the row after it has bit 1 of the status. Single samples that are
+    missing are set between their neighbours (``bridged``), and have that bit, too. Headings with an
+    age in the recording's column ``heading_age`` correct what the attitude was then; without that
+    column they are taken to be as late as the gyro's turns show clearly (``heading_lag``). A clock
+    of the gyro that the part knows to be off, and a delay or a lag, are undone by its samples'
+    times; an accelerometer of which the part says no delay is taken to be as late.
 
     With ``smooth`` each row is estimated from the whole recording, also from the rows that follow
     (``pyimu.attitude.filter.smoother``): attitude, bias and all standard deviations are those of
@@ -132,6 +134,7 @@ def run(
     rest = find_rest(recording, gravity or STANDARD_GRAVITY)
     declared = None if part is None else part_of(part)
     as_given, calibration = recording, calibration_of(magnetometer)
+    recording, between = bridged(recording, rest, declared)
     recording = believed(recording)
     if calibration is None and declared is not None and bool(magnetometer):
         calibration = None if recording.mag is None else of_sensor(declared.mag)
@@ -166,6 +169,7 @@ def run(
     named = {n: v for n, v in values.items() if n in has} | given
     p = with_settings(block, named, "the attitude filter")
     outputs = _estimated(block, recording, known, p, smooth, heard)
+    outputs["status"][between] |= 1
     parameters = {v.name: value for v, value in zip(block.parameters, p.tolist(), strict=True)}
     return AttitudeResult(
         recording.name,
