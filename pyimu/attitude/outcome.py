@@ -57,7 +57,8 @@ class Outcome:
     the name of the part, empty without one; ``left_in`` what of its errors is not undone;
     ``method`` the name of the filter (``pyimu.attitude.filters``). ``magnetometer`` says whether
     one was used, and what speaks against it. ``recording`` is what the filter ran over, ``of_part``
-    what of it contradicts the part, ``of_heading`` what was found of its headings and undone.
+    what of it contradicts the part, ``of_heading`` what was found of its headings: a lag,
+    which was undone, and what contradicts the magnetometer.
 
     Where it is ``smoothed``, ``q``, ``gyro_bias``, ``std`` and ``heading_std`` are by all rows, not
     only by those up to each. ``quasi_static``, ``nis``, ``status`` and ``at_rest`` stay what the

@@ -33,6 +33,7 @@ from pyimu.attitude.filter.tolerances import of_motion, start_values
 from pyimu.attitude.filter.ukf import recorded_ukf
 from pyimu.attitude.filter.variables import LEAST_K, USUAL
 from pyimu.attitude.filters import OF_LOGS, OWN, Settings, chosen
+from pyimu.attitude.heading_against_field import field_against_headings
 from pyimu.attitude.heading_lag import late_finding, timed
 from pyimu.attitude.input_grid import InputGrid
 from pyimu.attitude.magnetometer import Magnetometer, magnetometer_of
@@ -171,6 +172,10 @@ def run(
     outputs = _estimated(block, recording, known, p, smooth, heard)
     outputs["status"][between] |= 1
     parameters = {v.name: value for v, value in zip(block.parameters, p.tolist(), strict=True)}
+    if field.used and getattr(recording, "heading", None) is not None:
+        turning = parameters["field_turning_std"]
+        differ = field_against_headings(recording, outputs["q"], parameters["declination"], turning)
+        of_heading += () if differ is None else (differ,)
     return AttitudeResult(
         recording.name,
         recording.time,
