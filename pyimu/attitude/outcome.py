@@ -57,7 +57,8 @@ class Outcome:
     the name of the part, empty without one; ``left_in`` what of its errors is not undone;
     ``method`` the name of the filter (``pyimu.attitude.filters``). ``magnetometer`` says whether
     one was used, and what speaks against it. ``recording`` is what the filter ran over, ``of_part``
-    what of it contradicts the part.
+    what of it contradicts the part, ``of_heading`` what was found of its headings: a lag,
+    which was undone, and what contradicts the magnetometer.
 
     Where it is ``smoothed``, ``q``, ``gyro_bias``, ``std`` and ``heading_std`` are by all rows, not
     only by those up to each. ``quasi_static``, ``nis``, ``status`` and ``at_rest`` stay what the
@@ -84,6 +85,7 @@ class Outcome:
     method: str = OWN
     smoothed: bool = False
     of_part: tuple[Finding, ...] = ()
+    of_heading: tuple[Finding, ...] = ()
 
     @property
     def euler(self) -> np.ndarray:
@@ -108,7 +110,7 @@ class Outcome:
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
         """What reading the recording found, and what its samples show."""
-        found = (*quality(self.recording), *self.of_part)
+        found = (*quality(self.recording), *self.of_part, *self.of_heading)
         if not any(f.kind == "force_in_g" for f in found):
             found += gravity_findings(self.rest)
         found = (*found, *self.magnetometer.findings, *contradicted(self.recording))

@@ -10,6 +10,7 @@ import casadi as ca
 import numpy as np
 
 from pyimu.attitude.alignment import BIAS_STD, MagneticNorth, Yaw, initial_values, initial_yaw
+from pyimu.attitude.bridged import bridged
 from pyimu.attitude.calibration import (
     MagnetometerCalibration,
     calibrated,
@@ -32,6 +33,8 @@ from pyimu.attitude.filter.tolerances import of_motion, start_values
 from pyimu.attitude.filter.ukf import recorded_ukf
 from pyimu.attitude.filter.variables import LEAST_K, USUAL
 from pyimu.attitude.filters import OF_LOGS, OWN, Settings, chosen
+from pyimu.attitude.heading_against_field import field_against_headings
+from pyimu.attitude.heading_lag import late_finding, timed
 from pyimu.attitude.input_grid import InputGrid
 from pyimu.attitude.magnetometer import Magnetometer, magnetometer_of
 from pyimu.attitude.outputs import filtered
@@ -43,7 +46,7 @@ from pyimu.attitude.stuck import stuck_times
 from pyimu.attitude.world_field import Date, WorldField, checked_place, world_field
 from pyimu.block.block import Block, Run
 from pyimu.block.parameters import number, with_settings
-from pyimu.errors import UserError
+from pyimu.errors import Finding, UserError
 from pyimu.model.catalogue import WHITE
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as part_of
@@ -101,10 +104,12 @@ def run(
 
     ``settings`` are values of other parameters of the block by name, or a filter's name:
     ``"hidalgo2012"`` is the one as published; as the value ``filter`` a name goes with others. A
-    gap widens the estimate, and the row after it has bit 1 of the status. Headings with an age in
-    the recording's column ``heading_age`` correct what the attitude was then. A clock of the gyro
-    that the part knows to be off, and a delay or a lag, are undone by its samples' times; an
-    accelerometer of which the part says no delay is taken to be as late.
+    gap widens the estimate, and the row after it has bit 1 of the status. Single samples that are
+    missing are set between their neighbours (``bridged``), and have that bit, too. Headings with an
+    age in the recording's column ``heading_age`` correct what the attitude was then; without that
+    column they are taken to be as late as the gyro's turns show clearly (``heading_lag``). A clock
+    of the gyro that the part knows to be off, and a delay or a lag, are undone by its samples'
+    times; an accelerometer of which the part says no delay is taken to be as late.
 
     With ``smooth`` each row is estimated from the whole recording, also from the rows that follow
     (``pyimu.attitude.filter.smoother``): attitude, bias and all standard deviations are those of
@@ -130,6 +135,7 @@ def run(
     rest = find_rest(recording, gravity or STANDARD_GRAVITY)
     declared = None if part is None else part_of(part)
     as_given, calibration = recording, calibration_of(magnetometer)
+    recording, between = bridged(recording, rest, declared)
     recording = believed(recording)
     if calibration is None and declared is not None and bool(magnetometer):
         calibration = None if recording.mag is None else of_sensor(declared.mag)
@@ -140,8 +146,15 @@ def run(
     known = _known(declared, recording, rest)
     block = OF_LOGS[method](known)
 
+    def unaided(stop: int) -> AttitudeResult:
+        return _unaided(recording, stop, known, latitude, bias0, settings)
+
+    of_heading = _of_heading(recording, unaided) if method == OWN else ()
+    for found in of_heading:
+        recording = timed(recording, found)
+
     def turned(row: int) -> float:
-        return _turned(recording, row, known, latitude, bias0, settings)
+        return float(unaided(row + 1).euler[-1, 2])
 
     told = field.settings() | ({} if world is None else world.settings())
     north = _north(block, told | given) if field.used else None
@@ -157,7 +170,12 @@ def run(
     named = {n: v for n, v in values.items() if n in has} | given
     p = with_settings(block, named, "the attitude filter")
     outputs = _estimated(block, recording, known, p, smooth, heard)
+    outputs["status"][between] |= 1
     parameters = {v.name: value for v, value in zip(block.parameters, p.tolist(), strict=True)}
+    if field.used and getattr(recording, "heading", None) is not None:
+        turning = parameters["field_turning_std"]
+        differ = field_against_headings(recording, outputs["q"], parameters["declination"], turning)
+        of_heading += () if differ is None else (differ,)
     return AttitudeResult(
         recording.name,
         recording.time,
@@ -170,6 +188,7 @@ def run(
         method=method,
         smoothed=smooth,
         of_part=() if declared is None else tuple(rate_of_part(as_given, declared.sample_rate)),
+        of_heading=of_heading,
         magnetometer=replace(field, calibration=calibration).in_world(world),
     )
 
@@ -190,19 +209,35 @@ def _known(part: Part | None, recording: Recording, rest: Rest) -> Part:
     return informed(part, recording, rest)
 
 
-def _turned(recording: Recording, row: int, part: Part, latitude: float, bias0, settings) -> float:
-    """Yaw in rad by which the body has turned until ``row``, by the filter without headings."""
+def _unaided(
+    recording: Recording, stop: int, part: Part, latitude: float, bias0, settings
+) -> AttitudeResult:
+    """The rows before ``stop`` by the filter without headings and without magnetometer."""
     cadence = recording.cadence
     before = replace(
-        recording.slice(None, row + 1),
+        recording.slice(None, stop),
         heading=None,
         heading_std=None,
+        heading_age=None,
         period=cadence.period,
         longest=cadence.longest,
     )
     known = latitude if abs(latitude) <= np.pi / 2 else None
-    result = run(before, part, latitude=known, magnetometer=False, bias0=bias0, settings=settings)
-    return float(result.euler[-1, 2])
+    return run(before, part, latitude=known, magnetometer=False, bias0=bias0, settings=settings)
+
+
+def _of_heading(
+    recording: Recording, unaided: Callable[[int], AttitudeResult]
+) -> tuple[Finding, ...]:
+    """The finding that the headings are late, where they come and no column says when they were
+    true.
+    """
+    if getattr(recording, "heading", None) is None or recording.accel is None:
+        return ()
+    if getattr(recording, "heading_age", None) is not None:
+        return ()
+    found = late_finding(recording, unaided(len(recording)).q)
+    return () if found is None else (found,)
 
 
 def _north(block: Block, settings: Mapping[str, float | str]) -> MagneticNorth:

@@ -23,6 +23,8 @@ MEANING = {
     "gravity_off": "the force at rest is not gravity: a scale factor, a bias, or another unit",
     "gyro_axes": "gravity does not turn as the gyro says: axes in disorder, or of another sign?",
     "gyro_unit": "the rates are too large or too small by the factor of another unit",
+    "heading_against_field": "headings and magnetometer differ by this angle; both are used",
+    "heading_late": "the headings were true so long before their rows, as the gyro shows; taken so",
     "heading_reading": "the headings do not turn as the gyro does: another unit, or another sense?",
     "held_samples": "each value stays for several rows: the sensor is slower than its log",
     "interpolated": "brought to the times of the gyro between its own samples",

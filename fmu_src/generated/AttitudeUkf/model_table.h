@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{13339c85-3329-e42c-ff97-eec57fd52b6a}"
-#define MODEL_TOKEN_FMI3 "{3d35d0b9-b9a6-2277-566c-a47a85bae252}"
+#define MODEL_TOKEN_FMI2 "{058c0bcd-c452-1758-716f-4f6f6d866278}"
+#define MODEL_TOKEN_FMI3 "{60652141-3e81-b89d-d43a-cbe50cf1a305}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -17,20 +17,20 @@ enum {
     N_INPUTS = 18,
     N_PARAMETERS = 60,
     N_OUTPUTS = 21,
-    N_STATES = 302,
+    N_STATES = 303,
     N_CONSTANTS = 97,
     N_NOISE = 0,
     N_VARIABLES = 101
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 2580 };
+enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 2587 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 985804 };
+enum { MODEL_MOST_SAMPLES = 980840 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},

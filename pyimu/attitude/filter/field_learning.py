@@ -127,8 +127,14 @@ def chosen(flag, a: Field, b: Field) -> Field:
     )
 
 
-def followed(kept: Field, now, usable, x: Estimate, dt, step: Step) -> tuple[Field, ca.SX]:
-    """The memory after horizontal and upward part ``now`` (2,), and whether the field is good."""
+def followed(
+    kept: Field, now, aside, usable, x: Estimate, dt, step: Step
+) -> tuple[Field, ca.SX, ca.SX]:
+    """The memory after horizontal and upward part ``now`` (2,), whether the field is good, and the
+    variance in rad^2 that comes to the heading because the field was perhaps the wrong one.
+
+    ``aside`` is the angle in rad from where the field is expected to where it is.
+    """
     size = ca.sumsqr(kept.known)
     tilt = tilt_variance(x.covariance, vertical(x))
     wide = ca.fmax(size * step["field_tolerance"] ** 2, 2 * BEYOND**2 * kept.scatter)
@@ -149,15 +155,22 @@ def followed(kept: Field, now, usable, x: Estimate, dt, step: Step) -> tuple[Fie
         smooth=smooth,
         scatter=(step["field_turning_std"] > 0) * scatter,
         off=ca.if_else(usable, off, kept.off),
+        known_for=kept.known_for + good * dt,
     )
-    return in_new_place(kept, now, off, good, tolerance, dt, step), good
+    kept, doubt = in_new_place(kept, now, aside, off, good, tolerance, vertical(x), dt, step)
+    return kept, good, doubt
 
 
-def in_new_place(kept: Field, now, off, good, tolerance, dt, step: Step) -> Field:
+def in_new_place(
+    kept: Field, now, aside, off, good, tolerance, up, dt, step: Step
+) -> tuple[Field, ca.SX]:
     """The memory with the ``other`` field after a sample, and with that as the known one if it has
-    lasted.
+    lasted; then what the heading is less known by, rad^2.
 
-    Its direction differs from the known one's by as much as strength and dip do.
+    Which of the two is bent nobody knows: that it is the one has the odds of the time for which the
+    other has been seen. Between them is the angle that is seen ``aside``; by that the heading is
+    off as far as it leaned on the old one, or the new one's direction is. That is also off by as
+    much as strength and dip are.
     """
     change = now - kept.other
     begins = ca.logic_or(kept.other_for <= 0, ca.sumsqr(change) > tolerance)
@@ -166,8 +179,12 @@ def in_new_place(kept: Field, now, off, good, tolerance, dt, step: Step) -> Fiel
     other = kept.other + off * gain * change
     lasted = ca.if_else(off, lasted, ca.fmax(kept.other_for - good * dt, 0))
     new = lasted > NEW_PLACE
+    share = NEW_PLACE / (NEW_PLACE + kept.known_for)
+    leaned = ca.dot(up, kept.shared[:3, 1]) / ca.fmax(kept.covariance[1, 1], TINY)
+    doubt = new * share * (aside * ca.fmin(ca.fmax(leaned, 0), 1)) ** 2
     between = ca.sumsqr(other - kept.known) / 2
     square = ca.vertcat(kept.scatter, step["field_std"] ** 2 + MEAN * kept.scatter + between)
+    variance = ca.fmax(direction_variance(other, square), ca.vertcat(0, (1 - share) * aside**2))
     here = replace(
         kept,
         known=other,
@@ -175,7 +192,8 @@ def in_new_place(kept: Field, now, off, good, tolerance, dt, step: Step) -> Fiel
         smooth=other,
         beside=ca.SX(0),
         turned=ca.SX.zeros(PARTS),
-        covariance=ca.diag(direction_variance(other, square)),
+        covariance=ca.diag(variance),
         shared=ca.SX.zeros(WHOLE, PARTS),
+        known_for=ca.SX(NEW_PLACE),
     )
-    return replace(chosen(new, here, kept), other=other, other_for=lasted * (1 - new))
+    return replace(chosen(new, here, kept), other=other, other_for=lasted * (1 - new)), doubt

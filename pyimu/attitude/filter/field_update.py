@@ -188,7 +188,9 @@ def _measured(kept: Field, x: Estimate, mag, clear, step: Step) -> tuple[Field, 
         off=kept.off * (since < LONGEST),
     )
     kept = begun(kept, now, usable, step)
-    kept, good = followed(kept, now, usable, x, since, step)
+    aside = _beside_north(kept, seen, step)
+    kept, good, doubt = followed(kept, now, aside, usable, x, since, step)
+    x = _less_known(x, vertical(x), doubt)
     level = ca.fmax(ca.norm_2(late[:2]), TINY)
     slope = ca.vertcat(ca.dot(late[:2], passing[:2]) / level, passing[2])
     lateral = (late[0] * passing[1] - late[1] * passing[0]) / level
@@ -207,8 +209,7 @@ def _by_direction(kept: Field, x: Estimate, seen, lateral, good, dt, step: Step)
     by (t n - u) p and the two parts; a delay that is not known turns it by what passes
     ``lateral`` T/s. By what strength and dip are off just now the direction is off as well.
     """
-    north = ca.vertcat(ca.sin(step["declination"]), ca.cos(step["declination"]))
-    innovation = wrapped(angle(north, seen) - ca.sum1(kept.turned))
+    innovation = _beside_north(kept, seen, step)
     ahead = ca.vertcat(seen[:2] / ca.fmax(ca.norm_2(seen[:2]), TINY), 0)
     up, level = vertical(x), quaternion.rotate(quaternion.conjugate(x.q), ahead)
     slope = kept.known[1] / ca.fmax(kept.known[0], TINY) * level - up
@@ -223,7 +224,8 @@ def _by_direction(kept: Field, x: Estimate, seen, lateral, good, dt, step: Step)
     most = INNOVATION_GATE * (own + noise)
     beyond = good * (beside**2 > most)
     weight = good * ca.if_else(beyond, most / beside**2, 1)
-    x = _less_known(x, up, beyond * dt / RECOVERY, ca.trace(kept.covariance))
+    yaw = ca.dot(up, x.covariance[:3, :3] @ up)
+    x = _less_known(x, up, beyond * dt / RECOVERY * (yaw + ca.trace(kept.covariance)))
 
     cross, parts, own = _innovation_variance(kept, x, slope)
     variance = own + white / dt
@@ -241,6 +243,12 @@ def _by_direction(kept: Field, x: Estimate, seen, lateral, good, dt, step: Step)
         off=1 - (1 - kept.off) * (1 - beyond),
     )
     return kept, x, corrected
+
+
+def _beside_north(kept: Field, seen, step: Step):
+    """The angle in rad by which the field ``seen`` (3,) is beside where it is expected."""
+    north = ca.vertcat(ca.sin(step["declination"]), ca.cos(step["declination"]))
+    return wrapped(angle(north, seen) - ca.sum1(kept.turned))
 
 
 def _innovation_variance(kept: Field, x: Estimate, slope):
@@ -278,9 +286,8 @@ def _corrected(x: Estimate, up, cross, variance, gain, innovation) -> tuple[Esti
     return Estimate(q, x.bias + gain[3:N] * innovation, x.velocity, covariance), corrected
 
 
-def _less_known(x: Estimate, up, share, variance) -> Estimate:
-    """The estimate with its variance about the vertical grown by ``share``, and of ``variance``."""
-    more = share * (ca.dot(up, x.covariance[:3, :3] @ up) + variance)
+def _less_known(x: Estimate, up, more) -> Estimate:
+    """The estimate with its variance about the vertical ``more`` rad^2 larger."""
     return replace(
         x,
         covariance=symmetric(

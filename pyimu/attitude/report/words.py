@@ -9,6 +9,7 @@ import numpy as np
 from pyimu.attitude.error import AttitudeError, root_mean_square
 from pyimu.attitude.filter.compensation import NOT_UNDONE
 from pyimu.attitude.filters import OWN, UNUSED
+from pyimu.attitude.heading_against_field import STEADY
 from pyimu.attitude.magnetometer import Magnetometer
 from pyimu.attitude.outcome import NIS_BOUNDS, Outcome
 from pyimu.attitude.world_field import WorldField
@@ -120,6 +121,11 @@ def _about_columns(a: Outcome) -> list[str]:
             "that"
         )
     found += about_contradicted(a.findings)
+    if "heading_late" in kinds:
+        found.append(_about_late(kinds["heading_late"]))
+    if "heading_against_field" in kinds:
+        differ, declination = kinds["heading_against_field"], a.parameters.get("declination", 0.0)
+        found.append(_about_field_and_headings(differ, declination))
     for name, of in ALONE.items():
         if name in there and of not in there:
             found.append(f"the column {name} has no column {of} beside it, and was not used")
@@ -150,6 +156,31 @@ def about_contradicted(findings: Iterable[Finding]) -> list[str]:
         what = "; ".join(text for name, text in READ_AS.items() if name in kind)
         found.append(f"the headings do not turn as the gyro does, and were not used: {what}")
     return found
+
+
+def _about_field_and_headings(finding: Finding, declination: float) -> str:
+    """By how much headings and magnetometer differ, and what that may be."""
+    angle, std, scatter = np.degrees(
+        [float(finding.detail[n]) for n in ("angle", "std", "scatter")]
+    )
+    differ = f"the headings count {angle:+.1f} ± {std:.1f} deg against the magnetometer"
+    if scatter > np.degrees(STEADY):
+        return f"{differ}, and not the same all the time: iron near by, or a wrong heading"
+    if declination:
+        return f"{differ}, all the time: one of the two is mounted askew, or needs a calibration"
+    return (
+        f"{differ}, all the time: a declination of {-angle:.1f} deg would do that, which "
+        "--declination tells; else one of the two is mounted askew, or needs a calibration"
+    )
+
+
+def _about_late(finding: Finding) -> str:
+    """By how much the headings are late, which no column says."""
+    lag, std = (float(finding.detail[n]) for n in ("lag", "std"))
+    return (
+        f"the headings are {lag:.3f} ± {std:.3f} s late by the gyro's turns, and were taken so; "
+        "a column heading_age [s] says how late they are where that is known"
+    )
 
 
 def _about_gyro(finding: Finding) -> str:
