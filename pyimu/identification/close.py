@@ -139,7 +139,7 @@ def _investigated(
     for kind, make in (("accel", accel_trial), ("gyro", gyro_trial)):
         made = partial(_trials, start.sensor(kind), make, logs, others, latitude)
         trials, held = made()
-        if kind == "accel":
+        if kind == "accel" and not any(map(is_differentiated, trials)):
             at_rest = rest_trials(start.accel, logs, others, latitude)
             trials, held = at_rest or (trials, held)
         elif not trials:

@@ -47,6 +47,7 @@ from pyimu.model.effect import Effect
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
 from pyimu.recording.recording import Recording
+from pyimu.recording.reference.course import looks_like_degrees
 from pyimu.recording.reference.force import has_places
 
 MORE_THAN_NOISE = "kinds of noise are told apart only where nothing else is left"
@@ -298,8 +299,10 @@ def _no_force(logs: list[Recording]) -> str:
     if any(has_places(r) for r in logs):
         return (
             "it does not show the force that the reference's positions and attitude make together "
-            "(both must be in one east-north-up)"
+            "(both must be in one east-north-up, and metres)"
         )
+    if any(looks_like_degrees(r.reference or r) for r in logs):
+        return "no reference of its force (the positions look like degrees, not metres)"
     return "no reference of its force"
 
 

@@ -1,5 +1,7 @@
 """The accelerometer beside the force that a reference's attitude and positions make."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
@@ -10,6 +12,7 @@ from pyimu.recording.recording import Recording
 
 RATE, FINE, GRAVITY = 100.0, 5, 9.8
 GYRO_NOISE, ACCEL_NOISE, BODY_NOISE, PLACE_NOISE = 2e-3, 0.02, 1e-4, 1e-4
+PLACES = ("ref_east", "ref_north", "ref_up")
 NED = Rotation.from_matrix([[0.0, 1, 0], [1, 0, 0], [0, 0, -1]])
 
 
@@ -55,7 +58,7 @@ def hand(
     groups = {"ref_q": body.as_quat(scalar_first=True)}
     if reference == "position":
         seen = about.apply(noisy(place[rows], PLACE_NOISE))
-        groups |= dict(zip(("ref_east", "ref_north", "ref_up"), seen.T, strict=True))
+        groups |= dict(zip(PLACES, seen.T, strict=True))
     elif reference == "velocity":
         groups["ref_velocity"] = about.apply(noisy(velocity[rows], 20 * PLACE_NOISE))
     else:
@@ -120,6 +123,21 @@ def test_attitudes_of_another_world_leave_the_accelerometer_out():
     assert "positions and attitude" in closed.not_examined["accel"]
 
 
+@pytest.mark.parametrize("factor", [1e3, 1e-3])
+def test_positions_of_another_unit_leave_the_accelerometer_out(factor):
+    log = hand(minutes=1.5)
+    places = {n: factor * getattr(log, n) for n in PLACES}
+    closed = pyimu.close(replace(log, **places))
+    assert not closed.added and "metres" in closed.not_examined["accel"], closed.report()
+
+
+def test_positions_of_a_few_rows_are_none():
+    log = hand(minutes=1.5)
+    few = {n: np.where(np.arange(len(log)) < 4, getattr(log, n), np.nan) for n in PLACES}
+    closed = pyimu.close(replace(log, **few))
+    assert "no reference of its force" in closed.not_examined["accel"]
+
+
 def test_a_force_that_is_given_for_another_point_is_no_error_of_the_accelerometer():
     closed = pyimu.close(hand(arm=(0.3, 0.0, -0.1), reference="force"))
     assert closed.verdict == "clean" and not closed.not_examined, closed.report()
@@ -148,7 +166,7 @@ def test_positions_between_frames_are_those_of_the_frames():
     groups = {"time": log.time[inside], "gyro": log.gyro[inside], "accel": log.accel[inside]}
     arcs = Slerp(frames, curve(frames))
     groups["ref_q"] = arcs(groups["time"]).as_quat(scalar_first=True)
-    for name in ("ref_east", "ref_north", "ref_up"):
+    for name in PLACES:
         nodes = CubicSpline(log.time, getattr(log, name))(frames)
         groups[name] = np.interp(groups["time"], frames, nodes)
     closed = pyimu.close(Recording.from_arrays(name="hand", **groups))

@@ -9,7 +9,7 @@ import numpy as np
 from pyimu.errors import Finding
 from pyimu.identification.fit.columns import in_band
 from pyimu.identification.fit.inputs import own_rate
-from pyimu.identification.fit.place import GRAVITY
+from pyimu.identification.fit.place import GRAVITY, HEADING
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.reference.moving import (
     LEAST_ROWS,
@@ -20,6 +20,7 @@ from pyimu.identification.reference.moving import (
 from pyimu.identification.search.belief import CHANCE, most
 from pyimu.model.kinds import OWN
 from pyimu.model.signals import COLUMNS
+from pyimu.recording.reference.band import COHERENCE
 
 ROUNDS = 5
 """Steps in turn towards the mounting and the place."""
@@ -27,8 +28,12 @@ ROUNDS = 5
 CLUSTER = 1.0
 """s; errors farther apart than that have nothing to do with each other."""
 
-BORNE_OUT = 0.5
-"""Share of its own power by which the force that moves the body must lower what gravity leaves."""
+LEAST, MOST = 0.75, 1.5
+"""Of the force that moves the body so much must be seen: less is that of other axes, more of
+another unit."""
+
+SHOWN = 0.5
+"""Share of what gravity leaves that it must explain for a size to be seen."""
 
 TOO_SMALL = 0.01
 """Share of the sensor's power below which that force tells nothing either way."""
@@ -207,19 +212,24 @@ def at_the_sensor(trial: Trial) -> Trial:
 
 def is_borne_out(trial: Trial) -> bool:
     """Whether the accelerometer shows the force by which positions or velocities say that the body
-    moves, beside gravity; true of a body that hardly does.
+    moves, beside gravity, in its size; true of a body that hardly does.
 
-    An attitude and positions in worlds of different axes do not: gravity alone is right then.
+    Of an attitude and positions in worlds of different axes it does not, nor of millimetres.
     """
     rows = _Rows.of(trial)
     if rows.few:
         return True
+    # In the band in which they cohere; what explains less there has another size or other axes.
+    if trial.clock is not None and trial.clock.explained < COHERENCE:
+        return False
     place, turn = rows.found()
+    place[trial.place.unknown.index(HEADING)] = 0.0  # of the force that is judged
     upward = trial.place.unknown.index(GRAVITY)
     standing = trial.place.gravity * rows.forces[upward] + np.tensordot(place, rows.forces, 1)
-    moving = rows.x - trial.place.gravity * rows.forces[upward]
-    both, gravity_alone = (np.sum((rows.y - x @ turn) ** 2) for x in (standing + moving, standing))
-    power = np.sum(moving**2)
-    if power < TOO_SMALL * np.sum(rows.y**2):
-        return True
-    return bool(gravity_alone - both > BORNE_OUT * power)
+    moving = (rows.x - trial.place.gravity * rows.forces[upward]) @ turn
+    left, power = rows.y - standing @ turn, float(np.sum(moving**2))
+    factor = float(np.sum(left * moving)) / max(power, 1e-300)
+    explains = factor**2 * power > SHOWN * np.sum(left**2)
+    if explains and factor > MOST:
+        return False
+    return factor > LEAST or power < TOO_SMALL * float(np.sum(rows.y**2))

@@ -19,10 +19,11 @@ from pyimu.recording.quality.spikes import spikes
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.attitude import attitude_at, within
 from pyimu.recording.reference.band import trusted_band
+from pyimu.recording.reference.course import looks_like_degrees
 from pyimu.recording.reference.nodes import own_places
 from pyimu.recording.reference.rate import reference_rate
 from pyimu.recording.reference.smoother import white_noise
-from pyimu.recording.reference.track import Track, fresh
+from pyimu.recording.reference.track import LEAST_NODES, Track, fresh
 
 DEGREE = 5
 """Of the spline: the acceleration of its positions is one of the third."""
@@ -89,8 +90,10 @@ def has_places(recording: Recording) -> bool:
 
 def _given(source: Recording) -> Iterator[tuple[str, np.ndarray]]:
     places = source.ref_east, source.ref_north, source.ref_up
-    if all(p is not None for p in places):
-        yield "position", np.column_stack(places)
+    if all(p is not None for p in places) and not looks_like_degrees(source):
+        seen = np.column_stack(places)
+        if np.count_nonzero(np.isfinite(seen).all(axis=1)) >= LEAST_NODES:
+            yield "position", seen
     if source.ref_velocity is not None:
         yield "velocity", source.ref_velocity
 
