@@ -72,6 +72,11 @@ class Place:
             gravity, gravity_std, np.ascontiguousarray(forces.transpose(2, 1, 0)), across, time
         )
 
+    def by(self, u: np.ndarray) -> Place:
+        """The same beside other inputs (n, N_INPUT)."""
+        other = Place.of(u, self.time, self.gravity, self.gravity_std)
+        return replace(other, cutoff=self.cutoff)
+
     def part(self, start: int, stop: int) -> Place:
         rows = slice(start, stop)
         return replace(

@@ -167,9 +167,7 @@ def shifted(trial: Trial, clock: Clock) -> Trial:
             if trial.band_hz is not None and trial.place is None and b - a > 1:
                 u[a:b, at] *= 1.0 - _drift(trial.time[a:b], late[a:b])[:, None]
         segments.append((a + int(inside[0]), a + int(inside[-1]) + 1))
-    place = trial.place
-    if place is not None:
-        place = place.of(u, trial.time, place.gravity, place.gravity_std)
+    place = None if trial.place is None else trial.place.by(u)
     return replace(trial, u=u, segments=segments, place=place)
 
 

@@ -131,7 +131,7 @@ def placed(trial: Trial) -> Trial:
     if is_differentiated(trial):
         angle = _heading(rows)
         u[:, own] += place.headed(angle)
-        rows, place = rows.headed(angle), place.of(u, place.time, place.gravity, place.gravity_std)
+        rows, place = rows.headed(angle), place.by(u)
     u[:, own] += np.tensordot(rows.found()[0], place.forces[list(place.unknown)], 1).T
     return replace(trial, u=u, place=place)
 
@@ -168,12 +168,11 @@ def quietened(trial: Trial) -> Trial:
 
 def _with_force(trial: Trial, u: np.ndarray) -> Trial:
     """The trial with the force in inputs (n, N_INPUT), and what follows from it."""
-    own, rate, place = OWN[trial.kind], own_rate(trial.kind), trial.place
+    own, rate = OWN[trial.kind], own_rate(trial.kind)
     for a, b in trial.segments:
         if b - a > 1:
             u[a:b, rate] = np.gradient(u[a:b, own], trial.time[a:b], axis=0)
-    moved = place.of(u, trial.time, place.gravity, place.gravity_std)
-    return replace(trial, u=u, place=replace(moved, cutoff=place.cutoff))
+    return replace(trial, u=u, place=trial.place.by(u))
 
 
 def is_differentiated(trial: Trial) -> bool:
