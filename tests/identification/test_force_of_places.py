@@ -79,7 +79,9 @@ def place_of(closed):
     return np.array(entry["arm"]["value"]), entry
 
 
-@pytest.mark.parametrize("reference", ["position", "velocity"])
+@pytest.mark.parametrize(
+    "reference", ["position", pytest.param("velocity", marks=pytest.mark.long)]
+)
 def test_a_blameless_accelerometer_is_examined_by_places_and_its_arm_found(reference):
     """With gravity 6 mm/s^2 off what it is taken for, as at another place."""
     arm = (0.05, -0.03, 0.1)
@@ -107,7 +109,7 @@ def test_what_the_accelerometer_lacks_is_named_by_places():
         assert found[name].value[1] == pytest.approx(value, abs=5 * found[name].std[1])
 
 
-@pytest.mark.parametrize("heading", [1.0, -2.8])
+@pytest.mark.parametrize("heading", [1.0, pytest.param(-2.8, marks=pytest.mark.long)])
 def test_positions_in_axes_of_another_heading_are_turned_and_said(heading):
     closed = pyimu.close(hand(arm=(0.05, -0.03, 0.1), heading=heading))
     assert closed.verdict == "clean" and not closed.not_examined, closed.report()
@@ -117,13 +119,14 @@ def test_positions_in_axes_of_another_heading_are_turned_and_said(heading):
     assert f" deg {way} about the vertical" in closed.report()
 
 
+@pytest.mark.long
 def test_attitudes_of_another_world_leave_the_accelerometer_out():
     closed = pyimu.close(hand(world=NED))
     assert not closed.added and closed.verdict == "undecidable"
     assert "positions and attitude" in closed.not_examined["accel"]
 
 
-@pytest.mark.parametrize("factor", [1e3, 1e-3])
+@pytest.mark.parametrize("factor", [1e-3, pytest.param(1e3, marks=pytest.mark.long)])
 def test_positions_of_another_unit_leave_the_accelerometer_out(factor):
     log = hand(minutes=1.5)
     places = {n: factor * getattr(log, n) for n in PLACES}
@@ -131,6 +134,7 @@ def test_positions_of_another_unit_leave_the_accelerometer_out(factor):
     assert not closed.added and "metres" in closed.not_examined["accel"], closed.report()
 
 
+@pytest.mark.long
 def test_positions_of_a_few_rows_are_none():
     log = hand(minutes=1.5)
     few = {n: np.where(np.arange(len(log)) < 4, getattr(log, n), np.nan) for n in PLACES}
@@ -151,12 +155,14 @@ def test_a_short_arm_of_a_force_that_is_given_is_the_size_effect():
     assert [(a.sensor, a.effect) for a in closed.added] == [("accel", "size_effect")]
 
 
+@pytest.mark.long
 def test_a_force_at_the_sensor_has_no_arm():
     closed = pyimu.close(hand(reference="force"))
     assert closed.verdict == "clean"
     assert all(e["arm"] is None for e in closed.references)
 
 
+@pytest.mark.long
 def test_positions_between_frames_are_those_of_the_frames():
     """Brought from 40 Hz to the sensor's rate by lines and shortest arcs, as resampling does it."""
     log = hand(arm=(0.05, -0.03, 0.1))
