@@ -18,7 +18,6 @@ SHOWN: dict[str, tuple[tuple[str, float], ...]] = {
     "rad/s": (("deg/s", 0.01), ("deg/h", 0.0)),
     "rad/s^2": (("deg/s^2", 1.0), ("deg/h/s", 0.1), ("deg/h/h", 0.0)),
     "rad": (("deg", 0.01), ("arcsec", 0.0)),
-    "m": (("m", 1.0), ("mm", 0.0)),
     "m/s^2": (("g", 1.0), ("mg", 0.01), ("ug", 0.0)),
     "T": (("uT", 0.1), ("nT", 0.0)),
     "T*s/sqrt(s)": (("nT/sqrt(Hz)", 0.0),),

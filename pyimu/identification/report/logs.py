@@ -180,7 +180,7 @@ def _arm(arm: dict[str, Any] | None) -> Any:
     if arm is None:
         return MISSING
     value, std = (np.array(arm[k], dtype=float) for k in ("value", "std"))
-    unit = unit_for(value, "m")
+    unit = "mm" if np.abs(value).max() < 1.0 else "m"
     each = [
         with_error(float(in_unit(v, "m", unit)), float(in_unit(s, "m", unit)))
         if np.isfinite(s)
