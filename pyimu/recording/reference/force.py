@@ -19,7 +19,7 @@ from pyimu.recording.quality.spikes import spikes
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.attitude import attitude_at, within
 from pyimu.recording.reference.band import trusted_band
-from pyimu.recording.reference.course import looks_like_degrees
+from pyimu.recording.reference.course import SPIKE, looks_like_degrees
 from pyimu.recording.reference.nodes import own_places
 from pyimu.recording.reference.rate import reference_rate
 from pyimu.recording.reference.smoother import white_noise
@@ -30,9 +30,6 @@ DEGREE = 5
 
 ORDER = {"position": 2, "velocity": 1}
 """How often each is differentiated."""
-
-SPIKE = 20.0
-"""Times the noise of a position from which on a step there and back is a fault."""
 
 EVEN = 1.25
 """Times the usual four periods that four may last without a gap in them."""
