@@ -32,6 +32,7 @@ def rest_of(recording: Recording):
     return find_rest(recording, 9.80665)
 
 
+@pytest.mark.long
 def test_the_heading_is_as_sure_as_without_the_holes_and_honest():
     """The squares of 16 errors over what is claimed, at most those of chi squared: a gyro without
     part may have errors that grow with the rate, which this one has not.

@@ -81,6 +81,7 @@ def test_wild_headings_decide_nothing():
     assert abs(told["lag"] - 0.5) < 4 * told["std"] < 0.1
 
 
+@pytest.mark.long
 def test_the_heading_is_honest_again():
     """The squares of the last heading's error in 12 runs, over what is claimed; fifteen times
     as much where the lag is not undone.

@@ -28,7 +28,7 @@ def in_own_band(trial: Trial) -> Trial:
     limit = 0.25 / trial.h if trial.band_limit is None else trial.band_limit
     seen = np.where(marked(trial.segments, len(rate))[:, None], rate, np.nan)
     seen = seen[:, list(trial.axes)]
-    if trial.place is not None:
+    if trial.place is not None and trial.band_hz is not None:
         seen = np.column_stack([seen, trial.place.forces.reshape(-1, len(rate)).T])
     band = trusted_band(trial.time, trial.y[:, list(trial.axes)], seen, limit)
     return replace(trial, band_hz=band)

@@ -68,7 +68,8 @@ class _Rows:
 
     @classmethod
     def of(cls, trial: Trial) -> _Rows:
-        seen = in_own_band(trial)
+        # A force that was given is compared as it is, sample by sample.
+        seen = trial if trial.band_hz is None else in_own_band(trial)
         rows = moving_rows(seen)
         given = [trial.u[:, OWN[trial.kind]], trial.y, trial.place.across]
         given += [trial.place.forces[k].T for k in trial.place.unknown]
