@@ -38,7 +38,6 @@ SHOWN = 0.5
 TOO_SMALL = 0.01
 """Share of the sensor's power below which that force tells nothing either way."""
 
-
 STARTS = (0.0, 0.5 * np.pi, np.pi, -0.5 * np.pi)
 """rad; headings that the search begins with: a step of it finds what is nearer than that."""
 
@@ -47,6 +46,7 @@ BETTER = 0.5
 mounting takes any heading up."""
 
 OCTAVE = 2.0
+"""Times the band's edge above which nothing of a differentiated force is kept."""
 
 SAID = np.radians(1.0)
 """rad; a heading below is no more than how well cameras are levelled and aligned."""
