@@ -22,7 +22,6 @@ NATURE = {
     "attitude": "ref_q",
     "heading": "ref_heading",
     "force": "ref_force",
-    "velocity": "ref_velocity",
 }
 """The group of a recording that a kind of reference is read from."""
 
@@ -43,7 +42,7 @@ def references(
         of_log = [(k, inv, t) for k, inv in found.items() if (t := _trial(inv, r.name)) is not None]
         moving = [one for one in of_log if one[2].reference != "static"]
         first = (moving or of_log)[:1]
-        forces = [one for one in moving if one[2].place is not None and one not in first]
+        forces = [one for one in moving[1:] if one[2].place is not None]
         entries += [_entry(r, *one, noise[one[0]]) for one in (*first, *forces)]
     return tuple(entries)
 

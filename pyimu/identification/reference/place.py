@@ -199,7 +199,7 @@ def at_the_sensor(trial: Trial) -> Trial:
     """A trial whose force was given as it is, unless it plainly acts at another point: an arm as
     short as a sensor's own may be its size effect.
     """
-    if trial.reference != "force" or trial.place is None:
+    if trial.place is None:
         return trial
     rows = _Rows.of(trial)
     if rows.few:
