@@ -22,7 +22,7 @@ from pyimu.identification.formula.effect import forget
 from pyimu.identification.formula.search import Look, look
 from pyimu.identification.instead import formula_less_than_noise, less_than_noise
 from pyimu.identification.made_with import called
-from pyimu.identification.reference.align import aligned
+from pyimu.identification.reference.align import aligned, in_band_of
 from pyimu.identification.reference.belongs import misfit
 from pyimu.identification.reference.clock import rebanded
 from pyimu.identification.reference.gravity import few, rest_trials
@@ -147,12 +147,23 @@ def _investigated(
             trials, held = turned or (trials, held)
         if trials:
             examine, keeps = partial(_examined, start, declared, say), partial(made, lines=False)
-            looks[kind] = likelier_clock(examine(trials, held), lambda: examine(*keeps()))
+            looks[kind] = likelier_clock(
+                examine(trials, held), lambda: examine(*_in_bands_of([*trials, *held], keeps()))
+            )
             found[kind] = looks[kind].investigation
             trials, held = list(found[kind].before.trials), list(found[kind].held)
             quality += late_thermometers(found[kind])
         quality += _of_trials([*trials, *held])
     return {k: found[k] for k in ("gyro", "accel") if k in found}, looks, quality
+
+
+def _in_bands_of(
+    trials: Sequence[Trial], others: tuple[list[Trial], list[Trial]]
+) -> tuple[list[Trial], list[Trial]]:
+    """The ``others``, fitted and held, each in the band of the trial of the same log."""
+    by_name = {t.name: t for t in trials}
+    fitted, held = ([in_band_of(by_name.get(t.name, t), t) for t in some] for some in others)
+    return fitted, held
 
 
 def _examined(

@@ -1,6 +1,7 @@
 """Column maps: TOML files that rename columns, declare axes and scale raw counts.
 
-They also give the sample rate of a log without times, and name the files that hold more columns.
+They also give the sample rate of a log without times, say how far its clock is from another's, and
+name the files that hold more columns.
 """
 
 from __future__ import annotations
@@ -42,6 +43,7 @@ class ForeignMap:
     world: str = "enu"
     q: str = "nb"
     rate: float | None = None
+    offset: float = 0.0
     files: tuple[tuple[str, ForeignMap], ...] = ()
     notes: tuple[Finding, ...] = ()
     """What was decided where no user wrote it."""
@@ -99,7 +101,7 @@ def read_map(path: Path) -> ForeignMap:
 
 def map_of(data: Mapping[str, Any], path: Path) -> ForeignMap:
     """The column map that a TOML file's ``data`` are; messages call it ``path``."""
-    known = ("columns", "frame", "scale", "topics", "sample_rate", "file")
+    known = ("columns", "frame", "scale", "topics", "sample_rate", "time_offset", "file")
     _known_keys(path, "", data, known)
     frame = data.get("frame", {})
     _known_keys(path, "frame.", frame, ("body", "world", "q", "R"))
@@ -114,6 +116,7 @@ def map_of(data: Mapping[str, Any], path: Path) -> ForeignMap:
         world=_choice(path, frame, "world", ("enu", "ned")),
         q=_choice(path, frame, "q", ("nb", "bn")),
         rate=_rate(path, data.get("sample_rate")),
+        offset=_offset(path, data.get("time_offset")),
     )
     return replace(foreign, files=_files(path, data.get("file", []), foreign))
 
@@ -122,20 +125,32 @@ def _rate(path: Path, entry: Any) -> float | None:
     """Hz of the key ``sample_rate``. Raises UserError for a rate that no sensor has."""
     if entry is None:
         return None
-    example = 'sample_rate = {value = 100.0, unit = "Hz"}'
-    if not isinstance(entry, dict) or set(entry) != {"value", "unit"}:
-        raise UserError(f"{path}: key sample_rate must be such as {example}")
-    value = finite_number(path, "sample_rate.value", entry["value"])
-    try:
-        hertz = float(convert(value, entry["unit"], "Hz"))
-    except UnitError as error:
-        raise UserError(f"{path}: key sample_rate.unit: {error}; write {example}") from None
+    hertz = _quantity(path, "sample_rate", entry, 'sample_rate = {value = 100.0, unit = "Hz"}')
     if not RATES[0] <= hertz <= RATES[1]:
         raise UserError(
             f"{path}: key sample_rate: {hertz:g} Hz, must lie between {RATES[0]:g} and "
             f"{RATES[1]:g} Hz"
         )
     return hertz
+
+
+def _offset(path: Path, entry: Any) -> float:
+    """s of the key ``time_offset``, 0 where there is none."""
+    if entry is None:
+        return 0.0
+    return _quantity(path, "time_offset", entry, 'time_offset = {value = 12.5, unit = "s"}')
+
+
+def _quantity(path: Path, key: str, entry: Any, example: str) -> float:
+    """A value with a unit, in that of the ``example``. Raises UserError, with the key."""
+    unit = example.split('"')[1]
+    if not isinstance(entry, dict) or set(entry) != {"value", "unit"}:
+        raise UserError(f"{path}: key {key} must be such as {example}")
+    value = finite_number(path, f"{key}.value", entry["value"])
+    try:
+        return float(convert(value, entry["unit"], unit))
+    except UnitError as error:
+        raise UserError(f"{path}: key {key}.unit: {error}; write {example}") from None
 
 
 def _files(path: Path, entries: Any, whole: ForeignMap) -> tuple[tuple[str, ForeignMap], ...]:
@@ -152,7 +167,7 @@ def _files(path: Path, entries: Any, whole: ForeignMap) -> tuple[tuple[str, Fore
         columns = _texts(path, "columns", entry, "accel_x [m/s^2]")
         scale = read_scales(path, entry.get("scale", {}))
         rate = _rate(path, entry.get("sample_rate"))
-        own = replace(whole, columns=columns, scale=scale, rate=rate, topics={})
+        own = replace(whole, columns=columns, scale=scale, rate=rate, offset=0.0, topics={})
         found.append((name, own))
     return tuple(found)
 

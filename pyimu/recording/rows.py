@@ -37,6 +37,7 @@ HEAD = 1 << 16
 
 KINDS = (
     "time_origin",
+    "time_offset",
     "repeated_rows",
     "repeated_time",
     "coarse_stamps",
@@ -110,6 +111,8 @@ class Source:
             reader.in_memory,
         )
         header.findings = [*findings, *foreign.notes, *header.findings]
+        if foreign.offset:
+            header.findings.append(Finding("time_offset", "time", 1, {"offset": foreign.offset}))
         companions = _companions(reader.path, foreign, header)
         if wanted == "sensor" and not is_known:
             groups = [g for source in companions for g in source.header.groups]

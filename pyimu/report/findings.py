@@ -40,6 +40,7 @@ SENTENCES = {
         "the positions were turned by {degrees:.3g} deg {way} about the vertical, into the world "
         "of the attitudes"
     ),
+    "time_offset": "the column map moves the times by {offset:.12g} s",
     "rate_of_part": "the part's rate is {other_rate:.6g} Hz, the log's {rate:.6g} Hz",
 }
 """What findings say whose names of numbers alone say too little; a count would say nothing."""

@@ -77,6 +77,7 @@ MEANING = {
     "stuck_samples": "one value for longer than its noise lets it: the sensor or its line hung",
     "temperature_unit": "no electronics is so hot or so cold: the numbers are in the other unit",
     "thermometer_late": "the thermometer follows the sensor's temperature late",
+    "time_offset": "by so much the column map moves the times, to those of another clock",
     "time_origin": "the times begin on a clock of their own (Unix time): they count from the first",
     "turns_between_rests": "turns from rest to rest, by which the gyro was judged",
     "two_rates": "a stretch has another sample rate than the rest of the log",

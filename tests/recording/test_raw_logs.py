@@ -400,8 +400,9 @@ def test_rate_and_further_files_of_a_given_map_are_kept(tmp_path):
     cells = "".join(f'"g{a} [rad/s]" = "gyro_{a} [rad/s]"\n' for a in "xyz")
     forces = "".join(f'"{a}" = "accel_{a} [count]"\n' for a in "xyz")
     rate = 'sample_rate = {value = 100, unit = "Hz"}\n'
+    offset = 'time_offset = {value = -3.5, unit = "h"}\n'
     (tmp_path / "given.toml").write_text(
-        f"{rate}[columns]\n{cells}[[file]]\nname = 'b.csv'\n"
+        f"{rate}{offset}[columns]\n{cells}[[file]]\nname = 'b.csv'\n"
         f'{rate}[file.columns]\n{forces}[file.scale]\naccel = {{value = 1.0, unit = "m/s^2"}}\n'
     )
     given = tomllib.loads((tmp_path / "given.toml").read_text())

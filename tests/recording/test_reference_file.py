@@ -9,6 +9,7 @@ from pyimu.errors import UserError
 from pyimu.recording.log import read_recording, read_reference
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.course import looks_like_degrees
+from pyimu.recording.reference.epoch import time_apart
 from pyimu.recording.reference.file import with_reference, with_references
 from pyimu.recording.reference.rate import reference_rate
 
@@ -129,7 +130,7 @@ def test_a_file_needs_no_gyro_and_unix_times_meet(tmp_path):
 @pytest.mark.parametrize(
     "shift, words",
     [
-        (50.0, ["do not overlap", "52 to 79.98", "add -52 s"]),
+        (50.0, ["do not overlap", "52 to 79.98", "value = -52,", "if both begin together"]),
         (1.7e9, ["different epochs", "mocap"]),
     ],
 )
@@ -139,6 +140,48 @@ def test_clocks_without_a_time_in_common_are_refused(shift, words):
     with pytest.raises(UserError) as refused:
         with_reference(log(), late)
     assert all(w in str(refused.value) for w in words), refused.value
+
+
+def hand(t, seed):
+    """A rate (n, 3) that rises and falls as a hand moves: 20 sines of 0.05 to 1 Hz on each axis."""
+    rng = np.random.default_rng(seed)
+    f, phase, size = rng.uniform(0.05, 1.0, (3, 20)), *rng.uniform(0, 6.28, (2, 3, 20))
+    return (
+        0.1 * np.sum(size[:, None] * np.cos(6.28 * f[:, None] * t[:, None] + phase[:, None]), -1).T
+    )
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("shift", [1.7e9, 500.0, -3600.0])
+def test_how_far_two_clocks_are_apart_is_seen_by_their_turns(tmp_path, seed, shift):
+    """The mean of a period is told within half of it."""
+    sensor = [f"gyro_{c} [rad/s]" for c in "xyz"]
+    t, fine = np.arange(0.0, 90.0, 0.01), np.arange(-20.0, 100.0, 1 / 60)
+    mounting = Rotation.from_rotvec([0.5, 1.0, -0.7])
+    noise = 0.02 * np.random.default_rng(seed).standard_normal((len(t), 3))
+    own = write(tmp_path / "log.csv", ["time [s]", *sensor], [t, hand(t, seed) + noise])
+    names = ["time [s]", *(f"ref_rate_{c} [rad/s]" for c in "xyz")]
+    other = write(tmp_path / "mocap.csv", names, [fine + shift, mounting.apply(hand(fine, seed))])
+    with pytest.raises(UserError, match="turn alike") as refused:
+        with_reference(read_recording(own), read_reference(other))
+    found = float(str(refused.value).split("value = ")[1].split(",")[0])
+    assert found == pytest.approx(-shift, abs=0.05)
+    columns = tmp_path / "map.toml"
+    columns.write_text(f'time_offset = {{value = {found}, unit = "s"}}\n')
+    both = with_reference(read_recording(own), read_reference(other, columns))
+    left = np.linalg.norm(both.ref_rate, axis=1) - np.linalg.norm(hand(t, seed), axis=1)
+    assert np.sqrt(np.mean(left**2)) < 0.1 * np.sqrt(np.mean(hand(t, seed) ** 2))
+
+
+def test_logs_of_two_motions_are_not_alike():
+    """Of two hands that move otherwise no offset is told: 40 pairs."""
+    t, fine = np.arange(0.0, 90.0, 0.02), np.arange(1.7e9, 1.7e9 + 120.0, 1 / 60)
+    for seed in range(40):
+        own = Recording.from_arrays(name="log", time=t, gyro=hand(t, seed))
+        other = Recording.from_arrays(
+            name="mocap", time=fine, ref_rate=hand(fine - 1.7e9, seed + 100)
+        )
+        assert time_apart(own, other) is None
 
 
 def test_one_reference_for_each_log_in_order():

@@ -52,7 +52,8 @@ class Clock:
     late; ``taken_out`` says whether ``late`` was taken out of the reference, or is too small for
     that. ``skew`` is by how much ``late`` grows in a second, with its standard error, where it
     does so steadily but for ``slips``; None where the clocks keep step or the lag wanders.
-    ``doubtful`` says that an effect may have made it look as if it drifted.
+    ``doubtful`` says that an effect may have made it look as if it drifted; ``unsure`` are the
+    spans [s] in which nobody knows whether it has slipped yet.
     """
 
     time: np.ndarray
@@ -64,6 +65,7 @@ class Clock:
     skew: tuple[float, float] | None = None
     slips: tuple[Slip, ...] = ()
     doubtful: bool = False
+    unsure: tuple[tuple[float, float], ...] = ()
 
     @property
     def keeps_step(self) -> bool:
@@ -81,8 +83,8 @@ class Clock:
 
     @property
     def is_steady(self) -> bool:
-        """Whether the lag is one number, or a straight line without slips."""
-        return self.keeps_step or (self.skew is not None and not self.slips)
+        """Whether the lag is one number, or a straight line but for its slips."""
+        return self.keeps_step or self.skew is not None
 
     @property
     def mean(self) -> float:

@@ -46,6 +46,11 @@ MOVING = 0.2
 mounting and no clock, but its own noise."""
 
 
+CLOCK_SET = "time_offset"
+"""The finding of a reference whose clock somebody has set by hand: a lag beside it is that of the
+clock."""
+
+
 class Doubt(IntEnum):
     """Whether a reference has noise that is not white: ``NONE`` where that is known, ``OPEN`` where
     an effect may have left what looks like it, ``LIKELY`` where the sensor's own signal has little
@@ -397,6 +402,8 @@ def _trial(
     segments = [(a + i, a + j) for a, b in recording.segments for i, j in runs(inside[a:b])]
     if repeats.any():
         findings += (Finding("repeated_samples", kind, int(repeats.sum())),)
+    other = () if recording.reference is None else recording.reference.findings
+    findings += tuple(f for f in other if f.kind == CLOCK_SET)
     return Trial(
         recording.name,
         kind,

@@ -16,8 +16,9 @@ from pyimu.identification.fit.fit import Fit, begin
 from pyimu.identification.fit.keys import LogClock
 from pyimu.identification.fit.maximum_likelihood import advantage, fit
 from pyimu.identification.fit.structure import prior_of, with_structure
-from pyimu.identification.fit.trial import Trial, marked
+from pyimu.identification.fit.trial import CLOCK_SET, Trial, marked
 from pyimu.identification.reference.clock import measure, rebanded, shifted
+from pyimu.identification.reference.slips import placed_slips
 from pyimu.identification.reference.track import WANDERS
 from pyimu.model.sensor import Sensor
 from pyimu.recording.clock import runs
@@ -50,14 +51,21 @@ def aligned(
     As far as it is the reference's; their ``clock`` and ``findings`` say what was taken out.
 
     A lag may be the sensor's own where all fitted logs have it in common and the sensor is late. It
-    is left in then, for the effects that make one. What differs from log to log, wanders, makes the
-    sensor early, or is longer than any sensor's is the clock's. A clock that seems to drift or to
-    wander by less than a sample is ``doubtful``, and has one lag where ``lines`` are not wanted.
+    is left in then, for the effects that make one. The clock's is what differs from log to log,
+    wanders, makes the sensor early, is longer than any sensor's, or lies beside a clock that
+    somebody set. A clock that seems to drift or to wander by less than a sample is ``doubtful``,
+    and has one lag where ``lines`` are not wanted.
     """
-    clocks = [_borne_out(t, _level(measure(t, sensor)), sensor, lines) for t in (*trials, *held)]
+    clocks = [_clock(t, sensor, lines) for t in (*trials, *held)]
     seen = [c for c in clocks[: len(trials)] if c is not None and np.isfinite(c.std)]
-    own, std = in_common(seen), _std_of_mean(seen)
+    by_hand = any(f.kind == CLOCK_SET for t in trials for f in t.findings)
+    own, std = 0.0 if by_hand else in_common(seen), _std_of_mean(seen)
     return [_aligned(t, c, own, std) for t, c in zip((*trials, *held), clocks, strict=True)]
+
+
+def _clock(trial: Trial, sensor: Sensor, lines: bool) -> Clock | None:
+    clock = placed_slips(trial, _level(measure(trial, sensor)), sensor)
+    return _borne_out(trial, clock, sensor, lines)
 
 
 def _level(clock: Clock | None) -> Clock | None:
@@ -84,14 +92,23 @@ def _borne_out(trial: Trial, clock: Clock | None, sensor: Sensor, lines: bool) -
     if np.ptp(clock.late) >= trial.h:
         return clock
     steady = clock.kept_in_step()
-    changes, keeps = (rebanded(shifted(trial, c)) for c in (clock, steady))
-    keeps = replace(keeps, clock=replace(steady, taken_out=True))
+    changes = rebanded(shifted(trial, clock))
+    keeps = replace(
+        in_band_of(changes, shifted(trial, steady)), clock=replace(steady, taken_out=True)
+    )
     both = marked(changes.segments, len(trial.time)) & marked(keeps.segments, len(trial.time))
     fits = [_fitted(replace(t, segments=runs(both)), sensor) for t in (changes, keeps)]
     if advantage(*fits) > WANDERS:
         return replace(clock if lines else steady, doubtful=True)
     line = _drifting(trial, steady, fits[1])
     return steady if line is None else replace(line if lines else steady, doubtful=True)
+
+
+def in_band_of(one: Trial, other: Trial) -> Trial:
+    """The ``other`` trial of a log in the band of ``one``, where they differ by their clocks: what
+    is left in two bands is no measure of which is right.
+    """
+    return replace(other, band_hz=one.band_hz)
 
 
 def _drifting(trial: Trial, steady: Clock, fitted: Fit) -> Clock | None:
@@ -111,6 +128,16 @@ def _fitted(trial: Trial, sensor: Sensor) -> Fit:
     """The structure of a sensor, its bias and its noise, fitted to a trial."""
     sensor, structure = with_structure(sensor)
     return fit(begin(sensor, structure, [trial], prior_of(sensor, structure)))
+
+
+def _less_unsure(trial: Trial, clock: Clock) -> Trial:
+    """The trial without the rows of which nobody knows whether the clock has slipped yet."""
+    if not clock.unsure:
+        return trial
+    known = marked(trial.segments, len(trial.time))
+    for first, last in clock.unsure:
+        known &= (trial.time < first) | (trial.time > last)
+    return replace(trial, segments=runs(known))
 
 
 def in_common(clocks: Sequence[Clock]) -> float:
@@ -141,11 +168,13 @@ def _aligned(trial: Trial, clock: Clock | None, own: float, own_std: float) -> T
         # Its line moves the reference by less than a row at either end: with it and without the
         # same rows are fitted.
         trial = replace(trial, segments=[(a + 1, b - 1) for a, b in trial.segments if b - a > 2])
+    trial = _less_unsure(trial, clock)
     rest = clock.less(own)
     # What a log lacks of the lag in common is known no better than that.
     std = float(np.hypot(clock.std, own_std)) if own else clock.std
     chance = max(SIGNIFICANT * std, ALIKE * own)
-    if rest.keeps_step and abs(rest.mean) < chance:
+    # A lag that may change is the clock's, whatever its mean.
+    if rest.keeps_step and abs(rest.mean) < chance and not clock.doubtful:
         return replace(trial, clock=rest)
     found = Finding(
         "reference_clock",

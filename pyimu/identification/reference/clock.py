@@ -15,7 +15,6 @@ from itertools import pairwise
 
 import numpy as np
 from numba import njit
-from scipy.fft import irfft, next_fast_len, rfft
 from scipy.special import i0
 
 from pyimu.identification.fit.clock import Clock
@@ -34,6 +33,7 @@ from pyimu.identification.reference.track import Level, level_of
 from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS
+from pyimu.recording.reference.epoch import correlations
 
 WINDOW, ROWS = 2.5, 32
 """s; windows of the fine lag, and the least rows of the band that one covers."""
@@ -242,25 +242,11 @@ def _coarse(trial: Trial) -> float:
     y = np.linalg.norm(trial.y[:, axes] - np.median(trial.y[:, axes], axis=0), axis=1)
     most = round(min(FARTHEST, (trial.time[-1] - trial.time[0]) / 4) / trial.h)
     lags = np.arange(-most, most + 1)
-    r = _correlation(x, y, counted, lags)
+    both = counted.astype(float)
+    least = 0.5 * len(both) * both.mean() ** 2
+    r = correlations(x, both, y, both, lags, least)
     best = int(np.argmax(r))
     return float(lags[best] * trial.h) if 1 - r[best] < 0.5 * (1 - r[most]) else 0.0
-
-
-def _correlation(x, y, counted, lags: np.ndarray) -> np.ndarray:
-    """Correlation of x (n,) with y (n,) ``lags`` (m,) rows later, over rows that both have."""
-    n, size = len(x), next_fast_len(2 * len(x))
-    m = counted.astype(float)
-    x, y = ((v - v[counted].mean()) * m for v in (x, y))
-
-    def cross(a, b):
-        return irfft(np.conj(rfft(a, size)) * rfft(b, size), size)[lags % size]
-
-    pairs = np.maximum(cross(m, m), 1.0)
-    covariance = cross(x, y) / pairs
-    power = cross(x * x, m) * cross(m, y * y) / pairs**2
-    enough = pairs > 0.5 * n * m.mean() ** 2
-    return np.where(enough, covariance / np.sqrt(np.maximum(power, 1e-300)), -1.0)
 
 
 def _windows(trial: Trial, sensor: Sensor):

@@ -66,6 +66,8 @@ def text_of(proposals: Sequence[Proposal], given: MapGiven = MapGiven()) -> str:
     elif first.timeless:
         lines += ["", "# No column rises as a time does; say the rate if there is none:"]
         lines += ["# " + _rate(100.0)]
+    if "time_offset" in given.data:
+        lines += ["", f"time_offset = {_value(given.data['time_offset'])}"]
     lines += ["", "[columns]", *_columns(first.guesses)]
     lines += _scales(first.guesses, "scale", given.scale(first.path))
     for other in others:

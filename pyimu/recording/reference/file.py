@@ -11,6 +11,7 @@ from pyimu.errors import UserError
 from pyimu.recording.columns import GROUPS
 from pyimu.recording.recording import Recording, filled
 from pyimu.recording.reference.attitude import attitude_at, within
+from pyimu.recording.reference.epoch import time_apart
 from pyimu.recording.reference.track import Track, fresh
 
 TRUTHS = tuple(name for name in GROUPS if name.startswith("ref_"))
@@ -63,23 +64,32 @@ def with_references(logs: Sequence[Recording], references: Sequence[Recording]) 
 
 
 def _origin(recording: Recording) -> float:
-    """s; what was subtracted from the times of a file whose clock is of its own (Unix time)."""
-    found = [f for f in recording.findings if f.kind == "time_origin"]
-    return float(found[0].detail["origin"]) if found else 0.0
+    """s; what lies between the times of a recording and those of its file (a clock of its own such
+    as Unix time) and of its map.
+    """
+    known = {"time_origin": "origin", "time_offset": "offset"}
+    return sum(float(f.detail[known[f.kind]]) for f in recording.findings if f.kind in known)
 
 
 def _check_overlap(log: Recording, reference: Recording) -> None:
     first, last = log.time[[0, -1]]
     begins, ends = reference.time[[0, -1]]
-    spans = (
-        f"{reference.name} covers {_span(reference, _origin(log))} and {log.name} "
-        f"{_span(log, _origin(log))}"
+    epochs = abs(begins - first) > DAY
+    if not epochs and min(last, ends) > max(first, begins):
+        return
+    what = (
+        "their clocks count from different epochs" if epochs else "log and reference do not overlap"
     )
-    by = f"add {first - begins:.12g} s to the time of {reference.name} if both begin together"
-    if abs(begins - first) > DAY:
-        raise UserError(f"{spans}: their clocks count from different epochs; {by}")
-    if min(last, ends) <= max(first, begins):
-        raise UserError(f"{spans}: log and reference do not overlap; {by}")
+    apart = time_apart(log, reference)
+    given = sum(f.detail["offset"] for f in reference.findings if f.kind == "time_offset")
+    offset = given + (first - begins if apart is None else apart)
+    why = "if both begin together" if apart is None else "with which the two turn alike"
+    raise UserError(
+        f"{reference.name} covers {_span(reference, _origin(log))} and {log.name} "
+        f"{_span(log, _origin(log))}: {what}; write "
+        f'time_offset = {{value = {offset:.12g}, unit = "s"}} in the column map of '
+        f"{reference.name} (--reference-columns), {why}"
+    )
 
 
 def _span(recording: Recording, origin: float) -> str:
