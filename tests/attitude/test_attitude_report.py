@@ -72,12 +72,16 @@ def test_report_says_the_error_over_the_rows_with_a_reference(result, world):
     )
     inclination = np.degrees(np.arccos(np.clip(np.sum(up * true_up, axis=1), -1, 1)))
     said = re.search(
-        r"inclination ([\d.]+) deg RMS, 95 % below ([\d.]+) deg; total .* \(2,900 rows; (.*)\)",
+        r"inclination ([\d.]+) deg RMS \(([\d.]+) claimed\), 95 % below ([\d.]+) deg; total .* "
+        r"\(2,900 rows; (.*)\)",
         result.report(),
     )
     assert float(said[1]) == pytest.approx(np.sqrt(np.mean(inclination**2)), rel=6e-3)
-    assert float(said[2]) == pytest.approx(np.percentile(inclination, 95), rel=6e-3)
-    assert "axes are assumed to be the sensor's" in said[3]
+    assert float(said[3]) == pytest.approx(np.percentile(inclination, 95), rel=6e-3)
+    assert "axes are assumed to be the sensor's" in said[4]
+    claimed = np.sqrt(np.mean(2 * result.tilt_std[rows] ** 2))
+    assert float(said[2]) == pytest.approx(np.degrees(claimed), rel=6e-3)
+    assert result.as_dict()["error"]["inclination"]["claimed"] == pytest.approx(claimed)
 
 
 @pytest.mark.parametrize("reference", [None, np.full((3000, 4), np.nan)])

@@ -6,9 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from pyimu.attitude.error import AttitudeError
 from pyimu.attitude.outcome import NIS_BOUNDS, Outcome
-from pyimu.attitude.report.words import ALIGNED, error_sizes, nis_inside, notes
+from pyimu.attitude.report.words import ALIGNED, claimed_inclination, error_sizes, nis_inside, notes
 from pyimu.files import plain
 
 
@@ -26,7 +25,8 @@ def contents(a: Outcome) -> dict[str, Any]:
     ``disturbed``: the share of the samples with a disturbed field, null where it is not used};
     ``status``: [{``bit``, ``text``, ``samples``, ``first`` and ``last`` [s]}];
     ``error``: {``rows``, ``assumed``, ``inclination``, ``total`` and ``heading``: {``rms``,
-    ``p95``, ``unit``}}, null without a reference; ``quality`` as in the report of ``pyimu close``;
+    ``p95``, ``unit``}}, of the inclination what the standard deviations have ``claimed``, too, null
+    without a reference; ``quality`` as in the report of ``pyimu close``;
     ``parameters`` with which the filter's unit gives the same. The estimates are in
     attitude.parquet.
     """
@@ -60,7 +60,7 @@ def contents(a: Outcome) -> dict[str, Any]:
                 "disturbed": a.disturbed if a.magnetometer.used else None,
             },
             "status": [vars(event) | {"text": event.text} for event in a.events],
-            "error": None if a.error is None else _error(a.error),
+            "error": None if a.error is None else _error(a),
             "quality": [f.as_dict() for f in a.findings],
             "parameters": a.parameters,
         }
@@ -78,9 +78,10 @@ def _last(a: Outcome) -> dict[str, Any]:
     }
 
 
-def _error(error: AttitudeError) -> dict[str, Any]:
+def _error(a: Outcome) -> dict[str, Any]:
     sizes = {
         name: {"rms": rms, "p95": most, "unit": "rad"}
-        for name, (rms, most) in error_sizes(error).items()
+        for name, (rms, most) in error_sizes(a.error).items()
     }
-    return {"rows": len(error.time), "assumed": ALIGNED} | sizes
+    sizes["inclination"]["claimed"] = claimed_inclination(a)
+    return {"rows": len(a.error.time), "assumed": ALIGNED} | sizes

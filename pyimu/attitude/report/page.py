@@ -20,6 +20,7 @@ from pyimu.attitude.report.words import (
     ALIGNED,
     FREEDOM,
     about,
+    claimed_inclination,
     error_sizes,
     gravity_used,
     heading_from,
@@ -78,8 +79,14 @@ def _summary(a: Outcome) -> Table:
 def _error(a: Outcome) -> dict[str, Any] | None:
     if a.error is None:
         return None
+    claimed = {"inclination": f"{number(np.degrees(claimed_inclination(a)))} deg"}
     rows = [
-        (name, f"{number(np.degrees(rms))} deg", f"{number(np.degrees(most))} deg")
+        (
+            name,
+            f"{number(np.degrees(rms))} deg",
+            f"{number(np.degrees(most))} deg",
+            claimed.get(name, "–"),
+        )
         for name, (rms, most) in error_sizes(a.error).items()
     ]
     caption = (
@@ -89,7 +96,7 @@ def _error(a: Outcome) -> dict[str, Any] | None:
     return {
         "assumed": f"Over {len(a.error.time):,} rows: {ALIGNED}.",
         "other": reference_words(a),
-        "sizes": Table(("", "RMS", "95 % below"), rows),
+        "sizes": Table(("", "RMS", "95 % below", "RMS claimed"), rows),
         "picture": _picture(error_picture, a, caption, "attitude error over time"),
     }
 

@@ -31,7 +31,7 @@ def _indented(a: Outcome) -> Iterator[str]:
     if a.magnetometer.used:
         yield f"  heading         {heading_from(a)}"
     if a.error is not None:
-        yield f"  error           {error_words(a.error)}"
+        yield f"  error           {error_words(a)}"
         if other := reference_words(a):
             yield f"  reference       {other}"
     for event in a.events:

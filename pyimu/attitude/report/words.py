@@ -326,10 +326,21 @@ def reference_words(a: Outcome) -> str:
     )
 
 
-def error_words(error: AttitudeError) -> str:
+def claimed_inclination(a: Outcome) -> float:
+    """Root mean square [rad] of the inclination that the standard deviations claim, over the rows
+    of the error. Of a heading that is set right at the first row they claim nothing.
+    """
+    return root_mean_square(np.sqrt(2) * a.tilt_std[np.isin(a.time, a.error.time)])
+
+
+def error_words(a: Outcome) -> str:
     """The error against the reference in a line."""
-    sizes = [
-        f"{name} {number(np.degrees(rms))} deg RMS, 95 % below {number(np.degrees(most))} deg"
-        for name, (rms, most) in error_sizes(error).items()
-    ]
-    return f"{'; '.join(sizes)} ({len(error.time):,} rows; {ALIGNED})"
+    sizes = []
+    for name, (rms, most) in error_sizes(a.error).items():
+        claimed = f" ({_degrees(claimed_inclination(a))} claimed)" * (name == "inclination")
+        sizes.append(f"{name} {_degrees(rms)} deg RMS{claimed}, 95 % below {_degrees(most)} deg")
+    return f"{'; '.join(sizes)} ({len(a.error.time):,} rows; {ALIGNED})"
+
+
+def _degrees(angle: float) -> str:
+    return number(np.degrees(angle))
