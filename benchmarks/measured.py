@@ -63,7 +63,7 @@ SHOWN = {"gyro": (np.degrees(1.0), "deg/s"), "accel": (1.0, "m/s^2"), "mag": (1e
 class Row:
     """Logs to fit and to judge by, what is true of them, and what must hold of the result.
 
-    ``columns`` is the column map of foreign logs.
+    ``columns`` is the column map of foreign logs, ``share`` from where to where they are taken.
     """
 
     name: str
@@ -72,6 +72,7 @@ class Row:
     truth: str
     holds: Callable[[Closed], bool] = lambda closed: True
     columns: str = ""
+    share: tuple[float, float] = (0.0, 1.0)
 
 
 def ratio(closed: Closed, kind: str = "gyro") -> float:
@@ -105,11 +106,16 @@ def wand(closed: Closed) -> bool:
     return "saturation" in added and not added & wrong and after <= 1.02 * before
 
 
+def gyro_spared(closed: Closed) -> bool:
+    """Whether nothing was added to the gyro."""
+    return not any(a.sensor == "gyro" for a in closed.added)
+
+
 def car(closed: Closed) -> bool:
     """Whether the clock was found, the heading follows the course, and the gyro is not blamed."""
     clock = closed.recordings[0].log_state["gyro"]["reference"]["clock"]
     heading = closed.heading or (np.inf, np.inf)
-    blamed = any(a.sensor == "gyro" for a in closed.added)
+    blamed = not gyro_spared(closed)
     return 0.23 <= clock["late"] <= 0.27 and np.degrees(heading[1]) <= 1.5 and not blamed
 
 
@@ -128,7 +134,18 @@ ROWS = (
         WAND[2:],
         [],
         "two clocks 1e-4 apart that slip by a sample",
-        lambda c: not any(a.sensor == "gyro" for a in c.added),
+        gyro_spared,
+    ),
+    *(
+        Row(
+            f"wand 07, {which} half",
+            WAND[2:],
+            [],
+            "the same",
+            gyro_spared,
+            share=(first, first + 0.5),
+        )
+        for which, first in (("first", 0.0), ("middle", 0.25), ("last", 0.5))
     ),
     Row(
         "pendulum",
@@ -183,7 +200,7 @@ def table(rows: Iterable[Row]) -> bool:
             continue
         began = time.perf_counter()
         try:
-            fitted, judged = ([_read(p, row.columns) for p in ps] for ps in paths)
+            fitted, judged = ([_read(p, row) for p in ps] for ps in paths)
             closed = pyimu.close(fitted, holdout=judged or None)
         except pyimu.UserError as error:
             print(f"{row.name:14} refused: {error}")
@@ -201,12 +218,13 @@ def table(rows: Iterable[Row]) -> bool:
     return good
 
 
-def _read(path: Path, columns: str) -> pyimu.Recording:
-    if not columns:
-        return pyimu.read_recording(path)
+def _read(path: Path, row: Row) -> pyimu.Recording:
+    if not row.columns:
+        recording = pyimu.read_recording(path)
+        return recording.slice(*(round(share * len(recording)) for share in row.share))
     with tempfile.TemporaryDirectory() as folder:
         map_file = Path(folder) / "columns.toml"
-        map_file.write_text(columns)
+        map_file.write_text(row.columns)
         return pyimu.read_recording(path, columns=map_file)
 
 

@@ -47,6 +47,15 @@ def test_repoimu_reference_spikes_are_reported_and_left_out(wand):
     assert "test06" in spikes.detail["recording"]
 
 
+def test_a_clock_that_drifts_by_half_a_sample_blames_no_sensor():
+    """The middle of a log whose two clocks are 1e-4 apart, where none of their slips lies."""
+    (path,) = recordings("repoimu_tstick_test07_trial1")
+    closed = pyimu.close(pyimu.read_recording(path).slice(2250, 6750))
+    assert not [a.effect for a in closed.added if a.sensor == "gyro"]
+    late = closed.as_dict()["reference"][0]["clock_skew"]
+    assert 8e-5 < late["value"] < 1.4e-4
+
+
 @pytest.mark.long
 def test_broad_lag_fitted_on_02_holds_on_07():
     """By a minute of each; the whole logs take longer (benchmarks/measured.py)."""

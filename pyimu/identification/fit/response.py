@@ -63,11 +63,14 @@ def with_memory(
     chain = rest.chain
     if not has_memory(chain):
         return inputs
-    u, first = np.column_stack(inputs), 0
+    function, read = _memory(chain)
+    u, first = np.empty((len(inputs[0]), len(read))), 0
+    for k, at in enumerate(read):
+        u[:, k] = inputs[at]
     if earlier is not None:
-        u, first = np.concatenate([earlier, u]), len(earlier)
+        u, first = np.concatenate([earlier[:, read], u]), len(earlier)
     memory, none = np.empty((len(u), len(chain.start))), np.zeros((len(u), 0))
-    step_through(_memory(chain), chain.start.copy(), u, rest.p, none, np.array([h]), memory)
+    step_through(function, chain.start.copy(), u, rest.p, none, np.array([h]), memory)
     return [*inputs, *memory[first:].T]
 
 
@@ -77,13 +80,18 @@ def has_memory(chain: Chain) -> bool:
 
 
 @lru_cache(maxsize=32)
-def _memory(chain: Chain) -> ca.Function:
-    """The step of a chain's memory alone, whose output is the memory before it."""
+def _memory(chain: Chain) -> tuple[ca.Function, list[int]]:
+    """The step of a chain's memory alone, whose output is the memory before it, and the numbers of
+    the inputs that it takes: few of them all.
+    """
     s, w = ca.SX.sym("s", len(chain.start)), np.zeros(len(chain.noise))
-    after = chain.step(s, chain.u, chain.p, w, chain.h)[0]
-    return ca.Function(
-        "memory", [s, chain.u, chain.p, ca.SX.sym("w", 0), chain.h], [ca.densify(after), s]
-    )
+    after = ca.densify(chain.step(s, chain.u, chain.p, w, chain.h)[0])
+
+    def stepped(u: ca.SX) -> ca.Function:
+        return ca.Function("memory", [s, u, chain.p, ca.SX.sym("w", 0), chain.h], [after, s])
+
+    read = program(stepped(chain.u)).entries(1)
+    return stepped(chain.u[read]), read
 
 
 def before_dynamics(sensor: Sensor) -> Sensor:
