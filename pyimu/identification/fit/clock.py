@@ -53,7 +53,8 @@ class Clock:
     that. ``skew`` is by how much ``late`` grows in a second, with its standard error, where it
     does so steadily but for ``slips``; None where the clocks keep step or the lag wanders.
     ``doubtful`` says that an effect may have made it look as if it drifted; ``unsure`` are the
-    spans [s] in which nobody knows whether it has slipped yet.
+    spans [s] in which nobody knows whether it has slipped yet; ``changed`` says that one lag stands
+    for one that seemed to change.
     """
 
     time: np.ndarray
@@ -66,6 +67,7 @@ class Clock:
     slips: tuple[Slip, ...] = ()
     doubtful: bool = False
     unsure: tuple[tuple[float, float], ...] = ()
+    changed: bool = False
 
     @property
     def keeps_step(self) -> bool:
@@ -75,7 +77,8 @@ class Clock:
         """One lag, the mean, in place of one that changes, known to as much as that scatters."""
         std = max(self.std, float(np.ptp(self.late) / np.sqrt(12.0)))
         late = np.array([self.mean])
-        return replace(self, time=self.time[:1], late=late, std=std, skew=None, slips=())
+        one = replace(self, time=self.time[:1], late=late, std=std)
+        return replace(one, skew=None, slips=(), changed=True)
 
     @property
     def is_seen(self) -> bool:

@@ -27,7 +27,8 @@ SIGNIFICANT = 5.0
 """Standard errors from which on a lag is no chance."""
 
 DOUBTFUL = 3.0
-"""Standard errors within which a log that shows no lag by itself must have that of the others."""
+"""Standard errors within which a log that shows no lag by itself must have that of the others, and
+beyond which one that seems to change is none by chance."""
 
 LIKELIER = 3.5
 """Standard errors of a drift from which on a line is likelier than one lag by the 6 nat that an
@@ -82,15 +83,19 @@ def _level(clock: Clock | None) -> Clock | None:
 
 def _borne_out(trial: Trial, clock: Clock | None, sensor: Sensor, lines: bool) -> Clock | None:
     """One lag where a lag that changes by less than a sample does not explain the samples better,
-    or a line through it.
+    or a line through it, as where windows show none.
 
     Windows weigh a bias that wanders by its size alone; all rows together know its spectrum, and
     the mean of the lags that it bends.
     """
-    if clock is None or clock.keeps_step or not clock.is_seen:
+    if clock is None or not clock.is_seen or np.ptp(clock.late) >= trial.h:
         return clock
-    if np.ptp(clock.late) >= trial.h:
-        return clock
+    if clock.keeps_step:
+        if abs(clock.mean) >= SIGNIFICANT * clock.std:
+            return clock
+        keeps = rebanded(shifted(trial, clock))
+        fitted = _fitted(replace(keeps, clock=replace(clock, taken_out=True)), sensor)
+        return _likelier(trial, clock, fitted, lines)
     steady = clock.kept_in_step()
     changes = rebanded(shifted(trial, clock))
     keeps = replace(
@@ -100,8 +105,21 @@ def _borne_out(trial: Trial, clock: Clock | None, sensor: Sensor, lines: bool) -
     fits = [_fitted(replace(t, segments=runs(both)), sensor) for t in (changes, keeps)]
     if advantage(*fits) > WANDERS:
         return replace(clock if lines else steady, doubtful=True)
-    line = _drifting(trial, steady, fits[1])
-    return steady if line is None else replace(line if lines else steady, doubtful=True)
+    if abs(steady.mean) >= SIGNIFICANT * steady.std:
+        return steady
+    return _likelier(trial, steady, fits[1], lines)
+
+
+def _likelier(trial: Trial, steady: Clock, fitted: Fit, lines: bool) -> Clock:
+    """The line that a fit finds about one lag, where that line is no chance, else the lag: where
+    that is not seen, a clock that drifts is right at no instant that is known beforehand.
+    """
+    change, std = fitted.states[trial.name].clock, fitted.std.get(LogClock(trial.name, 1), np.inf)
+    if change is None:
+        return steady
+    ends = float(trial.time[0]), float(trial.time[-1])
+    line = steady.corrected(change, std, *ends, least=LIKELIER)
+    return steady if line.keeps_step else replace(line if lines else steady, doubtful=True)
 
 
 def in_band_of(one: Trial, other: Trial) -> Trial:
@@ -109,19 +127,6 @@ def in_band_of(one: Trial, other: Trial) -> Trial:
     is left in two bands is no measure of which is right.
     """
     return replace(other, band_hz=one.band_hz)
-
-
-def _drifting(trial: Trial, steady: Clock, fitted: Fit) -> Clock | None:
-    """The line that a fit finds about one lag, where that lag is not seen and the line is no
-    chance: a clock that drifts is right at no instant that is known beforehand. None where there
-    is no such line.
-    """
-    change, std = fitted.states[trial.name].clock, fitted.std.get(LogClock(trial.name, 1), np.inf)
-    if change is None or abs(steady.mean) >= SIGNIFICANT * steady.std:
-        return None
-    ends = float(trial.time[0]), float(trial.time[-1])
-    line = steady.corrected(change, std, *ends, least=LIKELIER)
-    return None if line.keeps_step else line
 
 
 def _fitted(trial: Trial, sensor: Sensor) -> Fit:
@@ -173,8 +178,9 @@ def _aligned(trial: Trial, clock: Clock | None, own: float, own_std: float) -> T
     # What a log lacks of the lag in common is known no better than that.
     std = float(np.hypot(clock.std, own_std)) if own else clock.std
     chance = max(SIGNIFICANT * std, ALIKE * own)
-    # A lag that may change is the clock's, whatever its mean.
-    if rest.keeps_step and abs(rest.mean) < chance and not clock.doubtful:
+    # A lag that seems to change, and is nobody's own, is the clock's.
+    is_clock = clock.changed and not own and abs(clock.mean) >= DOUBTFUL * clock.std
+    if rest.keeps_step and abs(rest.mean) < chance and not is_clock:
         return replace(trial, clock=rest)
     found = Finding(
         "reference_clock",
