@@ -24,11 +24,11 @@ def _is_doubtful(trial: Trial) -> bool:
 
 def _cost(trial: Trial) -> float:
     """What a clock that does not keep its lag has to explain more [nat]: a line is one coefficient,
-    what wanders must be ``WANDERS`` better.
+    what wanders or slips must be ``WANDERS`` better.
     """
     if not _is_doubtful(trial):
         return 0.0
-    return PENALTY if trial.clock.is_steady else WANDERS
+    return PENALTY if trial.clock.is_steady and not trial.clock.slips else WANDERS
 
 
 def likelier_clock(one: Look, keeps: Callable[[], Look]) -> Look:
