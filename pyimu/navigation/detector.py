@@ -161,12 +161,13 @@ def detect(
             + variance_of_bias * away**2
             + noise.walk**2 * away**3 / 3,
             white=noise.force**2 * (1 / (stop - start) + 1 / before.rows),
-            turned=_way(gyro[before.stop : start] - bias, rows, period),
+            turned=way_of(gyro[before.stop : start] - bias, rows, period),
         ):
             still[start:stop] = False
         else:
             bias, at, variance_of_bias = mean, float(time[stop - 1]), own
-            before = _Rest(force, stop - start, stop)
+            if before is None or (stop - start) * period > MOMENT:
+                before = _Rest(force, stop - start, stop)
     return Detected(still, float(np.mean(passed)), tuple(steady))
 
 
@@ -183,8 +184,34 @@ def _unpushed(force: np.ndarray, noise: Noise, rows: int, period: float) -> np.n
         return np.ones(len(force), dtype=bool)
     means = force[: n * rows].reshape(n, rows, 3).mean(axis=1)
     limit = (STEADY_GATE + 3) * (FORCE_STAYS**2 + 2 * float(np.mean(noise.force**2)) / rows)
-    long, short = max(2, round(SETTLED / block)), max(2, round(MOMENT / block))
-    rest, still = means[0], np.ones(n, dtype=bool)
+    short = max(2, round(MOMENT / block))
+    calm = _calmest(means, short)
+    still = np.empty(n, dtype=bool)
+    still[calm:] = _as_before(means[calm:], limit, block)
+    still[: calm + 1] = _as_before(means[calm::-1], limit, block)[::-1]
+    for start, stop in runs(still):
+        if start > 0 and stop < n and stop - start < short:
+            still[start:stop] = False
+    # A push begins and ends within the blocks beside it.
+    still = ~maximum_filter1d(~still, 3, mode="nearest")
+    return np.append(np.repeat(still, rows), np.full(len(force) - n * rows, still[-1]))
+
+
+def _calmest(means: np.ndarray, count: int) -> int:
+    """The first of the ``count`` means (n, 3) that follow each other with the least spread: a run
+    may begin in the end of a push.
+    """
+    count = min(count, len(means))
+    spreads = [means[k : k + count].var(axis=0).sum() for k in range(len(means) - count + 1)]
+    return int(np.argmin(spreads))
+
+
+def _as_before(means: np.ndarray, limit: float, block: float) -> np.ndarray:
+    """Marks (n,) of means (n, 3) over ``block`` s that are those of the first, followed over
+    ``FOLLOWED``, to the root of ``limit``; and of others that stay so for ``SETTLED``.
+    """
+    long = max(2, round(SETTLED / block))
+    rest, still = means[0], np.ones(len(means), dtype=bool)
     for k, mean in enumerate(means):
         last = means[max(0, k - long + 1) : k + 1]
         still[k] = np.sum((mean - rest) ** 2) <= limit
@@ -192,12 +219,7 @@ def _unpushed(force: np.ndarray, noise: Noise, rows: int, period: float) -> np.n
             rest = rest + (mean - rest) * block / FOLLOWED
         elif len(last) == long and np.all(np.sum((last - last.mean(axis=0)) ** 2, 1) <= limit):
             still[k - long + 1 : k + 1], rest = True, last.mean(axis=0)
-    for start, stop in runs(still):
-        if start > 0 and stop < n and stop - start < short:
-            still[start:stop] = False
-    # A push begins and ends within the blocks beside it.
-    still = ~maximum_filter1d(~still, 3, mode="nearest")
-    return np.append(np.repeat(still, rows), np.full(len(force) - n * rows, still[-1]))
+    return still
 
 
 @dataclass(frozen=True)
@@ -218,7 +240,7 @@ class _Rest:
         return turns[0].inv().apply(self.force)
 
 
-def _way(rates: np.ndarray, rows: int, period: float) -> float:
+def way_of(rates: np.ndarray, rows: int, period: float) -> float:
     """The way [rad] that rates (n, 3) turn, by their means over ``rows``, as noise turns nothing;
     infinite where one is missing.
     """

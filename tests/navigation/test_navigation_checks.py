@@ -132,13 +132,24 @@ def scaled(part, share):
     return replace(part, **white_of)
 
 
-def test_a_constant_speed_that_is_taken_for_a_rest_is_said():
-    """Without vibration nothing tells the two apart but what the zero velocities contradict."""
+def test_a_drive_at_constant_speed_is_said_and_is_no_rest():
+    """Without vibration nothing tells the two apart but the speed that came before."""
     drive = replace(SHORT, legs=1, side=6.0, vibration=0.0)
-    text = said(assumed().specimen(4).simulate(motion(drive, 50.0), seed=4))
-    assert "A drive at constant speed looks like a rest; a column stationary would tell" in text
-    assert "The reference moves during 1 rest, by up to" in text
-    assert "times as large" not in text
+    found = run(assumed().specimen(4).simulate(motion(drive, 50.0), seed=4), assumed())
+    assert "driven at a constant speed, 1 time, the longest at 5" in found.report()
+    speed = np.linalg.norm(found.recording.ref_velocity, axis=1)
+    assert speed[found.still].max() < 0.05
+    std = found.filter.vector("position_std")[-1, :2]
+    assert found.errors["filter"].end < 4 * np.hypot(*std)
+
+
+def test_a_log_that_begins_at_a_constant_speed_takes_that_for_a_rest_and_it_is_said():
+    """No inertial sensor tells it from one, and nothing came before."""
+    drive = replace(SHORT, legs=1, side=6.0, vibration=0.0)
+    log = assumed().specimen(4).simulate(motion(drive, 50.0), seed=4)
+    found = run(log.slice(int(np.searchsorted(log.time, 10.0))), assumed(), method="filter")
+    assert "The reference moves during 1 rest, by up to" in found.report()
+    assert "times as large" not in found.report()
 
 
 def test_rests_that_are_rests_do_not_move(log):

@@ -91,6 +91,14 @@ def notes(a: Outcome) -> list[str]:
             f"{longest['first']:.6g} s for {quantity(longest['seconds'], 's')}: that looks like a "
             "rest to the accelerometer, but the gyro was off its bias, so it was taken for a turn"
         )
+    drives = [f.detail for f in a.findings if f.kind == "steady_drive"]
+    if drives:
+        longest = max(drives, key=lambda d: d["seconds"])
+        out.append(
+            f"The sensor was driven at a constant speed, {_counted(len(drives), 'time')}, the "
+            f"longest at {longest['first']:.6g} s for {quantity(longest['seconds'], 's')}: that "
+            "looks like a rest, but a speed came before it and went after it"
+        )
     out += [
         f"{_counted(f.count, 'sample')} of {f.column} that no motion makes "
         f"{'was' if f.count == 1 else 'were'} left out, the first at {f.detail['first']:.6g} s"
