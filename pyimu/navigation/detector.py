@@ -34,7 +34,7 @@ STEADY_GATE = 25.0
 a steady turn, and of mean force and that of the rest before, beyond which it is one of a steady
 push."""
 
-FORCE_STAYS, FOLLOWED = 0.01, 30.0
+FORCE_STAYS, FOLLOWED = 0.005, 30.0
 """m/s^2, s; by how much the mean force of a body that rests may change, and the time over which it
 is the mean before: over minutes a temperature may change it more."""
 

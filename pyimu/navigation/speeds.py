@@ -32,7 +32,8 @@ RETURNED = 0.5
 
 APART, LONG = 2 * WINDOW, 2.0
 """s; stretches that are nearer to each other than the first are one that a window parted by chance,
-as it does in a gentle push: what is shorter than the second then has a force of its own."""
+as it does in a gentle push. What is shorter than the second may then be pushed all along, as it is
+where its force is another than that of a longer one beside it: its force is not that of a rest."""
 
 
 @dataclass(frozen=True)
@@ -95,35 +96,53 @@ def driven(
 
     The first is a rest. ``gyro`` rad/s and ``accel`` m/s^2 are (n, 3), ``period`` is in s.
     """
-    found = runs(still)
-    parted = _parted(found, period)
-    stretches = [
-        _Stretch(a, b, gyro[a:b].mean(axis=0), accel[a:b].mean(axis=0))
-        for (a, b), by_chance in zip(found, parted, strict=True)
-        if not by_chance
+    every = [
+        _Stretch(a, b, gyro[a:b].mean(axis=0), accel[a:b].mean(axis=0)) for a, b in runs(still)
     ]
+    inside = [
+        _is_inside(k, every, period)
+        or any(_differs(gyro, every[k], other, noise, period) for other in _beside(k, every))
+        for k in range(len(every))
+    ]
+    stretches = [s for s, within in zip(every, inside, strict=True) if not within]
+    short = [s for s, within in zip(every, inside, strict=True) if within]
 
     def change(k: int) -> _Change:
         return _change(time, gyro, accel, (stretches[k], stretches[k + 1]), noise, period)
 
-    out, at, short = [], 0, [run for run, by_chance in zip(found, parted, strict=True) if by_chance]
+    out, at = [], 0
     while at < len(stretches) - 1:
         after, legs = _next_rest(stretches, at, change, period)
         out += [(s.start, s.stop) for s in stretches[at + 1 : after]]
         for leg in legs:
             rows = leg.change.rows
-            inside = [(a, b) for a, b in short if rows.start <= a and b <= rows.stop]
-            out += [(a, b) for a, b in inside if leg.moves((a + b) // 2)]
+            own = [s for s in short if rows.start <= s.start and s.stop <= rows.stop]
+            out += [(s.start, s.stop) for s in own if leg.moves((s.start + s.stop) // 2)]
         at = after
     return sorted(out)
 
 
-def _parted(found: list[tuple[int, int]], period: float) -> list[bool]:
-    """Which of the stretches are short and near to another."""
-    edges = np.array([(-np.inf, -np.inf), *found, (np.inf, np.inf)])
-    gaps = period * (edges[1:, 0] - edges[:-1, 1])
-    near = np.minimum(gaps[:-1], gaps[1:]) < APART
-    return [bool(n and (b - a) * period < LONG) for n, (a, b) in zip(near, found, strict=True)]
+def _beside(k: int, every: list[_Stretch]) -> list[_Stretch]:
+    """The stretches before and after the one of that number."""
+    return every[max(k - 1, 0) : k] + every[k + 1 : k + 2]
+
+
+def _is_inside(k: int, every: list[_Stretch], period: float) -> bool:
+    """Whether a stretch is short and so near to another that the two are one."""
+    own = every[k]
+    gaps = [max(s.start - own.stop, own.start - s.stop) for s in _beside(k, every)]
+    return own.rows * period < LONG and min(gaps, default=np.inf) * period < APART
+
+
+def _differs(gyro: np.ndarray, own: _Stretch, other: _Stretch, noise: Noise, period: float) -> bool:
+    """Whether a short stretch beside a long one has another force: it is pushed."""
+    if own.rows * period >= LONG or other.rows * period < LONG:
+        return False
+    between = slice(min(own.stop, other.stop), max(own.start, other.start))
+    way = way_of(gyro[between] - other.rate, max(1, round(WINDOW / period)), period)
+    white = float(np.mean(noise.force**2)) * (1 / own.rows + 1 / other.rows)
+    off = float(np.sum((own.force - other.force) ** 2))
+    return off > (STEADY_GATE + 3) * (FORCE_STAYS**2 + white + (FORCE_TURNED * way) ** 2)
 
 
 def _next_rest(

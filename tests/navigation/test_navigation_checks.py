@@ -241,6 +241,17 @@ def test_a_reference_that_jumps_is_said(log):
     assert "jumps by 100 m at 20" in text and "reference's own" in text
 
 
+def test_a_reference_that_jumps_while_the_body_rests_does_not_move_there(log):
+    """Both ways, in the middle of two rests; a rest that is declared in motion moves."""
+    away = (log.time > 2.0) & (log.time < 31.0)
+    text = said(replace(log, ref_east=log.ref_east + 30 * away))
+    assert "jumps by 30.0 m at 2" in text and "reference moves" not in text
+    still = ((log.time < 4) | ((log.time > 6) & (log.time < 9))).astype(float)
+    assert "these are none, whatever the column stationary says" in said(
+        replace(log, stationary=still)
+    )
+
+
 @pytest.mark.parametrize(("mirrored", "turn"), ((False, 2.0), (True, 0.0)))
 def test_a_reference_in_another_frame_is_said_with_its_turn(log, mirrored, turn):
     """A turn of the frame by ``turn``, of a frame whose first axis is north where mirrored."""
