@@ -169,7 +169,9 @@ def rests_that_move(reference: Reference, still: np.ndarray, time: np.ndarray) -
     seconds = np.array([at[b] - at[a] for a, b in ends])
     noise = np.hypot(*[white_noise(column[:, None]) for column in place.T])
     least = max(MOVED, MOVED_BY * float(noise))
-    wrong = np.flatnonzero((ways > least) & (ways > MOVED_AT * seconds))
+    jumps = _jumped(reference, time)
+    jumped = np.array([np.any((jumps >= a) & (jumps < b)) for a, b in ends], dtype=bool)
+    wrong = np.flatnonzero((ways > least) & (ways > MOVED_AT * seconds) & ~jumped)
     if len(wrong):
         first = float(at[ends[wrong[0]][0]])
         detail = {
@@ -209,15 +211,21 @@ def _along(free: Filtered, still: np.ndarray) -> float:
     return float(np.arctan2(y, x)) if sizes[1] > FRAME**2 * sizes[0] else np.nan
 
 
-def _jumps(reference: Reference, time: np.ndarray) -> Iterator[Finding]:
-    """Steps of the reference that are far beyond what its others go in the same time."""
+def _jumped(reference: Reference, time: np.ndarray) -> np.ndarray:
+    """The steps of the reference that are far beyond what its others go in the same time."""
     steps = np.linalg.norm(np.diff(reference.position[:, :2], axis=0), axis=1)
     seconds = np.diff(time[reference.rows])
-    fastest = float(np.quantile(steps / seconds, 0.99))
-    at = np.flatnonzero(steps > np.maximum(JUMP, JUMPS_BY * fastest * seconds))
+    fastest = float(np.quantile(steps / seconds, 0.99)) if len(steps) else 0.0
+    return np.flatnonzero(steps > np.maximum(JUMP, JUMPS_BY * fastest * seconds))
+
+
+def _jumps(reference: Reference, time: np.ndarray) -> Iterator[Finding]:
+    """Jumps of the reference, the first and the largest."""
+    at = _jumped(reference, time)
     if len(at):
-        first = float(time[reference.rows[at[0] + 1]])
-        detail = {"largest": float(steps[at].max()), "first": first}
+        step = np.diff(reference.position[:, :2], axis=0)[at]
+        largest = float(np.linalg.norm(step, axis=1).max())
+        detail = {"largest": largest, "first": float(time[reference.rows[at[0] + 1]])}
         yield Finding("reference_jump", "ref_east", len(at), detail)
 
 

@@ -34,13 +34,16 @@ STEADY_GATE = 25.0
 a steady turn, and of mean force and that of the rest before, beyond which it is one of a steady
 push."""
 
-FORCE_STAYS, FOLLOWED = 0.01, 30.0
+FORCE_STAYS, FOLLOWED = 0.005, 30.0
 """m/s^2, s; by how much the mean force of a body that rests may change, and the time over which it
 is the mean before: over minutes a temperature may change it more."""
 
 MOMENT, SETTLED = 1.5, 10.0
 """s; for less the force of a body that drives may be that at rest, between speeding up and slowing
 down, and for longer it has no other one."""
+
+CANDIDATES = 200
+"""So many places of a still stretch at most are tried for its rest."""
 
 FORCE_KEPT = 0.03
 """m/s^2; standard deviation by which the error of an accelerometer changes from rest to rest in one
@@ -135,7 +138,8 @@ def detect(
 
     The mean rate of a rest must be the bias, as known from the rests before it and the walk since:
     a steady turn is none. The bias of the first is ``noise.bias``. The mean force must be that of
-    the rest before, turned as the gyro says: a body that speeds up evenly does not rest.
+    the rest before, turned as the gyro says: a body that speeds up evenly does not rest. Within a
+    stretch that looks still both must stay so.
     """
     rows = max(LEAST_ROWS, round(window / period))
     passed = ratio(gyro, accel, noise, rows) <= threshold(rows, false_alarm)
@@ -143,9 +147,20 @@ def detect(
     bias, at = noise.bias, float(time[0])
     variance_of_bias = noise.rate**2 / rows
     steady, before = [], None
-    for start, stop in runs(still):
-        still[start:stop] = _unpushed(accel[start:stop], noise, rows, period)
-    for start, stop in runs(still):
+    waiting = [(*run, False) for run in runs(still)]
+    while waiting:
+        start, stop, one = waiting.pop(0)
+        away = np.maximum(time[start:stop] - at, 0.0)
+        spread = noise.rate**2 / rows + variance_of_bias + np.outer(away, noise.walk**2)
+        parts, turns = np.ones(stop - start, dtype=bool), False
+        if not one:
+            rates = gyro[start:stop] - bias
+            parts, turns = _parted(rates, accel[start:stop], spread, noise, rows, period)
+        if not parts.all():
+            still[start:stop] = parts
+            steady += [(start + a, start + b) for a, b in runs(~parts) if turns]
+            waiting[:0] = [(start + a, start + b, not turns) for a, b in runs(parts)]
+            continue
         mean = np.nanmean(gyro[start:stop], axis=0)
         own = noise.rate**2 / (stop - start)
         away = max(float(time[start]) - at, 0.0)
@@ -161,13 +176,46 @@ def detect(
             + variance_of_bias * away**2
             + noise.walk**2 * away**3 / 3,
             white=noise.force**2 * (1 / (stop - start) + 1 / before.rows),
-            turned=_way(gyro[before.stop : start] - bias, rows, period),
+            turned=way_of(gyro[before.stop : start] - bias, rows, period),
         ):
             still[start:stop] = False
         else:
             bias, at, variance_of_bias = mean, float(time[stop - 1]), own
-            before = _Rest(force, stop - start, stop)
+            if before is None or (stop - start) * period > MOMENT:
+                before = _Rest(force, stop - start, stop)
     return Detected(still, float(np.mean(passed)), tuple(steady))
+
+
+def _parted(
+    rates: np.ndarray,
+    force: np.ndarray,
+    spread: np.ndarray,
+    noise: Noise,
+    rows: int,
+    period: float,
+) -> tuple[np.ndarray, bool]:
+    """Marks (n,) of what of a still stretch rests by its means, and whether it is a turn that does
+    not, or a push.
+    """
+    parts = _unturned(rates, spread, rows)
+    if parts.any() and not parts.all():
+        return parts, True
+    return _unpushed(force, noise, rows, period), False
+
+
+def _unturned(rates: np.ndarray, spread: np.ndarray, rows: int) -> np.ndarray:
+    """Marks (n,) of a still stretch, less where means over ``rows`` of its ``rates`` (n, 3) rad/s,
+    without the bias, are further off than their variance ``spread`` (n, 3) allows: a turn so gentle
+    that no window shows it lies between two rests.
+    """
+    n = len(rates) // rows
+    if n < 3:
+        return np.ones(len(rates), dtype=bool)
+    means = rates[: n * rows].reshape(n, rows, 3).mean(axis=1)
+    turned = np.sum(means**2 / spread[: n * rows : rows], axis=1) > STEADY_GATE + 3
+    # It begins and ends within the blocks beside it.
+    still = ~maximum_filter1d(turned, 3, mode="nearest")
+    return np.append(np.repeat(still, rows), np.full(len(rates) - n * rows, still[-1]))
 
 
 def _unpushed(force: np.ndarray, noise: Noise, rows: int, period: float) -> np.ndarray:
@@ -183,8 +231,40 @@ def _unpushed(force: np.ndarray, noise: Noise, rows: int, period: float) -> np.n
         return np.ones(len(force), dtype=bool)
     means = force[: n * rows].reshape(n, rows, 3).mean(axis=1)
     limit = (STEADY_GATE + 3) * (FORCE_STAYS**2 + 2 * float(np.mean(noise.force**2)) / rows)
-    long, short = max(2, round(SETTLED / block)), max(2, round(MOMENT / block))
-    rest, still = means[0], np.ones(n, dtype=bool)
+    short = max(2, round(MOMENT / block))
+    calm = _rest_among(means, short, limit)
+    still = np.empty(n, dtype=bool)
+    still[calm:] = _as_before(means[calm:], limit, block)
+    still[: calm + 1] = _as_before(means[calm::-1], limit, block)[::-1]
+    for start, stop in runs(still):
+        if start > 0 and stop < n and stop - start < short:
+            still[start:stop] = False
+    # A push begins and ends within the blocks beside it.
+    still = ~maximum_filter1d(~still, 3, mode="nearest")
+    return np.append(np.repeat(still, rows), np.full(len(force) - n * rows, still[-1]))
+
+
+def _rest_among(means: np.ndarray, count: int, limit: float) -> int:
+    """Which of the means (n, 3) begins the rest: of ``count`` of them that follow each other and
+    are alike to the root of ``limit``, those whose force most others have. A run may begin in the
+    end of a push, and have another's top in its middle.
+    """
+    count = min(count, len(means))
+    starts = np.unique(np.linspace(0, len(means) - count, CANDIDATES).astype(int))
+    shared = np.empty(len(starts))
+    for i, k in enumerate(starts):
+        own = means[k : k + count]
+        off = np.sum((means - own.mean(axis=0)) ** 2, axis=1)
+        shared[i] = np.sum(off <= limit / 2) if np.all(off[k : k + count] <= limit / 2) else 0
+    return int(starts[np.argmax(shared)])
+
+
+def _as_before(means: np.ndarray, limit: float, block: float) -> np.ndarray:
+    """Marks (n,) of means (n, 3) over ``block`` s that are those of the first, followed over
+    ``FOLLOWED``, to the root of ``limit``; and of others that stay so for ``SETTLED``.
+    """
+    long = max(2, round(SETTLED / block))
+    rest, still = means[0], np.ones(len(means), dtype=bool)
     for k, mean in enumerate(means):
         last = means[max(0, k - long + 1) : k + 1]
         still[k] = np.sum((mean - rest) ** 2) <= limit
@@ -192,12 +272,7 @@ def _unpushed(force: np.ndarray, noise: Noise, rows: int, period: float) -> np.n
             rest = rest + (mean - rest) * block / FOLLOWED
         elif len(last) == long and np.all(np.sum((last - last.mean(axis=0)) ** 2, 1) <= limit):
             still[k - long + 1 : k + 1], rest = True, last.mean(axis=0)
-    for start, stop in runs(still):
-        if start > 0 and stop < n and stop - start < short:
-            still[start:stop] = False
-    # A push begins and ends within the blocks beside it.
-    still = ~maximum_filter1d(~still, 3, mode="nearest")
-    return np.append(np.repeat(still, rows), np.full(len(force) - n * rows, still[-1]))
+    return still
 
 
 @dataclass(frozen=True)
@@ -218,7 +293,7 @@ class _Rest:
         return turns[0].inv().apply(self.force)
 
 
-def _way(rates: np.ndarray, rows: int, period: float) -> float:
+def way_of(rates: np.ndarray, rows: int, period: float) -> float:
     """The way [rad] that rates (n, 3) turn, by their means over ``rows``, as noise turns nothing;
     infinite where one is missing.
     """

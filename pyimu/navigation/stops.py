@@ -15,6 +15,7 @@ from pyimu.navigation.compensated import compensated
 from pyimu.navigation.detector import Detected, Noise, detect
 from pyimu.navigation.filter.layout import open_std
 from pyimu.navigation.filter.prediction import LASTS
+from pyimu.navigation.speeds import driven
 from pyimu.recording.recording import Recording
 
 ZUPT = ("auto", "live", "declared", "off")
@@ -95,11 +96,17 @@ def stops_of(
             "them in the samples"
         )
     found = detect(recording.time, recording.gyro, recording.accel, noise, recording.sample_period)
-    for start, stop in found.steady:
-        seconds = float(recording.time[stop - 1] - recording.time[start])
-        detail = {"first": float(recording.time[start]), "seconds": seconds}
-        findings.append(Finding("steady_turn", "gyro", stop - start, detail))
-    return found.still, found
+    still = found.still.copy()
+    drives = driven(
+        recording.time, recording.gyro, recording.accel, still, noise, recording.sample_period
+    )
+    for kind, stretches in (("steady_turn", found.steady), ("steady_drive", drives)):
+        for start, stop in stretches:
+            still[start:stop] = False
+            seconds = float(recording.time[stop - 1] - recording.time[start])
+            detail = {"first": float(recording.time[start]), "seconds": seconds}
+            findings.append(Finding(kind, "gyro", stop - start, detail))
+    return still, found
 
 
 def noise_at_rest(recording: Recording, part: Part, rest: Rest, declared: bool) -> Noise:

@@ -73,6 +73,7 @@ MEANING = {
     "speed_sign": "the forces contradict the speed's sign: it was not used",
     "speed_unit": "the forces say that the speed is of another unit: it was not used",
     "spikes": "single samples far off both neighbours",
+    "steady_drive": "a drive at constant speed, which is rest to every inertial sensor",
     "steady_turn": "an even turn, which is rest to an accelerometer",
     "stuck_samples": "one value for longer than its noise lets it: the sensor or its line hung",
     "temperature_unit": "no electronics is so hot or so cold: the numbers are in the other unit",

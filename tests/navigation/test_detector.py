@@ -99,6 +99,32 @@ def test_a_gentle_drive_between_two_rests_is_none():
     assert found.still[100:1400].all() and found.still[2200:3500].all()
 
 
+def test_a_gentle_turn_between_two_rests_is_none_and_they_stay():
+    """0.2 rad/s that come and go over 8 s: no window shows them, and the mean over all is no bias.
+    A tilted accelerometer feels it, too, so that the force of the second rest is another. A mean
+    over 0.3 s is off the bias by its gate at 0.02 rad/s.
+    """
+    time, gyro, accel = resting(3600)
+    turn = slice(1200, 2000)
+    rate = 0.1 * (1 - np.cos(2 * np.pi * np.arange(800) / 800))
+    gyro[turn, 2] += rate
+    angle = np.cumsum(rate) * H
+    accel[turn, 0] += 0.3 * np.sin(angle)
+    accel[2000:, 0] += 0.3 * np.sin(angle[-1])
+    found = detect(time, gyro, accel, NOISE, H)
+    assert not found.still[turn][rate > 0.03].any() and found.steady
+    assert found.still[100:1100].all() and found.still[2150:3500].all()
+
+
+def test_a_run_that_begins_in_a_push_keeps_its_rest():
+    """It ends at 3 s, and a window that looked still begins in its last second."""
+    time, gyro, accel = resting(2400)
+    accel[300:900, 0] += 0.3 * np.sin(np.pi * np.arange(600) / 600)
+    accel[300:700] += np.random.default_rng(3).normal(size=(400, 3))
+    found = detect(time, gyro, accel, NOISE, H)
+    assert not found.still[300:850].any() and found.still[1000:2300].all()
+
+
 def test_a_force_that_wanders_over_minutes_stays_a_rest():
     """An accelerometer that warms up, by 0.1 m/s^2 in ten minutes."""
     time, gyro, accel = resting(60_000)

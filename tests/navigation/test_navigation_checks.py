@@ -132,13 +132,24 @@ def scaled(part, share):
     return replace(part, **white_of)
 
 
-def test_a_constant_speed_that_is_taken_for_a_rest_is_said():
-    """Without vibration nothing tells the two apart but what the zero velocities contradict."""
+def test_a_drive_at_constant_speed_is_said_and_is_no_rest():
+    """Without vibration nothing tells the two apart but the speed that came before."""
     drive = replace(SHORT, legs=1, side=6.0, vibration=0.0)
-    text = said(assumed().specimen(4).simulate(motion(drive, 50.0), seed=4))
-    assert "A drive at constant speed looks like a rest; a column stationary would tell" in text
-    assert "The reference moves during 1 rest, by up to" in text
-    assert "times as large" not in text
+    found = run(assumed().specimen(4).simulate(motion(drive, 50.0), seed=4), assumed())
+    assert "driven at a constant speed, 1 time, the longest at 5" in found.report()
+    speed = np.linalg.norm(found.recording.ref_velocity, axis=1)
+    assert speed[found.still].max() < 0.05
+    std = found.filter.vector("position_std")[-1, :2]
+    assert found.errors["filter"].end < 4 * np.hypot(*std)
+
+
+def test_a_log_that_begins_at_a_constant_speed_takes_that_for_a_rest_and_it_is_said():
+    """No inertial sensor tells it from one, and nothing came before."""
+    drive = replace(SHORT, legs=1, side=6.0, vibration=0.0)
+    log = assumed().specimen(4).simulate(motion(drive, 50.0), seed=4)
+    found = run(log.slice(int(np.searchsorted(log.time, 10.0))), assumed(), method="filter")
+    assert "The reference moves during 1 rest, by up to" in found.report()
+    assert "times as large" not in found.report()
 
 
 def test_rests_that_are_rests_do_not_move(log):
@@ -228,6 +239,17 @@ def test_a_steady_turn_is_said_with_its_time():
 def test_a_reference_that_jumps_is_said(log):
     text = said(replace(log, ref_east=log.ref_east + 100 * (log.time > 20)))
     assert "jumps by 100 m at 20" in text and "reference's own" in text
+
+
+def test_a_reference_that_jumps_while_the_body_rests_does_not_move_there(log):
+    """Both ways, in the middle of two rests; a rest that is declared in motion moves."""
+    away = (log.time > 2.0) & (log.time < 31.0)
+    text = said(replace(log, ref_east=log.ref_east + 30 * away))
+    assert "jumps by 30.0 m at 2" in text and "reference moves" not in text
+    still = ((log.time < 4) | ((log.time > 6) & (log.time < 9))).astype(float)
+    assert "these are none, whatever the column stationary says" in said(
+        replace(log, stationary=still)
+    )
 
 
 @pytest.mark.parametrize(("mirrored", "turn"), ((False, 2.0), (True, 0.0)))

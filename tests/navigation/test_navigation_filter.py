@@ -180,7 +180,7 @@ def test_the_transition_is_what_the_mechanisation_makes_of_small_errors():
         s[:16] = nominal
         return np.array(predict(s, u, p, h)[0]).ravel()[:16]
 
-    found = np.array(predict(state, u, p, h)[5]).reshape(15, 15).T
+    found = np.array(predict(state, u, p, h)[-1]).reshape(15, 15).T
     base, step = after(state[:16]), 1e-5
     numeric = np.empty((15, 15))
     for i in range(15):

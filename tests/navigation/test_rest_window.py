@@ -121,3 +121,71 @@ def test_where_stationary_says_all_nothing_is_found():
     at = [v.name for v in unit.outputs].index("at_rest")
     assert not unit.run(u, p=p)[0][:, at].any()
     assert unit.run(u)[0][60:, at].all()
+
+
+def driven(part, pushes, seconds, seed):
+    """What the unit makes of a part's noise and ``pushes`` (start s, seconds, m/s^2) along x, as
+    raised cosines: its outputs by name, the true speed (n,) m/s.
+    """
+    unit, time = strapdown_ins(part, nhc=False), H * np.arange(round(seconds / H))
+    rng, u = np.random.default_rng(seed), np.tile(strapdown_ins(part).start_inputs, (len(time), 1))
+    push = np.zeros(len(time))
+    for start, long, size in pushes:
+        t = (time - start) / long
+        push += np.where((t > 0) & (t < 1), size / 2 * (1 - np.cos(2 * np.pi * t)), 0.0)
+    u[:, 3] += push
+    for i, sensor in enumerate((part.gyro, part.accel)):
+        std = sensor.values["angle_random_walk"]["N"] / np.sqrt(H)
+        u[:, 3 * i : 3 * i + 3] += std * rng.standard_normal((len(time), 3))
+    y, _ = unit.run(u)
+    names = [v.name for v in unit.outputs]
+    return time, {name: y[:, i] for i, name in enumerate(names)}, np.cumsum(push) * H
+
+
+SUDDEN, GENTLE = 0.8, 4.0
+"""s; of the pushes that give 0.4 m/s."""
+
+
+@pytest.mark.parametrize("long", (SUDDEN, GENTLE))
+@pytest.mark.parametrize("seed", range(4))
+def test_a_speed_that_comes_and_goes_is_no_rest(long, seed):
+    """A window of 0.3 s does not show the gentle push, and nothing does the speed itself. Left out
+    are the slow ends: a push of less than 0.06 m/s^2, 5.3 times what a rest's force may change by
+    and noise, is not seen, and that is 0.04 m/s of the raised cosine.
+    """
+    size = 2 * 0.4 / long
+    at, after = 8.0 + long, 8.0 + long + 6.0
+    pushes = [(8.0, long, size), (after, long, -size)]
+    time, y, speed = driven(white(calibrated()), pushes, after + long + 6.0, seed)
+    rest = y["at_rest"] > 0.5
+    assert not rest[speed > 0.08].any()
+    assert rest[50:750].all() and rest[time > after + long + WINDOW + 1.0].mean() > 0.95
+    cruise = (time > at) & (time < after)
+    off = np.abs(y["velocity[1]"] - 0.4)
+    assert np.all((off < 0.04 + 4 * y["velocity_std[1]"])[cruise])
+    off = y["position[1]"][-1] - speed.sum() * H
+    assert abs(off) < 4 * y["position_std[1]"][-1]
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_blow_keeps_no_later_rest_out(seed):
+    """0.3 m/s by the accelerometer, which misses the other half of the blow: the body rests. At
+    most the rest in which it was is lost, as after the next motion the speed is not known so well.
+    """
+    pushes = [(8.0, 0.1, 6.0), (14.0, 0.8, 1.0), (20.0, 0.8, -1.0)]
+    time, y, _ = driven(white(calibrated()), pushes, 90.0, seed)
+    assert (y["at_rest"] > 0.5)[time > 85.0].all()
+
+
+def test_a_body_that_leans_slowly_rests_again():
+    """By 0.1 m/s^2 over 2 s, which the gyro does not show: askew for 10 s, and it stands so."""
+    part = white(calibrated())
+    unit, n = strapdown_ins(part, nhc=False), 3000
+    u = np.tile(unit.start_inputs, (n, 1))
+    u[:, 3] += 0.1 * np.clip((np.arange(n) - 800) / 200, 0, 1)
+    rng = np.random.default_rng(1)
+    for i, sensor in enumerate((part.gyro, part.accel)):
+        std = sensor.values["angle_random_walk"]["N"] / np.sqrt(H)
+        u[:, 3 * i : 3 * i + 3] += std * rng.standard_normal((n, 3))
+    rest = unit.run(u)[0][:, [v.name for v in unit.outputs].index("at_rest")] > 0.5
+    assert rest[50:800].all() and not rest[1000:1500].any() and rest[2300:].all()

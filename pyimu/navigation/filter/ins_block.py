@@ -121,7 +121,7 @@ def _recorded_names(layout: Layout) -> tuple[Variable, ...]:
 def _step(layout: Layout, recorded: bool) -> ca.Function:
     sizes = {"s": layout.state, "u": len(layout.inputs), "p": len(layout.parameters), "h": 1}
     s, u, p, h = (ca.MX.sym(name, size) for name, size in sizes.items())
-    x, memory, rate, status, rest, transition = _predict(layout)(s, u, p, h)
+    x, memory, rate, status, rest, unturned, transition = _predict(layout)(s, u, p, h)
     n, begun = layout.errors, s[layout.begun]
     starts = ca.logic_and(begun <= 0, memory[layout.begun - layout.packed] > 0)
     x = where(starts, _first(layout), x, memory, p)
@@ -133,8 +133,8 @@ def _step(layout: Layout, recorded: bool) -> ca.Function:
 
     still = ca.logic_and(rest > 0.5, begun > 0)
     work = where(ca.logic_and(still, setting("zupt")), _zupt(layout), work, p)
-    rested = ca.logic_and(still, ca.logic_and(setting("zaru"), status <= 0))
-    work = where(rested, _zaru(layout), work, rate, p, h)
+    even = ca.logic_and(ca.logic_and(unturned > 0.5, begun > 0), status <= 0)
+    work = where(ca.logic_and(even, setting("zaru")), _zaru(layout), work, rate, p, h)
     if layout.nhc:
         free = ca.logic_and(ca.logic_not(still), ca.logic_and(setting("nhc"), begun > 0))
         work = where(ca.logic_and(free, status <= 0), _nhc(layout), work, rate, p, h)
@@ -155,7 +155,7 @@ def _step(layout: Layout, recorded: bool) -> ca.Function:
 
 
 def _predict(layout: Layout) -> ca.Function:
-    """``s, u, p, h -> x, memory, rate, status, still, transition``, to the updates."""
+    """``s, u, p, h -> x, memory, rate, status, still, unturned, transition``, to the updates."""
     s = ca.SX.sym("s", layout.state)
     u, p, h = (
         ca.SX.sym(name, size)
@@ -172,7 +172,10 @@ def _predict(layout: Layout) -> ca.Function:
     return plain_function(
         "predict",
         [s, u, p, h],
-        [packed, kept, sample.rate, sample.lost, sample.still, ca.densify(transition[:])],
+        [
+            *(packed, kept, sample.rate, sample.lost),
+            *(sample.still, sample.unturned, ca.densify(transition[:])),
+        ],
         OPTIONS,
     )
 

@@ -21,6 +21,9 @@ TURN, VELOCITY, POSITION, GYRO_BIAS, RESTING = (slice(i, i + 3) for i in range(0
 """Where the error state has attitude, velocity, position, gyro bias and the force of a rest, all in
 world axes."""
 
+JUDGED = 15
+"""Numbers that ``rest_judged`` keeps."""
+
 HEADING, UP = TURN.stop - 1, RESTING.stop - 1
 """Where it has the attitude about the vertical, and the resting force upwards."""
 
@@ -158,12 +161,13 @@ class Layout:
     def memory_sizes(self) -> tuple[int, ...]:
         """Of the ``Memory``, in the order of its fields."""
         window = rest_window.SIZE * self.detects
-        return (self.held, 3, 3, 3, 3, 1, 3, 1, 1, len(self.compensation.start), window)
+        judged = JUDGED * self.detects
+        return (self.held, 3, 3, 3, 3, 1, 3, 1, 1, len(self.compensation.start), window, judged)
 
     @property
     def begun(self) -> int:
         """Where the state has ``Memory.begun``."""
-        return self.packed + sum(self.memory_sizes[:-3])
+        return self.packed + sum(self.memory_sizes[:-4])
 
     @property
     def state(self) -> int:
@@ -203,8 +207,8 @@ class Memory:
     ``mean_rate`` (3,) in body axes that of the last tenths of a second; ``counted`` (3,) in world
     axes the velocity that counts (``weight``); ``still`` whether it was at rest; ``gyro_lost`` (3,)
     and ``accel_lost`` s, for how long an axis and the triad were lost; ``begun`` whether there was
-    any row; ``sensors`` is the compensation's own; ``window`` that of ``rest_window``, empty where
-    the filter does not look for rests.
+    any row; ``sensors`` is the compensation's own; ``window`` and ``judged`` are those of
+    ``rest_window`` and ``rest_judged``, empty where the filter does not look for rests.
     """
 
     held: ca.SX
@@ -212,12 +216,13 @@ class Memory:
     force: ca.SX
     mean_rate: ca.SX
     counted: ca.SX
-    still: ca.SX
+    unturned: ca.SX
     gyro_lost: ca.SX
     accel_lost: ca.SX
     begun: ca.SX
     sensors: ca.SX
     window: ca.SX
+    judged: ca.SX
 
     def pack(self) -> ca.SX:
         return ca.densify(ca.vertcat(*vars(self).values()))

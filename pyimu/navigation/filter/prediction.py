@@ -38,7 +38,8 @@ import casadi as ca
 
 from pyimu.attitude.filter.settings import Settings
 from pyimu.model.signals import SIGNALS
-from pyimu.navigation.filter import rest_window
+from pyimu.navigation.detector import FORCE_STAYS
+from pyimu.navigation.filter import rest_judged, rest_window
 from pyimu.navigation.filter.layout import (
     BASE,
     GYRO_BIAS,
@@ -70,6 +71,7 @@ from pyimu.navigation.filter.weight import (
     in_world,
     upright_of,
 )
+from pyimu.navigation.speeds import LEAST_SPEED
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import symmetric
 from pyimu.symbolic.missing import is_finite
@@ -98,8 +100,9 @@ of which a rest takes off what came before."""
 class Sample:
     """A row: what was measured, in place of a missing number its last good one (``held``); ``rate``
     and ``force`` (3,) without the part's errors; which axes of the gyro (3,) and whether the
-    accelerometer are ``lost``, 0 or 1; whether the body is at rest (``still``); the compensation's
-    memory, and the window's.
+    accelerometer are ``lost``, 0 or 1; whether the body is at rest (``still``), does not turn
+    (``unturned``), or is now seen to have ``left`` a rest; the compensation's memory, the window's,
+    and what judges it.
     """
 
     held: ca.SX
@@ -108,8 +111,11 @@ class Sample:
     gyro_lost: ca.SX
     accel_lost: ca.SX
     still: ca.SX
+    unturned: ca.SX
+    left: ca.SX
     sensors: ca.SX
     window: ca.SX
+    judged: ca.SX
 
     @property
     def lost(self):
@@ -150,7 +156,8 @@ def read(layout: Layout, memory: Memory, q, bias, u, settings: Settings, h) -> S
     accel_lost = 1 - ca.mmin(good[ACCEL]) * (ca.mmax(ca.densify(accel_lost)) <= 0.5)
     still = is_finite(u[STATIONARY]) * (u[STATIONARY] > 0.5)
     rate = bias + fades * (rate - bias)
-    return Sample(held, rate, force, gyro_lost, accel_lost, still, sensors, memory.window)
+    kept = sensors, memory.window, memory.judged
+    return Sample(held, rate, force, gyro_lost, accel_lost, still, still, ca.SX(0), *kept)
 
 
 def with_rest(
@@ -164,8 +171,15 @@ def with_rest(
     of_bias = back @ x.covariance[GYRO_BIAS, GYRO_BIAS] @ back.T
     even = rest_window.is_no_turn(found, back @ settings.earth + x.gyro_bias, of_bias, settings, h)
     asked = settings.scalar["detect"] > 0
-    still = ca.fmax(sample.still, asked * memory.begun * found.alike * even)
-    return replace(sample, still=still, window=found.memory)
+    looks = asked * memory.begun * found.alike * even
+    before = rest_judged.Judged.unpack(memory.judged)
+    rate = sample.rate - x.gyro_bias
+    told = sample.still
+    still, left, after = rest_judged.judged(before, x, found, looks, told, rate, settings, h)
+    # A drive that looks still does not turn either.
+    unturned = ca.fmax(still, looks)
+    kept = {"window": found.memory, "judged": after.pack()}
+    return replace(sample, still=still, unturned=unturned, left=left, **kept)
 
 
 def without_gains(layout: Layout, x: State, kind: str, measured):
@@ -180,9 +194,10 @@ def predicted(
     """The estimate a sample later, the transition matrix (n, n) of its error, and the mean rate and
     the velocity that counts with which that was made.
 
-    A body at rest at both samples has not turned: what the gyro shows is then of its bias alone.
+    A body that does not turn at both samples has not turned: what the gyro shows is then of its
+    bias alone.
     """
-    rest = memory.still * sample.still * (settings.scalar["zaru"] > 0)
+    rest = memory.unturned * sample.unturned * (settings.scalar["zaru"] > 0)
     blind = ca.if_else(sample.accel_lost, 1, 0)
     turning = 1 - rest
     earth = settings.earth
@@ -218,6 +233,10 @@ def predicted(
     both = transition @ x.covariance @ transition.T + _noise(layout, step, settings, h)
     both[UP, UP] = both[UP, UP] + _bending(x.covariance, both, settings)
     both[PLANE, PLANE] = both[PLANE, PLANE] + h * _bow(x, step)
+    if layout.detects:
+        # What a push did before it was seen: a speed, and a part of it taken for a bias.
+        for place, size in ((VELOCITY, LEAST_SPEED), (RESTING, FORCE_STAYS)):
+            both[place, place] = both[place, place] + sample.left * size**2 * ca.SX.eye(3)
     covariance = symmetric(layout.errors, lambda i, j: both[i, j])
     x = replace(
         x, q=q, velocity=velocity, position=position, resting=resting, covariance=covariance
@@ -395,8 +414,10 @@ def remembered(memory: Memory, sample: Sample, motion: tuple, h) -> Memory:
     """The memory after a sample, with the ``motion``: mean rate, and velocity that counts."""
     force = ca.if_else(sample.accel_lost, memory.force, sample.force)
     begun = ca.fmax(memory.begun, 1 - sample.accel_lost)
-    gone, kept = _gone_for(memory, sample, h), (sample.sensors, sample.window)
-    return Memory(sample.held, sample.rate, force, *motion, sample.still, *gone, begun, *kept)
+    gone = _gone_for(memory, sample, h)
+    kept = sample.sensors, sample.window, sample.judged
+    unturned = sample.unturned
+    return Memory(sample.held, sample.rate, force, *motion, unturned, *gone, begun, *kept)
 
 
 def empty(layout: Layout, settings: Settings) -> Memory:
@@ -414,4 +435,5 @@ def empty(layout: Layout, settings: Settings) -> Memory:
         *[ca.SX(0)] * 2,
         ca.SX(ca.DM(layout.compensation.start)),
         ca.SX.zeros(rest_window.SIZE * layout.detects),
+        ca.SX.zeros(rest_judged.SIZE * layout.detects),
     )

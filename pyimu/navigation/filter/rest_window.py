@@ -37,12 +37,14 @@ SURE = float(norm.isf(FALSE_ALARM))
 
 @dataclass(frozen=True)
 class Window:
-    """The window with a sample: its ``memory``, its ``mean`` rate (3,) rad/s and over how many
-    samples, and whether it is ``alike``, that is whether nothing in it moved, 0 or 1.
+    """The window with a sample: its ``memory``, its ``mean`` rate (3,) rad/s and ``force`` (3,)
+    m/s^2 and over how many samples, and whether it is ``alike``, that is whether nothing in it
+    moved, 0 or 1.
     """
 
     memory: ca.SX
     mean: ca.SX
+    force: ca.SX
     count: ca.SX
     alike: ca.SX
 
@@ -68,7 +70,8 @@ def followed(memory, rate, force, lost, settings: Settings, h) -> Window:
     squares = total[AXES] - ca.sumsqr(total[:AXES]) / n
     near = ca.sumsqr(values - before[0]) <= OUTLIER * (1 + 1 / ca.fmax(before[1], 1))
     alike = (after[1] >= SLOTS - 1) * (squares <= _threshold(n)) * near
-    return Window(after, total[:3] / n * std[:3], n, alike)
+    mean = total[:AXES] / n * std
+    return Window(after, mean[:3], mean[3:], n, alike)
 
 
 def _length(window, h):

@@ -91,13 +91,21 @@ def notes(a: Outcome) -> list[str]:
             f"{longest['first']:.6g} s for {quantity(longest['seconds'], 's')}: that looks like a "
             "rest to the accelerometer, but the gyro was off its bias, so it was taken for a turn"
         )
+    drives = [f.detail for f in a.findings if f.kind == "steady_drive"]
+    if drives:
+        longest = max(drives, key=lambda d: d["seconds"])
+        out.append(
+            f"The sensor was driven at a constant speed, {_counted(len(drives), 'time')}, the "
+            f"longest at {longest['first']:.6g} s for {quantity(longest['seconds'], 's')}: that "
+            "looks like a rest, but a speed came before it and went after it"
+        )
     out += [
         f"{_counted(f.count, 'sample')} of {f.column} that no motion makes "
         f"{'was' if f.count == 1 else 'were'} left out, the first at {f.detail['first']:.6g} s"
         for f in a.findings
         if f.kind == "outliers"
     ]
-    out += list(_of_samples(kinds))
+    out += list(_of_samples(kinds, _declared(a)))
     if "coning" in kinds:
         detail = kinds["coning"].detail
         out.append(
@@ -150,8 +158,15 @@ def _gaps(a: Outcome) -> Iterator[str]:
         )
 
 
-def _of_samples(kinds: dict[str, Finding]) -> Iterator[str]:
-    """What a finding of each kind says of gyro, accelerometer and reference."""
+def _declared(a: Outcome) -> bool:
+    """Whether the log's own column says where it rests."""
+    return a.zupt != "live" and a.recording.stationary is not None
+
+
+def _of_samples(kinds: dict[str, Finding], declared: bool) -> Iterator[str]:
+    """What a finding of each kind says of gyro, accelerometer and reference; ``declared`` says that
+    a column declared the rests.
+    """
     if (f := kinds.get("leaning")) is not None:
         yield (
             f"Gravity is on {f.detail['axis']} at rest: the body lies on its side, or its axes are "
@@ -166,8 +181,13 @@ def _of_samples(kinds: dict[str, Finding]) -> Iterator[str]:
         yield (
             f"The reference moves during {_counted(f.count, 'rest')}, by up to "
             f"{number(f.detail['largest'])} m (the first at {f.detail['first']:.6g} s, "
-            f"{quantity(f.detail['seconds'], 's')} in all): these are none, as a drive at "
-            "constant speed looks like a rest; a column stationary or --zupt off leaves them out"
+            f"{quantity(f.detail['seconds'], 's')} in all): these are none"
+            + (
+                ", whatever the column stationary says"
+                if declared
+                else ", as a drive at constant speed looks like a rest; a column stationary or "
+                "--zupt off leaves them out"
+            )
         )
     if (f := kinds.get("reference_scale")) is not None:
         yield (
@@ -191,8 +211,7 @@ def _rests(a: Outcome) -> str:
     if not a.still.any() and a.fixes is not None:
         return "There is no rest in this log: what it measured of position and velocity holds it"
     if not a.still.any():
-        declared = a.zupt != "live" and a.recording.stationary is not None
-        where = "The column stationary declares no rest" if declared else "There is no rest"
+        where = "The column stationary declares no rest" if _declared(a) else "There is no rest"
         return (
             f"{where} in this log, so nothing to update with: the position is integrated "
             "alone, and its standard deviations say how little that is worth"
@@ -242,7 +261,7 @@ def _wrong_rest(a: Outcome) -> str:
     """What may be wrong where zero velocities contradict the estimate."""
     if any(f.kind in FIXES and f.count for f in a.findings):
         return ""  # those that are wrong may have made it
-    if a.zupt != "live" and a.recording.stationary is not None:
+    if _declared(a):
         return ". The column stationary may declare a rest that is none"
     return (
         ". A drive at constant speed looks like a rest; a column stationary would tell the two "
