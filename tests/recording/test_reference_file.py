@@ -184,6 +184,15 @@ def test_logs_of_two_motions_are_not_alike():
         assert time_apart(own, other) is None
 
 
+@pytest.mark.parametrize("gyro", [None, np.full((2000, 3), np.nan)])
+def test_without_a_rate_no_offset_is_told(gyro):
+    t = np.arange(2000) * 0.01
+    own = Recording.from_arrays(name="log", time=t, accel=np.ones((2000, 3)), gyro=gyro)
+    other = Recording.from_arrays(name="mocap", time=t + 1.7e9, ref_rate=hand(t, 1))
+    with pytest.raises(UserError, match="if both begin together"):
+        with_reference(own, other)
+
+
 def test_one_reference_for_each_log_in_order():
     with pytest.raises(UserError, match="2 references for 1 logs"):
         with_references([log()], [tracked(), tracked()])

@@ -41,6 +41,8 @@ def placed_slips(trial: Trial, clock: Clock | None, sensor: Sensor) -> Clock | N
     levels = np.append(0.0, np.cumsum([s.size for s in clock.slips]))
     distinct, number = np.unique(np.round(levels, 9), return_inverse=True)
     time, left = _left_by_level(trial, clock, distinct, sensor)
+    if not len(time):
+        return clock
     width = max(float(np.median(left.min(axis=0))), 1e-300)
     spans = _spans(time, np.log1p(left / width)[number], _allowed(clock.slips))
     if spans is None:

@@ -33,12 +33,12 @@ def time_apart(log: Recording, reference: Recording) -> float | None:
     The size of the rate counts, which no mounting changes. None where it is not known of both, and
     where they turn alike at no offset, or at several.
     """
-    known, sizes = sizes_of_rate(reference), np.linalg.norm(_centred(log.gyro), axis=1)
-    if known is None:
+    known, own = sizes_of_rate(reference), _own_sizes(log)
+    if known is None or own is None:
         return None
-    if max(np.ptp(known[0]), np.ptp(log.time)) > LONGEST * PERIOD:
+    if max(np.ptp(known[0]), np.ptp(own[0])) > LONGEST * PERIOD:
         return None
-    (x, mx), (y, my) = _in_periods(*known), _in_periods(log.time, sizes)
+    (x, mx), (y, my) = _in_periods(*known), _in_periods(*own)
     least = max(LEAST, OVERLAP * min(mx.sum(), my.sum()))
     lags = np.arange(1 - len(x), len(y))
     r = correlations(x, mx, y, my, lags, least)
@@ -46,7 +46,7 @@ def time_apart(log: Recording, reference: Recording) -> float | None:
     others = r[np.abs(lags - lags[best]) * PERIOD > NEAR].max(initial=0.0)
     if r[best] < ALIKE or 1 - r[best] > 0.5 * (1 - others):
         return None
-    return float(log.time[0] - known[0][0] + lags[best] * PERIOD)
+    return float(own[0][0] - known[0][0] + lags[best] * PERIOD)
 
 
 def sizes_of_rate(reference: Recording) -> tuple[np.ndarray, np.ndarray] | None:
@@ -84,16 +84,21 @@ def correlations(
     return np.where(enough, covariance / np.sqrt(np.maximum(power, 1e-300)), -1.0)
 
 
-def _centred(rate: np.ndarray) -> np.ndarray:
-    """A rate (n, 3) less its median."""
-    return rate - np.nanmedian(rate, axis=0)
+def _own_sizes(log: Recording) -> tuple[np.ndarray, np.ndarray] | None:
+    """Times (m,) s of the samples of a log's gyro, and the sizes (m,) rad/s of its rate less the
+    median; None without any.
+    """
+    seen = np.zeros(0, dtype=bool) if log.gyro is None else np.isfinite(log.gyro).all(axis=1)
+    if not seen.any():
+        return None
+    rate = log.gyro[seen]
+    return log.time[seen], np.linalg.norm(rate - np.median(rate, axis=0), axis=1)
 
 
 def _in_periods(time: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Means (k,) of ``values`` (n,) over each period from the first time on, and 1 or 0 (k,) by
     whether there are any in it.
     """
-    at = ((time - time[0]) / PERIOD).astype(int)[np.isfinite(values)]
+    at = ((time - time[0]) / PERIOD).astype(int)
     count = np.bincount(at)
-    total = np.bincount(at, values[np.isfinite(values)])
-    return total / np.maximum(count, 1), (count > 0).astype(float)
+    return np.bincount(at, values) / np.maximum(count, 1), (count > 0).astype(float)
