@@ -78,6 +78,7 @@ def test_a_clock_that_is_off_is_undone_for_hours(axis, skew, without_skew):
     assert np.isfinite(result.q).all()
 
 
+@pytest.mark.long
 def test_a_clock_that_is_not_declared_is_seen():
     """The last test would fail on a filter that took the rows for the instants."""
     recording, truth = swinging("z", -1e-4)

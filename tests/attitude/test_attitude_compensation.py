@@ -18,8 +18,11 @@ N = 1000
 WORLD_ALONE = ("earth_rate", "transport_rate")
 """They come with a turning Earth, which the drives of this file are without."""
 
+QUICK = ("scale_factor", "thermal_bias", "clock_skew", "rate_ramp", "g_sensitivity")
+"""Effects of the accelerometer that are undone in the short run, too; of the gyro all are."""
+
 UNDONE = [
-    (name, kind)
+    pytest.param(name, kind, marks=() if kind == "gyro" or name in QUICK else pytest.mark.long)
     for name, kind in CASES
     if not CATALOGUE[name].stochastic and CATALOGUE[name].invertible and name not in WORLD_ALONE
 ]

@@ -3,12 +3,14 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 import pyimu
 from pyimu.attitude import attitude_ukf
 from pyimu.block.block import Run
 
 
+@pytest.mark.long
 def test_a_body_that_moved_and_then_stands_for_hours_leaves_no_denormal_numbers():
     block = attitude_ukf(replace(pyimu.part("imt30"), sample_rate=5.0))
     at = {v.name: i for i, v in enumerate(block.inputs)}

@@ -182,7 +182,7 @@ def wandering():
     return Recording.from_arrays(time=time, **columns)
 
 
-@pytest.mark.parametrize("size", [100, 997])
+@pytest.mark.parametrize("size", [100, pytest.param(997, marks=pytest.mark.long)])
 @pytest.mark.parametrize("made", [eventful, wandering])
 def test_segments_change_nothing(monkeypatch, made, size):
     log = made()

@@ -233,6 +233,7 @@ def test_characterize_writes_a_calibration_that_attitude_takes(pyimu, tmp_path):
     assert code == 0 and "magnetometer, calibrated" in out, err
 
 
+@pytest.mark.long
 def test_a_log_that_does_not_turn_enough_is_said_and_characterised_all_the_same(pyimu, tmp_path):
     """And one whose field is none of the Earth's, as in gauss under a header of T."""
     path = log(13, (0, 0, 1), 3000)[0].write(tmp_path / "flat.parquet")

@@ -102,6 +102,7 @@ def test_a_stuck_gyro_gives_one_sample_for_its_time():
     assert np.array_equal(gyro, want)
 
 
+@pytest.mark.long
 def test_each_run_has_the_specimen_of_its_seed():
     part = pyimu.part("stim300")
     drive = driven(settings("stim300"), 4)

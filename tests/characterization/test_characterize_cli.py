@@ -62,6 +62,7 @@ def test_a_log_gives_three_files_and_says_what_it_found(pyimu, tmp_path):
         assert text in out
 
 
+@pytest.mark.long
 def test_the_part_can_be_built_and_closed_with(pyimu, tmp_path):
     log = write(tmp_path)
     assert pyimu("characterize", log, "--out", "out")[0] == 0

@@ -31,6 +31,7 @@ def gyro(sensors):
     return sensors["gyro"]
 
 
+@pytest.mark.long
 def test_white_noise_and_instability_are_those_of_the_source(gyro):
     """N 0.038 to 0.042 deg/s/sqrt(Hz) and B 26 to 45 deg/h, to the figures printed.
 

@@ -237,6 +237,7 @@ def test_as_sharp_as_maximum_likelihood():
         assert a.std() <= b.std() * (1.05 + norm.isf(ALPHA / 2) * np.sqrt((1 - r**2) / logs))
 
 
+@pytest.mark.long
 def test_terms_that_are_not_there_get_bounds_that_hold():
     """At most one log in a hundred has a false term where all five are asked for.
 

@@ -93,8 +93,8 @@ def in_one_log(gyro, accel):
 
 
 def some_long(cases):
-    """Three of four are for the long tests alone."""
-    return [pytest.param(c, marks=[pytest.mark.long] * (k % 4 > 0)) for k, c in enumerate(cases)]
+    """Seven of eight are for the long tests alone."""
+    return [pytest.param(c, marks=[pytest.mark.long] * (k % 8 > 0)) for k, c in enumerate(cases)]
 
 
 def named(present):
@@ -112,6 +112,7 @@ def test_undeclared_effect_is_named_against_a_declared_part(world, present):
     check(world, present, noise_only())
 
 
+@pytest.mark.long
 def test_coefficient_comes_out_with_an_honest_standard_error(world):
     size = size_for(world, "gyro", "g_sensitivity", 60.0, True)
     closed = pyimu.close(
@@ -196,6 +197,7 @@ def test_declared_value_that_the_data_contradict_is_changed_not_blamed(world):
     assert "gauss_markov" not in unasked
 
 
+@pytest.mark.long
 def test_larger_white_noise_than_declared_is_changed_not_blamed(world):
     part = noise_only()
     quiet = part.with_sensor(part.gyro.with_values("angle_random_walk", N=N_GYRO / 1.5))
@@ -205,6 +207,7 @@ def test_larger_white_noise_than_declared_is_changed_not_blamed(world):
     np.testing.assert_allclose(closed.changed[0].fitted, N_GYRO, rtol=0.05)
 
 
+@pytest.mark.long
 def test_input_that_nobody_logged_is_drift(world):
     wander = noise(world, np.zeros(3), 30 * K_GYRO, np.random.default_rng(0))
     closed = pyimu.close(recording(world, gyro_change=lambda v: v + wander, seed=9), noise_only())

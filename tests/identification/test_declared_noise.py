@@ -61,6 +61,7 @@ def test_a_walk_that_is_larger_than_declared_is_drift_and_no_slow_effect(world):
     assert closed.verdict == "drift"
 
 
+@pytest.mark.long
 def test_of_a_matrix_the_entries_go_in_that_the_data_show(world):
     """One entry of nine at 10 sigmas: 50 nat, of which its penalty is 3, that of nine 27."""
     force = world.force[:, 2] - world.force[:, 2].mean()

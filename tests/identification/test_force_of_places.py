@@ -109,7 +109,8 @@ def test_what_the_accelerometer_lacks_is_named_by_places():
         assert found[name].value[1] == pytest.approx(value, abs=5 * found[name].std[1])
 
 
-@pytest.mark.parametrize("heading", [1.0, pytest.param(-2.8, marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("heading", [1.0, -2.8])
 def test_positions_in_axes_of_another_heading_are_turned_and_said(heading):
     closed = pyimu.close(hand(arm=(0.05, -0.03, 0.1), heading=heading))
     assert closed.verdict == "clean" and not closed.not_examined, closed.report()
@@ -126,7 +127,8 @@ def test_attitudes_of_another_world_leave_the_accelerometer_out():
     assert "positions and attitude" in closed.not_examined["accel"]
 
 
-@pytest.mark.parametrize("factor", [1e-3, pytest.param(1e3, marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("factor", [1e-3, 1e3])
 def test_positions_of_another_unit_leave_the_accelerometer_out(factor):
     log = hand(minutes=1.5)
     places = {n: factor * getattr(log, n) for n in PLACES}

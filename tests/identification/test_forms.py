@@ -157,6 +157,7 @@ def test_a_term_of_ieee_std_1293_is_named_at_forty_sigmas(world, name):
     assert added.effect == effect, closed.report()
 
 
+@pytest.mark.long
 def test_drift_by_a_product_of_forces_is_said_with_the_product(world):
     f = world.force
     drift = np.column_stack([1.5e-5 * f[:, 1] * f[:, 2], 0 * f[:, 0], 0 * f[:, 0]])

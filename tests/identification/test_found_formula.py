@@ -49,6 +49,7 @@ def bilinear(world):
     )
 
 
+@pytest.mark.long
 def test_a_product_of_two_signals_gets_its_formula(bilinear):
     """The coefficient lies within four of its standard errors: 1 in 16,000 by chance."""
     assert bilinear.verdict == "unexplained", bilinear.report()

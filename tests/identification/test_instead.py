@@ -65,6 +65,7 @@ def test_a_process_too_large_for_one_effect_is_called_by_another_of_its_law():
     assert "gauss_markov" in added.alternatives
 
 
+@pytest.mark.long
 def test_white_noise_that_is_larger_by_its_third_digit_is_said():
     """By 1.5 to 1.9 % on each axis, three to four standard errors, together 32 nat."""
     found = closed(make("one/8/gyro.angle_random_walk", 0, MINUTES))

@@ -62,6 +62,7 @@ def test_each_log_has_its_own_reference(tmp_path):
         pyimu.close(a, holdout=b, reference=[seen_a, file, file])
 
 
+@pytest.mark.long
 def test_the_attitude_is_compared_with_the_part_as_its_file_has_it(monkeypatch):
     """A walk that the log does not show is left out of the file, so the filter goes without it."""
     parts = []

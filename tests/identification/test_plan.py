@@ -173,6 +173,7 @@ def test_rounding_has_the_density_that_the_samples_give_it():
         assert row.r * h == pytest.approx(n**2 + q**2 * period / 12, rel=1e-12)
 
 
+@pytest.mark.long
 def test_lag_and_delay_together_are_known_as_a_continuous_filter_says():
     """The bound for delay, natural frequency and damping beside the bias of each axis, where the
     filter is the continuous one behind straight lines between samples (scipy).
@@ -333,6 +334,7 @@ def test_plan_writes_a_motion_that_can_be_read(planned, tmp_path):
     assert "bias step" in text and "NaN" not in text and "nan" not in text.replace("nanom", "")
 
 
+@pytest.mark.long
 def test_a_recording_is_a_reference_only_where_a_machine_follows_it():
     by_hand, table = pyimu.plan("mpu6050", "g_sensitivity"), pyimu.plan("mpu6050", "misalignment")
     assert [s.motion.name for s in by_hand.steps] == ["by_hand"]

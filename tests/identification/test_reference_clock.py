@@ -83,7 +83,7 @@ def test_a_clock_that_slips_is_followed():
     assert np.sqrt(np.mean(error**2)) < 0.1 * np.sqrt(np.mean(SAWTOOTH**2))
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", range(3))
 def test_the_instant_of_a_slip_is_that_of_the_samples(seed):
     """Three slips of a sample, two of them a few windows apart, beside clocks 1e-4 apart: what a
     slip of 10 ms leaves of this motion in two samples is 20 times the noise.
@@ -211,6 +211,7 @@ def test_the_noise_of_a_rate_reference_is_given():
     np.testing.assert_allclose(np.sqrt(np.mean(np.square(noise["value"]))), NOISE, rtol=0.2)
 
 
+@pytest.mark.long
 def test_a_noisy_slope_makes_neither_a_lag_nor_its_standard_error_small():
     """A slow motion seen by an attitude whose differences are mostly noise: the lag would be drawn
     to zero by the share of the noise in its slope, and its error with it. The sum of squares over
@@ -235,6 +236,7 @@ def test_a_noisy_slope_makes_neither_a_lag_nor_its_standard_error_small():
     assert np.sum(np.square(z)) < 1.5**2 * chi2.ppf(1 - 1e-4, len(z))
 
 
+@pytest.mark.long
 def test_a_bias_that_changes_is_no_lag():
     """A table turns an accelerometer through gravity about one axis after another while its bias
     changes: what a window sees of that bends neither the clock nor the error that is given for it.
@@ -410,6 +412,7 @@ def test_a_little_noise_of_the_reference_is_no_dead_zone(share):
     assert not closed.added, closed.report()
 
 
+@pytest.mark.long
 def test_a_noisy_reference_is_no_lag():
     """As noisy as the gyro: interpolation would smooth it, and win likelihood."""
     closed = pyimu.close(log(0.0, 3, reference_noise=NOISE))

@@ -231,6 +231,7 @@ def offset(errors: np.ndarray) -> np.ndarray:
     return errors.mean(axis=0) / (errors.std(axis=0, ddof=1) / np.sqrt(len(errors)))
 
 
+@pytest.mark.long
 def test_noise_of_an_attitude_reference_does_not_pull_the_scale_factor_down(monkeypatch):
     corrected = scale_factors()
     monkeypatch.setattr(maximum_likelihood, "has_noise", lambda fitted: False)

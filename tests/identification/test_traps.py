@@ -51,7 +51,7 @@ def test_a_trap_depends_on_its_generator_alone(name):
 @pytest.mark.parametrize(
     "name",
     [
-        "gyro_early_12_5_ms",
+        pytest.param("gyro_early_12_5_ms", marks=pytest.mark.long),
         pytest.param("slerp_60_to_200_hz", marks=pytest.mark.long),
         "thermometer_rounded",
         pytest.param("jitter_5_percent", marks=pytest.mark.long),
@@ -75,7 +75,7 @@ def test_an_early_gyro_is_the_clocks():
     [
         pytest.param("jitter_20_percent", marks=pytest.mark.long),
         pytest.param("slerp_60_to_200_hz", marks=pytest.mark.long),
-        "held_at_20_hz",
+        pytest.param("held_at_20_hz", marks=pytest.mark.long),
         pytest.param("outliers", marks=pytest.mark.long),
         "dropped_rows",
         pytest.param("occlusions_and_jumps", marks=pytest.mark.long),

@@ -69,6 +69,7 @@ def test_the_first_zero_velocity_of_a_stop_has_the_right_nis(runs_of_noise):
     assert low < first.mean() < high
 
 
+@pytest.mark.long
 def test_zero_rates_have_the_right_nis(runs_of_noise):
     """Those of the last stop, which follow from each other by what little is learnt of the bias."""
     _, found = runs_of_noise

@@ -71,6 +71,7 @@ def test_the_filter_is_told_where_the_drive_is(without_compiling, tmp_path):
     }
 
 
+@pytest.mark.long
 def test_a_specimens_coefficients_are_parameters_of_the_sensor(without_compiling, tmp_path):
     """Those that its part has not; the unit, and what the filter knows, are the part's."""
     stim300 = part("stim300")
