@@ -88,6 +88,7 @@ def test_the_page_of_names_is_fresh_and_has_every_one():
     )
 
 
+@pytest.mark.long
 def test_the_transcript_of_the_first_log_is_what_is_printed():
     """Word for word, but the numbers: these may differ by rounding."""
     log = measured("raw/repoimu_tstick_test07_trial1_raw")

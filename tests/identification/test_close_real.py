@@ -128,6 +128,7 @@ def moving_average_ratio(log, before, after, taps=15):
     return rms[1] / rms[0]
 
 
+@pytest.mark.long
 def test_astropi_accelerometer_follows_temperature():
     closed = pyimu.close(recordings("astropi_lsm9ds1_static"))
     (found,) = (a for a in closed.added if not CATALOGUE[a.effect].stochastic)

@@ -56,6 +56,7 @@ def test_the_clock_is_as_far_off_as_its_standard_error_says():
     assert squares > 1.25**-2 * chi2.ppf(1e-4, DRAWS)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "k, late, down", [(0, 0.3, False), (1, -0.3, True), (2, 0.3, True), (5, 0.0, False)]
 )

@@ -97,6 +97,7 @@ def test_a_blameless_accelerometer_is_examined_by_places_and_its_arm_found(refer
         assert np.all(np.abs(one.value) < 5 * one.std), (name, one.value, one.std)
 
 
+@pytest.mark.long
 def test_what_the_accelerometer_lacks_is_named_by_places():
     """A cubic of 2e-4 (m/s^2)^-2 on y, beside a part that nobody declared."""
     cubic = np.array([0.0, 2e-4, 0.0])

@@ -52,6 +52,7 @@ def test_the_clock_of_another_file_is_found_and_nothing_is_blamed(late):
     assert np.degrees(closed.attitude[1]) < 3.0
 
 
+@pytest.mark.long
 def test_each_log_has_its_own_reference(tmp_path):
     (a, seen_a), (b, seen_b) = pair(2, 0.4), pair(3, -0.2, 60.0)
     file = seen_b.write(tmp_path / "seen.csv")

@@ -116,6 +116,7 @@ def test_close_reports_the_predicted_standard_error(kind, effect, motion, h):
     assert np.all(np.abs(z) < 5.0), z
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("kind", "effect", "motion", "h"),
     [

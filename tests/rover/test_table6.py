@@ -53,6 +53,7 @@ def found(tests_of):
     return tests_of((1, 2))
 
 
+@pytest.mark.long
 def test_report_json_has_a_row_a_drive_and_method(found, tmp_path):
     page = found.write(tmp_path)
     report = json.loads((tmp_path / "report.json").read_text())
