@@ -13,16 +13,13 @@ from pyimu.attitude.filter.compensation import Compensation
 from pyimu.block.variables import Variable
 from pyimu.model.part import Part, input_variables
 from pyimu.model.signals import SIGNALS
-from pyimu.navigation.filter import rest_window
+from pyimu.navigation.filter import rest_judged, rest_window
 from pyimu.navigation.filter.variables import INPUTS, OWN_PARAMETERS
 from pyimu.symbolic.linear import pack, unpack
 
 TURN, VELOCITY, POSITION, GYRO_BIAS, RESTING = (slice(i, i + 3) for i in range(0, 15, 3))
 """Where the error state has attitude, velocity, position, gyro bias and the force of a rest, all in
 world axes."""
-
-JUDGED = 15
-"""Numbers that ``rest_judged`` keeps."""
 
 HEADING, UP = TURN.stop - 1, RESTING.stop - 1
 """Where it has the attitude about the vertical, and the resting force upwards."""
@@ -161,7 +158,7 @@ class Layout:
     def memory_sizes(self) -> tuple[int, ...]:
         """Of the ``Memory``, in the order of its fields."""
         window = rest_window.SIZE * self.detects
-        judged = JUDGED * self.detects
+        judged = rest_judged.SIZE * self.detects
         return (self.held, 3, 3, 3, 3, 1, 3, 1, 1, len(self.compensation.start), window, judged)
 
     @property
@@ -205,9 +202,9 @@ class Memory:
 
     ``held`` is the last good row; ``rate`` and ``force`` (3,) are its compensated ones;
     ``mean_rate`` (3,) in body axes that of the last tenths of a second; ``counted`` (3,) in world
-    axes the velocity that counts (``weight``); ``still`` whether it was at rest; ``gyro_lost`` (3,)
-    and ``accel_lost`` s, for how long an axis and the triad were lost; ``begun`` whether there was
-    any row; ``sensors`` is the compensation's own; ``window`` and ``judged`` are those of
+    axes the velocity that counts (``weight``); ``unturned`` whether it did not turn; ``gyro_lost``
+    (3,) and ``accel_lost`` s, for how long an axis and the triad were lost; ``begun`` whether there
+    was any row; ``sensors`` is the compensation's own; ``window`` and ``judged`` are those of
     ``rest_window`` and ``rest_judged``, empty where the filter does not look for rests.
     """
 

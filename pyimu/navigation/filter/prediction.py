@@ -174,8 +174,10 @@ def with_rest(
     looks = asked * memory.begun * found.alike * even
     before = rest_judged.Judged.unpack(memory.judged)
     rate = sample.rate - x.gyro_bias
-    told = sample.still
-    still, left, after = rest_judged.judged(before, x, found, looks, told, rate, settings, h)
+    motion = rest_judged.Motion(x.velocity, x.covariance[VELOCITY, VELOCITY], x.q)
+    still, left, after = rest_judged.judged(
+        before, motion, found, looks, sample.still, rate, settings, h
+    )
     # A drive that looks still does not turn either.
     unturned = ca.fmax(still, looks)
     kept = {"window": found.memory, "judged": after.pack()}

@@ -11,6 +11,7 @@ estimate must not keep all rests out.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import casadi as ca
 
@@ -23,7 +24,6 @@ from pyimu.navigation.detector import (
     SETTLED,
     STEADY_GATE,
 )
-from pyimu.navigation.filter.layout import VELOCITY, State
 from pyimu.navigation.filter.rest_window import Window
 from pyimu.navigation.speeds import APART, LEAST_SPEED, LONGEST, RETURNED
 from pyimu.symbolic.linear import reciprocal
@@ -37,6 +37,16 @@ SIZE = sum(SIZES)
 """Numbers of the memory."""
 
 GATE = STEADY_GATE + 3
+
+
+class Motion(NamedTuple):
+    """What is estimated of a body's motion: ``velocity`` (3,) m/s, its ``covariance`` (3, 3), and
+    the attitude ``q`` (4,).
+    """
+
+    velocity: ca.SX
+    covariance: ca.SX
+    q: ca.SX
 
 
 @dataclass(frozen=True)
@@ -70,7 +80,7 @@ class Judged:
 
 
 def judged(
-    memory: Judged, x: State, found: Window, looks, told, rate, settings: Settings, h
+    memory: Judged, x: Motion, found: Window, looks, told, rate, settings: Settings, h
 ) -> tuple[ca.SX, ca.SX, Judged]:
     """Whether the body is at rest, and whether it is now seen to drive, 0 or 1, and the memory
     after the sample.
@@ -117,12 +127,12 @@ def _is_pushed(memory: Judged, found: Window, settings: Settings, h):
     return ca.sumsqr(found.force - memory.force) > GATE * (FORCE_STAYS**2 + 2 * variance)
 
 
-def _moves(memory: Judged, x: State):
+def _moves(memory: Judged, x: Motion):
     """Whether the velocity is another than zero, 0 or 1, by its variance in its own direction and
     by how far the accelerometer's error may have changed since the rest.
     """
     square = ca.sumsqr(x.velocity)
-    own = ca.dot(x.velocity, x.covariance[VELOCITY, VELOCITY] @ x.velocity)
+    own = ca.dot(x.velocity, x.covariance @ x.velocity)
     chord = 4 * ca.fmax(1 - ca.dot(x.q, memory.q) ** 2, 0)
     time = memory.moved + memory.driven
     unknown = (FORCE_STAYS**2 + FORCE_TURNED**2 * chord) * time**2

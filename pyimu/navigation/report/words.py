@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 from scipy.special import chdtrc
@@ -63,6 +64,21 @@ def about(a: Outcome) -> str:
     )
 
 
+STEADY = (
+    (
+        "steady_turn",
+        "turned steadily",
+        " to the accelerometer, but the gyro was off its bias, so it was taken for a turn",
+    ),
+    (
+        "steady_drive",
+        "was driven at a constant speed",
+        ", but a speed came before it and went after it",
+    ),
+)
+"""Kinds of finding that look like a rest: what the sensor did, and how that was told."""
+
+
 def notes(a: Outcome) -> list[str]:
     """What should be known first: where there is nothing to update with, and what was refused."""
     out = [_rests(a)]
@@ -83,22 +99,11 @@ def notes(a: Outcome) -> list[str]:
             f"The force at rest is {number(off['magnitude'], 4)} m/s^2, {off['share']:+.1%} of "
             "gravity off: a scale factor, a bias, or a unit"
         )
-    turns = [f.detail for f in a.findings if f.kind == "steady_turn"]
-    if turns:
-        longest = max(turns, key=lambda d: d["seconds"])
-        out.append(
-            f"The sensor turned steadily, {_counted(len(turns), 'time')}, the longest at "
-            f"{longest['first']:.6g} s for {quantity(longest['seconds'], 's')}: that looks like a "
-            "rest to the accelerometer, but the gyro was off its bias, so it was taken for a turn"
-        )
-    drives = [f.detail for f in a.findings if f.kind == "steady_drive"]
-    if drives:
-        longest = max(drives, key=lambda d: d["seconds"])
-        out.append(
-            f"The sensor was driven at a constant speed, {_counted(len(drives), 'time')}, the "
-            f"longest at {longest['first']:.6g} s for {quantity(longest['seconds'], 's')}: that "
-            "looks like a rest, but a speed came before it and went after it"
-        )
+    out += [
+        f"The sensor {what}, {said}: that looks like a rest{why}"
+        for kind, what, why in STEADY
+        for said in _longest([f.detail for f in a.findings if f.kind == kind])
+    ]
     out += [
         f"{_counted(f.count, 'sample')} of {f.column} that no motion makes "
         f"{'was' if f.count == 1 else 'were'} left out, the first at {f.detail['first']:.6g} s"
@@ -145,6 +150,16 @@ def _constraint(f: Finding, lost: bool) -> str:
 
 def _counted(count: int, noun: str) -> str:
     return f"{count:,} {noun}{'' if count == 1 else 's'}"
+
+
+def _longest(stretches: list[dict[str, Any]]) -> Iterator[str]:
+    """How many stretches there are, and the longest; nothing of none."""
+    if stretches:
+        longest = max(stretches, key=lambda d: d["seconds"])
+        yield (
+            f"{_counted(len(stretches), 'time')}, the longest at {longest['first']:.6g} s for "
+            f"{quantity(longest['seconds'], 's')}"
+        )
 
 
 def _gaps(a: Outcome) -> Iterator[str]:
