@@ -199,7 +199,8 @@ def run_demo(out: Path | str, say: Callable[[str], None] = silent) -> Demo:
         closed, simulated=Simulated(MADE, put_in(closed, true_part()), turn.said, (picture,))
     )
     closed.write(out, say=say)
-    with whole(out / "heading.png") as unfinished:
+    # Its labels have room by the style that it was laid out in.
+    with matplotlib.rc_context(STYLE), whole(out / "heading.png") as unfinished:
         figure.savefig(unfinished, format="png", dpi=150, facecolor="white")
     return Demo(closed, turn)
 
