@@ -10,6 +10,7 @@ import numpy as np
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.maximum_likelihood import fit_and_normal
+from pyimu.identification.fit.normal import Normal
 from pyimu.identification.formula.columns import values_of
 from pyimu.identification.formula.effect import coefficients, made
 from pyimu.identification.formula.levels import SHARES, Levels
@@ -17,6 +18,7 @@ from pyimu.identification.formula.screen import Scored, Scores, scored
 from pyimu.identification.formula.terms import Term, at_origin, rounded, switch
 from pyimu.identification.search.choice import SET_WIDTH
 from pyimu.identification.search.screen import PENALTY, fitted_gain
+from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS, START
 
 MOST_TERMS, MOST_FIRSTS = 3, 3
@@ -117,9 +119,7 @@ def _values(fit: Fit, factor) -> np.ndarray:
 
 
 def keys_of_terms(name: str, chosen: Chosen) -> frozenset[Coefficient]:
-    axes = {t.text: a for t, a in chosen}
-    named = coefficients([t for t, _ in chosen])
-    return frozenset(Coefficient(name, c, (i,)) for c, t, _ in named for i in axes[t.text])
+    return frozenset(k for keys in _keys(name, chosen) for k in keys)
 
 
 def with_terms(start: Fit, name: str, chosen: Chosen) -> Fit:
@@ -136,14 +136,34 @@ def _backward(
     """The terms less those that later ones made superfluous."""
     while len(chosen) > 1:
         normal = fit_and_normal(fitted)[1]
-        named = coefficients([t for t, _ in chosen])
-        gains = []
-        for term, axes in chosen:
-            keys = [Coefficient(name, c, (i,)) for c, t, _ in named if t is term for i in axes]
-            gains.append(fitted_gain(normal, fitted.sensor, keys))
+        gains = [fitted_gain(normal, fitted.sensor, keys) for keys in _keys(name, chosen)]
         least = int(np.argmin(gains))
         if gains[least] > needed:
             break
         chosen = [c for k, c in enumerate(chosen) if k != least]
         fitted = with_terms(start, name, chosen)
     return chosen, fitted
+
+
+def borne(normal: Normal, sensor: Sensor, name: str, chosen: Chosen, needed: float) -> Chosen:
+    """The terms, each with its axes, that fitted rows speak for beside all that is in a model: as
+    when they were chosen, an axis by more than its penalty and a term by more than is ``needed``.
+    """
+    out: Chosen = []
+    for (term, axes), keys in zip(chosen, _keys(name, chosen), strict=True):
+        by_axis = [[k for k in keys if k.index == (i,)] for i in axes]
+        gains = [fitted_gain(normal, sensor, own) for own in by_axis]
+        seen = [k for own, gain in zip(by_axis, gains, strict=True) if gain > 0.0 for k in own]
+        if seen and fitted_gain(normal, sensor, seen) > needed:
+            kept = {k.index[0] for k in seen}
+            out.append((term, tuple(i for i in axes if i in kept)))
+    return out
+
+
+def _keys(name: str, chosen: Chosen) -> list[list[Coefficient]]:
+    """The coefficients of each term on its axes."""
+    named = coefficients([t for t, _ in chosen])
+    return [
+        [Coefficient(name, c, (i,)) for c, t, _ in named if t is term for i in axes]
+        for term, axes in chosen
+    ]

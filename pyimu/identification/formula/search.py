@@ -17,6 +17,7 @@ from pyimu.identification.fit.keys import Coefficient, coefficients_of
 from pyimu.identification.fit.maximum_likelihood import advantage, fit_and_normal
 from pyimu.identification.formula.compose import (
     Chosen,
+    borne,
     composed,
     firsts,
     keys_of_terms,
@@ -236,13 +237,16 @@ def _beside(
     inv: Investigation, name: str, chosen: Chosen, fitted: Fit, needed: float, again: Again
 ) -> tuple[Found | None, Chosen]:
     """A formula with what is found beside it, where both gain enough over an investigation and
-    nothing denies it. Gives the terms with the axes, too, that held-out rows leave them.
+    nothing denies it. Gives the terms with the axes, too, that what is found beside them and
+    held-out rows leave them.
     """
     bare = inv.before.sensor.with_values(name, **fitted.sensor.values[name])
     beside = again(bare, inv.before.free | keys_of_terms(name, chosen))
     keys = coefficients_of(beside.after.sensor, name) & beside.after.free
-    chosen = _grown(chosen, keys)
-    own = fit_and_normal(beside.after)[1]
+    chosen, own = _grown(chosen, keys), fit_and_normal(beside.after)[1]
+    left = borne(own, beside.after.sensor, name, chosen, needed)
+    if left != chosen:
+        return None, left
     spread = fitted_dispersion(own, keys)
     gain = fitted_gain(own, beside.after.sensor, keys)
     apart = advantage(beside.after, inv.after)
