@@ -22,6 +22,7 @@ from pyimu.model.kinds import TRIADS, SensorKind
 from pyimu.model.signals import EVERY_SAMPLE
 
 Values = Mapping[str, Mapping[str, np.ndarray]]
+EMPTY: Mapping[str, np.ndarray] = MappingProxyType({})
 
 
 @dataclass(frozen=True)
@@ -43,17 +44,20 @@ class Sensor:
                 f"unknown sensor '{self.kind}'{units.did_you_mean(self.kind, TRIADS)}; known are "
                 f"{', '.join(TRIADS)}"
             )
-        complete = {}
         effects = CATALOGUE.in_order(CATALOGUE.of(self.kind, name) for name in self.values)
-        for e in effects:
-            complete[e.name] = MappingProxyType(
-                {
-                    **e.start(),
-                    **{k: _shaped(self.kind, e, k, v) for k, v in self.values[e.name].items()},
-                }
-            )
+        complete = {e.name: _complete(self.kind, e, self.values[e.name]) for e in effects}
         object.__setattr__(self, "values", MappingProxyType(complete))
         object.__setattr__(self, "effects", effects)
+
+    def _with(self, effects: tuple[Effect, ...], values: Values) -> Sensor:
+        """A sensor of this kind with ``effects`` and their complete ``values``: what a sound sensor
+        has is not looked at again.
+        """
+        out = object.__new__(Sensor)
+        ordered = MappingProxyType({e.name: values[e.name] for e in effects})
+        for name, value in (("kind", self.kind), ("values", ordered), ("effects", effects)):
+            object.__setattr__(out, name, value)
+        return out
 
     def __repr__(self) -> str:
         """``Sensor('gyro': lag, angle_random_walk)``; its ``values`` hold the coefficients."""
@@ -115,20 +119,16 @@ class Sensor:
 
     def with_values(self, effect_name: str, **parameters: ArrayLike) -> Sensor:
         """The same sensor with an effect added, or some of its coefficients changed."""
-        values = {e: dict(p) for e, p in self.values.items()}
-        values.setdefault(effect_name, {}).update(parameters)
-        return replace(self, values=values)
+        e, had = CATALOGUE.of(self.kind, effect_name), self.values.get(effect_name, {})
+        known = had if e in self.effects else {}
+        given = parameters if known else {**had, **parameters}
+        others = (other for other in self.effects if other.name != effect_name)
+        values = {**self.values, effect_name: _complete(self.kind, e, given, known)}
+        return self._with(CATALOGUE.in_order((*others, e)), values)
 
     def without(self, *names: str) -> Sensor:
         left = tuple(e for e in self.effects if e.name not in names)
-        if len(left) == len(self.effects):
-            return self
-        # What is left of a sensor is as sound as that was.
-        out = object.__new__(Sensor)
-        values = MappingProxyType({e.name: self.values[e.name] for e in left})
-        for name, value in (("kind", self.kind), ("values", values), ("effects", left)):
-            object.__setattr__(out, name, value)
-        return out
+        return self if len(left) == len(self.effects) else self._with(left, self.values)
 
     def is_off(self, name: str) -> bool:
         """True for an effect that must be scanned for and stands at its identity.
@@ -221,6 +221,16 @@ class Sensor:
         ``x`` is the input behind the part's bandwidth, late by its delay, to within its rounding.
         """
         return self.chain.compensation
+
+
+def _complete(
+    kind: str, e: Effect, given: Mapping[str, Any], known: Mapping[str, np.ndarray] = EMPTY
+) -> Mapping[str, np.ndarray]:
+    """The values of an effect's parameters: as ``given``, else as ``known`` to be sound, else at
+    their start.
+    """
+    shaped = {name: _shaped(kind, e, name, value) for name, value in given.items()}
+    return MappingProxyType({**(known or e.start()), **shaped})
 
 
 def _described(e: Effect, slot: Slot) -> str:

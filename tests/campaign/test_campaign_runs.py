@@ -129,7 +129,12 @@ def test_on_mars_the_ground_turns_and_the_filter_takes_that_for_bias():
 
 
 @pytest.mark.parametrize(
-    ("fault", "bit"), [("lost-axis", 1), ("saturating", 2), ("heading-wrong", 64)]
+    ("fault", "bit"),
+    [
+        ("lost-axis", 1),
+        pytest.param("saturating", 2, marks=pytest.mark.long),
+        ("heading-wrong", 64),
+    ],
 )
 def test_the_status_says_what_failed(fault, bit):
     campaign = settings(faults=(fault,), heading_every=5.0)

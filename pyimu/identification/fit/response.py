@@ -26,6 +26,10 @@ from pyimu.model.signals import N_INPUT
 
 LONGEST_RESPONSE = 1 << 14
 
+FEW_TAPS = 128
+"""Samples of an impulse response up to which sums are faster than Fourier transforms: of a delay,
+which has two or three, twenty times."""
+
 Columns = list[np.ndarray]
 """Inputs (n,), one after another: what changes one of them leaves the others where they are."""
 
@@ -129,24 +133,32 @@ def is_step(e: Effect, kind: str) -> bool:
 
 def impulse_response(sensor: Sensor, h: float) -> np.ndarray:
     """Response (L, 3) of a chain of dynamics to a unit impulse, until it has died away (or
-    ``LONGEST_RESPONSE`` samples).
+    ``LONGEST_RESPONSE`` samples). It cannot be written to.
     """
-    chain = sensor.chain
-    state = chain.start.copy()
+    return _impulse_response(sensor.chain, sensor.p.tobytes(), h)
+
+
+@lru_cache(maxsize=64)
+def _impulse_response(chain: Chain, coefficients: bytes, h: float) -> np.ndarray:
+    p, state = np.frombuffer(coefficients).copy(), chain.start.copy()
     if chain.waits:
         state[0] = 1.0
     parts, total = [], 0
     while total < LONGEST_RESPONSE:
         u = np.zeros((64, N_INPUT))
         if not total:
-            u[0, OWN[sensor.kind]] = 1.0
+            u[0, OWN[chain.kind]] = 1.0
         y = np.empty((64, 3))
-        step_through(chain.step, state, u, sensor.p, np.zeros((64, 0)), np.array([h]), y)
+        step_through(chain.step, state, u, p, np.zeros((64, 0)), np.array([h]), y)
         parts.append(y)
         total += 64
         if np.abs(y).max() < 1e-13 and np.abs(state[chain.waits :]).max(initial=0) < 1e-13:
             break
-    return np.concatenate(parts)
+    out = np.concatenate(parts)
+    last = int(np.flatnonzero(np.any(out != 0.0, axis=1)).max(initial=0))
+    out = out[: last + 1]
+    out.flags.writeable = False
+    return out
 
 
 def through_dynamics(
@@ -160,11 +172,19 @@ def through_dynamics(
     out = np.array(x)
     for a, b in segments:
         origin = x[a]
-        moved = oaconvolve(x[a:b] - origin, response[: b - a], axes=0)[: b - a]
         # Dynamics pass a constant as it is; a response that was cut off before it had died away
         # must not change the level.
-        out[a:b] = moved + origin
+        out[a:b] = _convolved(x[a:b] - origin, response[: b - a]) + origin
     return out
+
+
+def _convolved(x: np.ndarray, response: np.ndarray) -> np.ndarray:
+    """The answer (n, 3) to ``x`` (n, 3) from its first row on."""
+    n = len(x)
+    if len(response) > FEW_TAPS:
+        return oaconvolve(x, response, axes=0)[:n]
+    pairs = zip(x.T, response.T, strict=True)
+    return np.column_stack([np.convolve(one, taps)[:n] for one, taps in pairs])
 
 
 def behind_dynamics(
