@@ -52,7 +52,8 @@ def hidden(fit: Fit, keys: Iterable[Coefficient]) -> dict[Coefficient, str]:
         definition = CATALOGUE[key.effect].parameters[key.parameter]
         limit = most(key.effect, fit.sensor.kind, key.parameter)
         value = abs(float(fit.sensor.values[key.effect][key.parameter][key.index]))
-        if definition.scan is None and min(value, CHANCE * fit.std.get(key, 0.0)) > limit:
+        unknown = CHANCE * fit.std.get(key, 0.0)
+        if definition.scan is None and min(value, unknown) > limit >= value - unknown:
             unit = fit.sensor.unit(definition.unit)
             by = quantity(fit.std[key], unit, 2)
             said = f"{quantity(value, unit)}, give or take {by}"

@@ -21,6 +21,7 @@ from pyimu.identification.fit.score import held_state
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.identification.search.leftover import axis_likelihood
+from pyimu.identification.search.strayed import strayed
 
 SPEAKS = 0.5
 """Log-likelihood [nat] by which two models must differ on held-out rows for these to decide."""
@@ -54,6 +55,8 @@ class Evidence:
     ``chance`` the variance of its product with the noise; ``held`` (2, 3) and ``whole`` (2, 3) are
     sums of squares, old and new, of the held-out rows and of all; ``noise`` (3,) is what the noise
     of sensor and reference leaves of ``whole``, None where only the residual itself tells of it.
+    ``strays`` are mean and variance of what ``held`` falls less because the new model's
+    coefficients are known only so well.
     """
 
     gained: np.ndarray
@@ -63,6 +66,7 @@ class Evidence:
     held: np.ndarray
     whole: np.ndarray
     noise: np.ndarray | None
+    strays: tuple[float, float] = (0.0, 0.0)
 
     @property
     def speaks(self) -> bool:
@@ -81,8 +85,9 @@ class Evidence:
         product with the noise.
         """
         old, new = self.held.sum(axis=1)
-        missing = float(self.apart.sum()) - (old - new)
-        chance = 2.0 * float(np.sqrt(self.chance.sum()))
+        mean, variance = self.strays
+        missing = float(self.apart.sum()) - (old - new) - mean
+        chance = float(np.sqrt(4.0 * self.chance.sum() + variance))
         return missing / chance if chance > 0.0 else np.inf
 
     @property
@@ -154,7 +159,8 @@ def evidence(old: Fit, new: Fit, held: Sequence[Trial]) -> Evidence:
     if any(t.reduction is not None for t in held):
         return Evidence(**sums, held=held_out, whole=held_out, noise=None)
     fitted = np.array([_squares(f) for f in (old, new)])
-    return Evidence(**sums, held=held_out, whole=held_out + fitted, noise=_noise(new, held))
+    found = Evidence(**sums, held=held_out, whole=held_out + fitted, noise=_noise(new, held))
+    return replace(found, strays=strayed(old, new, held)) if found.raises else found
 
 
 def _wandering_most(new: Fit, old: Fit) -> Fit:
