@@ -44,9 +44,10 @@ def settled(
             return found, model, None, said
         was, now = (_pooled(e, kept) for e in (before, after))
         worst = _worst(new, inv, logs, kept, now) if now > WORSE * was else None
-        if worst is None:
-            model, now, more = _less_calibration(model, declared, inv, logs, kept, now)
-            return found, model, (was, now), said + more
+        # Scale factors that are left out may make all the difference.
+        less, left, more = _less_calibration(model, declared, inv, logs, kept, now)
+        if worst is None or left <= WORSE * was:
+            return found, less, (was, left), said + more
         name, error = worst
         degrees = [f"{np.degrees(v):.2f}" for v in (error, now)]
         reason = f"{TAKEN_BACK}, {degrees[0]} to {degrees[1]} deg"

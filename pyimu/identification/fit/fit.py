@@ -36,7 +36,7 @@ from pyimu.identification.fit.keys import (
 from pyimu.identification.fit.noise_fit import declared_variances, fit_noise
 from pyimu.identification.fit.normal import Noise, Normal, normal_equations, solve
 from pyimu.identification.fit.trial import Trial, marked
-from pyimu.identification.fit.whiten import RandomWalk
+from pyimu.identification.fit.whiten import WALKS, RandomWalk
 from pyimu.model.arguments import Parameter
 from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.sensor import Sensor
@@ -168,12 +168,7 @@ class Fit:
 
     def _at_least_declared(self, seen: Noise) -> Noise:
         white, walk = declared_variances(self.sensor, self.trials[0].h)
-        return {
-            i: RandomWalk(max(n.r, white[i]), max(n.k2, walk[i]))
-            if isinstance(n, RandomWalk)
-            else n
-            for i, n in seen.items()
-        }
+        return {i: _at_least(n, float(white[i]), float(walk[i])) for i, n in seen.items()}
 
     def as_declared(self) -> Fit:
         """The same model with no more random walk than the part declares, where it does.
@@ -183,7 +178,7 @@ class Fit:
         """
         _, walk = declared_variances(self.sensor, self.trials[0].h)
         held = {
-            i: replace(n, k2=walk[i]) if isinstance(n, RandomWalk) and walk[i] > 0.0 else n
+            i: replace(n, k2=walk[i]) if isinstance(n, WALKS) and walk[i] > 0.0 else n
             for i, n in self.noise.items()
         }
         return self if held == self.noise else replace(self, noise=held)
@@ -197,11 +192,18 @@ class Fit:
         _, walk = declared_variances(self.sensor, self.trials[0].h)
         less = {
             i: replace(n, k2=WANDERS_LESS**2 * n.k2)
-            if isinstance(n, RandomWalk) and walk[i] == 0.0
+            if isinstance(n, WALKS) and walk[i] == 0.0
             else n
             for i, n in self.noise.items()
         }
         return self if less == self.noise else replace(self, noise=less)
+
+
+def _at_least(noise, white: float, walk: float):
+    """A noise with at least the declared variances."""
+    if isinstance(noise, RandomWalk):
+        return RandomWalk(max(noise.r, white), max(noise.k2, walk))
+    return replace(noise, k2=max(noise.k2, walk)) if isinstance(noise, WALKS) else noise
 
 
 def _without_columns(one: Linear) -> Linear:

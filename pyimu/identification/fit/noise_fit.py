@@ -62,14 +62,40 @@ def fit_noise(
 
 
 def _autoregression(rows: list[tuple[Trial, Linear]], axis: int, whole: bool) -> Autoregressive:
-    """The autoregression of an axis' residual, ``whole`` or less the motion in it."""
-    parts, less = [], False
+    """The autoregression of an axis' residual, ``whole`` or less the motion in it, and less what
+    goes with time and temperature.
+    """
+    parts, slow, less = [], [], False
     for trial, one in rows:
         left = one.residual[:, axis]
         noise = left if whole else _beside_motion(trial, left)
-        parts.append((noise, one.time, one.segments))
+        parts.append((_beside_slow(trial, one.time, noise), one.time, one.segments))
+        slow.append((noise, one.time, one.segments))
         less |= noise is not left
-    return replace(Autoregressive.fit(parts), beside_motion=less)
+    found = replace(Autoregressive.fit(parts), beside_motion=less)
+    errors = []
+    for noise, time, segments in slow:
+        seen = found.predicted(len(time), segments)
+        white = found.whiten(noise[:, None], time, segments)[seen, 0]
+        errors.append((white, time[seen], [(0, len(white))]))
+    walk = RandomWalk.fit(errors)
+    return replace(found, k2=walk.k2 / walk.r * found.slow.r)
+
+
+def _beside_slow(trial: Trial, time: np.ndarray, left: np.ndarray) -> np.ndarray:
+    """The residual ``left`` (m,) of an axis at ``time`` (m,), less a ramp and a line in the
+    temperature.
+
+    A slow error is what its past predicts, too: it would be whitened away, and its cause with it.
+    Of a bias that walks the most is left, which is still predicted.
+    """
+    columns = [np.ones(len(time)), time - time.mean()]
+    if "temperature" in trial.known:
+        columns.append(in_band(trial, trial.u[:, COLUMNS["temperature"]])[:, 0])
+    if len(left) < LEAST_ROWS * len(columns):
+        return left
+    slow = np.column_stack(columns)
+    return left - slow @ np.linalg.lstsq(slow, left)[0]
 
 
 def _beside_motion(trial: Trial, left: np.ndarray) -> np.ndarray:

@@ -148,6 +148,22 @@ class _PredictionErrors(Filter):
         return out
 
 
+class _Followed(Filter):
+    """Prediction errors, of which those that are ``seen`` (m,) go through another filter."""
+
+    def __init__(self, errors: Filter, seen: np.ndarray, other: Filter) -> None:
+        self.errors, self.seen, self.other, self.row = errors, seen, other, 0
+        self.log_det = errors.log_det + other.log_det
+
+    def next(self, values: np.ndarray) -> np.ndarray:
+        out = self.errors.next(values)
+        seen = self.seen[self.row : self.row + len(values)]
+        self.row += len(values)
+        if seen.any():
+            out[seen] = self.other.next(np.ascontiguousarray(out[seen]))
+        return out
+
+
 def power_less_bias(white: np.ndarray) -> float:
     """Sum of squares of a whitened residual, column 0, less what a constant, column 1 of (m, 2),
     takes of it.
@@ -166,6 +182,11 @@ class RandomWalk:
     r: float
     k2: float
     before: float = 0.0
+
+    @property
+    def slow(self) -> RandomWalk:
+        """The noise as means over many rows show it."""
+        return self
 
     def whiten(self, values: np.ndarray, time: np.ndarray, segments: Segments) -> np.ndarray:
         """Innovations (m, c), unit variance, of columns (m, c) sampled at ``time`` (m,)."""
@@ -208,12 +229,24 @@ class RandomWalk:
 @dataclass(frozen=True)
 class Autoregressive:
     """Residual whose prediction from its ``len(coefficients)`` predecessors leaves variance
-    ``r``; ``beside_motion`` says that the motion in it was left out.
+    ``r``, beside a random walk that grows by ``k2`` a second, which is slow beside them;
+    ``beside_motion`` says that the motion in it was left out.
     """
 
     coefficients: tuple[float, ...]
     r: float
     beside_motion: bool = False
+    k2: float = 0.0
+
+    @property
+    def slow(self) -> RandomWalk:
+        """The noise as means over many rows show it."""
+        return RandomWalk(self.r / (1.0 - sum(self.coefficients)) ** 2, self.k2)
+
+    @property
+    def walk(self) -> RandomWalk:
+        """The walk as the prediction errors, of unit variance, show it."""
+        return RandomWalk(1.0, self.k2 / self.slow.r)
 
     def whiten(self, values: np.ndarray, time: np.ndarray, segments: Segments) -> np.ndarray:
         """Prediction errors (m, c), unit variance.
@@ -224,7 +257,18 @@ class Autoregressive:
 
     def filter(self, time: np.ndarray, segments: Segments) -> Filter:
         """What makes columns in these segments white."""
-        return _PredictionErrors(self.coefficients, self.r, segments)
+        errors = _PredictionErrors(self.coefficients, self.r, segments)
+        if not self.k2:
+            return errors
+        seen = self.predicted(len(time), segments)
+        return _Followed(errors, seen, self.walk.filter(time[seen], []))
+
+    def predicted(self, rows: int, segments: Segments) -> np.ndarray:
+        """Marks (rows,) of those that have their predecessors."""
+        seen = np.zeros(rows, dtype=bool)
+        for a, b in segments:
+            seen[a + len(self.coefficients) : b] = True
+        return seen
 
     def log_det(self, time: np.ndarray, segments: Segments) -> float:
         """Sum of the logarithms of the prediction error variances."""
@@ -236,7 +280,8 @@ class Autoregressive:
         """
         taps = np.concatenate([[1.0], -np.array(self.coefficients)])
         seen = (lfilter([1.0], taps, values[a:b][::-1]) for a, b in segments)
-        return float(self.r * sum(np.sum(v**2) for v in seen))
+        fast = float(self.r * sum(np.sum(v**2) for v in seen))
+        return fast + RandomWalk(0.0, self.k2).variance_along(values, time, segments)
 
     @classmethod
     def fit(
@@ -267,3 +312,7 @@ def _lagged_products(values: np.ndarray, order: int) -> np.ndarray:
         rows = np.lib.stride_tricks.sliding_window_view(piece, order + 1)[:, ::-1]
         total += rows.T @ rows
     return total
+
+
+WALKS = RandomWalk | Autoregressive
+"""The noises that have a random walk, ``k2``."""

@@ -85,11 +85,7 @@ class Blocks:
         """
         made, total = [], 0.0
         for values, (_, _, _, full, count) in zip(parts, self.trials, strict=True):
-            if isinstance(noise, Autoregressive):
-                scale = (1.0 - sum(noise.coefficients)) / np.sqrt(noise.r / count)
-                made.append(values * scale)
-                continue
-            of_means, time = RandomWalk(noise.r / count, noise.k2), full * self.block
+            of_means, time = RandomWalk(noise.slow.r / count, noise.k2), full * self.block
             made.append(of_means.whiten(values, time, [(0, len(time))]))
             total += of_means.log_det(time, [(0, len(time))])
         return made[0] if len(made) == 1 else np.concatenate(made), total

@@ -18,7 +18,7 @@ from scipy.special import logsumexp
 from pyimu.identification.fit.columns import Linear
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.noise_fit import declared_variances
-from pyimu.identification.fit.whiten import RandomWalk
+from pyimu.identification.fit.whiten import WALKS, RandomWalk
 from pyimu.identification.search.blocks import Blocks, beside
 from pyimu.identification.search.walks import Explained, Placed, Walk, allowed
 from pyimu.model.effect import Effect
@@ -59,9 +59,9 @@ class Chance:
         """Of each axis that may wander the walks that it may have, as ``allowed`` gives them."""
         declared = declared_variances(self.fit.sensor, self.fit.trials[0].h)[1]
         return {
-            i: allowed(self.blocks, noise, self.blocks.left[i], float(declared[i]))
+            i: allowed(self.blocks, noise.slow, self.blocks.left[i], float(declared[i]))
             for i, noise in self.fit.noise.items()
-            if isinstance(noise, RandomWalk)
+            if isinstance(noise, WALKS)
         }
 
     def _known(self, axis: int, rng: np.random.Generator) -> Walk:

@@ -20,7 +20,7 @@ from pyimu.identification.fit.maximum_likelihood import (
 from pyimu.identification.fit.normal import Normal
 from pyimu.identification.fit.reduction import STRUCTURE
 from pyimu.identification.fit.walk import widening
-from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
+from pyimu.identification.fit.whiten import WALKS, Autoregressive
 from pyimu.identification.search.by_chance import Chance
 from pyimu.identification.search.candidates import Group, equivalent, with_start
 from pyimu.identification.search.ceiling import (
@@ -146,7 +146,7 @@ class Tried:
     @cached_property
     def chance(self) -> Chance | None:
         """Draws of what the model leaves; None where no walk is looked for."""
-        walks = any(isinstance(n, RandomWalk) for n in self.current.noise.values())
+        walks = any(isinstance(n, WALKS) for n in self.current.noise.values())
         if not walks or any(t.reduction is not None for t in self.current.trials):
             return None
         return Chance(self.current, self.current.linearise(), PENALTY)

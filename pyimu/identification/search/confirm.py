@@ -19,7 +19,7 @@ from pyimu.identification.fit.normal import BATCHES, Noise
 from pyimu.identification.fit.reference_noise import STEP, has_noise, moved, residual_changes
 from pyimu.identification.fit.score import held_state
 from pyimu.identification.fit.trial import Trial
-from pyimu.identification.fit.whiten import RandomWalk
+from pyimu.identification.fit.whiten import WALKS, RandomWalk
 from pyimu.identification.search.leftover import axis_likelihood
 from pyimu.identification.search.strayed import strayed
 
@@ -171,7 +171,7 @@ def _wandering_most(new: Fit, old: Fit) -> Fit:
     residuals, noise = new.residuals(), dict(new.noise)
     for i, least in new.noise.items():
         most = old.noise[i]
-        if not (isinstance(least, RandomWalk) and isinstance(most, RandomWalk)) or walk[i]:
+        if not all(isinstance(n, WALKS) for n in (least, most)) or walk[i]:
             continue
         if most.k2 > least.k2:
             tried = [replace(least, k2=k2) for k2 in np.geomspace(most.k2 * 1e-4, most.k2, LIMITS)]
