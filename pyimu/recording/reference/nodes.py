@@ -16,13 +16,15 @@ from scipy.spatial.transform import Rotation
 
 from pyimu.recording.columns import GROUPS
 from pyimu.recording.recording import Recording
+from pyimu.recording.reference import close_nodes
 
 LEAST = 16
 """Samples that must be seen."""
 
-LINE = 0.1
+LINE, BY_CHANCE = 0.01, 30.0
 """Share of their power that the flags of a constant rate have in one line, at least, if they keep
-a rhythm: of what has none, the strongest line has some ten over their number."""
+a rhythm, and the same times their number: of what has none, the strongest line has some ten over
+their number, of jumps that are a hundred rows apart each of fifty a fiftieth."""
 
 ROUNDS = 3
 
@@ -83,7 +85,7 @@ def _met(time: np.ndarray, steps: np.ndarray) -> tuple[np.ndarray, np.ndarray, n
     rate[step > 1.5 * np.median(step)] = np.nan
     grid = _grid(time, rate)
     if grid is None:
-        return None
+        return close_nodes.met(time, steps)
     at, row = _placed(time, grid)
     # The step before that which holds a sample belongs to the arc that ends at it.
     good = np.isfinite(rate[row - 1]).all(axis=1) & np.isfinite(rate[row]).all(axis=1)
@@ -99,7 +101,7 @@ def _grid(time: np.ndarray, rate: np.ndarray) -> tuple[float, float] | None:
     seen = np.isfinite(change)
     if np.count_nonzero(seen) < 4 * LEAST:
         return None
-    low, high = np.quantile(change[seen], (0.05, 0.9))
+    low, high = np.quantile(change[seen], (0.05, 0.99))
     least = low ** (2 / 3) * high ** (1 / 3)
     same = change <= least
     for rough in _rhythms(time, same, seen):
@@ -107,8 +109,32 @@ def _grid(time: np.ndarray, rate: np.ndarray) -> tuple[float, float] | None:
         for _ in range(ROUNDS):
             grid = _refined(time, rate, grid, JUMP * least) if grid else None
         if grid and _explains(time, change, seen, grid):
-            return grid
+            return _widest(time, change, seen, grid)
     return None
+
+
+def _widest(
+    time: np.ndarray, change: np.ndarray, seen: np.ndarray, grid: tuple[float, float]
+) -> tuple[float, float]:
+    """The grid, or every second or third of its places where the rate changes at these alone."""
+    first, spacing = grid
+    at = seen & _holds_one(time, grid)
+    for n, k in ((n, k) for n in (2, 3) for k in range(n)):
+        wider = first + k * spacing, n * spacing
+        kept = at & _holds_one(time, wider)
+        if kept.any() and (at & ~kept).any():
+            jumps, others = (np.quantile(change[m], 0.75) for m in (kept, at & ~kept))
+            if JUMP * others < jumps:
+                return _widest(time, change, seen, wider)
+    return grid
+
+
+def _holds_one(time: np.ndarray, grid: tuple[float, float]) -> np.ndarray:
+    """Marks (n - 2,) of the changes of the rate between whose rows a sample of a grid lies."""
+    first, spacing = grid
+    close = CLOSE * float(np.median(np.diff(time)))
+    begin, end = (np.floor((t - first) / spacing) for t in (time[:-2] - close, time[2:] + close))
+    return begin != end
 
 
 def _rhythms(time: np.ndarray, same: np.ndarray, seen: np.ndarray) -> Iterator[tuple[float, float]]:
@@ -126,9 +152,10 @@ def _rhythms(time: np.ndarray, same: np.ndarray, seen: np.ndarray) -> Iterator[t
     strength = np.abs(spectrum)
     strength[:LEAST] = 0.0
     strongest, power = strength.max(), np.sum(flags**2) * len(flags)
+    least = max(LINE, BY_CHANCE / len(flags))
     for _ in range(LINES):
         best = int(np.argmax(strength))
-        if strength[best] <= max(ALIKE * strongest, np.sqrt(LINE * power)):
+        if strength[best] <= max(ALIKE * strongest, np.sqrt(least * power)):
             return
         frequency = best / (size * row)
         middle = -np.angle(spectrum[best]) / (2 * np.pi * frequency)
@@ -168,15 +195,10 @@ def _explains(
     """Whether the rate has changes (n - 2,) where samples of a grid lie and hardly any elsewhere;
     these are two rows apart at least, or no arc is seen.
     """
-    first, spacing = grid
-    row = float(np.median(np.diff(time)))
-    if spacing < 2 * row:
+    if grid[1] < 2 * float(np.median(np.diff(time))):
         return False
-    begin, end = (
-        np.floor((t - first) / spacing) for t in (time[:-2] - CLOSE * row, time[2:] + CLOSE * row)
-    )
-    free = seen & (begin == end)
-    others = seen & ~free
+    at = _holds_one(time, grid)
+    free, others = seen & ~at, seen & at
     if not free.any() or not others.any():
         return False
     # Beside a sample that lies at a row itself two changes of three are none as well.

@@ -1,0 +1,55 @@
+"""The samples that an attitude was interpolated from, at any ratio to the rows."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.spatial.transform import Rotation, Slerp
+
+from pyimu.recording.recording import Recording
+from pyimu.recording.reference.nodes import own_samples
+
+SECONDS, NOISE = 60.0, 1e-3
+"""s, rad."""
+
+
+def attitude(rng, time: np.ndarray) -> Rotation:
+    phase, rate = rng.uniform(-3, 3, 3), rng.uniform(1.0, 3.0, 3)
+    angles = 0.5 * np.sin(rate * time[:, None] + phase)
+    return Rotation.from_euler("ZYX", angles) * Rotation.from_rotvec(
+        rng.normal(0, NOISE, (len(time), 3))
+    )
+
+
+def recording(time: np.ndarray, of: Rotation) -> Recording:
+    """As a file has it, whose numbers end somewhere."""
+    ref_q = np.round(of.as_quat(scalar_first=True), 9)
+    return Recording.from_arrays("log", time=time, gyro=np.zeros((len(time), 3)), ref_q=ref_q)
+
+
+@pytest.mark.parametrize("rows_hz, jitter", [(100.0, 0.0), (200.0, 2e-4)])
+@pytest.mark.parametrize("ratio", [0.02, 0.05, 0.13, 0.25, 0.4, 0.45, 0.48, 0.5, 0.55, 0.6, 0.75])
+def test_the_samples_behind_the_rows_are_found(rows_hz, jitter, ratio):
+    """Their times to a thousandth of a row; the attitudes to what the file's digits leave: a step
+    has 2e-9 rad of them, and least squares add some ten where a sample has hardly more than one.
+    """
+    rng = np.random.default_rng(round(1000 * ratio))
+    time = np.arange(0.0, SECONDS, 1 / rows_hz)
+    time = np.round(time + np.abs(rng.normal(0, jitter, len(time))), 6) if jitter else time
+    at = np.arange(-2.0, SECONDS + 60.0, 1 / (ratio * rows_hz)) + rng.uniform(0, 1 / rows_hz)
+    nodes = attitude(rng, at)
+    found = own_samples(recording(time, Slerp(at, nodes)(time)))
+    inside = (at > time[2]) & (at < time[-2])
+    assert 0.9 * inside.sum() < len(found.time) <= inside.sum() + 2
+    nearest = np.argmin(np.abs(found.time[:, None] - at), axis=1)
+    assert_allclose(found.time, at[nearest], atol=1e-3 / rows_hz)
+    own = Rotation.from_quat(found.ref_q, scalar_first=True)
+    off = (own.inv() * nodes[nearest]).magnitude()
+    assert np.median(off) < 1e-6 and off.max() < 0.05 * NOISE
+
+
+@pytest.mark.parametrize("noise", [0.0, NOISE])
+def test_rows_that_are_no_interpolation_stay(noise):
+    rng, time = np.random.default_rng(7), np.arange(0.0, SECONDS, 0.01)
+    steady = attitude(rng, time) * Rotation.from_rotvec(rng.normal(0, noise, (len(time), 3)))
+    log = recording(time, steady)
+    assert own_samples(log) is log
