@@ -76,8 +76,9 @@ def _autoregression(rows: list[tuple[Trial, Linear]], axis: int, whole: bool) ->
     errors = []
     for noise, time, segments in slow:
         seen = found.predicted(len(time), segments)
-        white = found.whiten(noise[:, None], time, segments)[seen, 0]
-        errors.append((white, time[seen], [(0, len(white))]))
+        if seen.any():
+            white = found.whiten(noise[:, None], time, segments)[seen, 0]
+            errors.append((white, time[seen], [(0, len(white))]))
     walk = RandomWalk.fit(errors)
     return replace(found, k2=walk.k2 / walk.r * found.slow.r)
 

@@ -229,24 +229,27 @@ class RandomWalk:
 @dataclass(frozen=True)
 class Autoregressive:
     """Residual whose prediction from its ``len(coefficients)`` predecessors leaves variance
-    ``r``, beside a random walk that grows by ``k2`` a second, which is slow beside them;
-    ``beside_motion`` says that the motion in it was left out.
+    ``r``, beside a random walk that grows by ``k2`` a second, which is slow beside them, and has
+    walked for ``before`` seconds when the rows begin; ``beside_motion`` says that the motion in it
+    was left out.
     """
 
     coefficients: tuple[float, ...]
     r: float
     beside_motion: bool = False
     k2: float = 0.0
+    before: float = 0.0
 
     @property
     def slow(self) -> RandomWalk:
         """The noise as means over many rows show it."""
-        return RandomWalk(self.r / (1.0 - sum(self.coefficients)) ** 2, self.k2)
+        r = self.r / (1.0 - sum(self.coefficients)) ** 2
+        return RandomWalk(r, self.k2, self.before)
 
     @property
     def walk(self) -> RandomWalk:
         """The walk as the prediction errors, of unit variance, show it."""
-        return RandomWalk(1.0, self.k2 / self.slow.r)
+        return RandomWalk(1.0, self.k2 / self.slow.r, self.before)
 
     def whiten(self, values: np.ndarray, time: np.ndarray, segments: Segments) -> np.ndarray:
         """Prediction errors (m, c), unit variance.
@@ -281,7 +284,8 @@ class Autoregressive:
         taps = np.concatenate([[1.0], -np.array(self.coefficients)])
         seen = (lfilter([1.0], taps, values[a:b][::-1]) for a, b in segments)
         fast = float(self.r * sum(np.sum(v**2) for v in seen))
-        return fast + RandomWalk(0.0, self.k2).variance_along(values, time, segments)
+        slow = RandomWalk(0.0, self.k2, self.before)
+        return fast + slow.variance_along(values, time, segments)
 
     @classmethod
     def fit(

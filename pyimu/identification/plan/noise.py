@@ -48,7 +48,7 @@ def noise_at(fit: Fit, frequency: float, h: float) -> dict[int, RandomWalk]:
     """The noise of the fitted residual for rows ``h`` s apart.
 
     Where it is that of a derived reference as well, it is white with the density that it has at
-    ``frequency`` [Hz].
+    ``frequency`` [Hz], beside its random walk.
     """
     made = {}
     for i, n in fit.noise.items():
@@ -59,5 +59,5 @@ def noise_at(fit: Fit, frequency: float, h: float) -> dict[int, RandomWalk]:
             step = t.h * t.band.stride
             lags = np.arange(1, len(n.coefficients) + 1)
             gain = 1 - np.sum(n.coefficients * np.exp(-2j * np.pi * frequency * step * lags))
-            made[i] = RandomWalk(float(n.r * step / abs(gain) ** 2) / h, 0.0)
+            made[i] = RandomWalk(float(n.r * step / abs(gain) ** 2) / h, n.k2)
     return made

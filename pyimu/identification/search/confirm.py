@@ -19,7 +19,7 @@ from pyimu.identification.fit.normal import BATCHES, Noise
 from pyimu.identification.fit.reference_noise import STEP, has_noise, moved, residual_changes
 from pyimu.identification.fit.score import held_state
 from pyimu.identification.fit.trial import Trial
-from pyimu.identification.fit.whiten import WALKS, RandomWalk
+from pyimu.identification.fit.whiten import WALKS
 from pyimu.identification.search.leftover import axis_likelihood
 from pyimu.identification.search.strayed import strayed
 
@@ -192,8 +192,7 @@ def _on_held_out(fit: Fit, held: Trial, rest: Trial) -> Fit:
         first = next(t for t in fit.trials if t.name == held.parent)
     before = float(rest.time[0] - first.time[0]) / 3.0 if len(rest.time) else 0.0
     noise = {
-        i: replace(n, before=before) if isinstance(n, RandomWalk) else n
-        for i, n in fit.noise.items()
+        i: replace(n, before=before) if isinstance(n, WALKS) else n for i, n in fit.noise.items()
     }
     return replace(fit, noise=noise)
 

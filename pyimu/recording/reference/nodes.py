@@ -24,7 +24,7 @@ LEAST = 16
 LINE, BY_CHANCE = 0.01, 30.0
 """Share of their power that the flags of a constant rate have in one line, at least, if they keep
 a rhythm, and the same times their number: of what has none, the strongest line has some ten over
-their number, of jumps that are a hundred rows apart each of fifty a fiftieth."""
+their number. Jumps that are a hundred rows apart have fifty lines, each of a fiftieth."""
 
 ROUNDS = 3
 

@@ -1,0 +1,76 @@
+"""Slow errors beside a reference that is derived from an attitude, whose noise is an autoregression
+and a random walk.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.signal import lfilter
+from scipy.spatial.transform import Rotation
+from world import drive, recording
+
+import pyimu
+from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
+
+WARMTH = np.array([3e-4, -2e-4, 1e-4])
+"""rad/s/K: up to 0.3 deg/s over a log that warms by 18 K, five times what is left otherwise."""
+
+
+@pytest.fixture(scope="module")
+def world():
+    """A motion during which the part warms up."""
+    made = drive(minutes=5, seed=12)
+    return replace(made, temperature=25.0 + 20.0 * (1.0 - np.exp(-made.time / 120.0)))
+
+
+def against_attitude(world, change, seed: int):
+    """A log of the gyro whose reference is an attitude to 0.3 mrad."""
+    rng = np.random.default_rng(seed)
+    turn, quaternions = Rotation.identity(), np.empty((len(world.time), 4))
+    for k, step in enumerate(Rotation.from_rotvec(world.rate * world.h)):
+        quaternions[k] = turn.as_quat(scalar_first=True)
+        turn = turn * step
+    noise = Rotation.from_rotvec(3e-4 * rng.standard_normal(world.rate.shape))
+    ref_q = (Rotation.from_quat(quaternions, scalar_first=True) * noise).as_quat(scalar_first=True)
+    log = recording(world, gyro_change=change, seed=seed, kinds=("gyro",))
+    return replace(log, ref_rate=None, ref_force=None, ref_q=ref_q)
+
+
+def test_what_goes_with_temperature_is_named_beside_an_attitude(world):
+    """It was whitened away with what its past predicts; coefficients to four standard errors."""
+    warmth = (world.temperature - 25.0)[:, None] * WARMTH
+    closed = pyimu.close(against_attitude(world, lambda x: x + warmth, seed=5))
+    (added,) = closed.added
+    assert added.effect == "thermal_bias", closed.report()
+    value, std, _ = added.parameters["kT"]
+    assert np.all(np.abs(value - WARMTH) < 4 * std) and np.all(std < np.abs(WARMTH) / 3)
+
+
+@pytest.mark.parametrize("k, seed", [pytest.param(3e-5, 6, marks=pytest.mark.long), (3e-4, 7)])
+def test_a_bias_that_walks_is_no_slow_error_beside_an_attitude(world, k, seed):
+    steps = np.random.default_rng(seed).standard_normal(world.rate.shape)
+    walk = np.cumsum(k * np.sqrt(world.h) * steps, axis=0)
+    closed = pyimu.close(against_attitude(world, lambda x: x + walk, seed=seed))
+    assert not closed.added and not closed.formulas, closed.report()
+
+
+def test_prediction_errors_are_freed_of_the_walk_that_they_show():
+    """The noise is a filter of white noise and a walk: its inverse leaves both, and what whitens
+    these the rest.
+    """
+    rng, n, r, k2 = np.random.default_rng(3), 400, 2.5, 0.3
+    coefficients = (0.5, 0.2)
+    time = 0.1 * np.arange(n)
+    made = Autoregressive(coefficients, r, k2=k2)
+    both = rng.standard_normal((n, 1))
+    both += np.cumsum(np.sqrt(0.1 * made.walk.k2) * rng.standard_normal((n, 1)), axis=0)
+    noise = np.sqrt(r) * lfilter([1.0], [1.0, *(-c for c in coefficients)], both, axis=0)
+    found = made.whiten(noise, time, [(0, 150), (150, n)])
+    seen = made.predicted(n, [(0, 150), (150, n)])
+    assert seen.sum() == n - 4 and not found[~seen].any()
+    whole = RandomWalk(1.0, made.walk.k2).whiten(both[seen], time[seen], [(0, seen.sum())])
+    assert_allclose(found[seen], whole, atol=1e-9)
+    slow = r / 0.3**2
+    assert_allclose([made.slow.r, made.slow.k2, made.walk.k2], [slow, k2, k2 / slow])
