@@ -56,7 +56,7 @@ def met(time: np.ndarray, steps: np.ndarray) -> Found | None:
 
 def _grid(time: np.ndarray, steps: np.ndarray, row: float) -> tuple[float, float] | None:
     """First time [s] and spacing [s] of the samples behind rows without a gap."""
-    middle = len(steps) // 2
+    middle = _liveliest(steps)
     for spacing in _spacings(time, steps, row):
         at = _about(middle, SECTIONS[0], len(steps))
         places = float(time[at.start]) + spacing * np.arange(PHASES) / PHASES
@@ -72,9 +72,16 @@ def _grid(time: np.ndarray, steps: np.ndarray, row: float) -> tuple[float, float
     return None
 
 
+def _liveliest(steps: np.ndarray) -> int:
+    """The middle of the ``SECTIONS[0]`` rows in which the rate changes most."""
+    power = np.append(0.0, np.cumsum(np.sum(np.diff(steps, axis=0) ** 2, axis=1)))
+    count = min(SECTIONS[0], len(power) - 1)
+    return int(np.argmax(power[count:] - power[:-count])) + count // 2
+
+
 def _about(middle: int, count: int, rows: int) -> slice:
     """So many of the rows, at most, about one of them."""
-    first = max(0, middle - count // 2)
+    first = max(0, min(middle - count // 2, rows - count))
     return slice(first, min(first + count, rows))
 
 
