@@ -53,3 +53,12 @@ def test_rows_that_are_no_interpolation_stay(noise):
     steady = attitude(rng, time) * Rotation.from_rotvec(rng.normal(0, noise, (len(time), 3)))
     log = recording(time, steady)
     assert own_samples(log) is log
+
+
+@pytest.mark.parametrize("hz", [20.0, 60.0])
+def test_values_that_are_repeated_are_no_interpolation(hz):
+    rng, time = np.random.default_rng(8), np.arange(0.0, SECONDS, 0.01)
+    at = np.arange(0.0, SECONDS, 1 / hz)
+    latest = np.searchsorted(at, time + 1e-9, side="right") - 1
+    log = recording(time, attitude(rng, at)[latest])
+    assert own_samples(log) is log

@@ -26,6 +26,9 @@ LINE, BY_CHANCE = 0.01, 30.0
 a rhythm, and the same times their number: of what has none, the strongest line has some ten over
 their number. Jumps that are a hundred rows apart have fifty lines, each of a fiftieth."""
 
+STANDS = 1e-12
+"""rad or m; a smaller step is rounding."""
+
 ROUNDS = 3
 
 JUMP = 10.0
@@ -80,6 +83,8 @@ def _met(time: np.ndarray, steps: np.ndarray) -> tuple[np.ndarray, np.ndarray, n
     (k,), the rows (k,) before them, and how much further (k, d) they are; None where there are
     none.
     """
+    if _is_held(steps):
+        return None
     step = np.diff(time)
     rate = steps / step[:, None]
     rate[step > 1.5 * np.median(step)] = np.nan
@@ -91,6 +96,13 @@ def _met(time: np.ndarray, steps: np.ndarray) -> tuple[np.ndarray, np.ndarray, n
     good = np.isfinite(rate[row - 1]).all(axis=1) & np.isfinite(rate[row]).all(axis=1)
     at, row = at[good], row[good]
     return at, row, rate[row - 1] * (at - time[row])[:, None]
+
+
+def _is_held(steps: np.ndarray) -> bool:
+    """Whether values were repeated until the next one came: beside a step there is none."""
+    none = np.linalg.norm(steps, axis=1) <= STANDS
+    beside = np.append(none[1:], True) | np.append(True, none[:-1])
+    return bool(np.mean(beside[~none]) > 0.5) if not none.all() else False
 
 
 def _grid(time: np.ndarray, rate: np.ndarray) -> tuple[float, float] | None:
