@@ -11,7 +11,7 @@ from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.typical import largest, magnitudes
-from pyimu.report.numbers import quantity
+from pyimu.report.numbers import in_unit, pretty, quantity, unit_for, with_error
 
 FARTHEST = 10.0
 """Times the typical size in a consumer part, the coarsest class there is, that no part reaches
@@ -54,10 +54,10 @@ def hidden(fit: Fit, keys: Iterable[Coefficient]) -> dict[Coefficient, str]:
         value = abs(float(fit.sensor.values[key.effect][key.parameter][key.index]))
         unknown = CHANCE * fit.std.get(key, 0.0)
         if definition.scan is None and min(value, unknown) > limit >= value - unknown:
-            unit = fit.sensor.unit(definition.unit)
-            by = quantity(fit.std[key], unit, 2)
-            said = f"{quantity(value, unit)}, give or take {by}"
-            out[key] = f"{key.parameter} is not shown: {said}"
+            si = fit.sensor.unit(definition.unit)
+            unit = unit_for((value, fit.std[key]), si)
+            both = (float(in_unit(v, si, unit)) for v in (value, fit.std[key]))
+            out[key] = f"{key.parameter} is not shown: {with_error(*both)} {pretty(unit)}".rstrip()
     return out
 
 
