@@ -91,7 +91,9 @@ def _led(fates: list[Fate], fitted: dict[str, float]) -> str:
     ahead = [
         c
         for c in fates
-        if chosen and c.outcome != "added" and (c.gain or 0.0) > min(a.gain or 0.0 for a in chosen)
+        if chosen
+        and c.outcome not in ("added", "refused")
+        and (c.gain or 0.0) > min(a.gain or 0.0 for a in chosen)
     ]
     kept = joined([f"{a.effect} {_nat(a.fitted)}" for a in chosen])
     as_much = [c for c in ahead if c.outcome == "alternative"]

@@ -42,10 +42,11 @@ def unbelievable(fit: Fit, keys: Iterable[Coefficient]) -> str:
 
 
 def hidden(fit: Fit, keys: Iterable[Coefficient]) -> dict[Coefficient, str]:
-    """The fitted coefficients of ``keys`` that are no estimate, with why.
+    """The fitted coefficients of ``keys`` that are no estimate, with why, those first that are
+    known to be too large.
 
-    What is larger than any sensor's and unknown by as much stands for another's share: columns that
-    are nearly one leave the sum of their coefficients alone to be seen.
+    What is larger than any sensor's and whose error is as large as those are stands for another's
+    share: columns that are nearly one leave the sum of their coefficients alone to be seen.
     """
     out = {}
     for key in sorted(keys):
@@ -53,11 +54,16 @@ def hidden(fit: Fit, keys: Iterable[Coefficient]) -> dict[Coefficient, str]:
         limit = most(key.effect, fit.sensor.kind, key.parameter)
         value = abs(float(fit.sensor.values[key.effect][key.parameter][key.index]))
         unknown = CHANCE * fit.std.get(key, 0.0)
-        if definition.scan is None and min(value, unknown) > limit >= value - unknown:
+        if definition.scan is None and min(value, unknown) > limit:
             si = fit.sensor.unit(definition.unit)
             unit = unit_for((value, fit.std[key]), si)
             both = (float(in_unit(v, si, unit)) for v in (value, fit.std[key]))
-            out[key] = f"{key.parameter} is not shown: {with_error(*both)} {pretty(unit)}".rstrip()
+            said = f"{with_error(*both)} {pretty(unit)}".rstrip()
+            most_of = f"beyond belief: no part has more than {quantity(limit, si)}"
+            if value - unknown > limit:
+                out = {key: f"{key.parameter} is {said}, {most_of}", **out}
+            else:
+                out[key] = f"{key.parameter} is not shown: {said}"
     return out
 
 
