@@ -34,10 +34,7 @@ def unbelievable(fit: Fit, keys: Iterable[Coefficient]) -> str:
                 return f"{key.parameter} is {value:.3g}, and can be {definition.known:g} alone"
         limit = most(effect.name, fit.sensor.kind, key.parameter)
         if definition.scan is None and abs(value) - CHANCE * fit.std.get(key, 0.0) > limit:
-            return (
-                f"{key.parameter} is {quantity(value, unit)}, beyond belief: no part has more than "
-                f"{quantity(limit, unit)}"
-            )
+            return f"{key.parameter} is {quantity(value, unit)}, {_beyond(limit, unit)}"
     return ""
 
 
@@ -59,12 +56,15 @@ def hidden(fit: Fit, keys: Iterable[Coefficient]) -> dict[Coefficient, str]:
             unit = unit_for((value, fit.std[key]), si)
             both = (float(in_unit(v, si, unit)) for v in (value, fit.std[key]))
             said = f"{with_error(*both)} {pretty(unit)}".rstrip()
-            most_of = f"beyond belief: no part has more than {quantity(limit, si)}"
             if value - unknown > limit:
-                out = {key: f"{key.parameter} is {said}, {most_of}", **out}
+                out = {key: f"{key.parameter} is {said}, {_beyond(limit, si)}", **out}
             else:
                 out[key] = f"{key.parameter} is not shown: {said}"
     return out
+
+
+def _beyond(limit: float, si: str) -> str:
+    return f"beyond belief: no part has more than {quantity(limit, si)}"
 
 
 def most(effect: str, kind: str, parameter: str) -> float:
