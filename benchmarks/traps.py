@@ -160,6 +160,12 @@ def names_mounting(log: Log, found: Closed) -> bool:
     return _near(float(angle), log.figures["angle"], np.deg2rad(0.5))
 
 
+def names_lag(log: Log, found: Closed) -> bool:
+    """The time constant of the reference's filter to a tenth."""
+    lags = [f.detail["time_constant"] for f in found.quality if f.kind == "reference_lag"]
+    return bool(lags) and _near(lags[0], log.figures["lag"], 0.0)
+
+
 def _by_finding(*kinds: str) -> Callable[[Log, Closed], bool]:
     return lambda log, found: _finds(found, *kinds)
 
@@ -174,6 +180,7 @@ NAMED: dict[str, Callable[[Log, Closed], bool]] = {
     "thermometer": names_nothing,
     "occlusions": names_nothing,
     "clock": names_clock,
+    "lag": names_lag,
     "skew": names_skew,
     "slips": names_slips,
     "sample_rate": names_rate,

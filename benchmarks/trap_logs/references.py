@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from generators import rotation
 from scipy.signal import butter, sosfilt
 
 from trap_logs.log import Log, Scene, new_scene
+
+SETTLED = 2.0
+"""Over its cut-off [Hz], s after which a filter has forgotten where it began: e^-12."""
 
 
 def slerp_60_to_200_hz(rng) -> Log:
@@ -97,6 +102,38 @@ def occlusions_and_jumps(rng) -> Log:
     return scene.log(columns, "jumps", figures={"count": 3})
 
 
+def _behind_low_pass(scene: Scene, values: Callable, cut_off: float) -> np.ndarray:
+    """What a low-pass of first order makes of ``values`` of a time, sampled ten times as often."""
+    fine = np.arange(-SETTLED / cut_off, scene.time[-1] + scene.h, scene.h / 10)
+    shown = sosfilt(butter(1, cut_off, fs=10 / scene.h, output="sos"), values(fine), axis=0)
+    return np.stack([np.interp(scene.time, fine, v) for v in shown.T], axis=1)
+
+
+def rate_behind_low_pass(rng) -> Log:
+    """A rate of little noise behind a low-pass of 5 to 15 Hz."""
+    scene, cut_off = new_scene(rng), rng.uniform(5, 15)
+    rate = _behind_low_pass(scene, scene.motion.rate, cut_off)
+    noise = 0.1 * _own_noise(scene)
+    columns = scene.sensed() | {"ref_rate": rate + noise}
+    return scene.log(columns, "lag", figures={"lag": 1 / (2 * np.pi * cut_off)})
+
+
+def attitude_behind_low_pass(rng) -> Log:
+    """An attitude, each entry of its quaternion behind a low-pass of 5 to 15 Hz."""
+    scene, cut_off = new_scene(rng), rng.uniform(5, 15)
+    q = _behind_low_pass(scene, lambda at: _unwrapped(scene.motion.attitude(at)), cut_off)
+    error = rotation.from_vector(scene.reference_std * rng.standard_normal((len(q), 3)))
+    q /= np.linalg.norm(q, axis=1, keepdims=True)
+    columns = scene.sensed() | {"ref_q": rotation.product(q, error)}
+    return scene.log(columns, "lag", figures={"lag": 1 / (2 * np.pi * cut_off)})
+
+
+def _unwrapped(q: np.ndarray) -> np.ndarray:
+    """Quaternions (n, 4) of the sign that the one before has."""
+    turned = np.sign(np.sum(q[1:] * q[:-1], axis=1))
+    return q * np.cumprod(np.append(1.0, turned))[:, None]
+
+
 def drift_0_1_deg_per_min(rng) -> Log:
     """The reference's world turns slowly about one axis."""
     scene = new_scene(rng)
@@ -116,5 +153,7 @@ TRAPS = (
     mounting_10_deg,
     occlusions,
     occlusions_and_jumps,
+    rate_behind_low_pass,
+    attitude_behind_low_pass,
     drift_0_1_deg_per_min,
 )

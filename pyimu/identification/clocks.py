@@ -1,4 +1,4 @@
-"""What was taken out of the clocks of the logs' references, in words."""
+"""What was taken out of the clocks and lags of the logs' references, in words."""
 
 from __future__ import annotations
 
@@ -6,10 +6,12 @@ from collections.abc import Iterable, Mapping
 
 import numpy as np
 
+from pyimu.errors import Finding
 from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.held_out import clock_of
 from pyimu.identification.search.forward import Investigation
+from pyimu.recording.reference.unlagged import LAG
 from pyimu.report.numbers import joined, number
 
 FEW = 3
@@ -33,6 +35,23 @@ def taken_out(found: Mapping[str, Investigation], heading: Heading) -> str:
     else:
         said = joined([_off(name, clock) for name, clock in clocks.items()])
     return f"{said}: taken out, and no error of the sensor{_worth(heading)}"
+
+
+def undone(findings: Iterable[Finding]) -> str:
+    """Which references lag as behind a filter; nothing where none does."""
+    lags = [f.detail for f in findings if f.kind == LAG]
+    if not lags:
+        return ""
+    slowest = max(lag["time_constant"] for lag in lags)
+    cut_off = f"{number(1.0 / (2.0 * np.pi * slowest))} Hz ({_time(slowest)})"
+    one = f"the reference of {lags[0]['recording']} lags as one"
+    many = f"{len(lags)} references lag as those"
+    do, up_to = ("does", "") if len(lags) == 1 else ("do", "down to ")
+    who = one if len(lags) == 1 else many
+    return (
+        f"{who} behind a low-pass filter of {up_to}{cut_off} {do}: undone, and no error of the "
+        "sensor"
+    )
 
 
 def _trials(found: Mapping[str, Investigation]) -> Iterable[tuple[Investigation, Trial]]:

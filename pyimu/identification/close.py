@@ -17,27 +17,22 @@ from pyimu.errors import Finding, UserError
 from pyimu.identification.clock_or_effect import likelier_clock
 from pyimu.identification.conclude import conclude
 from pyimu.identification.fit.keys import Key, coefficient_of
-from pyimu.identification.fit.trial import HELD_OUT, Trial, accel_trial, gyro_trial
+from pyimu.identification.fit.trial import Trial, accel_trial, gyro_trial
 from pyimu.identification.formula.effect import forget
 from pyimu.identification.formula.search import Look, look
 from pyimu.identification.instead import formula_less_than_noise, less_than_noise
 from pyimu.identification.made_with import called
-from pyimu.identification.reference.align import aligned, in_band_of
+from pyimu.identification.reference.align import in_band_of
 from pyimu.identification.reference.belongs import misfit
-from pyimu.identification.reference.clock import rebanded
 from pyimu.identification.reference.gravity import few, rest_trials
-from pyimu.identification.reference.place import (
-    at_the_sensor,
-    headed,
-    is_borne_out,
-    is_differentiated,
-    quietened,
-)
+from pyimu.identification.reference.lagging import unlagged_logs
+from pyimu.identification.reference.place import is_differentiated
 from pyimu.identification.reference.positions import positions_wanted, unshown
 from pyimu.identification.reference.turns import turn_trials
 from pyimu.identification.result import Closed
 from pyimu.identification.search.forward import Investigation, investigate
 from pyimu.identification.thermometer import late_thermometers
+from pyimu.identification.trials import SHORTEST, Together, has_reference, prepared, together
 from pyimu.identification.vibration import vibrations
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as find_part
@@ -57,13 +52,6 @@ from pyimu.recording.rest import is_at_rest
 from pyimu.report.numbers import joined
 from pyimu.silent import silent
 from pyimu.threads import on_one_thread
-
-BAND_SHARE = 0.75
-"""Share of the band in which gyro and derived reference agree that is used: at its edge a tenth of
-the power is noise."""
-
-SHORTEST = 64
-"""Rows of a log below which nothing can be said of it."""
 
 SLOWEST = 1.0
 """s; from row to row of a log that moves: a hand or a vehicle turns to and fro in less."""
@@ -115,13 +103,25 @@ def close(
     if declared is not None:
         quality += [_of(r.name, f) for r in together for f in rate_of_part(r, start.sample_rate)]
     forget()
+    logs, others, turning = _on_time(start.gyro, logs, others, latitude)
     found, looks, of_trials = _investigated(
-        start, declared is not None, logs, others, latitude, say
+        start, declared is not None, logs, others, latitude, say, turning
     )
     quality = _with(quality, of_trials)
     if not found:
         raise UserError(_nothing_to_compare(logs))
     return conclude(start, declared, logs, others, found, tuple(quality), say, made_with, looks)
+
+
+def _on_time(
+    sensor: Sensor, logs: list[Recording], others: list[Recording], latitude: float | None
+) -> tuple[list[Recording], list[Recording], Together]:
+    """The logs with references that do not lag, and the gyro's trials of them."""
+    turning = together(sensor, gyro_trial, logs, others, latitude)
+    quick = unlagged_logs(turning, sensor, logs, others)
+    if quick is None:
+        return logs, others, turning
+    return *quick, together(sensor, gyro_trial, *quick, latitude)
 
 
 def _investigated(
@@ -131,14 +131,17 @@ def _investigated(
     others: list[Recording],
     latitude: float | None,
     say: Say,
+    turning: Together,
 ) -> tuple[dict[str, Investigation], dict[str, Look], list[Finding]]:
-    """What was found of each sensor that has a reference, and what making its trials found."""
+    """What was found of each sensor that has a reference, and what making its trials found;
+    ``turning`` are the gyro's.
+    """
     found: dict[str, Investigation] = {}
     looks: dict[str, Look] = {}
     quality: list[Finding] = []
     for kind, make in (("accel", accel_trial), ("gyro", gyro_trial)):
-        made = partial(_trials, start.sensor(kind), make, logs, others, latitude)
-        trials, held = made()
+        made = partial(together, start.sensor(kind), make, logs, others, latitude)
+        trials, held = prepared(*(turning if kind == "gyro" else made()), bool(others))
         if kind == "accel" and not any(map(is_differentiated, trials)):
             at_rest = rest_trials(start.accel, logs, others, latitude)
             trials, held = at_rest or (trials, held)
@@ -146,9 +149,12 @@ def _investigated(
             turned = turn_trials(start.gyro, logs, others, found.get("accel"))
             trials, held = turned or (trials, held)
         if trials:
-            examine, keeps = partial(_examined, start, declared, say), partial(made, lines=False)
+            examine = partial(_examined, start, declared, say)
             looks[kind] = likelier_clock(
-                examine(trials, held), lambda: examine(*_in_bands_of([*trials, *held], keeps()))
+                examine(trials, held),
+                lambda: examine(
+                    *_in_bands_of([*trials, *held], prepared(*made(lines=False), bool(others)))
+                ),
             )
             found[kind] = looks[kind].investigation
             trials, held = list(found[kind].before.trials), list(found[kind].held)
@@ -295,12 +301,6 @@ def _with(quality: list[Finding], more: list[Finding]) -> list[Finding]:
     return [f for f in quality if about(f) not in better] + more
 
 
-def has_reference(recording: Recording) -> bool:
-    direct = (recording.ref_rate, recording.ref_q, recording.ref_heading, recording.ref_force)
-    given = any(v is not None for v in direct) or recording.reference is not None
-    return given or has_course(recording)
-
-
 def _nothing_to_compare(logs: list[Recording]) -> str:
     if all(has_course(r) and reference_rate(r).kind == "none" for r in logs):
         return (
@@ -329,50 +329,6 @@ def _beside(log: Recording) -> str:
 
 
 # Trials, and what is free in them
-
-
-def _trials(
-    sensor: Sensor,
-    make: Callable,
-    logs: list[Recording],
-    others: list[Recording],
-    latitude: float | None,
-    lines: bool = True,
-) -> tuple[list[Trial], list[Trial]]:
-    """Trials to fit and to judge by, the references on the sensor's clock, through one band; a
-    clock that seems to drift a little has its line where ``lines`` are wanted.
-    """
-
-    def trial(r: Recording) -> Trial | None:
-        static = is_at_rest(r)
-        if sensor.kind == "accel":
-            return make(r, static, latitude)
-        return make(r, latitude) if static or has_reference(r) else None
-
-    fitted = [t for t in map(trial, logs) if t is not None and t.count >= SHORTEST]
-    apart = [t for t in map(trial, others) if t is not None and t.count >= SHORTEST]
-    together = [_of_place(t) for t in aligned(fitted, apart, sensor, lines)]
-    fitted, apart = together[: len(fitted)], together[len(fitted) :]
-    bands = [t.band_hz for t in fitted if t.band_hz is not None]
-    if bands:
-        band = BAND_SHARE * float(np.median(bands))
-        fitted, apart = ([replace(t, band_hz=band) for t in ts] for ts in (fitted, apart))
-    differentiated = filter(is_differentiated, (*fitted, *apart))
-    if not all(is_borne_out(t) and not misfit([t]) for t in differentiated):
-        return [], []
-    if others:
-        return fitted, apart
-    halves = [(a, b) for a, b in (t.split(HELD_OUT) for t in fitted) if a.count >= SHORTEST // 2]
-    return [a for a, _ in halves], [b for _, b in halves if b.count]
-
-
-def _of_place(trial: Trial) -> Trial:
-    """The trial with its force as it acts in the world of its attitudes; one that was given is
-    taken as the sensor's where it may be.
-    """
-    if is_differentiated(trial):
-        return quietened(rebanded(headed(trial)))
-    return at_the_sensor(trial)
 
 
 def _free(start: Part, declared: bool, sensor: Sensor, trials: list[Trial]) -> frozenset[Key]:

@@ -13,7 +13,7 @@ from pyimu.identification.advice import advice
 from pyimu.identification.as_part import SENSORS, as_part
 from pyimu.identification.by_attitude import settled
 from pyimu.identification.can_tell import rows_fitted, shows_anything, unfit
-from pyimu.identification.clocks import taken_out
+from pyimu.identification.clocks import taken_out, undone
 from pyimu.identification.confounds import what_no_log_tells_apart
 from pyimu.identification.declared import changed_noise, drifting, released
 from pyimu.identification.estimated import estimated
@@ -101,7 +101,7 @@ def conclude(
         beside=of_magnetometer(magnetometer, declared is not None),
         attitude=attitude,
         lost=lost,
-        clocks=taken_out(found, heading),
+        clocks=tuple(filter(None, (undone(quality), taken_out(found, heading)))),
         formulas={f.name: f.said for f in formulas},
         unshown=_unshown(found),
     )

@@ -83,7 +83,7 @@ class Evidence:
     beside: Verdict | None = None
     attitude: tuple[float, float] | None = None
     lost: tuple[str, ...] = ()
-    clocks: str = ""
+    clocks: tuple[str, ...] = ()
     formulas: Mapping[str, str] = field(default_factory=dict)
     unshown: tuple[str, ...] = ()
 
@@ -91,9 +91,9 @@ class Evidence:
 def verdict(e: Evidence) -> Verdict:
     """The verdict, with what must be said beside it."""
     found = _verdict(e)
-    clocks = e.clocks if found.word != "reference_unfit" else ""
+    clocks = e.clocks if found.word != "reference_unfit" else ()
     beside = (*_growing_attitude(e.attitude), *e.lost, *e.unexamined.values())
-    return replace(found, remarks=(*filter(None, [clocks]), *found.remarks, *beside))
+    return replace(found, remarks=(*clocks, *found.remarks, *beside))
 
 
 def _verdict(e: Evidence) -> Verdict:

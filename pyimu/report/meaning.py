@@ -63,6 +63,7 @@ MEANING = {
     "constraint": "a drive that is not along the body's x axis, as a vehicle's is",
     "rest_moves": "rests during which the reference goes a way: a drive at constant speed",
     "reference_scale": "the reference's path has the shape of the estimate's in another size",
+    "reference_lag": "the reference lags as one behind a low-pass filter does; it was undone",
     "reference_norm": "quaternions of another length than one; those near zero count as not seen",
     "reference_order": "the reference attitude fits in another order, or in other axes",
     "reference_spikes": "single samples of the reference that no motion makes: they were left out",

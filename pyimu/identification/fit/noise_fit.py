@@ -16,7 +16,6 @@ from pyimu.model.catalogue import WALK, WHITE
 from pyimu.model.kinds import KINDS
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS
-from pyimu.recording.reference.rate import DERIVED
 
 LEAST_ROWS = 50
 """Rows for each column of motion that is taken out of a residual: with fewer, noise would go with
@@ -48,11 +47,11 @@ def fit_noise(
     """
     if any(t.reduction is not None for t in trials):
         return {0: Unit()}
-    derived = coloured or any(t.reference in DERIVED for t in trials)
+    coloured |= any(t.band_hz is not None for t in trials)
     made = {}
     for i in sorted({i for t in trials for i in t.axes}):
         axis = [(t, one) for t, one in zip(trials, residuals, strict=True) if i in one.keys]
-        if derived:
+        if coloured:
             made[i] = _autoregression(axis, i, i in whole)
         else:
             made[i] = RandomWalk.fit(

@@ -29,6 +29,7 @@ from pyimu.recording.recording import Recording, filled
 from pyimu.recording.reference.force import ORDER, reference_force
 from pyimu.recording.reference.rate import reference_rate
 from pyimu.recording.reference.stamps import at_times
+from pyimu.recording.reference.unlagged import LAG
 
 SETTLE = 32
 """Rows at the start of a segment that are not counted: nobody knows what a lag or delay remembers
@@ -46,9 +47,9 @@ MOVING = 0.2
 mounting and no clock, but its own noise."""
 
 
-CLOCK_SET = "time_offset"
-"""The finding of a reference whose clock somebody has set by hand: a lag beside it is that of the
-clock."""
+OWN_LAG = frozenset({"time_offset", LAG})
+"""Findings of a reference whose clock somebody has set by hand, or which lagged: what is late
+beside it is what they left."""
 
 
 class Doubt(IntEnum):
@@ -403,7 +404,7 @@ def _trial(
     if repeats.any():
         findings += (Finding("repeated_samples", kind, int(repeats.sum())),)
     other = () if recording.reference is None else recording.reference.findings
-    findings += tuple(f for f in other if f.kind == CLOCK_SET)
+    findings += tuple(f for f in other if f.kind in OWN_LAG)
     return Trial(
         recording.name,
         kind,

@@ -16,7 +16,7 @@ from pyimu.identification.fit.fit import Fit, begin
 from pyimu.identification.fit.keys import LogClock
 from pyimu.identification.fit.maximum_likelihood import advantage, fit
 from pyimu.identification.fit.structure import prior_of, with_structure
-from pyimu.identification.fit.trial import CLOCK_SET, Trial, marked
+from pyimu.identification.fit.trial import OWN_LAG, Trial, marked
 from pyimu.identification.reference.clock import measure, rebanded, shifted
 from pyimu.identification.reference.slips import placed_slips
 from pyimu.identification.reference.track import WANDERS
@@ -54,13 +54,13 @@ def aligned(
     A lag may be the sensor's own where all fitted logs have it in common and the sensor is late. It
     is left in then, for the effects that make one. The clock's is what differs from log to log,
     wanders, makes the sensor early, is longer than any sensor's, or lies beside a clock that
-    somebody set. A clock that seems to drift or to wander by less than a sample is ``doubtful``,
-    and has one lag where ``lines`` are not wanted.
+    somebody set or a lag that was undone. A clock that seems to drift or to wander by less than a
+    sample is ``doubtful``, and has one lag where ``lines`` are not wanted.
     """
     clocks = [_clock(t, sensor, lines) for t in (*trials, *held)]
     seen = [c for c in clocks[: len(trials)] if c is not None and np.isfinite(c.std)]
-    by_hand = any(f.kind == CLOCK_SET for t in trials for f in t.findings)
-    own, std = 0.0 if by_hand else in_common(seen), _std_of_mean(seen)
+    theirs = any(f.kind in OWN_LAG for t in trials for f in t.findings)
+    own, std = 0.0 if theirs else in_common(seen), _std_of_mean(seen)
     return [_aligned(t, c, own, std) for t, c in zip((*trials, *held), clocks, strict=True)]
 
 
@@ -94,7 +94,7 @@ def _borne_out(trial: Trial, clock: Clock | None, sensor: Sensor, lines: bool) -
         if abs(clock.mean) >= SIGNIFICANT * clock.std:
             return clock
         keeps = rebanded(shifted(trial, clock))
-        fitted = _fitted(replace(keeps, clock=replace(clock, taken_out=True)), sensor)
+        fitted = fitted_structure(replace(keeps, clock=replace(clock, taken_out=True)), sensor)
         return _likelier(trial, clock, fitted, lines)
     steady = clock.kept_in_step()
     changes = rebanded(shifted(trial, clock))
@@ -102,7 +102,7 @@ def _borne_out(trial: Trial, clock: Clock | None, sensor: Sensor, lines: bool) -
         in_band_of(changes, shifted(trial, steady)), clock=replace(steady, taken_out=True)
     )
     both = marked(changes.segments, len(trial.time)) & marked(keeps.segments, len(trial.time))
-    fits = [_fitted(replace(t, segments=runs(both)), sensor) for t in (changes, keeps)]
+    fits = [fitted_structure(replace(t, segments=runs(both)), sensor) for t in (changes, keeps)]
     if advantage(*fits) > WANDERS:
         return replace(clock if lines else steady, doubtful=True)
     if abs(steady.mean) >= SIGNIFICANT * steady.std:
@@ -129,7 +129,7 @@ def in_band_of(one: Trial, other: Trial) -> Trial:
     return replace(other, band_hz=one.band_hz)
 
 
-def _fitted(trial: Trial, sensor: Sensor) -> Fit:
+def fitted_structure(trial: Trial, sensor: Sensor) -> Fit:
     """The structure of a sensor, its bias and its noise, fitted to a trial."""
     sensor, structure = with_structure(sensor)
     return fit(begin(sensor, structure, [trial], prior_of(sensor, structure)))

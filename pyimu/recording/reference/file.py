@@ -38,15 +38,21 @@ def with_reference(log: Recording, reference: Recording) -> Recording:
         **{g: None for g in GROUPS if g not in (*TRUTHS, "latitude")},
     )
     _check_overlap(log, moved)
-    seen = {g: None for g in TRUTHS} | {"reference": moved}
-    if moved.ref_q is not None:
-        seen["ref_q"] = attitude_at(moved, log.time)
+    return at_log(log, moved)
+
+
+def at_log(log: Recording, reference: Recording) -> Recording:
+    """The log with a ``reference`` on the same clock, at its own times, in place of its own."""
+    seen = {g: None for g in TRUTHS} | {"reference": reference}
+    if reference.ref_q is not None:
+        seen["ref_q"] = attitude_at(reference, log.time)
     for group in ("ref_rate", "ref_force"):
-        values = getattr(moved, group)
+        values = getattr(reference, group)
         if values is not None:
-            seen[group] = _interpolated(moved.time, values, log.time)
-    if log.latitude is None and moved.latitude is not None:
-        seen["latitude"] = np.interp(log.time, moved.time, filled(moved.time, moved.latitude))
+            seen[group] = _interpolated(reference.time, values, log.time)
+    if log.latitude is None and reference.latitude is not None:
+        known = filled(reference.time, reference.latitude)
+        seen["latitude"] = np.interp(log.time, reference.time, known)
     return replace(log, **seen)
 
 

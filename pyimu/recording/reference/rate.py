@@ -31,9 +31,6 @@ from pyimu.symbolic.earth import EARTH_RATE
 HALF = 180.0
 """Half a turn in degrees; in radians more than any heading turns from one sample to the next."""
 
-DERIVED = ("attitude", "heading", "course", "position", "velocity")
-"""Kinds of reference that were differentiated."""
-
 CLEARLY = 1.02
 """Times more that a reference must tell of the gyro on other times than its stamps. Between two
 ways to take the same samples chance makes less than a hundredth."""

@@ -1,0 +1,80 @@
+"""References behind low-pass filters, and rates in files of their own."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.interpolate import CubicSpline
+from scipy.signal import butter, sosfilt
+from world import N_GYRO, drive, recording
+
+import pyimu
+from pyimu.recording.reference.unlagged import unlagged
+
+CUT_OFF = 6.0
+TIME_CONSTANT = 1 / (2 * np.pi * CUT_OFF)
+FINER = 20
+"""Samples of the filter for one of the log: as a recursion it is right to 1e-4 at 2.5 Hz."""
+
+
+@pytest.fixture(scope="module")
+def world():
+    return drive(minutes=4, seed=21)
+
+
+def filtered(time: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Behind a low-pass of first order."""
+    fine = np.arange(time[0], time[-1], (time[1] - time[0]) / FINER)
+    low = butter(1, CUT_OFF, fs=FINER / (time[1] - time[0]), output="sos")
+    return CubicSpline(fine, sosfilt(low, CubicSpline(time, values)(fine), axis=0))(time)
+
+
+def test_a_filtered_rate_is_undone_and_no_error_of_the_sensor(world):
+    """It was a scale factor of 1 % beside a clock. The time constant is looked for to half a
+    percent."""
+    log = recording(world, seed=3, kinds=("gyro",))
+    ref_rate = filtered(world.time, world.rate)
+    closed = pyimu.close(replace(log, ref_force=None, ref_rate=ref_rate))
+    (found,) = [f for f in closed.quality if f.kind == "reference_lag"]
+    assert found.detail["time_constant"] == pytest.approx(TIME_CONSTANT, rel=0.005)
+    assert not closed.added and not closed.formulas, closed.report()
+    assert closed.verdict not in ("unexplained", "partly"), closed.report()
+    assert "behind a low-pass filter of 6" in closed.report()
+    assert not closed.references[0]["left_to_sensor"]["value"]
+
+
+@pytest.mark.parametrize("early", [0.004, 0.03])
+def test_a_reference_that_is_merely_late_is_not_filtered(world, early):
+    log = recording(world, seed=4, kinds=("gyro",))
+    late = CubicSpline(world.time, world.rate)(world.time - early)
+    closed = pyimu.close(replace(log, ref_force=None, ref_rate=late))
+    assert not [f for f in closed.quality if f.kind == "reference_lag"]
+    assert closed.references[0]["clock_offset"]["value"] == pytest.approx(-early, abs=2e-4)
+
+
+def test_what_undoes_a_filter_undoes_it_on_quaternions_too():
+    """A turn about one axis by known angles; a body that turns by 1 rad/s at 1 Hz."""
+    time = np.arange(0, 20, 0.01)
+    angle = np.sin(2 * np.pi * time) / (2 * np.pi)
+    q = np.column_stack([np.cos(angle / 2), np.sin(angle / 2), 0 * time, 0 * time])
+    low = filtered(time, q)
+    low /= np.linalg.norm(low, axis=1, keepdims=True)
+    log = pyimu.Recording.from_arrays(time=time, gyro=np.zeros((len(time), 3)), ref_q=low)
+    quick = unlagged(log, TIME_CONSTANT, 1.0).ref_q
+    seen = np.isfinite(quick).all(axis=1) & (time > 1) & (time < 19)
+    assert seen.sum() > 1700
+    off = 2 * np.abs(quick[seen] - q[seen]).max()
+    lagged = 2 * np.abs(low[seen] - q[seen]).max()
+    assert off < 2e-4 < 0.01 * lagged
+
+
+def test_a_rate_in_a_file_of_its_own_shows_the_noise_of_the_gyro(world):
+    """Its band has fewer rows than the log; their noise was taken for that of a sample, the floor
+    was four times too low and the verdict "unexplained". N by the quietest quarter of 240 s.
+    """
+    log = recording(world, seed=5, kinds=("gyro",))
+    own = pyimu.Recording.from_arrays(name="own", time=world.time, ref_rate=world.rate)
+    closed = pyimu.close(replace(log, ref_force=None, ref_rate=None), reference=own)
+    assert closed.verdict == "clean" and not closed.added, closed.report()
+    found = np.asarray(closed.after.gyro.values["angle_random_walk"]["N"])
+    assert np.all(np.abs(found / N_GYRO - 1) < 0.1)
