@@ -35,6 +35,9 @@ SECONDS, SECONDS_OF_TIME = (
 """Details of findings that are times; the latter those of the column ``time`` only."""
 
 
+ANGLES = ("tilt", "angle")
+"""Details of findings that are angles."""
+
 SENTENCES = {
     "reference_heading": (
         "the positions were turned by {degrees:.3g} deg {way} about the vertical, into the world "
@@ -68,6 +71,8 @@ def _numbers(column: str, details: Mapping[str, Any]) -> list[str]:
         )
         if sample and name in SAMPLE:
             text = quantity(float(value), sample)
+        elif name in ANGLES:
+            text = quantity(float(value), "rad")
         elif name == "share":
             text = quantity(float(value), "1")
         elif name in (

@@ -22,6 +22,7 @@ from pyimu.recording.recording import Recording
 from pyimu.recording.reference.attitude import attitude_curve, attitude_track, cut_at_jumps, within
 from pyimu.recording.reference.band import coherence, trusted_band
 from pyimu.recording.reference.course import course_of, looks_like_degrees, mounted, upward
+from pyimu.recording.reference.leaning import upward_through
 from pyimu.recording.reference.nodes import own_samples
 from pyimu.recording.reference.stamps import at_times, even_times, jitter_of
 from pyimu.recording.reference.track import Track, fresh
@@ -243,12 +244,14 @@ def _from_course(
         return None
     up = upward(recording, found.rate)
     axis = int(np.argmax(np.abs(up)))
+    through, leans = upward_through(recording, found.rate, up)
     rate = np.full((len(recording), 3), np.nan)
-    rate[:, axis] = up[axis] * (
+    rate[:, axis] = through[:, axis] * (
         found.rate if latitude is None else found.rate + EARTH_RATE * np.sin(latitude)
     )
     made = _derived(recording, rate, "course", found.track, latitude is not None)
-    return replace(made, findings=(*made.findings, mounted(up)), up=up)
+    said = (mounted(up), *filter(None, [leans]))
+    return replace(made, findings=(*made.findings, *said), up=up)
 
 
 def _derived(
