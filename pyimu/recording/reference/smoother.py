@@ -58,7 +58,7 @@ class Smooth:
 
     def std_at(self, time: np.ndarray) -> np.ndarray:
         """Standard errors (3, m) of value, slope and curvature, from node to node on a line."""
-        std = np.sqrt(np.diagonal(self.variance, axis1=1, axis2=2))
+        std = np.sqrt(np.maximum(np.diagonal(self.variance, axis1=1, axis2=2), 0.0))
         return np.array([np.interp(time, self.time, column) for column in std.T])
 
 
@@ -95,6 +95,9 @@ def smoothed(
         return 0.5 * (count * np.log(max(squares, 1e-300) / count) + logs)
 
     coarse, step = np.linspace(*RATIOS, 27, retstep=True)
+    # Positions without any noise leave more even where they are smoothed the least.
+    squares, _, count = _sums(pieces, RATIOS[1])
+    most = max(most, np.sqrt(squares / count))
     looked = np.array([unlikely(z) for z in coarse])
     at = int(np.argmin(looked))
     low = coarse[at] - (step if at and np.isfinite(looked[at - 1]) else 0.0)
