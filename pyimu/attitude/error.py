@@ -47,6 +47,11 @@ class AttitudeError:
         total = 2 * np.arccos(np.clip(np.abs(half), 0, 1))
         return replace(self, total=total, heading=heading)
 
+    def powers(self, span: float) -> np.ndarray:
+        """Mean square [rad^2] in each ``span`` s (k,)."""
+        window = np.floor((self.time - self.time[0]) / span) if len(self.time) else self.time
+        return np.array([np.mean(self.total[window == w] ** 2) for w in np.unique(window)])
+
     @property
     def is_lost(self) -> bool:
         return self.rms > LOST

@@ -7,10 +7,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from scipy.stats import ttest_1samp
 
 from pyimu.attitude.error import AttitudeError
 from pyimu.identification.fates import TAKEN_BACK
-from pyimu.identification.held_out import attitudes, worlds
+from pyimu.identification.held_out import WINDOW, attitudes, worlds
 from pyimu.identification.model_of import Found, Model, model_of
 from pyimu.identification.search.ceiling import is_ceiling
 from pyimu.identification.search.forward import Investigation, without
@@ -21,6 +22,13 @@ from pyimu.recording.recording import Recording
 
 CALIBRATION = ("scale_factor", "misalignment")
 """Effects of the baseline that turn the gyro's rate into that of the body."""
+
+LEAST_WINDOWS, CHANCE = 3, 0.05
+"""Windows from which on it is asked whether an error has grown by chance, and how rarely chance may
+do as much."""
+
+FAR = 1.2
+"""Times the error before that is no chance, however few the windows."""
 
 
 def settled(
@@ -43,7 +51,9 @@ def settled(
         if not kept:
             return found, model, None, said
         was, now = (_pooled(e, kept) for e in (before, after))
-        worst = _worst(new, inv, logs, kept, now) if now > WORSE * was else None
+        chance = now < FAR * was and _by_chance(before, after, kept)
+        worse = now > WORSE * was and not chance
+        worst = _worst(new, inv, logs, kept, now) if worse else None
         # Scale factors that are left out may make all the difference.
         less, left, more = _less_calibration(model, declared, inv, logs, kept, now)
         if worst is None or left <= WORSE * was:
@@ -131,6 +141,18 @@ def _part_without(part: Part, effect: str) -> Part:
 def _pooled(errors: dict[str, AttitudeError], names: list[str]) -> float:
     """RMS error [rad] over the rows of some logs."""
     return float(np.sqrt(np.mean(np.concatenate([errors[n].total for n in names]) ** 2)))
+
+
+def _by_chance(
+    before: dict[str, AttitudeError], after: dict[str, AttitudeError], names: list[str]
+) -> bool:
+    """Whether the error grew by no more than it differs from window to window (Student's test of
+    their mean squares in pairs); a few windows cannot tell.
+    """
+    grown = np.concatenate([after[n].powers(WINDOW) - before[n].powers(WINDOW) for n in names])
+    if len(grown) < LEAST_WINDOWS:
+        return False
+    return bool(ttest_1samp(grown, 0.0, alternative="greater").pvalue > CHANCE)
 
 
 def _lost(name: str, before: AttitudeError, after: AttitudeError) -> str:
