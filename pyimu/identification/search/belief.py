@@ -11,7 +11,7 @@ from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.typical import largest, magnitudes
-from pyimu.report.numbers import in_unit, pretty, quantity, unit_for, with_error
+from pyimu.report.numbers import in_unit, number, pretty, quantity, unit_for, with_error
 
 FARTHEST = 10.0
 """Times the typical size in a consumer part, the coarsest class there is, that no part reaches
@@ -34,7 +34,8 @@ def unbelievable(fit: Fit, keys: Iterable[Coefficient]) -> str:
                 return f"{key.parameter} is {value:.3g}, and can be {definition.known:g} alone"
         limit = most(effect.name, fit.sensor.kind, key.parameter)
         if definition.scan is None and abs(value) - CHANCE * fit.std.get(key, 0.0) > limit:
-            return f"{key.parameter} is {quantity(value, unit)}, {_beyond(limit, unit)}"
+            said = quantity(value, unit)
+            return f"{key.parameter} is {said}, {_beyond(limit, unit, unit_for(value, unit))}"
     return ""
 
 
@@ -57,14 +58,16 @@ def hidden(fit: Fit, keys: Iterable[Coefficient]) -> dict[Coefficient, str]:
             both = (float(in_unit(v, si, unit)) for v in (value, fit.std[key]))
             said = f"{with_error(*both)} {pretty(unit)}".rstrip()
             if value - unknown > limit:
-                out = {key: f"{key.parameter} is {said}, {_beyond(limit, si)}", **out}
+                out = {key: f"{key.parameter} is {said}, {_beyond(limit, si, unit)}", **out}
             else:
                 out[key] = f"{key.parameter} is not shown: {said}"
     return out
 
 
-def _beyond(limit: float, si: str) -> str:
-    return f"beyond belief: no part has more than {quantity(limit, si)}"
+def _beyond(limit: float, si: str, unit: str) -> str:
+    """``unit`` is the one of what it is said of."""
+    said = f"{number(float(in_unit(limit, si, unit)))} {pretty(unit)}".rstrip()
+    return f"beyond belief: no part has more than {said}"
 
 
 def most(effect: str, kind: str, parameter: str) -> float:
