@@ -22,6 +22,7 @@ from pyimu.attitude.columns import (
     latitude_of,
     nominal_part,
     rate_noise,
+    scale_std,
     recorded_age,
     warmer,
 )
@@ -324,7 +325,8 @@ def _of_the_log(
 def _of_the_part(recording: Recording, known: Part, declared: Part | None) -> dict[str, float]:
     """The settings that follow from what is known of the sensors, and from their tolerances."""
     values = start_values(known, warmer(recording, known))
-    values["rate_noise"] = float(np.hypot(rate_noise(declared), values.get("rate_noise", 0.0)))
+    for name, own in (("rate_noise", rate_noise(declared)), ("scale_std", scale_std(declared))):
+        values[name] = float(np.hypot(own, values.get(name, 0.0)))
     return values
 
 

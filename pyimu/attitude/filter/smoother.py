@@ -32,6 +32,7 @@ contradicted is carried back.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import lru_cache
 
 import casadi as ca
@@ -141,9 +142,9 @@ def _shown() -> ca.Function:
     """
     symbols, mean, covariance, row = _symbols()
     after = row.after
-    given = Estimate(after.q, after.bias, after.velocity, covariance)
+    given = Estimate(after.q, after.bias, after.velocity, covariance, after.scaled)
     x = moved(given, mean, _up(after))
-    x = Estimate(quaternion.normalized(x.q), x.bias, x.velocity, x.covariance)
+    x = replace(x, q=quaternion.normalized(x.q))
     y = outputs(x, *(row.outputs[i] for i in FOUND), row.constant)
     least = ROUNDING * ca.trace(row.predicted.covariance[:3, :3])
     unseen = ca.mmax(row.transition.attitude) > KNOWN_TILT**2
