@@ -22,8 +22,8 @@ from pyimu.attitude.columns import (
     latitude_of,
     nominal_part,
     rate_noise,
-    scale_std,
     recorded_age,
+    scale_std,
     warmer,
 )
 from pyimu.attitude.contradicted import believed

@@ -99,9 +99,10 @@ def propagate(
     ``rate`` (3,) rad/s is the compensated rate, ``earth`` (3,) rad/s the Earth's in body axes,
     ``moving`` 0 or 1 whether the body turns at all. ``noise`` is the variance that is added to the
     attitude, to attitude and bias together, and to the bias, (3,) each; ``push`` changes the
-    velocity; ``scale_std`` is that of the gyro's scale factors. With R the turn and G = -h J the error becomes R^T p + G b + R^T p x G b / 2, and the
-    mean of the last term is the mean error. The quaternion keeps its length however large that mean
-    is: the updates that follow rely on a vertical of unit length.
+    velocity; ``scale_std`` is that of the gyro's scale factors. With R the turn and G = -h J the
+    error becomes R^T p + G b + R^T p x G b / 2, and the mean of the last term is the mean error.
+    The quaternion keeps its length however large that mean is: the updates that follow rely on a
+    vertical of unit length.
     """
     centre, own, leak = turned(x, rate, earth, moving, h)
     covariance, mixed = _propagated(x.covariance, own, leak, noise)

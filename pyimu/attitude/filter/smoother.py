@@ -132,7 +132,7 @@ def before_a_gap() -> ca.Function:
 
 
 def _symbols() -> tuple[list[ca.SX], ca.SX, ca.SX, Passed]:
-    """The arguments ``belief, u``, the mean (9, 4) and the covariance (9, 9), and what has passed."""
+    """The arguments ``belief, u``, the mean (9, 4), the covariance (9, 9), and what has passed."""
     s, u = symbols = [ca.SX.sym("s", BELIEF), ca.SX.sym("u", len(PASSED))]
     return symbols, *_unpacked(s), Passed.unpack(u)
 

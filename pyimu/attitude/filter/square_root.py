@@ -196,9 +196,7 @@ def _predict(layout: Layout) -> ca.Function:
     sample = look_closely(layout.compensation, at.memory, at.u, at.settings, at.h)
     rest = rest_of(at, sample)
     q, velocity, w, turned = deviations_after(at, sample, rest, before.factor)
-    x = Rooted(
-        q, rest.before.bias, velocity, triangular(w), scaled_after(at, sample, rest, q)
-    )
+    x = Rooted(q, rest.before.bias, velocity, triangular(w), scaled_after(at, sample, rest, q))
     noise = added_noise(at, sample, rest)
     working, *others = predicted(at, sample, rest, x.estimate, turned, noise)
     working = ca.vertcat(x.pack(), working[ESTIMATE - 1 :])

@@ -170,7 +170,7 @@ def outputs(x: Estimate, quasi_static, nis, status, at_rest, constant=0) -> ca.S
 
 
 def _by_scale(x: Estimate, up):
-    """Variances (6,) of attitude and bias, and that about the vertical, by the gyro's scale factors.
+    """Variances (6,) of attitude and bias, and about the vertical, by the gyro's scale factors.
 
     Those of the attitude are together no more than what an angle can have.
     """

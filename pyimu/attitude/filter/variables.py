@@ -269,9 +269,9 @@ SETTINGS = (
     _setting(
         "scale_std",
         "1",
-        "standard deviation of the scale factor of each of the gyro's axes, of which the run learns "
-        "nothing: std has what that makes of a turn that goes on, and of the bias; the estimates "
-        "are the same",
+        "standard deviation of the scale factor of each of the gyro's axes, of which the run "
+        "learns nothing: std has what that makes of a turn that goes on, and of the bias; the "
+        "estimates are the same",
         0.0,
     ),
     _setting(

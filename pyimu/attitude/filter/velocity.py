@@ -184,8 +184,8 @@ def rescaled(before: Estimate, q, own, leak, rate, scale_std, push: Push):
 
     The ``rate`` (3,) rad/s turns the body by the share ``scale_std`` of it too far, about each
     axis, as a bias of that size does. In a turn that goes on this grows as the angle, and a turn
-    back takes it away, which no white noise does (Schmidt's consider filter; Gelb 1974, section
-    8.2).
+    back takes it away, which no white noise does. The gains know nothing of it, and the estimates
+    stay what they are: each correction takes of it what it sees, as in Schmidt's consider filter.
     """
     up, moved = quaternion.to_matrix(q)[2, :].T, own @ before.velocity
     carried = push.carried(moved)
