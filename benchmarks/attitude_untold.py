@@ -15,7 +15,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from attitude_honesty import errors, estimated
-from drives.cases import Log, matched, record, vehicle, with_headings
+from drives.cases import (
+    Log,
+    hand,
+    matched,
+    off_scale,
+    record,
+    turned_one_way,
+    vehicle,
+    with_headings,
+)
 from generators import rotation
 from generators.motion import eased
 
@@ -137,6 +146,10 @@ CASES = (
     Untold("field: iron from 50 to 60 s", in_field(matched, (50.0, 60.0)), since=80.0),
     Untold("one row in twenty missing", holes(late(matched, 0.0), 0.05), part=True),
     Untold("one row in twenty missing, a car", holes(late(car, 0.0), 0.05), part=True),
+    Untold("gyro scale 2 % off, one way", off_scale(turned_one_way)),
+    Untold("gyro scale 2 % off, to and fro", off_scale(matched)),
+    Untold("gyro scale 2 % off, a hand", off_scale(hand(1.0, 0.3, 2.0, 2.0))),
+    Untold("gyro scale 2 % off, headings", off_scale(late(turned_one_way, 0.0))),
 )
 
 if __name__ == "__main__":

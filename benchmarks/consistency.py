@@ -34,7 +34,7 @@ from scipy.stats import chi2
 
 from pyimu.attitude import attitude_ukf, run
 from pyimu.attitude.filter.passed import AFTER
-from pyimu.attitude.filter.smoother import last_belief, smoother
+from pyimu.attitude.filter.smoother import MEAN, last_belief, smoother
 from pyimu.attitude.filter.ukf import recorded_ukf
 from pyimu.block.block import Run
 from pyimu.recording.recording import Recording
@@ -287,7 +287,7 @@ def smoothed_state(after: np.ndarray, belief: np.ndarray) -> np.ndarray:
     axes, covariance = np.eye(6), np.zeros((9, 9))
     # The vertical is turned along, and the covariance with it.
     axes[:3, :3] = Rotation.from_rotvec(error - up * (up @ error)).as_matrix().T
-    covariance[np.triu_indices(9)] = belief[9:]
+    covariance[np.triu_indices(9)] = belief[MEAN:]
     covariance += np.triu(covariance, 1).T
     turned = axes @ covariance[:6, :6] @ axes.T
     q = (q * Rotation.from_rotvec(error)).as_quat(scalar_first=True)

@@ -127,6 +127,16 @@ def with_headings(rng, log: Log, every: float = 1.0, since: float = 0.0, age: fl
     return Log(log.time, log.gyro, log.accel, log.q, log.bias, columns, log.told)
 
 
+def off_scale(make: Callable[..., Log], share: float = 0.02) -> Callable[..., Log]:
+    """A log of a gyro whose scale factors are off by a ``share`` drawn for each axis."""
+
+    def scaled(rng) -> Log:
+        log = make(rng)
+        return replace(log, gyro=log.gyro * (1 + share * rng.standard_normal(3)))
+
+    return scaled
+
+
 # Motions
 
 
@@ -230,6 +240,12 @@ def resting_between(rng, duration: float):
     return motion_of("rests", t, slopes, 0.5 * smooth_noise(rng, t, 3, 0.3, 2.0) * busy)
 
 
+def one_way(rng, duration: float):
+    """Turned about the vertical, 0.5 rad/s one way after a rest, with slow turns beside it."""
+    t, slopes = turning(rng, duration)
+    return motion_of("one way", t, 0.3 * slopes + [0.0, 0.0, 0.5] * still_start(t))
+
+
 def slow_start(rng, duration: float):
     """No rest at the start: a slow turn instead, of 0.5 to 3 deg/s about an axis of its own."""
     t, slopes = turning(rng, duration, 0.5)
@@ -239,6 +255,10 @@ def slow_start(rng, duration: float):
 
 
 # Cases
+
+
+def turned_one_way(rng) -> Log:
+    return record(rng, one_way(rng, 160.0), 160.0)
 
 
 def matched(rng, duration: float = 120.0, **more) -> Log:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from pyimu.attitude.filter.tolerances import bias_walk
+from pyimu.attitude.filter.tolerances import SCALE, bias_walk
 from pyimu.attitude.filter.variables import UNKNOWN_LATITUDE
 from pyimu.attitude.rest import Rest
 from pyimu.block.parameters import number
@@ -29,6 +29,12 @@ NOMINAL_RATE_NOISE = 1.6e-3
 turns of the order of 0.03 s. ``NOMINAL_K`` has the part that lasts. It is the least with which the
 inclination is no more than 1.3 times off what is claimed, squared, on recordings 02, 11 and 26 of
 BROAD; their errors fall with it."""
+
+NOMINAL_SCALE_STD = 0.02
+"""1; standard deviation of the scale factor of such a gyro's axis, the setting ``scale_std``. The
+MPU-6050's is allowed +-3 % at 25 degC and 2 % over temperature (product specification
+PS-MPU-6000A-00 rev. 3.4, section 6.1), each evenly: together 2.1 %. Other consumer parts have the
+same +-3 %."""
 
 LEAST_WARMING = 1.0
 """s; in less no part warms, what changes is noise of its thermometer."""
@@ -150,6 +156,17 @@ def rate_noise(part: Part | None) -> float:
         return NOMINAL_RATE_NOISE
     known = any(e.law is not None and e.law.needs("x") for e in part.gyro.effects)
     return NOMINAL_RATE_NOISE if of_a_sensor(part) and not known else 0.0
+
+
+def scale_std(part: Part | None) -> float:
+    """1; the setting ``scale_std`` beside a part's tolerances: for an unknown gyro, and for a part
+    of a real one that is silent of its scale factor.
+    """
+    if part is None:
+        return NOMINAL_SCALE_STD
+    of_gyro = (key[1] for key in (t.key for t in part.tolerances) if key[0] == "gyro")
+    silent = SCALE[0] not in {*part.gyro.values, *of_gyro}
+    return NOMINAL_SCALE_STD if of_a_sensor(part) and silent else 0.0
 
 
 def latitude_of(recording: Recording, latitude: float | None) -> float:

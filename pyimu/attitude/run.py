@@ -23,6 +23,7 @@ from pyimu.attitude.columns import (
     nominal_part,
     rate_noise,
     recorded_age,
+    scale_std,
     warmer,
 )
 from pyimu.attitude.contradicted import believed
@@ -79,7 +80,8 @@ def run(
     name of one, or a TOML file.
 
     Without a part, the filter knows of the sensors only their noise at rest; what a part is silent
-    of is assumed as without it (``pyimu.attitude.columns``: ``informed``, ``rate_noise``).
+    of is assumed as without it (``pyimu.attitude.columns``: ``informed``, ``rate_noise``,
+    ``scale_std``).
     ``latitude`` in rad is else the recording's; without either, no Earth rate is subtracted. ``q0``
     (4,) is the attitude and ``heading0`` in rad the yaw of the first sample, ``bias0`` (3,) the
     gyro bias in rad/s, ``std0`` (6,) the standard deviations of attitude in body axes in rad and of
@@ -324,7 +326,8 @@ def _of_the_log(
 def _of_the_part(recording: Recording, known: Part, declared: Part | None) -> dict[str, float]:
     """The settings that follow from what is known of the sensors, and from their tolerances."""
     values = start_values(known, warmer(recording, known))
-    values["rate_noise"] = float(np.hypot(rate_noise(declared), values.get("rate_noise", 0.0)))
+    for name, own in (("rate_noise", rate_noise(declared)), ("scale_std", scale_std(declared))):
+        values[name] = float(np.hypot(own, values.get(name, 0.0)))
     return values
 
 

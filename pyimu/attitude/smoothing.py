@@ -20,7 +20,7 @@ from pyimu.attitude.outputs import Kept, advance
 from pyimu.block.block import Block, Run
 
 SEGMENT = 4096
-"""Samples of a segment; what the smoother needs of them, 5 MB, stays in a processor's cache."""
+"""Samples of a segment; what the smoother needs of them, 7 MB, stays in a processor's cache."""
 
 
 def smoothed(

@@ -22,6 +22,7 @@ from pyarrow import parquet
 from scipy.linalg import block_diag
 
 from pyimu import Recording, attitude
+from pyimu.attitude.filter.passed import PACKED
 from pyimu.attitude.filter.smoother import before_a_gap
 from pyimu.attitude.filter.ukf import recorded_ukf
 from pyimu.attitude.filter.variables import LEAST_ACCEL_STD, LEAST_HEADING_STD
@@ -125,15 +126,15 @@ def test_gap_is_one_more_step_of_the_walk():
     after = before + noise
     known = 0.3 * after
     mean = rng.standard_normal(9)
-    packed = np.zeros(55)
+    packed = np.zeros(PACKED)
     packed[0], packed[7:28] = 1, after[:6, :6][np.triu_indices(6)]
-    packed[31:49], packed[49:] = after[:6, 6:].T.ravel(), after[6:, 6:][np.triu_indices(3)]
-    belief = np.append(mean, known[np.triu_indices(9)])
+    packed[31:49], packed[49:55] = after[:6, 6:].T.ravel(), after[6:, 6:][np.triu_indices(3)]
+    belief = np.concatenate([mean, np.zeros(27), known[np.triu_indices(9)]])
     got = np.array(before_a_gap()(belief, packed, walk)).ravel()
     gain = before @ np.linalg.inv(after)
     want = before + gain @ (known - after) @ gain.T
     np.testing.assert_allclose(got[:9], gain @ mean, atol=1e-12)
-    np.testing.assert_allclose(got[9:], want[np.triu_indices(9)], atol=1e-10)
+    np.testing.assert_allclose(got[36:], want[np.triu_indices(9)], atol=1e-10)
 
 
 # Consistency

@@ -52,6 +52,9 @@ block AttitudeUkf "Unscented attitude filter of the part imt30, in C"
   parameter Real rateNoise(min=0) = 0
     "Root density of the relative error of the rate, which leaks onto all axes [sqrt(s)]"
     annotation(Dialog(group="Filter"));
+  parameter Real scaleStd(unit="1", min=0) = 0
+    "Standard deviation of the scale factor of each of the gyro's axes, of which the run learns nothing"
+    annotation(Dialog(group="Filter"));
   parameter Real biasNoise(min=0) = 0
     "Root density of the walk of the bias over the rate [1/sqrt(s)]"
     annotation(Dialog(group="Filter"));
@@ -207,17 +210,18 @@ protected
   Modelica.Blocks.Interfaces.RealInput speedVarianceUsed;
   Modelica.Blocks.Interfaces.BooleanInput speedValidUsed;
   Modelica.Blocks.Interfaces.RealInput magUsed[3];
-  final parameter Real p[60] = {latitude, q0[1], q0[2], q0[3], q0[4], bias0[1], bias0[2],
+  final parameter Real p[61] = {latitude, q0[1], q0[2], q0[3], q0[4], bias0[1], bias0[2],
     bias0[3], std0[1], std0[2], std0[3], std0[4], std0[5], std0[6], gravity, accelStd,
     accelBiasStd, accelCorrelationTime, gravityWalk, gravityTolerance, motionTolerance,
-    steadyTolerance, motionTime, motionShare, rateNoise, biasNoise, stationaryStd, restTime,
-    restRateTolerance, restForceTolerance, slipStd, speedTolerance, lostRateStd, stuckTime,
-    axisStuckTime[1], axisStuckTime[2], axisStuckTime[3], axisStuckTime[4], axisStuckTime[5],
-    axisStuckTime[6], headingMemory, declination, fieldStrength, fieldDip, fieldStrengthStd,
-    fieldStd, fieldTime, fieldTurningStd, fieldNoise, fieldTolerance, gyroThermalBias_kT[1],
-    gyroThermalBias_kT[2], gyroThermalBias_kT[3], gyroThermalBias_T0, gyroAngleRandomWalk_N[1],
-    gyroAngleRandomWalk_N[2], gyroAngleRandomWalk_N[3], gyroRateRandomWalk_K[1],
-    gyroRateRandomWalk_K[2], gyroRateRandomWalk_K[3]} "In the order of the co-simulation unit";
+    steadyTolerance, motionTime, motionShare, rateNoise, scaleStd, biasNoise, stationaryStd,
+    restTime, restRateTolerance, restForceTolerance, slipStd, speedTolerance, lostRateStd,
+    stuckTime, axisStuckTime[1], axisStuckTime[2], axisStuckTime[3], axisStuckTime[4],
+    axisStuckTime[5], axisStuckTime[6], headingMemory, declination, fieldStrength, fieldDip,
+    fieldStrengthStd, fieldStd, fieldTime, fieldTurningStd, fieldNoise, fieldTolerance,
+    gyroThermalBias_kT[1], gyroThermalBias_kT[2], gyroThermalBias_kT[3], gyroThermalBias_T0,
+    gyroAngleRandomWalk_N[1], gyroAngleRandomWalk_N[2], gyroAngleRandomWalk_N[3],
+    gyroRateRandomWalk_K[1], gyroRateRandomWalk_K[2], gyroRateRandomWalk_K[3]}
+    "In the order of the co-simulation unit";
   AttitudeUkfMemory memory = AttitudeUkfMemory(samplePeriod, p);
   discrete Real k(start=0, fixed=true) "Number of the sample; 0 is the start";
   Real u[18] "Inputs, in the order of the co-simulation unit";
@@ -243,6 +247,7 @@ equation
   assert(motionShare >= 0, "AttitudeUkf: motionShare must not be below 0");
   assert(motionShare <= 1, "AttitudeUkf: motionShare must not be above 1");
   assert(rateNoise >= 0, "AttitudeUkf: rateNoise must not be below 0");
+  assert(scaleStd >= 0, "AttitudeUkf: scaleStd must not be below 0");
   assert(biasNoise >= 0, "AttitudeUkf: biasNoise must not be below 0");
   assert(stationaryStd >= 0, "AttitudeUkf: stationaryStd must not be below 0");
   assert(restTime >= 0, "AttitudeUkf: restTime must not be below 0");
@@ -359,6 +364,9 @@ large that is the run finds out, over eight times this time.</td></tr>
 one of that correlation time, as far as the run shows less. The errors of a real accelerometer in
 motion look like a slow velocity: a run over a log takes 1, which does not ask the run, where
 rateNoise is not 0.</td></tr>
+<tr><td>scaleStd</td><td>Standard deviation of the scale factor of each of the gyro's axes, of which
+the run learns nothing: std has what that makes of a turn that goes on, and of the bias; the
+estimates are the same.</td></tr>
 <tr><td>biasNoise</td><td>Root density of the walk of the bias over the rate: a gyro that feels
 forces has another bias when it has turned over.</td></tr>
 <tr><td>restTime</td><td>A body of which no sample differs from the others for so long is at rest,

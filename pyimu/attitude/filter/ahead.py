@@ -51,7 +51,8 @@ def shown_now(layout: Layout) -> ca.Function:
     covariance = symmetric(
         6, lambda i, j: attitude[i, j] + (left[i] if i == j else 0) if j < 3 else x.covariance[i, j]
     )
-    now = replace(x, q=quaternion.product(x.q, turn), covariance=covariance)
+    scaled = ca.vertcat(own @ x.scaled[:3, :] - delay * x.scaled[3:6, :], x.scaled[3:, :])
+    now = replace(x, q=quaternion.product(x.q, turn), covariance=covariance, scaled=scaled)
     found = [y[i] for i in FOUND]
     shown = outputs(now, *found, constant_variance(kept.size, settings))
     return plain_function("shown_now", [*symbols[:2], y, p, h], [shown], OPTIONS)

@@ -36,7 +36,7 @@ from pyimu.attitude.filter.late_heading import wrapped
 from pyimu.attitude.filter.layout import Flags, Layout
 from pyimu.attitude.filter.marginal import turn
 from pyimu.attitude.filter.memory import ESTIMATE, WORKING, Memory
-from pyimu.attitude.filter.unscented import WHOLE, Estimate, N, turned_axes
+from pyimu.attitude.filter.unscented import WHOLE, Estimate, N, less_scaled, turned_axes
 from pyimu.attitude.filter.variables import MAG
 from pyimu.block.plain import plain_function
 from pyimu.symbolic import quaternion
@@ -230,7 +230,7 @@ def _by_direction(kept: Field, x: Estimate, seen, lateral, good, dt, step: Step)
     cross, parts, own = _innovation_variance(kept, x, slope)
     variance = own + white / dt
     own_gain = _about_the_vertical(up, cross, weight / variance)
-    x, corrected = _corrected(x, up, cross, variance, own_gain, innovation)
+    x, corrected = _corrected(x, up, cross, variance, own_gain, slope, innovation)
     gain = weight * parts / variance
     after = symmetric(PARTS, lambda i, j: kept.covariance[i, j] - gain[i] * parts[j])
     kept = replace(
@@ -269,7 +269,7 @@ def _about_the_vertical(up, cross, scale):
     return ca.vertcat(about * up, along * up, ca.SX.zeros(3))
 
 
-def _corrected(x: Estimate, up, cross, variance, gain, innovation) -> tuple[Estimate, ca.SX]:
+def _corrected(x: Estimate, up, cross, variance, gain, slope, innovation) -> tuple[Estimate, ca.SX]:
     """The estimate after the innovation, and the turn about ``up`` in rad."""
     covariance = symmetric(
         WHOLE,
@@ -283,7 +283,8 @@ def _corrected(x: Estimate, up, cross, variance, gain, innovation) -> tuple[Esti
     corrected = ca.dot(up, gain[:3]) * innovation
     correction = ca.vertcat(ca.cos(corrected / 2), ca.sin(corrected / 2) * up)
     q = quaternion.product(x.q, correction)
-    return Estimate(q, x.bias + gain[3:N] * innovation, x.velocity, covariance), corrected
+    scaled = less_scaled(x, gain, slope.T @ x.scaled[:3, :])
+    return Estimate(q, x.bias + gain[3:N] * innovation, x.velocity, covariance, scaled), corrected
 
 
 def _less_known(x: Estimate, up, more) -> Estimate:

@@ -334,6 +334,13 @@ def corrected(working, given: GravityMeasurement, x: Estimate, nis, weight):
     return reported(working, after, nis, beyond)
 
 
+def scaled_in_gravity(x: Estimate, gravity):
+    """What of ``Estimate.scaled`` is seen (3, 3) in ``gravity`` (3,), which an attitude error p
+    turns by g x p.
+    """
+    return ca.skew(gravity) @ x.scaled[:3, :]
+
+
 def by_velocity(correct: Callable) -> ca.Function:
     """``x, gravity -> x``: the working estimate after the update by the velocity of a body that
     stays in its place.
@@ -355,6 +362,7 @@ def by_velocity(correct: Callable) -> ca.Function:
         INNOVATION_GATE,
         own + moving - given.coloured * ca.SX.eye(3),
         given.plausible,
+        x.scaled[6:, :],
     )
     contradicted = 1 - (1 - (weight < 1) * given.plausible) * (1 - given.contradicts)
     after = less_sure(after, up, contradicted * given.period)

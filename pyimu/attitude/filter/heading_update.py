@@ -188,8 +188,9 @@ def _corrected(x: Estimate, heading: Heading, past: PastYaw, rate):
     tilted = tilt_variance(x.covariance, up) * square * past.age**2
     tilted *= ca.fmax(1, past.age / heading.period)
     innovation = mrp.F * ca.tan(late_heading.wrapped(heading.angle - past.yaw) / mrp.F)
+    seen = slope @ x.scaled[:3, :]
     after, _, weight = unscented.correct(
-        x, innovation, variance + (heading.variance + tilted), cross, up, INNOVATION_GATE
+        x, innovation, variance + (heading.variance + tilted), cross, up, INNOVATION_GATE, seen=seen
     )
     return _with_less_known_yaw(after, weight < 1), weight, separable
 

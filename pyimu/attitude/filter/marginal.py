@@ -17,8 +17,8 @@ from math import factorial
 
 import casadi as ca
 
-from pyimu.attitude.filter.unscented import SPREAD, Estimate, N, moved
-from pyimu.attitude.filter.velocity import Push, pushed
+from pyimu.attitude.filter.unscented import SPREAD, Estimate, N, less_scaled, moved
+from pyimu.attitude.filter.velocity import Push, pushed, rescaled
 from pyimu.symbolic import mrp, quaternion
 from pyimu.symbolic.linear import FLOOR, reciprocal, symmetric
 
@@ -89,7 +89,9 @@ def turned(x: Estimate, rate, earth, moving, h):
     return centre, own, -step * mean_jacobian(angle, k)
 
 
-def propagate(x: Estimate, rate, earth, moving, noise, push: Push, h) -> tuple[Estimate, ca.SX]:
+def propagate(
+    x: Estimate, rate, earth, moving, noise, push: Push, scale_std, h
+) -> tuple[Estimate, ca.SX]:
     """The estimate one period ``h`` s later, and the body's turn (3, 3) in inertial space.
 
     The turn is from the old body axes to the new.
@@ -97,9 +99,10 @@ def propagate(x: Estimate, rate, earth, moving, noise, push: Push, h) -> tuple[E
     ``rate`` (3,) rad/s is the compensated rate, ``earth`` (3,) rad/s the Earth's in body axes,
     ``moving`` 0 or 1 whether the body turns at all. ``noise`` is the variance that is added to the
     attitude, to attitude and bias together, and to the bias, (3,) each; ``push`` changes the
-    velocity. With R the turn and G = -h J the error becomes R^T p + G b + R^T p x G b / 2, and the
-    mean of the last term is the mean error. The quaternion keeps its length however large that mean
-    is: the updates that follow rely on a vertical of unit length.
+    velocity; ``scale_std`` is that of the gyro's scale factors. With R the turn and G = -h J the
+    error becomes R^T p + G b + R^T p x G b / 2, and the mean of the last term is the mean error.
+    The quaternion keeps its length however large that mean is: the updates that follow rely on a
+    vertical of unit length.
     """
     centre, own, leak = turned(x, rate, earth, moving, h)
     covariance, mixed = _propagated(x.covariance, own, leak, noise)
@@ -108,7 +111,8 @@ def propagate(x: Estimate, rate, earth, moving, noise, push: Push, h) -> tuple[E
         / 2
     )
     q = quaternion.product(quaternion.product(x.q, centre), mrp.to_quaternion(mean))
-    after = Estimate(q, x.bias, x.velocity, covariance)
+    scaled = rescaled(x, q, own, leak, rate, scale_std, push)
+    after = Estimate(q, x.bias, x.velocity, covariance, scaled)
     return pushed(x, after, own, leak, push), own
 
 
@@ -204,6 +208,7 @@ def correct(
     innovation_gate: float | None = None,
     gate_variance=None,
     beyond=1,
+    seen=None,
 ) -> tuple[Estimate, ca.SX, ca.SX]:
     """The estimate after a measurement of three numbers, its NIS, and its weight.
 
@@ -235,7 +240,10 @@ def correct(
             x.covariance[i, j] - sum(g[i] * s[j] for g, s in zip(gain, scaled, strict=True))
         ),
     )
-    return moved(replace(x, covariance=covariance), change, up), nis, weight
+    if seen is not None:
+        seen = ca.vertcat(*_solved(lower, [seen[i, :] for i in range(3)]))
+    scaled = less_scaled(x, ca.horzcat(*scaled), seen)
+    return moved(replace(x, covariance=covariance, scaled=scaled), change, up), nis, weight
 
 
 def _solved(lower, values: list) -> list:

@@ -13,7 +13,7 @@ from pyimu.attitude.filter.field import Field
 from pyimu.attitude.filter.quasi_static import GravitySize, MeanForce, QuasiStatic, passing_std
 from pyimu.attitude.filter.stillness import SIZES as STILLNESS
 from pyimu.attitude.filter.stillness import Stillness
-from pyimu.attitude.filter.unscented import LARGEST_STD, Estimate, N
+from pyimu.attitude.filter.unscented import AXES, LARGEST_STD, WHOLE, Estimate, N
 from pyimu.attitude.filter.variables import (
     LARGEST_BIAS,
     LEAST_ACCEL_STD,
@@ -28,10 +28,11 @@ from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import pack, unpack
 from pyimu.symbolic.missing import faded
 
-ESTIMATE = 56
+ESTIMATE = 83
 """Numbers of the state that the updates change: q (4), bias (3), the upper triangle of their
-covariance (21), velocity (3), its covariance with them (18) and its own upper triangle (6), and the
-sum in rad of all corrections of yaw by headings."""
+covariance (21), velocity (3), its covariance with them (18) and its own upper triangle (6), what
+the gyro's scale factors make of all errors (27), and the sum in rad of all corrections of yaw by
+headings."""
 
 FADING = slice(0, ESTIMATE - 1)
 """Of these numbers those that may fade on a body that stands, all but that sum."""
@@ -91,10 +92,11 @@ class Memory:
 
     @staticmethod
     def pack_estimate(x: Estimate) -> ca.SX:
-        """The estimate as a column (55,)."""
+        """The estimate as a column (82,)."""
         turning, moving = pack(x.covariance[:N, :N]), pack(x.covariance[N:, N:])
         both = ca.vec(x.covariance[:N, N:])
-        return ca.densify(ca.vertcat(x.q, x.bias, turning, x.velocity, both, moving))
+        scaled = ca.vec(x.scaled)
+        return ca.densify(ca.vertcat(x.q, x.bias, turning, x.velocity, both, moving, scaled))
 
     @staticmethod
     def estimate_of(column) -> Estimate:
@@ -102,12 +104,14 @@ class Memory:
         both = ca.reshape(column[31:49], N, 3)
         turning, moving = unpack(column[7:28], N), unpack(column[49:55], 3)
         covariance = ca.blockcat([[turning, both], [both.T, moving]])
-        return Estimate(column[:4], column[4:7], column[28:31], covariance)
+        scaled = ca.reshape(column[55:82], WHOLE, AXES)
+        return Estimate(column[:4], column[4:7], column[28:31], covariance, scaled)
 
     @staticmethod
     def attitude_of(column) -> Estimate:
         """The same without the velocity."""
-        return Estimate(column[:4], column[4:7], ca.SX(0, 1), unpack(column[7:28], N))
+        scaled = ca.reshape(column[55:82], WHOLE, AXES)
+        return Estimate(column[:4], column[4:7], ca.SX(0, 1), unpack(column[7:28], N), scaled)
 
     def pack_memory(self, without_faded: bool = True) -> ca.SX:
         """All but the estimate as a column; ``without_faded``, what has faded is zero in it."""
@@ -201,4 +205,4 @@ def first_estimate(at: dict) -> Estimate:
     bias = ca.fmin(ca.fmax(bias0, -LARGEST_BIAS), LARGEST_BIAS)
     moving = first_std(at) ** 2 * ca.SX.ones(3)
     covariance = ca.densify(ca.diag(ca.vertcat(std * std, moving)))
-    return Estimate(q, bias, ca.SX.zeros(3), covariance)
+    return Estimate(q, bias, ca.SX.zeros(3), covariance, ca.SX.zeros(WHOLE, AXES))

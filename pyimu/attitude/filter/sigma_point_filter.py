@@ -12,6 +12,7 @@ from collections.abc import Callable
 
 import casadi as ca
 
+from pyimu.attitude.filter import marginal
 from pyimu.attitude.filter.compensation import Compensation
 from pyimu.attitude.filter.field_update import after_others, by_field
 from pyimu.attitude.filter.filter_block import (
@@ -19,7 +20,13 @@ from pyimu.attitude.filter.filter_block import (
     inputs_of_the_sample,
     step_function,
 )
-from pyimu.attitude.filter.gravity_update import INNOVATION_GATE, by_velocity, corrected, push
+from pyimu.attitude.filter.gravity_update import (
+    INNOVATION_GATE,
+    by_velocity,
+    corrected,
+    push,
+    scaled_in_gravity,
+)
 from pyimu.attitude.filter.layout import GRAVITY, Flags, GravityMeasurement, Layout
 from pyimu.attitude.filter.memory import ESTIMATE, WORKING, Memory
 from pyimu.attitude.filter.prediction import (
@@ -49,6 +56,7 @@ from pyimu.attitude.filter.updates import (
     finish,
     where,
 )
+from pyimu.attitude.filter.velocity import rescaled
 from pyimu.block.block import Block
 from pyimu.block.plain import plain_function
 from pyimu.model.part import Part
@@ -101,7 +109,8 @@ def _predict(layout: Layout) -> ca.Function:
     rest = rest_of(at, sample)
     q, velocity, w, turned = deviations_after(at, sample, rest, cholesky(rest.before.covariance))
     whole = symmetric(WHOLE, lambda i, j: ca.dot(w[i, :], w[j, :]))
-    x, noise = Estimate(q, rest.before.bias, velocity, whole), added_noise(at, sample, rest)
+    scaled, noise = scaled_after(at, sample, rest, q), added_noise(at, sample, rest)
+    x = Estimate(q, rest.before.bias, velocity, whole, scaled)
     outputs = predicted(at, sample, rest, x, turned, noise)
     return plain_function("predict", symbols, outputs, {"cse": True})
 
@@ -146,6 +155,14 @@ def deviations_after(
         ca.vertcat(ca.SX(N, 6), alone),
     )
     return q, velocity + change.change - change.gravity * up, w, turned
+
+
+def scaled_after(at: Instant, sample: Sample, rest: Rest, q):
+    """``Estimate.scaled`` one sample later, at the attitude ``q``: linear, as it is small."""
+    change = push(at.memory, sample, at.settings, at.h, rest.surely)
+    _, own, leak = marginal.turned(rest.before, sample.rate, at.earth, rest.moving, at.h)
+    std = at.settings.scalar["scale_std"]
+    return rescaled(rest.before, q, own, leak, sample.rate, std, change)
 
 
 def weighed(sigma: Sigma, values: list) -> list:
@@ -209,6 +226,7 @@ def _by_gravity() -> ca.Function:
         up,
         INNOVATION_GATE,
         variance + ca.diag(given.sample_variance),
+        seen=scaled_in_gravity(x, mean),
     )
     out = corrected(working, given, after, nis, weight)
     return plain_function("by_gravity", symbols, [out], {"cse": True})

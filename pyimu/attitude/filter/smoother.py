@@ -22,6 +22,9 @@ where it may be so large (``gravity_update.KNOWN_TILT``) that its errors are not
 A measurement that arrives late, as a heading of some age, belongs to an estimate before this one.
 Here it counts as one of the present, which it is up to the noise of the gyro over its age.
 
+The gyro's scale factors stay what the filter took them for, and the smoother has what they make of
+its estimates as the filter has (``Estimate.scaled``).
+
 The standard deviations are those of the filter's model. What the filter only stands for makes them
 too small sooner than its own: a Gauss-Markov noise of the gyro with a correlation time of 10 s,
 which it takes for a walk, leaves in the middle of a log a bias error 1.16 times as large as is
@@ -32,6 +35,7 @@ contradicted is carried back.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import lru_cache
 
 import casadi as ca
@@ -40,7 +44,7 @@ from pyimu.attitude.filter.gravity_update import KNOWN_TILT
 from pyimu.attitude.filter.marginal import factors
 from pyimu.attitude.filter.memory import Memory
 from pyimu.attitude.filter.passed import PACKED, PASSED, Passed
-from pyimu.attitude.filter.unscented import WHOLE, Estimate, N, bounded, moved, shrunk
+from pyimu.attitude.filter.unscented import AXES, WHOLE, Estimate, N, bounded, moved, shrunk
 from pyimu.attitude.filter.updates import outputs, where
 from pyimu.attitude.filter.variables import FOUND, OUTPUTS
 from pyimu.block.block import Block
@@ -48,7 +52,14 @@ from pyimu.block.plain import plain_function
 from pyimu.symbolic import mrp, quaternion
 from pyimu.symbolic.linear import pack, symmetric, unpack
 
-BELIEF = WHOLE + WHOLE * (WHOLE + 1) // 2
+COLUMNS = 1 + AXES
+"""Of the mean of an error: itself, and what one standard deviation of each of the gyro's scale
+factors changes of it. The smoother is linear, so that what holds of the one holds of the other."""
+
+MEAN = WHOLE * COLUMNS
+"""Numbers of such a mean."""
+
+BELIEF = MEAN + WHOLE * (WHOLE + 1) // 2
 """Numbers of what is known of an error: its mean and the upper triangle of its covariance."""
 
 OPTIONS = {"cse": True}
@@ -63,7 +74,7 @@ def smoother() -> Block:
 
     Its inputs are the rows of ``pyimu.attitude.filter.passed``, its outputs those of the filter,
     smoothed; those of ``FOUND`` stay the filter's. The state is the mean
-    (9,) of the error of the filter's estimate after the sample that comes next, and the upper
+    (9, 4) of the error of the filter's estimate after the sample that comes next, and the upper
     triangle of its covariance (45,). It is the same for every part.
     """
     s, u, h = (ca.MX.sym(n, size) for n, size in (("s", BELIEF), ("u", len(PASSED)), ("h", 1)))
@@ -100,7 +111,7 @@ def _initial() -> ca.Function:
 def last_belief() -> ca.Function:
     """``estimate -> belief``: the smoother's state at the last sample, from the packed estimate."""
     x = ca.SX.sym("x", PACKED)
-    belief = _packed(ca.SX.zeros(WHOLE), Memory.estimate_of(x).covariance)
+    belief = _packed(ca.SX.zeros(WHOLE, COLUMNS), Memory.estimate_of(x).covariance)
     return plain_function("last_belief", [x], [belief], OPTIONS)
 
 
@@ -113,7 +124,7 @@ def before_a_gap() -> ca.Function:
     s, x, walk = (ca.SX.sym(n, k) for n, k in (("s", BELIEF), ("x", PACKED), ("walk", 3)))
     whole = Memory.estimate_of(x).covariance
     noise = ca.diagcat(ca.SX(3, 3), ca.diag(walk), ca.SX(3, 3))
-    out = _packed(*less_noise(s[:WHOLE], unpack(s[WHOLE:], WHOLE), whole, noise))
+    out = _packed(*less_noise(*_unpacked(s), whole, noise))
     return plain_function("before_gap", [s, x, walk], [out], OPTIONS)
 
 
@@ -121,13 +132,18 @@ def before_a_gap() -> ca.Function:
 
 
 def _symbols() -> tuple[list[ca.SX], ca.SX, ca.SX, Passed]:
-    """The arguments ``belief, u``, the mean (9,) and the covariance (9, 9), and what has passed."""
+    """The arguments ``belief, u``, the mean (9, 4), the covariance (9, 9), and what has passed."""
     s, u = symbols = [ca.SX.sym("s", BELIEF), ca.SX.sym("u", len(PASSED))]
-    return symbols, s[:WHOLE], unpack(s[WHOLE:], WHOLE), Passed.unpack(u)
+    return symbols, *_unpacked(s), Passed.unpack(u)
+
+
+def _unpacked(s) -> tuple[ca.SX, ca.SX]:
+    """The mean (9, 4) and the covariance (9, 9) of a belief."""
+    return ca.reshape(s[:MEAN], WHOLE, COLUMNS), unpack(s[MEAN:], WHOLE)
 
 
 def _packed(mean, covariance) -> ca.SX:
-    return ca.densify(ca.vertcat(mean, pack(covariance)))
+    return ca.densify(ca.vertcat(ca.vec(mean), pack(covariance)))
 
 
 def _up(x: Estimate):
@@ -141,9 +157,10 @@ def _shown() -> ca.Function:
     """
     symbols, mean, covariance, row = _symbols()
     after = row.after
-    given = Estimate(after.q, after.bias, after.velocity, covariance)
-    x = moved(given, mean, _up(after))
-    x = Estimate(quaternion.normalized(x.q), x.bias, x.velocity, x.covariance)
+    left = after.scaled - mean[:, 1:]
+    given = Estimate(after.q, after.bias, after.velocity, covariance, left)
+    x = moved(given, mean[:, 0], _up(after))
+    x = replace(x, q=quaternion.normalized(x.q))
     y = outputs(x, *(row.outputs[i] for i in FOUND), row.constant)
     least = ROUNDING * ca.trace(row.predicted.covariance[:3, :3])
     unseen = ca.mmax(row.transition.attitude) > KNOWN_TILT**2
@@ -187,16 +204,19 @@ def _before_a_change() -> ca.Function:
 def _before_the_updates() -> ca.Function:
     """``belief, u -> belief``: the same of the prediction.
 
-    ``moved`` has turned the covariance along with the vertical; here it is turned back.
+    ``moved`` has turned the covariance along with the vertical; here it is turned back. What the
+    scale factors leave of the smoothed estimate is the same of both.
     """
     symbols, mean, covariance, row = _symbols()
     after, before = row.after, row.predicted
     axes = ca.diagcat(_turned_back(row), ca.SX.eye(6))
     half = axes @ covariance
     covariance = symmetric(WHOLE, lambda i, j: ca.dot(half[i, :], axes[j, :]))
-    q = quaternion.product(after.q, mrp.to_quaternion(mean[:3]))
-    bias, velocity = after.bias + mean[3:N], after.velocity + mean[N:]
-    mean = ca.vertcat(_rotation(before.q, q), bias - before.bias, velocity - before.velocity)
+    change, scaled = mean[:, 0], before.scaled - axes @ (after.scaled - mean[:, 1:])
+    q = quaternion.product(after.q, mrp.to_quaternion(change[:3]))
+    bias, velocity = after.bias + change[3:N], after.velocity + change[N:]
+    change = ca.vertcat(_rotation(before.q, q), bias - before.bias, velocity - before.velocity)
+    mean = ca.horzcat(change, scaled)
     return plain_function("before_updates", symbols, [_packed(mean, covariance)], OPTIONS)
 
 
@@ -219,7 +239,7 @@ def _before_a_beginning(kept: list[int]) -> ca.Function:
     rest = whole[others, others] + (cross - whole[others, kept]) @ gain.T
     order = [(kept + others).index(i) for i in range(WHOLE)]
     covariance = ca.blockcat([[own, cross.T], [cross, rest]])[order, order]
-    mean = ca.vertcat(mean[kept], gain @ mean[kept])[order]
+    mean = ca.vertcat(mean[kept, :], gain @ mean[kept, :])[order, :]
     name = f"before_beginning_beside_{len(kept)}"
     return plain_function(name, symbols, [_packed(mean, covariance)], OPTIONS)
 
@@ -248,7 +268,8 @@ def _before_the_prediction() -> ca.Function:
         _of_both(to.untilted, row.predicted.covariance),
     )
     mean, covariance = less_noise(mean, covariance, whole, to.noise)
-    mean = to.undone(mean) + ca.vertcat(ca.SX(3, 1), to.set_back, ca.SX(3, 1))
+    mean = to.undone(mean)
+    mean[3:N, 0] += to.set_back
     out = _packed(mean, _of_both(to.undone, covariance))
     return plain_function("before_prediction", symbols, [out], OPTIONS)
 

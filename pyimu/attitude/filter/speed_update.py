@@ -38,7 +38,7 @@ def by_speed(layout: Layout) -> ca.Function:
     off, noise = ca.vertcat(u[SPEED], 0, 0) - x.velocity, _noise(u, p)
     own, up = x.covariance[6:, 6:], vertical(x)
     after, _, weight = unscented.correct(
-        x, off, own + noise, x.covariance[:, 6:], up, INNOVATION_GATE
+        x, off, own + noise, x.covariance[:, 6:], up, INNOVATION_GATE, seen=x.scaled[6:, :]
     )
     beyond = weight < 1
     after = less_sure(after, up, beyond * given.period)

@@ -41,6 +41,7 @@ from pyimu.attitude.filter.filter_block import filter_block, step_function
 from pyimu.attitude.filter.gravity_update import (
     INNOVATION_GATE,
     RECOVERY,
+    scaled_in_gravity,
     vertical,
 )
 from pyimu.attitude.filter.layout import FLAGS, GRAVITY, Flags, GravityMeasurement, Layout
@@ -50,12 +51,14 @@ from pyimu.attitude.filter.sample import look_closely
 from pyimu.attitude.filter.sigma_point_filter import (
     deviations_after,
     gravity_seen,
+    scaled_after,
     weighed,
 )
 from pyimu.attitude.filter.unscented import (
     WHOLE,
     Estimate,
     N,
+    less_scaled,
     moved,
     points_of,
     turned_axes,
@@ -67,7 +70,7 @@ from pyimu.attitude.filter.updates import (
     finish,
     where,
 )
-from pyimu.attitude.filter.velocity import covariance_of_motion
+from pyimu.attitude.filter.velocity import at_rest, covariance_of_motion
 from pyimu.block.block import Block
 from pyimu.block.plain import plain_function
 from pyimu.model.part import Part
@@ -131,16 +134,17 @@ class Rooted:
     bias: ca.SX
     velocity: ca.SX
     factor: ca.SX
+    scaled: ca.SX
 
     @classmethod
     def unpack(cls, column) -> Rooted:
         """From a column of the state or a working estimate."""
         x = Memory.estimate_of(column)
-        return cls(x.q, x.bias, x.velocity, ca.tril(x.covariance))
+        return cls(x.q, x.bias, x.velocity, ca.tril(x.covariance), x.scaled)
 
     def pack(self) -> ca.SX:
-        """As a column (55,)."""
-        upper = Estimate(self.q, self.bias, self.velocity, self.factor.T)
+        """As a column (82,)."""
+        upper = Estimate(self.q, self.bias, self.velocity, self.factor.T, self.scaled)
         return Memory.pack_estimate(upper)
 
     @property
@@ -148,13 +152,13 @@ class Rooted:
         """The same with the covariance."""
         s = self.factor
         whole = symmetric(WHOLE, lambda i, j: ca.dot(s[i, :], s[j, :]))
-        return Estimate(self.q, self.bias, self.velocity, whole)
+        return Estimate(self.q, self.bias, self.velocity, whole, self.scaled)
 
 
 def _factored(column):
     """The column of an estimate with the factor in place of its covariance."""
     x = Memory.estimate_of(column)
-    return Rooted(x.q, x.bias, x.velocity, cholesky(x.covariance)).pack()
+    return Rooted(x.q, x.bias, x.velocity, cholesky(x.covariance), x.scaled).pack()
 
 
 def _to_covariance() -> ca.Function:
@@ -192,7 +196,7 @@ def _predict(layout: Layout) -> ca.Function:
     sample = look_closely(layout.compensation, at.memory, at.u, at.settings, at.h)
     rest = rest_of(at, sample)
     q, velocity, w, turned = deviations_after(at, sample, rest, before.factor)
-    x = Rooted(q, rest.before.bias, velocity, triangular(w))
+    x = Rooted(q, rest.before.bias, velocity, triangular(w), scaled_after(at, sample, rest, q))
     noise = added_noise(at, sample, rest)
     working, *others = predicted(at, sample, rest, x.estimate, turned, noise)
     working = ca.vertcat(x.pack(), working[ESTIMATE - 1 :])
@@ -214,13 +218,15 @@ def _by_gravity() -> ca.Function:
     states = ca.vertcat(ca.horzcat(*weighed(sigma, sigma.points)), ca.SX(3, 2 * N + 1))
     roots = [ca.diag(ca.sqrt(v)) for v in (given.variance, given.sample_variance)]
     gate = triangular(ca.horzcat(roots[1], off))
-    after, nis, weight = _corrected(x, given.force - mean, roots[0], off, states, up, gate)
+    seen = scaled_in_gravity(x.estimate, mean)
+    after, nis, weight = _corrected(x, given.force - mean, roots[0], off, states, up, gate, seen)
     beyond = weight < 1
     now = vertical(after.estimate)
     after = _less_sure(after, now, beyond * given.period)
     moving = cholesky(covariance_of_motion(given.motion[0], given.motion[1], now))
     factor = ca.diagcat(after.factor[:N, :N], moving)
-    after = Rooted(after.q, after.bias, ca.SX.zeros(3), factor)
+    resting = at_rest(after.estimate, ca.SX(3, 3))
+    after = Rooted(after.q, after.bias, resting.velocity, factor, resting.scaled)
     out = _reported(working, after, nis, beyond)
     return plain_function("by_gravity", symbols, [out], OPTIONS)
 
@@ -236,7 +242,9 @@ def _by_velocity() -> ca.Function:
     single = single - given.coloured * ca.SX.eye(3)
     gate = cholesky(symmetric(3, lambda i, j: ca.dot(own[i, :], own[j, :]) + single[i, j]))
     root = ca.sqrt(given.lasting) * moving
-    after, nis, weight = _corrected(x, -x.velocity, root, own, x.factor, up, gate, given.plausible)
+    after, nis, weight = _corrected(
+        x, -x.velocity, root, own, x.factor, up, gate, x.scaled[N:, :], given.plausible
+    )
     contradicted = 1 - (1 - (weight < 1) * given.plausible) * (1 - given.contradicts)
     after = _less_sure(after, up, contradicted * given.period)
     out = _reported(working, after, nis, contradicted)
@@ -244,7 +252,7 @@ def _by_velocity() -> ca.Function:
 
 
 def _corrected(
-    x: Rooted, innovation, root, off, states, up, gate, beyond=1
+    x: Rooted, innovation, root, off, states, up, gate, seen, beyond=1
 ) -> tuple[Rooted, ca.SX, ca.SX]:
     """The estimate after a measurement, its normalised innovation squared, and its weight.
 
@@ -264,9 +272,10 @@ def _corrected(
     change = weight * (gain @ forward(whole[:size, :size], innovation))
     axes = ca.diagcat(turned_axes(change, up), ca.SX.eye(WHOLE - 3))
     mixed = ca.horzcat(ca.sqrt(weight) * corrected, ca.sqrt(1 - weight) * x.factor)
-    after = moved(x.estimate, change, up)
+    scaled = less_scaled(x.estimate, weight * gain, forward(whole[:size, :size], seen))
+    after = moved(replace(x.estimate, scaled=scaled), change, up)
     q = quaternion.normalized(after.q)
-    return Rooted(q, after.bias, after.velocity, axes @ mixed), nis, weight
+    return Rooted(q, after.bias, after.velocity, axes @ mixed, after.scaled), nis, weight
 
 
 def _less_sure(x: Rooted, up, time) -> Rooted:

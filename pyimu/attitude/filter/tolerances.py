@@ -36,6 +36,7 @@ def start_values(part: Part, warmer: float = 0.0) -> dict[str, float]:
         "gravity_tolerance": USUAL["gravity_tolerance"] + BELIEVED * gravity,
         "accel_bias_std": accel_bias_std(part, warmer),
         "rate_noise": rate_share(part, warmer) * TURN_TIME**0.5,
+        "scale_std": scale_std(part, warmer),
         "bias_noise": float(np.sqrt(np.mean(_by_force(part) ** 2) * TURN_TIME)),
     }
 
@@ -96,6 +97,11 @@ def rate_share(part: Part, warmer: float = 0.0) -> float:
     """
     own, others = _scale(part, "gyro", warmer), _std(part, "gyro", *MISALIGNED, shape=(3, 3))
     return float(np.sqrt(np.mean(own**2) + np.sum(others**2) / 3))
+
+
+def scale_std(part: Part, warmer: float = 0.0) -> float:
+    """Standard deviation, among specimens, of the gyro's scale factor; the mean of its axes."""
+    return float(np.sqrt(np.mean(_scale(part, "gyro", warmer) ** 2)))
 
 
 TURN_ON, THERMAL = ("turn_on_bias", "b0"), ("thermal_bias", "kT")

@@ -28,7 +28,13 @@ from pyimu.attitude.filter.filter_block import (
     inputs_of_the_sample,
     step_function,
 )
-from pyimu.attitude.filter.gravity_update import INNOVATION_GATE, by_velocity, corrected, push
+from pyimu.attitude.filter.gravity_update import (
+    INNOVATION_GATE,
+    by_velocity,
+    corrected,
+    push,
+    scaled_in_gravity,
+)
 from pyimu.attitude.filter.layout import GRAVITY, Flags, GravityMeasurement, Layout
 from pyimu.attitude.filter.memory import ESTIMATE, WORKING, Memory
 from pyimu.attitude.filter.passed import PASSED, Transition, passed
@@ -150,7 +156,8 @@ def _row(
     noise = added_noise(at, sample, rest)
     pushed = push(at.memory, sample, at.settings, at.h, rest.surely)
     turn = (sample.rate, at.earth, rest.moving)
-    x, turned = marginal.propagate(rest.before, *turn, noise, pushed, at.h)
+    scale_std = at.settings.scalar["scale_std"]
+    x, turned = marginal.propagate(rest.before, *turn, noise, pushed, scale_std, at.h)
     out = predicted(at, sample, rest, x, turned, noise)
     if recorded:
         _, own, leak = marginal.turned(rest.before, *turn, at.h)
@@ -228,6 +235,7 @@ def _by_gravity() -> ca.Function:
         axes[2, :].T,
         INNOVATION_GATE,
         variance + ca.diag(given.sample_variance),
+        seen=scaled_in_gravity(x, mean),
     )
     out = corrected(working, given, after, nis, weight)
     return plain_function("by_gravity", symbols, [out], OPTIONS)

@@ -21,6 +21,9 @@ import casadi as ca
 from pyimu.symbolic import mrp, quaternion
 from pyimu.symbolic.linear import cholesky, forward, symmetric
 
+AXES = 3
+"""Of the gyro, each with a scale factor of its own."""
+
 N = 6
 """Size of the error state that has sigma points: attitude and bias."""
 
@@ -43,13 +46,16 @@ horizontal part of gravity falls again, and at half a turn its slope is lost."""
 class Estimate:
     """Attitude ``q`` (4,), gyro ``bias`` (3,) rad/s, ``velocity`` (3,) m/s in body axes.
 
-    ``covariance`` (9, 9) is that of their errors; (6, 6) where the velocity is left out.
+    ``covariance`` (9, 9) is that of their errors; (6, 6) where the velocity is left out. Beside it
+    each error is ``scaled`` (9, 3) by the gyro's scale factors, of which nothing is learnt: a row
+    has what one standard deviation of each axis's makes of it. None where that is not kept.
     """
 
     q: ca.SX
     bias: ca.SX
     velocity: ca.SX
     covariance: ca.SX
+    scaled: ca.SX | None = None
 
 
 @dataclass(frozen=True)
@@ -160,6 +166,7 @@ def correct(
     innovation_gate: float | None = None,
     gate_variance=None,
     beyond=1,
+    seen=None,
 ) -> tuple[Estimate, ca.SX, ca.SX]:
     """The estimate after a measurement, its normalised innovation squared, and its weight.
 
@@ -170,7 +177,7 @@ def correct(
     that brings the normalised innovation squared back to the gate, and the covariance falls by no
     more than that. Where ``gate_variance`` (m, m) is given, it normalises the innovation instead of
     ``variance``. ``beyond`` is a further factor of the weight there: at 0 what contradicts is not
-    used.
+    used. ``seen`` (m, 3) is what the innovation has of ``Estimate.scaled``, None for nothing.
     """
     root = cholesky(variance)
     whitened, gain = forward(root, innovation), forward(root, cross.T).T
@@ -183,8 +190,18 @@ def correct(
     covariance = symmetric(
         cross.shape[0], lambda i, j: x.covariance[i, j] - weight * ca.dot(gain[i, :], gain[j, :])
     )
-    after = moved(replace(x, covariance=covariance), change, up)
+    scaled = less_scaled(x, weight * gain, None if seen is None else forward(root, seen))
+    after = moved(replace(x, covariance=covariance, scaled=scaled), change, up)
     return replace(after, q=quaternion.normalized(after.q)), nis, weight
+
+
+def less_scaled(x: Estimate, gain, seen):
+    """``Estimate.scaled`` after a correction: of what is ``seen`` (m, 3) of it in the innovation,
+    the ``gain`` (n, m) takes its share away.
+    """
+    if x.scaled is None or seen is None:
+        return x.scaled
+    return x.scaled - ca.vertcat(gain @ seen, ca.SX(x.scaled.shape[0] - gain.shape[0], AXES))
 
 
 def turned_axes(change, up):
@@ -211,4 +228,5 @@ def moved(x: Estimate, change, up) -> Estimate:
     covariance = symmetric(size, lambda i, j: (own | both).get((i, j), x.covariance[i, j]))
     q = quaternion.product(x.q, mrp.to_quaternion(change[:3]))
     velocity = x.velocity if size == N else x.velocity + change[N:]
-    return Estimate(q, x.bias + change[3:N], velocity, covariance)
+    scaled = None if x.scaled is None else ca.vertcat(axes @ x.scaled[:3, :], x.scaled[3:, :])
+    return Estimate(q, x.bias + change[3:N], velocity, covariance, scaled)

@@ -14,7 +14,7 @@ from pyimu.attitude.filter.layout import FLAGS, Flags, Layout
 from pyimu.attitude.filter.memory import ESTIMATE, WORKING, Memory
 from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.speed_update import by_speed, velocity_anew
-from pyimu.attitude.filter.unscented import Estimate, N, bounded, bounded_tilt
+from pyimu.attitude.filter.unscented import LARGEST_STD, Estimate, N, bounded, bounded_tilt
 from pyimu.block.plain import plain_function
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.elementary import arc_tangent
@@ -106,7 +106,8 @@ def by_zero_rate(layout: Layout, correct: Callable = unscented.correct) -> ca.Fu
     noise, up = settings.gyro.white**2 * reciprocal(h) + slow, vertical(x)
     turning = rest[0] * rest[1] * DRIVEN_RATE**2
     variance = symmetric(3, lambda i, j: (noise[i] if i == j else 0) + turning * up[i] * up[j])
-    after, _, _ = correct(x, rate - x.bias - earth, slope @ cross + variance, cross, up)
+    off, seen = rate - x.bias - earth, slope @ x.scaled
+    after, _, _ = correct(x, off, slope @ cross + variance, cross, up, seen=seen)
     return plain_function(
         "by_zero_rate", [s, rate, p, h, rest], [_with_estimate(s, after)], OPTIONS
     )
@@ -155,12 +156,27 @@ def _status(flags: Flags, report: list, variances):
 def outputs(x: Estimate, quasi_static, nis, status, at_rest, constant=0) -> ca.SX:
     """The block's outputs (``pyimu.attitude.filter.variables.OUTPUTS``) as a column.
 
-    ``constant`` rad^2 is added to the variance of the tilt.
+    ``constant`` rad^2 is added to the variance of the tilt; that by the gyro's scale factors to
+    all.
     """
     up, pp = quaternion.to_matrix(x.q)[2, :].T, x.covariance[:3, :3]
-    added = [constant * (1 - up[i] ** 2) for i in range(3)] + [0] * 3
+    added, about = _by_scale(x, up)
+    added += ca.vertcat(constant * (1 - up**2), ca.SX(3, 1))
     std = [ca.sqrt(ca.fmax(x.covariance[i, i], 0) + added[i]) for i in range(6)]
-    heading_std = ca.sqrt(ca.fmax(ca.dot(up, pp @ up), 0))
+    heading_std = ca.sqrt(ca.fmax(ca.dot(up, pp @ up), 0) + about)
     angles = ca.vertcat(*[arc_tangent(*sides) for sides in quaternion.euler_sides(x.q)])
     flags = (quasi_static, nis, status, heading_std, at_rest)
     return ca.densify(ca.vertcat(x.q, angles, x.bias, *std, *flags))
+
+
+def _by_scale(x: Estimate, up):
+    """Variances (6,) of attitude and bias, and about the vertical, by the gyro's scale factors.
+
+    Those of the attitude are together no more than what an angle can have.
+    """
+    if x.scaled is None:
+        return ca.SX.zeros(N), ca.SX(0)
+    own = ca.sum2(x.scaled[:N, :] ** 2)
+    about = ca.sumsqr(up.T @ x.scaled[:3, :])
+    most = ca.fmin(1, LARGEST_STD**2 / ca.fmax(ca.sum1(own[:3]), LARGEST_STD**2 / 2))
+    return ca.vertcat(most * own[:3], own[3:]), most * about

@@ -267,6 +267,14 @@ SETTINGS = (
         0.0,
     ),
     _setting(
+        "scale_std",
+        "1",
+        "standard deviation of the scale factor of each of the gyro's axes, of which the run "
+        "learns nothing: std has what that makes of a turn that goes on, and of the bias; the "
+        "estimates are the same",
+        0.0,
+    ),
+    _setting(
         "bias_noise",
         "1/sqrt(s)",
         "root density of the walk of the bias over the rate: a gyro that feels forces has another "

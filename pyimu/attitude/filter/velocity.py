@@ -176,7 +176,24 @@ def pushed(before: Estimate, after: Estimate, own, leak, push: Push) -> Estimate
         return whole + push.variance[k] if k == m else whole
 
     velocity = moved + push.change - push.gravity * up
-    return Estimate(after.q, after.bias, velocity, symmetric(9, entry))
+    return Estimate(after.q, after.bias, velocity, symmetric(9, entry), after.scaled)
+
+
+def rescaled(before: Estimate, q, own, leak, rate, scale_std, push: Push):
+    """``Estimate.scaled`` a period later, at the attitude ``q``, by the arguments of ``pushed``.
+
+    The ``rate`` (3,) rad/s turns the body by the share ``scale_std`` of it too far, about each
+    axis, as a bias of that size does. In a turn that goes on this grows as the angle, and a turn
+    back takes it away, which no white noise does. The gains know nothing of it, and the estimates
+    stay what they are: each correction takes of it what it sees, as in Schmidt's consider filter.
+    """
+    up, moved = quaternion.to_matrix(q)[2, :].T, own @ before.velocity
+    carried = push.carried(moved)
+    p, b, v = (before.scaled[at, :] for at in (slice(0, 3), slice(3, 6), slice(6, 9)))
+    turned = own @ p
+    attitude = turned + leak @ (b + scale_std * ca.diag(rate - before.bias))
+    velocity = own @ v - ca.skew(carried) @ turned + ca.skew(push.tilting(up, carried)) @ attitude
+    return ca.vertcat(attitude, b, velocity)
 
 
 def first_std(at: Mapping[str, ca.SX]):
@@ -193,7 +210,8 @@ def at_rest(x: Estimate, motion) -> Estimate:
     ``motion`` (3, 3) is its covariance in (m/s)^2.
     """
     covariance = ca.diagcat(x.covariance[:6, :6], motion)
-    return Estimate(x.q, x.bias, ca.SX.zeros(3), covariance)
+    scaled = None if x.scaled is None else ca.vertcat(x.scaled[:6, :], ca.SX.zeros(3, 3))
+    return Estimate(x.q, x.bias, ca.SX.zeros(3), covariance, scaled)
 
 
 def covariance_of_motion(across, along, up):

@@ -1,0 +1,71 @@
+"""The scale factors of a gyro that nobody calibrated, in a turn that goes on and in one back."""
+
+import numpy as np
+import pytest
+from attitude_cases import GRAVITY, N_ACCEL, H, N, part
+from scipy.stats import chi2
+
+from pyimu.attitude import run
+from pyimu.attitude.columns import NOMINAL_SCALE_STD, scale_std
+from pyimu.model.part_file import parse_part
+from pyimu.recording.recording import Recording
+
+RUNS = 20
+SCALED = {"scale_std": NOMINAL_SCALE_STD}
+REST, TURN = round(5 / H), round(30 / H)
+
+
+def turned(seed: int, back: bool = False) -> Recording:
+    """A level body that rests, and turns by 30 rad; ``back``: by half of it, and back."""
+    rng, n = np.random.default_rng([4, seed]), REST + TURN
+    rate = np.zeros((n, 3))
+    rate[REST:, 2] = np.where(back & (np.arange(TURN) >= TURN / 2), -1.0, 1.0)
+    off = 1 + NOMINAL_SCALE_STD * rng.standard_normal(3)
+    gyro = rate * off + N / H**0.5 * rng.standard_normal((n, 3))
+    accel = [0, 0, GRAVITY] + N_ACCEL / H**0.5 * rng.standard_normal((n, 3))
+    return Recording.from_arrays(time=H * np.arange(n), gyro=gyro, accel=accel)
+
+
+@pytest.mark.parametrize("smooth", [False, True])
+def test_heading_after_a_turn_is_as_unsure_as_the_gyros_scale_factor(smooth):
+    """Of 20 gyros the squared heading errors over their variances are chi-squared. What is claimed
+    beside the scale factor, a walk of 2e-4 rad/s/sqrt(s) over 30 s, makes a thousandth of it.
+    """
+    errors = []
+    for seed in range(RUNS):
+        found = run(turned(seed), part(), smooth=smooth, settings=SCALED)
+        left = (found.euler[-1, 2] - TURN * H + np.pi) % (2 * np.pi) - np.pi
+        errors.append(left / found.heading_std[-1])
+    low, high = chi2.ppf([1e-4, 1 - 1e-4], RUNS)
+    assert low < np.sum(np.square(errors)) < high
+
+
+def test_turn_back_takes_away_what_the_scale_factor_made():
+    there, back = (
+        run(turned(0, back), part(), settings=SCALED).heading_std for back in (False, True)
+    )
+    assert back[-1] < 0.2 * there[-1]
+    assert back.max() == pytest.approx(NOMINAL_SCALE_STD * TURN * H / 2, rel=0.05)
+
+
+def test_estimates_are_the_same_without_it():
+    one, two = (run(turned(0), part(), settings={"scale_std": v}) for v in (0.0, 0.02))
+    for name in ("q", "gyro_bias", "nis", "status"):
+        np.testing.assert_array_equal(getattr(one, name), getattr(two, name))
+    assert np.all(two.heading_std >= one.heading_std) and np.all(two.std >= one.std)
+
+
+PART = """name = "measured"
+sample_rate = {value = 50.0, unit = "Hz"}
+[gyro.angle_random_walk]
+N = {value = 1e-4, unit = "rad/sqrt(s)", source = "a log at rest"}
+"""
+FOUND = """[gyro.scale_factor]
+s = {value = 0.01, unit = "1", source = "a turntable"}
+"""
+
+
+def test_a_part_that_is_silent_of_the_scale_factor_adds_no_knowledge_of_it():
+    assert run(turned(0)).parameters["scale_std"] == NOMINAL_SCALE_STD
+    assert scale_std(None) == scale_std(parse_part(PART, "part.toml")) == NOMINAL_SCALE_STD
+    assert scale_std(parse_part(PART + FOUND, "part.toml")) == 0
