@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from pyimu.attitude.filter.tolerances import SCALE, bias_walk
+from pyimu.attitude.filter.tolerances import bias_walk
 from pyimu.attitude.filter.variables import UNKNOWN_LATITUDE
 from pyimu.attitude.rest import Rest
 from pyimu.block.parameters import number
@@ -159,14 +159,13 @@ def rate_noise(part: Part | None) -> float:
 
 
 def scale_std(part: Part | None) -> float:
-    """1; the setting ``scale_std`` beside a part's tolerances: for an unknown gyro, and for a part
-    of a real one that is silent of its scale factor.
+    """1; the setting ``scale_std`` beside a part's tolerances: that of an unknown gyro where there
+    is no part.
+
+    A part that says nothing of its scale factor is taken as calibrated: many are, and those that
+    are not have a tolerance in their data sheets.
     """
-    if part is None:
-        return NOMINAL_SCALE_STD
-    of_gyro = (key[1] for key in (t.key for t in part.tolerances) if key[0] == "gyro")
-    silent = SCALE[0] not in {*part.gyro.values, *of_gyro}
-    return NOMINAL_SCALE_STD if of_a_sensor(part) and silent else 0.0
+    return NOMINAL_SCALE_STD if part is None else 0.0
 
 
 def latitude_of(recording: Recording, latitude: float | None) -> float:

@@ -80,8 +80,8 @@ def run(
     name of one, or a TOML file.
 
     Without a part, the filter knows of the sensors only their noise at rest; what a part is silent
-    of is assumed as without it (``pyimu.attitude.columns``: ``informed``, ``rate_noise``,
-    ``scale_std``).
+    of is assumed as without it (``pyimu.attitude.columns``: ``informed``, ``rate_noise``), but for
+    its scale factors, which count as calibrated then (``scale_std``).
     ``latitude`` in rad is else the recording's; without either, no Earth rate is subtracted. ``q0``
     (4,) is the attitude and ``heading0`` in rad the yaw of the first sample, ``bias0`` (3,) the
     gyro bias in rad/s, ``std0`` (6,) the standard deviations of attitude in body axes in rad and of

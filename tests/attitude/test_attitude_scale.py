@@ -60,12 +60,14 @@ sample_rate = {value = 50.0, unit = "Hz"}
 [gyro.angle_random_walk]
 N = {value = 1e-4, unit = "rad/sqrt(s)", source = "a log at rest"}
 """
-FOUND = """[gyro.scale_factor]
-s = {value = 0.01, unit = "1", source = "a turntable"}
+ALLOWED = """[tolerance.gyro.scale_factor]
+s = {value = 3.0, unit = "%", distribution = "uniform", source = "a data sheet"}
 """
 
 
-def test_a_part_that_is_silent_of_the_scale_factor_adds_no_knowledge_of_it():
-    assert run(turned(0)).parameters["scale_std"] == NOMINAL_SCALE_STD
-    assert scale_std(None) == scale_std(parse_part(PART, "part.toml")) == NOMINAL_SCALE_STD
-    assert scale_std(parse_part(PART + FOUND, "part.toml")) == 0
+def test_the_scale_factor_is_unsure_without_a_part_or_as_its_data_sheet_says():
+    """A part that is silent of it is taken as calibrated."""
+    assert run(turned(0)).parameters["scale_std"] == scale_std(None) == NOMINAL_SCALE_STD
+    assert run(turned(0), part()).parameters["scale_std"] == 0
+    allowed = parse_part(PART + ALLOWED, "part.toml")
+    assert run(turned(0), allowed).parameters["scale_std"] == pytest.approx(0.03 / 3**0.5)
