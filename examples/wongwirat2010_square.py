@@ -1,8 +1,8 @@
 """Wongwirat 2010 once more: the paper's figures 4 to 9 by its own method, and by the filter.
 
-``python examples/wongwirat2010_position.py [FOLDER]`` simulates a robot that drives along a square
+``python examples/wongwirat2010_square.py [FOLDER]`` simulates a robot that drives along a square
 with the paper's unit by its data sheets (``sparkfun6dof_v2``), runs the paper's equations and the
-filter over the same log, and writes ``wongwirat2010_position.png``; it takes some 20 s. The paper
+filter over the same log, and writes ``wongwirat2010_square.png``; it takes some 20 s. The paper
 has no sample rate, no cut-off, no side, no speed and no reference, so that there is no number to
 reproduce but the ends of its axes.
 """
@@ -113,7 +113,7 @@ def main(folder):
         print(f"  {'perfect, ' + name:33} {speed:10.3g} {distance:12.3g} {height:10.3g}")
     found = run(log, part, method="all")
     print(found.report())
-    target = Path(folder) / "wongwirat2010_position.png"
+    target = Path(folder) / "wongwirat2010_square.png"
     draw(truth, log, found, made["nulls of the rest"], target)
     print(f"picture: {target}")
 
