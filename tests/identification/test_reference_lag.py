@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 from scipy.signal import butter, sosfilt
+from scipy.spatial.transform import Rotation, Slerp
 from world import N_GYRO, drive, recording
 
 import pyimu
@@ -66,6 +67,20 @@ def test_what_undoes_a_filter_undoes_it_on_quaternions_too():
     off = 2 * np.abs(quick[seen] - q[seen]).max()
     lagged = 2 * np.abs(low[seen] - q[seen]).max()
     assert off < 2e-4 < 0.01 * lagged
+
+
+def test_what_else_a_reference_knows_stays():
+    """An attitude of 20 Hz along shortest arcs in rows of 100 Hz, beside positions."""
+    time = np.arange(0, 40, 0.01)
+    node = np.arange(0, 41, 0.05)
+    angles = np.column_stack([np.sin(node), 0.5 * np.sin(1.3 * node), 0.4 * np.cos(0.7 * node)])
+    q = Slerp(node, Rotation.from_rotvec(angles))(time).as_quat(scalar_first=True)
+    log = pyimu.Recording.from_arrays(
+        time=time, gyro=np.zeros((len(time), 3)), ref_q=q, ref_north=time, ref_east=0 * time
+    )
+    quick = unlagged(log, TIME_CONSTANT, 1.0)
+    assert np.array_equal(quick.reference.ref_north, time)
+    assert np.isfinite(quick.ref_q).all(axis=1).mean() > 0.9
 
 
 def test_a_rate_in_a_file_of_its_own_shows_the_noise_of_the_gyro(world):

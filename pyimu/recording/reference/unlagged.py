@@ -10,8 +10,8 @@ from scipy.spatial.transform import Rotation
 from pyimu.errors import Finding
 from pyimu.recording.clock import runs
 from pyimu.recording.recording import Recording
-from pyimu.recording.reference.attitude import attitude_curve, attitude_track
-from pyimu.recording.reference.file import at_log
+from pyimu.recording.reference.attitude import attitude_at, attitude_curve, attitude_track
+from pyimu.recording.reference.file import TRUTHS, at_log
 from pyimu.recording.reference.nodes import own_samples
 
 LAG = "reference_lag"
@@ -68,14 +68,22 @@ def _rate(source: Recording, lag: float) -> np.ndarray:
 
 
 def _attitude(source: Recording, lag: float) -> Recording:
-    """q + lag q' of a unit quaternion q turns it by 2 atan(lag |w| / 2) about w in the body."""
-    source = own_samples(source)
-    quick = np.full_like(source.ref_q, np.nan)
-    for nodes in attitude_track(source).segments:
-        curve = attitude_curve(source, nodes)
-        rate = curve(source.time[nodes], 1)
+    """q + lag q' of a unit quaternion q turns it by 2 atan(lag |w| / 2) about w in the body.
+
+    It has the samples that its rows were interpolated from, or the rows of what else the reference
+    knows.
+    """
+    own = own_samples(source)
+    quick = np.full_like(own.ref_q, np.nan)
+    for nodes in attitude_track(own).segments:
+        curve = attitude_curve(own, nodes)
+        rate = curve(own.time[nodes], 1)
         speed = np.linalg.norm(rate, axis=1, keepdims=True)
         turn = rate * 2.0 * np.arctan(lag * speed / 2.0) / np.maximum(speed, 1e-300)
-        turned = curve(source.time[nodes]) * Rotation.from_rotvec(turn)
+        turned = curve(own.time[nodes]) * Rotation.from_rotvec(turn)
         quick[nodes] = turned.as_quat(scalar_first=True)
-    return replace(source, ref_q=quick)
+    found = replace(own, ref_q=quick)
+    alone = all(getattr(source, g) is None for g in TRUTHS if g != "ref_q")
+    if own is source or alone:
+        return found
+    return replace(source, ref_q=attitude_at(found, source.time))
