@@ -21,6 +21,9 @@ optical system of 1 kHz and 0.01 mm."""
 ALLOWANCE = 1.1
 """Times the noise of high differences that may be taken for noise: they know it to some percent."""
 
+EXACT = 1e-8
+"""Share of their extent that values without any noise may leave: rounding makes a tenth of it."""
+
 DIFFUSE = 1e10
 """Variance of the first state, in units of the noise's: next to nothing is known of it."""
 
@@ -95,9 +98,8 @@ def smoothed(
         return 0.5 * (count * np.log(max(squares, 1e-300) / count) + logs)
 
     coarse, step = np.linspace(*RATIOS, 27, retstep=True)
-    # Positions without any noise leave more even where they are smoothed the least.
-    squares, _, count = _sums(pieces, RATIOS[1])
-    most = max(most, np.sqrt(squares / count))
+    extents = [float(np.ptp(v, axis=0).max()) for _, v in pieces]
+    most = max(most, EXACT * max(extents, default=0.0))
     looked = np.array([unlikely(z) for z in coarse])
     at = int(np.argmin(looked))
     low = coarse[at] - (step if at and np.isfinite(looked[at - 1]) else 0.0)
