@@ -32,7 +32,13 @@ from pyimu.identification.reference.turns import turn_trials
 from pyimu.identification.result import Closed
 from pyimu.identification.search.forward import Investigation, investigate
 from pyimu.identification.thermometer import late_thermometers
-from pyimu.identification.trials import SHORTEST, Together, has_reference, prepared, together
+from pyimu.identification.trials import (
+    SHORTEST,
+    Together,
+    aligned_trials,
+    has_reference,
+    prepared,
+)
 from pyimu.identification.vibration import vibrations
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as find_part
@@ -117,11 +123,11 @@ def _on_time(
     sensor: Sensor, logs: list[Recording], others: list[Recording], latitude: float | None
 ) -> tuple[list[Recording], list[Recording], Together]:
     """The logs with references that do not lag, and the gyro's trials of them."""
-    turning = together(sensor, gyro_trial, logs, others, latitude)
+    turning = aligned_trials(sensor, gyro_trial, logs, others, latitude)
     quick = unlagged_logs(turning, sensor, logs, others)
     if quick is None:
         return logs, others, turning
-    return *quick, together(sensor, gyro_trial, *quick, latitude)
+    return *quick, aligned_trials(sensor, gyro_trial, *quick, latitude)
 
 
 def _investigated(
@@ -140,7 +146,7 @@ def _investigated(
     looks: dict[str, Look] = {}
     quality: list[Finding] = []
     for kind, make in (("accel", accel_trial), ("gyro", gyro_trial)):
-        made = partial(together, start.sensor(kind), make, logs, others, latitude)
+        made = partial(aligned_trials, start.sensor(kind), make, logs, others, latitude)
         trials, held = prepared(*(turning if kind == "gyro" else made()), bool(others))
         if kind == "accel" and not any(map(is_differentiated, trials)):
             at_rest = rest_trials(start.accel, logs, others, latitude)

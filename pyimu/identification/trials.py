@@ -34,7 +34,7 @@ Together = tuple[list[Trial], list[Trial]]
 """Trials of the logs to fit, and of those to judge by."""
 
 
-def together(
+def aligned_trials(
     sensor: Sensor,
     make: Callable,
     logs: list[Recording],

@@ -61,7 +61,7 @@ def test_what_undoes_a_filter_undoes_it_on_quaternions_too():
     low = filtered(time, q)
     low /= np.linalg.norm(low, axis=1, keepdims=True)
     log = pyimu.Recording.from_arrays(time=time, gyro=np.zeros((len(time), 3)), ref_q=low)
-    quick = unlagged(log, TIME_CONSTANT, 1.0).ref_q
+    quick = unlagged(log, TIME_CONSTANT).ref_q
     seen = np.isfinite(quick).all(axis=1) & (time > 1) & (time < 19)
     assert seen.sum() > 1700
     off = 2 * np.abs(quick[seen] - q[seen]).max()
@@ -78,7 +78,7 @@ def test_what_else_a_reference_knows_stays():
     log = pyimu.Recording.from_arrays(
         time=time, gyro=np.zeros((len(time), 3)), ref_q=q, ref_north=time, ref_east=0 * time
     )
-    quick = unlagged(log, TIME_CONSTANT, 1.0)
+    quick = unlagged(log, TIME_CONSTANT)
     assert np.array_equal(quick.reference.ref_north, time)
     assert np.isfinite(quick.ref_q).all(axis=1).mean() > 0.9
 

@@ -8,7 +8,7 @@ its output and the time constant times that one's slope.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache, partial
 
 import numpy as np
@@ -39,14 +39,6 @@ LONGEST = 2.0
 """Times the time constant to begin with that one may be."""
 
 
-@dataclass(frozen=True)
-class Lag:
-    """Time constant [s] of a reference's low-pass filter, and what it explains [nat]."""
-
-    time_constant: float
-    gain: float
-
-
 def unlagged_logs(
     trials: tuple[list[Trial], list[Trial]],
     sensor: Sensor,
@@ -65,8 +57,8 @@ def unlagged_logs(
     return fitted, apart
 
 
-def _without(recording: Recording, lag: Lag | None) -> Recording:
-    return recording if lag is None else unlagged(recording, lag.time_constant, lag.gain)
+def _without(recording: Recording, lag: float | None) -> Recording:
+    return recording if lag is None else unlagged(recording, lag)
 
 
 def _may_lag(trial: Trial) -> bool:
@@ -81,7 +73,8 @@ def _may_lag(trial: Trial) -> bool:
     )
 
 
-def _lag(trial: Trial, sensor: Sensor) -> Lag | None:
+def _lag(trial: Trial, sensor: Sensor) -> float | None:
+    """Time constant [s] of the low-pass filter of the trial's reference; None where it has none."""
     # Above the filter the noise, which a slope makes larger, rewards a lag that is too short.
     trial = in_band_of(in_own_band(_quick(trial, -trial.clock.mean)), trial)
     before = fitted_structure(trial, sensor)
@@ -101,8 +94,7 @@ def _lag(trial: Trial, sensor: Sensor) -> Lag | None:
 
     bounds, options = (0.0, (LONGEST * first) ** 2), {"xatol": CLOSE * first**2, "maxiter": ROUNDS}
     minimize_scalar(left, bounds=bounds, method="bounded", options=options)
-    lag = max(tried, key=tried.get)
-    return Lag(lag, tried[lag])
+    return max(tried, key=tried.get)
 
 
 def _gain(trial: Trial, before: Fit, sensor: Sensor, lag: float) -> float:

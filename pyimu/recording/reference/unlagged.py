@@ -40,9 +40,9 @@ def unlagged_rate(time: np.ndarray, rate: np.ndarray, lag: float, kind: str) -> 
     return quick - lag**2 / 2 * np.cross(rate, change) if kind == "attitude" else quick
 
 
-def unlagged(recording: Recording, lag: float, gain: float) -> Recording:
-    """The recording with the reference that went into a filter of time constant ``lag`` s, which
-    explains ``gain`` nat: its ``ref_rate``, or its ``ref_q``.
+def unlagged(recording: Recording, lag: float) -> Recording:
+    """The recording with the reference that went into a filter of time constant ``lag`` s: its
+    ``ref_rate``, or its ``ref_q``.
 
     It has samples of its own from then on, so that a rate is used in the band alone in which the
     sensor shows it: above the filter's its noise is what the lag has made larger.
@@ -50,8 +50,7 @@ def unlagged(recording: Recording, lag: float, gain: float) -> Recording:
     source = recording if recording.reference is None else recording.reference
     rate = source.ref_rate is not None
     quick = replace(source, ref_rate=_rate(source, lag)) if rate else _attitude(source, lag)
-    detail = {"time_constant": lag, "gain": gain}
-    found = Finding(LAG, "ref_rate" if rate else "ref_q", 1, detail)
+    found = Finding(LAG, "ref_rate" if rate else "ref_q", 1, {"time_constant": lag})
     return at_log(recording, replace(quick, findings=(*quick.findings, found)))
 
 
