@@ -10,10 +10,10 @@ import numpy as np
 
 from pyimu.files import plain
 from pyimu.identification.confounds import what_no_log_tells_apart
+from pyimu.identification.fit.errors_in_variables import equations
 from pyimu.identification.fit.fit import with_prior
 from pyimu.identification.fit.keys import Coefficient, LogBias
 from pyimu.identification.fit.mixture import REACH
-from pyimu.identification.fit.reference_noise import equations
 from pyimu.identification.found import Added
 from pyimu.identification.noise.named import Noise
 from pyimu.identification.search.forward import Investigation

@@ -12,6 +12,7 @@ from pyimu.attitude.error import AttitudeError, error_against
 from pyimu.identification.attitude_error import Compared, beside
 from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.keys import LogClock
+from pyimu.identification.fit.left_open import left_open
 from pyimu.identification.fit.left_out import as_measured, left_out
 from pyimu.identification.fit.noise_fit import declared_variances
 from pyimu.identification.fit.noise_floor import floor_noise, reference_variance
@@ -72,7 +73,8 @@ def _errors(
     walk = {i: RandomWalk(0.0, k2) for i, k2 in _walk(inv, noise).items()}
     drift = floor(walk, inv.after, trial) if any(n.k2 for n in walk.values()) else None
     least = floor(white, inv.after, trial).with_variance(reference)
-    return Errors(unit, *both, least, drift or ErrorSums())
+    open_ = left_open(inv.after, trial) if inv.before.prior else None
+    return Errors(unit, *both, least, drift or ErrorSums(), unsure=open_)
 
 
 def _walk(inv: Investigation, noise: dict[int, RandomWalk]) -> dict[int, float]:

@@ -11,6 +11,7 @@ from scipy.stats import chi2
 from pyimu.identification.fates import NOT_LOOKED_FOR, Fate
 from pyimu.identification.found import Added, Changed, Errors
 from pyimu.identification.search.forward import AS_NOISE, Refused
+from pyimu.identification.search.judge import OF_REFERENCE
 from pyimu.identification.search.leftover import Unexplained
 from pyimu.model.catalogue import WALK, WHITE
 from pyimu.report.numbers import joined, number
@@ -112,7 +113,7 @@ def _verdict(e: Evidence) -> Verdict:
     if shapes:
         u = shapes[0]
         return Verdict("unexplained", f"{u.sensor} {u.axis} shows {u.shape}")
-    refused = [r for r in e.refused if r[1].reason != AS_NOISE]
+    refused = [r for r in e.refused if r[1].reason not in (AS_NOISE, OF_REFERENCE)]
     if refused:
         kind, most = max(refused, key=lambda r: r[1].gain)
         gain = f"{kind} {most.effect} explains the fitted rows ({most.gain:.0f} nat)"
@@ -158,7 +159,9 @@ def _nothing_found(e: Evidence, left: str) -> Verdict:
     if e.beside is not None and e.beside.word != "undecidable":
         return e.beside
     if still_open := open_of(e):
-        wanted = "; ".join(e.unshown) or "let it rest in more of them"
+        at_rest = any(one.data for one in e.errors.values())
+        wanted = "let it rest in more of them" if at_rest else "give a log to fit that turns so"
+        wanted = "; ".join(e.unshown) or wanted
         return Verdict("undecidable", f"{still_open}: {wanted}")
     if e.unshown:
         return Verdict("undecidable", "; ".join(e.unshown))
@@ -230,9 +233,14 @@ def _noisier(kind: str, changed: Iterable[Changed]) -> str:
     return ""
 
 
-def _left(kind: str, e: Evidence) -> str:
-    """The same of one sensor, whose errors are compared in all logs, in each, and by axis."""
+def _left(kind: str, e: Evidence, than_noise: bool = False) -> str:
+    """The same of one sensor, whose errors are compared in all logs, in each, and by axis; more
+    ``than_noise`` alone, or than what its coefficients were left open beside it.
+    """
     whole, logs = e.errors[kind], {n: by[kind] for n, by in e.by_log.items() if kind in by}
+    if than_noise:
+        whole, *rest = (replace(one, unsure=None) for one in (whole, *logs.values()))
+        logs = dict(zip(logs, rest, strict=True))
     axes = _by_axis(whole)
     pieces = {(name, i): r for name, one in logs.items() for i, r in _by_axis(one).items()}
     most_of_log = max(pieces, key=lambda at: pieces[at], default=None)
@@ -256,13 +264,14 @@ def _residual(kind: str, e: Evidence) -> str:
 
 def open_of(e: Evidence) -> str:
     """Of which sensors more than noise is left that coefficients which nobody declared may leave,
-    as too few positions show them; nothing where there is none.
+    as the fitted rows, or too few positions, show little of them; nothing where there is none.
     """
-    far = [k for k, v in e.errors.items() if _ratio(v.after.total, v.noise) > FAR]
-    said = [_residual(k, e) + _times(e.errors[k]) for k in far if not _left(k, e)]
-    if not said:
+    far = [k for k in e.errors if _left(k, e, than_noise=True) and not _left(k, e)]
+    if not far:
         return ""
-    return f"{joined(said)}, which is no more than these positions leave open of its coefficients"
+    said = joined([_left(k, e, than_noise=True) for k in far])
+    rows = "these positions" if any(e.errors[k].data for k in far) else "the fitted rows"
+    return f"{said}, which is no more than {rows} leave open of its coefficients"
 
 
 def _by_axis(e: Errors) -> dict[int, float]:

@@ -35,6 +35,9 @@ SECONDS, SECONDS_OF_TIME = (
 """Details of findings that are times; the latter those of the column ``time`` only."""
 
 
+RATES = ("rate", "frequency")
+"""How the names of details end that are in Hz."""
+
 ANGLES = ("tilt", "angle")
 """Details of findings that are angles."""
 
@@ -75,14 +78,7 @@ def _numbers(column: str, details: Mapping[str, Any]) -> list[str]:
             text = quantity(float(value), "rad")
         elif name == "share":
             text = quantity(float(value), "1")
-        elif name in (
-            "rate",
-            "other_rate",
-            "least_rate",
-            "largest_rate",
-            "least_frequency",
-            "largest_frequency",
-        ):
+        elif name.endswith(RATES):
             text = f"{value:.6g} Hz"
         elif name in SECONDS or (column == "time" and name in SECONDS_OF_TIME):
             text = f"{text} s"

@@ -65,6 +65,7 @@ MEANING = {
     "rest_moves": "rests during which the reference goes a way: a drive at constant speed",
     "reference_scale": "the reference's path has the shape of the estimate's in another size",
     "reference_lag": "the reference lags as one behind a low-pass filter does; it was undone",
+    "reference_line": "the reference has a line that the sensor's signal lacks; it was taken out",
     "reference_norm": "quaternions of another length than one; those near zero count as not seen",
     "reference_order": "the reference attitude fits in another order, or in other axes",
     "reference_spikes": "single samples of the reference that no motion makes: they were left out",

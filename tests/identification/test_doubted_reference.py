@@ -6,17 +6,16 @@ import numpy as np
 import pytest
 import traps
 from loop_cases import inputs, low_pass, smooth, trial
+from world import drive, recording
 
+import pyimu
 from pyimu.identification.fit import maximum_likelihood
+from pyimu.identification.fit.errors_in_variables import has_noise
 from pyimu.identification.fit.fit import begin
+from pyimu.identification.fit.high_differences import sensor_white
 from pyimu.identification.fit.keys import Coefficient, coefficients_of
 from pyimu.identification.fit.maximum_likelihood import fit
-from pyimu.identification.fit.reference_noise import (
-    drawn_again,
-    has_noise,
-    sensor_white,
-    with_reference_noise,
-)
+from pyimu.identification.fit.reference_noise import drawn_again, with_reference_noise
 from pyimu.identification.fit.trial import Doubt
 from pyimu.identification.formula.columns import columns_of
 from pyimu.identification.formula.effect import made
@@ -202,3 +201,23 @@ def test_a_formula_of_the_sensors_own_signal_follows_the_motion_not_the_bias():
         assert 0.01 < slope.mean() < 0.99
     finally:
         CATALOGUE.remove("found_effect")
+
+
+@pytest.mark.parametrize("whose", ["sensor", "reference"])
+def test_a_line_is_the_sensors_only_where_its_own_signal_shows_it(whose):
+    """Four times the noise of a sample in the whole log: an encoder's counts, or the sensor's."""
+    world = drive(minutes=4, seed=31)
+    made = recording(world, seed=5, kinds=("gyro",))
+    line = np.radians(0.02) * np.sin(2 * np.pi * 3.1 * made.time)[:, None] * [0.0, 1.0, 0.0]
+    if whose == "sensor":
+        made = replace(made, ref_force=None, gyro=made.gyro + line)
+    else:
+        made = replace(made, ref_force=None, ref_rate=made.ref_rate + line)
+    closed = pyimu.close(made)
+    found = [f for f in closed.quality if f.kind == "reference_line"]
+    if whose == "sensor":
+        assert [a.effect for a in closed.added] == ["vibration_line"] and not found
+        return
+    assert closed.verdict == "clean", closed.report()
+    assert found[0].detail["frequency"] == pytest.approx(3.1, abs=1e-3)
+    assert found[0].detail["amplitude"] == pytest.approx(np.radians(0.02), rel=0.1)

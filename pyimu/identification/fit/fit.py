@@ -298,7 +298,7 @@ def prior_power(fit: Fit) -> float:
 
 def departures(fit: Fit) -> dict[Key, tuple[float, float]]:
     """By key what departs from its prior, and the prior's standard deviation."""
-    away = {k: (_departure(fit, k), s) for k, s in fit.prior.items() if k in fit.free}
+    away = {k: (departure(fit, k), s) for k, s in fit.prior.items() if k in fit.free}
     for t in fit.trials:
         change = fit.states[t.name].clock
         if change is not None:
@@ -312,7 +312,8 @@ def departures(fit: Fit) -> dict[Key, tuple[float, float]]:
     return away
 
 
-def _departure(fit: Fit, key: Coefficient) -> float:
+def departure(fit: Fit, key: Coefficient) -> float:
+    """By how much a coefficient departs from its identity."""
     value = fit.sensor.values[key.effect][key.parameter][key.index]
     return float(value - fit.sensor.effect(key.effect).parameters[key.parameter].start)
 

@@ -230,16 +230,22 @@ def _bending(trial: Trial) -> list[np.ndarray]:
     """
     other = {"gyro": KINDS["accel"].own, "accel": KINDS["gyro"].own}[trial.kind]
     beside = [*trial.u[:, COLUMNS[other]].T] if other in trial.known else []
-    own = [trial.y[:, i] for i in trial.axes]
-    every = [*(v - np.median(v) for v in own), *beside]
+    # Of a sensor that never turns by more than its bias the absolute value would be its signal.
+    own = [trial.y[:, i] - np.median(trial.y[:, i]) for i in trial.axes]
+    every = [*own, *beside]
     products = (a * b for a, b in combinations_with_replacement(every, 2))
     return [*beside, *map(np.abs, own), *products]
 
 
-def of_reference(seen: Spectrum, high: float, error: float) -> Spectrum:
+def of_reference(
+    seen: Spectrum,
+    high: float = np.inf,
+    error: float = 0.0,
+    shape: np.ndarray | None = None,
+) -> Spectrum:
     """The noise of a reference that is no derivative, by what is ``seen`` beyond the sensor's own
-    and the density ``high`` that it shows itself by its high differences, with the ``error`` of
-    that over it.
+    and the density ``high`` that it shows itself by its high differences, if it does, with the
+    ``error`` of that over it; ``shape`` (f,) is what white noise of density one is in the rows.
 
     White, with what the sensor drifts beside it as a random walk, where these two account for all
     above ``DRIFTS``, else as seen. Below it is level: there nothing tells a reference that wanders
@@ -250,12 +256,16 @@ def of_reference(seen: Spectrum, high: float, error: float) -> Spectrum:
     pieces = thirds(len(seen.psd), max(first, 1))
     if len(pieces) < 4:
         return NOTHING
-    mean, std, at = np.array(
-        [(seen.psd[p].mean(), seen.std_of_mean(p), seen.frequency[p].mean()) for p in pieces]
+    shape = np.ones(len(seen.psd)) if shape is None else shape
+    mean, std, at, white = np.array(
+        [
+            (seen.psd[p].mean(), seen.std_of_mean(p), seen.frequency[p].mean(), shape[p].mean())
+            for p in pieces
+        ]
     ).T
     if not np.all(std > 0.0):
         return NOTHING
-    columns = np.column_stack([np.ones(len(at)), at**-2.0]) / std[:, None]
+    columns = np.column_stack([np.ones(len(at)), at**-2.0]) * (white / std)[:, None]
     inverse = np.linalg.inv(columns.T @ columns)
     found = inverse @ (columns.T @ (mean / std))
     missed = float(np.sum((mean / std - columns @ found) ** 2))
@@ -265,8 +275,7 @@ def of_reference(seen: Spectrum, high: float, error: float) -> Spectrum:
             level, doubt = high, high * error
         if level <= CLEARLY * doubt:
             return NOTHING
-        none = np.zeros(len(seen.psd))
-        return Spectrum(seen.frequency, none + level, none, doubt / level)
+        return Spectrum(seen.frequency, level * shape, np.zeros(len(shape)), doubt / level)
     share = _shown_by_itself(seen, pieces, mean, std)
     psd, std = np.array(seen.psd), np.array(seen.std)
     psd[: pieces[0].start], std[: pieces[0].start] = psd[pieces[0]].mean(), std[pieces[0]].mean()

@@ -7,15 +7,15 @@ from itertools import pairwise
 
 import numpy as np
 
-from pyimu.identification.fit.fit import Fit, gauss_newton, with_prior
-from pyimu.identification.fit.noise_fit import declared_variances
-from pyimu.identification.fit.normal import Noise, Normal, Unit, variances
-from pyimu.identification.fit.reference_noise import (
+from pyimu.identification.fit.errors_in_variables import (
     equations,
     has_noise,
     power_without_noise,
     smoothing,
 )
+from pyimu.identification.fit.fit import Fit, gauss_newton, with_prior
+from pyimu.identification.fit.noise_fit import declared_variances
+from pyimu.identification.fit.normal import Noise, Normal, Unit, variances
 from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
 
 ROUNDS = 25

@@ -166,6 +166,14 @@ def variances(gram: np.ndarray, seen: np.ndarray | None = None) -> np.ndarray:
     return np.where(hidden > 1e-6, np.inf, shown)
 
 
+def covariance(gram: np.ndarray, seen: np.ndarray | None = None) -> np.ndarray:
+    """Covariance (P, P) of the solution, in the directions that the data show; ``seen`` as in
+    ``variances``.
+    """
+    inverse = solve(gram, np.eye(len(gram)))
+    return inverse if seen is None else inverse @ seen @ inverse.T
+
+
 def log_determinant(gram: np.ndarray) -> float:
     """Logarithm of the determinant of normal equations, in the directions that the data show."""
     scale, values, _, keep = _scaled(gram)

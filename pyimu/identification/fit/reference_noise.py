@@ -1,69 +1,48 @@
-"""The noise of a reference among the regressors (errors in variables), and what it does to them.
-
-A reference is x + e. Every column c(x + e) meets the residual's own -J e: their product has a mean,
--J var(e) E[dc/dx] by Stein's lemma, although nothing is missing. It pulls a scale factor down, and
-makes a dead zone or a lag look as if they explained something. What a draw e' of like noise changes
-in residual and columns has that same product, and its sums of squares and products are taken out
-again: the corrected score and likelihood (Nakamura 1990, "Corrected score function for
-errors-in-variables models", Biometrika 77), the means taken over the draw.
-"""
+"""The noise of a reference, as what is left against it and the reference itself show it, drawn."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from pyimu.identification.fit.columns import Linear, Stack, band_segments, band_time, in_band
+from pyimu.identification.fit.columns import Linear, band_segments, in_band
 from pyimu.identification.fit.doubted import doubted
-from pyimu.identification.fit.fit import Fit, Last, power, whitened, whitened_power
+from pyimu.identification.fit.errors_in_variables import echo, has_noise, residual_changes
+from pyimu.identification.fit.fit import Fit, Last
+from pyimu.identification.fit.high_differences import (
+    WEIGHT,
+    differences,
+    high,
+    white_of,
+    white_of_reference,
+)
 from pyimu.identification.fit.incoherent import (
-    CHANCE,
     NOTHING,
     Spectrum,
     drawn,
+    in_rows,
     of_reference,
     of_white_attitude,
     unseen_spectra,
 )
-from pyimu.identification.fit.noise_floor import (
-    QUIET,
-    WINDOW,
-    beyond_own,
-    lowness,
-    own_noise,
-    quiet,
-    windows,
-)
-from pyimu.identification.fit.normal import DEAD, Normal, normal_equations
-from pyimu.identification.fit.sample_noise import CORRELATED, THIRD, rest_noise
+from pyimu.identification.fit.noise_floor import beyond_own, lowness, own_noise, quiet, windows
+from pyimu.identification.fit.sample_noise import rest_noise
+from pyimu.identification.fit.standing import all_noise, standing
 from pyimu.identification.fit.trial import Doubt, Trial
 from pyimu.identification.fit.whiten import RandomWalk
-from pyimu.model.kinds import KINDS, OWN
-from pyimu.model.signals import COLUMNS
+from pyimu.model.kinds import OWN
 
 LEAST = 1e-3
 """Share of the residual's variance below which the noise of a reference is left alone: what it does
 to a gain is less than the scatter of that gain in a million rows."""
 
-STEP = 0.3
-"""Share of its standard deviation by which the reference is moved either way to see what changes:
-slopes are limits, and the kinks of a dead zone scatter them the more the smaller the step."""
-
 REST = 1 / 16
 """Share of the windows in which a reference is taken to be at rest, if it ever is."""
 
-LEAST_SEEN = 0.01
-"""Share of a column's power that must not be noise of the reference; of the rest there is nothing
-to be seen."""
-
-WEIGHT = 4 * CORRELATED
-"""Rows that say as much of the power of third differences as one by itself would: a quarter of them
-is used."""
-
-
-# Drawing it
+MEASURED = ("rate", "force")
+"""Kinds of reference that are measured as they are, and never differentiated."""
 
 
 def with_reference_noise(
@@ -90,9 +69,11 @@ def with_reference_noise(
         return _with_spectrum(found, _spectrum_of(trial, spectra), rng)
 
     trials, apart = tuple(map(draw, fit.trials)), list(map(draw, held))
+    if fit.free:
+        trials, apart = _as_the_reference_has_it(replace(fit, trials=trials, last=Last()), apart)
     coloured = any(s.coloured for each in spectra.values() for s in each)
     known = replace(fit, trials=trials, coloured=coloured).with_noise()
-    return replace(known, echo=_echo(known)), apart
+    return replace(known, echo=echo(known)), apart
 
 
 def drawn_again(fit: Fit, held: list[Trial], believed: bool) -> tuple[Fit, list[Trial]]:
@@ -102,9 +83,13 @@ def drawn_again(fit: Fit, held: list[Trial], believed: bool) -> tuple[Fit, list[
     """
     if not _is_outdrawn(fit):
         return fit, held
+    return with_reference_noise(undrawn(fit), list(map(_without_draw, held)), believed)
+
+
+def undrawn(fit: Fit) -> Fit:
+    """The model beside its references as they are."""
     trials = tuple(map(_without_draw, fit.trials))
-    plain = replace(fit, trials=trials, echo={}, coloured=False, last=Last()).with_noise()
-    return with_reference_noise(plain, list(map(_without_draw, held)), believed)
+    return replace(fit, trials=trials, echo={}, coloured=False, last=Last()).with_noise()
 
 
 def _is_outdrawn(fit: Fit) -> bool:
@@ -126,7 +111,7 @@ def _variance(fit: Fit) -> np.ndarray:
     """Variance (3,) in a row of the band that the high noise of derived references has, which is
     that of a white attitude: the least of what must be at least as much. Zero for others.
     """
-    if all(t.band_hz is None for t in fit.trials):
+    if not any(map(_is_derived, fit.trials)):
         return np.zeros(3)
     return np.minimum(beyond_own(fit), [_in_quiet(fit, i) for i in range(3)])
 
@@ -147,7 +132,7 @@ def _drawn(trial: Trial, variance: np.ndarray, rng: np.random.Generator) -> Tria
     It is no more than the high differences of the reference show: its band hides from the sensor
     what is left beyond.
     """
-    if trial.band_hz is None:
+    if not _is_derived(trial):
         return replace(trial, noise=np.zeros(trial.y.shape))
     draw = rng.standard_normal(trial.y.shape)
     for _ in range(trial.derivatives):
@@ -156,7 +141,7 @@ def _drawn(trial: Trial, variance: np.ndarray, rng: np.random.Generator) -> Tria
     seen = in_band(trial, draw).var(axis=0) if trial.count else np.ones(3)
     wanted = np.isin(np.arange(3), trial.axes) & (seen > 0.0)
     scale = np.sqrt(np.where(wanted, variance / np.where(seen > 0.0, seen, 1.0), 0.0))
-    most = _high(trial, trial.u[:, OWN[trial.kind]]) / np.maximum(_high(trial, draw), 1e-300)
+    most = high(trial, trial.u[:, OWN[trial.kind]]) / np.maximum(high(trial, draw), 1e-300)
     return replace(trial, noise=draw * np.minimum(scale, most))
 
 
@@ -164,25 +149,54 @@ def _spectra(fit: Fit, linears: Sequence[Linear]) -> dict[str, list[Spectrum]]:
     """Spectra (3,) of the noise of references, by the names of their trials."""
     own = own_noise(fit)
     found = {
-        t.name: _of_direct(t, one, own) if t.band_hz is None else unseen_spectra(t, one, own)
+        t.name: _of_trial(t, one, own)
         for t, one in zip(fit.trials, linears, strict=True)
         if t.reference != "static"
     }
     return {name: [by.get(i, NOTHING) for i in range(3)] for name, by in found.items()}
 
 
-def _of_direct(trial: Trial, one: Linear, own: Mapping[int, RandomWalk]) -> dict[int, Spectrum]:
-    """The noise by axis of a reference that is no derivative; what the sensor has beyond its
-    ``own`` declared noise is not the reference's.
+def _of_trial(trial: Trial, one: Linear, own: Mapping[int, RandomWalk]) -> dict[int, Spectrum]:
+    """The noise by axis of the reference of a trial."""
+    direct = trial.band_hz is None
+    seen = unseen_spectra(trial, one, _with_quiet(trial, own) if direct else own)
+    still = {i: all_noise(seen[i]) for i in standing(trial) if i in seen}
+    if _is_derived(trial):
+        return seen | still
+    moving = {i: s for i, s in seen.items() if i not in still}
+    return still | (_of_direct(trial, one, moving) if direct else _in_band(trial, moving))
+
+
+def _with_quiet(trial: Trial, own: Mapping[int, RandomWalk]) -> dict[int, RandomWalk]:
+    """The ``own`` noise of a sensor, no less of it white than its quiet rows show: what it has
+    beyond its declared noise is not the reference's.
     """
-    seen, high = np.square(rest_noise(trial)), 2.0 * trial.h * _white(trial)
-    known = {i: replace(n, r=max(n.r, float(seen[i]))) for i, n in own.items()}
+    quiet_rows = np.square(rest_noise(trial))
+    return {i: replace(n, r=max(n.r, float(quiet_rows[i]))) for i, n in own.items()}
+
+
+def _in_band(trial: Trial, seen: Mapping[int, Spectrum]) -> dict[int, Spectrum]:
+    """The noise by axis of a reference that was measured itself, on times of its own: its rows,
+    made between its samples, show nothing of it by their high differences, but these do.
+    """
+    high, error = np.full(3, np.inf), 0.0
+    if trial.samples is not None:
+        count = len(trial.samples)
+        white = white_of(differences(trial.samples, [(0, count)]))
+        high, error = white / (2.0 * trial.band_limit), float(np.sqrt(2.0 * WEIGHT / count))
+    shapes = {i: in_rows(trial, s.frequency, np.ones_like) for i, s in seen.items()}
+    return {i: of_reference(s, float(high[i]), error, shapes[i]) for i, s in seen.items()}
+
+
+def _is_derived(trial: Trial) -> bool:
+    return trial.band_hz is not None and trial.reference not in MEASURED
+
+
+def _of_direct(trial: Trial, one: Linear, seen: Mapping[int, Spectrum]) -> dict[int, Spectrum]:
+    """The noise by axis of a reference that is no derivative."""
+    high = 2.0 * trial.h * white_of_reference(trial)
     error = float(np.sqrt(2.0 * WEIGHT / len(one.time)))
-    found = {
-        i: of_reference(s, float(high[i]), error)
-        for i, s in unseen_spectra(trial, one, known).items()
-    }
-    return doubted(found)
+    return doubted({i: of_reference(s, float(high[i]), error) for i, s in seen.items()})
 
 
 def _without_doubted(
@@ -220,237 +234,34 @@ def _with_spectrum(trial: Trial, spectra: Sequence[Spectrum], rng: np.random.Gen
     return replace(trial, noise=noise, noise_error=errors)
 
 
-def _white(trial: Trial) -> np.ndarray:
-    """Variance (3,) of white noise that a reference shows itself, by its high differences."""
-    rough = _third_differences(trial, trial.u[:, OWN[trial.kind]])
-    each = [quiet(w) / lowness(w) / THIRD if len(w) else 0.0 for w in rough]
-    return np.where(np.isin(np.arange(3), trial.axes), each, 0.0)
-
-
-def _high(trial: Trial, values: np.ndarray) -> np.ndarray:
-    """Root mean square (3,) of third differences of values (n, 3), in their quietest quarter."""
-    rough = _third_differences(trial, values)
-    return np.nan_to_num([np.sqrt(quiet(w)) if len(w) else 0.0 for w in rough])
-
-
-def sensor_white(trial: Trial, left: np.ndarray) -> np.ndarray:
-    """Variance (3,) of white noise that the sensor shows where a model leaves ``left`` (n, 3).
-
-    High differences of sensor and residual have the sensor's noise in common, and neither the
-    motion nor the reference's noise. The windows are those in which the reference is quiet: taken
-    by the sensor's own quiet they would be quieter than it is.
+def _as_the_reference_has_it(
+    fit: Fit, held: Sequence[Trial]
+) -> tuple[tuple[Trial, ...], list[Trial]]:
+    """The trials of a fit and those held out, with noise as the reference has it where it was
+    drawn as a model leaves it: a scale factor makes it smaller or larger.
     """
-    by_reference, seen, rest = (
-        _third_differences(trial, v) for v in (trial.u[:, OWN[trial.kind]], trial.y, left)
-    )
-    each = [
-        _common(*pieces) / THIRD if len(pieces[0]) else 0.0
-        for pieces in zip(by_reference, seen, rest, strict=True)
-    ]
-    return np.where(np.isin(np.arange(3), trial.axes), np.maximum(each, 0.0), 0.0)
+    left = residual_changes(fit)
+    shares = {t.name: _share_left(t, one.residual) for t, one in zip(fit.trials, left, strict=True)}
+    common = np.mean(list(shares.values()), axis=0)
+
+    def whole(trial: Trial) -> Trial:
+        if trial.noise is None:
+            return trial
+        share = shares.get(trial.parent or trial.name, common)
+        return replace(trial, noise=trial.noise / share)
+
+    return tuple(map(whole, fit.trials)), list(map(whole, held))
 
 
-def _common(by: np.ndarray, one: np.ndarray, other: np.ndarray) -> float:
-    """Mean product of two signals' windows (k, m) where a third is quiet."""
-    calm = np.argsort(by.var(axis=1))[: max(1, int(len(by) * QUIET))]
-    return float(np.mean(one[calm] * other[calm]))
-
-
-def _third_differences(trial: Trial, values: np.ndarray) -> list[np.ndarray]:
-    """Windows of the third differences of values (n, 3), by axis."""
-    pieces = [np.diff(values[a:b], n=3, axis=0) for a, b in trial.segments]
-    none = [np.zeros((0, WINDOW))]
-    return [
-        np.concatenate(none + [windows(p[:, i], [(0, len(p))]) for p in pieces]) for i in range(3)
-    ]
-
-
-# Taking it out
-
-
-def moved(trial: Trial, sign: int) -> Trial:
-    """The trial with its reference moved by ``STEP`` of its noise."""
-    if trial.noise is None:
-        return trial
-    u, more = np.array(trial.u), sign * STEP * trial.noise
-    u[:, OWN[trial.kind]] += more
-    for a, b in trial.segments:
-        if b - a > 1:
-            rate = np.gradient(more[a:b], trial.time[a:b], axis=0)
-            u[a:b, COLUMNS[KINDS[trial.kind].own_rate]] += rate
-    return replace(trial, u=u)
-
-
-def has_noise(fit: Fit) -> bool:
-    return any(t.noise is not None for t in fit.trials)
-
-
-Pair = tuple[Fit, Fit]
-"""A model beside references moved by their noise, up and down."""
-
-
-def beside_moved(fit: Fit) -> Pair:
-    """A model beside its references moved by their noise, each linearised once however many
-    columns are asked for.
+def _share_left(trial: Trial, left: np.ndarray) -> np.ndarray:
+    """Share (3,) of the drawn noise that is ``left`` (m, 3) of it in rows of the band, and no less
+    than makes it all that the reference shows; all of it where the axes of the two are not the
+    same.
     """
-    up, down = (
-        replace(fit, trials=tuple(moved(t, sign) for t in fit.trials), last=Last())
-        for sign in (1, -1)
-    )
-    return up, down
-
-
-def changes(pair: Pair, linearised: Callable[[Fit], list[Linear]]) -> list[Linear]:
-    """What the noise of the reference makes of each trial's residual and columns."""
-    up, down = map(linearised, pair)
-    return [_difference(a, b) for a, b in zip(up, down, strict=True)]
-
-
-def _difference(up: Linear, down: Linear) -> Linear:
-    columns = {}
-    for i, keys in up.keys.items():
-        below = dict(zip(down.keys[i], down.columns[i].arrays, strict=True))
-        pairs = zip(keys, up.columns[i].arrays, strict=True)
-        changed = ((column - below.get(key, 0.0)) / (2 * STEP) for key, column in pairs)
-        columns[i] = Stack(len(up.time), tuple(changed))
-    change = (up.residual - down.residual) / (2 * STEP)
-    return replace(up, residual=change, columns=columns)
-
-
-def _changes(
-    fit: Fit, linearised: Callable[[Fit], list[Linear]], pair: Pair | None
-) -> list[Linear]:
-    """The same, once for all fits that differ in their noise alone."""
-    if linearised is not Fit.linearise:
-        return changes(pair or beside_moved(fit), linearised)
-    if not fit.last.changes:
-        fit.last.changes = changes(beside_moved(fit), linearised)
-    return fit.last.changes
-
-
-def residual_changes(fit: Fit) -> list[Linear]:
-    """What the noise of the reference makes of each trial's residual."""
-    if fit.last.changes and (fit.is_last or fit.last.near):
-        return fit.last.changes
-    return changes(beside_moved(fit), Fit.residuals)
-
-
-def equations(
-    fit: Fit,
-    linearised: Callable[[Fit], list[Linear]] = Fit.linearise,
-    pair: Pair | None = None,
-) -> Normal:
-    """Normal equations of a fit's columns as a reference without noise would have them; ``pair``
-    is the fit ``beside_moved`` references, for many calls.
-    """
-    found = normal_equations(linearised(fit), fit.noise)
-    if not has_noise(fit):
-        return found
-    changed, seen = _changes(fit, linearised, pair), found.gram
-    gram, score, power = found.batch_gram, found.batch_score, found.power
-    doubt, unknown = np.zeros((len(fit.noise), len(seen))), np.zeros(len(seen))
-    for row, axis in zip(doubt, fit.noise, strict=True):
-        noise = normal_equations([of_axis(one, axis) for one in changed], fit.noise)
-        at, own = _same(found, noise)
-        error = _error(fit, axis)
-        row[at] = error * noise.score[own]
-        unknown[at] += error * np.diag(noise.gram)[own]
-        # Gram matrices by batch are large: they are taken off where they stand.
-        score[:, at] -= noise.batch_score[:, own]
-        here, there = np.ix_(at, at), np.ix_(own, own)
-        for one, part in zip(gram, noise.batch_gram, strict=True):
-            one[here] -= part[there]
-        power -= noise.power
-    whole = gram.sum(axis=0)
-    hidden = np.diag(whole) <= np.maximum(LEAST_SEEN * np.diag(seen), CHANCE * unknown)
-    score[:, hidden] = gram[:, hidden] = gram[:, :, hidden] = doubt[:, hidden] = 0.0
-    shown = np.flatnonzero(~hidden)
-    both = np.ix_(shown, shown)
-    onto, off = _unseen_directions(whole[both], seen[both])
-    if onto.size:
-        _without(gram, score, doubt, shown, onto, off)
-        gone = np.diag(gram.sum(axis=0)) <= DEAD * np.diag(seen)
-        score[:, gone] = gram[:, gone] = gram[:, :, gone] = doubt[:, gone] = 0.0
-    return Normal(found.keys, gram, score, power, found.rows, found.log_det, seen, doubt)
-
-
-def _unseen_directions(gram: np.ndarray, seen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Directions of the columns whose power is the noise of the reference, all but ``LEAST_SEEN``:
-    columns that show something each may add up to one that does not.
-
-    Two of (P, k): I - first second' takes them out of scores, and from both sides out of a Gram
-    matrix. With S = U W U' the Gram matrix of the columns as they are, they are the eigenvectors V
-    of W^-1/2 U' G U W^-1/2 of small eigenvalues: U W^1/2 V and U W^-1/2 V.
-    """
-    scale = np.sqrt(np.diag(seen))
-    values, vectors = np.linalg.eigh(seen / np.outer(scale, scale))
-    keep = values > DEAD * values.max(initial=0.0)
-    root, vectors = np.sqrt(values[keep]), vectors[:, keep]
-    inner = (vectors / root).T @ (gram / np.outer(scale, scale)) @ (vectors / root)
-    share, turned = np.linalg.eigh(inner)
-    turned = turned[:, share <= LEAST_SEEN]
-    onto, off = (vectors * root) @ turned, (vectors / root) @ turned
-    return onto * scale[:, None], off / scale[:, None]
-
-
-def _without(gram, score, doubt, at: np.ndarray, onto: np.ndarray, off: np.ndarray) -> None:
-    """Take directions of the columns ``at`` out of ``gram`` (b, P, P), ``score`` (b, P) and
-    ``doubt`` (k, P).
-    """
-    for rows in (score, doubt):
-        rows[:, at] -= (rows[:, at] @ off) @ onto.T
-    for one in gram:
-        left = one[at] - onto @ (off.T @ one[at])
-        one[at] = left
-        one[:, at] -= (one[:, at] @ off) @ onto.T
-
-
-def power_without_noise(fit: Fit) -> float:
-    """Sum of squares of the whitened residual as a reference without noise would have it."""
-    return power(fit) - whitened_power(fit, residual_changes(fit))
-
-
-def of_axis(one: Linear, axis: int) -> Linear:
-    """The rows of one axis."""
-    if axis not in one.keys:
-        return replace(one, keys={}, columns={})
-    return replace(one, keys={axis: one.keys[axis]}, columns={axis: one.columns[axis]})
-
-
-def _error(fit: Fit, axis: int) -> float:
-    """Standard error of the power of the reference's noise on an axis, over that power."""
-    return float(np.sqrt(np.mean([t.noise_error[axis] ** 2 for t in fit.trials])))
-
-
-def _same(one: Normal, other: Normal) -> tuple[list[int], list[int]]:
-    """Where the columns that both have stand in each."""
-    at = [i for i, k in enumerate(one.keys) if k in other.position]
-    return at, [other.position[one.keys[i]] for i in at]
-
-
-def smoothing(fit: Fit) -> float:
-    """Log-likelihood [nat] that a fit gains by smoothing the reference's noise, not by explaining.
-
-    With r the variance of the innovations, q r what that noise makes of it, and q0 r0 the same of
-    the first model: -1/2 log(r (1 - q) + q0 r0) a row is the likelihood where that noise goes
-    through as it did, -1/2 log r the one that was taken.
-    """
-    if not fit.echo:
-        return 0.0
-    echo, rows = _echo(fit), _rows(fit)
-    change = {i: (e0 - echo[i]) / fit.noise[i].r for i, e0 in fit.echo.items()}
-    return sum(0.5 * rows[i] * float(np.log1p(max(c, -0.5))) for i, c in change.items())
-
-
-def _echo(fit: Fit) -> dict[int, float]:
-    """What the reference's noise adds, by axis, to the variance of a fit's innovations."""
-    rows, grown = _rows(fit), {}
-    linears = residual_changes(fit)
-    for i, noise in fit.noise.items():
-        power = sum(whitened(noise, one, i) for one in linears if i in one.keys)
-        grown[i] = power / max(rows[i], 1) * noise.r
-    return grown
-
-
-def _rows(fit: Fit) -> dict[int, int]:
-    return {i: sum(len(band_time(t)) for t in fit.trials if i in t.axes) for i in fit.noise}
+    if trial.noise is None or not trial.count or trial.free_rotation:
+        return np.ones(3)
+    both = trial.noise, trial.u[:, OWN[trial.kind]]
+    noise, shown = (in_band(trial, v).std(axis=0) for v in both)
+    least = np.minimum(noise / np.maximum(shown, 1e-300), 1.0)
+    share = np.maximum(left.std(axis=0) / np.maximum(noise, 1e-300), least)
+    return np.where(noise > 0.0, share, 1.0)

@@ -179,7 +179,7 @@ def tally(fit: Fit, trial: Trial) -> ErrorSums:
     """Score of a fitted model on one held-out trial."""
     state, rest = held_state(fit, trial)
     r = in_band(rest, residual(fit.sensor, rest, state))
-    return _sums(rest, r) + ErrorSums(log_likelihood=log_likelihood(fit, rest, r))
+    return sums(rest, r) + ErrorSums(log_likelihood=log_likelihood(fit, rest, r))
 
 
 def log_likelihood(fit: Fit, trial: Trial, r: np.ndarray) -> float:
@@ -188,7 +188,8 @@ def log_likelihood(fit: Fit, trial: Trial, r: np.ndarray) -> float:
     return normal.log_likelihood - 0.5 * normal.rows * np.log(2 * np.pi)
 
 
-def _sums(trial: Trial, r: np.ndarray) -> ErrorSums:
+def sums(trial: Trial, r: np.ndarray) -> ErrorSums:
+    """Sums of the squares of rows (m, 3) in a trial's band, on the axes of its reference."""
     squares, rows = np.zeros(3), np.zeros(3)
     angle, windows = np.zeros(3), np.zeros(3)
     step = float(np.median(np.diff(trial.time))) * trial.band.stride
@@ -215,5 +216,5 @@ def floor(noise: dict[int, RandomWalk], fit: Fit, trial: Trial, seed: int = 1) -
         draw = simulated(noise, np.concatenate([head.time, rest.time]), rng)
         first, last = draw[: len(head.time)], draw[len(head.time) :]
         bias = in_band(head, first).mean(axis=0) if head.count else np.zeros(3)
-        total = total + _sums(rest, in_band(rest, last - bias))
+        total = total + sums(rest, in_band(rest, last - bias))
     return total

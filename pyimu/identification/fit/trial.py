@@ -79,7 +79,8 @@ class Trial:
     ``noise`` (n, 3) a draw of the reference's noise, where it has any to speak of, and
     ``noise_error`` (3,) the standard error of its power over that power, ``doubt`` whether it may
     have noise that was not drawn. ``reduction`` is how samples become rows where these are whole
-    stretches of the log.
+    stretches of the log. ``samples`` (m, 3) are those of the reference at times of its own, where
+    it was measured itself.
     """
 
     name: str
@@ -106,6 +107,7 @@ class Trial:
     up: np.ndarray | None = None
     reduction: Reduction | None = None
     place: Place | None = None
+    samples: np.ndarray | None = None
 
     @cached_property
     def band(self) -> Band:
@@ -241,7 +243,16 @@ def gyro_trial(recording: Recording, latitude: float | None = None) -> Trial | N
         free_rotation=reference.kind == "attitude" and len(axes) == 3,
         findings=reference.findings,
         up=reference.up,
+        samples=None if _was_filtered(recording) else reference.samples,
     )
+
+
+def _was_filtered(recording: Recording) -> bool:
+    """Whether the reference had been in a filter that was undone: that makes its noise larger the
+    faster it is.
+    """
+    other = recording.reference
+    return other is not None and any(f.kind == LAG for f in other.findings)
 
 
 def accel_trial(recording: Recording, static: bool, latitude: float | None = None) -> Trial | None:

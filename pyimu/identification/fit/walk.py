@@ -17,6 +17,12 @@ import numpy as np
 from scipy.special import logsumexp
 
 from pyimu.identification.fit.columns import Linear
+from pyimu.identification.fit.errors_in_variables import (
+    column_changes,
+    equations,
+    has_noise,
+    of_axis,
+)
 from pyimu.identification.fit.fit import Fit, with_prior
 from pyimu.identification.fit.keys import Key
 from pyimu.identification.fit.mixture import standard_error
@@ -28,7 +34,6 @@ from pyimu.identification.fit.normal import (
     solve,
     variances,
 )
-from pyimu.identification.fit.reference_noise import of_axis
 from pyimu.identification.fit.whiten import RandomWalk
 
 FACTOR = 2.0
@@ -51,12 +56,13 @@ def widening(fit: Fit) -> Mapping[Key, float]:
     unknown = {i: n for i, n in walks.items() if not 0.0 < n.k2 <= _declared(fit, i)}
     if not unknown:
         return {}
-    linears = fit.linearise()
-    whole = with_prior(normal_equations(linears, fit.noise), fit)
+    sides = (fit.linearise(), column_changes(fit) if has_noise(fit) else [])
+    whole = with_prior(equations(fit), fit)
     out: dict[Key, float] = {}
     for i, noise in unknown.items():
-        rows = [of_axis(one, i) for one in linears]
-        for key, factor in _Axis(rows, i, noise, whole, _declared(fit, i)).widening().items():
+        rows, changed = ([of_axis(one, i) for one in side] for side in sides)
+        axis = _Axis(rows, changed, i, noise, whole, _declared(fit, i))
+        for key, factor in axis.widening().items():
             out[key] = out.get(key, 1.0) * factor
     return out
 
@@ -66,34 +72,54 @@ def _declared(fit: Fit, axis: int) -> float:
 
 
 class _Axis:
-    """The equations of all axes with those of one taken anew for each walk that is tried."""
+    """The equations of all axes with those of one taken anew for each walk that is tried: its
+    ``linears``, less what the noise of the reference ``changed`` in them.
+    """
 
     def __init__(
-        self, linears: list[Linear], axis: int, noise: RandomWalk, whole: Normal, declared: float
+        self,
+        linears: list[Linear],
+        changed: list[Linear],
+        axis: int,
+        noise: RandomWalk,
+        whole: Normal,
+        declared: float,
     ) -> None:
-        self.axis, self.linears, self.noise = axis, linears, noise
-        self.own = own = normal_equations(linears, {axis: noise})
-        self.keys, self.at = own.keys, [whole.position[k] for k in own.keys]
+        self.axis, self.noise = axis, noise
+        self.linears, self.changed = linears, changed
+        gram, score, _, self.keys = self._equations(noise)
+        self.at = [whole.position[k] for k in self.keys]
         self.gram, self.score = np.array(whole.gram), np.array(whole.score)
-        self.gram[np.ix_(self.at, self.at)] -= own.gram
-        self.score[self.at] -= own.score
+        self.gram[np.ix_(self.at, self.at)] -= gram
+        self.score[self.at] -= score
         # A walk that stays within the error of a mean is as good as none.
         rows = sum(len(one.time) for one in linears)
         lasts = max(float(one.time[-1] - one.time[0]) for one in linears)
         self.least = max(declared, noise.r / rows / lasts)
 
+    def _equations(self, noise: RandomWalk) -> tuple[np.ndarray, np.ndarray, float, list[Key]]:
+        """Gram matrix and score of the axis' columns beside a noise, the log-likelihood [nat] of
+        the residual, and the columns' keys.
+        """
+        own = normal_equations(self.linears, {self.axis: noise})
+        gram, score = np.array(own.gram), np.array(own.score)
+        if self.changed:
+            theirs = normal_equations(self.changed, {self.axis: noise})
+            at = [own.position[k] for k in theirs.keys]
+            gram[np.ix_(at, at)] -= theirs.gram
+            score[at] -= theirs.score
+        return gram, score, own.log_likelihood, own.keys
+
     def beside(self, k2: float) -> tuple[float, np.ndarray, np.ndarray]:
         """Restricted log-likelihood [nat] of a walk, and where the axis' coefficients (k,) lie
         beside it and their standard errors (k,).
         """
-        own = self.own
-        if k2 != self.noise.k2:
-            own = normal_equations(self.linears, {self.axis: replace(self.noise, k2=k2)})
+        own_gram, own_score, likely, _ = self._equations(replace(self.noise, k2=k2))
         gram, score = np.array(self.gram), np.array(self.score)
-        gram[np.ix_(self.at, self.at)] += own.gram
-        score[self.at] += own.score
+        gram[np.ix_(self.at, self.at)] += own_gram
+        score[self.at] += own_score
         step = solve(gram, score)
-        likely = own.log_likelihood + 0.5 * float(step @ score) - 0.5 * log_determinant(gram)
+        likely += 0.5 * float(step @ score) - 0.5 * log_determinant(gram)
         return likely, step[self.at], np.sqrt(variances(gram))[self.at]
 
     def widening(self) -> dict[Key, float]:

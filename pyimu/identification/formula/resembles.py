@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from pyimu.identification.fit.columns import Linear
+from pyimu.identification.fit.errors_in_variables import equations
 from pyimu.identification.fit.fit import Fit, with_prior
 from pyimu.identification.fit.keys import Coefficient, Shape
 from pyimu.identification.fit.normal import solve
-from pyimu.identification.fit.reference_noise import equations
 from pyimu.identification.formula.columns import columns_of
 from pyimu.identification.formula.effect import coefficients
 from pyimu.identification.formula.formula import Formula

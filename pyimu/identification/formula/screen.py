@@ -14,10 +14,10 @@ import numpy as np
 from scipy.special import chdtrc
 
 from pyimu.identification.fit.columns import Linear
+from pyimu.identification.fit.errors_in_variables import beside_moved, equations
 from pyimu.identification.fit.fit import Fit, with_prior
 from pyimu.identification.fit.keys import Shape
 from pyimu.identification.fit.normal import solve
-from pyimu.identification.fit.reference_noise import beside_moved, equations
 from pyimu.identification.formula.columns import columns_of
 from pyimu.identification.formula.terms import Term
 from pyimu.identification.search.projected import Projected, dispersion

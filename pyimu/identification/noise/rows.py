@@ -21,6 +21,9 @@ BRIDGED = 4
 MOST_BRIDGED = 2e-3
 """Share of the rows that may be; more of them would take as much off the white noise."""
 
+CLEARLY = 5.0
+"""Times the reference's noise that a motion must have for a row's to be known to a fifth."""
+
 SHORTEST = 256
 """Rows of a stretch without gap that gives a spectrum."""
 
@@ -100,8 +103,20 @@ def _columns(sensor: Sensor, trial: Trial, state: LogState) -> np.ndarray:
     """Time, residual, own signal and its rate (m, 10) of the rows that count."""
     u, own = reference_input(trial, state), OWN[trial.kind]
     rate = COLUMNS[KINDS[trial.kind].own_rate]
-    values = (trial.time[:, None], residual(sensor, trial, state), u[:, own], u[:, rate])
+    moves = _moves(trial, u[:, own])
+    x, slope = (np.where(moves, u[:, c], 0.0) for c in (own, rate))
+    values = (trial.time[:, None], residual(sensor, trial, state), x, slope)
     return in_band(trial, np.column_stack(values))
+
+
+def _moves(trial: Trial, x: np.ndarray) -> np.ndarray:
+    """The axes (3,) on which a signal (n, 3) is more than noise of the reference: that is in the
+    residual, too, and would make it look as if it grew with the signal.
+    """
+    if trial.noise is None:
+        return np.ones(3, dtype=bool)
+    shown, noise = (in_band(trial, v).std(axis=0) for v in (x, trial.noise))
+    return shown > CLEARLY * noise
 
 
 def _axis(made: np.ndarray, i: int, h: float, fitted: int) -> Rows:

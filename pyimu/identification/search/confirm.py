@@ -9,6 +9,7 @@ import numpy as np
 from scipy.stats import chi2
 
 from pyimu.identification.fit.columns import Linear, band_time, in_band, linearise, residual
+from pyimu.identification.fit.errors_in_variables import STEP, has_noise, moved, residual_changes
 from pyimu.identification.fit.fit import Fit, bare, whitened
 from pyimu.identification.fit.inputs import LogState
 from pyimu.identification.fit.keys import LogClock
@@ -16,7 +17,6 @@ from pyimu.identification.fit.left_out import left_out
 from pyimu.identification.fit.noise_fit import declared_variances
 from pyimu.identification.fit.noise_floor import own_noise, reference_variance
 from pyimu.identification.fit.normal import BATCHES, Noise
-from pyimu.identification.fit.reference_noise import STEP, has_noise, moved, residual_changes
 from pyimu.identification.fit.score import held_state
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import WALKS

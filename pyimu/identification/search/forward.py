@@ -12,15 +12,13 @@ from typing import Any
 
 import numpy as np
 
+from pyimu.identification.fit.errors_in_variables import equations, has_noise
 from pyimu.identification.fit.fit import Fit, begin, with_prior
 from pyimu.identification.fit.keys import Coefficient, coefficients_of
 from pyimu.identification.fit.maximum_likelihood import advantage, fit
+from pyimu.identification.fit.outweighed import without_outweighed
 from pyimu.identification.fit.reduction import STRUCTURE
-from pyimu.identification.fit.reference_noise import (
-    drawn_again,
-    equations,
-    with_reference_noise,
-)
+from pyimu.identification.fit.reference_noise import drawn_again, undrawn, with_reference_noise
 from pyimu.identification.fit.trial import Doubt, Trial
 from pyimu.identification.fit.walk import with_unknown_walk
 from pyimu.identification.search.as_sampled import GATE, ceiling_of, threshold_of
@@ -37,6 +35,7 @@ from pyimu.identification.search.confirm import evidence
 from pyimu.identification.search.judge import OF_REFERENCE, judged
 from pyimu.identification.search.left_out import LeftOut, with_left_out
 from pyimu.identification.search.projected import Scatter
+from pyimu.identification.search.reference_line import without_line
 from pyimu.identification.search.screen import (
     PENALTY,
     Screened,
@@ -53,6 +52,10 @@ from pyimu.silent import silent
 FORM = 0.01
 """Share of what a lag or a delay explains that its form may leave: a tenth of its amplitude, as the
 sampled form of a pole is off at a quarter of the sample rate."""
+
+MOST_LINES = 4
+"""Lines that are taken out of a reference at most; an encoder's motion makes dozens, of which few
+stand out."""
 
 MOST_EFFECTS = 8
 
@@ -127,36 +130,51 @@ def investigate(
     prior: Mapping[Coefficient, float] = MappingProxyType({}),
     unfit: str = "",
     believed: bool = False,
+    lines: int = MOST_LINES,
 ) -> Investigation:
     """Find what ``sensor``, with coefficients ``free``, lacks to explain ``trials``, confirmed on
     ``held``; ``prior`` are standard deviations of coefficients that nobody declared, ``unfit`` why
     the reference does not belong to the sensor, so that nothing is looked for. What may be noise of
     the reference or what an effect left is ``believed`` to be the former, or told by the sensor's
-    own signal.
+    own signal; of lines that are the reference's so many are taken out of it at most.
     """
     say(f"{sensor.kind}: fitting the model as declared")
-    first = fit(begin(sensor, free, trials, prior))
+    first = _first(begin(sensor, free, trials, prior), believed)
     before, apart = with_reference_noise(first, held, believed)
-    before = fit(before) if before.echo else before
+    before = fit(without_outweighed(before)) if before.echo else before
     if unfit:
         none = Screening((), np.inf)
         return Investigation(before, before, (), (), none, none, tuple(apart), unfit)
     if has_ceiling(sensor):
         before = without_lost(before)
-    search = _Search(before, sensor, apart, believed)
+    search = _Search(before, sensor, apart, believed, lines)
     while len(search.steps) < MOST_EFFECTS:
         known, count = len(search.steps), len(search.seen.candidates)
         say(f"{sensor.kind}: {known} added, trying {count} candidates")
-        if not search.advance():
+        if not search.advance() or search.line is not None:
             break
+    if search.line is not None:
+        trials, held = without_line(search.line.fit, search.line.screened.effect, trials, held)
+        return investigate(sensor, free, trials, held, say, prior, "", believed, lines - 1)
     if not believed and _is_of_reference(search):
-        return investigate(sensor, free, trials, held, say, prior, believed=True)
+        return investigate(sensor, free, trials, held, say, prior, "", True, lines)
     after, steps = _backward(search.after, search.steps)
     after, steps = _with_intervals(after, steps), _scattering_at_last(after, steps, search.last)
     refused = tuple(search.refused.values())
     looks = search.first, search.last
     left = unbent(before, after), after, tuple(steps), refused, *looks, tuple(search.held)
     return Investigation(*left, believed=believed)
+
+
+def _first(start: Fit, believed: bool) -> Fit:
+    """The first fit of a model.
+
+    The noise that its references show before anything is fitted is taken out of it: beside that a
+    scale factor would go to where it leaves less of the noise, and not of the motion, and a random
+    walk would stand for the motion then.
+    """
+    known, _ = with_reference_noise(start, [], believed)
+    return undrawn(fit(without_outweighed(known))) if has_noise(known) else fit(start)
 
 
 def _is_of_reference(search: _Search) -> bool:
@@ -169,14 +187,21 @@ def _is_of_reference(search: _Search) -> bool:
 
 class _Search:
     """The way from the model before to the one after: what was added and refused so far, and the
-    candidates beside it as they were ``first`` and ``last`` seen.
+    candidates beside it as they were ``first`` and ``last`` seen; ``line`` is one that turned out
+    to be the reference's.
     """
 
     def __init__(
-        self, before: Fit, sensor: Sensor, held: list[Trial], believed: bool = False
+        self,
+        before: Fit,
+        sensor: Sensor,
+        held: list[Trial],
+        believed: bool = False,
+        lines: int = MOST_LINES,
     ) -> None:
         self.before, self.sensor, self.held = before, sensor, held
-        self.believed = believed
+        self.believed, self.lines = believed, lines
+        self.line: Refined | None = None
         self.after, self.steps = _as_sampled(before, held)
         self.refused: dict[str, Refused] = {}
         self.kept_out: set[Coefficient] = set()
@@ -203,6 +228,8 @@ class _Search:
         if not reason:
             chosen, reason = judged(self.tried, chosen, self.held, self.seen.gate)
         name = chosen.screened.effect
+        if reason == OF_REFERENCE and CATALOGUE[name].is_line and self.lines:
+            self.line = chosen
         if reason:
             self.refused[name] = Refused(name, chosen.gain, reason)
         else:

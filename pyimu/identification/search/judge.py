@@ -11,13 +11,12 @@ from pyimu.identification.search.candidates import Group
 from pyimu.identification.search.choice import SET_WIDTH, Refined, Tried, ahead, refine
 from pyimu.identification.search.confirm import LEAST_OF_EXCESS, SPEAKS, Evidence, evidence
 from pyimu.identification.search.own_signal import is_of_reference
-from pyimu.identification.search.screen import (
-    fitted_gain,
-    keys_of,
-)
+from pyimu.identification.search.reference_line import is_line_of_reference
+from pyimu.identification.search.screen import fitted_gain, keys_of
+from pyimu.model.catalogue import CATALOGUE
 
 OF_REFERENCE = "is the reference's noise: the sensor's own signal does not show it"
-"""The reason for which an effect is refused that only a noisy reference makes look like one."""
+"""The reason for which an effect is refused that the reference alone makes look like one."""
 
 
 def judged(tried: Tried, chosen: Refined, held: list[Trial], gate: float) -> tuple[Refined, str]:
@@ -25,7 +24,9 @@ def judged(tried: Tried, chosen: Refined, held: list[Trial], gate: float) -> tup
     same; nothing where it is not.
     """
     old = tried.current
-    if is_of_reference(old, chosen.fit):
+    name = chosen.screened.effect
+    is_line = CATALOGUE[name].is_line and name not in old.sensor.values
+    if is_line_of_reference(chosen.fit, name) if is_line else is_of_reference(old, chosen.fit):
         return chosen, OF_REFERENCE
     if chosen.screened.effect not in old.sensor.values:
         chosen, reason = _shown(old, chosen, gate)

@@ -17,10 +17,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.special import logsumexp
 
+from pyimu.identification.fit.errors_in_variables import equations
 from pyimu.identification.fit.fit import Fit, with_prior
 from pyimu.identification.fit.keys import Coefficient, Key, coefficients_of
 from pyimu.identification.fit.mixture import standard_error
-from pyimu.identification.fit.reference_noise import equations
 from pyimu.identification.search.projected import Projected, dispersion
 from pyimu.identification.search.screen import PENALTY
 from pyimu.model.catalogue import CATALOGUE

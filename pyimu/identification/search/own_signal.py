@@ -14,10 +14,11 @@ import numpy as np
 
 from pyimu.identification.fit.columns import band_segments, band_time, in_band, in_log, residual
 from pyimu.identification.fit.doubted import CERTAIN
+from pyimu.identification.fit.errors_in_variables import STEP
 from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.high_differences import sensor_white
 from pyimu.identification.fit.inputs import Inputs, own_rate, reference_input
 from pyimu.identification.fit.noise_fit import declared_variances
-from pyimu.identification.fit.reference_noise import STEP, sensor_white
 from pyimu.identification.fit.response import predict
 from pyimu.identification.fit.trial import Trial
 from pyimu.model.kinds import OWN

@@ -8,8 +8,8 @@ from functools import cached_property
 
 import numpy as np
 
+from pyimu.identification.fit.errors_in_variables import LEAST_SEEN
 from pyimu.identification.fit.normal import DEAD, Normal, solve
-from pyimu.identification.fit.reference_noise import LEAST_SEEN
 
 
 @dataclass(frozen=True)

@@ -14,10 +14,10 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from pyimu.brief import Brief
+from pyimu.identification.fit.errors_in_variables import equations
 from pyimu.identification.fit.fit import Fit, with_prior
 from pyimu.identification.fit.keys import Coefficient, Key
 from pyimu.identification.fit.normal import Normal, solve
-from pyimu.identification.fit.reference_noise import equations
 from pyimu.identification.search.by_chance import Chance
 from pyimu.identification.search.candidates import (
     Choice,

@@ -13,11 +13,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from pyimu.identification.fit.columns import in_band, residual
+from pyimu.identification.fit.errors_in_variables import equations
 from pyimu.identification.fit.fit import Fit, stepped, with_prior
 from pyimu.identification.fit.inputs import LogState
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.normal import solve
-from pyimu.identification.fit.reference_noise import equations
 from pyimu.identification.fit.score import held_state
 from pyimu.identification.fit.trial import Trial
 

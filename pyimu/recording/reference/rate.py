@@ -51,6 +51,7 @@ class Reference:
     says whether the rate is against inertial space (True), or Earth-relative (False); ``up`` (3,)
     is the direction upward in the sensor's axes where the rate is only that about it; ``time``
     (n,) s are the instants of the sensor's samples, where its stamps scatter about these.
+    ``samples`` (m, 3) are those of a rate that was measured at times of its own.
     """
 
     rate: np.ndarray
@@ -62,6 +63,7 @@ class Reference:
     band_limit: float | None = None
     up: np.ndarray | None = None
     time: np.ndarray | None = None
+    samples: np.ndarray | None = None
 
 
 def reference_rate(recording: Recording, latitude: float | None = None) -> Reference:
@@ -220,10 +222,10 @@ def check_radians(source: Recording) -> None:
 
 def _of_another_clock(recording: Recording, source: Recording) -> Reference:
     """A rate that was measured at times of its own, in the band that these can show."""
-    track = Track(
-        source.time, fresh(source.ref_rate), lambda n: np.diff(source.ref_rate[n], axis=0), np.inf
-    )
-    return _derived(recording, recording.ref_rate, "rate", track, True)
+    known = fresh(source.ref_rate)
+    track = Track(source.time, known, lambda n: np.diff(source.ref_rate[n], axis=0), np.inf)
+    made = _derived(recording, recording.ref_rate, "rate", track, True)
+    return replace(made, samples=source.ref_rate[known])
 
 
 def _from_course(
