@@ -14,9 +14,9 @@ from pyimu.identification.fit.score import (
     FLOOR_DRAWS,
     WINDOW,
     ErrorSums,
-    _sums,
     floor,
     held_state,
+    sums,
     tally,
 )
 from pyimu.identification.fit.trial import HEAD, Trial
@@ -165,7 +165,7 @@ def test_angle_over_windows_is_a_plain_loop():
     rng = np.random.default_rng(4)
     t = log(n=1200, segments=[(0, 500), (520, 610), (640, 1200)], axes=(0, 2))
     r = rng.standard_normal((len(rows(t)), 3))
-    found, length = _sums(t, r), round(WINDOW / H)
+    found, length = sums(t, r), round(WINDOW / H)
     angle, windows, at = np.zeros(3), np.zeros(3), 0
     for a, b in t.row_segments:
         for start in range(at, at + (b - a) - length + 1, length):
@@ -182,7 +182,7 @@ def test_tallies_add_up_and_axes_without_rows_have_no_number():
     rng = np.random.default_rng(5)
     one, two = log(n=400, axes=(0, 2)), log(n=700, axes=(0, 2))
     a, b = (rng.standard_normal((len(rows(t)), 3)) for t in (one, two))
-    total = _sums(one, a) + _sums(two, b)
+    total = sums(one, a) + sums(two, b)
     both = np.concatenate([a, b])[:, [0, 2]]
     np.testing.assert_allclose(total.per_axis[[0, 2]], np.sqrt(np.mean(both**2, axis=0)))
     assert np.isnan(total.per_axis[1]) and total.total == pytest.approx(np.sqrt(np.mean(both**2)))

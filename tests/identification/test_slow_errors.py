@@ -21,8 +21,8 @@ WARMTH = np.array([3e-4, -2e-4, 1e-4])
 @pytest.fixture(scope="module")
 def world():
     """A motion during which the part warms up."""
-    made = drive(minutes=5, seed=12)
-    return replace(made, temperature=25.0 + 20.0 * (1.0 - np.exp(-made.time / 120.0)))
+    made = drive(minutes=4, seed=12)
+    return replace(made, temperature=25.0 + 20.0 * (1.0 - np.exp(-made.time / 90.0)))
 
 
 def against_attitude(world, change, seed: int):
