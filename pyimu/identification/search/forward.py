@@ -174,7 +174,9 @@ def _first(start: Fit, believed: bool) -> Fit:
     walk would stand for the motion then.
     """
     known, _ = with_reference_noise(start, [], believed)
-    return undrawn(fit(without_outweighed(known))) if has_noise(known) else fit(start)
+    if not has_noise(known):
+        return fit(start)
+    return undrawn(fit(without_outweighed(known, fitted=False)))
 
 
 def _is_of_reference(search: _Search) -> bool:
