@@ -16,7 +16,8 @@ import numpy as np
 from pyimu.errors import Finding, UserError
 from pyimu.identification.clock_or_effect import likelier_clock
 from pyimu.identification.conclude import conclude
-from pyimu.identification.fit.keys import Key, coefficient_of
+from pyimu.identification.fit.keys import Coefficient, Key, coefficient_of
+from pyimu.identification.fit.reduction import STRUCTURE
 from pyimu.identification.fit.trial import Trial, accel_trial, gyro_trial
 from pyimu.identification.formula.effect import forget
 from pyimu.identification.formula.search import Look, look
@@ -185,7 +186,7 @@ def _examined(
     kind = trials[0].kind
     free = _free(start, declared, start.sensor(kind), trials)
     trials = _shown(start, declared, free, trials)
-    prior = {} if declared else _prior(kind, free)
+    prior = _prior(kind, free)
     seen = investigate(
         start.sensor(kind), free, trials, held, say=say, prior=prior, unfit=misfit(trials)
     )
@@ -392,11 +393,11 @@ def _shown(start: Part, declared: bool, free: frozenset[Key], trials: list[Trial
 
 
 def _prior(kind: str, free: frozenset[Key]) -> dict[Key, float]:
-    """What is known of the coefficients of a part that nobody declared.
-
-    The typical size in the coarsest class of parts.
+    """What is known of the structure of a sensor where nobody declared it: its typical size in the
+    coarsest class of parts.
     """
-    return {k: magnitudes(k.effect, kind)[CLASSES[-1]].si for k in free}
+    known = {k for k in free if isinstance(k, Coefficient) and k.effect in STRUCTURE}
+    return {k: magnitudes(k.effect, kind)[CLASSES[-1]].si for k in known}
 
 
 def _refuse_without_motion(start: Part, sensor: Sensor, left: list, log: str) -> None:

@@ -91,6 +91,16 @@ def test_a_slow_turn_below_the_noise_of_its_reference_gives_a_scale_factor_or_no
     assert shown[2] == (turns == 3.0) or turns == 0.3
 
 
+def test_a_part_that_leaves_its_scale_factors_to_the_data_is_not_spoilt_either(tmp_path):
+    part = tmp_path / "part.toml"
+    part.write_text(
+        'name = "one"\nsample_rate = {value = 100.0, unit = "Hz"}\n[gyro]\n'
+        'scale_factor = "estimate"\nturn_on_bias = "estimate"\nangle_random_walk = "estimate"\n'
+    )
+    s = scale_factors(pyimu.close(table(0.1), part))
+    assert s.shown.tolist() == [True, True, False] and abs(s.value[2]) < 1e-6
+
+
 def turned_in_turn(noise: float) -> Recording:
     """A log that turns about x first, then about y, and about z in its last quarter, against an
     attitude with ``noise`` deg about each axis.
