@@ -77,6 +77,19 @@ def test_the_course_of_what_leans_counts_as_the_gyro_shows_it():
     assert [f.kind for f in made.findings].count("leans") == 1
 
 
+def test_behind_a_gap_in_a_turn_nothing_is_known_of_the_lean():
+    """Three seconds of one turn are missing: what came before is no start for what comes after."""
+    log, lean, rate = ride(leans=True)
+    kept = (log.time < 31.0) | (log.time > 34.0)
+    first = int(np.argmin(kept[: np.flatnonzero(~kept)[-1] + 2]))
+    cut = Recording.from_arrays(name="cut", time=log.time[kept], gyro=log.gyro[kept])
+    up, _ = upward_through(cut, rate[kept], np.array([0.0, 0.0, 1.0]))
+    assert up[first] == pytest.approx([0.0, 0.0, 1.0]) and up[first - 1, 2] < 1.0
+    off = np.arccos(np.clip(up[:, 2], -1, 1)) - np.abs(lean[kept])
+    later = (cut.time > 40.0) & (np.abs(rate[kept]) > 0.1)
+    assert np.degrees(np.sqrt(np.mean(off[later] ** 2))) < 2.0
+
+
 def test_a_car_does_not_lean():
     log, _, rate = ride(leans=False)
     up, found = upward_through(log, rate, np.array([0.0, 0.0, 1.0]))

@@ -53,7 +53,9 @@ def upward_through(
         return still, None
     gyro = gyro - np.median(gyro[straight], axis=0)
     pull = np.where(straight, 1.0 / BACK, 1.0 / FORGOTTEN)
-    found = _followed(recording.time, gyro, pull, up)
+    # Behind a gap it leans nobody knows how far.
+    pieces = [slice(a, b) for a, b in recording.segments]
+    found = np.concatenate([_followed(recording.time[p], gyro[p], pull[p], up) for p in pieces])
     turn, known, cosine = np.nan_to_num(rate), np.isfinite(rate), found @ up
     leans = np.sum(turn**2 * (1.0 - cosine)) >= LEANS * np.sum(turn**2)
     seen = np.where(known, gyro[:, axis], 0.0)
