@@ -160,7 +160,7 @@ def _nothing_found(e: Evidence, left: str) -> Verdict:
         return e.beside
     if still_open := open_of(e):
         at_rest = any(one.data for one in e.errors.values())
-        wanted = "let it rest in more of them" if at_rest else "give a log to fit that turns so"
+        wanted = "let it rest in more of them" if at_rest else "give a log to fit that moves so"
         wanted = "; ".join(e.unshown) or wanted
         return Verdict("undecidable", f"{still_open}: {wanted}")
     if e.unshown:

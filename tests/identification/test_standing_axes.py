@@ -67,7 +67,7 @@ def test_an_axis_that_turns_in_the_held_out_rows_alone_is_not_judged(noise, own)
     found = closed(noise, own=own)
     assert not found.added and not found.formulas, found.report()
     if found.verdict == "undecidable":
-        assert "give a log to fit that turns so" in found.reason and "on z" in found.reason
+        assert "give a log to fit that moves so" in found.reason and "on z" in found.reason
     else:
         assert found.verdict == "clean" and noise, found.report()
     s = scale_factors(found)

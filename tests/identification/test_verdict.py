@@ -183,3 +183,14 @@ def test_what_positions_leave_open_of_coefficients_is_not_blamed_on_the_sensor(l
     assert found.word == word, found.reason
     assert f"{left:.0f}" in found.reason or f"{left:.1f}" in found.reason
     assert ("leave open" in found.reason) == (word == "undecidable")
+
+
+@pytest.mark.parametrize("left, word", [(8.0, "undecidable"), (40.0, "unexplained")])
+def test_what_the_fitted_rows_leave_open_on_one_axis_is_not_blamed_either(left, word):
+    """In all axes together it is within three floors."""
+    seen, unsure = sums(np.array([1.0, 1.0, left])), sums(np.array([0.0, 0.0, 10.0]))
+    whole = Errors("rad/s", seen, seen, sums(np.full(3, 1.0)), unsure=unsure)
+    found = verdict(Evidence(("gyro",), {}, "", True, SHORT, errors={"gyro": whole}))
+    assert found.word == word, found.reason
+    assert ("the fitted rows leave open" in found.reason) == (word == "undecidable")
+    assert ("give a log to fit that moves so" in found.reason) == (word == "undecidable")

@@ -23,8 +23,8 @@ def left_open(fit: Fit, trial: Trial) -> ErrorSums:
     that they do not show, by their prior.
     """
     state, rest = held_state(fit, trial)
-    keys, covariance = _left(fit)
-    values, vectors = np.linalg.eigh(covariance)
+    keys, unsure = _left(fit)
+    values, vectors = np.linalg.eigh(unsure)
     spread = vectors * np.sqrt(np.maximum(values, 0.0))
     linear = linearise(fit.sensor, rest, state, frozenset(keys))
     each = [sums(rest, _rows(linear, keys, direction)) for direction in spread.T]

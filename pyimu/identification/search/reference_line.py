@@ -24,7 +24,6 @@ BESIDE = range(8, 32)
 """Frequencies on either side of a line, in units of one over the log's length, that show what the
 motion has there."""
 
-
 BLACKMAN_HARRIS = (0.35875, -0.48829, 0.14128, -0.01168)
 """Of 1, cos x, cos 2x and cos 3x (Harris 1978, "On the use of windows for harmonic analysis with
 the discrete Fourier transform", Proc. IEEE 66, table 1)."""
@@ -88,7 +87,7 @@ def _of_reference(trial: Trial, line: np.ndarray) -> float:
         return 0.0
     rows = in_band(trial, line)
     phase = 2 * np.pi * (time - time[0]) / (time[-1] - time[0])
-    # The main lobe of this window is eight wide, and what lies farther away leaks in by 92 dB less.
+    # The main lobe of this window is eight wide, and what lies farther away leaks in 92 dB lower.
     window = np.polynomial.chebyshev.chebval(np.cos(phase), BLACKMAN_HARRIS)
     beside = np.array([window * np.cos(k * phase) for k in (0, *BESIDE)])
     total = 0.0
