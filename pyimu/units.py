@@ -87,6 +87,7 @@ _ATOMS: dict[str, tuple[float, dict[str, int]]] = {
     "ug": (1e-6 * STANDARD_GRAVITY, {"m": 1, "s": -2}),
     "K": (1.0, {"K": 1}),
     "degC": (1.0, {"K": 1}),
+    "degF": (5 / 9, {"K": 1}),
     "V": (1.0, {"V": 1}),
     "mV": (1e-3, {"V": 1}),
     "T": (1.0, {"T": 1}),
@@ -135,6 +136,9 @@ _SIGNS = {
     "°C": "degC",
     "ºC": "degC",
     "℃": "degC",
+    "°F": "degF",
+    "ºF": "degF",
+    "℉": "degF",
     "°": "deg",
     "º": "deg",
     "µ": "u",
@@ -159,6 +163,7 @@ _HINTS = {
     "metre": "m",
     "C": "degC",
     "celsius": "degC",
+    "fahrenheit": "degF",
     "kelvin": "K",
     "volt": "V",
     "rps": "rev/s or rad/s",
@@ -261,15 +266,20 @@ def convert(values, source: str | Unit, target: str | Unit):
     return float(scaled) if scaled.ndim == 0 else scaled
 
 
+FREEZING = {"K": ZERO_CELSIUS, "degC": 0.0, "degF": 32.0}
+"""What water freezes at, in units of temperature."""
+
+
 def to_degc(values, unit: str | Unit):
-    """Convert temperatures read in ``unit`` (``K`` or ``degC``) to degC; a float for a scalar.
+    """Convert temperatures read in ``unit`` (``K``, ``degC`` or ``degF``) to degC; a float for a
+    scalar.
 
     Raises UnitError for another unit.
     """
     unit = _unit(unit, "K")
-    if unit.plain not in ("K", "degC"):
-        raise UnitError(f"a temperature must be in degC or K, not '{unit}'")
-    shifted = np.asarray(values, dtype=float) - (ZERO_CELSIUS if unit.plain == "K" else 0.0)
+    if unit.plain not in FREEZING:
+        raise UnitError(f"a temperature must be in degC, K or degF, not '{unit}'")
+    shifted = (np.asarray(values, dtype=float) - FREEZING[unit.plain]) * unit.factor
     return float(shifted) if shifted.ndim == 0 else shifted
 
 

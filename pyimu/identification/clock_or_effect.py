@@ -9,10 +9,12 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from pyimu.identification.fit.maximum_likelihood import advantage
+from pyimu.identification.fit.score import tally
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.formula.effect import put
 from pyimu.identification.formula.search import Look
 from pyimu.identification.reference.track import WANDERS
+from pyimu.identification.search.forward import Investigation
 from pyimu.identification.search.screen import PENALTY
 from pyimu.model.catalogue import CATALOGUE
 
@@ -67,4 +69,17 @@ def _ahead(one: Look, other: Look) -> float:
     drifts, keeps = one.investigation, other.investigation
     clocks = sum(map(_cost, drifts.after.trials))
     more = drifts.brought_in - keeps.brought_in
-    return advantage(drifts.after, keeps.after) - PENALTY * more - clocks
+    fitted = advantage(drifts.after, keeps.after) - PENALTY * more - clocks
+    return fitted + _ahead_on_others(drifts, keeps)
+
+
+def _ahead_on_others(drifts: Investigation, keeps: Investigation) -> float:
+    """The same on logs that were not fitted, whose own clocks are doubtful."""
+    apart = [t for t in drifts.held if t.parent is None and _is_doubtful(t)]
+    others = {t.name: t for t in keeps.held}
+    pairs = [(t, others[t.name]) for t in apart if t.name in others]
+    gained = sum(
+        tally(drifts.after, a).log_likelihood - tally(keeps.after, b).log_likelihood
+        for a, b in pairs
+    )
+    return gained - sum(_cost(a) for a, _ in pairs)

@@ -57,41 +57,45 @@ def aligned(
     somebody set or a lag that was undone. A clock that seems to drift or to wander by less than a
     sample is ``doubtful``, and has one lag where ``lines`` are not wanted.
     """
-    clocks = [_clock(t, sensor, lines) for t in (*trials, *held)]
+    clocks = [_clock(t, sensor, lines) for t in trials]
+    clocks += [_clock(t, sensor, lines, apart=True) for t in held]
     seen = [c for c in clocks[: len(trials)] if c is not None and np.isfinite(c.std)]
     theirs = any(f.kind in OWN_LAG for t in trials for f in t.findings)
     own, std = 0.0 if theirs else in_common(seen), _std_of_mean(seen)
     return [_aligned(t, c, own, std) for t, c in zip((*trials, *held), clocks, strict=True)]
 
 
-def _clock(trial: Trial, sensor: Sensor, lines: bool) -> Clock | None:
+def _clock(trial: Trial, sensor: Sensor, lines: bool, apart: bool = False) -> Clock | None:
     clock = placed_slips(trial, _level(measure(trial, sensor)), sensor)
-    return _borne_out(trial, clock, sensor, lines)
+    return _borne_out(trial, clock, sensor, lines, apart)
 
 
 def _level(clock: Clock | None) -> Clock | None:
-    """One lag where it changes by little of itself: a lag of the sensor is another at each
-    frequency, and so wherever the motion is another.
+    """One lag where it may be the sensor's and changes by little of itself: a lag of the sensor is
+    another at each frequency, and so wherever the motion is another.
     """
     if clock is None or clock.keeps_step or not clock.is_seen:
         return clock
     apart = float(np.ptp(clock.late))
-    if apart >= ALIKE * abs(clock.mean):
+    if apart >= ALIKE * abs(clock.mean) or abs(clock.mean) > LONGEST_OWN:
         return clock
     return clock.kept_in_step()
 
 
-def _borne_out(trial: Trial, clock: Clock | None, sensor: Sensor, lines: bool) -> Clock | None:
+def _borne_out(
+    trial: Trial, clock: Clock | None, sensor: Sensor, lines: bool, apart: bool
+) -> Clock | None:
     """One lag where a lag that changes by less than a sample does not explain the samples better,
     or a line through it, as where windows show none.
 
     Windows weigh a bias that wanders by its size alone; all rows together know its spectrum, and
-    the mean of the lags that it bends.
+    the mean of the lags that it bends. A line about a lag that is plain is found by the fit of its
+    log, if that is not held ``apart``.
     """
     if clock is None or not clock.is_seen or np.ptp(clock.late) >= trial.h:
         return clock
     if clock.keeps_step:
-        if abs(clock.mean) >= SIGNIFICANT * clock.std:
+        if abs(clock.mean) >= SIGNIFICANT * clock.std and not apart:
             return clock
         keeps = rebanded(shifted(trial, clock))
         fitted = fitted_structure(replace(keeps, clock=replace(clock, taken_out=True)), sensor)
@@ -105,7 +109,7 @@ def _borne_out(trial: Trial, clock: Clock | None, sensor: Sensor, lines: bool) -
     fits = [fitted_structure(replace(t, segments=runs(both)), sensor) for t in (changes, keeps)]
     if advantage(*fits) > WANDERS:
         return replace(clock if lines else steady, doubtful=True)
-    if abs(steady.mean) >= SIGNIFICANT * steady.std:
+    if abs(steady.mean) >= SIGNIFICANT * steady.std and not apart:
         return steady
     return _likelier(trial, steady, fits[1], lines)
 

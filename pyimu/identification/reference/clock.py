@@ -38,8 +38,9 @@ from pyimu.recording.reference.epoch import correlations
 WINDOW, ROWS = 2.5, 32
 """s; windows of the fine lag, and the least rows of the band that one covers."""
 
-FARTHEST = 10.0
-"""s; the coarse lag is looked for so far, and within a quarter of the log."""
+FARTHEST = 30.0
+"""s; the coarse lag is looked for so far, and within a quarter of the log: GPS time is 18 s ahead
+of UTC."""
 
 FITTING = 0.3
 """Share of the rate by which a row may miss the fit: clipped samples and faults miss by more."""

@@ -212,8 +212,11 @@ def _beyond(
 def without_lost(fitted: Fit) -> Fit:
     """Leave out the samples at the level.
 
-    They carry no noise and no slope, and would bias what is looked for next.
+    They carry no noise and no slope, and would bias what is looked for next. Rows that are no
+    samples have none at it.
     """
+    if any(t.reduction is not None for t in fitted.trials):
+        return fitted
     levels, unlimited = _levels(fitted.sensor)
     margin = np.array(
         [4 * np.sqrt(fitted.noise[i].r) if i in fitted.noise else 0.0 for i in range(3)]
