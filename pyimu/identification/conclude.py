@@ -36,6 +36,7 @@ from pyimu.identification.reference.gravity import few
 from pyimu.identification.reference.order import other_order
 from pyimu.identification.references import references
 from pyimu.identification.result import Closed
+from pyimu.identification.rounding import is_coarse
 from pyimu.identification.search.belief import most
 from pyimu.identification.search.forward import Investigation, Refused, form_error
 from pyimu.identification.search.leftover import Unexplained
@@ -222,7 +223,7 @@ def _noise(start: Part, inv: Investigation, model: Model, sensors: int, is_noise
     rounded = model.rounding[inv.after.sensor.kind]
     sensor = rounded.of_increments(start.sensor(inv.after.sensor.kind))
     free = frozenset(e for kind, e, _ in start.estimate if kind == sensor.kind)
-    rounds = rounded.relevant or sensor.reading("step") is not None
+    rounds = rounded.relevant or is_coarse(sensor, inv.after)
     unasked = MORE_THAN_NOISE
     if is_noise:
         found = noise_of(sensor, inv, free, rounds, sensors)

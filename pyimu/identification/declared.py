@@ -6,6 +6,7 @@ import numpy as np
 
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.found import Changed
+from pyimu.identification.rounding import is_coarse
 from pyimu.identification.search.forward import Step
 from pyimu.identification.search.leftover import NoiseFigure, drift, noise_figures, walk_gain
 from pyimu.model.catalogue import WALK, WHITE
@@ -18,9 +19,6 @@ CONTRADICTION = 4.0
 RELEVANT = 0.02
 """Share of a declared noise by which data must differ from it, too."""
 
-ROUNDING = 0.02
-"""Share of the power of the noise that rounding may have: it changes the noise by half of that."""
-
 
 def changed_noise(start: Part, kind: str, fit: Fit) -> list[Changed]:
     """Declared noise that the data contradict.
@@ -29,7 +27,7 @@ def changed_noise(start: Part, kind: str, fit: Fit) -> list[Changed]:
     nor where the reference was differentiated.
     """
     declared, figures = start.sensor(kind), noise_figures(fit)
-    if figures is None or _is_coarse(declared, fit, figures):
+    if figures is None or is_coarse(declared, fit):
         return []
     held = [
         (effect, parameter)
@@ -38,17 +36,6 @@ def changed_noise(start: Part, kind: str, fit: Fit) -> list[Changed]:
     ]
     found = [_contradicted(declared, fit, figures, *name) for name in held]
     return [c for c in found if c is not None]
-
-
-def _is_coarse(declared: Sensor, fit: Fit, figures: dict[int, NoiseFigure]) -> bool:
-    """Whether the declared rounding makes more than ``ROUNDING`` of the noise of a sample."""
-    found = declared.reading("step")
-    if found is None:
-        return False
-    effect, parameter = found
-    step = np.broadcast_to(declared.values[effect][parameter], 3)
-    h = fit.trials[0].h
-    return any(step[i] ** 2 / 12 > ROUNDING * f.N**2 / h for i, f in figures.items())
 
 
 def _contradicted(

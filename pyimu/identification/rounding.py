@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.trial import Trial, counted
 from pyimu.identification.fit.whiten import LEAST_VARIANCE, RandomWalk
 from pyimu.identification.found import Added
@@ -50,6 +51,20 @@ class Rounding:
         for a in (a for a in self.added if a.effect == INCREMENTS[0]):
             sensor = sensor.with_values(a.effect, **{n: v for n, (v, _, _) in a.parameters.items()})
         return sensor
+
+
+def is_coarse(sensor: Sensor, fit: Fit) -> bool:
+    """Whether the step to which a sensor is declared to round is part of the noise that a fit
+    shows.
+    """
+    found = sensor.reading("step")
+    if found is None:
+        return False
+    step = np.broadcast_to(sensor.values[found[0]][found[1]], 3)
+    white = {i: n.r for i, n in fit.seen.items() if isinstance(n, RandomWalk)}
+    return len(white) < len(fit.seen) or any(
+        step[i] ** 2 / 12 > SHARE * r for i, r in white.items()
+    )
 
 
 def is_read(e: Effect) -> bool:
