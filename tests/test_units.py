@@ -28,6 +28,7 @@ from pyimu.units import UnitError, convert, nearest, parse, same_dimension, to_d
 REGISTRY = pint.UnitRegistry()
 PLAIN = {raised: plain for plain, raised in SCRIPTS.items()}
 PINT_NAMES = {
+    "degF": "delta_degF",
     "1": "dimensionless",
     "%": "percent",
     "g": "standard_gravity",
@@ -304,10 +305,12 @@ def test_thermometer_has_an_offset_and_a_difference_has_none():
     assert to_degc(273.15, "K") == 0.0
     assert np.array_equal(to_degc([20.0, 21.0], "degC"), [20.0, 21.0])
     assert convert(1.0, "K", "degC") == 1.0
+    assert to_degc([32.0, 212.0], "°F").tolist() == pytest.approx([0.0, 100.0])
+    assert convert(9.0, "degF", "K") == pytest.approx(5.0)
 
 
 def test_thermometer_refuses_millivolts():
-    with pytest.raises(UnitError, match="must be in degC or K"):
+    with pytest.raises(UnitError, match="must be in degC, K or degF"):
         to_degc(1.0, "mV")
 
 

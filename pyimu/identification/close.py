@@ -31,6 +31,7 @@ from pyimu.identification.reference.place import is_differentiated
 from pyimu.identification.reference.positions import positions_wanted, unshown
 from pyimu.identification.reference.turns import turn_trials
 from pyimu.identification.result import Closed
+from pyimu.identification.search.ceiling import CEILING
 from pyimu.identification.search.forward import Investigation, investigate
 from pyimu.identification.thermometer import late_thermometers
 from pyimu.identification.trials import (
@@ -50,7 +51,7 @@ from pyimu.model.typical import CLASSES, magnitudes
 from pyimu.recording.folders import truth_beside
 from pyimu.recording.log import Given, is_one, recording_of
 from pyimu.recording.names import distinct_names
-from pyimu.recording.quality.inspect import inspect, of_reading, rate_of_part
+from pyimu.recording.quality.inspect import beyond_range, inspect, of_reading, rate_of_part
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.course import has_course
 from pyimu.recording.reference.file import with_references
@@ -108,7 +109,12 @@ def close(
         _of(r.name, f) for r in together for f in (*of_reading(r), *inspect(r), *vibrations(r))
     ]
     if declared is not None:
-        quality += [_of(r.name, f) for r in together for f in rate_of_part(r, start.sample_rate)]
+        ranges = _ranges(start)
+        quality += [
+            _of(r.name, f)
+            for r in together
+            for f in (*rate_of_part(r, start.sample_rate), *beyond_range(r, ranges))
+        ]
     forget()
     logs, others, turning = _on_time(start.gyro, logs, others, latitude)
     found, looks, of_trials = _investigated(
@@ -230,6 +236,16 @@ def _again(
 def _file_of(part: Part | str | Path | None) -> list[Path]:
     """The file that a part is read from, where it is one."""
     return [Path(part)] if isinstance(part, (str, Path)) and part not in part_names() else []
+
+
+def _ranges(part: Part) -> dict[str, np.ndarray]:
+    """The input range (3,) of each sensor that a part declares, in SI."""
+    found = {kind: part.sensor(kind).reading(CEILING) for kind in ("gyro", "accel")}
+    return {
+        kind: np.broadcast_to(part.sensor(kind).values[at[0]][at[1]], 3)
+        for kind, at in found.items()
+        if at is not None
+    }
 
 
 def undeclared(sample_rate: float) -> Part:

@@ -63,7 +63,8 @@ class Evidence:
     fitted. ``errors`` are those of a sensor in all logs, ``by_log`` in each, ``band_hz`` the band
     in which they are. ``fates`` says what became of the candidates, ``beside`` is the verdict on
     the magnetometer where there is something to say, ``lost`` of which logs the attitude is lost;
-    ``clocks`` what was taken out of the references, ``formulas`` by name how a formula is said,
+    ``ranges`` which samples lie beyond a declared range, ``clocks`` what was taken out of the
+    references, ``formulas`` by name how a formula is said,
     ``unshown`` which coefficients the positions at rest do not show.
     """
 
@@ -84,6 +85,7 @@ class Evidence:
     beside: Verdict | None = None
     attitude: tuple[float, float] | None = None
     lost: tuple[str, ...] = ()
+    ranges: tuple[str, ...] = ()
     clocks: tuple[str, ...] = ()
     formulas: Mapping[str, str] = field(default_factory=dict)
     unshown: tuple[str, ...] = ()
@@ -94,7 +96,7 @@ def verdict(e: Evidence) -> Verdict:
     found = _verdict(e)
     clocks = e.clocks if found.word != "reference_unfit" else ()
     beside = (*_growing_attitude(e.attitude), *e.lost, *e.unexamined.values())
-    return replace(found, remarks=(*clocks, *found.remarks, *beside))
+    return replace(found, remarks=(*e.ranges, *clocks, *found.remarks, *beside))
 
 
 def _verdict(e: Evidence) -> Verdict:

@@ -129,7 +129,7 @@ def check_unit(place: str, name: str, text: Any) -> units.Unit:
         unit = units.parse(text, right)
     except units.UnitError as error:
         raise units.UnitError(f"{place}: {error}") from None
-    fits = unit.plain in ("K", "degC") if right == "degC" else units.same_dimension(unit, right)
+    fits = unit.plain in units.FREEZING if right == "degC" else units.same_dimension(unit, right)
     if not fits:
         raise units.UnitError(f"{place} cannot be in '{unit}', expected a unit like '{right}'")
     return unit

@@ -19,6 +19,7 @@ SAMPLE = (
     "step",
     "least",
     "largest",
+    "declared",
     "value",
     "amplitude",
     "span",

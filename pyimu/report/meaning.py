@@ -4,6 +4,7 @@ from __future__ import annotations
 
 MEANING = {
     "always_still": "rest is seen all the time: does it move, and does the part's noise fit it?",
+    "beyond_range": "samples beyond the part's range: the sensor was set to another, or is another",
     "clipping": "samples at a limit of the range: the motion was larger than the sensor can show",
     "clock_times": "dates or times of day: they count from the midnight before the first",
     "coarse_stamps": "rows share stamps and come evenly: each got a time of its own by their rate",

@@ -208,6 +208,12 @@ def test_a_perfect_part_that_is_one_is_left_alone():
         assert not pyimu.close(resting(rng, everywhere(rng, 16)), part=declared()).added
 
 
+def test_rests_beside_a_declared_range_have_no_samples_at_it():
+    rng = np.random.default_rng(12)
+    part = declared(saturation={"limit": np.full(3, 40.0)})
+    assert not pyimu.close(resting(rng, everywhere(rng, 16)), part=part).added
+
+
 def test_six_faces_show_scale_factors_and_say_what_they_do_not():
     rng = np.random.default_rng(9)
     scale = np.array([0.02, -0.03, 0.01])

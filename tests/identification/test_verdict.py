@@ -11,9 +11,12 @@ from hypothesis import strategies as st
 
 from pyimu.identification.fit.score import ErrorSums
 from pyimu.identification.found import Added, Changed, Errors
+from pyimu.identification.ranges import beyond
 from pyimu.identification.search.forward import AS_NOISE, Refused
 from pyimu.identification.search.leftover import Unexplained
 from pyimu.identification.verdict import FAR, SHORT, VERDICTS, Evidence, Verdict, verdict
+from pyimu.recording.quality.inspect import beyond_range
+from pyimu.recording.recording import Recording
 
 ROWS = np.full(3, 100.0)
 KINDS = ("gyro", "accel")
@@ -183,6 +186,18 @@ def test_what_positions_leave_open_of_coefficients_is_not_blamed_on_the_sensor(l
     assert found.word == word, found.reason
     assert f"{left:.0f}" in found.reason or f"{left:.1f}" in found.reason
     assert ("leave open" in found.reason) == (word == "undecidable")
+
+
+def test_samples_beyond_the_declared_range_are_said_first():
+    time = np.arange(300) / 100
+    gyro = np.column_stack([4 * np.sin(time), 0 * time, 0 * time])
+    log = Recording.from_arrays("log", time=time, gyro=gyro)
+    found = beyond_range(log, {"gyro": np.array([3.0, 3.0, 0.0]), "accel": np.ones(3)})
+    assert [(f.column, f.detail["largest"]) for f in found] == [("gyro_x", np.max(np.abs(gyro)))]
+    assert found[0].count == np.sum(np.abs(gyro) > 1.02 * 3.0)
+    level = errors(np.ones(3), 40.0)
+    e = Evidence(("gyro",), {}, "", True, SHORT, errors={"gyro": level}, ranges=beyond(found))
+    assert "go up to 229 deg/s, beyond the 172 deg/s" in verdict(e).remarks[0]
 
 
 @pytest.mark.parametrize("left, word", [(8.0, "undecidable"), (40.0, "unexplained")])

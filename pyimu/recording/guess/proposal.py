@@ -33,6 +33,7 @@ from pyimu.recording.guess.numbers import (
     resting_size,
     time_unit,
 )
+from pyimu.units import FREEZING
 
 MOST = 200_000
 """Rows that are looked at."""
@@ -419,7 +420,7 @@ def _temperature(found: Proposal, reader: Reader) -> None:
     names = [named(cell) for cell in reader.header]
     warm = [n for n in names if n.is_temperature and not set(n.words) & DERIVED]
     if len(warm) == 1:
-        unit = warm[0].unit if warm[0].unit in ("degC", "K") else None
+        unit = warm[0].unit if warm[0].unit in FREEZING else None
         said = f"the header says {warm[0].said}" if unit else "degC or K?"
         found.add([Guess(warm[0].cell, "temperature", unit, said)])
 

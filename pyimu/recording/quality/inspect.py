@@ -6,7 +6,7 @@ threshold from the column itself.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
@@ -67,6 +67,26 @@ def rate_of_part(recording: Recording, rate: float) -> list[Finding]:
         return []
     detail = {"rate": recording.sample_rate, "other_rate": rate}
     return [Finding("rate_of_part", "time", 1, detail)]
+
+
+BEYOND = 1.02
+"""Times a declared range that no sample of such a sensor reaches."""
+
+
+def beyond_range(recording: Recording, limits: Mapping[str, np.ndarray]) -> list[Finding]:
+    """The columns with samples beyond the range (3,) that a part declares of each group: the
+    sensor that was logged was set to another. A range of zero is none.
+    """
+    found = []
+    for group, limit in limits.items():
+        values = getattr(recording, group)
+        for i, name in enumerate("xyz") if values is not None else ():
+            size = np.abs(values[:, i])
+            count = int(np.sum(size > BEYOND * limit[i])) if limit[i] > 0.0 else 0
+            if count:
+                detail = {"largest": float(np.nanmax(size)), "declared": float(limit[i])}
+                found.append(Finding("beyond_range", f"{group}_{name}", count, detail))
+    return found
 
 
 def _channels(recording: Recording) -> tuple[list[str], np.ndarray]:
