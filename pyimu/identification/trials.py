@@ -18,6 +18,7 @@ from pyimu.identification.reference.place import (
     is_differentiated,
     quietened,
 )
+from pyimu.identification.reference.turned import with_mounting
 from pyimu.model.sensor import Sensor
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.course import has_course
@@ -54,7 +55,7 @@ def aligned_trials(
 
     fitted = [t for t in map(trial, logs) if t is not None and t.count >= SHORTEST]
     apart = [t for t in map(trial, others) if t is not None and t.count >= SHORTEST]
-    clocked = aligned(fitted, apart, sensor, lines)
+    clocked = with_mounting(aligned(fitted, apart, sensor, lines))
     return clocked[: len(fitted)], clocked[len(fitted) :]
 
 

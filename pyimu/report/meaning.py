@@ -63,6 +63,7 @@ MEANING = {
     "reference_heading": "attitudes and positions count their headings from other directions",
     "reference_jump": "a step in the reference's path that no body makes",
     "constraint": "a drive that is not along the body's x axis, as a vehicle's is",
+    "reference_turned": "the reference's axes are turned against the sensor's: its mounting",
     "rest_moves": "rests during which the reference goes a way: a drive at constant speed",
     "reference_scale": "the reference's path has the shape of the estimate's in another size",
     "reference_lag": "the reference lags as one behind a low-pass filter does; it was undone",

@@ -94,14 +94,14 @@ def measure(trial: Trial, sensor: Sensor) -> Clock | None:
     for _ in range(ROUNDS):
         seen = _windows(placed(shifted(trial, clock)), sensor)
         if seen is None:
-            explained = _explained(placed(shifted(trial, clock)))
+            explained = explained_by(placed(shifted(trial, clock)))
             return replace(clock, std=np.inf, explained=explained)
         time, late, std = seen
         level = level_of(time, late + clock.at(time), std, LEAST_SLIP * trial.h)
         before, clock = clock, _clock(level)
         if np.abs(clock.at(time) - before.at(time)).max() < 0.1 * clock.std:
             break
-    return replace(clock, explained=_explained(placed(shifted(trial, clock))))
+    return replace(clock, explained=explained_by(placed(shifted(trial, clock))))
 
 
 def _clock(level: Level) -> Clock:
@@ -131,7 +131,7 @@ def is_still(trial: Trial, values: np.ndarray) -> bool:
     return bool(np.linalg.norm(x.std(axis=0)) <= max(least, rounding))
 
 
-def _explained(trial: Trial) -> float:
+def explained_by(trial: Trial) -> float:
     """Share of the sensor's power in the band that the reference, once turned, accounts for.
 
     Below zero where it is further off than nothing.

@@ -1,0 +1,68 @@
+"""Rate references whose axes are turned against the sensor's: a second unit that was mounted
+otherwise.
+
+No log tells such a turn from a misalignment of the whole triad. A large one is no sensor's, and
+what is a turn and nothing else was made by who mounted the two.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from pyimu.errors import Finding
+from pyimu.identification.fit.columns import in_band
+from pyimu.identification.fit.trial import Trial
+from pyimu.identification.reference.clock import explained_by
+from pyimu.identification.reference.moving import in_own_band, moving_rows
+from pyimu.model.kinds import OWN
+
+LEAST = float(np.radians(1.0))
+"""rad; below it a turn may as well be the misalignment of a coarse sensor."""
+
+PURE = 0.2
+"""Share of a turn by which what is found may differ from one: scale factors and misalignments."""
+
+
+def with_mounting(trials: Sequence[Trial]) -> list[Trial]:
+    """The trials, those of rates with a mounting to be found where one of them has a turn that is
+    no sensor's.
+    """
+    angles = {t.name: _angle(t) for t in trials if _may_be_turned(t)}
+    if not any(angles.values()):
+        return list(trials)
+    return [_mounted(t, angles[t.name]) if t.name in angles else t for t in trials]
+
+
+def _may_be_turned(trial: Trial) -> bool:
+    return trial.reference == "rate" and len(trial.axes) == 3 and trial.reduction is None
+
+
+def _mounted(trial: Trial, angle: float) -> Trial:
+    found = Finding("reference_turned", trial.kind, 1, {"angle": angle})
+    said = (found,) if angle else ()
+    free = replace(trial, free_rotation=True, findings=(*trial.findings, *said))
+    if trial.clock is None:
+        return free
+    return replace(free, clock=replace(trial.clock, explained=explained_by(free)))
+
+
+def _angle(trial: Trial) -> float:
+    """By how much the reference is turned, rad; zero where that is no turn, or a small one."""
+    band = in_own_band(trial)
+    rows = moving_rows(band)
+    x, y = (in_band(band, v)[rows] for v in (trial.u[:, OWN[trial.kind]], trial.y))
+    if len(x) <= 3:
+        return 0.0
+    gain, _, rank, _ = np.linalg.lstsq(x - x.mean(axis=0), y - y.mean(axis=0), rcond=1e-3)
+    if rank < 3:
+        return 0.0
+    left, _, right = np.linalg.svd(gain)
+    turn = left @ np.diag([1.0, 1.0, np.linalg.det(left @ right)]) @ right
+    angle = float(Rotation.from_matrix(turn).magnitude())
+    size = 2.0 * np.sqrt(2.0) * np.sin(angle / 2.0)
+    pure = np.linalg.norm(gain - turn) < PURE * size
+    return angle if angle > LEAST and pure else 0.0

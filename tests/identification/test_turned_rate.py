@@ -1,0 +1,51 @@
+"""Rate references whose axes are turned against the sensor's, as those of a second unit are."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+from scipy.stats import chi2
+from world import drive, recording
+
+import pyimu
+
+SCALE = np.array([0.004, -0.003, 0.005])
+
+
+@pytest.fixture(scope="module")
+def log():
+    """A drive with a gyro that has scale factors."""
+    world = drive(minutes=4, seed=33)
+    made = recording(world, gyro_change=lambda x: x * (1 + SCALE), seed=6, kinds=("gyro",))
+    return replace(made, ref_force=None)
+
+
+def turned(log, degrees):
+    turn = Rotation.from_rotvec(np.radians(degrees) * np.array([2.0, -1.0, 2.0]) / 3.0)
+    return pyimu.close(replace(log, ref_rate=turn.apply(log.ref_rate)))
+
+
+def of(closed, effect):
+    (it,) = [e for e in closed.estimated if (e.sensor, e.effect) == ("gyro", effect)]
+    return it
+
+
+@pytest.mark.parametrize("degrees", [4.0, 33.0, 120.0])
+def test_a_turn_of_all_axes_is_the_mounting(log, degrees):
+    """By 33 deg it was scale factors of -16 % and a formula. The squares of the errors in standard
+    errors are a chi-square.
+    """
+    closed = turned(log, degrees)
+    assert not closed.added and closed.verdict == "clean", closed.report()
+    (found,) = [f for f in closed.quality if f.kind == "reference_turned"]
+    assert np.degrees(found.detail["angle"]) == pytest.approx(degrees, abs=0.1)
+    assert closed.references[0]["mounting"]["estimated"]
+    s = of(closed, "scale_factor")
+    assert np.sum(((s.value - SCALE) / s.std) ** 2) < chi2.isf(1e-4, 3), s
+
+
+def test_what_may_be_the_sensors_misalignment_stays_its_own(log):
+    closed = turned(log, 0.5)
+    assert not [f for f in closed.quality if f.kind == "reference_turned"]
+    assert np.any(np.abs(of(closed, "misalignment").value) > np.radians(0.2))
