@@ -38,6 +38,7 @@ from pyimu.identification.trials import (
     SHORTEST,
     Together,
     aligned_trials,
+    clocks_of,
     has_reference,
     prepared,
 )
@@ -153,7 +154,10 @@ def _investigated(
     looks: dict[str, Look] = {}
     quality: list[Finding] = []
     for kind, make in (("accel", accel_trial), ("gyro", gyro_trial)):
-        made = partial(aligned_trials, start.sensor(kind), make, logs, others, latitude)
+        known = clocks_of(turning) if kind == "accel" else {}
+        made = partial(
+            aligned_trials, start.sensor(kind), make, logs, others, latitude, known=known
+        )
         trials, held = prepared(*(turning if kind == "gyro" else made()), bool(others))
         if kind == "accel" and not any(map(is_differentiated, trials)):
             at_rest = rest_trials(start.accel, logs, others, latitude)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
+from types import MappingProxyType
 
 import numpy as np
 
+from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.trial import HELD_OUT, Trial
 from pyimu.identification.reference.align import aligned
 from pyimu.identification.reference.belongs import misfit
@@ -42,9 +44,11 @@ def aligned_trials(
     others: list[Recording],
     latitude: float | None,
     lines: bool = True,
+    known: Mapping[str, Clock] = MappingProxyType({}),
 ) -> Together:
     """Trials of ``logs`` and ``others`` that ``make`` makes, the references on the sensor's clock;
-    one that seems to drift a little has its line where ``lines`` are wanted.
+    one that seems to drift a little has its line where ``lines`` are wanted. ``known`` are clocks
+    that another sensor showed, by log.
     """
 
     def trial(r: Recording) -> Trial | None:
@@ -55,8 +59,14 @@ def aligned_trials(
 
     fitted = [t for t in map(trial, logs) if t is not None and t.count >= SHORTEST]
     apart = [t for t in map(trial, others) if t is not None and t.count >= SHORTEST]
-    clocked = with_mounting(aligned(fitted, apart, sensor, lines))
+    clocked = with_mounting(aligned(fitted, apart, sensor, lines, known))
     return clocked[: len(fitted)], clocked[len(fitted) :]
+
+
+def clocks_of(together: Together) -> dict[str, Clock]:
+    """By log the clocks that trials have had taken out."""
+    trials = (t for some in together for t in some)
+    return {t.name: t.clock for t in trials if t.clock is not None and t.clock.taken_out}
 
 
 def prepared(fitted: list[Trial], apart: list[Trial], others: bool) -> Together:

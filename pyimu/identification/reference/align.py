@@ -5,8 +5,9 @@ What the logs' clocks say together, and the logs with their references on the se
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from types import MappingProxyType
 
 import numpy as np
 
@@ -17,7 +18,8 @@ from pyimu.identification.fit.keys import LogClock
 from pyimu.identification.fit.maximum_likelihood import advantage, fit
 from pyimu.identification.fit.structure import prior_of, with_structure
 from pyimu.identification.fit.trial import OWN_LAG, Trial, marked
-from pyimu.identification.reference.clock import measure, rebanded, shifted
+from pyimu.identification.reference.clock import explained_by, measure, rebanded, shifted
+from pyimu.identification.reference.place import placed
 from pyimu.identification.reference.slips import placed_slips
 from pyimu.identification.reference.track import WANDERS
 from pyimu.model.sensor import Sensor
@@ -46,8 +48,10 @@ def aligned(
     held: Sequence[Trial],
     sensor: Sensor,
     lines: bool = True,
+    known: Mapping[str, Clock] = MappingProxyType({}),
 ) -> list[Trial]:
-    """All trials, fitted and ``held``, with the reference's clock taken out.
+    """All trials, fitted and ``held``, with the reference's clock taken out; ``known`` is that of
+    logs, by name, that another sensor showed: it counts where this one shows none.
 
     As far as it is the reference's; their ``clock`` and ``findings`` say what was taken out.
 
@@ -59,10 +63,22 @@ def aligned(
     """
     clocks = [_clock(t, sensor, lines) for t in trials]
     clocks += [_clock(t, sensor, lines, apart=True) for t in held]
+    both = zip((*trials, *held), clocks, strict=True)
+    clocks = [_or_known(t, c, known.get(t.name)) for t, c in both]
     seen = [c for c in clocks[: len(trials)] if c is not None and np.isfinite(c.std)]
     theirs = any(f.kind in OWN_LAG for t in trials for f in t.findings)
     own, std = 0.0 if theirs else in_common(seen), _std_of_mean(seen)
     return [_aligned(t, c, own, std) for t, c in zip((*trials, *held), clocks, strict=True)]
+
+
+def _or_known(trial: Trial, clock: Clock | None, known: Clock | None) -> Clock | None:
+    """The clock of a trial, or, where that is known no better than any sensor may lag, the one that
+    is ``known`` of its log, if that leaves less.
+    """
+    if clock is None or known is None or clock.std < LONGEST_OWN:
+        return clock
+    explained = explained_by(rebanded(placed(shifted(trial, known))))
+    return replace(known, explained=explained) if explained > clock.explained else clock
 
 
 def _clock(trial: Trial, sensor: Sensor, lines: bool, apart: bool = False) -> Clock | None:
