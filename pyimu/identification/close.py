@@ -21,7 +21,11 @@ from pyimu.identification.fit.reduction import STRUCTURE
 from pyimu.identification.fit.trial import Trial, accel_trial, gyro_trial
 from pyimu.identification.formula.effect import forget
 from pyimu.identification.formula.search import Look, look
-from pyimu.identification.instead import formula_less_than_noise, less_than_noise
+from pyimu.identification.instead import (
+    formula_less_than_noise,
+    less_than_noise,
+    less_than_rounding,
+)
 from pyimu.identification.made_with import called
 from pyimu.identification.reference.align import in_band_of
 from pyimu.identification.reference.belongs import misfit
@@ -212,7 +216,7 @@ def _looked(
     if inv.unfit:
         return Look(inv)
     say(f"{inv.after.sensor.kind}: is what was found noise")
-    inv = less_than_noise(inv, random)
+    inv = less_than_rounding(less_than_noise(inv, random))
     found = look(inv, partial(_again, inv, prior), say)
     return Look(inv) if formula_less_than_noise(inv, found, random) else found
 

@@ -6,15 +6,26 @@ from collections.abc import Iterable
 from dataclasses import replace
 from functools import partial
 
+import numpy as np
+
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.maximum_likelihood import fit
+from pyimu.identification.fit.sample_noise import rest_noise
 from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.identification.formula.search import Look
 from pyimu.identification.noise.explained import likelihood_of
 from pyimu.identification.rounding import rounding
-from pyimu.identification.search.forward import AS_NOISE, Investigation, Step, without
+from pyimu.identification.search.forward import (
+    AS_NOISE,
+    AS_ROUNDING,
+    Investigation,
+    Step,
+    without,
+)
 from pyimu.identification.search.screen import PENALTY
-from pyimu.model.catalogue import CATALOGUE
+from pyimu.model.catalogue import CATALOGUE, INCREMENTS
+
+DEAD_ZONES = ("dead_zone", "hard_dead_zone")
 
 WANDERS = 0.5
 """Share of what an effect explains that is left once the residual may walk as it likes, below which
@@ -33,6 +44,52 @@ def less_than_noise(inv: Investigation, free: frozenset[str]) -> Investigation:
             for s in left:
                 inv = without(inv, s.effect, AS_NOISE)
     return inv
+
+
+def less_than_rounding(inv: Investigation) -> Investigation:
+    """An investigation less the steps of the bias and the dead zones that the rounding of samples
+    makes: where these are so quiet that they do not dither, it shifts their mean.
+    """
+    most = _of_rounding(inv)
+    for s in list(inv.steps):
+        effect = CATALOGUE[s.effect]
+        may = effect.has_events or s.effect in DEAD_ZONES
+        if may and not s.declared and _is_within(inv, s, most):
+            inv = without(inv, s.effect, AS_ROUNDING)
+    return inv
+
+
+def _of_rounding(inv: Investigation) -> np.ndarray:
+    """How far (3,) rounding shifts the mean of samples at most: q/2 exp(-2 pi^2 (sigma/q)^2), with
+    q the step and sigma the noise at rest (the first harmonic of the sawtooth that rounding adds,
+    times the characteristic function of Gaussian noise: Widrow and Kollar 2008, "Quantization
+    Noise", chapters 3 and 4).
+    """
+    sensor, trials = inv.after.sensor, inv.after.trials
+    found = sensor.reading("step")
+    if found is not None:
+        q = np.broadcast_to(sensor.values[found[0]][found[1]], 3)
+    else:
+        added = rounding(sensor.kind, inv).added
+        steps = [v for a in added if a.effect != INCREMENTS[0] for v, _, _ in a.parameters.values()]
+        q = steps[0] if steps else np.zeros(3)
+    # What samples show at rest has the rounding in it.
+    seen = np.min([np.square(rest_noise(t)) for t in trials], axis=0)
+    noise = np.maximum(seen - q**2 / 12, 0.0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        shift = 0.5 * q * np.exp(-2.0 * np.pi**2 * noise / q**2)
+    return np.where(q > 0.0, shift, 0.0)
+
+
+def _is_within(inv: Investigation, step: Step, most: np.ndarray) -> bool:
+    """Whether all sizes that an effect brought are at most those (3,)."""
+    parameters, values = CATALOGUE[step.effect].parameters, inv.after.sensor.values[step.effect]
+    sizes = [
+        k for k in step.keys if not (parameters[k.parameter].form or parameters[k.parameter].scan)
+    ]
+    return bool(sizes) and all(
+        abs(values[k.parameter][k.index]) <= most[k.index[0]] for k in sizes
+    )
 
 
 def formula_less_than_noise(inv: Investigation, found: Look, free: frozenset[str]) -> bool:

@@ -10,7 +10,7 @@ from scipy.stats import chi2
 
 from pyimu.identification.fates import NOT_LOOKED_FOR, Fate
 from pyimu.identification.found import Added, Changed, Errors
-from pyimu.identification.search.forward import AS_NOISE, Refused
+from pyimu.identification.search.forward import AS_NOISE, AS_ROUNDING, Refused
 from pyimu.identification.search.judge import OF_REFERENCE
 from pyimu.identification.search.leftover import Unexplained
 from pyimu.model.catalogue import WALK, WHITE
@@ -31,6 +31,9 @@ FEW = 3
 
 WORSE = 1.02
 """Ratio of the attitude errors after and before from which on the model is worse for attitude."""
+
+NO_EFFECT = (AS_NOISE, AS_ROUNDING, OF_REFERENCE)
+"""Reasons to refuse an effect that say what made it look like one."""
 
 VERDICTS = (
     "reference_unfit",
@@ -115,7 +118,7 @@ def _verdict(e: Evidence) -> Verdict:
     if shapes:
         u = shapes[0]
         return Verdict("unexplained", f"{u.sensor} {u.axis} shows {u.shape}")
-    refused = [r for r in e.refused if r[1].reason not in (AS_NOISE, OF_REFERENCE)]
+    refused = [r for r in e.refused if r[1].reason not in NO_EFFECT]
     if refused:
         kind, most = max(refused, key=lambda r: r[1].gain)
         gain = f"{kind} {most.effect} explains the fitted rows ({most.gain:.0f} nat)"

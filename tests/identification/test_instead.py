@@ -5,14 +5,19 @@ import pytest
 from effect_logs.cases import make
 from effect_results.record import closed
 
+import pyimu
 from pyimu.identification.noise.laws import kinds, names_of
 from pyimu.identification.noise.named import POPCORN
 from pyimu.identification.report.page import page
 from pyimu.identification.search.by_chance import Chance
 from pyimu.identification.search.forward import AS_NOISE
 from pyimu.model.sensor import Sensor
+from pyimu.recording.recording import Recording
 
 MINUTES = (5.0, 8.0)
+
+TO = 0.01 * 9.80665
+"""m/s^2; to which samples are rounded."""
 
 
 @pytest.mark.long
@@ -112,3 +117,19 @@ def test_what_samples_show_is_no_noise(effect):
     """So few lie at the level or at zero that a walk explains their squares as well."""
     found = closed(make(f"one/8/gyro.{effect}", 5, MINUTES))
     assert [a.effect for a in found.added] == [effect], found.report()
+
+
+@pytest.mark.parametrize("step, added", [(0.0, []), (0.1, ["bias_step"])])
+def test_what_rounding_shifts_at_rest_is_no_step_of_the_bias(step, added):
+    """At rest a noise of a sixth of the step does not dither: the mean is off by up to a quarter of
+    it, and right again in motion. Samples to 0.01 g of three axes, at rest for 8 s first.
+    """
+    rng, time = np.random.default_rng(7), np.arange(6000) / 50
+    moves = np.clip((time - 8.0) / 2.0, 0.0, 1.0)[:, None]
+    force = 4.0 * moves * np.sin(2 * np.pi * np.outer(time, [0.31, 0.23, 0.17]))
+    force = force + [0.13, -0.26, 9.8]
+    accel = force + 0.016 * rng.standard_normal(force.shape)
+    accel[time > 60.0, 1] += step
+    accel = np.round(accel / TO) * TO
+    found = pyimu.close(Recording.from_arrays("log", time=time, accel=accel, ref_force=force))
+    assert sorted(a.effect for a in found.added) == [*added, "quantization"], found.report()

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from pyimu.identification.fit.score import ErrorSums
 from pyimu.identification.found import Added, Changed, Errors
 from pyimu.identification.ranges import beyond
-from pyimu.identification.search.forward import AS_NOISE, Refused
+from pyimu.identification.search.forward import Refused
 from pyimu.identification.search.leftover import Unexplained
-from pyimu.identification.verdict import FAR, SHORT, VERDICTS, Evidence, Verdict, verdict
+from pyimu.identification.verdict import FAR, NO_EFFECT, SHORT, VERDICTS, Evidence, Verdict, verdict
 from pyimu.recording.quality.inspect import beyond_range
 from pyimu.recording.recording import Recording
 
@@ -54,7 +54,7 @@ added = st.builds(
 )
 refused = st.tuples(
     st.sampled_from(KINDS),
-    st.builds(Refused, st.just("coning"), st.floats(7.0, 1e4), st.sampled_from([AS_NOISE, "no"])),
+    st.builds(Refused, st.just("coning"), st.floats(7.0, 1e4), st.sampled_from([*NO_EFFECT, "no"])),
 )
 unexplained = st.builds(
     Unexplained,
@@ -112,7 +112,7 @@ def test_clean_stands_beside_nothing_that_speaks_against_it(e):
         assert found.reason
         return
     assert not (e.unfit or e.added or e.unexplained or e.unexamined) and e.beside is None
-    assert all(r.reason == AS_NOISE for _, r in e.refused)
+    assert all(r.reason in NO_EFFECT for _, r in e.refused)
     assert not any(e.drift.values())
     assert e.shows and e.rows >= SHORT and not e.unshown
     assert {*e.examined} <= {*e.errors}

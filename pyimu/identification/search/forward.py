@@ -62,6 +62,9 @@ MOST_EFFECTS = 8
 AS_NOISE = "explains no more than random noise would"
 """The reason for which an effect is taken back that is not told from noise."""
 
+AS_ROUNDING = "is no more than the rounding of samples that hardly scatter may do"
+"""The reason for which an effect is taken back that rounding makes."""
+
 
 @dataclass(frozen=True)
 class Step:
