@@ -47,13 +47,14 @@ def less_than_noise(inv: Investigation, free: frozenset[str]) -> Investigation:
 
 
 def less_than_rounding(inv: Investigation) -> Investigation:
-    """An investigation less the steps of the bias and the dead zones that the rounding of samples
-    makes: where these are so quiet that they do not dither, it shifts their mean.
+    """An investigation less the steps of the bias, the lines and the dead zones that the rounding of
+    samples makes: where these scatter so little that they do not dither, it shifts their mean, by
+    another amount at each level.
     """
     most = _of_rounding(inv)
     for s in list(inv.steps):
         effect = CATALOGUE[s.effect]
-        may = effect.has_events or s.effect in DEAD_ZONES
+        may = effect.has_events or effect.is_line or s.effect in DEAD_ZONES
         if may and not s.declared and _is_within(inv, s, most):
             inv = without(inv, s.effect, AS_ROUNDING)
     return inv
@@ -87,9 +88,7 @@ def _is_within(inv: Investigation, step: Step, most: np.ndarray) -> bool:
     sizes = [
         k for k in step.keys if not (parameters[k.parameter].form or parameters[k.parameter].scan)
     ]
-    return bool(sizes) and all(
-        abs(values[k.parameter][k.index]) <= most[k.index[0]] for k in sizes
-    )
+    return bool(sizes) and all(abs(values[k.parameter][k.index]) <= most[k.index[0]] for k in sizes)
 
 
 def formula_less_than_noise(inv: Investigation, found: Look, free: frozenset[str]) -> bool:
