@@ -47,9 +47,9 @@ def less_than_noise(inv: Investigation, free: frozenset[str]) -> Investigation:
 
 
 def less_than_rounding(inv: Investigation) -> Investigation:
-    """An investigation less the steps of the bias, the lines and the dead zones that the rounding of
-    samples makes: where these scatter so little that they do not dither, it shifts their mean, by
-    another amount at each level.
+    """An investigation less the steps of the bias, the lines and the dead zones that the rounding
+    of samples makes: where these scatter so little that they do not dither, it shifts their mean,
+    by another amount at each level.
     """
     most = _of_rounding(inv)
     for s in list(inv.steps):
