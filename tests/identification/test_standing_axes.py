@@ -77,8 +77,17 @@ def test_an_axis_that_turns_in_the_held_out_rows_alone_is_not_judged(noise, own)
     assert np.all((left.after.per_axis / left.noise_per_axis)[:2] < 1.1)
 
 
-@pytest.mark.parametrize("own", [False, True])
-@pytest.mark.parametrize("turns", [0.03, 0.3, 3.0])
+@pytest.mark.parametrize(
+    "turns, own",
+    [
+        (0.03, False),
+        (0.3, True),
+        (3.0, False),
+        pytest.param(0.03, True, marks=pytest.mark.long),
+        pytest.param(0.3, False, marks=pytest.mark.long),
+        pytest.param(3.0, True, marks=pytest.mark.long),
+    ],
+)
 def test_a_slow_turn_below_the_noise_of_its_reference_gives_a_scale_factor_or_none(turns, own):
     """A random walk stood for the slow turn, and a scale factor of -98 % took the noise away."""
     found = closed(0.1, turns, own)

@@ -31,7 +31,7 @@ def of(closed, effect):
     return it
 
 
-@pytest.mark.parametrize("degrees", [4.0, 33.0, 120.0])
+@pytest.mark.parametrize("degrees", [4.0, pytest.param(33.0, marks=pytest.mark.long), 120.0])
 def test_a_turn_of_all_axes_is_the_mounting(log, degrees):
     """By 33 deg it was scale factors of -16 % and a formula. The squares of the errors in standard
     errors are a chi-square.
