@@ -12,7 +12,7 @@ from scipy.ndimage import gaussian_filter1d
 from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
-from pyimu.identification.fit import maximum_likelihood, reference_noise
+from pyimu.identification.fit import errors_in_variables, maximum_likelihood
 from pyimu.identification.fit.columns import Linear, in_band, linearise
 from pyimu.identification.fit.fit import begin, power
 from pyimu.identification.fit.incoherent import Spectrum, in_rows, of_reference
@@ -361,10 +361,10 @@ def test_columns_that_differ_by_noise_of_the_reference_alone_show_nothing_of_the
     seen, drawn = x + noise, 0.1 * rng.standard_normal((n, 2))
     gram = (seen.T @ seen - drawn.T @ drawn)[None]
     score, doubt = seen.T @ x[:, 0], np.ones((1, 2))
-    onto, off = reference_noise._unseen_directions(gram[0], seen.T @ seen)
+    onto, off = errors_in_variables._unseen_directions(gram[0], seen.T @ seen)
     assert onto.shape == (2, 1)
     left, scores = gram.copy(), score[None].copy()
-    reference_noise._without(left, scores, doubt, np.arange(2), onto, off)
+    errors_in_variables._without(left, scores, doubt, np.arange(2), onto, off)
     values, vectors = np.linalg.eigh(left[0])
     assert abs(values[0]) < 1e-9 * values[1]
     assert abs(vectors[:, 0] @ scores[0]) < 1e-9 * np.linalg.norm(scores)

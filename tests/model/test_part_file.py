@@ -165,7 +165,7 @@ ERRORS = dict(
         ),
         (
             '[gyro.thermal_bias]\nT0 = {value = 3, unit = "rad"}',
-            "gyro.thermal_bias.T0.unit: a temperature must be in degC or K, not 'rad'",
+            "gyro.thermal_bias.T0.unit: a temperature must be in degC, K or degF, not 'rad'",
         ),
         (
             '[gyro.thermal_bias]\nT0 = "estimate"',
