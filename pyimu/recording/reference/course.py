@@ -20,6 +20,10 @@ CRAWL = 10.0
 course is then known to a tenth of a radian, and what its rate lacks of its mean, the square of the
 inverse, is 1 %."""
 
+UNEVEN = 5.0
+"""Times the median standard error of the rate of a course that one of it may have: that of a slow
+vehicle is larger by the inverse of its speed, and beside the rest would be no noise of one size."""
+
 FARTHEST = 10.0
 """s; so far off the clock of a course may be while its axis is looked for."""
 
@@ -170,4 +174,8 @@ def _course(nodes_at: np.ndarray, values: np.ndarray, order: int, time: np.ndarr
         std[at] = std_a[fast] / speed[at]
         for i, j in runs(fast):
             course[rows[i:j]] = np.unwrap(np.arctan2(v[i:j, 1], v[i:j, 0]))
+    known = np.isfinite(std)
+    if known.any():
+        lost = std > UNEVEN * np.median(std[known])
+        rate[lost] = std[lost] = course[lost] = np.nan
     return Course(course, rate, speed, std, noise, track)
