@@ -24,4 +24,5 @@ def test_a_course_has_noise_of_about_one_size():
     # The median is that of all rows, before some are left out.
     assert found.std[known].max() <= 1.5 * UNEVEN * np.median(found.std[known])
     off = (found.rate - 0.8 * 2 * np.pi / 25 * np.cos(2 * np.pi * time / 25))[known]
-    assert 0.8 < np.sqrt(np.mean((off / found.std[known]) ** 2)) < 1.2
+    # The smoother allows for a rougher motion than this one.
+    assert 0.5 < np.sqrt(np.mean((off / found.std[known]) ** 2)) < 1.1
