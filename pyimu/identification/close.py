@@ -18,6 +18,7 @@ from pyimu.identification.clock_or_effect import likelier_clock
 from pyimu.identification.conclude import conclude
 from pyimu.identification.fit.keys import Coefficient, Key, coefficient_of
 from pyimu.identification.fit.reduction import STRUCTURE
+from pyimu.identification.fit.structure import prior_of
 from pyimu.identification.fit.trial import Trial, accel_trial, gyro_trial
 from pyimu.identification.formula.effect import forget
 from pyimu.identification.formula.search import Look, look
@@ -52,7 +53,6 @@ from pyimu.model.part_file import part as find_part
 from pyimu.model.part_file import part_names
 from pyimu.model.part_reader import parse_part
 from pyimu.model.sensor import Sensor
-from pyimu.model.typical import CLASSES, magnitudes
 from pyimu.recording.folders import truth_beside
 from pyimu.recording.log import Given, is_one, recording_of
 from pyimu.recording.names import distinct_names
@@ -200,7 +200,7 @@ def _examined(
     kind = trials[0].kind
     free = _free(start, declared, start.sensor(kind), trials)
     trials = _shown(start, declared, free, trials)
-    prior = _prior(kind, free)
+    prior = _prior(start.sensor(kind), free)
     seen = investigate(
         start.sensor(kind), free, trials, held, say=say, prior=prior, unfit=misfit(trials)
     )
@@ -416,12 +416,13 @@ def _shown(start: Part, declared: bool, free: frozenset[Key], trials: list[Trial
     return [first, *trials[1:]]
 
 
-def _prior(kind: str, free: frozenset[Key]) -> dict[Key, float]:
+def _prior(sensor: Sensor, free: frozenset[Key]) -> dict[Coefficient, float]:
     """What is known of the structure of a sensor where nobody declared it: its typical size in the
     coarsest class of parts.
     """
-    known = {k for k in free if isinstance(k, Coefficient) and k.effect in STRUCTURE}
-    return {k: magnitudes(k.effect, kind)[CLASSES[-1]].si for k in known}
+    return prior_of(
+        sensor, (k for k in free if isinstance(k, Coefficient) and k.effect in STRUCTURE)
+    )
 
 
 def _refuse_without_motion(start: Part, sensor: Sensor, left: list, log: str) -> None:

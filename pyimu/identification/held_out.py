@@ -12,7 +12,7 @@ from pyimu.attitude.error import AttitudeError, error_against
 from pyimu.identification.attitude_error import Compared, beside
 from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.keys import LogClock
-from pyimu.identification.fit.left_open import left_open
+from pyimu.identification.fit.left_open import Open, left_open, what_is_open
 from pyimu.identification.fit.left_out import as_measured, left_out
 from pyimu.identification.fit.noise_fit import declared_variances
 from pyimu.identification.fit.noise_floor import floor_noise, reference_variance
@@ -49,8 +49,10 @@ def scores(
     errors, likelihood = {}, np.zeros(2)
     for kind, inv in found.items():
         noise, reference = floor_noise(inv.after), reference_variance(inv.after)
+        judged = inv.before.prior and any(t.reduction is None for t in inv.held)
+        unsure = what_is_open(inv.after) if judged and not inv.unfit else None
         for trial in inv.held:
-            by_log[trial.name][kind] = _errors(inv, trial, noise, reference)
+            by_log[trial.name][kind] = _errors(inv, trial, noise, reference, unsure)
         each = [e[kind] for e in by_log.values() if kind in e]
         if each:
             errors[kind] = sum(each[1:], start=each[0])
@@ -61,7 +63,11 @@ def scores(
 
 
 def _errors(
-    inv: Investigation, trial: Trial, noise: dict[int, RandomWalk], reference: np.ndarray
+    inv: Investigation,
+    trial: Trial,
+    noise: dict[int, RandomWalk],
+    reference: np.ndarray,
+    unsure: Open | None,
 ) -> Errors:
     if trial.reduction is not None:
         return _errors_of_rows(inv, trial)
@@ -73,7 +79,7 @@ def _errors(
     walk = {i: RandomWalk(0.0, k2) for i, k2 in _walk(inv, noise).items()}
     drift = floor(walk, inv.after, trial) if any(n.k2 for n in walk.values()) else None
     least = floor(white, inv.after, trial).with_variance(reference)
-    open_ = left_open(inv.after, trial) if inv.before.prior else None
+    open_ = None if unsure is None else left_open(inv.after, trial, unsure)
     return Errors(unit, *both, least, drift or ErrorSums(), unsure=open_)
 
 

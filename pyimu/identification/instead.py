@@ -51,13 +51,17 @@ def less_than_rounding(inv: Investigation) -> Investigation:
     of samples makes: where these scatter so little that they do not dither, it shifts their mean,
     by another amount at each level.
     """
-    most = _of_rounding(inv)
-    for s in list(inv.steps):
-        effect = CATALOGUE[s.effect]
-        may = effect.has_events or effect.is_line or s.effect in DEAD_ZONES
-        if may and not s.declared and _is_within(inv, s, most):
+    suspects = [s for s in inv.steps if not s.declared and _may_be_rounding(s)]
+    most = _of_rounding(inv) if suspects else np.zeros(3)
+    for s in suspects:
+        if _is_within(inv, s, most):
             inv = without(inv, s.effect, AS_ROUNDING)
     return inv
+
+
+def _may_be_rounding(step: Step) -> bool:
+    effect = CATALOGUE[step.effect]
+    return effect.has_events or effect.is_line or step.effect in DEAD_ZONES
 
 
 def _of_rounding(inv: Investigation) -> np.ndarray:

@@ -375,7 +375,7 @@ def _lower(
     for share in (change, *(change / 2**k for k in range(1, 8))):
         moved = stepped(start, normal.keys, share)
         if last.near:
-            last.changes = [_carried(one, normal.keys, share) for one in changes]
+            last.changes = [carried(one, normal.keys, share) for one in changes]
         if share is change:
             # Mostly it is taken, and linearised next: that has the residual, too.
             moved.linearise()
@@ -385,7 +385,7 @@ def _lower(
     return None
 
 
-def _carried(one: Linear, keys: list[Key], change: np.ndarray) -> Linear:
+def carried(one: Linear, keys: list[Key], change: np.ndarray) -> Linear:
     """A linearised trial a ``change`` of the coefficients further."""
     moved, residual = dict(zip(keys, change, strict=True)), np.array(one.residual)
     for i, stack in one.columns.items():

@@ -39,7 +39,7 @@ def _of_white() -> float:
     return quiet(windows(np.diff(drawn[:, 0], n=3), [(0, len(drawn) - 3)]))
 
 
-def high(trial: Trial, values: np.ndarray) -> np.ndarray:
+def roughness(trial: Trial, values: np.ndarray) -> np.ndarray:
     """Root mean square (3,) of third differences of values (n, 3), in their quietest quarter."""
     rough = _third_differences(trial, values)
     return np.nan_to_num([np.sqrt(quiet(w)) if len(w) else 0.0 for w in rough])

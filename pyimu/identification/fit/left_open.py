@@ -6,34 +6,27 @@ before any row was seen: of the error that this leaves, nothing is to be blamed 
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from pyimu.identification.fit.columns import linearise
 from pyimu.identification.fit.errors_in_variables import equations
-from pyimu.identification.fit.fit import Fit, with_prior
-from pyimu.identification.fit.keys import Key
+from pyimu.identification.fit.fit import Fit, carried, with_prior
+from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.normal import covariance
 from pyimu.identification.fit.score import ErrorSums, held_state, sums
 from pyimu.identification.fit.trial import Trial
 
+Open = tuple[list[Coefficient], np.ndarray]
+"""Coefficients, and changes of them (k, k) that make up what is not known of them: their covariance
+is the sum of the squares of its columns."""
 
-def left_open(fit: Fit, trial: Trial) -> ErrorSums:
-    """Sums over the rows of a held-out trial of the squares that the coefficients which nobody
-    declared are expected to add to them: by what the fitted rows leave open of them, or, of those
-    that they do not show, by their prior.
+
+def what_is_open(fit: Fit) -> Open:
+    """Of the coefficients of a model that nobody declared what the fitted rows leave open, or, of
+    those that they do not show, their prior.
     """
-    state, rest = held_state(fit, trial)
-    keys, unsure = _left(fit)
-    values, vectors = np.linalg.eigh(unsure)
-    spread = vectors * np.sqrt(np.maximum(values, 0.0))
-    linear = linearise(fit.sensor, rest, state, frozenset(keys))
-    each = [sums(rest, _rows(linear, keys, direction)) for direction in spread.T]
-    squares = (sum(getattr(e, name) for e in each) for name in ("squares", "angle_squares"))
-    return ErrorSums(next(squares), each[0].rows, next(squares), each[0].windows)
-
-
-def _left(fit: Fit) -> tuple[list[Key], np.ndarray]:
-    """The coefficients that have a prior, and their covariance."""
     normal = with_prior(equations(fit), fit)
     seen = normal.variance if normal.seen is not None else None
     keys = sorted(fit.prior)
@@ -41,13 +34,18 @@ def _left(fit: Fit) -> tuple[list[Key], np.ndarray]:
     at = [normal.position[keys[n]] for n in shown]
     out = np.diag([fit.prior[k] ** 2 for k in keys])
     out[np.ix_(shown, shown)] = covariance(normal.gram, seen)[np.ix_(at, at)]
-    return keys, out
+    values, vectors = np.linalg.eigh(out)
+    return keys, vectors * np.sqrt(np.maximum(values, 0.0))
 
 
-def _rows(linear, keys: list[Key], change: np.ndarray) -> np.ndarray:
-    """What a ``change`` of the coefficients ``keys`` makes of a trial's rows (m, 3)."""
-    by_key, out = dict(zip(keys, change, strict=True)), np.zeros(linear.residual.shape)
-    for i, stack in linear.columns.items():
-        for key, column in zip(linear.keys[i], stack.arrays, strict=True):
-            out[:, i] += by_key.get(key, 0.0) * column
-    return out
+def left_open(fit: Fit, trial: Trial, unsure: Open) -> ErrorSums:
+    """Sums over the rows of a held-out trial of the squares that coefficients which are ``unsure``
+    are expected to add to them.
+    """
+    keys, spread = unsure
+    state, rest = held_state(fit, trial)
+    linear = linearise(fit.sensor, rest, state, frozenset(keys))
+    bare = replace(linear, residual=np.zeros(linear.residual.shape))
+    each = [sums(rest, carried(bare, keys, change).residual) for change in spread.T]
+    squares = (sum(getattr(e, name) for e in each) for name in ("squares", "angle_squares"))
+    return ErrorSums(next(squares), each[0].rows, next(squares), each[0].windows)

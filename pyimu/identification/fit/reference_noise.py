@@ -14,7 +14,7 @@ from pyimu.identification.fit.fit import Fit, Last
 from pyimu.identification.fit.high_differences import (
     WEIGHT,
     differences,
-    high,
+    roughness,
     white_of,
     white_of_reference,
 )
@@ -141,7 +141,9 @@ def _drawn(trial: Trial, variance: np.ndarray, rng: np.random.Generator) -> Tria
     seen = in_band(trial, draw).var(axis=0) if trial.count else np.ones(3)
     wanted = np.isin(np.arange(3), trial.axes) & (seen > 0.0)
     scale = np.sqrt(np.where(wanted, variance / np.where(seen > 0.0, seen, 1.0), 0.0))
-    most = high(trial, trial.u[:, OWN[trial.kind]]) / np.maximum(high(trial, draw), 1e-300)
+    most = roughness(trial, trial.u[:, OWN[trial.kind]]) / np.maximum(
+        roughness(trial, draw), 1e-300
+    )
     return replace(trial, noise=draw * np.minimum(scale, most))
 
 

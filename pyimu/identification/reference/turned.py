@@ -17,7 +17,7 @@ from pyimu.errors import Finding
 from pyimu.identification.fit.columns import in_band
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.reference.clock import explained_by
-from pyimu.identification.reference.moving import in_own_band, moving_rows
+from pyimu.identification.reference.moving import in_own_band, moving_rows, turned_onto
 from pyimu.model.kinds import OWN
 
 LEAST = float(np.radians(1.0))
@@ -60,8 +60,7 @@ def _angle(trial: Trial) -> float:
     gain, _, rank, _ = np.linalg.lstsq(x - x.mean(axis=0), y - y.mean(axis=0), rcond=1e-3)
     if rank < 3:
         return 0.0
-    left, _, right = np.linalg.svd(gain)
-    turn = left @ np.diag([1.0, 1.0, np.linalg.det(left @ right)]) @ right
+    turn = turned_onto(np.eye(3), gain)
     angle = float(Rotation.from_matrix(turn).magnitude())
     size = 2.0 * np.sqrt(2.0) * np.sin(angle / 2.0)
     pure = np.linalg.norm(gain - turn) < PURE * size
