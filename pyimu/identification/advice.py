@@ -200,7 +200,7 @@ def _separated(kind: str, inv: Investigation) -> Iterator[Advice]:
 
 def _planned(kind: str, inv: Investigation, known: _Known) -> Iterator[Advice]:
     fit = inv.after
-    if any(t.reduction is not None for t in fit.trials):
+    if fit.is_reduced:
         return  # the noise of its rows is that of whole rests, not of samples
     for motion in (m for m in library(Limits.of(fit.sensor)) if m.name in TRIED[kind]):
         h = step_of([motion])

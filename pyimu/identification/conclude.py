@@ -331,7 +331,7 @@ def _added(kind: str, sensor: Sensor, inv: Investigation) -> list[Added]:
             name: (values[name], _standard_errors(inv.after, e, name, step.dispersion), unit)
             for name, unit in ((n, sensor.unit(p.unit)) for n, p in e.parameters.items())
         }
-        note = what_no_log_tells_apart(e, sensor, inv.after.trials)
+        note = what_no_log_tells_apart(e, sensor, inv.after.trials, step.alternatives)
         out.append(Added(kind, e.name, step.alternatives, parameters, step.gain, step.gate, note))
     return out
 

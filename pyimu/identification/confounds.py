@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 
 from pyimu.identification.fit.trial import Trial
 from pyimu.model.catalogue import CATALOGUE
@@ -11,27 +11,33 @@ from pyimu.model.sensor import Sensor
 from pyimu.report.numbers import joined
 
 
-def what_no_log_tells_apart(e: Effect, sensor: Sensor, trials: Iterable[Trial]) -> str:
+def what_no_log_tells_apart(
+    e: Effect, sensor: Sensor, trials: Iterable[Trial], alternatives: Collection[str] | None = None
+) -> str:
     """The note that goes with an effect of a sensor wherever it is named; empty where it has none.
 
-    A turn of the whole triad is in doubt only where the reference's mounting is.
+    A turn of the whole triad is in doubt only where the reference's mounting is, and another form
+    of a delay where it is among the ``alternatives``, if these are known.
     """
     if e.mounting and not any(t.free_rotation for t in trials):
         return ""
     if e.delay is not None:
-        return _of_delay(e, sensor)
+        return _of_delay(e, sensor, alternatives)
     if e.confound is None:
         return ""
     return f"no log can tell it from {e.confound.of}; {e.confound.apart} would"
 
 
-def _of_delay(e: Effect, sensor: Sensor) -> str:
-    """Of a family that is known by its delay alone."""
+def _of_delay(e: Effect, sensor: Sensor, alternatives: Collection[str] | None) -> str:
+    """Of a family that is known by its delay alone, but for forms that the data tell."""
     delay = float(e.delay(**{n: float(v) for n, v in sensor.values[e.name].items()}))
-    names = [other.name for other in CATALOGUE.values() if other.family == e.family]
+    family = [other.name for other in CATALOGUE.values() if other.family == e.family]
+    some = [n for n in family if alternatives is None or n in alternatives or n == e.name]
     apart = f"; {e.confound.apart} would tell the clock" if e.confound else ""
+    late = f"an effective delay of {delay * 1e3:.2f} ms of the sensor against the reference"
+    if len(some) == 1:
+        return f"{late}, of which the reference's clock may hold a part{apart}"
     return (
-        f"{joined(names)} are one class: an effective delay of {delay * 1e3:.2f} ms of the "
-        "sensor against the reference; the sensor's bandwidth, its sampling and the reference's "
-        f"clock cannot be told apart{apart}"
+        f"{joined(some)} are one class: {late}; the sensor's bandwidth, its sampling and the "
+        f"reference's clock cannot be told apart{apart}"
     )

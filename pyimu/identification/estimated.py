@@ -104,7 +104,9 @@ def _of_sensor(
     errors = None if inv is None else _Regression(inv)
     changed = set() if inv is None else {s.effect for s in inv.steps if s.declared}
     for e in sensor.effects:
-        note = "" if inv is None else what_no_log_tells_apart(e, sensor, inv.after.trials)
+        added = new.get((kind, e.name))
+        forms = None if added is None else added.alternatives
+        note = "" if inv is None else what_no_log_tells_apart(e, sensor, inv.after.trials, forms)
         for name, q in e.parameters.items():
             key, value = (kind, e.name, name), sensor.values[e.name][name]
             if (kind, e.name) in new:

@@ -16,11 +16,11 @@ from pyimu.identification.fit.left_open import Open, left_open, what_is_open
 from pyimu.identification.fit.left_out import as_measured, left_out
 from pyimu.identification.fit.noise_fit import declared_variances
 from pyimu.identification.fit.noise_floor import floor_noise, reference_variance
+from pyimu.identification.fit.scatter import typical_wander, wander_of
 from pyimu.identification.fit.score import WINDOW, ErrorSums, floor, held_state, tally
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.identification.found import AtRest, Errors, LogEntry
-from pyimu.identification.reference.gravity import typical_wander
 from pyimu.identification.reference.level import Leaning, leaning
 from pyimu.identification.search.belief import FARTHEST, most
 from pyimu.identification.search.forward import Investigation
@@ -100,9 +100,8 @@ def _errors_of_rows(inv: Investigation, trial: Trial) -> Errors:
     before, after = left_out(inv.before, trial), left_out(inv.after, trial)
     likely = (ErrorSums(log_likelihood=one.log_likelihood) for one in (before, after))
     sums = (one.sums(one.error**2) + e for one, e in zip((before, after), likely, strict=True))
-    wander = trial.reduction.wander.max()
     # More than any sensor wanders is no noise, but something that the model lacks.
-    share = min(1.0, (FARTHEST * typical_wander(trial.kind)) ** 2 / wander)
+    share = min(1.0, (FARTHEST * typical_wander(trial.kind) / wander_of(trial)) ** 2)
     # The rest of what is expected is in what the other rows leave open of the model.
     open_ = np.maximum(after.variance - after.white - after.wander, 0.0)
     noise = (after.sums(v) for v in (after.white, share * after.wander))

@@ -237,7 +237,8 @@ def test_attitude_reference_with_a_turned_mounting_finds_a_delay():
         Recording.from_arrays(name="wand", time=t, gyro=gyro, ref_q=seen.as_quat(scalar_first=True))
     )
     assert [a.effect for a in closed.added] == ["time_delay"]
-    assert set(closed.added[0].alternatives) == {"lag", "first_order_lag"}
+    # A single pole as late bends a motion of 2 Hz by more than all that is left.
+    assert set(closed.added[0].alternatives) == {"lag"}
     td, std, _ = closed.added[0].parameters["td"]
     assert abs(td - 0.0075) < max(5 * std, 2e-4)
     found = np.array(closed.recordings[0].log_state["gyro"]["rotation"])

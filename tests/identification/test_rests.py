@@ -374,6 +374,35 @@ def test_a_bend_that_few_rests_cannot_name_is_not_called_noise():
     assert closed.added or "times its noise" in " ".join([closed.reason, *closed.remarks])
 
 
+@pytest.mark.parametrize("seed", [3, 4])
+def test_a_bend_that_many_rests_show_is_named_and_not_called_wander(seed):
+    """It was taken for what the output wanders by from rest to rest: "clean" beside many times the
+    floor. Squares of 4 mg at 1 g, where flicker is 0.3 mg.
+    """
+    rng = np.random.default_rng(seed)
+    log = resting(rng, everywhere(rng, 26), triad(rng))
+    bent = np.array(log.accel)
+    bent[:, 2] += 4e-3 / 9.80665 * bent[:, 2] ** 2
+    closed = pyimu.close(replace(log, accel=bent))
+    (added,) = closed.added
+    assert added.effect == "scale_factor_nonlinearity", closed.report()
+    value, std, _ = added.parameters["s2"]
+    assert not value[:2].any() and abs(value[2] - 4e-3 / 9.80665) < 5 * std[2]
+    left = closed.errors["accel"]
+    assert left.after.total < 0.5 * left.before.total and left.after.total < 3 * left.floor.total
+
+
+def test_rests_that_wander_much_show_no_bend():
+    """Ten times the flicker: what a bend gains there by chance is charged for."""
+    named = []
+    for seed in range(12):
+        rng = np.random.default_rng([seed, 5])
+        log = resting(rng, everywhere(rng, 16), triad(rng))
+        shake = np.repeat(0.03 * rng.standard_normal((16, 3)), REST + TURN, axis=0)
+        named.append(len(pyimu.close(replace(log, accel=log.accel + shake)).added))
+    assert sum(n > 0 for n in named) <= binom.isf(1e-3, len(named), 0.01), named
+
+
 def test_no_rest_in_a_tumble():
     """A body that turns all the time, at 6 deg/s or at 60, does not rest in any position."""
     rng = np.random.default_rng(11)

@@ -130,6 +130,11 @@ class Fit:
         return list(self.last.linears)
 
     @property
+    def is_reduced(self) -> bool:
+        """Whether its rows are no samples, but what whole stretches of logs say."""
+        return any(t.reduction is not None for t in self.trials)
+
+    @property
     def _linearised_by(self) -> tuple:
         """What a linearisation depends on."""
         return self.sensor, self.free, *self.trials, *(self.states[t.name] for t in self.trials)

@@ -20,6 +20,7 @@ from scipy.stats import chi2
 
 from pyimu.identification.fit.columns import Linear, in_band
 from pyimu.identification.fit.sample_noise import without_information
+from pyimu.identification.fit.short_memory import short_memory
 from pyimu.identification.fit.trial import Doubt, Trial
 from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.model.kinds import KINDS, OWN
@@ -45,7 +46,8 @@ DRIFTS = 1.0
 """Hz; below it a sensor may drift: the Allan deviation of inertial sensors still falls at 0.1 s."""
 
 NOT_CHANCE = 1e-4
-"""Probability by chance below which the noise of a reference is not white."""
+"""Probability by chance below which there is noise of a reference, and below which that is not
+white."""
 
 CLEARLY = 2.0
 """Standard errors by which a density must be more than another one."""
@@ -111,17 +113,20 @@ class Spectrum:
         return float(np.hypot(np.linalg.norm(self.std) / total, self.common))
 
     def beyond(self, known: np.ndarray) -> np.ndarray:
-        """The density (f,) beyond one that is ``known`` (f,), where there clearly is any.
+        """The density (f,) beyond one that is ``known`` (f,), where there clearly is any; none
+        where all of it together is no more than chance leaves.
 
         It is averaged over a third of an octave: cut off at zero, what single frequencies scatter
         would add up.
         """
-        left, out = self.psd - known, np.zeros(len(self.psd))
-        for some in thirds(len(left)):
-            mean = float(left[some].mean())
-            if mean > CLEARLY * self.std_of_mean(some):
+        left, out, pieces = self.psd - known, np.zeros(len(self.psd)), thirds(len(self.psd))
+        together = 0.0
+        for some in pieces:
+            mean, std = float(left[some].mean()), self.std_of_mean(some)
+            if mean > CLEARLY * std:
                 out[some] = mean
-        return out
+            together += np.inf if mean > 0.0 == std else (max(mean, 0.0) / max(std, 1e-300)) ** 2
+        return out if together > chi2.isf(NOT_CHANCE, len(pieces)) else np.zeros(len(out))
 
     def std_of_mean(self, some: slice) -> float:
         """Standard error of the mean density over neighbouring frequencies."""
@@ -151,30 +156,31 @@ def unseen_spectra(trial: Trial, one: Linear, own: Mapping[int, RandomWalk]) -> 
     inputs, bad = _known(trial)
     count = len(inputs)
     signal = in_band(trial, trial.u[:, OWN[trial.kind]][:, axes])
-    every = [*one.residual[:, axes].T, *inputs, *signal.T]
+    short = short_memory(one.residual[:, axes], inputs[: len(trial.axes)], one.segments)
+    every = [*short.beyond.T, *inputs, *signal.T, *one.residual[:, axes].T]
     length, starts = _frames(one, bad, max(WINDOWS, FOR_EACH * (count - len(trial.axes))))
     if length < FEWEST_ROWS or len(starts) < 2 * count:
         return {}
     interval = trial.h * trial.band.stride
     z, frequency = _transforms(every, starts, length, interval), np.fft.rfftfreq(length, interval)
-    cross = np.array([v.conj() @ v.T for v in z]) / len(starts)
-    known = slice(len(axes), len(axes) + count)
-    inverse, averaged = _inverse(cross[:, known, known]), len(starts) / OVERLAP - count
+    beyond, known, whole, left = np.split(z, np.cumsum([len(axes), count, len(axes)]), axis=1)
+    inverse, averaged = _inverse(_products(known, known)), len(starts) / OVERLAP - count
+    by, power = _products(known, beyond), _powers(beyond)
     found = {}
     for k, axis in enumerate(axes):
-        by, at = cross[:, known, k], trial.axes.index(axis)
-        gain = np.einsum("fij,fj->fi", inverse, by)
-        shown = np.einsum("fi,fi->f", by.conj(), gain).real
-        left = np.maximum(cross[:, k, k].real - shown, 0.0) * (1.0 + count / averaged)
+        at = trial.axes.index(axis)
+        gain = np.einsum("fij,fj->fi", inverse, by[:, :, k])
+        seen = np.einsum("fi,fi->f", by[:, :, k].conj(), gain).real
+        unseen = np.maximum(power[:, k] - seen, 0.0) * (1.0 + count / averaged)
         mine = _own(trial, own[axis], frequency)
         # The sensor's own noise is in its signal as well: that share of it is not left.
-        share = np.clip(gain[:, at].real, 0.0, 1.0)
-        of_share = mine * np.sqrt(left * np.maximum(inverse[:, at, at].real, 0.0))
-        psd, std = left - mine * (1.0 - share), np.hypot(left, of_share) / np.sqrt(averaged)
+        share = np.clip(gain[:, at].real + short.response(frequency * interval, at, k), 0.0, 1.0)
+        of_share = mine * np.sqrt(unseen * np.maximum(inverse[:, at, at].real, 0.0))
+        psd, std = unseen - mine * (1.0 - share), np.hypot(unseen, of_share) / np.sqrt(averaged)
         psd[0] = std[0] = 0.0
-        whole = cross[:, known.stop + k, known.stop + k].real
-        frames = Frames(z[:, k], z[:, known.start + at])
-        found[axis] = Spectrum(frequency, psd, std, whole=whole, own=mine, frames=frames)
+        frames = Frames(left[:, k], known[:, at])
+        shown = _powers(whole[:, [k]])[:, 0]
+        found[axis] = Spectrum(frequency, psd, std, whole=shown, own=mine, frames=frames)
     return found
 
 
@@ -215,6 +221,16 @@ def _transforms(
         pieces *= window
         z[:, k] = rfft(pieces, axis=1, overwrite_x=True).T
     return z
+
+
+def _products(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Mean products (f, j, k) of transforms (f, j, n), conjugated, and (f, k, n)."""
+    return one.conj() @ other.transpose(0, 2, 1) / one.shape[2]
+
+
+def _powers(z: np.ndarray) -> np.ndarray:
+    """Mean squares (f, k) of transforms (f, k, n)."""
+    return np.mean(np.abs(z) ** 2, axis=2)
 
 
 def _inverse(matrices: np.ndarray) -> np.ndarray:

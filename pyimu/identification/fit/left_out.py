@@ -16,6 +16,7 @@ from scipy.linalg import solve_triangular
 from pyimu.identification.fit.columns import linearise
 from pyimu.identification.fit.fit import Fit, with_prior
 from pyimu.identification.fit.normal import normal_equations, solve
+from pyimu.identification.fit.scatter import wander_of, with_wander
 from pyimu.identification.fit.score import ErrorSums, held_state
 from pyimu.identification.fit.trial import Trial
 from pyimu.model.sensor import Sensor
@@ -53,9 +54,12 @@ class LeftOut:
 def left_out(fit: Fit, trial: Trial) -> LeftOut:
     """The errors of a trial's rows, each judged by a fit to the others.
 
-    Of a log that was not fitted only what belongs to the log is estimated.
+    Of a log that was not fitted only what belongs to the log is estimated. The rows of one that was
+    wander as they do in the fit.
     """
     fitted, state = trial.name in fit.states, held_state(fit, trial)[0]
+    if fitted:
+        trial = with_wander(trial, wander_of(fit.trials[0]))
     linear = linearise(fit.sensor, trial, state, fit.free if fitted else ())
     together = fit.linearise() if fitted else [linear]
     normal = normal_equations(together, fit.noise)

@@ -52,7 +52,7 @@ def with_reference_noise(
     to speak of. Where that is coloured and may as well be what an effect left, it is drawn only if
     it is ``believed``, and the trials are marked as doubted else.
     """
-    if any(t.reduction is not None for t in fit.trials):
+    if fit.is_reduced:
         return fit, held
     linears = fit.residuals()
     variance, spectra = _variance(fit), _spectra(fit, linears)

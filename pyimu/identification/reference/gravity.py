@@ -9,16 +9,14 @@ import numpy as np
 
 from pyimu.errors import Finding
 from pyimu.identification.fit.rests import Rests
-from pyimu.identification.fit.scatter import scaled, weighed
+from pyimu.identification.fit.scatter import typical_wander, wander_of, weighed, with_wander
 from pyimu.identification.fit.trial import Trial, environment
 from pyimu.model.kinds import OWN
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS
-from pyimu.model.typical import CLASSES, magnitudes
 from pyimu.recording.gravity import gravity_of
 from pyimu.recording.recording import Recording
 from pyimu.recording.rest import is_at_rest, rests
-from pyimu.symbolic.earth import EARTH_RATE
 
 SAME = math.radians(5.0)
 """Rests whose gravity lies within this angle are in one position: what is left out with one of them
@@ -26,9 +24,6 @@ is left out with all."""
 
 LEAST_POSITIONS = 4
 """Positions from which on gravity's size shows anything: a bias has three coefficients."""
-
-WANDER = "bias_instability"
-"""The effect whose typical size a sensor's output wanders by from rest to rest."""
 
 
 def rest_trial(recording: Recording, latitude: float | None = None) -> Trial | None:
@@ -85,11 +80,10 @@ def rest_trials(
     )
     if not fitted:
         return None
-    fitted = weighed(fitted, sensor, typical_wander(sensor.kind))
+    fitted = weighed(fitted, sensor)
     if not others:
         return fitted, [t.split(0.0)[1] for t in fitted]
-    wander = fitted[0].reduction.wander[0, 0]
-    return fitted, [scaled(t, wander * np.eye(len(t.time))) for t in held]
+    return fitted, [with_wander(t, wander_of(fitted[0])) for t in held]
 
 
 def few(logs: Sequence[Recording]) -> str:
@@ -160,15 +154,6 @@ def sample_std(values: np.ndarray, pieces: Sequence[np.ndarray]) -> np.ndarray:
     """
     squares = sum((np.diff(values[rows], axis=0) ** 2).sum(axis=0) for rows in pieces)
     return np.sqrt(squares / (2 * max(sum(len(rows) - 1 for rows in pieces), 1)))
-
-
-def typical_wander(kind: str) -> float:
-    """By how much a consumer part wanders from rest to rest [SI].
-
-    A gyro's output follows the Earth's rate, too, whose direction nobody knows.
-    """
-    own = magnitudes(WANDER, kind)[CLASSES[-1]].si
-    return float(np.hypot(own, EARTH_RATE)) if kind == "gyro" else own
 
 
 def _findings(

@@ -12,11 +12,11 @@ import numpy as np
 
 from pyimu.errors import Finding
 from pyimu.identification.fit.fit import Fit
-from pyimu.identification.fit.scatter import scaled, weighed
+from pyimu.identification.fit.scatter import typical_wander, wander_of, weighed, with_wander
 from pyimu.identification.fit.score import held_state
 from pyimu.identification.fit.trial import Trial, environment
 from pyimu.identification.fit.turns import Turns, at_middle
-from pyimu.identification.reference.gravity import rest_rows, sample_std, typical_wander
+from pyimu.identification.reference.gravity import rest_rows, sample_std
 from pyimu.identification.search.forward import Investigation
 from pyimu.model.kinds import OWN
 from pyimu.model.sensor import Sensor
@@ -37,7 +37,7 @@ def turn_trials(
     """Trials of turns to fit and to judge by, given what gravity at rest showed of the
     accelerometer; None where it showed nothing, or the logs turn too little between rests.
     """
-    if accel is None or all(t.reduction is None for t in accel.after.trials):
+    if accel is None or not accel.after.is_reduced:
         return None
     fitted, held = (
         [t for t in (_turn_trial(r, accel, rests) for r in rs) if t is not None]
@@ -45,12 +45,10 @@ def turn_trials(
     )
     if not fitted:
         return None
-    typical = typical_wander("gyro")
-    shown = weighed(fitted, sensor, typical)
+    shown = weighed(fitted, sensor)
     if not others:
         return shown, [t.split(0.0)[1] for t in shown]
-    size = shown[0].reduction.wander[0, 0] / fitted[0].reduction.wander[0, 0]
-    return shown, [scaled(t, size * t.reduction.wander) for t in held]
+    return shown, [with_wander(t, wander_of(shown[0])) for t in held]
 
 
 def _turn_trial(recording: Recording, accel: Investigation, rests: Sequence[Trial]) -> Trial | None:

@@ -215,7 +215,7 @@ def without_lost(fitted: Fit) -> Fit:
     They carry no noise and no slope, and would bias what is looked for next. Rows that are no
     samples have none at it.
     """
-    if any(t.reduction is not None for t in fitted.trials):
+    if fitted.is_reduced:
         return fitted
     levels, unlimited = _levels(fitted.sensor)
     margin = np.array(

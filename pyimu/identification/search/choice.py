@@ -19,6 +19,11 @@ from pyimu.identification.fit.maximum_likelihood import (
 )
 from pyimu.identification.fit.normal import Normal
 from pyimu.identification.fit.reduction import STRUCTURE
+from pyimu.identification.fit.scatter import (
+    explained_beside_wander,
+    reweighed,
+    with_less_wander,
+)
 from pyimu.identification.fit.walk import widening
 from pyimu.identification.fit.whiten import WALKS, Autoregressive
 from pyimu.identification.search.by_chance import Chance
@@ -58,6 +63,11 @@ and order 32 a tenth, twice that for a share."""
 
 MOST_REFINED = 5
 
+CLEAR = 0.5
+"""Share of the power that one form of a delay leaves which another leaves at most where it is the
+clearly better one beside a derived reference: of half of what is left there, that reference's own
+rows, filters and joints may be the cause."""
+
 LEAST_SHARE = 0.1
 """Share of the best gain at first look below which a candidate is not fitted in full: noise fitted
 anew reorders, but not so far."""
@@ -96,6 +106,9 @@ class Tried:
     usual: Screening | None = None
 
     def __post_init__(self) -> None:
+        if self.current.is_reduced:
+            self.views = [(self.current, False), (with_less_wander(self.current), False)]
+            return
         held, less = self.current.as_declared(), self.current.wandering_less()
         self.views = [(held, False)]
         if held is not self.current:
@@ -113,7 +126,8 @@ class Tried:
         view, slow = self.views.pop(0)
         chance = self.chance if view is self.current else None
         seen = screen(view, self.declared, slow=slow, chance=chance)
-        if slow and self.usual is not None:
+        wanders_less = slow or (view.is_reduced and view is not self.current)
+        if wanders_less and self.usual is not None:
             scatter = next((c.scatter for c in self.usual.candidates), Scatter())
             few = tuple(replace(c, scatter=scatter) for c in seen.candidates)
             seen = Screening(few, max(seen.gate, self.usual.gate))
@@ -147,7 +161,7 @@ class Tried:
     def chance(self) -> Chance | None:
         """Draws of what the model leaves; None where no walk is looked for."""
         walks = any(isinstance(n, WALKS) for n in self.current.noise.values())
-        if not walks or any(t.reduction is not None for t in self.current.trials):
+        if not walks or self.current.is_reduced:
             return None
         return Chance(self.current, self.current.linearise(), PENALTY)
 
@@ -173,7 +187,9 @@ def chosen_of(
     close = [r.screened.effect for r in refined if r is not best and ahead(best, r) <= SET_WIDTH]
     if derived or CATALOGUE[best.screened.effect].delay is not None:
         # Of a reference that ends below the band, or its clock, another form may be the truth.
-        close += [c.effect for c in options if c.effect in equivalent(best.screened.effect)]
+        worse = {f.screened.effect for f in forms if _leaves_much_less(best, f)}
+        family = equivalent(best.screened.effect) - worse
+        close += [c.effect for c in options if c.effect in family]
     return best, tuple(dict.fromkeys(close))
 
 
@@ -202,17 +218,34 @@ def _form(forms: list[Refined], derived: bool) -> Refined:
 
     Unless they speak clearly it is the one with the fewest coefficients, of those the last in the
     catalogue, which lists a family's plainest form last; a derived reference ends below the band in
-    which delays differ, and cannot speak at all.
+    which most delays differ, and speaks only where one form leaves much less than the other.
     """
     best = reduce(lambda one, other: other if ahead(other, one) > 0.0 else one, forms)
-    blind = derived and CATALOGUE[best.screened.effect].delay is not None
-    near = [other for other in forms if blind or ahead(best, other) < SET_WIDTH]
+    mostly_blind = derived and CATALOGUE[best.screened.effect].delay is not None
+
+    def is_near(other: Refined) -> bool:
+        close = ahead(best, other) < SET_WIDTH
+        return close or (mostly_blind and not _leaves_much_less(best, other))
+
+    near = [other for other in forms if is_near(other)]
     order = list(CATALOGUE)
 
     def plainness(r: Refined) -> tuple[int, int]:
         return -len(keys_of(r.screened)), order.index(r.screened.effect)
 
     return max(near, key=plainness)
+
+
+def _leaves_much_less(one: Refined, other: Refined) -> bool:
+    """Whether a candidate leaves no more than ``CLEAR`` of the power that another one leaves, in
+    the mean over the axes.
+    """
+    powers = [
+        np.sum([np.sum(r.residual**2, axis=0) for r in c.fit.residuals()], axis=0)
+        for c in (one, other)
+    ]
+    axes = list(one.fit.noise)
+    return float(np.mean(np.log(powers[0][axes] / powers[1][axes]))) < np.log(CLEAR)
 
 
 def ahead(one: Refined, other: Refined) -> float:
@@ -225,7 +258,9 @@ def ahead(one: Refined, other: Refined) -> float:
     differs from noise to noise.
     """
     more = len(keys_of(one.screened)) - len(keys_of(other.screened))
-    if not (_takes_it_for_noise(one.fit) and _takes_it_for_noise(other.fit)):
+    if one.fit.is_reduced:
+        apart = one.explained - other.explained
+    elif not (_takes_it_for_noise(one.fit) and _takes_it_for_noise(other.fit)):
         apart = _apart(one.fit, other.fit)
     elif min(one.explained, other.explained) < MUCH_THE_SAME * max(one.explained, other.explained):
         apart = one.explained - other.explained
@@ -268,6 +303,10 @@ def refine(current: Fit, c: Screened) -> Refined:
     fitted, normal = fit_and_normal(
         replace(current, sensor=sensor, free=current.free | keys_of(c)).with_noise()
     )
+    # The wander of rows is that beside all structure there may be: what is bent, it may be itself.
+    bends = current.is_reduced and c.effect not in STRUCTURE
+    if bends:
+        fitted, normal = fit_and_normal(reweighed(fitted))
     declared = c.effect in current.sensor.values
     wider = widening(fitted) if len(c.groups) > 1 and is_slow(sensor.effect(c.effect)) else {}
     needed = tuple(g for g in c.groups if _needed(fitted, normal, g, declared, c.scatter, wider))
@@ -277,7 +316,10 @@ def refine(current: Fit, c: Screened) -> Refined:
     fitted = at_samples(fitted) if is_ceiling(sensor, c.effect) else fitted
     fitted = at_threshold(fitted) if is_threshold(sensor, c.effect) else fitted
     fitted = at_instants(fitted, c.effect)
-    explained = advantage(fitted, current)
+    count = len(keys_of(c))
+    explained = (
+        explained_beside_wander(fitted, current, count) if bends else advantage(fitted, current)
+    )
     # What the choice of a form gains by chance is its toll, however many coefficients it has.
     gain = explained / spread - PENALTY * sum(len(g.keys) for g in c.groups) - c.toll
     return Refined(c, fitted, gain if needed else -np.inf, explained, spread, normal)
@@ -299,7 +341,7 @@ def _needed(
         return stops_there(fitted, group.keys[0].index[0])
     if is_threshold(fitted.sensor, group.effect):
         return is_held_there(fitted, group.keys[0].index[0])
-    whole = any(t.reduction is not None for t in fitted.trials) and group.effect in STRUCTURE
+    whole = fitted.is_reduced and group.effect in STRUCTURE
     beyond = max((wider.get(k, 1.0) for k in group.keys), default=1.0)
     return (
         declared

@@ -25,7 +25,7 @@ def forms(
     fit leaves, where there are some.
     """
     wanted = [e for e in effects if form_of(e)]
-    if not wanted or any(t.reduction is not None for t in fit.trials):
+    if not wanted or fit.is_reduced:
         return {}
     linears, out = fit.linearise(), {}
     slow = Slow(fit, linears, chance or Chance(fit, linears, penalty))

@@ -19,6 +19,7 @@ from pyimu.identification.fit.maximum_likelihood import advantage, fit
 from pyimu.identification.fit.outweighed import without_outweighed
 from pyimu.identification.fit.reduction import STRUCTURE
 from pyimu.identification.fit.reference_noise import drawn_again, undrawn, with_reference_noise
+from pyimu.identification.fit.scatter import wander_of, with_wander
 from pyimu.identification.fit.trial import Doubt, Trial
 from pyimu.identification.fit.walk import with_unknown_walk
 from pyimu.identification.search.as_sampled import GATE, ceiling_of, threshold_of
@@ -306,6 +307,8 @@ class _Search:
 
     def _goes_on(self, after: Fit) -> None:
         """Look for more beside a model."""
+        if after.is_reduced:
+            self.held = [with_wander(t, wander_of(after.trials[0])) for t in self.held]
         known, self.held = drawn_again(after, self.held, self.believed)
         self.after = after if known is after else fit(known)
         self.tried = Tried(self.after, self.sensor.values)
@@ -316,7 +319,7 @@ class _Search:
 def _may_grow(effect: str, after: Fit) -> bool:
     """Whether elements of an effect may be let in one by one: no form is theirs to find."""
     e = after.sensor.effect(effect)
-    return not (has_form(e) or scanned(e)) and all(t.reduction is None for t in after.trials)
+    return not (has_form(e) or scanned(e) or after.is_reduced)
 
 
 def _as_sampled(before: Fit, held: list[Trial]) -> tuple[Fit, list[Step]]:
@@ -356,7 +359,7 @@ def _in_order(options: list[Screened], fit: Fit) -> list[Screened]:
     So few rows hardly tell a bend from a slope, and slopes are the commoner (effect hierarchy, Wu
     and Hamada 2009, section 4.6).
     """
-    if all(t.reduction is None for t in fit.trials):
+    if not fit.is_reduced:
         return options
     return [c for c in options if c.effect in STRUCTURE] or options
 

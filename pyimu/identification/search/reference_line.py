@@ -13,6 +13,7 @@ from pyimu.errors import Finding
 from pyimu.identification.fit.columns import band_time, in_band, in_log
 from pyimu.identification.fit.doubted import CERTAIN
 from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.incoherent import CHANCE
 from pyimu.identification.fit.inputs import LogState, reference_input
 from pyimu.identification.fit.response import predict
 from pyimu.identification.fit.trial import Trial
@@ -23,6 +24,10 @@ from pyimu.model.signals import COLUMNS
 BESIDE = range(8, 32)
 """Frequencies on either side of a line, in units of one over the log's length, that show what the
 motion has there."""
+
+UNSURE = 0.25
+"""Share of a line by which the sensor's signal may have more or less of it than all or nothing, as
+frequency and phase are not quite the line's."""
 
 BLACKMAN_HARRIS = (0.35875, -0.48829, 0.14128, -0.01168)
 """Of 1, cos x, cos 2x and cos 3x (Harris 1978, "On the use of windows for harmonic analysis with
@@ -97,5 +102,8 @@ def _of_reference(trial: Trial, line: np.ndarray) -> float:
         if not power[0] > 0.0:
             continue
         share, *others = lines @ (seen[:, i] - seen[:, i].mean()) / power[0]
-        total += (0.5 - float(share)) / float(np.mean(np.square(others)))
+        variance = float(np.mean(np.square(others)))
+        # A motion that is a line itself is in the sensor's signal by any share: that tells nothing.
+        if min(abs(share), abs(share - 1.0)) < max(CHANCE * np.sqrt(variance), UNSURE):
+            total += (0.5 - float(share)) / variance
     return total

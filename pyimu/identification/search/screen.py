@@ -126,7 +126,7 @@ def screen(
     effects = new + held
     linear = [e.name for e in new if not scanned(e)] + [e.name for e in held]
     normal = with_prior(equations(fit, lambda f: f.linearise(linear, [scans])), fit)
-    whole = any(t.reduction is not None for t in fit.trials)
+    whole = fit.is_reduced
     all_groups = groups(normal, fit.sensor, effects, whole)
     taken = sorted({c for g in all_groups for choice in g.choices for c in choice.columns})
     base = [i for i in range(len(normal.keys)) if i not in set(taken)]
