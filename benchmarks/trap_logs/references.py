@@ -31,6 +31,31 @@ def held_at_20_hz(rng) -> Log:
     return scene.log(columns, "sample_rate", figures={"rate": 20.0})
 
 
+def _held(scene: Scene, rate: float) -> tuple[np.ndarray, np.ndarray]:
+    """Times (k,) of samples at ``rate`` Hz, and the one (n,) that each row of a log shows."""
+    first = scene.rng.uniform(-2.0, -1.0) / rate
+    node = first + np.arange(int((scene.time[-1] - first) * rate) + 1) / rate
+    return node, np.searchsorted(node, scene.time, side="right") - 1
+
+
+def attitude_held_unevenly(rng) -> Log:
+    """An attitude at a rate that is no part of the log's, each value repeated until the next."""
+    scene = new_scene(rng)
+    rate = rng.uniform(0.12, 0.55) / scene.h
+    node, latest = _held(scene, rate)
+    columns = scene.sensed() | {"ref_q": scene.attitude_at(node)[latest]}
+    return scene.log(columns, "sample_rate", figures={"rate": rate})
+
+
+def rate_held(rng) -> Log:
+    """The rate of another unit, slower, each value repeated until the next."""
+    scene = new_scene(rng)
+    rate = rng.uniform(0.2, 0.55) / scene.h
+    node, latest = _held(scene, rate)
+    columns = scene.sensed() | {"ref_rate": scene.motion.rate(node)[latest]}
+    return scene.log(columns, "sample_rate", figures={"rate": rate})
+
+
 def _against_rate(scene: Scene, error: np.ndarray) -> Log:
     rate = scene.motion.rate(scene.time)
     columns = scene.sensed() | {"ref_rate": rate + error}
@@ -147,6 +172,8 @@ def drift_0_1_deg_per_min(rng) -> Log:
 TRAPS = (
     slerp_60_to_200_hz,
     held_at_20_hz,
+    attitude_held_unevenly,
+    rate_held,
     rate_as_noisy_as_gyro,
     rate_with_correlated_noise,
     mounting_1_deg,

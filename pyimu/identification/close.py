@@ -60,6 +60,7 @@ from pyimu.recording.quality.inspect import beyond_range, inspect, of_reading, r
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.course import has_course
 from pyimu.recording.reference.file import with_references
+from pyimu.recording.reference.held import held_apart
 from pyimu.recording.reference.rate import reference_rate
 from pyimu.recording.rest import is_at_rest
 from pyimu.report.numbers import joined
@@ -134,7 +135,10 @@ def close(
 def _on_time(
     sensor: Sensor, logs: list[Recording], others: list[Recording], latitude: float | None
 ) -> tuple[list[Recording], list[Recording], Together]:
-    """The logs with references that do not lag, and the gyro's trials of them."""
+    """The logs with references that do not lag, at samples of their own where rows hold these, and
+    the gyro's trials of them.
+    """
+    logs, others = list(map(held_apart, logs)), list(map(held_apart, others))
     turning = aligned_trials(sensor, gyro_trial, logs, others, latitude)
     quick = unlagged_logs(turning, sensor, logs, others)
     if quick is None:
