@@ -1,12 +1,15 @@
-"""A lag that bends the motion within the band of an attitude: its form can be told there."""
+"""A lag that bends the motion within the band of an attitude, whose form can be told there, and the
+noise of a rate behind a declared one.
+"""
 
 import numpy as np
 import pytest
-from scipy.signal import lfilter
+from scipy.signal import bilinear, lfilter
 from scipy.spatial.transform import Rotation
 
 import pyimu
 from pyimu.identification.fit.short_memory import short_memory
+from pyimu.model.part_reader import parse_part
 from pyimu.recording.recording import Recording
 
 RATE, FINER, SECONDS = 200.0, 10, 60.0
@@ -83,3 +86,39 @@ def test_a_delay_is_taken_out_of_a_row_by_those_about_it_and_noise_stays():
     assert abs(power - 1.0) < 5 * np.sqrt(2 / count), power
     gain = found.response(np.array([0.2 / (2 * np.pi)]), 0, 0)
     assert gain == pytest.approx(np.cos(0.2) - 1.0, abs=1e-3)
+
+
+LAGS = """
+name = "lags"
+sample_rate = {value = 400.0, unit = "Hz"}
+[gyro.lag]
+wn = {value = 120.0, unit = "Hz"}
+zeta = {value = 0.7, unit = "1"}
+[gyro.angle_random_walk]
+N = {value = [5e-5, 5e-5, 5e-5], unit = "rad/sqrt(s)"}
+"""
+
+
+def test_noise_of_a_rate_that_comes_through_a_declared_lag_is_not_the_sensors():
+    """Behind the lag it is not white, and was taken for nothing: then the lag's bandwidth went from
+    136 to 380 Hz, where it leaves less of it, and a Gauss-Markov process for the rest.
+    """
+    rng, rate, fine = np.random.default_rng(6), 400.0, 10
+    time = np.arange(0.0, 90.0, 1 / (fine * rate))
+    f = np.array([0.3, 0.8, 1.9])
+    phases = rng.uniform(0, 2 * np.pi, (3, len(f)))
+    motion = np.column_stack(
+        [np.sin(2 * np.pi * np.outer(time, f) + p) @ [0.8, 0.5, 0.2] for p in phases]
+    )
+    wn = 2 * np.pi * 120.0
+    numbers = bilinear([wn**2], [1.0, 1.4 * wn, wn**2], fine * rate)
+    seen = lfilter(*numbers, motion, axis=0)[::fine]
+    white = 5e-5 * np.sqrt(rate)
+    gyro = seen + 0.004 + white * rng.standard_normal(seen.shape)
+    told = motion[::fine] + 0.25 * white * rng.standard_normal(seen.shape)
+    log = Recording.from_arrays("lagging", time=time[::fine], gyro=gyro, ref_rate=told)
+    found = pyimu.close(log, parse_part(LAGS, "lags.toml"))
+    assert not found.added and not found.changed, found.report()
+    left = found.errors["gyro"]
+    # Of the power of the reference's noise, a sixteenth of the gyro's, the lag lets half through.
+    assert np.all(np.abs(left.after.per_axis / left.noise_per_axis - 1.0) < 0.03), found.report()

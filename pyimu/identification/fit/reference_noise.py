@@ -28,11 +28,13 @@ from pyimu.identification.fit.incoherent import (
     unseen_spectra,
 )
 from pyimu.identification.fit.noise_floor import beyond_own, lowness, own_noise, quiet, windows
+from pyimu.identification.fit.response import power_through_dynamics
 from pyimu.identification.fit.sample_noise import rest_noise
 from pyimu.identification.fit.standing import all_noise, standing
 from pyimu.identification.fit.trial import Doubt, Trial
 from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.model.kinds import OWN
+from pyimu.model.sensor import Sensor
 
 LEAST = 1e-3
 """Share of the residual's variance below which the noise of a reference is left alone: what it does
@@ -40,6 +42,9 @@ to a gain is less than the scatter of that gain in a million rows."""
 
 REST = 1 / 16
 """Share of the windows in which a reference is taken to be at rest, if it ever is."""
+
+LEAST_THROUGH = 0.01
+"""Share of its power from which on noise that went through dynamics is told from nothing."""
 
 MEASURED = ("rate", "force")
 """Kinds of reference that are measured as they are, and never differentiated."""
@@ -151,22 +156,38 @@ def _spectra(fit: Fit, linears: Sequence[Linear]) -> dict[str, list[Spectrum]]:
     """Spectra (3,) of the noise of references, by the names of their trials."""
     own = own_noise(fit)
     found = {
-        t.name: _of_trial(t, one, own)
+        t.name: _of_trial(fit.sensor, t, one, own)
         for t, one in zip(fit.trials, linears, strict=True)
         if t.reference != "static"
     }
     return {name: [by.get(i, NOTHING) for i in range(3)] for name, by in found.items()}
 
 
-def _of_trial(trial: Trial, one: Linear, own: Mapping[int, RandomWalk]) -> dict[int, Spectrum]:
-    """The noise by axis of the reference of a trial."""
+def _of_trial(
+    sensor: Sensor, trial: Trial, one: Linear, own: Mapping[int, RandomWalk]
+) -> dict[int, Spectrum]:
+    """The noise by axis of the reference of a trial, as it goes into a sensor."""
     direct = trial.band_hz is None
     seen = unseen_spectra(trial, one, _with_quiet(trial, own) if direct else own)
     still = {i: all_noise(seen[i]) for i in standing(trial) if i in seen}
     if _is_derived(trial):
         return seen | still
     moving = {i: s for i, s in seen.items() if i not in still}
-    return still | (_of_direct(trial, one, moving) if direct else _in_band(trial, moving))
+    through = {i: _share_through(sensor, trial, i, s.frequency) for i, s in moving.items()}
+    found = _of_direct(trial, one, moving, through) if direct else _in_band(trial, moving, through)
+    return still | {i: _before(s, through[i]) for i, s in found.items()}
+
+
+def _share_through(sensor: Sensor, trial: Trial, axis: int, frequency: np.ndarray) -> np.ndarray:
+    """Share (f,) of the power of a reference's noise that a model's dynamics let through."""
+    return np.maximum(power_through_dynamics(sensor, frequency, trial.h)[:, axis], LEAST_THROUGH)
+
+
+def _before(seen: Spectrum, through: np.ndarray) -> Spectrum:
+    """A spectrum before dynamics that let the share ``through`` (f,) of it through."""
+    if not len(seen.psd):
+        return seen
+    return replace(seen, psd=seen.psd / through, std=seen.std / through)
 
 
 def _with_quiet(trial: Trial, own: Mapping[int, RandomWalk]) -> dict[int, RandomWalk]:
@@ -177,7 +198,9 @@ def _with_quiet(trial: Trial, own: Mapping[int, RandomWalk]) -> dict[int, Random
     return {i: replace(n, r=max(n.r, float(quiet_rows[i]))) for i, n in own.items()}
 
 
-def _in_band(trial: Trial, seen: Mapping[int, Spectrum]) -> dict[int, Spectrum]:
+def _in_band(
+    trial: Trial, seen: Mapping[int, Spectrum], through: Mapping[int, np.ndarray]
+) -> dict[int, Spectrum]:
     """The noise by axis of a reference that was measured itself, on times of its own: its rows,
     made between its samples, show nothing of it by their high differences, but these do.
     """
@@ -186,7 +209,7 @@ def _in_band(trial: Trial, seen: Mapping[int, Spectrum]) -> dict[int, Spectrum]:
         count = len(trial.samples)
         white = white_of(differences(trial.samples, [(0, count)]))
         high, error = white / (2.0 * trial.band_limit), float(np.sqrt(2.0 * WEIGHT / count))
-    shapes = {i: in_rows(trial, s.frequency, np.ones_like) for i, s in seen.items()}
+    shapes = {i: through[i] * in_rows(trial, s.frequency, np.ones_like) for i, s in seen.items()}
     return {i: of_reference(s, float(high[i]), error, shapes[i]) for i, s in seen.items()}
 
 
@@ -194,11 +217,13 @@ def _is_derived(trial: Trial) -> bool:
     return trial.band_hz is not None and trial.reference not in MEASURED
 
 
-def _of_direct(trial: Trial, one: Linear, seen: Mapping[int, Spectrum]) -> dict[int, Spectrum]:
+def _of_direct(
+    trial: Trial, one: Linear, seen: Mapping[int, Spectrum], through: Mapping[int, np.ndarray]
+) -> dict[int, Spectrum]:
     """The noise by axis of a reference that is no derivative."""
     high = 2.0 * trial.h * white_of_reference(trial)
     error = float(np.sqrt(2.0 * WEIGHT / len(one.time)))
-    return doubted({i: of_reference(s, float(high[i]), error) for i, s in seen.items()})
+    return doubted({i: of_reference(s, float(high[i]), error, through[i]) for i, s in seen.items()})
 
 
 def _without_doubted(

@@ -13,7 +13,7 @@ from functools import cache, lru_cache
 
 import casadi as ca
 import numpy as np
-from scipy.signal import oaconvolve
+from scipy.signal import freqz, oaconvolve
 
 from pyimu.block.program import program
 from pyimu.block.stepping import step_through
@@ -176,6 +176,18 @@ def through_dynamics(
         # must not change the level.
         out[a:b] = _convolved(x[a:b] - origin, response[: b - a]) + origin
     return out
+
+
+def power_through_dynamics(sensor: Sensor, frequency: np.ndarray, h: float) -> np.ndarray:
+    """Share (f, 3) of an input's power that comes through the sensor's dynamics at ``frequency`` in
+    Hz.
+    """
+    chain = dynamics(sensor)
+    if not chain.effects:
+        return np.ones((len(frequency), 3))
+    taps = impulse_response(chain, h).T
+    gains = [freqz(t, worN=frequency, fs=1.0 / h)[1] for t in taps]
+    return np.abs(np.column_stack(gains)) ** 2
 
 
 def _convolved(x: np.ndarray, response: np.ndarray) -> np.ndarray:

@@ -8,6 +8,7 @@ from typing import Self
 
 import numpy as np
 
+from pyimu.identification.fit.errors_in_variables import has_noise, residual_changes
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk
@@ -49,7 +50,7 @@ def likelihood_of(
 @dataclass(frozen=True)
 class Explained:
     """The residual of a fit by axis and log, what was known of its noise at the ``start``, and the
-    kinds that were ``chosen``.
+    kinds that were ``chosen``; ``beside`` (3,) is the variance that references have in a row.
     """
 
     sensor: Sensor
@@ -58,6 +59,7 @@ class Explained:
     kinds: Sequence[Kind]
     free: frozenset[str]
     fitted: Mapping[int, RandomWalk]
+    beside: np.ndarray
     start: State
     state: State
     chosen: tuple[Chosen, ...] = ()
@@ -82,8 +84,10 @@ class Explained:
         longest = max(float(one.time[-1] - one.time[0]) for each in logs.values() for one in each)
         every = kinds(sensor, fit.trials[0].h, longest)
         loose = frozenset(free | ({WHITE[0]} if rounds else set()))
-        start = state_of(sensor, logs, fitted, every, loose, np.zeros(3))
-        return cls(sensor, fit, logs, every, loose, fitted, start, start) if start.axes else None
+        beside = _of_reference(fit)
+        start = state_of(sensor, logs, fitted, every, loose, beside)
+        known = sensor, fit, logs, every, loose, fitted, beside
+        return cls(*known, start, start) if start.axes else None
 
     def chosen_of(self, sensors: int) -> Self:
         """With the kinds that the axes have, their forms refined."""
@@ -117,7 +121,7 @@ class Explained:
         if motion is not None and any(t.kind.follows for t in state.found.get(i, ())):
             white = next(k for k in self.kinds if k.name == WHITE[0])
             out[white] = (self._white(i, motion), {})
-        return AxisNoise({k: v for k, v in out.items() if v[0] > 0.0})
+        return AxisNoise({k: v for k, v in out.items() if v[0] > 0.0}, float(self.beside[i]))
 
     def _loose(self, i: int) -> list[str]:
         """The kinds that are left to the data on an axis, in the order of their columns."""
@@ -127,7 +131,8 @@ class Explained:
 
     def _white(self, i: int, motion: np.ndarray) -> float:
         """N squared beside noise that follows the motion."""
-        return float((1.0 + motion[0]) * self.fitted[i].r * self.logs[i][0].h)
+        white = (1.0 + motion[0]) * self.fitted[i].r - self.beside[i]
+        return max(float(white), 0.0) * self.logs[i][0].h
 
     def explained(self) -> float:
         """Log-likelihood [nat] of all rows, the numbers of what was chosen penalised."""
@@ -230,6 +235,14 @@ class Explained:
 
 def _is_slow(kind: Kind) -> bool:
     return bool(kind.effect.law.walk or kind.effect.law.markov)
+
+
+def _of_reference(fit: Fit) -> np.ndarray:
+    """Variance (3,) that the noise of the references has in a row of the residual."""
+    if not has_noise(fit):
+        return np.zeros(3)
+    rows = [one.residual for one in residual_changes(fit)]
+    return np.mean(np.concatenate(rows) ** 2, axis=0)
 
 
 def _form(sensor: Sensor, kind: Kind, i: int) -> dict[str, float]:

@@ -51,7 +51,8 @@ def _axis(
     free: frozenset[str],
     added: float,
 ) -> Axis:
-    start = {WHITE[0]: np.sqrt(fitted.r * b.h), WALK[0]: np.sqrt(fitted.k2)}
+    own = max(fitted.r - added, LEAST_VARIANCE)
+    start = {WHITE[0]: np.sqrt(own * b.h), WALK[0]: np.sqrt(fitted.k2)}
     base, columns, least, had = np.full(len(b.count), LEAST_VARIANCE), [], [], {}
     for kind in (k for k in kinds if not k.follows):
         size, form = declared(kind, sensor, i)
