@@ -34,6 +34,7 @@ from pyimu.identification.reference.gravity import few, rest_trials
 from pyimu.identification.reference.lagging import unlagged_logs
 from pyimu.identification.reference.place import is_differentiated
 from pyimu.identification.reference.positions import positions_wanted, unshown
+from pyimu.identification.reference.turned import with_turned_force
 from pyimu.identification.reference.turns import turn_trials
 from pyimu.identification.result import Closed
 from pyimu.identification.search.ceiling import CEILING
@@ -162,10 +163,11 @@ def _investigated(
     looks: dict[str, Look] = {}
     quality: list[Finding] = []
     for kind, make in (("accel", accel_trial), ("gyro", gyro_trial)):
-        known = clocks_of(turning) if kind == "accel" else {}
-        made = partial(
-            aligned_trials, start.sensor(kind), make, logs, others, latitude, known=known
-        )
+        known, given = {}, (logs, others)
+        if kind == "accel":
+            known, both = clocks_of(turning), [*turning[0], *turning[1]]
+            given = tuple([with_turned_force(r, both) for r in some] for some in given)
+        made = partial(aligned_trials, start.sensor(kind), make, *given, latitude, known=known)
         trials, held = prepared(*(turning if kind == "gyro" else made()), bool(others))
         if kind == "accel" and not any(map(is_differentiated, trials)):
             at_rest = rest_trials(start.accel, logs, others, latitude)

@@ -49,3 +49,20 @@ def test_what_may_be_the_sensors_misalignment_stays_its_own(log):
     closed = turned(log, 0.5)
     assert not [f for f in closed.quality if f.kind == "reference_turned"]
     assert np.any(np.abs(of(closed, "misalignment").value) > np.radians(0.2))
+
+
+@pytest.mark.parametrize("apart", [False, True])
+def test_the_force_of_a_turned_unit_is_turned_with_its_rate(apart):
+    """By 4 deg it was a misalignment of 2.8 deg of the accelerometer, or slips of the clock. A
+    force of another unit, not turned, stays as it is.
+    """
+    world = drive(minutes=4, seed=34)
+    made = recording(world, seed=7)
+    turn = Rotation.from_rotvec(np.radians(4.0) * np.array([2.0, -1.0, 2.0]) / 3.0)
+    force = made.ref_force if apart else turn.apply(made.ref_force)
+    closed = pyimu.close(replace(made, ref_rate=turn.apply(made.ref_rate), ref_force=force))
+    assert not closed.added and closed.verdict == "clean", closed.report()
+    assert [f.column for f in closed.quality if f.kind == "reference_turned"] == ["gyro"]
+    (m,) = [e for e in closed.estimated if (e.sensor, e.effect) == ("accel", "misalignment")]
+    shown = m.shown & (m.std > 0.0)
+    assert np.sum((m.value[shown] / m.std[shown]) ** 2) < chi2.isf(1e-4, shown.sum()), m

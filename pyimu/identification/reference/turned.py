@@ -19,6 +19,7 @@ from pyimu.identification.fit.trial import Trial
 from pyimu.identification.reference.clock import explained_by
 from pyimu.identification.reference.moving import in_own_band, moving_rows, turned_onto
 from pyimu.model.kinds import OWN
+from pyimu.recording.recording import Recording
 
 LEAST = float(np.radians(1.0))
 """rad; below it a turn may as well be the misalignment of a coarse sensor."""
@@ -37,6 +38,26 @@ def with_mounting(trials: Sequence[Trial]) -> list[Trial]:
     return [_mounted(t, angles[t.name]) if t.name in angles else t for t in trials]
 
 
+def with_turned_force(log: Recording, trials: Sequence[Trial]) -> Recording:
+    """A log whose reference of force comes from the unit that the gyro, in one of its ``trials``,
+    showed to be turned, with that force in the sensor's axes; as it is where that leaves more.
+    """
+    trial = next((t for t in trials if t.name == log.name and _may_be_turned(t)), None)
+    if trial is None or not trial.free_rotation or log.ref_force is None or log.accel is None:
+        return log
+    turn = _turn(trial)[0]
+
+    def turned(r: Recording) -> Recording:
+        return r if r.ref_force is None else replace(r, ref_force=r.ref_force @ turn)
+
+    known = np.isfinite(log.ref_force).all(axis=1) & np.isfinite(log.accel).all(axis=1)
+    other = turned(log)
+    left = [(log.accel - r.ref_force)[known].std(axis=0) for r in (log, other)]
+    if not known.any() or np.linalg.norm(left[1]) >= np.linalg.norm(left[0]):
+        return log
+    return replace(other, reference=None if log.reference is None else turned(log.reference))
+
+
 def _may_be_turned(trial: Trial) -> bool:
     return trial.reference == "rate" and len(trial.axes) == 3 and trial.reduction is None
 
@@ -52,16 +73,21 @@ def _mounted(trial: Trial, angle: float) -> Trial:
 
 def _angle(trial: Trial) -> float:
     """By how much the reference is turned, rad; zero where that is no turn, or a small one."""
-    band = in_own_band(trial)
-    rows = moving_rows(band)
-    x, y = (in_band(band, v)[rows] for v in (trial.u[:, OWN[trial.kind]], trial.y))
-    if len(x) <= 3:
-        return 0.0
-    gain, _, rank, _ = np.linalg.lstsq(x - x.mean(axis=0), y - y.mean(axis=0), rcond=1e-3)
-    if rank < 3:
-        return 0.0
-    turn = turned_onto(np.eye(3), gain)
+    turn, gain = _turn(trial)
     angle = float(Rotation.from_matrix(turn).magnitude())
     size = 2.0 * np.sqrt(2.0) * np.sin(angle / 2.0)
     pure = np.linalg.norm(gain - turn) < PURE * size
     return angle if angle > LEAST and pure else 0.0
+
+
+def _turn(trial: Trial) -> tuple[np.ndarray, np.ndarray]:
+    """The rotation (3, 3) with reference @ rotation nearest to what the sensor shows, and the gain
+    (3, 3) with reference @ gain nearest; none where the motion does not show all of it.
+    """
+    band = in_own_band(trial)
+    rows = moving_rows(band)
+    x, y = (in_band(band, v)[rows] for v in (trial.u[:, OWN[trial.kind]], trial.y))
+    if len(x) <= 3:
+        return np.eye(3), np.eye(3)
+    gain, _, rank, _ = np.linalg.lstsq(x - x.mean(axis=0), y - y.mean(axis=0), rcond=1e-3)
+    return (turned_onto(np.eye(3), gain), gain) if rank == 3 else (np.eye(3), np.eye(3))
