@@ -21,11 +21,11 @@ import numpy as np
 import pyimu
 from pyimu.attitude import attitude_ukf
 from pyimu.fmu import build_fmus, simulate_blocks
-from pyimu.navigation import run, strapdown_ins, strapdown_wongwirat
-from pyimu.navigation.filter.ins_block import ins_of_log
-from pyimu.navigation.filter.layout import Layout
-from pyimu.navigation.track import Track, error_of, reference_of
-from pyimu.rover.square import square
+from pyimu.ins import run, strapdown_ins, strapdown_wongwirat
+from pyimu.ins.filter.ins_block import ins_of_log
+from pyimu.ins.filter.layout import Layout
+from pyimu.ins.track import Track, error_of, reference_of
+from pyimu.rover.trajectory import square
 
 PART = Path(__file__).parents[1] / "examples" / "sparkfun6dof_assumed.toml"
 MORE = {"vibration": 0.3, "tilt": (0.0175, 0.01)}

@@ -15,7 +15,7 @@ import numpy as np
 from navigation import MORE, PART, RUNS, by_paper
 
 import pyimu
-from pyimu.rover.square import square
+from pyimu.rover.trajectory import square
 
 REST = 9.0
 """s of the rest at the start whose means are the nulls."""

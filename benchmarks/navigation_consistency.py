@@ -24,8 +24,8 @@ from scipy.stats import chi2
 import pyimu
 from pyimu.attitude.columns import wandering
 from pyimu.block.parameters import with_values
-from pyimu.navigation import run
-from pyimu.rover.square import square
+from pyimu.ins import run
+from pyimu.rover.trajectory import square
 
 RUNS = 300
 BIAS = "turn_on_bias"

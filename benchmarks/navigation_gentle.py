@@ -15,8 +15,8 @@ import numpy as np
 from navigation import PART, nees
 
 import pyimu
-from pyimu.navigation import run
-from pyimu.rover.square import square
+from pyimu.ins import run
+from pyimu.rover.trajectory import square
 
 RUNS = 30
 CRAWL, SHORT = 0.03, 0.3

@@ -24,9 +24,9 @@ from navigation import MORE, PART, RUNS
 
 import pyimu
 from pyimu.attitude.filter.compensation import noise_of
-from pyimu.navigation import run
-from pyimu.navigation.filter.prediction import LASTS
-from pyimu.rover.square import square
+from pyimu.ins import run
+from pyimu.ins.filter.prediction import LASTS
+from pyimu.rover.trajectory import square
 from pyimu.units import STANDARD_GRAVITY
 
 SIDES = (1.0, 2.0, 4.0, 8.0)

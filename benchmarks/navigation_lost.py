@@ -14,9 +14,9 @@ import numpy as np
 from navigation import MORE, PART
 
 import pyimu
+from pyimu.ins import run
 from pyimu.model.sensor import Sensor
-from pyimu.navigation import run
-from pyimu.rover.square import square
+from pyimu.rover.trajectory import square
 
 RUNS = 8
 LIMIT = np.radians(40.0)

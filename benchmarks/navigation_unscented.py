@@ -17,10 +17,10 @@ import numpy as np
 from navigation import MORE, PART
 from navigation_consistency import known, logged
 
-from pyimu.navigation import run
-from pyimu.navigation.filter import ins_block, prediction, updates
-from pyimu.navigation.filter.layout import BASE, State
-from pyimu.rover.square import Drive, motion, stop_times
+from pyimu.ins import run
+from pyimu.ins.filter import ins_block, prediction, updates
+from pyimu.ins.filter.layout import BASE, State
+from pyimu.rover.trajectory import Drive, motion, stop_times
 from pyimu.symbolic import quaternion
 
 SPREAD = 3.0
@@ -192,8 +192,8 @@ def main(runs):
 
 def _part_of(log, part):
     """The part as the run takes it."""
-    from pyimu.navigation.known import known_part
-    from pyimu.navigation.stops import clean_of, rest_at_start
+    from pyimu.ins.known import known_part
+    from pyimu.ins.stops import clean_of, rest_at_start
     from pyimu.units import STANDARD_GRAVITY
 
     return known_part(part, log, rest_at_start(clean_of(log, part), part, STANDARD_GRAVITY))

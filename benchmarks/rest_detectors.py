@@ -15,8 +15,8 @@ from pathlib import Path
 import numpy as np
 
 import pyimu
-from pyimu.navigation.detector import WINDOW, Noise, magnitude, ratio, variance
-from pyimu.rover.square import square
+from pyimu.ins.detector import WINDOW, Noise, magnitude, ratio, variance
+from pyimu.rover.trajectory import square
 
 PART = Path(__file__).parents[1] / "examples" / "sparkfun6dof_assumed.toml"
 SHARES = (0.01, 0.001)

@@ -19,10 +19,10 @@ import numpy as np
 from matplotlib import pyplot
 
 import pyimu
-from pyimu.navigation import run, strapdown_wongwirat
-from pyimu.navigation.strapdown import CUTOFF
+from pyimu.ins import run, strapdown_wongwirat
+from pyimu.ins.strapdown import CUTOFF
 from pyimu.plant.low_pass import low_pass
-from pyimu.rover.square import square
+from pyimu.rover.trajectory import square
 from pyimu.units import STANDARD_GRAVITY
 
 SEED = 3

@@ -30,7 +30,7 @@ LOADED = (
     "pyimu.identification.close",
     "pyimu.inspection.run",
     "pyimu.modelica.part_text",
-    "pyimu.navigation.run",
+    "pyimu.ins.run",
 )
 
 COMMANDS = {

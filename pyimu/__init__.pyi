@@ -2,7 +2,7 @@ from . import attitude as attitude
 from . import export as export
 from . import fmu as fmu
 from . import heading as heading
-from . import navigation as navigation
+from . import ins as ins
 from . import shaping as shaping
 from . import symbolic as symbolic
 from .attitude.result import AttitudeResult as AttitudeResult
@@ -16,6 +16,7 @@ from .identification.close import close as close
 from .identification.plan.plan import plan as plan
 from .identification.plan.result import Plan as Plan
 from .identification.result import Closed as Closed
+from .ins.result import NavigationResult as NavigationResult
 from .inspection.result import Inspection as Inspection
 from .inspection.run import inspect as inspect
 from .model.catalogue import add_effects as add_effects
@@ -34,7 +35,6 @@ from .model.part_file import part_names as part_names
 from .model.part_file import save_part as save_part
 from .model.sensor import Sensor as Sensor
 from .model.simulate import simulate as simulate
-from .navigation.result import NavigationResult as NavigationResult
 from .recording.log import Log as Log
 from .recording.log import Recording as Recording
 from .recording.log import open_log as open_log

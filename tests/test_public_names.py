@@ -91,7 +91,7 @@ def values():
         "of a sensor": characterized.logs[0].sensors["gyro"],
         "channel": next(characterized.logs[0].channels),
         "attitude": pyimu.attitude.run(log),
-        "navigation": pyimu.navigation.run(square()),
+        "navigation": pyimu.ins.run(square()),
         "heading": pyimu.heading.run(indoors(0)),
         "plan": pyimu.plan("mpu6050", "g_sensitivity"),
     }

@@ -113,7 +113,7 @@ def navigate_command(
     by the whole log, each beside the reference where the log has one.
     """
     from pyimu.files import check_folder
-    from pyimu.navigation.run import run
+    from pyimu.ins.run import run
     from pyimu.recording.log import read_recording
 
     check_told(as_json, quiet)

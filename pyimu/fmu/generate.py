@@ -21,8 +21,8 @@ from pyimu.block.block import Block
 from pyimu.block.compiled import source_folder
 from pyimu.files import write_anew
 from pyimu.fmu.sources import texts
+from pyimu.ins.filter.ins_block import strapdown_ins
 from pyimu.model.part_file import part
-from pyimu.navigation.filter.ins_block import strapdown_ins
 from pyimu.plant.low_pass import low_pass
 from pyimu.plant.rover_drive import rover_drive
 

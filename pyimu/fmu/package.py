@@ -13,9 +13,9 @@ from pyimu.errors import UserError
 from pyimu.files import check_folder
 from pyimu.fmu.build import FORMS, build_fmus, part_of
 from pyimu.fmu.sources import Form
+from pyimu.ins.filter.ins_block import strapdown_ins
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as find_part
-from pyimu.navigation.filter.ins_block import strapdown_ins
 from pyimu.plant.low_pass import low_pass
 from pyimu.plant.rover_drive import rover_drive
 from pyimu.silent import silent

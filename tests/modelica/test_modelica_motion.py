@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from pyimu.rover import drives
 from pyimu.rover.indoor import indoor
-from pyimu.rover.square import square
+from pyimu.rover.trajectory import square
 from pyimu.symbolic.earth import EARTH_RATE
 
 DRIVES = {"straight": "Straight", "obstacle": "Obstacle", "ackermann": "Ackermann"} | {

@@ -87,6 +87,14 @@ def test_what_is_not_held_stays_as_it_is():
         time=TIME, gyro=rate(TIME), ref_q=turned, ref_east=TIME[latest], ref_north=TIME[latest]
     )
     assert held_apart(both) is both, "an attitude at every row beside a position that is held"
+    turns = np.where((TIME > 20.0) & (TIME < 40.0), np.sin(0.7 * (TIME - 20.0)), 0.0)
+    turns[3001] = turns[3000]
+    stands = Recording.from_arrays(
+        time=TIME, gyro=rate(TIME), ref_rate=np.outer(turns, [0.0, 0.0, 1.0])
+    )
+    assert held_apart(stands) is stands, (
+        "neither a rest nor two rows that are alike are samples that were held"
+    )
     none = Recording.from_arrays(time=TIME, gyro=rate(TIME))
     assert held_apart(none) is none
 

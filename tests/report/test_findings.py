@@ -5,7 +5,7 @@ import ast
 from places import CHECKOUT
 
 from pyimu.errors import Finding
-from pyimu.navigation.measured import CONTRADICTED
+from pyimu.ins.measured import CONTRADICTED
 from pyimu.report.findings import grouped
 from pyimu.report.meaning import MEANING
 from pyimu.report.page import quality_table

@@ -10,7 +10,7 @@ from raw_logs import repoimu
 
 from pyimu.recording.recording import Recording
 from pyimu.rover.indoor_runs import Assumptions, one_run
-from pyimu.rover.square import Drive, motion
+from pyimu.rover.trajectory import Drive, motion
 
 Maker = Callable[[Path], object]
 

@@ -18,6 +18,6 @@ equation
   annotation(Documentation(info="<html>
 <p>The drive by which a path is estimated from an inertial unit alone: Wongwirat and Chaiyarat 2010
 drove a square. Sides, speeds and stops are this package's; the other turn of the polygon is its
-parameter. The same motion with a tilt and with vibration is pyimu.rover.square.</p>
+parameter. The same motion with a tilt and with vibration is pyimu.rover.trajectory.</p>
 </html>"));
 end Square;

@@ -57,6 +57,6 @@ algorithm
   annotation(Documentation(info="<html>
 <p>Position, velocity and acceleration of each leg and angle and rate of each turn by
 smoothProgress; the specific force has gravity and the Coriolis force 2 w x v of the turning Earth,
-the rate the Earth's. As pyimu.rover.square, there in closed form as well.</p>
+the rate the Earth's. As pyimu.rover.trajectory, there in closed form as well.</p>
 </html>"));
 end squareMotion;

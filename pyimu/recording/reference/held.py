@@ -73,10 +73,11 @@ def _first_rows(recording: Recording, values: np.ndarray) -> tuple[np.ndarray, n
     if 0 < len(rows) < len(whole):
         return rows, _even(recording.time[rows], row)
     new = np.append(True, np.any(np.diff(values[whole], axis=0) != 0.0, axis=1))[: len(whole)]
-    even = None
-    if np.mean(~new) > REPEATED:
-        even = _even(recording.time[whole[new]], row)
-    return (whole[:0], None) if even is None else (whole[new], even)
+    even = _even(recording.time[whole[new]], row) if np.mean(~new) > REPEATED else None
+    # What stands still for a while repeats rows, too, but no others.
+    if even is None or np.median(np.diff(even)) < (1.0 + REPEATED) * row:
+        return whole[:0], None
+    return whole[new], even
 
 
 def _even(time: np.ndarray, row: float) -> np.ndarray | None:

@@ -1,0 +1,216 @@
+"""A recording and what is known before the filter runs over it, and its runs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from pyimu.attitude.input_grid import InputGrid
+from pyimu.attitude.rest import Rest
+from pyimu.block.block import Block
+from pyimu.block.parameters import number, with_values
+from pyimu.ins.filter.ins_block import ins_of_log
+from pyimu.ins.filter.layout import Layout
+from pyimu.ins.filtered import Filtered, filtered
+from pyimu.ins.measured import COURSE, Fixes
+from pyimu.ins.smoothing import smoothed
+from pyimu.ins.track import Reference, Track
+from pyimu.model.part import Part
+from pyimu.recording.recording import Recording
+
+FIXES = 10.0
+"""Standard deviations of a position that such a way is long at least."""
+
+COURSE_STD = 0.1
+"""rad; standard deviation of a heading that is a course: a body may stand askew on its vehicle, and
+its way bend. Assumed."""
+
+
+LATER_STD = 1e-3
+"""rad; standard deviation of a heading that the log has, as the filter takes one of the first
+sample (``heading_std0``)."""
+
+
+@dataclass(frozen=True, eq=False)
+class Job:
+    """A recording and what is known before the filter runs over it.
+
+    ``clean`` is the recording without the errors that the part knows; ``still`` (n,) marks rests,
+    which the filter looks for where it is ``live``; ``fixes`` are its positions and velocities,
+    None without.
+    """
+
+    recording: Recording
+    clean: Recording
+    part: Part
+    rest: Rest
+    still: np.ndarray
+    latitude: float
+    gravity: float
+    nhc: bool
+    live: bool
+    fixes: Fixes | None
+    settings: Mapping[str, Any]
+
+    @cached_property
+    def layout(self) -> Layout:
+        return Layout(self.part, self.nhc, self.live)
+
+    @property
+    def block(self) -> Block:
+        return ins_of_log(self.layout)
+
+    def p(self, start: Start) -> np.ndarray:
+        """The block's parameters."""
+        values = {"latitude": self.latitude, "gravity": self.gravity, "detect": float(self.live)}
+        fixes = {} if self.fixes is None else self.fixes.settings
+        return with_values(self.block, values | fixes | start.settings | dict(self.settings))
+
+    def told(self, start: Start) -> dict[str, Any]:
+        """What a result says of it, by the fields of ``Outcome``."""
+        names = [v.name for v in self.block.parameters]
+        return {
+            "rest": self.rest,
+            "settings": dict(zip(names, self.p(start), strict=True)),
+            "nhc": self.nhc,
+            "heading0": start.heading,
+            "heading_from": start.source,
+            "gains": len(self.layout.gains),
+            "fixes": self.fixes,
+        }
+
+    def grid(self, start: Start, fixes: bool = True) -> InputGrid:
+        marked = replace(self.recording, stationary=self.still.astype(float), heading=None)
+        names = [v.name for v in self.block.inputs]
+        more = None
+        if fixes and self.fixes is not None:
+            more = self.fixes.of_antenna(self._antenna(start))
+        return InputGrid(marked, self.part, names, more=more)
+
+    def _antenna(self, start: Start) -> np.ndarray:
+        """Where the antenna (3,) is at the start, m in world axes, of a body that stands level."""
+        p, names = self.p(start), [v.name for v in self.block.parameters]
+        x, y, z = (p[names.index(f"antenna[{i}]")] for i in (1, 2, 3))
+        c, s = np.cos(start.heading), np.sin(start.heading)
+        return np.array([c * x - s * y, s * x + c * y, z])
+
+    def filtered(self, start: Start, fixes: bool = True) -> Filtered:
+        p, time = self.p(start), self.recording.time
+        speed = self._top_speed(p)
+        return filtered(self.block, self.layout, self.grid(start, fixes), p, time, speed)
+
+    def smoothed(self, start: Start, say: Callable[..., None]) -> Track:
+        p, block = self.p(start), ins_of_log(self.layout, True)
+        time = self.recording.time
+        return smoothed(block, self.layout, self.grid(start), p, time, self._top_speed(p), say)
+
+    def _top_speed(self, p: np.ndarray) -> float:
+        names = [v.name for v in self.block.parameters]
+        return float(p[names.index("top_speed")])
+
+    def started(
+        self, heading0: float | None, reference: Reference | None
+    ) -> tuple[Filtered, Start]:
+        """The filter's estimates, and the heading with which they begin."""
+        start = _heading(self.recording, heading0)
+        if start is not None:
+            return self.filtered(start), start
+        start = Start(0.0, "nothing: it is called 0")
+        found = self.filtered(start, fixes=False)
+        track = found.track("filter")
+        later = self._by_later(track) or self._by_course(reference, track)
+        if later is None and self.fixes is None:
+            return found, start
+        return self.filtered(later or start), later or start
+
+    def _by_later(self, track: Track) -> Start | None:
+        """The heading by the first that the log has later, turned back by the gyro."""
+        for source, yaw in _told_headings(self.recording):
+            rows = np.flatnonzero(np.isfinite(yaw))
+            if not len(rows):
+                continue
+            row = rows[0]
+            turned = track.yaw[row] - track.yaw[0]
+            std = 0.0
+            if track.attitude_std is not None:
+                of_gyro = track.attitude_std[row, 2] ** 2 - track.attitude_std[0, 2] ** 2
+                std = float(np.sqrt(max(of_gyro, 0.0)))
+            source = f"{source} at {self.recording.time[row]:.6g} s"
+            return Start(float(yaw[row] - turned), source, float(np.hypot(std, LATER_STD)))
+        return None
+
+    def _by_course(self, reference: Reference | None, track: Track) -> Start | None:
+        """The heading by the course of the first positions, else of the first velocities, else by
+        the reference's.
+        """
+        if self.fixes is not None:
+            for name, rows, position, std in self.fixes.ways(self.recording.time):
+                far = max(COURSE, FIXES * std)
+                course = _course(rows, position, track, far)
+                if course is not None:
+                    of_course = float(np.hypot(COURSE_STD, np.sqrt(2) * std / far))
+                    return Start(
+                        course, f"the course of the first {far:.2g} m of {name}", of_course
+                    )
+        if reference is None:
+            return None
+        course = _course(reference.rows, reference.position, track, COURSE)
+        source = f"the course of the reference's first {COURSE:g} m"
+        return None if course is None else Start(course, source)
+
+
+@dataclass(frozen=True)
+class Start:
+    """The heading of the first sample in rad, by what it is known, and how well where that is said
+    (None: as the filter's parameter says).
+    """
+
+    heading: float
+    source: str
+    std: float | None = None
+
+    @property
+    def settings(self) -> dict[str, float]:
+        """Parameters of the filter that follow."""
+        known = {"heading0": self.heading}
+        return known if self.std is None else known | {"heading_std0": self.std}
+
+
+def _heading(recording: Recording, heading0: float | None) -> Start | None:
+    """What is told of the heading at the start, None where nothing is."""
+    if heading0 is not None:
+        return Start(number("heading0", heading0), "what was given")
+    for source, yaw in _told_headings(recording):
+        if np.isfinite(yaw[0]):
+            return Start(float(yaw[0]), source)
+    return None
+
+
+def _told_headings(recording: Recording) -> Iterator[tuple[str, np.ndarray]]:
+    """The headings (n,) rad that a recording has, and where."""
+    for name in ("heading", "ref_heading"):
+        values = getattr(recording, name)
+        if values is not None:
+            yield f"the log's column {name}", values
+    if recording.ref_q is not None:
+        w, x, y, z = recording.ref_q.T
+        yield "the log's ref_q", np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+
+
+def _course(rows: np.ndarray, position: np.ndarray, track: Track, far: float) -> float | None:
+    """rad; the heading at the start of a vehicle that drives forward its first ``far`` m."""
+    away = np.linalg.norm(position[:, :2] - position[0, :2], axis=1)
+    if not np.any(away > far):
+        return None
+    end = int(np.argmax(away > far))
+    begin = int(np.flatnonzero(away[: end + 1] < far / 4)[-1])
+    steps = np.diff(position[begin : end + 1, 0] + 1j * position[begin : end + 1, 1])
+    # each step as it would be had the body not turned since the start
+    total = np.append(0.0, np.cumsum(track.yaw - track.yaw[0]))
+    at = rows[begin : end + 1]
+    turned = np.diff(total[at]) / np.diff(at)
+    return float(np.angle(np.sum(steps * np.exp(-1j * turned))))

@@ -1,0 +1,364 @@
+"""A navigated recording in words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from scipy.special import chdtrc
+
+from pyimu.attitude.report.words import about_contradicted
+from pyimu.errors import Finding
+from pyimu.ins.filter.variables import STATUS_NAMES
+from pyimu.ins.measured import CONTRADICTED
+from pyimu.ins.outcome import Outcome
+from pyimu.report.findings import in_line
+from pyimu.report.numbers import number, quantity
+
+TITLES = {
+    "paper": "Wongwirat 2010, as printed",
+    "strapdown": "integrated exactly, nulls of the rest",
+    "filter": "filter",
+    "smoother": "smoothed by the whole log",
+}
+
+MOSTLY = 0.5
+"""Share of the samples of rests beyond which these are none, if they contradict the estimate."""
+
+LASTS = 0.1
+"""Share of the samples of a stop from which on it may be none: of one the first few contradict the
+estimate at most, and the others follow them."""
+
+BY_CHANCE = 1e-4
+"""Probability that velocities are called too far off where the standard deviations are right."""
+
+UNTOLD = (
+    "without a part the sensor's scale factors and axes are taken for exact; --part with its "
+    "tolerances, or the model.toml of pyimu close, says how exact they are"
+)
+
+UNSEEN = 1
+"""Bit of the status of samples that are missing."""
+
+WRONG_REST = 2
+"""Bit of the status of a zero velocity that contradicted the estimate."""
+
+FIXES = ("position_fixes", "velocity_fixes")
+"""Kinds of the findings about measured positions and velocities."""
+
+OBSERVABLE = (
+    "Yaw cannot be seen from zero velocities: between two headings it is the integral of the gyro, "
+    "and its error turns the path about the start"
+)
+
+
+def about(a: Outcome) -> str:
+    part = f"part {a.part}" if a.part else "noise of the log's own rest"
+    more = f", {a.gains} scale factors and misalignments estimated" if a.gains else ""
+    constraint = ", vehicle's constraint" if a.nhc else ""
+    constraint += f"; heading at the start by {a.heading_from}" if a.heading_from else ""
+    return (
+        f"{len(a.time):,} samples, {quantity(a.duration, 's')} at "
+        f"{a.recording.sample_rate:.4g} Hz, {part}{more}{constraint}"
+    )
+
+
+STEADY = (
+    (
+        "steady_turn",
+        "turned steadily",
+        " to the accelerometer, but the gyro was off its bias, so it was taken for a turn",
+    ),
+    (
+        "steady_drive",
+        "was driven at a constant speed",
+        ", but a speed came before it and went after it",
+    ),
+)
+"""Kinds of finding that look like a rest: what the sensor did, and how that was told."""
+
+
+def notes(a: Outcome) -> list[str]:
+    """What should be known first: where there is nothing to update with, and what was refused."""
+    out = [_rests(a)]
+    kinds = {f.kind: f for f in a.findings}
+    out += [text[0].upper() + text[1:] for text in about_contradicted(a.findings)]
+    if "no_rest" in kinds:
+        out.append(
+            "There is no rest at the start: tilt and biases were not known when the drive began, "
+            "and the standard deviations are wide for that reason; some seconds of rest before it "
+            "would tell them"
+        )
+    if "constraint" in kinds:
+        lost = np.any(a.filter.scalar("status").astype(int) & UNSEEN)
+        out.append(_constraint(kinds["constraint"], bool(lost)))
+    if "gravity_off" in kinds:
+        off = kinds["gravity_off"].detail
+        out.append(
+            f"The force at rest is {number(off['magnitude'], 4)} m/s^2, {off['share']:+.1%} of "
+            "gravity off: a scale factor, a bias, or a unit"
+        )
+    out += [
+        f"The sensor {what}, {said}: that looks like a rest{why}"
+        for kind, what, why in STEADY
+        for said in _longest([f.detail for f in a.findings if f.kind == kind])
+    ]
+    out += [
+        f"{_counted(f.count, 'sample')} of {f.column} that no motion makes "
+        f"{'was' if f.count == 1 else 'were'} left out, the first at {f.detail['first']:.6g} s"
+        for f in a.findings
+        if f.kind == "outliers"
+    ]
+    out += list(_of_samples(kinds, _declared(a)))
+    if "coning" in kinds:
+        detail = kinds["coning"].detail
+        out.append(
+            f"Up to {np.degrees(detail['turn']):.3g} deg of turn lie between two samples (at "
+            f"{detail['at']:.6g} s): the sample rate is too low for the turn rate, or the unit of "
+            "gyro or time is another than in its header"
+        )
+    out += [*_gaps(a), *_fixes(a)]
+    for f in a.findings:
+        if f.kind == "not_integrated":
+            out.append(f"The method {f.detail['method']} was left out: {f.detail['reason']}")
+    if abs(a.settings.get("latitude", 9.0)) > np.pi / 2:
+        out.append(
+            "No latitude: the Earth's rate was not taken off, which a rest hides in the gyro bias "
+            "until the body turns"
+        )
+    out += [*_status(a), *_too_sure(a)]
+    return [*out, OBSERVABLE] if a.later_stops else out
+
+
+def _constraint(f: Finding, lost: bool) -> str:
+    angle = abs(np.degrees(f.detail["along"]))
+    if np.isfinite(angle):
+        side = "left" if f.detail["along"] > 0 else "right"
+        return (
+            f"Without the vehicle's constraint the body moves {angle:.0f} deg to the {side} of x: "
+            "its axes are not forward-left-up, which a column map's [frame] says, and what comes "
+            "out is not to be relied on; --nhc is for a vehicle that drives along x"
+        )
+    why = "is it a vehicle, and are the axes forward-left-up?"
+    return (
+        f"{f.detail['share']:.0%} of the drive contradicts the vehicle's constraint, and what "
+        "comes out is not to be relied on: "
+        + ("the attitude was lost where samples are missing" if lost else why)
+    )
+
+
+def _counted(count: int, noun: str) -> str:
+    return f"{count:,} {noun}{'' if count == 1 else 's'}"
+
+
+def _longest(stretches: list[dict[str, Any]]) -> Iterator[str]:
+    """How many stretches there are, and the longest; nothing of none."""
+    if stretches:
+        longest = max(stretches, key=lambda d: d["seconds"])
+        yield (
+            f"{_counted(len(stretches), 'time')}, the longest at {longest['first']:.6g} s for "
+            f"{quantity(longest['seconds'], 's')}"
+        )
+
+
+def _gaps(a: Outcome) -> Iterator[str]:
+    found = [(a.time[b] - a.time[b - 1], a.time[b - 1]) for _, b in a.recording.segments[:-1]]
+    if found:
+        longest, start = max(found)
+        yield (
+            f"No samples for up to {quantity(longest, 's')} (from {start:.6g} s; "
+            f"{_counted(len(found), 'gap')}): the standard deviations are wider by what a robot of "
+            f"at most {a.settings['top_speed']:g} m/s may have done meanwhile (--top-speed)"
+        )
+
+
+def _declared(a: Outcome) -> bool:
+    """Whether the log's own column says where it rests."""
+    return a.zupt != "live" and a.recording.stationary is not None
+
+
+def _of_samples(kinds: dict[str, Finding], declared: bool) -> Iterator[str]:
+    """What a finding of each kind says of gyro, accelerometer and reference; ``declared`` says that
+    a column declared the rests.
+    """
+    if (f := kinds.get("leaning")) is not None:
+        yield (
+            f"Gravity is on {f.detail['axis']} at rest: the body lies on its side, or its axes are "
+            "not forward-left-up, which a column map's [frame] says"
+        )
+    if (f := kinds.get("reference_jump")) is not None:
+        yield (
+            f"The reference jumps by {number(f.detail['largest'])} m at {f.detail['first']:.6g} s "
+            f"({_counted(f.count, 'time')}): the errors beside it are the reference's own"
+        )
+    if (f := kinds.get("rest_moves")) is not None:
+        yield (
+            f"The reference moves during {_counted(f.count, 'rest')}, by up to "
+            f"{number(f.detail['largest'])} m (the first at {f.detail['first']:.6g} s, "
+            f"{quantity(f.detail['seconds'], 's')} in all): these are none"
+            + (
+                ", whatever the column stationary says"
+                if declared
+                else ", as a drive at constant speed looks like a rest; a column stationary or "
+                "--zupt off leaves them out"
+            )
+        )
+    if (f := kinds.get("reference_scale")) is not None:
+        yield (
+            f"The reference's path is {number(f.detail['factor'])} times as large as the "
+            f"estimate's and of its shape ({number(f.detail['after'])} m from it in that size, not "
+            f"{number(f.detail['before'])} m): is it in another unit than m?"
+        )
+    if (f := kinds.get("reference_frame")) is not None:
+        mirrored = "mirrored and " if f.detail["mirrored"] else ""
+        yield (
+            f"The reference {mirrored}turned by {np.degrees(f.detail['turn']):.3g} deg would be "
+            f"{number(f.detail['after'])} m from the path, not {number(f.detail['before'])} m: is "
+            "it in another frame than east-north-up, or the heading at the start another?"
+        )
+
+
+def _rests(a: Outcome) -> str:
+    share = float(a.still.mean())
+    if a.zupt == "off":
+        return "Zero-velocity updates are off: nothing holds the position"
+    if not a.still.any() and a.fixes is not None:
+        return "There is no rest in this log: what it measured of position and velocity holds it"
+    if not a.still.any():
+        where = "The column stationary declares no rest" if _declared(a) else "There is no rest"
+        return (
+            f"{where} in this log, so nothing to update with: the position is integrated "
+            "alone, and its standard deviations say how little that is worth"
+        )
+    if a.still.all():
+        return "The whole log is at rest: there is no path"
+    text = (
+        f"It rests in {number(100 * share, 2)} % of the time, "
+        f"{_counted(len(a.later_stops), 'time')} after "
+        f"the start; the longest drive between two rests takes {quantity(a.longest_leg, 's')}"
+    )
+    if not a.later_stops:
+        text += ": after the start there is nothing to update with"
+    return text
+
+
+def _fixes(a: Outcome) -> Iterator[str]:
+    for f in a.findings:
+        if f.kind not in FIXES:
+            continue
+        text = f"{f.detail['of']:,} measured {f.column} samples correct the filter"
+        nis = a.mean_nis(f"{f.column}_nis")
+        if nis is not None:
+            text += f", mean NIS {number(nis)}"
+        if f.count:
+            text += (
+                f"; {f.count:,} of them ({f.detail['share']:.2%}, the first at "
+                f"{f.detail['first']:.6g} s) contradicted it and were weighed down: a jump, "
+                "another frame, or a standard deviation that is too small"
+            )
+        yield text
+
+
+def _status(a: Outcome) -> Iterator[str]:
+    status = a.filter.scalar("status").astype(int)
+    for bit, text in STATUS_NAMES.items():
+        if bit in CONTRADICTED.values():
+            continue
+        rows = np.flatnonzero(status & bit)
+        if len(rows):
+            where = f"{_counted(len(rows), 'sample')}, the first at {a.time[rows[0]]:.6g} s"
+            text = f"{text[0].upper()}{text[1:]} ({where})"
+            yield text if bit != WRONG_REST else text + _wrong_rest(a)
+
+
+def _wrong_rest(a: Outcome) -> str:
+    """What may be wrong where zero velocities contradict the estimate."""
+    if any(f.kind in FIXES and f.count for f in a.findings):
+        return ""  # those that are wrong may have made it
+    if _declared(a):
+        return ". The column stationary may declare a rest that is none"
+    return (
+        ". A drive at constant speed looks like a rest; a column stationary would tell the two "
+        "apart"
+    )
+
+
+def _too_sure(a: Outcome) -> Iterator[str]:
+    """Where the log itself shows that the standard deviations are too small."""
+    wrong = a.filter.scalar("status").astype(int) & WRONG_REST > 0
+    if np.count_nonzero(wrong & a.still) > MOSTLY * np.count_nonzero(a.still):
+        yield (
+            "Most of what was taken for rest contradicts the estimate: it is none, and neither the "
+            "path nor its standard deviations are to be relied on"
+        )
+        return
+    nis, stops = a.filter.scalar("zupt_nis"), a.later_stops
+    first = np.array([nis[k] for k, end in stops if nis[k] > 0 and wrong[k:end].mean() < LASTS])
+    if not len(first) or chdtrc(3 * len(first), first.sum()) > BY_CHANCE:
+        return
+    lacking = "" if a.part else f": {UNTOLD}"
+    yield (
+        "The standard deviations are too small: at the end of the drives the velocity was off by "
+        f"{number(float(np.sqrt(first.mean() / 3)), 2)} times what they say{lacking}"
+    )
+
+
+def ends(a: Outcome) -> Iterator[tuple[str, str]]:
+    """Where each method ends, with the standard deviation of those that know it."""
+    for name, track in a.tracks.items():
+        place = ", ".join(number(v) for v in track.position[-1])
+        std = track.position_std
+        more = ""
+        if std is not None:
+            more = f" ± {', '.join(number(v) for v in 2 * std[-1])}"
+        yield name, f"{place}{more} m"
+
+
+def error_words(a: Outcome) -> Iterator[tuple[str, str]]:
+    """Errors against the reference in a line each."""
+    for name, e in a.errors.items():
+        yaw = "" if not np.isfinite(e.yaw) else f", yaw at the end {np.degrees(e.yaw):.3g} deg"
+        share = f" ({number(100 * e.end / e.length, 2)} % of the way)" if e.length > 0.1 else ""
+        yield (
+            name,
+            (
+                f"at the end {number(e.end)} m{share}, "
+                f"RMS {number(e.rms)} m, largest {number(e.most)} m{yaw}"
+            ),
+        )
+
+
+def consistency(a: Outcome) -> str | None:
+    """The normalised innovations of the first zero velocities, None without later stops."""
+    first = a.first_zupts
+    if not len(first):
+        return None
+    zaru = a.mean_nis("zaru_nis")
+    text = (
+        f"first zero velocity of each stop: mean NIS {number(float(first.mean()))} over "
+        f"{_counted(len(first), 'stop')}"
+    )
+    return (
+        text if zaru is None else f"{text}; zero turn rates: {number(zaru)} (3 is right for both)"
+    )
+
+
+def _of_log(a: Outcome) -> Iterator[Finding]:
+    """What the terminal says of the log below the notes."""
+    yield from a.recording.findings
+    yield from (f for f in a.findings if f.kind == "rate_of_part")
+
+
+def in_lines(a: Outcome) -> str:
+    """The report for a terminal."""
+    lines = [f"{a.name}: {about(a)}"]
+    lines += [f"  note        {text}" for text in notes(a)]
+    lines += [
+        f"  end         {name:10s} {text} (east, north, up; ± 2 std)" for name, text in ends(a)
+    ]
+    lines += [f"  error       {name:10s} {text}" for name, text in error_words(a)]
+    if (text := consistency(a)) is not None:
+        lines.append(f"  consistency {text}")
+    lines += [f"  log         {text}" for text in in_line(_of_log(a))]
+    return "\n".join(lines)

@@ -1,0 +1,188 @@
+"""The position of a recording by its inertial unit, and by what else the recording has."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any
+
+from pyimu.attitude.columns import latitude_of
+from pyimu.attitude.contradicted import contradicted, without
+from pyimu.block.parameters import number
+from pyimu.errors import Finding, UserError
+from pyimu.ins import checks
+from pyimu.ins.filter.variables import OWN_PARAMETERS
+from pyimu.ins.filtered import Filtered
+from pyimu.ins.integrated import integrated
+from pyimu.ins.job import Job, Start
+from pyimu.ins.known import known_part
+from pyimu.ins.measured import Told, check_fixes, fixes_of, wrong_rows
+from pyimu.ins.result import NavigationResult
+from pyimu.ins.stops import ZUPT, clean_of, noise_at_rest, rest_at_start, stops_of
+from pyimu.ins.track import Reference, Track, reference_of
+from pyimu.model.part import Part
+from pyimu.model.part_file import part as part_of
+from pyimu.recording.log import Given, recording_of
+from pyimu.recording.quality.inspect import rate_of_part
+from pyimu.recording.recording import Recording
+from pyimu.silent import silent
+from pyimu.units import STANDARD_GRAVITY, did_you_mean
+
+METHODS = ("paper", "strapdown", "filter", "smoother")
+"""What a run can do: the integration of Wongwirat 2010, an exact one less the nulls of the rest at
+the start, the filter, and the smoother over it."""
+
+Say = Callable[..., None]
+
+LIMITS = {
+    v.name: v.start
+    for v in OWN_PARAMETERS
+    if v.name in ("top_speed", "top_acceleration", "top_turn_rate")
+}
+"""What a robot can do, as the filter has it where ``settings`` do not say another."""
+
+
+def run(
+    recording: Given,
+    part: Part | str | os.PathLike | None = None,
+    *,
+    method: str = "all",
+    zupt: str = "auto",
+    nhc: bool = False,
+    fixes: bool = True,
+    position_std: float | None = None,
+    velocity_std: float | None = None,
+    position_age: float | None = None,
+    velocity_age: float | None = None,
+    latitude: float | None = None,
+    heading0: float | None = None,
+    settings: Mapping[str, Any] | None = None,
+    say: Say = silent,
+) -> NavigationResult:
+    """The path of a recording, by the errors and the noise of ``part``.
+
+    ``recording`` is a ``Recording``, the path of a file, or a data frame; ``part`` a ``Part``, the
+    name of one, or a TOML file, such as the ``model.toml`` of ``pyimu close``. Without a part
+    the noise is that of the samples at rest. ``method`` is one of ``METHODS`` or "all", ``zupt``
+    one of ``ZUPT``; ``nhc`` is a vehicle whose wheels do not slip. With ``fixes`` the recording's
+    measured positions and velocities correct the filter, by ``position_std`` m and ``velocity_std``
+    m/s, else the recording's; they were true ``position_age`` and ``velocity_age`` s before their
+    rows, else as the recording says, else at their rows. ``latitude`` in rad is else the
+    recording's; without either, no Earth rate is taken off. ``heading0`` in rad is the yaw of the
+    first sample, else that of the heading, the reference, the course of the positions, or 0.
+    ``settings`` are other parameters by name.
+
+    Raises UserError for a recording that cannot be read or used (``checks``, ``measured``), an
+    unknown method or setting, and where a rest is to be declared and is not.
+    """
+    recording = recording_of(recording)
+    _known("method", method, (*METHODS, "all"))
+    _known("zupt", zupt, ZUPT)
+    given, limits = _given(settings)
+    checks.check_columns(recording, limits["gravity"])
+    most = limits["top_acceleration"], limits["top_turn_rate"]
+    recording, findings = checks.without_outliers(recording, *most)
+    wrong = contradicted(recording)
+    findings += wrong
+    declared = None if part is None else part_of(part)
+    findings += [] if declared is None else rate_of_part(recording, declared.sample_rate)
+    as_given, recording = recording, without(recording, wrong)
+    told = Told(position_std, velocity_std, position_age, velocity_age)
+    measured = fixes_of(recording, told, limits["top_speed"]) if fixes else None
+    job = _job(recording, declared, zupt, given, findings)
+    job = replace(job, latitude=latitude_of(recording, latitude), nhc=nhc, fixes=measured)
+    reference = reference_of(recording)
+    found, start = job.started(heading0, reference)
+    findings += _of_fixes(job, found, start)
+    if nhc:
+        free = replace(job, nhc=False).filtered(start)
+        findings += checks.constraint(found, job.still, free)
+    if job.live:
+        job = replace(job, still=found.scalar("at_rest") > 0.5)
+    tracks = _tracks(METHODS if method == "all" else (method,), job, found, start, findings, say)
+    best = tracks.get("smoother", tracks.get("filter"))
+    return NavigationResult(
+        recording.name,
+        as_given,
+        tracks,
+        found,
+        job.still,
+        reference,
+        part="" if part is None else job.part.name,
+        findings=(*recording.findings, *findings, *checks.after(job.still, reference, best)),
+        zupt=zupt,
+        **job.told(start),
+    )
+
+
+def _of_fixes(job: Job, found: Filtered, start: Start) -> list[Finding]:
+    """What the run says of measured positions and velocities."""
+    fixes, moves = job.fixes, False
+    if fixes is not None and len(fixes.rows) > 1:
+        positions = Reference(fixes.rows, fixes.position)
+        moves = any(checks.rests_that_move(positions, job.still, job.recording.time))
+        if wrong_rows(found, "position", fixes).any():
+            free = job.filtered(start, fixes=False).track("filter")
+            checks.check_not_mirrored(job.recording.name, positions, free)
+    return check_fixes(job.recording, fixes, found, moves)
+
+
+def _given(settings: Mapping[str, Any] | None) -> tuple[dict[str, Any], dict[str, float]]:
+    """The settings with those of a robot and of the place, and these as numbers."""
+    given = LIMITS | {"gravity": STANDARD_GRAVITY} | dict(settings or {})
+    return given, {name: number(name, given[name]) for name in (*LIMITS, "gravity")}
+
+
+def _known(name: str, value: str, values: tuple[str, ...]) -> None:
+    if value not in values:
+        raise UserError(
+            f"{name} {value}: unknown{did_you_mean(value, values)}; known are {', '.join(values)}"
+        )
+
+
+def _job(
+    recording: Recording,
+    declared: Part | None,
+    zupt: str,
+    given: dict[str, Any],
+    findings: list[Finding],
+) -> Job:
+    """The recording with its rests, before what else is known of it."""
+    gravity = float(given["gravity"])
+    clean = clean_of(recording, declared)
+    rest = rest_at_start(clean, declared, gravity)
+    part = known_part(declared, recording, rest)
+    noise = noise_at_rest(recording, part, rest, declared is not None)
+    turns: list[Finding] = []
+    still, _ = stops_of(clean, noise, zupt, turns)
+    if zupt == "auto" and not still[rest.rows].any():
+        rest = replace(rest, seen=False)  # a steady drive, as the part's noise shows
+    findings += [*checks.findings(recording, rest, gravity), *turns]
+    updates = float(zupt != "off")
+    settings = {"zupt": updates, "zaru": updates} | given
+    return Job(
+        recording, clean, part, rest, still, 0.0, gravity, False, zupt == "live", None, settings
+    )
+
+
+def _tracks(
+    wanted: tuple[str, ...],
+    job: Job,
+    found: Filtered,
+    start: Start,
+    findings: list[Finding],
+    say: Say,
+) -> dict[str, Track]:
+    """The tracks by the methods' names, less those that the recording's samples do not allow."""
+    tracks = {}
+    for name in wanted:
+        say(f"method {name}", 0.0)
+        if name == "filter":
+            tracks[name] = found.track("filter")
+        elif name == "smoother":
+            tracks[name] = job.smoothed(start, say)
+        else:
+            track = integrated(name, job, start.heading, findings)
+            tracks |= {} if track is None else {name: track}
+    return tracks

@@ -1,0 +1,126 @@
+"""The rests of a recording: that at the start, and those by which the filter corrects itself."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import casadi as ca
+import numpy as np
+
+from pyimu.attitude.filter.compensation import noise_of
+from pyimu.attitude.rest import FORCE_OFF, Rest, find_rest
+from pyimu.errors import Finding, UserError
+from pyimu.ins.compensated import compensated
+from pyimu.ins.detector import Detected, Noise, detect
+from pyimu.ins.filter.layout import open_std
+from pyimu.ins.filter.prediction import LASTS
+from pyimu.ins.speeds import driven
+from pyimu.model.part import Part
+from pyimu.recording.recording import Recording
+
+ZUPT = ("auto", "live", "declared", "off")
+"""Where zero-velocity updates come from: the column ``stationary``, else the samples before and
+after; what the filter finds by itself, as the unit does, in the samples until now; that column
+alone; nowhere."""
+
+FIRST = 0.5
+"""s; over which the means are taken that a part with wide tolerances may have at rest."""
+
+SIGMAS = 3.0
+"""Standard deviations of a tolerance up to which a mean is taken for an error of the part."""
+
+NOISIER = 2.0
+"""A specimen's noise may be so many times what its part declares; beyond, what shakes it at the
+start of a log is the engine of a robot that may already drive."""
+
+
+def rest_at_start(recording: Recording, part: Part | None, gravity: float) -> Rest:
+    """The rest at the start, of samples without the errors that a ``part`` knows.
+
+    A rest of a gyro of unknown null has a mean rate of up to what the part's tolerance allows, and
+    its force another size: both are taken off before the rest is looked for, and put back. A turn
+    that is no faster than that cannot be told from a null.
+    """
+    if part is None:
+        return find_rest(recording, gravity)
+    null, size = _by_tolerance(recording, part, gravity)
+    rest = find_rest(
+        replace(recording, gyro=recording.gyro - null, accel=recording.accel / size), gravity
+    )
+    force = None if rest.force is None else rest.force * size
+    return replace(rest, rate=rest.rate + null, force=force)
+
+
+def _by_tolerance(recording: Recording, part: Part, gravity: float) -> tuple[np.ndarray, float]:
+    """The null (3,) rad/s of the first samples, and their force over gravity, as far as the part's
+    tolerances explain them and no rest would be found without; else 0 and 1.
+    """
+    rows = slice(0, max(2, round(FIRST / recording.sample_period)))
+    null = np.nan_to_num(np.nanmean(recording.gyro[rows], axis=0))
+    force = np.nanmean(recording.accel[rows], axis=0)
+    wide, off = (
+        SIGMAS * open_std(replace(part, estimate=frozenset()), (kind, "turn_on_bias", "b0"), 0.0)
+        for kind in ("gyro", "accel")
+    )
+    size = float(np.linalg.norm(force) / gravity)
+    explained = abs(size - 1) * gravity <= np.linalg.norm(off) + FORCE_OFF
+    return (
+        null if np.all(np.abs(null) <= wide) else np.zeros(3),
+        size if explained and np.isfinite(size) else 1.0,
+    )
+
+
+def clean_of(recording: Recording, part: Part | None) -> Recording:
+    """The recording without the errors that the part knows; itself where it knows none."""
+    if part is None or not any(
+        e.invertible and e.law is None for sensor in (part.gyro, part.accel) for e in sensor.effects
+    ):
+        return recording
+    return compensated(recording, part)
+
+
+def stops_of(
+    recording: Recording, noise: Noise, zupt: str, findings: list[Finding]
+) -> tuple[np.ndarray, Detected | None]:
+    """Marks (n,) of rest of a recording less known errors, none where the filter finds them.
+
+    Raises UserError where rests are to be declared and are not.
+    """
+    if zupt in ("off", "live"):
+        return np.zeros(len(recording.time), dtype=bool), None
+    if recording.stationary is not None:
+        return np.nan_to_num(recording.stationary) > 0.5, None
+    if zupt == "declared":
+        raise UserError(
+            f"{recording.name}: no column 'stationary [1]' that declares rests; --zupt auto finds "
+            "them in the samples"
+        )
+    found = detect(recording.time, recording.gyro, recording.accel, noise, recording.sample_period)
+    still = found.still.copy()
+    drives = driven(
+        recording.time, recording.gyro, recording.accel, still, noise, recording.sample_period
+    )
+    for kind, stretches in (("steady_turn", found.steady), ("steady_drive", drives)):
+        for start, stop in stretches:
+            still[start:stop] = False
+            seconds = float(recording.time[stop - 1] - recording.time[start])
+            detail = {"first": float(recording.time[start]), "seconds": seconds}
+            findings.append(Finding(kind, "gyro", stop - start, detail))
+    return still, found
+
+
+def noise_at_rest(recording: Recording, part: Part, rest: Rest, declared: bool) -> Noise:
+    """What a detector needs of the sensors: the part's noise, or that of the rest at the start
+    where it is larger. ``declared`` says that the noise is that of a part.
+    """
+    period = recording.sample_period
+    still = rest.seen or rest.other_force is not None
+    stds, walks = [], []
+    for sensor, seen in ((part.gyro, rest.rate_std), (part.accel, rest.force_std)):
+        noise = noise_of(sensor, ca.SX(ca.DM(sensor.p)), period, LASTS)
+        white = np.array(ca.evalf(noise.white), dtype=float).ravel() / np.sqrt(period)
+        most = NOISIER * white if declared else np.full(3, np.inf)
+        shown = np.minimum(seen, most) if still else np.zeros(3)
+        stds.append(np.maximum(np.maximum(white, shown), 1e-9))
+        walks.append(np.array(ca.evalf(noise.walk), dtype=float).ravel())
+    return Noise(stds[0], stds[1], walks[0], rest.rate if still else np.zeros(3))
