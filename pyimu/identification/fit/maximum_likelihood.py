@@ -132,6 +132,25 @@ def advantage(larger: Fit, smaller: Fit) -> float:
     return larger.log_likelihood - _likelihood(other)
 
 
+def advantage_by_one_noise(one: Fit, other: Fit) -> float:
+    """Log-likelihood [nat] of one fitted model over another on rows of the same samples, both by
+    the noise of the one that leaves less.
+
+    Of a motion that repeats an autoregression predicts all that a wrong model leaves: by a noise of
+    its own each, neither would be ahead.
+    """
+    left = [
+        sum(
+            float(np.sum(np.log(np.var(r.residual[:, list(f.noise)], axis=0))))
+            for r in f.residuals()
+        )
+        for f in (one, other)
+    ]
+    first, second, sign = (one, other, 1.0) if left[0] <= left[1] else (other, one, -1.0)
+    judged = _least_squares(replace(second, noise=first.noise), 2)
+    return sign * (first.log_likelihood - _likelihood(judged))
+
+
 def _settled_likelihood(fitted: Fit) -> float:
     fitted.last.settle()
     return _likelihood(fitted)

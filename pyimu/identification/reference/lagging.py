@@ -16,7 +16,7 @@ from scipy.optimize import minimize_scalar
 
 from pyimu.identification.fit.columns import band_time
 from pyimu.identification.fit.fit import Fit
-from pyimu.identification.fit.maximum_likelihood import advantage
+from pyimu.identification.fit.maximum_likelihood import advantage_by_one_noise
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.reference.align import SIGNIFICANT, fitted_structure, in_band_of
 from pyimu.identification.reference.clock import measure, shifted
@@ -34,6 +34,9 @@ less where they are not. The likelihood rises up to 1.4 times the right one."""
 CLOSE, ROUNDS = 0.01, 14
 """The square of the time constant is looked for to this share of itself, in so many steps at
 most."""
+
+LEAST = 0.05
+"""Sample periods; a filter that is quicker changes nothing of what such rows show."""
 
 LONGEST = 2.0
 """Times the time constant to begin with that one may be."""
@@ -94,7 +97,8 @@ def _lag(trial: Trial, sensor: Sensor) -> float | None:
 
     bounds, options = (0.0, (LONGEST * first) ** 2), {"xatol": CLOSE * first**2, "maxiter": ROUNDS}
     minimize_scalar(left, bounds=bounds, method="bounded", options=options)
-    return max(tried, key=tried.get)
+    best = max(tried, key=tried.get)
+    return best if best > LEAST * trial.h else None
 
 
 def _gain(trial: Trial, before: Fit, sensor: Sensor, lag: float) -> float:
@@ -104,7 +108,7 @@ def _gain(trial: Trial, before: Fit, sensor: Sensor, lag: float) -> float:
     if clock is None or not np.isfinite(clock.std):
         return -np.inf
     moved = replace(shifted(quick, clock), clock=replace(clock, taken_out=True))
-    return advantage(fitted_structure(in_band_of(trial, moved), sensor), before)
+    return advantage_by_one_noise(fitted_structure(in_band_of(trial, moved), sensor), before)
 
 
 def _quick(trial: Trial, lag: float) -> Trial:

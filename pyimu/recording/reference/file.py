@@ -12,7 +12,7 @@ from pyimu.recording.columns import GROUPS
 from pyimu.recording.recording import Recording, filled
 from pyimu.recording.reference.attitude import attitude_at, within
 from pyimu.recording.reference.epoch import time_apart
-from pyimu.recording.reference.track import Track, fresh
+from pyimu.recording.reference.track import Track, fresh, known_axes
 
 TRUTHS = tuple(name for name in GROUPS if name.startswith("ref_"))
 """The groups that a reference may hold."""
@@ -104,12 +104,15 @@ def _span(recording: Recording, origin: float) -> str:
 
 
 def _interpolated(nodes: np.ndarray, values: np.ndarray, time: np.ndarray) -> np.ndarray:
-    """Values (m, 3) at times (n,) by cubic splines through what is known without gap, else NaN."""
+    """Values (m, 3) at times (n,) by cubic splines through what is known without gap, else NaN; an
+    axis that nobody knows stays unknown.
+    """
     from scipy.interpolate import CubicSpline  # a tenth of a second, and few logs need it
 
-    out = np.full((len(time), values.shape[1]), np.nan)
-    track = Track(nodes, fresh(values), lambda n: np.diff(values[n], axis=0), np.inf)
+    out, axes = np.full((len(time), values.shape[1]), np.nan), known_axes(values)
+    seen = values[:, axes]
+    track = Track(nodes, fresh(seen), lambda n: np.diff(seen[n], axis=0), np.inf)
     for part in track.segments:
         rows = within(time, nodes[part])
-        out[rows] = CubicSpline(nodes[part], values[part])(time[rows])
+        out[np.ix_(rows, axes)] = CubicSpline(nodes[part], seen[part])(time[rows])
     return out

@@ -18,7 +18,7 @@ from scipy.spatial import ConvexHull
 from pyimu.recording.columns import GROUPS
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.file import TRUTHS, at_log
-from pyimu.recording.reference.track import fresh
+from pyimu.recording.reference.track import fresh, known_axes
 
 UNEVEN = 0.1
 """Rows by which first rows must come too late, some more than others, to tell of even times."""
@@ -43,7 +43,8 @@ def held_apart(recording: Recording) -> Recording:
         return recording
     values = [np.reshape(getattr(recording, g), (len(recording), -1)) for g in groups]
     # An axis that nobody knows is no value that is missing.
-    known = np.hstack(values)[:, np.isfinite(np.hstack(values)).any(axis=0)]
+    together = np.hstack(values)
+    known = together[:, known_axes(together)]
     rows, even = _first_rows(recording, known)
     if not len(rows):
         return recording

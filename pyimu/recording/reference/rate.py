@@ -25,7 +25,7 @@ from pyimu.recording.reference.course import course_of, looks_like_degrees, moun
 from pyimu.recording.reference.leaning import upward_through
 from pyimu.recording.reference.nodes import own_samples
 from pyimu.recording.reference.stamps import at_times, even_times, jitter_of
-from pyimu.recording.reference.track import Track, fresh
+from pyimu.recording.reference.track import Track, fresh, known_axes
 from pyimu.recording.rest import is_at_rest, motion_in
 from pyimu.symbolic.earth import EARTH_RATE
 
@@ -222,8 +222,9 @@ def check_radians(source: Recording) -> None:
 
 def _of_another_clock(recording: Recording, source: Recording) -> Reference:
     """A rate that was measured at times of its own, in the band that these can show."""
-    known = fresh(source.ref_rate)
-    track = Track(source.time, known, lambda n: np.diff(source.ref_rate[n], axis=0), np.inf)
+    seen = source.ref_rate[:, known_axes(source.ref_rate)]
+    known = fresh(seen)
+    track = Track(source.time, known, lambda n: np.diff(seen[n], axis=0), np.inf)
     made = _derived(recording, recording.ref_rate, "rate", track, True)
     return replace(made, samples=source.ref_rate[known])
 

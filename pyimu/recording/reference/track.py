@@ -60,6 +60,11 @@ def fresh(values: np.ndarray) -> np.ndarray:
     return known[new] if held else known
 
 
+def known_axes(values: np.ndarray) -> np.ndarray:
+    """The columns of a reference (n, k) of which anything is known."""
+    return np.flatnonzero(np.isfinite(values).any(axis=0))
+
+
 class Track:
     """The samples of a reference that can be differentiated, without occlusions and faults.
 
