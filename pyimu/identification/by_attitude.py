@@ -11,6 +11,7 @@ from scipy.stats import ttest_1samp
 
 from pyimu.attitude.error import AttitudeError
 from pyimu.identification.fates import TAKEN_BACK
+from pyimu.identification.heading_error import FAR, with_better_heading
 from pyimu.identification.held_out import WINDOW, attitudes, worlds
 from pyimu.identification.model_of import Found, Model, model_of
 from pyimu.identification.search.ceiling import is_ceiling
@@ -27,19 +28,18 @@ LEAST_WINDOWS, CHANCE = 3, 0.05
 """Windows from which on it is asked whether an error has grown by chance, and how rarely chance may
 do as much."""
 
-FAR = 1.2
-"""Times the error before that is no chance, however few the windows."""
-
 
 def settled(
     start: Part, declared: Part | None, found: Found, logs: list[Recording]
 ) -> tuple[Found, Model, tuple[float, float] | None, tuple[str, ...]]:
-    """What was found less the effects that make the filter's attitude worse.
+    """What was found less the effects that make the filter's attitude, or the heading, worse.
 
     Gives the model that it makes, too, the attitude's error before and after, and what is to be
     said: of each log in which both are lost, so that they are not compared, and of each reference
     whose world is not level.
     """
+    if "gyro" in found:
+        found = found | {"gyro": with_better_heading(found["gyro"])}
     model, inv = model_of(start, declared, found), found.get("gyro")
     logs, leaning = _levelled(_as_filed(model.before, declared), inv, logs)
     while True:

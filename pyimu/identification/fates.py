@@ -16,7 +16,7 @@ from pyimu.identification.unasked import why_unasked
 from pyimu.model.sensor import candidates
 from pyimu.report.numbers import joined, number
 
-TAKEN_BACK = "makes the attitude worse"
+TAKEN_BACK, TURNED_BACK = "makes the attitude worse", "makes the heading worse"
 """How the reason begins for which an effect is taken back after the search has ended."""
 
 NOT_LOOKED_FOR = "not looked for"
@@ -176,7 +176,7 @@ def _why_left(inv: Investigation, name: str) -> str:
     if len(inv.steps) >= MOST_EFFECTS:
         return f"{MOST_EFFECTS} effects were added already"
     refused = {r.effect for r in inv.refused}
-    back = [r.effect for r in inv.refused if r.reason.startswith(TAKEN_BACK)]
+    back = [r.effect for r in inv.refused if r.reason.startswith((TAKEN_BACK, TURNED_BACK))]
     if back:
         return f"not looked for again after {joined(back)} was taken back"
     options = [c for c in inv.last.above() if c.effect not in refused]

@@ -9,13 +9,18 @@ from dataclasses import replace
 
 import numpy as np
 
+from pyimu.identification.fates import TURNED_BACK
 from pyimu.identification.fit.columns import residual
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.score import WINDOW, held_state
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.reference.clock import shifted
-from pyimu.identification.search.forward import Investigation
+from pyimu.identification.search.ceiling import is_ceiling
+from pyimu.identification.search.forward import Investigation, without
 from pyimu.recording.reference.rate import VERTICAL
+
+FAR = 1.2
+"""Times the error before that is no chance, however few turns there are."""
 
 
 def heading_rms(inv: Investigation | None) -> tuple[float, float] | None:
@@ -28,6 +33,29 @@ def heading_rms(inv: Investigation | None) -> tuple[float, float] | None:
     before = _rms([heading_error(inv.before, as_logged(t)) for t in held])
     after = _rms([heading_error(inv.after, t) for t in held])
     return None if before is None or after is None else (before, after)
+
+
+def with_better_heading(inv: Investigation) -> Investigation:
+    """An investigation less the effects that make the heading of held-out rows clearly worse."""
+    held = [t for t in inv.held if t.reference in VERTICAL]
+    before = _rms([heading_error(inv.before, t) for t in held])
+    while held and before:
+        now = _rms([heading_error(inv.after, t) for t in held])
+        names = [
+            s.effect
+            for s in inv.steps
+            if not s.declared and not is_ceiling(inv.after.sensor, s.effect)
+        ]
+        if not names or now is None or now <= FAR * before:
+            return inv
+        others = {n: without(inv, n, "") for n in names}
+        errors = {n: _rms([heading_error(o.after, t) for t in held]) for n, o in others.items()}
+        best = min(errors, key=lambda n: errors[n])
+        if errors[best] >= now:
+            return inv
+        degrees = [f"{np.degrees(v):.2f}" for v in (errors[best], now)]
+        inv = without(inv, best, f"{TURNED_BACK}, {degrees[0]} to {degrees[1]} deg")
+    return inv
 
 
 def heading_error(fit: Fit, trial: Trial) -> np.ndarray:

@@ -32,6 +32,7 @@ MEANING = {
     "jitter": "the time stamps scatter about even times",
     "layout": "how the table was taken apart",
     "leaning": "the body lies on its side, or its axes are not forward-left-up",
+    "rocks": "the body rolls and pitches; the heading is taken for what it is along the gyro",
     "leans": "the vehicle leans into its turns; the course is taken for what it is along the gyro",
     "log_time": "the messages have no stamps: the times at which they were logged count",
     "mag_axes": "the field does not turn as the gyro says: axes in disorder, or of another sign?",

@@ -123,7 +123,7 @@ def test_surprise_is_standard_normal_where_the_new_model_is_true():
         apart, chance = np.zeros(3), np.zeros(3)
         apart[0] = np.sum(between**2)
         chance[0] = RandomWalk(1.0, 0.0).variance_along(between, np.arange(500.0), [(0, 500)])
-        one = Evidence(np.zeros(3), np.zeros(3), apart, chance, held, held, None)
+        one = Evidence(np.zeros(3), np.zeros(3), apart, chance, held, held, held, None)
         surprises.append(one.surprise)
     # Four standard errors of mean and variance.
     assert abs(np.mean(surprises)) < 4 / np.sqrt(400)

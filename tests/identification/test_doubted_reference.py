@@ -104,7 +104,7 @@ def test_a_draw_of_more_than_all_that_is_left_is_drawn_again(seed):
 
 def sums(before, after, noise):
     none = np.zeros(3)
-    return Evidence(none, none, none, none, none, np.array([before, after]), np.array(noise))
+    return Evidence(none, none, none, none, none, none, np.array([before, after]), np.array(noise))
 
 
 @pytest.mark.parametrize(

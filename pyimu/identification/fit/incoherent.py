@@ -128,6 +128,16 @@ class Spectrum:
             together += np.inf if mean > 0.0 == std else (max(mean, 0.0) / max(std, 1e-300)) ** 2
         return out if together > chi2.isf(NOT_CHANCE, len(pieces)) else np.zeros(len(out))
 
+    def share_within(self, known: np.ndarray) -> float:
+        """The largest share of a density (f,) that may be a part of this one at every frequency."""
+        most = 1.0
+        for some in thirds(len(self.psd)):
+            mean = float(known[some].mean())
+            if mean > 0.0:
+                seen = max(float(self.psd[some].mean()), 0.0) + CLEARLY * self.std_of_mean(some)
+                most = min(most, seen / mean)
+        return most
+
     def std_of_mean(self, some: slice) -> float:
         """Standard error of the mean density over neighbouring frequencies."""
         return float(np.sqrt(LEAKAGE) * np.linalg.norm(self.std[some])) / len(self.std[some])

@@ -50,11 +50,13 @@ def rest_density(trial: Trial) -> np.ndarray:
     found = rest_noise(trial) * np.sqrt(trial.h)
     if trial.reduction is not None:
         return found
-    for i, column in enumerate(trial.y.T):
-        seconds = seconds_of(column, trial.row_segments, trial.h)
-        still = ~(seconds.moving(trial.kind) | (seconds.std > VIBRATION[trial.kind]))
-        if np.count_nonzero(still) >= LEAST_STILL:
-            rows = seconds.first[still][:, None] + np.arange(seconds.length)
+    each = [seconds_of(column, trial.row_segments, trial.h) for column in trial.y.T]
+    # An axis that hardly turns while another does is not at rest: it has a share of that motion.
+    moves = [s.moving(trial.kind) | (s.std > VIBRATION[trial.kind]) for s in each]
+    still = ~np.any(moves, axis=0)
+    if np.count_nonzero(still) >= LEAST_STILL:
+        rows = each[0].first[still][:, None] + np.arange(each[0].length)
+        for i, column in enumerate(trial.y.T):
             found[i] = np.sqrt(_level(column[rows]) * trial.h)
     return found
 

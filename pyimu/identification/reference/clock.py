@@ -38,6 +38,9 @@ from pyimu.recording.reference.epoch import correlations
 WINDOW, ROWS = 2.5, 32
 """s; windows of the fine lag, and the least rows of the band that one covers."""
 
+REPEATS = 1.2
+"""Times what the best lag leaves of the correlation, within which another is as good."""
+
 FARTHEST = 30.0
 """s; the coarse lag is looked for so far, and within a quarter of the log: GPS time is 18 s ahead
 of UTC."""
@@ -234,7 +237,8 @@ def _weighed(x, row, weights, out):
 def _coarse(trial: Trial) -> float:
     """Lag in s at which the sizes of the two rates correlate best.
 
-    0 where that is hardly better than without a lag.
+    0 where that is hardly better than without a lag; of a motion that repeats, with which many
+    correlate alike, the shortest.
     """
     axes = list(trial.axes)
     counted = marked(trial.row_segments, len(trial.time))
@@ -246,7 +250,9 @@ def _coarse(trial: Trial) -> float:
     both = counted.astype(float)
     least = 0.5 * len(both) * both.mean() ** 2
     r = correlations(x, both, y, both, lags, least)
-    best = int(np.argmax(r))
+    peaks = np.flatnonzero((r >= np.roll(r, 1)) & (r >= np.roll(r, -1)))
+    alike = peaks[1 - r[peaks] <= REPEATS * (1 - r.max())]
+    best = int(min(alike, key=lambda i: abs(lags[i]), default=np.argmax(r)))
     return float(lags[best] * trial.h) if 1 - r[best] < 0.5 * (1 - r[most]) else 0.0
 
 

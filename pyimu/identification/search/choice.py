@@ -10,6 +10,7 @@ from functools import cached_property, reduce
 
 import numpy as np
 
+from pyimu.identification.fit.errors_in_variables import has_noise
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Key
 from pyimu.identification.fit.maximum_likelihood import (
@@ -33,6 +34,7 @@ from pyimu.identification.search.ceiling import (
     is_ceiling,
     stops_there,
 )
+from pyimu.identification.search.confirm import PLAINLY
 from pyimu.identification.search.instants import at_instants
 from pyimu.identification.search.projected import Scatter
 from pyimu.identification.search.screen import (
@@ -313,6 +315,8 @@ def refine(current: Fit, c: Screened) -> Refined:
     if needed and len(needed) < len(c.groups):
         return refine(current, c.only(needed))
     spread = fitted_dispersion(normal, keys_of(c), c.scatter)
+    if _leaves_more(fitted, current):
+        needed = ()
     fitted = at_samples(fitted) if is_ceiling(sensor, c.effect) else fitted
     fitted = at_threshold(fitted) if is_threshold(sensor, c.effect) else fitted
     fitted = at_instants(fitted, c.effect)
@@ -323,6 +327,19 @@ def refine(current: Fit, c: Screened) -> Refined:
     # What the choice of a form gains by chance is its toll, however many coefficients it has.
     gain = explained / spread - PENALTY * sum(len(g.keys) for g in c.groups) - c.toll
     return Refined(c, fitted, gain if needed else -np.inf, explained, spread, normal)
+
+
+def _leaves_more(fitted: Fit, current: Fit) -> bool:
+    """Whether an effect beside a reference with noise leaves more than there was: of the draws of
+    that noise more is then taken off, but a draw is none of what the log holds.
+    """
+    if not has_noise(current):
+        return False
+    powers = [
+        np.sum([np.sum(r.residual**2, axis=0)[axes] for r in f.residuals()])
+        for f, axes in ((fitted, list(fitted.noise)), (current, list(current.noise)))
+    ]
+    return bool(powers[0] > (1.0 + PLAINLY) ** 2 * powers[1])
 
 
 def _needed(

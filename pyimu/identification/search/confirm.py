@@ -33,6 +33,10 @@ BORNE_OUT = 0.5
 """Share of its own difference that a true effect gains on held-out rows, all of it on the average,
 at least: one that is not there loses as much."""
 
+PLAINLY = 0.02
+"""Share by which a held-out residual must rise to be more than a motion that weighs noise
+otherwise."""
+
 POSSIBLE = 2.0
 """Log-likelihood [nat] that a size of the random walk may lack: two standard errors."""
 
@@ -53,8 +57,10 @@ class Evidence:
     ``gained`` is the log-likelihood [nat] that held-out rows gain, ``difference`` by how much the
     models differ on them; ``apart`` is the sum of squares of what is between the two, and
     ``chance`` the variance of its product with the noise; ``held`` (2, 3) and ``whole`` (2, 3) are
-    sums of squares, old and new, of the held-out rows and of all; ``noise`` (3,) is what the noise
-    of sensor and reference leaves of ``whole``, None where only the residual itself tells of it.
+    sums of squares, old and new, of the held-out rows and of all, less what the noise of references
+    makes of them, ``plain`` (2, 3) those of the held-out rows as they are; ``noise`` (3,) is what
+    the noise of sensor and reference leaves of ``whole``, None where only the residual itself tells
+    of it.
     ``strays`` are mean and variance of what ``held`` falls less because the new model's
     coefficients are known only so well.
     """
@@ -64,6 +70,7 @@ class Evidence:
     apart: np.ndarray
     chance: np.ndarray
     held: np.ndarray
+    plain: np.ndarray
     whole: np.ndarray
     noise: np.ndarray | None
     strays: tuple[float, float] = (0.0, 0.0)
@@ -74,8 +81,11 @@ class Evidence:
 
     @property
     def rise(self) -> float:
-        """Relative rise of the held-out RMS error; negative where it falls."""
-        old, new = np.maximum(self.held.sum(axis=1), 0.0)
+        """Relative rise of the held-out RMS error; negative where it falls. As it stands where less
+        than nothing is left of it once the noise of the reference is taken off.
+        """
+        old, new = self.held.sum(axis=1)
+        old, new = (old, new) if min(old, new) > 0.0 else self.plain.sum(axis=1)
         return float(np.sqrt(new / old)) - 1.0 if old > 0.0 else 0.0
 
     @property
@@ -103,7 +113,24 @@ class Evidence:
         raises it.
         """
         rises = self.rise > 0.0 and self.surprise > CHANCE
-        return self.speaks and rises and not self.bears_out
+        return (self.speaks and rises and not self.bears_out) or self.plainly_raises
+
+    @property
+    def plainly_raises(self) -> bool:
+        """Whether the held-out residual itself rises beside a reference whose noise was drawn: that
+        may be more than there is, and what is left once it is taken off less than nothing.
+        """
+        return self.noise is not None and self.speaks and self._plain_rise > PLAINLY
+
+    @property
+    def worse(self) -> float:
+        """Relative rise of the held-out RMS error for which a model is refused."""
+        return self._plain_rise if self.plainly_raises else self.rise
+
+    @property
+    def _plain_rise(self) -> float:
+        old, new = self.plain.sum(axis=1)
+        return float(np.sqrt(new / old)) - 1.0 if old > 0.0 else 0.0
 
     @property
     def is_little(self) -> bool:
@@ -130,7 +157,7 @@ def evidence(old: Fit, new: Fit, held: Sequence[Trial]) -> Evidence:
     """
     sums = {name: np.zeros(3) for name in ("gained", "difference", "apart", "chance")}
     wander = _wandering_most(new, old)
-    held_out = np.zeros((2, 3))
+    held_out, plain = np.zeros((2, 3)), np.zeros((2, 3))
     for trial in held:
         if trial.reduction is not None:
             was, now = left_out(old, trial), left_out(new, trial)
@@ -152,14 +179,19 @@ def evidence(old: Fit, new: Fit, held: Sequence[Trial]) -> Evidence:
             powers = [_whitened(there, rest, one) for one in (first, second, between)]
             sums["gained"] += sign * 0.5 * (powers[0] - powers[1])
             sums["difference"] += sign * 0.5 * powers[2]
-            held_out += sign * np.array([np.sum(r**2, axis=0) for r in rows])
+            # Of an axis that the reference does not know the motion is left.
+            known = np.isin(np.arange(3), rest.axes)
+            squares = np.array([known * np.sum(r**2, axis=0) for r in rows])
+            held_out += sign * squares
+            plain += squares if sign > 0 else 0.0
             sums["apart"] += sign * np.sum(between.residual**2, axis=0)
             if sign > 0:
                 sums["chance"] += _chance(there, between)
     if any(t.reduction is not None for t in held):
-        return Evidence(**sums, held=held_out, whole=held_out, noise=None)
+        return Evidence(**sums, held=held_out, plain=held_out, whole=held_out, noise=None)
     fitted = np.array([_squares(f) for f in (old, new)])
-    found = Evidence(**sums, held=held_out, whole=held_out + fitted, noise=_noise(new, held))
+    both = {"held": held_out, "plain": plain, "whole": held_out + fitted}
+    found = Evidence(**sums, **both, noise=_noise(new, held))
     return replace(found, strays=strayed(old, new, held)) if found.raises else found
 
 

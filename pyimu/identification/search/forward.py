@@ -369,7 +369,9 @@ def without(inv: Investigation, effect: str, reason: str) -> Investigation:
     step = next(s for s in inv.steps if s.effect == effect)
     sensor = inv.after.sensor.without(effect)
     after = fit(replace(inv.after, sensor=sensor, free=inv.after.free - step.keys).with_noise())
-    steps = tuple(s for s in inv.steps if s is not step)
+    # What was found beside it may have leant on it.
+    after, kept = _backward(after, [s for s in inv.steps if s is not step], made=0)
+    steps = tuple(kept)
     return replace(
         inv,
         after=_with_intervals(after, steps),
@@ -402,14 +404,14 @@ def _scattering_at_last(after: Fit, steps: list[Step], last: Screening) -> list[
     return [*fewer, latest]
 
 
-def _backward(after: Fit, steps: list[Step]) -> tuple[Fit, list[Step]]:
-    """Drop what later additions made superfluous.
+def _backward(after: Fit, steps: list[Step], made: int = 1) -> tuple[Fit, list[Step]]:
+    """Drop what later additions made superfluous; the last that was ``made`` is not.
 
     A ceiling never is, the samples at it having been left out since, nor what samples show.
     """
     for step in [
         s
-        for s in steps[:-1]
+        for s in steps[: len(steps) - made]
         if not (s.declared or s.as_sampled or is_ceiling(after.sensor, s.effect))
     ]:
         rest = [s for s in steps if s is not step]

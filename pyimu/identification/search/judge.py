@@ -95,7 +95,7 @@ def _against(chosen: Refined, seen: Evidence, gate: float) -> str:
     if chosen.gain <= gate:
         return "explains no more than chance would on the axes that held-out data leave it"
     if seen.raises:
-        return f"raises the error on held-out data by {100 * seen.rise:.2g} %"
+        return f"raises the error on held-out data by {100 * seen.worse:.2g} %"
     apart = float(seen.gained.sum()) / chosen.dispersion
     if seen.speaks and chosen.gain + apart <= gate:
         return f"held-out data lose {-apart:.0f} nat by it"

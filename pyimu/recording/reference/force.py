@@ -28,6 +28,11 @@ from pyimu.recording.reference.track import LEAST_NODES, Track, fresh
 DEGREE = 5
 """Of the spline: the acceleration of its positions is one of the third."""
 
+EDGE = 12
+"""Samples at each end of a stretch where its acceleration is not used: there the noise of these is
+some hundred times as large as within, and falls by 0.43 from each sample to the next: the root that
+is nearest to one of z^4 + 26 z^3 + 66 z^2 + 26 z + 1, the equations of a quintic spline."""
+
 ORDER = {"position": 2, "velocity": 1}
 """How often each is differentiated."""
 
@@ -141,8 +146,8 @@ def _acceleration(
     rows = np.arange(len(at))
     track = Track(at, rows, lambda n: np.diff(nodes[n], axis=0), spread)
     out = np.full((len(time), 3), np.nan)
-    for part in track.segments:
-        here = within(time, at[part])
+    for part in (p for p in track.segments if len(p) > 2 * EDGE):
+        here = within(time, at[part[EDGE:-EDGE]])
         if len(here):
             spline = make_interp_spline(at[part], nodes[part], k=DEGREE)
             out[here] = spline(time[here], nu=ORDER[kind])

@@ -24,6 +24,7 @@ from pyimu.recording.reference.band import coherence, trusted_band
 from pyimu.recording.reference.course import course_of, looks_like_degrees, mounted, upward
 from pyimu.recording.reference.leaning import upward_through
 from pyimu.recording.reference.nodes import own_samples
+from pyimu.recording.reference.rocking import rate_about_z
 from pyimu.recording.reference.stamps import at_times, even_times, jitter_of
 from pyimu.recording.reference.track import Track, fresh, known_axes
 from pyimu.recording.rest import is_at_rest, motion_in
@@ -202,8 +203,10 @@ def _from_heading(
         rate[rows, 2] = CubicSpline(source.time[nodes], unwrapped[nodes])(time[rows], 1)
     if latitude is not None:
         rate[:, 2] += EARTH_RATE * np.sin(latitude)
+    rate[:, 2], rocks = rate_about_z(recording, rate[:, 2])
     made = _derived(recording, rate, "heading", track, latitude is not None)
-    return replace(made, up=np.array([0.0, 0.0, 1.0]))
+    said = (*made.findings, *filter(None, [rocks]))
+    return replace(made, up=np.array([0.0, 0.0, 1.0]), findings=said)
 
 
 def check_radians(source: Recording) -> None:
