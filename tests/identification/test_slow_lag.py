@@ -81,7 +81,9 @@ def test_a_delay_is_taken_out_of_a_row_by_those_about_it_and_noise_stays():
     noise = 1e-3 * rng.standard_normal(count)
     late = smooth[0][:-1] - smooth[0][1:]
     signals = [s[1:] for s in smooth]
-    found = short_memory((late + noise)[:, None], signals, [(0, count)])
+    found = short_memory(
+        (late + noise)[:, None], signals, [(0, count)], np.zeros(count, dtype=bool)
+    )
     power = float(np.var(found.beyond[5:-5])) / 1e-6
     assert abs(power - 1.0) < 5 * np.sqrt(2 / count), power
     gain = found.response(np.array([0.2 / (2 * np.pi)]), 0, 0)

@@ -128,16 +128,6 @@ class Spectrum:
             together += np.inf if mean > 0.0 == std else (max(mean, 0.0) / max(std, 1e-300)) ** 2
         return out if together > chi2.isf(NOT_CHANCE, len(pieces)) else np.zeros(len(out))
 
-    def share_within(self, known: np.ndarray) -> float:
-        """The largest share of a density (f,) that may be a part of this one at every frequency."""
-        most = 1.0
-        for some in thirds(len(self.psd)):
-            mean = float(known[some].mean())
-            if mean > 0.0:
-                seen = max(float(self.psd[some].mean()), 0.0) + CLEARLY * self.std_of_mean(some)
-                most = min(most, seen / mean)
-        return most
-
     def std_of_mean(self, some: slice) -> float:
         """Standard error of the mean density over neighbouring frequencies."""
         return float(np.sqrt(LEAKAGE) * np.linalg.norm(self.std[some])) / len(self.std[some])
@@ -166,7 +156,7 @@ def unseen_spectra(trial: Trial, one: Linear, own: Mapping[int, RandomWalk]) -> 
     inputs, bad = _known(trial)
     count = len(inputs)
     signal = in_band(trial, trial.u[:, OWN[trial.kind]][:, axes])
-    short = short_memory(one.residual[:, axes], inputs[: len(trial.axes)], one.segments)
+    short = short_memory(one.residual[:, axes], inputs[: len(trial.axes)], one.segments, bad)
     every = [*short.beyond.T, *inputs, *signal.T, *one.residual[:, axes].T]
     length, starts = _frames(one, bad, max(WINDOWS, FOR_EACH * (count - len(trial.axes))))
     if length < FEWEST_ROWS or len(starts) < 2 * count:

@@ -254,10 +254,7 @@ def _with_spectrum(trial: Trial, spectra: Sequence[Spectrum], rng: np.random.Gen
     for i, spectrum in enumerate(spectra):
         if not len(spectrum.psd):
             continue
-        white = of_white_attitude(trial, spectrum.frequency, noise[:, i].var())
-        share = spectrum.share_within(white)
-        noise[:, i] *= np.sqrt(share)
-        more = spectrum.beyond(share * white)
+        more = spectrum.beyond(of_white_attitude(trial, spectrum.frequency, noise[:, i].var()))
         if more.any():
             noise[:, i] += drawn(trial, spectrum.frequency, more, rng)
     errors = tuple(s.error if s.variance > 0.0 else 0.0 for s in spectra)

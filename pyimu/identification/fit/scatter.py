@@ -92,8 +92,8 @@ def explained_beside_wander(larger: Fit, smaller: Fit, coefficients: int) -> flo
     the wander of each as it leaves it.
 
     So few rows hardly know their wander, and chance gains more by it than where noise is known:
-    given is what as likely a gain amounts to there (Seber and Lee 2003, "Linear Regression
-    Analysis", section 4.1: the test of a share of a sum of squares).
+    given is what as likely a gain amounts to there (the test of a share of a sum of squares: Seber
+    and Lee 2003, "Linear Regression Analysis", chapter 4).
     """
     was, now = _Contrasts.of(smaller), _Contrasts.of(smaller, larger)
     count = len(was.left)

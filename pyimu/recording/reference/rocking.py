@@ -2,7 +2,7 @@
 
 With u the direction upward in the body's axes the heading of its x axis grows by
 (q u_y + r u_z) / (1 - u_x^2), q and r being the rates about y and z (Titterton and Weston 2004,
-section 3.6.3, with Euler's angles): a pitch rate of 2 deg/s beside a roll of 5 deg is 0.17 deg/s of
+section 3.6, with Euler's angles): a pitch rate of 2 deg/s beside a roll of 5 deg is 0.17 deg/s of
 heading that the gyro about z does not show.
 """
 
