@@ -18,7 +18,7 @@ def test_an_axis_without_a_difference_is_asked_for_no_gain():
 
 def held_out(gained: float) -> Evidence:
     none = np.zeros(3)
-    return Evidence(np.array([gained, 0.0, 0.0]), none, none, none, none, none, None)
+    return Evidence(np.array([gained, 0.0, 0.0]), none, none, none, none, none, none, None)
 
 
 @pytest.mark.parametrize(

@@ -141,7 +141,8 @@ def force_by_differences(m):
 
     A second difference errs by h^2/12 of the fourth derivative, which the fourth difference says,
     and by 4 roundings of the position over h^2, gravity by those of a rotation; the velocity's
-    error, h^2/6 of the third derivative, enters times twice the planet's rate.
+    error, h^2/6 of the third derivative, enters times twice the planet's rate. A position near
+    nought is the difference of lengths of the vehicle, tenths of a metre.
     """
     h, turn = m.time[1] - m.time[0], attitude(m)
     arm = [m.parameters[f"lever_arm[{i}]"] for i in (1, 2, 3)]
@@ -151,7 +152,8 @@ def force_by_differences(m):
     velocity = (place[3:-1] - place[1:-3]) / (2 * h)
     gravity = np.array([0, 0, m.parameters["gravity"]])
     force = second + 2 * np.cross(planet(m), velocity) + gravity
-    rounding = 16 * np.finfo(float).eps * (np.abs(place).max() / h**2 + gravity[2])
+    lengths = max(np.abs(place).max(), 0.1)
+    rounding = 16 * np.finfo(float).eps * (lengths / h**2 + gravity[2])
     bound = 1.5 * h**2 / 12 * fourth + rounding
     return turn[2:-2].inv().apply(force), bound
 

@@ -95,9 +95,11 @@ def too_little(trial: Trial, share: float) -> str:
     """
     if share >= (COHERENCE if _coheres_nowhere(trial) else UNFIT):
         return ""
+    course = ", or it moves otherwise than ahead: its course is then no heading"
     return (
         f"the reference of {trial.name} accounts for {max(share, 0.0):.0%} of what the "
         f"{trial.kind} shows: another body, another time, or other axes"
+        f"{course if trial.reference == 'course' else ''}"
     )
 
 
