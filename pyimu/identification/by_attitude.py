@@ -14,7 +14,6 @@ from pyimu.identification.fates import TAKEN_BACK
 from pyimu.identification.heading_error import FAR, with_better_heading
 from pyimu.identification.held_out import WINDOW, attitudes, worlds
 from pyimu.identification.model_of import Found, Model, model_of
-from pyimu.identification.search.ceiling import is_ceiling
 from pyimu.identification.search.forward import Investigation, without
 from pyimu.identification.verdict import WORSE
 from pyimu.model.catalogue import WALK
@@ -127,8 +126,7 @@ def _worst(
     """
     errors = {
         name: _pooled(attitudes(_part_without(part, name), inv, logs), kept)
-        for name in (s.effect for s in inv.steps if not s.declared)
-        if not is_ceiling(part.gyro, name)
+        for name in inv.removable
     }
     worst = min(errors, key=errors.get, default=None)
     return (worst, errors[worst]) if worst and WORSE * errors[worst] < now else None

@@ -15,7 +15,6 @@ from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.score import WINDOW, held_state
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.reference.clock import shifted
-from pyimu.identification.search.ceiling import is_ceiling
 from pyimu.identification.search.forward import Investigation, without
 from pyimu.recording.reference.rate import VERTICAL
 
@@ -41,14 +40,9 @@ def with_better_heading(inv: Investigation) -> Investigation:
     before = _rms([heading_error(inv.before, t) for t in held])
     while held and before:
         now = _rms([heading_error(inv.after, t) for t in held])
-        names = [
-            s.effect
-            for s in inv.steps
-            if not s.declared and not is_ceiling(inv.after.sensor, s.effect)
-        ]
-        if not names or now is None or now <= FAR * before:
+        if not inv.removable or now is None or now <= FAR * before:
             return inv
-        others = {n: without(inv, n, "") for n in names}
+        others = {n: without(inv, n, "") for n in inv.removable}
         errors = {n: _rms([heading_error(o.after, t) for t in held]) for n, o in others.items()}
         best = min(errors, key=lambda n: errors[n])
         if errors[best] >= now:

@@ -238,6 +238,12 @@ def check_marks(name: str | os.PathLike, time: np.ndarray, groups: Mapping[str, 
             )
 
 
+def at_own_times(recording: Recording, time: np.ndarray, **groups: np.ndarray) -> Recording:
+    """The recording with these groups alone, at times (k,) s of their own."""
+    alone = {g: None for g in GROUPS} | groups
+    return replace(recording, time=time, period=None, gaps=None, longest=None, **alone)
+
+
 def filled(time: np.ndarray, values: np.ndarray) -> np.ndarray:
     """``values`` (n, ...) with missing cells interpolated linearly, column by column.
 

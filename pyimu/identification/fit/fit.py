@@ -335,6 +335,11 @@ def whitened_power(fit: Fit, linears: Iterable[Linear]) -> float:
     return sum(whitened(fit.noise[i], one, i) for one in linears for i in one.keys)
 
 
+def squares(linears: Iterable[Linear]) -> np.ndarray:
+    """Sums of squares (3,) of the residuals of trials, by axis."""
+    return np.sum([np.sum(one.residual**2, axis=0) for one in linears], axis=0)
+
+
 def whitened(noise, one: Linear, axis: int) -> float:
     """Sum of squares of a residual on an axis, whitened."""
     r = one.residual[:, axis : axis + 1]

@@ -125,7 +125,8 @@ class Spectrum:
             mean, std = float(left[some].mean()), self.std_of_mean(some)
             if mean > CLEARLY * std:
                 out[some] = mean
-            together += np.inf if mean > 0.0 == std else (max(mean, 0.0) / max(std, 1e-300)) ** 2
+            if mean > 0.0:
+                together += (mean / std) ** 2 if std > 0.0 else np.inf
         return out if together > chi2.isf(NOT_CHANCE, len(pieces)) else np.zeros(len(out))
 
     def std_of_mean(self, some: slice) -> float:
@@ -155,12 +156,12 @@ def unseen_spectra(trial: Trial, one: Linear, own: Mapping[int, RandomWalk]) -> 
     axes = list(one.keys)
     inputs, bad = _known(trial)
     count = len(inputs)
-    signal = in_band(trial, trial.u[:, OWN[trial.kind]][:, axes])
-    short = short_memory(one.residual[:, axes], inputs[: len(trial.axes)], one.segments, bad)
-    every = [*short.beyond.T, *inputs, *signal.T, *one.residual[:, axes].T]
     length, starts = _frames(one, bad, max(WINDOWS, FOR_EACH * (count - len(trial.axes))))
     if length < FEWEST_ROWS or len(starts) < 2 * count:
         return {}
+    signal = in_band(trial, trial.u[:, OWN[trial.kind]][:, axes])
+    short = short_memory(one.residual[:, axes], inputs[: len(trial.axes)], one.segments, bad)
+    every = [*short.beyond.T, *inputs, *signal.T, *one.residual[:, axes].T]
     interval = trial.h * trial.band.stride
     z, frequency = _transforms(every, starts, length, interval), np.fft.rfftfreq(length, interval)
     beyond, known, whole, left = np.split(z, np.cumsum([len(axes), count, len(axes)]), axis=1)

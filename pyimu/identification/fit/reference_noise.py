@@ -10,7 +10,7 @@ import numpy as np
 from pyimu.identification.fit.columns import Linear, band_segments, in_band
 from pyimu.identification.fit.doubted import doubted
 from pyimu.identification.fit.errors_in_variables import echo, has_noise, residual_changes
-from pyimu.identification.fit.fit import Fit, Last
+from pyimu.identification.fit.fit import Fit, Last, squares
 from pyimu.identification.fit.high_differences import (
     WEIGHT,
     differences,
@@ -101,10 +101,7 @@ def _is_outdrawn(fit: Fit) -> bool:
     """Whether the drawn noise of the references is more than all that a model leaves."""
     if not has_noise(fit):
         return False
-    drawn, left = (
-        np.sum([np.sum(one.residual**2, axis=0) for one in linears], axis=0)
-        for linears in (residual_changes(fit), fit.residuals())
-    )
+    drawn, left = map(squares, (residual_changes(fit), fit.residuals()))
     return any(drawn[i] > left[i] for i in fit.noise)
 
 
@@ -173,14 +170,13 @@ def _of_trial(
     if _is_derived(trial):
         return seen | still
     moving = {i: s for i, s in seen.items() if i not in still}
-    through = {i: _share_through(sensor, trial, i, s.frequency) for i, s in moving.items()}
+    if not moving:
+        return still
+    frequency = next(iter(moving.values())).frequency
+    shares = np.maximum(power_through_dynamics(sensor, frequency, trial.h), LEAST_THROUGH)
+    through = {i: shares[:, i] for i in moving}
     found = _of_direct(trial, one, moving, through) if direct else _in_band(trial, moving, through)
     return still | {i: _before(s, through[i]) for i, s in found.items()}
-
-
-def _share_through(sensor: Sensor, trial: Trial, axis: int, frequency: np.ndarray) -> np.ndarray:
-    """Share (f,) of the power of a reference's noise that a model's dynamics let through."""
-    return np.maximum(power_through_dynamics(sensor, frequency, trial.h)[:, axis], LEAST_THROUGH)
 
 
 def _before(seen: Spectrum, through: np.ndarray) -> Spectrum:

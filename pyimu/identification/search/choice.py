@@ -11,7 +11,7 @@ from functools import cached_property, reduce
 import numpy as np
 
 from pyimu.identification.fit.errors_in_variables import has_noise
-from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.fit import Fit, squares
 from pyimu.identification.fit.keys import Key
 from pyimu.identification.fit.maximum_likelihood import (
     advantage,
@@ -242,10 +242,7 @@ def _leaves_much_less(one: Refined, other: Refined) -> bool:
     """Whether a candidate leaves no more than ``CLEAR`` of the power that another one leaves, in
     the mean over the axes.
     """
-    powers = [
-        np.sum([np.sum(r.residual**2, axis=0) for r in c.fit.residuals()], axis=0)
-        for c in (one, other)
-    ]
+    powers = [squares(c.fit.residuals()) for c in (one, other)]
     axes = list(one.fit.noise)
     return float(np.mean(np.log(powers[0][axes] / powers[1][axes]))) < np.log(CLEAR)
 
@@ -320,10 +317,10 @@ def refine(current: Fit, c: Screened) -> Refined:
     fitted = at_samples(fitted) if is_ceiling(sensor, c.effect) else fitted
     fitted = at_threshold(fitted) if is_threshold(sensor, c.effect) else fitted
     fitted = at_instants(fitted, c.effect)
-    count = len(keys_of(c))
-    explained = (
-        explained_beside_wander(fitted, current, count) if bends else advantage(fitted, current)
-    )
+    if bends:
+        explained = explained_beside_wander(fitted, current, len(keys_of(c)))
+    else:
+        explained = advantage(fitted, current)
     # What the choice of a form gains by chance is its toll, however many coefficients it has.
     gain = explained / spread - PENALTY * sum(len(g.keys) for g in c.groups) - c.toll
     return Refined(c, fitted, gain if needed else -np.inf, explained, spread, normal)
@@ -335,10 +332,7 @@ def _leaves_more(fitted: Fit, current: Fit) -> bool:
     """
     if not has_noise(current):
         return False
-    powers = [
-        np.sum([np.sum(r.residual**2, axis=0)[axes] for r in f.residuals()])
-        for f, axes in ((fitted, list(fitted.noise)), (current, list(current.noise)))
-    ]
+    powers = [squares(f.residuals())[list(f.noise)].sum() for f in (fitted, current)]
     return bool(powers[0] > (1.0 + PLAINLY) ** 2 * powers[1])
 
 

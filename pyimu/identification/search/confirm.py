@@ -10,7 +10,7 @@ from scipy.stats import chi2
 
 from pyimu.identification.fit.columns import Linear, band_time, in_band, linearise, residual
 from pyimu.identification.fit.errors_in_variables import STEP, has_noise, moved, residual_changes
-from pyimu.identification.fit.fit import Fit, bare, whitened
+from pyimu.identification.fit.fit import Fit, bare, squares, whitened
 from pyimu.identification.fit.inputs import LogState
 from pyimu.identification.fit.keys import LogClock
 from pyimu.identification.fit.left_out import left_out
@@ -84,9 +84,7 @@ class Evidence:
         """Relative rise of the held-out RMS error; negative where it falls. As it stands where less
         than nothing is left of it once the noise of the reference is taken off.
         """
-        old, new = self.held.sum(axis=1)
-        old, new = (old, new) if min(old, new) > 0.0 else self.plain.sum(axis=1)
-        return float(np.sqrt(new / old)) - 1.0 if old > 0.0 else 0.0
+        return _rise(self.held if min(self.held.sum(axis=1)) > 0.0 else self.plain)
 
     @property
     def surprise(self) -> float:
@@ -120,17 +118,12 @@ class Evidence:
         """Whether the held-out residual itself rises beside a reference whose noise was drawn: that
         may be more than there is, and what is left once it is taken off less than nothing.
         """
-        return self.noise is not None and self.speaks and self._plain_rise > PLAINLY
+        return self.noise is not None and self.speaks and _rise(self.plain) > PLAINLY
 
     @property
     def worse(self) -> float:
         """Relative rise of the held-out RMS error for which a model is refused."""
-        return self._plain_rise if self.plainly_raises else self.rise
-
-    @property
-    def _plain_rise(self) -> float:
-        old, new = self.plain.sum(axis=1)
-        return float(np.sqrt(new / old)) - 1.0 if old > 0.0 else 0.0
+        return _rise(self.plain) if self.plainly_raises else self.rise
 
     @property
     def is_little(self) -> bool:
@@ -149,6 +142,12 @@ class Evidence:
         above = np.maximum(self.whole[0] - self.noise, 1e-300)
         shares = (self.whole[0] - self.whole[1]) / above
         return float(np.max(shares[self.whole[0] != 0.0], initial=0.0))
+
+
+def _rise(sums: np.ndarray) -> float:
+    """Relative rise of the root of sums of squares (2, 3), old and new."""
+    old, new = sums.sum(axis=1)
+    return float(np.sqrt(new / old)) - 1.0 if old > 0.0 else 0.0
 
 
 def evidence(old: Fit, new: Fit, held: Sequence[Trial]) -> Evidence:
@@ -181,9 +180,9 @@ def evidence(old: Fit, new: Fit, held: Sequence[Trial]) -> Evidence:
             sums["difference"] += sign * 0.5 * powers[2]
             # Of an axis that the reference does not know the motion is left.
             known = np.isin(np.arange(3), rest.axes)
-            squares = np.array([known * np.sum(r**2, axis=0) for r in rows])
-            held_out += sign * squares
-            plain += squares if sign > 0 else 0.0
+            left = np.array([known * np.sum(r**2, axis=0) for r in rows])
+            held_out += sign * left
+            plain += left if sign > 0 else 0.0
             sums["apart"] += sign * np.sum(between.residual**2, axis=0)
             if sign > 0:
                 sums["chance"] += _chance(there, between)
@@ -307,10 +306,10 @@ def _whitened(fit: Fit, trial: Trial, one: Linear) -> np.ndarray:
 
 def _squares(fit: Fit) -> np.ndarray:
     """Sums of squares (3,) on fitted rows, as a reference without noise would leave them."""
-    seen = np.sum([np.sum(one.residual**2, axis=0) for one in fit.residuals()], axis=0)
+    seen = squares(fit.residuals())
     if not has_noise(fit):
         return seen
-    return seen - np.sum([np.sum(c.residual**2, axis=0) for c in residual_changes(fit)], axis=0)
+    return seen - squares(residual_changes(fit))
 
 
 def _noise(fit: Fit, held: Sequence[Trial]) -> np.ndarray | None:

@@ -120,6 +120,14 @@ class Investigation:
     believed: bool = False
 
     @property
+    def removable(self) -> list[str]:
+        """The effects that were added and may be taken back: a ceiling may not, the samples at it
+        having been left out since.
+        """
+        sensor, new = self.after.sensor, [s.effect for s in self.steps if not s.declared]
+        return [name for name in new if not is_ceiling(sensor, name)]
+
+    @property
     def brought_in(self) -> int:
         """Coefficients that its steps brought in."""
         return sum(len(s.keys) for s in self.steps)

@@ -8,15 +8,12 @@ no delay of the sensor is made up.
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from scipy.optimize import linprog
 from scipy.spatial import ConvexHull
 
-from pyimu.recording.columns import GROUPS
-from pyimu.recording.recording import Recording
+from pyimu.recording.recording import Recording, at_own_times
 from pyimu.recording.reference.file import TRUTHS, at_log
 from pyimu.recording.reference.track import fresh, known_axes
 
@@ -48,19 +45,11 @@ def held_apart(recording: Recording) -> Recording:
     rows, even = _first_rows(recording, known)
     if not len(rows):
         return recording
-    time = recording.time[rows]
-    own = replace(
-        recording,
-        time=time if even is None else even,
-        period=None,
-        gaps=None,
-        longest=None,
-        **{g: None for g in GROUPS},
-    )
     given = {g: getattr(recording, g)[rows] for g in groups}
     if recording.latitude is not None:
         given["latitude"] = recording.latitude[rows]
-    return at_log(recording, replace(own, **given))
+    time = recording.time[rows] if even is None else even
+    return at_log(recording, at_own_times(recording, time, **given))
 
 
 def _first_rows(recording: Recording, values: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:

@@ -9,11 +9,11 @@ drives straight or stands, which two wheels do upright.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from scipy.ndimage import maximum_filter1d, uniform_filter1d
 
 from pyimu.errors import Finding
 from pyimu.recording.recording import Recording, filled
+from pyimu.recording.reference.upward import followed
 
 STRAIGHT = 0.03
 """rad/s; a vehicle that turns more slowly drives straight, in curves of 300 m at 10 m/s."""
@@ -55,7 +55,9 @@ def upward_through(
     pull = np.where(straight, 1.0 / BACK, 1.0 / FORGOTTEN)
     # Behind a gap it leans nobody knows how far.
     pieces = [slice(a, b) for a, b in recording.segments]
-    found = np.concatenate([_followed(recording.time[p], gyro[p], pull[p], up) for p in pieces])
+    found = np.concatenate(
+        [followed(recording.time[p], gyro[p], up, still[p], pull[p]) for p in pieces]
+    )
     turn, known, cosine = np.nan_to_num(rate), np.isfinite(rate), found @ up
     leans = np.sum(turn**2 * (1.0 - cosine)) >= LEANS * np.sum(turn**2)
     seen = np.where(known, gyro[:, axis], 0.0)
@@ -70,22 +72,3 @@ def _left(seen: np.ndarray, said: np.ndarray, rows: int) -> float:
     """Power of what a gain leaves of what the gyro has ``seen`` (n,), in means over ``rows``."""
     seen, said = (uniform_filter1d(v, rows) for v in (seen, said))
     return float(np.sum((seen - said * (said @ seen) / max(said @ said, 1e-300)) ** 2))
-
-
-@njit(cache=True)
-def _followed(time, gyro, pull, up):
-    """The direction (n, 3) that is ``up`` at first and stands still while the body turns by
-    ``gyro`` (n, 3) rad/s, drawn back to ``up`` at the rates ``pull`` (n,) 1/s.
-    """
-    out = np.empty_like(gyro)
-    u = up.copy()
-    for k in range(len(time)):
-        out[k] = u
-        if k + 1 == len(time):
-            break
-        h = time[k + 1] - time[k]
-        w = gyro[k] * h
-        back = 1.0 - np.exp(-pull[k] * h)
-        u = u - np.cross(w, u) + back * (up - u)
-        u = u / np.sqrt(np.sum(u * u))
-    return out

@@ -8,14 +8,12 @@ samples lie between the rows: by how much of either arc's rate the step that hol
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 import numpy as np
 from scipy.fft import next_fast_len, rfft
 from scipy.spatial.transform import Rotation
 
-from pyimu.recording.columns import GROUPS
-from pyimu.recording.recording import Recording
+from pyimu.recording.recording import Recording, at_own_times
 from pyimu.recording.reference import close_nodes
 
 LEAST = 16
@@ -61,10 +59,7 @@ def own_samples(source: Recording) -> Recording:
         return source
     at, row, further = found
     nodes = (attitude[row] * Rotation.from_rotvec(further)).as_quat(scalar_first=True)
-    empty = {g: None for g in GROUPS}
-    return replace(
-        source, time=at, period=None, gaps=None, longest=None, **empty | {"ref_q": nodes}
-    )
+    return at_own_times(source, at, ref_q=nodes)
 
 
 def own_places(time: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

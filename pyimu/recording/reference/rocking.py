@@ -9,11 +9,11 @@ heading that the gyro about z does not show.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from scipy.ndimage import uniform_filter1d
 
 from pyimu.errors import Finding
 from pyimu.recording.recording import Recording, filled
+from pyimu.recording.reference.upward import followed
 
 SETTLES = 10.0
 """s; over which the accelerometer says what is upward, and the gyro within."""
@@ -37,7 +37,7 @@ def rate_about_z(recording: Recording, rate: np.ndarray) -> tuple[np.ndarray, Fi
     gyro, force = (filled(recording.time, v) for v in both)
     gyro = gyro - np.median(gyro, axis=0) * [1.0, 1.0, 0.0]
     pieces = [slice(a, b) for a, b in recording.segments]
-    up = np.concatenate([_upward(recording.time[p], gyro[p], force[p], SETTLES) for p in pieces])
+    up = np.concatenate([_upward(recording.time[p], gyro[p], force[p]) for p in pieces])
     if np.min(up[:, 2]) < 0.5:
         return rate, None
     seen, known = gyro[:, 2], np.isfinite(rate)
@@ -61,24 +61,9 @@ def _left(seen: np.ndarray, said: np.ndarray, known: np.ndarray, rows: list[int]
     return float(np.sum((y - x * (x @ y) / max(float(x @ x), 1e-300)) ** 2))
 
 
-@njit(cache=True)
-def _upward(time, gyro, force, settles):
-    """The direction (n, 3) upward in body axes, which stands still while the body turns by ``gyro``
-    (n, 3) rad/s, drawn to that of ``force`` (n, 3) over so many s.
-    """
-    out = np.empty_like(gyro)
-    first = min(len(time), 1 + int(np.sum(time - time[0] < settles)))
-    u = np.zeros(3)
-    for k in range(first):
-        u += force[k]
-    u /= np.sqrt(np.sum(u * u))
-    for k in range(len(time)):
-        out[k] = u
-        if k + 1 == len(time):
-            break
-        h = time[k + 1] - time[k]
-        w = gyro[k] * h
-        size = np.sqrt(np.sum(force[k] * force[k]))
-        u = u - np.cross(w, u) + (1.0 - np.exp(-h / settles)) * (force[k] / size - u)
-        u = u / np.sqrt(np.sum(u * u))
-    return out
+def _upward(time: np.ndarray, gyro: np.ndarray, force: np.ndarray) -> np.ndarray:
+    """The direction (n, 3) upward in body axes: by the gyro, drawn to that of the force."""
+    toward = force / np.linalg.norm(force, axis=1, keepdims=True)
+    mean = force[time - time[0] <= SETTLES].mean(axis=0)
+    pull = np.full(len(time), 1.0 / SETTLES)
+    return followed(time, gyro, mean / np.linalg.norm(mean), toward, pull)
