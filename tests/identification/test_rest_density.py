@@ -6,7 +6,12 @@ from scipy.signal import butter, lfilter
 from scipy.spatial.transform import Rotation, RotationSpline
 
 import pyimu
-from pyimu.identification.fit.sample_noise import rest_density, rest_noise
+from pyimu.identification.fit.sample_noise import (
+    CORRELATED,
+    quiet_noise,
+    rest_density,
+    rest_noise,
+)
 from pyimu.identification.fit.trial import gyro_trial
 from pyimu.recording.recording import Recording
 
@@ -46,6 +51,21 @@ def test_white_noise_behind_a_low_pass_filter_keeps_its_density(bandwidth, least
 def test_motion_is_not_taken_for_noise():
     trial = gyro_trial(log(1, rest=0.0))
     np.testing.assert_array_equal(rest_density(trial), rest_noise(trial) * H**0.5)
+
+
+@pytest.mark.parametrize("louder", [1.0, 3.0])
+def test_noise_of_one_level_is_read_as_it_is(louder):
+    """In twelve logs of 20 s, of which half may be louder: within four standard errors, of the
+    third differences of the rest. The quietest seconds are quieter than the noise is.
+    """
+    rng, logs, rows = np.random.default_rng(7), 12, 2000
+    level = np.where(np.arange(rows) < rows // 2, 1.0, louder)[:, None]
+    found = [
+        quiet_noise(level * rng.standard_normal((rows, 3)), [(0, rows)], 0.01) ** 2
+        for _ in range(logs)
+    ]
+    taken = logs * 3 * (rows if louder == 1.0 else rows // 2)
+    assert np.mean(found) == pytest.approx(1.0, abs=4 * np.sqrt(2 * CORRELATED / taken))
 
 
 @pytest.mark.long

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 
 from pyimu.identification.fit.trial import Trial
@@ -101,7 +103,8 @@ def white_noise(trial: Trial, values: np.ndarray) -> np.ndarray:
 def quiet_noise(values: np.ndarray, segments: list[tuple[int, int]], h: float) -> np.ndarray:
     """Standard deviation (k,) of the white noise of values (n, k), sampled every ``h`` s.
 
-    From the quietest quarter of second-long segments.
+    From all second-long segments that are as quiet as the quietest, if these look like noise of one
+    level; else from the quietest quarter.
 
     Third differences take out motion up to a tenth of the sample rate; those of white noise have 20
     times its variance.
@@ -110,7 +113,30 @@ def quiet_noise(values: np.ndarray, segments: list[tuple[int, int]], h: float) -
     pieces = [values[k : k + length] for a, b in segments for k in range(a, b - length + 1, length)]
     if not pieces:
         return np.full(values.shape[1], np.nan)
-    return np.sqrt(_quietest(_third_differences(np.array(pieces))) / THIRD)
+    return np.sqrt(_of_one_level(_third_differences(np.array(pieces))) / THIRD)
+
+
+def _of_one_level(third: np.ndarray) -> np.ndarray:
+    """Mean square (k,) of the pieces (p, n, k) of third differences that show one level."""
+    power, lowest = np.mean(third**2, axis=1), _quietest(third)
+    by_chance = _quietest_of_white(*third.shape[1:])
+    scatter = np.sqrt(2 * CORRELATED / third.shape[1])
+    alike = third[np.all(power <= lowest / by_chance * (1 + SURE * scatter), axis=1)]
+    if not len(alike):
+        return lowest
+    level = np.mean(alike**2, axis=(0, 1))
+    error = scatter / np.sqrt(max(1, len(alike) // QUIET))
+    one = _quietest(alike) >= level * (by_chance - SURE * error)
+    return np.where(one, level, lowest)
+
+
+@cache
+def _quietest_of_white(rows: int, columns: int) -> float:
+    """What the quietest pieces (``rows``, ``columns``) of third differences of white noise show of
+    its power."""
+    drawn = np.random.default_rng(1).standard_normal((DRAWN, rows + 3, columns))
+    third = _third_differences(drawn)
+    return float(np.mean(_quietest(third)) / np.mean(third**2))
 
 
 def without_information(trial: Trial) -> np.ndarray:
