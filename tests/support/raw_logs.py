@@ -104,14 +104,15 @@ def xsens(folder, log):
     )
 
 
-def repoimu(folder, log, q=(1.0, 0, 0, 0)):
+def repoimu(folder, log):
     time, gyro, accel = log
     head = [
         "Time (s);Vicon Orientation;;;;IMU Acceleration;;;IMU Gyroscope;;;IMU Magnetometer;;;",
         ";W;X;Y;Z;X;Y;Z;X;Y;Z;X;Y;Z;",
     ]
+    q = np.tile([1.0, 0, 0, 0], (len(time), 1))
     field = np.tile([0.4, 0.1, -0.9], (len(time), 1))
-    columns = [time * 1e-9, *np.broadcast_to(q, (len(time), 4)).T, *accel.T, *gyro.T, *field.T]
+    columns = [time * 1e-9, *q.T, *accel.T, *gyro.T, *field.T]
     return text(folder / "TStick_Test01_Trial1.csv", head, columns, ";")
 
 

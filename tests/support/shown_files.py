@@ -6,9 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from loop_cases import smooth
 from raw_logs import repoimu
-from scipy.spatial.transform import Rotation, RotationSpline
 
 from pyimu.recording.recording import Recording
 from pyimu.rover.indoor_runs import Assumptions, one_run
@@ -89,20 +87,10 @@ def attitudes(path: Path) -> None:
     Recording.from_arrays(time=log.time, ref_q=q).write(path)
 
 
-def swung(path: Path) -> None:
-    """A wand before cameras, in RepoIMU's layout; its gyro errs as no effect describes."""
-    rng, time = np.random.default_rng(3), 0.01 * np.arange(4000)
-    angles = smooth(rng, time, 0.4, highest=1.0) * [1.0, 0.8, 1.0]
-    turn = Rotation.from_euler("ZYX", angles)
-    rate = RotationSpline(time, turn)(time, 1)
-    gyro, accel = rate.copy(), turn.inv().apply([0.0, 0.0, 9.80665])
-    gyro[:, 1] += 0.03 * np.gradient(rate[:, 0], time) * rate[:, 2]
-    log = (
-        np.round(time * 1e9).astype(int),
-        gyro + 2e-3 * rng.standard_normal(gyro.shape),
-        accel + 0.02 * rng.standard_normal(accel.shape),
-    )
-    made = repoimu(path.parent, log, turn.as_quat(scalar_first=True))
+def from_repoimu(path: Path) -> None:
+    """A log in the layout of RepoIMU, under another name."""
+    log = driven()
+    made = repoimu(path.parent, (np.round(log.time * 1e9).astype(int), log.gyro, log.accel))
     path.write_bytes(gzip.compress(made.read_bytes()))
 
 
@@ -151,7 +139,7 @@ FILES: dict[str, Maker] = {
     },
     "mocap.csv": attitudes,
     "square.csv": written(square),
-    "tstick07.csv.gz": swung,
+    "tstick07.csv.gz": from_repoimu,
     "broad11.csv.gz": written(driven),
     "morpinet_rccar_n.csv.gz": written(upside_down),
     "frd.toml": text('[frame]\nbody = "frd"\n'),

@@ -12,6 +12,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 
+import numpy as np
+
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient, coefficients_of
 from pyimu.identification.fit.maximum_likelihood import advantage, fit_and_normal
@@ -43,6 +45,7 @@ from pyimu.identification.formula.terms import (
     Term,
     library,
 )
+from pyimu.identification.search.choice import SET_WIDTH
 from pyimu.identification.search.confirm import evidence
 from pyimu.identification.search.forward import Investigation, Refused, Step, form_error
 from pyimu.identification.search.leftover import Unexplained
@@ -118,7 +121,7 @@ def look(
     found = [_tried(inv, start, scores, terms, again, done) for start, scores in starts]
     found = [f for f in found if f is not None]
     best = max(found, key=lambda f: (f.shown, f.ahead), default=None)
-    if best is not None:
+    if best is not None and not _is_no_sensors(best, inv):
         after, formula = best.investigation, best.formula
         put(formula.effect)
         formula = replace(formula, resembles=resembled(after, formula))
@@ -152,6 +155,14 @@ def _is_of_reference(left: Fit, scores: Scores) -> bool:
     finally:
         if name in CATALOGUE:
             CATALOGUE.remove(name)
+
+
+def _is_no_sensors(best: Found, inv: Investigation) -> bool:
+    """Whether an effect of a size that no sensor has explains as much as a formula: what makes the
+    reference look like the one makes it look like the other.
+    """
+    most = max((r.gain for r in inv.refused if r.beyond_belief), default=-np.inf)
+    return best.ahead <= most + SET_WIDTH
 
 
 def _unexplained(kind: str, scores: Scores) -> Unexplained | None:

@@ -91,11 +91,14 @@ class Step:
 
 @dataclass(frozen=True)
 class Refused:
-    """An effect that passed the gate but not belief or the held-out data."""
+    """An effect that passed the gate but not belief or the held-out data; ``beyond_belief`` where
+    it would be of a size that no sensor has.
+    """
 
     effect: str
     gain: float
     reason: str
+    beyond_belief: bool = False
 
     def as_dict(self) -> dict[str, Any]:
         return asdict(self)
@@ -245,7 +248,8 @@ class _Search:
         if reason == OF_REFERENCE and CATALOGUE[name].is_line and self.lines:
             self.line = chosen
         if reason:
-            self.refused[name] = Refused(name, chosen.gain, reason)
+            beyond = bool(unbelievable(chosen.fit, keys_of(chosen.screened)))
+            self.refused[name] = Refused(name, chosen.gain, reason, beyond)
         else:
             self._add(chosen, names)
         return True
