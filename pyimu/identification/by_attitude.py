@@ -43,7 +43,7 @@ def settled(
     logs, leaning = _levelled(_as_filed(model.before, declared), inv, logs)
     while True:
         old, new = (_as_filed(p, declared) for p in (model.before, model.after))
-        before, after = (attitudes(p, inv, logs) for p in (old, new))
+        before, after = attitudes(old, inv, logs, before=True), attitudes(new, inv, logs)
         lost = [n for n in before if before[n].is_lost and after[n].is_lost]
         said = leaning + tuple(_lost(n, before[n], after[n]) for n in lost)
         kept = [n for n in before if n not in lost]

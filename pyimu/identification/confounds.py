@@ -22,19 +22,32 @@ def what_no_log_tells_apart(
     if e.mounting and not any(t.free_rotation for t in trials):
         return ""
     if e.delay is not None:
-        return _of_delay(e, sensor, alternatives)
+        hidden = any(t.clock is not None and t.clock.apart for t in trials)
+        return _beside_clock(e, sensor) if hidden else _of_delay(e, sensor, alternatives)
     if e.confound is None:
         return ""
     return f"no log can tell it from {e.confound.of}; {e.confound.apart} would"
 
 
+def _beside_clock(e: Effect, sensor: Sensor) -> str:
+    """Of a lag that was found beside clocks that were fitted with it."""
+    return (
+        f"it is told by how it damps what is quick; its delay, {_delay_of(e, sensor)}, is one with "
+        "the reference's clock, which was fitted beside it"
+    )
+
+
+def _delay_of(e: Effect, sensor: Sensor) -> str:
+    delay = float(e.delay(**{n: float(v) for n, v in sensor.values[e.name].items()}))
+    return f"{delay * 1e3:.2f} ms"
+
+
 def _of_delay(e: Effect, sensor: Sensor, alternatives: Collection[str] | None) -> str:
     """Of a family that is known by its delay alone, but for forms that the data tell."""
-    delay = float(e.delay(**{n: float(v) for n, v in sensor.values[e.name].items()}))
     family = [other.name for other in CATALOGUE.values() if other.family == e.family]
     some = [n for n in family if alternatives is None or n in alternatives or n == e.name]
     apart = f"; {e.confound.apart} would tell the clock" if e.confound else ""
-    late = f"an effective delay of {delay * 1e3:.2f} ms of the sensor against the reference"
+    late = f"an effective delay of {_delay_of(e, sensor)} of the sensor against the reference"
     if len(some) == 1:
         return f"{late}, of which the reference's clock may hold a part{apart}"
     return (

@@ -176,13 +176,18 @@ def log_state(inv: Investigation, name: str) -> dict[str, Any] | None:
     return found | {"reference": _reference(replace(trial, clock=clock_of(inv, name)))}
 
 
-def clock_of(inv: Investigation, name: str) -> Clock | None:
-    """The clock of a log as it was measured, with what the model after found beside it."""
-    trials = [t for t in (*inv.after.trials, *inv.held) if t.name == name]
-    clock, state = trials[0].clock, inv.after.states.get(name)
+def clock_of(inv: Investigation, name: str, before: bool = False) -> Clock | None:
+    """The clock of a log as it was measured, with what the model after, or ``before``, found beside
+    it: of a log of which no row was fitted, as it is held out.
+    """
+    fitted = inv.before if before else inv.after
+    trials = [t for t in (*fitted.trials, *inv.held) if t.name == name]
+    clock, state = trials[0].clock, fitted.states.get(name)
+    if clock is not None and clock.apart and state is None:
+        state = held_state(fitted, trials[0])[0]
     if clock is None or state is None or state.clock is None:
         return clock
-    std = inv.after.std.get(LogClock(name, 1), np.inf)
+    std = fitted.std.get(LogClock(name, 1), np.inf)
     return clock.corrected(state.clock, std, trials[0].time[0], trials[-1].time[-1])
 
 
@@ -202,15 +207,16 @@ def _reference(trial: Trial) -> dict[str, Any]:
 
 
 def attitudes(
-    part: Part, inv: Investigation | None, logs: list[Recording]
+    part: Part, inv: Investigation | None, logs: list[Recording], before: bool = False
 ) -> dict[str, AttitudeError]:
-    """Errors of the attitude filter with a part by log, on held-out rows that ``ref_q`` covers.
+    """Errors of the attitude filter with a part by log, on held-out rows that ``ref_q`` covers, by
+    the clocks of the model after, or ``before``.
 
     Without recorded headings that of each ``WINDOW`` s begins anew.
     """
     found = {}
     for r in logs:
-        compared = _beside(part, inv, r)
+        compared = _beside(part, inv, r, before)
         if compared is None:
             continue
         error = error_against(*compared)
@@ -228,11 +234,13 @@ def worlds(part: Part, inv: Investigation | None, logs: list[Recording]) -> dict
     return {name: world for name, world in found.items() if world is not None}
 
 
-def _beside(part: Part, inv: Investigation | None, r: Recording) -> Compared | None:
+def _beside(
+    part: Part, inv: Investigation | None, r: Recording, before: bool = False
+) -> Compared | None:
     """The filter's attitudes beside the reference's; None of a log that does not show them."""
     held = None if inv is None else next((t for t in inv.held if t.name == r.name), None)
     if held is None or r.ref_q is None or r.accel is None:
         return None
     mounting = np.array(log_state(inv, r.name)["rotation"])
     first = int(np.searchsorted(r.time, held.time[0]))
-    return beside(r, part, mounting, first, clock_of(inv, r.name))
+    return beside(r, part, mounting, first, clock_of(inv, r.name, before))

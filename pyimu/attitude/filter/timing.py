@@ -14,6 +14,8 @@ said the delay is taken for that half period, as of the mean rate of a period.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import casadi as ca
 
 from pyimu.model.effect import Effect
@@ -69,7 +71,11 @@ def latency(sensor: Sensor, p):
     """s; by how much a sensor's samples are late, the mean of its axes. 0 where nothing makes them
     so.
     """
-    delays = [e.delay(**coefficients(sensor, p, e.name)) for e in timed(sensor)]
+    return _delay(sensor, p, timed(sensor))
+
+
+def _delay(sensor: Sensor, p, effects: Iterable[Effect]):
+    delays = [e.delay(**coefficients(sensor, p, e.name)) for e in effects]
     return sum(ca.sum1(d) / d.numel() for d in map(ca.SX, delays))
 
 
@@ -77,7 +83,7 @@ def estimate_latency(gyro: Sensor, p, h):
     """s; by how much the estimate is late after a sample of the gyro, of period ``h`` s.
 
     Where the sample's instant is known, the estimate's is half a period later, so that this can be
-    below zero.
+    below zero. A lag that is undone is known, too.
     """
-    late = latency(gyro, p)
-    return ca.if_else(late > 0, late - h / 2, 0)
+    said = _delay(gyro, p, (e for e in gyro.effects if e.delay))
+    return ca.if_else(said > 0, latency(gyro, p) - h / 2, 0)

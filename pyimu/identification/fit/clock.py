@@ -54,7 +54,8 @@ class Clock:
     does so steadily but for ``slips``; None where the clocks keep step or the lag wanders.
     ``doubtful`` says that an effect may have made it look as if it drifted; ``unsure`` are the
     spans [s] in which nobody knows whether it has slipped yet; ``changed`` says that one lag stands
-    for one that seemed to change.
+    for one that seemed to change. By up to ``apart`` s it may be off, where it was measured without
+    a lag that the sensor has.
     """
 
     time: np.ndarray
@@ -68,6 +69,7 @@ class Clock:
     doubtful: bool = False
     unsure: tuple[tuple[float, float], ...] = ()
     changed: bool = False
+    apart: float = 0.0
 
     @property
     def keeps_step(self) -> bool:
@@ -105,6 +107,8 @@ class Clock:
         be none; the drift never is.
         """
         drift = {1: WIDE * self.std * np.sqrt(12.0) / seconds}
+        if self.apart:
+            return {0: self.apart, **drift}
         return {0: WIDE * self.std, **drift} if self.taken_out and not self.own else drift
 
     def corrected(

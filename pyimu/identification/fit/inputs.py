@@ -8,6 +8,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from pyimu.identification.fit.clock import ClockChange
+from pyimu.identification.fit.interpolated import interpolated
 from pyimu.identification.fit.keys import LogBias, LogClock, LogKey, LogLag, LogPlace
 from pyimu.identification.fit.place import NOWHERE, UNKNOWN
 from pyimu.identification.fit.trial import Trial
@@ -74,15 +75,21 @@ class Inputs:
 def reference_input(trial: Trial, state: LogState) -> Inputs:
     """Inputs (n, N_INPUT) with the reference turned into the sensor's axes, on the sensor's clock.
 
-    What the clock still lacks is short against the motion: its first order is enough. A thermometer
-    that is a first-order lag shows T - lag dT/dt.
+    What the clock still lacks is short against the motion: its first order is enough, unless it was
+    measured without a lag of the sensor. A thermometer that is a first-order lag shows T - lag
+    dT/dt.
     """
     u, own, rate = Inputs(trial.u), OWN[trial.kind], own_rate(trial.kind)
     if np.any(state.place):
         _put_in_place(u, trial, state.place)
     if state.clock is not None:
-        late = state.clock.at(trial.time)[:, None]
-        u[:, own] = u[:, own] - late * u[:, rate]
+        late = state.clock.at(trial.time)
+        if trial.clock is not None and trial.clock.apart:
+            row = np.clip(np.arange(len(late)) - late / trial.h, 0, len(late) - 1)
+            for at in (own, rate):
+                u[:, at] = interpolated(trial.u[:, at], row)
+        else:
+            u[:, own] = u[:, own] - late[:, None] * u[:, rate]
     # What is turned is turned by the sensor's own axes, whichever the reference has.
     turned = (COLUMNS["turned"],) if trial.kind == "gyro" else ()
     for at in () if np.array_equal(state.rotation, np.eye(3)) else (own, rate, *turned):

@@ -13,10 +13,11 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from pyimu.identification.fit.clock import ClockChange
 from pyimu.identification.fit.columns import band_segments, in_band, in_log, linearise, residual
 from pyimu.identification.fit.fit import Fit, bare, initial_state
 from pyimu.identification.fit.inputs import LogState, before, reference_input
-from pyimu.identification.fit.keys import LogLag, LogPlace, LogTurn
+from pyimu.identification.fit.keys import LogClock, LogLag, LogPlace, LogTurn
 from pyimu.identification.fit.noise_floor import simulated
 from pyimu.identification.fit.normal import normal_equations, solve
 from pyimu.identification.fit.response import predict
@@ -33,6 +34,10 @@ least that is taken where several agree."""
 
 KNOWN = 1e-6
 """s; standard deviation of a thermometer's lag that other logs have shown."""
+
+LATE = 0.1
+"""Share of what clocks lack that were measured without a lag of the sensor by which they differ: a
+lag is another at each frequency."""
 
 PLACED = 0.01
 """m, m/s^2 and rad; standard deviation of where a log's reference force acts about that of the
@@ -118,19 +123,30 @@ def _head_state(fit: Fit, head: Trial) -> LogState:
     # The thermometer goes with the part.
     lag = float(np.mean([s.lag for s in fit.states.values()]))
     place = np.mean([s.place for s in fit.states.values()], axis=0)
-    mountings = [LogState(np.zeros(3), r, lag, place=place) for r in _mountings(fit, head)]
+    clock = _clock_to_begin(fit, head)
+    mountings = [LogState(np.zeros(3), r, lag, clock, place) for r in _mountings(fit, head)]
     state = min(mountings, key=lambda s: float(np.sum(_centred(fit, head, s) ** 2)))
-    spread = _spread(fit)
+    spread, late = _spread(fit), LATE * abs(clock.offset) if clock else np.inf
     white = {i: RandomWalk(n.r, 0.0) for i, n in fit.noise.items()}
     for _ in range(2):
         normal = normal_equations([linearise(fit.sensor, head, state, ())], white)
         if not normal.keys:
             return state
-        known = {LogTurn: spread**-2, LogLag: KNOWN**-2, LogPlace: PLACED**-2}
+        known = {LogTurn: spread**-2, LogLag: KNOWN**-2, LogPlace: PLACED**-2, LogClock: late**-2}
         prior = np.diag([known.get(type(k), 0.0) for k in normal.keys])
         for key, change in zip(normal.keys, solve(normal.gram + prior, normal.score), strict=True):
             state = state.moved(key, change)
     return state
+
+
+def _clock_to_begin(fit: Fit, head: Trial) -> ClockChange | None:
+    """What the clock of a log lacks that was measured without a lag of the sensor: what those of
+    the fitted logs do.
+    """
+    found = [s.clock.offset for s in fit.states.values() if s.clock is not None]
+    if head.clock is None or not head.clock.apart or not found:
+        return None
+    return ClockChange(float(head.time[0]), float(np.mean(found)))
 
 
 def _mountings(fit: Fit, head: Trial) -> list[np.ndarray]:

@@ -10,15 +10,13 @@ of some seconds it shows whether the two clocks keep step.
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import cache
 from itertools import pairwise
 
 import numpy as np
-from numba import njit
-from scipy.special import i0
 
 from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.columns import band_time, in_band
+from pyimu.identification.fit.interpolated import interpolated
 from pyimu.identification.fit.response import through_dynamics
 from pyimu.identification.fit.sample_noise import rest_noise
 from pyimu.identification.fit.trial import MOVING, Trial, marked
@@ -72,13 +70,6 @@ ROUNDING = 1e-12
 """Share of a constant that its mean is off by, at most: sums of 10^4 doubles."""
 
 ROUNDS = 5
-TAPS, SHAPE = 12, 10.0
-"""Samples on either side from which a shifted reference is interpolated, and the shape of their
-Kaiser window: its side lobes shift what is interpolated by less than 1e-4 samples."""
-
-PHASES = 4096
-"""Parts of a sample for which the weights of the interpolation are tabled; a line between two of
-them is off by (pi^2 / 3) / 8 of their distance's square, 2.5e-8."""
 
 
 def measure(trial: Trial, sensor: Sensor) -> Clock | None:
@@ -167,7 +158,7 @@ def shifted(trial: Trial, clock: Clock) -> Trial:
         if len(inside) < 2:
             continue
         for at in columns:
-            u[a:b, at] = _interpolated(trial.u[a:b, at], np.clip(row, 0, b - a - 1))
+            u[a:b, at] = interpolated(trial.u[a:b, at], np.clip(row, 0, b - a - 1))
             if trial.band_hz is not None and trial.place is None and b - a > 1:
                 u[a:b, at] *= 1.0 - _drift(trial.time[a:b], late[a:b])[:, None]
         segments.append((a + int(inside[0]), a + int(inside[-1]) + 1))
@@ -190,45 +181,6 @@ def rebanded(trial: Trial) -> Trial:
     One whose reference was not derived has none.
     """
     return trial if trial.band_hz is None else in_own_band(trial)
-
-
-def _interpolated(x: np.ndarray, row: np.ndarray) -> np.ndarray:
-    """Values of ``x`` (n, k) at fractional rows (m,).
-
-    A sinc under a Kaiser window, so that white noise keeps its size where a line between neighbours
-    would smooth it.
-    """
-    out = np.empty((len(row), x.shape[1]))
-    _weighed(np.ascontiguousarray(x), row, _weights(), out)
-    return out
-
-
-@cache
-def _weights() -> np.ndarray:
-    """Weights (PHASES + 1, 2 TAPS) of the samples around a place so far past one of them."""
-    past = np.arange(PHASES + 1)[:, None] / PHASES
-    away = past - np.arange(1 - TAPS, TAPS + 1)
-    window = i0(SHAPE * np.sqrt(np.maximum(1 - (away / TAPS) ** 2, 0.0)))
-    weights = np.sinc(away) * window
-    return weights / weights.sum(axis=1, keepdims=True)
-
-
-@njit(cache=True)
-def _weighed(x, row, weights, out):
-    """Fill ``out`` (m, k) with what ``x`` (n, k) is at each of the fractional rows (m,)."""
-    last = len(x) - 1
-    for r in range(len(row)):
-        left = int(np.floor(row[r]))
-        phase = (row[r] - left) * PHASES
-        i = min(int(phase), PHASES - 1)
-        share = phase - i
-        for k in range(x.shape[1]):
-            out[r, k] = 0.0
-        for j in range(2 * TAPS):
-            at = min(max(left + j + 1 - TAPS, 0), last)
-            weight = weights[i, j] + share * (weights[i + 1, j] - weights[i, j])
-            for k in range(x.shape[1]):
-                out[r, k] += weight * x[at, k]
 
 
 # How late

@@ -181,11 +181,11 @@ def chosen_of(
         return None, ()
     derived = any(t.band_hz is not None for t in tried.current.trials)
     forms = _forms_of(refined[0], refined)
-    best = _form(forms, derived)
+    best = plainest_form(forms, derived)
     others = [r for r in refined if all(r is not f for f in forms) and ahead(best, r) < ALIKE]
     plainest = min([best, *others], key=_how_plain)
     if plainest is not best:
-        best = _form(_forms_of(plainest, refined), derived)
+        best = plainest_form(_forms_of(plainest, refined), derived)
     close = [r.screened.effect for r in refined if r is not best and ahead(best, r) <= SET_WIDTH]
     if derived or CATALOGUE[best.screened.effect].delay is not None:
         # Of a reference that ends below the band, or its clock, another form may be the truth.
@@ -215,7 +215,7 @@ def _how_plain(r: Refined) -> tuple[int, int, int]:
     return len(keys_of(r.screened)), signals, list(CATALOGUE).index(e.name)
 
 
-def _form(forms: list[Refined], derived: bool) -> Refined:
+def plainest_form(forms: list[Refined], derived: bool = False) -> Refined:
     """The one of several forms of an effect that the data speak for.
 
     Unless they speak clearly it is the one with the fewest coefficients, of those the last in the

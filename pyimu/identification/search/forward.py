@@ -35,6 +35,7 @@ from pyimu.identification.search.choice import Refined, Tried, chosen_of
 from pyimu.identification.search.confirm import evidence
 from pyimu.identification.search.judge import OF_REFERENCE, judged
 from pyimu.identification.search.left_out import LeftOut, with_left_out
+from pyimu.identification.search.own_lag import apart, beside_clocks, lag_beside_clocks
 from pyimu.identification.search.projected import Scatter
 from pyimu.identification.search.reference_line import without_line
 from pyimu.identification.search.screen import (
@@ -177,7 +178,7 @@ def investigate(
     after, steps = _with_intervals(after, steps), _scattering_at_last(after, steps, search.last)
     refused = tuple(search.refused.values())
     looks = search.first, search.last
-    left = unbent(before, after), after, tuple(steps), refused, *looks, tuple(search.held)
+    left = unbent(search.before, after), after, tuple(steps), refused, *looks, tuple(search.held)
     return Investigation(*left, believed=believed)
 
 
@@ -219,12 +220,34 @@ class _Search:
         self.before, self.sensor, self.held = before, sensor, held
         self.believed, self.lines = believed, lines
         self.line: Refined | None = None
+        self.lag_tried = False
         self.after, self.steps = _as_sampled(before, held)
         self.refused: dict[str, Refused] = {}
         self.kept_out: set[Coefficient] = set()
         self.left_out = self._left_out()
         self.tried = Tried(self.after, sensor.values)
         self.first = self.last = self.seen = self.tried.looked()[0]
+        self._lags()
+
+    def _lags(self) -> bool:
+        """Take in a lag that clocks may hide, or refuse it; False where there is none."""
+        found = None if self.lag_tried else lag_beside_clocks(self.after, self.seen.gate)
+        if found is None:
+            return False
+        self.lag_tried = True
+        held = [apart(t) for t in self.held]
+        chosen, reason = judged(Tried(found.wide, self.sensor.values), found.lag, held, GATE)
+        if reason:
+            self._refuse(chosen, reason)
+            return False
+        self.before, self.held = beside_clocks(self.before), held
+        self._add(chosen, found.alternatives)
+        return True
+
+    def _refuse(self, chosen: Refined, reason: str) -> None:
+        name = chosen.screened.effect
+        beyond = bool(unbelievable(chosen.fit, keys_of(chosen.screened)))
+        self.refused[name] = Refused(name, chosen.gain, reason, beyond)
 
     def advance(self) -> bool:
         """Take the next candidate in, refuse it, or look by the next view; False where there is
@@ -237,7 +260,7 @@ class _Search:
             return True
         chosen, names = chosen_of(self.tried, options, self.seen.gate)
         if chosen is None:
-            return self._looks_again()
+            return self._looks_again() or self._lags()
         instead = max(self._likelier_than(chosen.gain), 0.0)
         if self._grows(instead, instead):
             return True
@@ -248,8 +271,7 @@ class _Search:
         if reason == OF_REFERENCE and CATALOGUE[name].is_line and self.lines:
             self.line = chosen
         if reason:
-            beyond = bool(unbelievable(chosen.fit, keys_of(chosen.screened)))
-            self.refused[name] = Refused(name, chosen.gain, reason, beyond)
+            self._refuse(chosen, reason)
         else:
             self._add(chosen, names)
         return True

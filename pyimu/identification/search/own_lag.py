@@ -1,0 +1,172 @@
+"""A lag of the sensor's own beside the references' clocks.
+
+A clock takes the delay of a low-pass filter with it. What it leaves is a gain that falls with the
+square of the frequency, by b^2 / 2 of a filter of first order with the time constant b: a lag is
+seen by that alone, and its delay and the clock are fitted together, from several values on, as
+neither has a slope at none.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pyimu.identification.fit.clock import Clock
+from pyimu.identification.fit.columns import in_band
+from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.inputs import LogState, own_rate
+from pyimu.identification.fit.interpolated import TAPS
+from pyimu.identification.fit.keys import Coefficient, coefficients_of
+from pyimu.identification.fit.maximum_likelihood import fit
+from pyimu.identification.fit.trial import Trial
+from pyimu.identification.search.candidates import Choice, Group, absent
+from pyimu.identification.search.choice import (
+    SET_WIDTH,
+    Refined,
+    ahead,
+    plainest_form,
+    refine,
+)
+from pyimu.identification.search.screen import Screened
+from pyimu.model.effect import Effect
+from pyimu.model.kinds import OWN
+
+LONGEST = 0.05
+"""s; a sensor that lags by more is none: bandwidths begin at some 5 Hz."""
+
+MERE = "time_delay"
+"""What a clock stands for in full."""
+
+RINGS = 4.0
+"""Standard errors by which the damping of a filter may be below that of one that is flat."""
+
+STARTS = 0.003, 0.01, 0.025
+"""s; delays to begin with, each within a factor of two of those around it."""
+
+
+@dataclass(frozen=True)
+class Beside:
+    """A ``lag`` that explains most beside clocks that may be off by it, in a model without it
+    (``wide``); ``alternatives`` are other forms that explain as much.
+    """
+
+    wide: Fit
+    lag: Refined
+    alternatives: tuple[str, ...]
+
+
+def lag_beside_clocks(current: Fit, gate: float) -> Beside | None:
+    """The form of a lag that explains more than ``gate`` [nat] beside clocks that may be off by it;
+    None where none does.
+    """
+    forms = _forms(current)
+    hides = all(map(_may_hide_a_lag, current.trials))
+    if not forms or not hides or damping(current) <= gate:
+        return None
+    wide = beside_clocks(current)
+    found = [_best(wide, e) for e in forms]
+    above = gate + np.log(len(forms) * len(STARTS))
+    found = [r for r in found if r.gain > above]
+    if not found:
+        return None
+    best = plainest_form(found)
+    close = [r.screened.effect for r in found if r is not best and ahead(best, r) <= SET_WIDTH]
+    return Beside(wide, best, tuple(close))
+
+
+def damping(current: Fit) -> float:
+    """Log-likelihood [nat] that a gain which falls with the square of the frequency explains of
+    what a model leaves, beside a clock and a scale factor, of every axis by itself, by the size of
+    what is left; 0 where it rises.
+
+    Taken for white that is more than what a lag explains in the end: without it nothing is fitted.
+    """
+    gain, slope = 0.0, 0.0
+    for trial, one in zip(current.trials, current.residuals(), strict=True):
+        own, rate = OWN[trial.kind], own_rate(trial.kind)
+        change = np.gradient(trial.u[:, rate], trial.h, axis=0)
+        turn = current.states[trial.name].rotation.T
+        columns = [in_band(trial, v @ turn) for v in (trial.u[:, own], trial.u[:, rate], change)]
+        for i in trial.axes:
+            left, x, clock, bent = one.residual[:, i], *(c[:, i] for c in columns)
+            beside = np.column_stack([np.ones(len(x)), x, clock])
+            left, bent = (v - beside @ np.linalg.lstsq(beside, v)[0] for v in (left, bent))
+            power, along = float(left @ left), float(left @ bent)
+            if power > 0.0 and bent.any():
+                share = along**2 / (power * float(bent @ bent))
+                gain -= 0.5 * len(left) * np.log1p(-min(share, 1.0 - 1e-12))
+                slope += along * len(left) / power
+    return gain if slope > 0.0 else 0.0
+
+
+def beside_clocks(current: Fit) -> Fit:
+    """A model beside clocks that may be off by as much as a lag of the sensor."""
+    states = {t.name: _later(current.states[t.name], t.clock.own) for t in current.trials}
+    trials = tuple(map(apart, current.trials))
+    return fit(replace(current, trials=trials, states=states).with_noise())
+
+
+def _forms(current: Fit) -> list[Effect]:
+    """Effects that delay, and damp what is quick."""
+    if current.sensor.kind != "gyro" or current.is_reduced:
+        return []
+    return [e for e in absent(current) if e.delay is not None and e.name != MERE]
+
+
+def _may_hide_a_lag(trial: Trial) -> bool:
+    clock = trial.clock
+    return (
+        trial.place is None
+        and clock is not None
+        and clock.is_seen
+        and clock.is_steady
+        and not clock.apart
+    )
+
+
+def apart(trial: Trial) -> Trial:
+    """The trial with a clock that may be off by a lag, less the rows at the ends of its segments
+    that are interpolated from what is not there; one whose clock was not seen as it is.
+    """
+    if not _may_hide_a_lag(trial):
+        return trial
+    less = int(np.ceil(LONGEST / trial.h)) + TAPS
+    kept = [(a + less, b - less) for a, b in trial.segments if b - a > 3 * less]
+    clock: Clock = replace(trial.clock, own=0.0, taken_out=True, apart=LONGEST)
+    return replace(trial, clock=clock, segments=kept)
+
+
+def _best(current: Fit, e: Effect) -> Refined:
+    """An effect beside the clocks, fitted from the delay on from which it explains most."""
+    return max((_from(current, e, delay) for delay in STARTS), key=lambda r: r.gain)
+
+
+def _from(current: Fit, e: Effect, delay: float) -> Refined:
+    """An effect fitted from a ``delay`` in s on, which the clocks are less."""
+    name, parameter = next((n, p) for n, p in e.parameters.items() if p.sought)
+    identity = {n: float(np.mean(v)) for n, v in e.start().items()}
+    # A time constant is in proportion to the delay, a frequency to one over it.
+    one = float(e.delay(**{**identity, name: 1.0}))
+    value = delay / one if parameter.scan.measure == "period" else one / delay
+    keys = tuple(sorted(coefficients_of(current.sensor, e.name)))
+    group = Group(e.name, keys, (Choice((), value),))
+    start = Screened(e.name, 0.0, (group,), {(): value}, np.nan)
+    states = {name: _later(s, -delay) for name, s in current.states.items()}
+    found = refine(replace(current, states=states), start)
+    return found if _damps(found) else replace(found, gain=-np.inf)
+
+
+def _later(state: LogState, seconds: float) -> LogState:
+    return replace(state, clock=state.clock and state.clock.moved(0, seconds))
+
+
+def _damps(found: Refined) -> bool:
+    """Whether a filter may pass no frequency better than rest: one that clearly rings stands for
+    what makes the reference damp.
+    """
+    name, fitted = found.screened.effect, found.fit
+    if "zeta" not in fitted.sensor.values[name]:
+        return True
+    std = fitted.std.get(Coefficient(name, "zeta", ()), 0.0)
+    return float(fitted.sensor.values[name]["zeta"]) + RINGS * std >= np.sqrt(0.5)
