@@ -2,8 +2,8 @@
 
 A clock takes the delay of a low-pass filter with it. What it leaves is a gain that falls with the
 square of the frequency, by b^2 / 2 of a filter of first order with the time constant b: a lag is
-seen by that alone, and its delay and the clock are fitted together, from several values on, as
-neither has a slope at none.
+seen by that alone, and its delay and the clock are fitted together, from values beside none
+on, where it has no slope.
 """
 
 from __future__ import annotations
@@ -14,11 +14,12 @@ import numpy as np
 
 from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.columns import in_band
-from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.fit import Fit, squares
 from pyimu.identification.fit.inputs import LogState, own_rate
 from pyimu.identification.fit.interpolated import TAPS
 from pyimu.identification.fit.keys import Coefficient, coefficients_of
 from pyimu.identification.fit.maximum_likelihood import fit
+from pyimu.identification.fit.reference_noise import MEASURED
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.search.candidates import Choice, Group, absent
 from pyimu.identification.search.choice import (
@@ -29,6 +30,7 @@ from pyimu.identification.search.choice import (
     refine,
 )
 from pyimu.identification.search.screen import Screened
+from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.effect import Effect
 from pyimu.model.kinds import OWN
 
@@ -38,11 +40,18 @@ LONGEST = 0.05
 MERE = "time_delay"
 """What a clock stands for in full."""
 
+SURE = 5.0
+"""Standard errors that a lag is long at least."""
+
+LEAST = 0.1
+"""Share of the power that a model leaves which a lag must explain: what is less may be what the
+motion, the clock or the noise of the reference does to a gain at high frequencies."""
+
 RINGS = 4.0
 """Standard errors by which the damping of a filter may be below that of one that is flat."""
 
-STARTS = 0.003, 0.01, 0.025
-"""s; delays to begin with, each within a factor of two of those around it."""
+STARTS = 0.006, 0.025
+"""s; delays to begin with, within a factor of two of nearly all."""
 
 
 @dataclass(frozen=True)
@@ -67,12 +76,27 @@ def lag_beside_clocks(current: Fit, gate: float) -> Beside | None:
     wide = beside_clocks(current)
     found = [_best(wide, e) for e in forms]
     above = gate + np.log(len(forms) * len(STARTS))
-    found = [r for r in found if r.gain > above]
+    found = [r for r in found if r.gain > above and _is_seen(r, wide)]
     if not found:
         return None
     best = plainest_form(found)
     close = [r.screened.effect for r in found if r is not best and ahead(best, r) <= SET_WIDTH]
     return Beside(wide, best, tuple(close))
+
+
+def _is_seen(found: Refined, wide: Fit) -> bool:
+    """Whether a lag is one that a sensor may have, is known to a ``SURE`` part of itself, and
+    leaves less by ``LEAST``.
+    """
+    name, fitted = found.screened.effect, found.fit
+    parameters = CATALOGUE[name].parameters
+    (sought,) = (n for n, p in parameters.items() if p.sought)
+    values = fitted.sensor.values[name]
+    delay = float(CATALOGUE[name].delay(**{n: float(v) for n, v in values.items()}))
+    std = fitted.std.get(Coefficient(name, sought, ()), np.inf)
+    axes = list(fitted.noise)
+    left, was = (squares(f.residuals())[axes].sum() for f in (fitted, wide))
+    return delay < LONGEST and SURE * std < float(values[sought]) and left < (1.0 - LEAST) * was
 
 
 def damping(current: Fit) -> float:
@@ -115,6 +139,9 @@ def _forms(current: Fit) -> list[Effect]:
 
 
 def _may_hide_a_lag(trial: Trial) -> bool:
+    """Whether a trial's clock may hide a lag. Noise of a rate that is measured damps, too, most of
+    what is quick.
+    """
     clock = trial.clock
     return (
         trial.place is None
@@ -122,6 +149,7 @@ def _may_hide_a_lag(trial: Trial) -> bool:
         and clock.is_seen
         and clock.is_steady
         and not clock.apart
+        and not (trial.reference in MEASURED and trial.noise is not None and trial.noise.any())
     )
 
 
@@ -143,7 +171,7 @@ def _best(current: Fit, e: Effect) -> Refined:
 
 
 def _from(current: Fit, e: Effect, delay: float) -> Refined:
-    """An effect fitted from a ``delay`` in s on, which the clocks are less."""
+    """An effect fitted from a ``delay`` in s on, by which the clocks are less."""
     name, parameter = next((n, p) for n, p in e.parameters.items() if p.sought)
     identity = {n: float(np.mean(v)) for n, v in e.start().items()}
     # A time constant is in proportion to the delay, a frequency to one over it.
