@@ -6,7 +6,6 @@ from attitude_cases import GRAVITY, H, output, parameters
 from scipy.spatial.transform import Rotation
 
 from pyimu.attitude import attitude_ukf, run
-from pyimu.attitude.filter.timing import timed
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
 from pyimu.recording.recording import Recording
@@ -62,9 +61,9 @@ def part(gyro: dict, accel: dict, n: float = 1e-5) -> Part:
 def measured(late: Part, seed: int | None = None):
     """The recording, and the attitude at its rows.
 
-    A gyro of which the part says no delay, or whose lag is inverted, has mean rates of periods.
+    A gyro of which the part says no delay has mean rates of periods.
     """
-    time, rate, force, attitude = swing(instant=bool(timed(late.gyro)))
+    time, rate, force, attitude = swing(instant=any(e.delay for e in late.gyro.effects))
     block = late.block
     u = np.hstack([rate, force, np.full((N, 1), 25.0)])
     y, _ = block.run(u, seed=seed) if seed is not None else block.run(u)

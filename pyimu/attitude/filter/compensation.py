@@ -14,6 +14,7 @@ from pyimu.attitude.filter.timing import (
     estimate_latency,
     latency,
     own_coefficients,
+    tells_instant,
     timed,
     untimed,
 )
@@ -89,7 +90,7 @@ class Compensation:
     @property
     def shows_now(self) -> bool:
         """Whether the estimate is not of now, and what is shown of it shall be."""
-        return self.now and bool(timed(self.part.gyro))
+        return self.now and tells_instant(self.part.gyro)
 
     @property
     def gyro(self) -> Sensor:
@@ -109,7 +110,7 @@ class Compensation:
     @property
     def late(self) -> bool:
         """Whether the samples of a sensor are of another time than now."""
-        return bool(timed(self.part.gyro) or timed(self.part.accel))
+        return tells_instant(self.part.gyro) or bool(timed(self.part.accel))
 
     @property
     def derived(self) -> Derived:

@@ -48,6 +48,11 @@ def timed(sensor: Sensor) -> tuple[Effect, ...]:
     return tuple(e for e in sensor.effects if e.delay and not (e.invertible and _turns(sensor)))
 
 
+def tells_instant(gyro: Sensor) -> bool:
+    """Whether a part says how late its gyro is: by a delay, or a lag that is undone."""
+    return any(e.delay for e in gyro.effects)
+
+
 def _turns(sensor: Sensor) -> bool:
     """Whether what a sensor measures is integrated to the attitude."""
     return sensor.kind == "gyro"
