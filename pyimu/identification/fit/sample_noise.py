@@ -132,8 +132,9 @@ def _of_one_level(third: np.ndarray) -> np.ndarray:
 
 @cache
 def _quietest_of_white(rows: int, columns: int) -> float:
-    """What the quietest pieces (``rows``, ``columns``) of third differences of white noise show of
-    its power."""
+    """Share of its power that third differences of white noise show in the quietest pieces
+    (``rows``, ``columns``).
+    """
     drawn = np.random.default_rng(1).standard_normal((DRAWN, rows + 3, columns))
     third = _third_differences(drawn)
     return float(np.mean(_quietest(third)) / np.mean(third**2))

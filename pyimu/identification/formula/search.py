@@ -54,6 +54,9 @@ from pyimu.identification.search.screen import PENALTY, fitted_dispersion, fitte
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.silent import silent
 
+MOSTLY = 0.5
+"""Share of the power of what a formula adds from which on another effect would add most of it."""
+
 Again = Callable[..., Investigation]
 
 
@@ -121,11 +124,14 @@ def look(
     found = [_tried(inv, start, scores, terms, again, done) for start, scores in starts]
     found = [f for f in found if f is not None]
     best = max(found, key=lambda f: (f.shown, f.ahead), default=None)
-    if best is not None and not _is_no_sensors(best, inv):
+    if best is not None:
         after, formula = best.investigation, best.formula
         put(formula.effect)
         formula = replace(formula, resembles=resembled(after, formula))
         new = formula.is_new(after.steps[0])
+        if _is_no_sensors(best, formula, inv):
+            CATALOGUE.remove(formula.name)
+            return Look(inv, None, _unexplained(kind, seen) if fires else None)
         if new and best.shown:
             return Look(after, formula, _unexplained(kind, scored(after.after, terms)))
         CATALOGUE.remove(formula.name)
@@ -157,12 +163,13 @@ def _is_of_reference(left: Fit, scores: Scores) -> bool:
             CATALOGUE.remove(name)
 
 
-def _is_no_sensors(best: Found, inv: Investigation) -> bool:
-    """Whether an effect of a size that no sensor has explains as much as a formula: what makes the
-    reference look like the one makes it look like the other.
+def _is_no_sensors(best: Found, formula: Formula, inv: Investigation) -> bool:
+    """Whether an effect of a size that no sensor has would add most of what a formula does, and
+    explains as much: what makes the reference look like the one makes it look like the other.
     """
-    most = max((r.gain for r in inv.refused if r.beyond_belief), default=-np.inf)
-    return best.ahead <= most + SET_WIDTH
+    alike = {name for name, r in formula.resembles if r**2 > MOSTLY}
+    refused = [r for r in inv.refused if r.beyond_belief and r.effect in alike]
+    return best.ahead <= max((r.gain for r in refused), default=-np.inf) + SET_WIDTH
 
 
 def _unexplained(kind: str, scores: Scores) -> Unexplained | None:

@@ -35,7 +35,12 @@ from pyimu.identification.search.choice import Refined, Tried, chosen_of
 from pyimu.identification.search.confirm import evidence
 from pyimu.identification.search.judge import OF_REFERENCE, judged
 from pyimu.identification.search.left_out import LeftOut, with_left_out
-from pyimu.identification.search.own_lag import apart, beside_clocks, lag_beside_clocks
+from pyimu.identification.search.own_lag import (
+    apart,
+    beside_clocks,
+    lag_beside_clocks,
+    leaves_less,
+)
 from pyimu.identification.search.projected import Scatter
 from pyimu.identification.search.reference_line import without_line
 from pyimu.identification.search.screen import (
@@ -235,6 +240,11 @@ class _Search:
         if found is None:
             return False
         self.lag_tried = True
+        # Where all that the sensor is late may be its own, one coefficient may do for both.
+        own = any(t.clock.own for t in self.after.trials)
+        alone = chosen_of(self.tried, self.seen.above(), self.seen.gate)[0] if own else None
+        if alone is not None and not leaves_less(found.lag.fit, alone.fit):
+            return False
         held = [apart(t) for t in self.held]
         chosen, reason = judged(Tried(found.wide, self.sensor.values), found.lag, held, GATE)
         if reason:

@@ -12,11 +12,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.columns import in_band
 from pyimu.identification.fit.fit import Fit, squares
 from pyimu.identification.fit.inputs import LogState, own_rate
-from pyimu.identification.fit.interpolated import TAPS
+from pyimu.identification.fit.interpolated import TAPS, interpolated
 from pyimu.identification.fit.keys import Coefficient, coefficients_of
 from pyimu.identification.fit.maximum_likelihood import fit
 from pyimu.identification.fit.reference_noise import MEASURED
@@ -33,6 +32,7 @@ from pyimu.identification.search.screen import Screened
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.effect import Effect
 from pyimu.model.kinds import OWN
+from pyimu.recording.reference.rate import VERTICAL
 
 LONGEST = 0.05
 """s; a sensor that lags by more is none: bandwidths begin at some 5 Hz."""
@@ -84,9 +84,20 @@ def lag_beside_clocks(current: Fit, gate: float) -> Beside | None:
     return Beside(wide, best, tuple(close))
 
 
+def leaves_less(one: Fit, other: Fit) -> bool:
+    """Whether a model leaves less than another, by ``LEAST`` of a row's power in the mean over the
+    axes; the rows need not be the same.
+    """
+    powers = []
+    for fitted in (one, other):
+        linears = fitted.residuals()
+        powers.append(squares(linears)[list(fitted.noise)] / sum(len(r.time) for r in linears))
+    return float(np.mean(np.log(powers[0] / powers[1]))) < np.log(1.0 - LEAST)
+
+
 def _is_seen(found: Refined, wide: Fit) -> bool:
     """Whether a lag is one that a sensor may have, is known to a ``SURE`` part of itself, and
-    leaves less by ``LEAST``.
+    leaves less.
     """
     name, fitted = found.screened.effect, found.fit
     parameters = CATALOGUE[name].parameters
@@ -94,9 +105,8 @@ def _is_seen(found: Refined, wide: Fit) -> bool:
     values = fitted.sensor.values[name]
     delay = float(CATALOGUE[name].delay(**{n: float(v) for n, v in values.items()}))
     std = fitted.std.get(Coefficient(name, sought, ()), np.inf)
-    axes = list(fitted.noise)
-    left, was = (squares(f.residuals())[axes].sum() for f in (fitted, wide))
-    return delay < LONGEST and SURE * std < float(values[sought]) and left < (1.0 - LEAST) * was
+    sure = delay < LONGEST and SURE * std < float(values[sought])
+    return sure and leaves_less(fitted, wide)
 
 
 def damping(current: Fit) -> float:
@@ -126,9 +136,7 @@ def damping(current: Fit) -> float:
 
 def beside_clocks(current: Fit) -> Fit:
     """A model beside clocks that may be off by as much as a lag of the sensor."""
-    states = {t.name: _later(current.states[t.name], t.clock.own) for t in current.trials}
-    trials = tuple(map(apart, current.trials))
-    return fit(replace(current, trials=trials, states=states).with_noise())
+    return fit(replace(current, trials=tuple(map(apart, current.trials))).with_noise())
 
 
 def _forms(current: Fit) -> list[Effect]:
@@ -139,30 +147,36 @@ def _forms(current: Fit) -> list[Effect]:
 
 
 def _may_hide_a_lag(trial: Trial) -> bool:
-    """Whether a trial's clock may hide a lag. Noise of a rate that is measured damps, too, most of
-    what is quick.
+    """Whether a trial's clock may hide a lag. That of a point that is tracked turns otherwise than
+    the vehicle, and noise of a rate that is measured damps most of what is quick, too.
     """
     clock = trial.clock
     return (
         trial.place is None
+        and trial.reference not in VERTICAL
         and clock is not None
         and clock.is_seen
         and clock.is_steady
-        and not clock.apart
         and not (trial.reference in MEASURED and trial.noise is not None and trial.noise.any())
     )
 
 
 def apart(trial: Trial) -> Trial:
-    """The trial with a clock that may be off by a lag, less the rows at the ends of its segments
-    that are interpolated from what is not there; one whose clock was not seen as it is.
+    """The trial with a clock that may be off by a lag, all of its own lag taken out of the
+    reference, less the rows at the ends of its segments that are interpolated from what is not
+    there; one whose clock was not seen, or is so already, as it is.
     """
-    if not _may_hide_a_lag(trial):
+    clock = trial.clock
+    if not _may_hide_a_lag(trial) or clock.apart:
         return trial
     less = int(np.ceil(LONGEST / trial.h)) + TAPS
     kept = [(a + less, b - less) for a, b in trial.segments if b - a > 3 * less]
-    clock: Clock = replace(trial.clock, own=0.0, taken_out=True, apart=LONGEST)
-    return replace(trial, clock=clock, segments=kept)
+    u = np.array(trial.u)
+    row = np.clip(np.arange(len(u)) - clock.own / trial.h, 0, len(u) - 1)
+    for at in (OWN[trial.kind], own_rate(trial.kind)) if clock.own else ():
+        u[:, at] = interpolated(trial.u[:, at], row)
+    whole = replace(clock, late=clock.late + clock.own, own=0.0, taken_out=True, apart=LONGEST)
+    return replace(trial, u=u, clock=whole, segments=kept or trial.segments)
 
 
 def _best(current: Fit, e: Effect) -> Refined:
