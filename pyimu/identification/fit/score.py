@@ -17,7 +17,7 @@ from pyimu.identification.fit.clock import ClockChange
 from pyimu.identification.fit.columns import band_segments, in_band, in_log, linearise, residual
 from pyimu.identification.fit.fit import Fit, bare, initial_state
 from pyimu.identification.fit.inputs import LogState, before, reference_input
-from pyimu.identification.fit.keys import LogClock, LogLag, LogPlace, LogTurn
+from pyimu.identification.fit.keys import Key, LogClock, LogLag, LogPlace, LogTurn
 from pyimu.identification.fit.noise_floor import simulated
 from pyimu.identification.fit.normal import normal_equations, solve
 from pyimu.identification.fit.response import predict
@@ -35,9 +35,12 @@ least that is taken where several agree."""
 KNOWN = 1e-6
 """s; standard deviation of a thermometer's lag that other logs have shown."""
 
-LATE = 0.1
-"""Share of what clocks lack that were measured without a lag of the sensor by which they differ: a
-lag is another at each frequency."""
+LATE, LEAST_LATE = 0.1, 1e-6
+"""Share of what clocks lack that were measured without a lag of the sensor by which they differ, as
+a lag is another at each frequency, and s that it is at least."""
+
+STEADY = 1e-9
+"""Standard deviation of the drift of such a clock, which all of its log has shown."""
 
 PLACED = 0.01
 """m, m/s^2 and rad; standard deviation of where a log's reference force acts about that of the
@@ -126,17 +129,23 @@ def _head_state(fit: Fit, head: Trial) -> LogState:
     clock = _clock_to_begin(fit, head)
     mountings = [LogState(np.zeros(3), r, lag, clock, place) for r in _mountings(fit, head)]
     state = min(mountings, key=lambda s: float(np.sum(_centred(fit, head, s) ** 2)))
-    spread, late = _spread(fit), LATE * abs(clock.offset) if clock else np.inf
+    spread, late = _spread(fit), max(LATE * abs(clock.offset), LEAST_LATE) if clock else np.inf
     white = {i: RandomWalk(n.r, 0.0) for i, n in fit.noise.items()}
     for _ in range(2):
         normal = normal_equations([linearise(fit.sensor, head, state, ())], white)
         if not normal.keys:
             return state
-        known = {LogTurn: spread**-2, LogLag: KNOWN**-2, LogPlace: PLACED**-2, LogClock: late**-2}
-        prior = np.diag([known.get(type(k), 0.0) for k in normal.keys])
+        known = {LogTurn: spread**-2, LogLag: KNOWN**-2, LogPlace: PLACED**-2, LogClock: STEADY**-2}
+        prior = np.diag(
+            [late**-2 if _is_offset(k) else known.get(type(k), 0.0) for k in normal.keys]
+        )
         for key, change in zip(normal.keys, solve(normal.gram + prior, normal.score), strict=True):
             state = state.moved(key, change)
     return state
+
+
+def _is_offset(key: Key) -> bool:
+    return isinstance(key, LogClock) and key.order == 0
 
 
 def _clock_to_begin(fit: Fit, head: Trial) -> ClockChange | None:
