@@ -38,8 +38,7 @@ def _beside_clock(e: Effect, sensor: Sensor) -> str:
 
 
 def _delay_of(e: Effect, sensor: Sensor) -> str:
-    delay = float(e.delay(**{n: float(v) for n, v in sensor.values[e.name].items()}))
-    return f"{delay * 1e3:.2f} ms"
+    return f"{sensor.delay(e.name) * 1e3:.2f} ms"
 
 
 def _of_delay(e: Effect, sensor: Sensor, alternatives: Collection[str] | None) -> str:

@@ -150,6 +150,10 @@ class Sensor:
             np.any(self.values[name][n] != p.start) for n, p in sizes
         )
 
+    def delay(self, name: str) -> float:
+        """s; by how much an effect that delays makes the sensor late."""
+        return float(self.effect(name).delay(**{n: float(v) for n, v in self.values[name].items()}))
+
     def reading(self, what: str) -> tuple[str, str] | None:
         """Effect and coefficient that are read off raw samples as ``what`` ("ceiling", "step").
 

@@ -6,6 +6,9 @@ from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
+LONGEST_OWN = 0.05
+"""s; a lag above it is no sensor's: bandwidths begin at some 5 Hz."""
+
 WIDE = 5.0
 """Standard errors of a lag as it was measured, of which a fit may make use: it sees the same rows,
 but weighs them better."""

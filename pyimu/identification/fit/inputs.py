@@ -8,7 +8,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from pyimu.identification.fit.clock import ClockChange
-from pyimu.identification.fit.interpolated import interpolated
+from pyimu.identification.fit.interpolated import delayed
 from pyimu.identification.fit.keys import LogBias, LogClock, LogKey, LogLag, LogPlace
 from pyimu.identification.fit.place import NOWHERE, UNKNOWN
 from pyimu.identification.fit.trial import Trial
@@ -85,9 +85,8 @@ def reference_input(trial: Trial, state: LogState) -> Inputs:
     if state.clock is not None:
         late = state.clock.at(trial.time)
         if trial.clock is not None and trial.clock.apart:
-            row = np.clip(np.arange(len(late)) - late / trial.h, 0, len(late) - 1)
             for at in (own, rate):
-                u[:, at] = interpolated(trial.u[:, at], row)
+                u[:, at] = delayed(trial.u[:, at], late / trial.h)
         else:
             u[:, own] = u[:, own] - late[:, None] * u[:, rate]
     # What is turned is turned by the sensor's own axes, whichever the reference has.

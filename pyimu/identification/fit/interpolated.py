@@ -28,6 +28,13 @@ def interpolated(x: np.ndarray, row: np.ndarray) -> np.ndarray:
     return out
 
 
+def delayed(x: np.ndarray, rows: float | np.ndarray) -> np.ndarray:
+    """Values of ``x`` (n, k) so many ``rows`` earlier, one number or (n,): those at an end where
+    there are none.
+    """
+    return interpolated(x, np.clip(np.arange(len(x)) - rows, 0, len(x) - 1))
+
+
 @cache
 def _weights() -> np.ndarray:
     """Weights (PHASES + 1, 2 TAPS) of the samples around a place so far past one of them."""

@@ -12,7 +12,7 @@ from types import MappingProxyType
 import numpy as np
 
 from pyimu.errors import Finding
-from pyimu.identification.fit.clock import Clock
+from pyimu.identification.fit.clock import LONGEST_OWN, Clock
 from pyimu.identification.fit.fit import Fit, begin
 from pyimu.identification.fit.keys import LogClock
 from pyimu.identification.fit.maximum_likelihood import advantage, fit
@@ -38,9 +38,6 @@ effect must explain."""
 
 ALIKE = 0.1
 """Logs whose lags differ by less than this share of their mean have one in common."""
-
-LONGEST_OWN = 0.05
-"""s; a lag above it is no sensor's: bandwidths begin at some 5 Hz."""
 
 
 def aligned(

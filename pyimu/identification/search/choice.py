@@ -239,12 +239,18 @@ def plainest_form(forms: list[Refined], derived: bool = False) -> Refined:
 
 
 def _leaves_much_less(one: Refined, other: Refined) -> bool:
-    """Whether a candidate leaves no more than ``CLEAR`` of the power that another one leaves, in
-    the mean over the axes.
+    """Whether a candidate leaves less than ``CLEAR`` of the power that another one leaves."""
+    return share_left(one.fit, other.fit) < CLEAR
+
+
+def share_left(one: Fit, other: Fit) -> float:
+    """Share of a row's power that another model leaves which one leaves, in the (geometric) mean
+    over the axes; the rows need not be the same.
     """
-    powers = [squares(c.fit.residuals()) for c in (one, other)]
-    axes = list(one.fit.noise)
-    return float(np.mean(np.log(powers[0][axes] / powers[1][axes]))) < np.log(CLEAR)
+    powers = []
+    for linears in (one.residuals(), other.residuals()):
+        powers.append(squares(linears)[list(one.noise)] / sum(len(r.time) for r in linears))
+    return float(np.exp(np.mean(np.log(powers[0] / powers[1]))))
 
 
 def ahead(one: Refined, other: Refined) -> float:

@@ -2,8 +2,8 @@
 
 A clock takes the delay of a low-pass filter with it. What it leaves is a gain that falls with the
 square of the frequency, by b^2 / 2 of a filter of first order with the time constant b: a lag is
-seen by that alone, and its delay and the clock are fitted together, from values beside none
-on, where it has no slope.
+seen by that alone. Its delay and the clock are fitted together, and not from none on, where that
+has no slope.
 """
 
 from __future__ import annotations
@@ -12,10 +12,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from pyimu.identification.fit.clock import LONGEST_OWN
 from pyimu.identification.fit.columns import in_band
-from pyimu.identification.fit.fit import Fit, squares
+from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.inputs import LogState, own_rate
-from pyimu.identification.fit.interpolated import TAPS, interpolated
+from pyimu.identification.fit.interpolated import TAPS, delayed
 from pyimu.identification.fit.keys import Coefficient, coefficients_of
 from pyimu.identification.fit.maximum_likelihood import fit
 from pyimu.identification.fit.reference_noise import MEASURED
@@ -27,15 +28,13 @@ from pyimu.identification.search.choice import (
     ahead,
     plainest_form,
     refine,
+    share_left,
 )
 from pyimu.identification.search.screen import Screened
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.effect import Effect
 from pyimu.model.kinds import OWN
 from pyimu.recording.reference.rate import VERTICAL
-
-LONGEST = 0.05
-"""s; a sensor that lags by more is none: bandwidths begin at some 5 Hz."""
 
 MERE = "time_delay"
 """What a clock stands for in full."""
@@ -71,7 +70,7 @@ def lag_beside_clocks(current: Fit, gate: float) -> Beside | None:
     """
     forms = _forms(current)
     hides = all(map(_may_hide_a_lag, current.trials))
-    if not forms or not hides or damping(current) <= gate:
+    if not forms or not hides or _damping(current) <= gate:
         return None
     wide = beside_clocks(current)
     found = [_best(wide, e) for e in forms]
@@ -85,14 +84,8 @@ def lag_beside_clocks(current: Fit, gate: float) -> Beside | None:
 
 
 def leaves_less(one: Fit, other: Fit) -> bool:
-    """Whether a model leaves less than another, by ``LEAST`` of a row's power in the mean over the
-    axes; the rows need not be the same.
-    """
-    powers = []
-    for fitted in (one, other):
-        linears = fitted.residuals()
-        powers.append(squares(linears)[list(fitted.noise)] / sum(len(r.time) for r in linears))
-    return float(np.mean(np.log(powers[0] / powers[1]))) < np.log(1.0 - LEAST)
+    """Whether a model leaves less than another by ``LEAST``."""
+    return share_left(one, other) < 1.0 - LEAST
 
 
 def _is_seen(found: Refined, wide: Fit) -> bool:
@@ -100,16 +93,13 @@ def _is_seen(found: Refined, wide: Fit) -> bool:
     leaves less.
     """
     name, fitted = found.screened.effect, found.fit
-    parameters = CATALOGUE[name].parameters
-    (sought,) = (n for n, p in parameters.items() if p.sought)
-    values = fitted.sensor.values[name]
-    delay = float(CATALOGUE[name].delay(**{n: float(v) for n, v in values.items()}))
+    (sought,) = (n for n, p in CATALOGUE[name].parameters.items() if p.sought)
     std = fitted.std.get(Coefficient(name, sought, ()), np.inf)
-    sure = delay < LONGEST and SURE * std < float(values[sought])
-    return sure and leaves_less(fitted, wide)
+    known = SURE * std < float(fitted.sensor.values[name][sought])
+    return fitted.sensor.delay(name) < LONGEST_OWN and known and leaves_less(fitted, wide)
 
 
-def damping(current: Fit) -> float:
+def _damping(current: Fit) -> float:
     """Log-likelihood [nat] that a gain which falls with the square of the frequency explains of
     what a model leaves, beside a clock and a scale factor, of every axis by itself, by the size of
     what is left; 0 where it rises.
@@ -169,13 +159,12 @@ def apart(trial: Trial) -> Trial:
     clock = trial.clock
     if not _may_hide_a_lag(trial) or clock.apart:
         return trial
-    less = int(np.ceil(LONGEST / trial.h)) + TAPS
+    less = int(np.ceil(LONGEST_OWN / trial.h)) + TAPS
     kept = [(a + less, b - less) for a, b in trial.segments if b - a > 3 * less]
     u = np.array(trial.u)
-    row = np.clip(np.arange(len(u)) - clock.own / trial.h, 0, len(u) - 1)
     for at in (OWN[trial.kind], own_rate(trial.kind)) if clock.own else ():
-        u[:, at] = interpolated(trial.u[:, at], row)
-    whole = replace(clock, late=clock.late + clock.own, own=0.0, taken_out=True, apart=LONGEST)
+        u[:, at] = delayed(trial.u[:, at], clock.own / trial.h)
+    whole = replace(clock, late=clock.late + clock.own, own=0.0, taken_out=True, apart=LONGEST_OWN)
     return replace(trial, u=u, clock=whole, segments=kept or trial.segments)
 
 
