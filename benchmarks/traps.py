@@ -188,6 +188,7 @@ NAMED: dict[str, Callable[[Log, Closed], bool]] = {
     "mounting": names_mounting,
     "jumps": _by_finding("reference_spikes"),
     "reference_drift": _by_finding("reference_drift"),
+    "smoothed": _by_finding("reference_smoothed"),
     "vibration": _by_finding("vibration"),
     "jitter": _by_finding("jitter"),
     "gaps": _by_finding("gaps"),

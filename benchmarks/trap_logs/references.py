@@ -6,7 +6,8 @@ from collections.abc import Callable
 
 import numpy as np
 from generators import rotation
-from scipy.signal import butter, sosfilt
+from scipy.ndimage import gaussian_filter1d, uniform_filter1d
+from scipy.signal import butter, sosfilt, sosfiltfilt
 
 from trap_logs.log import Log, Scene, new_scene
 
@@ -159,6 +160,38 @@ def _unwrapped(q: np.ndarray) -> np.ndarray:
     return q * np.cumprod(np.append(1.0, turned))[:, None]
 
 
+def _smoother(scene: Scene) -> Callable[[np.ndarray], np.ndarray]:
+    """A filter without delay, as software lays one over a recording: a moving average of 0.1 to
+    0.3 s, a Gaussian one of 0.03 to 0.08 s, or Butterworth's of 3 to 6 Hz run both ways.
+    """
+    rng, h = scene.rng, scene.h
+    kind = rng.integers(3)
+    if kind == 0:
+        rows = 2 * round(0.5 * rng.uniform(0.1, 0.3) / h) + 1
+        return lambda v: uniform_filter1d(v, rows, axis=0)
+    if kind == 1:
+        rows = rng.uniform(0.03, 0.08) / h
+        return lambda v: gaussian_filter1d(v, rows, axis=0)
+    low = butter(2, rng.uniform(3, 6), fs=1 / h, output="sos")
+    return lambda v: sosfiltfilt(low, v, axis=0)
+
+
+def attitude_smoothed(rng) -> Log:
+    """An attitude with a camera's noise, each entry of its quaternion smoothed."""
+    scene = new_scene(rng)
+    error = rotation.from_vector(scene.reference_std * rng.standard_normal((len(scene.time), 3)))
+    q = _smoother(scene)(_unwrapped(rotation.product(scene.attitude(), error)))
+    columns = scene.sensed() | {"ref_q": q / np.linalg.norm(q, axis=1, keepdims=True)}
+    return scene.log(columns, "smoothed")
+
+
+def rate_smoothed(rng) -> Log:
+    """The rate of a better unit, smoothed."""
+    scene = new_scene(rng)
+    rate = scene.motion.rate(scene.time) + 0.1 * _own_noise(scene)
+    return scene.log(scene.sensed() | {"ref_rate": _smoother(scene)(rate)}, "smoothed")
+
+
 def drift_0_1_deg_per_min(rng) -> Log:
     """The reference's world turns slowly about one axis."""
     scene = new_scene(rng)
@@ -182,5 +215,7 @@ TRAPS = (
     occlusions_and_jumps,
     rate_behind_low_pass,
     attitude_behind_low_pass,
+    attitude_smoothed,
+    rate_smoothed,
     drift_0_1_deg_per_min,
 )

@@ -12,6 +12,7 @@ from pyimu.identification.fit.trial import Trial
 from pyimu.identification.held_out import clock_of
 from pyimu.identification.search.forward import Investigation
 from pyimu.recording.reference.unlagged import LAG
+from pyimu.recording.reference.unsmoothed import SMOOTHED
 from pyimu.report.numbers import joined, number
 
 FEW = 3
@@ -38,20 +39,31 @@ def taken_out(found: Mapping[str, Investigation], heading: Heading) -> str:
 
 
 def undone(findings: Iterable[Finding]) -> str:
-    """Which references lag as behind a filter; nothing where none does."""
-    lags = [f.detail for f in findings if f.kind == LAG]
+    """Which references lag as behind a filter, or were smoothed; nothing where none is."""
+    lags, smoothed = ([f.detail for f in findings if f.kind == kind] for kind in (LAG, SMOOTHED))
+    said = " and ".join(filter(None, (_lagging(lags), _smooth(smoothed))))
+    return f"{said}: undone, and no error of the sensor" if said else ""
+
+
+def _lagging(lags: list[dict]) -> str:
     if not lags:
         return ""
     slowest = max(lag["time_constant"] for lag in lags)
     cut_off = f"{number(1.0 / (2.0 * np.pi * slowest))} Hz ({_time(slowest)})"
-    one = f"the reference of {lags[0]['recording']} lags as one"
-    many = f"{len(lags)} references lag as those"
-    do, up_to = ("does", "") if len(lags) == 1 else ("do", "down to ")
-    who = one if len(lags) == 1 else many
-    return (
-        f"{who} behind a low-pass filter of {up_to}{cut_off} {do}: undone, and no error of the "
-        "sensor"
-    )
+    if len(lags) == 1:
+        who = f"the reference of {lags[0]['recording']} lags as one"
+        return f"{who} behind a low-pass filter of {cut_off} does"
+    return f"{len(lags)} references lag as those behind a low-pass filter of down to {cut_off} do"
+
+
+def _smooth(smoothed: list[dict]) -> str:
+    if not smoothed:
+        return ""
+    most = max(smoothed, key=lambda s: s["seconds"])
+    by = f"as by {most['filter']} {_time(most['seconds'])}"
+    if len(smoothed) == 1:
+        return f"the reference of {most['recording']} was smoothed {by}"
+    return f"{len(smoothed)} references were smoothed, that of {most['recording']} {by}"
 
 
 def _trials(found: Mapping[str, Investigation]) -> Iterable[tuple[Investigation, Trial]]:

@@ -34,6 +34,7 @@ from pyimu.identification.reference.gravity import few, rest_trials
 from pyimu.identification.reference.lagging import unlagged_logs
 from pyimu.identification.reference.place import is_differentiated
 from pyimu.identification.reference.positions import positions_wanted, unshown
+from pyimu.identification.reference.smoothed import unsmoothed_logs
 from pyimu.identification.reference.turned import with_turned_force
 from pyimu.identification.reference.turns import turn_trials
 from pyimu.identification.result import Closed
@@ -136,15 +137,16 @@ def close(
 def _on_time(
     sensor: Sensor, logs: list[Recording], others: list[Recording], latitude: float | None
 ) -> tuple[list[Recording], list[Recording], Together]:
-    """The logs with references that do not lag, at samples of their own where rows hold these, and
-    the gyro's trials of them.
+    """The logs with references that do not lag and are not smoothed, at samples of their own where
+    rows hold these, and the gyro's trials of them.
     """
     logs, others = list(map(held_apart, logs)), list(map(held_apart, others))
     turning = aligned_trials(sensor, gyro_trial, logs, others, latitude)
-    quick = unlagged_logs(turning, sensor, logs, others)
-    if quick is None:
+    undone = (undo(turning, sensor, logs, others) for undo in (unlagged_logs, unsmoothed_logs))
+    better = next((given for given in undone if given is not None), None)
+    if better is None:
         return logs, others, turning
-    return *quick, aligned_trials(sensor, gyro_trial, *quick, latitude)
+    return *better, aligned_trials(sensor, gyro_trial, *better, latitude)
 
 
 def _investigated(
@@ -335,7 +337,9 @@ def _with(quality: list[Finding], more: list[Finding]) -> list[Finding]:
         return f.detail["recording"], f.kind, f.column
 
     better = {about(f) for f in more}
-    return [f for f in quality if about(f) not in better] + more
+    # Two sensors of one log may say the same of its reference.
+    once = [f for i, f in enumerate(more) if f not in more[:i]]
+    return [f for f in quality if about(f) not in better] + once
 
 
 def _nothing_to_compare(logs: list[Recording]) -> str:

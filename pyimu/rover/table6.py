@@ -27,11 +27,11 @@ from pyimu.model.catalogue import POWER_ON, WALK, WHITE
 from pyimu.model.part import Part
 from pyimu.model.simulate import simulate
 from pyimu.plant.low_pass import CUTOFF, low_pass
+from pyimu.recording.integration import integrated
 from pyimu.recording.recording import Recording
 from pyimu.rover.demo import ASSUMED_ACCEL, TURN_ON_BIAS, UNDECLARED
 from pyimu.rover.drives import Motion, drive
 from pyimu.rover.heading_noise import HeadingNoise
-from pyimu.rover.integration import integrated
 from pyimu.rover.optical import optical_reference
 from pyimu.rover.outcome import DriveRuns, Traces
 from pyimu.rover.paper import PAPER_DRIVES, PaperDrive

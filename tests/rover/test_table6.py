@@ -10,8 +10,8 @@ from scipy.spatial.transform import Rotation
 
 import pyimu
 from pyimu.errors import UserError
+from pyimu.recording.integration import integrated
 from pyimu.rover import table6
-from pyimu.rover.integration import integrated
 from pyimu.rover.paper import ANGLES, PAPER_DRIVES
 from pyimu.rover.table6 import METHODS, Rover, rover_tests
 

@@ -30,6 +30,7 @@ from pyimu.recording.reference.force import ORDER, reference_force
 from pyimu.recording.reference.rate import reference_rate
 from pyimu.recording.reference.stamps import at_times
 from pyimu.recording.reference.unlagged import LAG
+from pyimu.recording.reference.unsmoothed import SMOOTHED
 
 SETTLE = 32
 """Rows at the start of a segment that are not counted: nobody knows what a lag or delay remembers
@@ -252,7 +253,7 @@ def _was_filtered(recording: Recording) -> bool:
     faster it is.
     """
     other = recording.reference
-    return other is not None and any(f.kind == LAG for f in other.findings)
+    return other is not None and any(f.kind in (LAG, SMOOTHED) for f in other.findings)
 
 
 def accel_trial(recording: Recording, static: bool, latitude: float | None = None) -> Trial | None:
@@ -415,7 +416,7 @@ def _trial(
     if repeats.any():
         findings += (Finding("repeated_samples", kind, int(repeats.sum())),)
     other = () if recording.reference is None else recording.reference.findings
-    findings += tuple(f for f in other if f.kind in OWN_LAG)
+    findings += tuple(f for f in other if f.kind in (*OWN_LAG, SMOOTHED))
     return Trial(
         recording.name,
         kind,

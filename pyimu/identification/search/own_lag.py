@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pyimu.identification.fit.clock import LONGEST_OWN
-from pyimu.identification.fit.columns import in_band
+from pyimu.identification.fit.damping import damping
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.inputs import LogState, own_rate
 from pyimu.identification.fit.interpolated import TAPS, delayed
@@ -70,7 +70,10 @@ def lag_beside_clocks(current: Fit, gate: float) -> Beside | None:
     """
     forms = _forms(current)
     hides = all(map(_may_hide_a_lag, current.trials))
-    if not forms or not hides or _damping(current) <= gate:
+    if not forms or not hides:
+        return None
+    gain, falls = damping(current)
+    if falls <= 0.0 or gain <= gate:
         return None
     wide = beside_clocks(current)
     found = [_best(wide, e) for e in forms]
@@ -97,31 +100,6 @@ def _is_seen(found: Refined, wide: Fit) -> bool:
     std = fitted.std.get(Coefficient(name, sought, ()), np.inf)
     known = SURE * std < float(fitted.sensor.values[name][sought])
     return fitted.sensor.delay(name) < LONGEST_OWN and known and leaves_less(fitted, wide)
-
-
-def _damping(current: Fit) -> float:
-    """Log-likelihood [nat] that a gain which falls with the square of the frequency explains of
-    what a model leaves, beside a clock and a scale factor, of every axis by itself, by the size of
-    what is left; 0 where it rises.
-
-    Taken for white that is more than what a lag explains in the end: without it nothing is fitted.
-    """
-    gain, slope = 0.0, 0.0
-    for trial, one in zip(current.trials, current.residuals(), strict=True):
-        own, rate = OWN[trial.kind], own_rate(trial.kind)
-        change = np.gradient(trial.u[:, rate], trial.h, axis=0)
-        turn = current.states[trial.name].rotation.T
-        columns = [in_band(trial, v @ turn) for v in (trial.u[:, own], trial.u[:, rate], change)]
-        for i in trial.axes:
-            left, x, clock, bent = one.residual[:, i], *(c[:, i] for c in columns)
-            beside = np.column_stack([np.ones(len(x)), x, clock])
-            left, bent = (v - beside @ np.linalg.lstsq(beside, v)[0] for v in (left, bent))
-            power, along = float(left @ left), float(left @ bent)
-            if power > 0.0 and bent.any():
-                share = along**2 / (power * float(bent @ bent))
-                gain -= 0.5 * len(left) * np.log1p(-min(share, 1.0 - 1e-12))
-                slope += along * len(left) / power
-    return gain if slope > 0.0 else 0.0
 
 
 def beside_clocks(current: Fit) -> Fit:

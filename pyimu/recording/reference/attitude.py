@@ -57,3 +57,11 @@ def attitude_at(source: Recording, time: np.ndarray) -> np.ndarray:
 def within(time: np.ndarray, nodes: np.ndarray) -> np.ndarray:
     """Which times (n,) lie between the first and the last of ``nodes`` (m,), as row numbers."""
     return np.flatnonzero((time >= nodes[0]) & (time <= nodes[-1]))
+
+
+def one_sign(q: np.ndarray) -> np.ndarray:
+    """Attitudes (n, 4) without jumps of sign from one known one to the next."""
+    out, known = np.array(q), np.flatnonzero(np.isfinite(q).all(axis=1))
+    turned = np.sum(out[known[1:]] * out[known[:-1]], axis=1) < 0.0
+    out[known] *= np.where(np.cumsum(np.append(False, turned)) % 2, -1.0, 1.0)[:, None]
+    return out

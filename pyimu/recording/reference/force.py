@@ -17,7 +17,7 @@ from pyimu.errors import Finding
 from pyimu.recording.gravity import gravity_of
 from pyimu.recording.quality.spikes import spikes
 from pyimu.recording.recording import Recording
-from pyimu.recording.reference.attitude import attitude_at, within
+from pyimu.recording.reference.attitude import attitude_at, one_sign, within
 from pyimu.recording.reference.band import trusted_band
 from pyimu.recording.reference.course import SPIKE, looks_like_degrees
 from pyimu.recording.reference.nodes import own_places
@@ -76,7 +76,7 @@ def reference_force(recording: Recording, latitude: float | None = None) -> Forc
         return None
     seen = reference_rate(recording)
     time = recording.time if seen.time is None else seen.time
-    q = _continuous(attitude_at(source, time))
+    q = one_sign(attitude_at(source, time))
     given = _given(source)
     made = [_of(kind, v, recording, source, time, q, seen, latitude) for kind, v in given]
     return max((f for f in made if f is not None), key=lambda f: f.band_hz, default=None)
@@ -152,14 +152,6 @@ def _acceleration(
             spline = make_interp_spline(at[part], nodes[part], k=DEGREE)
             out[here] = spline(time[here], nu=ORDER[kind])
     return out, track
-
-
-def _continuous(q: np.ndarray) -> np.ndarray:
-    """Attitudes (n, 4) without jumps of sign from one known one to the next."""
-    out, known = np.array(q), np.flatnonzero(np.isfinite(q).all(axis=1))
-    turned = np.sum(out[known[1:]] * out[known[:-1]], axis=1) < 0.0
-    out[known] *= np.where(np.cumsum(np.append(False, turned)) % 2, -1.0, 1.0)[:, None]
-    return out
 
 
 def _slope(values: np.ndarray, time: np.ndarray) -> np.ndarray:

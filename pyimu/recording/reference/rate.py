@@ -27,6 +27,7 @@ from pyimu.recording.reference.nodes import own_samples
 from pyimu.recording.reference.rocking import rate_about_z
 from pyimu.recording.reference.stamps import at_times, even_times, jitter_of
 from pyimu.recording.reference.track import Track, fresh, known_axes
+from pyimu.recording.reference.unsmoothed import restored_up_to
 from pyimu.recording.rest import is_at_rest, motion_in
 from pyimu.symbolic.earth import EARTH_RATE
 
@@ -263,7 +264,7 @@ def _from_course(
 def _derived(
     recording: Recording, rate: np.ndarray, kind, track: Track, earth_rate: bool
 ) -> Reference:
-    limit = 0.25 / track.period
+    limit = min(0.25 / track.period, restored_up_to(recording.reference))
     band = trusted_band(recording.time, recording.gyro, rate, limit) if track.segments else None
     seen = _finite_runs(recording, rate)
     return Reference(rate, kind, band, seen, tuple(track.findings), earth_rate, limit)

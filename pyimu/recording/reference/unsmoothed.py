@@ -1,0 +1,268 @@
+"""A reference without the smoothing that it went through: a filter without delay, such as a
+tracker's software or a script lays over what was seen.
+
+Of a smoothed attitude it is undone on the attitude. The rate of one that was smoothed over a
+variance of s^2 in time is less than the body's by s^2/2 (w'' + w x w'), to second order; undone
+axis by axis on the rate, the product would be left and look like an effect of the sensor.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+from scipy.ndimage import gaussian_filter1d
+from scipy.optimize import brentq
+from scipy.signal import butter, sosfiltfilt
+from scipy.spatial.transform import Rotation
+
+from pyimu.errors import Finding
+from pyimu.recording.integration import integrated
+from pyimu.recording.recording import Recording, at_own_times
+from pyimu.recording.reference.attitude import (
+    attitude_at,
+    attitude_curve,
+    attitude_track,
+    one_sign,
+)
+from pyimu.recording.reference.file import TRUTHS, at_log
+from pyimu.recording.reference.nodes import own_samples
+from pyimu.recording.reference.track import LEAST_NODES, Track, fresh, known_axes
+
+SMOOTHED = "reference_smoothed"
+"""The finding of a reference that was smoothed."""
+
+CLEARLY = 0.3
+"""A frequency of which less passes is not used: the noise, and what is wrong of a filter that was
+taken for another, would be three times as large."""
+
+ROUNDS = 16
+"""After so many, what passes ``CLEARLY`` or more is restored to 0.01 %."""
+
+HIGHEST = "highest_frequency"
+"""The detail of the finding that says up to what frequency [Hz] a reference may be used."""
+
+
+def _steps() -> np.ndarray:
+    """By how much of what is missing, smoothed once more, is given back in each round: Richardson's
+    iteration on the normal equations, as a moving average turns some frequencies round, with the
+    steps of Chebyshev, under which the largest error of shares from ``CLEARLY`` to 1 is least
+    (Saad 2003, "Iterative Methods for Sparse Linear Systems", sections 8.1 and 12.3.1); the largest
+    steps between small ones, so that no round has much to put right.
+    """
+    least = CLEARLY**2
+    angle = np.pi * (np.arange(ROUNDS) + 0.5) / ROUNDS
+    steps = 1.0 / (0.5 * (1.0 + least) + 0.5 * (1.0 - least) * np.cos(angle))
+    half = ROUNDS // 2
+    return np.column_stack([steps[:half], steps[::-1][:half]]).ravel()
+
+
+STEPS = _steps()
+
+
+def _mean(values: np.ndarray, rows: float) -> np.ndarray:
+    """Mean over ``rows`` about each, a whole number or not."""
+    more = int(rows / 2) + 1
+    sums = np.cumsum(np.vstack([np.zeros(values.shape[1]), _extended(values, more)]), axis=0)
+    edge, at = np.arange(len(sums)), more + np.arange(len(values)) + 0.5
+    before, after = (
+        np.column_stack([np.interp(at + side * rows / 2, edge, s) for s in sums.T])
+        for side in (-1, 1)
+    )
+    return (after - before) / rows
+
+
+def _gaussian(values: np.ndarray, rows: float) -> np.ndarray:
+    more = int(4.0 * rows) + 1
+    return gaussian_filter1d(_extended(values, more), rows, axis=0)[more:-more]
+
+
+def _extended(values: np.ndarray, more: int) -> np.ndarray:
+    """Values (n, k) and ``more`` rows at either end, mirrored at the last one, so that a filter
+    is symmetric there, too.
+    """
+    whole = [(min(more, len(values) - 1),) * 2, (0, 0)]
+    rest = [(max(more - len(values) + 1, 0),) * 2, (0, 0)]
+    return np.pad(np.pad(values, whole, "reflect", reflect_type="odd"), rest, "edge")
+
+
+def _butterworth(order: int, values: np.ndarray, rows: float) -> np.ndarray:
+    low = butter(order, min(1.0 / (np.pi * rows), 0.99), output="sos")
+    return sosfiltfilt(low, values, axis=0, padlen=min(int(3 * np.pi * rows), len(values) - 1))
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A way to smooth values (n, k) by a size in rows.
+
+    From ``reach`` sizes on a row does not feel that what lies beyond an end is unknown. ``clear``
+    is the frequency, in one over the size, up to which ``CLEARLY`` passes. ``variance`` is in
+    squared sizes, 0 of a filter whose gain falls with more than the square of the frequency.
+    """
+
+    words: str
+    of: Callable[[np.ndarray, float], np.ndarray]
+    reach: float
+    clear: float
+    variance: float = 0.0
+
+
+def _both_ways(order: int, reach: float) -> Kind:
+    """Butterworth's filter, run forwards and backwards."""
+    words = f"a Butterworth filter of order {order} run both ways, with a time constant of"
+    clear = (1.0 / CLEARLY - 1.0) ** (0.5 / order) / (2.0 * np.pi)
+    return Kind(words, partial(_butterworth, order), reach, clear)
+
+
+KINDS = {
+    "moving_average": Kind(
+        "a moving average of",
+        _mean,
+        reach=6.0,
+        clear=brentq(lambda x: np.sinc(x) - CLEARLY, 0.0, 1.0),
+        variance=1 / 12,
+    ),
+    "gaussian": Kind(
+        "a Gaussian filter with a standard deviation of",
+        _gaussian,
+        reach=12.0,
+        clear=np.sqrt(-2.0 * np.log(CLEARLY)) / (2.0 * np.pi),
+        variance=1.0,
+    ),
+    "butterworth_2": _both_ways(2, 6.0 * np.pi),
+    "butterworth_4": _both_ways(4, 9.0 * np.pi),
+}
+
+
+@dataclass(frozen=True)
+class Smoothing:
+    """A filter of a kind of ``KINDS`` and a ``size`` in s: length, standard deviation, or time
+    constant of the cut-off frequency.
+    """
+
+    kind: str
+    size: float
+
+    def as_detail(self) -> dict[str, str | float]:
+        """For a finding."""
+        kind = KINDS[self.kind]
+        flat = {} if kind.variance else {"cutoff_frequency": 1.0 / (2.0 * np.pi * self.size)}
+        known = {"filter": kind.words, "seconds": self.size, **flat}
+        return {**known, HIGHEST: self.up_to}
+
+    @property
+    def up_to(self) -> float:
+        """The frequency [Hz] up to which what was smoothed can be restored."""
+        return float(KINDS[self.kind].clear / self.size)
+
+    def attitudes(self, smoothed: np.ndarray, h: float) -> np.ndarray:
+        """The quaternions (n, 4), ``h`` s apart, that ``smoothed`` ones were smoothed from: these
+        are unit quaternions again, each by a factor of its own more than what the filter made.
+        """
+        found = smoothed = one_sign(smoothed)
+        for step in STEPS:
+            q = self._of(found, h)
+            missed = smoothed * np.linalg.norm(q, axis=1, keepdims=True) - q
+            found = _units(found + step * self._of(missed, h))
+        return found
+
+    def vectors(self, smoothed: np.ndarray, h: float) -> np.ndarray:
+        """The values (n, k), ``h`` s apart, that ``smoothed`` ones were smoothed from."""
+        found = smoothed
+        for step in STEPS:
+            found = found + step * self._of(smoothed - self._of(found, h), h)
+        return found
+
+    def rate(self, rate: np.ndarray, h: float, turned: np.ndarray | None) -> np.ndarray:
+        """The ``rate`` (n, 3) rad/s of a reference before it was smoothed, of attitudes where it
+        has ``turned`` (n, 4) by it.
+        """
+        if turned is None:
+            return self.vectors(rate, h)
+        return rate + _rate(self.attitudes(turned, h), h) - _rate(turned, h)
+
+    def reach(self, h: float) -> int:
+        """Rows at either end that nobody can restore: what was smoothed with them is unknown."""
+        return int(np.ceil(KINDS[self.kind].reach * self.size / h)) + 1
+
+    def _of(self, values: np.ndarray, h: float) -> np.ndarray:
+        return KINDS[self.kind].of(values, self.size / h)
+
+
+def unsmoothed(recording: Recording, smoothing: Smoothing) -> Recording:
+    """The recording with the reference that was smoothed: its ``ref_rate``, or its ``ref_q``, at
+    samples of its own, less those near an end.
+    """
+    source = recording if recording.reference is None else recording.reference
+    rate = source.ref_rate is not None
+    sharp = _rates(source, smoothing) if rate else _attitude(source, smoothing)
+    found = Finding(SMOOTHED, "ref_rate" if rate else "ref_q", 1, smoothing.as_detail())
+    return at_log(recording, replace(sharp, findings=(*sharp.findings, found)))
+
+
+def restored_up_to(source: Recording | None) -> float:
+    """Highest frequency [Hz] at which a reference may be used, inf where none was smoothed."""
+    findings = () if source is None else source.findings
+    return min((f.detail[HIGHEST] for f in findings if f.kind == SMOOTHED), default=np.inf)
+
+
+def _rates(source: Recording, smoothing: Smoothing) -> Recording:
+    out, axes = np.full_like(source.ref_rate, np.nan), known_axes(source.ref_rate)
+    seen = source.ref_rate[:, axes]
+    track = Track(source.time, fresh(seen), lambda n: np.diff(seen[n], axis=0), np.inf)
+    for nodes in track.segments:
+        h = float(np.median(np.diff(source.time[nodes])))
+        kept, inner = _inner(nodes, smoothing.reach(h))
+        if len(kept):
+            out[np.ix_(kept, axes)] = smoothing.vectors(seen[nodes], h)[inner]
+    return replace(source, ref_rate=out)
+
+
+def _attitude(source: Recording, smoothing: Smoothing) -> Recording:
+    """At even times between its samples, where the rate of these is even or not."""
+    own = own_samples(source)
+    times, sharp = [], []
+    for nodes in attitude_track(own).segments:
+        first, last = own.time[nodes[[0, -1]]]
+        count = round((last - first) / float(np.median(np.diff(own.time[nodes]))))
+        time = np.linspace(first, last, count + 1)
+        h = (last - first) / count
+        kept, inner = _inner(time, smoothing.reach(h))
+        if len(kept):
+            q = attitude_curve(own, nodes)(time).as_quat(scalar_first=True)
+            times.append(kept)
+            sharp.append(smoothing.attitudes(q, h)[inner])
+    if not times:
+        return own
+    found = at_own_times(own, np.concatenate(times), ref_q=np.concatenate(sharp))
+    if all(getattr(source, g) is None for g in TRUTHS if g != "ref_q"):
+        return found
+    return replace(source, ref_q=attitude_at(found, source.time))
+
+
+def _inner(rows: np.ndarray, reach: int) -> tuple[np.ndarray, slice]:
+    """The ``rows`` (n,) that lie ``reach`` from either end, and where; none of too few."""
+    inner = slice(reach, len(rows) - reach)
+    return (rows[inner], inner) if len(rows) >= 2 * reach + LEAST_NODES else (rows[:0], inner)
+
+
+def turned_by(rate: np.ndarray, h: float) -> np.ndarray:
+    """Quaternions (n, 4) of a body that turns at ``rate`` (n, 3) rad/s, ``h`` s apart."""
+    means = np.vstack([rate[:1], 0.5 * (rate[1:] + rate[:-1])])
+    return integrated(means, h, Rotation.identity()).as_quat(scalar_first=True)
+
+
+def _rate(q: np.ndarray, h: float) -> np.ndarray:
+    """Rates (n, 3) rad/s of quaternions ``h`` s apart, as the mean of both steps beside each."""
+    (w, v), (w1, v1) = ((p[:, :1], p[:, 1:]) for p in (q[:-1], q[1:]))
+    half = w * v1 - w1 * v - np.cross(v, v1)
+    size = np.linalg.norm(half, axis=1, keepdims=True)
+    cosine = np.sum(q[:-1] * q[1:], axis=1, keepdims=True)
+    steps = half * 2.0 / h * np.arctan2(size, cosine) / np.maximum(size, 1e-300)
+    return 0.5 * (np.vstack([steps[:1], steps]) + np.vstack([steps, steps[-1:]]))
+
+
+def _units(q: np.ndarray) -> np.ndarray:
+    return q / np.linalg.norm(q, axis=1, keepdims=True)

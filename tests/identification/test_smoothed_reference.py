@@ -1,0 +1,125 @@
+"""References that software smoothed without delay, beside a gyro."""
+
+import numpy as np
+import pytest
+from loop_cases import smooth
+from scipy.ndimage import gaussian_filter1d
+from scipy.signal import butter, lfilter, sosfiltfilt
+from scipy.spatial.transform import Rotation, RotationSpline
+
+import pyimu
+from pyimu.recording.recording import Recording
+from pyimu.recording.reference.unsmoothed import Smoothing, unsmoothed
+
+H, MARGIN = 0.01, 100
+
+
+def mean_of(rows):
+    """The moving average of an odd number of rows."""
+    return lambda v: np.stack([np.convolve(c, np.ones(rows) / rows, "same") for c in v.T], axis=1)
+
+
+SMOOTHERS = {
+    "moving_average": (mean_of(15), 0.15),
+    "gaussian": (lambda v: gaussian_filter1d(v, 0.05 / H, axis=0), 0.05),
+    "butterworth_2": (
+        lambda v: sosfiltfilt(butter(2, 4.0, fs=1 / H, output="sos"), v, axis=0),
+        1.0 / (2.0 * np.pi * 4.0),
+    ),
+}
+
+
+class Hand:
+    """A wand turned by hand; the first and the last second of what is seen are not given."""
+
+    def __init__(self, seed, seconds=90.0):
+        rng = np.random.default_rng(seed)
+        self.time = H * np.arange(-MARGIN, round(seconds / H) + MARGIN)
+        angles = smooth(rng, self.time, 0.4, highest=1.0) * [1.0, 0.8, 1.0]
+        self.turn = Rotation.from_euler("ZYX", angles)
+        self.rate = RotationSpline(self.time, self.turn)(self.time, 1)
+        self.noise = rng.standard_normal((2, len(self.time), 3))
+
+    def quaternions(self, noise=0.0):
+        q = (self.turn * Rotation.from_rotvec(noise * self.noise[0])).as_quat(scalar_first=True)
+        turned = np.sum(q[1:] * q[:-1], axis=1) < 0
+        return q * np.where(np.cumsum(np.append(False, turned)) % 2, -1.0, 1.0)[:, None]
+
+    def log(self, rate=None, **reference):
+        rows = slice(MARGIN, -MARGIN)
+        gyro = (self.rate if rate is None else rate) + 2e-3 * self.noise[1]
+        return Recording.from_arrays(
+            time=self.time[rows],
+            gyro=gyro[rows],
+            **{name: values[rows] for name, values in reference.items()},
+        )
+
+
+def units(q):
+    return q / np.linalg.norm(q, axis=1, keepdims=True)
+
+
+def found_in(closed):
+    return [f for f in closed.quality if f.kind == "reference_smoothed"]
+
+
+def blamed(closed):
+    return [a.effect for a in closed.added] + [f.text for f in closed.formulas]
+
+
+@pytest.mark.parametrize("kind", SMOOTHERS)
+@pytest.mark.parametrize("noise", [0.0, 1e-3], ids=["exact", "camera"])
+def test_a_smoothed_attitude_is_undone_and_no_error_of_the_sensor(kind, noise):
+    """It was a formula of rates and angular accelerations, and left up to 20 times the noise. With
+    the noise of a camera two filters of one variance in time are the same."""
+    hand = Hand(seed=11)
+    smoother, size = SMOOTHERS[kind]
+    closed = pyimu.close(hand.log(ref_q=units(smoother(hand.quaternions(noise)))))
+    (found,) = found_in(closed)
+    assert not blamed(closed), closed.report()
+    assert closed.verdict not in ("unexplained", "partly", "not_confirmed"), closed.report()
+    assert "was smoothed as by" in closed.report()
+    if not noise:
+        assert found.detail["seconds"] == pytest.approx(size, rel=0.01)
+        gyro = closed.errors["gyro"]
+        assert gyro.after.total < 1.2 * gyro.floor.total
+
+
+def test_a_smoothed_rate_is_undone():
+    hand = Hand(seed=12)
+    closed = pyimu.close(hand.log(ref_rate=mean_of(21)(hand.rate)))
+    (found,) = found_in(closed)
+    assert found.detail["seconds"] == pytest.approx(0.21, rel=0.01)
+    assert not blamed(closed), closed.report()
+
+
+def low_passed(rate, tau):
+    kept = np.exp(-H / tau)
+    return lfilter([1.0 - kept], [1.0, -kept], rate, axis=0)
+
+
+@pytest.mark.parametrize("filtered", [False, True], ids=["clean", "gyro behind a low-pass"])
+def test_what_was_not_smoothed_stays(filtered):
+    hand = Hand(seed=13)
+    rate = low_passed(hand.rate, 0.02) if filtered else None
+    closed = pyimu.close(hand.log(rate, ref_q=hand.quaternions(1e-3)))
+    assert not found_in(closed)
+    assert bool(closed.added) == filtered, closed.report()
+
+
+@pytest.mark.parametrize("kind", SMOOTHERS)
+def test_what_undoes_a_filter_gives_the_attitude_back(kind):
+    """Up to the frequency that is said, here all that moves; near the ends nothing is said."""
+    hand = Hand(seed=14, seconds=30.0)
+    smoother, size = SMOOTHERS[kind]
+    log = hand.log(ref_q=units(smoother(hand.quaternions())))
+    sharp = unsmoothed(log, Smoothing(kind, size))
+    known = np.isfinite(sharp.ref_q).all(axis=1)
+    assert known[MARGIN:-MARGIN].all() and not known[0] and not known[-1]
+
+    def missed(q):
+        apart = Rotation.from_quat(q[known], scalar_first=True).inv()
+        return (apart * self_turn[known]).magnitude().max()
+
+    self_turn = hand.turn[MARGIN:-MARGIN]
+    assert missed(sharp.ref_q) < 0.01 * missed(log.ref_q)
