@@ -1,4 +1,9 @@
-"""Whether one of sensor and reference damps what the other shows."""
+"""Whether one of sensor and reference damps what the other shows.
+
+By the motion as either shows it. The noise of the one that it is taken from lies in the regressors,
+and makes the other look as if it damped what is quick: by the reference the sensor damps too much,
+by the sensor too little, and the truth lies between.
+"""
 
 from __future__ import annotations
 
@@ -7,10 +12,11 @@ import numpy as np
 from pyimu.identification.fit.columns import in_band
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.inputs import own_rate
+from pyimu.identification.fit.trial import Trial
 from pyimu.model.kinds import OWN
 
 
-def damping(current: Fit) -> tuple[float, float]:
+def damping(current: Fit, by_sensor: bool = False) -> tuple[float, float]:
     """Log-likelihood [nat] that a gain which falls with the square of the frequency explains of
     what a model leaves, and half of that gain's second derivative [s^2]: above 0 where the sensor
     damps, below where the reference does.
@@ -20,10 +26,8 @@ def damping(current: Fit) -> tuple[float, float]:
     """
     gain, along_all, power_all = 0.0, 0.0, 0.0
     for trial, one in zip(current.trials, current.residuals(), strict=True):
-        own, rate = OWN[trial.kind], own_rate(trial.kind)
-        change = np.gradient(trial.u[:, rate], trial.h, axis=0)
         turn = current.states[trial.name].rotation.T
-        columns = [in_band(trial, v @ turn) for v in (trial.u[:, own], trial.u[:, rate], change)]
+        columns = _by_sensor(trial) if by_sensor else _by_reference(trial, turn)
         for i in trial.axes:
             left, x, clock, bent = one.residual[:, i], *(c[:, i] for c in columns)
             beside = np.column_stack([np.ones(len(x)), x, clock])
@@ -35,3 +39,15 @@ def damping(current: Fit) -> tuple[float, float]:
                 along_all += along * len(left) / power
                 power_all += float(bent @ bent) * len(left) / power
     return gain, along_all / power_all if power_all else 0.0
+
+
+def _by_reference(trial: Trial, turn: np.ndarray) -> list[np.ndarray]:
+    """The motion and two derivatives of it (m, 3) each, in the trial's band."""
+    own, rate = (trial.u[:, at] for at in (OWN[trial.kind], own_rate(trial.kind)))
+    return [in_band(trial, v @ turn) for v in (own, rate, np.gradient(rate, trial.h, axis=0))]
+
+
+def _by_sensor(trial: Trial) -> list[np.ndarray]:
+    first = np.gradient(trial.y, trial.h, axis=0)
+    second = np.gradient(first, trial.h, axis=0)
+    return [in_band(trial, v) for v in (trial.y, first, second)]

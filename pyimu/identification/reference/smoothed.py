@@ -135,8 +135,9 @@ def _taken(trial: Trial) -> np.ndarray:
 def _alike(
     trial: Trial, turned: np.ndarray | None, taken: np.ndarray, smoothing: Smoothing
 ) -> float:
-    """The power of what is left of the sensor's samples, by a linear map of the axes of a reference
-    on which a filter is undone, that looks like what filters have ``taken``.
+    """The power of what is left of a reference on which a filter is undone, by a linear map of the
+    sensor's axes, that looks like what filters have ``taken``: of the two the reference has most
+    of the noise, and a regression on it would be biased.
     """
     ((a, b),) = trial.segments
     reach = smoothing.reach(trial.h)
@@ -145,7 +146,7 @@ def _alike(
     u, axes = np.zeros((len(trial.u), 3)), list(trial.axes)
     u[a:b] = smoothing.rate(trial.u[a:b, OWN[trial.kind]], trial.h, turned)
     inner = replace(trial, segments=[(a + reach, b - reach)])
-    y, x = (in_band(inner, v) for v in (trial.y[:, axes], u))
+    x, y = (in_band(inner, v[:, axes]) for v in (trial.y, u))
     x = np.column_stack([np.ones(len(x)), x])
     total = 0.0
     for i, left in zip(axes, _less(y, x).T, strict=True):

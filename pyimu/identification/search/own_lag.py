@@ -35,6 +35,7 @@ from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.effect import Effect
 from pyimu.model.kinds import OWN
 from pyimu.recording.reference.rate import VERTICAL
+from pyimu.recording.reference.unsmoothed import SMOOTHED
 
 MERE = "time_delay"
 """What a clock stands for in full."""
@@ -72,13 +73,16 @@ def lag_beside_clocks(current: Fit, gate: float) -> Beside | None:
     hides = all(map(_may_hide_a_lag, current.trials))
     if not forms or not hides:
         return None
-    gain, falls = damping(current)
-    if falls <= 0.0 or gain <= gate:
+    if not _damps_more(damping(current), gate):
         return None
     wide = beside_clocks(current)
+    # By the reference, whose noise damps, too, the sensor damps more than it does.
+    shown = damping(wide, by_sensor=True)
+    if not _damps_more(shown, gate):
+        return None
     found = [_best(wide, e) for e in forms]
     above = gate + np.log(len(forms) * len(STARTS))
-    found = [r for r in found if r.gain > above and _is_seen(r, wide)]
+    found = [r for r in found if r.gain > above and _is_seen(r, wide, shown[0])]
     if not found:
         return None
     best = plainest_form(found)
@@ -86,19 +90,26 @@ def lag_beside_clocks(current: Fit, gate: float) -> Beside | None:
     return Beside(wide, best, tuple(close))
 
 
+def _damps_more(seen: tuple[float, float], gate: float) -> bool:
+    gain, falls = seen
+    return falls > 0.0 and gain > gate
+
+
 def leaves_less(one: Fit, other: Fit) -> bool:
     """Whether a model leaves less than another by ``LEAST``."""
     return share_left(one, other) < 1.0 - LEAST
 
 
-def _is_seen(found: Refined, wide: Fit) -> bool:
+def _is_seen(found: Refined, wide: Fit, shown: float) -> bool:
     """Whether a lag is one that a sensor may have, is known to a ``SURE`` part of itself, and
-    leaves less.
+    leaves less, by the motion that the sensor shows, too: there the ``shown`` gain [nat] of what
+    is damped must have fallen.
     """
     name, fitted = found.screened.effect, found.fit
     (sought,) = (n for n, p in CATALOGUE[name].parameters.items() if p.sought)
     std = fitted.std.get(Coefficient(name, sought, ()), np.inf)
     known = SURE * std < float(fitted.sensor.values[name][sought])
+    known &= damping(fitted, by_sensor=True)[0] < shown
     return fitted.sensor.delay(name) < LONGEST_OWN and known and leaves_less(fitted, wide)
 
 
@@ -116,7 +127,8 @@ def _forms(current: Fit) -> list[Effect]:
 
 def _may_hide_a_lag(trial: Trial) -> bool:
     """Whether a trial's clock may hide a lag. That of a point that is tracked turns otherwise than
-    the vehicle, and noise of a rate that is measured damps most of what is quick, too.
+    the vehicle, and noise of a rate that is measured, or of what was smoothed, damps most of what
+    is quick, too.
     """
     clock = trial.clock
     return (
@@ -125,6 +137,7 @@ def _may_hide_a_lag(trial: Trial) -> bool:
         and clock is not None
         and clock.is_seen
         and clock.is_steady
+        and not any(f.kind == SMOOTHED for f in trial.findings)
         and not (trial.reference in MEASURED and trial.noise is not None and trial.noise.any())
     )
 
