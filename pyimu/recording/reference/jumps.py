@@ -62,9 +62,10 @@ def jumps(
     beyond = _beyond(steps, np.diff(turned, axis=0), usable)
     vectors = _distances(np.cumsum(beyond, axis=0), usable)
     size = np.linalg.norm(vectors, axis=1)
-    at, gate = _alone(size)
-    at = at[_less_a_slip(vectors[at], (steps - beyond)[at]) > gate[at]]
+    at, gate = _peaks(size)
     at = at[np.linalg.norm(vectors[at] - beyond[at], axis=1) < AT_ONCE * size[at]]
+    at = _alone(size, at)
+    at = at[_less_a_slip(vectors[at], (steps - beyond)[at]) > gate[at]]
     # Sample 0 has no step before it: distance k lies between samples k and k + 1.
     return at + 1, size[at]
 
@@ -122,9 +123,9 @@ def _distances(level: np.ndarray, usable: np.ndarray) -> np.ndarray:
     return np.where(whole[:, None], out, 0.0)
 
 
-def _alone(size: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Places (j,) of the distances (m,) that stand out from all around and from those near them,
-    and the size (m,) from which on one does.
+def _peaks(size: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Places (j,) of the distances (m,) that stand out from all around, and the size (m,) from
+    which on one does.
     """
     seen = size > 0.0
     if not seen.any():
@@ -133,12 +134,19 @@ def _alone(size: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     usual = median_filter(size, min(NEAR, len(size)), mode="nearest") / 1.538
     gate = np.maximum(SIGMAS * usual, TAIL * np.quantile(size[seen], 0.95))
     peak = size == maximum_filter1d(size, 2 * SIDE + 1, mode="nearest")
-    found = np.flatnonzero(peak & seen & (size > gate))
-    alone = [k for k in found if size[k] > ISOLATION * _near(size, k)]
-    return np.array(alone, dtype=int), gate
+    return np.flatnonzero(peak & seen & (size > gate)), gate
+
+
+def _alone(size: np.ndarray, at: np.ndarray) -> np.ndarray:
+    """Those of the places ``at`` (j,) whose distances (m,) stand out from what is near them and
+    shares no sample with any of them.
+    """
+    others = np.array(size)
+    for k in at:
+        others[max(k - 2 * SIDE, 0) : k + 2 * SIDE + 1] = 0.0
+    return np.array([k for k in at if size[k] > ISOLATION * _near(others, k)], dtype=int)
 
 
 def _near(size: np.ndarray, k: int) -> float:
     """The largest distance near ``k`` that shares no sample with it."""
-    before, after = size[max(k - 6 * SIDE, 0) : max(k - 2 * SIDE, 0)], size[k + 2 * SIDE + 1 :]
-    return max(before.max(initial=0.0), after[: 4 * SIDE].max(initial=0.0))
+    return float(size[max(k - 6 * SIDE, 0) : k + 6 * SIDE + 1].max())
