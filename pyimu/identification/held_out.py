@@ -48,11 +48,11 @@ def scores(
     by_log: dict[str, dict[str, Errors]] = {r.name: {} for r in together}
     errors, likelihood = {}, np.zeros(2)
     for kind, inv in found.items():
-        noise, reference = floor_noise(inv.after), reference_variance(inv.after)
+        noise = floor_noise(inv.after)
         judged = inv.before.prior and any(t.reduction is None for t in inv.held)
         unsure = what_is_open(inv.after) if judged and not inv.unfit else None
         for trial in inv.held:
-            by_log[trial.name][kind] = _errors(inv, trial, noise, reference, unsure)
+            by_log[trial.name][kind] = _errors(inv, trial, noise, unsure)
         each = [e[kind] for e in by_log.values() if kind in e]
         if each:
             errors[kind] = sum(each[1:], start=each[0])
@@ -66,7 +66,6 @@ def _errors(
     inv: Investigation,
     trial: Trial,
     noise: dict[int, RandomWalk],
-    reference: np.ndarray,
     unsure: Open | None,
 ) -> Errors:
     if trial.reduction is not None:
@@ -78,6 +77,8 @@ def _errors(
     white = {i: RandomWalk(n.r, 0.0) for i, n in noise.items()}
     walk = {i: RandomWalk(0.0, k2) for i, k2 in _walk(inv, noise).items()}
     drift = floor(walk, inv.after, trial) if any(n.k2 for n in walk.values()) else None
+    # Two logs may have two references, or one that sees them from other distances.
+    reference = reference_variance(inv.after, trial.name)
     least = floor(white, inv.after, trial).with_variance(reference)
     open_ = None if unsure is None else left_open(inv.after, trial, unsure)
     return Errors(unit, *both, least, drift or ErrorSums(), unsure=open_)

@@ -36,14 +36,13 @@ def references(
     what is left to the sensor; it is positive where the sensor is late. ``clock_skew`` is by how
     much that grows in a second, ``slips`` when it jumps, and by how much.
     """
-    noise = {kind: np.sqrt(reference_variance(inv.after)) for kind, inv in found.items()}
     entries = []
     for r in logs:
         of_log = [(k, inv, t) for k, inv in found.items() if (t := _trial(inv, r.name)) is not None]
         moving = [one for one in of_log if one[2].reference != "static"]
         first = (moving or of_log)[:1]
         forces = [one for one in moving[1:] if one[2].place is not None]
-        entries += [_entry(r, *one, noise[one[0]]) for one in (*first, *forces)]
+        entries += [_entry(r, *one) for one in (*first, *forces)]
     return tuple(entries)
 
 
@@ -51,9 +50,8 @@ def _trial(inv: Investigation, name: str) -> Trial | None:
     return next((t for t in (*inv.after.trials, *inv.held) if t.name == name), None)
 
 
-def _entry(
-    r: Recording, kind: str, inv: Investigation, t: Trial, noise: np.ndarray
-) -> dict[str, Any]:
+def _entry(r: Recording, kind: str, inv: Investigation, t: Trial) -> dict[str, Any]:
+    noise = np.sqrt(reference_variance(inv.after, t.name))
     state = log_state(inv, r.name)
     clock, turn = clock_of(inv, r.name), Rotation.from_matrix(state["rotation"]).magnitude()
     offset, skew = _clock(clock)

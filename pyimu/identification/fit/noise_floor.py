@@ -48,8 +48,9 @@ def floor_noise(fit: Fit) -> dict[int, RandomWalk]:
     )
 
 
-def reference_variance(fit: Fit) -> np.ndarray:
-    """Variance (3,) in a row of the band that the reference adds to the sensor's own noise.
+def reference_variance(fit: Fit, log: str = "") -> np.ndarray:
+    """Variance (3,) in a row of the band that the reference adds to the sensor's own noise: that of
+    a ``log`` where rows of it were fitted, else of all of them.
 
     Zero where the fitted noise holds both.
 
@@ -58,15 +59,17 @@ def reference_variance(fit: Fit) -> np.ndarray:
     """
     if all(isinstance(n, RandomWalk) for n in fit.noise.values()):
         return np.zeros(3)
-    return beyond_own(fit)
+    return beyond_own(fit, log=log)
 
 
-def beyond_own(fit: Fit, errors: float = 0.0) -> np.ndarray:
+def beyond_own(fit: Fit, errors: float = 0.0, log: str = "") -> np.ndarray:
     """Variance (3,) in a row of the band that the quiet shows beyond the sensor's own noise, or the
-    most that it may be, by so many standard ``errors``.
+    most that it may be, by so many standard ``errors``; that of a ``log`` where rows of it were
+    fitted, else of all of them.
     """
     noise = np.zeros(3)
-    own, residuals = own_noise(fit), fit.residuals()
+    own, each = own_noise(fit), list(zip(fit.trials, fit.residuals(), strict=True))
+    residuals = [one for t, one in each if t.name == log] or [one for _, one in each]
     share = np.mean([np.sum(np.square(t.band.weights)) for t in fit.trials])
     for i in own:
         seen = [(one.residual[:, i], one.segments) for one in residuals if i in one.keys]

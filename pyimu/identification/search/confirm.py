@@ -321,8 +321,8 @@ def _noise(fit: Fit, held: Sequence[Trial]) -> np.ndarray | None:
         return None
     own, out = own_noise(fit), np.zeros(3)
     # The echo of a reference's noise is taken out of the sums already.
-    reference = np.zeros(3) if fit.echo else reference_variance(fit)
     for t in (*fit.trials, *held):
+        reference = np.zeros(3) if fit.echo else reference_variance(fit, t.name)
         rows, share = len(band_time(t)), float(np.sum(np.square(t.band.weights)))
         for i in t.axes:
             out[i] += rows * (own[i].r * share + reference[i])
