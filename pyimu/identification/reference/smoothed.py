@@ -53,8 +53,8 @@ SLOWEST, QUICKEST = 0.5, 0.25
 SHARE = 0.5
 """Of the rows that must be left by a filter which is undone."""
 
-CLOSE = 1e-4
-"""The size is looked for to this share of itself."""
+NEAR, CLOSE = 1.1, 1e-3
+"""The factor within which the size is looked for by all rows, and the share of it to which."""
 
 ROWS = 6000
 """Of a log that are looked at to choose a filter; where it turns most."""
@@ -94,12 +94,14 @@ def _smoothing(trial: Trial, sensor: Sensor) -> Smoothing | None:
     if falls > -LEAST or gain < WANDERS:
         return None
     half = HALF / (2.0 * np.pi * np.sqrt(-falls))
-    trial = _busiest(replace(trial, band_hz=min(trial.band_hz, half)))
-    left = cache(partial(_alike, trial, _turned(trial), _taken(trial)))
-    sizes = _sizes(trial, -falls)
-    best = min((_finest(k, s, left) for k, s in sizes.items()), key=left)
-    none = replace(best, size=NOTHING * best.size)
-    return best if left(best) < MOSTLY * left(none) else None
+    trial = replace(trial, band_hz=min(trial.band_hz, half))
+    left = _alike(_busiest(trial))
+    best = min((_finest(k, s, left) for k, s in _sizes(trial, -falls).items()), key=left)
+    if not left(best) < MOSTLY * left(replace(best, size=NOTHING * best.size)):
+        return None
+    # What is off of it is seen by all rows.
+    near = [best.size / NEAR, best.size, best.size * NEAR]
+    return _finest(best.kind, near, _alike(trial))
 
 
 def _busiest(trial: Trial) -> Trial:
@@ -112,6 +114,37 @@ def _busiest(trial: Trial) -> Trial:
     return replace(trial, segments=[(a, b)])
 
 
+def _alike(trial: Trial) -> Left:
+    """Of filters the power of what is left of a reference on which one is undone, by a linear map
+    of the sensor's axes, that looks like what filters take away: of the two the reference has most
+    of the noise, and a regression on it would be biased.
+    """
+    turned = [_turned(trial, a, b) for a, b in trial.segments]
+    return cache(partial(_power_alike, trial, turned, _taken(trial)))
+
+
+def _power_alike(
+    trial: Trial, turned: list[np.ndarray | None], taken: np.ndarray, smoothing: Smoothing
+) -> float:
+    """``_alike`` of one filter; inf where it reaches too far."""
+    reach, u, inner = smoothing.reach(trial.h), np.zeros((len(trial.u), 3)), []
+    for (a, b), q in zip(trial.segments, turned, strict=True):
+        if b - a > 3 * reach:
+            u[a:b] = smoothing.rate(trial.u[a:b, OWN[trial.kind]], trial.h, q)
+            inner.append((a + reach, b - reach))
+    if _rows(inner) < SHARE * _rows(trial.segments):
+        return np.inf
+    known, axes = replace(trial, segments=inner), list(trial.axes)
+    x, y = (in_band(known, v[:, axes]) for v in (trial.y, u))
+    x = np.column_stack([np.ones(len(x)), x])
+    total = 0.0
+    for i, left in zip(axes, _less(y, x).T, strict=True):
+        columns = _less(in_band(known, taken[:, i]), x)
+        columns = columns / np.linalg.norm(columns, axis=0)
+        total += float(np.sum((left - _less(left, columns)) ** 2))
+    return total / len(x)
+
+
 def _taken(trial: Trial) -> np.ndarray:
     """What filters without delay take away (n, 3, c): of each axis its second, fourth and sixth
     derivative, and what the others turn it by, to second order and to fourth.
@@ -119,41 +152,29 @@ def _taken(trial: Trial) -> np.ndarray:
     By the sensor itself, whose noise has nothing in common with the reference's: the power that is
     left would reward a filter that is too weak, as it leaves the noise of the reference as it is.
     """
-    (rows,) = (slice(a, b) for a, b in trial.segments)
-    out = np.zeros((len(trial.u), 3, 5))
-    rate = gaussian_filter1d(np.nan_to_num(trial.y[rows]), 0.1 / (trial.band_hz * trial.h), axis=0)
+    out, width = np.zeros((len(trial.u), 3, 5)), 0.1 / (trial.band_hz * trial.h)
 
     def slope(values: np.ndarray, times: int) -> np.ndarray:
         return slope(np.gradient(values, trial.h, axis=0), times - 1) if times else values
 
-    product = np.cross(rate, slope(rate, 1))
-    columns = (*(slope(rate, times) for times in (2, 4, 6)), product, slope(product, 2))
-    out[rows] = np.stack(columns, axis=2)
+    for a, b in trial.segments:
+        if b - a > 1:
+            rate = gaussian_filter1d(np.nan_to_num(trial.y[a:b]), width, axis=0)
+            product = np.cross(rate, slope(rate, 1))
+            columns = (*(slope(rate, times) for times in (2, 4, 6)), product, slope(product, 2))
+            out[a:b] = np.stack(columns, axis=2)
     return out
 
 
-def _alike(
-    trial: Trial, turned: np.ndarray | None, taken: np.ndarray, smoothing: Smoothing
-) -> float:
-    """The power of what is left of a reference on which a filter is undone, by a linear map of the
-    sensor's axes, that looks like what filters have ``taken``: of the two the reference has most
-    of the noise, and a regression on it would be biased.
-    """
-    ((a, b),) = trial.segments
-    reach = smoothing.reach(trial.h)
-    if (b - a) - 2 * reach < SHARE * (b - a):
-        return np.inf
-    u, axes = np.zeros((len(trial.u), 3)), list(trial.axes)
-    u[a:b] = smoothing.rate(trial.u[a:b, OWN[trial.kind]], trial.h, turned)
-    inner = replace(trial, segments=[(a + reach, b - reach)])
-    x, y = (in_band(inner, v[:, axes]) for v in (trial.y, u))
-    x = np.column_stack([np.ones(len(x)), x])
-    total = 0.0
-    for i, left in zip(axes, _less(y, x).T, strict=True):
-        columns = _less(in_band(inner, taken[:, i]), x)
-        columns = columns / np.linalg.norm(columns, axis=0)
-        total += float(np.sum((left - _less(left, columns)) ** 2))
-    return total / len(x)
+def _turned(trial: Trial, a: int, b: int) -> np.ndarray | None:
+    """The attitude (b - a, 4) at rows, where attitudes were smoothed."""
+    if trial.reference != "attitude":
+        return None
+    return turned_by(trial.u[a:b, OWN[trial.kind]], trial.h)
+
+
+def _rows(segments: list[tuple[int, int]]) -> int:
+    return sum(b - a for a, b in segments)
 
 
 def _less(y: np.ndarray, x: np.ndarray) -> np.ndarray:
@@ -187,11 +208,3 @@ def _finest(kind: str, sizes: list[float], left: Left) -> Smoothing:
         options={"xatol": CLOSE},
     )
     return min((tried[at], Smoothing(kind, float(np.exp(found.x)))), key=left)
-
-
-def _turned(trial: Trial) -> np.ndarray | None:
-    """The attitude (k, 4) at a trial's rows, where attitudes were smoothed."""
-    ((a, b),) = trial.segments
-    if trial.reference != "attitude":
-        return None
-    return turned_by(trial.u[a:b, OWN[trial.kind]], trial.h)
