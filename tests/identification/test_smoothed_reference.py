@@ -123,3 +123,9 @@ def test_what_undoes_a_filter_gives_the_attitude_back(kind):
 
     self_turn = hand.turn[MARGIN:-MARGIN]
     assert missed(sharp.ref_q) < 0.01 * missed(log.ref_q)
+
+
+def test_a_log_that_is_shorter_than_its_filter_stays_as_it_is():
+    hand = Hand(seed=15, seconds=3.0)
+    log = hand.log(ref_q=hand.quaternions())
+    assert unsmoothed(log, Smoothing("moving_average", 0.5)) is log

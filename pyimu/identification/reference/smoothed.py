@@ -140,7 +140,7 @@ def _power_alike(
     total = 0.0
     for i, left in zip(axes, _less(y, x).T, strict=True):
         columns = _less(in_band(known, taken[:, i]), x)
-        columns = columns / np.linalg.norm(columns, axis=0)
+        columns = columns / np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
         total += float(np.sum((left - _less(left, columns)) ** 2))
     return total / len(x)
 

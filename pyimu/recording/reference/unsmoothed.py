@@ -158,8 +158,8 @@ class Smoothing:
         return float(KINDS[self.kind].clear / self.size)
 
     def attitudes(self, smoothed: np.ndarray, h: float) -> np.ndarray:
-        """The quaternions (n, 4), ``h`` s apart, that ``smoothed`` ones were smoothed from: these
-        are unit quaternions again, each by a factor of its own more than what the filter made.
+        """The quaternions (n, 4), ``h`` s apart, that ``smoothed`` ones were smoothed from, entry
+        by entry, before they were made unit quaternions again.
         """
         found = smoothed = one_sign(smoothed)
         for step in STEPS:
@@ -193,11 +193,13 @@ class Smoothing:
 
 def unsmoothed(recording: Recording, smoothing: Smoothing) -> Recording:
     """The recording with the reference that was smoothed: its ``ref_rate``, or its ``ref_q``, at
-    samples of its own, less those near an end.
+    samples of its own, less those near an end; as it is where no segment reaches further.
     """
     source = recording if recording.reference is None else recording.reference
     rate = source.ref_rate is not None
     sharp = _rates(source, smoothing) if rate else _attitude(source, smoothing)
+    if sharp is None:
+        return recording
     found = Finding(SMOOTHED, "ref_rate" if rate else "ref_q", 1, smoothing.as_detail())
     return at_log(recording, replace(sharp, findings=(*sharp.findings, found)))
 
@@ -208,7 +210,7 @@ def restored_up_to(source: Recording | None) -> float:
     return min((f.detail[HIGHEST] for f in findings if f.kind == SMOOTHED), default=np.inf)
 
 
-def _rates(source: Recording, smoothing: Smoothing) -> Recording:
+def _rates(source: Recording, smoothing: Smoothing) -> Recording | None:
     out, axes = np.full_like(source.ref_rate, np.nan), known_axes(source.ref_rate)
     seen = source.ref_rate[:, axes]
     track = Track(source.time, fresh(seen), lambda n: np.diff(seen[n], axis=0), np.inf)
@@ -217,10 +219,10 @@ def _rates(source: Recording, smoothing: Smoothing) -> Recording:
         kept, inner = _inner(nodes, smoothing.reach(h))
         if len(kept):
             out[np.ix_(kept, axes)] = smoothing.vectors(seen[nodes], h)[inner]
-    return replace(source, ref_rate=out)
+    return replace(source, ref_rate=out) if np.isfinite(out).any() else None
 
 
-def _attitude(source: Recording, smoothing: Smoothing) -> Recording:
+def _attitude(source: Recording, smoothing: Smoothing) -> Recording | None:
     """At even times between its samples, where the rate of these is even or not."""
     own = own_samples(source)
     times, sharp = [], []
@@ -235,7 +237,7 @@ def _attitude(source: Recording, smoothing: Smoothing) -> Recording:
             times.append(kept)
             sharp.append(smoothing.attitudes(q, h)[inner])
     if not times:
-        return own
+        return None
     found = at_own_times(own, np.concatenate(times), ref_q=np.concatenate(sharp))
     if all(getattr(source, g) is None for g in TRUTHS if g != "ref_q"):
         return found
