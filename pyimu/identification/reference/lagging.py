@@ -53,7 +53,7 @@ def unlagged_logs(
     ``trials`` are the gyro's of both, their references on the sensor's clock. A reference that
     lagged has a finding that says so.
     """
-    lags = {t.name: _lag(t, sensor) for ts in trials for t in ts if _may_lag(t)}
+    lags = {t.name: _lag(t, sensor) for ts in trials for t in ts if may_lag(t)}
     if not any(lags.values()):
         return None
     fitted, apart = ([_without(r, lags.get(r.name)) for r in rs] for rs in (logs, others))
@@ -64,7 +64,7 @@ def _without(recording: Recording, lag: float | None) -> Recording:
     return recording if lag is None else unlagged(recording, lag)
 
 
-def _may_lag(trial: Trial) -> bool:
+def may_lag(trial: Trial) -> bool:
     """Whether the sensor is early: where it is late, a lag is its own."""
     clock = trial.clock
     return (

@@ -1,4 +1,5 @@
-"""A reference that was smoothed without delay: how, from what the sensor shows beside it.
+"""A reference that was smoothed without delay, or lags by more of its noise than of its motion:
+how, from what the sensor shows beside it.
 
 What a filter damps of a reference the sensor shows, with a share that rises with the square of the
 frequency or faster, and is no sensor's: those damp, or ring far above what a reference shows. An
@@ -8,7 +9,7 @@ effect that knows the rate would take it for the sensor's own.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cache, partial
 
 import numpy as np
@@ -17,14 +18,16 @@ from scipy.optimize import minimize_scalar
 
 from pyimu.identification.fit.columns import in_band
 from pyimu.identification.fit.damping import damping
+from pyimu.identification.fit.interpolated import TAPS, delayed
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.reference.align import fitted_structure
+from pyimu.identification.reference.lagging import may_lag
 from pyimu.identification.reference.moving import in_own_band
 from pyimu.identification.reference.track import WANDERS
 from pyimu.model.kinds import OWN
 from pyimu.model.sensor import Sensor
 from pyimu.recording.recording import Recording
-from pyimu.recording.reference.unlagged import FILTERED
+from pyimu.recording.reference.unlagged import FILTERED, unlagged, unlagged_rate
 from pyimu.recording.reference.unsmoothed import KINDS, Smoothing, turned_by, unsmoothed
 
 LEAST = 3e-5
@@ -44,8 +47,9 @@ there all of them may be undone."""
 STEP = 2.0**0.25
 """From size to size of those that are tried first."""
 
-TRIED = range(-4, 9)
-"""Steps from the size that the slope says: it says too little of a long filter."""
+TRIED, LAGS = range(-4, 9), range(-2, 3)
+"""Steps from the size that the slope says, which says too little of a long filter; and from the
+time constant by which the sensor is early."""
 
 SLOWEST, QUICKEST = 0.5, 0.25
 """Cut-offs of a Butterworth filter: Hz, and as a share of the rate of the rows."""
@@ -60,7 +64,29 @@ ROWS = 6000
 """Of a log that are looked at to choose a filter; where it turns most."""
 
 
-Left = Callable[[Smoothing], float]
+@dataclass(frozen=True)
+class Lag:
+    """A low-pass filter of first order with a time constant of ``size`` s, whose delay was taken
+    for the clock's.
+    """
+
+    size: float
+
+    def rate(self, rate: np.ndarray, h: float, turned: np.ndarray | None) -> np.ndarray:
+        """The ``rate`` (n, 3) rad/s of a reference before the filter, on the clock on which it is;
+        of attitudes where it has ``turned`` (n, 4) by it.
+        """
+        kind = "rate" if turned is None else "attitude"
+        quick = unlagged_rate(h * np.arange(len(rate)), rate, self.size, kind)
+        return delayed(quick, self.size / h)
+
+    def reach(self, h: float) -> int:
+        """Rows at either end that have no neighbours to be moved by."""
+        return int(np.ceil(self.size / h)) + TAPS
+
+
+Filter = Smoothing | Lag
+Left = Callable[[Filter], float]
 
 
 def unsmoothed_logs(
@@ -69,39 +95,51 @@ def unsmoothed_logs(
     logs: list[Recording],
     others: list[Recording],
 ) -> tuple[list[Recording], list[Recording]] | None:
-    """``logs`` and ``others`` with references as they were before they were smoothed; None where
-    none was. ``trials`` are the gyro's of both, their references on the sensor's clock.
+    """``logs`` and ``others`` with references as they were before a filter; None where none was
+    behind one. ``trials`` are the gyro's of both, their references on the sensor's clock.
     """
-    found = {t.name: _smoothing(t, sensor) for ts in trials for t in ts if _may_be(t)}
+    found = {t.name: _filter(t, sensor) for ts in trials for t in ts if _may_be(t)}
     if not any(found.values()):
         return None
     fitted, apart = ([_without(r, found.get(r.name)) for r in rs] for rs in (logs, others))
     return fitted, apart
 
 
-def _without(recording: Recording, smoothing: Smoothing | None) -> Recording:
-    return recording if smoothing is None else unsmoothed(recording, smoothing)
+def _without(recording: Recording, found: Filter | None) -> Recording:
+    if found is None:
+        return recording
+    lags = isinstance(found, Lag)
+    return unlagged(recording, found.size) if lags else unsmoothed(recording, found)
 
 
 def _may_be(trial: Trial) -> bool:
     return trial.reference in FILTERED and trial.clock is not None
 
 
-def _smoothing(trial: Trial, sensor: Sensor) -> Smoothing | None:
+def _filter(trial: Trial, sensor: Sensor) -> Filter | None:
     """The filter that a trial's reference is behind; None where it is behind none."""
+    early = -trial.clock.mean if may_lag(trial) else 0.0
     trial = in_own_band(trial)
-    gain, falls = damping(fitted_structure(trial, sensor))
+    fitted = fitted_structure(trial, sensor)
+    # What the reference damps by the motion that it shows is no less than what it does damp.
+    gain, falls = damping(fitted)
+    sure = falls < -LEAST and gain > WANDERS
+    if not sure and early:
+        gain, falls = damping(fitted, by_sensor=True)
     if falls > -LEAST or gain < WANDERS:
         return None
     half = HALF / (2.0 * np.pi * np.sqrt(-falls))
     trial = replace(trial, band_hz=min(trial.band_hz, half))
     left = _alike(_busiest(trial))
-    best = min((_finest(k, s, left) for k, s in _sizes(trial, -falls).items()), key=left)
+    kinds = [(partial(Smoothing, k), s) for k, s in _sizes(trial, -falls).items() if sure]
+    if early:
+        kinds.append((Lag, _times(early, LAGS)))
+    best = min((_finest(make, sizes, left) for make, sizes in kinds), key=left)
     if not left(best) < MOSTLY * left(replace(best, size=NOTHING * best.size)):
         return None
     # What is off of it is seen by all rows.
     near = [best.size / NEAR, best.size, best.size * NEAR]
-    return _finest(best.kind, near, _alike(trial))
+    return _finest(partial(replace, best), near, _alike(trial))
 
 
 def _busiest(trial: Trial) -> Trial:
@@ -124,19 +162,21 @@ def _alike(trial: Trial) -> Left:
 
 
 def _power_alike(
-    trial: Trial, turned: list[np.ndarray | None], taken: np.ndarray, smoothing: Smoothing
+    trial: Trial, turned: list[np.ndarray | None], taken: np.ndarray, one: Filter
 ) -> float:
     """``_alike`` of one filter; inf where it reaches too far."""
-    reach, u, inner = smoothing.reach(trial.h), np.zeros((len(trial.u), 3)), []
+    reach, u, inner = one.reach(trial.h), np.zeros((len(trial.u), 3)), []
     for (a, b), q in zip(trial.segments, turned, strict=True):
         if b - a > 3 * reach:
-            u[a:b] = smoothing.rate(trial.u[a:b, OWN[trial.kind]], trial.h, q)
+            u[a:b] = one.rate(trial.u[a:b, OWN[trial.kind]], trial.h, q)
             inner.append((a + reach, b - reach))
     if _rows(inner) < SHARE * _rows(trial.segments):
         return np.inf
     known, axes = replace(trial, segments=inner), list(trial.axes)
-    x, y = (in_band(known, v[:, axes]) for v in (trial.y, u))
-    x = np.column_stack([np.ones(len(x)), x])
+    # The clock is as it was measured beside the filter.
+    slope = np.gradient(trial.y, trial.h, axis=0)
+    x, moved, y = (in_band(known, v[:, axes]) for v in (trial.y, slope, u))
+    x = np.column_stack([np.ones(len(x)), x, moved])
     total = 0.0
     for i, left in zip(axes, _less(y, x).T, strict=True):
         columns = _less(in_band(known, taken[:, i]), x)
@@ -189,22 +229,25 @@ def _sizes(trial: Trial, half_variance: float) -> dict[str, list[float]]:
     sizes = {}
     for name, kind in KINDS.items():
         if kind.variance:
-            start, steps = float(np.sqrt(2.0 * half_variance / kind.variance)), TRIED
+            sizes[name] = _times(np.sqrt(2.0 * half_variance / kind.variance), TRIED)
         else:
-            start, steps = quick, range(count)
-        sizes[name] = [start * STEP**k for k in steps]
+            sizes[name] = _times(quick, range(count))
     return sizes
 
 
-def _finest(kind: str, sizes: list[float], left: Left) -> Smoothing:
-    """The filter of a kind, its size within ``sizes``, that leaves least."""
-    tried = [Smoothing(kind, size) for size in sizes]
+def _times(start: float, steps: range) -> list[float]:
+    return [float(start * STEP**k) for k in steps]
+
+
+def _finest(make: Callable, sizes: list[float], left: Left) -> Filter:
+    """The filter that leaves least of those that ``make`` makes of a ``size`` within ``sizes``."""
+    tried = [make(size=size) for size in sizes]
     at = min(range(len(tried)), key=lambda i: left(tried[i]))
     near = sizes[max(at - 1, 0)], sizes[min(at + 1, len(sizes) - 1)]
     found = minimize_scalar(
-        lambda x: left(Smoothing(kind, float(np.exp(x)))),
+        lambda x: left(make(size=float(np.exp(x)))),
         bounds=tuple(np.log(near)),
         method="bounded",
         options={"xatol": CLOSE},
     )
-    return min((tried[at], Smoothing(kind, float(np.exp(found.x)))), key=left)
+    return min((tried[at], make(size=float(np.exp(found.x)))), key=left)

@@ -57,7 +57,7 @@ package Adis16405 "Analog Devices ADIS16405, industrial IMU with magnetometer"
       478051251, 90524402, 2197640765});
     PyImu.Effects.Saturation.Accel saturation(samplePeriod=samplePeriod, y0=y0, limit={176.5197,
       176.5197, 176.5197})
-      "Input range, saturation; limit: ADIS16400/ADIS16405 data sheet Rev. B, table 1, unchecked";
+      "Input range, saturation; limit: ADIS16400/ADIS16405 data sheet Rev. B, table 1, second-hand (Linux, drivers/iio/imu/adis16400.h)";
     PyImu.Effects.Quantization.Accel quantization(samplePeriod=samplePeriod, y0=y0,
       q={0.0326561445, 0.0326561445, 0.0326561445})
       "Resolution, quantization; q: 3.33 mg per LSB, ADIS16400/ADIS16405 data sheet Rev. B, table 1, second-hand (Linux, drivers/iio/imu/adis16400.c)";
@@ -93,8 +93,8 @@ package Adis16405 "Analog Devices ADIS16405, industrial IMU with magnetometer"
 
   annotation(Documentation(info="<html>
 <p>Analog Devices ADIS16405, industrial IMU with magnetometer.</p>
-<p>Sampled at 819.2 Hz (ADIS16400/ADIS16405 data sheet Rev. B, register SMPL_PRD, default 819.2
-samples/s, unchecked). Coefficients are in SI units; their sources stand behind the blocks that have
+<p>Sampled at 819.2 Hz (ADIS16400/ADIS16405 data sheet Rev. B, page 10, basic operation, default
+819.2 samples/s). Coefficients are in SI units; their sources stand behind the blocks that have
 them.</p>
 </html>"));
 end Adis16405;

@@ -23,7 +23,7 @@ package Adis16448 "Analog Devices ADIS16448, industrial ten-axis IMU of visual-i
       1097797555, 1484013298, 3756794429});
     PyImu.Effects.Saturation.Gyro saturation(samplePeriod=samplePeriod, y0=y0,
       limit={17.453292519943297, 17.453292519943297, 17.453292519943297})
-      "Input range, saturation; limit: ADIS16448 data sheet, table 1, unchecked";
+      "Input range, saturation; limit: ADIS16448 data sheet, page 1, features";
     PyImu.Effects.Quantization.Gyro quantization(samplePeriod=samplePeriod, y0=y0,
       q={0.0006981317007977319, 0.0006981317007977319, 0.0006981317007977319})
       "Resolution, quantization; q: 0.04 deg/s per LSB, ADIS16448 data sheet, table 1, second-hand (Linux, adis16400.c, scales of the ADIS16448)";
@@ -57,7 +57,7 @@ package Adis16448 "Analog Devices ADIS16448, industrial ten-axis IMU of visual-i
       478051251, 90524402, 2197640765});
     PyImu.Effects.Saturation.Accel saturation(samplePeriod=samplePeriod, y0=y0, limit={176.5197,
       176.5197, 176.5197})
-      "Input range, saturation; limit: ADIS16448 data sheet, table 1, unchecked";
+      "Input range, saturation; limit: ADIS16448 data sheet, page 1, features (at least 18 g)";
     PyImu.Effects.Quantization.Accel quantization(samplePeriod=samplePeriod, y0=y0,
       q={0.008168939449999999, 0.008168939449999999, 0.008168939449999999})
       "Resolution, quantization; q: 0.833 mg per LSB, ADIS16448 data sheet, table 1, second-hand (Linux, adis16400.c, scales of the ADIS16448)";
@@ -94,6 +94,7 @@ package Adis16448 "Analog Devices ADIS16448, industrial ten-axis IMU of visual-i
   annotation(Documentation(info="<html>
 <p>Analog Devices ADIS16448, industrial ten-axis IMU of visual-inertial rigs.</p>
 <p>Sampled at 819.2 Hz (ADIS16448 data sheet, table 1, internal sample rate 819.2 samples/s,
-unchecked). Coefficients are in SI units; their sources stand behind the blocks that have them.</p>
+second-hand (PX4, Analog_Devices_ADIS16448_registers.hpp)). Coefficients are in SI units; their
+sources stand behind the blocks that have them.</p>
 </html>"));
 end Adis16448;

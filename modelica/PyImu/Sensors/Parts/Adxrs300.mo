@@ -15,7 +15,7 @@ package Adxrs300 "Analog Devices ADXRS300, analog gyro of a single axis"
       channel={2090672062, 1471171709, 1319861564});
     PyImu.Effects.Saturation.Gyro saturation(samplePeriod=samplePeriod, y0=y0,
       limit={5.235987755982989, 5.235987755982989, 5.235987755982989})
-      "Input range, saturation; limit: ADXRS300 data sheet Rev. B, page 3, specifications, full-scale range over specifications range, unchecked";
+      "Input range, saturation; limit: ADXRS300 data sheet Rev. B, page 3, specifications, full-scale range over specifications range, second-hand (IMUSim, platforms/gyroscopes.py)";
   equation
     connect(rate, angleRandomWalk.x);
     connect(angleRandomWalkNormals.y, angleRandomWalk.w);

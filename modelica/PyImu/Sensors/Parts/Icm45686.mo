@@ -39,10 +39,10 @@ package Icm45686 "TDK InvenSense ICM-45686, high-precision six-axis IMU"
       channel={562850750, 178337917, 330959164});
     PyImu.Effects.Saturation.Accel saturation(samplePeriod=samplePeriod, y0=y0, limit={156.9064,
       156.9064, 156.9064})
-      "Input range, saturation; limit: ICM-45686 data sheet DS-000577, table 2, unchecked";
+      "Input range, saturation; limit: ICM-45686 data sheet DS-000577, table 2, second-hand (Linux, drivers/iio/imu/inv_icm45600)";
     PyImu.Effects.Quantization.Accel quantization(samplePeriod=samplePeriod, y0=y0,
       q={0.0047884033203125, 0.0047884033203125, 0.0047884033203125})
-      "Resolution, quantization; q: 2048 LSB/g, ICM-45686 data sheet DS-000577, table 2, unchecked";
+      "Resolution, quantization; q: 2048 LSB/g, ICM-45686 data sheet DS-000577, table 2, second-hand (Linux, drivers/iio/imu/inv_icm45600)";
   equation
     connect(specificForce, angleRandomWalk.x);
     connect(angleRandomWalkNormals.y, angleRandomWalk.w);

@@ -39,7 +39,7 @@ package Lsm6dsox "STMicroelectronics LSM6DSOX, consumer six-axis IMU with machin
       channel={562850750, 178337917, 330959164});
     PyImu.Effects.Saturation.Accel saturation(samplePeriod=samplePeriod, y0=y0, limit={19.6133,
       19.6133, 19.6133})
-      "Input range, saturation; limit: LSM6DSOX data sheet DS12814, table 2, unchecked";
+      "Input range, saturation; limit: LSM6DSOX data sheet DS12814, page 1, features, the least of its ranges";
     PyImu.Effects.Quantization.Accel quantization(samplePeriod=samplePeriod, y0=y0,
       q={0.00059820565, 0.00059820565, 0.00059820565})
       "Resolution, quantization; q: 0.061 mg per LSB, LSM6DSOX data sheet DS12814, table 2, second-hand (a driver that quotes the data sheet's sensitivity)";

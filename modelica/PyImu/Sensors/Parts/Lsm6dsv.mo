@@ -74,6 +74,7 @@ package Lsm6dsv "STMicroelectronics LSM6DSV, six-axis IMU for augmented reality 
   annotation(Documentation(info="<html>
 <p>STMicroelectronics LSM6DSV, six-axis IMU for augmented reality and drones.</p>
 <p>Sampled at 480 Hz (LSM6DSV data sheet DS13476, table of output data rates, one of them,
-unchecked). Coefficients are in SI units; their sources stand behind the blocks that have them.</p>
+second-hand (ST, STMems_Standard_C_drivers, lsm6dsv_reg.h)). Coefficients are in SI units; their
+sources stand behind the blocks that have them.</p>
 </html>"));
 end Lsm6dsv;

@@ -15,7 +15,7 @@ package Sparkfun6dofV2 "SparkFun IMU 6 Degrees of Freedom v2 (ADXRS300, MMA7260Q
       channel={2090672062, 1471171709, 1319861564});
     PyImu.Effects.Saturation.Gyro saturation(samplePeriod=samplePeriod, y0=y0,
       limit={5.235987755982989, 5.235987755982989, 5.235987755982989})
-      "Input range, saturation; limit: ADXRS300 data sheet Rev. B, page 3, specifications, full-scale range over specifications range, unchecked";
+      "Input range, saturation; limit: ADXRS300 data sheet Rev. B, page 3, specifications, full-scale range over specifications range, second-hand (IMUSim, platforms/gyroscopes.py)";
     PyImu.Effects.Quantization.Gyro quantization(samplePeriod=samplePeriod, y0=y0,
       q={0.017044230976507126, 0.017044230976507126, 0.017044230976507126})
       "Resolution, quantization; q: 1.024 LSB/(deg/s) of 1024 steps of 5 V at 5 mV/(deg/s), ADXRS300 data sheet Rev. B, page 3, sensitivity and supply; 10 bits: PIC16F88 data sheet DS30487, page 1, unchecked";
