@@ -399,7 +399,8 @@ def test_any_part_reads_back_equal(v, choice, one_sided, text, estimate):
         },
     )
     leave = frozenset({("gyro", "thermal_bias", "kT")}) if estimate else frozenset()
-    made = Part("x" + text[:LONG], 1 / 0.3, gyro=gyro, notes=notes, estimate=leave, description=text)
+    name = "x" + text[:LONG]
+    made = Part(name, 1 / 0.3, gyro=gyro, notes=notes, estimate=leave, description=text)
     assert parse_part(format_part(made)) == made
 
 
