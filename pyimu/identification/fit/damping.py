@@ -41,13 +41,21 @@ def damping(current: Fit, by_sensor: bool = False) -> tuple[float, float]:
     return gain, along_all / power_all if power_all else 0.0
 
 
+def slopes(trial: Trial, values: np.ndarray) -> np.ndarray:
+    """Rates of change of values (n, k) within a trial's segments: beside them nothing is known."""
+    out = np.zeros(values.shape)
+    for a, b in trial.segments:
+        if b - a > 1:
+            out[a:b] = np.gradient(values[a:b], trial.h, axis=0)
+    return out
+
+
 def _by_reference(trial: Trial, turn: np.ndarray) -> list[np.ndarray]:
     """The motion and two derivatives of it (m, 3) each, in the trial's band."""
     own, rate = (trial.u[:, at] for at in (OWN[trial.kind], own_rate(trial.kind)))
-    return [in_band(trial, v @ turn) for v in (own, rate, np.gradient(rate, trial.h, axis=0))]
+    return [in_band(trial, v @ turn) for v in (own, rate, slopes(trial, rate))]
 
 
 def _by_sensor(trial: Trial) -> list[np.ndarray]:
-    first = np.gradient(trial.y, trial.h, axis=0)
-    second = np.gradient(first, trial.h, axis=0)
-    return [in_band(trial, v) for v in (trial.y, first, second)]
+    first = slopes(trial, trial.y)
+    return [in_band(trial, v) for v in (trial.y, first, slopes(trial, first))]

@@ -17,7 +17,7 @@ from scipy.ndimage import gaussian_filter1d
 from scipy.optimize import minimize_scalar
 
 from pyimu.identification.fit.columns import in_band
-from pyimu.identification.fit.damping import damping
+from pyimu.identification.fit.damping import damping, slopes
 from pyimu.identification.fit.interpolated import TAPS, delayed
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.reference.align import fitted_structure
@@ -174,7 +174,7 @@ def _power_alike(
         return np.inf
     known, axes = replace(trial, segments=inner), list(trial.axes)
     # The clock is as it was measured beside the filter.
-    slope = np.gradient(trial.y, trial.h, axis=0)
+    slope = slopes(trial, trial.y)
     x, moved, y = (in_band(known, v[:, axes]) for v in (trial.y, slope, u))
     x = np.column_stack([np.ones(len(x)), x, moved])
     total = 0.0
@@ -192,18 +192,17 @@ def _taken(trial: Trial) -> np.ndarray:
     By the sensor itself, whose noise has nothing in common with the reference's: the power that is
     left would reward a filter that is too weak, as it leaves the noise of the reference as it is.
     """
-    out, width = np.zeros((len(trial.u), 3, 5)), 0.1 / (trial.band_hz * trial.h)
+    width = 0.1 / (trial.band_hz * trial.h)
+    rate = np.zeros(trial.y.shape)
+    for a, b in trial.segments:
+        rate[a:b] = gaussian_filter1d(trial.y[a:b], width, axis=0)
 
     def slope(values: np.ndarray, times: int) -> np.ndarray:
-        return slope(np.gradient(values, trial.h, axis=0), times - 1) if times else values
+        return slope(slopes(trial, values), times - 1) if times else values
 
-    for a, b in trial.segments:
-        if b - a > 1:
-            rate = gaussian_filter1d(np.nan_to_num(trial.y[a:b]), width, axis=0)
-            product = np.cross(rate, slope(rate, 1))
-            columns = (*(slope(rate, times) for times in (2, 4, 6)), product, slope(product, 2))
-            out[a:b] = np.stack(columns, axis=2)
-    return out
+    product = np.cross(rate, slope(rate, 1))
+    columns = (*(slope(rate, times) for times in (2, 4, 6)), product, slope(product, 2))
+    return np.stack(columns, axis=2)
 
 
 def _turned(trial: Trial, a: int, b: int) -> np.ndarray | None:
