@@ -12,7 +12,7 @@ from pyimu.identification.fit.trial import Trial
 from pyimu.identification.held_out import clock_of
 from pyimu.identification.search.forward import Investigation
 from pyimu.recording.reference.unlagged import LAG
-from pyimu.recording.reference.unsmoothed import SMOOTHED
+from pyimu.recording.reference.unsmoothed import HIGHEST, SMOOTHED
 from pyimu.report.numbers import joined, number
 
 FEW = 3
@@ -60,10 +60,11 @@ def _smooth(smoothed: list[dict]) -> str:
     if not smoothed:
         return ""
     most = max(smoothed, key=lambda s: s["seconds"])
-    by = f"as by {most['filter']} {_time(most['seconds'])}"
+    below = number(most[HIGHEST])
+    by = f"as by {most['filter']} {_time(most['seconds'])} and is used below {below} Hz"
     if len(smoothed) == 1:
         return f"the reference of {most['recording']} was smoothed {by}"
-    return f"{len(smoothed)} references were smoothed, that of {most['recording']} {by}"
+    return f"{len(smoothed)} references were smoothed; that of {most['recording']} {by}"
 
 
 def _trials(found: Mapping[str, Investigation]) -> Iterable[tuple[Investigation, Trial]]:

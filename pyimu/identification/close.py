@@ -31,12 +31,11 @@ from pyimu.identification.made_with import called
 from pyimu.identification.reference.align import in_band_of
 from pyimu.identification.reference.belongs import misfit
 from pyimu.identification.reference.gravity import few, rest_trials
-from pyimu.identification.reference.lagging import unlagged_logs
 from pyimu.identification.reference.place import is_differentiated
 from pyimu.identification.reference.positions import positions_wanted, unshown
-from pyimu.identification.reference.smoothed import unsmoothed_logs
 from pyimu.identification.reference.turned import with_turned_force
 from pyimu.identification.reference.turns import turn_trials
+from pyimu.identification.reference.unfiltered import unfiltered_logs
 from pyimu.identification.result import Closed
 from pyimu.identification.search.ceiling import CEILING
 from pyimu.identification.search.forward import Investigation, investigate
@@ -142,11 +141,10 @@ def _on_time(
     """
     logs, others = list(map(held_apart, logs)), list(map(held_apart, others))
     turning = aligned_trials(sensor, gyro_trial, logs, others, latitude)
-    undone = (undo(turning, sensor, logs, others) for undo in (unlagged_logs, unsmoothed_logs))
-    better = next((given for given in undone if given is not None), None)
-    if better is None:
+    unfiltered = unfiltered_logs(turning, sensor, logs, others)
+    if unfiltered is None:
         return logs, others, turning
-    return *better, aligned_trials(sensor, gyro_trial, *better, latitude)
+    return *unfiltered, aligned_trials(sensor, gyro_trial, *unfiltered, latitude)
 
 
 def _investigated(

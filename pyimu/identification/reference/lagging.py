@@ -8,6 +8,7 @@ its output and the time constant times that one's slope.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import cache, partial
 
@@ -42,26 +43,10 @@ LONGEST = 2.0
 """Times the time constant to begin with that one may be."""
 
 
-def unlagged_logs(
-    trials: tuple[list[Trial], list[Trial]],
-    sensor: Sensor,
-    logs: list[Recording],
-    others: list[Recording],
-) -> tuple[list[Recording], list[Recording]] | None:
-    """``logs`` and ``others`` with references that do not lag; None where none does.
-
-    ``trials`` are the gyro's of both, their references on the sensor's clock. A reference that
-    lagged has a finding that says so.
-    """
-    lags = {t.name: _lag(t, sensor) for ts in trials for t in ts if may_lag(t)}
-    if not any(lags.values()):
-        return None
-    fitted, apart = ([_without(r, lags.get(r.name)) for r in rs] for rs in (logs, others))
-    return fitted, apart
-
-
-def _without(recording: Recording, lag: float | None) -> Recording:
-    return recording if lag is None else unlagged(recording, lag)
+def without_lag(trial: Trial, sensor: Sensor) -> Callable[[Recording], Recording] | None:
+    """What takes the lag out of the reference of a trial's log; None where it has none."""
+    lag = _lag(trial, sensor) if may_lag(trial) else None
+    return None if lag is None else partial(unlagged, lag=lag)
 
 
 def may_lag(trial: Trial) -> bool:

@@ -89,27 +89,14 @@ Filter = Smoothing | Lag
 Left = Callable[[Filter], float]
 
 
-def unsmoothed_logs(
-    trials: tuple[list[Trial], list[Trial]],
-    sensor: Sensor,
-    logs: list[Recording],
-    others: list[Recording],
-) -> tuple[list[Recording], list[Recording]] | None:
-    """``logs`` and ``others`` with references as they were before a filter; None where none was
-    behind one. ``trials`` are the gyro's of both, their references on the sensor's clock.
-    """
-    found = {t.name: _filter(t, sensor) for ts in trials for t in ts if _may_be(t)}
-    if not any(found.values()):
-        return None
-    fitted, apart = ([_without(r, found.get(r.name)) for r in rs] for rs in (logs, others))
-    return fitted, apart
-
-
-def _without(recording: Recording, found: Filter | None) -> Recording:
+def without_filter(trial: Trial, sensor: Sensor) -> Callable[[Recording], Recording] | None:
+    """What takes a filter out of the reference of a trial's log; None where it is behind none."""
+    found = _filter(trial, sensor) if _may_be(trial) else None
     if found is None:
-        return recording
-    lags = isinstance(found, Lag)
-    return unlagged(recording, found.size) if lags else unsmoothed(recording, found)
+        return None
+    if isinstance(found, Lag):
+        return partial(unlagged, lag=found.size)
+    return partial(unsmoothed, smoothing=found)
 
 
 def _may_be(trial: Trial) -> bool:

@@ -71,9 +71,7 @@ def lag_beside_clocks(current: Fit, gate: float) -> Beside | None:
     """
     forms = _forms(current)
     hides = all(map(_may_hide_a_lag, current.trials))
-    if not forms or not hides:
-        return None
-    if not _damps_more(damping(current), gate):
+    if not forms or not hides or not _damps_more(damping(current), gate):
         return None
     wide = beside_clocks(current)
     # By the reference, whose noise damps, too, the sensor damps more than it does.
