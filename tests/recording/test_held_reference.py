@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
@@ -43,6 +43,7 @@ def sampled(hz, first):
 
 @settings(max_examples=40, deadline=None)
 @given(share=st.floats(0.08, 0.95), first=st.floats(0.0, 0.99))
+@example(share=0.4995, first=0.2499)
 def test_samples_of_any_rate_are_placed_within_the_row_that_shows_them_first(share, first):
     """Spaced as they were taken; of all places the latest."""
     node, latest = sampled(share / ROW, first)
@@ -53,8 +54,12 @@ def test_samples_of_any_rate_are_placed_within_the_row_that_shows_them_first(sha
     taken = node[np.unique(latest)]
     assert len(own) == len(taken)
     late = (own - taken)[1:]
-    assert np.all(late > -0.5 * ROW) and np.all(late < 1.05 * ROW)
-    # Where the rates are so near to a simple ratio that they hardly beat, a drift may be left.
+    # Where the rates are so near to a simple ratio that they hardly beat, and rows wait for parts
+    # of a row alone, a drift may be left.
+    waits = np.sort((TIME[np.flatnonzero(np.diff(latest)) + 1] - taken[1:]) / ROW % 1.0)
+    widest = np.max(np.diff(waits, append=waits[0] + 1.0))
+    least = -0.5 if widest < 0.1 else -1.0
+    assert np.all(late > least * ROW) and np.all(late < 1.05 * ROW)
     number = np.arange(len(late))
     assert np.ptp(late - np.polyval(np.polyfit(number, late, 1), number)) < 0.1 * ROW
 

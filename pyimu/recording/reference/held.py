@@ -79,22 +79,25 @@ def _even(time: np.ndarray, row: float) -> np.ndarray | None:
     if len(seen) <= WINDOW:
         return None
     number = np.arange(len(seen))
-    line = np.polyfit(number, seen, 1)
-    if np.ptp(seen - np.polyval(line, number)) >= LATEST * row:
+    line, late = _narrowest(number, seen, np.polyfit(number, seen, 1))
+    if np.ptp(late) >= LATEST * row:
         number, line = _counted(seen)
-    line = line + _narrowest(number, seen - np.polyval(line, number))
-    late = seen - np.polyval(line, number)
+        line, late = _narrowest(number, seen, line)
     even = UNEVEN * row < np.ptp(late) < LATEST * row and np.all(np.diff(number) > 0)
     numbers = np.append(number[0] - 1, number)
     return np.polyval(line, numbers) + late.min() if even else None
 
 
-def _narrowest(number: np.ndarray, late: np.ndarray) -> np.ndarray:
-    """The line (2,) about which ``late`` (k,) s spreads least.
+def _narrowest(
+    number: np.ndarray, seen: np.ndarray, line: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """The line (2,) about which ``seen`` (k,) s spreads least, and by how much each is later than
+    it (k,) s, from a ``line`` near it on.
 
     Delays of at most a row bound the line, however they come; of few slow beats between the two
     rates, least squares follow these.
     """
+    late = seen - np.polyval(line, number)
     scale = max(float(np.ptp(late)), 1e-12), max(float(np.ptp(number)), 1.0)
     points = np.column_stack([number / scale[1], late / scale[0]])
     edge = points[ConvexHull(points, qhull_options="QJ").vertices]
@@ -103,7 +106,8 @@ def _narrowest(number: np.ndarray, late: np.ndarray) -> np.ndarray:
     bounds = np.hstack([np.vstack([-sides, sides]), -np.ones((2 * len(edge), 1))])
     limits = np.concatenate([-edge[:, 1], edge[:, 1]])
     found = linprog([0.0, 0.0, 1.0], A_ub=bounds, b_ub=limits, bounds=(None, None)).x
-    return found[:2] * [scale[0] / scale[1], scale[0]]
+    line = line + found[:2] * [scale[0] / scale[1], scale[0]]
+    return line, seen - np.polyval(line, number)
 
 
 def _counted(seen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
