@@ -11,8 +11,8 @@ from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.held_out import clock_of
 from pyimu.identification.search.forward import Investigation
-from pyimu.recording.reference.unlagged import LAG
-from pyimu.recording.reference.unsmoothed import HIGHEST, SMOOTHED
+from pyimu.recording.reference.unlagged import HIGHEST, LAG
+from pyimu.recording.reference.unsmoothed import SMOOTHED
 from pyimu.report.numbers import joined, number
 
 FEW = 3

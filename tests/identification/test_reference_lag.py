@@ -4,9 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from loop_cases import smooth
 from scipy.interpolate import CubicSpline
 from scipy.signal import butter, sosfilt
-from scipy.spatial.transform import Rotation, Slerp
+from scipy.spatial.transform import Rotation, RotationSpline, Slerp
 from world import N_GYRO, drive, recording
 
 import pyimu
@@ -51,6 +52,46 @@ def test_a_reference_that_is_merely_late_is_not_filtered(world, early):
     closed = pyimu.close(replace(log, ref_force=None, ref_rate=late))
     assert not [f for f in closed.quality if f.kind == "reference_lag"]
     assert closed.references[0]["clock_offset"]["value"] == pytest.approx(-early, abs=2e-4)
+
+
+def hand(seed: int, seconds: float = 90.0) -> tuple[np.ndarray, Rotation, np.ndarray]:
+    """Times, attitudes and rates of what is turned by hand."""
+    rng, time = np.random.default_rng(seed), np.arange(0.0, seconds, 0.01)
+    turn = Rotation.from_euler("ZYX", smooth(rng, time, 0.4, highest=1.0) * [1.0, 0.8, 1.0])
+    return time, turn, RotationSpline(time, turn)(time, 1)
+
+
+@pytest.mark.parametrize("noise", [1e-3, 6e-3], ids=["camera", "poor camera"])
+def test_an_attitude_in_noise_behind_a_low_pass_is_undone(noise):
+    """The noise that a slope makes larger hid the filter, and was coning of -4 where it did not.
+    Of eight logs the time constant was right to 0.25 and 1.5 %, root mean square."""
+    time, turn, rate = hand(seed=31)
+    rng = np.random.default_rng(32)
+    gyro = rate + 1e-3 * rng.standard_normal(rate.shape)
+    q = turn.as_quat(scalar_first=True)
+    turned = np.sum(q[1:] * q[:-1], axis=1) < 0
+    low = filtered(time, q * np.where(np.cumsum(np.append(False, turned)) % 2, -1.0, 1.0)[:, None])
+    low = Rotation.from_quat(low, scalar_first=True)
+    told = low * Rotation.from_rotvec(noise * rng.standard_normal(rate.shape))
+    ref_q = told.as_quat(scalar_first=True)
+    closed = pyimu.close(pyimu.Recording.from_arrays("hand", time=time, gyro=gyro, ref_q=ref_q))
+    (found,) = [f for f in closed.quality if f.kind == "reference_lag"]
+    assert found.detail["time_constant"] == pytest.approx(TIME_CONSTANT, rel=10.0 * noise)
+    assert not closed.added and not closed.formulas, closed.report()
+    assert closed.verdict not in ("unexplained", "partly", "not_confirmed"), closed.report()
+
+
+def test_the_noise_of_a_gyro_on_an_early_clock_is_no_filter_of_the_reference():
+    """In regressors it looks as if the reference damped what is quick, by 130 nat here, but by
+    other shares than a filter."""
+    time, _, rate = hand(seed=33, seconds=600.0)
+    rng = np.random.default_rng(34)
+    late = CubicSpline(time, rate)(time - 0.02) + 2e-4 * rng.standard_normal(rate.shape)
+    gyro = rate + 0.3 * rng.standard_normal(rate.shape)
+    log = pyimu.Recording.from_arrays("noisy", time=time, gyro=gyro, ref_rate=late)
+    closed = pyimu.close(log)
+    assert not [f for f in closed.quality if f.kind == "reference_lag"], closed.report()
+    assert not closed.added and not closed.formulas, closed.report()
 
 
 def test_what_undoes_a_filter_undoes_it_on_quaternions_too():

@@ -93,6 +93,17 @@ def test_a_smoothed_rate_is_undone():
     assert not blamed(closed), closed.report()
 
 
+def test_a_filter_that_hardly_damps_the_motion_is_undone():
+    """Its gain falls with the fourth power of the frequency, and the motion is far below: a cubic
+    scale factor took its place."""
+    hand = Hand(seed=16)
+    low = butter(2, 5.4, fs=1 / H, output="sos")
+    closed = pyimu.close(hand.log(ref_rate=sosfiltfilt(low, hand.rate, axis=0)))
+    (found,) = found_in(closed)
+    assert found.detail["seconds"] == pytest.approx(1.0 / (2.0 * np.pi * 5.4), rel=0.03)
+    assert not blamed(closed), closed.report()
+
+
 def low_passed(rate, tau):
     kept = np.exp(-H / tau)
     return lfilter([1.0 - kept], [1.0, -kept], rate, axis=0)

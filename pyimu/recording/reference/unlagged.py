@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from scipy.signal import butter, sosfiltfilt
 from scipy.spatial.transform import Rotation
 
 from pyimu.errors import Finding
@@ -17,8 +18,16 @@ from pyimu.recording.reference.nodes import own_samples
 LAG = "reference_lag"
 """The finding of a reference that lagged."""
 
-FILTERED = ("rate", "attitude")
-"""Kinds of reference that a filter may have smoothed."""
+HIGHEST = "highest_frequency"
+"""The detail of a finding that says up to what frequency [Hz] a reference may be used."""
+
+BEYOND, CUT_OFF, ORDER = 1.5, 2.0, 6
+"""Times the frequencies of its motion up to which an attitude that lagged is used, and from which
+on its lag stays; by a filter of this order run both ways, which takes 3 % of the slope there, and
+0.02 % where it moves."""
+
+SETTLED = 3.0
+"""Periods of a filter's cut-off by which values are gone on with beyond their ends."""
 
 
 def slope(time: np.ndarray, values: np.ndarray) -> np.ndarray:
@@ -28,29 +37,23 @@ def slope(time: np.ndarray, values: np.ndarray) -> np.ndarray:
     return CubicSpline(time, values)(time, 1) if len(time) > 3 else np.zeros_like(values)
 
 
-def unlagged_rate(time: np.ndarray, rate: np.ndarray, lag: float, kind: str) -> np.ndarray:
-    """What a filter of time constant ``lag`` s made the ``rate`` (n, 3) rad/s of, at ``time``.
-
-    A rate was filtered axis by axis, w + lag w'. A quaternion q was, too: q + lag q' turns by
-    lag w in the body, and the rate is that of both turns (the right Jacobian of SO(3) to second
-    order, Sola et al. 2018, "A micro Lie theory", eq. 143).
-    """
-    change = slope(time, rate)
-    quick = rate + lag * change
-    return quick - lag**2 / 2 * np.cross(rate, change) if kind == "attitude" else quick
-
-
-def unlagged(recording: Recording, lag: float) -> Recording:
+def unlagged(recording: Recording, lag: float, motion: float = np.inf) -> Recording:
     """The recording with the reference that went into a filter of time constant ``lag`` s: its
-    ``ref_rate``, or its ``ref_q``.
+    ``ref_rate``, or its ``ref_q``, which moves at frequencies up to ``motion`` Hz.
 
     It has samples of its own from then on, so that a rate is used in the band alone in which the
-    sensor shows it: above the filter's its noise is what the lag has made larger.
+    sensor shows it: above the filter's its noise is what the lag has made larger. Of an attitude
+    that is left out: turns as quick as the noise of many samples do not add up, and the products of
+    what is left over look like coning.
     """
     source = recording if recording.reference is None else recording.reference
-    rate = source.ref_rate is not None
-    quick = replace(source, ref_rate=_rate(source, lag)) if rate else _attitude(source, lag)
-    found = Finding(LAG, "ref_rate" if rate else "ref_q", 1, {"time_constant": lag})
+    if source.ref_rate is not None:
+        quick, group, more = replace(source, ref_rate=_rate(source, lag)), "ref_rate", {}
+    else:
+        quick, group, more = _attitude(source, lag, motion), "ref_q", {}
+        if np.isfinite(motion):
+            more = {HIGHEST: BEYOND * motion}
+    found = Finding(LAG, group, 1, {"time_constant": lag, **more})
     return at_log(recording, replace(quick, findings=(*quick.findings, found)))
 
 
@@ -62,12 +65,14 @@ def _rate(source: Recording, lag: float) -> np.ndarray:
         for a, b in runs(seen[start:stop]):
             rows = slice(start + a, start + b)
             rate = np.where(known, out[rows], 0.0)
-            out[rows] = np.where(known, unlagged_rate(source.time[rows], rate, lag, "rate"), np.nan)
+            quick = rate + lag * slope(source.time[rows], rate)
+            out[rows] = np.where(known, quick, np.nan)
     return out
 
 
-def _attitude(source: Recording, lag: float) -> Recording:
-    """q + lag q' of a unit quaternion q turns it by 2 atan(lag |w| / 2) about w in the body.
+def _attitude(source: Recording, lag: float, motion: float) -> Recording:
+    """q + lag q' of a unit quaternion q turns it by 2 atan(lag |w| / 2) about w in the body, as far
+    as that is no quicker than ``motion`` Hz and some more.
 
     It has the samples that its rows were interpolated from, or the rows of what else the reference
     knows.
@@ -76,7 +81,7 @@ def _attitude(source: Recording, lag: float) -> Recording:
     quick = np.full_like(own.ref_q, np.nan)
     for nodes in attitude_track(own).segments:
         curve = attitude_curve(own, nodes)
-        rate = curve(own.time[nodes], 1)
+        rate = _below(curve(own.time[nodes], 1), own.time[nodes], CUT_OFF * motion)
         speed = np.linalg.norm(rate, axis=1, keepdims=True)
         turn = rate * 2.0 * np.arctan(lag * speed / 2.0) / np.maximum(speed, 1e-300)
         turned = curve(own.time[nodes]) * Rotation.from_rotvec(turn)
@@ -86,3 +91,14 @@ def _attitude(source: Recording, lag: float) -> Recording:
     if own is source or alone:
         return found
     return replace(source, ref_q=attitude_at(found, source.time))
+
+
+def _below(values: np.ndarray, time: np.ndarray, cut_off: float) -> np.ndarray:
+    """Values (n, k) at ``time`` (n,) s without what is above ``cut_off`` Hz, where they show it."""
+    rate = (len(time) - 1) / (time[-1] - time[0])
+    if not cut_off < 0.5 * rate:
+        return values
+    low = butter(ORDER, cut_off, fs=rate, output="sos")
+    return sosfiltfilt(
+        low, values, axis=0, padlen=min(len(values) - 1, int(SETTLED * rate / cut_off))
+    )

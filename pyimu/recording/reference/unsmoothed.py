@@ -16,10 +16,8 @@ import numpy as np
 from scipy.ndimage import gaussian_filter1d
 from scipy.optimize import brentq
 from scipy.signal import butter, sosfiltfilt
-from scipy.spatial.transform import Rotation
 
 from pyimu.errors import Finding
-from pyimu.recording.integration import integrated
 from pyimu.recording.recording import Recording, at_own_times
 from pyimu.recording.reference.attitude import (
     attitude_at,
@@ -28,8 +26,10 @@ from pyimu.recording.reference.attitude import (
     one_sign,
 )
 from pyimu.recording.reference.file import TRUTHS, at_log
+from pyimu.recording.reference.filters import seen_through, units
 from pyimu.recording.reference.nodes import own_samples
 from pyimu.recording.reference.track import LEAST_NODES, Track, fresh, known_axes
+from pyimu.recording.reference.unlagged import HIGHEST
 
 SMOOTHED = "reference_smoothed"
 """The finding of a reference that was smoothed."""
@@ -40,9 +40,6 @@ taken for another, would be three times as large."""
 
 ROUNDS = 16
 """After so many, what passes ``CLEARLY`` or more is restored to 0.01 %."""
-
-HIGHEST = "highest_frequency"
-"""The detail of the finding that says up to what frequency [Hz] a reference may be used."""
 
 
 def _steps() -> np.ndarray:
@@ -165,7 +162,7 @@ class Smoothing:
         for step in STEPS:
             q = self._of(found, h)
             missed = smoothed * np.linalg.norm(q, axis=1, keepdims=True) - q
-            found = _units(found + step * self._of(missed, h))
+            found = units(found + step * self._of(missed, h))
         return found
 
     def vectors(self, smoothed: np.ndarray, h: float) -> np.ndarray:
@@ -175,13 +172,11 @@ class Smoothing:
             found = found + step * self._of(smoothed - self._of(found, h), h)
         return found
 
-    def rate(self, rate: np.ndarray, h: float, turned: np.ndarray | None) -> np.ndarray:
-        """The ``rate`` (n, 3) rad/s of a reference before it was smoothed, of attitudes where it
-        has ``turned`` (n, 4) by it.
+    def seen(self, rate: np.ndarray, h: float, turned: np.ndarray | None) -> np.ndarray:
+        """What is seen of a ``rate`` (n, 3) rad/s that was smoothed, or of attitudes (n, 4) that
+        were, by which the body has ``turned``.
         """
-        if turned is None:
-            return self.vectors(rate, h)
-        return rate + _rate(self.attitudes(turned, h), h) - _rate(turned, h)
+        return seen_through(lambda values: self._of(values, h), rate, h, turned)
 
     def reach(self, h: float) -> int:
         """Rows at either end that nobody can restore: what was smoothed with them is unknown."""
@@ -205,9 +200,9 @@ def unsmoothed(recording: Recording, smoothing: Smoothing) -> Recording:
 
 
 def restored_up_to(source: Recording | None) -> float:
-    """Highest frequency [Hz] at which a reference may be used, inf where none was smoothed."""
+    """Highest frequency [Hz] at which a reference may be used, inf where nothing was undone."""
     findings = () if source is None else source.findings
-    return min((f.detail[HIGHEST] for f in findings if f.kind == SMOOTHED), default=np.inf)
+    return min((f.detail[HIGHEST] for f in findings if HIGHEST in f.detail), default=np.inf)
 
 
 def _rates(source: Recording, smoothing: Smoothing) -> Recording | None:
@@ -248,23 +243,3 @@ def _inner(rows: np.ndarray, reach: int) -> tuple[np.ndarray, slice]:
     """The ``rows`` (n,) that lie ``reach`` from either end, and where; none of too few."""
     inner = slice(reach, len(rows) - reach)
     return (rows[inner], inner) if len(rows) >= 2 * reach + LEAST_NODES else (rows[:0], inner)
-
-
-def turned_by(rate: np.ndarray, h: float) -> np.ndarray:
-    """Quaternions (n, 4) of a body that turns at ``rate`` (n, 3) rad/s, ``h`` s apart."""
-    means = np.vstack([rate[:1], 0.5 * (rate[1:] + rate[:-1])])
-    return integrated(means, h, Rotation.identity()).as_quat(scalar_first=True)
-
-
-def _rate(q: np.ndarray, h: float) -> np.ndarray:
-    """Rates (n, 3) rad/s of quaternions ``h`` s apart, as the mean of both steps beside each."""
-    (w, v), (w1, v1) = ((p[:, :1], p[:, 1:]) for p in (q[:-1], q[1:]))
-    half = w * v1 - w1 * v - np.cross(v, v1)
-    size = np.linalg.norm(half, axis=1, keepdims=True)
-    cosine = np.sum(q[:-1] * q[1:], axis=1, keepdims=True)
-    steps = half * 2.0 / h * np.arctan2(size, cosine) / np.maximum(size, 1e-300)
-    return 0.5 * (np.vstack([steps[:1], steps]) + np.vstack([steps, steps[-1:]]))
-
-
-def _units(q: np.ndarray) -> np.ndarray:
-    return q / np.linalg.norm(q, axis=1, keepdims=True)

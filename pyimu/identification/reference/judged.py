@@ -1,0 +1,149 @@
+"""How well the sensor's motion behind a filter explains a reference."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import cached_property
+
+import numpy as np
+from scipy.ndimage import gaussian_filter1d
+
+from pyimu.identification.fit.columns import band_segments, band_time, in_band
+from pyimu.identification.fit.damping import slopes
+from pyimu.identification.fit.interpolated import delayed
+from pyimu.identification.fit.trial import Trial
+from pyimu.identification.fit.whiten import Autoregressive
+from pyimu.identification.reference.moving import moving_rows
+from pyimu.model.kinds import OWN
+from pyimu.recording.reference.filters import turned_by
+
+SHARE = 0.5
+"""Of the rows that must be left by the filters that are judged."""
+
+
+class Judge:
+    """Of filters what each leaves of a trial's reference, by one noise.
+
+    Rows that the filter that reaches furthest does not know are left out for all; one that leaves
+    less than ``SHARE`` of them is not judged. A filter that is None leaves the motion as it is.
+    """
+
+    def __init__(self, trial: Trial, filters: Sequence) -> None:
+        self.whole, self.known = trial, {}
+        reaches = [r for r in {f.reach(trial.h) for f in filters} if self._is_short(r)]
+        self.reach = max(reaches, default=0)
+        inner = [(a + self.reach, b - self.reach) for a, b in trial.segments]
+        self.trial = replace(trial, segments=[(a, b) for a, b in inner if b > a])
+        self.time, self.segments = band_time(self.trial), band_segments(self.trial)
+        self.shown = in_band(self.trial, trial.u[:, OWN[trial.kind]][:, list(trial.axes)])
+        self.noise: list[Autoregressive] = []
+        if reaches:
+            self._settle([f for f in filters if self._reaches(f)])
+
+    def left(self, one) -> float:
+        """Power of what a filter leaves of the reference, in units of its noise; inf where the
+        filter reaches too far.
+        """
+        return self._judged(one)[0]
+
+    def alike(self, one) -> float:
+        """That part of it which looks like what filters take away: what the motion's second, fourth
+        and sixth derivatives explain, and what other axes turn an axis by, to second order and to
+        fourth, less what these explain of noise.
+        """
+        return self._judged(one)[1]
+
+    def _reaches(self, one) -> bool:
+        return one is None or one.reach(self.whole.h) <= self.reach
+
+    def _is_short(self, reach: int) -> bool:
+        lengths = [b - a for a, b in self.whole.segments]
+        return sum(max(n - 2 * reach, 0) for n in lengths) >= SHARE * sum(lengths)
+
+    def _settle(self, filters: Sequence) -> None:
+        """The noise: that of the filter which leaves least as it stands."""
+        rest = [self.shown - _explained(self._columns(f), self.shown) for f in filters]
+        best = min(rest, key=lambda r: float(np.sum(np.square(r))))
+        self.noise = [Autoregressive.fit([(column, self.time, self.segments)]) for column in best.T]
+
+    def _judged(self, one) -> tuple[float, float]:
+        if not self.noise or not self._reaches(one):
+            return np.inf, np.inf
+        if one not in self.known:
+            columns, power, alike = self._columns(one), 0.0, 0.0
+            for i, noise in enumerate(self.noise):
+                y, x, more = self._white(noise, self.shown[:, [i]], columns, self._taken[i])
+                y, more = y - _explained(x, y), more - _explained(x, more)
+                more = more / np.maximum(np.linalg.norm(more, axis=0), 1e-300)
+                power += float(np.sum(y**2))
+                alike += float(np.sum(_explained(more, y) ** 2)) - more.shape[1]
+            self.known[one] = power, alike
+        return self.known[one]
+
+    def _white(self, noise: Autoregressive, *columns: np.ndarray) -> list[np.ndarray]:
+        """Columns beside white noise, less the rows on which samples without information weigh."""
+        white = noise.whiten(np.column_stack(columns), self.time, self.segments)
+        bad = ~moving_rows(self.trial)
+        if bad.any():
+            memory = np.ones(len(noise.coefficients) + 1)
+            white = white[np.convolve(bad, memory)[: len(bad)] == 0.0]
+        return np.split(white, np.cumsum([c.shape[1] for c in columns])[:-1], axis=1)
+
+    def _columns(self, one) -> np.ndarray:
+        """A bias, the motion behind the filter and what a clock makes of it (m, 7)."""
+        moved = self._behind(one)
+        x = self._with_slopes(moved)
+        # A clock that was measured beside the filter is a little off.
+        found = np.linalg.lstsq(x, self.shown)[0]
+        turn, late = found[1:4], found[4:7]
+        power = float(np.sum(turn * turn))
+        lead = float(np.sum(turn * late)) / power / self.whole.h if power > 0.0 else 0.0
+        if abs(lead) > 1e-3 and abs(lead) < self.reach:
+            for a, b in self.whole.segments:
+                moved[a:b] = delayed(moved[a:b], -lead)
+        return self._with_slopes(moved)
+
+    def _behind(self, one) -> np.ndarray:
+        trial, moved = self.whole, np.array(self.whole.y)
+        if one is not None:
+            for a, b in trial.segments:
+                turned = self._turned[a] if self._turned else None
+                moved[a:b] = one.seen(moved[a:b], trial.h, turned)
+        return moved
+
+    @cached_property
+    def _turned(self) -> dict[int, np.ndarray]:
+        """By what the body has turned in a segment, by its first row, beside an attitude."""
+        trial = self.whole
+        if trial.reference != "attitude":
+            return {}
+        return {a: turned_by(trial.y[a:b], trial.h) for a, b in trial.segments}
+
+    def _with_slopes(self, moved: np.ndarray) -> np.ndarray:
+        columns = np.column_stack([moved, slopes(self.whole, moved)])
+        x = in_band(self.trial, columns)
+        return np.column_stack([np.ones(len(x)), x])
+
+    @cached_property
+    def _taken(self) -> list[np.ndarray]:
+        """What filters take away (m, 5), of each axis."""
+        trial = self.whole
+        width = 0.1 / (trial.band_hz * trial.h)
+        rate = np.zeros(trial.y.shape)
+        for a, b in trial.segments:
+            rate[a:b] = gaussian_filter1d(trial.y[a:b], width, axis=0)
+
+        def slope(values: np.ndarray, times: int) -> np.ndarray:
+            return slope(slopes(trial, values), times - 1) if times else values
+
+        product = np.cross(rate, slope(rate, 1))
+        columns = (*(slope(rate, times) for times in (2, 4, 6)), product, slope(product, 2))
+        return [
+            in_band(self.trial, np.stack([c[:, i] for c in columns], axis=1)) for i in trial.axes
+        ]
+
+
+def _explained(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """What columns x (m, c) explain of y (m, k)."""
+    return x @ np.linalg.lstsq(x, y)[0]

@@ -1,0 +1,64 @@
+"""What a filter makes of a rate, and of the attitudes of a body that turns at it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from scipy.signal import lfilter
+from scipy.spatial.transform import Rotation
+
+from pyimu.recording.integration import integrated
+from pyimu.recording.reference.attitude import one_sign
+
+Filter = Callable[[np.ndarray], np.ndarray]
+"""Of values (n, k), evenly apart."""
+
+
+def seen_through(of: Filter, rate: np.ndarray, h: float, turned: np.ndarray | None) -> np.ndarray:
+    """What is seen of a ``rate`` (n, 3) rad/s, ``h`` s apart, where its axes go through a filter,
+    or the entries of the quaternions (n, 4) do that the body has ``turned`` by, before they are
+    made unit quaternions again. From where it starts makes no difference: filters are linear.
+    """
+    if turned is None:
+        return of(rate)
+    change = rate_of(units(of(turned)), h) - rate_of(turned, h)
+    # Means of neighbours, of rates that were integrated and of steps, damp by (w h)^2 / 4 of it.
+    change[1:-1] -= 0.25 * np.diff(change, 2, axis=0)
+    return rate + change
+
+
+def low_passed(values: np.ndarray, rows: float) -> np.ndarray:
+    """Values (n, k) behind a low-pass filter of first order with a time constant of so many
+    ``rows``; what came before the first was like it.
+    """
+    # The filter's answer to lines from row to row, which are less than what is quick by w^2 / 12.
+    values = np.array(values)
+    values[1:-1] -= np.diff(values, 2, axis=0) / 12.0
+    kept = np.exp(-1.0 / rows)
+    mean = rows * (1.0 - kept)
+    taps = [1.0 - mean, mean - kept]
+    return lfilter(taps, [1.0, -kept], values, axis=0, zi=mean * values[:1])[0]
+
+
+def turned_by(rate: np.ndarray, h: float) -> np.ndarray:
+    """Quaternions (n, 4) of a body that turns at ``rate`` (n, 3) rad/s, ``h`` s apart, without
+    jumps of sign.
+    """
+    means = np.vstack([rate[:1], 0.5 * (rate[1:] + rate[:-1])])
+    return one_sign(integrated(means, h, Rotation.identity()).as_quat(scalar_first=True))
+
+
+def rate_of(q: np.ndarray, h: float) -> np.ndarray:
+    """Rates (n, 3) rad/s of quaternions ``h`` s apart, as the mean of both steps beside each."""
+    (w, v), (w1, v1) = ((p[:, :1], p[:, 1:]) for p in (q[:-1], q[1:]))
+    half = w * v1 - w1 * v - np.cross(v, v1)
+    size = np.linalg.norm(half, axis=1, keepdims=True)
+    cosine = np.sum(q[:-1] * q[1:], axis=1, keepdims=True)
+    steps = half * 2.0 / h * np.arctan2(size, cosine) / np.maximum(size, 1e-300)
+    return 0.5 * (np.vstack([steps[:1], steps]) + np.vstack([steps, steps[-1:]]))
+
+
+def units(q: np.ndarray) -> np.ndarray:
+    """Quaternions (n, 4) of length one."""
+    return q / np.linalg.norm(q, axis=1, keepdims=True)
