@@ -12,6 +12,7 @@ from pyimu.recording.columns import GROUPS
 from pyimu.recording.recording import Recording, filled
 from pyimu.recording.reference.attitude import attitude_at, within
 from pyimu.recording.reference.epoch import time_apart
+from pyimu.recording.reference.sampling import for_rows, through
 from pyimu.recording.reference.track import Track, fresh, known_axes
 
 TRUTHS = tuple(name for name in GROUPS if name.startswith("ref_"))
@@ -49,7 +50,7 @@ def at_log(log: Recording, reference: Recording) -> Recording:
     for group in ("ref_rate", "ref_force"):
         values = getattr(reference, group)
         if values is not None:
-            seen[group] = _interpolated(reference.time, values, log.time)
+            seen[group] = _interpolated(reference.time, values, log)
     if log.latitude is None and reference.latitude is not None:
         known = filled(reference.time, reference.latitude)
         seen["latitude"] = np.interp(log.time, reference.time, known)
@@ -103,16 +104,15 @@ def _span(recording: Recording, origin: float) -> str:
     return f"{first} to {last} s"
 
 
-def _interpolated(nodes: np.ndarray, values: np.ndarray, time: np.ndarray) -> np.ndarray:
-    """Values (m, 3) at times (n,) by cubic splines through what is known without gap, else NaN; an
-    axis that nobody knows stays unknown.
+def _interpolated(nodes: np.ndarray, values: np.ndarray, log: Recording) -> np.ndarray:
+    """Values (m, 3) at a log's rows (n,), as these can show them, by cubic splines through what is
+    known without gap, else NaN; an axis that nobody knows stays unknown.
     """
-    from scipy.interpolate import CubicSpline  # a tenth of a second, and few logs need it
-
-    out, axes = np.full((len(time), values.shape[1]), np.nan), known_axes(values)
+    out, axes = np.full((len(log), values.shape[1]), np.nan), known_axes(values)
     seen = values[:, axes]
     track = Track(nodes, fresh(seen), lambda n: np.diff(seen[n], axis=0), np.inf)
     for part in track.segments:
-        rows = within(time, nodes[part])
-        out[np.ix_(rows, axes)] = CubicSpline(nodes[part], seen[part])(time[rows])
+        rows = within(log.time, nodes[part])
+        shown = for_rows(seen[part], track.period, log.sample_period)
+        out[np.ix_(rows, axes)] = through(nodes[part], shown)(log.time[rows])
     return out

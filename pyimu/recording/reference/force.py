@@ -22,6 +22,7 @@ from pyimu.recording.reference.band import trusted_band
 from pyimu.recording.reference.course import SPIKE, looks_like_degrees
 from pyimu.recording.reference.nodes import own_places
 from pyimu.recording.reference.rate import reference_rate
+from pyimu.recording.reference.sampling import slope_at
 from pyimu.recording.reference.smoother import white_noise
 from pyimu.recording.reference.track import LEAST_NODES, Track, fresh
 
@@ -102,7 +103,8 @@ def _given(source: Recording) -> Iterator[tuple[str, np.ndarray]]:
 
 def _of(kind, values, recording, source, time, q, seen, latitude) -> Force | None:
     """The force from ``values`` (m, 3) of one kind; None where none of it is known."""
-    acceleration, track = _acceleration(kind, values, source, time)
+    row = recording.sample_period
+    acceleration, track = _acceleration(kind, values, source, time, row)
     gravity, unsure = gravity_of(recording, latitude)
     force = np.full((len(time), 3), np.nan)
     known = np.isfinite(acceleration).all(axis=1) & np.isfinite(q).all(axis=1)
@@ -111,7 +113,7 @@ def _of(kind, values, recording, source, time, q, seen, latitude) -> Force | Non
         return None
     attitude = Rotation.from_quat(q[known], scalar_first=True)
     force[known] = attitude.inv().apply(acceleration[known] + [0.0, 0.0, gravity])
-    limit = 0.25 / track.period
+    limit = 0.25 / max(track.period, row)
     arms = arm_forces(seen.rate, time)
     moved = np.column_stack([force, arms.reshape(len(time), -1)])
     band = trusted_band(time, _without_spikes(recording), moved, limit)
@@ -135,9 +137,11 @@ def arm_forces(rate: np.ndarray, time: np.ndarray) -> np.ndarray:
 
 
 def _acceleration(
-    kind: str, values: np.ndarray, source: Recording, time: np.ndarray
+    kind: str, values: np.ndarray, source: Recording, time: np.ndarray, row: float
 ) -> tuple[np.ndarray, Track]:
-    """Acceleration (n, 3) m/s^2 in the world at times (n,), and the samples that it is from."""
+    """Acceleration (n, 3) m/s^2 in the world at times (n,) of rows ``row`` s apart, and the samples
+    that it is from.
+    """
     from scipy.interpolate import make_interp_spline  # a tenth of a second, and few logs need it
 
     known = fresh(values)
@@ -147,10 +151,11 @@ def _acceleration(
     track = Track(at, rows, lambda n: np.diff(nodes[n], axis=0), spread)
     out = np.full((len(time), 3), np.nan)
     for part in (p for p in track.segments if len(p) > 2 * EDGE):
-        here = within(time, at[part[EDGE:-EDGE]])
+        inner = at[part[EDGE:-EDGE]]
+        here = within(time, inner)
         if len(here):
             spline = make_interp_spline(at[part], nodes[part], k=DEGREE)
-            out[here] = spline(time[here], nu=ORDER[kind])
+            out[here] = slope_at(time[here], spline, inner, row, ORDER[kind])
     return out, track
 
 

@@ -25,6 +25,7 @@ from pyimu.recording.reference.course import course_of, looks_like_degrees, moun
 from pyimu.recording.reference.leaning import upward_through
 from pyimu.recording.reference.nodes import own_samples
 from pyimu.recording.reference.rocking import rate_about_z
+from pyimu.recording.reference.sampling import slope_at, through
 from pyimu.recording.reference.stamps import at_times, even_times, jitter_of
 from pyimu.recording.reference.track import Track, fresh, known_axes
 from pyimu.recording.reference.unsmoothed import restored_up_to
@@ -178,7 +179,7 @@ def _from_attitude(
         rows, curve = within(time, source.time[nodes]), attitude_curve(source, nodes)
         if not len(rows):
             continue
-        rate[rows] = curve(time[rows], 1)
+        rate[rows] = slope_at(time[rows], curve, source.time[nodes], recording.sample_period)
         if latitude is not None:
             attitude = curve(time[rows]).as_quat(scalar_first=True)
             rate[rows] += earth_rate_in_body(
@@ -190,8 +191,6 @@ def _from_attitude(
 def _from_heading(
     recording: Recording, source: Recording, latitude: np.ndarray | float | None
 ) -> Reference:
-    from scipy.interpolate import CubicSpline  # a tenth of a second, and few logs need it
-
     check_radians(source)
     heading, time = source.ref_heading, recording.time
     known = fresh(heading[:, None])
@@ -201,7 +200,9 @@ def _from_heading(
     rate = np.full((len(recording), 3), np.nan)
     for nodes in track.segments:
         rows = within(time, source.time[nodes])
-        rate[rows, 2] = CubicSpline(source.time[nodes], unwrapped[nodes])(time[rows], 1)
+        curve = through(source.time[nodes], unwrapped[nodes, None])
+        row = recording.sample_period
+        rate[rows, 2] = slope_at(time[rows], curve, source.time[nodes], row)[:, 0]
     if latitude is not None:
         rate[:, 2] += EARTH_RATE * np.sin(latitude)
     rate[:, 2], rocks = rate_about_z(recording, rate[:, 2])
@@ -264,7 +265,8 @@ def _from_course(
 def _derived(
     recording: Recording, rate: np.ndarray, kind, track: Track, earth_rate: bool
 ) -> Reference:
-    limit = min(0.25 / track.period, restored_up_to(recording.reference))
+    period = max(track.period, recording.sample_period)
+    limit = min(0.25 / period, restored_up_to(recording.reference))
     band = trusted_band(recording.time, recording.gyro, rate, limit) if track.segments else None
     seen = _finite_runs(recording, rate)
     return Reference(rate, kind, band, seen, tuple(track.findings), earth_rate, limit)

@@ -14,6 +14,7 @@ from pyimu.recording.recording import Recording
 from pyimu.recording.reference.attitude import attitude_at, attitude_curve, attitude_track
 from pyimu.recording.reference.file import TRUTHS, at_log
 from pyimu.recording.reference.nodes import own_samples
+from pyimu.recording.reference.sampling import through
 
 LAG = "reference_lag"
 """The finding of a reference that lagged."""
@@ -32,9 +33,7 @@ SETTLED = 3.0
 
 def slope(time: np.ndarray, values: np.ndarray) -> np.ndarray:
     """Rate of change of values (n, k) at ``time`` (n,) s, of cubic splines through them."""
-    from scipy.interpolate import CubicSpline  # a tenth of a second, and few logs need it
-
-    return CubicSpline(time, values)(time, 1) if len(time) > 3 else np.zeros_like(values)
+    return through(time, values)(time, 1) if len(time) > 3 else np.zeros_like(values)
 
 
 def unlagged(recording: Recording, lag: float, motion: float = np.inf) -> Recording:

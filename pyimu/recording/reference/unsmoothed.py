@@ -28,6 +28,7 @@ from pyimu.recording.reference.attitude import (
 from pyimu.recording.reference.file import TRUTHS, at_log
 from pyimu.recording.reference.filters import seen_through, units
 from pyimu.recording.reference.nodes import own_samples
+from pyimu.recording.reference.sampling import extended
 from pyimu.recording.reference.track import LEAST_NODES, Track, fresh, known_axes
 from pyimu.recording.reference.unlagged import HIGHEST
 
@@ -62,7 +63,7 @@ STEPS = _steps()
 def _mean(values: np.ndarray, rows: float) -> np.ndarray:
     """Mean over ``rows`` about each, a whole number or not."""
     more = int(rows / 2) + 1
-    sums = np.cumsum(np.vstack([np.zeros(values.shape[1]), _extended(values, more)]), axis=0)
+    sums = np.cumsum(np.vstack([np.zeros(values.shape[1]), extended(values, more)]), axis=0)
     edge, at = np.arange(len(sums)), more + np.arange(len(values)) + 0.5
     before, after = (
         np.column_stack([np.interp(at + side * rows / 2, edge, s) for s in sums.T])
@@ -73,16 +74,7 @@ def _mean(values: np.ndarray, rows: float) -> np.ndarray:
 
 def _gaussian(values: np.ndarray, rows: float) -> np.ndarray:
     more = int(4.0 * rows) + 1
-    return gaussian_filter1d(_extended(values, more), rows, axis=0)[more:-more]
-
-
-def _extended(values: np.ndarray, more: int) -> np.ndarray:
-    """Values (n, k) and ``more`` rows at either end, mirrored at the last one, so that a filter
-    is symmetric there, too.
-    """
-    whole = [(min(more, len(values) - 1),) * 2, (0, 0)]
-    rest = [(max(more - len(values) + 1, 0),) * 2, (0, 0)]
-    return np.pad(np.pad(values, whole, "reflect", reflect_type="odd"), rest, "edge")
+    return gaussian_filter1d(extended(values, more), rows, axis=0)[more:-more]
 
 
 def _butterworth(order: int, values: np.ndarray, rows: float) -> np.ndarray:
