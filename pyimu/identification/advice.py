@@ -303,7 +303,10 @@ def _unexamined(kind: str, logs: Sequence[Recording]) -> Iterator[Advice]:
     if kind == "gyro":
         yield Advice(kind, "a reference of the rate or of the attitude", why="the log has none")
         return
-    r = next(r for r in logs if r.accel is not None)
+    r = next((r for r in logs if r.accel is not None), None)
+    if r is None:
+        yield Advice(kind, "the accelerometer's own forces", why="these are without gravity")
+        return
     motion = next(m for m in library() if m.name == "six_positions")
     white = [seconds_of(c, r.segments, r.sample_period).white for c in r.accel.T]
     per_row = r.sample_period / step_of([motion])

@@ -15,7 +15,7 @@ import numpy as np
 
 from pyimu.errors import Finding, UserError
 from pyimu.identification.clock_or_effect import likelier_clock
-from pyimu.identification.conclude import conclude
+from pyimu.identification.conclude import conclude, weightless
 from pyimu.identification.fit.keys import Coefficient, Key, coefficient_of
 from pyimu.identification.fit.reduction import STRUCTURE
 from pyimu.identification.fit.structure import prior_of
@@ -123,6 +123,10 @@ def close(
             for f in (*rate_of_part(r, start.sample_rate), *beyond_range(r, ranges))
         ]
     forget()
+    logs, others = (
+        [replace(r, accel=None) if r.name in weightless(quality) else r for r in some]
+        for some in (logs, others)
+    )
     logs, others, turning = _on_time(start.gyro, logs, others, latitude)
     found, looks, of_trials = _investigated(
         start, declared is not None, logs, others, latitude, say, turning

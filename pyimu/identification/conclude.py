@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
+from pyimu.errors import Finding
 from pyimu.identification.advice import advice
 from pyimu.identification.as_part import SENSORS, as_part
 from pyimu.identification.by_attitude import settled
@@ -48,9 +49,11 @@ from pyimu.model.catalogue import CATALOGUE, WALK, WHITE
 from pyimu.model.effect import Effect
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
+from pyimu.recording.quality.inspect import NO_GRAVITY
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.course import looks_like_degrees
 from pyimu.recording.reference.force import has_places
+from pyimu.report.numbers import joined
 
 MORE_THAN_NOISE = "kinds of noise are told apart only where nothing else is left"
 AS_FORM = "what noise was found is no more than the form of an effect may leave"
@@ -87,7 +90,7 @@ def conclude(
     heading, formulas = heading_rms(found.get("gyro")), _kept(looks.values(), found)
     evidence = Evidence(
         examined=tuple(found),
-        unexamined=_unexamined(found, logs),
+        unexamined=_unexamined(found, logs, quality),
         unfit=another,
         shows=shows_anything(found),
         rows=rows_fitted(found),
@@ -287,13 +290,23 @@ def _overview(r: Recording, found: Found, quality: tuple) -> Overview:
     return overview(r, held, [f for f in quality if f.detail.get("recording") == r.name])
 
 
-def _unexamined(found: Found, logs: list[Recording]) -> dict[str, str]:
+def weightless(quality: Iterable[Finding]) -> set[str]:
+    """The logs whose forces are without gravity."""
+    return {f.detail["recording"] for f in quality if f.kind == NO_GRAVITY}
+
+
+def _unexamined(found: Found, logs: list[Recording], quality: Sequence[Finding]) -> dict[str, str]:
     """Why a sensor of the logs was not looked at, by its kind."""
     reasons = {
         "gyro": lambda: "the gyro was not examined: no reference of its rate, and it moves",
         "accel": lambda: f"the accelerometer was not examined: {_no_force(logs)}, and {few(logs)}",
     }
     there = {k for k in reasons if any(getattr(r, k) is not None for r in logs)}
+    left_out = weightless(quality)
+    if left_out and "accel" not in there:
+        told = f"the forces of {joined(sorted(left_out))} are without gravity"
+        reasons["accel"] = lambda: f"the accelerometer was not examined: {told}"
+        there.add("accel")
     return {k: reason() for k, reason in reasons.items() if k in there - set(found)}
 
 

@@ -45,7 +45,7 @@ MEANING = {
     "motion": "the sensor moves here; what looks at rest alone leaves it out, or refuses the log",
     "mounted": "which axis points up, as the log shows it",
     "never_still": "no rest is seen: there is nothing to correct a drift by",
-    "no_gravity": "the forces are without gravity, which no accelerometer measures: left out",
+    "no_gravity": "the forces are without gravity, so no accelerometer's; close leaves them out",
     "no_rest": "it moves from the start: the first attitude is known less well",
     "no_samples": "the column is there and holds no numbers",
     "nominal_time": "no column of times: the rate that was given counts rows",

@@ -24,6 +24,12 @@ WORKS = (-65.0, 175.0)
 """degC between which electronics is stored and works (the military range, and the hottest grade of
 automotive parts, AEC-Q100)."""
 
+NO_GRAVITY = "no_gravity"
+"""The finding of forces without gravity."""
+
+WEIGHTLESS = 0.08
+"""Of the Earth's gravity; the Moon's is 0.165, and a gravity of 1, of a log in g, is 0.102."""
+
 JITTER = 0.01
 """RMS deviation of the sample steps from their median, in periods, above which it is reported."""
 
@@ -33,7 +39,7 @@ def inspect(recording: Recording) -> tuple[Finding, ...]:
 
     ``constant_channel``, ``wrapped``, ``clipping``, ``stuck_samples``, ``held_samples``,
     ``spikes``, ``quantization_step`` for each column; ``jitter``, ``gravity_down``,
-    ``force_in_g`` and ``temperature_unit`` for the recording.
+    ``force_in_g``, ``no_gravity`` and ``temperature_unit`` for the recording.
     """
     names, values = _channels(recording)
     columns = [
@@ -42,7 +48,7 @@ def inspect(recording: Recording) -> tuple[Finding, ...]:
         for finding in _column(name, np.ascontiguousarray(column))
     ]
     force = None if recording.accel is None else _quietest(recording)
-    of_gravity = (*_gravity_down(recording, force), *_force_in_g(force))
+    of_gravity = (*_gravity_down(recording, force), *_force_in_g(force), *_no_gravity(force))
     warmth = _other_temperature(recording)
     return (*columns, *_spikes(recording), *_jitter(recording), *of_gravity, *warmth)
 
@@ -170,6 +176,12 @@ def _force_in_g(rest: np.ndarray | None) -> Iterator[Finding]:
     if _is_gravity(rest, 1.0):
         detail = {"magnitude": float(np.linalg.norm(rest)), "stated": "m/s^2", "as": "g"}
         yield Finding("force_in_g", "accel", 1, detail)
+
+
+def _no_gravity(rest: np.ndarray | None) -> Iterator[Finding]:
+    """Less than the Moon's gravity: software took gravity away, as phones do."""
+    if rest is not None and np.linalg.norm(rest) < WEIGHTLESS * STANDARD_GRAVITY:
+        yield Finding(NO_GRAVITY, "accel", 1, {"magnitude": float(np.linalg.norm(rest))})
 
 
 def quietest_force(recording: Recording) -> np.ndarray | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
 
 import numpy as np
@@ -10,6 +11,7 @@ from scipy.spatial.transform import Rotation, RotationSpline
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.jumps import jumps
 from pyimu.recording.reference.nodes import own_samples
+from pyimu.recording.reference.sampling import through
 from pyimu.recording.reference.track import Track, fresh
 
 
@@ -42,6 +44,19 @@ def attitude_curve(source: Recording, nodes: np.ndarray) -> RotationSpline:
     """The attitude through the samples ``nodes`` (m,) of ``ref_q``, body to world."""
     q = Rotation.from_quat(source.ref_q[nodes], scalar_first=True)
     return RotationSpline(source.time[nodes], q)
+
+
+def rate_through(source: Recording, nodes: np.ndarray) -> Callable[..., np.ndarray]:
+    """The rate (n, 3) rad/s at times (n,) of the attitude through the samples ``nodes`` (m,).
+
+    A cubic spline damps what comes four times as slowly as its samples, by 4.5 % where they are.
+    What one of fifth degree makes better of their turns, added up, is little, and in which axes
+    these are is of second order then.
+    """
+    curve, time = attitude_curve(source, nodes), source.time[nodes]
+    turns = np.vstack([np.zeros(3), np.cumsum(_steps(source.ref_q, nodes), axis=0)])
+    cubic, fifth = through(time, turns), through(time, turns, 5)
+    return lambda at, order: curve(at, order) + fifth(at, order) - cubic(at, order)
 
 
 def attitude_at(source: Recording, time: np.ndarray) -> np.ndarray:

@@ -105,8 +105,8 @@ def _span(recording: Recording, origin: float) -> str:
 
 
 def _interpolated(nodes: np.ndarray, values: np.ndarray, log: Recording) -> np.ndarray:
-    """Values (m, 3) at a log's rows (n,), as these can show them, by cubic splines through what is
-    known without gap, else NaN; an axis that nobody knows stays unknown.
+    """Values (m, 3) at a log's rows (n,), as these can show them, by splines of fifth degree
+    through what is known without gap, else NaN; an axis that nobody knows stays unknown.
     """
     out, axes = np.full((len(log), values.shape[1]), np.nan), known_axes(values)
     seen = values[:, axes]
@@ -114,5 +114,5 @@ def _interpolated(nodes: np.ndarray, values: np.ndarray, log: Recording) -> np.n
     for part in track.segments:
         rows = within(log.time, nodes[part])
         shown = for_rows(seen[part], track.period, log.sample_period)
-        out[np.ix_(rows, axes)] = through(nodes[part], shown)(log.time[rows])
+        out[np.ix_(rows, axes)] = through(nodes[part], shown, 5)(log.time[rows])
     return out

@@ -1,9 +1,9 @@
 """The rate that a reference saw, and the band in which it can be trusted.
 
-A reference attitude is differentiated by a cubic rotation spline through its own samples
-(``scipy``'s RotationSpline, which solves the kinematic equation, so that rotations need not
-commute). It adds no bandwidth of its own, and stays inside each segment that was seen: occlusions
-and faults are NaN.
+A reference attitude is differentiated by a rotation spline through its own samples (``scipy``'s
+RotationSpline, which solves the kinematic equation, so that rotations need not commute, and what a
+spline of higher degree adds). It adds no bandwidth of its own, and stays inside each segment that
+was seen: occlusions and faults are NaN.
 """
 
 from __future__ import annotations
@@ -19,7 +19,13 @@ from scipy.spatial.transform import Rotation
 from pyimu.errors import Finding, UserError
 from pyimu.recording.clock import runs
 from pyimu.recording.recording import Recording
-from pyimu.recording.reference.attitude import attitude_curve, attitude_track, cut_at_jumps, within
+from pyimu.recording.reference.attitude import (
+    attitude_curve,
+    attitude_track,
+    cut_at_jumps,
+    rate_through,
+    within,
+)
 from pyimu.recording.reference.band import coherence, trusted_band
 from pyimu.recording.reference.course import course_of, looks_like_degrees, mounted, upward
 from pyimu.recording.reference.leaning import upward_through
@@ -176,12 +182,12 @@ def _from_attitude(
     cut_at_jumps(track, source, recording)
     rate = np.full((len(recording), 3), np.nan)
     for nodes in track.segments:
-        rows, curve = within(time, source.time[nodes]), attitude_curve(source, nodes)
+        rows, curve = within(time, source.time[nodes]), rate_through(source, nodes)
         if not len(rows):
             continue
         rate[rows] = slope_at(time[rows], curve, source.time[nodes], recording.sample_period)
         if latitude is not None:
-            attitude = curve(time[rows]).as_quat(scalar_first=True)
+            attitude = attitude_curve(source, nodes)(time[rows]).as_quat(scalar_first=True)
             rate[rows] += earth_rate_in_body(
                 attitude, latitude if np.ndim(latitude) == 0 else latitude[rows]
             )

@@ -56,13 +56,13 @@ def slope_at(
     return through(nodes, for_rows(curve(nodes, order), period, row))(time)
 
 
-def through(time: np.ndarray, values: np.ndarray) -> Callable[..., np.ndarray]:
-    """The cubic spline through values (n, k) at ``time`` (n,) s: of times its values, and with a
-    second argument of 1 its slopes.
+def through(time: np.ndarray, values: np.ndarray, degree: int = 3) -> Callable[..., np.ndarray]:
+    """The spline of a ``degree`` through values (n, k) at ``time`` (n,) s: of times its values, and
+    with a second argument of 1 its slopes.
     """
-    from scipy.interpolate import CubicSpline  # a tenth of a second, and few logs need it
+    from scipy.interpolate import make_interp_spline  # a tenth of a second, and few logs need it
 
-    return CubicSpline(time, values)
+    return make_interp_spline(time, values, k=min(degree, (len(time) - 2) // 2 * 2 + 1))
 
 
 def extended(values: np.ndarray, more: int) -> np.ndarray:
