@@ -48,7 +48,7 @@ from pyimu.identification.trials import (
     has_reference,
     prepared,
 )
-from pyimu.identification.vibration import vibrations
+from pyimu.identification.vibration import lines, vibrations
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as find_part
 from pyimu.model.part_file import part_names
@@ -113,7 +113,9 @@ def close(
     say("quality of the raw samples")
     together = [*logs, *others]
     quality = [
-        _of(r.name, f) for r in together for f in (*of_reading(r), *inspect(r), *vibrations(r))
+        _of(r.name, f)
+        for r in together
+        for f in (*of_reading(r), *inspect(r), *vibrations(r), *lines(r))
     ]
     if declared is not None:
         ranges = _ranges(start)

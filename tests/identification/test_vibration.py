@@ -1,9 +1,11 @@
 """Vibration that gyro and accelerometer feel together."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from pyimu.identification.vibration import vibrations
+from pyimu.identification.vibration import lines, vibrations
 from pyimu.recording.recording import Recording
 
 TIME = np.arange(0.0, 60.0, 0.01)
@@ -30,3 +32,15 @@ def test_a_line_that_both_feel_is_found_where_it_is(frequency):
 @pytest.mark.parametrize("frequency, size", [(30.0, 0.0), (5.0, 3.0)])
 def test_noise_and_motion_are_no_vibration(frequency, size):
     assert not list(vibrations(log(frequency, size)))
+
+
+def test_a_line_that_one_axis_has_is_told():
+    """What no reference reaches is noise for it; white it was taken for eight times the gyro's."""
+    still = log(30.0, 0.0)
+    assert not list(lines(still))
+    gyro = np.array(still.gyro)
+    gyro[:, 1] += 5.0 * np.sin(2 * np.pi * 23.4 * TIME)
+    (said,) = lines(replace(still, gyro=gyro))
+    assert (said.kind, said.column, said.count) == ("line", "gyro_y", 1)
+    assert said.detail["frequency"] == pytest.approx(23.4, abs=0.01)
+    assert said.detail["rms"] == pytest.approx(5.0 / np.sqrt(2), rel=0.02)
