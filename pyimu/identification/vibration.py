@@ -4,9 +4,8 @@ hand.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from collections import defaultdict
+from collections.abc import Iterator
 
 import numpy as np
 
