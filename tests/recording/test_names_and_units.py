@@ -196,6 +196,25 @@ def test_two_lines_of_comment_name_columns_and_units(tmp_path):
     np.testing.assert_array_equal(found.recording.accel, forces)
 
 
+def test_a_map_may_take_another_column_for_a_name_without_a_unit(tmp_path):
+    """A table may have a ``time`` of its own beside the one that a map names, as guessed or given;
+    a name that the map itself leaves without a unit is refused still.
+    """
+    stamps, rates = np.arange(300) * 10_000_000, np.full(300, 0.1)
+    path = raw_logs.text(
+        tmp_path / "l.csv", ["time,stamp,gx,gy,gz"], [stamps + 7, stamps, *[rates] * 3]
+    )
+    names = [f'"g{a}" = "gyro_{a} [rad/s]"' for a in "xyz"]
+    own = tmp_path / "map.toml"
+    own.write_text("\n".join(["[columns]", '"stamp" = "time [ns]"', *names]))
+    found = read_recording(path, own)
+    np.testing.assert_allclose(found.time, stamps * 1e-9, rtol=0, atol=1e-15)
+    assert [f.column for f in found.findings if f.kind == "unused_column"] == ["time"]
+    own.write_text("\n".join(["[columns]", '"stamp" = "time"', *names]))
+    with pytest.raises(UserError, match="column time has no unit"):
+        read_recording(path, own)
+
+
 def test_columns_of_one_name_are_told_apart_in_a_map(tmp_path):
     """By their numbers: a key stands once in a map."""
     time, rates, forces = turned()

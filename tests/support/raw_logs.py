@@ -104,6 +104,23 @@ def xsens(folder, log):
     )
 
 
+def rostopic(folder, log):
+    """``rostopic echo -p`` of an Imu message: when it came, 2 ms late, and the sensor's stamp."""
+    time, gyro, accel = log
+    vectors = [
+        ("orientation", "xyzw", np.tile([0.0, 0, 0, 1], (len(time), 1))),
+        ("angular_velocity", AXES, gyro),
+        ("linear_acceleration", AXES, accel),
+    ]
+    names, columns = ["%time", "field.header.seq", "field.header.stamp"], [time + FIRST + 2_000_000]
+    columns += [np.arange(len(time)), time + FIRST]
+    for name, axes, values in vectors:
+        names += [f"field.{name}.{a}" for a in axes]
+        names += [f"field.{name}_covariance{k}" for k in range(9)]
+        columns += [*values.T, *np.zeros((9, len(time)))]
+    return text(folder / "imu.csv", [",".join(names)], columns)
+
+
 def repoimu(folder, log):
     time, gyro, accel = log
     head = [
@@ -258,7 +275,20 @@ def apart(folder, log):
 
 
 ALONE = (
-    *(euroc, tum, phone, iphone, phyphox, xsens, repoimu, broad, broad_hdf5, ulog, dataflash),
+    *(
+        euroc,
+        tum,
+        phone,
+        iphone,
+        phyphox,
+        xsens,
+        rostopic,
+        repoimu,
+        broad,
+        broad_hdf5,
+        ulog,
+        dataflash,
+    ),
     *(dataflash_text, german, xio, dated),
 )
 """Layouts that are read as they are."""
