@@ -215,6 +215,59 @@ def test_a_map_may_take_another_column_for_a_name_without_a_unit(tmp_path):
         read_recording(path, own)
 
 
+def in_two(folder, whole, part, names="gyro_{} [rad/s]", late=0):
+    """A log whose times stand in two columns; of the second second, for it is in no first row."""
+    stamps = np.arange(300, dtype=np.int64) * 10_000_000 + raw_logs.FIRST + 123_456_789
+    cells = [whole, part, *(names.format(a) for a in "xyz")]
+    columns = [stamps // 10**9, stamps % 10**9 + late, *[np.full(300, 0.1)] * 3]
+    return written(folder, ",".join(cells), columns), stamps
+
+
+@pytest.mark.parametrize(
+    "whole, part",
+    [("sec", "nsec"), ("#secs", "nsecs"), ("seconds", "nanoseconds"), ("Sec [s]", "nSec [ns]")]
+    + [("header.stamp.secs", "header.stamp.nsecs"), ("stamp_sec", "stamp_nanosec")],
+)
+def test_seconds_and_nanoseconds_are_one_time(whole, part, tmp_path):
+    path, stamps = in_two(tmp_path, whole, part)
+    found = read_recording(path)
+    # whole nanoseconds, each rounded once
+    np.testing.assert_array_equal(found.time, (stamps - stamps[0]) * 1e-9)
+    (said,) = (f for f in found.findings if f.column == "time" and f.kind == "layout")
+    assert said.detail == {"read_as": f"one time of {whole.strip('#')} and {part}"}
+
+
+def test_a_time_in_two_columns_by_the_map_that_is_written(pyimu, tmp_path):
+    path, stamps = in_two(tmp_path, "sec", "nsec", "w{}")
+    assert pyimu("inspect", path, "--write-map", "map.toml")[0] == 1
+    text = (tmp_path / "map.toml").read_text()
+    assert '"time of sec and nsec [ns]" = "time [ns]"' in text
+    (tmp_path / "map.toml").write_text(re.sub(r"# (.*rad/s\].*)", r"\1", text))
+    found = read_recording(path, tmp_path / "map.toml")
+    np.testing.assert_array_equal(found.time, (stamps - stamps[0]) * 1e-9)
+
+
+def test_what_is_no_part_of_a_second_is_no_second_column(tmp_path):
+    """Nanoseconds that count on; and a map that takes one of the two alone is followed."""
+    path, _ = in_two(tmp_path, "sec", "nsec", late=10**9)
+    with pytest.raises(UserError):
+        read_recording(path)
+    path, _ = in_two(tmp_path, "sec", "nsec", "w{}")
+    lines = ["[columns]", '"sec" = "time [s]"', *(f'"w{a}" = "gyro_{a} [rad/s]"' for a in "xyz")]
+    (tmp_path / "map.toml").write_text("\n".join(lines))
+    kinds = {f.kind for f in read_recording(path, tmp_path / "map.toml").findings}
+    assert "layout" not in kinds and kinds & {"repeated_time", "repeated_rows", "coarse_stamps"}
+
+
+def test_a_row_without_one_half_of_its_time_is_refused(tmp_path):
+    path, _ = in_two(tmp_path, "sec", "nsec")
+    lines = path.read_text().splitlines()
+    lines[200] = re.sub(r",\d+,", ",,", lines[200], count=1)
+    path.write_text("\n".join(lines))
+    with pytest.raises(UserError, match="row 201: the time is missing"):
+        read_recording(path)
+
+
 def test_columns_of_one_name_are_told_apart_in_a_map(tmp_path):
     """By their numbers: a key stands once in a map."""
     time, rates, forces = turned()

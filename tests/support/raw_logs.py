@@ -263,6 +263,20 @@ def headerless(folder, log):
     return text(folder / "imu.dat", [], [*gyro.T, *accel.T], "  ")
 
 
+def ouster(folder, log):
+    """Newer College: a counter, whole seconds, and the nanoseconds of each; the map names both."""
+    time, gyro, accel = log
+    second = np.int64(10**9)
+    stamps = [(time + FIRST) // second, (time + FIRST) % second]
+    names = [f"angular_velocity_{a}" for a in AXES] + [f"linear_acceleration_{a}" for a in AXES]
+    own = [f"gyro_{a} [rad/s]" for a in AXES] + [f"accel_{a} [m/s^2]" for a in AXES]
+    pairs = zip(["sec", "nsec", *names], ["time [s]", "time [ns]", *own], strict=True)
+    lines = ["[columns]", *(f'"{cell}" = "{target}"' for cell, target in pairs)]
+    (folder / MAP).write_text("\n".join(lines) + "\n")
+    columns = [np.arange(len(time)), *stamps, *gyro.T, *accel.T]
+    return text(folder / "imu.csv", [",".join(["#counter", "sec", "nsec", *names])], columns)
+
+
 def apart(folder, log):
     """Gyro in degrees in one file, accelerometer at half the rate in another; a map names both."""
     time, gyro, accel = log
@@ -293,7 +307,7 @@ ALONE = (
 )
 """Layouts that are read as they are."""
 
-MAPPED = (headerless, apart)
+MAPPED = (headerless, ouster, apart)
 """Those that a map must come with."""
 
 NEEDS = {"broad_hdf5": "h5py", "ulog": "pyulog", "dataflash": "pymavlink"} | {
