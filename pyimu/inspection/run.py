@@ -192,8 +192,13 @@ def _by_guess(readers: Sequence[Reader], proposals: Sequence[Proposal], text: st
     reader, first = readers[order[0]], proposals[order[0]]
     unknown = [group for p in proposals for group in p.open_questions]
     seen = {"ref_q"} if first.holds == "reference" else {"gyro", "accel"} & set(first.groups)
+    if not seen and "time" not in unknown:
+        raise UserError(
+            f"{reader.path}: no column is known for a gyro's, an accelerometer's or a reference's: "
+            "name them in the map"
+        )
     if "time" in unknown or seen <= set(unknown):
-        asked = " and ".join(dict.fromkeys(unknown)) or "gyro and accelerometer"
+        asked = " and ".join(dict.fromkeys(unknown))
         raise UserError(f"{reader.path}: nothing tells the unit of {asked}: choose it in the map")
     if first.timeless:
         raise UserError(f"{reader.path}: nothing tells when its samples were taken")

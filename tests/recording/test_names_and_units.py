@@ -5,6 +5,7 @@ import re
 import numpy as np
 import pytest
 import raw_logs
+from scipy.spatial.transform import Rotation
 from test_raw_logs import turned
 
 from pyimu import inspect, read_recording
@@ -213,6 +214,39 @@ def test_a_map_may_take_another_column_for_a_name_without_a_unit(tmp_path):
     own.write_text("\n".join(["[columns]", '"stamp" = "time"', *names]))
     with pytest.raises(UserError, match="column time has no unit"):
         read_recording(path, own)
+
+
+def attitudes(rows, turning):
+    """Unit quaternions (rows, 4) of a tumbling body, or of one that is level, of nine digits."""
+    angle = 2e-3 * np.outer(np.arange(rows), [1.0, 1.7, 0.6]) if turning else np.zeros((rows, 3))
+    q = Rotation.from_euler("xyz", angle).as_quat(scalar_first=True)
+    return np.round(q, 9)
+
+
+@pytest.mark.parametrize("turning", [True, False], ids=["tumbling", "level"])
+def test_a_quaternion_without_a_name_is_no_accelerometer(turning, tmp_path):
+    """Poses without a header: of a level body the first three are (1, 0, 0), as of gravity in g."""
+    time = np.arange(3000) * 2778
+    place = np.cumsum(0.01 * np.random.default_rng(2).standard_normal((3000, 3)), axis=0)
+    path = written(tmp_path, "", [time, *place.T, *attitudes(3000, turning).T])
+    path.write_text(path.read_text().lstrip("\n"))
+    found = inspect(path)
+    assert found.proposals[0].groups == ["time"]
+    assert "column 5, column 6, column 7, column 8 are left out" in found.proposals[0].notes[0]
+    assert found.problem.endswith("name them in the map")
+
+
+@pytest.mark.parametrize("noise", [1e-3, 1e-2], ids=["quiet", "noisy"])
+@pytest.mark.parametrize("before", [0, 4], ids=["alone", "behind a quaternion"])
+def test_an_accelerometer_in_g_at_rest_beside_a_gyro_is_no_quaternion(before, noise, tmp_path):
+    """Four columns of it are as near to one as a quaternion of few digits."""
+    time, gyro, accel = raw_logs.still(3000)
+    force = [0.6, 0.0, 0.8] + noise * (accel - [0, 0, 9.81])
+    columns = [time // 1000, *attitudes(3000, True).T[:before], *force.T, *gyro.T]
+    path = written(tmp_path, "", columns)
+    path.write_text(path.read_text().lstrip("\n"))
+    (guess,) = (g for g in proposed(open_reader(path)).guesses if g.target == "accel_x")
+    assert (guess.cell, guess.unit) == (f"column {2 + before}", "g")
 
 
 def in_two(folder, whole, part, names="gyro_{} [rad/s]", late=0):

@@ -274,7 +274,7 @@ def ouster(folder, log):
     lines = ["[columns]", *(f'"{cell}" = "{target}"' for cell, target in pairs)]
     (folder / MAP).write_text("\n".join(lines) + "\n")
     columns = [np.arange(len(time)), *stamps, *gyro.T, *accel.T]
-    return text(folder / "imu.csv", [",".join(["#counter", "sec", "nsec", *names])], columns)
+    return text(folder / "ouster_imu.csv", [",".join(["#counter", "sec", "nsec", *names])], columns)
 
 
 def apart(folder, log):
