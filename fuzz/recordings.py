@@ -75,7 +75,7 @@ TEXTS = (".csv", ".txt", ".log", ".toml", ".dat", ".yaml")
 MAPPED = "mapped-"
 """How the names of folders begin that hold a log and its column map."""
 
-FIRST_FILES = ("imu.dat", "gyr.csv", "log.mat", "log.h5")
+FIRST_FILES = ("imu.dat", "ouster_imu.csv", "gyr.csv", "log.mat", "log.h5")
 """The file in them that is read by it."""
 
 ENDINGS = sorted(READERS)

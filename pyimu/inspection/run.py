@@ -14,6 +14,7 @@ from pyimu.recording.column_map import ForeignMap, map_of
 from pyimu.recording.columns import own_name
 from pyimu.recording.folders import log_in
 from pyimu.recording.formats.reader import Reader
+from pyimu.recording.formats.split_time import with_one_time
 from pyimu.recording.formats.suffix import open_reader
 from pyimu.recording.guess.proposal import Guess, Proposal, forces, proposed
 from pyimu.recording.guess.writing import MapGiven, text_of
@@ -50,6 +51,7 @@ def inspect(
             foreign = whole.foreign
     say("looking at the columns")
     readers = [open_reader(path, foreign.topics if foreign else {}) for path in given]
+    readers, foreign = _with_one_time(readers, foreign)
     known = None if foreign is not None else recognised(readers[0])
     maps = [_own_map(reader, foreign, index) for index, reader in enumerate(readers)]
     kind = _kind(readers[0], known is not None, foreign is not None)
@@ -80,6 +82,21 @@ def inspect(
         rests=rests(recording),
         still=is_at_rest(recording),
     )
+
+
+def _with_one_time(
+    readers: Sequence[Reader], foreign: ForeignMap | None
+) -> tuple[list[Reader], ForeignMap | None]:
+    """The readers, with one time where it stands in two columns, and the map with that."""
+    first, own = with_one_time(readers[0], foreign or ForeignMap())
+    files, others = dict(own.files), []
+    for reader in readers[1:]:
+        name = reader.path.name
+        other, its = with_one_time(reader, files.get(name, ForeignMap()))
+        others.append(other)
+        if name in files:
+            files[name] = its
+    return [first, *others], foreign and replace(own, files=tuple(files.items()))
 
 
 def _ordered(proposals: Sequence[Proposal]) -> list[Proposal]:
@@ -175,8 +192,13 @@ def _by_guess(readers: Sequence[Reader], proposals: Sequence[Proposal], text: st
     reader, first = readers[order[0]], proposals[order[0]]
     unknown = [group for p in proposals for group in p.open_questions]
     seen = {"ref_q"} if first.holds == "reference" else {"gyro", "accel"} & set(first.groups)
+    if not seen and "time" not in unknown:
+        raise UserError(
+            f"{reader.path}: no column is known for a gyro's, an accelerometer's or a reference's: "
+            "name them in the map"
+        )
     if "time" in unknown or seen <= set(unknown):
-        asked = " and ".join(dict.fromkeys(unknown)) or "gyro and accelerometer"
+        asked = " and ".join(dict.fromkeys(unknown))
         raise UserError(f"{reader.path}: nothing tells the unit of {asked}: choose it in the map")
     if first.timeless:
         raise UserError(f"{reader.path}: nothing tells when its samples were taken")

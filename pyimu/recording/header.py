@@ -67,6 +67,9 @@ class Header:
         self._in_memory = in_memory
         self._scale = scale
         self._counted: set[str] = set()
+        self._given = {
+            name.strip() for name, bracket, _ in (h.partition("[") for h in header) if bracket
+        }
         self._ours = any(cell.partition("[")[0].strip() in UNITS for cell in self._cells)
         for position, cell in enumerate(header):
             self._add(position, cell)
@@ -96,7 +99,7 @@ class Header:
     def _add(self, position: int, cell: str) -> None:
         name, _, rest = cell.partition("[")
         name, unit = name.strip(), rest.strip()
-        if name not in UNITS:
+        if name not in UNITS or self._is_replaced(position, name, cell):
             self._unknown(name, cell)
             return
         if name in self.names:
@@ -111,6 +114,11 @@ class Header:
         self.names.append(name)
         self.positions.append(position)
         self.units.append(self._unit(name, unit[:-1]))
+
+    def _is_replaced(self, position: int, name: str, cell: str) -> bool:
+        """Whether a column's own name says no unit, and a map gives the name to another one."""
+        own = position < len(self._cells) and self._cells[position] == cell
+        return own and cell.strip() == name and name in self._given
 
     def _unit(self, name: str, text: str) -> units.Unit:
         if text.strip().casefold() in COUNT:
@@ -138,7 +146,7 @@ class Header:
     def _unknown(self, name: str, cell: str) -> None:
         if self._crowded:
             return
-        near = units.did_you_mean(name, UNITS, cutoff=0.8)
+        near = name not in UNITS and units.did_you_mean(name, UNITS, cutoff=0.8)
         if near and (self._ours or cell not in self._cells):
             raise UserError(f"{self.path}: unknown column '{name}'{near}")
         self.findings.append(Finding("unused_column", name, 1, {"header": cell}))

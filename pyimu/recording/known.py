@@ -185,6 +185,19 @@ def _xsens(reader: Reader) -> ForeignMap | None:
     return ForeignMap(columns=columns, scale=scale) if set(columns) <= cells else None
 
 
+def _rostopic(reader: Reader) -> ForeignMap | None:
+    """``rostopic echo -p`` of sensor_msgs/Imu: stamps in ns, rad/s and m/s^2 by the message's
+    definition.
+
+    ``%time``, at which the message came, is left out for the sensor's own stamp, and the
+    orientation, an estimate.
+    """
+    columns = {"field.header.stamp": "time [ns]"}
+    columns |= _triad([f"field.angular_velocity.{a}" for a in XYZ], "gyro", "rad/s")
+    columns |= _triad([f"field.linear_acceleration.{a}" for a in XYZ], "accel", "m/s^2")
+    return ForeignMap(columns=columns) if set(columns) <= set(reader.header) else None
+
+
 def _phone(reader: Reader) -> ForeignMap | None:
     """One file of Sensor Logger: time in ns since 1970, rad/s, m/s^2, uT (its UNITS.md).
 
@@ -214,6 +227,7 @@ FORMATS = (
     ("RepoIMU, by its description", _repoimu),
     ("BROAD, by its description", _broad),
     ("Xsens, by its manuals", _xsens),
+    ("rostopic echo -p, by the message's definition", _rostopic),
     ("Sensor Logger, by its documentation", _phone),
 )
 

@@ -19,6 +19,7 @@ from pyimu.recording.counter import BITS, NEARLY, Unwrapped
 from pyimu.recording.counts import RawCounts
 from pyimu.recording.folders import log_in
 from pyimu.recording.formats.reader import Reader
+from pyimu.recording.formats.split_time import with_one_time
 from pyimu.recording.formats.suffix import open_reader
 from pyimu.recording.formats.timed import TIME, TimedReader
 from pyimu.recording.header import Header
@@ -87,6 +88,7 @@ class Source:
         """What ``reader`` has opened. Raises UserError as ``open`` does."""
         findings: tuple[Finding, ...] = ()
         is_known = False
+        reader, foreign = with_one_time(reader, foreign)
         if not foreign.columns:
             known = recognised(reader)
             if known is not None:

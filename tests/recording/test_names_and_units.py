@@ -5,6 +5,7 @@ import re
 import numpy as np
 import pytest
 import raw_logs
+from scipy.spatial.transform import Rotation
 from test_raw_logs import turned
 
 from pyimu import inspect, read_recording
@@ -194,6 +195,111 @@ def test_two_lines_of_comment_name_columns_and_units(tmp_path):
     found = inspect(path)
     assert not found.problem
     np.testing.assert_array_equal(found.recording.accel, forces)
+
+
+def test_a_map_may_take_another_column_for_a_name_without_a_unit(tmp_path):
+    """A table may have a ``time`` of its own beside the one that a map names, as guessed or given;
+    a name that the map itself leaves without a unit is refused still.
+    """
+    stamps, rates = np.arange(300) * 10_000_000, np.full(300, 0.1)
+    path = raw_logs.text(
+        tmp_path / "l.csv", ["time,stamp,gx,gy,gz"], [stamps + 7, stamps, *[rates] * 3]
+    )
+    names = [f'"g{a}" = "gyro_{a} [rad/s]"' for a in "xyz"]
+    own = tmp_path / "map.toml"
+    own.write_text("\n".join(["[columns]", '"stamp" = "time [ns]"', *names]))
+    found = read_recording(path, own)
+    np.testing.assert_allclose(found.time, stamps * 1e-9, rtol=0, atol=1e-15)
+    assert [f.column for f in found.findings if f.kind == "unused_column"] == ["time"]
+    own.write_text("\n".join(["[columns]", '"stamp" = "time"', *names]))
+    with pytest.raises(UserError, match="column time has no unit"):
+        read_recording(path, own)
+
+
+def attitudes(rows, turning):
+    """Unit quaternions (rows, 4) of a tumbling body, or of one that is level, of nine digits."""
+    angle = 2e-3 * np.outer(np.arange(rows), [1.0, 1.7, 0.6]) if turning else np.zeros((rows, 3))
+    q = Rotation.from_euler("xyz", angle).as_quat(scalar_first=True)
+    return np.round(q, 9)
+
+
+@pytest.mark.parametrize("turning", [True, False], ids=["tumbling", "level"])
+def test_a_quaternion_without_a_name_is_no_accelerometer(turning, tmp_path):
+    """Poses without a header: of a level body the first three are (1, 0, 0), as of gravity in g."""
+    time = np.arange(3000) * 2778
+    place = np.cumsum(0.01 * np.random.default_rng(2).standard_normal((3000, 3)), axis=0)
+    path = written(tmp_path, "", [time, *place.T, *attitudes(3000, turning).T])
+    path.write_text(path.read_text().lstrip("\n"))
+    found = inspect(path)
+    assert found.proposals[0].groups == ["time"]
+    assert "column 5, column 6, column 7, column 8 are left out" in found.proposals[0].notes[0]
+    assert found.problem.endswith("name them in the map")
+
+
+@pytest.mark.parametrize("noise", [1e-3, 1e-2], ids=["quiet", "noisy"])
+@pytest.mark.parametrize("before", [0, 4], ids=["alone", "behind a quaternion"])
+def test_an_accelerometer_in_g_at_rest_beside_a_gyro_is_no_quaternion(before, noise, tmp_path):
+    """Four columns of it are as near to one as a quaternion of few digits."""
+    time, gyro, accel = raw_logs.still(3000)
+    force = [0.6, 0.0, 0.8] + noise * (accel - [0, 0, 9.81])
+    columns = [time // 1000, *attitudes(3000, True).T[:before], *force.T, *gyro.T]
+    path = written(tmp_path, "", columns)
+    path.write_text(path.read_text().lstrip("\n"))
+    (guess,) = (g for g in proposed(open_reader(path)).guesses if g.target == "accel_x")
+    assert (guess.cell, guess.unit) == (f"column {2 + before}", "g")
+
+
+def in_two(folder, whole, part, names="gyro_{} [rad/s]", late=0):
+    """A log whose times stand in two columns; of the second second, for it is in no first row."""
+    stamps = np.arange(300, dtype=np.int64) * 10_000_000 + raw_logs.FIRST + 123_456_789
+    cells = [whole, part, *(names.format(a) for a in "xyz")]
+    columns = [stamps // 10**9, stamps % 10**9 + late, *[np.full(300, 0.1)] * 3]
+    return written(folder, ",".join(cells), columns), stamps
+
+
+@pytest.mark.parametrize(
+    "whole, part",
+    [("sec", "nsec"), ("#secs", "nsecs"), ("seconds", "nanoseconds"), ("Sec [s]", "nSec [ns]")]
+    + [("header.stamp.secs", "header.stamp.nsecs"), ("stamp_sec", "stamp_nanosec")],
+)
+def test_seconds_and_nanoseconds_are_one_time(whole, part, tmp_path):
+    path, stamps = in_two(tmp_path, whole, part)
+    found = read_recording(path)
+    # whole nanoseconds, each rounded once
+    np.testing.assert_array_equal(found.time, (stamps - stamps[0]) * 1e-9)
+    (said,) = (f for f in found.findings if f.column == "time" and f.kind == "layout")
+    assert said.detail == {"read_as": f"one time of {whole.strip('#')} and {part}"}
+
+
+def test_a_time_in_two_columns_by_the_map_that_is_written(pyimu, tmp_path):
+    path, stamps = in_two(tmp_path, "sec", "nsec", "w{}")
+    assert pyimu("inspect", path, "--write-map", "map.toml")[0] == 1
+    text = (tmp_path / "map.toml").read_text()
+    assert '"time of sec and nsec [ns]" = "time [ns]"' in text
+    (tmp_path / "map.toml").write_text(re.sub(r"# (.*rad/s\].*)", r"\1", text))
+    found = read_recording(path, tmp_path / "map.toml")
+    np.testing.assert_array_equal(found.time, (stamps - stamps[0]) * 1e-9)
+
+
+def test_what_is_no_part_of_a_second_is_no_second_column(tmp_path):
+    """Nanoseconds that count on; and a map that takes one of the two alone is followed."""
+    path, _ = in_two(tmp_path, "sec", "nsec", late=10**9)
+    with pytest.raises(UserError):
+        read_recording(path)
+    path, _ = in_two(tmp_path, "sec", "nsec", "w{}")
+    lines = ["[columns]", '"sec" = "time [s]"', *(f'"w{a}" = "gyro_{a} [rad/s]"' for a in "xyz")]
+    (tmp_path / "map.toml").write_text("\n".join(lines))
+    kinds = {f.kind for f in read_recording(path, tmp_path / "map.toml").findings}
+    assert "layout" not in kinds and kinds & {"repeated_time", "repeated_rows", "coarse_stamps"}
+
+
+def test_a_row_without_one_half_of_its_time_is_refused(tmp_path):
+    path, _ = in_two(tmp_path, "sec", "nsec")
+    lines = path.read_text().splitlines()
+    lines[200] = re.sub(r",\d+,", ",,", lines[200], count=1)
+    path.write_text("\n".join(lines))
+    with pytest.raises(UserError, match="row 201: the time is missing"):
+        read_recording(path)
 
 
 def test_columns_of_one_name_are_told_apart_in_a_map(tmp_path):

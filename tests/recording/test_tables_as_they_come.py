@@ -2,12 +2,16 @@
 
 import gzip
 import re
+import threading
 
 import numpy as np
+import pyarrow as pa
 import pytest
+from pyarrow import csv as pacsv
 
 from pyimu import read_recording
 from pyimu.errors import UserError
+from pyimu.recording.formats.lines import Body
 from pyimu.recording.log import open_log
 
 HEAD = "time [s],gyro_x [rad/s],gyro_y [rad/s],gyro_z [rad/s]"
@@ -77,6 +81,33 @@ def test_a_comment_between_rows_is_left_out(mark, separator, tmp_path):
     lines = [head, *ROWS[:150], mark, *ROWS[150:], "# end"]
     found = read(tmp_path, [line.replace(",", separator) for line in lines])
     assert len(found) == 300 and not of_kind(found, "end_left_out")
+
+
+def test_arrow_holds_nothing_of_pythons(monkeypatch, tmp_path):
+    """What its threads let go of while Python ends would abort the process: a log with comments is
+    read by the thread that asks for it, and Arrow has a copy.
+    """
+    threads, blocks, given = set(), [], []
+
+    def watched(self):
+        for block in made(self):
+            threads.add(threading.get_ident())
+            blocks.append(block)
+            yield block
+
+    def parsed(source, *options, **named):
+        given.append(source)
+        address = source.read_buffer().address
+        assert address != pa.py_buffer(blocks[-1]).address
+        source.seek(0)
+        return read_csv(source, *options, **named)
+
+    made, read_csv = Body.blocks, pacsv.read_csv
+    monkeypatch.setattr(Body, "blocks", watched)
+    monkeypatch.setattr(pacsv, "read_csv", parsed)
+    assert len(read(tmp_path, [HEAD, *ROWS[:150], "# lost", *ROWS[150:]])) == 300
+    assert threads == {threading.get_ident()} and blocks
+    assert {type(source) for source in given} == {pa.BufferReader}
 
 
 def test_a_row_may_begin_with_a_missing_value(tmp_path):

@@ -104,6 +104,23 @@ def xsens(folder, log):
     )
 
 
+def rostopic(folder, log):
+    """``rostopic echo -p`` of an Imu message: when it came, 2 ms late, and the sensor's stamp."""
+    time, gyro, accel = log
+    vectors = [
+        ("orientation", "xyzw", np.tile([0.0, 0, 0, 1], (len(time), 1))),
+        ("angular_velocity", AXES, gyro),
+        ("linear_acceleration", AXES, accel),
+    ]
+    names, columns = ["%time", "field.header.seq", "field.header.stamp"], [time + FIRST + 2_000_000]
+    columns += [np.arange(len(time)), time + FIRST]
+    for name, axes, values in vectors:
+        names += [f"field.{name}.{a}" for a in axes]
+        names += [f"field.{name}_covariance{k}" for k in range(9)]
+        columns += [*values.T, *np.zeros((9, len(time)))]
+    return text(folder / "imu.csv", [",".join(names)], columns)
+
+
 def repoimu(folder, log):
     time, gyro, accel = log
     head = [
@@ -246,6 +263,20 @@ def headerless(folder, log):
     return text(folder / "imu.dat", [], [*gyro.T, *accel.T], "  ")
 
 
+def ouster(folder, log):
+    """Newer College: a counter, whole seconds, and the nanoseconds of each; the map names both."""
+    time, gyro, accel = log
+    second = np.int64(10**9)
+    stamps = [(time + FIRST) // second, (time + FIRST) % second]
+    names = [f"angular_velocity_{a}" for a in AXES] + [f"linear_acceleration_{a}" for a in AXES]
+    own = [f"gyro_{a} [rad/s]" for a in AXES] + [f"accel_{a} [m/s^2]" for a in AXES]
+    pairs = zip(["sec", "nsec", *names], ["time [s]", "time [ns]", *own], strict=True)
+    lines = ["[columns]", *(f'"{cell}" = "{target}"' for cell, target in pairs)]
+    (folder / MAP).write_text("\n".join(lines) + "\n")
+    columns = [np.arange(len(time)), *stamps, *gyro.T, *accel.T]
+    return text(folder / "ouster_imu.csv", [",".join(["#counter", "sec", "nsec", *names])], columns)
+
+
 def apart(folder, log):
     """Gyro in degrees in one file, accelerometer at half the rate in another; a map names both."""
     time, gyro, accel = log
@@ -258,12 +289,25 @@ def apart(folder, log):
 
 
 ALONE = (
-    *(euroc, tum, phone, iphone, phyphox, xsens, repoimu, broad, broad_hdf5, ulog, dataflash),
+    *(
+        euroc,
+        tum,
+        phone,
+        iphone,
+        phyphox,
+        xsens,
+        rostopic,
+        repoimu,
+        broad,
+        broad_hdf5,
+        ulog,
+        dataflash,
+    ),
     *(dataflash_text, german, xio, dated),
 )
 """Layouts that are read as they are."""
 
-MAPPED = (headerless, apart)
+MAPPED = (headerless, ouster, apart)
 """Those that a map must come with."""
 
 NEEDS = {"broad_hdf5": "h5py", "ulog": "pyulog", "dataflash": "pymavlink"} | {

@@ -144,33 +144,26 @@ class Recoded(io.RawIOBase):
         return len(piece)
 
 
-class Body(io.RawIOBase):
-    """The bytes of a table from its line ``first`` (from 1) to before ``stop``.
+class Body:
+    """The bytes of a table from its line ``first`` (from 1) to before ``stop``, in whole lines.
 
     Lines of comment are left out. Where ``blanks`` separate the columns, a run of them becomes one.
-    Lines longer than ``LONGEST`` end it, for the reader behind to complain.
+    Lines longer than ``LONGEST`` are cut, for the reader behind to complain.
     """
 
     def __init__(self, stream: BinaryIO, first: int, stop: int | None, blanks: bool) -> None:
         self._stream, self._blanks = stream, blanks
         self._left = None if stop is None else stop - first
-        self._rest = memoryview(b"")
         for _ in range(first - 1):
             stream.readline(LONGEST)
 
-    def readable(self) -> bool:
-        return True
-
-    def readinto(self, buffer) -> int:  # type: ignore[no-untyped-def]
-        while not self._rest:
-            block = b"" if self._left == 0 else self._stream.read(BLOCK)
-            if not block:
-                return 0
+    def blocks(self) -> Iterator[bytes]:
+        """The bytes in blocks with something in them."""
+        while self._left != 0 and (block := self._stream.read(BLOCK)):
             block += self._stream.readline(LONGEST)
-            self._rest = memoryview(self._cleaned(self._before_stop(block)))
-        piece, self._rest = self._rest[: len(buffer)], self._rest[len(buffer) :]
-        buffer[: len(piece)] = piece
-        return len(piece)
+            kept = self._cleaned(self._before_stop(block))
+            if kept.strip():
+                yield kept
 
     def _before_stop(self, block: bytes) -> bytes:
         """The lines of a block that are before the last one."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
 from dataclasses import dataclass, field
 from itertools import islice
 from pathlib import Path
@@ -106,46 +105,38 @@ class CsvReader(Reader):
             {names[long]: pa.int64()} if self._is_long(long) else {}
         )
         kinds |= {names[position]: pa.string() for position in self.layout.clocks}
-        with self._stream(first, stop, cleaned) as (stream, skip, share):
-            for batch in pacsv.open_csv(
-                stream,
-                read_options=pacsv.ReadOptions(column_names=names, skip_rows=skip),
-                parse_options=pacsv.ParseOptions(delimiter=self.layout.separator),
-                convert_options=pacsv.ConvertOptions(
-                    column_types=kinds,
-                    include_columns=kept,
-                    null_values=list(MISSING),
-                    decimal_point=self.layout.decimal,
-                ),
-            ):
-                yield batch, share()
-
-    @contextmanager
-    def _stream(
-        self, first: int, stop: int | None, cleaned: bool
-    ) -> Iterator[tuple[Any, int, Any]]:
-        """What to read, the lines to skip in it, and the share that was read so far.
-
-        Where it is ``cleaned`` lines of comment are left out, which takes as long as reading, and
-        those from ``stop`` on.
-        """
-        if cleaned:
-            with opened(self.path) as (stream, raw):
-                size = max(self.path.stat().st_size, 1)
-                body = Body(stream, first, stop, self.layout.separator == " ")
-                yield (
-                    pa.PythonFile(body, mode="r"),
-                    0,
-                    lambda: 1.0 if raw.closed else raw.tell() / size,
-                )
+        parse = pacsv.ParseOptions(delimiter=self.layout.separator)
+        convert = pacsv.ConvertOptions(
+            column_types=kinds,
+            include_columns=kept,
+            null_values=list(MISSING),
+            decimal_point=self.layout.decimal,
+        )
+        if not cleaned:
+            yield from self._streamed(
+                pacsv.ReadOptions(column_names=names, skip_rows=first - 1), parse, convert
+            )
             return
+        read = pacsv.ReadOptions(column_names=names, use_threads=False)
+        size = max(self.path.stat().st_size, 1)
+        with opened(self.path) as (stream, raw):
+            for block in Body(stream, first, stop, self.layout.separator == " ").blocks():
+                table = pacsv.read_csv(_held_by_arrow(block), read, parse, convert)
+                for batch in table.to_batches():
+                    yield batch, raw.tell() / size
+
+    def _streamed(
+        self, read: pacsv.ReadOptions, parse: pacsv.ParseOptions, convert: pacsv.ConvertOptions
+    ) -> Iterator[tuple[Any, float]]:
+        """The lines as they are in batches, and the share read so far.
+
+        To leave out lines of comment takes as long as reading, so it is done only where need is.
+        """
         with pa.OSFile(str(self.path)) as raw:
             size = max(raw.size(), 1)
-            yield (
-                pa.CompressedInputStream(raw, "gzip") if is_gzip(self.path) else raw,
-                first - 1,
-                lambda: 1.0 if raw.closed else raw.tell() / size,
-            )
+            stream = pa.CompressedInputStream(raw, "gzip") if is_gzip(self.path) else raw
+            for batch in pacsv.open_csv(stream, read, parse, convert):
+                yield batch, 1.0 if raw.closed else raw.tell() / size
 
     def at_end(self) -> tuple[Finding, ...]:
         """That the last lines were left out."""
@@ -223,6 +214,17 @@ class CsvReader(Reader):
     def _is_whole(self, line: str) -> bool:
         """Whether a line has a cell for each column, or more."""
         return len(self.layout.cells(line)) >= len(self.header)
+
+
+def _held_by_arrow(block: bytes) -> pa.BufferReader:
+    """``block`` in memory that is none of Python's.
+
+    Arrow's own threads let go of what they read when they come to it, which may be while Python is
+    ending: what was Python's would abort the process then.
+    """
+    sink = pa.BufferOutputStream()
+    sink.write(block)
+    return pa.BufferReader(sink.getvalue())
 
 
 def to_numpy(column: pa.Array) -> np.ndarray:

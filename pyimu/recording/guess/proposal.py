@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -40,6 +40,9 @@ MOST = 200_000
 
 UNIT_LENGTH = 0.02
 """By how much the length of a quaternion of few digits may be off one."""
+
+EXACT = 1e-5
+"""No sensor at rest stays so near to one: what does is written so, such as an attitude at rest."""
 
 CLOCK = UnitGuess("s", "dates or times of day, in seconds of the first day")
 """Of a column of them."""
@@ -312,6 +315,8 @@ def _by_numbers(
         return {"accel": None, "gyro": None}
     table = numbers.of(at).reshape(-1, len(at))
     column = {k: table[:, i] for i, k in enumerate(at)}
+    away = _unit_fours(found, reader, column)
+    runs = [run for run in runs if not set(run) & away]
     values = {tuple(run): np.column_stack([column[k] for k in run]) for run in runs}
     like = [run for run in values if force_unit(values[run]).unit is not None]
     if not like:
@@ -326,6 +331,40 @@ def _by_numbers(
         picked["gyro"] = [(k, names[k]) for k in gyro]
     found.notes.append("accelerometer and gyro were told by their numbers alone: look at them")
     return picked
+
+
+def _unit_fours(found: Proposal, reader: Reader, column: Mapping[int, np.ndarray]) -> set[int]:
+    """Positions in any four neighbouring columns that are a quaternion by their numbers.
+
+    That they are left out goes into the notes: which of them is w nobody knows.
+    """
+    away: set[int] = set()
+    for k in column:
+        four = [k + i for i in range(4)]
+        if set(four) <= column.keys() and not set(four) & away:
+            if _is_quaternion(np.column_stack([column[i] for i in four])):
+                away |= set(four)
+                cells = ", ".join(reader.header[i] for i in four)
+                found.notes.append(
+                    f"{cells} are left out: their squares add up to 1, as those of an attitude do "
+                    "(ref_q_w, ref_q_x, ref_q_y, ref_q_z)"
+                )
+    return away
+
+
+def _is_quaternion(four: np.ndarray) -> bool:
+    """Whether four columns (n, 4) are of length one in every row in which they have any.
+
+    So is an accelerometer at rest, in g, beside a gyro: three columns are of length one then.
+    """
+    known = four[np.all(np.isfinite(four), axis=1) & np.any(four != 0, axis=1)]
+    if not len(known):
+        return False
+    off, *of_three = (
+        float(np.max(np.abs(np.linalg.norm(some, axis=1) - 1.0)))
+        for some in (known, known[:, :3], known[:, 1:])
+    )
+    return off < EXACT or (off < UNIT_LENGTH and all(three > 3 * off for three in of_three))
 
 
 def _missing(
