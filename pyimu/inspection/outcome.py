@@ -97,7 +97,7 @@ class Outcome:
             yield from (f"  or: {note}" for note in proposal.notes)
         if self.recording is not None:
             yield from _of_recording(self.recording, self.rests, self.still)
-            for said in grouped(in_short(self.findings)):
+            for said in grouped(self.findings):
                 yield f"  {said.line}"
                 yield from [f"    {said.meaning}"] * bool(said.meaning)
 
@@ -126,15 +126,6 @@ class Outcome:
             else [[float(recording.time[a]), float(recording.time[b - 1])] for a, b in self.rests],
             "findings": [f.as_dict() for f in self.findings],
         }
-
-
-def in_short(findings: Sequence[Finding]) -> list[Finding]:
-    """The findings, the columns without a meaning as one."""
-    unused = [f for f in findings if f.kind == "unused_column"]
-    kept = [f for f in findings if f.kind != "unused_column"]
-    if not unused:
-        return kept
-    return [*kept, Finding("columns_left_out", "", len(unused), {"first": unused[0].column})]
 
 
 def _unit(guess: Any) -> str:

@@ -180,16 +180,16 @@ class Header:
     def _way(self) -> str:
         """How to read the file all the same."""
         skipped = (
-            f"; without columns of numbers are {_some(self._skipped)}" if self._skipped else ""
+            f"; without columns of numbers are {some_of(self._skipped)}" if self._skipped else ""
         )
         if not any(cell.strip("/[] ") for cell in self._cells):
             return skipped
         if self._in_memory:
             return (
-                f"; it has {_some(self._cells)}; name them by Recording.from_frame(frame, "
+                f"; it has {some_of(self._cells)}; name them by Recording.from_frame(frame, "
                 "columns={'t': 'time [s]', 'gx': 'gyro_x [deg/s]', ...})"
             )
-        return f"; it has {_some(self._cells)}{skipped}; name its columns in a column map (TOML)"
+        return f"; it has {some_of(self._cells)}{skipped}; name its columns in a column map (TOML)"
 
     def _inspected(self) -> str:
         """The command that writes the map."""
@@ -249,7 +249,7 @@ def _within(time: np.ndarray) -> np.ndarray:
     return np.where(np.abs(time) <= LARGEST, time, np.nan)
 
 
-def _some(names: Sequence[str], most: int = 8) -> str:
+def some_of(names: Sequence[str], most: int = 8) -> str:
     """The first of ``names``, for a message."""
     return (", ".join(names[:most]) or "none of numbers") + (
         f" and {len(names) - most} more" if len(names) > most else ""

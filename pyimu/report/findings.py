@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from pyimu.errors import Finding
+from pyimu.recording.header import some_of
 from pyimu.report.meaning import MEANING
 from pyimu.report.numbers import number, quantity
 
@@ -106,10 +107,25 @@ class Said(NamedTuple):
         return f"{self.kind}{where}: {self.count:,}{f' ({self.detail})' if self.detail else ''}"
 
 
-def grouped(findings: Iterable[Finding]) -> list[Said]:
-    """Findings in words; those that differ in the axis alone are one."""
+def _in_short(findings: Iterable[Finding]) -> Iterator[Finding]:
+    """The findings, several columns of one log that have no meaning as one."""
     rows: dict[tuple, list[Finding]] = {}
-    for f in findings:
+    for k, f in enumerate(findings):
+        others = tuple((n, str(value)) for n, value in f.detail.items() if n != "header")
+        rows.setdefault(others if f.kind == "unused_column" else (k,), []).append(f)
+    for first, *more in rows.values():
+        if not more:
+            yield first
+            continue
+        names = [f.column for f in (first, *more)]
+        rest = {n: value for n, value in first.detail.items() if n != "header"}
+        yield Finding("columns_left_out", "", len(names), {**rest, "columns": some_of(names)})
+
+
+def grouped(findings: Iterable[Finding]) -> list[Said]:
+    """Findings in words; those that differ in the axis alone are one, and columns left out are."""
+    rows: dict[tuple, list[Finding]] = {}
+    for f in _in_short(findings):
         sensor = f.column.partition("_")[0] if f.column.startswith(tuple(SENSORS)) else f.column
         rows.setdefault((f.kind, sensor, f.count, detail(f)), []).append(f)
     return [

@@ -6,7 +6,7 @@ from places import CHECKOUT
 
 from pyimu.errors import Finding
 from pyimu.ins.measured import CONTRADICTED
-from pyimu.report.findings import grouped
+from pyimu.report.findings import grouped, in_line
 from pyimu.report.meaning import MEANING
 from pyimu.report.page import quality_table
 
@@ -50,3 +50,19 @@ def test_the_page_on_logs_tells_of_all_of_them():
     page = (CHECKOUT / "docs" / "logs.md").read_text(encoding="utf-8")
     rows = [line for line in page.splitlines() if line.startswith("| `")]
     assert [f"| `{kind}` | {text} |" for kind, text in MEANING.items()] == rows[-len(MEANING) :]
+
+
+def test_columns_without_a_meaning_are_one_line_that_names_them():
+    """Of each log its own; one alone is told of with its header."""
+    told = [
+        Finding("unused_column", f"cov{k}", 1, {"recording": name, "header": f"cov{k} []"})
+        for name, columns in (("a", 12), ("b", 1))
+        for k in range(columns)
+    ]
+    lines = list(in_line([told[0], Finding("gaps", "time", 2), *told[1:]]))
+    first = ", ".join(f"cov{k}" for k in range(8))
+    assert lines == [
+        f"columns left out: 12 (recording a, columns {first} and 4 more)",
+        "gaps: 2",
+        "unused column of cov0: 1 (recording b, header cov0 [])",
+    ]
