@@ -4,17 +4,25 @@ back.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.stats import ttest_1samp
 
 from pyimu.attitude.error import AttitudeError
 from pyimu.identification.fates import TAKEN_BACK
+from pyimu.identification.fit.errors_in_variables import equations
+from pyimu.identification.fit.fit import Fit, with_prior
+from pyimu.identification.fit.keys import Coefficient
+from pyimu.identification.fit.score import tally
+from pyimu.identification.fit.trial import Trial
 from pyimu.identification.heading_error import FAR, with_better_heading
 from pyimu.identification.held_out import WINDOW, attitudes, worlds
 from pyimu.identification.model_of import Found, Model, model_of
-from pyimu.identification.search.forward import Investigation, without
+from pyimu.identification.search.confirm import evidence
+from pyimu.identification.search.forward import Investigation, less_of_baseline, without
+from pyimu.identification.search.screen import fitted_dispersion
 from pyimu.identification.verdict import WORSE
 from pyimu.model.catalogue import WALK
 from pyimu.model.part import Part
@@ -54,9 +62,12 @@ def settled(
         worse = now > WORSE * was and not chance
         worst = _worst(new, inv, logs, kept, now) if worse else None
         # Scale factors that are left out may make all the difference.
-        less, left, more = _less_calibration(model, declared, inv, logs, kept, now)
+        bare = _less_calibration(start, declared, found, logs, kept, after)
+        left = now if bare is None else bare.error
         if worst is None or left <= WORSE * was:
-            return found, less, (was, left), said + more
+            if bare is None:
+                return found, model, (was, now), said
+            return bare.found, bare.model, (was, left), (*said, bare.said)
         name, error = worst
         degrees = [f"{np.degrees(v):.2f}" for v in (error, now)]
         reason = f"{TAKEN_BACK}, {degrees[0]} to {degrees[1]} deg"
@@ -79,33 +90,71 @@ def _levelled(
     )
 
 
+@dataclass(frozen=True)
+class _Bare:
+    """What is found without some of the baseline, the model and the attitude's error [rad] that
+    this makes, and what is to be said.
+    """
+
+    found: Found
+    model: Model
+    error: float
+    said: str
+
+
 def _less_calibration(
-    model: Model,
+    start: Part,
     declared: Part | None,
-    inv: Investigation,
+    found: Found,
     logs: list[Recording],
     kept: list[str],
-    now: float,
-) -> tuple[Model, float, tuple[str, ...]]:
-    """The model less the scale factors and axes by which the attitude is worse than without them.
+    after: dict[str, AttitudeError],
+) -> _Bare | None:
+    """What is found without the gyro's scale factor and axes, where these make the attitude
+    ``after`` worse, by more than chance, and its rate shows nothing of them; None elsewhere.
 
     They are the baseline's, which nobody declared, and what a gyro that is not quite linear shows
-    at the speed of the fitted logs: at another one they may be further off than none. Gives the
-    error [rad] of the attitude that is left, too, and what is to be said.
+    at the speed of the fitted logs: at another one they may be further off than none. Most of an
+    attitude's error may be acceleration that its filter takes for gravity, though, which tells
+    nothing of a gyro: what held-out rates bear out stays.
     """
-    names = [n for n in CALIBRATION if declared is None and n in model.after.gyro.values]
+    inv = found.get("gyro")
+    names = [n for n in CALIBRATION if declared is None and inv and n in inv.after.sensor.values]
     if not names:
-        return model, now, ()
-    bare = replace(model, after=model.after.with_sensor(model.after.gyro.without(*names)))
-    error = _pooled(attitudes(_as_filed(bare.after, declared), inv, logs), kept)
-    if WORSE * error >= now:
-        return model, now, ()
+        return None
+    less = less_of_baseline(inv, names)
+    found = found | {"gyro": less}
+    model, now = model_of(start, declared, found), _pooled(after, kept)
+    errors = attitudes(_as_filed(model.after, declared), less, logs)
+    error = _pooled(errors, kept)
+    grows = WORSE * error < now and _chance(errors, after, kept) <= CHANCE
+    if not grows or rate_bears_out(less.after, inv.after, inv.held):
+        return None
     degrees = [f"{np.degrees(v):.2f}" for v in (now, error)]
     said = (
         f"the gyro's {' and '.join(n.replace('_', ' ') for n in names)} are left out of the model: "
-        f"the attitude is better without them, {degrees[0]} to {degrees[1]} deg"
+        f"the attitude is better without them, {degrees[0]} to {degrees[1]} deg, and held-out "
+        "rates do not speak for them"
     )
-    return bare, error, (said,)
+    return _Bare(found, model, error, said)
+
+
+def rate_bears_out(less: Fit, more: Fit, held: Sequence[Trial]) -> bool:
+    """Whether held-out rates speak for the coefficients that one model has more than another one,
+    or their integral over seconds is the nearer to the reference's angle.
+
+    Held-out rows are another draw than those that were fitted: were the smaller model the true one,
+    their likelihood ratio would have the mean 1, and be beyond 1/p with a chance of p at most
+    (Markov's inequality).
+    """
+    normal = with_prior(equations(more), more)
+    keys = sorted(k for k in more.free - less.free if isinstance(k, Coefficient))
+    gained = evidence(less, more, held).gained.sum() / fitted_dispersion(normal, keys)
+    if gained > -np.log(CHANCE):
+        return True
+    trials = [t for t in held if t.reduction is None]
+    angles = (sum(tally(f, t).angle_squares.sum() for t in trials) for f in (less, more))
+    return bool(next(angles) > next(angles))
 
 
 def _as_filed(part: Part, declared: Part | None) -> Part:
@@ -144,13 +193,22 @@ def _pooled(errors: dict[str, AttitudeError], names: list[str]) -> float:
 def _by_chance(
     before: dict[str, AttitudeError], after: dict[str, AttitudeError], names: list[str]
 ) -> bool:
-    """Whether the error grew by no more than it differs from window to window (Student's test of
-    their mean squares in pairs); a few windows cannot tell.
+    """Whether the error grew by no more than it differs from window to window; a few windows cannot
+    tell.
+    """
+    return _chance(before, after, names) > CHANCE
+
+
+def _chance(
+    before: dict[str, AttitudeError], after: dict[str, AttitudeError], names: list[str]
+) -> float:
+    """How often chance would make an error grow by as much (Student's test of the mean squares of
+    its windows in pairs); NaN of a few windows.
     """
     grown = np.concatenate([after[n].powers(WINDOW) - before[n].powers(WINDOW) for n in names])
     if len(grown) < LEAST_WINDOWS:
-        return False
-    return bool(ttest_1samp(grown, 0.0, alternative="greater").pvalue > CHANCE)
+        return float("nan")
+    return float(ttest_1samp(grown, 0.0, alternative="greater").pvalue)
 
 
 def _lost(name: str, before: AttitudeError, after: AttitudeError) -> str:

@@ -43,6 +43,7 @@ from pyimu.identification.search.belief import most
 from pyimu.identification.search.forward import Investigation, Refused, form_error
 from pyimu.identification.search.leftover import Unexplained
 from pyimu.identification.third_sensor import and_magnetometer, of_magnetometer
+from pyimu.identification.unshown import with_unshown_held
 from pyimu.identification.verdict import Evidence, Verdict, verdict
 from pyimu.identification.visibility import visibility
 from pyimu.model.catalogue import CATALOGUE, WALK, WHITE
@@ -75,7 +76,7 @@ def conclude(
     """
     together = [*logs, *others]
     say("attitude against the reference")
-    fitting = {kind: inv for kind, inv in found.items() if not inv.unfit}
+    fitting = {kind: with_unshown_held(inv) for kind, inv in found.items() if not inv.unfit}
     fitting, model, attitude, lost = settled(start, declared, fitting, others or logs)
     found = found | fitting
     another = unfit(found)

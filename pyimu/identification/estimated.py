@@ -19,13 +19,10 @@ from pyimu.identification.noise.named import Noise
 from pyimu.identification.search.forward import Investigation
 from pyimu.identification.search.leftover import noise_figures
 from pyimu.identification.search.screen import fitted_dispersion
+from pyimu.identification.unshown import OUTWEIGHED
 from pyimu.model.catalogue import POWER_ON, WALK, WHITE
 from pyimu.model.effect import Effect
 from pyimu.model.part import Part
-
-OUTWEIGHED = np.sqrt(0.5)
-"""Standard error, in units of the prior's, from which on the prior says more of a coefficient than
-the logs do: both tell by the inverse of their variance."""
 
 
 @dataclass(frozen=True)
@@ -155,19 +152,26 @@ class _Regression:
             return self._bias(value)
         if (e.name, name) in (WHITE, WALK):
             return self._noise(value, (e.name, name) == WALK)
-        keys = [
-            k
-            for k in self.fit.free
-            if isinstance(k, Coefficient) and (k.effect, k.parameter) == (e.name, name)
-        ]
+        free, held = (
+            [
+                k
+                for k in some
+                if isinstance(k, Coefficient) and (k.effect, k.parameter) == (e.name, name)
+            ]
+            for some in (self.fit.free, self.fit.prior.keys() - self.fit.free)
+        )
         std, shown = _hidden(value)
-        scatter = np.sqrt(self._dispersion(e.name, keys))
-        for key in keys:
-            raw = self.fit.std.get(key, np.inf) if key in self.normal.position else np.inf
+        scatter = np.sqrt(self._dispersion(e.name, free))
+        for key in (*free, *held):
+            known = key in self.normal.position or key in held
+            raw = self.fit.std.get(key, np.inf) if known else np.inf
             std[key.index] = scatter * raw if np.isfinite(raw) else np.nan
-            held = raw > OUTWEIGHED * self.fit.prior.get(key, np.inf)
-            shown[key.index] = np.isfinite(raw) and not held
+            shown[key.index] = np.isfinite(raw) and key in free and not self._outweighed(key, raw)
         return std, shown
+
+    def _outweighed(self, key: Coefficient, raw: float) -> bool:
+        """Whether the prior says more of a coefficient: of samples those were held before."""
+        return self.fit.is_reduced and raw > OUTWEIGHED * self.fit.prior.get(key, np.inf)
 
     def _dispersion(self, effect: str, keys: Iterable[Coefficient]) -> float:
         step = next((s for s in self.inv.steps if s.effect == effect), None)

@@ -49,7 +49,7 @@ def scores(
     errors, likelihood = {}, np.zeros(2)
     for kind, inv in found.items():
         noise = floor_noise(inv.after)
-        judged = inv.before.prior and any(t.reduction is None for t in inv.held)
+        judged = inv.after.prior and any(t.reduction is None for t in inv.held)
         unsure = what_is_open(inv.after) if judged and not inv.unfit else None
         for trial in inv.held:
             by_log[trial.name][kind] = _errors(inv, trial, noise, unsure)

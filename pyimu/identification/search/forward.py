@@ -425,6 +425,19 @@ def without(inv: Investigation, effect: str, reason: str) -> Investigation:
     )
 
 
+def less_of_baseline(inv: Investigation, effects: Iterable[str]) -> Investigation:
+    """The investigation with its model after fitted anew without some effects that it began with;
+    what was found stays.
+    """
+    sensor, out = inv.after.sensor, set(effects)
+    for effect in out:
+        sensor = sensor.without(effect)
+    free = {k for k in inv.after.free if not (isinstance(k, Coefficient) and k.effect in out)}
+    prior = {k: s for k, s in inv.after.prior.items() if k.effect not in out}
+    less = replace(inv.after, sensor=sensor, free=frozenset(free), prior=prior)
+    return replace(inv, after=_with_intervals(fit(less.with_noise()), inv.steps))
+
+
 def _with_intervals(after: Fit, steps: Iterable[Step]) -> Fit:
     """The fit with standard errors that hold although noise and elements were chosen by the same
     rows.
