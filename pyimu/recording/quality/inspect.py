@@ -47,8 +47,9 @@ def inspect(recording: Recording) -> tuple[Finding, ...]:
         for name, column in zip(names, values.T)
         for finding in _column(name, np.ascontiguousarray(column))
     ]
-    force = None if recording.accel is None else _quietest(recording)
-    of_gravity = (*_gravity_down(recording, force), *_force_in_g(force), *_no_gravity(force))
+    quiet = np.zeros((0, 3)) if recording.accel is None else _quietest(recording)
+    force = np.median(quiet, axis=0) if len(quiet) else None
+    of_gravity = (*_gravity_down(recording, force), *_force_in_g(force), *_no_gravity(quiet))
     warmth = _other_temperature(recording)
     return (*columns, *_spikes(recording), *_jitter(recording), *of_gravity, *warmth)
 
@@ -178,10 +179,13 @@ def _force_in_g(rest: np.ndarray | None) -> Iterator[Finding]:
         yield Finding("force_in_g", "accel", 1, detail)
 
 
-def _no_gravity(rest: np.ndarray | None) -> Iterator[Finding]:
-    """Less than the Moon's gravity: software took gravity away, as phones do."""
-    if rest is not None and np.linalg.norm(rest) < WEIGHTLESS * STANDARD_GRAVITY:
-        yield Finding(NO_GRAVITY, "accel", 1, {"magnitude": float(np.linalg.norm(rest))})
+def _no_gravity(quiet: np.ndarray) -> Iterator[Finding]:
+    """Less than the Moon's gravity in forces (k, 3), whichever way up each is: software took
+    gravity away, as phones do.
+    """
+    size = float(np.median(np.linalg.norm(quiet, axis=1))) if len(quiet) else np.inf
+    if size < WEIGHTLESS * STANDARD_GRAVITY:
+        yield Finding(NO_GRAVITY, "accel", 1, {"magnitude": size})
 
 
 def quietest_force(recording: Recording) -> np.ndarray | None:
@@ -189,7 +193,8 @@ def quietest_force(recording: Recording) -> np.ndarray | None:
 
     None where it is not gravity, to a tenth. A log need not be at rest for that.
     """
-    force = _quietest(recording)
+    quiet = _quietest(recording)
+    force = np.median(quiet, axis=0) if len(quiet) else None
     return force if _is_gravity(force, STANDARD_GRAVITY) else None
 
 
@@ -197,14 +202,15 @@ def _is_gravity(force: np.ndarray | None, gravity: float) -> bool:
     return force is not None and abs(np.linalg.norm(force) - gravity) < 0.1 * gravity
 
 
-def _quietest(recording: Recording) -> np.ndarray | None:
-    """The same, whatever it is; None where no second has all its samples."""
+def _quietest(recording: Recording) -> np.ndarray:
+    """The mean force (k, 3) of each of the quietest seconds, none where no second has all its
+    samples.
+    """
     length = max(4, min(round(recording.sample_rate), len(recording) // 10))
     count = len(recording) // length
     seconds = recording.accel[: count * length].reshape(count, length, 3)
     seconds = seconds[np.all(np.isfinite(seconds), axis=(1, 2))]
     if not len(seconds):
-        return None
+        return np.zeros((0, 3))
     spread = seconds.std(axis=1).sum(axis=1)
-    quietest = seconds[spread <= np.quantile(spread, 0.1)].mean(axis=1)
-    return np.median(quietest, axis=0)
+    return seconds[spread <= np.quantile(spread, 0.1)].mean(axis=1)
