@@ -100,6 +100,22 @@ def test_a_step_that_no_part_has_is_not_called_clean_beside_an_attitude(world):
     assert "beyond belief" in closed.reason
 
 
+@pytest.mark.parametrize(
+    "degrees, seed", [pytest.param(0.1, 14, marks=pytest.mark.long), (0.6, 15)]
+)
+def test_a_step_in_a_gap_of_the_attitude_is_not_called_clean(world, degrees, seed):
+    """Of a reference that begins anew no row is at the edge, and levels are all that is seen: in
+    the rows of the larger step it is more than noise, of the smaller over seconds.
+    """
+    since = world.time - world.time[0]
+    stepped = (since > 101.0)[:, None] * np.radians([degrees, 0.0, 0.0])
+    log = against_attitude(world, lambda x: x + stepped, seed=seed)
+    gap = (since > 100.0) & (since < 102.5)
+    closed = pyimu.close(replace(log, ref_q=np.where(gap[:, None], np.nan, log.ref_q)))
+    assert closed.verdict in ("named", "not_confirmed", "unexplained", "drift"), closed.report()
+    assert all(a.effect == "bias_step" for a in closed.added)
+
+
 @pytest.mark.parametrize("size", [0.0, 0.1, 5.0])
 def test_an_autoregression_less_levels_predicts_no_step(size):
     """Noise of known colour, in two segments of which one has a step: density at its slow end. An
